@@ -1,0 +1,41 @@
+# One interface target carries language level, warnings, sanitizers and optimisation for every folder of src/.
+add_library(roomlight_options INTERFACE)
+target_compile_features(roomlight_options INTERFACE cxx_std_20)
+target_include_directories(roomlight_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>)
+target_compile_options(roomlight_options INTERFACE
+  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+  -march=${ROOMLIGHT_ARCH} -fno-math-errno -fno-trapping-math)
+if(ROOMLIGHT_WERROR)
+  target_compile_options(roomlight_options INTERFACE -Werror)
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEV "-O2 -g1")
+
+set(ROOMLIGHT_SANITIZE "" CACHE STRING "Sanitizers, comma separated: address,undefined or thread")
+if(ROOMLIGHT_SANITIZE)
+  add_compile_options(-fsanitize=${ROOMLIGHT_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${ROOMLIGHT_SANITIZE})
+  if(ROOMLIGHT_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize-recover=undefined)
+  endif()
+endif()
+if(ROOMLIGHT_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+# A folder of src/ is a static library roomlight_<folder> with an explicit source list.
+function(roomlight_folder name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LINKS" ${ARGN})
+  add_library(roomlight_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(roomlight_${name} PUBLIC roomlight_options)
+  foreach(use ${ARG_USES})
+    target_link_libraries(roomlight_${name} PUBLIC roomlight_${use})
+  endforeach()
+  target_link_libraries(roomlight_${name} PRIVATE ${ARG_LINKS})
+endfunction()

@@ -1,0 +1,25 @@
+// Pictures on disk: linear EXR and Radiance HDR in cd/m² (or the file's own unit), 8-bit sRGB PNG. Metadata is
+// embedded as string attributes (EXR) or tEXt/iTXt chunks (PNG) under the given keys.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "base/image.h"
+#include "base/result.h"
+
+namespace roomlight {
+
+using Metadata = std::map<std::string, std::string>;
+
+// Linear values, 32-bit float, ZIP compressed. Written to a temporary name beside the file and renamed.
+Status writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata);
+// Values already display-encoded (0..1, sRGB); clipped and rounded to 8 bits.
+Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
+
+// EXR (linear), Radiance .hdr (linear) or PNG (decoded from sRGB to linear), by content.
+Result<Image> readImage(const std::filesystem::path& file);
+Result<Metadata> readMetadata(const std::filesystem::path& file);
+
+}  // namespace roomlight

@@ -1,0 +1,22 @@
+#include "base/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace roomlight {
+
+void parallelRanges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
+  if (count == 0) return;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain ? grain : 1),
+                    [&](const tbb::blocked_range<size_t>& r) { body(r.begin(), r.end()); });
+}
+
+void withThreads(int threads, const std::function<void()>& work) {
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute(work);
+}
+
+int threadCount() { return tbb::this_task_arena::max_concurrency(); }
+
+}  // namespace roomlight

@@ -1,0 +1,36 @@
+// From luminance in cd/m² to display values 0..1: exposure, then a tone curve, then the sRGB transfer function.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "base/image.h"
+#include "base/result.h"
+
+namespace roomlight {
+
+enum class ToneCurve {
+  PbrNeutral,  // Khronos PBR neutral (Khronos specification, 2024)
+  AgX,         // AgX base look (Sobotka 2022), polynomial fit
+  Filmic,      // ACES-like filmic curve (Narkowicz 2015)
+  Clip         // no curve: clip to 0..1; what error measures use
+};
+
+Result<ToneCurve> toneCurveFromName(std::string_view name);  // "neutral", "agx", "filmic", "clip"
+std::string_view toneCurveName(ToneCurve curve);
+
+// The factor by which cd/m² are multiplied so that the saturation-based exposure of EV100 maps its maximum
+// luminance 1.2 * 2^EV100 to 1 (ISO 12232, Lagarde & de Rousiers 2014, section 4.1).
+float exposureFromEv100(float ev100);
+
+// EV100 that puts the picture's geometric mean luminance (darkest and brightest percent left out) at 18 % grey after
+// exposure; deterministic, and the same for every technique up to the noise in the picture.
+float automaticEv100(const Image& luminanceImage);
+
+float srgbEncode(float linear);  // IEC 61966-2-1; input clipped to 0..1
+float srgbDecode(float encoded);
+
+// Exposed, tone-mapped and encoded copy, every channel in 0..1.
+Image toneMap(const Image& image, float ev100, ToneCurve curve);
+
+}  // namespace roomlight

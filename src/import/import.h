@@ -1,0 +1,30 @@
+// Opens a home: picks the importer by the file's extension and returns a validated scene.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/scene.h"
+
+namespace roomlight {
+
+struct ImportOptions {
+  float metresPerUnit = 1;             // multiplies lengths; OBJ files carry no unit
+  size_t maxTriangles = 200'000'000;   // of all instances; refuse absurd files before allocating
+};
+
+struct Imported {
+  Scene scene;
+  std::vector<std::string> warnings;  // one per kind of thing that could not be honoured, with how often
+};
+
+// .gltf, .glb, .obj. The error is one line that names the file and the place in it.
+Result<Imported> importScene(const std::filesystem::path& file, const ImportOptions& options = {});
+
+// Each format's own reader; same contract.
+Result<Imported> importGltf(const std::filesystem::path& file, const ImportOptions& options);
+Result<Imported> importObj(const std::filesystem::path& file, const ImportOptions& options);
+
+}  // namespace roomlight

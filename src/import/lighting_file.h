@@ -1,0 +1,17 @@
+// The lighting file: JSON with lamps, sun and sky in photometric units. Schema: docs/formats/lighting.md.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+#include "scene/scene.h"
+
+namespace roomlight {
+
+// Reads the file and applies it to the scene: adds its lamps (Area lamps as emissive meshes too), suns and sky; where
+// the file says so, switches off lights and emissive materials that the scene already has. Unknown keys, wrong types,
+// missing units and values out of range are errors that name the file and the JSON path. The scene is untouched then.
+Status applyLightingFile(const std::filesystem::path& file, Scene& scene);
+
+}  // namespace roomlight

@@ -1,0 +1,111 @@
+#include "scene/validate.h"
+
+#include <fmt/format.h>
+
+namespace roomlight {
+namespace {
+
+bool isFinite(const Affine& a) {
+  return roomlight::isFinite(a.x) && roomlight::isFinite(a.y) && roomlight::isFinite(a.z) && roomlight::isFinite(a.w);
+}
+
+bool isLight(Vec3 v) { return isFinite(v) && minComponent(v) >= 0; }
+
+template <class T>
+bool sizeAgrees(const std::vector<T>& v, size_t n) {
+  return v.empty() || v.size() == n;
+}
+
+std::string checkMesh(const Scene& scene, const Mesh& mesh) {
+  const size_t n = mesh.positions.size();
+  if (mesh.indices.size() % 3 != 0) return "the number of indices is not a multiple of three";
+  for (const uint32_t index : mesh.indices) {
+    if (index >= n) return fmt::format("index {} is out of range, there are {} vertices", index, n);
+  }
+  for (size_t i = 0; i < n; ++i) {
+    if (!isFinite(mesh.positions[i])) return fmt::format("vertex {} is not a finite position", i);
+  }
+  for (size_t i = 0; i < mesh.normals.size(); ++i) {
+    if (!isFinite(mesh.normals[i])) return fmt::format("normal {} is not finite", i);
+  }
+  const bool sizes = sizeAgrees(mesh.normals, n) && sizeAgrees(mesh.tangents, n) &&
+                     mesh.tangentSigns.size() == mesh.tangents.size() && sizeAgrees(mesh.uv[0], n) &&
+                     sizeAgrees(mesh.uv[1], n) && sizeAgrees(mesh.colors, n) && sizeAgrees(mesh.colorAlphas, n);
+  if (!sizes) return "vertex attributes differ in length";
+  if (mesh.material < 0 || static_cast<size_t>(mesh.material) >= scene.materials.size()) {
+    return fmt::format("material {} does not exist", mesh.material);
+  }
+  return {};
+}
+
+std::string checkMaterial(const Scene& scene, const Material& m) {
+  if (!isLight(m.emission)) return "emission is negative or not finite";
+  if (!isLight(m.baseColor) || !isFinite(m.attenuationColor) || !isFinite(m.specularColor)) return "a colour is negative or not finite";
+  const float numbers[] = {m.alpha, m.metallic, m.roughness, m.normalScale, m.alphaCutoff, m.transmission, m.ior, m.specular};
+  for (const float v : numbers) {
+    if (!std::isfinite(v)) return "a factor is not finite";
+  }
+  const TextureRef* refs[] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture,
+                              &m.transmissionTexture};
+  for (const TextureRef* ref : refs) {
+    if (ref->texture >= static_cast<int>(scene.textures.size())) return fmt::format("texture {} does not exist", ref->texture);
+    if (ref->uvSet < 0 || ref->uvSet > 1) return fmt::format("texture coordinate set {} is not supported, use 0 or 1", ref->uvSet);
+    for (const auto& row : ref->m) {
+      for (const float v : row) {
+        if (!std::isfinite(v)) return "a texture transform is not finite";
+      }
+    }
+  }
+  return {};
+}
+
+std::string checkLights(const Scene& scene) {
+  for (size_t i = 0; i < scene.lamps.size(); ++i) {
+    const Lamp& lamp = scene.lamps[i];
+    if (!isLight(lamp.intensityCd) || !isLight(lamp.luminanceCdM2) || !isFinite(lamp.position) || !isFinite(lamp.direction)) {
+      return fmt::format("lamp {} '{}': a value is negative or not finite", i, lamp.name);
+    }
+  }
+  for (size_t i = 0; i < scene.suns.size(); ++i) {
+    if (!isLight(scene.suns[i].illuminanceLux) || !isFinite(scene.suns[i].toLight)) {
+      return fmt::format("sun {} '{}': a value is negative or not finite", i, scene.suns[i].name);
+    }
+  }
+  if (!isLight(scene.sky.luminanceCdM2)) return "sky: luminance is negative or not finite";
+  for (const Vec3 pixel : scene.sky.image.pixels) {
+    if (!isLight(pixel)) return "sky: the image holds a negative or non-finite value";
+  }
+  return {};
+}
+
+}  // namespace
+
+Status validate(const Scene& scene) {
+  for (size_t i = 0; i < scene.textures.size(); ++i) {
+    const Texture& t = scene.textures[i];
+    const bool sane = t.width > 0 && t.height > 0 &&
+                      t.rgba.size() == static_cast<size_t>(t.width) * static_cast<size_t>(t.height) * 4;
+    if (!sane) return Error{fmt::format("texture {} '{}': size and texels disagree", i, t.name)};
+  }
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const std::string what = checkMaterial(scene, scene.materials[i]);
+    if (!what.empty()) return Error{fmt::format("material {} '{}': {}", i, scene.materials[i].name, what)};
+  }
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    const std::string what = checkMesh(scene, scene.meshes[i]);
+    if (!what.empty()) return Error{fmt::format("mesh {} '{}': {}", i, scene.meshes[i].name, what)};
+  }
+  for (size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const auto where = [&] { return fmt::format("instance {} '{}': ", i, instance.name); };
+    if (instance.mesh < 0 || static_cast<size_t>(instance.mesh) >= scene.meshes.size()) return Error{where() + "its mesh does not exist"};
+    if (!isFinite(instance.worldFromObject)) return Error{where() + "its transform is not finite"};
+    if (instance.worldFromObject.determinant() == 0) return Error{where() + "its transform flattens it, so it cannot be placed"};
+  }
+  const std::string what = checkLights(scene);
+  if (!what.empty()) return Error{what};
+  if (scene.triangleCount() == 0) return Error{"there is no triangle to light"};
+  return Ok{};
+}
+
+}  // namespace roomlight

@@ -1,0 +1,14 @@
+// Is a scene safe to work on? Importers call this last, so that no later stage has to check again.
+#pragma once
+
+#include "base/result.h"
+#include "scene/scene.h"
+
+namespace roomlight {
+
+// Errors: index out of range, array lengths that disagree, non-finite positions, normals, transforms or light values,
+// negative light, texture size that disagrees with its texels, transforms without inverse, no triangle at all. The message
+// names the place as "mesh 3 'chair': ...".
+Status validate(const Scene& scene);
+
+}  // namespace roomlight
