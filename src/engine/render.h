@@ -1,0 +1,45 @@
+// One entry for every technique: scene, camera, settings in; picture and what it cost out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "base/progress.h"
+#include "base/result.h"
+#include "engine/settings.h"
+#include "scene/scene.h"
+
+namespace roomlight {
+
+struct StageStats {
+  std::string name;       // "bvh", "voxelise", "illuminate", "gather", "path", ...
+  double timeMs = 0;
+  double peakMemoryMiB = 0;  // of the process, at the end of the stage
+};
+
+struct RenderStats {
+  std::vector<StageStats> stages;
+  std::vector<std::pair<std::string, double>> numbers;  // "triangles", "voxels", "voxelSizeM", "rays", "samples", "noise", ...
+};
+
+struct Rendered {
+  Image image;        // linear, cd/m²
+  RenderStats stats;
+  bool complete = true;  // false: stopped early, the image is the best so far
+};
+
+// What long work tells its caller: the stage's name and the fraction of it done.
+struct RenderProgress {
+  std::function<void(const std::string& stage, float fraction)> report;
+  const std::atomic<bool>* cancelled = nullptr;
+};
+
+// Errors: an unknown technique, settings out of range. `scene` must be validated.
+Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                        const RenderProgress& progress = {});
+
+// Names for --technique, the default first, each with one line of explanation.
+std::vector<std::pair<std::string, std::string>> techniques();
+
+}  // namespace roomlight

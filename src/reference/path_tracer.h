@@ -1,0 +1,31 @@
+// The judge: unidirectional path tracing with next-event estimation and multiple importance sampling over all lights,
+// Russian roulette without a bounce cap. Sees rays, materials and lights; never a voxel.
+#pragma once
+
+#include "base/image.h"
+#include "base/progress.h"
+#include "trace/lights.h"
+#include "trace/ray_scene.h"
+
+namespace roomlight {
+
+struct PathSettings {
+  int width = 960, height = 540;
+  int samples = 256;       // per pixel, at most
+  double timeLimitS = 0;   // stop after this long (after a whole pass); 0: no limit
+  double noiseLevel = 0;   // stop when the mean relative standard error over pixels is below this; 0: never
+  uint64_t seed = 0;
+};
+
+struct PathResult {
+  Image image;        // linear, cd/m²
+  Image variance;     // of each pixel's mean, per channel
+  int samples = 0;    // per pixel, done
+  double noise = 0;   // mean relative standard error
+  uint64_t rays = 0;  // traced, of every kind
+};
+
+PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings,
+                     const Progress& progress = {});
+
+}  // namespace roomlight

@@ -1,0 +1,49 @@
+// Materials at a point: textures read, factors multiplied. One place for path tracer, voxels and cones alike.
+#pragma once
+
+#include "base/vec.h"
+#include "scene/scene.h"
+
+namespace roomlight {
+
+// Material values at one point of a triangle.
+struct MaterialSample {
+  Vec3 baseColor;         // linear, 0..1
+  float alpha = 1;        // coverage after alphaMode: 1 opaque, Mask is 0 or 1, Blend in between
+  float metallic = 0, roughness = 1;
+  float transmission = 0; // fraction of the non-specular, non-metallic light that goes straight through
+  Vec3 emission;          // luminance in cd/m²
+  Vec3 f0;                // specular reflectance at normal incidence
+  Vec3 f90;               // and at grazing incidence
+};
+
+// Bilinear look-up with wrapping; result in 0..1, decoded from sRGB to linear when `srgb`. w is alpha (never decoded).
+struct Rgba {
+  Vec3 rgb;
+  float a;
+};
+Rgba sampleTexture(const Texture& texture, Vec2 uv, bool srgb);
+Vec2 transformUv(const TextureRef& ref, Vec2 uv);
+
+// Barycentric weights b1, b2 of a triangle's vertices 1 and 2 (b0 = 1 - b1 - b2).
+struct TrianglePoint {
+  uint32_t triangle;
+  float b1, b2;
+};
+
+MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p);
+float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p);  // only the alpha, cheaper
+
+// Interpolated shading normal in object space, normal map applied; unit. `geometric` is the unit face normal, used
+// where the mesh has no normals.
+Vec3 shadingNormalAt(const Scene& scene, const Mesh& mesh, TrianglePoint p, Vec3 geometric);
+
+// Fraction of the light from a uniform hemisphere that the surface reflects in total, per channel; what a diffuse
+// voxel of this material must reflect. Light that passes straight through is not in it.
+Vec3 bihemisphericalAlbedo(const MaterialSample& m);
+
+// Transmittance of a thin pane along a ray that meets it under |cos theta|: base colour times what Fresnel
+// reflection on both sides leaves, times `transmission` and what alpha leaves open. Zero for an opaque surface.
+Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta);
+
+}  // namespace roomlight
