@@ -1,2 +1,4 @@
 include(GNUInstallDirs)
-install(TARGETS roomlight RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET roomlight)
+  install(TARGETS roomlight RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
