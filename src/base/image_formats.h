@@ -1,0 +1,27 @@
+// One reader and writer a picture format, behind image_io.h. They throw std::exception; image_io.cpp turns that into
+// the one-line error of the contract.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "base/image_io.h"
+
+namespace roomlight::formats {
+
+// Throws when a file claims a picture that is absurd: no pixels, an edge above 65536, more than 2^27 pixels, or so
+// many that `fileBytes` cannot hold them under any compression in use. Called before anything is allocated.
+void checkSize(int64_t width, int64_t height, uint64_t fileBytes);
+
+void writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata);
+Image readExr(const std::filesystem::path& file);
+Metadata readExrMetadata(const std::filesystem::path& file);
+
+void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
+Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black
+Metadata readPngMetadata(std::span<const uint8_t> bytes);
+
+Image readHdr(std::span<const uint8_t> bytes);
+
+}  // namespace roomlight::formats

@@ -1,0 +1,132 @@
+#include "base/image_io.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "base/image_formats.h"
+
+namespace roomlight {
+namespace {
+
+constexpr uint64_t kLargestFileBytes = uint64_t{2} << 30;
+constexpr uint8_t kPngMagic[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+constexpr uint8_t kExrMagic[] = {0x76, 0x2f, 0x31, 0x01};
+
+enum class Format { Exr, Png, Hdr };
+
+// Libraries report over several lines; the contract is one.
+Error errorAt(const std::filesystem::path& file, std::string_view what) {
+  std::string line(what.substr(0, 300));
+  std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
+  return {fmt::format("{}: {}", file.string(), line)};
+}
+
+// Runs `work` and turns whatever it throws into an error that names the file.
+template <class T, class Work>
+Result<T> guarded(const std::filesystem::path& file, Work&& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return errorAt(file, "not enough memory for this picture");
+  } catch (const std::exception& e) {
+    return errorAt(file, e.what());
+  } catch (...) {
+    return errorAt(file, "unknown failure");
+  }
+}
+
+// A reader of `file` sees either the old file or the whole new one: write beside it, then rename.
+template <class Write>
+Status writeAtomically(const std::filesystem::path& file, Write&& write) {
+  std::filesystem::path temporary = file;
+  temporary += fmt::format(".part-{}", getpid());
+  Status status = guarded<Ok>(file, [&] {
+    write(temporary);
+    std::filesystem::rename(temporary, file);
+    return Ok{};
+  });
+  if (!status.ok()) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+  }
+  return status;
+}
+
+std::vector<uint8_t> readBytes(const std::filesystem::path& file, uint64_t most) {
+  if (std::filesystem::is_directory(file)) throw std::runtime_error("is a folder, not a picture");
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) throw std::runtime_error(std::filesystem::exists(file) ? "cannot be opened for reading" : "no such file");
+  const auto size = static_cast<uint64_t>(std::max<std::streamoff>(0, in.tellg()));
+  if (size > kLargestFileBytes) throw std::runtime_error("larger than 2 GiB; refused as a picture");
+  std::vector<uint8_t> bytes(std::min(size, most));
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!in) throw std::runtime_error("cannot be read");
+  return bytes;
+}
+
+Format formatOf(const std::filesystem::path& file) {
+  const std::vector<uint8_t> head = readBytes(file, 16);
+  const auto startsWith = [&](const void* magic, size_t n) {
+    return head.size() >= n && std::memcmp(head.data(), magic, n) == 0;
+  };
+  if (startsWith(kExrMagic, sizeof kExrMagic)) return Format::Exr;
+  if (startsWith(kPngMagic, sizeof kPngMagic)) return Format::Png;
+  if (startsWith("#?RADIANCE", 10) || startsWith("#?RGBE", 6)) return Format::Hdr;
+  throw std::runtime_error("neither OpenEXR, PNG nor Radiance HDR by its first bytes");
+}
+
+}  // namespace
+
+void formats::checkSize(int64_t width, int64_t height, uint64_t fileBytes) {
+  constexpr int64_t kLargestEdge = 65536, kMostPixels = int64_t{1} << 27;
+  // Deflate packs at most 1032:1 and a texel takes at least one bit.
+  constexpr uint64_t kMostPixelsPerByte = 1032 * 8;
+  if (width < 1 || height < 1) throw std::runtime_error("header claims a picture without pixels");
+  if (width > kLargestEdge || height > kLargestEdge || width * height > kMostPixels) {
+    throw std::runtime_error(fmt::format("header claims {} x {} pixels; at most 65536 a side and 134 million in all are read",
+                                         width, height));
+  }
+  if (static_cast<uint64_t>(width * height) / kMostPixelsPerByte > fileBytes) {
+    throw std::runtime_error(fmt::format("header claims {} x {} pixels, more than {} bytes can hold", width, height, fileBytes));
+  }
+}
+
+Status writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeExr(temporary, image, metadata); });
+}
+
+Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writePng(temporary, encoded, metadata); });
+}
+
+Result<Image> readImage(const std::filesystem::path& file) {
+  return guarded<Image>(file, [&] {
+    switch (formatOf(file)) {
+      case Format::Exr: return formats::readExr(file);
+      case Format::Png: return formats::readPng(readBytes(file, kLargestFileBytes));
+      case Format::Hdr: break;
+    }
+    return formats::readHdr(readBytes(file, kLargestFileBytes));
+  });
+}
+
+Result<Metadata> readMetadata(const std::filesystem::path& file) {
+  return guarded<Metadata>(file, [&] {
+    switch (formatOf(file)) {
+      case Format::Exr: return formats::readExrMetadata(file);
+      case Format::Png: return formats::readPngMetadata(readBytes(file, kLargestFileBytes));
+      case Format::Hdr: break;
+    }
+    return Metadata{};
+  });
+}
+
+}  // namespace roomlight

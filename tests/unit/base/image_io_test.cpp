@@ -1,0 +1,152 @@
+#include "base/image_io.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "base/tone.h"
+#include "unit/temporary_folder.h"
+
+namespace roomlight {
+namespace {
+
+using testing::readFile;
+using testing::TemporaryFolder;
+using testing::writeFile;
+
+Image noise(int width, int height, float scale) {
+  Image image(width, height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    Rng rng(i, 0, 1);
+    for (int c = 0; c < 3; ++c) image.pixels[i][c] = rng.uniform() * scale;
+  }
+  return image;
+}
+
+const Metadata kMetadata = {{"roomlight.version", "1.2.3"}, {"roomlight.settings", "{\"name\": \"Küche\"}"}};
+
+TEST(ImageIo, exrKeepsEveryBitAndMetadata) {
+  TemporaryFolder folder;
+  const Image image = noise(37, 19, 1e5f);
+  ASSERT_TRUE(writeExr(folder / "a.exr", image, kMetadata).ok());
+  const auto read = readImage(folder / "a.exr");
+  ASSERT_TRUE(read.ok()) << read.error();
+  ASSERT_EQ(read.value().width, 37);
+  ASSERT_EQ(read.value().height, 19);
+  EXPECT_TRUE(read.value().pixels == image.pixels);
+  const auto metadata = readMetadata(folder / "a.exr");
+  ASSERT_TRUE(metadata.ok()) << metadata.error();
+  for (const auto& [key, value] : kMetadata) EXPECT_EQ(metadata.value().at(key), value);
+  EXPECT_EQ(folder.fileCount(), 1u) << "the temporary file stayed behind";
+}
+
+TEST(ImageIo, pngRoundsToEightBitsAndDecodesToLinear) {
+  TemporaryFolder folder;
+  const Image image = noise(33, 20, 1.2f);  // above 1: clipped
+  ASSERT_TRUE(writePng(folder / "a.png", image, kMetadata).ok());
+  const auto read = readImage(folder / "a.png");
+  ASSERT_TRUE(read.ok()) << read.error();
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(srgbEncode(read.value().pixels[i][c]), std::min(1.0f, image.pixels[i][c]), 0.5f / 255 + 1e-5f);
+    }
+  }
+  const auto metadata = readMetadata(folder / "a.png");
+  ASSERT_TRUE(metadata.ok()) << metadata.error();
+  for (const auto& [key, value] : kMetadata) EXPECT_EQ(metadata.value().at(key), value);
+}
+
+TEST(ImageIo, pngRefusesNotANumber) {
+  TemporaryFolder folder;
+  Image image(2, 2);
+  image.at(1, 1).y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(writePng(folder / "a.png", image, {}).ok());
+  EXPECT_EQ(folder.fileCount(), 0u);
+}
+
+TEST(ImageIo, writingIntoAMissingFolderIsOneLineThatNamesTheFile) {
+  const Image image(2, 2);
+  for (const Status& status : {writeExr("/nonexistent/a.exr", image, {}), writePng("/nonexistent/a.png", image, {})}) {
+    ASSERT_FALSE(status.ok());
+    EXPECT_NE(status.error().find("/nonexistent/a."), std::string::npos) << status.error();
+    EXPECT_EQ(status.error().find('\n'), std::string::npos) << status.error();
+  }
+}
+
+TEST(ImageIo, failedWriteKeepsTheOldFile) {
+  TemporaryFolder folder;
+  ASSERT_TRUE(writePng(folder / "a.png", noise(4, 4, 1), {}).ok());
+  const std::string before = readFile(folder / "a.png");
+  ASSERT_FALSE(writePng(folder / "a.png", Image(), {}).ok());
+  EXPECT_EQ(readFile(folder / "a.png"), before);
+}
+
+// 3 x 1 pixels, stored flat: red 1, a repeat of it, green 0.5.
+const std::string kFlatHdr = std::string("#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 3\n") +
+                             std::string("\x80\x00\x00\x81\x01\x01\x01\x01\x00\x80\x00\x80", 12);
+
+TEST(ImageIo, hdrFlatLineWithRepeatAndExposure) {
+  TemporaryFolder folder;
+  writeFile(folder / "a.hdr", kFlatHdr);
+  const auto read = readImage(folder / "a.hdr");
+  ASSERT_TRUE(read.ok()) << read.error();
+  EXPECT_TRUE(read.value().pixels[0] == Vec3(0.5f, 0, 0));
+  EXPECT_TRUE(read.value().pixels[1] == Vec3(0.5f, 0, 0));
+  EXPECT_TRUE(read.value().pixels[2] == Vec3(0, 0.25f, 0));
+}
+
+TEST(ImageIo, hdrPackedLine) {
+  TemporaryFolder folder;
+  std::string bytes = "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n";
+  bytes += std::string("\x02\x02\x00\x08", 4);
+  bytes += std::string("\x88\x80", 2);                              // red: 128 eight times
+  bytes += std::string("\x08\x00\x10\x20\x30\x40\x50\x60\x70", 9);  // green: eight values
+  bytes += std::string("\x84\x00\x84\x40", 4);                      // blue: 0 four times, 64 four times
+  bytes += std::string("\x88\x81", 2);                              // exponent 1
+  writeFile(folder / "a.hdr", bytes);
+  const auto read = readImage(folder / "a.hdr");
+  ASSERT_TRUE(read.ok()) << read.error();
+  EXPECT_TRUE(read.value().pixels[3] == Vec3(1, 0.375f, 0));
+  EXPECT_TRUE(read.value().pixels[7] == Vec3(1, 0.875f, 0.5f));
+}
+
+TEST(ImageIo, everyTruncationIsAnErrorAndNothingCrashes) {
+  TemporaryFolder folder;
+  const Image image = noise(16, 9, 1);
+  ASSERT_TRUE(writeExr(folder / "a.exr", image, kMetadata).ok());
+  ASSERT_TRUE(writePng(folder / "a.png", image, kMetadata).ok());
+  writeFile(folder / "a.hdr", kFlatHdr);
+  for (const char* name : {"a.exr", "a.png", "a.hdr"}) {
+    const std::string whole = readFile(folder / name);
+    // A PNG whose pixels are complete may lack its end chunk.
+    const size_t last = std::string(name) == "a.png" ? whole.size() - 16 : whole.size();
+    for (size_t n = 0; n < last; n += 7) {
+      writeFile(folder / "cut", whole.substr(0, n));
+      const auto read = readImage(folder / "cut");
+      EXPECT_FALSE(read.ok()) << name << " cut to " << n << " bytes";
+      if (!read.ok()) {
+        EXPECT_EQ(read.error().find('\n'), std::string::npos);
+      }
+      (void)readMetadata(folder / "cut");
+    }
+  }
+}
+
+TEST(ImageIo, absurdSizesAreRefusedBeforeAllocation) {
+  TemporaryFolder folder;
+  for (const char* size : {"-Y 999999999 +X 999999999", "-Y 65000 +X 2000", "-Y 0 +X 5", "-Y -3 +X 5", "+X 5 -Y 5"}) {
+    writeFile(folder / "a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\nxxxx");
+    EXPECT_FALSE(readImage(folder / "a.hdr").ok()) << size;
+  }
+}
+
+TEST(ImageIo, unknownContentMissingFileAndFolderAreErrors) {
+  TemporaryFolder folder;
+  writeFile(folder / "a.png", "this is not a picture");
+  EXPECT_FALSE(readImage(folder / "a.png").ok());
+  EXPECT_FALSE(readImage(folder / "missing.exr").ok());
+  EXPECT_FALSE(readImage(folder.path()).ok());
+  EXPECT_NE(readImage(folder / "missing.exr").error().find("no such file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace roomlight

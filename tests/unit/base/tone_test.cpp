@@ -1,0 +1,78 @@
+#include "base/tone.h"
+
+#include <gtest/gtest.h>
+
+namespace roomlight {
+namespace {
+
+Image constant(Vec3 value) {
+  Image image(10, 10);
+  for (Vec3& p : image.pixels) p = value;
+  return image;
+}
+
+TEST(Tone, srgbRoundTripAndKnownValues) {
+  for (int i = 0; i <= 255; ++i) {
+    const float v = static_cast<float>(i) / 255;
+    EXPECT_NEAR(srgbEncode(srgbDecode(v)), v, 1e-6f);
+  }
+  EXPECT_NEAR(srgbEncode(0.18f), 0.46136f, 1e-4f);
+  EXPECT_NEAR(srgbDecode(0.5f), 0.21404f, 1e-5f);
+  EXPECT_EQ(srgbEncode(-1), 0);
+  EXPECT_FLOAT_EQ(srgbEncode(7), 1);
+}
+
+TEST(Tone, exposureMapsItsMaximumLuminanceToOne) {
+  for (float ev : {-3.0f, 0.0f, 6.91f, 15.0f}) EXPECT_NEAR(exposureFromEv100(ev) * 1.2f * std::exp2(ev), 1, 1e-5f);
+}
+
+TEST(Tone, automaticExposurePutsTheGeometricMeanAtEighteenPercent) {
+  const Image grey = constant(Vec3(17.19f));
+  EXPECT_NEAR(exposureFromEv100(automaticEv100(grey)) * 17.19f, 0.18f, 1e-4f);
+  Image two = grey;  // half at a quarter, half at four times: the same geometric mean
+  for (size_t i = 0; i < two.pixels.size(); ++i) two.pixels[i] *= i % 2 ? 4.0f : 0.25f;
+  EXPECT_NEAR(automaticEv100(two), automaticEv100(grey), 1e-4f);
+}
+
+TEST(Tone, automaticExposureIgnoresBlackPixelsAndAFewLamps) {
+  Image image = constant(Vec3(50));
+  const float ev = automaticEv100(image);
+  image.pixels[0] = Vec3(1e6f);  // one percent
+  for (size_t i = 50; i < 100; ++i) image.pixels[i] = Vec3(0);
+  EXPECT_NEAR(automaticEv100(image), ev, 0.3f);
+  EXPECT_EQ(automaticEv100(constant(Vec3(0))), 0);
+}
+
+TEST(Tone, curvesStayWithinZeroAndOneAndRiseWithLight) {
+  for (ToneCurve curve : {ToneCurve::PbrNeutral, ToneCurve::AgX, ToneCurve::Filmic, ToneCurve::Clip}) {
+    float last = -1;
+    for (float ev = -14; ev < 20; ev += 0.25f) {
+      const Vec3 v = toneMap(constant(Vec3(std::exp2(ev))), 0, curve).pixels[0];
+      EXPECT_GE(v.x, 0);
+      EXPECT_LE(v.x, 1);
+      EXPECT_GE(v.x, last - 1e-4f) << toneCurveName(curve) << " at " << ev;
+      last = v.x;
+      EXPECT_NEAR(v.x, v.y, 2e-3f) << "grey stays grey";
+      EXPECT_NEAR(v.x, v.z, 2e-3f) << "grey stays grey";
+    }
+    EXPECT_GT(last, 0.97f) << toneCurveName(curve);
+  }
+}
+
+TEST(Tone, neutralKeepsBaseColoursUpToItsOffset) {
+  // Khronos' specification: a base colour between 0.08 and 0.8 comes out lowered by 0.04 in every channel.
+  const Image out = toneMap(constant(Vec3(0.5f, 0.3f, 0.2f) * 1.2f), 0, ToneCurve::PbrNeutral);
+  EXPECT_NEAR(srgbDecode(out.pixels[0].x), 0.46f, 1e-5f);
+  EXPECT_NEAR(srgbDecode(out.pixels[0].y), 0.26f, 1e-5f);
+  EXPECT_NEAR(srgbDecode(out.pixels[0].z), 0.16f, 1e-5f);
+}
+
+TEST(Tone, namesRoundTripAndUnknownNamesListTheChoice) {
+  for (const char* name : {"neutral", "agx", "filmic", "clip"}) EXPECT_EQ(toneCurveName(toneCurveFromName(name).value()), name);
+  const auto wrong = toneCurveFromName("sepia");
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_NE(wrong.error().find("neutral, agx, filmic, clip"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace roomlight
