@@ -28,4 +28,12 @@ struct PathResult {
 PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings,
                      const Progress& progress = {});
 
+// An incident light meter: illuminance in lux on a surface element at `position` whose unit normal is `normal`.
+struct MeterReading {
+  Vec3 illuminanceLux;         // luminance(rgb) is the reading
+  double standardErrorLux = 0; // of independent samples; stratification makes the real error smaller
+};
+MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples,
+                                uint64_t seed);
+
 }  // namespace roomlight

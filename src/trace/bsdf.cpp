@@ -1,0 +1,75 @@
+#include "trace/bsdf.h"
+
+#include "base/sampling.h"
+
+namespace roomlight {
+
+Bsdf::Bsdf(const MaterialSample& m, Vec3 ns, Vec3 ng, Vec3 wo)
+    : frame_(ns), ng_(ng), wo_(frame_.toLocal(wo)), f0_(m.f0), f90_(m.f90), roughness_(m.roughness), alpha_(ggxAlpha(m.roughness)) {
+  mirror_ = alpha_ < kMirrorAlpha;
+  wo_.z = std::max(wo_.z, 1e-4f);
+  base_ = m.baseColor * ((1 - m.metallic) * (1 - m.transmission));
+  const AlbedoTerms e = mirror_ ? AlbedoTerms{1 - schlickWeight(wo_.z), schlickWeight(wo_.z)}
+                                : ggxDirectionalAlbedo(wo_.z, roughness_);
+  specularAlbedo_ = f0_ * e.scale + f90_ * e.bias;
+  const float eo = std::min(1.0f, maxComponent(specularAlbedo_));
+  const AlbedoTerms mean = ggxHemisphericalAlbedo(roughness_);
+  const float eMean = std::min(0.9999f, maxComponent(f0_ * mean.scale + f90_ * mean.bias));
+  diffuseScale_ = (1 - eo) / (1 - eMean);
+  // Exactly (1 - eo) of a white base comes back when E(cos_i) integrates to eMean.
+  diffuseAlbedo_ = base_ * (1 - eo);
+  const float s = luminance(specularAlbedo_), d = luminance(diffuseAlbedo_);
+  specularChance_ = s + d > 0 ? s / (s + d) : 0;
+}
+
+float Bsdf::lobeAlbedo(float cosTheta) const {
+  const AlbedoTerms e = ggxDirectionalAlbedo(cosTheta, roughness_);
+  return std::min(1.0f, maxComponent(f0_ * e.scale + f90_ * e.bias));
+}
+
+Vec3 Bsdf::evaluate(Vec3 wiWorld) const {
+  if (dot(wiWorld, ng_) <= 0) return {};
+  const Vec3 wi = frame_.toLocal(wiWorld);
+  if (wi.z <= 0) return {};
+  Vec3 f = base_ * (diffuseScale_ * (1 - lobeAlbedo(wi.z)) * wi.z / kPi);
+  if (!mirror_ && specularChance_ > 0) {
+    const Vec3 h = normalize(wi + wo_);
+    const Vec3 fresnel = fresnelSchlick(f0_, f90_, dot(wo_, h));
+    f += fresnel * (ggxD(h.z, alpha_) * ggxG2(wo_.z, wi.z, alpha_) / (4 * wo_.z));
+  }
+  return f;
+}
+
+float Bsdf::pdf(Vec3 wiWorld) const {
+  const Vec3 wi = frame_.toLocal(wiWorld);
+  if (wi.z <= 0) return 0;
+  float p = (1 - specularChance_) * wi.z / kPi;
+  if (!mirror_ && specularChance_ > 0) {
+    const Vec3 h = normalize(wi + wo_);
+    p += specularChance_ * ggxG1(wo_.z, alpha_) * ggxD(h.z, alpha_) / (4 * wo_.z);
+  }
+  return p;
+}
+
+BsdfSample Bsdf::sample(Vec2 u, float choice) const {
+  BsdfSample s;
+  if (choice < specularChance_) {
+    if (mirror_) {
+      s.wi = frame_.toWorld({-wo_.x, -wo_.y, wo_.z});
+      if (dot(s.wi, ng_) <= 0) return {};
+      s.mirror = true;
+      s.weight = specularAlbedo_ / specularChance_;
+      return s;
+    }
+    const Vec3 h = sampleVisibleNormal(wo_, alpha_, u);
+    s.wi = frame_.toWorld(h * (2 * dot(wo_, h)) - wo_);
+  } else {
+    s.wi = frame_.toWorld(sampleCosineHemisphere(u));
+  }
+  s.pdf = pdf(s.wi);
+  if (!(s.pdf > 0)) return {};
+  s.weight = evaluate(s.wi) / s.pdf;
+  return s;
+}
+
+}  // namespace roomlight

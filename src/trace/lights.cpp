@@ -1,0 +1,225 @@
+#include "trace/lights.h"
+
+#include "base/sampling.h"
+
+namespace roomlight {
+namespace {
+
+// Mean emission over a triangle: exact without a texture, else a fixed seven-point rule.
+Vec3 meanEmission(const Scene& scene, const Mesh& mesh, uint32_t triangle) {
+  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+  if (material.emissionTexture.texture < 0) return material.emission;
+  constexpr float kPoints[7][2] = {{1 / 3.f, 1 / 3.f}, {.47f, .47f}, {.06f, .47f}, {.47f, .06f}, {.1f, .1f}, {.8f, .1f}, {.1f, .8f}};
+  Vec3 sum;
+  for (const auto& p : kPoints) sum += materialAt(scene, mesh, {triangle, p[0], p[1]}).emission;
+  return sum / 7.0f;
+}
+
+}  // namespace
+
+Vec3 lampIntensity(const Lamp& lamp, Vec3 direction) {
+  if (lamp.kind == LampKind::Point) return lamp.intensityCd;
+  const float cosInner = std::cos(lamp.innerConeRad), cosOuter = std::cos(lamp.outerConeRad);
+  const float t = std::clamp((dot(direction, lamp.direction) - cosOuter) / std::max(1e-4f, cosInner - cosOuter), 0.0f, 1.0f);
+  return lamp.intensityCd * (t * t);
+}
+
+Lights::Lights(const Scene& scene) : scene_(scene), suns_(scene.suns), sky_(scene.sky) {
+  for (const Lamp& lamp : scene.lamps) {
+    if (lamp.kind != LampKind::Area && !isBlack(lamp.intensityCd)) lamps_.push_back(lamp);
+  }
+  std::erase_if(suns_, [](const Sun& sun) { return isBlack(sun.illuminanceLux); });
+  emitterOfInstance_.assign(scene.instances.size(), -1);
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) addEmitter(i);
+}
+
+void Lights::addEmitter(uint32_t index) {
+  const Mesh& mesh = scene_.meshes[static_cast<size_t>(scene_.instances[index].mesh)];
+  const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
+  if (isBlack(material.emission)) return;
+  Emitter e;
+  e.instance = index;
+  e.doubleSided = material.doubleSided;
+  e.slotOfTriangle.assign(mesh.triangleCount(), -1);
+  Bounds3 bounds;
+  Vec3 normal;
+  bool flat = !material.doubleSided;
+  double flux = 0;
+  for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+    const TriangleVertices v = worldTriangle(scene_, index, t);
+    const Vec3 twiceArea = cross(v.b - v.a, v.c - v.a);
+    const float area = 0.5f * length(twiceArea);
+    const float lm = kPi * area * luminance(meanEmission(scene_, mesh, t)) * (e.doubleSided ? 2.0f : 1.0f);
+    if (!(lm > 0)) continue;
+    // The front is counter-clockwise in object space; a mirroring transform turns the world winding around.
+    const float flip = scene_.instances[index].worldFromObject.determinant() < 0 ? -1.0f : 1.0f;
+    const Vec3 n = twiceArea * (flip / (2 * area));
+    if (e.triangles.empty()) normal = n;
+    flat = flat && dot(n, normal) > 0.9999f && std::abs(dot(v.a - (e.triangles.empty() ? v.a : e.centre), normal)) < 1e-3f;
+    if (e.triangles.empty()) e.centre = v.a;
+    bounds.add(v.a), bounds.add(v.b), bounds.add(v.c);
+    flux += lm;
+    e.slotOfTriangle[t] = static_cast<int32_t>(e.triangles.size());
+    e.triangles.push_back({t, static_cast<float>(flux), lm, area});
+  }
+  if (e.triangles.empty()) return;
+  for (EmitterTriangle& t : e.triangles) t.cdf /= static_cast<float>(flux), t.share /= static_cast<float>(flux);
+  e.centre = bounds.centre();
+  e.radius2 = 0.25f * lengthSquared(bounds.size());
+  e.normal = flat ? normal : Vec3(0);
+  e.fluxLm = static_cast<float>(flux);
+  emitterFluxLm_ += flux;
+  emitterOfInstance_[index] = static_cast<int32_t>(emitters_.size());
+  emitters_.push_back(std::move(e));
+}
+
+float Lights::importance(const Emitter& e, Vec3 p) const {
+  // Nothing reaches a point behind a flat one-sided emitter; the margin keeps points in its plane.
+  if (!isBlack(e.normal) && dot(p - e.centre, e.normal) < -1e-3f) return 0;
+  return e.fluxLm / (kPi * std::max(lengthSquared(p - e.centre), 0.25f * e.radius2 + 1e-6f));
+}
+
+float Lights::importance(const Lamp& lamp, Vec3 p) const {
+  const Vec3 d = p - lamp.position;
+  const float d2 = std::max(lengthSquared(d), 1e-4f);
+  return luminance(lampIntensity(lamp, d / std::sqrt(d2))) / d2;
+}
+
+LightSample Lights::sampleLamp(size_t index, Vec3 p) const {
+  const Lamp& lamp = lamps_[index];
+  LightSample s;
+  const Vec3 d = lamp.position - p;
+  s.distance = length(d);
+  if (s.distance < 1e-4f) return s;
+  s.wi = d / s.distance;
+  s.radiance = lampIntensity(lamp, -s.wi) / (s.distance * s.distance);
+  return s;
+}
+
+LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {
+  const auto it = std::upper_bound(e.triangles.begin(), e.triangles.end(), choice,
+                                   [](float v, const EmitterTriangle& t) { return v < t.cdf; });
+  const EmitterTriangle& t = it == e.triangles.end() ? e.triangles.back() : *it;
+  const TriangleVertices v = worldTriangle(scene_, e.instance, t.triangle);
+  const Vec2 b = sampleTriangle(u);
+  const Vec3 q = v.a * (1 - b.x - b.y) + v.b * b.x + v.c * b.y;
+  LightSample s;
+  const Vec3 d = q - p;
+  const float d2 = lengthSquared(d);
+  if (d2 < 1e-8f) return s;
+  s.distance = std::sqrt(d2);
+  s.wi = d / s.distance;
+  const Instance& instance = scene_.instances[e.instance];
+  const Vec3 n = normalize(cross(v.b - v.a, v.c - v.a)) * (instance.worldFromObject.determinant() < 0 ? -1.0f : 1.0f);
+  const float cosLight = -dot(n, s.wi);
+  if (!e.doubleSided && cosLight <= 0) return s;
+  s.pdf = chance * t.share / t.areaM2 * d2 / std::max(std::abs(cosLight), 1e-6f);
+  const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
+  const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
+  const Vec3 emission = material.emissionTexture.texture < 0 ? material.emission : materialAt(scene_, mesh, {t.triangle, b.x, b.y}).emission;
+  s.radiance = emission / s.pdf;
+  return s;
+}
+
+float Lights::pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const {
+  const int32_t slot = e.slotOfTriangle[q.triangle];
+  if (slot < 0 || (!q.front && !e.doubleSided)) return 0;
+  const EmitterTriangle& t = e.triangles[static_cast<size_t>(slot)];
+  const Vec3 d = q.p - p;
+  const float d2 = lengthSquared(d);
+  const float cosLight = std::abs(dot(q.ng, d)) / std::sqrt(std::max(d2, 1e-12f));
+  return t.share / t.areaM2 * d2 / std::max(cosLight, 1e-6f);
+}
+
+LightSample Lights::sampleLocal(Vec3 p, Vec2 u, float choice) const {
+  float total = 0;
+  for (const Lamp& lamp : lamps_) total += importance(lamp, p);
+  for (const Emitter& e : emitters_) total += importance(e, p);
+  if (!(total > 0)) return {};
+  float v = choice * total;
+  for (size_t i = 0; i < lamps_.size(); ++i) {
+    const float w = importance(lamps_[i], p);
+    if (v < w) {
+      LightSample s = sampleLamp(i, p);
+      s.radiance *= total / w;
+      return s;
+    }
+    v -= w;
+  }
+  for (const Emitter& e : emitters_) {
+    const float w = importance(e, p);
+    if (v < w) return sampleEmitter(e, p, u, v / w, w / total);
+    v -= w;
+  }
+  return {};
+}
+
+float Lights::pdfLocal(Vec3 p, const SurfacePoint& q) const {
+  const int32_t index = emitterOfInstance_[q.instance];
+  if (index < 0) return 0;
+  float total = 0;
+  for (const Lamp& lamp : lamps_) total += importance(lamp, p);
+  for (const Emitter& e : emitters_) total += importance(e, p);
+  const Emitter& e = emitters_[static_cast<size_t>(index)];
+  return total > 0 ? importance(e, p) / total * pdfInEmitter(e, p, q) : 0;
+}
+
+LightSample Lights::sampleEmitters(Vec3 p, Vec2 u, float choice) const {
+  float total = 0;
+  for (const Emitter& e : emitters_) total += importance(e, p);
+  if (!(total > 0)) return {};
+  float v = choice * total;
+  for (const Emitter& e : emitters_) {
+    const float w = importance(e, p);
+    if (v < w) return sampleEmitter(e, p, u, v / w, w / total);
+    v -= w;
+  }
+  return {};
+}
+
+float Lights::pdfEmitters(Vec3 p, const SurfacePoint& q) const {
+  const int32_t index = emitterOfInstance_[q.instance];
+  if (index < 0) return 0;
+  float total = 0;
+  for (const Emitter& e : emitters_) total += importance(e, p);
+  const Emitter& e = emitters_[static_cast<size_t>(index)];
+  return total > 0 ? importance(e, p) / total * pdfInEmitter(e, p, q) : 0;
+}
+
+LightSample Lights::sampleSun(size_t index, Vec2 u) const {
+  const Sun& sun = suns_[index];
+  LightSample s;
+  if (sun.halfAngleRad <= 0) {
+    s.wi = sun.toLight;
+    s.radiance = sun.illuminanceLux;
+    return s;
+  }
+  const float cosHalf = std::cos(sun.halfAngleRad);
+  s.wi = Frame(sun.toLight).toWorld(sampleCone(u, cosHalf));
+  s.pdf = conePdf(cosHalf);
+  const float sine = std::sin(sun.halfAngleRad);
+  s.radiance = sun.illuminanceLux / (kPi * sine * sine) / s.pdf;
+  return s;
+}
+
+Vec3 Lights::sunDisc(size_t index, Vec3 d, float& pdf) const {
+  const Sun& sun = suns_[index];
+  pdf = 0;
+  const float cosHalf = std::cos(sun.halfAngleRad);
+  if (sun.halfAngleRad <= 0 || dot(d, sun.toLight) < cosHalf) return {};
+  pdf = conePdf(cosHalf);
+  const float sine = std::sin(sun.halfAngleRad);
+  return sun.illuminanceLux / (kPi * sine * sine);
+}
+
+LightSample Lights::sampleSky(Vec2 u) const {
+  const SkyDistribution::Sample d = sky_.sample(u);
+  LightSample s;
+  if (!(d.pdf > 0)) return s;
+  s.wi = d.d;
+  s.pdf = d.pdf;
+  s.radiance = sky_.radiance(d.d) / d.pdf;
+  return s;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,82 @@
+// Every light of a scene, sampled directly: lamps, emissive meshes, suns and the sky.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+#include "trace/sky_distribution.h"
+#include "trace/surface_point.h"
+
+namespace roomlight {
+
+// One way light may reach a point, before visibility.
+struct LightSample {
+  Vec3 wi;            // unit, towards the light
+  float distance = kInfinity;
+  Vec3 radiance;      // incident radiance / pdf: times f cos is the estimate. Delta lights: intensity / distance² / chance
+  float pdf = 0;      // per steradian, selection included; 0: delta light, no other strategy can find it
+  bool valid() const { return !isBlack(radiance); }
+};
+
+class Lights {
+ public:
+  explicit Lights(const Scene& scene);
+
+  // One sample among lamps and emissive meshes, chosen by what each could give at p without shadows.
+  LightSample sampleLocal(Vec3 p, Vec2 u, float choice) const;
+  // Density with which sampleLocal(p) would have chosen the direction to point q of an emissive triangle.
+  float pdfLocal(Vec3 p, const SurfacePoint& q) const;
+  // All point and spot lamps one by one (no emissive meshes).
+  size_t lampCount() const { return lamps_.size(); }
+  LightSample sampleLamp(size_t index, Vec3 p) const;
+  // One sample among emissive meshes only, and its density.
+  LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
+  float pdfEmitters(Vec3 p, const SurfacePoint& q) const;
+
+  size_t sunCount() const { return suns_.size(); }
+  LightSample sampleSun(size_t index, Vec2 u) const;
+  // Radiance of sun discs along d with the density sampleSun has there (0 outside and for delta suns).
+  Vec3 sunDisc(size_t index, Vec3 d, float& pdf) const;
+
+  const SkyDistribution& sky() const { return sky_; }
+  LightSample sampleSky(Vec2 u) const;
+
+  bool hasLocal() const { return !lamps_.empty() || !emitters_.empty(); }
+  bool hasEmitters() const { return !emitters_.empty(); }
+  double emittedFluxLm() const { return emitterFluxLm_; }  // of emissive meshes
+
+ private:
+  struct EmitterTriangle {
+    uint32_t triangle;
+    float cdf;   // upper end of its share
+    float share; // of the emitter's flux
+    float areaM2;
+  };
+  struct Emitter {
+    uint32_t instance;
+    Vec3 centre, normal;  // normal: of a flat one-sided emitter, else zero
+    float radius2 = 0;
+    float fluxLm = 0;
+    bool doubleSided = false;
+    std::vector<EmitterTriangle> triangles;
+    std::vector<int32_t> slotOfTriangle;  // mesh triangle -> index into triangles, -1: does not emit
+  };
+  void addEmitter(uint32_t instance);
+  float importance(const Emitter& e, Vec3 p) const;
+  float importance(const Lamp& lamp, Vec3 p) const;
+  LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;
+  float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
+
+  const Scene& scene_;
+  std::vector<Lamp> lamps_;
+  std::vector<Sun> suns_;
+  std::vector<Emitter> emitters_;
+  std::vector<int32_t> emitterOfInstance_;
+  SkyDistribution sky_;
+  double emitterFluxLm_ = 0;
+};
+
+// Intensity of a lamp towards a unit direction away from it; the spot's falloff is KHR_lights_punctual's.
+Vec3 lampIntensity(const Lamp& lamp, Vec3 direction);
+
+}  // namespace roomlight

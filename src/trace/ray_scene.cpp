@@ -1,0 +1,234 @@
+#include "trace/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <vector>
+
+#include "base/parallel.h"
+#include "scene/surface.h"
+
+namespace roomlight {
+namespace {
+
+// Above this many triangles in all, repeated meshes become Embree instances: slower to trace, but small.
+constexpr size_t kFlattenLimit = 6'000'000;
+
+struct GeometryTag {  // what a filter function needs to know of the geometry it is called for
+  const Scene* scene;
+  const Mesh* mesh;
+};
+
+struct ShadowContext {
+  RTCIntersectContext base;  // first member: Embree hands back a pointer to it
+  Vec3* left;                // one per ray of the packet, indexed by ray id
+};
+
+bool isMasked(const Material& m) { return m.alphaMode == AlphaMode::Mask; }
+bool letsLightThrough(const Material& m) {
+  return m.alphaMode != AlphaMode::Opaque || (m.transmission > 0 && m.metallic < 1);
+}
+
+// Masked-out texels are no surface.
+void filterIntersect(const RTCFilterFunctionNArguments* args) {
+  const auto* tag = static_cast<const GeometryTag*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const TrianglePoint p{RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i),
+                          RTCHitN_v(args->hit, args->N, i)};
+    if (alphaAt(*tag->scene, *tag->mesh, p) == 0) args->valid[i] = 0;
+  }
+}
+
+// Glass and blended surfaces reduce what is left; the ray goes on until nothing is.
+void filterOccluded(const RTCFilterFunctionNArguments* args) {
+  const auto* tag = static_cast<const GeometryTag*>(args->geometryUserPtr);
+  const auto* context = reinterpret_cast<const ShadowContext*>(args->context);
+  const Material& material = tag->scene->materials[static_cast<size_t>(tag->mesh->material)];
+  const unsigned n = args->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (args->valid[i] != -1) continue;
+    const TrianglePoint p{RTCHitN_primID(args->hit, n, i), RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i)};
+    const Vec3 ng{RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)};
+    const Vec3 d{RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)};
+    const float cosTheta = std::abs(dot(ng, d)) / std::sqrt(lengthSquared(ng) * lengthSquared(d));
+    const MaterialSample m = materialAt(*tag->scene, *tag->mesh, p);
+    Vec3& left = context->left[RTCRayN_id(args->ray, n, i)];
+    left *= straightTransmittance(material, m, cosTheta);
+    if (!isBlack(left)) args->valid[i] = 0;
+  }
+}
+
+Hit hitOf(unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t) {
+  if (geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return {instID != RTC_INVALID_GEOMETRY_ID ? instID : geomID, primID, u, v, t};
+}
+
+}  // namespace
+
+struct RayScene::State {
+  const Scene* scene = nullptr;
+  Bounds3 bounds;
+  RTCDevice device = nullptr;
+  RTCScene top = nullptr;
+  std::vector<RTCScene> meshScenes;  // of instanced meshes, else null
+  std::vector<GeometryTag> tags;     // one per mesh
+
+  ~State() {
+    if (top) rtcReleaseScene(top);
+    for (RTCScene s : meshScenes) {
+      if (s) rtcReleaseScene(s);
+    }
+    if (device) rtcReleaseDevice(device);
+  }
+
+  RTCGeometry makeGeometry(int meshIndex, const Affine& transform);
+  void build();
+};
+
+RTCGeometry RayScene::State::makeGeometry(int meshIndex, const Affine& transform) {
+  const Mesh& mesh = scene->meshes[static_cast<size_t>(meshIndex)];
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                              sizeof(Vec3), mesh.positions.size()));
+  parallelFor(mesh.positions.size(), 16384, [&](size_t i) { vertices[i] = transform.point(mesh.positions[i]); });
+  // Copied rather than shared: Embree reads a few bytes past the last index.
+  auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                 3 * sizeof(uint32_t), mesh.triangleCount()));
+  std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
+  rtcSetGeometryUserData(geometry, &tags[static_cast<size_t>(meshIndex)]);
+  const Material& material = scene->materials[static_cast<size_t>(mesh.material)];
+  if (isMasked(material)) rtcSetGeometryIntersectFilterFunction(geometry, filterIntersect);
+  if (letsLightThrough(material)) rtcSetGeometryOccludedFilterFunction(geometry, filterOccluded);
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
+void RayScene::State::build() {
+  device = rtcNewDevice(nullptr);
+  top = rtcNewScene(device);
+  rtcSetSceneBuildQuality(top, RTC_BUILD_QUALITY_MEDIUM);
+  tags.reserve(scene->meshes.size());
+  for (const Mesh& mesh : scene->meshes) tags.push_back({scene, &mesh});
+  meshScenes.assign(scene->meshes.size(), nullptr);
+
+  std::vector<int> uses(scene->meshes.size(), 0);
+  for (const Instance& instance : scene->instances) ++uses[static_cast<size_t>(instance.mesh)];
+  const bool flatten = scene->triangleCount() <= kFlattenLimit;
+
+  for (size_t i = 0; i < scene->instances.size(); ++i) {
+    const Instance& instance = scene->instances[i];
+    const auto meshIndex = static_cast<size_t>(instance.mesh);
+    if (scene->meshes[meshIndex].triangleCount() == 0) continue;
+    RTCGeometry geometry = nullptr;
+    if (flatten || uses[meshIndex] == 1) {
+      geometry = makeGeometry(instance.mesh, instance.worldFromObject);
+    } else {
+      RTCScene& shared = meshScenes[meshIndex];
+      if (!shared) {
+        shared = rtcNewScene(device);
+        RTCGeometry triangles = makeGeometry(instance.mesh, Affine{});
+        rtcAttachGeometryByID(shared, triangles, 0);
+        rtcReleaseGeometry(triangles);
+        rtcCommitScene(shared);
+      }
+      geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(geometry, shared);
+      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &instance.worldFromObject);
+      rtcCommitGeometry(geometry);
+    }
+    rtcAttachGeometryByID(top, geometry, static_cast<unsigned>(i));
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(top);
+  RTCBounds b;
+  rtcGetSceneBounds(top, &b);
+  bounds = {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
+
+RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
+  state_->scene = &scene;
+  state_->build();
+}
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+const Scene& RayScene::scene() const { return *state_->scene; }
+const Bounds3& RayScene::bounds() const { return state_->bounds; }
+
+Hit RayScene::intersect(const Ray& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit r;
+  r.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.tMin, ray.direction.x, ray.direction.y, ray.direction.z,
+           0, ray.tMax, 0xffffffffu, 0, 0};
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(state_->top, &context, &r);
+  return hitOf(r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar);
+}
+
+Vec3 RayScene::transmittance(const Ray& ray) const {
+  Vec3 left(1);
+  ShadowContext context;
+  rtcInitIntersectContext(&context.base);
+  context.left = &left;
+  RTCRay r{ray.origin.x, ray.origin.y, ray.origin.z, ray.tMin, ray.direction.x, ray.direction.y, ray.direction.z,
+           0, ray.tMax, 0xffffffffu, 0, 0};
+  rtcOccluded1(state_->top, &context.base, &r);
+  return r.tfar < 0 ? Vec3(0) : left;
+}
+
+namespace {
+
+// Fills lane i of an eight-wide ray; lanes past the end stay invalid.
+template <class Ray8>
+void setLane(Ray8& r, unsigned i, const Ray& ray) {
+  r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
+  r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
+  r.tnear[i] = ray.tMin, r.tfar[i] = ray.tMax;
+  r.time[i] = 0, r.mask[i] = 0xffffffffu, r.id[i] = i, r.flags[i] = 0;
+}
+
+}  // namespace
+
+void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (size_t first = 0; first < rays.size(); first += 8) {
+    alignas(32) RTCRayHit8 r;
+    alignas(32) int valid[8] = {};
+    const auto n = static_cast<unsigned>(std::min<size_t>(8, rays.size() - first));
+    for (unsigned i = 0; i < n; ++i) {
+      setLane(r.ray, i, rays[first + i]);
+      r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+      valid[i] = -1;
+    }
+    rtcIntersect8(valid, state_->top, &context, &r);
+    for (unsigned i = 0; i < n; ++i) {
+      hits[first + i] = hitOf(r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i]);
+    }
+  }
+}
+
+void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> left) const {
+  for (size_t first = 0; first < rays.size(); first += 8) {
+    Vec3 lanes[8];
+    ShadowContext context;
+    rtcInitIntersectContext(&context.base);
+    context.left = lanes;
+    alignas(32) RTCRay8 r;
+    alignas(32) int valid[8] = {};
+    const auto n = static_cast<unsigned>(std::min<size_t>(8, rays.size() - first));
+    for (unsigned i = 0; i < n; ++i) {
+      setLane(r, i, rays[first + i]);
+      lanes[i] = Vec3(1);
+      valid[i] = -1;
+    }
+    rtcOccluded8(valid, state_->top, &context.base, &r);
+    for (unsigned i = 0; i < n; ++i) left[first + i] = r.tfar[i] < 0 ? Vec3(0) : lanes[i];
+  }
+}
+
+}  // namespace roomlight

@@ -1,0 +1,59 @@
+// Ray tracing on a scene: Embree behind one small face. World space throughout.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "scene/scene.h"
+
+namespace roomlight {
+
+constexpr uint32_t kNoHit = 0xffffffffu;
+
+struct Ray {
+  Vec3 origin, direction;  // direction need not be unit; distances count in its length
+  float tMin = 0, tMax = kInfinity;
+};
+
+struct Hit {
+  uint32_t instance = kNoHit, triangle = 0;
+  float b1 = 0, b2 = 0;  // barycentric weights of the triangle's vertices 1 and 2
+  float t = kInfinity;
+  bool valid() const { return instance != kNoHit; }
+};
+
+// A bounding-volume hierarchy over all instances of a scene, which it refers to and must not outlive. Surfaces block
+// from both sides; alpha-masked texels are holes; thin glass and alpha-blended surfaces are hit by intersect() and
+// attenuate transmittance(). Safe to use from many threads.
+class RayScene {
+ public:
+  explicit RayScene(const Scene& scene);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  // Nearest surface.
+  Hit intersect(const Ray& ray) const;
+  // The same for many rays without coherence, eight at a time: hits[i] belongs to rays[i].
+  void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
+  // What is left of light along the ray per channel: 1 unobstructed, 0 blocked, in between through glass.
+  Vec3 transmittance(const Ray& ray) const;
+  void transmittance(std::span<const Ray> rays, std::span<Vec3> left) const;
+
+  const Scene& scene() const;
+  const Bounds3& bounds() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Where a ray that leaves p towards the side of unit normal n starts, clear of the surface at p: moved by a few ulps of
+// the coordinates, never by a visible distance (0.1 mm at 10 m from the origin).
+inline Vec3 offsetOrigin(Vec3 p, Vec3 n) {
+  const float scale = std::max(1.0f, maxComponent(abs(p)));
+  return p + n * (1e-5f * scale);
+}
+
+}  // namespace roomlight

@@ -1,0 +1,121 @@
+#include "trace/sky_distribution.h"
+
+namespace roomlight {
+namespace {
+
+constexpr int kMaxTableWidth = 512;
+
+Vec3 texel(const Image& image, int x, int y) {
+  x = (x % image.width + image.width) % image.width;
+  y = std::clamp(y, 0, image.height - 1);
+  return image.at(x, y);
+}
+
+// Index of the cell of an increasing table in which v falls, and where in it (0..1).
+int findCell(const float* cdf, int count, float v, float& within) {
+  const float* it = std::upper_bound(cdf, cdf + count + 1, v);
+  const int i = std::clamp(static_cast<int>(it - cdf) - 1, 0, count - 1);
+  const float w = cdf[i + 1] - cdf[i];
+  within = w > 0 ? std::clamp((v - cdf[i]) / w, 0.0f, 0.999999f) : 0.5f;
+  return i;
+}
+
+}  // namespace
+
+SkyDistribution::SkyDistribution(const Sky& sky) : sky_(sky) {
+  present_ = sky.present();
+  mean_ = sky.luminanceCdM2;
+  cosRotation_ = std::cos(sky.rotationRad);
+  sinRotation_ = std::sin(sky.rotationRad);
+  const Image& image = sky.image;
+  if (image.width == 0) return;
+
+  width_ = std::min(image.width, kMaxTableWidth);
+  height_ = std::max(1, std::min(image.height, kMaxTableWidth / 2));
+  std::vector<double> weights(static_cast<size_t>(width_) * height_, 0.0);
+  double total = 0;
+  Vec3 sum;
+  double area = 0;
+  // Cells take every texel under them and its neighbours, because look-ups are bilinear: no radiance without density.
+  for (int y = 0; y < image.height; ++y) {
+    const double s = std::sin(kPi * (y + 0.5) / image.height);
+    const int row = static_cast<int>(static_cast<int64_t>(y) * height_ / image.height);
+    for (int x = 0; x < image.width; ++x) {
+      const Vec3 c = texel(image, x, y);
+      sum += c * static_cast<float>(s);
+      area += s;
+      float l = 2 * luminance(c);
+      for (int k = 0; k < 9; ++k) l += luminance(texel(image, x + k % 3 - 1, y + k / 3 - 1)) / 9;
+      const int column = static_cast<int>(static_cast<int64_t>(x) * width_ / image.width);
+      weights[static_cast<size_t>(row) * width_ + column] += l * s;
+      total += l * s;
+    }
+  }
+  mean_ = sum / static_cast<float>(area);
+  if (!(total > 0)) {
+    present_ = false;
+    return;
+  }
+  cells_.resize(weights.size());
+  rowCdf_.assign(static_cast<size_t>(height_) + 1, 0);
+  columnCdf_.assign(static_cast<size_t>(height_) * (width_ + 1), 0);
+  double rows = 0;
+  for (int y = 0; y < height_; ++y) {
+    double rowSum = 0;
+    for (int x = 0; x < width_; ++x) rowSum += weights[static_cast<size_t>(y) * width_ + x];
+    double running = 0;
+    for (int x = 0; x < width_; ++x) {
+      const double w = weights[static_cast<size_t>(y) * width_ + x];
+      cells_[static_cast<size_t>(y) * width_ + x] = static_cast<float>(w / total);
+      running += w;
+      columnCdf_[static_cast<size_t>(y) * (width_ + 1) + x + 1] = rowSum > 0 ? static_cast<float>(running / rowSum) : static_cast<float>(x + 1) / static_cast<float>(width_);
+    }
+    rows += rowSum;
+    rowCdf_[static_cast<size_t>(y) + 1] = static_cast<float>(rows / total);
+  }
+}
+
+Vec2 SkyDistribution::toUv(Vec3 d) const {
+  const float x = cosRotation_ * d.x - sinRotation_ * d.z;  // rotation by -angle about +y
+  const float z = sinRotation_ * d.x + cosRotation_ * d.z;
+  return {0.5f + std::atan2(x, -z) / (2 * kPi), std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi};
+}
+
+Vec3 SkyDistribution::radiance(Vec3 d) const {
+  const Image& image = sky_.image;
+  if (image.width == 0) return sky_.luminanceCdM2;
+  const Vec2 uv = toUv(d);
+  const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
+  const float fx = std::floor(x), fy = std::floor(y);
+  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  const Vec3 top = lerp(texel(image, ix, iy), texel(image, ix + 1, iy), x - fx);
+  const Vec3 bottom = lerp(texel(image, ix, iy + 1), texel(image, ix + 1, iy + 1), x - fx);
+  return lerp(top, bottom, y - fy);
+}
+
+SkyDistribution::Sample SkyDistribution::sample(Vec2 u) const {
+  float dy, dx;
+  const int row = findCell(rowCdf_.data(), height_, u.y, dy);
+  const int column = findCell(&columnCdf_[static_cast<size_t>(row) * (width_ + 1)], width_, u.x, dx);
+  const float theta = kPi * (static_cast<float>(row) + dy) / static_cast<float>(height_);
+  const float phi = 2 * kPi * ((static_cast<float>(column) + dx) / static_cast<float>(width_) - 0.5f);
+  const float s = std::sin(theta), x = s * std::sin(phi), z = -s * std::cos(phi);
+  Sample out;
+  out.d = {cosRotation_ * x + sinRotation_ * z, std::cos(theta), -sinRotation_ * x + cosRotation_ * z};
+  const float cell = cells_[static_cast<size_t>(row) * width_ + column];
+  const float solidAngle = (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(s, 1e-6f);
+  out.pdf = cell / solidAngle;
+  return out;
+}
+
+float SkyDistribution::pdf(Vec3 d) const {
+  if (cells_.empty()) return 0;
+  const Vec2 uv = toUv(d);
+  const int column = std::clamp(static_cast<int>(uv.x * static_cast<float>(width_)), 0, width_ - 1);
+  const int row = std::clamp(static_cast<int>(uv.y * static_cast<float>(height_)), 0, height_ - 1);
+  const float s = std::sqrt(std::max(0.0f, 1 - d.y * d.y));
+  const float solidAngle = (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(s, 1e-6f);
+  return cells_[static_cast<size_t>(row) * width_ + column] / solidAngle;
+}
+
+}  // namespace roomlight

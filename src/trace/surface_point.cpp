@@ -1,0 +1,46 @@
+#include "trace/surface_point.h"
+
+namespace roomlight {
+
+TriangleVertices worldTriangle(const Scene& scene, uint32_t instanceIndex, uint32_t triangle) {
+  const Instance& instance = scene.instances[instanceIndex];
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+  const uint32_t* i = &mesh.indices[size_t{3} * triangle];
+  const Affine& m = instance.worldFromObject;
+  return {m.point(mesh.positions[i[0]]), m.point(mesh.positions[i[1]]), m.point(mesh.positions[i[2]])};
+}
+
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) {
+  const Instance& instance = scene.instances[hit.instance];
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+  const Affine& m = instance.worldFromObject;
+  const uint32_t* i = &mesh.indices[size_t{3} * hit.triangle];
+  const Vec3 a = mesh.positions[i[0]], b = mesh.positions[i[1]], c = mesh.positions[i[2]];
+  const TrianglePoint at{hit.triangle, hit.b1, hit.b2};
+
+  SurfacePoint s;
+  s.instance = hit.instance;
+  s.triangle = hit.triangle;
+  s.material = &scene.materials[static_cast<size_t>(mesh.material)];
+  // Barycentric interpolation of the vertices is closer to the surface than origin + t * direction.
+  s.p = m.point(a * (1 - hit.b1 - hit.b2) + b * hit.b1 + c * hit.b2);
+  const Vec3 objectNormal = cross(b - a, c - a);
+  // The cofactor matrix points backwards under a mirroring transform; front is what it is in object space (glTF 2.0, 3.7.4).
+  const float side = m.determinant() < 0 ? -1.0f : 1.0f;
+  s.ng = normalize(m.normal(objectNormal)) * side;
+  s.ns = normalize(m.normal(shadingNormalAt(scene, mesh, at, normalize(objectNormal)))) * side;
+  s.front = dot(s.ng, direction) < 0;
+  if (!s.front) s.ng = -s.ng, s.ns = -s.ns;
+  // A shading normal that the ray sees from behind would reflect into the surface; bend it to just above grazing.
+  const float facing = -dot(s.ns, direction) / length(direction);
+  if (facing < 0.01f || dot(s.ns, s.ng) <= 0) {
+    const Vec3 d = normalize(direction);
+    const Vec3 bent = s.ns - d * (0.02f - facing);
+    s.ns = dot(bent, s.ng) > 0 && lengthSquared(bent) > 1e-6f ? normalize(bent) : s.ng;
+    if (dot(s.ns, d) > -0.005f) s.ns = s.ng;
+  }
+  s.m = materialAt(scene, mesh, at);
+  return s;
+}
+
+}  // namespace roomlight

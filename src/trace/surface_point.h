@@ -1,0 +1,31 @@
+// What a ray found, ready for shading: position, normals that face the ray, material values.
+#pragma once
+
+#include "scene/surface.h"
+#include "trace/ray_scene.h"
+
+namespace roomlight {
+
+struct SurfacePoint {
+  Vec3 p;              // world
+  Vec3 ng;             // unit geometric normal on the side the ray came from
+  Vec3 ns;             // unit shading normal on that side
+  bool front = true;   // the ray met the front (counter-clockwise) side
+  uint32_t instance = 0, triangle = 0;
+  const Material* material = nullptr;
+  MaterialSample m;
+
+  // Luminance emitted towards the ray's origin, cd/m² per channel.
+  Vec3 emitted() const { return front || material->doubleSided ? m.emission : Vec3(0); }
+};
+
+// `direction` is that of the ray, pointing to the surface.
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction);
+
+// World positions of a triangle's vertices.
+struct TriangleVertices {
+  Vec3 a, b, c;
+};
+TriangleVertices worldTriangle(const Scene& scene, uint32_t instance, uint32_t triangle);
+
+}  // namespace roomlight
