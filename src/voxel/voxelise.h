@@ -32,7 +32,8 @@ struct Voxelisation {
 };
 
 // Cost: proportional to triangles plus voxels touched; about 0.3 s for 400 k triangles at 4 cm on two cores.
-Voxelisation voxelise(const Scene& scene, const VoxelSettings& settings);
+// `hidden[i]` true leaves instance i out; empty means none is hidden.
+Voxelisation voxelise(const Scene& scene, const VoxelSettings& settings, std::span<const uint8_t> hidden = {});
 
 // Brings `v` up to date after the listed instances of `scene` changed (transform, or hidden: `hidden[i]` true removes
 // instance i; empty means none is hidden). Same result, bit for bit, as voxelise() of the scene as it is now.
