@@ -1,0 +1,43 @@
+#include "import/import.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace roomlight {
+namespace {
+
+// Lengths into metres: placements, lamps and cameras. Meshes keep their own coordinates.
+void scaleToMetres(Scene& scene, float s) {
+  for (Instance& instance : scene.instances) {
+    Affine& m = instance.worldFromObject;
+    m = {m.x * s, m.y * s, m.z * s, m.w * s};
+  }
+  for (Camera& camera : scene.cameras) {
+    camera.worldFromCamera.w *= s;
+    camera.nearM *= s;
+    camera.yMagM *= s;
+  }
+  for (Lamp& lamp : scene.lamps) {
+    lamp.position *= s;
+    lamp.widthM *= s;
+    lamp.heightM *= s;
+  }
+}
+
+}  // namespace
+
+Result<Imported> importScene(const std::filesystem::path& file, const ImportOptions& options) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(file, code)) return Error{fmt::format("{}: no such file", file.string())};
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool gltf = extension == ".gltf" || extension == ".glb", obj = extension == ".obj";
+  if (!gltf && !obj) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb or .obj", file.string(), extension)};
+  Result<Imported> imported = gltf ? importGltf(file, options) : importObj(file, options);
+  if (imported && options.metresPerUnit != 1) scaleToMetres(imported.value().scene, options.metresPerUnit);
+  return imported;
+}
+
+}  // namespace roomlight
