@@ -27,18 +27,21 @@ float Bsdf::lobeAlbedo(float cosTheta) const {
   return std::min(1.0f, maxComponent(f0_ * e.scale + f90_ * e.bias));
 }
 
-Vec3 Bsdf::evaluate(Vec3 wiWorld) const {
-  if (dot(wiWorld, ng_) <= 0) return {};
+Vec3 Bsdf::evaluateDiffuse(Vec3 wiWorld) const {
+  const float cosI = dot(wiWorld, frame_.n);
+  if (cosI <= 0 || dot(wiWorld, ng_) <= 0) return {};
+  return base_ * (diffuseScale_ * (1 - lobeAlbedo(cosI)) * cosI / kPi);
+}
+
+Vec3 Bsdf::evaluateSpecular(Vec3 wiWorld) const {
+  if (mirror_ || specularChance_ <= 0 || dot(wiWorld, ng_) <= 0) return {};
   const Vec3 wi = frame_.toLocal(wiWorld);
   if (wi.z <= 0) return {};
-  Vec3 f = base_ * (diffuseScale_ * (1 - lobeAlbedo(wi.z)) * wi.z / kPi);
-  if (!mirror_ && specularChance_ > 0) {
-    const Vec3 h = normalize(wi + wo_);
-    const Vec3 fresnel = fresnelSchlick(f0_, f90_, dot(wo_, h));
-    f += fresnel * (ggxD(h.z, alpha_) * ggxG2(wo_.z, wi.z, alpha_) / (4 * wo_.z));
-  }
-  return f;
+  const Vec3 h = normalize(wi + wo_);
+  return fresnelSchlick(f0_, f90_, dot(wo_, h)) * (ggxD(h.z, alpha_) * ggxG2(wo_.z, wi.z, alpha_) / (4 * wo_.z));
 }
+
+Vec3 Bsdf::evaluate(Vec3 wi) const { return evaluateDiffuse(wi) + evaluateSpecular(wi); }
 
 float Bsdf::pdf(Vec3 wiWorld) const {
   const Vec3 wi = frame_.toLocal(wiWorld);
@@ -49,6 +52,23 @@ float Bsdf::pdf(Vec3 wiWorld) const {
     p += specularChance_ * ggxG1(wo_.z, alpha_) * ggxD(h.z, alpha_) / (4 * wo_.z);
   }
   return p;
+}
+
+BsdfSample Bsdf::sampleSpecular(Vec2 u) const {
+  BsdfSample s;
+  if (mirror_) {
+    s.wi = frame_.toWorld({-wo_.x, -wo_.y, wo_.z});
+    s.mirror = dot(s.wi, ng_) > 0;
+    s.weight = specularAlbedo_;
+    return s;
+  }
+  const Vec3 h = sampleVisibleNormal(wo_, alpha_, u);
+  const Vec3 wi = h * (2 * dot(wo_, h)) - wo_;
+  s.wi = frame_.toWorld(wi);
+  if (wi.z <= 0 || dot(s.wi, ng_) <= 0) return s;
+  s.pdf = ggxG1(wo_.z, alpha_) * ggxD(h.z, alpha_) / (4 * wo_.z);
+  s.weight = fresnelSchlick(f0_, f90_, dot(wo_, h)) * (ggxG2(wo_.z, wi.z, alpha_) / ggxG1(wo_.z, alpha_));
+  return s;
 }
 
 BsdfSample Bsdf::sample(Vec2 u, float choice) const {

@@ -25,8 +25,12 @@ class Bsdf {
 
   // f(wo, wi) |cos wi| without the mirror part; zero where wi is below the geometric surface.
   Vec3 evaluate(Vec3 wi) const;
+  Vec3 evaluateDiffuse(Vec3 wi) const;   // its two parts apart
+  Vec3 evaluateSpecular(Vec3 wi) const;
   float pdf(Vec3 wi) const;
   BsdfSample sample(Vec2 u, float choice) const;
+  // A direction of the specular lobe alone; weight f_specular cos / pdf of that lobe. Not valid where it would enter the surface.
+  BsdfSample sampleSpecular(Vec2 u) const;
 
   // Directional albedo, per channel: all light reflected towards wo under a uniform hemisphere of 1.
   Vec3 albedo() const { return specularAlbedo_ + diffuseAlbedo_; }

@@ -164,6 +164,23 @@ float Lights::pdfLocal(Vec3 p, const SurfacePoint& q) const {
   return total > 0 ? importance(e, p) / total * pdfInEmitter(e, p, q) : 0;
 }
 
+LightSample Lights::sampleLamps(Vec3 p, float choice) const {
+  float total = 0;
+  for (const Lamp& lamp : lamps_) total += importance(lamp, p);
+  if (!(total > 0)) return {};
+  float v = choice * total;
+  for (size_t i = 0; i < lamps_.size(); ++i) {
+    const float w = importance(lamps_[i], p);
+    if (v < w || i + 1 == lamps_.size()) {
+      LightSample s = sampleLamp(i, p);
+      if (w > 0) s.radiance *= total / w;
+      return s;
+    }
+    v -= w;
+  }
+  return {};
+}
+
 LightSample Lights::sampleEmitters(Vec3 p, Vec2 u, float choice) const {
   float total = 0;
   for (const Emitter& e : emitters_) total += importance(e, p);

@@ -29,6 +29,8 @@ class Lights {
   // All point and spot lamps one by one (no emissive meshes).
   size_t lampCount() const { return lamps_.size(); }
   LightSample sampleLamp(size_t index, Vec3 p) const;
+  // One of them, chosen by what each could give at p without shadows.
+  LightSample sampleLamps(Vec3 p, float choice) const;
   // One sample among emissive meshes only, and its density.
   LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
   float pdfEmitters(Vec3 p, const SurfacePoint& q) const;

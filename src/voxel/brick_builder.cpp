@@ -10,7 +10,9 @@ namespace {
 // Running sums of one side of the surfaces in a voxel, weighted by opaque area in voxels².
 struct SlotSums {
   float area = 0;
-  Vec3 position, normal, albedo, emission;
+  Vec3 normal, albedo, emission;
+  Vec3 position;          // centroid of the largest piece: a point that really lies on a surface
+  float pieceArea = 0;
   // References come in order of instances, so the largest is known when the run of one instance ends.
   uint32_t instance = 0, bestInstance = 0;
   float instanceArea = 0, bestArea = 0;
@@ -20,7 +22,8 @@ struct SlotSums {
     instanceArea += w;
     if (instanceArea > bestArea) bestArea = instanceArea, bestInstance = from;
     area += w;
-    position += p * w, normal += n * w, albedo += rho * w, emission += le * w;
+    if (w > pieceArea) pieceArea = w, position = p;
+    normal += n * w, albedo += rho * w, emission += le * w;
   }
 };
 
@@ -129,7 +132,7 @@ void addTriangle(const Scene& scene, const Lattice& lattice, Int3 brick, Voxelis
 FaceSlot finishSlot(const SlotSums& s, int face, const Lattice& lattice) {
   FaceSlot slot;
   const float inverse = 1 / s.area;
-  slot.position = lattice.origin + s.position * (inverse * lattice.voxelSizeM);
+  slot.position = lattice.origin + s.position * lattice.voxelSizeM;
   const float l = length(s.normal);
   slot.normal = l > 1e-6f * s.area ? s.normal / l : faceDirection(face);
   slot.albedo = s.albedo * inverse;

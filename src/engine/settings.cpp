@@ -1,0 +1,192 @@
+#include "engine/settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+namespace roomlight {
+namespace {
+
+// Keeps the members in the order in which they are written.
+using Json = nlohmann::ordered_json;
+
+constexpr int64_t kLargestPicture = int64_t{1} << 27;  // pixels; also what the picture readers accept
+
+// The one list of members: name, where it is, smallest and largest value. Reader, writer and range check all walk it.
+template <class Visitor, class Settings>
+void visitMembers(Visitor& v, Settings& s) {
+  v.text("technique", s.technique);
+  v.number("width", s.width, 1, 65536);
+  v.number("height", s.height, 1, 65536);
+  v.number("samples", s.samples, 0, 1 << 24);
+  v.number("timeLimitS", s.timeLimitS, 0, 1e9);
+  v.number("noiseLevel", s.noiseLevel, 0, 1);
+  v.number("seed", s.seed, 0, std::numeric_limits<uint64_t>::max());
+  v.number("threads", s.threads, 0, 1024);
+  v.group("voxel", [&](auto& g) {
+    g.number("voxelSizeM", s.voxel.voxelSizeM, 0, 10);
+    g.number("memoryBudgetMiB", s.voxel.memoryBudgetMiB, 1, 1e6);
+    g.number("smallestM", s.voxel.smallestM, 1e-4, 10);
+    g.number("largestM", s.voxel.largestM, 1e-4, 10);
+  });
+}
+
+template <class T>
+Error outOfRange(const std::string& where, T low, T high) {
+  return {fmt::format("{}: must be from {} to {}", where, low, high)};
+}
+
+// Shortest decimal number that reads back as the same float: 0.02, not 0.0199999996.
+double tidy(float v) { return std::stod(fmt::format("{}", v)); }
+template <class T>
+T tidy(T v) {
+  return v;
+}
+
+class Writer {
+ public:
+  Json json = Json::object();
+  void text(const char* name, const std::string& value) { json[name] = value; }
+  template <class T, class L, class H>
+  void number(const char* name, const T& value, L, H) {
+    json[name] = tidy(value);
+  }
+  template <class Visit>
+  void group(const char* name, Visit&& visit) {
+    Writer inner;
+    visit(inner);
+    json[name] = inner.json;
+  }
+};
+
+class RangeCheck {
+ public:
+  explicit RangeCheck(std::string path = {}) : path_(std::move(path)) {}
+  std::optional<Error> error;
+  void text(const char*, const std::string&) {}
+  template <class T, class L, class H>
+  void number(const char* name, const T& value, L low, H high) {
+    if (error) return;
+    // Written so that a NaN fails.
+    if (!(value >= static_cast<T>(low) && value <= static_cast<T>(high))) {
+      error = outOfRange(path_ + name, static_cast<T>(low), static_cast<T>(high));
+    }
+  }
+  template <class Visit>
+  void group(const char* name, Visit&& visit) {
+    RangeCheck inner(path_ + name + ".");
+    visit(inner);
+    if (!error) error = inner.error;
+  }
+
+ private:
+  std::string path_;
+};
+
+class Reader {
+ public:
+  Reader(const Json& json, std::string where) : json_(json), where_(std::move(where)) {
+    if (!json_.is_object()) error = Error{fmt::format("{}: must be an object", where_)};
+  }
+  std::optional<Error> error;
+
+  void text(const char* name, std::string& value) {
+    const Json* j = find(name);
+    if (!j) return;
+    if (!j->is_string()) return fail(name, "must be a text");
+    value = j->get<std::string>();
+  }
+  template <class T, class L, class H>
+  void number(const char* name, T& value, L low, H high) {
+    const Json* j = find(name);
+    if (!j) return;
+    if (!j->is_number()) return fail(name, "must be a number");
+    if constexpr (std::is_integral_v<T>) {
+      // As a double first: 1e30 or -1 must not wrap round to something that looks right.
+      const double v = j->get<double>();
+      if (!j->is_number_integer()) return fail(name, "must be a whole number");
+      if (v < static_cast<double>(low) || v > static_cast<double>(high)) return range<T>(name, low, high);
+      value = j->get<T>();
+    } else {
+      const auto v = j->get<T>();
+      if (!(v >= static_cast<T>(low) && v <= static_cast<T>(high))) return range<T>(name, low, high);
+      value = v;
+    }
+  }
+  template <class Visit>
+  void group(const char* name, Visit&& visit) {
+    const Json* j = find(name);
+    if (!j) return;
+    Reader inner(*j, where_ + "/" + name);
+    visit(inner);
+    inner.finish();
+    if (!error) error = inner.error;
+  }
+  // Call last: a key that nobody asked for is a mistake in spelling.
+  void finish() {
+    if (error) return;
+    for (const auto& [key, value] : json_.items()) {
+      if (known_.count(key)) continue;
+      std::string list;
+      for (const std::string& k : known_) list += (list.empty() ? "" : ", ") + k;
+      error = Error{fmt::format("{}/{}: unknown key; there are {}", where_, key, list)};
+      return;
+    }
+  }
+
+ private:
+  const Json* find(const char* name) {
+    known_.insert(name);
+    if (error) return nullptr;
+    const auto it = json_.find(name);
+    return it == json_.end() ? nullptr : &*it;
+  }
+  void fail(const char* name, const char* what) { error = Error{fmt::format("{}/{}: {}", where_, name, what)}; }
+  template <class T, class L, class H>
+  void range(const char* name, L low, H high) {
+    error = outOfRange(fmt::format("{}/{}", where_, name), static_cast<T>(low), static_cast<T>(high));
+  }
+
+  const Json& json_;
+  std::string where_;
+  std::set<std::string> known_;
+};
+
+}  // namespace
+
+std::string settingsToJson(const RenderSettings& settings) {
+  Writer writer;
+  visitMembers(writer, settings);
+  return writer.json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+Result<RenderSettings> settingsFromJson(std::string_view text, const std::string& where, const RenderSettings& defaults) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::exception& e) {
+    return Error{fmt::format("{}: not valid JSON: {}", where, e.what())};
+  }
+  RenderSettings settings = defaults;
+  Reader reader(json, where + ": ");
+  visitMembers(reader, settings);
+  reader.finish();
+  if (reader.error) return *reader.error;
+  return settings;
+}
+
+Status checkSettings(const RenderSettings& settings) {
+  RangeCheck check;
+  visitMembers(check, settings);
+  if (check.error) return *check.error;
+  if (int64_t{settings.width} * settings.height > kLargestPicture) {
+    return Error{fmt::format("width, height: {} x {} pixels are more than {}", settings.width, settings.height, kLargestPicture)};
+  }
+  return Ok{};
+}
+
+}  // namespace roomlight

@@ -1,0 +1,35 @@
+// Everything that decides what a picture looks like besides the scene and the camera. Read from and written to JSON
+// with the names of the members; the command line fills the same struct.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "voxel/voxelise.h"
+
+namespace roomlight {
+
+struct RenderSettings {
+  std::string technique = "path";  // a name of techniques()
+  int width = 960, height = 540;
+  int samples = 0;         // per pixel; 0: the technique's default, or no limit where time or noise ends the work
+  double timeLimitS = 0;   // technique "path": stop after this long; 0: no limit
+  double noiseLevel = 0;   // technique "path": stop when the mean relative standard error is below this; 0: never
+  uint64_t seed = 0;
+  int threads = 0;         // 0: all cores
+  VoxelSettings voxel;
+};
+
+// One JSON object with every member, in the order above.
+std::string settingsToJson(const RenderSettings& settings);
+
+// Members that the text does not mention keep their value in `defaults`. An unknown key, a wrong type or a value out of
+// range is an error that starts with `where` (the file's name) and the JSON path.
+Result<RenderSettings> settingsFromJson(std::string_view text, const std::string& where, const RenderSettings& defaults = {});
+
+// Values in range? The error names the member as in JSON. The technique's name is left to render().
+Status checkSettings(const RenderSettings& settings);
+
+}  // namespace roomlight

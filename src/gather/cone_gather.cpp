@@ -1,0 +1,262 @@
+#include "gather/cone_gather.h"
+
+#include <mutex>
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "base/sampler.h"
+#include "base/sampling.h"
+#include "gather/cone_march.h"
+#include "radiance/sky_guide.h"
+#include "trace/bsdf.h"
+#include "trace/camera_rays.h"
+
+namespace roomlight {
+namespace {
+
+constexpr int kTile = 16;
+constexpr int kMostPanes = 16;
+constexpr int kAllLamps = 8;  // up to this many lamps each gets its own shadow ray; more are chosen by importance
+
+struct Counters {
+  uint64_t rays = 0, cones = 0;
+};
+
+// Shades one primary sample.
+class Shader {
+ public:
+  Shader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings)
+      : rays_(rays), lights_(lights), voxels_(voxels), field_(field), settings_(settings),
+        diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.stepFactor, settings.occlusionLambda} {}
+
+  Vec3 primary(Ray ray, Sampler& sampler, Counters& count, float& occlusion) const {
+    Vec3 sum, left(1);
+    for (int pane = 0; pane < kMostPanes; ++pane) {
+      const Hit hit = rays_.intersect(ray);
+      ++count.rays;
+      if (!hit.valid()) return sum + left * background(ray.direction);
+      const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
+      const Vec3 through = passing(s, ray.direction);
+      sum += left * shade(s, -ray.direction, sampler, count, occlusion);
+      left *= through;
+      if (luminance(left) < 1e-3f) return sum;
+      ray.origin = offsetOrigin(s.p, -s.ng);
+      ray.tMin = 0;
+    }
+    return sum;
+  }
+
+ private:
+  static Vec3 passing(const SurfacePoint& s, Vec3 d) {
+    if (s.m.transmission <= 0 && s.m.alpha >= 1) return Vec3(0);
+    return straightTransmittance(*s.material, s.m, std::abs(dot(s.ns, d)));
+  }
+
+  Vec3 background(Vec3 d) const {
+    Vec3 sum = lights_.sky().present() ? lights_.sky().radiance(d) : Vec3(0);
+    for (size_t i = 0; i < lights_.sunCount(); ++i) {
+      float pdf;
+      sum += lights_.sunDisc(i, d, pdf);
+    }
+    return sum;
+  }
+
+  // Light that the surface sends towards wo, without what passes straight through it.
+  Vec3 shade(const SurfacePoint& s, Vec3 wo, Sampler& sampler, Counters& count, float& occlusion) const {
+    const Bsdf bsdf(s.m, s.ns, s.ng, wo);
+    const bool rayReflection = s.m.roughness < settings_.rayRoughness;
+    Vec3 sum = direct(s, bsdf, rayReflection, sampler, count);
+    const Vec3 rho = bsdf.diffuseAlbedo();
+    if (maxComponent(rho) > 1e-4f) sum += rho * indirect(s, sampler, count, occlusion);
+    if (maxComponent(bsdf.specularAlbedo()) > 1e-4f) sum += reflection(s, bsdf, rayReflection, sampler, count);
+    return s.emitted() + sum * s.m.alpha;
+  }
+
+  Vec3 visible(const SurfacePoint& s, const LightSample& light, Vec3 f, Counters& count) const {
+    if (!light.valid() || isBlack(f)) return {};
+    const float tMax = light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity;
+    ++count.rays;
+    return f * light.radiance * rays_.transmittance({offsetOrigin(s.p, s.ng), light.wi, 0, tMax});
+  }
+
+  // Direct light by exact shadow rays. Where reflections follow rays they find extended lights themselves, so light sampling
+  // leaves the specular lobe out for those; lamps without extent it always sees.
+  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, Sampler& sampler, Counters& count) const {
+    Vec3 sum;
+    const auto extended = [&](Vec3 wi) { return rayReflection ? bsdf.evaluateDiffuse(wi) : bsdf.evaluate(wi); };
+    const size_t lamps = lights_.lampCount();
+    if (lamps > 0 && lamps <= kAllLamps) {
+      for (size_t i = 0; i < lamps; ++i) {
+        const LightSample light = lights_.sampleLamp(i, s.p);
+        if (light.valid()) sum += visible(s, light, bsdf.evaluate(light.wi), count);
+      }
+    } else if (lamps > 0) {
+      for (int k = 0; k < 2; ++k) {
+        const LightSample light = lights_.sampleLamps(s.p, sampler.next1());
+        if (light.valid()) sum += 0.5f * visible(s, light, bsdf.evaluate(light.wi), count);
+      }
+    }
+    if (lights_.hasEmitters()) {
+      const Vec2 u = sampler.next2();
+      const LightSample light = lights_.sampleEmitters(s.p, u, sampler.next1());
+      if (light.valid()) sum += visible(s, light, extended(light.wi), count);
+    }
+    for (size_t i = 0; i < lights_.sunCount(); ++i) {
+      const LightSample light = lights_.sampleSun(i, sampler.next2());
+      if (light.valid()) sum += visible(s, light, light.pdf > 0 ? extended(light.wi) : bsdf.evaluate(light.wi), count);
+    }
+    if (lights_.sky().present()) sum += skyLight(s, extended, sampler, count);
+    return sum;
+  }
+
+  template <class F>
+  Vec3 skyLight(const SurfacePoint& s, const F& extended, Sampler& sampler, Counters& count) const {
+    const int32_t brick = brickOf(voxels_, s.p + s.ng * (0.01f * voxels_.voxelSizeM));
+    Vec3 sum;
+    for (int k = 0; k < 2; ++k) {
+      const Vec2 u = sampler.next2();
+      const LightSample light = sampleSkyGuided(field_.guide, brick, lights_, u, sampler.next1());
+      if (light.valid()) sum += 0.5f * visible(s, light, extended(light.wi), count);
+    }
+    return sum;
+  }
+
+  Vec3 jitter(Sampler& sampler) const {
+    const Vec2 a = sampler.next2();
+    return Vec3{a.x, a.y, sampler.next1()} - Vec3(0.5f);
+  }
+
+  Vec3 coneOrigin(const SurfacePoint& s) const { return s.p + s.ng * (settings_.startOffsetVoxels * voxels_.voxelSizeM); }
+
+  // Mean radiance over the cosine-weighted hemisphere, by cones.
+  Vec3 indirect(const SurfacePoint& s, Sampler& sampler, Counters& count, float& occlusion) const {
+    const Frame frame(s.ns);
+    const Vec3 origin = coneOrigin(s);
+    Vec3 sum;
+    const int n = settings_.conesPerSample;
+    const Vec2 u = sampler.next2();
+    for (int i = 0; i < n; ++i) {
+      // Strata of azimuth within the sample; the sampler spreads the samples of a pixel.
+      const Vec2 stratum{u.x, u.y};
+      Vec3 local = sampleCosineHemisphere({stratum.x, stratum.y});
+      const float turn = 2 * kPi * static_cast<float>(i) / static_cast<float>(n);
+      local = {local.x * std::cos(turn) - local.y * std::sin(turn), local.x * std::sin(turn) + local.y * std::cos(turn), local.z};
+      Vec3 d = frame.toWorld(local);
+      if (dot(d, s.ng) < 0.02f) d = normalize(d + s.ng * (0.04f - dot(d, s.ng)));
+      const Vec3 shift = jitter(sampler);
+      const ConeLight c = marchCone(field_, origin, d, diffuse_, shift, sampler.next1());
+      sum += c.radiance + settings_.ambientCdM2 * (1 - c.occlusion);
+      occlusion += c.occlusion / static_cast<float>(n);
+    }
+    count.cones += static_cast<uint64_t>(n);
+    return sum / static_cast<float>(n);
+  }
+
+  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, Sampler& sampler, Counters& count) const {
+    const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
+    if (!r.valid() || isBlack(r.weight)) return {};
+    if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, sampler, count);
+    // The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
+    const ConeShape shape{0.5f * s.m.roughness * s.m.roughness, settings_.stepFactor, 0};
+    const Vec3 shift = jitter(sampler);
+    ++count.cones;
+    return r.weight * marchCone(field_, coneOrigin(s), r.wi, shape, shift, sampler.next1()).radiance;
+  }
+
+  // What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold.
+  Vec3 along(Ray ray, Sampler& sampler, Counters& count) const {
+    Vec3 sum, left(1);
+    for (int pane = 0; pane < kMostPanes; ++pane) {
+      const Hit hit = rays_.intersect(ray);
+      ++count.rays;
+      if (!hit.valid()) return sum + left * background(ray.direction);
+      const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
+      sum += left * s.emitted();
+      const Vec3 through = passing(s, ray.direction);
+      const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
+      if (bsdf.isMirror() && maxComponent(bsdf.specularAlbedo()) > 0.5f) {
+        // Mirror seen in a mirror: the ray goes on.
+        const BsdfSample r = bsdf.sampleSpecular({0.5f, 0.5f});
+        if (!r.valid()) return sum;
+        left *= r.weight;
+        ray = {offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity};
+        continue;
+      }
+      sum += left * bihemisphericalAlbedo(s.m) * irradiance(s) * (s.m.alpha / kPi);
+      left *= through;
+      if (luminance(left) < 1e-2f) return sum;
+      ray.origin = offsetOrigin(s.p, -s.ng);
+    }
+    (void)sampler;
+    return sum;
+  }
+
+  Vec3 irradiance(const SurfacePoint& s) const {
+    const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
+    return slot < 0 ? Vec3(0) : field_.irradianceLux[static_cast<size_t>(slot)];
+  }
+
+  const RayScene& rays_;
+  const Lights& lights_;
+  const Voxels& voxels_;
+  const RadianceField& field_;
+  const GatherSettings& settings_;
+  const ConeShape diffuse_;
+};
+
+}  // namespace
+
+ConeResult gatherCones(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
+                       const Camera& camera, const GatherSettings& settings, const Progress& progress) {
+  const int w = settings.width, h = settings.height;
+  const CameraRays cameraRays(camera, w, h);
+  const Shader shader(rays, lights, voxels, field, settings);
+  ConeResult result;
+  result.image = Image(w, h);
+  result.occlusion = Image(w, h);
+  const int tilesX = (w + kTile - 1) / kTile, tilesY = (h + kTile - 1) / kTile;
+  std::atomic<uint64_t> rayCount = 0, coneCount = 0;
+  std::mutex reporting;
+  const Stopwatch watch;
+  while (result.samples < settings.samples) {
+    const int pass = result.samples;
+    Image fresh(w, h), occlusion(w, h);
+    std::atomic<int> tilesDone = 0;
+    parallelFor(static_cast<size_t>(tilesX) * tilesY, 1, [&](size_t tile) {
+      if (progress.stop() && pass > 0) return;
+      const int x0 = static_cast<int>(tile % tilesX) * kTile, y0 = static_cast<int>(tile / tilesX) * kTile;
+      Counters count;
+      for (int y = y0; y < std::min(h, y0 + kTile); ++y) {
+        for (int x = x0; x < std::min(w, x0 + kTile); ++x) {
+          Sampler sampler(static_cast<uint64_t>(y) * w + x, static_cast<uint32_t>(pass), settings.seed);
+          const Vec2 jitter = sampler.next2();
+          float occluded = 0;
+          fresh.at(x, y) = shader.primary(cameraRays.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y), sampler, count, occluded);
+          occlusion.at(x, y) = Vec3(occluded);
+        }
+      }
+      rayCount += count.rays;
+      coneCount += count.cones;
+      const int done = ++tilesDone;
+      if (done % 64 == 0 && reporting.try_lock()) {
+        progress.at((static_cast<float>(pass) + static_cast<float>(done) / static_cast<float>(tilesX * tilesY)) / static_cast<float>(settings.samples));
+        reporting.unlock();
+      }
+    });
+    if (progress.stop() && pass > 0) break;
+    for (size_t i = 0; i < fresh.pixels.size(); ++i) {
+      result.image.pixels[i] += fresh.pixels[i];
+      result.occlusion.pixels[i] += occlusion.pixels[i];
+    }
+    ++result.samples;
+    if (progress.stop() || (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS)) break;
+  }
+  const float inverse = 1 / static_cast<float>(result.samples);
+  for (Vec3& p : result.image.pixels) p *= inverse;
+  for (Vec3& p : result.occlusion.pixels) p *= inverse;
+  result.rays = rayCount;
+  result.cones = coneCount;
+  return result;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,255 @@
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/sampler.h"
+#include "base/sampling.h"
+#include "radiance/attenuation.h"
+#include "radiance/pyramid.h"
+#include "radiance/radiance_field.h"
+#include "radiance/sky_guide.h"
+#include "trace/surface_point.h"
+
+namespace roomlight {
+namespace {
+
+constexpr int kSkySamples = 8;
+constexpr int kMostPanes = 16;  // thin surfaces a link goes through
+
+// Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves.
+struct Link {
+  static constexpr uint32_t kNone = (1u << 28) - 1;
+  uint32_t packed = kNone;
+  Link() = default;
+  Link(uint32_t slot, float left) : packed(slot | static_cast<uint32_t>(std::lround(15 * std::clamp(left, 0.0f, 1.0f))) << 28) {}
+  uint32_t slot() const { return packed & kNone; }
+  bool arrives() const { return slot() != kNone; }
+  float left() const { return static_cast<float>(packed >> 28) * (1.0f / 15); }
+};
+
+class Illuminator {
+ public:
+  Illuminator(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings)
+      : rays_(rays), lights_(lights), voxels_(voxels), settings_(settings), direct_(voxels.slots.size()), indirect_(voxels.slots.size()) {}
+
+  RadianceField run(const Progress& progress) {
+    RadianceField field;
+    if (settings_.links > 0) traceLinks(field, progress);
+    progress.at(0.5f);
+    gatherDirect(field);
+    progress.at(0.8f);
+    bounce(field, progress);
+    std::vector<Vec3> radiance(voxels_.slots.size());
+    field.irradianceLux.resize(voxels_.slots.size());
+    parallelFor(radiance.size(), 8192, [&](size_t i) {
+      field.irradianceLux[i] = direct_[i] + indirect_[i];
+      radiance[i] = voxels_.slots[i].albedo * field.irradianceLux[i] / kPi;
+    });
+    field.indirectLux = std::move(indirect_);
+    field.rays = rayCount_;
+    buildPyramid(voxels_, radiance, field);
+    return field;
+  }
+
+ private:
+  // A point on the slot's surface: spread over the voxel where the surface fills it, else its middle.
+  Vec3 pointOn(const FaceSlot& slot, const Frame& frame, Vec2 u) const {
+    const float h = voxels_.voxelSizeM;
+    Vec3 p = slot.position;
+    if (slot.areaM2 > 0.8f * h * h) p += (frame.t * (u.x - 0.5f) + frame.b * (u.y - 0.5f)) * (0.8f * h);
+    return offsetOrigin(p, slot.normal) + slot.normal * (0.01f * h);
+  }
+
+  void traceLinks(RadianceField& field, const Progress& progress) {
+    const auto n = static_cast<size_t>(settings_.links);
+    links_.resize(voxels_.slots.size() * n);
+    SkyGuideBuilder guide(voxels_);
+    const bool sky = lights_.sky().present();
+    std::atomic<size_t> done = 0;
+    parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
+      const auto [first, last] = slotsOfBrick(b);
+      std::vector<Ray> rays;
+      std::vector<Hit> hits;
+      for (size_t s = first; s < last; ++s) {
+        const FaceSlot& slot = voxels_.slots[s];
+        const Frame frame(slot.normal);
+        rays.clear();
+        for (uint32_t i = 0; i < n; ++i) {
+          Sampler sampler(s, i, settings_.seed);
+          const Vec3 d = frame.toWorld(sampleCosineHemisphere(sampler.next2()));
+          rays.push_back({pointOn(slot, frame, sampler.next2()), d, 0, kInfinity});
+        }
+        hits.resize(n);
+        rays_.intersect(rays, hits);
+        for (size_t i = 0; i < n; ++i) {
+          Vec3 left(1);
+          links_[s * n + i] = follow(rays[i], hits[i], left);
+          if (sky && !links_[s * n + i].arrives() && !hits[i].valid()) {
+            guide.add(b, rays[i].direction, luminance(left * lights_.sky().radiance(rays[i].direction)));
+          }
+        }
+      }
+      const size_t d = ++done;
+      if (d % 256 == 0) progress.at(0.5f * static_cast<float>(d) / static_cast<float>(voxels_.bricks.size()));
+    });
+    rayCount_ += links_.size();
+    if (sky) field.guide = guide.finish(voxels_);
+  }
+
+  // Goes through panes; `hit` ends as the surface that scatters, or invalid where the ray leaves the scene.
+  Link follow(Ray ray, Hit& hit, Vec3& left) const {
+    for (int pane = 0; pane < kMostPanes && hit.valid(); ++pane) {
+      const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
+      if (s.m.transmission <= 0 && s.m.alpha >= 1) {
+        const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
+        if (slot < 0) return {};
+        return {static_cast<uint32_t>(slot), luminance(left)};
+      }
+      left *= straightTransmittance(*s.material, s.m, std::abs(dot(s.ng, ray.direction)));
+      if (luminance(left) < 0.03f) return {};
+      ray.origin = offsetOrigin(s.p, -s.ng);
+      hit = rays_.intersect(ray);
+    }
+    return {};
+  }
+
+  std::pair<size_t, size_t> slotsOfBrick(size_t b) const {
+    const auto firstVoxel = voxels_.bricks[b].firstVoxel;
+    const size_t end = b + 1 < voxels_.bricks.size() ? voxels_.bricks[b + 1].firstVoxel : voxels_.voxels.size();
+    const auto slotBegin = [&](size_t v) { return v < voxels_.voxels.size() ? voxels_.voxels[v].firstSlot : voxels_.slots.size(); };
+    return {slotBegin(firstVoxel), slotBegin(end)};
+  }
+
+  struct Shadow {
+    size_t slot;
+    Vec3 contribution;
+  };
+
+  void gatherDirect(const RadianceField& field) {
+    std::atomic<uint64_t> count = 0;
+    parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
+      const auto [first, last] = slotsOfBrick(b);
+      std::vector<Ray> rays;
+      std::vector<Shadow> shadows;
+      std::vector<Vec3> left;
+      for (size_t s = first; s < last; ++s) collectShadowRays(field, static_cast<int32_t>(b), s, rays, shadows);
+      left.resize(rays.size());
+      rays_.transmittance(rays, left);
+      for (size_t i = 0; i < rays.size(); ++i) direct_[shadows[i].slot] += shadows[i].contribution * left[i];
+      count += rays.size();
+    });
+    rayCount_ += count;
+  }
+
+  void collectShadowRays(const RadianceField& field, int32_t brick, size_t s, std::vector<Ray>& rays, std::vector<Shadow>& shadows) const {
+    const FaceSlot& slot = voxels_.slots[s];
+    const Frame frame(slot.normal);
+    const auto add = [&](const LightSample& light, Vec3 p, float weight) {
+      if (!light.valid()) return;
+      const float a = attenuation(settings_.attenuation, slot.normal, light.wi);
+      if (a <= 0 || dot(light.wi, slot.normal) <= 0) return;
+      const float tMax = light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity;
+      rays.push_back({p, light.wi, 0, tMax});
+      shadows.push_back({s, light.radiance * (a * weight)});
+    };
+    const auto lamps = static_cast<int>(lights_.lampCount());
+    const int perDelta = lamps > 0 ? std::clamp(settings_.directSamples / lamps, 1, 4) : 1;
+    for (int k = 0; k < perDelta; ++k) {
+      Sampler sampler(s, static_cast<uint32_t>(k), settings_.seed + 1);
+      for (size_t i = 0; i < lights_.lampCount(); ++i) {
+        const Vec3 p = pointOn(slot, frame, sampler.next2());
+        add(lights_.sampleLamp(i, p), p, 1.0f / static_cast<float>(perDelta));
+      }
+    }
+    for (uint32_t k = 0; k < 4; ++k) {
+      Sampler sampler(s, k, settings_.seed + 2);
+      for (size_t i = 0; i < lights_.sunCount(); ++i) {
+        const Vec3 p = pointOn(slot, frame, sampler.next2());
+        add(lights_.sampleSun(i, sampler.next2()), p, 0.25f);
+      }
+    }
+    if (lights_.hasEmitters()) {
+      for (int k = 0; k < settings_.directSamples; ++k) {
+        Sampler sampler(s, static_cast<uint32_t>(k), settings_.seed + 3);
+        const Vec3 p = pointOn(slot, frame, sampler.next2());
+        const Vec2 u = sampler.next2();
+        add(lights_.sampleEmitters(p, u, sampler.next1()), p, 1.0f / static_cast<float>(settings_.directSamples));
+      }
+    }
+    if (lights_.sky().present() && !field.guide.guideOfBrick.empty() && field.guide.guideOfBrick[static_cast<size_t>(brick)] >= 0) {
+      for (uint32_t k = 0; k < kSkySamples; ++k) {
+        Sampler sampler(s, k, settings_.seed + 4);
+        const Vec3 p = pointOn(slot, frame, sampler.next2());
+        const Vec2 u = sampler.next2();
+        add(sampleSkyGuided(field.guide, brick, lights_, u, sampler.next1()), p, 1.0f / kSkySamples);
+      }
+    }
+  }
+
+  // Jacobi iterations of E_i = mean over links of pi L(link), L = rho (E_direct + E) / pi. Every row of the transport matrix
+  // sums to at most 1 and rho is below 1, so the gain is below 1 and the series converges.
+  void bounce(RadianceField& field, const Progress& progress) {
+    const auto n = static_cast<size_t>(settings_.links);
+    const size_t slots = voxels_.slots.size();
+    if (n == 0) return;
+    std::vector<Vec3> reflected(slots), next(slots);  // rho E, i.e. pi times radiance
+    double previousDelta = 0;
+    for (int k = 0; k < settings_.maxBounces && !progress.stop(); ++k) {
+      parallelFor(slots, 8192, [&](size_t i) { reflected[i] = voxels_.slots[i].albedo * (direct_[i] + indirect_[i]); });
+      parallelFor(slots, 2048, [&](size_t i) {
+        Vec3 sum;
+        for (size_t j = i * n; j < (i + 1) * n; ++j) {
+          if (links_[j].arrives()) sum += reflected[links_[j].slot()] * links_[j].left();
+        }
+        next[i] = sum / static_cast<float>(n);
+      });
+      const auto [delta, total] = change(next);
+      indirect_.swap(next);
+      ++field.bounces;
+      const double q = previousDelta > 0 ? std::min(0.99, delta / previousDelta) : 0.9;
+      previousDelta = delta;
+      field.residual = total > 0 ? delta / total * q / (1 - q) : 0;
+      if (field.residual <= settings_.residual) break;
+    }
+  }
+
+  // Sums over all slots, area-weighted: what the iteration changed and what there is in all. Fixed chunks keep the order of
+  // the sums, and so the number of iterations, independent of threads.
+  std::pair<double, double> change(const std::vector<Vec3>& next) const {
+    const size_t chunks = (next.size() + 65535) / 65536;
+    std::vector<std::pair<double, double>> parts(chunks);
+    parallelFor(chunks, 1, [&](size_t c) {
+      for (size_t i = c * 65536; i < std::min(next.size(), (c + 1) * 65536); ++i) {
+        const double a = voxels_.slots[i].areaM2;
+        parts[c].first += a * std::abs(luminance(next[i] - indirect_[i]));
+        parts[c].second += a * luminance(next[i] + direct_[i]);
+      }
+    });
+    std::pair<double, double> sum{0, 0};
+    for (const auto& p : parts) sum.first += p.first, sum.second += p.second;
+    return sum;
+  }
+
+  const RayScene& rays_;
+  const Lights& lights_;
+  const Voxels& voxels_;
+  const RadianceSettings settings_;
+  std::vector<Link> links_;
+  std::vector<Vec3> direct_, indirect_;
+  uint64_t rayCount_ = 0;
+};
+
+}  // namespace
+
+size_t RadianceField::bytes() const {
+  size_t sum = (irradianceLux.size() + indirectLux.size()) * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]);
+  for (const RadianceLevel& level : levels) {
+    sum += level.brickIndex.size() * sizeof(int32_t) + level.bricks.size() * sizeof(Brick) + level.voxels.size() * sizeof(DirectionalVoxel);
+  }
+  return sum;
+}
+
+RadianceField illuminate(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress) {
+  return Illuminator(rays, lights, voxels, settings).run(progress);
+}
+
+}  // namespace roomlight

@@ -1,0 +1,92 @@
+// Light in voxels: what every slot receives and sends out, and the directional pyramid that cones read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/progress.h"
+#include "trace/lights.h"
+#include "trace/ray_scene.h"
+#include "voxel/voxels.h"
+
+namespace roomlight {
+
+// How a lamp's light is attenuated by the orientation of a voxel's surface.
+enum class Attenuation : uint8_t {
+  NormalWeighted,  // per axis face, weighted with the squared normal (docs/methods/radiance.md)
+  Plain            // max(n . l, 0)
+};
+
+struct RadianceSettings {
+  Attenuation attenuation = Attenuation::Plain;
+  int directSamples = 8;   // per slot among emissive meshes; lamps and suns get one exact shadow ray each
+  int links = 16;          // rays per slot that find where its indirect light comes from
+  float residual = 0.002f; // bounces stop when the light still to come is below this fraction of all
+  int maxBounces = 200;
+  uint64_t seed = 0;
+};
+
+// One level of the pyramid: the same sparse bricks as Voxels, each record six faces.
+// A face holds extinction-weighted radiance: {s L_r, s L_g, s L_b, s}, s = -ln(1 - opacity) along its axis, so that a sample
+// in direction d blends faces by |d_axis| s, the projected area that is really seen.
+struct DirectionalVoxel {
+  std::array<std::array<uint16_t, 4>, 6> face{};  // half floats; radiance in units of RadianceField::unitCdM2
+};
+
+struct RadianceLevel {
+  float voxelSizeM = 0;
+  Int3 brickDims;
+  std::vector<int32_t> brickIndex;
+  std::vector<Brick> bricks;
+  std::vector<DirectionalVoxel> voxels;
+
+  // Record of voxel (x, y, z), or null where it is empty.
+  const DirectionalVoxel* find(int x, int y, int z) const {
+    const int bx = x >> 3, by = y >> 3, bz = z >> 3;
+    if (static_cast<unsigned>(bx) >= static_cast<unsigned>(brickDims.x) || static_cast<unsigned>(by) >= static_cast<unsigned>(brickDims.y) ||
+        static_cast<unsigned>(bz) >= static_cast<unsigned>(brickDims.z)) {
+      return nullptr;
+    }
+    const int32_t b = brickIndex[(static_cast<size_t>(bz) * static_cast<size_t>(brickDims.y) + static_cast<size_t>(by)) * static_cast<size_t>(brickDims.x) + static_cast<size_t>(bx)];
+    if (b < 0) return nullptr;
+    const Brick& brick = bricks[static_cast<size_t>(b)];
+    const auto word = static_cast<size_t>(z & 7);
+    const int bit = (x & 7) + 8 * (y & 7);
+    if (!((brick.occupied[word] >> bit) & 1)) return nullptr;
+    return &voxels[brick.firstVoxel + brick.before[word] + static_cast<size_t>(std::popcount(brick.occupied[word] & ((uint64_t{1} << bit) - 1)))];
+  }
+};
+
+// Where light from the sky arrives from, seen from the surfaces of one brick: a density over directions (octahedral map) for
+// sampling the sky through windows. Learned from the links, used only to choose directions, so it never biases.
+constexpr int kGuideSize = 16;
+struct SkyGuide {
+  std::vector<int32_t> guideOfBrick;          // per base brick, -1: no sky seen
+  std::vector<std::array<float, kGuideSize * kGuideSize>> cdf;  // ends at 1
+};
+
+struct RadianceField {
+  Vec3 origin;                   // of all levels
+  std::vector<RadianceLevel> levels;  // 0: base voxels; each next one twice as large
+  float unitCdM2 = 1;
+  std::vector<Vec3> irradianceLux;    // per slot of Voxels: direct and indirect, per channel
+  std::vector<Vec3> indirectLux;      // the part that came by at least one bounce or through links from the sky
+  SkyGuide guide;
+  int bounces = 0;               // done
+  double residual = 0;           // estimate of light still missing, fraction
+  uint64_t rays = 0;
+  size_t bytes() const;
+};
+
+RadianceField illuminate(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings,
+                         const Progress& progress = {});
+
+// Slot of Voxels that a point of a surface belongs to: the face of its voxel nearest to `normal`; -1 where voxels hold nothing.
+int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal);
+
+// Direction of an octahedral map's point (0..1)² and back (Cigolle et al. 2014).
+Vec3 octahedralDirection(Vec2 uv);
+Vec2 octahedralUv(Vec3 d);
+
+}  // namespace roomlight
