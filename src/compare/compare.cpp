@@ -1,77 +1,101 @@
 #include "compare/compare.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
 
 #include "base/tone.h"
+#include "compare/flip.h"
+#include "compare/ssim.h"
 
 namespace roomlight {
 namespace {
 
-float luma(Vec3 v) { return luminance(v); }
+Status checkFinite(const Image& image, const char* which) {
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    if (isFinite(image.pixels[i])) continue;
+    const size_t width = static_cast<size_t>(image.width);
+    return Error{fmt::format("the {} holds a value that is not finite, at pixel ({}, {})", which, i % width, i / width)};
+  }
+  return Ok{};
+}
 
-// Mean structural similarity over 8x8 windows at every fourth pixel, constants for a range of 1.
-double structuralSimilarity(const Image& a, const Image& b) {
-  constexpr int kWindow = 8;
-  constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
+Status checkPair(const Image& reference, const Image& picture) {
+  if (reference.pixels.empty() || picture.pixels.empty()) return Error{"a picture without pixels cannot be compared"};
+  if (reference.width != picture.width || reference.height != picture.height) {
+    return Error{fmt::format("sizes differ: the reference has {} x {} pixels, the picture {} x {}; render both with the same --size", reference.width,
+                             reference.height, picture.width, picture.height)};
+  }
+  if (Status s = checkFinite(reference, "reference"); !s.ok()) return s;
+  return checkFinite(picture, "picture");
+}
+
+double meanLuminance(const Image& image) {
   double sum = 0;
-  size_t windows = 0;
-  for (int y = 0; y + kWindow <= a.height; y += 4) {
-    for (int x = 0; x + kWindow <= a.width; x += 4) {
-      double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
-      for (int k = 0; k < kWindow * kWindow; ++k) {
-        const double va = luma(a.at(x + k % kWindow, y + k / kWindow)), vb = luma(b.at(x + k % kWindow, y + k / kWindow));
-        ma += va, mb += vb, aa += va * va, bb += vb * vb, ab += va * vb;
-      }
-      const double n = kWindow * kWindow;
-      ma /= n, mb /= n;
-      const double sa = aa / n - ma * ma, sb = bb / n - mb * mb, sab = ab / n - ma * mb;
-      sum += (2 * ma * mb + c1) * (2 * sab + c2) / ((ma * ma + mb * mb + c1) * (sa + sb + c2));
-      ++windows;
+  for (const Vec3& p : image.pixels) sum += static_cast<double>(luminance(p));
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+double meanSquaredError(const Image& a, const Image& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const double d = static_cast<double>(a.pixels[i][c]) - static_cast<double>(b.pixels[i][c]);
+      sum += d * d;
     }
   }
-  return windows ? sum / static_cast<double>(windows) : 1;
+  return sum / (3 * static_cast<double>(a.pixels.size()));
+}
+
+double relativeMeanSquaredError(const Image& reference, const Image& picture, double meanLuminanceOfReference) {
+  // Keeps dark pixels from ruling the mean: below a tenth of the mean luminance errors count as absolute.
+  const double epsilon = 0.01 * meanLuminanceOfReference * meanLuminanceOfReference;
+  double sum = 0;
+  for (size_t i = 0; i < reference.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const double r = reference.pixels[i][c], d = static_cast<double>(picture.pixels[i][c]) - r;
+      sum += d * d / (r * r + epsilon);
+    }
+  }
+  return sum / (3 * static_cast<double>(reference.pixels.size()));
+}
+
+Image decoded(Image encoded) {
+  for (Vec3& p : encoded.pixels) p = {srgbDecode(p.x), srgbDecode(p.y), srgbDecode(p.z)};
+  return encoded;
 }
 
 }  // namespace
 
 Result<Report> compare(const Image& reference, const Image& picture) {
-  if (reference.width != picture.width || reference.height != picture.height) {
-    return Error{fmt::format("the pictures differ in size: {}x{} and {}x{}; render both with the same --size", reference.width,
-                             reference.height, picture.width, picture.height)};
-  }
-  double meanReference = 0, meanPicture = 0;
-  for (size_t i = 0; i < reference.pixels.size(); ++i) {
-    if (!isFinite(reference.pixels[i]) || !isFinite(picture.pixels[i])) {
-      return Error{fmt::format("pixel ({}, {}) is not finite", i % static_cast<size_t>(reference.width), i / static_cast<size_t>(reference.width))};
-    }
-    meanReference += luminance(reference.pixels[i]);
-    meanPicture += luminance(picture.pixels[i]);
-  }
-  const double n = static_cast<double>(reference.pixels.size());
-  meanReference /= n, meanPicture /= n;
-  const float ev = automaticEv100(reference);
-  const Image a = toneMap(reference, ev, ToneCurve::Clip), b = toneMap(picture, ev, ToneCurve::Clip);
+  if (Status s = checkPair(reference, picture); !s.ok()) return Error{s.error()};
   Report report;
-  for (size_t i = 0; i < reference.pixels.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      const double d = a.pixels[i][c] - b.pixels[i][c];
-      report.mse += d * d;
-      const double r = reference.pixels[i][c], l = picture.pixels[i][c] - r;
-      report.relMse += l * l / (r * r + 0.01 * meanReference * meanReference + 1e-30);
-    }
-  }
-  report.mse /= 3 * n;
-  report.relMse /= 3 * n;
-  report.ssim = structuralSimilarity(a, b);
-  report.meanLuminanceErrorPercent = meanReference > 0 ? 100 * (meanPicture - meanReference) / meanReference : 0;
+  report.referenceMeanLuminance = meanLuminance(reference);
+  if (!(report.referenceMeanLuminance > 0)) return Error{"the reference is black: no error can be related to it"};
+  report.ev100 = automaticEv100(reference);
+  const Image r = toneMap(reference, report.ev100, ToneCurve::Clip), p = toneMap(picture, report.ev100, ToneCurve::Clip);
+  report.mse = meanSquaredError(r, p);
+  report.relMse = relativeMeanSquaredError(reference, picture, report.referenceMeanLuminance);
+  report.ssim = structuralSimilarity(luminanceOf(r), luminanceOf(p));
+  const Plane flip = flipDifference(decoded(r), decoded(p));
+  for (const float v : flip.values) report.flip += static_cast<double>(v);
+  report.flip /= static_cast<double>(flip.values.size());
+  report.meanLuminanceErrorPercent = 100 * (meanLuminance(picture) / report.referenceMeanLuminance - 1);
   return report;
 }
 
 Image differencePicture(const Image& reference, const Image& picture) {
-  const float ev = automaticEv100(reference);
-  const Image a = toneMap(reference, ev, ToneCurve::Clip), b = toneMap(picture, ev, ToneCurve::Clip);
-  Image out(a.width, a.height);
-  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = min(abs(a.pixels[i] - b.pixels[i]) * 4.0f, Vec3(1));
+  assert(checkPair(reference, picture).ok());
+  const float ev100 = automaticEv100(reference);
+  const Image r = toneMap(reference, ev100, ToneCurve::Clip), p = toneMap(picture, ev100, ToneCurve::Clip);
+  const Vec3 equal(0.5f), tooBright{0.9f, 0.05f, 0.05f}, tooDark{0.1f, 0.2f, 0.95f};
+  Image out(r.width, r.height);
+  for (size_t i = 0; i < out.pixels.size(); ++i) {
+    const float d = (luminance(p.pixels[i]) - luminance(r.pixels[i])) / 0.25f;
+    out.pixels[i] = lerp(equal, d > 0 ? tooBright : tooDark, std::min(std::abs(d), 1.0f));
+  }
   return out;
 }
 
