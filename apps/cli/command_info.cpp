@@ -1,0 +1,127 @@
+// roomlight info: what a scene holds.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "console.h"
+#include "import/import.h"
+
+namespace roomlight::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string scene;
+  float metresPerUnit = 1;
+  bool json = false;
+};
+
+Json vector(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
+
+Json lampJson(const Lamp& lamp) {
+  Json j = {{"name", lamp.name}};
+  if (lamp.kind == LampKind::Area) {
+    const double fluxLm = static_cast<double>(luminance(lamp.luminanceCdM2) * lamp.widthM * lamp.heightM * kPi);
+    j["kind"] = "area";
+    j["luminanceCdM2"] = luminance(lamp.luminanceCdM2);
+    j["fluxLm"] = fluxLm;
+  } else {
+    j["kind"] = lamp.kind == LampKind::Spot ? "spot" : "point";
+    j["intensityCd"] = luminance(lamp.intensityCd);
+  }
+  j["positionM"] = vector(lamp.position);
+  return j;
+}
+
+Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
+  const Bounds3 bounds = scene.bounds();
+  size_t emissive = 0;
+  for (const Material& m : scene.materials) emissive += isBlack(m.emission) ? 0 : 1;
+  Json lamps = Json::array(), suns = Json::array(), cameras = Json::array();
+  for (const Lamp& lamp : scene.lamps) lamps.push_back(lampJson(lamp));
+  for (const Sun& sun : scene.suns) suns.push_back({{"name", sun.name}, {"illuminanceLux", luminance(sun.illuminanceLux)}, {"toLight", vector(sun.toLight)}});
+  for (const Camera& c : scene.cameras) {
+    cameras.push_back({{"name", c.name}, {"kind", c.orthographic ? "orthographic" : "perspective"}, {"positionM", vector(c.worldFromCamera.w)}});
+    if (!c.orthographic) cameras.back()["verticalAngleDeg"] = c.yFovRad * 180 / kPi;
+  }
+  return {{"triangles", scene.triangleCount()},
+          {"meshes", scene.meshes.size()},
+          {"instances", scene.instances.size()},
+          {"materials", scene.materials.size()},
+          {"emissiveMaterials", emissive},
+          {"textures", scene.textures.size()},
+          {"lamps", lamps},
+          {"suns", suns},
+          {"sky", scene.sky.present()},
+          {"cameras", cameras},
+          {"boundsM", {{"low", vector(bounds.lo)}, {"high", vector(bounds.hi)}}},
+          {"warnings", warnings}};
+}
+
+// Names come from files; line breaks in them must not break the table.
+std::string shown(const Json& name) {
+  std::string s = name.get<std::string>();
+  for (char& c : s) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return "'" + s + "'";
+}
+
+void printTable(const Json& j) {
+  for (const char* key : {"triangles", "meshes", "instances", "materials", "emissiveMaterials", "textures"}) {
+    fmt::print("{:<18} {}\n", key, j[key].get<size_t>());
+  }
+  const auto low = j["boundsM"]["low"].get<std::vector<double>>(), high = j["boundsM"]["high"].get<std::vector<double>>();
+  fmt::print("{:<18} {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f}) to ({:.2f}, {:.2f}, {:.2f})\n", "bounds", high[0] - low[0],
+             high[1] - low[1], high[2] - low[2], low[0], low[1], low[2], high[0], high[1], high[2]);
+  fmt::print("{:<18} {}\n", "lamps", j["lamps"].size());
+  for (const Json& lamp : j["lamps"]) {
+    const bool area = lamp["kind"] == "area";
+    fmt::print("  {} {}: {}\n", lamp["kind"].get<std::string>(), shown(lamp["name"]),
+               area ? fmt::format("{:.6g} cd/m2, {:.6g} lm", lamp["luminanceCdM2"].get<double>(), lamp["fluxLm"].get<double>())
+                    : fmt::format("{:.6g} cd", lamp["intensityCd"].get<double>()));
+  }
+  fmt::print("{:<18} {}\n", "suns", j["suns"].size());
+  for (const Json& sun : j["suns"]) fmt::print("  {}: {:.6g} lx\n", shown(sun["name"]), sun["illuminanceLux"].get<double>());
+  fmt::print("{:<18} {}\n", "sky", j["sky"].get<bool>() ? "yes" : "no");
+  fmt::print("{:<18} {}\n", "cameras", j["cameras"].size());
+  size_t index = 0;
+  for (const Json& c : j["cameras"]) fmt::print("  {} {}: {}\n", index++, shown(c["name"]), c["kind"].get<std::string>());
+}
+
+int runInfo(const Options& o) {
+  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) {
+    printError("--metres-per-unit: must be above 0 and at most 1000000");
+    return kBadInput;
+  }
+  const Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit});
+  if (!imported) {
+    printError(imported.error());
+    return kBadInput;
+  }
+  const Json j = describe(imported.value().scene, imported.value().warnings);
+  if (o.json) {
+    fmt::print("{}\n", j.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    printTable(j);
+    printWarnings(imported.value().warnings);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+Registered addInfo(CLI::App& program) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("info", "Say what a scene holds");
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf or .obj")->required();
+  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
+  app->add_flag("--json", o->json, "Print JSON");
+  app->footer("Example:\n  roomlight info flat.glb --json");
+  return {app, [o] { return runInfo(*o); }};
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,262 @@
+// roomlight render: a scene and light in, pictures out.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/image_io.h"
+#include "base/parallel.h"
+#include "base/tone.h"
+#include "commands.h"
+#include "console.h"
+#include "engine/render.h"
+#include "engine/stages.h"
+#include "engine/version.h"
+#include "import/import.h"
+#include "interrupt.h"
+#include "output_files.h"
+
+namespace roomlight::cli {
+namespace {
+
+struct Options {
+  std::string scene, lighting, camera, size, exposure = "auto", tone = "neutral", stats, settingsFile;
+  std::vector<std::string> outputs;
+  std::optional<std::string> technique;
+  std::optional<int> samples, threads;
+  std::optional<double> timeLimitS, noiseLevel;
+  std::optional<uint64_t> seed;
+  std::optional<float> voxelSizeM;
+  float metresPerUnit = 1;
+  bool quiet = false;
+};
+
+// Everything that can be known to be wrong before any work is done.
+struct Plan {
+  RenderSettings settings;
+  std::optional<float> ev100;  // none: automatic
+  ToneCurve tone = ToneCurve::PbrNeutral;
+};
+
+template <class T>
+std::optional<T> parseNumber(std::string_view text) {
+  T value{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+Status applySize(const std::string& size, RenderSettings& settings) {
+  const size_t x = size.find('x');
+  const auto width = parseNumber<int>(std::string_view(size).substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : parseNumber<int>(std::string_view(size).substr(x + 1));
+  if (!width || !height) return Error{fmt::format("--size {}: write WIDTHxHEIGHT, for example 960x540", size)};
+  settings.width = *width;
+  settings.height = *height;
+  return Ok{};
+}
+
+std::string lowerExtension(const std::filesystem::path& file) {
+  std::string e = file.extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return e;
+}
+
+Status checkOutputs(const Options& o) {
+  for (const std::string& out : o.outputs) {
+    const std::string e = lowerExtension(out);
+    if (e != ".exr" && e != ".png") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr or .png", out, e)};
+    if (const Status s = checkWritable(out); !s) return s;
+  }
+  return o.stats.empty() ? Status(Ok{}) : checkWritable(o.stats);
+}
+
+Result<Plan> makePlan(const Options& o) {
+  Plan plan;
+  plan.settings.technique = techniques().front().first;
+  if (!o.settingsFile.empty()) {
+    const Result<std::string> text = readTextFile(o.settingsFile);
+    if (!text) return Error{text.error()};
+    const Result<RenderSettings> read = settingsFromJson(text.value(), o.settingsFile, plan.settings);
+    if (!read) return Error{read.error()};
+    plan.settings = read.value();
+  }
+  RenderSettings& s = plan.settings;
+  if (!o.size.empty()) {
+    if (const Status status = applySize(o.size, s); !status) return Error{status.error()};
+  }
+  s.technique = o.technique.value_or(s.technique);
+  s.samples = o.samples.value_or(s.samples);
+  s.threads = o.threads.value_or(s.threads);
+  s.timeLimitS = o.timeLimitS.value_or(s.timeLimitS);
+  s.noiseLevel = o.noiseLevel.value_or(s.noiseLevel);
+  s.seed = o.seed.value_or(s.seed);
+  s.voxel.voxelSizeM = o.voxelSizeM.value_or(s.voxel.voxelSizeM);
+  if (const Status status = checkSettings(s); !status) return Error{status.error()};
+  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
+
+  if (o.exposure != "auto") {
+    plan.ev100 = parseNumber<float>(o.exposure);
+    if (!plan.ev100 || !(std::abs(*plan.ev100) <= 64)) return Error{fmt::format("--exposure {}: write auto or an EV100 from -64 to 64", o.exposure)};
+  }
+  const Result<ToneCurve> tone = toneCurveFromName(o.tone);
+  if (!tone) return Error{"--tone: " + tone.error()};
+  plan.tone = tone.value();
+  bool known = false;
+  std::string names;
+  for (const auto& [name, explanation] : techniques()) {
+    known = known || name == s.technique;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (!known) return Error{fmt::format("unknown technique '{}'; there are {}", s.technique, names)};
+  return plan;
+}
+
+// By name, else by its number in the file from 0.
+Result<Camera> pickCamera(const Scene& scene, const std::string& wanted) {
+  if (wanted.empty()) return defaultCamera(scene);
+  std::string names;
+  for (const Camera& c : scene.cameras) {
+    if (c.name == wanted) return c;
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", c.name);
+  }
+  const auto index = parseNumber<size_t>(wanted);
+  if (index && *index < scene.cameras.size()) return scene.cameras[*index];
+  if (scene.cameras.empty()) return Error{fmt::format("no camera '{}': the scene has none; leave --camera out for a view from a corner", wanted)};
+  return Error{fmt::format("no camera '{}'; there are {}", wanted, names)};
+}
+
+nlohmann::ordered_json stagesJson(const RenderStats& stats) {
+  auto list = nlohmann::ordered_json::array();
+  for (const StageStats& s : stats.stages) list.push_back({{"name", s.name}, {"timeMs", s.timeMs}, {"peakMemoryMiB", s.peakMemoryMiB}});
+  return list;
+}
+
+std::string dump(const nlohmann::ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+Metadata describe(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered, float ev100) {
+  auto times = nlohmann::ordered_json::object();
+  for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
+  return {{"roomlight.version", version()},
+          {"roomlight.settings", settingsToJson(plan.settings)},
+          {"roomlight.seed", std::to_string(plan.settings.seed)},
+          {"roomlight.timesMs", dump(times, -1)},
+          {"roomlight.scene", o.scene},
+          {"roomlight.lighting", o.lighting},
+          {"roomlight.camera", camera.name},
+          {"roomlight.exposureEv100", fmt::format("{}", ev100)},
+          {"roomlight.tone", std::string(toneCurveName(plan.tone))},
+          {"roomlight.complete", rendered.complete ? "true" : "false"}};
+}
+
+Status writePictures(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered) {
+  const float ev100 = plan.ev100 ? *plan.ev100 : automaticEv100(rendered.image);
+  const Metadata metadata = describe(o, plan, camera, rendered, ev100);
+  for (const std::string& out : o.outputs) {
+    const bool exr = lowerExtension(out) == ".exr";
+    const Status s = exr ? writeExr(out, rendered.image, metadata) : writePng(out, toneMap(rendered.image, ev100, plan.tone), metadata);
+    if (!s) return s;
+  }
+  return Ok{};
+}
+
+Status writeStats(const std::string& file, const RenderStats& stats, double totalMs) {
+  auto numbers = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : stats.numbers) numbers[name] = value;
+  return writeTextFile(file, dump({{"stages", stagesJson(stats)}, {"numbers", numbers}, {"totalMs", totalMs}}, 2) + "\n");
+}
+
+int bad(const std::string& message, int code = kBadInput) {
+  printError(message);
+  return code;
+}
+
+// "render" with everything checked; stages of loading come first in the statistics.
+int work(const Options& o, const Plan& plan) {
+  const Stopwatch total;
+  ProgressDisplay display(o.quiet);
+  RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted()};
+  RenderStats loadStats;
+  Stages loading(progress, loadStats);
+
+  Result<Imported> imported = loading.run("load", [&](const Progress&) { return importScene(o.scene, {.metresPerUnit = o.metresPerUnit}); });
+  if (!imported) return bad(imported.error());
+  Scene& scene = imported.value().scene;
+  if (!o.quiet) printWarnings(imported.value().warnings);
+  const Result<Camera> camera = pickCamera(scene, o.camera);
+  if (!camera) return bad(fmt::format("{}: {}", o.scene, camera.error()));
+  if (interrupted()) return kInterrupted;
+
+  Result<Rendered> result = render(scene, camera.value(), plan.settings, progress);
+  if (!result) return bad(result.error());
+  Rendered& rendered = result.value();
+  rendered.stats.stages.insert(rendered.stats.stages.begin(), loadStats.stages.begin(), loadStats.stages.end());
+
+  // The times inside a picture cannot hold the time it takes to write it; the statistics can.
+  RenderStats writeStage;
+  RenderProgress silent;
+  Stages writing(silent, writeStage);
+  const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, camera.value(), rendered); });
+  if (!written) return bad(written.error(), kFailed);
+  rendered.stats.stages.push_back(writeStage.stages.front());
+  for (const auto& [name, value] : rendered.stats.numbers) {
+    if (name == "brokenPixels" && value > 0) printWarnings({fmt::format("{} pixels are negative or not finite: a defect, please report it", value)});
+  }
+  if (!o.stats.empty()) {
+    if (const Status s = writeStats(o.stats, rendered.stats, total.seconds() * 1e3); !s) return bad(s.error(), kFailed);
+  }
+  for (const std::string& out : o.outputs) display.line(fmt::format("wrote {}{}", out, rendered.complete ? "" : " (stopped early: the best so far)"));
+  return rendered.complete ? kOk : kInterrupted;
+}
+
+int runRender(const Options& o) {
+  interrupted();  // from here on Ctrl-C is ours
+  const Result<Plan> plan = makePlan(o);
+  if (!plan) return bad(plan.error());
+  if (const Status s = checkOutputs(o); !s) return bad(s.error());
+  int code = kFailed;
+  withThreads(plan.value().settings.threads, [&] { code = work(o, plan.value()); });
+  return code;
+}
+
+std::string techniqueHelp() {
+  std::string text = "How light is computed:";
+  for (const auto& [name, explanation] : techniques()) text += fmt::format(" {} ({}){}", name, explanation, name == techniques().back().first ? "" : ";");
+  return text;
+}
+
+}  // namespace
+
+Registered addRender(CLI::App& program) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf or .obj")->required();
+  app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2) or .png (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--camera", o->camera, "Name of a camera in the scene, or its number from 0");
+  app->add_option("--size", o->size, "Width and height in pixels, for example 960x540");
+  app->add_option("--technique", o->technique, techniqueHelp());
+  app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");
+  app->add_option("--time-limit", o->timeLimitS, "Stop after this many seconds (technique path)");
+  app->add_option("--noise-level", o->noiseLevel, "Stop when the mean relative error per pixel is below this (technique path), for example 0.02");
+  app->add_option("--seed", o->seed, "Random seed; the same seed gives the same picture");
+  app->add_option("--threads", o->threads, "Threads; 0: all cores");
+  app->add_option("--voxel-size", o->voxelSizeM, "Edge of a voxel in metres; 0: chosen from the memory budget");
+  app->add_option("--exposure", o->exposure, "auto, or EV100 as on a light meter")->capture_default_str();
+  app->add_option("--tone", o->tone, "Tone curve of .png: neutral, agx, filmic or clip")->capture_default_str();
+  app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
+  app->add_option("--stats", o->stats, "Write time and memory of each stage to this JSON file");
+  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
+  app->add_flag("--quiet", o->quiet, "Only errors");
+  app->footer(
+      "Ctrl-C ends the work and keeps the best picture so far (exit status 130); a second one ends at once.\n"
+      "Examples:\n"
+      "  roomlight render flat.glb -o flat.png\n"
+      "  roomlight render flat.glb --technique path --time-limit 60 -o flat.exr -o flat.png --stats flat.json");
+  return {app, [o] { return runRender(*o); }};
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,26 @@
+// The program's commands. Each adds itself to the parser; what it returns is the program's exit status.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace roomlight::cli {
+
+constexpr int kOk = 0;
+constexpr int kFailed = 1;       // the work itself went wrong: a full disk
+constexpr int kBadInput = 2;     // a file or an option; nothing was written
+constexpr int kInterrupted = 130;
+
+using Command = std::function<int()>;
+
+// Each returns the subcommand and what to run when the user asked for it. Options are bound to memory that the command
+// owns, so a Command may be kept for as long as the parser.
+struct Registered {
+  CLI::App* app;
+  Command run;
+};
+Registered addRender(CLI::App& program);
+Registered addCompare(CLI::App& program);
+Registered addInfo(CLI::App& program);
+
+}  // namespace roomlight::cli

@@ -1,0 +1,35 @@
+// What the program tells the person in front of it: everything on stderr, results on stdout.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+
+namespace roomlight::cli {
+
+// One line "roomlight: ..." on stderr, whatever line breaks the message has.
+void printError(const std::string& message);
+// "warning: ..." once each, in the order in which they came first.
+void printWarnings(const std::vector<std::string>& warnings);
+
+// A bar with the time left on a terminal; elsewhere one line a stage when it is done. Called from one thread at a time.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(bool quiet);
+  ~ProgressDisplay() { clear(); }
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+  // fraction 0 begins the stage, 1 ends it.
+  void report(const std::string& stage, float fraction);
+  void line(const std::string& text);  // not shown when quiet
+
+ private:
+  void clear();
+  bool quiet_, terminal_, barShown_ = false;
+  std::string stage_;
+  Stopwatch watch_;
+  double lastDrawnS_ = -1;
+};
+
+}  // namespace roomlight::cli

@@ -1,0 +1,50 @@
+// roomlight: light in a home, from the command line.
+#include <exception>
+#include <new>
+#include <vector>
+
+#include "commands.h"
+#include "console.h"
+#include "engine/version.h"
+
+namespace {
+
+int runProgram(int argc, char** argv) {
+  CLI::App program("Light in a real home: opens a scene, lights it, writes the picture, judges it.", "roomlight");
+  program.set_version_flag("--version", std::string("roomlight ") + roomlight::version());
+  program.require_subcommand(1);
+  program.footer(
+      "Examples:\n"
+      "  roomlight render flat.glb -o flat.png\n"
+      "  roomlight render flat.glb --lighting evening.json --camera Kitchen -o kitchen.exr -o kitchen.png\n"
+      "  roomlight compare reference.exr flat.exr\n"
+      "  roomlight info flat.glb\n"
+      "'roomlight COMMAND --help' explains a command.");
+  const std::vector<roomlight::cli::Registered> commands = {
+      roomlight::cli::addRender(program), roomlight::cli::addCompare(program), roomlight::cli::addInfo(program)};
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    return program.exit(e);
+  } catch (const CLI::ParseError& e) {
+    roomlight::cli::printError(std::string(e.what()) + "; see roomlight --help");
+    return roomlight::cli::kBadInput;
+  }
+  for (const roomlight::cli::Registered& command : commands) {
+    if (command.app->parsed()) return command.run();
+  }
+  return roomlight::cli::kBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return runProgram(argc, argv);
+  } catch (const std::bad_alloc&) {
+    roomlight::cli::printError("not enough memory");
+  } catch (const std::exception& e) {
+    roomlight::cli::printError(std::string("unexpected: ") + e.what());
+  }
+  return roomlight::cli::kFailed;
+}

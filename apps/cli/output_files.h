@@ -1,0 +1,17 @@
+// Files the program writes: checked before the work, written whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+
+namespace roomlight::cli {
+
+// Could this file be written? Leaves no trace.
+Status checkWritable(const std::filesystem::path& file);
+
+Status writeTextFile(const std::filesystem::path& file, const std::string& text);
+Result<std::string> readTextFile(const std::filesystem::path& file);
+
+}  // namespace roomlight::cli
