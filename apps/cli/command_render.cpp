@@ -240,7 +240,7 @@ Registered addRender(CLI::App& program) {
   app->add_option("--size", o->size, "Width and height in pixels, for example 960x540");
   app->add_option("--technique", o->technique, techniqueHelp());
   app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");
-  app->add_option("--time-limit", o->timeLimitS, "Stop after this many seconds (technique path)");
+  app->add_option("--time-limit", o->timeLimitS, "Stop after this many seconds, but not before every pixel has a sample");
   app->add_option("--noise-level", o->noiseLevel, "Stop when the mean relative error per pixel is below this (technique path), for example 0.02");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same picture");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");

@@ -16,6 +16,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr int64_t kLargestPicture = int64_t{1} << 27;  // pixels; also what the picture readers accept
 
+template <class T>
+struct Choice {
+  const char* name;
+  T value;
+};
+constexpr Choice<Attenuation> kAttenuations[] = {{"plain", Attenuation::Plain}, {"normalWeighted", Attenuation::NormalWeighted}};
+
 // The one list of members: name, where it is, smallest and largest value. Reader, writer and range check all walk it.
 template <class Visitor, class Settings>
 void visitMembers(Visitor& v, Settings& s) {
@@ -32,6 +39,22 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("memoryBudgetMiB", s.voxel.memoryBudgetMiB, 1, 1e6);
     g.number("smallestM", s.voxel.smallestM, 1e-4, 10);
     g.number("largestM", s.voxel.largestM, 1e-4, 10);
+  });
+  v.group("radiance", [&](auto& g) {
+    g.choice("attenuation", s.radiance.attenuation, kAttenuations);
+    g.number("directSamples", s.radiance.directSamples, 1, 4096);
+    g.number("links", s.radiance.links, 1, 4096);
+    g.number("residual", s.radiance.residual, 1e-6, 1);
+    g.number("maxBounces", s.radiance.maxBounces, 0, 100000);
+  });
+  v.group("gather", [&](auto& g) {
+    g.number("conesPerSample", s.gather.conesPerSample, 1, 4096);
+    g.number("coneHalfAngleDeg", s.gather.coneHalfAngleDeg, 1, 60);
+    g.number("stepFactor", s.gather.stepFactor, 0.1, 4);
+    g.number("startOffsetVoxels", s.gather.startOffsetVoxels, 0, 8);
+    g.number("rayRoughness", s.gather.rayRoughness, 0, 1);
+    g.number("occlusionLambda", s.gather.occlusionLambda, 0, 1000);
+    g.color("ambientCdM2", s.gather.ambientCdM2, 1e9);
   });
 }
 
@@ -55,6 +78,13 @@ class Writer {
   void number(const char* name, const T& value, L, H) {
     json[name] = tidy(value);
   }
+  template <class T, size_t N>
+  void choice(const char* name, const T& value, const Choice<T> (&choices)[N]) {
+    for (const Choice<T>& c : choices) {
+      if (c.value == value) json[name] = c.name;
+    }
+  }
+  void color(const char* name, Vec3 value, double) { json[name] = {tidy(value.x), tidy(value.y), tidy(value.z)}; }
   template <class Visit>
   void group(const char* name, Visit&& visit) {
     Writer inner;
@@ -75,6 +105,11 @@ class RangeCheck {
     if (!(value >= static_cast<T>(low) && value <= static_cast<T>(high))) {
       error = outOfRange(path_ + name, static_cast<T>(low), static_cast<T>(high));
     }
+  }
+  template <class T, size_t N>
+  void choice(const char*, const T&, const Choice<T> (&)[N]) {}
+  void color(const char* name, Vec3 value, double high) {
+    for (int c = 0; c < 3; ++c) number(name, static_cast<double>(value[c]), 0, high);
   }
   template <class Visit>
   void group(const char* name, Visit&& visit) {
@@ -115,6 +150,28 @@ class Reader {
       const auto v = j->get<T>();
       if (!(v >= static_cast<T>(low) && v <= static_cast<T>(high))) return range<T>(name, low, high);
       value = v;
+    }
+  }
+  template <class T, size_t N>
+  void choice(const char* name, T& value, const Choice<T> (&choices)[N]) {
+    std::string chosen, names;
+    text(name, chosen);
+    if (error || !json_.contains(name)) return;
+    for (const Choice<T>& c : choices) {
+      names += (names.empty() ? "" : ", ") + std::string(c.name);
+      if (chosen == c.name) return static_cast<void>(value = c.value);
+    }
+    error = Error{fmt::format("{}/{}: unknown value '{}'; there are {}", where_, name, chosen, names)};
+  }
+  void color(const char* name, Vec3& value, double high) {
+    const Json* j = find(name);
+    if (!j) return;
+    if (!j->is_array() || j->size() != 3) return fail(name, "must be a list of three numbers");
+    for (size_t c = 0; c < 3; ++c) {
+      if (!(*j)[c].is_number()) return fail(name, "must be a list of three numbers");
+      const double v = (*j)[c].get<double>();
+      if (!(v >= 0 && v <= high)) return range<double>(name, 0, high);
+      value[static_cast<int>(c)] = static_cast<float>(v);
     }
   }
   template <class Visit>

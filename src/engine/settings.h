@@ -7,22 +7,26 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "gather/cone_gather.h"
+#include "radiance/radiance_field.h"
 #include "voxel/voxelise.h"
 
 namespace roomlight {
 
 struct RenderSettings {
-  std::string technique = "path";  // a name of techniques()
+  std::string technique = "cone";  // a name of techniques()
   int width = 960, height = 540;
   int samples = 0;         // per pixel; 0: the technique's default, or no limit where time or noise ends the work
-  double timeLimitS = 0;   // technique "path": stop after this long; 0: no limit
+  double timeLimitS = 0;   // stop after this long, but not before every pixel has one sample; 0: no limit
   double noiseLevel = 0;   // technique "path": stop when the mean relative standard error is below this; 0: never
   uint64_t seed = 0;
   int threads = 0;         // 0: all cores
-  VoxelSettings voxel;
+  VoxelSettings voxel;        // technique "cone", like the two below
+  RadianceSettings radiance;  // its seed is the one above
+  GatherSettings gather;      // size, samples, time limit and seed are those above
 };
 
-// One JSON object with every member, in the order above.
+// One JSON object with every member, in the order above, less those that repeat one above.
 std::string settingsToJson(const RenderSettings& settings);
 
 // Members that the text does not mention keep their value in `defaults`. An unknown key, a wrong type or a value out of

@@ -5,6 +5,7 @@
 
 namespace roomlight {
 
+Image renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Image renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 
 }  // namespace roomlight
