@@ -1,6 +1,7 @@
 #include "trace/lights.h"
 
 #include "base/sampling.h"
+#include "trace/spherical_triangle.h"
 
 namespace roomlight {
 namespace {
@@ -14,6 +15,9 @@ Vec3 meanEmission(const Scene& scene, const Mesh& mesh, uint32_t triangle) {
   for (const auto& p : kPoints) sum += materialAt(scene, mesh, {triangle, p[0], p[1]}).emission;
   return sum / 7.0f;
 }
+
+// Small triangles are sampled by area: cheaper, and exact enough for floats. Both sampling and density decide by this.
+bool samplesSolidAngle(float solidAngle) { return solidAngle > 1e-3f && solidAngle < 6.2f; }
 
 }  // namespace
 
@@ -101,19 +105,33 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
                                    [](float v, const EmitterTriangle& t) { return v < t.cdf; });
   const EmitterTriangle& t = it == e.triangles.end() ? e.triangles.back() : *it;
   const TriangleVertices v = worldTriangle(scene_, e.instance, t.triangle);
-  const Vec2 b = sampleTriangle(u);
-  const Vec3 q = v.a * (1 - b.x - b.y) + v.b * b.x + v.c * b.y;
-  LightSample s;
-  const Vec3 d = q - p;
-  const float d2 = lengthSquared(d);
-  if (d2 < 1e-8f) return s;
-  s.distance = std::sqrt(d2);
-  s.wi = d / s.distance;
   const Instance& instance = scene_.instances[e.instance];
-  const Vec3 n = normalize(cross(v.b - v.a, v.c - v.a)) * (instance.worldFromObject.determinant() < 0 ? -1.0f : 1.0f);
-  const float cosLight = -dot(n, s.wi);
-  if (!e.doubleSided && cosLight <= 0) return s;
-  s.pdf = chance * t.share / t.areaM2 * d2 / std::max(std::abs(cosLight), 1e-6f);
+  const Vec3 twiceArea = cross(v.b - v.a, v.c - v.a);
+  const Vec3 n = normalize(twiceArea) * (instance.worldFromObject.determinant() < 0 ? -1.0f : 1.0f);
+  LightSample s;
+  Vec2 b;
+  const float solidAngle = triangleSolidAngle(p, v.a, v.b, v.c);
+  if (samplesSolidAngle(solidAngle)) {
+    s.wi = SphericalTriangle(p, v.a, v.b, v.c).sample(u);
+    const float cosLight = dot(n, s.wi);
+    if (cosLight == 0 || (!e.doubleSided && cosLight > 0)) return s;
+    s.distance = dot(v.a - p, n) / cosLight;
+    if (!(s.distance > 1e-4f)) return s;
+    s.pdf = chance * t.share / solidAngle;
+    const Vec3 q = p + s.wi * s.distance;
+    const float scale = 1 / lengthSquared(twiceArea);
+    b = {dot(cross(v.c - q, v.a - q), twiceArea) * scale, dot(cross(v.a - q, v.b - q), twiceArea) * scale};
+  } else {
+    b = sampleTriangle(u);
+    const Vec3 d = v.a * (1 - b.x - b.y) + v.b * b.x + v.c * b.y - p;
+    const float d2 = lengthSquared(d);
+    if (d2 < 1e-8f) return s;
+    s.distance = std::sqrt(d2);
+    s.wi = d / s.distance;
+    const float cosLight = -dot(n, s.wi);
+    if (!e.doubleSided && cosLight <= 0) return s;
+    s.pdf = chance * t.share / t.areaM2 * d2 / std::max(std::abs(cosLight), 1e-6f);
+  }
   const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
   const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
   const Vec3 emission = material.emissionTexture.texture < 0 ? material.emission : materialAt(scene_, mesh, {t.triangle, b.x, b.y}).emission;
@@ -125,6 +143,9 @@ float Lights::pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) cons
   const int32_t slot = e.slotOfTriangle[q.triangle];
   if (slot < 0 || (!q.front && !e.doubleSided)) return 0;
   const EmitterTriangle& t = e.triangles[static_cast<size_t>(slot)];
+  const TriangleVertices v = worldTriangle(scene_, q.instance, q.triangle);
+  const float solidAngle = triangleSolidAngle(p, v.a, v.b, v.c);
+  if (samplesSolidAngle(solidAngle)) return t.share / solidAngle;
   const Vec3 d = q.p - p;
   const float d2 = lengthSquared(d);
   const float cosLight = std::abs(dot(q.ng, d)) / std::sqrt(std::max(d2, 1e-12f));
