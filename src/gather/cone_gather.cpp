@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr int kMostPanes = 16;
+constexpr int kSkySamples = 2;
 constexpr int kAllLamps = 8;  // up to this many lamps each gets its own shadow ray; more are chosen by importance
 
 struct Counters {
@@ -65,10 +66,11 @@ class Shader {
   Vec3 shade(const SurfacePoint& s, Vec3 wo, Sampler& sampler, Counters& count, float& occlusion) const {
     const Bsdf bsdf(s.m, s.ns, s.ng, wo);
     const bool rayReflection = s.m.roughness < settings_.rayRoughness;
-    Vec3 sum = direct(s, bsdf, rayReflection, sampler, count);
+    const int32_t brick = brickOf(voxels_, s.p + s.ng * (0.01f * voxels_.voxelSizeM));
+    Vec3 sum = direct(s, bsdf, rayReflection, brick, sampler, count);
     const Vec3 rho = bsdf.diffuseAlbedo();
     if (maxComponent(rho) > 1e-4f) sum += rho * indirect(s, sampler, count, occlusion);
-    if (maxComponent(bsdf.specularAlbedo()) > 1e-4f) sum += reflection(s, bsdf, rayReflection, sampler, count);
+    if (maxComponent(bsdf.specularAlbedo()) > 1e-4f) sum += reflection(s, bsdf, rayReflection, brick, sampler, count);
     return s.emitted() + sum * s.m.alpha;
   }
 
@@ -79,11 +81,14 @@ class Shader {
     return f * light.radiance * rays_.transmittance({offsetOrigin(s.p, s.ng), light.wi, 0, tMax});
   }
 
-  // Direct light by exact shadow rays. Where reflections follow rays they find extended lights themselves, so light sampling
-  // leaves the specular lobe out for those; lamps without extent it always sees.
-  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, Sampler& sampler, Counters& count) const {
+  // Direct light by exact shadow rays. Where reflections follow rays they find extended lights too; both ways share the
+  // specular lobe by multiple importance sampling. `strategies` is how many light samples compete.
+  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, int32_t brick, Sampler& sampler, Counters& count) const {
     Vec3 sum;
-    const auto extended = [&](Vec3 wi) { return rayReflection ? bsdf.evaluateDiffuse(wi) : bsdf.evaluate(wi); };
+    const auto extended = [&](const LightSample& light, float strategies) {
+      if (!rayReflection || light.pdf <= 0) return bsdf.evaluate(light.wi);
+      return bsdf.evaluateDiffuse(light.wi) + bsdf.evaluateSpecular(light.wi) * misWeight(strategies * light.pdf, bsdf.pdfSpecular(light.wi));
+    };
     const size_t lamps = lights_.lampCount();
     if (lamps > 0 && lamps <= kAllLamps) {
       for (size_t i = 0; i < lamps; ++i) {
@@ -99,24 +104,23 @@ class Shader {
     if (lights_.hasEmitters()) {
       const Vec2 u = sampler.next2();
       const LightSample light = lights_.sampleEmitters(s.p, u, sampler.next1());
-      if (light.valid()) sum += visible(s, light, extended(light.wi), count);
+      if (light.valid()) sum += visible(s, light, extended(light, 1), count);
     }
     for (size_t i = 0; i < lights_.sunCount(); ++i) {
       const LightSample light = lights_.sampleSun(i, sampler.next2());
-      if (light.valid()) sum += visible(s, light, light.pdf > 0 ? extended(light.wi) : bsdf.evaluate(light.wi), count);
+      if (light.valid()) sum += visible(s, light, extended(light, 1), count);
     }
-    if (lights_.sky().present()) sum += skyLight(s, extended, sampler, count);
+    if (lights_.sky().present()) sum += skyLight(s, extended, brick, sampler, count);
     return sum;
   }
 
   template <class F>
-  Vec3 skyLight(const SurfacePoint& s, const F& extended, Sampler& sampler, Counters& count) const {
-    const int32_t brick = brickOf(voxels_, s.p + s.ng * (0.01f * voxels_.voxelSizeM));
+  Vec3 skyLight(const SurfacePoint& s, const F& extended, int32_t brick, Sampler& sampler, Counters& count) const {
     Vec3 sum;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < kSkySamples; ++k) {
       const Vec2 u = sampler.next2();
       const LightSample light = sampleSkyGuided(field_.guide, brick, lights_, u, sampler.next1());
-      if (light.valid()) sum += 0.5f * visible(s, light, extended(light.wi), count);
+      if (light.valid()) sum += visible(s, light, extended(light, kSkySamples), count) / kSkySamples;
     }
     return sum;
   }
@@ -152,10 +156,10 @@ class Shader {
     return sum / static_cast<float>(n);
   }
 
-  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, Sampler& sampler, Counters& count) const {
+  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t brick, Sampler& sampler, Counters& count) const {
     const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
     if (!r.valid() || isBlack(r.weight)) return {};
-    if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, sampler, count);
+    if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, brick}, count);
     // The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
     const ConeShape shape{0.5f * s.m.roughness * s.m.roughness, settings_.stepFactor, 0};
     const Vec3 shift = jitter(sampler);
@@ -163,31 +167,51 @@ class Shader {
     return r.weight * marchCone(field_, coneOrigin(s), r.wi, shape, shift, sampler.next1()).radiance;
   }
 
+  // Where a reflected ray started, and the density with which its direction was chosen; 0: a mirror, nothing else can find it.
+  struct Reflected {
+    Vec3 p;
+    float pdf;
+    int32_t brick;
+    float weight(float lightPdf) const { return pdf > 0 ? misWeight(pdf, lightPdf) : 1; }
+  };
+
   // What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold.
-  Vec3 along(Ray ray, Sampler& sampler, Counters& count) const {
+  Vec3 along(Ray ray, Reflected from, Counters& count) const {
     Vec3 sum, left(1);
     for (int pane = 0; pane < kMostPanes; ++pane) {
       const Hit hit = rays_.intersect(ray);
       ++count.rays;
-      if (!hit.valid()) return sum + left * background(ray.direction);
+      if (!hit.valid()) return sum + left * reflectedBackground(ray.direction, from);
       const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-      sum += left * s.emitted();
-      const Vec3 through = passing(s, ray.direction);
+      if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) sum += left * emitted * from.weight(lights_.pdfEmitters(from.p, s));
       const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
       if (bsdf.isMirror() && maxComponent(bsdf.specularAlbedo()) > 0.5f) {
-        // Mirror seen in a mirror: the ray goes on.
+        // Mirror seen in a mirror: the ray goes on, and only it can find lights now.
         const BsdfSample r = bsdf.sampleSpecular({0.5f, 0.5f});
         if (!r.valid()) return sum;
         left *= r.weight;
         ray = {offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity};
+        from.pdf = 0;
         continue;
       }
       sum += left * bihemisphericalAlbedo(s.m) * irradiance(s) * (s.m.alpha / kPi);
-      left *= through;
+      left *= passing(s, ray.direction);
       if (luminance(left) < 1e-2f) return sum;
       ray.origin = offsetOrigin(s.p, -s.ng);
     }
-    (void)sampler;
+    return sum;
+  }
+
+  Vec3 reflectedBackground(Vec3 d, const Reflected& from) const {
+    Vec3 sum;
+    if (lights_.sky().present()) {
+      sum += lights_.sky().radiance(d) * from.weight(kSkySamples * pdfSkyGuided(field_.guide, from.brick, lights_, d));
+    }
+    for (size_t i = 0; i < lights_.sunCount(); ++i) {
+      float pdf;
+      const Vec3 disc = lights_.sunDisc(i, d, pdf);
+      if (pdf > 0) sum += disc * from.weight(pdf);
+    }
     return sum;
   }
 

@@ -82,32 +82,40 @@ SkyGuide SkyGuideBuilder::finish(const Voxels& voxels) {
   return guide;
 }
 
+namespace {
+
+float plainPdf(const SkyDistribution& sky, Vec3 d) { return sky.sampled() ? sky.pdf(d) : 1 / (4 * kPi); }
+
+const Cells* guideAt(const SkyGuide& guide, int32_t brick) {
+  if (brick < 0 || guide.guideOfBrick.empty()) return nullptr;
+  const int32_t index = guide.guideOfBrick[static_cast<size_t>(brick)];
+  return index < 0 ? nullptr : &guide.cdf[static_cast<size_t>(index)];
+}
+
+}  // namespace
+
+float pdfSkyGuided(const SkyGuide& guide, int32_t brick, const Lights& lights, Vec3 d) {
+  const Cells* cdf = guideAt(guide, brick);
+  const float plain = plainPdf(lights.sky(), d);
+  if (!cdf) return plain;
+  const auto c = static_cast<size_t>(cellOf(d));
+  const float share = (*cdf)[c] - (c ? (*cdf)[c - 1] : 0.0f);
+  return kUnguidedShare * plain + (1 - kUnguidedShare) * share * kCells / octahedralJacobian(octahedralUv(d));
+}
+
 LightSample sampleSkyGuided(const SkyGuide& guide, int32_t brick, const Lights& lights, Vec2 u, float choice) {
   const SkyDistribution& sky = lights.sky();
-  const auto plainPdf = [&](Vec3 d) { return sky.sampled() ? sky.pdf(d) : 1 / (4 * kPi); };
-  const int32_t index = brick < 0 || guide.guideOfBrick.empty() ? -1 : guide.guideOfBrick[static_cast<size_t>(brick)];
+  const Cells* cdf = guideAt(guide, brick);
   LightSample s;
-  float pdf = 0;
-  if (index < 0) {
+  if (!cdf || choice < kUnguidedShare) {
     s.wi = sky.sampled() ? sky.sample(u).d : sampleSphere(u);
-    pdf = plainPdf(s.wi);
   } else {
-    const Cells& cdf = guide.cdf[static_cast<size_t>(index)];
-    const auto density = [&](Vec3 d) {
-      const auto c = static_cast<size_t>(cellOf(d));
-      const float share = cdf[c] - (c ? cdf[c - 1] : 0.0f);
-      return share * kCells / octahedralJacobian(octahedralUv(d));
-    };
-    if (choice < kUnguidedShare) {
-      s.wi = sky.sampled() ? sky.sample(u).d : sampleSphere(u);
-    } else {
-      const float v = (choice - kUnguidedShare) / (1 - kUnguidedShare);
-      const auto it = std::upper_bound(cdf.begin(), cdf.end(), v);
-      const int c = std::min(static_cast<int>(it - cdf.begin()), kCells - 1);
-      s.wi = octahedralDirection({(static_cast<float>(c % kGuideSize) + u.x) / kGuideSize, (static_cast<float>(c / kGuideSize) + u.y) / kGuideSize});
-    }
-    pdf = kUnguidedShare * plainPdf(s.wi) + (1 - kUnguidedShare) * density(s.wi);
+    const float v = (choice - kUnguidedShare) / (1 - kUnguidedShare);
+    const auto it = std::upper_bound(cdf->begin(), cdf->end(), v);
+    const int c = std::min(static_cast<int>(it - cdf->begin()), kCells - 1);
+    s.wi = octahedralDirection({(static_cast<float>(c % kGuideSize) + u.x) / kGuideSize, (static_cast<float>(c / kGuideSize) + u.y) / kGuideSize});
   }
+  const float pdf = pdfSkyGuided(guide, brick, lights, s.wi);
   if (!(pdf > 0)) return {};
   s.pdf = pdf;
   s.radiance = sky.radiance(s.wi) / pdf;

@@ -20,6 +20,9 @@ class SkyGuideBuilder {
 // sky, by the sky's own brightness else. `radiance` is divided by the density.
 LightSample sampleSkyGuided(const SkyGuide& guide, int32_t brick, const Lights& lights, Vec2 u, float choice);
 
+// Density with which sampleSkyGuided chooses direction d, per steradian.
+float pdfSkyGuided(const SkyGuide& guide, int32_t brick, const Lights& lights, Vec3 d);
+
 // The brick that holds point p, or -1.
 inline int32_t brickOf(const Voxels& voxels, Vec3 p) {
   const Int3 v = voxels.voxelOf(p);

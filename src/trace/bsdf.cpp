@@ -43,14 +43,18 @@ Vec3 Bsdf::evaluateSpecular(Vec3 wiWorld) const {
 
 Vec3 Bsdf::evaluate(Vec3 wi) const { return evaluateDiffuse(wi) + evaluateSpecular(wi); }
 
+float Bsdf::pdfSpecular(Vec3 wiWorld) const {
+  const Vec3 wi = frame_.toLocal(wiWorld);
+  if (mirror_ || wi.z <= 0) return 0;
+  const Vec3 h = normalize(wi + wo_);
+  return ggxG1(wo_.z, alpha_) * ggxD(h.z, alpha_) / (4 * wo_.z);
+}
+
 float Bsdf::pdf(Vec3 wiWorld) const {
   const Vec3 wi = frame_.toLocal(wiWorld);
   if (wi.z <= 0) return 0;
   float p = (1 - specularChance_) * wi.z / kPi;
-  if (!mirror_ && specularChance_ > 0) {
-    const Vec3 h = normalize(wi + wo_);
-    p += specularChance_ * ggxG1(wo_.z, alpha_) * ggxD(h.z, alpha_) / (4 * wo_.z);
-  }
+  if (specularChance_ > 0) p += specularChance_ * pdfSpecular(wiWorld);
   return p;
 }
 

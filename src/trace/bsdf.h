@@ -28,6 +28,7 @@ class Bsdf {
   Vec3 evaluateDiffuse(Vec3 wi) const;   // its two parts apart
   Vec3 evaluateSpecular(Vec3 wi) const;
   float pdf(Vec3 wi) const;
+  float pdfSpecular(Vec3 wi) const;  // of sampleSpecular; 0 for a mirror
   BsdfSample sample(Vec2 u, float choice) const;
   // A direction of the specular lobe alone; weight f_specular cos / pdf of that lobe. Not valid where it would enter the surface.
   BsdfSample sampleSpecular(Vec2 u) const;

@@ -1,0 +1,73 @@
+// `roomlight compare` from outside.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/image_io.h"
+#include "compare/compare.h"
+#include "unit/cli/program.h"
+
+namespace roomlight {
+namespace {
+
+using testing::ProgramRun;
+using testing::runProgram;
+using testing::TemporaryFolder;
+
+class CompareCommand : public ::testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::string path(const std::string& name) const { return folder_ / name; }
+
+  static Image ramp(int width, float scale) {
+    Image image(width, 16);
+    for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = Vec3(scale * static_cast<float>(1 + i % 31));
+    return image;
+  }
+  void SetUp() override {
+    ASSERT_TRUE(writeExr(path("reference.exr"), ramp(20, 1), {}).ok());
+    ASSERT_TRUE(writeExr(path("bright.exr"), ramp(20, 1.1f), {}).ok());
+    ASSERT_TRUE(writeExr(path("wide.exr"), ramp(24, 1), {}).ok());
+  }
+};
+
+TEST_F(CompareCommand, jsonHoldsEveryMeasure) {
+  const ProgramRun run = runProgram({"compare", path("reference.exr"), path("bright.exr"), "--json", "--difference", path("d.png")});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  const Report report = compare(ramp(20, 1), ramp(20, 1.1f)).value();
+  EXPECT_DOUBLE_EQ(json["mse"], report.mse);
+  EXPECT_DOUBLE_EQ(json["relMse"], report.relMse);
+  EXPECT_DOUBLE_EQ(json["ssim"], report.ssim);
+  EXPECT_DOUBLE_EQ(json["flip"], report.flip);
+  EXPECT_NEAR(json["meanLuminanceErrorPercent"].get<double>(), 10, 1e-3);
+  EXPECT_EQ(readImage(path("d.png")).value().width, 20);
+}
+
+TEST_F(CompareCommand, tableAndDifferencePictureBesideThePictureByDefault) {
+  const ProgramRun run = runProgram({"compare", path("reference.exr"), path("reference.exr")});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  for (const char* key : {"mse", "relMse", "ssim", "flip", "meanLuminanceErrorPercent"}) EXPECT_NE(run.out.find(key), std::string::npos);
+  EXPECT_TRUE(readImage(path("reference.exr.difference.png")).ok());
+}
+
+TEST_F(CompareCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
+  testing::writeFile(path("text.exr"), "no picture");
+  const size_t before = folder_.fileCount();
+  const std::vector<std::vector<std::string>> cases = {{"compare", path("reference.exr"), path("wide.exr")},
+                                                       {"compare", path("reference.exr"), path("missing.exr")},
+                                                       {"compare", path("text.exr"), path("reference.exr")},
+                                                       {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("no/d.png")},
+                                                       {"compare", path("reference.exr")}};
+  for (const auto& arguments : cases) {
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.exitStatus, 2) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(folder_.fileCount(), before);
+  }
+}
+
+}  // namespace
+}  // namespace roomlight

@@ -1,0 +1,25 @@
+// Runs the built program as a user does, and the small room it is run on.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "unit/temporary_folder.h"
+
+namespace roomlight::testing {
+
+struct ProgramRun {
+  int exitStatus = -1;
+  std::string out, err;
+};
+
+// Runs `roomlight ARGUMENTS` with stdout and stderr in files, so neither is a terminal. With `interruptAt`, sends SIGINT
+// as soon as stderr contains that text.
+ProgramRun runProgram(const std::vector<std::string>& arguments, const std::string& interruptAt = "");
+
+// A closed white room of 4 x 3 x 4 m with a point light of 200 cd, a pillar and the cameras "Front" and "Back", as
+// room.gltf and room.bin.
+std::filesystem::path writeRoom(const TemporaryFolder& folder);
+
+}  // namespace roomlight::testing

@@ -1,0 +1,219 @@
+// `roomlight render` from outside: exit statuses, what is written and what is not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/image_io.h"
+#include "unit/cli/program.h"
+
+namespace roomlight {
+namespace {
+
+using Json = nlohmann::json;
+using testing::readFile;
+using testing::ProgramRun;
+using testing::runProgram;
+using testing::TemporaryFolder;
+using testing::writeFile;
+
+class RenderCommand : public ::testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  const std::string scene_ = testing::writeRoom(folder_).string();
+
+  std::string path(const std::string& name) const { return folder_ / name; }
+  // A picture small enough for a test.
+  ProgramRun render(std::vector<std::string> more, const std::string& interruptAt = "") const {
+    std::vector<std::string> arguments = {"render", scene_, "--size", "32x18"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(arguments, interruptAt);
+  }
+  Image picture(const std::string& name) const {
+    const Result<Image> image = readImage(path(name));
+    EXPECT_TRUE(image.ok()) << image.error();
+    return image.ok() ? image.value() : Image();
+  }
+  Metadata metadata(const std::string& name) const {
+    const Result<Metadata> read = readMetadata(path(name));
+    EXPECT_TRUE(read.ok()) << read.error();
+    return read.ok() ? read.value() : Metadata();
+  }
+};
+
+TEST_F(RenderCommand, writesLinearAndToneMappedPicturesThatSayHowTheyWereMade) {
+  const ProgramRun run = render({"-o", path("a.exr"), "-o", path("a.png"), "--technique", "path", "--samples", "8", "--seed", "7"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  const Image image = picture("a.exr");
+  EXPECT_EQ(image.width, 32);
+  EXPECT_EQ(image.height, 18);
+  EXPECT_TRUE(std::all_of(image.pixels.begin(), image.pixels.end(), [](Vec3 p) { return isFinite(p) && luminance(p) > 0; }));
+  EXPECT_EQ(picture("a.png").width, 32);
+  for (const char* name : {"a.exr", "a.png"}) {
+    const Metadata m = metadata(name);
+    for (const char* key : {"roomlight.version", "roomlight.timesMs", "roomlight.exposureEv100"}) EXPECT_TRUE(m.count(key)) << key;
+    EXPECT_EQ(m.at("roomlight.seed"), "7");
+    const Json settings = Json::parse(m.at("roomlight.settings"));
+    EXPECT_EQ(settings["technique"], "path");
+    EXPECT_EQ(settings["samples"], 8);
+    EXPECT_GT(Json::parse(m.at("roomlight.timesMs")).size(), 1u);
+    EXPECT_NE(m.at("roomlight.scene").find("room.gltf"), std::string::npos);
+  }
+}
+
+TEST_F(RenderCommand, statisticsNameTimeAndMemoryOfEachStage) {
+  const ProgramRun run = render({"-o", path("a.png"), "--samples", "2", "--stats", path("s.json")});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  const Json stats = Json::parse(readFile(path("s.json")));
+  double sum = 0;
+  ASSERT_GE(stats["stages"].size(), 3u);
+  for (const Json& stage : stats["stages"]) {
+    EXPECT_FALSE(stage["name"].get<std::string>().empty());
+    EXPECT_GT(stage["peakMemoryMiB"], 1);
+    sum += stage["timeMs"].get<double>();
+  }
+  EXPECT_LE(sum, stats["totalMs"].get<double>() * 1.01);
+  EXPECT_EQ(stats["numbers"]["triangles"], 24);
+  EXPECT_EQ(stats["numbers"]["brokenPixels"], 0);
+}
+
+TEST_F(RenderCommand, sameSeedGivesTheSameBitsWithOneAndTwoThreads) {
+  for (const char* technique : {"path", "cone"}) {
+    for (const char* threads : {"1", "2"}) {
+      const ProgramRun run = render({"-o", path(std::string(threads) + ".exr"), "--technique", technique, "--samples", "4", "--seed", "3",
+                              "--threads", threads});
+      ASSERT_EQ(run.exitStatus, 0) << technique << ": " << run.err;
+    }
+    EXPECT_TRUE(picture("1.exr").pixels == picture("2.exr").pixels) << technique;
+  }
+}
+
+TEST_F(RenderCommand, theSeedMatters) {
+  for (const char* seed : {"1", "2"}) {
+    ASSERT_EQ(render({"-o", path(std::string(seed) + ".exr"), "--technique", "path", "--samples", "1", "--seed", seed}).exitStatus, 0);
+  }
+  EXPECT_FALSE(picture("1.exr").pixels == picture("2.exr").pixels);
+}
+
+TEST_F(RenderCommand, settingsFromAPictureMakeThePictureAgain) {
+  ASSERT_EQ(render({"-o", path("a.exr"), "--technique", "path", "--samples", "3", "--seed", "11"}).exitStatus, 0);
+  writeFile(path("settings.json"), metadata("a.exr").at("roomlight.settings"));
+  const ProgramRun again = runProgram({"render", scene_, "-o", path("b.exr"), "--settings", path("settings.json")});
+  ASSERT_EQ(again.exitStatus, 0) << again.err;
+  EXPECT_TRUE(picture("a.exr").pixels == picture("b.exr").pixels);
+  // An option goes before the file.
+  ASSERT_EQ(runProgram({"render", scene_, "-o", path("c.exr"), "--settings", path("settings.json"), "--seed", "12"}).exitStatus, 0);
+  EXPECT_EQ(metadata("c.exr").at("roomlight.seed"), "12");
+  EXPECT_EQ(Json::parse(metadata("c.exr").at("roomlight.settings"))["samples"], 3);
+}
+
+TEST_F(RenderCommand, camerasGoByNameOrNumber) {
+  const auto shot = [&](const char* camera, const char* name) {
+    const ProgramRun run = render({"-o", path(name), "--technique", "path", "--samples", "1", "--camera", camera});
+    EXPECT_EQ(run.exitStatus, 0) << run.err;
+    return picture(name);
+  };
+  const Image front = shot("Front", "f.exr"), back = shot("Back", "b.exr"), second = shot("1", "s.exr");
+  EXPECT_TRUE(back.pixels == second.pixels);
+  EXPECT_FALSE(front.pixels == back.pixels);
+}
+
+TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
+  writeFile(path("broken.glb"), "glTF but not really");
+  writeFile(path("unknown.json"), R"({"sampels": 3})");
+  const std::string a = path("a.png");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"render", path("missing.glb"), "-o", a}, "missing.glb"},
+      {{"render", path("broken.glb"), "-o", a}, "broken.glb"},
+      {{"render", scene_, "-o", path("a.jpg")}, ".exr or .png"},
+      {{"render", scene_, "-o", path("nowhere/a.png")}, "nowhere/a.png"},
+      {{"render", scene_, "-o", a, "--stats", path("nowhere/s.json")}, "nowhere/s.json"},
+      {{"render", scene_, "-o", folder_.path().string() + "/.png/../"}, ""},
+      {{"render", scene_}, "output"},
+      {{"render", scene_, "-o", a, "--size", "32"}, "--size"},
+      {{"render", scene_, "-o", a, "--size", "0x10"}, "width"},
+      {{"render", scene_, "-o", a, "--size", "65536x65536"}, "pixels"},
+      {{"render", scene_, "-o", a, "--technique", "magic"}, "cone, path"},
+      {{"render", scene_, "-o", a, "--camera", "Side"}, "'Front', 'Back'"},
+      {{"render", scene_, "-o", a, "--camera", "2"}, "'Front', 'Back'"},
+      {{"render", scene_, "-o", a, "--samples", "-1"}, "samples"},
+      {{"render", scene_, "-o", a, "--samples", "many"}, "samples"},
+      {{"render", scene_, "-o", a, "--exposure", "bright"}, "--exposure"},
+      {{"render", scene_, "-o", a, "--tone", "sepia"}, "neutral, agx, filmic, clip"},
+      {{"render", scene_, "-o", a, "--voxel-size", "-1"}, "voxelSizeM"},
+      {{"render", scene_, "-o", a, "--metres-per-unit", "0"}, "--metres-per-unit"},
+      {{"render", scene_, "-o", a, "--settings", path("unknown.json")}, "sampels"},
+      {{"render", scene_, "-o", a, "--settings", path("missing.json")}, "missing.json"},
+      {{"render", scene_, "-o", a, "--no-such-option"}, "--no-such-option"},
+      {{"paint", scene_}, ""},
+      {{}, ""},
+  };
+  const size_t before = folder_.fileCount();
+  for (const auto& [arguments, expected] : cases) {
+    const ProgramRun run = runProgram(arguments);
+    std::string shown;
+    for (const std::string& word : arguments) shown += word + " ";
+    EXPECT_EQ(run.exitStatus, 2) << shown << run.err;
+    EXPECT_NE(run.err.find(expected), std::string::npos) << shown << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << shown << run.err;
+    EXPECT_EQ(run.out, "") << shown;
+    EXPECT_EQ(folder_.fileCount(), before) << shown;
+  }
+}
+
+TEST_F(RenderCommand, interruptKeepsTheBestPictureSoFar) {
+  const ProgramRun run = render({"-o", path("a.exr"), "-o", path("a.png"), "--technique", "path", "--time-limit", "100"}, "lights");
+  EXPECT_EQ(run.exitStatus, 130) << run.err;
+  EXPECT_NE(run.err.find("stopped early"), std::string::npos) << run.err;
+  EXPECT_EQ(picture("a.exr").width, 32);
+  EXPECT_EQ(picture("a.png").width, 32);
+  EXPECT_EQ(metadata("a.exr").at("roomlight.complete"), "false");
+}
+
+TEST_F(RenderCommand, timeLimitEndsWithAPictureAndSuccess) {
+  for (const char* technique : {"path", "cone"}) {
+    const ProgramRun run = render({"-o", path("a.exr"), "--technique", technique, "--time-limit", "0.3"});
+    EXPECT_EQ(run.exitStatus, 0) << technique << ": " << run.err;
+    EXPECT_EQ(picture("a.exr").width, 32);
+  }
+}
+
+TEST_F(RenderCommand, withoutATerminalProgressIsPlainLines) {
+  const ProgramRun run = render({"-o", path("a.png"), "--technique", "path", "--samples", "2"});
+  ASSERT_EQ(run.exitStatus, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err.find('\r'), std::string::npos);
+  EXPECT_EQ(run.err.find('\x1b'), std::string::npos);
+  for (const char* stage : {"load", "bvh", "path"}) EXPECT_NE(run.err.find(stage), std::string::npos) << run.err;
+  EXPECT_EQ(render({"-o", path("a.png"), "--technique", "path", "--samples", "2", "--quiet"}).err, "");
+}
+
+TEST_F(RenderCommand, exposureAndToneChangeThePngAndNotTheExr) {
+  const std::vector<std::string> common = {"--technique", "path", "--samples", "2"};
+  const auto shot = [&](std::vector<std::string> more, const std::string& name) {
+    more.insert(more.end(), common.begin(), common.end());
+    more.insert(more.end(), {"-o", path(name + ".exr"), "-o", path(name + ".png")});
+    EXPECT_EQ(render(more).exitStatus, 0);
+  };
+  shot({"--exposure", "3"}, "a");
+  shot({"--exposure", "6", "--tone", "agx"}, "b");
+  EXPECT_TRUE(picture("a.exr").pixels == picture("b.exr").pixels);
+  EXPECT_FALSE(picture("a.png").pixels == picture("b.png").pixels);
+  EXPECT_EQ(metadata("b.png").at("roomlight.exposureEv100"), "6");
+  EXPECT_EQ(metadata("b.png").at("roomlight.tone"), "agx");
+}
+
+TEST(Program, helpHasExamplesAndVersionHasANumber) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"render", "--help"}, {"compare", "--help"}, {"info", "--help"}}) {
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.exitStatus, 0);
+    EXPECT_NE(run.out.find("Example"), std::string::npos) << run.out;
+    EXPECT_EQ(run.err, "");
+  }
+  const ProgramRun version = runProgram({"--version"});
+  EXPECT_EQ(version.exitStatus, 0);
+  EXPECT_EQ(version.out.find("roomlight "), 0u) << version.out;
+}
+
+}  // namespace
+}  // namespace roomlight
