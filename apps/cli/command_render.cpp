@@ -175,6 +175,23 @@ int bad(const std::string& message, int code = kBadInput) {
   return code;
 }
 
+// What is rendered: the scene under its light, and from where.
+struct Home {
+  Scene scene;
+  Camera camera;
+  std::vector<std::string> warnings;
+};
+
+Result<Home> loadHome(const Options& o) {
+  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit});
+  if (!imported) return Error{imported.error()};
+  Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
+  const Result<Camera> camera = pickCamera(home.scene, o.camera);
+  if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
+  home.camera = camera.value();
+  return home;
+}
+
 // "render" with everything checked; stages of loading come first in the statistics.
 int work(const Options& o, const Plan& plan) {
   const Stopwatch total;
@@ -183,15 +200,13 @@ int work(const Options& o, const Plan& plan) {
   RenderStats loadStats;
   Stages loading(progress, loadStats);
 
-  Result<Imported> imported = loading.run("load", [&](const Progress&) { return importScene(o.scene, {.metresPerUnit = o.metresPerUnit}); });
-  if (!imported) return bad(imported.error());
-  Scene& scene = imported.value().scene;
-  if (!o.quiet) printWarnings(imported.value().warnings);
-  const Result<Camera> camera = pickCamera(scene, o.camera);
-  if (!camera) return bad(fmt::format("{}: {}", o.scene, camera.error()));
+  Result<Home> home = loading.run("load", [&](const Progress&) { return loadHome(o); });
+  if (!home) return bad(home.error());
+  const Camera& camera = home.value().camera;
+  if (!o.quiet) printWarnings(home.value().warnings);
   if (interrupted()) return kInterrupted;
 
-  Result<Rendered> result = render(scene, camera.value(), plan.settings, progress);
+  Result<Rendered> result = render(home.value().scene, camera, plan.settings, progress);
   if (!result) return bad(result.error());
   Rendered& rendered = result.value();
   rendered.stats.stages.insert(rendered.stats.stages.begin(), loadStats.stages.begin(), loadStats.stages.end());
@@ -200,7 +215,7 @@ int work(const Options& o, const Plan& plan) {
   RenderStats writeStage;
   RenderProgress silent;
   Stages writing(silent, writeStage);
-  const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, camera.value(), rendered); });
+  const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, camera, rendered); });
   if (!written) return bad(written.error(), kFailed);
   rendered.stats.stages.push_back(writeStage.stages.front());
   for (const auto& [name, value] : rendered.stats.numbers) {

@@ -15,7 +15,7 @@ class Stages {
  public:
   Stages(const RenderProgress& progress, RenderStats& stats) : progress_(progress), stats_(stats) {}
 
-  // work(Progress) -> value. The stage's last report, and only that, says 1.
+  // work(Progress) -> value. The stage's last report, and only that, says 1; a stage whose Result is an error never does.
   template <class Work>
   auto run(const std::string& name, Work&& work) {
     const Stopwatch watch;
@@ -25,6 +25,9 @@ class Stages {
     if (progress_.report) inner.report = [this, &name](float fraction) { report(name, std::min(fraction, 0.999f)); };
     auto value = work(inner);
     stats_.stages.push_back({name, watch.seconds() * 1e3, peakMemoryMiB()});
+    if constexpr (requires { value.error(); }) {
+      if (!value) return value;
+    }
     report(name, 1);
     return value;
   }
