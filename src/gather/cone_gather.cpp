@@ -66,11 +66,11 @@ class Shader {
   Vec3 shade(const SurfacePoint& s, Vec3 wo, Sampler& sampler, Counters& count, float& occlusion) const {
     const Bsdf bsdf(s.m, s.ns, s.ng, wo);
     const bool rayReflection = s.m.roughness < settings_.rayRoughness;
-    const int32_t brick = brickOf(voxels_, s.p + s.ng * (0.01f * voxels_.voxelSizeM));
-    Vec3 sum = direct(s, bsdf, rayReflection, brick, sampler, count);
+    const int32_t guide = guideAt(field_.guide, voxels_, s.p, s.ng);
+    Vec3 sum = direct(s, bsdf, rayReflection, guide, sampler, count);
     const Vec3 rho = bsdf.diffuseAlbedo();
     if (maxComponent(rho) > 1e-4f) sum += rho * indirect(s, sampler, count, occlusion);
-    if (maxComponent(bsdf.specularAlbedo()) > 1e-4f) sum += reflection(s, bsdf, rayReflection, brick, sampler, count);
+    if (maxComponent(bsdf.specularAlbedo()) > 1e-4f) sum += reflection(s, bsdf, rayReflection, guide, sampler, count);
     return s.emitted() + sum * s.m.alpha;
   }
 
@@ -83,7 +83,7 @@ class Shader {
 
   // Direct light by exact shadow rays. Where reflections follow rays they find extended lights too; both ways share the
   // specular lobe by multiple importance sampling. `strategies` is how many light samples compete.
-  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, int32_t brick, Sampler& sampler, Counters& count) const {
+  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, int32_t guide, Sampler& sampler, Counters& count) const {
     Vec3 sum;
     const auto extended = [&](const LightSample& light, float strategies) {
       if (!rayReflection || light.pdf <= 0) return bsdf.evaluate(light.wi);
@@ -110,32 +110,29 @@ class Shader {
       const LightSample light = lights_.sampleSun(i, sampler.next2());
       if (light.valid()) sum += visible(s, light, extended(light, 1), count);
     }
-    if (lights_.sky().present()) sum += skyLight(s, extended, brick, sampler, count);
+    if (lights_.sky().present()) sum += skyLight(s, extended, guide, sampler, count);
     return sum;
   }
 
   template <class F>
-  Vec3 skyLight(const SurfacePoint& s, const F& extended, int32_t brick, Sampler& sampler, Counters& count) const {
+  Vec3 skyLight(const SurfacePoint& s, const F& extended, int32_t guide, Sampler& sampler, Counters& count) const {
     Vec3 sum;
     for (int k = 0; k < kSkySamples; ++k) {
       const Vec2 u = sampler.next2();
-      const LightSample light = sampleSkyGuided(field_.guide, brick, lights_, u, sampler.next1());
+      const LightSample light = sampleSkyGuided(field_.guide, guide, lights_, u, sampler.next1());
       if (light.valid()) sum += visible(s, light, extended(light, kSkySamples), count) / kSkySamples;
     }
     return sum;
   }
 
-  Vec3 jitter(Sampler& sampler) const {
-    const Vec2 a = sampler.next2();
-    return Vec3{a.x, a.y, sampler.next1()} - Vec3(0.5f);
+  ConeStart coneStart(const SurfacePoint& s) const {
+    return {s.p + s.ng * (settings_.startOffsetVoxels * voxels_.voxelSizeM), s.ng};
   }
-
-  Vec3 coneOrigin(const SurfacePoint& s) const { return s.p + s.ng * (settings_.startOffsetVoxels * voxels_.voxelSizeM); }
 
   // Mean radiance over the cosine-weighted hemisphere, by cones.
   Vec3 indirect(const SurfacePoint& s, Sampler& sampler, Counters& count, float& occlusion) const {
     const Frame frame(s.ns);
-    const Vec3 origin = coneOrigin(s);
+    const ConeStart start = coneStart(s);
     Vec3 sum;
     const int n = settings_.conesPerSample;
     const Vec2 u = sampler.next2();
@@ -147,8 +144,7 @@ class Shader {
       local = {local.x * std::cos(turn) - local.y * std::sin(turn), local.x * std::sin(turn) + local.y * std::cos(turn), local.z};
       Vec3 d = frame.toWorld(local);
       if (dot(d, s.ng) < 0.02f) d = normalize(d + s.ng * (0.04f - dot(d, s.ng)));
-      const Vec3 shift = jitter(sampler);
-      const ConeLight c = marchCone(field_, origin, d, diffuse_, shift, sampler.next1());
+      const ConeLight c = marchCone(voxels_, field_, start, d, diffuse_, sampler.next1());
       sum += c.radiance + settings_.ambientCdM2 * (1 - c.occlusion);
       occlusion += c.occlusion / static_cast<float>(n);
     }
@@ -156,22 +152,21 @@ class Shader {
     return sum / static_cast<float>(n);
   }
 
-  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t brick, Sampler& sampler, Counters& count) const {
+  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t guide, Sampler& sampler, Counters& count) const {
     const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
     if (!r.valid() || isBlack(r.weight)) return {};
-    if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, brick}, count);
+    if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide}, count);
     // The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
     const ConeShape shape{0.5f * s.m.roughness * s.m.roughness, settings_.stepFactor, 0};
-    const Vec3 shift = jitter(sampler);
     ++count.cones;
-    return r.weight * marchCone(field_, coneOrigin(s), r.wi, shape, shift, sampler.next1()).radiance;
+    return r.weight * marchCone(voxels_, field_, coneStart(s), r.wi, shape, sampler.next1()).radiance;
   }
 
   // Where a reflected ray started, and the density with which its direction was chosen; 0: a mirror, nothing else can find it.
   struct Reflected {
     Vec3 p;
     float pdf;
-    int32_t brick;
+    int32_t guide;
     float weight(float lightPdf) const { return pdf > 0 ? misWeight(pdf, lightPdf) : 1; }
   };
 
@@ -205,7 +200,7 @@ class Shader {
   Vec3 reflectedBackground(Vec3 d, const Reflected& from) const {
     Vec3 sum;
     if (lights_.sky().present()) {
-      sum += lights_.sky().radiance(d) * from.weight(kSkySamples * pdfSkyGuided(field_.guide, from.brick, lights_, d));
+      sum += lights_.sky().radiance(d) * from.weight(kSkySamples * pdfSkyGuided(field_.guide, from.guide, lights_, d));
     }
     for (size_t i = 0; i < lights_.sunCount(); ++i) {
       float pdf;

@@ -14,7 +14,7 @@ struct GatherSettings {
   int conesPerSample = 2;         // diffuse cones
   float coneHalfAngleDeg = 15;
   float stepFactor = 1;           // step in units of the cone's diameter (at least of the voxel)
-  float startOffsetVoxels = 1.5f; // along the normal; clears the surface's own voxels
+  float startOffsetVoxels = 0.05f;  // along the normal
   float rayRoughness = 0.6f;      // reflections below this roughness follow exact rays
   float occlusionLambda = 0;      // f(r) = 1 / (1 + lambda r) in ambient occlusion, 1/m
   Vec3 ambientCdM2{0, 0, 0};      // luminance of light that ambient occlusion attenuates; 0: physical light only

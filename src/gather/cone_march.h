@@ -1,7 +1,6 @@
-// One cone through the directional pyramid.
+// One cone through the light in voxels.
 #pragma once
 
-#include "radiance/half.h"
 #include "radiance/radiance_field.h"
 
 namespace roomlight {
@@ -18,9 +17,14 @@ struct ConeShape {
   float lambda = 0;
 };
 
-// Marches from `origin` along unit `d`. `shift` (each component in -0.5..0.5) moves the lattice for the whole cone, which turns
-// nearest-voxel reads into filtered ones over many cones without ever stepping across a wall; `levelShift` (0..1) does the
-// same between levels.
-ConeLight marchCone(const RadianceField& field, Vec3 origin, Vec3 d, const ConeShape& shape, Vec3 shift, float levelShift);
+// Where a cone begins: on the surface with unit normal `normal`, a little in front of it.
+struct ConeStart {
+  Vec3 origin, normal;
+};
+
+// Marches along unit `d`. `levelShift` (0..1) blends between levels over many cones. While the cone is no wider than base
+// voxels it meets the slots' own planes (near_march.h); further out it samples the pyramid, whose opacity is corrected for
+// the length of a step.
+ConeLight marchCone(const Voxels& voxels, const RadianceField& field, const ConeStart& from, Vec3 d, const ConeShape& shape, float levelShift);
 
 }  // namespace roomlight

@@ -7,6 +7,7 @@
 #include "radiance/pyramid.h"
 #include "radiance/radiance_field.h"
 #include "radiance/sky_guide.h"
+#include "radiance/slot_coverage.h"
 #include "trace/surface_point.h"
 
 namespace roomlight {
@@ -45,6 +46,7 @@ class Illuminator {
       radiance[i] = voxels_.slots[i].albedo * field.irradianceLux[i] / kPi;
     });
     field.indirectLux = std::move(indirect_);
+    field.coverage = slotCoverage(voxels_);
     field.rays = rayCount_;
     buildPyramid(voxels_, radiance, field);
     return field;
@@ -62,7 +64,7 @@ class Illuminator {
   void traceLinks(RadianceField& field, const Progress& progress) {
     const auto n = static_cast<size_t>(settings_.links);
     links_.resize(voxels_.slots.size() * n);
-    SkyGuideBuilder guide(voxels_);
+    SkyGuideBuilder guide(voxels_, lights_.sky());
     const bool sky = lights_.sky().present();
     std::atomic<size_t> done = 0;
     parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
@@ -83,16 +85,14 @@ class Illuminator {
         for (size_t i = 0; i < n; ++i) {
           Vec3 left(1);
           links_[s * n + i] = follow(rays[i], hits[i], left);
-          if (sky && !links_[s * n + i].arrives() && !hits[i].valid()) {
-            guide.add(b, rays[i].direction, luminance(left * lights_.sky().radiance(rays[i].direction)));
-          }
+          if (sky) guide.add(b, slot.face, rays[i].direction, hits[i].valid() ? 0.0f : luminance(left));
         }
       }
       const size_t d = ++done;
       if (d % 256 == 0) progress.at(0.5f * static_cast<float>(d) / static_cast<float>(voxels_.bricks.size()));
     });
     rayCount_ += links_.size();
-    if (sky) field.guide = guide.finish(voxels_);
+    if (sky) field.guide = guide.finish();
   }
 
   // Goes through panes; `hit` ends as the surface that scatters, or invalid where the ray leaves the scene.
@@ -131,7 +131,7 @@ class Illuminator {
       std::vector<Ray> rays;
       std::vector<Shadow> shadows;
       std::vector<Vec3> left;
-      for (size_t s = first; s < last; ++s) collectShadowRays(field, static_cast<int32_t>(b), s, rays, shadows);
+      for (size_t s = first; s < last; ++s) collectShadowRays(field, b, s, rays, shadows);
       left.resize(rays.size());
       rays_.transmittance(rays, left);
       for (size_t i = 0; i < rays.size(); ++i) direct_[shadows[i].slot] += shadows[i].contribution * left[i];
@@ -140,7 +140,7 @@ class Illuminator {
     rayCount_ += count;
   }
 
-  void collectShadowRays(const RadianceField& field, int32_t brick, size_t s, std::vector<Ray>& rays, std::vector<Shadow>& shadows) const {
+  void collectShadowRays(const RadianceField& field, size_t brick, size_t s, std::vector<Ray>& rays, std::vector<Shadow>& shadows) const {
     const FaceSlot& slot = voxels_.slots[s];
     const Frame frame(slot.normal);
     const auto add = [&](const LightSample& light, Vec3 p, float weight) {
@@ -175,12 +175,13 @@ class Illuminator {
         add(lights_.sampleEmitters(p, u, sampler.next1()), p, 1.0f / static_cast<float>(settings_.directSamples));
       }
     }
-    if (lights_.sky().present() && !field.guide.guideOfBrick.empty() && field.guide.guideOfBrick[static_cast<size_t>(brick)] >= 0) {
+    const int32_t guide = field.guide.guideOfBrick.empty() ? -1 : field.guide.guideOfBrick[brick][slot.face];
+    if (guide >= 0) {
       for (uint32_t k = 0; k < kSkySamples; ++k) {
         Sampler sampler(s, k, settings_.seed + 4);
         const Vec3 p = pointOn(slot, frame, sampler.next2());
         const Vec2 u = sampler.next2();
-        add(sampleSkyGuided(field.guide, brick, lights_, u, sampler.next1()), p, 1.0f / kSkySamples);
+        add(sampleSkyGuided(field.guide, guide, lights_, u, sampler.next1()), p, 1.0f / kSkySamples);
       }
     }
   }
@@ -241,7 +242,7 @@ class Illuminator {
 }  // namespace
 
 size_t RadianceField::bytes() const {
-  size_t sum = (irradianceLux.size() + indirectLux.size()) * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]);
+  size_t sum = (irradianceLux.size() + indirectLux.size()) * sizeof(Vec3) + coverage.size() + guide.cdf.size() * sizeof(guide.cdf[0]);
   for (const RadianceLevel& level : levels) {
     sum += level.brickIndex.size() * sizeof(int32_t) + level.bricks.size() * sizeof(Brick) + level.voxels.size() * sizeof(DirectionalVoxel);
   }

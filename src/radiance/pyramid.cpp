@@ -12,6 +12,7 @@ constexpr float kLargestOpacity = 0.998f;  // extinction stays finite
 struct Faces {
   Vec3 opacity;
   std::array<Vec3, 6> radiance;
+  std::array<float, 6> plane;  // 0..1 along the axis of the face
 };
 
 float extinction(float opacity) { return -std::log(1 - std::min(opacity, kLargestOpacity)); }
@@ -22,6 +23,7 @@ DirectionalVoxel pack(const Faces& f, float unit) {
     const float s = extinction(f.opacity[static_cast<int>(face / 2)]);
     const Vec3 c = f.radiance[face] * (s / unit);
     v.face[face] = {toHalf(c.x), toHalf(c.y), toHalf(c.z), toHalf(s)};
+    v.plane[face] = static_cast<uint8_t>(std::lround(255 * std::clamp(f.plane[face], 0.0f, 1.0f)));
   }
   return v;
 }
@@ -29,18 +31,24 @@ DirectionalVoxel pack(const Faces& f, float unit) {
 // What a base voxel shows to each of the six directions: its slots, by the area they turn that way.
 Faces baseFaces(const Voxels& voxels, const SurfaceVoxel& voxel, std::span<const Vec3> slotRadiance) {
   Faces f;
+  f.plane.fill(0.5f);
   f.opacity = voxel.opacity;
   const size_t count = static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
   for (int face = 0; face < 6; ++face) {
     const Vec3 d = faceDirection(face);
-    float weight = 0;
+    float weight = 0, plane = 0;
     Vec3 sum;
     for (size_t i = voxel.firstSlot; i < voxel.firstSlot + count; ++i) {
       const float w = voxels.slots[i].areaM2 * std::max(0.0f, dot(voxels.slots[i].normal, d));
+      const float along = (voxels.slots[i].position[face / 2] - voxels.origin[face / 2]) / voxels.voxelSizeM;
       sum += slotRadiance[i] * w;
+      plane += (along - std::floor(along)) * w;
       weight += w;
     }
-    if (weight > 0) f.radiance[static_cast<size_t>(face)] = sum / weight;
+    if (weight > 0) {
+      f.radiance[static_cast<size_t>(face)] = sum / weight;
+      f.plane[static_cast<size_t>(face)] = plane / weight;
+    }
   }
   return f;
 }
@@ -48,28 +56,32 @@ Faces baseFaces(const Voxels& voxels, const SurfaceVoxel& voxel, std::span<const
 // Eight children into one: along each axis the nearer one composited over the farther, then the four columns averaged.
 Faces combine(const std::array<const Faces*, 8>& child) {
   Faces out;
+  out.plane.fill(0.5f);
   for (int axis = 0; axis < 3; ++axis) {
     const int u = 1 << ((axis + 1) % 3), v = 1 << ((axis + 2) % 3), along = 1 << axis;
-    float opacity = 0;
-    Vec3 positive, negative;
-    for (int column = 0; column < 4; ++column) {
-      const int base = (column & 1 ? u : 0) + (column & 2 ? v : 0);
-      const Faces* low = child[static_cast<size_t>(base)];
-      const Faces* high = child[static_cast<size_t>(base + along)];
-      const float al = low ? low->opacity[axis] : 0, ah = high ? high->opacity[axis] : 0;
-      const auto face = static_cast<size_t>(2 * axis);
-      // The + face is seen by rays that come from the high side.
-      if (high) positive += high->radiance[face] * ah;
-      if (low) positive += low->radiance[face] * (al * (1 - ah));
-      if (low) negative += low->radiance[face + 1] * al;
-      if (high) negative += high->radiance[face + 1] * (ah * (1 - al));
-      opacity += 1 - (1 - al) * (1 - ah);
+    for (const int side : {0, 1}) {  // the + face is seen by rays that come from the high side, the - face from the low one
+      const auto face = static_cast<size_t>(2 * axis + side);
+      float opacity = 0, plane = 0;
+      Vec3 radiance;
+      for (int column = 0; column < 4; ++column) {
+        const int base = (column & 1 ? u : 0) + (column & 2 ? v : 0);
+        float left = 1;
+        for (const int high : {1 - side, side}) {
+          const Faces* c = child[static_cast<size_t>(base + high * along)];
+          if (!c) continue;
+          const float w = left * c->opacity[axis];
+          radiance += c->radiance[face] * w;
+          plane += 0.5f * (c->plane[face] + static_cast<float>(high)) * w;
+          left -= w;
+        }
+        opacity += 1 - left;
+      }
+      if (opacity > 0) {
+        out.radiance[face] = radiance / opacity;
+        out.plane[face] = plane / opacity;
+      }
+      out.opacity[axis] = opacity / 4;
     }
-    if (opacity > 0) {
-      out.radiance[static_cast<size_t>(2 * axis)] = positive / opacity;
-      out.radiance[static_cast<size_t>(2 * axis + 1)] = negative / opacity;
-    }
-    out.opacity[axis] = opacity / 4;
   }
   return out;
 }

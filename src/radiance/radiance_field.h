@@ -32,6 +32,7 @@ struct RadianceSettings {
 // in direction d blends faces by |d_axis| s, the projected area that is really seen.
 struct DirectionalVoxel {
   std::array<std::array<uint16_t, 4>, 6> face{};  // half floats; radiance in units of RadianceField::unitCdM2
+  std::array<uint8_t, 6> plane{};  // where along its axis the surfaces that face it lie on average, in 1/255 of the voxel
 };
 
 struct RadianceLevel {
@@ -58,12 +59,11 @@ struct RadianceLevel {
   }
 };
 
-// Where light from the sky arrives from, seen from the surfaces of one brick: a density over directions (octahedral map) for
-// sampling the sky through windows. Learned from the links, used only to choose directions, so it never biases.
-constexpr int kGuideSize = 16;
+// Which parts of the sky the slots of one brick that face one way see: densities over the sky's blocks for sampling it through
+// windows. Learned from the links, used only to choose directions, so it never biases.
 struct SkyGuide {
-  std::vector<int32_t> guideOfBrick;          // per base brick, -1: no sky seen
-  std::vector<std::array<float, kGuideSize * kGuideSize>> cdf;  // ends at 1
+  std::vector<std::array<int32_t, 6>> guideOfBrick;              // per base brick and face, -1: no sky seen
+  std::vector<std::array<float, SkyDistribution::kBlocks>> cdf;  // ends at 1
 };
 
 struct RadianceField {
@@ -71,6 +71,7 @@ struct RadianceField {
   std::vector<RadianceLevel> levels;  // 0: base voxels; each next one twice as large
   float unitCdM2 = 1;
   std::vector<Vec3> irradianceLux;    // per slot of Voxels: direct and indirect, per channel
+  std::vector<uint8_t> coverage;      // per slot: how much of its plane inside the voxel is surface, in 1/255
   std::vector<Vec3> indirectLux;      // the part that came by at least one bounce or through links from the sky
   SkyGuide guide;
   int bounces = 0;               // done
@@ -84,9 +85,5 @@ RadianceField illuminate(const RayScene& rays, const Lights& lights, const Voxel
 
 // Slot of Voxels that a point of a surface belongs to: the face of its voxel nearest to `normal`; -1 where voxels hold nothing.
 int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal);
-
-// Direction of an octahedral map's point (0..1)² and back (Cigolle et al. 2014).
-Vec3 octahedralDirection(Vec2 uv);
-Vec2 octahedralUv(Vec3 d);
 
 }  // namespace roomlight

@@ -1,121 +1,126 @@
 #include "radiance/sky_guide.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
-#include "base/sampling.h"
 
 namespace roomlight {
 namespace {
 
-constexpr float kUnguidedShare = 0.15f;  // keeps every direction possible
-constexpr int kCells = kGuideSize * kGuideSize;
-using Cells = std::array<float, kCells>;
+constexpr float kUnguidedShare = 0.1f;  // keeps every direction possible
+constexpr int kX = SkyDistribution::kBlocksX, kY = SkyDistribution::kBlocksY, kBlocks = SkyDistribution::kBlocks;
+using Cdf = std::array<float, kBlocks>;
 
-int cellOf(Vec3 d) {
-  const Vec2 uv = octahedralUv(d);
-  const int x = std::clamp(static_cast<int>(uv.x * kGuideSize), 0, kGuideSize - 1);
-  const int y = std::clamp(static_cast<int>(uv.y * kGuideSize), 0, kGuideSize - 1);
-  return y * kGuideSize + x;
-}
-
-// Solid angle per unit of octahedral area around the map's point: |n|³ with n the unnormalised point (its l2 norm).
-float octahedralJacobian(Vec2 uv) {
-  const float x = std::abs(2 * uv.x - 1), y = std::abs(2 * uv.y - 1);
-  Vec3 d{x, y, 1 - x - y};
-  if (d.z < 0) d = {1 - y, 1 - x, d.z};
-  const float l = length(d);
-  return 4 / (l * l * l);
-}
-
-void addTo(Cells& out, const Cells& in, float w) {
-  for (int i = 0; i < kCells; ++i) out[static_cast<size_t>(i)] += w * in[static_cast<size_t>(i)];
-}
-
-// Neighbouring cells get a share, so that a window found by few links is covered to its edges.
-Cells blurred(const Cells& in) {
-  Cells out{};
-  for (int y = 0; y < kGuideSize; ++y) {
-    for (int x = 0; x < kGuideSize; ++x) {
-      for (int k = 0; k < 9; ++k) {
-        const int nx = x + k % 3 - 1, ny = y + k / 3 - 1;
-        if (nx < 0 || ny < 0 || nx >= kGuideSize || ny >= kGuideSize) continue;
-        out[static_cast<size_t>(y * kGuideSize + x)] += in[static_cast<size_t>(ny * kGuideSize + nx)] * (k == 4 ? 0.5f : 0.0625f);
-      }
-    }
-  }
-  return out;
+float shareOf(const Cdf& cdf, int block) {
+  const auto b = static_cast<size_t>(block);
+  return cdf[b] - (b ? cdf[b - 1] : 0.0f);
 }
 
 }  // namespace
 
-SkyGuideBuilder::SkyGuideBuilder(const Voxels& voxels) : histograms_(voxels.bricks.size(), Cells{}) {}
+SkyGuideBuilder::SkyGuideBuilder(const Voxels& voxels, const SkyDistribution& sky) : voxels_(voxels), sky_(sky), blocks_(voxels.bricks.size()) {}
 
-void SkyGuideBuilder::add(size_t brick, Vec3 direction, float weight) {
-  histograms_[brick][static_cast<size_t>(cellOf(direction))] += weight;
+void SkyGuideBuilder::add(size_t brick, int face, Vec3 direction, float open) {
+  std::unique_ptr<Blocks>& blocks = blocks_[brick][static_cast<size_t>(face)];
+  if (!blocks) blocks = std::make_unique<Blocks>();
+  Tries& t = (*blocks)[static_cast<size_t>(sky_.blockOf(direction))];
+  t.open += open;
+  t.tried += 1;
 }
 
-SkyGuide SkyGuideBuilder::finish(const Voxels& voxels) {
-  const size_t count = voxels.bricks.size();
-  std::vector<Cells> shared(count, Cells{});
-  std::vector<uint8_t> any(count, 0);
+// A brick's own tries, and some weight to those of its neighbours.
+SkyGuideBuilder::Blocks SkyGuideBuilder::around(size_t brick, size_t face) const {
+  Blocks sum{};
+  const Int3 c = voxels_.bricks[brick].coord;
+  for (int k = 0; k < 27; ++k) {
+    const int32_t n = voxels_.brickAt({c.x + k % 3 - 1, c.y + k / 3 % 3 - 1, c.z + k / 9 - 1});
+    if (n < 0 || !blocks_[static_cast<size_t>(n)][face]) continue;
+    const Blocks& from = *blocks_[static_cast<size_t>(n)][face];
+    const float w = k == 13 ? 1.0f : 0.1f;
+    for (size_t i = 0; i < kBlocks; ++i) {
+      sum[i].open += w * from[i].open;
+      sum[i].tried += w * from[i].tried;
+    }
+  }
+  return sum;
+}
+
+// Light of each block times the share of it that came through. Neighbouring blocks count a little, so that a window found by
+// few links is covered to its edges. False where no sky was seen.
+bool SkyGuideBuilder::density(const Blocks& tries, Cdf& cdf) const {
+  float running = 0;
+  for (int i = 0; i < kBlocks; ++i) {
+    float open = 0, tried = 0.5f;
+    const int x = i % kX, y = i / kX;
+    for (int k = 0; k < 9; ++k) {
+      const int ny = y + k / 3 - 1;
+      if (ny < 0 || ny >= kY) continue;
+      const Tries& t = tries[static_cast<size_t>(ny * kX + (x + k % 3 - 1 + kX) % kX)];
+      const float w = k == 4 ? 1.0f : 0.15f;
+      open += w * t.open;
+      tried += w * t.tried;
+    }
+    running += sky_.blockShare(i) * open / tried;
+    cdf[static_cast<size_t>(i)] = running;
+  }
+  if (!(running > 0)) return false;
+  for (float& v : cdf) v /= running;
+  return true;
+}
+
+SkyGuide SkyGuideBuilder::finish() const {
+  const size_t count = voxels_.bricks.size();
+  std::vector<std::array<std::unique_ptr<Cdf>, 6>> found(count);
   parallelFor(count, 16, [&](size_t b) {
-    const Int3 c = voxels.bricks[b].coord;
-    for (int k = 0; k < 27; ++k) {
-      const int32_t n = voxels.brickAt({c.x + k % 3 - 1, c.y + k / 3 % 3 - 1, c.z + k / 9 - 1});
-      if (n >= 0) addTo(shared[b], histograms_[static_cast<size_t>(n)], k == 13 ? 1.0f : 0.1f);
+    Cdf cdf;
+    for (size_t face = 0; face < 6; ++face) {
+      if (blocks_[b][face] && density(around(b, face), cdf)) found[b][face] = std::make_unique<Cdf>(cdf);
     }
-    Cells cells = blurred(shared[b]);
-    float sum = 0;
-    for (float& v : cells) sum += v, v = sum;
-    any[b] = sum > 0;
-    if (sum > 0) {
-      for (float& v : cells) v /= sum;
-    }
-    shared[b] = cells;
   });
   SkyGuide guide;
-  guide.guideOfBrick.assign(count, -1);
+  guide.guideOfBrick.resize(count);
   for (size_t b = 0; b < count; ++b) {
-    if (!any[b]) continue;
-    guide.guideOfBrick[b] = static_cast<int32_t>(guide.cdf.size());
-    guide.cdf.push_back(shared[b]);
+    for (size_t face = 0; face < 6; ++face) {
+      guide.guideOfBrick[b][face] = found[b][face] ? static_cast<int32_t>(guide.cdf.size()) : -1;
+      if (found[b][face]) guide.cdf.push_back(*found[b][face]);
+    }
   }
   return guide;
 }
 
-namespace {
-
-float plainPdf(const SkyDistribution& sky, Vec3 d) { return sky.sampled() ? sky.pdf(d) : 1 / (4 * kPi); }
-
-const Cells* guideAt(const SkyGuide& guide, int32_t brick) {
-  if (brick < 0 || guide.guideOfBrick.empty()) return nullptr;
-  const int32_t index = guide.guideOfBrick[static_cast<size_t>(brick)];
-  return index < 0 ? nullptr : &guide.cdf[static_cast<size_t>(index)];
-}
-
-}  // namespace
-
-float pdfSkyGuided(const SkyGuide& guide, int32_t brick, const Lights& lights, Vec3 d) {
-  const Cells* cdf = guideAt(guide, brick);
-  const float plain = plainPdf(lights.sky(), d);
-  if (!cdf) return plain;
-  const auto c = static_cast<size_t>(cellOf(d));
-  const float share = (*cdf)[c] - (c ? (*cdf)[c - 1] : 0.0f);
-  return kUnguidedShare * plain + (1 - kUnguidedShare) * share * kCells / octahedralJacobian(octahedralUv(d));
-}
-
-LightSample sampleSkyGuided(const SkyGuide& guide, int32_t brick, const Lights& lights, Vec2 u, float choice) {
-  const SkyDistribution& sky = lights.sky();
-  const Cells* cdf = guideAt(guide, brick);
-  LightSample s;
-  if (!cdf || choice < kUnguidedShare) {
-    s.wi = sky.sampled() ? sky.sample(u).d : sampleSphere(u);
-  } else {
-    const float v = (choice - kUnguidedShare) / (1 - kUnguidedShare);
-    const auto it = std::upper_bound(cdf->begin(), cdf->end(), v);
-    const int c = std::min(static_cast<int>(it - cdf->begin()), kCells - 1);
-    s.wi = octahedralDirection({(static_cast<float>(c % kGuideSize) + u.x) / kGuideSize, (static_cast<float>(c / kGuideSize) + u.y) / kGuideSize});
+int32_t guideAt(const SkyGuide& guides, const Voxels& voxels, Vec3 p, Vec3 n) {
+  if (guides.guideOfBrick.empty()) return -1;
+  for (const float nudge : {-0.02f, 0.02f, 0.5f}) {
+    const Int3 v = voxels.voxelOf(p + n * (nudge * voxels.voxelSizeM));
+    if (v.x < 0 || v.y < 0 || v.z < 0) continue;
+    const int32_t b = voxels.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
+    const int32_t guide = b < 0 ? -1 : guides.guideOfBrick[static_cast<size_t>(b)][static_cast<size_t>(dominantFace(n))];
+    if (guide >= 0) return guide;
   }
-  const float pdf = pdfSkyGuided(guide, brick, lights, s.wi);
+  return -1;
+}
+
+float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d) {
+  const SkyDistribution& sky = lights.sky();
+  const float plain = sky.pdf(d);
+  if (guide < 0) return plain;
+  const int block = sky.blockOf(d);
+  const float share = sky.blockShare(block);
+  return share > 0 ? plain * (kUnguidedShare + (1 - kUnguidedShare) * shareOf(guides.cdf[static_cast<size_t>(guide)], block) / share) : plain;
+}
+
+LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) {
+  const SkyDistribution& sky = lights.sky();
+  LightSample s;
+  if (guide < 0 || choice < kUnguidedShare) {
+    s.wi = sky.sample(u).d;
+  } else {
+    const Cdf& cdf = guides.cdf[static_cast<size_t>(guide)];
+    const float v = (choice - kUnguidedShare) / (1 - kUnguidedShare);
+    const auto it = std::upper_bound(cdf.begin(), cdf.end(), v);
+    s.wi = sky.sampleBlock(std::min(static_cast<int>(it - cdf.begin()), kBlocks - 1), u).d;
+  }
+  const float pdf = pdfSkyGuided(guides, guide, lights, s.wi);
   if (!(pdf > 0)) return {};
   s.pdf = pdf;
   s.radiance = sky.radiance(s.wi) / pdf;

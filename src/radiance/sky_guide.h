@@ -1,33 +1,40 @@
 // Sampling the sky through windows: directions that other rays from the same brick found open.
 #pragma once
 
+#include <memory>
+
 #include "radiance/radiance_field.h"
 
 namespace roomlight {
 
-// Builds the guide from the links that left the scene: `escaped` calls back for every slot with (direction, weight) pairs.
+// Builds the guide from the links: every direction tried, and how much of the sky's light came through (0..1).
 class SkyGuideBuilder {
  public:
-  explicit SkyGuideBuilder(const Voxels& voxels);
-  void add(size_t brick, Vec3 direction, float weight);  // one thread a brick
-  SkyGuide finish(const Voxels& voxels);
+  SkyGuideBuilder(const Voxels& voxels, const SkyDistribution& sky);
+  void add(size_t brick, int face, Vec3 direction, float open);  // one thread a brick
+  SkyGuide finish() const;
 
  private:
-  std::vector<std::array<float, kGuideSize * kGuideSize>> histograms_;
+  struct Tries {
+    float open = 0, tried = 0;
+  };
+  using Blocks = std::array<Tries, SkyDistribution::kBlocks>;
+  Blocks around(size_t brick, size_t face) const;
+  bool density(const Blocks& tries, std::array<float, SkyDistribution::kBlocks>& cdf) const;
+  const Voxels& voxels_;
+  const SkyDistribution& sky_;
+  std::vector<std::array<std::unique_ptr<Blocks>, 6>> blocks_;  // per brick and face; null: no slot
 };
 
-// A sky direction for a surface point in `brick` (an index into Voxels::bricks, or -1): guided where the brick knows of open
-// sky, by the sky's own brightness else. `radiance` is divided by the density.
-LightSample sampleSkyGuided(const SkyGuide& guide, int32_t brick, const Lights& lights, Vec2 u, float choice);
+// A sky direction for a surface: by `guide` (an index into SkyGuide::cdf), or where that is -1 by the sky's own brightness.
+// `radiance` is divided by the density.
+LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice);
 
 // Density with which sampleSkyGuided chooses direction d, per steradian.
-float pdfSkyGuided(const SkyGuide& guide, int32_t brick, const Lights& lights, Vec3 d);
+float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d);
 
-// The brick that holds point p, or -1.
-inline int32_t brickOf(const Voxels& voxels, Vec3 p) {
-  const Int3 v = voxels.voxelOf(p);
-  if (v.x < 0 || v.y < 0 || v.z < 0) return -1;
-  return voxels.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
-}
+// The guide that serves a surface at p with unit normal n: of its own brick, or where the surface lies on the border of bricks
+// of the one on the other side; -1 where neither saw sky.
+int32_t guideAt(const SkyGuide& guides, const Voxels& voxels, Vec3 p, Vec3 n);
 
 }  // namespace roomlight

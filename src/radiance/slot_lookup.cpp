@@ -31,25 +31,4 @@ int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal) {
   return -1;
 }
 
-Vec3 octahedralDirection(Vec2 uv) {
-  const float x = 2 * uv.x - 1, y = 2 * uv.y - 1;
-  Vec3 d{x, y, 1 - std::abs(x) - std::abs(y)};
-  if (d.z < 0) {
-    d.x = std::copysign(1 - std::abs(y), x);
-    d.y = std::copysign(1 - std::abs(x), y);
-  }
-  return normalize(d);
-}
-
-Vec2 octahedralUv(Vec3 d) {
-  const float l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-  float x = d.x / l1, y = d.y / l1;
-  if (d.z < 0) {
-    const float ox = x;
-    x = std::copysign(1 - std::abs(y), ox);
-    y = std::copysign(1 - std::abs(ox), y);
-  }
-  return {0.5f * x + 0.5f, 0.5f * y + 0.5f};
-}
-
 }  // namespace roomlight

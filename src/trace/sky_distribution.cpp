@@ -3,7 +3,7 @@
 namespace roomlight {
 namespace {
 
-constexpr int kMaxTableWidth = 512;
+constexpr int kMaxTableWidth = 512, kConstantTableWidth = 64;
 
 Vec3 texel(const Image& image, int x, int y) {
   x = (x % image.width + image.width) % image.width;
@@ -28,25 +28,31 @@ SkyDistribution::SkyDistribution(const Sky& sky) : sky_(sky) {
   cosRotation_ = std::cos(sky.rotationRad);
   sinRotation_ = std::sin(sky.rotationRad);
   const Image& image = sky.image;
-  if (image.width == 0) return;
-
-  width_ = std::min(image.width, kMaxTableWidth);
-  height_ = std::max(1, std::min(image.height, kMaxTableWidth / 2));
+  if (image.width == 0) {
+    if (present_) tabulateConstant();
+    return;
+  }
+  // A whole number of cells in each block.
+  width_ = std::max(kBlocksX, std::min(image.width, kMaxTableWidth) / kBlocksX * kBlocksX);
+  height_ = std::max(kBlocksY, std::min(image.height, kMaxTableWidth / 2) / kBlocksY * kBlocksY);
   std::vector<double> weights(static_cast<size_t>(width_) * height_, 0.0);
   double total = 0;
   Vec3 sum;
   double area = 0;
-  // Cells take every texel under them and its neighbours, because look-ups are bilinear: no radiance without density.
-  for (int y = 0; y < image.height; ++y) {
-    const double s = std::sin(kPi * (y + 0.5) / image.height);
-    const int row = static_cast<int>(static_cast<int64_t>(y) * height_ / image.height);
-    for (int x = 0; x < image.width; ++x) {
+  // Cells take every texel under them and its neighbours, because look-ups are bilinear: no radiance without density. Images
+  // smaller than the table are walked in steps of its cells.
+  const int rows = std::max(image.height, height_), columns = std::max(image.width, width_);
+  for (int j = 0; j < rows; ++j) {
+    const double s = std::sin(kPi * (j + 0.5) / rows);
+    const int row = static_cast<int>(static_cast<int64_t>(j) * height_ / rows), y = static_cast<int>(static_cast<int64_t>(j) * image.height / rows);
+    for (int i = 0; i < columns; ++i) {
+      const int x = static_cast<int>(static_cast<int64_t>(i) * image.width / columns);
       const Vec3 c = texel(image, x, y);
       sum += c * static_cast<float>(s);
       area += s;
       float l = 2 * luminance(c);
       for (int k = 0; k < 9; ++k) l += luminance(texel(image, x + k % 3 - 1, y + k / 3 - 1)) / 9;
-      const int column = static_cast<int>(static_cast<int64_t>(x) * width_ / image.width);
+      const int column = static_cast<int>(static_cast<int64_t>(i) * width_ / columns);
       weights[static_cast<size_t>(row) * width_ + column] += l * s;
       total += l * s;
     }
@@ -56,6 +62,21 @@ SkyDistribution::SkyDistribution(const Sky& sky) : sky_(sky) {
     present_ = false;
     return;
   }
+  tabulate(weights, total);
+}
+
+void SkyDistribution::tabulateConstant() {
+  width_ = kConstantTableWidth, height_ = kConstantTableWidth / 2;
+  std::vector<double> weights(static_cast<size_t>(width_) * height_);
+  double total = 0;
+  for (int y = 0; y < height_; ++y) {
+    const double solidAngle = std::cos(kPi * y / height_) - std::cos(kPi * (y + 1) / height_);
+    for (int x = 0; x < width_; ++x) total += weights[static_cast<size_t>(y) * width_ + x] = solidAngle;
+  }
+  tabulate(weights, total);
+}
+
+void SkyDistribution::tabulate(const std::vector<double>& weights, double total) {
   cells_.resize(weights.size());
   rowCdf_.assign(static_cast<size_t>(height_) + 1, 0);
   columnCdf_.assign(static_cast<size_t>(height_) * (width_ + 1), 0);
@@ -72,6 +93,12 @@ SkyDistribution::SkyDistribution(const Sky& sky) : sky_(sky) {
     }
     rows += rowSum;
     rowCdf_[static_cast<size_t>(y) + 1] = static_cast<float>(rows / total);
+  }
+  blockShare_.assign(kBlocks, 0);
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      blockShare_[static_cast<size_t>(y * kBlocksY / height_ * kBlocksX + x * kBlocksX / width_)] += cells_[static_cast<size_t>(y) * width_ + x];
+    }
   }
 }
 
@@ -97,6 +124,10 @@ SkyDistribution::Sample SkyDistribution::sample(Vec2 u) const {
   float dy, dx;
   const int row = findCell(rowCdf_.data(), height_, u.y, dy);
   const int column = findCell(&columnCdf_[static_cast<size_t>(row) * (width_ + 1)], width_, u.x, dx);
+  return inCell(column, row, dx, dy);
+}
+
+SkyDistribution::Sample SkyDistribution::inCell(int column, int row, float dx, float dy) const {
   const float theta = kPi * (static_cast<float>(row) + dy) / static_cast<float>(height_);
   const float phi = 2 * kPi * ((static_cast<float>(column) + dx) / static_cast<float>(width_) - 0.5f);
   const float s = std::sin(theta), x = s * std::sin(phi), z = -s * std::cos(phi);
@@ -106,6 +137,38 @@ SkyDistribution::Sample SkyDistribution::sample(Vec2 u) const {
   const float solidAngle = (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(s, 1e-6f);
   out.pdf = cell / solidAngle;
   return out;
+}
+
+SkyDistribution::Sample SkyDistribution::sampleBlock(int block, Vec2 u) const {
+  const int rows = height_ / kBlocksY, columns = width_ / kBlocksX;
+  const int y0 = block / kBlocksX * rows, x0 = block % kBlocksX * columns;
+  const auto at = [&](int row, int column) { return cells_[static_cast<size_t>(row) * width_ + column]; };
+  const auto rowShare = [&](int row) {
+    float sum = 0;
+    for (int x = x0; x < x0 + columns; ++x) sum += at(row, x);
+    return sum;
+  };
+  // Walks to the row, then to the cell, in which u falls; what is left of u lands inside it.
+  float v = u.y * blockShare(block), share = 0;
+  int row = y0;
+  for (;; ++row) {
+    share = rowShare(row);
+    if (v < share || row + 1 == y0 + rows) break;
+    v -= share;
+  }
+  const float dy = share > 0 ? std::clamp(v / share, 0.0f, 0.999999f) : 0.5f;
+  v = u.x * share;
+  int column = x0;
+  for (; v >= at(row, column) && column + 1 < x0 + columns; ++column) v -= at(row, column);
+  const float cell = at(row, column);
+  Sample out = inCell(column, row, cell > 0 ? std::clamp(v / cell, 0.0f, 0.999999f) : 0.5f, dy);
+  out.pdf = blockShare(block) > 0 ? out.pdf / blockShare(block) : 0;
+  return out;
+}
+
+int SkyDistribution::blockOf(Vec3 d) const {
+  const Vec2 uv = toUv(d);
+  return std::clamp(static_cast<int>(uv.y * kBlocksY), 0, kBlocksY - 1) * kBlocksX + std::clamp(static_cast<int>(uv.x * kBlocksX), 0, kBlocksX - 1);
 }
 
 float SkyDistribution::pdf(Vec3 d) const {

@@ -14,7 +14,7 @@ class SkyDistribution {
 
   bool present() const { return present_; }
   // A constant sky is found best by BSDF sampling; only images are sampled directly.
-  bool sampled() const { return !cells_.empty(); }
+  bool sampled() const { return sky_.image.width > 0 && present_; }
   Vec3 radiance(Vec3 d) const;  // cd/m² along unit world direction d; image bilinear
   Vec3 mean() const { return mean_; }  // over the sphere
 
@@ -25,8 +25,18 @@ class SkyDistribution {
   Sample sample(Vec2 u) const;
   float pdf(Vec3 d) const;
 
+  // The sphere in kBlocks parts of the map, for callers that know which of them are worth while. `pdf` of a sample is the
+  // density inside its block: pdf(d) / blockShare(block).
+  static constexpr int kBlocksX = 32, kBlocksY = 16, kBlocks = kBlocksX * kBlocksY;
+  int blockOf(Vec3 d) const;
+  float blockShare(int block) const { return blockShare_[static_cast<size_t>(block)]; }  // of the sky's light, weighted as in sample(); sums to 1
+  Sample sampleBlock(int block, Vec2 u) const;
+
  private:
   Vec2 toUv(Vec3 d) const;
+  void tabulateConstant();
+  void tabulate(const std::vector<double>& weights, double total);
+  Sample inCell(int column, int row, float dx, float dy) const;
   const Sky& sky_;
   bool present_ = false;
   int width_ = 0, height_ = 0;   // of the table
@@ -35,6 +45,7 @@ class SkyDistribution {
   std::vector<float> cells_;     // density per cell, sums to 1
   std::vector<float> rowCdf_;    // height + 1
   std::vector<float> columnCdf_; // (width + 1) per row
+  std::vector<float> blockShare_;
 };
 
 }  // namespace roomlight

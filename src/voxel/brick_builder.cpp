@@ -7,22 +7,30 @@
 namespace roomlight {
 namespace {
 
+constexpr float kSameLayer = 1e-3f;   // voxels
+constexpr float kLargeShare = 0.25f;  // of the largest piece so far: large enough to stand for its side
+
 // Running sums of one side of the surfaces in a voxel, weighted by opaque area in voxels².
 struct SlotSums {
   float area = 0;
   Vec3 normal, albedo, emission;
-  Vec3 position;          // centroid of the largest piece: a point that really lies on a surface
-  float pieceArea = 0;
+  // Centroid of one piece, so that it really lies on a surface: of the foremost among the large ones. Light reaches the front
+  // of a panel on a wall, not the plaster behind it, though both may lie in one voxel.
+  Vec3 position;
+  float pieceArea = 0, height = 0;
   // References come in order of instances, so the largest is known when the run of one instance ends.
   uint32_t instance = 0, bestInstance = 0;
   float instanceArea = 0, bestArea = 0;
 
-  void add(float w, Vec3 p, Vec3 n, Vec3 rho, Vec3 le, uint32_t from) {
+  void add(float w, Vec3 p, Vec3 n, Vec3 rho, Vec3 le, uint32_t from, int face) {
     if (from != instance) instance = from, instanceArea = 0;
     instanceArea += w;
     if (instanceArea > bestArea) bestArea = instanceArea, bestInstance = from;
     area += w;
-    if (w > pieceArea) pieceArea = w, position = p;
+    const float z = dot(p, faceDirection(face));
+    if (z > height + kSameLayer ? w > kLargeShare * pieceArea : z < height - kSameLayer ? kLargeShare * w > pieceArea : w > pieceArea) {
+      pieceArea = w, position = p, height = z;
+    }
     normal += n * w, albedo += rho * w, emission += le * w;
   }
 };
@@ -98,8 +106,8 @@ void addPiece(const Polygon& piece, Vec3 corner, const LatticeTriangle& t, const
   sums.mask |= subVoxelMask(piece, corner, g.vectorArea);
   sums.projected += abs(t.front) * w;
   const int face = dominantFace(t.front);
-  sums.slots[static_cast<size_t>(face)].add(w, g.centroid, t.front, shade.albedo, shade.emission, instance);
-  sums.slots[static_cast<size_t>(face ^ 1)].add(w, g.centroid, -t.front, shade.albedo, emitsBack ? shade.emission : Vec3(0), instance);
+  sums.slots[static_cast<size_t>(face)].add(w, g.centroid, t.front, shade.albedo, shade.emission, instance, face);
+  sums.slots[static_cast<size_t>(face ^ 1)].add(w, g.centroid, -t.front, shade.albedo, emitsBack ? shade.emission : Vec3(0), instance, face ^ 1);
 }
 
 void addTriangle(const Scene& scene, const Lattice& lattice, Int3 brick, Voxelisation::Reference ref, Accumulators& sums) {

@@ -39,7 +39,7 @@ inline int dominantFace(Vec3 n) {
 }
 
 struct FaceSlot {
-  Vec3 position;   // world; centre of the largest piece of surface on this side, so it lies on a surface
+  Vec3 position;   // world; centre of the foremost large piece of surface on this side, so it lies on a surface
   Vec3 normal;     // unit, mean of their normals, pointing to this side
   Vec3 albedo;     // bihemispherical, area-weighted mean, 0..1
   Vec3 emission;   // luminance in cd/m² to this side, area-weighted mean: emission * areaM2 * pi is the exact flux in lm
