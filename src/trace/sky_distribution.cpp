@@ -1,5 +1,7 @@
 #include "trace/sky_distribution.h"
 
+#include <numbers>
+
 namespace roomlight {
 namespace {
 
@@ -70,7 +72,7 @@ void SkyDistribution::tabulateConstant() {
   std::vector<double> weights(static_cast<size_t>(width_) * height_);
   double total = 0;
   for (int y = 0; y < height_; ++y) {
-    const double solidAngle = std::cos(kPi * y / height_) - std::cos(kPi * (y + 1) / height_);
+    const double step = std::numbers::pi / height_, solidAngle = std::cos(step * y) - std::cos(step * (y + 1));
     for (int x = 0; x < width_; ++x) total += weights[static_cast<size_t>(y) * width_ + x] = solidAngle;
   }
   tabulate(weights, total);
