@@ -15,6 +15,7 @@
 #include "engine/stages.h"
 #include "engine/version.h"
 #include "import/import.h"
+#include "import/lighting_file.h"
 #include "interrupt.h"
 #include "output_files.h"
 
@@ -186,6 +187,9 @@ Result<Home> loadHome(const Options& o) {
   Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit});
   if (!imported) return Error{imported.error()};
   Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
+  if (!o.lighting.empty()) {
+    if (const Status s = applyLightingFile(o.lighting, home.scene); !s) return Error{s.error()};
+  }
   const Result<Camera> camera = pickCamera(home.scene, o.camera);
   if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
   home.camera = camera.value();
@@ -251,6 +255,7 @@ Registered addRender(CLI::App& program) {
   CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
   app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf or .obj")->required();
   app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2) or .png (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
   app->add_option("--camera", o->camera, "Name of a camera in the scene, or its number from 0");
   app->add_option("--size", o->size, "Width and height in pixels, for example 960x540");
   app->add_option("--technique", o->technique, techniqueHelp());

@@ -38,10 +38,6 @@ class Reader {
   void read() {
     for (const tinygltf::Image& image : model_.images) readImage(image);
     for (const tinygltf::Material& m : model_.materials) readMaterial(m);
-    Material plain;
-    plain.name = "default";
-    plain.metallic = 0;
-    scene_.materials.push_back(plain);
     for (const tinygltf::Mesh& mesh : model_.meshes) readMesh(mesh);
     const int index = model_.defaultScene >= 0 ? model_.defaultScene : 0;
     if (static_cast<size_t>(index) < model_.scenes.size()) {
@@ -202,6 +198,18 @@ class Reader {
     return false;
   }
 
+  // For primitives without one; made when first needed.
+  int defaultMaterial() {
+    if (defaultMaterial_ < 0) {
+      Material plain;
+      plain.name = "default";
+      plain.metallic = 0;
+      defaultMaterial_ = static_cast<int>(scene_.materials.size());
+      scene_.materials.push_back(plain);
+    }
+    return defaultMaterial_;
+  }
+
   void readMesh(const tinygltf::Mesh& in) {
     std::vector<int> meshes;
     for (size_t p = 0; p < in.primitives.size(); ++p) {
@@ -213,7 +221,7 @@ class Reader {
       }
       Mesh mesh;
       mesh.name = in.name;
-      mesh.material = primitive.material >= 0 ? primitive.material : static_cast<int>(scene_.materials.size()) - 1;
+      mesh.material = primitive.material >= 0 ? primitive.material : defaultMaterial();
       if (!readAttributes(primitive, mesh, where)) return;
       if (!mesh.indices.empty()) {
         scene_.meshes.push_back(std::move(mesh));
@@ -372,6 +380,7 @@ class Reader {
   const tinygltf::Model& model_;
   Imported& out_;
   Scene& scene_;
+  int defaultMaterial_ = -1;
   std::vector<std::vector<int>> primitivesOfMesh_;
   int nextObject_ = 0;
 };

@@ -12,7 +12,7 @@ namespace roomlight {
 struct VoxelSettings {
   float voxelSizeM = 0;        // 0: chosen from the budget
   float memoryBudgetMiB = 256; // for Voxels when the size is chosen; a size given by hand may exceed it
-  float smallestM = 0.02f;     // limits of the automatic choice
+  float smallestM = 0.04f;     // limits of the automatic choice
   float largestM = 0.5f;
 };
 

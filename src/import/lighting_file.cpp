@@ -1,0 +1,302 @@
+// Lighting files, version 1 (docs/formats/lighting.md):
+//   { "scene": { "lamps": "keep"|"off", "suns": .., "sky": .., "emission": "keep"|"off"|factor },
+//     "lamps": [ { "type": "point"|"spot"|"area", "position": [x,y,z], "flux"|"intensity"|"luminance": "800 lm", .. } ],
+//     "sun": { "direction": [x,y,z], "illuminance": "75000 lx" } or { "latitude", "longitude", "time" } or a list of them,
+//     "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" | "horizontalIlluminance": "10 klx" } }
+#include "import/lighting_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/image_io.h"
+#include "import/json_reader.h"
+#include "photometry/colour_temperature.h"
+#include "photometry/sun.h"
+
+namespace roomlight {
+namespace {
+
+constexpr double kMostLight = 1e12;      // of any unit; keeps squares finite in floats
+constexpr double kFarthestM = 1e6;
+constexpr uintmax_t kLargestFile = 64u << 20;
+constexpr size_t kMostLamps = 100'000;
+
+double rad(double degrees) { return degrees * kPi / 180; }
+
+Vec3 direction(const JsonPlace& j) {
+  const Vec3 v = j.vector(-kFarthestM, kFarthestM);
+  const float l = length(v);
+  if (l > 1e-6f) return v / l;
+  j.fail("must not be zero");
+  return {0, -1, 0};
+}
+
+// Colour of luminance 1: white, a colour temperature, or the given linear Rec.709 scaled.
+Vec3 colour(const JsonPlace& j) {
+  if (j.has("temperature") && j.has("color")) j.fail("give 'temperature' or 'color', not both");
+  if (j.has("temperature")) return blackBodyColour(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
+  if (!j.has("color")) return Vec3(1);
+  const Vec3 c = j["color"].vector(0, kMostLight);
+  if (luminance(c) > 0) return c / luminance(c);
+  j["color"].fail("must not be black");
+  return Vec3(1);
+}
+
+// Exactly one of the keys must be there.
+std::string theOne(const JsonPlace& j, std::initializer_list<const char*> keys) {
+  std::string found, all;
+  int count = 0;
+  for (const char* key : keys) {
+    all += (all.empty() ? "" : ", ") + std::string(key);
+    if (j.has(key)) found = key, ++count;
+  }
+  if (count != 1) j.fail(fmt::format("give exactly one of {}", all));
+  return count == 1 ? found : std::string();
+}
+
+// Solid angle weighted with the fall-off between the cones, (t^2, t linear in the cosine): flux / intensity at the axis.
+double spotFluxPerCandela(double cosInner, double cosOuter) { return 2 * kPi * ((1 - cosInner) + (cosInner - cosOuter) / 3); }
+
+void readSpot(const JsonPlace& j, Lamp& lamp) {
+  lamp.direction = direction(j["direction"]);
+  const double outer = j.number("outerCone", 0.5, 90, 45), inner = j.number("innerCone", 0, 90, 0);
+  if (inner > outer) j["innerCone"].fail("must not be larger than outerCone");
+  lamp.outerConeRad = static_cast<float>(rad(outer));
+  lamp.innerConeRad = static_cast<float>(rad(inner));
+}
+
+void readArea(const JsonPlace& j, Lamp& lamp) {
+  lamp.direction = direction(j["direction"]);
+  lamp.widthM = static_cast<float>(j["width"].number(1e-4, 1000));
+  lamp.heightM = static_cast<float>(j["height"].number(1e-4, 1000));
+  Vec3 up = j.has("up") ? direction(j["up"]) : std::abs(lamp.direction.y) < 0.99f ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
+  up -= lamp.direction * dot(up, lamp.direction);
+  if (length(up) < 1e-3f) {
+    j["up"].fail("must not point along 'direction'");
+    return;
+  }
+  lamp.up = normalize(up);
+}
+
+Lamp readLamp(const JsonPlace& j, size_t number) {
+  Lamp lamp;
+  if (!j.isObject({"name", "type", "position", "direction", "up", "flux", "intensity", "luminance", "temperature", "color", "innerCone", "outerCone", "width", "height"})) return lamp;
+  lamp.name = j.text("name", fmt::format("lamp {}", number + 1));
+  lamp.position = j["position"].vector(-kFarthestM, kFarthestM);
+  const Vec3 c = colour(j);
+  const std::string type = j["type"].oneOf({"point", "spot", "area"});
+  const auto forbid = [&](std::initializer_list<const char*> keys) {
+    for (const char* key : keys) {
+      if (j.has(key)) j[key].fail(fmt::format("means nothing for a lamp of type {}", type));
+    }
+  };
+  if (type == "area") {
+    lamp.kind = LampKind::Area;
+    forbid({"intensity", "innerCone", "outerCone"});
+    readArea(j, lamp);
+    const std::string unit = theOne(j, {"flux", "luminance"});
+    const double area = static_cast<double>(lamp.widthM) * lamp.heightM;
+    if (unit == "flux") lamp.luminanceCdM2 = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / (kPi * std::max(area, 1e-8)));
+    if (unit == "luminance") lamp.luminanceCdM2 = c * static_cast<float>(j["luminance"].quantity(Unit::CandelaPerM2, 0, kMostLight));
+    return lamp;
+  }
+  forbid({"luminance", "width", "height", "up"});
+  double fluxPerCandela = 4 * kPi;
+  if (type == "spot") {
+    lamp.kind = LampKind::Spot;
+    readSpot(j, lamp);
+    fluxPerCandela = spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
+  } else {
+    forbid({"direction", "innerCone", "outerCone"});
+  }
+  const std::string unit = theOne(j, {"flux", "intensity"});
+  if (unit == "flux") lamp.intensityCd = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / fluxPerCandela);
+  if (unit == "intensity") lamp.intensityCd = c * static_cast<float>(j["intensity"].quantity(Unit::Candela, 0, kMostLight));
+  return lamp;
+}
+
+// By direction with its illuminance, or by place and time under a clear sky. Below the horizon there is no sun.
+Sun readSun(const JsonPlace& j) {
+  Sun sun;
+  if (!j.isObject({"name", "direction", "latitude", "longitude", "time", "north", "illuminance", "angularDiameter", "temperature", "color"})) return sun;
+  sun.name = j.text("name", "sun");
+  sun.halfAngleRad = static_cast<float>(rad(j.number("angularDiameter", 0, 90, 0.533) / 2));
+  const Vec3 c = colour(j);
+  double lux = 0;
+  if (j.has("direction")) {
+    for (const char* key : {"latitude", "longitude", "time", "north"}) {
+      if (j.has(key)) j[key].fail("give 'direction' or place and time, not both");
+    }
+    sun.toLight = direction(j["direction"]);
+    lux = j["illuminance"].quantity(Unit::Lux, 0, kMostLight);
+  } else {
+    const double latitude = j["latitude"].number(-90, 90), longitude = j["longitude"].number(-180, 180), north = j.number("north", -360, 360, 0);
+    const Result<Moment> moment = parseMoment(j["time"].text());
+    if (!moment) {
+      j["time"].fail(moment.error());
+      return sun;
+    }
+    const SunPosition p = sunPosition(moment.value(), latitude, longitude);
+    const double bearing = p.bearingRad - rad(north);  // from the scene's -z axis, clockwise seen from above
+    sun.toLight = normalize(Vec3{static_cast<float>(std::sin(bearing) * std::cos(p.altitudeRad)), static_cast<float>(std::sin(p.altitudeRad)),
+                                 static_cast<float>(-std::cos(bearing) * std::cos(p.altitudeRad))});
+    lux = j.has("illuminance") ? j["illuminance"].quantity(Unit::Lux, 0, kMostLight) : clearSkySunLux(moment.value(), p.altitudeRad);
+    if (p.altitudeRad <= 0) lux = 0;
+  }
+  sun.illuminanceLux = c * static_cast<float>(lux);
+  return sun;
+}
+
+// Illuminance that an equirectangular picture gives to a horizontal surface, in its own unit.
+double horizontalIlluminance(const Image& image) {
+  double sum = 0;
+  for (int y = 0; 2 * y < image.height; ++y) {
+    // Exact integral of cos over a row; of an odd number of rows the middle one counts with its upper half.
+    const double low = std::sin(std::numbers::pi * y / image.height), high = std::sin(std::min(0.5, (y + 1.0) / image.height) * std::numbers::pi);
+    double row = 0;
+    for (int x = 0; x < image.width; ++x) row += luminance(image.at(x, y));
+    sum += row * 0.5 * (high * high - low * low);
+  }
+  return sum * 2 * std::numbers::pi / image.width;
+}
+
+void readSkyImage(const JsonPlace& j, const std::filesystem::path& folder, Sky& sky) {
+  const std::filesystem::path file = folder / j["image"].text();
+  Result<Image> image = readImage(file);
+  if (!image) {
+    j["image"].fail(image.error());
+    return;
+  }
+  sky.image = std::move(image.value());
+  double factor = 1;
+  const std::string unit = theOne(j, {"unit", "horizontalIlluminance"});
+  if (unit == "unit") factor = j["unit"].quantity(Unit::CandelaPerM2, 0, kMostLight);
+  if (unit == "horizontalIlluminance") {
+    const double now = horizontalIlluminance(sky.image);
+    const double wanted = j["horizontalIlluminance"].quantity(Unit::Lux, 0, kMostLight);
+    if (!(now > 0)) j["horizontalIlluminance"].fail("the picture's upper half is black");
+    factor = wanted / std::max(now, 1e-30);
+  }
+  for (Vec3& p : sky.image.pixels) {
+    p *= static_cast<float>(factor);
+    if (!(minComponent(p) >= 0) || !(maxComponent(p) < kMostLight)) {
+      j["image"].fail("holds values that are negative, not finite or beyond 1e12 cd/m2");
+      return;
+    }
+  }
+}
+
+Sky readSky(const JsonPlace& j, const std::filesystem::path& folder) {
+  Sky sky;
+  if (!j.isObject({"luminance", "temperature", "color", "image", "unit", "horizontalIlluminance", "rotation"})) return sky;
+  sky.rotationRad = static_cast<float>(rad(j.number("rotation", -360, 360, 0)));
+  const std::string kind = theOne(j, {"luminance", "image"});
+  if (kind == "image") {
+    for (const char* key : {"temperature", "color"}) {
+      if (j.has(key)) j[key].fail("means nothing beside 'image'");
+    }
+    readSkyImage(j, folder, sky);
+  } else if (kind == "luminance") {
+    for (const char* key : {"unit", "horizontalIlluminance"}) {
+      if (j.has(key)) j[key].fail("means nothing beside 'luminance'");
+    }
+    sky.luminanceCdM2 = colour(j) * static_cast<float>(j["luminance"].quantity(Unit::CandelaPerM2, 0, kMostLight));
+  }
+  return sky;
+}
+
+// What the file says about the light that the scene brought along.
+struct Kept {
+  bool lamps = true, suns = true, sky = true;
+  float emission = 1;
+};
+
+Kept readKept(const JsonPlace& j) {
+  Kept kept;
+  if (!j.isObject({"lamps", "suns", "sky", "emission"})) return kept;
+  const auto keep = [&](const char* key) { return !j.has(key) || j[key].oneOf({"keep", "off"}) == "keep"; };
+  kept.lamps = keep("lamps");
+  kept.suns = keep("suns");
+  kept.sky = keep("sky");
+  if (j.has("emission")) {
+    if (j["emission"].isNumber()) {
+      kept.emission = static_cast<float>(j["emission"].number(0, 1e6));
+    } else {
+      kept.emission = keep("emission") ? 1.0f : 0.0f;
+    }
+  }
+  return kept;
+}
+
+struct Lighting {
+  Kept kept;
+  std::vector<Lamp> lamps;
+  std::vector<Sun> suns;
+  std::optional<Sky> sky;
+};
+
+Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder) {
+  Lighting out;
+  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky"})) return out;
+  if (root.has("version") && root["version"].number(1, 1e6) != 1) root["version"].fail("must be 1");
+  if (root.has("comment")) root["comment"].text();
+  if (root.has("scene")) out.kept = readKept(root["scene"]);
+  if (root.has("lamps")) {
+    const JsonPlace lamps = root["lamps"];
+    const size_t count = lamps.arraySize();
+    if (count > kMostLamps) lamps.fail(fmt::format("more than {} lamps", kMostLamps));
+    for (size_t i = 0; i < std::min(count, kMostLamps); ++i) out.lamps.push_back(readLamp(lamps[i], i));
+  }
+  if (root.has("sun")) {
+    const JsonPlace sun = root["sun"];
+    const size_t count = sun.isArray() ? sun.arraySize() : 1;
+    if (count > 16) sun.fail("more than 16 suns");
+    for (size_t i = 0; i < std::min<size_t>(count, 16); ++i) out.suns.push_back(readSun(sun.isArray() ? sun[i] : sun));
+  }
+  if (root.has("sky")) out.sky = readSky(root["sky"], folder);
+  return out;
+}
+
+void apply(Lighting& lighting, Scene& scene) {
+  const Kept& kept = lighting.kept;
+  if (!kept.lamps) std::erase_if(scene.lamps, [](const Lamp& l) { return l.kind != LampKind::Area; });
+  if (!kept.suns) scene.suns.clear();
+  if (!kept.sky) scene.sky = {};
+  for (Material& m : scene.materials) m.emission *= kept.emission;
+  const size_t first = scene.lamps.size();
+  scene.lamps.insert(scene.lamps.end(), lighting.lamps.begin(), lighting.lamps.end());
+  addAreaLampMeshes(scene, first);
+  for (const Sun& sun : lighting.suns) {
+    if (!isBlack(sun.illuminanceLux)) scene.suns.push_back(sun);
+  }
+  if (lighting.sky) scene.sky = std::move(*lighting.sky);
+}
+
+}  // namespace
+
+Status applyLightingFile(const std::filesystem::path& file, Scene& scene) {
+  std::error_code code;
+  const uintmax_t size = std::filesystem::file_size(file, code);
+  if (code) return Error{fmt::format("{}: {}", file.string(), std::filesystem::exists(file) ? "not a readable file" : "no such file")};
+  if (size > kLargestFile) return Error{fmt::format("{}: larger than {} MiB; this is no lighting file", file.string(), kLargestFile >> 20)};
+  std::ifstream in(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(text, nullptr, true, true);
+  } catch (const nlohmann::json::exception& e) {
+    std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
+    if (const size_t close = what.find("] "); close != std::string::npos) what = what.substr(close + 2);
+    return Error{fmt::format("{}: {}", file.string(), what)};
+  }
+  std::string error;
+  Lighting lighting = readLighting(JsonPlace(json, "", error), file.parent_path());
+  if (!error.empty()) return Error{fmt::format("{}: {}", file.string(), error)};
+  apply(lighting, scene);
+  return Ok{};
+}
+
+}  // namespace roomlight
