@@ -89,7 +89,7 @@ def shell():
               + skirting(2, 3.9, 4.9, 6.6, 1) + skirting(0, 4.9, 3.9, 6.2, 1, [(4.63, 5.67)]) + skirting(2, 6.2, 4.9, 6.6, -1, [(5.33, 6.37)]) + skirting(0, 6.6, 3.9, 6.2, -1, [(4.41, 5.49)]))
     out.append(("skirting boards", boards))
     out.append(("windows", windows()))
-    out.append(("doors", turned(door(open_deg=62), -90, 6.25, 0, 3.45) + turned(door(open_deg=0), 0, 5.15, 0, 4.85) + turned(door(open_deg=0), 90, 6.25, 0, 5.85)
+    out.append(("doors", turned(door(open_deg=70), 90, 6.25, 0, 3.45) + turned(door(open_deg=0), 0, 5.15, 0, 4.85) + turned(door(open_deg=0), 90, 6.25, 0, 5.85)
                 + turned(door(0.9, 2.08), 0, 4.95, 0, 6.66)))
     return out
 

@@ -50,7 +50,6 @@ void visitMembers(Visitor& v, Settings& s) {
   v.group("gather", [&](auto& g) {
     g.number("conesPerSample", s.gather.conesPerSample, 1, 4096);
     g.number("coneHalfAngleDeg", s.gather.coneHalfAngleDeg, 1, 60);
-    g.number("stepFactor", s.gather.stepFactor, 0.1, 4);
     g.number("startOffsetVoxels", s.gather.startOffsetVoxels, 0, 8);
     g.number("rayRoughness", s.gather.rayRoughness, 0, 1);
     g.number("occlusionLambda", s.gather.occlusionLambda, 0, 1000);

@@ -17,6 +17,8 @@ namespace {
 constexpr int kTile = 16;
 constexpr int kMostPanes = 16;
 constexpr int kSkySamples = 2;
+constexpr float kSharpRoughness = 0.1f;  // below: mirrors, whose pictures are seen clearly
+constexpr float kChainRoughness = 0.3f;  // below: a reflection seen in a reflection is followed on
 constexpr int kAllLamps = 8;  // up to this many lamps each gets its own shadow ray; more are chosen by importance
 
 struct Counters {
@@ -28,7 +30,7 @@ class Shader {
  public:
   Shader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings)
       : rays_(rays), lights_(lights), voxels_(voxels), field_(field), settings_(settings),
-        diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.stepFactor, settings.occlusionLambda} {}
+        diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.occlusionLambda} {}
 
   Vec3 primary(Ray ray, Sampler& sampler, Counters& count, float& occlusion) const {
     Vec3 sum, left(1);
@@ -144,7 +146,7 @@ class Shader {
       local = {local.x * std::cos(turn) - local.y * std::sin(turn), local.x * std::sin(turn) + local.y * std::cos(turn), local.z};
       Vec3 d = frame.toWorld(local);
       if (dot(d, s.ng) < 0.02f) d = normalize(d + s.ng * (0.04f - dot(d, s.ng)));
-      const ConeLight c = marchCone(voxels_, field_, start, d, diffuse_, sampler.next1());
+      const ConeLight c = marchCone(field_, start, d, diffuse_, sampler.next1());
       sum += c.radiance + settings_.ambientCdM2 * (1 - c.occlusion);
       occlusion += c.occlusion / static_cast<float>(n);
     }
@@ -155,44 +157,59 @@ class Shader {
   Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t guide, Sampler& sampler, Counters& count) const {
     const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
     if (!r.valid() || isBlack(r.weight)) return {};
-    if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide}, count);
+    if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
     // The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
-    const ConeShape shape{0.5f * s.m.roughness * s.m.roughness, settings_.stepFactor, 0};
+    const ConeShape shape{0.5f * s.m.roughness * s.m.roughness, 0};
     ++count.cones;
-    return r.weight * marchCone(voxels_, field_, coneStart(s), r.wi, shape, sampler.next1()).radiance;
+    return r.weight * marchCone(field_, coneStart(s), r.wi, shape, sampler.next1()).radiance;
   }
 
-  // Where a reflected ray started, and the density with which its direction was chosen; 0: a mirror, nothing else can find it.
+  // Where a reflected ray started, and the density with which its direction was chosen; 0: nothing else looked for lights there.
   struct Reflected {
     Vec3 p;
     float pdf;
     int32_t guide;
+    bool sharp;  // what it meets is seen clearly, and is lit with the care of what the camera sees
     float weight(float lightPdf) const { return pdf > 0 ? misWeight(pdf, lightPdf) : 1; }
   };
 
-  // What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold.
-  Vec3 along(Ray ray, Reflected from, Counters& count) const {
+  // What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold. Where the way
+  // goes on, through a pane or as a further reflection, one of the two is followed, in proportion to its light.
+  Vec3 along(Ray ray, Reflected from, Sampler& sampler, Counters& count) const {
     Vec3 sum, left(1);
-    for (int pane = 0; pane < kMostPanes; ++pane) {
+    for (int k = 0; k < kMostPanes; ++k) {
       const Hit hit = rays_.intersect(ray);
       ++count.rays;
       if (!hit.valid()) return sum + left * reflectedBackground(ray.direction, from);
       const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
       if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) sum += left * emitted * from.weight(lights_.pdfEmitters(from.p, s));
       const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
-      if (bsdf.isMirror() && maxComponent(bsdf.specularAlbedo()) > 0.5f) {
-        // Mirror seen in a mirror: the ray goes on, and only it can find lights now.
-        const BsdfSample r = bsdf.sampleSpecular({0.5f, 0.5f});
-        if (!r.valid()) return sum;
-        left *= r.weight;
-        ray = {offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity};
-        from.pdf = 0;
+      const bool glossy = s.m.roughness < kChainRoughness;
+      const Vec3 rho = glossy ? bsdf.diffuseAlbedo() : bihemisphericalAlbedo(s.m);
+      const int32_t guide = from.sharp ? guideAt(field_.guide, voxels_, s.p, s.ng) : -1;
+      if (from.sharp) {
+        float unused = 0;
+        Vec3 lit = glossy ? direct(s, bsdf, true, guide, sampler, count) : direct(s, bsdf, false, guide, sampler, count);
+        if (maxComponent(rho) > 1e-4f) lit += rho * indirect(s, sampler, count, unused);
+        sum += left * lit * s.m.alpha;
+      } else {
+        sum += left * rho * irradiance(s, sampler) * (s.m.alpha / kPi);
+      }
+      const Vec3 through = passing(s, ray.direction), mirrored = glossy ? bsdf.specularAlbedo() * s.m.alpha : Vec3(0);
+      const float pThrough = luminance(left * through), pMirrored = luminance(left * mirrored), survive = std::min(1.0f, 2 * (pThrough + pMirrored));
+      if (survive < 1e-2f) return sum;
+      const float u = sampler.next1(), split = survive * pThrough / (pThrough + pMirrored);
+      if (u >= survive) return sum;
+      if (u < split) {
+        left *= through / split;
+        ray.origin = offsetOrigin(s.p, -s.ng);
         continue;
       }
-      sum += left * bihemisphericalAlbedo(s.m) * irradiance(s) * (s.m.alpha / kPi);
-      left *= passing(s, ray.direction);
-      if (luminance(left) < 1e-2f) return sum;
-      ray.origin = offsetOrigin(s.p, -s.ng);
+      const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
+      if (!r.valid()) return sum;
+      left *= r.weight * (s.m.alpha / (survive - split));
+      from = {s.p, from.sharp && !r.mirror ? r.pdf : 0, guide, from.sharp};
+      ray = {offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity};
     }
     return sum;
   }
@@ -210,8 +227,17 @@ class Shader {
     return sum;
   }
 
-  Vec3 irradiance(const SurfacePoint& s) const {
-    const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
+  // From the slots around s, chosen at random with the weights of a tent, so that many look-ups show no edges of voxels.
+  Vec3 irradiance(const SurfacePoint& s, Sampler& sampler) const {
+    const Frame frame(s.ng);
+    const Vec2 u = sampler.next2();
+    const float h = voxels_.voxelSizeM;
+    const int64_t near = slotAtSurface(voxels_, s.p + (frame.t * (u.x - 0.5f) + frame.b * (u.y - 0.5f)) * h, s.ng);
+    const auto onSameSurface = [&](int64_t slot) {
+      const FaceSlot& f = voxels_.slots[static_cast<size_t>(slot)];
+      return dot(f.normal, s.ng) > 0.8f && std::abs(dot(f.position - s.p, s.ng)) < 0.3f * h;
+    };
+    const int64_t slot = near >= 0 && onSameSurface(near) ? near : slotAtSurface(voxels_, s.p, s.ng);
     return slot < 0 ? Vec3(0) : field_.irradianceLux[static_cast<size_t>(slot)];
   }
 

@@ -12,8 +12,7 @@ struct GatherSettings {
   int width = 960, height = 540;
   int samples = 8;                // anti-aliasing samples a pixel; each carries its share of cones and shadow rays
   int conesPerSample = 2;         // diffuse cones
-  float coneHalfAngleDeg = 15;
-  float stepFactor = 1;           // step in units of the cone's diameter (at least of the voxel)
+  float coneHalfAngleDeg = 5;
   float startOffsetVoxels = 0.05f;  // along the normal
   float rayRoughness = 0.6f;      // reflections below this roughness follow exact rays
   float occlusionLambda = 0;      // f(r) = 1 / (1 + lambda r) in ambient occlusion, 1/m

@@ -13,7 +13,6 @@ struct ConeLight {
 
 struct ConeShape {
   float tanHalf;
-  float stepFactor = 1;
   float lambda = 0;
 };
 
@@ -22,9 +21,9 @@ struct ConeStart {
   Vec3 origin, normal;
 };
 
-// Marches along unit `d`. `levelShift` (0..1) blends between levels over many cones. While the cone is no wider than base
-// voxels it meets the slots' own planes (near_march.h); further out it samples the pyramid, whose opacity is corrected for
-// the length of a step.
-ConeLight marchCone(const Voxels& voxels, const RadianceField& field, const ConeStart& from, Vec3 d, const ConeShape& shape, float levelShift);
+// Follows unit `d` from voxel to voxel, on the level of the pyramid whose voxels are as wide as the cone. `levelShift` (0..1)
+// blends between levels over many cones. Opacity counts once for each plane that is crossed, so it does not depend on the
+// size of the steps.
+ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, const ConeShape& shape, float levelShift);
 
 }  // namespace roomlight

@@ -7,7 +7,6 @@
 #include "radiance/pyramid.h"
 #include "radiance/radiance_field.h"
 #include "radiance/sky_guide.h"
-#include "radiance/slot_coverage.h"
 #include "trace/surface_point.h"
 
 namespace roomlight {
@@ -46,7 +45,6 @@ class Illuminator {
       radiance[i] = voxels_.slots[i].albedo * field.irradianceLux[i] / kPi;
     });
     field.indirectLux = std::move(indirect_);
-    field.coverage = slotCoverage(voxels_);
     field.rays = rayCount_;
     buildPyramid(voxels_, radiance, field);
     return field;
@@ -242,7 +240,7 @@ class Illuminator {
 }  // namespace
 
 size_t RadianceField::bytes() const {
-  size_t sum = (irradianceLux.size() + indirectLux.size()) * sizeof(Vec3) + coverage.size() + guide.cdf.size() * sizeof(guide.cdf[0]);
+  size_t sum = (irradianceLux.size() + indirectLux.size()) * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]);
   for (const RadianceLevel& level : levels) {
     sum += level.brickIndex.size() * sizeof(int32_t) + level.bricks.size() * sizeof(Brick) + level.voxels.size() * sizeof(DirectionalVoxel);
   }

@@ -2,86 +2,80 @@
 
 #include "base/parallel.h"
 #include "radiance/half.h"
+#include "radiance/plane_area.h"
 
 namespace roomlight {
 namespace {
 
-constexpr float kLargestOpacity = 0.998f;  // extinction stays finite
-
-// One directional voxel while the pyramid is built: opacity per axis, radiance per face (not weighted).
-struct Faces {
-  Vec3 opacity;
-  std::array<Vec3, 6> radiance;
-  std::array<float, 6> plane;  // 0..1 along the axis of the face
+// One face while the pyramid is built. Lengths in edges of its voxel, from the voxel's middle.
+struct Face {
+  float opacity = 0;  // projected coverage along the face's axis, 0..1
+  Vec3 radiance, normal, point;
 };
+using Faces = std::array<Face, 6>;
 
-float extinction(float opacity) { return -std::log(1 - std::min(opacity, kLargestOpacity)); }
+int8_t toByte(float v) { return static_cast<int8_t>(std::lround(127 * std::clamp(v, -1.0f, 1.0f))); }
 
-DirectionalVoxel pack(const Faces& f, float unit) {
+DirectionalFace pack(const Face& f, int axis, float unit) {
+  DirectionalFace out;
+  if (!(f.opacity > 0)) return out;
+  const float distance = dot(f.point, f.normal);
+  const Vec3 c = f.radiance / unit;
+  out.radiance = {toHalf(c.x), toHalf(c.y), toHalf(c.z)};
+  out.normal = {toByte(f.normal.x), toByte(f.normal.y), toByte(f.normal.z)};
+  out.plane = static_cast<uint8_t>(std::lround(255 * std::clamp(0.5f + 0.5f * distance / kFarthestPlane, 0.0f, 1.0f)));
+  // From what is seen along the axis to what lies on the plane.
+  const double plane = planeAreaInUnitCube(f.normal, distance + 0.5f * (f.normal.x + f.normal.y + f.normal.z));
+  const double share = f.opacity / std::max(1e-3, plane * std::abs(f.normal[axis]));
+  out.coverage = static_cast<uint8_t>(std::lround(std::clamp(255 * share, 1.0, 255.0)));
+  return out;
+}
+
+DirectionalVoxel pack(const Faces& faces, float unit) {
   DirectionalVoxel v;
-  for (size_t face = 0; face < 6; ++face) {
-    const float s = extinction(f.opacity[static_cast<int>(face / 2)]);
-    const Vec3 c = f.radiance[face] * (s / unit);
-    v.face[face] = {toHalf(c.x), toHalf(c.y), toHalf(c.z), toHalf(s)};
-    v.plane[face] = static_cast<uint8_t>(std::lround(255 * std::clamp(f.plane[face], 0.0f, 1.0f)));
-  }
+  for (size_t face = 0; face < 6; ++face) v.face[face] = pack(faces[face], static_cast<int>(face / 2), unit);
   return v;
 }
 
-// What a base voxel shows to each of the six directions: its slots, by the area they turn that way.
-Faces baseFaces(const Voxels& voxels, const SurfaceVoxel& voxel, std::span<const Vec3> slotRadiance) {
-  Faces f;
-  f.plane.fill(0.5f);
-  f.opacity = voxel.opacity;
-  const size_t count = static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
-  for (int face = 0; face < 6; ++face) {
-    const Vec3 d = faceDirection(face);
-    float weight = 0, plane = 0;
-    Vec3 sum;
-    for (size_t i = voxel.firstSlot; i < voxel.firstSlot + count; ++i) {
-      const float w = voxels.slots[i].areaM2 * std::max(0.0f, dot(voxels.slots[i].normal, d));
-      const float along = (voxels.slots[i].position[face / 2] - voxels.origin[face / 2]) / voxels.voxelSizeM;
-      sum += slotRadiance[i] * w;
-      plane += (along - std::floor(along)) * w;
-      weight += w;
-    }
-    if (weight > 0) {
-      f.radiance[static_cast<size_t>(face)] = sum / weight;
-      f.plane[static_cast<size_t>(face)] = plane / weight;
-    }
+// The slots of a base voxel.
+Faces baseFaces(const Voxels& voxels, const SurfaceVoxel& voxel, Vec3 middle, std::span<const Vec3> slotRadiance) {
+  Faces faces;
+  const float h = voxels.voxelSizeM;
+  const size_t end = voxel.firstSlot + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+  for (size_t i = voxel.firstSlot; i < end; ++i) {
+    const FaceSlot& slot = voxels.slots[i];
+    faces[slot.face] = {std::min(1.0f, slot.areaM2 * std::abs(slot.normal[slot.face / 2]) / (h * h)), slotRadiance[i], slot.normal, (slot.position - middle) / h};
   }
-  return f;
+  return faces;
 }
 
-// Eight children into one: along each axis the nearer one composited over the farther, then the four columns averaged.
+// Eight children into one. Along each axis the nearer child comes first and the farther one fills what is left, for a wall that
+// crosses both covers different parts of the column; the four columns are averaged.
 Faces combine(const std::array<const Faces*, 8>& child) {
   Faces out;
-  out.plane.fill(0.5f);
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2, side = face & 1;  // the + face is seen by rays that come from the high side
     const int u = 1 << ((axis + 1) % 3), v = 1 << ((axis + 2) % 3), along = 1 << axis;
-    for (const int side : {0, 1}) {  // the + face is seen by rays that come from the high side, the - face from the low one
-      const auto face = static_cast<size_t>(2 * axis + side);
-      float opacity = 0, plane = 0;
-      Vec3 radiance;
-      for (int column = 0; column < 4; ++column) {
-        const int base = (column & 1 ? u : 0) + (column & 2 ? v : 0);
-        float left = 1;
-        for (const int high : {1 - side, side}) {
-          const Faces* c = child[static_cast<size_t>(base + high * along)];
-          if (!c) continue;
-          const float w = left * c->opacity[axis];
-          radiance += c->radiance[face] * w;
-          plane += 0.5f * (c->plane[face] + static_cast<float>(high)) * w;
-          left -= w;
-        }
-        opacity += 1 - left;
+    Face sum;
+    for (int column = 0; column < 4; ++column) {
+      const int base = (column & 1 ? u : 0) + (column & 2 ? v : 0);
+      float left = 1;
+      for (const int high : {1 - side, side}) {
+        const int k = base + high * along;
+        if (!child[static_cast<size_t>(k)]) continue;
+        const Face& f = (*child[static_cast<size_t>(k)])[static_cast<size_t>(face)];
+        const float w = std::min(left, f.opacity);
+        const Vec3 middle{k & 1 ? 0.25f : -0.25f, k & 2 ? 0.25f : -0.25f, k & 4 ? 0.25f : -0.25f};
+        sum.radiance += f.radiance * w;
+        sum.normal += f.normal * w;
+        sum.point += (middle + 0.5f * f.point) * w;
+        left -= w;
       }
-      if (opacity > 0) {
-        out.radiance[face] = radiance / opacity;
-        out.plane[face] = plane / opacity;
-      }
-      out.opacity[axis] = opacity / 4;
+      sum.opacity += 1 - left;
     }
+    const float l = length(sum.normal);
+    if (!(sum.opacity > 0) || !(l > 0)) continue;
+    out[static_cast<size_t>(face)] = {sum.opacity / 4, sum.radiance / sum.opacity, sum.normal / l, sum.point / sum.opacity};
   }
   return out;
 }
@@ -156,7 +150,7 @@ void forEachVoxel(const RadianceLevel& level, Visit&& visit) {
 void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, RadianceField& field) {
   float brightest = 0;
   for (const Vec3 r : slotRadiance) brightest = std::max(brightest, maxComponent(r));
-  field.unitCdM2 = brightest > 0 ? brightest / 4096 : 1;  // s up to 6.2 keeps s L below the largest half
+  field.unitCdM2 = brightest > 0 ? brightest / 32768 : 1;  // below the largest half
   field.origin = voxels.origin;
   field.levels.clear();
 
@@ -167,9 +161,10 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, Radi
   now.level.bricks = voxels.bricks;
   now.level.voxels.resize(voxels.voxels.size());
   now.faces.resize(voxels.voxels.size());
-  parallelFor(now.faces.size(), 2048, [&](size_t i) {
-    now.faces[i] = baseFaces(voxels, voxels.voxels[i], slotRadiance);
-    now.level.voxels[i] = pack(now.faces[i], field.unitCdM2);
+  forEachVoxel(now.level, [&](size_t record, Int3 v) {
+    const Vec3 middle = voxels.origin + Vec3{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f} * voxels.voxelSizeM;
+    now.faces[record] = baseFaces(voxels, voxels.voxels[record], middle, slotRadiance);
+    now.level.voxels[record] = pack(now.faces[record], field.unitCdM2);
   });
   while (true) {
     const Int3 dims = now.level.brickDims;

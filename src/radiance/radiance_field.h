@@ -27,12 +27,24 @@ struct RadianceSettings {
   uint64_t seed = 0;
 };
 
-// One level of the pyramid: the same sparse bricks as Voxels, each record six faces.
-// A face holds extinction-weighted radiance: {s L_r, s L_g, s L_b, s}, s = -ln(1 - opacity) along its axis, so that a sample
-// in direction d blends faces by |d_axis| s, the projected area that is really seen.
+// What a voxel shows to one of the six directions: the surfaces whose normal is nearest to it, as one plane with a normal, a
+// place and a coverage of its own. A ray meets it where it crosses the plane inside the voxel; so a wall stays where it is and
+// as thin as it is on every level, and its two sides stay apart.
+struct DirectionalFace {
+  std::array<uint16_t, 3> radiance{};  // half floats, in units of RadianceField::unitCdM2
+  std::array<int8_t, 3> normal{};      // in 1/127, unit
+  uint8_t plane = 0;                   // distance from the voxel's middle along the normal; see planeDistance
+  uint8_t coverage = 0;                // surface on the plane inside the voxel, in 1/255; 0: no surface faces this way
+  uint8_t unused = 0;
+};
+
+// In voxel edges: no plane further from the middle than half a diagonal cuts the voxel.
+constexpr float kFarthestPlane = 0.8660255f;
+inline float planeDistance(const DirectionalFace& f) { return (static_cast<float>(f.plane) * (2.0f / 255) - 1) * kFarthestPlane; }
+
+// Faces in the order of Voxels. One level of the pyramid has the same sparse bricks as Voxels, with these records.
 struct DirectionalVoxel {
-  std::array<std::array<uint16_t, 4>, 6> face{};  // half floats; radiance in units of RadianceField::unitCdM2
-  std::array<uint8_t, 6> plane{};  // where along its axis the surfaces that face it lie on average, in 1/255 of the voxel
+  std::array<DirectionalFace, 6> face;
 };
 
 struct RadianceLevel {
@@ -42,6 +54,11 @@ struct RadianceLevel {
   std::vector<Brick> bricks;
   std::vector<DirectionalVoxel> voxels;
 
+  bool hasBrick(Int3 b) const {
+    return static_cast<unsigned>(b.x) < static_cast<unsigned>(brickDims.x) && static_cast<unsigned>(b.y) < static_cast<unsigned>(brickDims.y) &&
+           static_cast<unsigned>(b.z) < static_cast<unsigned>(brickDims.z) &&
+           brickIndex[(static_cast<size_t>(b.z) * static_cast<size_t>(brickDims.y) + static_cast<size_t>(b.y)) * static_cast<size_t>(brickDims.x) + static_cast<size_t>(b.x)] >= 0;
+  }
   // Record of voxel (x, y, z), or null where it is empty.
   const DirectionalVoxel* find(int x, int y, int z) const {
     const int bx = x >> 3, by = y >> 3, bz = z >> 3;
@@ -71,7 +88,6 @@ struct RadianceField {
   std::vector<RadianceLevel> levels;  // 0: base voxels; each next one twice as large
   float unitCdM2 = 1;
   std::vector<Vec3> irradianceLux;    // per slot of Voxels: direct and indirect, per channel
-  std::vector<uint8_t> coverage;      // per slot: how much of its plane inside the voxel is surface, in 1/255
   std::vector<Vec3> indirectLux;      // the part that came by at least one bounce or through links from the sky
   SkyGuide guide;
   int bounces = 0;               // done
