@@ -52,6 +52,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("coneHalfAngleDeg", s.gather.coneHalfAngleDeg, 1, 60);
     g.number("startOffsetVoxels", s.gather.startOffsetVoxels, 0, 8);
     g.number("rayRoughness", s.gather.rayRoughness, 0, 1);
+    g.number("filterPasses", s.gather.filterPasses, 0, 8);
     g.number("occlusionLambda", s.gather.occlusionLambda, 0, 1000);
     g.color("ambientCdM2", s.gather.ambientCdM2, 1e9);
   });

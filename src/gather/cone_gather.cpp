@@ -5,248 +5,78 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
-#include "base/sampling.h"
-#include "gather/cone_march.h"
-#include "radiance/sky_guide.h"
-#include "trace/bsdf.h"
+#include "gather/cone_shader.h"
+#include "gather/filter.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kMostPanes = 16;
-constexpr int kSkySamples = 2;
-constexpr float kSharpRoughness = 0.1f;  // below: mirrors, whose pictures are seen clearly
-constexpr float kChainRoughness = 0.3f;  // below: a reflection seen in a reflection is followed on
-constexpr int kAllLamps = 8;  // up to this many lamps each gets its own shadow ray; more are chosen by importance
 
-struct Counters {
-  uint64_t rays = 0, cones = 0;
+struct Rectangle {
+  int x0, y0, x1, y1;
 };
 
-// Shades one primary sample.
-class Shader {
- public:
-  Shader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings)
-      : rays_(rays), lights_(lights), voxels_(voxels), field_(field), settings_(settings),
-        diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.occlusionLambda} {}
+Rectangle tileAt(size_t index, int width, int height) {
+  const int tilesX = (width + kTile - 1) / kTile, x = static_cast<int>(index) % tilesX * kTile, y = static_cast<int>(index) / tilesX * kTile;
+  return {x, y, std::min(width, x + kTile), std::min(height, y + kTile)};
+}
 
-  Vec3 primary(Ray ray, Sampler& sampler, Counters& count, float& occlusion) const {
-    Vec3 sum, left(1);
-    for (int pane = 0; pane < kMostPanes; ++pane) {
-      const Hit hit = rays_.intersect(ray);
-      ++count.rays;
-      if (!hit.valid()) return sum + left * background(ray.direction);
-      const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-      const Vec3 through = passing(s, ray.direction);
-      sum += left * shade(s, -ray.direction, sampler, count, occlusion);
-      left *= through;
-      if (luminance(left) < 1e-3f) return sum;
-      ray.origin = offsetOrigin(s.p, -s.ng);
-      ray.tMin = 0;
+// Sums over the samples of a picture.
+class Accumulation {
+ public:
+  Accumulation(int width, int height) : layers_(width, height), occlusion_(width, height), sampled_(layers_.pixels.size()) {}
+
+  void add(size_t pixel, const ConeSample& s) {
+    FilterPixel& p = layers_.pixels[pixel];
+    p.diffuse += s.diffuse;
+    p.albedo += s.albedo;
+    p.specular += s.specular;
+    p.rest += s.rest;
+    const float d = luminance(s.diffuse), g = luminance(s.specular);
+    p.diffuseVariance += d * d;
+    p.specularVariance += g * g;
+    if (s.surface) {
+      p.normal += s.normal;
+      p.position += s.position;
+      p.roughness += s.roughness;
+      p.surface += 1;
     }
-    return sum;
+    occlusion_.pixels[pixel] += Vec3(s.occlusion);
+    ++sampled_[pixel];
+  }
+
+  // Means, and of the squares the variance of the mean.
+  FilterInput means() const {
+    FilterInput out = layers_;
+    parallelFor(out.pixels.size(), 4096, [&](size_t i) {
+      FilterPixel& p = out.pixels[i];
+      const float n = static_cast<float>(std::max(1u, sampled_[i])), inverse = 1 / n;
+      p.diffuse *= inverse, p.albedo *= inverse, p.specular *= inverse, p.rest *= inverse;
+      const auto variance = [&](float squares, Vec3 mean) { return std::max(0.0f, squares * inverse - luminance(mean) * luminance(mean)) / std::max(1.0f, n - 1); };
+      p.diffuseVariance = variance(p.diffuseVariance, p.diffuse);
+      p.specularVariance = variance(p.specularVariance, p.specular);
+      if (p.surface > 0) {
+        p.normal = length(p.normal) > 0 ? normalize(p.normal) : p.normal;
+        p.position *= 1 / p.surface;
+        p.roughness *= 1 / p.surface;
+      }
+      p.surface *= inverse;
+    });
+    return out;
+  }
+
+  Image occlusion() const {
+    Image out = occlusion_;
+    for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] *= 1 / static_cast<float>(std::max(1u, sampled_[i]));
+    return out;
   }
 
  private:
-  static Vec3 passing(const SurfacePoint& s, Vec3 d) {
-    if (s.m.transmission <= 0 && s.m.alpha >= 1) return Vec3(0);
-    return straightTransmittance(*s.material, s.m, std::abs(dot(s.ns, d)));
-  }
-
-  Vec3 background(Vec3 d) const {
-    Vec3 sum = lights_.sky().present() ? lights_.sky().radiance(d) : Vec3(0);
-    for (size_t i = 0; i < lights_.sunCount(); ++i) {
-      float pdf;
-      sum += lights_.sunDisc(i, d, pdf);
-    }
-    return sum;
-  }
-
-  // Light that the surface sends towards wo, without what passes straight through it.
-  Vec3 shade(const SurfacePoint& s, Vec3 wo, Sampler& sampler, Counters& count, float& occlusion) const {
-    const Bsdf bsdf(s.m, s.ns, s.ng, wo);
-    const bool rayReflection = s.m.roughness < settings_.rayRoughness;
-    const int32_t guide = guideAt(field_.guide, voxels_, s.p, s.ng);
-    Vec3 sum = direct(s, bsdf, rayReflection, guide, sampler, count);
-    const Vec3 rho = bsdf.diffuseAlbedo();
-    if (maxComponent(rho) > 1e-4f) sum += rho * indirect(s, sampler, count, occlusion);
-    if (maxComponent(bsdf.specularAlbedo()) > 1e-4f) sum += reflection(s, bsdf, rayReflection, guide, sampler, count);
-    return s.emitted() + sum * s.m.alpha;
-  }
-
-  Vec3 visible(const SurfacePoint& s, const LightSample& light, Vec3 f, Counters& count) const {
-    if (!light.valid() || isBlack(f)) return {};
-    const float tMax = light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity;
-    ++count.rays;
-    return f * light.radiance * rays_.transmittance({offsetOrigin(s.p, s.ng), light.wi, 0, tMax});
-  }
-
-  // Direct light by exact shadow rays. Where reflections follow rays they find extended lights too; both ways share the
-  // specular lobe by multiple importance sampling. `strategies` is how many light samples compete.
-  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, int32_t guide, Sampler& sampler, Counters& count) const {
-    Vec3 sum;
-    const auto extended = [&](const LightSample& light, float strategies) {
-      if (!rayReflection || light.pdf <= 0) return bsdf.evaluate(light.wi);
-      return bsdf.evaluateDiffuse(light.wi) + bsdf.evaluateSpecular(light.wi) * misWeight(strategies * light.pdf, bsdf.pdfSpecular(light.wi));
-    };
-    const size_t lamps = lights_.lampCount();
-    if (lamps > 0 && lamps <= kAllLamps) {
-      for (size_t i = 0; i < lamps; ++i) {
-        const LightSample light = lights_.sampleLamp(i, s.p);
-        if (light.valid()) sum += visible(s, light, bsdf.evaluate(light.wi), count);
-      }
-    } else if (lamps > 0) {
-      for (int k = 0; k < 2; ++k) {
-        const LightSample light = lights_.sampleLamps(s.p, sampler.next1());
-        if (light.valid()) sum += 0.5f * visible(s, light, bsdf.evaluate(light.wi), count);
-      }
-    }
-    if (lights_.hasEmitters()) {
-      const Vec2 u = sampler.next2();
-      const LightSample light = lights_.sampleEmitters(s.p, u, sampler.next1());
-      if (light.valid()) sum += visible(s, light, extended(light, 1), count);
-    }
-    for (size_t i = 0; i < lights_.sunCount(); ++i) {
-      const LightSample light = lights_.sampleSun(i, sampler.next2());
-      if (light.valid()) sum += visible(s, light, extended(light, 1), count);
-    }
-    if (lights_.sky().present()) sum += skyLight(s, extended, guide, sampler, count);
-    return sum;
-  }
-
-  template <class F>
-  Vec3 skyLight(const SurfacePoint& s, const F& extended, int32_t guide, Sampler& sampler, Counters& count) const {
-    Vec3 sum;
-    for (int k = 0; k < kSkySamples; ++k) {
-      const Vec2 u = sampler.next2();
-      const LightSample light = sampleSkyGuided(field_.guide, guide, lights_, u, sampler.next1());
-      if (light.valid()) sum += visible(s, light, extended(light, kSkySamples), count) / kSkySamples;
-    }
-    return sum;
-  }
-
-  ConeStart coneStart(const SurfacePoint& s) const {
-    return {s.p + s.ng * (settings_.startOffsetVoxels * voxels_.voxelSizeM), s.ng};
-  }
-
-  // Mean radiance over the cosine-weighted hemisphere, by cones.
-  Vec3 indirect(const SurfacePoint& s, Sampler& sampler, Counters& count, float& occlusion) const {
-    const Frame frame(s.ns);
-    const ConeStart start = coneStart(s);
-    Vec3 sum;
-    const int n = settings_.conesPerSample;
-    const Vec2 u = sampler.next2();
-    for (int i = 0; i < n; ++i) {
-      // Strata of azimuth within the sample; the sampler spreads the samples of a pixel.
-      const Vec2 stratum{u.x, u.y};
-      Vec3 local = sampleCosineHemisphere({stratum.x, stratum.y});
-      const float turn = 2 * kPi * static_cast<float>(i) / static_cast<float>(n);
-      local = {local.x * std::cos(turn) - local.y * std::sin(turn), local.x * std::sin(turn) + local.y * std::cos(turn), local.z};
-      Vec3 d = frame.toWorld(local);
-      if (dot(d, s.ng) < 0.02f) d = normalize(d + s.ng * (0.04f - dot(d, s.ng)));
-      const ConeLight c = marchCone(field_, start, d, diffuse_, sampler.next1());
-      sum += c.radiance + settings_.ambientCdM2 * (1 - c.occlusion);
-      occlusion += c.occlusion / static_cast<float>(n);
-    }
-    count.cones += static_cast<uint64_t>(n);
-    return sum / static_cast<float>(n);
-  }
-
-  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t guide, Sampler& sampler, Counters& count) const {
-    const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
-    if (!r.valid() || isBlack(r.weight)) return {};
-    if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
-    // The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
-    const ConeShape shape{0.5f * s.m.roughness * s.m.roughness, 0};
-    ++count.cones;
-    return r.weight * marchCone(field_, coneStart(s), r.wi, shape, sampler.next1()).radiance;
-  }
-
-  // Where a reflected ray started, and the density with which its direction was chosen; 0: nothing else looked for lights there.
-  struct Reflected {
-    Vec3 p;
-    float pdf;
-    int32_t guide;
-    bool sharp;  // what it meets is seen clearly, and is lit with the care of what the camera sees
-    float weight(float lightPdf) const { return pdf > 0 ? misWeight(pdf, lightPdf) : 1; }
-  };
-
-  // What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold. Where the way
-  // goes on, through a pane or as a further reflection, one of the two is followed, in proportion to its light.
-  Vec3 along(Ray ray, Reflected from, Sampler& sampler, Counters& count) const {
-    Vec3 sum, left(1);
-    for (int k = 0; k < kMostPanes; ++k) {
-      const Hit hit = rays_.intersect(ray);
-      ++count.rays;
-      if (!hit.valid()) return sum + left * reflectedBackground(ray.direction, from);
-      const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-      if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) sum += left * emitted * from.weight(lights_.pdfEmitters(from.p, s));
-      const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
-      const bool glossy = s.m.roughness < kChainRoughness;
-      const Vec3 rho = glossy ? bsdf.diffuseAlbedo() : bihemisphericalAlbedo(s.m);
-      const int32_t guide = from.sharp ? guideAt(field_.guide, voxels_, s.p, s.ng) : -1;
-      if (from.sharp) {
-        float unused = 0;
-        Vec3 lit = glossy ? direct(s, bsdf, true, guide, sampler, count) : direct(s, bsdf, false, guide, sampler, count);
-        if (maxComponent(rho) > 1e-4f) lit += rho * indirect(s, sampler, count, unused);
-        sum += left * lit * s.m.alpha;
-      } else {
-        sum += left * rho * irradiance(s, sampler) * (s.m.alpha / kPi);
-      }
-      const Vec3 through = passing(s, ray.direction), mirrored = glossy ? bsdf.specularAlbedo() * s.m.alpha : Vec3(0);
-      const float pThrough = luminance(left * through), pMirrored = luminance(left * mirrored), survive = std::min(1.0f, 2 * (pThrough + pMirrored));
-      if (survive < 1e-2f) return sum;
-      const float u = sampler.next1(), split = survive * pThrough / (pThrough + pMirrored);
-      if (u >= survive) return sum;
-      if (u < split) {
-        left *= through / split;
-        ray.origin = offsetOrigin(s.p, -s.ng);
-        continue;
-      }
-      const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
-      if (!r.valid()) return sum;
-      left *= r.weight * (s.m.alpha / (survive - split));
-      from = {s.p, from.sharp && !r.mirror ? r.pdf : 0, guide, from.sharp};
-      ray = {offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity};
-    }
-    return sum;
-  }
-
-  Vec3 reflectedBackground(Vec3 d, const Reflected& from) const {
-    Vec3 sum;
-    if (lights_.sky().present()) {
-      sum += lights_.sky().radiance(d) * from.weight(kSkySamples * pdfSkyGuided(field_.guide, from.guide, lights_, d));
-    }
-    for (size_t i = 0; i < lights_.sunCount(); ++i) {
-      float pdf;
-      const Vec3 disc = lights_.sunDisc(i, d, pdf);
-      if (pdf > 0) sum += disc * from.weight(pdf);
-    }
-    return sum;
-  }
-
-  // From the slots around s, chosen at random with the weights of a tent, so that many look-ups show no edges of voxels.
-  Vec3 irradiance(const SurfacePoint& s, Sampler& sampler) const {
-    const Frame frame(s.ng);
-    const Vec2 u = sampler.next2();
-    const float h = voxels_.voxelSizeM;
-    const int64_t near = slotAtSurface(voxels_, s.p + (frame.t * (u.x - 0.5f) + frame.b * (u.y - 0.5f)) * h, s.ng);
-    const auto onSameSurface = [&](int64_t slot) {
-      const FaceSlot& f = voxels_.slots[static_cast<size_t>(slot)];
-      return dot(f.normal, s.ng) > 0.8f && std::abs(dot(f.position - s.p, s.ng)) < 0.3f * h;
-    };
-    const int64_t slot = near >= 0 && onSameSurface(near) ? near : slotAtSurface(voxels_, s.p, s.ng);
-    return slot < 0 ? Vec3(0) : field_.irradianceLux[static_cast<size_t>(slot)];
-  }
-
-  const RayScene& rays_;
-  const Lights& lights_;
-  const Voxels& voxels_;
-  const RadianceField& field_;
-  const GatherSettings& settings_;
-  const ConeShape diffuse_;
+  FilterInput layers_;
+  Image occlusion_;
+  std::vector<uint32_t> sampled_;
 };
 
 }  // namespace
@@ -255,50 +85,42 @@ ConeResult gatherCones(const RayScene& rays, const Lights& lights, const Voxels&
                        const Camera& camera, const GatherSettings& settings, const Progress& progress) {
   const int w = settings.width, h = settings.height;
   const CameraRays cameraRays(camera, w, h);
-  const Shader shader(rays, lights, voxels, field, settings);
+  const ConeShader shader(rays, lights, voxels, field, settings);
   ConeResult result;
-  result.image = Image(w, h);
-  result.occlusion = Image(w, h);
-  const int tilesX = (w + kTile - 1) / kTile, tilesY = (h + kTile - 1) / kTile;
+  Accumulation sums(w, h);
+  const size_t tiles = static_cast<size_t>((w + kTile - 1) / kTile) * static_cast<size_t>((h + kTile - 1) / kTile);
   std::atomic<uint64_t> rayCount = 0, coneCount = 0;
   std::mutex reporting;
   const Stopwatch watch;
   while (result.samples < settings.samples) {
     const int pass = result.samples;
-    Image fresh(w, h), occlusion(w, h);
-    std::atomic<int> tilesDone = 0;
-    parallelFor(static_cast<size_t>(tilesX) * tilesY, 1, [&](size_t tile) {
+    std::atomic<size_t> tilesDone = 0;
+    parallelFor(tiles, 1, [&](size_t tile) {
       if (progress.stop() && pass > 0) return;
-      const int x0 = static_cast<int>(tile % tilesX) * kTile, y0 = static_cast<int>(tile / tilesX) * kTile;
-      Counters count;
-      for (int y = y0; y < std::min(h, y0 + kTile); ++y) {
-        for (int x = x0; x < std::min(w, x0 + kTile); ++x) {
-          Sampler sampler(static_cast<uint64_t>(y) * w + x, static_cast<uint32_t>(pass), settings.seed);
+      const Rectangle r = tileAt(tile, w, h);
+      ConeCounters count;
+      for (int y = r.y0; y < r.y1; ++y) {
+        for (int x = r.x0; x < r.x1; ++x) {
+          const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
+          Sampler sampler(pixel, static_cast<uint32_t>(pass), settings.seed);
           const Vec2 jitter = sampler.next2();
-          float occluded = 0;
-          fresh.at(x, y) = shader.primary(cameraRays.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y), sampler, count, occluded);
-          occlusion.at(x, y) = Vec3(occluded);
+          sums.add(pixel, shader.sample(cameraRays.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y), sampler, count));
         }
       }
       rayCount += count.rays;
       coneCount += count.cones;
-      const int done = ++tilesDone;
+      const size_t done = ++tilesDone;
       if (done % 64 == 0 && reporting.try_lock()) {
-        progress.at((static_cast<float>(pass) + static_cast<float>(done) / static_cast<float>(tilesX * tilesY)) / static_cast<float>(settings.samples));
+        progress.at((static_cast<float>(pass) + static_cast<float>(done) / static_cast<float>(tiles)) / static_cast<float>(settings.samples));
         reporting.unlock();
       }
     });
-    if (progress.stop() && pass > 0) break;
-    for (size_t i = 0; i < fresh.pixels.size(); ++i) {
-      result.image.pixels[i] += fresh.pixels[i];
-      result.occlusion.pixels[i] += occlusion.pixels[i];
-    }
     ++result.samples;
     if (progress.stop() || (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS)) break;
   }
-  const float inverse = 1 / static_cast<float>(result.samples);
-  for (Vec3& p : result.image.pixels) p *= inverse;
-  for (Vec3& p : result.occlusion.pixels) p *= inverse;
+  const FilterInput means = sums.means();
+  result.image = settings.filterPasses > 0 ? filtered(means, settings.filterPasses) : composed(means);
+  result.occlusion = sums.occlusion();
   result.rays = rayCount;
   result.cones = coneCount;
   return result;

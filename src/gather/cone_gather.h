@@ -17,6 +17,7 @@ struct GatherSettings {
   float rayRoughness = 0.6f;      // reflections below this roughness follow exact rays
   float occlusionLambda = 0;      // f(r) = 1 / (1 + lambda r) in ambient occlusion, 1/m
   Vec3 ambientCdM2{0, 0, 0};      // luminance of light that ambient occlusion attenuates; 0: physical light only
+  int filterPasses = 5;           // of the filter that removes remaining noise (filter.h); 0: none
   double timeLimitS = 0;          // stop after a whole pass
   uint64_t seed = 0;
 };

@@ -18,6 +18,7 @@ ConeSetup small() {
   ConeSetup s;
   s.gather.width = s.gather.height = 24;
   s.gather.samples = 16;
+  s.gather.filterPasses = 0;
   return s;
 }
 

@@ -1,0 +1,30 @@
+// Removes what noise a few samples leave: an edge-avoiding a-trous filter of reflected light, guided by what is seen and by the
+// noise itself (Dammertz et al. 2010; variance guidance after Schied et al. 2017, section 4.4).
+#pragma once
+
+#include <vector>
+
+#include "base/image.h"
+
+namespace roomlight {
+
+// Means over a pixel's samples.
+struct FilterPixel {
+  Vec3 diffuse, albedo, specular, rest;  // the picture is diffuse + specular + rest
+  float diffuseVariance = 0, specularVariance = 0;  // of the mean's luminance
+  Vec3 normal, position;
+  float roughness = 0;
+  float surface = 0;  // 0..1: share of samples that saw a surface
+};
+
+struct FilterInput {
+  int width = 0, height = 0;
+  std::vector<FilterPixel> pixels;
+  FilterInput(int w, int h) : width(w), height(h), pixels(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
+};
+
+Image composed(const FilterInput& input);  // without filtering
+// Pass k looks 2^k pixels far. Diffuse light is filtered as irradiance, so textures stay sharp; mirrors are left alone.
+Image filtered(const FilterInput& input, int passes);
+
+}  // namespace roomlight
