@@ -13,7 +13,8 @@ namespace roomlight {
 namespace {
 
 constexpr int kSkySamples = 8;
-constexpr int kMostPanes = 16;  // thin surfaces a link goes through
+constexpr int kMostPanes = 16;  // surfaces a link goes through or on from
+constexpr float kHiddenBehind = 0.15f;  // voxels; surfaces further behind a slot's place are not lit as it is
 
 // Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves.
 struct Link {
@@ -82,7 +83,8 @@ class Illuminator {
         rays_.intersect(rays, hits);
         for (size_t i = 0; i < n; ++i) {
           Vec3 left(1);
-          links_[s * n + i] = follow(rays[i], hits[i], left);
+          Sampler sampler(s, static_cast<uint32_t>(i), settings_.seed + 5);
+          links_[s * n + i] = follow(rays[i], hits[i], left, sampler);
           if (sky) guide.add(b, slot.face, rays[i].direction, hits[i].valid() ? 0.0f : luminance(left));
         }
       }
@@ -93,21 +95,30 @@ class Illuminator {
     if (sky) field.guide = guide.finish();
   }
 
-  // Goes through panes; `hit` ends as the surface that scatters, or invalid where the ray leaves the scene.
-  Link follow(Ray ray, Hit& hit, Vec3& left) const {
-    for (int pane = 0; pane < kMostPanes && hit.valid(); ++pane) {
+  // Goes through panes; `hit` ends as the surface that scatters, or invalid where the ray leaves the scene. A surface behind the
+  // one its slot stands for (the back of a panel before a wall, the inside of a pipe) has no light of its own in the voxels: the
+  // way goes on from there by a diffuse reflection.
+  Link follow(Ray ray, Hit& hit, Vec3& left, Sampler& sampler) const {
+    for (int k = 0; k < kMostPanes && hit.valid(); ++k) {
       const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
       if (s.m.transmission <= 0 && s.m.alpha >= 1) {
         const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
         if (slot < 0) return {};
-        return {static_cast<uint32_t>(slot), luminance(left)};
+        if (!isHidden(voxels_.slots[static_cast<size_t>(slot)], s)) return {static_cast<uint32_t>(slot), luminance(left)};
+        left *= bihemisphericalAlbedo(s.m);
+        ray = {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
+      } else {
+        left *= straightTransmittance(*s.material, s.m, std::abs(dot(s.ng, ray.direction)));
+        ray.origin = offsetOrigin(s.p, -s.ng);
       }
-      left *= straightTransmittance(*s.material, s.m, std::abs(dot(s.ng, ray.direction)));
       if (luminance(left) < 0.03f) return {};
-      ray.origin = offsetOrigin(s.p, -s.ng);
       hit = rays_.intersect(ray);
     }
     return {};
+  }
+
+  bool isHidden(const FaceSlot& slot, const SurfacePoint& s) const {
+    return dot(slot.position - s.p, slot.normal) > kHiddenBehind * voxels_.voxelSizeM;
   }
 
   std::pair<size_t, size_t> slotsOfBrick(size_t b) const {
