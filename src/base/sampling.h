@@ -31,12 +31,13 @@ inline Vec3 sampleSphere(Vec2 u) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-// Uniform in the cone about +z whose half-angle has the given cosine; density 1/(2 pi (1 - cosHalf)).
-inline Vec3 sampleCone(Vec2 u, float cosHalf) {
-  const float z = 1 - u.x * (1 - cosHalf), r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
+// Uniform in the cone about +z with the given 1 - cos of its half-angle; density 1/(2 pi (1 - cos)). Not by the cosine
+// itself, which rounds to 1 for a disc of a hundredth of a degree.
+inline Vec3 sampleCone(Vec2 u, float oneMinusCos) {
+  const float h = u.x * oneMinusCos, r = std::sqrt(std::max(0.0f, h * (2 - h))), phi = 2 * kPi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi), 1 - h};
 }
-inline float conePdf(float cosHalf) { return 1 / (2 * kPi * (1 - cosHalf)); }
+inline float conePdf(float oneMinusCos) { return 1 / (2 * kPi * oneMinusCos); }
 
 // Barycentric weights of vertices 1 and 2, uniform over a triangle (Heitz 2019).
 inline Vec2 sampleTriangle(Vec2 u) {

@@ -14,6 +14,7 @@
 #include "base/image_io.h"
 #include "import/json_reader.h"
 #include "photometry/colour_temperature.h"
+#include "photometry/spot.h"
 #include "photometry/sun.h"
 
 namespace roomlight {
@@ -40,7 +41,7 @@ Vec3 colour(const JsonPlace& j) {
   if (j.has("temperature")) return blackBodyColour(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
   if (!j.has("color")) return Vec3(1);
   const Vec3 c = j["color"].vector(0, kMostLight);
-  if (luminance(c) > 0) return c / luminance(c);
+  if (luminance(c) >= 1e-6f) return c / luminance(c);
   j["color"].fail("must not be black");
   return Vec3(1);
 }
@@ -56,9 +57,6 @@ std::string theOne(const JsonPlace& j, std::initializer_list<const char*> keys) 
   if (count != 1) j.fail(fmt::format("give exactly one of {}", all));
   return count == 1 ? found : std::string();
 }
-
-// Solid angle weighted with the fall-off between the cones, (t^2, t linear in the cosine): flux / intensity at the axis.
-double spotFluxPerCandela(double cosInner, double cosOuter) { return 2 * kPi * ((1 - cosInner) + (cosInner - cosOuter) / 3); }
 
 void readSpot(const JsonPlace& j, Lamp& lamp) {
   lamp.direction = direction(j["direction"]);

@@ -1,6 +1,7 @@
 #include "trace/lights.h"
 
 #include "base/sampling.h"
+#include "photometry/spot.h"
 #include "trace/spherical_triangle.h"
 
 namespace roomlight {
@@ -19,13 +20,23 @@ Vec3 meanEmission(const Scene& scene, const Mesh& mesh, uint32_t triangle) {
 // Small triangles are sampled by area: cheaper, and exact enough for floats. Both sampling and density decide by this.
 bool samplesSolidAngle(float solidAngle) { return solidAngle > 1e-3f && solidAngle < 6.2f; }
 
+// 1 - cos of a sun's angular radius, exact where the cosine itself would round to 1.
+float oneMinusCos(const Sun& sun) {
+  const float s = std::sin(0.5f * sun.halfAngleRad);
+  return 2 * s * s;
+}
+
+// Luminance of a disc that gives its illuminance to a surface facing it: the cosine integrates to pi sin^2.
+Vec3 discRadiance(const Sun& sun) {
+  const float s = std::sin(sun.halfAngleRad);
+  return sun.illuminanceLux / (kPi * s * s);
+}
+
 }  // namespace
 
 Vec3 lampIntensity(const Lamp& lamp, Vec3 direction) {
   if (lamp.kind == LampKind::Point) return lamp.intensityCd;
-  const float cosInner = std::cos(lamp.innerConeRad), cosOuter = std::cos(lamp.outerConeRad);
-  const float t = std::clamp((dot(direction, lamp.direction) - cosOuter) / std::max(1e-4f, cosInner - cosOuter), 0.0f, 1.0f);
-  return lamp.intensityCd * (t * t);
+  return lamp.intensityCd * spotFalloff(dot(direction, lamp.direction), std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
 }
 
 Lights::Lights(const Scene& scene) : scene_(scene), suns_(scene.suns), sky_(scene.sky) {
@@ -232,22 +243,19 @@ LightSample Lights::sampleSun(size_t index, Vec2 u) const {
     s.radiance = sun.illuminanceLux;
     return s;
   }
-  const float cosHalf = std::cos(sun.halfAngleRad);
-  s.wi = Frame(sun.toLight).toWorld(sampleCone(u, cosHalf));
-  s.pdf = conePdf(cosHalf);
-  const float sine = std::sin(sun.halfAngleRad);
-  s.radiance = sun.illuminanceLux / (kPi * sine * sine) / s.pdf;
+  s.wi = Frame(sun.toLight).toWorld(sampleCone(u, oneMinusCos(sun)));
+  s.pdf = conePdf(oneMinusCos(sun));
+  s.radiance = discRadiance(sun) / s.pdf;
   return s;
 }
 
 Vec3 Lights::sunDisc(size_t index, Vec3 d, float& pdf) const {
   const Sun& sun = suns_[index];
   pdf = 0;
-  const float cosHalf = std::cos(sun.halfAngleRad);
-  if (sun.halfAngleRad <= 0 || dot(d, sun.toLight) < cosHalf) return {};
-  pdf = conePdf(cosHalf);
-  const float sine = std::sin(sun.halfAngleRad);
-  return sun.illuminanceLux / (kPi * sine * sine);
+  // |d - toLight|^2 = 2 (1 - cos), without the rounding of a cosine near 1.
+  if (sun.halfAngleRad <= 0 || lengthSquared(d - sun.toLight) > 2 * oneMinusCos(sun)) return {};
+  pdf = conePdf(oneMinusCos(sun));
+  return discRadiance(sun);
 }
 
 LightSample Lights::sampleSky(Vec2 u) const {

@@ -50,8 +50,8 @@ TEST(Sampling, cosineHemisphereFollowsItsDensity) {
 
 TEST(Sampling, coneFollowsItsDensity) {
   for (float cosHalf : {-0.5f, 0.25f, 0.75f}) {
-    EXPECT_TRUE(directionsFit([=](Vec2 u) { return sampleCone(u, cosHalf); },
-                              [=](Vec3 d) { return d.z >= cosHalf ? static_cast<double>(conePdf(cosHalf)) : 0.0; }));
+    EXPECT_TRUE(directionsFit([=](Vec2 u) { return sampleCone(u, 1 - cosHalf); },
+                              [=](Vec3 d) { return d.z >= cosHalf ? static_cast<double>(conePdf(1 - cosHalf)) : 0.0; }));
   }
 }
 
