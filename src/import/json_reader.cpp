@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "import/json_file.h"
+
 namespace roomlight {
 namespace {
 
@@ -21,7 +23,7 @@ const nlohmann::json kNothing;
 }  // namespace
 
 void JsonPlace::fail(const std::string& what) const {
-  if (error_->empty()) *error_ = path_.empty() ? what : path_ + ": " + what;
+  if (error_->empty()) *error_ = (path_.empty() ? "" : path_ + ": ") + oneLine(what);
 }
 
 bool JsonPlace::isObject(std::initializer_list<const char*> knownKeys) const {

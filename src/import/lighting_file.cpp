@@ -7,11 +7,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include "base/image_io.h"
+#include "import/json_file.h"
 #include "import/json_reader.h"
 #include "photometry/colour_temperature.h"
 #include "photometry/spot.h"
@@ -22,7 +23,6 @@ namespace {
 
 constexpr double kMostLight = 1e12;      // of any unit; keeps squares finite in floats
 constexpr double kFarthestM = 1e6;
-constexpr uintmax_t kLargestFile = 64u << 20;
 constexpr size_t kMostLamps = 100'000;
 
 double rad(double degrees) { return degrees * kPi / 180; }
@@ -99,6 +99,7 @@ Lamp readLamp(const JsonPlace& j, size_t number) {
     const double area = static_cast<double>(lamp.widthM) * lamp.heightM;
     if (unit == "flux") lamp.luminanceCdM2 = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / (kPi * std::max(area, 1e-8)));
     if (unit == "luminance") lamp.luminanceCdM2 = c * static_cast<float>(j["luminance"].quantity(Unit::CandelaPerM2, 0, kMostLight));
+    if (luminance(lamp.luminanceCdM2) > 1.001 * kMostLight) j["flux"].fail("is more than 1e12 cd/m2 on so small an area");
     return lamp;
   }
   forbid({"luminance", "width", "height", "up"});
@@ -163,6 +164,12 @@ double horizontalIlluminance(const Image& image) {
 
 void readSkyImage(const JsonPlace& j, const std::filesystem::path& folder, Sky& sky) {
   const std::filesystem::path file = folder / j["image"].text();
+  // Opening a pipe or a terminal would wait for it.
+  std::error_code code;
+  if (std::filesystem::exists(file, code) && !std::filesystem::is_regular_file(file, code)) {
+    j["image"].fail("is not a file");
+    return;
+  }
   Result<Image> image = readImage(file);
   if (!image) {
     j["image"].fail(image.error());
@@ -258,6 +265,13 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
   return out;
 }
 
+// The one thing that depends on the scene: its emission times the factor must stay in range.
+bool emissionStaysInRange(const Scene& scene, float factor) {
+  return std::all_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+    return factor <= 1 || maxComponent(m.emission) <= kMostLight / factor;
+  });
+}
+
 void apply(Lighting& lighting, Scene& scene) {
   const Kept& kept = lighting.kept;
   if (!kept.lamps) std::erase_if(scene.lamps, [](const Lamp& l) { return l.kind != LampKind::Area; });
@@ -276,23 +290,14 @@ void apply(Lighting& lighting, Scene& scene) {
 }  // namespace
 
 Status applyLightingFile(const std::filesystem::path& file, Scene& scene) {
-  std::error_code code;
-  const uintmax_t size = std::filesystem::file_size(file, code);
-  if (code) return Error{fmt::format("{}: {}", file.string(), std::filesystem::exists(file) ? "not a readable file" : "no such file")};
-  if (size > kLargestFile) return Error{fmt::format("{}: larger than {} MiB; this is no lighting file", file.string(), kLargestFile >> 20)};
-  std::ifstream in(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(text, nullptr, true, true);
-  } catch (const nlohmann::json::exception& e) {
-    std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
-    if (const size_t close = what.find("] "); close != std::string::npos) what = what.substr(close + 2);
-    return Error{fmt::format("{}: {}", file.string(), what)};
-  }
+  const Result<nlohmann::json> json = readJsonFile(file);
+  if (!json) return Error{json.error()};
   std::string error;
-  Lighting lighting = readLighting(JsonPlace(json, "", error), file.parent_path());
+  Lighting lighting = readLighting(JsonPlace(json.value(), "", error), file.parent_path());
   if (!error.empty()) return Error{fmt::format("{}: {}", file.string(), error)};
+  if (!emissionStaysInRange(scene, lighting.kept.emission)) {
+    return Error{fmt::format("{}: scene.emission: would make a material brighter than 1e12 cd/m2", file.string())};
+  }
   apply(lighting, scene);
   return Ok{};
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/image_io.h"
+#include "trace/lights.h"
 
 namespace roomlight {
 namespace {
@@ -40,17 +41,17 @@ class LightingFile : public testing::Test {
   Scene scene_;
 };
 
-// Flux in lumen of a point or spot light by numerical integration of the fall-off that docs/formats/lighting.md states.
+// Flux in lumen of a point or spot lamp by numerical integration of what the renderer sends out.
 double fluxOf(const Lamp& lamp) {
-  if (lamp.kind == LampKind::Point) return 4 * std::numbers::pi * luminance(lamp.intensityCd);
+  constexpr int kSteps = 400'000;
+  const double widest = lamp.kind == LampKind::Point ? 2 : 1.02 * (1 - std::cos(static_cast<double>(lamp.outerConeRad)));  // of 1 - cos
+  const Frame frame(lamp.direction);
   double sum = 0;
-  constexpr int kSteps = 200000;
-  const double inner = std::cos(lamp.innerConeRad), outer = std::cos(lamp.outerConeRad);
   for (int i = 0; i < kSteps; ++i) {
-    const double c = -1 + 2 * (i + 0.5) / kSteps, t = std::clamp((c - outer) / (inner - outer), 0.0, 1.0);
-    sum += t * t * 2 / kSteps;
+    const double h = widest * (i + 0.5) / kSteps;
+    sum += luminance(lampIntensity(lamp, frame.toWorld({static_cast<float>(std::sqrt(h * (2 - h))), 0, static_cast<float>(1 - h)})));
   }
-  return 2 * std::numbers::pi * sum * luminance(lamp.intensityCd);
+  return 2 * std::numbers::pi * sum * widest / kSteps;
 }
 
 TEST_F(LightingFile, pointAndSpotLampsGiveTheFluxTheyWereGiven) {
@@ -66,6 +67,14 @@ TEST_F(LightingFile, pointAndSpotLampsGiveTheFluxTheyWereGiven) {
   EXPECT_NEAR(fluxOf(scene_.lamps[2]), 450, 0.1);
   EXPECT_EQ(scene_.lamps[2].direction.y, -1);
   EXPECT_NEAR(luminance(scene_.lamps[3].intensityCd), 90, 1e-4);
+}
+
+TEST_F(LightingFile, narrowSpotsKeepTheirFlux) {
+  const char* cones[] = {R"("innerCone": 30, "outerCone": 30)", R"("innerCone": 1, "outerCone": 1)", R"("outerCone": 0.5)", R"("innerCone": 0.4, "outerCone": 0.5)"};
+  for (const char* cone : cones) {
+    ASSERT_TRUE(apply(std::string(R"({"lamps": [{"type": "spot", "position": [0, 0, 0], "direction": [1, 2, 3], "flux": "1000 lm", )") + cone + "}]}"));
+    EXPECT_NEAR(fluxOf(scene_.lamps.back()), 1000, 10) << cone;
+  }
 }
 
 TEST_F(LightingFile, areaLampsBecomeEmissiveRectanglesOfTheirFlux) {
@@ -121,6 +130,15 @@ TEST_F(LightingFile, switchesOffWhatTheSceneBrought) {
   EXPECT_EQ(scene_.materials[0].emission.x, 0);
 }
 
+TEST_F(LightingFile, aFactorThatWouldOverflowTheEmissionIsAnError) {
+  scene_.materials[0].emission = Vec3(1e8f);
+  const Status s = apply(R"({"scene": {"lamps": "off", "emission": 1e6}})");
+  ASSERT_FALSE(s);
+  EXPECT_NE(s.error().find("scene.emission"), std::string::npos) << s.error();
+  EXPECT_EQ(scene_.lamps.size(), 1u);
+  EXPECT_EQ(scene_.materials[0].emission.x, 1e8f);
+}
+
 TEST_F(LightingFile, errorsNameFileAndPlaceAndLeaveTheSceneAlone) {
   const std::string lamp = R"("type": "point", "position": [0, 0, 0])";
   const std::string area = R"("type": "area", "position": [0, 0, 0], "direction": [0, 1, 0], "width": 1, "height": 1)";
@@ -153,7 +171,25 @@ TEST_F(LightingFile, errorsNameFileAndPlaceAndLeaveTheSceneAlone) {
       {R"({"sky": {"image": "none.hdr", "unit": "1 cd/m2"}})", "none.hdr"},
       {R"({"scene": {"lamps": "dim"}})", "scene.lamps: unknown 'dim'; there are keep, off"},
       {R"({"scene": {"emission": -1}})", "scene.emission"},
-      {std::string(100000, '['), "rig.json"},
+      {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "color": [0, 0, 0]}]})", "lamps[0].color: must not be black"},
+      {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "color": [1e-40, 0, 0]}]})", "lamps[0].color: must not be black"},
+      {R"({"lamps": [{)" + lamp + R"(, "flux": "1e999 lm"}]})", "lamps[0].flux"},
+      {R"({"lamps": [{)" + lamp + R"(, "flux": "nan lm"}]})", "lamps[0].flux"},
+      {R"({"lamps": [{)" + lamp + R"(, "name": 3, "flux": "1 lm"}]})", "lamps[0].name: must be a text"},
+      {R"({"lamps": [{"type": "area", "position": [0, 0, 0], "direction": [0, 1, 0], "width": 1e-4, "height": 1e-4, "flux": "1e12 lm"}]})", "lamps[0].flux: is more than"},
+      {R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": "1 lm"}], "lamps": []})", "the key 'lamps' is given twice"},
+      {R"({"a\nb": 1})", "unknown key 'a b'"},
+      {R"({"sky": {"luminance": "1 cd/m2", "image": "a.hdr"}})", "sky: give exactly one of luminance, image"},
+      {R"({"sky": {"image": ".", "unit": "1 cd/m2"}})", "sky.image: is not a file"},
+      {R"({"sky": {"luminance": "3000 lx"}})", "sky.luminance: '3000 lx' is in lx, where cd/m2 is needed"},
+      {R"({"sun": [{"direction": [0, 1, 0], "illuminance": "1 lx"}, {"direction": [0, 1, 0], "illuminance": "1 lx", "angularDiameter": 91}]})", "sun[1].angularDiameter"},
+      {R"({"scene": {"emission": 2e6}})", "scene.emission"},
+      {R"({"sun": {"latitude": 1, "longitude": 0, "time": ")" + std::string(1'000'000, 'x') + "\"}}", "sun.time"},
+      {R"({"sky": {"unit": "1 cd/m2", "image": ")" + std::string(1'000'000, 'x') + "\"}}", "sky.image"},
+      {R"({"comment": ")" + std::string(1'000'000, 'x'), "parse error"},
+      {std::string(100'000, '['), "nested more than 32 deep"},
+      {std::string(100'000, '[') + std::string(100'000, ']'), "nested more than 32 deep"},
+      {std::string(17 << 20, ' '), "larger than 16 MiB"},
   };
   for (const auto& [json, expected] : cases) {
     const Status s = apply(json);
@@ -161,8 +197,11 @@ TEST_F(LightingFile, errorsNameFileAndPlaceAndLeaveTheSceneAlone) {
     EXPECT_NE(s.error().find(expected), std::string::npos) << s.error();
     EXPECT_NE(s.error().find("rig.json"), std::string::npos) << s.error();
     EXPECT_EQ(s.error().find('\n'), std::string::npos) << s.error();
+    EXPECT_LT(s.error().size(), 1000u);
     EXPECT_EQ(scene_.lamps.size(), 1u);
     EXPECT_EQ(scene_.suns.size(), 1u);
+    EXPECT_EQ(scene_.meshes.size(), 0u);
+    EXPECT_EQ(scene_.sky.luminanceCdM2.x, 9);
     EXPECT_EQ(scene_.materials[0].emission.x, 100);
   }
   EXPECT_NE(applyLightingFile(folder_ / "missing.json", scene_).error().find("no such file"), std::string::npos);

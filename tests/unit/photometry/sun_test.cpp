@@ -13,8 +13,27 @@ constexpr double kDeg = 180 / std::numbers::pi;
 // (with refraction of about 0.02), azimuth 194.34024.
 TEST(Sun, standsWhereThePublishedExamplePutsIt) {
   const SunPosition p = sunPosition(parseMoment("2003-10-17T12:30:30-07:00").value(), 39.742476, -105.1786);
-  EXPECT_NEAR(p.altitudeRad * kDeg, 90 - 50.1279, 0.05);
-  EXPECT_NEAR(p.bearingRad * kDeg, 194.34024, 0.05);
+  EXPECT_NEAR(p.altitudeRad * kDeg, 90 - 50.1279, 0.02);
+  EXPECT_NEAR(p.bearingRad * kDeg, 194.34024, 0.02);
+}
+
+// Meeus, Astronomical Algorithms, example 25.a: 1992-10-13 0h TD (58 s after UTC), apparent declination -7.78507 degrees. Seen
+// from the pole that is the altitude.
+TEST(Sun, hasThePublishedDeclination) {
+  EXPECT_NEAR(sunPosition(parseMoment("1992-10-12T23:59:02Z").value(), 90, 0).altitudeRad * kDeg, -7.78507, 0.01);
+  EXPECT_NEAR(sunPosition(parseMoment("1992-10-12T23:59:02Z").value(), -90, 0).altitudeRad * kDeg, 7.78507, 0.01);
+}
+
+TEST(Sun, southOfTheTropicsItStandsInTheNorthAtNoon) {
+  const SunPosition p = sunPosition(parseMoment("2026-03-20T12:04+10:00").value(), -33.9, 151.2);
+  EXPECT_LT(std::min(p.bearingRad, 2 * std::numbers::pi - p.bearingRad) * kDeg, 2);
+  EXPECT_NEAR(p.altitudeRad * kDeg, 90 - 33.9, 0.5);
+}
+
+TEST(Sun, risesInTheEastAtTheEquinox) {
+  const SunPosition p = sunPosition(parseMoment("2026-03-20T06:08Z").value(), 0, 0);
+  EXPECT_NEAR(p.bearingRad * kDeg, 90, 0.3);
+  EXPECT_NEAR(p.altitudeRad * kDeg, 0, 0.5);
 }
 
 TEST(Sun, culminatesAtTheLatitudesAngleAtTheSolstice) {

@@ -1,0 +1,71 @@
+#include "import/json_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace roomlight {
+namespace {
+
+constexpr uintmax_t kLargestFileBytes = 16u << 20;
+constexpr int kDeepest = 32;
+
+// Watches the parser: stops at what it would accept and we do not.
+class Guard {
+ public:
+  bool operator()(int depth, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+    using Event = nlohmann::json::parse_event_t;
+    if ((event == Event::object_start || event == Event::array_start) && depth >= kDeepest) {
+      throw std::runtime_error(fmt::format("nested more than {} deep", kDeepest));
+    }
+    if (event == Event::object_start) keysOfOpenObjects_.emplace_back();
+    if (event == Event::object_end) keysOfOpenObjects_.pop_back();
+    if (event == Event::key && !keysOfOpenObjects_.back().insert(value.get<std::string>()).second) {
+      throw std::runtime_error(fmt::format("the key '{}' is given twice", oneLine(value.get<std::string>())));
+    }
+    return true;
+  }
+
+ private:
+  std::vector<std::set<std::string>> keysOfOpenObjects_;
+};
+
+}  // namespace
+
+std::string oneLine(std::string_view text) {
+  constexpr size_t kMost = 600;
+  size_t end = std::min(text.size(), kMost);
+  // Not in the middle of a UTF-8 character.
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  std::string line(text.substr(0, end));
+  std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return end < text.size() ? line + "..." : line;
+}
+
+Result<nlohmann::json> readJsonFile(const std::filesystem::path& file) {
+  const auto error = [&](std::string_view what) { return Error{fmt::format("{}: {}", file.string(), oneLine(what))}; };
+  std::error_code code;
+  const uintmax_t size = std::filesystem::file_size(file, code);
+  if (code) return error(std::filesystem::exists(file, code) ? "not a readable file" : "no such file");
+  if (size > kLargestFileBytes) return error(fmt::format("larger than {} MiB; this is no lighting file", kLargestFileBytes >> 20));
+  std::ifstream in(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (!in.good() && !in.eof()) return error("cannot be read");
+  try {
+    Guard guard;
+    return nlohmann::json::parse(text, std::ref(guard), true, true);
+  } catch (const std::exception& e) {
+    // nlohmann's own: "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
+    const std::string_view what = e.what();
+    const size_t close = what.starts_with("[json") ? what.find("] ") : std::string_view::npos;
+    return error(close == std::string_view::npos ? what : what.substr(close + 2));
+  }
+}
+
+}  // namespace roomlight
