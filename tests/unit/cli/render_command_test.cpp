@@ -118,9 +118,29 @@ TEST_F(RenderCommand, camerasGoByNameOrNumber) {
   EXPECT_FALSE(front.pixels == back.pixels);
 }
 
+TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
+  const auto meanLuminance = [&](const std::string& lamps, const std::string& name) {
+    writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");
+    const ProgramRun run = render({"-o", path(name), "--technique", "path", "--samples", "16", "--lighting", path("rig.json")});
+    EXPECT_EQ(run.exitStatus, 0) << run.err;
+    EXPECT_EQ(metadata(name).at("roomlight.lighting"), path("rig.json"));
+    double sum = 0;
+    const Image image = picture(name);
+    for (const Vec3 p : image.pixels) sum += luminance(p);
+    return sum / static_cast<double>(image.pixels.size());
+  };
+  const std::string at = R"({"type": "point", "position": [0, 2.5, 0], )";
+  EXPECT_EQ(meanLuminance("", "dark.exr"), 0);
+  const double one = meanLuminance(at + R"("flux": "800 lm"})", "one.exr");
+  EXPECT_GT(one, 1);
+  EXPECT_NEAR(meanLuminance(at + R"("flux": "1600 lm"})", "two.exr") / one, 2, 1e-3) << "light is linear";
+  EXPECT_NEAR(meanLuminance(at + R"("intensity": "63.662 cd"})", "candela.exr") / one, 1, 1e-3) << "800 lm / 4 pi";
+}
+
 TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   writeFile(path("broken.glb"), "glTF but not really");
   writeFile(path("unknown.json"), R"({"sampels": 3})");
+  writeFile(path("rig.json"), R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": 800}]})");
   const std::string a = path("a.png");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"render", path("missing.glb"), "-o", a}, "missing.glb"},
@@ -144,6 +164,8 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--metres-per-unit", "0"}, "--metres-per-unit"},
       {{"render", scene_, "-o", a, "--settings", path("unknown.json")}, "sampels"},
       {{"render", scene_, "-o", a, "--settings", path("missing.json")}, "missing.json"},
+      {{"render", scene_, "-o", a, "--lighting", path("rig.json")}, "rig.json: lamps[0].flux: has no unit; write \"800 lm\""},
+      {{"render", scene_, "-o", a, "--lighting", path("missing.json")}, "missing.json: no such file"},
       {{"render", scene_, "-o", a, "--no-such-option"}, "--no-such-option"},
       {{"paint", scene_}, ""},
       {{}, ""},
