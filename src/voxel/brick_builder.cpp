@@ -140,7 +140,7 @@ void addTriangle(const Scene& scene, const Lattice& lattice, Int3 brick, Voxelis
 FaceSlot finishSlot(const SlotSums& s, int face, const Lattice& lattice) {
   FaceSlot slot;
   const float inverse = 1 / s.area;
-  slot.position = lattice.origin + s.position * lattice.voxelSizeM;
+  slot.position = lattice.toWorld(s.position);
   const float l = length(s.normal);
   slot.normal = l > 1e-6f * s.area ? s.normal / l : faceDirection(face);
   slot.albedo = s.albedo * inverse;

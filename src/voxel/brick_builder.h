@@ -5,17 +5,10 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "voxel/lattice.h"
 #include "voxel/voxelise.h"
 
 namespace roomlight {
-
-// Where the lattice lies: world = origin + voxelSizeM * q for coordinates q in voxels.
-struct Lattice {
-  Vec3 origin;
-  float voxelSizeM = 0;
-  Int3 brickDims;
-  Vec3 toVoxels(Vec3 p) const { return (p - origin) / voxelSizeM; }
-};
 
 // Triangle in voxel coordinates; `front` is its unit front normal in world space.
 struct LatticeTriangle {
@@ -30,6 +23,7 @@ struct BrickRecords {
   std::vector<FaceSlot> slots;
 };
 
+// `brick` in bricks from the world's origin, like `references` of the triangles that reach into it.
 BrickRecords buildBrick(const Scene& scene, const Lattice& lattice, Int3 brick, std::span<const Voxelisation::Reference> references);
 
 }  // namespace roomlight

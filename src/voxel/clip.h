@@ -1,4 +1,4 @@
-// Convex polygons cut by the planes of an integer lattice. Coordinates are in voxels from the grid's origin, so that
+// Convex polygons cut by the planes of an integer lattice. Coordinates are in voxels from the world's origin, so that
 // bricks and voxels are cut by the very same planes and no piece is lost or counted twice between them.
 #pragma once
 
@@ -27,14 +27,15 @@ inline AreaCentroid areaOf(const Polygon& polygon) {
   AreaCentroid r;
   Vec3 moment;
   for (int i = 1; i + 1 < polygon.count; ++i) {
-    const Vec3 a = polygon.v[0], b = polygon.v[static_cast<size_t>(i)], c = polygon.v[static_cast<size_t>(i) + 1];
-    const Vec3 n = cross(b - a, c - a) * 0.5f;
+    // Relative to a corner: coordinates may be far larger than the piece.
+    const Vec3 b = polygon.v[static_cast<size_t>(i)] - polygon.v[0], c = polygon.v[static_cast<size_t>(i) + 1] - polygon.v[0];
+    const Vec3 n = cross(b, c) * 0.5f;
     const float area = length(n);
     r.vectorArea += n;
     r.area += area;
-    moment += (a + b + c) * (area / 3);
+    moment += (b + c) * (area / 3);
   }
-  r.centroid = r.area > 0 ? moment / r.area : polygon.v[0];
+  r.centroid = r.area > 0 ? polygon.v[0] + moment / r.area : polygon.v[0];
   return r;
 }
 

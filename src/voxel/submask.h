@@ -42,9 +42,10 @@ inline uint64_t subVoxelMask(const Polygon& polygon, Vec3 corner, Vec3 normal) {
       }
       if (outside) continue;
       const float h = h0 + du * u0 + dv * v0;
-      const float hMin = std::max(lo[a], h + std::min(du, 0.0f) + std::min(dv, 0.0f));
-      const float hMax = std::min(hi[a], h + std::max(du, 0.0f) + std::max(dv, 0.0f));
-      for (int ia = cellLo(hMin - 1e-4f); ia <= cellHi(hMin, hMax + 1e-4f); ++ia) {
+      // Slack for the plane's rounding, but not beyond the polygon: a flat wall stays one sub-cell thick.
+      const float hMin = std::max(lo[a], h + std::min(du, 0.0f) + std::min(dv, 0.0f) - 1e-4f);
+      const float hMax = std::min(hi[a], h + std::max(du, 0.0f) + std::max(dv, 0.0f) + 1e-4f);
+      for (int ia = cellLo(hMin); ia <= cellHi(hMin, hMax); ++ia) {
         mask |= uint64_t{1} << ((iu << shift[u]) + (iv << shift[v]) + (ia << shift[a]));
       }
     }

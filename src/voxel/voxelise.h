@@ -2,6 +2,7 @@
 // redo only the bricks a moved instance left or entered.
 #pragma once
 
+#include <compare>
 #include <span>
 
 #include "scene/scene.h"
@@ -16,7 +17,7 @@ struct VoxelSettings {
   float largestM = 0.5f;
 };
 
-// Edge length that is expected to keep Voxels and the light on them within the budget.
+// Edge length that is expected to keep Voxels and the light on them within the budget; settings.voxelSizeM where given.
 float chooseVoxelSize(const Scene& scene, const VoxelSettings& settings);
 
 // A voxelised scene that can be kept up to date.
@@ -26,17 +27,21 @@ struct Voxelisation {
   // (instance, triangle), so that a brick done again gives bit-identical records.
   struct Reference {
     uint32_t instance, triangle;
+    auto operator<=>(const Reference&) const = default;
   };
   std::vector<uint32_t> firstReference;  // bricks + 1
   std::vector<Reference> references;
+  std::vector<Bounds3> instanceBounds;   // world; empty where hidden
 };
 
-// Cost: proportional to triangles plus voxels touched; about 0.3 s for 400 k triangles at 4 cm on two cores.
-// `hidden[i]` true leaves instance i out; empty means none is hidden.
+// Cost: proportional to triangles plus voxels touched. `hidden[i]` true leaves instance i out; empty means none is hidden.
+// Where the scene's extent is absurd for the voxel size (see feasibleVoxelSizeM in lattice.h), the voxels come out larger.
 Voxelisation voxelise(const Scene& scene, const VoxelSettings& settings, std::span<const uint8_t> hidden = {});
 
 // Brings `v` up to date after the listed instances of `scene` changed (transform, or hidden: `hidden[i]` true removes
-// instance i; empty means none is hidden). Same result, bit for bit, as voxelise() of the scene as it is now.
+// instance i; empty means none is hidden); new instances at the end of `scene` count as changed. Same result, bit for bit,
+// as voxelise() of the scene as it is now with v's voxel size, also where the grid grows or shrinks. Cost: the bricks that
+// changed instances left and entered, plus a copy of the rest.
 void update(Voxelisation& v, const Scene& scene, std::span<const uint32_t> changedInstances,
             std::span<const uint8_t> hidden = {});
 
