@@ -13,6 +13,7 @@ namespace roomlight {
 namespace {
 
 constexpr int kSkySamples = 8;
+constexpr uint32_t kPoints = 4;    // per slot
 constexpr int kMostPanes = 16;  // surfaces a link goes through or on from
 constexpr float kHiddenBehind = 0.15f;  // voxels; surfaces further behind a slot's place are not lit as it is
 
@@ -34,6 +35,7 @@ class Illuminator {
 
   RadianceField run(const Progress& progress) {
     RadianceField field;
+    placePoints();
     if (settings_.links > 0) traceLinks(field, progress);
     progress.at(0.5f);
     gatherDirect(field);
@@ -52,12 +54,52 @@ class Illuminator {
   }
 
  private:
-  // A point on the slot's surface: spread over the voxel where the surface fills it, else its middle.
-  Vec3 pointOn(const FaceSlot& slot, const Frame& frame, Vec2 u) const {
+  // Points that receive a slot's light: spread over its voxel where its surface fills that. Each is looked up on the surface
+  // itself, for beside a curved surface the slot's plane lies behind it.
+  void placePoints() {
+    points_.resize(voxels_.slots.size());
+    parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
+      const auto [first, last] = slotsOfBrick(b);
+      std::vector<Ray> rays;
+      std::vector<Hit> hits;
+      for (size_t s = first; s < last; ++s) appendProbes(s, rays);
+      hits.resize(rays.size());
+      rays_.intersect(rays, hits);
+      for (size_t s = first, next = 0; s < last; ++s) {
+        const FaceSlot& slot = voxels_.slots[s];
+        points_[s].fill(lifted(slot.position, slot.normal));
+        if (!fillsVoxel(slot)) continue;
+        for (Vec3& p : points_[s]) {
+          const Ray& ray = rays[next];
+          const Hit& hit = hits[next++];
+          if (hit.valid() && facesAlong(hit, slot.normal)) p = lifted(ray.origin + ray.direction * hit.t, slot.normal);
+        }
+      }
+    });
+  }
+
+  bool fillsVoxel(const FaceSlot& slot) const { return slot.areaM2 > 0.8f * voxels_.voxelSizeM * voxels_.voxelSizeM; }
+
+  Vec3 lifted(Vec3 p, Vec3 n) const { return offsetOrigin(p, n) + n * (0.01f * voxels_.voxelSizeM); }
+
+  bool facesAlong(const Hit& hit, Vec3 n) const {
+    const TriangleVertices t = worldTriangle(rays_.scene(), hit.instance, hit.triangle);
+    const Vec3 ng = cross(t.b - t.a, t.c - t.a);
+    return std::abs(dot(ng, n)) > 0.7f * length(ng);
+  }
+
+  // Short rays down onto the slot's surface, one in each quarter of its square.
+  void appendProbes(size_t s, std::vector<Ray>& rays) const {
+    const FaceSlot& slot = voxels_.slots[s];
+    if (!fillsVoxel(slot)) return;
+    const Frame frame(slot.normal);
     const float h = voxels_.voxelSizeM;
-    Vec3 p = slot.position;
-    if (slot.areaM2 > 0.8f * h * h) p += (frame.t * (u.x - 0.5f) + frame.b * (u.y - 0.5f)) * (0.8f * h);
-    return offsetOrigin(p, slot.normal) + slot.normal * (0.01f * h);
+    for (uint32_t k = 0; k < kPoints; ++k) {
+      Sampler sampler(s, k, settings_.seed + 6);
+      const Vec2 u = sampler.next2();
+      const float x = 0.4f * (u.x + static_cast<float>(k & 1)) - 0.4f, y = 0.4f * (u.y + static_cast<float>(k >> 1)) - 0.4f;
+      rays.push_back({slot.position + (frame.t * x + frame.b * y + slot.normal * 0.3f) * h, -slot.normal, 0, 0.6f * h});
+    }
   }
 
   void traceLinks(RadianceField& field, const Progress& progress) {
@@ -77,7 +119,7 @@ class Illuminator {
         for (uint32_t i = 0; i < n; ++i) {
           Sampler sampler(s, i, settings_.seed);
           const Vec3 d = frame.toWorld(sampleCosineHemisphere(sampler.next2()));
-          rays.push_back({pointOn(slot, frame, sampler.next2()), d, 0, kInfinity});
+          rays.push_back({points_[s][i % kPoints], d, 0, kInfinity});
         }
         hits.resize(n);
         rays_.intersect(rays, hits);
@@ -165,21 +207,21 @@ class Illuminator {
     for (int k = 0; k < perDelta; ++k) {
       Sampler sampler(s, static_cast<uint32_t>(k), settings_.seed + 1);
       for (size_t i = 0; i < lights_.lampCount(); ++i) {
-        const Vec3 p = pointOn(slot, frame, sampler.next2());
+        const Vec3 p = points_[s][static_cast<size_t>(k) % kPoints];
         add(lights_.sampleLamp(i, p), p, 1.0f / static_cast<float>(perDelta));
       }
     }
     for (uint32_t k = 0; k < 4; ++k) {
       Sampler sampler(s, k, settings_.seed + 2);
       for (size_t i = 0; i < lights_.sunCount(); ++i) {
-        const Vec3 p = pointOn(slot, frame, sampler.next2());
+        const Vec3 p = points_[s][static_cast<size_t>(k) % kPoints];
         add(lights_.sampleSun(i, sampler.next2()), p, 0.25f);
       }
     }
     if (lights_.hasEmitters()) {
       for (int k = 0; k < settings_.directSamples; ++k) {
         Sampler sampler(s, static_cast<uint32_t>(k), settings_.seed + 3);
-        const Vec3 p = pointOn(slot, frame, sampler.next2());
+        const Vec3 p = points_[s][static_cast<size_t>(k) % kPoints];
         const Vec2 u = sampler.next2();
         add(lights_.sampleEmitters(p, u, sampler.next1()), p, 1.0f / static_cast<float>(settings_.directSamples));
       }
@@ -188,7 +230,7 @@ class Illuminator {
     if (guide >= 0) {
       for (uint32_t k = 0; k < kSkySamples; ++k) {
         Sampler sampler(s, k, settings_.seed + 4);
-        const Vec3 p = pointOn(slot, frame, sampler.next2());
+        const Vec3 p = points_[s][static_cast<size_t>(k) % kPoints];
         const Vec2 u = sampler.next2();
         add(sampleSkyGuided(field.guide, guide, lights_, u, sampler.next1()), p, 1.0f / kSkySamples);
       }
@@ -243,6 +285,7 @@ class Illuminator {
   const Lights& lights_;
   const Voxels& voxels_;
   const RadianceSettings settings_;
+  std::vector<std::array<Vec3, kPoints>> points_;  // per slot
   std::vector<Link> links_;
   std::vector<Vec3> direct_, indirect_;
   uint64_t rayCount_ = 0;
