@@ -137,20 +137,23 @@ class Illuminator {
     if (sky) field.guide = guide.finish();
   }
 
-  // Goes through panes; `hit` ends as the surface that scatters, or invalid where the ray leaves the scene. A surface behind the
+  // Goes through panes with the share that they let through, else ends on them; `hit` ends as the surface that scatters, or invalid where the ray leaves the scene. A surface behind the
   // one its slot stands for (the back of a panel before a wall, the inside of a pipe) has no light of its own in the voxels: the
   // way goes on from there by a diffuse reflection.
   Link follow(Ray ray, Hit& hit, Vec3& left, Sampler& sampler) const {
     for (int k = 0; k < kMostPanes && hit.valid(); ++k) {
       const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-      if (s.m.transmission <= 0 && s.m.alpha >= 1) {
+      const bool clear = s.m.transmission > 0 || s.m.alpha < 1;
+      const Vec3 through = clear ? straightTransmittance(*s.material, s.m, std::abs(dot(s.ng, ray.direction))) : Vec3(0);
+      const float passes = std::min(1.0f, luminance(through));
+      if (!clear || sampler.next1() >= passes) {
         const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
         if (slot < 0) return {};
         if (!isHidden(voxels_.slots[static_cast<size_t>(slot)], s)) return {static_cast<uint32_t>(slot), luminance(left)};
         left *= bihemisphericalAlbedo(s.m);
         ray = {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
       } else {
-        left *= straightTransmittance(*s.material, s.m, std::abs(dot(s.ng, ray.direction)));
+        left *= through / passes;
         ray.origin = offsetOrigin(s.p, -s.ng);
       }
       if (luminance(left) < 0.03f) return {};
