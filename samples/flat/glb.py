@@ -87,7 +87,10 @@ class Glb:
             primitives.append({"attributes": attributes, "indices": self._accessor(indices.reshape(-1, 1), "SCALAR", 5125),
                                "material": self.material_index[material]})
         self.json["meshes"].append({"name": name, "primitives": primitives})
-        self.json["nodes"].append({"name": name, "mesh": len(self.json["meshes"]) - 1})
+        self._node(name, mesh=len(self.json["meshes"]) - 1)
+
+    def _node(self, name, **what):
+        self.json["nodes"].append({"name": name, **what})
         self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
 
     def camera(self, name, eye, target, yfov_deg=50):
@@ -95,12 +98,27 @@ class Glb:
         z = (eye - target) / np.linalg.norm(eye - target)
         x = np.cross([0, 1, 0], z)
         x /= np.linalg.norm(x)
-        y = np.cross(z, x)
-        matrix = [*x, 0, *y, 0, *z, 0, *eye, 1]
+        matrix = [*x, 0, *np.cross(z, x), 0, *z, 0, *eye, 1]
         self.json["cameras"].append({"name": name, "type": "perspective",
                                      "perspective": {"yfov": float(np.radians(yfov_deg)), "aspectRatio": 16 / 9, "znear": 0.05}})
-        self.json["nodes"].append({"name": name, "camera": len(self.json["cameras"]) - 1, "matrix": [float(v) for v in matrix]})
-        self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
+        self._node(name, camera=len(self.json["cameras"]) - 1, matrix=[float(v) for v in matrix])
+
+    def plan_camera(self, name, centre, width):
+        """Looks straight down from `centre`, -z at the top of the picture; `width` is what a 16:9 picture shows."""
+        half = width / 2
+        self.json["cameras"].append({"name": name, "type": "orthographic",
+                                     "orthographic": {"xmag": half, "ymag": half * 9 / 16, "znear": 0.0, "zfar": 100.0}})
+        self._node(name, camera=len(self.json["cameras"]) - 1, matrix=[1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, *centre, 1])
+
+    def point_light(self, name, position, flux_lm, colour):
+        """Shines alike in all directions; `colour` counts up to scale."""
+        weight = float(np.dot(colour, [0.2126, 0.7152, 0.0722]))
+        lights = self.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
+        # The colour's components must not exceed 1, so the luminance that it takes away goes into the intensity.
+        peak = max(colour)
+        lights.append({"name": name, "type": "point", "color": [c / peak for c in colour], "intensity": flux_lm / (4 * np.pi) * peak / weight})
+        self._use("KHR_lights_punctual")
+        self._node(name, translation=list(position), extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
 
     def save(self, path):
         self.blob += b"\0" * (-len(self.blob) % 4)

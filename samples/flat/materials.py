@@ -1,21 +1,21 @@
 """Materials of the flat: colours are sRGB 0..255 where a texture is painted, linear albedo elsewhere."""
 import numpy as np
 
+import lamps
+import paintings
 import textures as tx
 
 # Metres that one repetition of a material's texture covers; 1 where there is none.
 SIZE = {}
 
-
-def lamp(flux_lm, area_m2, kelvin_rgb):
-    """Luminance of a Lambertian emitter: flux / (pi area), spread over a colour of luminance 1."""
-    luminance = flux_lm / (np.pi * area_m2)
-    weight = np.dot(kelvin_rgb, [0.2126, 0.7152, 0.0722])
-    return [luminance * c / weight for c in kelvin_rgb]
-
-
 WARM = (1.0, 0.62, 0.30)      # about 2700 K in linear Rec.709, up to scale
 NEUTRAL = (1.0, 0.78, 0.55)   # about 3500 K
+
+
+def lambertian(flux_lm, area_m2, colour):
+    """Luminance of a Lambertian emitter: flux / (pi area), spread over a colour of luminance 1."""
+    luminance = flux_lm / (np.pi * area_m2)
+    return [luminance * c / np.dot(colour, [0.2126, 0.7152, 0.0722]) for c in colour]
 
 
 def define(glb):
@@ -24,64 +24,109 @@ def define(glb):
     def painted(name, size, colour, height=None, strength=0.6, roughness=0.6, **more):
         SIZE[name] = size
         normal = glb.texture(tx.normals_of(height, strength), name + " normal") if height is not None else None
-        glb.material(name, (1, 1, 1), roughness, texture=glb.texture(colour, name), normal=normal, **more)
+        glb.material(name, (1, 1, 1), roughness, texture=None if colour is None else glb.texture(colour, name), normal=normal, **more)
 
     def plain(name, r, g, b, roughness=0.6, **more):
         glb.material(name, (r, g, b), roughness, **more)
 
-    painted("floor oak", 1.44, *tx.wood((196, 154, 108), rng), strength=0.25, roughness=0.42)
-    painted("oak", 0.9, *tx.wood((198, 158, 112), rng, planks=2, joints=False), strength=0.15, roughness=0.45)
-    painted("bath floor", 1.2, *tx.tiles((148, 146, 140), (108, 106, 102), rng, columns=4, rows=4), strength=0.3, roughness=0.35)
-    painted("bath wall", 0.8, *tx.tiles((214, 218, 212), (188, 190, 186), rng, columns=4, rows=8, offset=True), strength=0.35, roughness=0.18)
-    painted("splashback", 0.6, *tx.tiles((206, 214, 210), (182, 184, 180), rng, columns=4, rows=8, offset=True), strength=0.35, roughness=0.15)
-    for name, base in (("sofa", (150, 152, 148)), ("armchair", (86, 104, 98)), ("pillow rust", (176, 104, 74)), ("pillow blue", (92, 112, 132)),
-                       ("curtain", (222, 216, 204)), ("linen", (232, 229, 222)), ("duvet", (222, 218, 208)), ("blanket", (126, 138, 130)), ("headboard", (140, 132, 120)), ("towel", (196, 178, 156))):
-        colour, height = tx.weave(base, rng)
-        painted(name, 0.12, colour, height, strength=0.5, roughness=0.95, double_sided=name == "curtain")
-    colour, height = tx.rug(rng)
-    painted("rug", 1.0, colour, height, strength=0.4, roughness=1.0)
-    for kind in ("hills", "forms", "strokes"):
-        painted("picture " + kind, 1.0, tx.painting(kind, rng), roughness=0.8)
+    surfaces(painted, plain, rng)
+    cloths(painted, rng)
+    for name, paint in paintings.ALL.items():
+        painted(name, 1.0, paint(rng), roughness=0.8)
+    walls(glb, rng)
+    solids(plain)
+    lights(plain)
 
-    plain("wall", 0.78, 0.76, 0.72, 0.9)
-    plain("wall accent", 0.30, 0.37, 0.36, 0.9)
-    plain("ceiling", 0.84, 0.84, 0.82, 0.95)
-    plain("facade", 0.62, 0.58, 0.52, 0.95)
-    plain("skirting", 0.80, 0.79, 0.76, 0.4)
-    plain("door", 0.80, 0.79, 0.76, 0.4)
-    plain("window frame", 0.82, 0.82, 0.80, 0.35)
-    plain("sill", 0.74, 0.73, 0.70, 0.25)
-    plain("front white", 0.80, 0.79, 0.76, 0.35)
-    plain("front grey", 0.36, 0.38, 0.36, 0.45)
-    plain("front dark", 0.05, 0.05, 0.05, 0.5)
-    plain("worktop", 0.55, 0.54, 0.52, 0.25)
-    plain("chair", 0.16, 0.20, 0.20, 0.5)
-    plain("black", 0.03, 0.03, 0.03, 0.45)
-    plain("screen", 0.015, 0.015, 0.017, 0.12)
-    plain("black glass", 0.02, 0.02, 0.02, 0.08)
-    plain("black metal", 0.05, 0.05, 0.05, 0.4, metallic=0.0)
-    plain("frame", 0.45, 0.33, 0.21, 0.5)
-    plain("frame black", 0.04, 0.04, 0.04, 0.45)
-    plain("brass", 0.80, 0.58, 0.30, 0.28, metallic=1.0)
-    plain("steel", 0.60, 0.60, 0.59, 0.25, metallic=1.0)
-    plain("chrome", 0.68, 0.68, 0.68, 0.08, metallic=1.0)
+
+def surfaces(painted, plain, rng):
+    """Wood, tiles and stone."""
+    painted("floor oak", 2.0, *tx.wood((186, 154, 118), rng, 1152, boards=12, joints=True), strength=0.22, roughness=0.42)
+    colour, height = tx.wood((200, 168, 128), rng)
+    painted("oak", 0.8, colour, height, strength=0.12, roughness=0.45)
+    painted("oak upright", 0.8, colour, height, strength=0.12, roughness=0.45)
+    painted("oak dark", 0.8, *tx.wood((104, 80, 62), rng, 512), strength=0.12, roughness=0.45)
+    painted("bath floor", 0.9, tx.stone((186, 178, 166), rng, 768, 0.0, chips=3), roughness=0.28)
+    painted("bath tile", 0.8, *tx.tiles((150, 168, 156), (204, 202, 194), rng, 768, 8, 8, variation=0.07, dish=0.16), strength=0.30, roughness=0.14)
+    painted("kitchen tile", 0.9, *tx.tiles((224, 219, 208), (196, 192, 184), rng, 768, 12, 12, variation=0.035, dish=0.16), strength=0.30, roughness=0.14)
+    painted("worktop", 1.2, tx.stone((212, 208, 200), rng, 512, 0.16), roughness=0.22)
+    painted("seagrass", 0.08, *tx.wicker((176, 142, 98), rng), strength=0.5, roughness=0.9)
+    painted("bark", 0.2, tx.shaded((108, 88, 68), 0.3 * tx.fractal((128, 128), 4, 24, 3, rng)), roughness=0.95)
+
+
+def cloths(painted, rng):
+    painted("sofa", 0.30, *tx.boucle((206, 196, 180), rng), strength=0.45, roughness=1.0)
+    for name, base in (("armchair", (104, 112, 88)), ("pillow rust", (172, 98, 68)), ("pillow cream", (224, 214, 196)), ("pillow ink", (62, 76, 88)), ("curtain", (224, 216, 202)), ("linen", (234, 230, 222)),
+                       ("duvet", (214, 208, 196)), ("headboard", (168, 150, 128)), ("linen mat", (150, 152, 138)), ("felt", (48, 46, 44))):
+        painted(name, 0.14, *tx.weave(base, rng), strength=0.5, roughness=0.95, double_sided=name == "curtain")
+    for name, base in (("towel", (188, 168, 146)), ("towel white", (228, 224, 216)), ("bath mat", (214, 206, 192))):
+        painted(name, 0.16, *tx.boucle(base, rng, 256), strength=0.5, roughness=1.0)
+    for name, base in (("throw", (150, 118, 96)), ("blanket", (138, 128, 108))):
+        painted(name, 0.16, *tx.knit(base, rng), strength=0.6, roughness=1.0)
+    painted("cord", 0.12, *tx.cord((206, 182, 144), rng), strength=0.5, roughness=0.8)
+    painted("rug", 1.0, *tx.rug(rng), strength=0.4, roughness=1.0)
+
+
+def walls(glb, rng):
+    """One roller texture for all painted walls."""
+    normal = glb.texture(tx.normals_of(tx.plaster(rng), 0.05), "plaster normal")
+    for name, rgb in (("wall", (0.80, 0.775, 0.73)), ("wall accent", (0.30, 0.34, 0.30)), ("ceiling", (0.86, 0.85, 0.83)), ("facade", (0.70, 0.66, 0.58))):
+        SIZE[name] = 0.8
+        glb.material(name, rgb, 0.9, normal=normal)
+
+
+def solids(plain):
+    plain("skirting", 0.80, 0.78, 0.74, 0.4)
+    plain("door", 0.80, 0.78, 0.74, 0.38)
+    plain("window frame", 0.80, 0.79, 0.76, 0.35)
+    plain("sill", 0.80, 0.78, 0.74, 0.3)
+    plain("front white", 0.78, 0.75, 0.70, 0.4)
+    plain("front sage", 0.30, 0.35, 0.28, 0.42)
+    plain("front dark", 0.06, 0.06, 0.055, 0.5)
+    plain("black", 0.025, 0.025, 0.025, 0.45)
+    plain("black metal", 0.03, 0.03, 0.03, 0.42)
+    plain("screen", 0.012, 0.012, 0.014, 0.10)
+    plain("black glass", 0.015, 0.015, 0.015, 0.07)
+    plain("frame", 0.42, 0.29, 0.17, 0.5)
+    plain("frame black", 0.03, 0.03, 0.03, 0.45)
+    plain("paper", 0.80, 0.79, 0.76, 0.9)
+    plain("brass", 0.78, 0.57, 0.31, 0.30, metallic=1.0)
+    plain("steel", 0.62, 0.61, 0.59, 0.24, metallic=1.0)
+    plain("chrome", 0.70, 0.70, 0.70, 0.08, metallic=1.0)
     plain("mirror", 0.90, 0.90, 0.90, 0.0, metallic=1.0)
-    plain("porcelain", 0.82, 0.82, 0.80, 0.12)
-    plain("ceramic", 0.66, 0.60, 0.52, 0.35)
-    plain("soap", 0.75, 0.62, 0.48, 0.5)
-    plain("pot", 0.50, 0.30, 0.20, 0.8)
+    plain("porcelain", 0.82, 0.81, 0.78, 0.12)
+    plain("ceramic", 0.70, 0.64, 0.55, 0.4)
+    plain("stoneware", 0.62, 0.57, 0.49, 0.35)
+    plain("stoneware dark", 0.16, 0.17, 0.165, 0.35)
+    plain("enamel", 0.42, 0.15, 0.075, 0.18)
+    plain("amber", 0.16, 0.06, 0.018, 0.15)
+    plain("candle", 0.78, 0.73, 0.62, 0.5)
+    plain("fringe", 0.60, 0.54, 0.44, 1.0)
+    plain("pot", 0.48, 0.27, 0.17, 0.8)
     plain("soil", 0.05, 0.035, 0.025, 1.0)
-    plain("leaf", 0.07, 0.19, 0.06, 0.45, double_sided=True)
+    plain("leaf", 0.055, 0.145, 0.045, 0.38, double_sided=True)
+    plain("leaf light", 0.12, 0.24, 0.07, 0.45, double_sided=True)
+    plain("leaf olive", 0.20, 0.25, 0.13, 0.55, double_sided=True)
     plain("orange", 0.75, 0.28, 0.03, 0.4)
-    plain("apple", 0.42, 0.10, 0.06, 0.3)
     plain("lemon", 0.78, 0.62, 0.08, 0.4)
-    plain("shade", 0.78, 0.74, 0.66, 0.9, double_sided=True)
-    plain("pendant", 0.72, 0.70, 0.66, 0.5, double_sided=True)
-    for name, rgb in (("book red", (0.36, 0.08, 0.06)), ("book blue", (0.07, 0.13, 0.24)), ("book cream", (0.70, 0.64, 0.52)), ("book green", (0.10, 0.20, 0.14)), ("book grey", (0.32, 0.31, 0.30))):
-        plain(name, *rgb, 0.7)
+    plain("pendant", 0.045, 0.05, 0.05, 0.45)
+    plain("pendant inside", 0.80, 0.76, 0.68, 0.4)
+    plain("shade lining", 0.80, 0.78, 0.74, 0.9)
+    plain("shade rim", 0.60, 0.54, 0.45, 0.9)
+    plain("terrace", 0.40, 0.38, 0.35, 0.9)
+    for name, rgb in (("red", (0.36, 0.08, 0.06)), ("rust", (0.44, 0.17, 0.08)), ("blue", (0.10, 0.17, 0.26)), ("ink", (0.05, 0.07, 0.10)), ("cream", (0.68, 0.61, 0.49)), ("green", (0.14, 0.21, 0.15)),
+                      ("grey", (0.34, 0.33, 0.31)), ("white", (0.76, 0.74, 0.70)), ("ochre", (0.52, 0.34, 0.12))):
+        plain("book " + name, *rgb, 0.7)
     plain("glass", 1, 1, 1, 0.0, transmission=1.0)
-    # Lamps: flux over the area of their emitting shapes.
-    ball = lambda r: 4 * np.pi * r * r
-    for name, flux, area, colour in (("bulb dining", 806, ball(0.04), WARM), ("bulb floor", 1055, ball(0.045), WARM), ("bulb bed", 470, ball(0.03), WARM),
-                                     ("strip", 900, 0.018 * 1.9, NEUTRAL), ("globe hall", 1200, 0.10, WARM), ("globe bath", 1500, 0.10, NEUTRAL)):
-        plain(name, 0.7, 0.7, 0.7, 0.5, emission=lamp(flux, area, colour))
+
+
+def lights(plain):
+    """(name, flux in lm, area of the emitting shape in m2, colour, albedo). A shade and its bulb together give the lamp's flux."""
+    ball, side = lamps.sphere_area, lamps.cylinder_area
+    for name, flux, area, colour, albedo in (
+            ("bulb dining", 806, ball(lamps.BULB), WARM, 0.7),
+            ("bulb floor", 900, ball(lamps.BULB), WARM, 0.7), ("shade floor", 260, side(*lamps.DRUM), WARM, 0.6),
+            ("bulb table", 330, ball(0.028), WARM, 0.7), ("shade table", 90, side(*lamps.TABLE_DRUM), WARM, 0.6),
+            ("shade bed", 70, side(*lamps.SMALL_DRUM), WARM, 0.6),
+            ("strip", 500, lamps.STRIP_WIDTH * 0.5, NEUTRAL, 0.7), ("tube bath", 900, side(0.016, 0.7), NEUTRAL, 0.7),
+            ("globe", 1200, ball(lamps.GLOBE), WARM, 0.8)):
+        plain(name, albedo, albedo, albedo * 0.97, 0.5, emission=lambertian(flux, area, colour))

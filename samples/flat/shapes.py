@@ -55,9 +55,10 @@ def grid(points, normals, uv):
     return Shape(points.reshape(-1, 3), normals.reshape(-1, 3), uv.reshape(-1, 2), triangles)
 
 
-def box(x, y, z, r=0.004, bulge=(0, 0, 0), steps=0):
+def box(x, y, z, r=0.004, bulge=(0, 0, 0), steps=0, grain=True):
     """A box of the given size with edges rounded to radius r, its middle at the origin. `bulge` swells each pair of faces by so
-    many metres in their middle, for cushions; `steps` adds lines over the faces."""
+    many metres in their middle, for cushions; `steps` adds lines over the faces. With `grain`, u runs along the longer edge of
+    each face, as wood is cut; else v is up."""
     half = np.array([x, y, z]) / 2
     r = min(r, half.min() * 0.999)
     parts = []
@@ -82,6 +83,8 @@ def box(x, y, z, r=0.004, bulge=(0, 0, 0), steps=0):
             uv = np.stack([p[..., i], p[..., j]] if axis != 0 else [p[..., 2], p[..., 1]], -1)
             if axis == 1:
                 uv = np.stack([p[..., 0], p[..., 2]], -1)
+            if grain and np.ptp(uv[..., 1]) > np.ptp(uv[..., 0]):
+                uv = uv[..., ::-1]
             parts.append(grid(p, n, uv))
     shape = join(*parts)
     if any(bulge):
@@ -124,29 +127,57 @@ def sphere(radius, segments=20):
 
 
 def tube(path, radius, segments=10):
-    """A round tube along a line of points."""
+    """A round tube along a line of points, closed at both ends; `radius` is one number or one a point."""
     path = np.array(path, float)
+    radius = np.broadcast_to(np.asarray(radius, float), len(path))
     direction = np.gradient(path, axis=0)
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
     helper = np.array([0.0, 1, 0]) if abs(direction[0, 1]) < 0.9 else np.array([1.0, 0, 0])
-    rings, normals = [], []
     angle = np.linspace(0, 2 * np.pi, segments + 1)
-    for p, d in zip(path, direction):
+    rings, normals = [], []
+    for p, d, r in zip(path, direction, radius):
         u = np.cross(d, helper)
         u /= np.linalg.norm(u)
         v = np.cross(d, u)
-        helper = np.cross(u, d) if np.linalg.norm(np.cross(u, d)) > 0.5 else helper
-        n = np.outer(np.cos(angle), u) + np.outer(np.sin(angle), v)
-        rings.append(p + radius * n)
+        helper = np.cross(u, d)
+        n = -np.outer(np.cos(angle), u) + np.outer(np.sin(angle), v)
+        rings.append(p + r * n)
         normals.append(n)
-    points, normals = np.array(rings), np.array(normals)
-    uv = np.stack(np.meshgrid(angle * radius, np.arange(len(path)) * 0.1), -1)
-    shape = grid(points, normals, uv)
-    t = shape.triangles[0]
-    a, b, c = shape.positions[t]
-    if np.dot(np.cross(b - a, c - a), shape.normals[t[0]]) < 0:
-        shape.triangles = shape.triangles[:, ::-1]
+    length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    uv = np.stack(np.meshgrid(angle * radius.mean(), length), -1)[..., ::-1]
+    parts = [grid(np.array(rings), np.array(normals), uv)]
+    for end, sign in ((0, -1), (-1, 1)):
+        cap = np.stack([rings[end], np.broadcast_to(path[end], rings[end].shape)])
+        parts.append(grid(cap, np.broadcast_to(sign * direction[end], cap.shape), np.zeros(cap.shape[:2] + (2,))))
+    return facing(join(*parts))
+
+
+def facing(shape):
+    """Turns triangles round whose corners run against their normals."""
+    p, t = shape.positions, shape.triangles
+    n = np.cross(p[t[:, 1]] - p[t[:, 0]], p[t[:, 2]] - p[t[:, 0]])
+    wrong = (n * shape.normals[t].sum(1)).sum(1) < 0
+    t[wrong] = t[wrong][:, ::-1]
     return shape
+
+
+def rounded_ring(a, b, y, exponent=2.0, count=48, shift=0.0):
+    """A superellipse of half-axes a and b at height y; exponent 2 is an ellipse, more is squarer. For loft()."""
+    t = np.linspace(0, 2 * np.pi, count + 1)
+    c, s, e = np.cos(t), -np.sin(t), 2 / exponent
+    return np.stack([a * np.sign(c) * np.abs(c) ** e, np.full_like(t, y), b * np.sign(s) * np.abs(s) ** e + shift], -1)
+
+
+def loft(rings, creases=()):
+    """A skin through rings of equally many points, from bottom to top along the outside; sharp at the rings in `creases`."""
+    rings, parts, start = np.array(rings), [], 0
+    for stop in [*creases, len(rings) - 1]:
+        p = rings[start:stop + 1]
+        around = np.linalg.norm(np.diff(p[0], axis=0), axis=1).cumsum()
+        up = np.concatenate([[0], np.linalg.norm(np.diff(p[:, 0], axis=0), axis=1).cumsum()])
+        parts.append(grid(p, np.zeros_like(p), np.stack(np.meshgrid(np.concatenate([[0], around]), up), -1)).smoothed())
+        start = stop
+    return join(*parts)
 
 
 def bent(points, radius, segments=10, steps=8):
@@ -160,18 +191,6 @@ def bent(points, radius, segments=10, steps=8):
     path.append(p[-1])
     keep = [path[0]] + [b for a, b in zip(path, path[1:]) if np.linalg.norm(b - a) > 1e-5]
     return tube(keep, radius, segments)
-
-
-def curtain(width, height, folds, depth=0.04):
-    """Cloth that hangs in folds, both sides; its top edge is at y = 0."""
-    x = np.linspace(0, 1, folds * 10 + 1)
-    y = np.linspace(-height, 0, 14)
-    u, v = np.meshgrid(x, y)
-    phase = 2 * np.pi * folds * u
-    z = depth * (np.sin(phase) * (0.75 + 0.25 * np.cos(3 * u * 7 + v * 0.6)) + 0.25 * np.sin(phase * 0.5 + 2 * v))
-    p = np.stack([(u - 0.5) * width + 0.012 * np.sin(2 * phase), v, z], -1)
-    front = grid(p, np.zeros_like(p), np.stack([u * width * 1.6, v], -1)).smoothed()
-    return front
 
 
 def cloth_noise(points, scale, seed):
