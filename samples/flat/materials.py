@@ -8,8 +8,23 @@ import textures as tx
 # Metres that one repetition of a material's texture covers; 1 where there is none.
 SIZE = {}
 
-WARM = (1.0, 0.62, 0.30)      # about 2700 K in linear Rec.709, up to scale
-NEUTRAL = (1.0, 0.78, 0.55)   # about 3500 K
+
+def black_body(kelvin):
+    """Linear Rec.709 colour of a black body from 2222 K on, its largest component 1: the Planckian locus by Kim et al. (2002)."""
+    t = 1000.0 / kelvin
+    if kelvin < 4000:
+        x = np.polyval([-0.2661239, -0.2343589, 0.8776956, 0.179910], t)
+        y = np.polyval([-0.9549476, -1.37418593, 2.09137015, -0.16748867], x)
+    else:
+        x = np.polyval([-3.0258469, 2.1070379, 0.2226347, 0.240390], t)
+        y = np.polyval([3.0817580, -5.87338670, 3.75112997, -0.37001483], x)
+    xyz = np.array([x / y, 1, (1 - x - y) / y])
+    rgb = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]]) @ xyz
+    return rgb.clip(0) / rgb.max()
+
+
+# A camera balanced for daylight shows lamps of 2700 K as orange; these are what a picture of a warm room looks like.
+WARM, NEUTRAL = black_body(3700), black_body(4500)
 
 
 def lambertian(flux_lm, area_m2, colour):
@@ -57,7 +72,7 @@ def cloths(painted, rng):
     painted("sofa", 0.30, *tx.boucle((206, 196, 180), rng), strength=0.45, roughness=1.0)
     for name, base in (("armchair", (104, 112, 88)), ("pillow rust", (172, 98, 68)), ("pillow cream", (224, 214, 196)), ("pillow ink", (62, 76, 88)), ("curtain", (224, 216, 202)), ("linen", (234, 230, 222)),
                        ("duvet", (214, 208, 196)), ("headboard", (168, 150, 128)), ("linen mat", (150, 152, 138)), ("felt", (48, 46, 44))):
-        painted(name, 0.14, *tx.weave(base, rng), strength=0.5, roughness=0.95, double_sided=name == "curtain")
+        painted(name, 0.14, *tx.weave(base, rng), strength=0.35, roughness=0.95, double_sided=name == "curtain")
     for name, base in (("towel", (188, 168, 146)), ("towel white", (228, 224, 216)), ("bath mat", (214, 206, 192))):
         painted(name, 0.16, *tx.boucle(base, rng, 256), strength=0.5, roughness=1.0)
     for name, base in (("throw", (150, 118, 96)), ("blanket", (138, 128, 108))):
@@ -68,7 +83,7 @@ def cloths(painted, rng):
 
 def walls(glb, rng):
     """One roller texture for all painted walls."""
-    normal = glb.texture(tx.normals_of(tx.plaster(rng), 0.05), "plaster normal")
+    normal = glb.texture(tx.normals_of(tx.plaster(rng), 0.02), "plaster normal")
     for name, rgb in (("wall", (0.80, 0.775, 0.73)), ("wall accent", (0.30, 0.34, 0.30)), ("ceiling", (0.86, 0.85, 0.83)), ("facade", (0.70, 0.66, 0.58))):
         SIZE[name] = 0.8
         glb.material(name, rgb, 0.9, normal=normal)

@@ -4,7 +4,7 @@ import numpy as np
 
 from textures import fractal, noise
 
-HEIGHT, WIDTH = 512, 1024
+HEIGHT, WIDTH = 1024, 2048
 
 
 def write_hdr(path, picture):
@@ -39,9 +39,9 @@ def sky(rng, zenith, horizon, cloud_light, cloud_shade, glow=None, cover=0.0, la
     lit = np.clip(np.roll(cloud, 3, 0) * 0.9 + 0.4, 0, 1)[..., None]
     out = out * (1 - body) + (np.array(cloud_shade) * (1 - lit) + np.array(cloud_light) * lit) * body
     haze = np.array(horizon)
-    texture = fractal((HEIGHT, WIDTH), 160, 80, 3, rng)
+    texture = fractal((HEIGHT, WIDTH), 200, 100, 4, rng)
     for base, rough, cells, colour, mist in ((0.035, 0.022, 7, (0.050, 0.062, 0.060), 0.60), (-0.015, 0.016, 12, (0.046, 0.060, 0.042), 0.28), (-0.10, 0.030, 36, (0.044, 0.060, 0.030), 0.06)):
-        ridge = skyline(rng, azimuth, base, rough, cells) + 0.004 * fractal((1, WIDTH), 170, 1, 2, rng)[0]
+        ridge = skyline(rng, azimuth, base, rough, cells) + 0.004 * fractal((1, WIDTH), 250, 1, 3, rng)[0]
         below = (elevation < ridge[None, :])[..., None]
         trees = np.array(colour) * land * (1 + 0.5 * texture[..., None])
         out = np.where(below, trees.clip(0) * (1 - mist) + haze * 0.6 * mist * land, out)

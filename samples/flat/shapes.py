@@ -36,8 +36,13 @@ class Shape:
         sums = np.zeros((place.max() + 1, 3))
         for k in range(3):
             np.add.at(sums, place[t[:, k]], n)
-        out = sums[place]
-        return Shape(p, out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-12), self.uv, t)
+        return Shape(p, unit(sums[place]), self.uv, t)
+
+
+def unit(normals):
+    """Normals of length 1; up where there is none, at points of triangles without area."""
+    length = np.linalg.norm(normals, axis=-1, keepdims=True)
+    return np.where(length > 1e-12, normals / np.maximum(length, 1e-12), np.eye(normals.shape[-1])[1])
 
 
 def join(*shapes):
@@ -107,7 +112,7 @@ def lathe(profile, segments=32):
     angle = np.linspace(0, 2 * np.pi, segments + 1)
     slope = np.gradient(profile, axis=0)
     n2 = np.stack([slope[:, 1], -slope[:, 0]], -1)
-    n2 /= np.maximum(np.linalg.norm(n2, axis=1, keepdims=True), 1e-12)
+    n2 = unit(n2)
     c, s = np.cos(angle), -np.sin(angle)
     p = np.stack([np.outer(profile[:, 0], c), np.outer(profile[:, 1], np.ones_like(c)), np.outer(profile[:, 0], s)], -1)
     n = np.stack([np.outer(n2[:, 0], c), np.outer(n2[:, 1], np.ones_like(c)), np.outer(n2[:, 0], s)], -1)
@@ -116,7 +121,7 @@ def lathe(profile, segments=32):
 
 
 def cylinder(radius, height, segments=24, bevel=0.003):
-    b = min(bevel, radius / 2, height / 2)
+    b = min(bevel, radius / 2, height / 3)
     return lathe([(0, 0), (radius - b, 0), (radius - b, 0), (radius, b), (radius, b), (radius, height - b), (radius, height - b),
                   (radius - b, height), (radius - b, height), (0, height)], segments)
 

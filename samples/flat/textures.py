@@ -92,7 +92,7 @@ def plaster(rng, size=512):
     return fractal((size, size), 28, 28, 4, rng)
 
 
-def weave(base, rng, size=256, threads=40, contrast=0.10, melange=0.05):
+def weave(base, rng, size=256, threads=40, contrast=0.07, melange=0.022):
     """Cloth: threads over and under each other, every one a little different."""
     y, x = np.mgrid[0:size, 0:size] / size
     i, j = (x * threads).astype(int), (y * threads).astype(int)
