@@ -27,7 +27,7 @@ def furnish_living(put):
     put("magazines", decor.magazines(), 4.86, 0.343, 1.42)
     put("table vase", decor.branches(0.20, 0.42), 5.34, 0.423, 2.01)
     put("candles", decor.candles(), 5.02, 0.343, 1.70)
-    put("armchair", living.armchair(), 5.20, 0, 3.80, 192)
+    put("armchair", living.armchair(), 4.95, 0, 3.70, 200)
     put("slatted panel", living.slatted_panel(2.75), rooms.LIVING_X, 0, 1.47, -90)
     put("television bench", living.media_bench(), rooms.LIVING_X - 0.25, 0, 1.47, -90)
     put("television", living.television(), rooms.LIVING_X - 0.085, 0.74, 1.47, -90)
@@ -132,7 +132,7 @@ def furnish_hall(put):
 
 
 def cameras(glb):
-    glb.camera("living", (6.62, 1.38, 3.05), (2.4, 0.80, 1.35), 50)
+    glb.camera("living", (6.62, 1.38, 3.05), (2.4, 0.80, 1.80), 50)
     glb.camera("sofa", (2.55, 1.40, 4.10), (5.7, 0.75, 0.9), 50)
     glb.camera("kitchen", (3.62, 1.50, 2.35), (1.2, 1.00, 4.75), 52)
     glb.camera("bedroom", (7.06, 1.42, 3.28), (10.0, 0.76, 1.35), 54)
