@@ -11,7 +11,7 @@ def bathtub(length=1.75, width=0.80, height=0.57):
     outside = [rounded_ring(a * 0.78, b * 0.74, 0.0, 2.6, 72), rounded_ring(a * 0.80, b * 0.78, 0.02, 2.6, 72), rounded_ring(a * 0.86, b * 0.86, 0.20, 2.6, 72), rounded_ring(a * 0.94, b * 0.95, 0.42, 2.6, 72),
                rounded_ring(a * 0.99, b * 0.99, height - 0.03, 2.6, 72), rounded_ring(a, b, height - 0.012, 2.6, 72), rounded_ring(a - 0.008, b - 0.008, height, 2.6, 72)]
     inside = [rounded_ring(a - 0.022, b - 0.022, height - 0.004, 2.6, 72), rounded_ring(a - 0.034, b - 0.034, height - 0.03, 2.6, 72), rounded_ring(a * 0.86, b * 0.84, 0.34, 2.6, 72), rounded_ring(a * 0.78, b * 0.74, 0.20, 2.6, 72),
-              rounded_ring(a * 0.68, b * 0.60, 0.14, 2.6, 72), rounded_ring(a * 0.40, b * 0.30, 0.125, 2.4, 72), rounded_ring(0.025, 0.025, 0.12, 2, 72)]
+              rounded_ring(a * 0.68, b * 0.60, 0.14, 2.6, 72), rounded_ring(a * 0.40, b * 0.30, 0.125, 2.4, 72), rounded_ring(0.001, 0.001, 0.12, 2, 72)]
     return [("porcelain", loft(outside + inside)), ("brass", cylinder(0.032, 0.006, 28).at(0, 0.118, 0))]
 
 
@@ -39,7 +39,7 @@ def toilet():
         return rounded_ring(a, b, y, 2.3, 48, shift)
 
     body = loft([ring(0.05, 0.06, 0.12, 0.16), ring(0.13, 0.17, 0.16, 0.20), ring(0.165, 0.235, 0.26, 0.245), ring(0.178, 0.262, 0.36, 0.265), ring(0.180, 0.266, 0.395, 0.268), ring(0.172, 0.258, 0.402, 0.268), ring(0.02, 0.02, 0.403, 0.268)])
-    lid = loft([ring(0.02, 0.02, 0.405, 0.272), ring(0.180, 0.262, 0.405, 0.272), ring(0.185, 0.268, 0.412, 0.272), ring(0.184, 0.267, 0.430, 0.272), ring(0.172, 0.255, 0.437, 0.272), ring(0.02, 0.02, 0.440, 0.272)])
+    lid = loft([ring(0.02, 0.02, 0.405, 0.272), ring(0.180, 0.262, 0.405, 0.272), ring(0.185, 0.268, 0.412, 0.272), ring(0.184, 0.267, 0.430, 0.272), ring(0.172, 0.255, 0.437, 0.272), ring(0.0005, 0.0005, 0.440, 0.272)])
     return [("porcelain", join(body, lid, box(0.30, 0.26, 0.12, 0.03).at(0, 0.28, 0.05))), ("brass", box(0.235, 0.16, 0.012, 0.004).at(0, 1.02, 0.006)),
             ("brass", join(*[box(0.10, 0.12, 0.006, 0.002).at(s * 0.053, 1.02, 0.013) for s in (-1, 1)]))]
 
@@ -73,7 +73,7 @@ def stool_with_towel():
     """A small oak stool beside the tub; a towel lies over it."""
     legs = [tube([(0.10 * np.cos(a), 0.43, 0.10 * np.sin(a)), (0.155 * np.cos(a), 0, 0.155 * np.sin(a))], [0.016, 0.012], 12) for a in (0.8, 2.9, 5.0)]
     top = lathe([(0, -0.03), (0.15, -0.03), (0.165, -0.02), (0.165, -0.006), (0.158, 0), (0, 0)], 48).at(0, 0.45, 0)
-    cloth = drape(0.30, 0.62, boxes_distance([((0, 0.225, 0), (0.30, 0.45, 0.30), 0.02)]), (0.02, 0.48, 0.06), 12, 0.025, 90, seed=2)
+    cloth = drape(0.30, 0.62, boxes_distance([((0, 0.228, 0), (0.335, 0.456, 0.335), 0.02)]), (0.02, 0.48, 0.06), 12, 0.025, 90, seed=2)
     return [("oak", join(top, *legs)), ("towel white", fabric(cloth, 0.008, 4, 0.003))]
 
 

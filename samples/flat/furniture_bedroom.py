@@ -15,10 +15,10 @@ def bed(width=1.6, length=2.0):
     w = (width + 0.24) / channels
     parts.append(("headboard", join(*[box(w + 0.004, 0.86, 0.10, 0.045, bulge=(0, 0, 0.012), steps=6).at((k - (channels - 1) / 2) * w, 0.62, -length / 2 - 0.07) for k in range(channels)])))
     body = boxes_distance([((0, top / 2, 0), (width, top, length), 0.07), ((0, frame_top / 2, 0), (width + 0.08, frame_top, length + 0.06), 0.01)])
-    parts.append(("duvet", fabric(drape(width + 0.62, 1.50, body, (0, top + 0.06, 0.40), 0, 0.04, 110, seed=3), 0.012, 5, 0.040)))
+    parts.append(("duvet", fabric(drape(width + 0.52, 1.42, body, (0, top + 0.06, 0.38), 0, 0.04, 110, seed=3), 0.012, 5, 0.040)))
     # The blanket lies on what the duvet made of the bed.
-    padded = boxes_distance([((0, (top + 0.055) / 2, 0.2), (width + 0.14, top + 0.055, length - 0.1), 0.09)])
-    parts.append(("blanket", fabric(drape(width + 0.66, 0.52, padded, (0.02, top + 0.12, 0.66), 3, 0.035, 110, seed=8), 0.008, 6, 0.004)))
+    padded = boxes_distance([((0, (top + 0.055) / 2, 0.2), (width + 0.17, top + 0.055, length - 0.1), 0.09)])
+    parts.append(("blanket", fabric(drape(width + 0.54, 0.50, padded, (0.02, top + 0.12, 0.66), 3, 0.035, 110, seed=8), 0.008, 6, 0.004)))
     for s in (-1, 1):
         parts += [("linen", pillow(0.72, 0.50, 0.20, 30 + s).turned(-58, 0).turned(3 * s).at(s * 0.40, top + 0.16, -length / 2 + 0.25)),
                   ("duvet", pillow(0.70, 0.48, 0.19, 34 + s).turned(-44, 0).turned(-4 * s).at(s * 0.385, top + 0.22, -length / 2 + 0.44))]
