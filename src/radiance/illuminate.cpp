@@ -1,3 +1,4 @@
+#include <limits>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -13,6 +14,8 @@ namespace roomlight {
 namespace {
 
 constexpr int kSkySamples = 8;
+constexpr int kStepsBetweenLeaps = 6;
+constexpr double kLongestLeap = 8;
 constexpr uint32_t kPoints = 4;    // per slot
 constexpr int kMostPanes = 16;  // surfaces a link goes through or on from
 constexpr float kHiddenBehind = 0.15f;  // voxels; surfaces further behind a slot's place are not lit as it is
@@ -247,7 +250,7 @@ class Illuminator {
     const size_t slots = voxels_.slots.size();
     if (n == 0) return;
     std::vector<Vec3> reflected(slots), next(slots);  // rho E, i.e. pi times radiance
-    double previousDelta = 0;
+    double previousDelta = 0, previousQ = 0, deltaAtLeap = std::numeric_limits<double>::infinity();
     for (int k = 0; k < settings_.maxBounces && !progress.stop(); ++k) {
       parallelFor(slots, 8192, [&](size_t i) { reflected[i] = voxels_.slots[i].albedo * (direct_[i] + indirect_[i]); });
       parallelFor(slots, 2048, [&](size_t i) {
@@ -258,13 +261,25 @@ class Illuminator {
         next[i] = sum / static_cast<float>(n);
       });
       const auto [delta, total] = change(next);
-      indirect_.swap(next);
-      ++field.bounces;
       const double q = previousDelta > 0 ? std::min(0.99, delta / previousDelta) : 0.9;
-      previousDelta = delta;
       field.residual = total > 0 ? delta / total * q / (1 - q) : 0;
-      if (field.residual <= settings_.residual) break;
+      ++field.bounces;
+      const bool done = field.residual <= settings_.residual;
+      // Once only the slowest mode is left (light in a bright, nearly closed space) every step shrinks by the same factor, and
+      // the rest of the series is known (Lyusternik's acceleration). Checked by the steps that follow.
+      if (!done && k % kStepsBetweenLeaps == kStepsBetweenLeaps - 1 && q > 0.7 && std::abs(q - previousQ) < 0.03 && delta < 0.5 * deltaAtLeap) {
+        leap(next, static_cast<float>(std::min(kLongestLeap, q / (1 - q))));
+        deltaAtLeap = delta;
+      }
+      previousDelta = delta;
+      previousQ = q;
+      indirect_.swap(next);
+      if (done) break;
     }
+  }
+
+  void leap(std::vector<Vec3>& next, float factor) const {
+    parallelFor(next.size(), 8192, [&](size_t i) { next[i] = max(Vec3(0), next[i] + (next[i] - indirect_[i]) * factor); });
   }
 
   // Sums over all slots, area-weighted: what the iteration changed and what there is in all. Fixed chunks keep the order of

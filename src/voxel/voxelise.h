@@ -12,8 +12,8 @@ namespace roomlight {
 
 struct VoxelSettings {
   float voxelSizeM = 0;        // 0: chosen from the budget
-  float memoryBudgetMiB = 256; // for Voxels when the size is chosen; a size given by hand may exceed it
-  float smallestM = 0.04f;     // limits of the automatic choice
+  float memoryBudgetMiB = 128; // for Voxels when the size is chosen; a size given by hand may exceed it
+  float smallestM = 0.05f;     // limits of the automatic choice
   float largestM = 0.5f;
 };
 
