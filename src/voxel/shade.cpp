@@ -4,7 +4,7 @@ namespace roomlight {
 namespace {
 
 constexpr float kTexelsPerSample = 4;  // one bilinear look-up sees about four
-constexpr int kMostSamples = 16;
+constexpr float kMostSamplesPerArea = 16;  // per voxel²: a small piece counts for little in its voxel
 
 Shade shadeAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
@@ -75,9 +75,9 @@ Shade TriangleShader::at(Vec3 p) const { return shadeAt(scene_, mesh_, barycentr
 Shade TriangleShader::operator()(const Polygon& piece) const {
   if (uniform_) return shade_;
   const AreaCentroid g = areaOf(piece);
-  const float wanted = g.area * texelsPerArea_ / kTexelsPerSample;
+  const float wanted = g.area * std::min(texelsPerArea_ / kTexelsPerSample, kMostSamplesPerArea);
   if (!(wanted > 1)) return at(g.centroid);
-  const int samples = wanted < static_cast<float>(kMostSamples) ? static_cast<int>(std::ceil(wanted)) : kMostSamples;
+  const int samples = static_cast<int>(std::ceil(wanted));
   Shade mean{Vec3(0), Vec3(0), 0};
   for (int i = 0; i < samples; ++i) {
     const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(samples);
