@@ -27,7 +27,7 @@ def furnish_living(put):
     put("magazines", decor.magazines(), 4.86, 0.343, 1.42)
     put("table vase", decor.branches(0.20, 0.42), 5.34, 0.423, 2.01)
     put("candles", decor.candles(), 5.02, 0.343, 1.70)
-    put("armchair", living.armchair(), 4.95, 0, 3.70, 200)
+    put("armchair", living.armchair(), 4.70, 0, 3.58, 202)
     put("slatted panel", living.slatted_panel(2.75), rooms.LIVING_X, 0, 1.47, -90)
     put("television bench", living.media_bench(), rooms.LIVING_X - 0.25, 0, 1.47, -90)
     put("television", living.television(), rooms.LIVING_X - 0.085, 0.74, 1.47, -90)

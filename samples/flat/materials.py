@@ -24,7 +24,7 @@ def black_body(kelvin):
 
 
 # A camera balanced for daylight shows lamps of 2700 K as orange; these are what a picture of a warm room looks like.
-WARM, NEUTRAL = black_body(3700), black_body(4500)
+WARM, NEUTRAL = black_body(4200), black_body(5000)
 
 
 def lambertian(flux_lm, area_m2, colour):
@@ -139,9 +139,9 @@ def lights(plain):
     ball, side = lamps.sphere_area, lamps.cylinder_area
     for name, flux, area, colour, albedo in (
             ("bulb dining", 806, ball(lamps.BULB), WARM, 0.7),
-            ("bulb floor", 900, ball(lamps.BULB), WARM, 0.7), ("shade floor", 260, side(*lamps.DRUM), WARM, 0.6),
-            ("bulb table", 330, ball(0.028), WARM, 0.7), ("shade table", 90, side(*lamps.TABLE_DRUM), WARM, 0.6),
-            ("shade bed", 70, side(*lamps.SMALL_DRUM), WARM, 0.6),
+            ("bulb floor", 1000, ball(lamps.BULB), WARM, 0.7), ("shade floor", 120, side(*lamps.DRUM), WARM, 0.6),
+            ("bulb table", 330, ball(0.028), WARM, 0.7), ("shade table", 45, side(*lamps.TABLE_DRUM), WARM, 0.6),
+            ("shade bed", 36, side(*lamps.SMALL_DRUM), WARM, 0.6),
             ("strip", 500, lamps.STRIP_WIDTH * 0.5, NEUTRAL, 0.7), ("tube bath", 900, side(0.016, 0.7), NEUTRAL, 0.7),
             ("globe", 1200, ball(lamps.GLOBE), WARM, 0.8)):
         plain(name, albedo, albedo, albedo * 0.97, 0.5, emission=lambertian(flux, area, colour))
