@@ -138,7 +138,7 @@ def cameras(glb):
     glb.camera("bedroom", (7.06, 1.42, 3.28), (10.0, 0.76, 1.35), 54)
     glb.camera("bath", (7.06, 1.48, 6.72), (8.75, 0.88, 4.75), 62)
     glb.camera("hall", (5.62, 1.50, 6.82), (5.30, 1.12, 3.0), 60)
-    glb.plan_camera("plan", (5.45, 2.3, 3.0), 14.6)
+    glb.plan_camera("plan", (5.45, 2.3, 2.75), 17.4)
 
 
 def main():
