@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "base/image_io.h"
 
@@ -21,6 +22,11 @@ Metadata readExrMetadata(const std::filesystem::path& file);
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
 Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black
 Metadata readPngMetadata(std::span<const uint8_t> bytes);
+
+// The 8-bit RGBA numbers of a texture as they are: no colour space, gamma or transparency is applied. Deeper channels
+// lose their low bits. The size of the picture must be that of `width` and `height`, which readPngSize tells.
+void readPngSize(std::span<const uint8_t> bytes, int& width, int& height);
+std::vector<uint8_t> readPngTexels(std::span<const uint8_t> bytes, int width, int height);
 
 Image readHdr(std::span<const uint8_t> bytes);
 

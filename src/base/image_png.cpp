@@ -82,6 +82,33 @@ bool readTexts(Bytes& bytes, std::vector<uint8_t>& row, Metadata& metadata, Fail
   return true;
 }
 
+// Decodes into rows of 4 * width bytes, which the caller made for the size the header tells.
+bool readRgba(Bytes& bytes, png_uint_32 width, png_uint_32 height, uint8_t* rgba, Failure& failure) {
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, onError, onWarning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info || setjmp(png_jmpbuf(png))) {
+    png_destroy_read_struct(&png, info ? &info : nullptr, nullptr);
+    return false;
+  }
+  png_set_read_fn(png, &bytes, readBytes);
+  png_set_benign_errors(png, 1);
+  png_read_info(png, info);
+  png_set_expand(png);
+  png_set_strip_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+  const int passes = png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  if (png_get_image_width(png, info) != width || png_get_image_height(png, info) != height || png_get_rowbytes(png, info) != size_t{4} * width) {
+    png_error(png, "the size changes inside the file");
+  }
+  for (int pass = 0; pass < passes; ++pass) {
+    for (png_uint_32 y = 0; y < height; ++y) png_read_row(png, rgba + size_t{4} * width * y, nullptr);
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  return true;
+}
+
 }  // namespace
 
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata) {
@@ -136,6 +163,24 @@ Image readPng(std::span<const uint8_t> bytes) {
     image.pixels[i] = {linear[rgb[3 * i]], linear[rgb[3 * i + 1]], linear[rgb[3 * i + 2]]};
   }
   return image;
+}
+
+// The header chunk comes first: length, "IHDR", width, height, all big-endian.
+void readPngSize(std::span<const uint8_t> bytes, int& width, int& height) {
+  if (bytes.size() < 24 || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0) throw std::runtime_error("the PNG file has no header");
+  const png_uint_32 w = png_get_uint_32(bytes.data() + 16), h = png_get_uint_32(bytes.data() + 20);
+  if (w > PNG_UINT_31_MAX || h > PNG_UINT_31_MAX) throw std::runtime_error("the PNG header is damaged");
+  width = static_cast<int>(w), height = static_cast<int>(h);
+}
+
+std::vector<uint8_t> readPngTexels(std::span<const uint8_t> bytes, int width, int height) {
+  std::vector<uint8_t> rgba(size_t{4} * static_cast<size_t>(width) * static_cast<size_t>(height));
+  Bytes source{bytes.data(), bytes.size()};
+  Failure failure;
+  if (!readRgba(source, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), rgba.data(), failure)) {
+    throw std::runtime_error(failure.message);
+  }
+  return rgba;
 }
 
 Metadata readPngMetadata(std::span<const uint8_t> bytes) {

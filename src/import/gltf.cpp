@@ -411,8 +411,5 @@ Result<Imported> importGltf(const std::filesystem::path& file, const ImportOptio
   return imported;
 }
 
-Result<Imported> importObj(const std::filesystem::path& file, const ImportOptions&) {
-  return Error{fmt::format("{}: OBJ files cannot be read yet", file.string())};
-}
 
 }  // namespace roomlight

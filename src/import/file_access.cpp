@@ -1,0 +1,124 @@
+#include "import/file_access.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <fstream>
+
+#include "import/failure.h"
+
+namespace roomlight::importers {
+namespace {
+
+constexpr uintmax_t kMaxFileBytes = uintmax_t{4} << 30;
+
+int hexDigit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  const int lower = std::tolower(static_cast<unsigned char>(c));
+  return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+int base64Digit(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+Bytes base64Decode(std::string_view text, const std::string& place) {
+  size_t padding = 0;
+  while (padding < 2 && !text.empty() && text.back() == '=') text.remove_suffix(1), ++padding;
+  if (text.size() % 4 == 1 || (padding > 0 && (text.size() + padding) % 4 != 0)) fail(place, "the base64 data are cut short");
+  Bytes out;
+  out.reserve(text.size() / 4 * 3 + 3);
+  uint32_t bits = 0;
+  int held = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const int digit = base64Digit(text[i]);
+    if (digit < 0) fail(place, fmt::format("character {} of the base64 data is not base64", i));
+    bits = (bits << 6) | static_cast<uint32_t>(digit);
+    held += 6;
+    if (held >= 8) {
+      held -= 8;
+      out.push_back(static_cast<uint8_t>(bits >> held));
+    }
+  }
+  return out;
+}
+
+// Letters before a colon. One letter is a drive, which must not be followed either.
+bool hasScheme(std::string_view uri) {
+  const size_t colon = uri.find(':');
+  if (colon == std::string_view::npos || colon == 0) return false;
+  for (const char c : uri.substr(0, colon)) {
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '+' && c != '-' && c != '.') return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Bytes readWholeFile(const std::filesystem::path& file, const std::string& place) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(file, code)) fail(place, "there is no such file");
+  const uintmax_t size = std::filesystem::file_size(file, code);
+  if (code) fail(place, "the file cannot be read");
+  if (size > kMaxFileBytes) fail(place, "the file is larger than 4 GiB");
+  Bytes bytes(static_cast<size_t>(size));
+  std::ifstream in(file, std::ios::binary);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!in && size > 0) fail(place, "the file cannot be read");
+  return bytes;
+}
+
+std::string percentDecode(std::string_view uri, const std::string& place) {
+  std::string out;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] != '%') {
+      out += uri[i];
+      continue;
+    }
+    const int high = i + 2 < uri.size() ? hexDigit(uri[i + 1]) : -1;
+    const int low = i + 2 < uri.size() ? hexDigit(uri[i + 2]) : -1;
+    if (high < 0 || low < 0) fail(place, fmt::format("URI '{}' holds a bad percent escape", printable(uri)));
+    out += static_cast<char>(high * 16 + low);
+    i += 2;
+  }
+  return out;
+}
+
+std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view reference, const std::string& place) {
+  const auto refuse = [&](const char* why) { fail(place, fmt::format("'{}' {}; only files beside the scene are read", printable(reference), why)); };
+  if (reference.empty()) refuse("names no file");
+  if (reference.find('\0') != std::string_view::npos) refuse("holds a NUL character");
+  if (hasScheme(reference)) refuse("is an address elsewhere");
+  if (reference.front() == '/' || reference.front() == '\\') refuse("is an absolute path");
+  const std::filesystem::path relative(reference);
+  for (const auto& part : relative) {
+    if (part.string().size() > 255) refuse("is too long");
+    if (part == "..") refuse("leaves the scene's folder");
+  }
+  if (reference.size() > 2048) refuse("is too long");
+  if (reference.find("..\\") != std::string_view::npos) refuse("leaves the scene's folder");
+
+  // Symbolic links are followed first, then the real place is compared.
+  std::error_code code;
+  const auto home = std::filesystem::weakly_canonical(folder.empty() ? std::filesystem::path(".") : folder, code);
+  if (code) refuse("cannot be resolved");
+  const auto target = std::filesystem::weakly_canonical(home / relative, code);
+  if (code) refuse("cannot be resolved");
+  const auto fromHome = target.lexically_relative(home);
+  if (fromHome.empty() || *fromHome.begin() == "..") refuse("leaves the scene's folder through a link");
+  return target;
+}
+
+std::optional<Bytes> dataUri(std::string_view uri, const std::string& place) {
+  if (!uri.starts_with("data:")) return std::nullopt;
+  const size_t comma = uri.find(',');
+  if (comma == std::string_view::npos) fail(place, "the data URI holds no data");
+  if (!uri.substr(0, comma).ends_with(";base64")) fail(place, "the data URI is not base64");
+  return base64Decode(uri.substr(comma + 1), place);
+}
+
+}  // namespace roomlight::importers

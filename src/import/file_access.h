@@ -1,0 +1,28 @@
+// Files and URIs that a scene file refers to, kept inside the scene file's folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace roomlight::importers {
+
+using Bytes = std::vector<uint8_t>;
+
+// The whole file. Throws Failure when it is missing, no regular file, or above 4 GiB.
+Bytes readWholeFile(const std::filesystem::path& file, const std::string& place);
+
+// The file that a relative reference names. Throws Failure when the reference has a scheme, is absolute, or leaves
+// `folder`, also by way of symbolic links. The file need not exist.
+std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view reference, const std::string& place);
+
+// "%20" to " ". Throws Failure on a bad escape or an escaped NUL.
+std::string percentDecode(std::string_view uri, const std::string& place);
+
+// The bytes of a "data:...;base64,..." URI; none for any other URI. Throws Failure on bad base64.
+std::optional<Bytes> dataUri(std::string_view uri, const std::string& place);
+
+}  // namespace roomlight::importers
