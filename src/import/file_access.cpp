@@ -121,4 +121,9 @@ std::optional<Bytes> dataUri(std::string_view uri, const std::string& place) {
   return base64Decode(uri.substr(comma + 1), place);
 }
 
+Bytes readUri(const std::filesystem::path& folder, std::string_view uri, const std::string& place) {
+  if (auto embedded = dataUri(uri, place)) return std::move(*embedded);
+  return readWholeFile(pathInside(folder, percentDecode(uri, place), place), fmt::format("{} '{}'", place, printable(uri)));
+}
+
 }  // namespace roomlight::importers

@@ -25,4 +25,7 @@ std::string percentDecode(std::string_view uri, const std::string& place);
 // The bytes of a "data:...;base64,..." URI; none for any other URI. Throws Failure on bad base64.
 std::optional<Bytes> dataUri(std::string_view uri, const std::string& place);
 
+// The bytes that a glTF URI means: a data URI's own, or those of the file it names in `folder`. Throws Failure.
+Bytes readUri(const std::filesystem::path& folder, std::string_view uri, const std::string& place);
+
 }  // namespace roomlight::importers

@@ -8,7 +8,9 @@
 namespace roomlight {
 namespace {
 
-// Lengths into metres: placements, lamps and cameras. Meshes keep their own coordinates.
+constexpr float kFarthestM = 1e6f;  // no home is larger, and floats hold no detail there
+
+// Lengths into metres: placements, media, lamps and cameras. Meshes keep their own coordinates.
 void scaleToMetres(Scene& scene, float s) {
   for (Instance& instance : scene.instances) {
     Affine& m = instance.worldFromObject;
@@ -18,6 +20,10 @@ void scaleToMetres(Scene& scene, float s) {
     camera.worldFromCamera.w *= s;
     camera.nearM *= s;
     camera.yMagM *= s;
+  }
+  for (Material& material : scene.materials) {
+    material.thicknessM *= s;
+    material.attenuationDistanceM *= s;
   }
   for (Lamp& lamp : scene.lamps) {
     lamp.position *= s;
@@ -37,6 +43,13 @@ Result<Imported> importScene(const std::filesystem::path& file, const ImportOpti
   if (!gltf && !obj) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb or .obj", file.string(), extension)};
   Result<Imported> imported = gltf ? importGltf(file, options) : importObj(file, options);
   if (imported && options.metresPerUnit != 1) scaleToMetres(imported.value().scene, options.metresPerUnit);
+  if (imported) {
+    const Bounds3 bounds = imported.value().scene.bounds();
+    const float farthest = std::max(maxComponent(abs(bounds.lo)), maxComponent(abs(bounds.hi)));
+    if (!(farthest <= kFarthestM)) {
+      return Error{fmt::format("{}: the scene reaches {:.3g} m from its origin, more than {:.0f} m; give --metres-per-unit", file.string(), farthest, kFarthestM)};
+    }
+  }
   return imported;
 }
 

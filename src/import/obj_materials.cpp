@@ -11,6 +11,7 @@
 
 #include "import/failure.h"
 #include "import/file_access.h"
+#include "import/grey_material.h"
 #include "import/obj_textures.h"
 
 namespace roomlight::importers {
@@ -42,6 +43,7 @@ std::string withAllNumbers(const std::string& text) {
     if (word == "-s" || word == "-o" || word == "-t") missing = 3, filler = word == "-s" ? "1 " : "0 ";
     out += word;
     if (end < text.size()) out += text[end];
+    if (end < text.size() && text[end] == '\n') missing = 0;
     at = end + 1;
   }
   return out;
@@ -174,10 +176,7 @@ void addObjMaterials(const std::filesystem::path& folder, const std::vector<std:
   ObjTextures textures(folder, picturesOf(used), warnings);
   Translator translator(textures, scene, warnings);
   for (size_t i = 0; i < names.size(); ++i) {
-    Material grey;
-    grey.name = names[i].empty() ? "default" : names[i];
-    grey.baseColor = Vec3(0.6f);
-    grey.metallic = grey.specular = 0;
+    Material grey = greyMaterial(names[i].empty() ? "default" : names[i]);
     grey.doubleSided = true;
     scene.materials.push_back(used[i] ? translator.material(*used[i]) : grey);
   }

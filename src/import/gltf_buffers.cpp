@@ -1,0 +1,76 @@
+// Buffers and buffer views, compressed views included: afterwards every view is a checked span of bytes.
+#include <fmt/format.h>
+
+#include "import/failure.h"
+#include "import/gltf_document.h"
+#include "import/parallel_failures.h"
+
+namespace roomlight::importers {
+namespace {
+
+constexpr uint64_t kMaxBytes = uint64_t{1} << 40;  // any number above is nonsense and would overflow sums
+
+std::optional<Json> meshoptOf(const Json& object) {
+  auto found = object.extension("EXT_meshopt_compression");
+  return found ? found : object.extension("KHR_meshopt_compression");
+}
+
+std::span<const uint8_t> loadBuffer(GltfDocument& document, const Json& buffer, size_t index) {
+  const size_t length = buffer.at("byteLength").integer(kMaxBytes);
+  std::span<const uint8_t> bytes;
+  if (const auto uri = buffer.find("uri")) {
+    document.storage.push_back(readUri(document.folder, uri->text(), uri->path()));
+    bytes = document.storage.back();
+  } else if (meshoptOf(buffer)) {
+    return {};  // a fallback: its views are compressed and lie elsewhere
+  } else if (index == 0) {
+    bytes = document.binaryChunk;
+  } else {
+    buffer.fail("has neither a uri nor a binary chunk");
+  }
+  if (bytes.size() < length) buffer.fail(fmt::format("claims {} bytes, but there are {}", length, bytes.size()));
+  return bytes.first(length);
+}
+
+std::span<const uint8_t> slice(const std::vector<std::span<const uint8_t>>& buffers, const Json& range) {
+  const auto buffer = buffers[static_cast<size_t>(range.at("buffer").index(buffers.size()))];
+  const uint64_t offset = range.integer("byteOffset", 0, kMaxBytes);
+  const uint64_t length = range.at("byteLength").integer(kMaxBytes);
+  if (offset > buffer.size() || length > buffer.size() - offset) {
+    range.fail(fmt::format("bytes {} to {} reach beyond the buffer of {} bytes", offset, offset + length, buffer.size()));
+  }
+  return buffer.subspan(offset, length);
+}
+
+}  // namespace
+
+void loadBuffers(GltfDocument& document) {
+  const Json list = document.root().list("buffers");
+  const Json views = document.root().list("bufferViews");
+  std::vector<std::span<const uint8_t>> buffers;
+  document.storage.reserve(list.size() + views.size());  // spans point into it
+  for (size_t i = 0; i < list.size(); ++i) buffers.push_back(loadBuffer(document, list[i], i));
+
+  std::vector<size_t> compressed;
+  document.views.resize(views.size());
+  for (size_t i = 0; i < views.size(); ++i) {
+    const Json view = views[i];
+    document.views[i].stride = view.integer("byteStride", 0, 1 << 16);
+    if (const auto meshopt = meshoptOf(view)) {
+      compressed.push_back(i);
+    } else {
+      document.views[i].bytes = slice(buffers, view);
+    }
+  }
+  std::vector<Bytes> decoded(compressed.size());
+  parallelOrFail(compressed.size(), [&](size_t k) {
+    const Json extension = *meshoptOf(views[compressed[k]]);
+    decoded[k] = decodeMeshopt(slice(buffers, extension), extension);
+  });
+  for (size_t k = 0; k < compressed.size(); ++k) {
+    document.storage.push_back(std::move(decoded[k]));
+    document.views[compressed[k]].bytes = document.storage.back();
+  }
+}
+
+}  // namespace roomlight::importers

@@ -1,0 +1,16 @@
+// Cameras and KHR_lights_punctual lights of a glTF file.
+#pragma once
+
+#include <string>
+
+#include "import/gltf_document.h"
+#include "scene/scene.h"
+
+namespace roomlight::importers {
+
+// `nodeName` stands in where the thing has no name of its own. Both throw Failure.
+Camera readGltfCamera(const Json& camera, const std::string& nodeName, const Affine& world);
+// `extension` is that of the node; adds a lamp, or a sun for a directional light.
+void addGltfLight(const GltfDocument& document, const Json& extension, const std::string& nodeName, const Affine& world, Scene& scene);
+
+}  // namespace roomlight::importers

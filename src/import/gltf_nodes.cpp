@@ -1,0 +1,130 @@
+#include "import/gltf_nodes.h"
+
+#include <fmt/format.h>
+
+#include "import/gltf_accessors.h"
+#include "import/gltf_lights.h"
+#include "import/gltf_transform.h"
+
+namespace roomlight::importers {
+namespace {
+
+constexpr int kMaxDepth = 512;
+
+class Walker {
+ public:
+  Walker(GltfDocument& document, const std::vector<std::vector<int>>& primitivesOfMesh, size_t maxTriangles, Scene& scene)
+      : document_(document), nodes_(document.root().list("nodes")), primitivesOfMesh_(primitivesOfMesh), maxTriangles_(maxTriangles), scene_(scene) {}
+
+  void walk() {
+    visited_.resize(nodes_.size());
+    const Json root = document_.root(), scenes = root.list("scenes");
+    if (scenes.size() == 0) return walkRoots();
+    if (scenes.size() > 1) document_.warnings.add("scenes other than the default one are ignored", scenes.size() - 1);
+    const int named = root.index("scene", scenes.size());
+    const Json list = scenes[static_cast<size_t>(std::max(0, named))].list("nodes");
+    for (size_t i = 0; i < list.size(); ++i) visit(list[i], {}, 0);
+  }
+
+ private:
+  // A file without a scene: every node that is nobody's child.
+  void walkRoots() {
+    std::vector<bool> isChild(nodes_.size());
+    for (size_t i = 0; i < nodes_.size(); ++i) {
+      const Json children = nodes_[i].list("children");
+      for (size_t k = 0; k < children.size(); ++k) isChild[static_cast<size_t>(children[k].index(nodes_.size()))] = true;
+    }
+    for (size_t i = 0; i < nodes_.size(); ++i) {
+      if (!isChild[i]) visitNode(static_cast<int>(i), nodes_[i], {}, 0);
+    }
+  }
+
+  void visit(const Json& use, const Affine& worldFromParent, int depth) { visitNode(use.index(nodes_.size()), use, worldFromParent, depth); }
+
+  void visitNode(int index, const Json& use, const Affine& worldFromParent, int depth) {
+    if (visited_[static_cast<size_t>(index)]) use.fail(fmt::format("node {} has two parents or is its own ancestor", index));
+    visited_[static_cast<size_t>(index)] = true;
+    if (depth > kMaxDepth) use.fail(fmt::format("nodes are nested deeper than {} levels", kMaxDepth));
+    const Json node = nodes_[static_cast<size_t>(index)];
+    const Affine world = worldFromParent * transformOf(node);
+    if (!isFinite(world.x) || !isFinite(world.y) || !isFinite(world.z) || !isFinite(world.w)) node.fail("its transform is too large");
+    if (world.determinant() == 0) {
+      document_.warnings.add("nodes scaled to nothing are left out with all below them");
+      return;
+    }
+    placeMesh(node, world);
+    const Json cameras = document_.root().list("cameras");
+    if (const int camera = node.index("camera", cameras.size()); camera >= 0) {
+      scene_.cameras.push_back(readGltfCamera(cameras[static_cast<size_t>(camera)], node.text("name"), world));
+    }
+    if (const auto e = node.extension("KHR_lights_punctual")) addGltfLight(document_, *e, node.text("name"), world, scene_);
+    const Json children = node.list("children");
+    for (size_t i = 0; i < children.size(); ++i) visit(children[i], world, depth + 1);
+  }
+
+  void placeMesh(const Json& node, const Affine& world) {
+    if (node.find("skin")) document_.warnings.add("skins are ignored, meshes keep their rest pose");
+    const int mesh = node.index("mesh", primitivesOfMesh_.size());
+    if (mesh < 0) return;
+    if (const auto e = node.extension("EXT_mesh_gpu_instancing")) {
+      for (const Affine& placement : placements(*e)) place(node, mesh, world * placement);
+    } else {
+      place(node, mesh, world);
+    }
+  }
+
+  void place(const Json& node, int mesh, const Affine& world) {
+    if (world.determinant() == 0) {
+      document_.warnings.add("instances scaled to nothing are left out");
+      return;
+    }
+    for (const int primitive : primitivesOfMesh_[static_cast<size_t>(mesh)]) {
+      triangles_ += scene_.meshes[static_cast<size_t>(primitive)].triangleCount();
+      if (triangles_ > maxTriangles_) node.fail(fmt::format("all instances together have more than {} triangles", maxTriangles_));
+      scene_.instances.push_back({node.text("name"), primitive, nextObject_, world});
+    }
+    ++nextObject_;
+  }
+
+  // EXT_mesh_gpu_instancing: any of TRANSLATION, ROTATION and SCALE, of equal count.
+  std::vector<Affine> placements(const Json& extension) {
+    const Json attributes = extension.at("attributes");
+    std::vector<float> values[3];
+    const char* names[] = {"TRANSLATION", "ROTATION", "SCALE"};
+    const int widths[] = {3, 4, 3};
+    std::optional<size_t> count;
+    for (int k = 0; k < 3; ++k) {
+      const auto use = attributes.find(names[k]);
+      if (!use) continue;
+      const Accessor accessor = openAccessor(document_, *use);
+      if (count.value_or(accessor.count) != accessor.count) use->fail(fmt::format("has {} elements, others have {}", accessor.count, *count));
+      count = accessor.count;
+      document_.budget.spend(accessor.count, use->path());
+      values[k] = readFloats(accessor, widths[k]);
+    }
+    std::vector<Affine> out;
+    for (size_t i = 0; i < count.value_or(0); ++i) {
+      const auto at = [&](size_t k, size_t c, float otherwise) { return values[k].empty() ? otherwise : values[k][i * (k == 1 ? 4 : 3) + c]; };
+      const Quaternion q{at(1, 0, 0), at(1, 1, 0), at(1, 2, 0), at(1, 3, 1)};
+      if (!(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w > 1e-12)) attributes.at("ROTATION").fail(fmt::format("element {} is no rotation", i));
+      out.push_back(composed({at(0, 0, 0), at(0, 1, 0), at(0, 2, 0)}, q, {at(2, 0, 1), at(2, 1, 1), at(2, 2, 1)}));
+    }
+    return out;
+  }
+
+  GltfDocument& document_;
+  Json nodes_;
+  const std::vector<std::vector<int>>& primitivesOfMesh_;
+  size_t maxTriangles_ = 0, triangles_ = 0;
+  Scene& scene_;
+  std::vector<bool> visited_;
+  int nextObject_ = 0;
+};
+
+}  // namespace
+
+void addGltfNodes(GltfDocument& document, const std::vector<std::vector<int>>& primitivesOfMesh, size_t maxTriangles, Scene& scene) {
+  Walker(document, primitivesOfMesh, maxTriangles, scene).walk();
+}
+
+}  // namespace roomlight::importers
