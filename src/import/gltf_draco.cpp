@@ -108,7 +108,10 @@ DracoPrimitive decodeDraco(GltfDocument& document, const Json& extension) {
   out.vertexCount = mesh.num_points();
   out.indices.reserve(size_t{3} * mesh.num_faces());
   for (uint32_t f = 0; f < mesh.num_faces(); ++f) {
-    for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(f))) out.indices.push_back(corner.value());
+    for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(f))) {
+      if (corner.value() >= out.vertexCount) extension.fail(fmt::format("the Draco data are damaged: triangle {} has no vertex {}", f, corner.value()));
+      out.indices.push_back(corner.value());
+    }
   }
   const Json attributes = extension.at("attributes");
   for (const auto& [name, id] : attributes.raw().items()) {
