@@ -24,9 +24,13 @@ Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; 
 Metadata readPngMetadata(std::span<const uint8_t> bytes);
 
 // The 8-bit RGBA numbers of a texture as they are: no colour space, gamma or transparency is applied. Deeper channels
-// lose their low bits. The size of the picture must be that of `width` and `height`, which readPngSize tells.
-void readPngSize(std::span<const uint8_t> bytes, int& width, int& height);
-std::vector<uint8_t> readPngTexels(std::span<const uint8_t> bytes, int width, int height);
+// lose their low bits. `size` is what readPngSize told, so that a caller can refuse it before memory is taken.
+struct PngSize {
+  int width = 0, height = 0;
+  int bitsPerPixel = 0;  // in the file, before compression
+};
+PngSize readPngSize(std::span<const uint8_t> bytes);
+std::vector<uint8_t> readPngTexels(std::span<const uint8_t> bytes, const PngSize& size);
 
 Image readHdr(std::span<const uint8_t> bytes);
 

@@ -165,19 +165,21 @@ Image readPng(std::span<const uint8_t> bytes) {
   return image;
 }
 
-// The header chunk comes first: length, "IHDR", width, height, all big-endian.
-void readPngSize(std::span<const uint8_t> bytes, int& width, int& height) {
-  if (bytes.size() < 24 || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0) throw std::runtime_error("the PNG file has no header");
-  const png_uint_32 w = png_get_uint_32(bytes.data() + 16), h = png_get_uint_32(bytes.data() + 20);
-  if (w > PNG_UINT_31_MAX || h > PNG_UINT_31_MAX) throw std::runtime_error("the PNG header is damaged");
-  width = static_cast<int>(w), height = static_cast<int>(h);
+// The header chunk comes first: length, "IHDR", width, height, all big-endian; bits a channel, kind of colour.
+PngSize readPngSize(std::span<const uint8_t> bytes) {
+  if (bytes.size() < 26 || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0) throw std::runtime_error("the PNG file has no header");
+  const png_uint_32 width = png_get_uint_32(bytes.data() + 16), height = png_get_uint_32(bytes.data() + 20);
+  const int depth = bytes[24], kind = bytes[25];
+  if (width > PNG_UINT_31_MAX || height > PNG_UINT_31_MAX || depth < 1 || depth > 16) throw std::runtime_error("the PNG header is damaged");
+  const int channels = kind == PNG_COLOR_TYPE_RGB ? 3 : kind == PNG_COLOR_TYPE_RGB_ALPHA ? 4 : kind == PNG_COLOR_TYPE_GRAY_ALPHA ? 2 : 1;
+  return {static_cast<int>(width), static_cast<int>(height), channels * depth};
 }
 
-std::vector<uint8_t> readPngTexels(std::span<const uint8_t> bytes, int width, int height) {
-  std::vector<uint8_t> rgba(size_t{4} * static_cast<size_t>(width) * static_cast<size_t>(height));
+std::vector<uint8_t> readPngTexels(std::span<const uint8_t> bytes, const PngSize& size) {
+  std::vector<uint8_t> rgba(size_t{4} * static_cast<size_t>(size.width) * static_cast<size_t>(size.height));
   Bytes source{bytes.data(), bytes.size()};
   Failure failure;
-  if (!readRgba(source, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), rgba.data(), failure)) {
+  if (!readRgba(source, static_cast<png_uint_32>(size.width), static_cast<png_uint_32>(size.height), rgba.data(), failure)) {
     throw std::runtime_error(failure.message);
   }
   return rgba;

@@ -13,7 +13,7 @@ Result<Imported> importGltf(const std::filesystem::path& file, const ImportOptio
     Imported imported;
     const auto document = importers::openGltf(file);
     importers::addGltfMaterials(*document, imported.scene);
-    const auto primitivesOfMesh = importers::addGltfMeshes(*document, imported.scene);
+    const auto primitivesOfMesh = importers::addGltfMeshes(*document, options.maxTriangles, imported.scene);
     importers::addGltfNodes(*document, primitivesOfMesh, options.maxTriangles, imported.scene);
     imported.warnings = document->warnings.lines();
     return imported;

@@ -20,6 +20,7 @@ std::span<const uint8_t> loadBuffer(GltfDocument& document, const Json& buffer, 
   std::span<const uint8_t> bytes;
   if (const auto uri = buffer.find("uri")) {
     document.storage.push_back(readUri(document.folder, uri->text(), uri->path()));
+    document.budget.grantFor(document.storage.back().size());
     bytes = document.storage.back();
   } else if (meshoptOf(buffer)) {
     return {};  // a fallback: its views are compressed and lie elsewhere

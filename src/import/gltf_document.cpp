@@ -16,9 +16,7 @@ namespace {
 
 constexpr size_t kMaxJsonDepth = 64;
 
-// Elements a file may unfold into: this many, and so many a byte. Draco spends a byte on one to ten vertices.
-constexpr size_t kFreeElements = size_t{1} << 22;
-constexpr size_t kElementsPerByte = 256;
+constexpr size_t kElementsPerByte = 64;  // Draco spends a byte on about five
 
 constexpr std::array kHonoured = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",     "EXT_texture_webp",
@@ -92,6 +90,8 @@ void countUnknown(const nlohmann::json& value, std::map<std::string, size_t>& co
 
 }  // namespace
 
+void ElementBudget::grantFor(size_t fileBytes) { left_ += kElementsPerByte * fileBytes; }
+
 void ElementBudget::spend(size_t elements, const std::string& place) {
   if (elements > left_) fail(place, "the file unfolds into far more vertices, indices or placements than its size explains");
   left_ -= elements;
@@ -133,12 +133,10 @@ std::unique_ptr<GltfDocument> openGltf(const std::filesystem::path& file) {
   auto document = std::make_unique<GltfDocument>();
   document->folder = file.parent_path();
   document->file = readWholeFile(file, "");
+  document->budget.grantFor(document->file.size());
   parseContainer(*document);
   checkExtensions(*document);
   loadBuffers(*document);
-  document->budget.grant(kFreeElements);
-  document->budget.grant(kElementsPerByte * document->file.size());
-  for (const Bytes& bytes : document->storage) document->budget.grant(kElementsPerByte * bytes.size());
   return document;
 }
 

@@ -21,12 +21,12 @@ struct BufferView {
 // How many vertices, indices and placements a file may still unfold into, so that a small file cannot fill the memory.
 class ElementBudget {
  public:
-  void grant(size_t elements) { left_ += elements; }
+  void grantFor(size_t fileBytes);  // what so many bytes of a file may unfold into
   size_t left() const { return left_; }
   void spend(size_t elements, const std::string& place);  // throws Failure
 
  private:
-  size_t left_ = 0;
+  size_t left_ = size_t{1} << 22;  // even the smallest file may
 };
 
 struct GltfDocument {

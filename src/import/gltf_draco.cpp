@@ -15,7 +15,7 @@ namespace {
 
 // A stream may claim this many triangles and vertices, and so many a byte; a vertex this many numbers.
 constexpr uint64_t kFreeElements = 1 << 16;
-constexpr uint64_t kElementsPerByte = 256;
+constexpr uint64_t kElementsPerByte = 64;
 constexpr uint64_t kMostComponents = 64;
 
 // One of Draco's decoders that looks at what the stream claims before it takes memory for it.

@@ -174,17 +174,19 @@ class Primitive {
 
 }  // namespace
 
-std::vector<std::vector<int>> addGltfMeshes(GltfDocument& document, Scene& scene) {
+std::vector<std::vector<int>> addGltfMeshes(GltfDocument& document, size_t maxTriangles, Scene& scene) {
   const Json meshes = document.root().list("meshes");
   const size_t materialCount = scene.materials.size();
   std::vector<std::vector<int>> primitivesOfMesh(meshes.size());
-  size_t degenerate = 0, grey = 0;
+  size_t grey = 0, triangles = 0;
   for (size_t i = 0; i < meshes.size(); ++i) {
     const Json primitives = meshes[i].at("primitives");
     for (size_t k = 0; k < primitives.size(); ++k) {
       auto mesh = Primitive(document, primitives[k]).read();
       if (!mesh) continue;
-      degenerate += dropDegenerate(*mesh);
+      triangles += mesh->triangleCount();
+      if (triangles > maxTriangles) primitives[k].fail(fmt::format("all meshes together have more than {} triangles", maxTriangles));
+      dropDegenerate(*mesh);
       if (mesh->indices.empty()) continue;
       mesh->name = meshes[i].text("name");
       mesh->material = primitives[k].index("material", materialCount);
@@ -197,7 +199,6 @@ std::vector<std::vector<int>> addGltfMeshes(GltfDocument& document, Scene& scene
     }
   }
   document.warnings.add("primitives without a material are grey", grey);
-  document.warnings.add("triangles without area are left out", degenerate);
   return primitivesOfMesh;
 }
 

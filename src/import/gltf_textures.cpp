@@ -109,9 +109,12 @@ void GltfTextures::decode(Scene& scene) {
     if (isNew) jobs.push_back({images[static_cast<size_t>(use.image)].path(), pictures_.at(use.image).bytes});
     jobOfUse.push_back(entry->second);
   }
-  const std::vector<Texture> pictures = decodePictures(jobs, document_.warnings);
+  std::vector<Texture> pictures = decodePictures(jobs, document_.warnings);
+  std::vector<size_t> usesLeft(jobs.size());
+  for (const size_t job : jobOfUse) ++usesLeft[job];
   for (size_t i = 0; i < uses_.size(); ++i) {
-    Texture texture = pictures[jobOfUse[i]];
+    Texture& picture = pictures[jobOfUse[i]];
+    Texture texture = --usesLeft[jobOfUse[i]] == 0 ? std::move(picture) : picture;
     const Json image = images[static_cast<size_t>(uses_[i].image)];
     texture.name = image.text("name");
     if (texture.name.empty() && image.find("uri")) texture.name = printable(image.at("uri").text());

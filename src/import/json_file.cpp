@@ -1,5 +1,7 @@
 #include "import/json_file.h"
 
+#include "import/printable.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +17,7 @@ namespace {
 
 constexpr uintmax_t kLargestFileBytes = 16u << 20;
 constexpr int kDeepest = 32;
+constexpr size_t kLongestMessage = 600;
 
 // Watches the parser: stops at what it would accept and we do not.
 class Guard {
@@ -27,7 +30,7 @@ class Guard {
     if (event == Event::object_start) keysOfOpenObjects_.emplace_back();
     if (event == Event::object_end) keysOfOpenObjects_.pop_back();
     if (event == Event::key && !keysOfOpenObjects_.back().insert(value.get<std::string>()).second) {
-      throw std::runtime_error(fmt::format("the key '{}' is given twice", oneLine(value.get<std::string>())));
+      throw std::runtime_error(fmt::format("the key '{}' is given twice", printable(value.get<std::string>())));
     }
     return true;
   }
@@ -38,18 +41,8 @@ class Guard {
 
 }  // namespace
 
-std::string oneLine(std::string_view text) {
-  constexpr size_t kMost = 600;
-  size_t end = std::min(text.size(), kMost);
-  // Not in the middle of a UTF-8 character.
-  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  std::string line(text.substr(0, end));
-  std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return end < text.size() ? line + "..." : line;
-}
-
 Result<nlohmann::json> readJsonFile(const std::filesystem::path& file) {
-  const auto error = [&](std::string_view what) { return Error{fmt::format("{}: {}", file.string(), oneLine(what))}; };
+  const auto error = [&](std::string_view what) { return Error{fmt::format("{}: {}", file.string(), printable(what, kLongestMessage))}; };
   std::error_code code;
   const uintmax_t size = std::filesystem::file_size(file, code);
   if (code) return error(std::filesystem::exists(file, code) ? "not a readable file" : "no such file");

@@ -3,8 +3,6 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
 
 #include "base/result.h"
 
@@ -12,8 +10,5 @@ namespace roomlight {
 
 // At most 16 MiB, nested at most 32 deep, every key once in its object; comments (// and /* */) are allowed.
 Result<nlohmann::json> readJsonFile(const std::filesystem::path& file);
-
-// Text that may come from a file, fit for an error message: control characters as spaces, cut at 600 bytes.
-std::string oneLine(std::string_view text);
 
 }  // namespace roomlight

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "import/json_file.h"
+#include "import/printable.h"
 
 namespace roomlight {
 namespace {
@@ -23,7 +23,7 @@ const nlohmann::json kNothing;
 }  // namespace
 
 void JsonPlace::fail(const std::string& what) const {
-  if (error_->empty()) *error_ = (path_.empty() ? "" : path_ + ": ") + oneLine(what);
+  if (error_->empty()) *error_ = (path_.empty() ? "" : path_ + ": ") + printable(what, 600);
 }
 
 bool JsonPlace::isObject(std::initializer_list<const char*> knownKeys) const {

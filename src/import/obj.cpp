@@ -78,14 +78,12 @@ class Builder {
   }
 
   std::vector<std::string> finish(Scene& scene, Warnings& warnings) {
-    size_t degenerate = 0;
     for (Part* part : order_) {
-      degenerate += dropDegenerate(part->mesh);
+      dropDegenerate(part->mesh);
       if (part->mesh.indices.empty()) continue;
       scene.instances.push_back({part->mesh.name, static_cast<int>(scene.meshes.size()), part->object, {}});
       scene.meshes.push_back(std::move(part->mesh));
     }
-    warnings.add("triangles without area are left out", degenerate);
     warnings.add("faces with fewer than three corners are ignored", shortFaces_);
     warnings.add("points and lines are ignored", lines_.linesAndPoints());
     warnings.add("curves and free-form surfaces are ignored", lines_.freeForm());

@@ -49,6 +49,7 @@ struct Header {
   Format format = Format::Unknown;
   int width = 0, height = 0;
   int jpegColours = 0;
+  formats::PngSize png;
 };
 
 Header readHeader(ByteView bytes) {
@@ -60,7 +61,8 @@ Header readHeader(ByteView bytes) {
   bool fine = true;
   switch (h.format) {
     case Format::Png:
-      formats::readPngSize(bytes, h.width, h.height);
+      h.png = formats::readPngSize(bytes);
+      h.width = h.png.width, h.height = h.png.height;
       break;
     case Format::Jpeg: {
       const JpegDecoder decoder(tjInitDecompress());
@@ -79,12 +81,12 @@ Header readHeader(ByteView bytes) {
   return h;
 }
 
-// Most pixels that a format can hold in so many bytes: what claims more is cut off or a bomb. PNG: deflate reaches
-// 1:1032 on one-bit pixels. JPEG: end-of-band runs of 8x8 blocks. TGA: runs of 128 pixels in two bytes. BMP: one bit.
+// Most pixels that a picture can hold in so many bytes: what claims more is cut off or a bomb. PNG: deflate reaches
+// 1:1032. JPEG: end-of-band runs of 8x8 blocks. TGA: runs of 128 pixels in two bytes. BMP: one bit.
 // A plain WebP picture of any size takes a few bytes, so it gets a flat allowance.
-size_t mostPixels(Format format, size_t bytes) {
-  switch (format) {
-    case Format::Png: return bytes * 8300;
+size_t mostPixels(const Header& h, size_t bytes) {
+  switch (h.format) {
+    case Format::Png: return bytes * 1040 * 8 / static_cast<size_t>(h.png.bitsPerPixel);
     case Format::Jpeg: return bytes * 4096;
     case Format::Tga: return bytes * 64;
     case Format::Bmp: return bytes * 8;
@@ -99,7 +101,7 @@ size_t checkedPixels(const Header& h, size_t bytes) {
     fail("", fmt::format("the picture claims {} x {} pixels; the limits are {} a side and {} in all", h.width, h.height, kMaxPictureSide,
                          kMaxPicturePixels));
   }
-  if (pixels > mostPixels(h.format, bytes)) {
+  if (pixels > mostPixels(h, bytes)) {
     fail("", fmt::format("the picture claims {} x {} pixels, but has only {} bytes", h.width, h.height, bytes));
   }
   return pixels;
@@ -144,7 +146,7 @@ Texture decode(ByteView bytes, const Header& h, std::string& complaint) {
   Texture t;
   t.width = h.width, t.height = h.height;
   if (h.format == Format::Png) {
-    t.rgba = formats::readPngTexels(bytes, h.width, h.height);
+    t.rgba = formats::readPngTexels(bytes, h.png);
     return t;
   }
   t.rgba.resize(static_cast<size_t>(h.width) * static_cast<size_t>(h.height) * 4);

@@ -2,8 +2,7 @@
 
 namespace roomlight::importers {
 
-size_t dropDegenerate(Mesh& mesh) {
-  const size_t before = mesh.triangleCount();
+void dropDegenerate(Mesh& mesh) {
   size_t kept = 0;
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     const uint32_t a = mesh.indices[t], b = mesh.indices[t + 1], c = mesh.indices[t + 2];
@@ -14,7 +13,6 @@ size_t dropDegenerate(Mesh& mesh) {
     mesh.indices[kept++] = a, mesh.indices[kept++] = b, mesh.indices[kept++] = c;
   }
   mesh.indices.resize(kept);
-  return before - kept / 3;
 }
 
 }  // namespace roomlight::importers

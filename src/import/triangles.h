@@ -5,7 +5,7 @@
 
 namespace roomlight::importers {
 
-// Removes triangles without area, which no later stage can shade. Returns how many. Indices must be in range.
-size_t dropDegenerate(Mesh& mesh);
+// Removes triangles without area: nobody sees them, and no later stage can shade them. Indices must be in range.
+void dropDegenerate(Mesh& mesh);
 
 }  // namespace roomlight::importers

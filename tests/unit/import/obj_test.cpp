@@ -120,9 +120,8 @@ TEST_F(Obj, whatCannotBeHonouredIsOneWarningAKind) {
   EXPECT_TRUE(has("map_bump", "2 times"));
   EXPECT_TRUE(has("pictures that MTL files name are missing", "once"));
   EXPECT_TRUE(has("points and lines", "2 times"));
-  EXPECT_TRUE(has("without area", "once"));
   EXPECT_TRUE(has("fewer than three", "once"));
-  EXPECT_EQ(warnings.size(), 7u);
+  EXPECT_EQ(warnings.size(), 6u);
 }
 
 TEST_F(Obj, damagedFilesAreOneLineThatNamesFileAndLine) {
