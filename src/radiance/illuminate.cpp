@@ -18,6 +18,7 @@ constexpr int kStepsBetweenLeaps = 6;
 constexpr double kLongestLeap = 8;
 constexpr uint32_t kPoints = 4;    // per slot
 constexpr int kMostPanes = 16;  // surfaces a link goes through or on from
+constexpr float kLift = 0.1f;  // voxels; how far points are lifted to see one another along a bent surface
 constexpr float kHiddenBehind = 0.15f;  // voxels; surfaces further behind a slot's place are not lit as it is
 
 // Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves.
@@ -75,7 +76,9 @@ class Illuminator {
         for (Vec3& p : points_[s]) {
           const Ray& ray = rays[next];
           const Hit& hit = hits[next++];
-          if (hit.valid() && facesAlong(hit, slot.normal)) p = lifted(ray.origin + ray.direction * hit.t, slot.normal);
+          if (!hit.valid() || !facesAlong(hit, slot.normal)) continue;
+          const Vec3 found = ray.origin + ray.direction * hit.t;
+          if (connected(slot, found + slot.normal * (kLift * voxels_.voxelSizeM))) p = lifted(found, slot.normal);
         }
       }
     });
@@ -165,8 +168,16 @@ class Illuminator {
     return {};
   }
 
+  // Not lit as the slot's place is: behind it, or parted from it by another surface (a pane that crosses the voxel).
   bool isHidden(const FaceSlot& slot, const SurfacePoint& s) const {
-    return dot(slot.position - s.p, slot.normal) > kHiddenBehind * voxels_.voxelSizeM;
+    if (dot(slot.position - s.p, slot.normal) > kHiddenBehind * voxels_.voxelSizeM) return true;
+    return !connected(slot, s.p + s.ng * (kLift * voxels_.voxelSizeM));
+  }
+
+  // Whether nothing stands between the slot's place, a little lifted, and p.
+  bool connected(const FaceSlot& slot, Vec3 p) const {
+    const Vec3 from = slot.position + slot.normal * (kLift * voxels_.voxelSizeM);
+    return luminance(rays_.transmittance({from, p - from, 0, 1})) > 0.25f;
   }
 
   std::pair<size_t, size_t> slotsOfBrick(size_t b) const {
