@@ -1,6 +1,7 @@
 // Technique cone held against closed forms: furnaces at any voxel size and orientation, occlusion, independence of settings.
 #include <gtest/gtest.h>
 
+#include "base/parallel.h"
 #include "gather/cone_gather.h"
 #include "support/rooms.h"
 #include "voxel/voxelise.h"
@@ -75,6 +76,54 @@ TEST_P(ConeFurnace, radianceIsEmissionOverOneMinusAlbedo) {
 INSTANTIATE_TEST_SUITE_P(Rooms, ConeFurnace,
                          testing::Values(Furnace{0.1f, 0, 5, 0.02f}, Furnace{0.05f, 0, 5, 0.02f}, Furnace{0.2f, 0, 5, 0.02f}, Furnace{0.1f, 0.5f, 5, 0.02f},
                                          Furnace{0.1f, 0.785398f, 5, 0.02f}, Furnace{0.1f, 0, 15, 0.02f}, Furnace{0.1f, 0.5f, 15, 0.02f}));
+
+// A room with a lamp, a table, a shelf and a partition that does not reach the ceiling.
+Scene furnishedRoom() {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.75f)), floor = test::addMaterial(scene, test::lambertian(0.35f)), wood = test::addMaterial(scene, test::lambertian(0.5f));
+  test::addRoom(scene, {0, 0, 0}, {4.13f, 2.57f, 3.61f}, {white, white, floor, white, white, white});
+  test::addBox(scene, {0.6f, 0.7f, 0.5f}, {1.9f, 0.74f, 1.3f}, wood);
+  test::addBox(scene, {3.2f, 0, 0.01f}, {4.0f, 1.9f, 0.35f}, wood);
+  test::addBox(scene, {2.3f, 0, 0.9f}, {2.36f, 1.8f, 2.2f}, white);
+  scene.lamps.push_back(test::pointLamp({1.3f, 2.1f, 1.2f}, 80));
+  return scene;
+}
+
+TEST(Cone, meanLuminanceDoesNotDependOnTheSizeOfVoxels) {
+  ConeSetup s = small();
+  s.gather.width = 64, s.gather.height = 36;
+  std::vector<double> means;
+  for (const float size : {0.04f, 0.06f, 0.1f}) {
+    s.voxelSizeM = size;
+    means.push_back(mean(render(furnishedRoom(), {1.9f, 1.5f, 3.4f}, s).image));
+  }
+  const auto [low, high] = std::minmax_element(means.begin(), means.end());
+  EXPECT_LT(*high / *low, 1.03) << means[0] << " " << means[1] << " " << means[2];
+}
+
+TEST(Cone, sameBitsWithAnyNumberOfThreads) {
+  ConeSetup s = small();
+  s.gather.filterPasses = 3;
+  s.gather.samples = 2;
+  std::vector<Image> images;
+  for (const int threads : {1, 2}) {
+    withThreads(threads, [&] { images.push_back(render(furnishedRoom(), {1.9f, 1.5f, 3.4f}, s).image); });
+  }
+  for (size_t i = 0; i < images[0].pixels.size(); ++i) {
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(images[0].pixels[i][k], images[1].pixels[i][k]) << "pixel " << i;
+  }
+}
+
+// In a room of metres, f(r) = 1 / (1 + r) of its walls lies between that of the nearest and of the farthest point.
+TEST(Cone, occlusionFallsWithDistance) {
+  ConeSetup s = small();
+  const double whole = mean(render(furnace(0.5f), {1.7f, 1.4f, 2.6f}, s).occlusion);
+  s.gather.occlusionLambda = 1;
+  const double faded = mean(render(furnace(0.5f), {1.7f, 1.4f, 2.6f}, s).occlusion);
+  EXPECT_LE(whole, 1 + 1e-4);
+  EXPECT_GT(faded, whole / (1 + 5.6));
+  EXPECT_LT(faded, whole / (1 + 0.5));
+}
 
 }  // namespace
 }  // namespace roomlight
