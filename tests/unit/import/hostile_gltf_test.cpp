@@ -136,12 +136,12 @@ TEST_F(HostileGltf, accessorsAndBuffers) {
 TEST_F(HostileGltf, lightsAndCameras) {
   const auto light = [](json value) {
     return [value](GltfFile& f) {
-      f.json["extensions"]["KHR_lights_punctual"]["lights"] = {value};
+      f.json["extensions"]["KHR_lights_punctual"]["lights"] = json::array({value});
       f.node()["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
     };
   };
   const auto camera = [](json value) {
-    return [value](GltfFile& f) { f.json["cameras"] = {value}, f.node()["camera"] = 0; };
+    return [value](GltfFile& f) { f.json["cameras"] = json::array({value}), f.node()["camera"] = 0; };
   };
   expectAllRefused({
       {"negative light", light({{"type", "point"}, {"intensity", -5}}), "lights[0].intensity"},
@@ -181,7 +181,7 @@ TEST_F(HostileGltf, picturesThatLie) {
       {"WebP of nothing", picture("RIFF\x10\x20\x30\x40WEBPVP8 "), "images[0]: "},
       {"BMP of nothing", picture("BM"), "images[0]: "},
       {"image without bytes", [](GltfFile& f) {
-         f.json["images"] = {json::object()};
+         f.json["images"] = json::array({json::object()});
          f.json["textures"] = {{{"source", 0}}};
          f.json["materials"][0]["normalTexture"] = {{"index", 0}};
        }, "images[0]: 'bufferView' is missing"},
