@@ -9,7 +9,14 @@ namespace {
 
 constexpr float kOpaque = 0.004f;     // what is left of a cone when it is given up
 constexpr float kOverlap = 0.02f;     // voxel edges: planes are looked for a little outside their voxel, so that none falls between two
+constexpr float kMaskReach = 0.05f;  // voxel edges: planes are rounded, and may lie just outside the sub-cells of their surface
 constexpr float kNudge = 1e-3f;       // voxel edges: carries a step into the next voxel
+
+// Whether the sub-cell at p, from the voxel's middle in voxel edges, holds a surface.
+bool isSet(uint64_t mask, Vec3 p) {
+  const auto cell = [](float v) { return std::clamp(static_cast<int>(4 * v + 2), 0, 3); };
+  return (mask >> (cell(p.x) + 4 * cell(p.y) + 16 * cell(p.z))) & 1;
+}
 
 struct Crossing {
   float t;
@@ -27,6 +34,8 @@ int crossings(const DirectionalVoxel& voxel, Vec3 q, Vec3 d, float t0, float t1,
     if (facing >= -1e-4f) continue;
     const float t = (planeDistance(f) - dot(n, q)) / facing;
     if (t < t0 || t >= t1) continue;
+    const Vec3 p = q + d * t;
+    if (!isSet(voxel.mask, p + n * kMaskReach) && !isSet(voxel.mask, p - n * kMaskReach)) continue;
     int k = found++;
     for (; k > 0 && out[k - 1].t > t; --k) out[k] = out[k - 1];
     out[k] = {t, &f};

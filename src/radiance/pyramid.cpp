@@ -2,10 +2,12 @@
 
 #include "base/parallel.h"
 #include "radiance/half.h"
-#include "radiance/plane_area.h"
+#include "voxel/submask.h"
 
 namespace roomlight {
 namespace {
+
+constexpr float kWholeFrom = 0.6f;
 
 // One face while the pyramid is built. Lengths in edges of its voxel, from the voxel's middle.
 struct Face {
@@ -16,7 +18,7 @@ using Faces = std::array<Face, 6>;
 
 int8_t toByte(float v) { return static_cast<int8_t>(std::lround(127 * std::clamp(v, -1.0f, 1.0f))); }
 
-DirectionalFace pack(const Face& f, int axis, float unit) {
+DirectionalFace pack(const Face& f, int axis, Vec3 columns, float unit) {
   DirectionalFace out;
   if (!(f.opacity > 0)) return out;
   const float distance = dot(f.point, f.normal);
@@ -24,16 +26,18 @@ DirectionalFace pack(const Face& f, int axis, float unit) {
   out.radiance = {toHalf(c.x), toHalf(c.y), toHalf(c.z)};
   out.normal = {toByte(f.normal.x), toByte(f.normal.y), toByte(f.normal.z)};
   out.plane = static_cast<uint8_t>(std::lround(255 * std::clamp(0.5f + 0.5f * distance / kFarthestPlane, 0.0f, 1.0f)));
-  // From what is seen along the axis to what lies on the plane.
-  const double plane = planeAreaInUnitCube(f.normal, distance + 0.5f * (f.normal.x + f.normal.y + f.normal.z));
-  const double share = f.opacity / std::max(1e-3, plane * std::abs(f.normal[axis]));
-  out.coverage = static_cast<uint8_t>(std::lround(std::clamp(255 * share, 1.0, 255.0)));
+  // Of the columns along the axis that hold surfaces at all. Sub-cells on a border are covered in part: more than half of it
+  // is taken for a whole surface, so that walls do not leak along their edges.
+  const float share = f.opacity / std::max(1.0f / 16, columns[axis]);
+  out.coverage = static_cast<uint8_t>(std::lround(std::clamp(255 * share / kWholeFrom, 1.0f, 255.0f)));
   return out;
 }
 
-DirectionalVoxel pack(const Faces& faces, float unit) {
+DirectionalVoxel pack(const Faces& faces, uint64_t mask, float unit) {
   DirectionalVoxel v;
-  for (size_t face = 0; face < 6; ++face) v.face[face] = pack(faces[face], static_cast<int>(face / 2), unit);
+  v.mask = mask;
+  const Vec3 columns = columnCoverage(mask);
+  for (size_t face = 0; face < 6; ++face) v.face[face] = pack(faces[face], static_cast<int>(face / 2), columns, unit);
   return v;
 }
 
@@ -47,6 +51,16 @@ Faces baseFaces(const Voxels& voxels, const SurfaceVoxel& voxel, Vec3 middle, st
     faces[slot.face] = {std::min(1.0f, slot.areaM2 * std::abs(slot.normal[slot.face / 2]) / (h * h)), slotRadiance[i], slot.normal, (slot.position - middle) / h};
   }
   return faces;
+}
+
+// A mask at half its resolution: the 2x2x2 sub-cells at the lower corner of a mask.
+uint64_t halved(uint64_t mask) {
+  uint64_t out = 0;
+  for (; mask; mask &= mask - 1) {
+    const int bit = std::countr_zero(mask);
+    out |= uint64_t{1} << ((bit & 3) / 2 + 4 * ((bit >> 2 & 3) / 2) + 16 * ((bit >> 4) / 2));
+  }
+  return out;
 }
 
 // Eight children into one. Along each axis the nearer child comes first and the farther one fills what is left, for a wall that
@@ -164,7 +178,7 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, Radi
   forEachVoxel(now.level, [&](size_t record, Int3 v) {
     const Vec3 middle = voxels.origin + Vec3{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f} * voxels.voxelSizeM;
     now.faces[record] = baseFaces(voxels, voxels.voxels[record], middle, slotRadiance);
-    now.level.voxels[record] = pack(now.faces[record], field.unitCdM2);
+    now.level.voxels[record] = pack(now.faces[record], voxels.voxels[record].mask, field.unitCdM2);
   });
   while (true) {
     const Int3 dims = now.level.brickDims;
@@ -174,12 +188,14 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, Radi
     next.faces.resize(next.level.voxels.size());
     forEachVoxel(next.level, [&](size_t record, Int3 v) {
       std::array<const Faces*, 8> child{};
+      uint64_t mask = 0;
       for (int k = 0; k < 8; ++k) {
         const int64_t c = recordAt(now.level, 2 * v.x + (k & 1), 2 * v.y + ((k >> 1) & 1), 2 * v.z + (k >> 2));
         child[static_cast<size_t>(k)] = c < 0 ? nullptr : &now.faces[static_cast<size_t>(c)];
+        if (c >= 0) mask |= halved(now.level.voxels[static_cast<size_t>(c)].mask) << (2 * (k & 1) + 8 * ((k >> 1) & 1) + 32 * (k >> 2));
       }
       next.faces[record] = combine(child);
-      next.level.voxels[record] = pack(next.faces[record], field.unitCdM2);
+      next.level.voxels[record] = pack(next.faces[record], mask, field.unitCdM2);
     });
     field.levels.push_back(std::move(now.level));
     now = std::move(next);

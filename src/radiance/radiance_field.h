@@ -34,7 +34,7 @@ struct DirectionalFace {
   std::array<uint16_t, 3> radiance{};  // half floats, in units of RadianceField::unitCdM2
   std::array<int8_t, 3> normal{};      // in 1/127, unit
   uint8_t plane = 0;                   // distance from the voxel's middle along the normal; see planeDistance
-  uint8_t coverage = 0;                // surface on the plane inside the voxel, in 1/255; 0: no surface faces this way
+  uint8_t coverage = 0;                // surface on the plane where the mask is set, in 1/255; 0: no surface faces this way
   uint8_t unused = 0;
 };
 
@@ -45,6 +45,7 @@ inline float planeDistance(const DirectionalFace& f) { return (static_cast<float
 // Faces in the order of Voxels. One level of the pyramid has the same sparse bricks as Voxels, with these records.
 struct DirectionalVoxel {
   std::array<DirectionalFace, 6> face;
+  uint64_t mask = 0;  // 4x4x4 sub-cells that hold surfaces; bit x + 4 y + 16 z
 };
 
 struct RadianceLevel {
