@@ -51,7 +51,6 @@ class Illuminator {
       field.irradianceLux[i] = direct_[i] + indirect_[i];
       radiance[i] = voxels_.slots[i].albedo * field.irradianceLux[i] / kPi;
     });
-    field.indirectLux = std::move(indirect_);
     field.rays = rayCount_;
     buildPyramid(voxels_, radiance, field);
     return field;
@@ -323,7 +322,7 @@ class Illuminator {
 }  // namespace
 
 size_t RadianceField::bytes() const {
-  size_t sum = (irradianceLux.size() + indirectLux.size()) * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]);
+  size_t sum = irradianceLux.size() * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]);
   for (const RadianceLevel& level : levels) {
     sum += level.brickIndex.size() * sizeof(int32_t) + level.bricks.size() * sizeof(Brick) + level.voxels.size() * sizeof(DirectionalVoxel);
   }

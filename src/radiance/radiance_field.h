@@ -89,7 +89,6 @@ struct RadianceField {
   std::vector<RadianceLevel> levels;  // 0: base voxels; each next one twice as large
   float unitCdM2 = 1;
   std::vector<Vec3> irradianceLux;    // per slot of Voxels: direct and indirect, per channel
-  std::vector<Vec3> indirectLux;      // the part that came by at least one bounce or through links from the sky
   SkyGuide guide;
   int bounces = 0;               // done
   double residual = 0;           // estimate of light still missing, fraction

@@ -9,15 +9,14 @@
 
 #include "base/image_io.h"
 #include "trace/lights.h"
+#include "unit/temporary_folder.h"
 
 namespace roomlight {
 namespace {
 
-class LightingFile : public testing::Test {
+class LightingFile : public ::testing::Test {
  protected:
   LightingFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "roomlight-lighting-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
     Material glowing;
     glowing.emission = Vec3(100);
     scene_.materials.push_back(glowing);
@@ -29,7 +28,6 @@ class LightingFile : public testing::Test {
     scene_.suns.push_back(sun);
     scene_.sky.luminanceCdM2 = Vec3(9);
   }
-  ~LightingFile() override { std::filesystem::remove_all(folder_); }
 
   Status apply(const std::string& json) {
     const std::filesystem::path file = folder_ / "rig.json";
@@ -37,7 +35,7 @@ class LightingFile : public testing::Test {
     return applyLightingFile(file, scene_);
   }
 
-  std::filesystem::path folder_;
+  testing::TemporaryFolder folder_;
   Scene scene_;
 };
 
