@@ -9,6 +9,15 @@ bool isFinite(const Affine& a) {
   return roomlight::isFinite(a.x) && roomlight::isFinite(a.y) && roomlight::isFinite(a.z) && roomlight::isFinite(a.w);
 }
 
+// A transform and a vertex, each finite, can still meet beyond the range of floats. A box's corners bound all it holds, term by term.
+bool isFiniteInWorld(const Affine& worldFromObject, const Bounds3& object) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p{corner & 1 ? object.hi.x : object.lo.x, corner & 2 ? object.hi.y : object.lo.y, corner & 4 ? object.hi.z : object.lo.z};
+    if (!isFinite(worldFromObject.point(p))) return false;
+  }
+  return true;
+}
+
 bool isLight(Vec3 v) { return isFinite(v) && minComponent(v) >= 0; }
 
 template <class T>
@@ -95,12 +104,20 @@ Status validate(const Scene& scene) {
     const std::string what = checkMesh(scene, scene.meshes[i]);
     if (!what.empty()) return Error{fmt::format("mesh {} '{}': {}", i, scene.meshes[i].name, what)};
   }
+  std::vector<Bounds3> meshBounds(scene.meshes.size());
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    for (const uint32_t index : scene.meshes[i].indices) meshBounds[i].add(scene.meshes[i].positions[index]);
+  }
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const auto where = [&] { return fmt::format("instance {} '{}': ", i, instance.name); };
     if (instance.mesh < 0 || static_cast<size_t>(instance.mesh) >= scene.meshes.size()) return Error{where() + "its mesh does not exist"};
     if (!isFinite(instance.worldFromObject)) return Error{where() + "its transform is not finite"};
     if (instance.worldFromObject.determinant() == 0) return Error{where() + "its transform flattens it, so it cannot be placed"};
+    const Bounds3& bounds = meshBounds[static_cast<size_t>(instance.mesh)];
+    if (!bounds.empty() && !isFiniteInWorld(instance.worldFromObject, bounds)) {
+      return Error{where() + "its bounds in the world are not finite; its transform times its vertices is too large"};
+    }
   }
   const std::string what = checkLights(scene);
   if (!what.empty()) return Error{what};
