@@ -16,6 +16,7 @@ namespace {
 constexpr int kSkySamples = 8;
 constexpr int kStepsBetweenLeaps = 6;
 constexpr double kLongestLeap = 8;
+constexpr double kDark = 1e-4;
 constexpr uint32_t kPoints = 4;    // per slot
 constexpr int kMostPanes = 16;  // surfaces a link goes through or on from
 constexpr float kLift = 0.1f;  // voxels; how far points are lifted to see one another along a bent surface
@@ -270,9 +271,9 @@ class Illuminator {
         }
         next[i] = sum / static_cast<float>(n);
       });
-      const auto [delta, total] = change(next);
+      const double delta = change(next);
       const double q = previousDelta > 0 ? std::min(0.99, delta / previousDelta) : 0.9;
-      field.residual = total > 0 ? delta / total * q / (1 - q) : 0;
+      field.residual = delta * q / (1 - q);
       ++field.bounces;
       const bool done = field.residual <= settings_.residual;
       // Once only the slowest mode is left (light in a bright, nearly closed space) every step shrinks by the same factor, and
@@ -292,21 +293,33 @@ class Illuminator {
     parallelFor(next.size(), 8192, [&](size_t i) { next[i] = max(Vec3(0), next[i] + (next[i] - indirect_[i]) * factor); });
   }
 
-  // Sums over all slots, area-weighted: what the iteration changed and what there is in all. Fixed chunks keep the order of
-  // the sums, and so the number of iterations, independent of threads.
-  std::pair<double, double> change(const std::vector<Vec3>& next) const {
-    const size_t chunks = (next.size() + 65535) / 65536;
-    std::vector<std::pair<double, double>> parts(chunks);
-    parallelFor(chunks, 1, [&](size_t c) {
-      for (size_t i = c * 65536; i < std::min(next.size(), (c + 1) * 65536); ++i) {
-        const double a = voxels_.slots[i].areaM2;
-        parts[c].first += a * std::abs(luminance(next[i] - indirect_[i]));
-        parts[c].second += a * luminance(next[i] + direct_[i]);
-      }
+  // What the iteration changed, as a fraction of the light r of each slot, averaged where there is change: sum a r² / sum a r.
+  // So a room counts in full beside a sunlit street that has long converged. What is darker than kDark of the mean hardly
+  // counts. Fixed chunks keep the order of the sums, and so the number of iterations, independent of threads.
+  double change(const std::vector<Vec3>& next) const {
+    const auto sums = [&](auto&& term) {
+      const size_t chunks = (next.size() + 65535) / 65536;
+      std::vector<std::pair<double, double>> parts(chunks);
+      parallelFor(chunks, 1, [&](size_t c) {
+        for (size_t i = c * 65536; i < std::min(next.size(), (c + 1) * 65536); ++i) {
+          const auto [first, second] = term(i);
+          parts[c].first += static_cast<double>(voxels_.slots[i].areaM2) * first;
+          parts[c].second += static_cast<double>(voxels_.slots[i].areaM2) * second;
+        }
+      });
+      std::pair<double, double> sum{0, 0};
+      for (const auto& p : parts) sum.first += p.first, sum.second += p.second;
+      return sum;
+    };
+    const auto light = [&](size_t i) { return static_cast<double>(luminance(next[i] + direct_[i])); };
+    const auto [total, area] = sums([&](size_t i) { return std::pair{light(i), 1.0}; });
+    if (!(total > 0)) return 0;
+    const double dark = kDark * total / area;
+    const auto [squares, fractions] = sums([&](size_t i) {
+      const double r = std::abs(static_cast<double>(luminance(next[i] - indirect_[i]))) / (light(i) + dark);
+      return std::pair{r * r, r};
     });
-    std::pair<double, double> sum{0, 0};
-    for (const auto& p : parts) sum.first += p.first, sum.second += p.second;
-    return sum;
+    return fractions > 0 ? squares / fractions : 0;
   }
 
   const RayScene& rays_;

@@ -22,7 +22,7 @@ struct RadianceSettings {
   Attenuation attenuation = Attenuation::Plain;
   int directSamples = 8;   // per slot among emissive meshes; lamps and suns get one exact shadow ray each
   int links = 16;          // rays per slot that find where its indirect light comes from
-  float residual = 0.002f; // bounces stop when the light still to come is below this fraction of all
+  float residual = 0.002f; // bounces stop when the light still to come is below this fraction of what is there
   int maxBounces = 200;
   uint64_t seed = 0;
 };
@@ -91,7 +91,7 @@ struct RadianceField {
   std::vector<Vec3> irradianceLux;    // per slot of Voxels: direct and indirect, per channel
   SkyGuide guide;
   int bounces = 0;               // done
-  double residual = 0;           // estimate of light still missing, fraction
+  double residual = 0;           // estimate of light still missing where it is missing, fraction of what is there
   uint64_t rays = 0;
   size_t bytes() const;
 };

@@ -101,6 +101,18 @@ TEST(Cone, meanLuminanceDoesNotDependOnTheSizeOfVoxels) {
   EXPECT_LT(*high / *low, 1.03) << means[0] << " " << means[1] << " " << means[2];
 }
 
+// A sunlit roof, which the room below it does not see, must not end the bounces before the room has had its own.
+TEST(Cone, lightOutdoorsDoesNotShortenBouncesIndoors) {
+  ConeSetup s = small();
+  const double alone = mean(render(furnishedRoom(), {1.9f, 1.5f, 3.4f}, s).image);
+  Scene scene = furnishedRoom();
+  test::addRectangle(scene, {-10, 4, -10}, {0, 0, 24}, {24, 0, 0}, test::addMaterial(scene, test::lambertian(0.2f)));
+  Sun sun;
+  sun.illuminanceLux = Vec3(50000);
+  scene.suns.push_back(sun);
+  EXPECT_NEAR(mean(render(scene, {1.9f, 1.5f, 3.4f}, s).image), alone, 0.01 * alone);
+}
+
 TEST(Cone, sameBitsWithAnyNumberOfThreads) {
   ConeSetup s = small();
   s.gather.filterPasses = 3;
