@@ -1,11 +1,13 @@
 // Set-ups after CIE 171:2006 whose expected values follow from closed forms. z is up in the standard; here y is up, and
 // the standard's (x, y, z) is (x, z, y). Tolerance: 1 % of each point.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/random.h"
 #include "reference/path_tracer.h"
+#include "support/record.h"
 #include "support/rooms.h"
 
 namespace roomlight {
@@ -19,9 +21,13 @@ double measure(const Scene& scene, Vec3 p, Vec3 n, int samples = 1 << 14) {
   return luminance(measureIlluminance(rays, lights, p, n, samples, 3).illuminanceLux);
 }
 
-void expectWithinOnePercent(double value, double expected, const std::string& what) {
-  EXPECT_NEAR(value, expected, 0.01 * std::abs(expected) + 1e-9) << what;
+void expectWithinOnePercent(double value, double expected, const std::string& group, const std::string& what) {
+  test::record("CIE 171, " + group, what, "path", expected, value);
+  EXPECT_NEAR(value, expected, 0.01 * std::abs(expected) + 1e-9) << group << ": " << what;
 }
+
+std::string wallPoint(int i) { return fmt::format("wall {}, z = {} m", "ABCDEF"[i], 2.75 - 0.5 * i); }
+std::string floorPoint(int i) { return fmt::format("floor {}, y = {} m", "GHJKLMN"[i], 0.25 + 0.5 * i); }
 
 Scene blackRoom() {
   Scene scene;
@@ -38,16 +44,17 @@ TEST(Cie171, Test52PointSourceAbove) {
                      test::addMaterial(scene, test::lambertian(0, 1000 / (side * side))));
   const float h = 2.9999f;
   const float points[][2] = {{0, 0}, {.5f, 0}, {1, 0}, {1.5f, 0}, {1, 1}, {1.5f, 1.5f}};
+  const auto at = [](const float* p) { return fmt::format("{} m, {} m from below it", p[0], p[1]); };
   for (const auto& p : points) {
     const double d2 = p[0] * p[0] + p[1] * p[1] + h * h;
-    expectWithinOnePercent(measure(scene, {2 + p[0], 0, 2 + p[1]}, {0, 1, 0}), 1000.0 * h * h / (d2 * d2), "Lambertian point");
+    expectWithinOnePercent(measure(scene, {2 + p[0], 0, 2 + p[1]}, {0, 1, 0}), 1000.0 * h * h / (d2 * d2), "5.2, Lambertian point of 1000 cd, lx", at(p));
   }
   // An isotropic point: E = I h / d³.
   Scene isotropic = blackRoom();
   isotropic.lamps.push_back(test::pointLamp({2, 2.5f, 2}, 100));
   for (const auto& p : points) {
     const double d2 = p[0] * p[0] + p[1] * p[1] + 2.5 * 2.5;
-    expectWithinOnePercent(measure(isotropic, {2 + p[0], 0, 2 + p[1]}, {0, 1, 0}, 16), 100 * 2.5 / std::pow(d2, 1.5), "isotropic point");
+    expectWithinOnePercent(measure(isotropic, {2 + p[0], 0, 2 + p[1]}, {0, 1, 0}, 16), 100 * 2.5 / std::pow(d2, 1.5), "5.2, isotropic point of 100 cd, lx", at(p));
   }
 }
 
@@ -56,11 +63,11 @@ TEST(Cie171, Test53AreaSourceAtTheCeiling) {
   test::addRectangle(scene, {1.5f, 2.9999f, 1.5f}, {1, 0, 0}, {0, 0, 1}, test::addMaterial(scene, test::lambertian(0, 1000)));
   const double wall[] = {32.68, 75.09, 81.38, 69.12, 53.41, 39.90};
   for (int i = 0; i < 6; ++i) {
-    expectWithinOnePercent(measure(scene, cie(2, 0, 2.75f - 0.5f * static_cast<float>(i)), cie(0, 1, 0)), wall[i], "wall " + std::to_string(i));
+    expectWithinOnePercent(measure(scene, cie(2, 0, 2.75f - 0.5f * static_cast<float>(i)), cie(0, 1, 0)), wall[i], "5.3, area source at the ceiling, lx", wallPoint(i));
   }
   const double floor[] = {61.27, 79.18, 95.52, 105.89};
   for (int i = 0; i < 4; ++i) {
-    expectWithinOnePercent(measure(scene, cie(2, 0.25f + 0.5f * static_cast<float>(i), 0), cie(0, 0, 1)), floor[i], "floor " + std::to_string(i));
+    expectWithinOnePercent(measure(scene, cie(2, 0.25f + 0.5f * static_cast<float>(i), 0), cie(0, 0, 1)), floor[i], "5.3, area source at the ceiling, lx", floorPoint(i));
   }
 }
 
@@ -86,7 +93,7 @@ TEST(Cie171, Test54LuminousFluxIsConserved) {
       }
     }
   }
-  expectWithinOnePercent(sum / flux, 1, "sum of E A over flux");
+  expectWithinOnePercent(sum / flux, 1, "5.4, conservation of flux", "sum of E A / flux");
 }
 
 TEST(Cie171, Test56DiffuseReflectionOfTheGround) {
@@ -100,12 +107,12 @@ TEST(Cie171, Test56DiffuseReflectionOfTheGround) {
   const double wall[] = {35.90, 27.99, 21.64, 16.72, 12.97};
   for (int i = 0; i < 5; ++i) {
     const double e = measure(scene, cie(2, 4, 0.75f + 0.5f * static_cast<float>(i)), cie(0, -1, 0));
-    expectWithinOnePercent(100 * e / (ehz * rho), wall[i], "wall " + std::to_string(i));
+    expectWithinOnePercent(100 * e / (ehz * rho), wall[i], "5.6, light from the ground, %", fmt::format("wall, z = {} m", 0.75 + 0.5 * i));
   }
   const double ceiling[] = {26.80, 30.94, 33.98, 35.57};
   for (int i = 0; i < 4; ++i) {
     const double e = measure(scene, cie(2, 0.25f + 0.5f * static_cast<float>(i), 3), cie(0, 0, -1));
-    expectWithinOnePercent(100 * e / (ehz * rho), ceiling[i], "ceiling " + std::to_string(i));
+    expectWithinOnePercent(100 * e / (ehz * rho), ceiling[i], "5.6, light from the ground, %", fmt::format("ceiling, y = {} m", 0.25 + 0.5 * i));
   }
 }
 
@@ -120,11 +127,12 @@ TEST(Cie171, Test57DiffuseReflectionWithInternalObstruction) {
   const double wall[] = {16.08, 16.33, 15.40, 13.33, 10.32, 7.08};
   for (int i = 0; i < 6; ++i) {
     const double e = measure(scene, cie(2, 0, 2.75f - 0.5f * static_cast<float>(i)), cie(0, 1, 0), 1 << 16);
-    expectWithinOnePercent(100 * e / (ev * rho), wall[i], "wall " + std::to_string(i));
+    expectWithinOnePercent(100 * e / (ev * rho), wall[i], "5.7, internal obstruction, %", wallPoint(i));
   }
   const double floor[] = {3.38, 3.63, 3.02, 0, 0};
   for (int i = 0; i < 5; ++i) {
     const double e = measure(scene, cie(2, 0.25f + 0.5f * static_cast<float>(i), 0), cie(0, 0, 1), 1 << 17);
+    test::record("CIE 171, 5.7, internal obstruction, %", floorPoint(i), "path", floor[i], 100 * e / (ev * rho));
     EXPECT_NEAR(100 * e / (ev * rho), floor[i], std::max(0.01 * floor[i], 0.005)) << "floor " << i;
   }
 }
@@ -148,7 +156,7 @@ TEST_P(Test58, InternalReflectionsOfTheDiffuseSphereApproximation) {
     const double d2 = 4 + (u - 2.0) * (u - 2.0) + (v - 2.0) * (v - 2.0);
     indirect += (total - 10000 / (4 * 3.14159265358979) * 2 / std::pow(d2, 1.5)) / (n * n);
   }
-  expectWithinOnePercent(indirect, expected, "mean indirect illuminance");
+  expectWithinOnePercent(indirect, expected, "5.8, mean indirect illuminance in a cube, lx", fmt::format("albedo {}", rho));
 }
 INSTANTIATE_TEST_SUITE_P(Albedos, Test58,
                          testing::Values(std::pair{.05f, 5.482f}, std::pair{.2f, 26.04f}, std::pair{.5f, 104.17f},

@@ -1,8 +1,10 @@
 // Technique cone held against closed forms: furnaces at any voxel size and orientation, occlusion, independence of settings.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
 #include "gather/cone_gather.h"
+#include "support/record.h"
 #include "support/rooms.h"
 #include "voxel/voxelise.h"
 
@@ -71,7 +73,11 @@ TEST_P(ConeFurnace, radianceIsEmissionOverOneMinusAlbedo) {
   ConeSetup s = small();
   s.voxelSizeM = GetParam().voxelSizeM;
   s.gather.coneHalfAngleDeg = GetParam().halfAngleDeg;
-  EXPECT_NEAR(mean(render(furnace(0.5f), {1.7f, 1.4f, 2.6f}, s, {GetParam().angleRad}).image), 20, 20 * GetParam().tolerance);
+  const double measured = mean(render(furnace(0.5f), {1.7f, 1.4f, 2.6f}, s, {GetParam().angleRad}).image);
+  test::record("Furnace, walls of 10 cd/m² each, luminance",
+               fmt::format("albedo 0.5, voxels of {} m turned by {} rad, cones of {}°", GetParam().voxelSizeM, GetParam().angleRad, GetParam().halfAngleDeg),
+               "cone", 20, measured);
+  EXPECT_NEAR(measured, 20, 20 * GetParam().tolerance);
 }
 INSTANTIATE_TEST_SUITE_P(Rooms, ConeFurnace,
                          testing::Values(Furnace{0.1f, 0, 5, 0.02f}, Furnace{0.05f, 0, 5, 0.02f}, Furnace{0.2f, 0, 5, 0.02f}, Furnace{0.1f, 0.5f, 5, 0.02f},

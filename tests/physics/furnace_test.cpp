@@ -1,7 +1,9 @@
 // Closed boxes whose every wall emits Le and reflects rho: the radiance is Le / (1 - rho) everywhere.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "reference/path_tracer.h"
+#include "support/record.h"
 #include "support/rooms.h"
 
 namespace roomlight {
@@ -37,6 +39,7 @@ class LambertianFurnace : public testing::TestWithParam<float> {};
 TEST_P(LambertianFurnace, RadianceIsEmissionOverOneMinusAlbedo) {
   const float rho = GetParam();
   const double mean = meanLuminance(renderFurnace(test::lambertian(rho, 10), rho > 0.9f ? 1024 : 256).image);
+  test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}", rho), "path", 10 / (1 - rho), mean);
   EXPECT_NEAR(mean, 10 / (1 - rho), 0.01 * 10 / (1 - rho));
 }
 INSTANTIATE_TEST_SUITE_P(Albedos, LambertianFurnace, testing::Values(0.0f, 0.2f, 0.5f, 0.8f, 0.95f));
