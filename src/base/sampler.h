@@ -26,12 +26,14 @@ inline uint32_t owenScramble(uint32_t v, uint32_t seed) {  // Laine-Karras permu
   v ^= v * 0x8d22f6e6u;
   return reverseBits(v);
 }
-inline uint32_t sobolSecond(uint32_t index) {  // second dimension of Sobol's sequence
-  uint32_t result = 0;
-  for (uint32_t v = 1u << 31; index; index >>= 1, v ^= v >> 1) {
-    if (index & 1) result ^= v;
-  }
-  return result;
+// Second dimension of Sobol's sequence from the first, which is the reversed index: Pascal's triangle modulo 2, applied in
+// five steps (Ahmed 2024).
+inline uint32_t sobolSecond(uint32_t first) {
+  first ^= first << 16;
+  first ^= (first & 0x00ff00ffu) << 8;
+  first ^= (first & 0x0f0f0f0fu) << 4;
+  first ^= (first & 0x33333333u) << 2;
+  return first ^ (first & 0x55555555u) << 1;
 }
 }  // namespace detail
 
@@ -42,16 +44,20 @@ class Sampler {
   }
   Vec2 next2() {
     if (dimension_ >= kStratifiedPairs) return rng_.uniform2();
-    const uint32_t key = mix32(key_ + 0x9e3779b9u * ++dimension_);
-    const uint32_t index = detail::owenScramble(sample_, key);
-    const uint32_t x = detail::owenScramble(detail::reverseBits(index), mix32(key ^ 0xa511e9b3u));
-    const uint32_t y = detail::owenScramble(detail::sobolSecond(index), mix32(key ^ 0x63d83595u));
-    return {toUnit(x), toUnit(y)};
+    const uint32_t key = nextKey(), first = firstOf(key);
+    return {toUnit(scrambleFirst(first, key)), toUnit(detail::owenScramble(detail::sobolSecond(first), mix32(key ^ 0x63d83595u)))};
   }
-  float next1() { return dimension_ >= kStratifiedPairs ? rng_.uniform() : next2().x; }
+  float next1() {
+    if (dimension_ >= kStratifiedPairs) return rng_.uniform();
+    const uint32_t key = nextKey();
+    return toUnit(scrambleFirst(firstOf(key), key));
+  }
 
  private:
   static constexpr uint32_t kStratifiedPairs = 24;
+  uint32_t nextKey() { return mix32(key_ + 0x9e3779b9u * ++dimension_); }
+  uint32_t firstOf(uint32_t key) const { return detail::reverseBits(detail::owenScramble(sample_, key)); }
+  static uint32_t scrambleFirst(uint32_t first, uint32_t key) { return detail::owenScramble(first, mix32(key ^ 0xa511e9b3u)); }
   static float toUnit(uint32_t v) { return static_cast<float>(v >> 8) * 0x1p-24f; }
   Rng rng_;
   uint32_t key_, sample_, dimension_ = 0;

@@ -48,7 +48,8 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("maxBounces", s.radiance.maxBounces, 0, 100000);
   });
   v.group("gather", [&](auto& g) {
-    g.number("conesPerSample", s.gather.conesPerSample, 1, 4096);
+    g.number("raysPerShading", s.gather.raysPerShading, 1, 8);
+    g.number("conesPerShading", s.gather.conesPerShading, 1, 4096);
     g.number("coneHalfAngleDeg", s.gather.coneHalfAngleDeg, 1, 60);
     g.number("startOffsetVoxels", s.gather.startOffsetVoxels, 0, 8);
     g.number("rayRoughness", s.gather.rayRoughness, 0, 1);

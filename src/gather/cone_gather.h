@@ -10,8 +10,9 @@ namespace roomlight {
 
 struct GatherSettings {
   int width = 960, height = 540;
-  int samples = 8;                // anti-aliasing samples a pixel; each carries its share of cones and shadow rays
-  int conesPerSample = 2;         // diffuse cones
+  int samples = 8;                // camera rays a pixel
+  int raysPerShading = 2;         // camera rays that see one surface and share its light: cones, shadow rays, a reflection
+  int conesPerShading = 2;        // diffuse cones
   float coneHalfAngleDeg = 5;
   float startOffsetVoxels = 0.05f;  // along the normal
   float rayRoughness = 0.6f;      // reflections below this roughness follow exact rays

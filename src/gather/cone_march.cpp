@@ -43,14 +43,19 @@ int crossings(const DirectionalVoxel& voxel, Vec3 q, Vec3 d, float t0, float t1,
   return found;
 }
 
-// Distance along the ray from p to where it leaves the cell of edge `size` that holds p.
-float exitCell(Vec3 p, Vec3 d, Vec3 inverse, float size) {
-  float t = kInfinity;
-  for (int k = 0; k < 3; ++k) {
-    const float low = std::floor(p[k] / size) * size;
-    t = std::min(t, ((d[k] > 0 ? low + size : low) - p[k]) * inverse[k]);
-  }
-  return std::max(t, 0.0f);
+// Distance along the ray, in voxel edges, from p in voxel v to where it leaves the cube of `edge` (a power of two) voxels that
+// holds it. `ahead` is 1 on axes along which the ray goes up, else 0.
+float exitCube(Vec3 p, Int3 v, Vec3 inverse, Vec3 ahead, int edge) {
+  const float e = static_cast<float>(edge);
+  const auto along = [&](int cell, float q, float inv, float up) { return (static_cast<float>(cell & -edge) + up * e - q) * inv; };
+  return std::max(0.0f, std::min(along(v.x, p.x, inverse.x, ahead.x), std::min(along(v.y, p.y, inverse.y, ahead.y), along(v.z, p.z, inverse.z, ahead.z))));
+}
+
+// Whether none of the 4x4x4 voxels of the brick around v is occupied.
+bool blockIsEmpty(const Brick& brick, Int3 v) {
+  const uint64_t* words = &brick.occupied[static_cast<size_t>(v.z & 4)];
+  const uint64_t any = words[0] | words[1] | words[2] | words[3];
+  return ((any >> ((v.x & 4) + 8 * (v.y & 4))) & 0x0f0f0f0full) == 0;
 }
 
 bool goneForGood(Int3 brick, Int3 dims, Vec3 d) {
@@ -66,34 +71,35 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
   ConeLight out;
   const float h = field.levels[0].voxelSizeM;
   const int coarsest = static_cast<int>(field.levels.size()) - 1;
-  const Vec3 origin = from.origin - field.origin, inverse{inverseOf(d.x), inverseOf(d.y), inverseOf(d.z)};
+  const Vec3 inverse{inverseOf(d.x), inverseOf(d.y), inverseOf(d.z)}, ahead{d.x > 0 ? 1.0f : 0.0f, d.y > 0 ? 1.0f : 0.0f, d.z > 0 ? 1.0f : 0.0f};
   // As wide as the cone, but never so wide that a voxel reaches back into the surface the cone left.
-  const float widening = 2 * std::min(shape.tanHalf, std::max(0.0f, dot(d, from.normal))) / h;
-  const float shift = std::exp2(levelShift);
+  const float widening = 2 * std::min(shape.tanHalf, std::max(0.0f, dot(d, from.normal))) * std::exp2(levelShift);
+  // Lengths from here on in edges of the level's voxels: on every level the cone is two voxels wide at the same number of them.
+  const float widest = 2 / widening;
+  Vec3 origin = (from.origin - field.origin) / h;
+  int level = 0;
   for (float t = 0; out.left > 0;) {
-    const float width = widening * t * shift;
-    const int level = width < 2 ? 0 : std::min(coarsest, static_cast<int>(std::log2(width)));
+    for (; t >= widest && level < coarsest; ++level) t *= 0.5f, origin *= 0.5f;
     const RadianceLevel& l = field.levels[static_cast<size_t>(level)];
-    const float size = l.voxelSizeM;
-    const Vec3 p = origin + d * (t + kNudge * size), q = p / size;
-    const Int3 v{static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)), static_cast<int>(std::floor(q.z))};
-    const Int3 brick{v.x >> 3, v.y >> 3, v.z >> 3};
-    if (goneForGood(brick, l.brickDims, d)) return out;
-    if (!l.hasBrick(brick)) {
-      t += exitCell(p, d, inverse, size * kBrickSize) + kNudge * size;
+    const Vec3 p = origin + d * (t + kNudge);
+    const Int3 v{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)), static_cast<int>(std::floor(p.z))};
+    const Int3 at{v.x >> 3, v.y >> 3, v.z >> 3};
+    const Brick* brick = l.brickAt(at);
+    if (!brick || blockIsEmpty(*brick, v)) {
+      if (!brick && goneForGood(at, l.brickDims, d)) return out;
+      t += exitCube(p, v, inverse, ahead, brick ? kBrickSize / 2 : kBrickSize) + kNudge;
       continue;
     }
-    const float leave = t + exitCell(p, d, inverse, size) + kNudge * size;
-    if (const DirectionalVoxel* voxel = l.find(v.x, v.y, v.z)) {
+    const float leave = t + exitCube(p, v, inverse, ahead, 1) + kNudge;
+    if (const DirectionalVoxel* voxel = l.find(*brick, v)) {
       const Vec3 middle{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f};
       Crossing met[6];
-      const float first = std::max(0.0f, t / size - kOverlap);
-      const int count = crossings(*voxel, origin / size - middle, d, first, leave / size + kOverlap, met);
+      const int count = crossings(*voxel, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap, met);
       for (int i = 0; i < count; ++i) {
         const DirectionalFace& f = *met[i].face;
         const float alpha = out.left * static_cast<float>(f.coverage) * (1.0f / 255);
         out.radiance += Vec3{fromHalf(f.radiance[0]), fromHalf(f.radiance[1]), fromHalf(f.radiance[2])} * (alpha * field.unitCdM2);
-        out.occlusion += alpha / (1 + shape.lambda * met[i].t * size);
+        out.occlusion += alpha / (1 + shape.lambda * met[i].t * l.voxelSizeM);
         out.left -= alpha;
       }
       if (out.left < kOpaque) out.left = 0;

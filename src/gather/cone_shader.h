@@ -1,10 +1,14 @@
-// Light along one camera ray: exact direct light, cones for diffuse light, rays and cones for reflections.
+// Light at one surface point: exact direct light, cones for diffuse light, rays and cones for reflections.
 #pragma once
 
 #include "base/sampler.h"
 #include "gather/cone_gather.h"
+#include "gather/cone_march.h"
+#include "gather/sharp_lights.h"
+#include "trace/bsdf.h"
 #include "trace/lights.h"
 #include "trace/ray_scene.h"
+#include "trace/surface_point.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
@@ -13,29 +17,63 @@ struct ConeCounters {
   uint64_t rays = 0, cones = 0;
 };
 
-// One sample of a pixel. Its luminance in cd/m² is diffuse + specular + rest; the other values describe what is seen there.
-struct ConeSample {
-  Vec3 diffuse;   // reflected by Lambertian lobes
-  Vec3 albedo;    // of those lobes: diffuse / albedo is irradiance / pi
-  Vec3 specular;  // reflected by glossy lobes
-  Vec3 rest;      // emission and background
-  Vec3 normal, position;  // of the first surface that is no clear pane
-  float roughness = 1, occlusion = 0;
-  bool surface = false;
+// Light that a surface sends to the eye, in cd/m²: diffuse + sharp + specular + emitted.
+struct SurfaceLight {
+  Vec3 diffuse;   // reflected by the Lambertian lobe: from all around, and
+  Vec3 sharp;     // from suns and lamps
+  Vec3 albedo;    // of that lobe: (diffuse + sharp) / albedo is irradiance / pi
+  Vec3 specular;  // reflected by the glossy lobe
+  Vec3 emitted;
+  float sharpVariance = 0;  // of the luminance of `sharp`
+  float occlusion = 0;
 };
+
+// What goes straight through a surface met under |cos theta|.
+Vec3 passing(const MaterialSample& m, const Material& material, float cosTheta);
 
 class ConeShader {
  public:
-  ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings)
-      : rays_(rays), lights_(lights), voxels_(voxels), field_(field), settings_(settings) {}
-  ConeSample sample(const Ray& ray, Sampler& sampler, ConeCounters& count) const;
+  ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings);
+  // Without what passes straight through the surface. `shadows`: of every sharp light.
+  SurfaceLight shade(const SurfacePoint& s, Vec3 wo, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count) const;
+  // What a ray sees that meets no surface.
+  Vec3 background(Vec3 d) const;
+  const SharpLights& sharpLights() const { return sharp_; }
 
  private:
+  // Light that leaves a surface, by the lobe that reflected it; or, before the light is multiplied in, the two lobes' values.
+  struct Lobes {
+    Vec3 diffuse, specular;
+    void add(const Lobes& f, Vec3 light) { diffuse += f.diffuse * light, specular += f.specular * light; }
+  };
+
+  // Where a reflected ray started, and the density with which its direction was chosen; 0: nothing else looked for lights there.
+  struct Reflected {
+    Vec3 p;
+    float pdf;
+    int32_t guide;
+    bool sharp;  // what it meets is seen clearly, and is lit with the care of what the camera sees
+    float weight(float lightPdf) const;
+  };
+
+  Vec3 visible(const SurfacePoint& s, const LightSample& light, const Lobes& f, ConeCounters& count) const;
+  Lobes towards(const LightSample& light, const Bsdf& bsdf, bool rayReflection, float strategies) const;
+  Lobes sharp(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count, float& variance) const;
+  Lobes soft(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, int32_t guide, Sampler& sampler, ConeCounters& count) const;
+  ConeStart coneStart(const SurfacePoint& s) const;
+  Vec3 indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters& count, float& occlusion) const;
+  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t guide, Sampler& sampler, ConeCounters& count) const;
+  Vec3 along(Ray ray, Reflected from, Sampler& sampler, ConeCounters& count) const;
+  Vec3 reflectedBackground(Vec3 d, const Reflected& from) const;
+  Vec3 irradiance(const SurfacePoint& s, Sampler& sampler) const;
+
   const RayScene& rays_;
   const Lights& lights_;
   const Voxels& voxels_;
   const RadianceField& field_;
   const GatherSettings& settings_;
+  const SharpLights sharp_;
+  const ConeShape diffuse_;
 };
 
 }  // namespace roomlight

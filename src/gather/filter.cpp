@@ -8,112 +8,142 @@ namespace roomlight {
 namespace {
 
 constexpr float kKernel[3] = {0.25f, 0.5f, 0.25f};
-constexpr float kLuminanceSigmas = 3;      // differences within so many standard deviations count as noise
-constexpr float kNormalPower = 48;
+constexpr float kSigmas = 3;               // differences within so many standard deviations count as noise
+constexpr float kSharpSigmas = 1;          // for sharp shadows, which differ where they should
 constexpr float kPlaneTolerance = 0.01f;   // distance from the tangent plane, of the distance between the two points' pixels
 constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
+constexpr int kSpecularPasses = 3;
 
 struct Value {
   Vec3 light;
   float variance = 0;
 };
-using Plane = std::vector<Value>;
+struct Lights {
+  Value diffuse, sharp, specular;
+};
 
-// A 3 x 3 mean: the variance of single pixels is itself noise, and an outlier would judge itself by its own.
-float smoothVariance(const Plane& plane, int w, int h, int x, int y) {
-  float sum = 0, weight = 0;
-  for (int j = std::max(0, y - 1); j <= std::min(h - 1, y + 1); ++j) {
-    for (int i = std::max(0, x - 1); i <= std::min(w - 1, x + 1); ++i) {
-      const float k = kKernel[j - y + 1] * kKernel[i - x + 1];
-      sum += k * plane[static_cast<size_t>(j) * static_cast<size_t>(w) + static_cast<size_t>(i)].variance;
-      weight += k;
+// What tells which pixels see like surfaces, packed for the many look-ups.
+struct Guide {
+  Vec3 normal;
+  float surface = 0;
+  Vec3 position;
+  float roughness = 0;
+};
+
+// Variances of diffuse, sharp and specular light.
+using Noise = std::vector<Vec3>;
+
+// e^-x from 0 to 3 within 0.03; 0 from 8 on.
+float falloff(float x) {
+  const float a = std::max(0.0f, 1 - 0.125f * x), b = a * a, c = b * b;
+  return c * c;
+}
+
+// Means over 3 x 3 pixels, for the variance of single pixels is itself noise; but no less than a pixel's own, so that an outlier
+// is taken for one.
+Noise noiseOf(const std::vector<Lights>& lights, int w, int h) {
+  const auto width = static_cast<size_t>(w);
+  Noise own(lights.size()), rows(lights.size()), out(lights.size());
+  parallelFor(static_cast<size_t>(h), 8, [&](size_t y) {
+    Vec3* at = &own[y * width];
+    for (size_t x = 0; x < width; ++x) {
+      const Lights& l = lights[y * width + x];
+      at[x] = {l.diffuse.variance, l.sharp.variance, l.specular.variance};
     }
-  }
-  return sum / weight;
-}
-
-// How much q's light may stand for p's, by what is seen at the two pixels.
-float likeness(const FilterPixel& p, const FilterPixel& q) {
-  if (q.surface <= 0) return 0;
-  const float facing = dot(p.normal, q.normal);
-  if (facing <= 0) return 0;
-  const Vec3 between = q.position - p.position;
-  const float far = length(between), off = std::max(std::abs(dot(p.normal, between)), std::abs(dot(q.normal, between)));
-  return std::pow(facing, kNormalPower) * std::exp(-off / (kPlaneTolerance + 0.1f * far));
-}
-
-template <class Weight>
-Plane pass(const Plane& in, int w, int h, int step, const Weight& weight) {
-  Plane out(in.size());
-  parallelFor(static_cast<size_t>(h), 4, [&](size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < w; ++x) {
-      const size_t p = row * static_cast<size_t>(w) + static_cast<size_t>(x);
-      const float deviation = kLuminanceSigmas * std::sqrt(smoothVariance(in, w, h, x, y)) + 1e-6f, own = luminance(in[p].light);
-      Vec3 sum = in[p].light * kKernel[1] * kKernel[1];
-      float total = kKernel[1] * kKernel[1], variance = in[p].variance * total * total;
-      for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i) {
-          const int qx = x + i * step, qy = y + j * step;
-          if ((i == 0 && j == 0) || qx < 0 || qy < 0 || qx >= w || qy >= h) continue;
-          const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(w) + static_cast<size_t>(qx);
-          const float k = kKernel[i + 1] * kKernel[j + 1] * weight(p, q) * std::exp(-std::abs(luminance(in[q].light) - own) / deviation);
-          sum += in[q].light * k;
-          variance += in[q].variance * k * k;
-          total += k;
-        }
-      }
-      out[p] = {sum / total, variance / (total * total)};
+    for (size_t x = 0; x < width; ++x) rows[y * width + x] = (at[x == 0 ? x : x - 1] + at[x] + at[x + 1 == width ? x : x + 1]) * (1.0f / 3);
+  });
+  parallelFor(static_cast<size_t>(h), 8, [&](size_t y) {
+    const size_t above = y == 0 ? y : y - 1, below = y + 1 == static_cast<size_t>(h) ? y : y + 1;
+    for (size_t x = 0; x < width; ++x) {
+      const Vec3 mean = (rows[above * width + x] + rows[y * width + x] + rows[below * width + x]) * (1.0f / 3);
+      out[y * width + x] = max(mean, own[y * width + x]);
     }
   });
   return out;
 }
 
-Plane irradiance(const FilterInput& input) {
-  Plane plane(input.pixels.size());
-  for (size_t i = 0; i < plane.size(); ++i) {
-    const FilterPixel& p = input.pixels[i];
-    const Vec3 a = max(p.albedo, Vec3(1e-3f));
-    const float l = std::max(luminance(p.albedo), 1e-3f);
-    plane[i] = {p.diffuse / a, p.diffuseVariance / (l * l)};
-  }
-  return plane;
+// A weighted mean under way.
+struct Sum {
+  Vec3 light;
+  float variance, total;
+  Sum(const Value& own, float k) : light(own.light * k), variance(own.variance * k * k), total(k) {}
+  void add(const Value& v, float k) { light += v.light * k, variance += v.variance * k * k, total += k; }
+  Value mean() const { return {light / total, variance / (total * total)}; }
+};
+
+// How far the light of two pixels differs, in units of their noise together: as seen from either, so that as much passes from a
+// bright spot to its surroundings as back.
+float difference(const Value& a, const Value& b, float varianceA, float varianceB, float sigmas) {
+  return std::abs(luminance(a.light) - luminance(b.light)) / (sigmas * std::sqrt(varianceA + varianceB) + 1e-6f);
 }
 
-Plane reflections(const FilterInput& input) {
-  Plane plane(input.pixels.size());
-  for (size_t i = 0; i < plane.size(); ++i) plane[i] = {input.pixels[i].specular, input.pixels[i].specularVariance};
-  return plane;
+// One pass over neighbours `step` pixels away.
+std::vector<Lights> pass(const std::vector<Lights>& in, const std::vector<Guide>& guides, int w, int h, int step, bool filterSpecular) {
+  const Noise noise = noiseOf(in, w, h);
+  std::vector<Lights> out(in.size());
+  parallelFor(static_cast<size_t>(h), 4, [&](size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < w; ++x) {
+      const size_t p = row * static_cast<size_t>(w) + static_cast<size_t>(x);
+      const Guide& g = guides[p];
+      const Lights& own = in[p];
+      out[p] = own;
+      if (g.surface <= 0) continue;
+      const bool glossy = filterSpecular && g.roughness >= kMirrorRoughness;
+      Sum diffuse(own.diffuse, kKernel[1] * kKernel[1]), sharp(own.sharp, kKernel[1] * kKernel[1]), specular(own.specular, kKernel[1] * kKernel[1]);
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          const int qx = x + i * step, qy = y + j * step;
+          if ((i == 0 && j == 0) || qx < 0 || qy < 0 || qx >= w || qy >= h) continue;
+          const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(w) + static_cast<size_t>(qx);
+          const Guide& o = guides[q];
+          const float facing = dot(g.normal, o.normal);
+          if (o.surface <= 0 || facing < 0.8f) continue;
+          const Vec3 between = o.position - g.position;
+          const float off = std::max(std::abs(dot(g.normal, between)), std::abs(dot(o.normal, between))) / (kPlaneTolerance + 0.1f * length(between));
+          // facing^48 along the normals.
+          const float f2 = facing * facing, f4 = f2 * f2, f8 = f4 * f4, f16 = f8 * f8, k = kKernel[i + 1] * kKernel[j + 1] * (f16 * f16 * f16);
+          const Lights& other = in[q];
+          diffuse.add(other.diffuse, k * falloff(off + difference(own.diffuse, other.diffuse, noise[p].x, noise[q].x, kSigmas)));
+          sharp.add(other.sharp, k * falloff(off + difference(own.sharp, other.sharp, noise[p].y, noise[q].y, kSharpSigmas)));
+          if (glossy && o.roughness >= kMirrorRoughness && std::abs(g.roughness - o.roughness) <= 0.1f) {
+            specular.add(other.specular, k * falloff(off + difference(own.specular, other.specular, noise[p].z, noise[q].z, kSigmas)));
+          }
+        }
+      }
+      out[p].diffuse = diffuse.mean(), out[p].sharp = sharp.mean();
+      if (glossy) out[p].specular = specular.mean();
+    }
+  });
+  return out;
 }
+
+// Kept from zero so that light can be divided by it.
+Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
 
 }  // namespace
 
 Image composed(const FilterInput& input) {
   Image out(input.width, input.height);
-  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = input.pixels[i].diffuse + input.pixels[i].specular + input.pixels[i].rest;
+  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = input.pixels[i].diffuse + input.pixels[i].sharp + input.pixels[i].specular + input.pixels[i].rest;
   return out;
 }
 
 Image filtered(const FilterInput& input, int passes) {
-  const auto& pixels = input.pixels;
-  Plane diffuse = irradiance(input), specular = reflections(input);
-  const auto byShape = [&](size_t p, size_t q) { return pixels[p].surface > 0 ? likeness(pixels[p], pixels[q]) : 0.0f; };
-  const auto byGloss = [&](size_t p, size_t q) {
-    const float a = pixels[p].roughness, b = pixels[q].roughness;
-    if (a < kMirrorRoughness || b < kMirrorRoughness || std::abs(a - b) > 0.1f) return 0.0f;
-    return byShape(p, q);
-  };
-  for (int k = 0; k < passes; ++k) {
-    diffuse = pass(diffuse, input.width, input.height, 1 << k, byShape);
-    if (k < 3) specular = pass(specular, input.width, input.height, 1 << k, byGloss);
-  }
+  std::vector<Lights> lights(input.pixels.size());
+  std::vector<Guide> guides(input.pixels.size());
+  parallelFor(lights.size(), 16384, [&](size_t i) {
+    const FilterPixel& p = input.pixels[i];
+    lights[i] = {{p.diffuse / divisor(p.albedo), p.diffuseVariance}, {p.sharp / divisor(p.albedo), p.sharpVariance}, {p.specular, p.specularVariance}};
+    guides[i] = {p.normal, p.surface, p.position, p.roughness};
+  });
+  for (int k = 0; k < passes; ++k) lights = pass(lights, guides, input.width, input.height, 1 << k, k < kSpecularPasses);
   Image out(input.width, input.height);
-  for (size_t i = 0; i < out.pixels.size(); ++i) {
-    const FilterPixel& p = pixels[i];
-    // Where the albedo was cut to stay divisible, the light itself is kept.
-    const Vec3 a = max(p.albedo, Vec3(1e-3f));
-    out.pixels[i] = (p.surface > 0 ? diffuse[i].light * a : p.diffuse) + specular[i].light + p.rest;
-  }
+  parallelFor(lights.size(), 16384, [&](size_t i) {
+    const FilterPixel& p = input.pixels[i];
+    // Where the albedo was raised to divide by it, light that no surface reflected is kept.
+    out.pixels[i] = (p.surface > 0 ? (lights[i].diffuse.light + lights[i].sharp.light) * divisor(p.albedo) : p.diffuse + p.sharp) + lights[i].specular.light + p.rest;
+  });
   return out;
 }
 

@@ -10,8 +10,9 @@ namespace roomlight {
 
 // Means over a pixel's samples.
 struct FilterPixel {
-  Vec3 diffuse, albedo, specular, rest;  // the picture is diffuse + specular + rest
-  float diffuseVariance = 0, specularVariance = 0;  // of the mean's luminance
+  Vec3 diffuse, sharp, albedo, specular, rest;  // the picture is diffuse + sharp + specular + rest; albedo is of the first two
+  float diffuseVariance = 0, sharpVariance = 0;  // of the luminance of diffuse / albedo and sharp / albedo, as means
+  float specularVariance = 0;
   Vec3 normal, position;
   float roughness = 0;
   float surface = 0;  // 0..1: share of samples that saw a surface

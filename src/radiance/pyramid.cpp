@@ -99,8 +99,8 @@ struct Working {
   std::vector<Faces> faces;
 };
 
-int64_t recordAt(const RadianceLevel& level, int x, int y, int z) {
-  const DirectionalVoxel* v = level.find(x, y, z);
+int64_t recordAt(const RadianceLevel& level, Int3 at) {
+  const DirectionalVoxel* v = level.find(at);
   return v ? v - level.voxels.data() : -1;
 }
 
@@ -190,7 +190,7 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, Radi
       std::array<const Faces*, 8> child{};
       uint64_t mask = 0;
       for (int k = 0; k < 8; ++k) {
-        const int64_t c = recordAt(now.level, 2 * v.x + (k & 1), 2 * v.y + ((k >> 1) & 1), 2 * v.z + (k >> 2));
+        const int64_t c = recordAt(now.level, {2 * v.x + (k & 1), 2 * v.y + ((k >> 1) & 1), 2 * v.z + (k >> 2)});
         child[static_cast<size_t>(k)] = c < 0 ? nullptr : &now.faces[static_cast<size_t>(c)];
         if (c >= 0) mask |= halved(now.level.voxels[static_cast<size_t>(c)].mask) << (2 * (k & 1) + 8 * ((k >> 1) & 1) + 32 * (k >> 2));
       }

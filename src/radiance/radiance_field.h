@@ -55,25 +55,25 @@ struct RadianceLevel {
   std::vector<Brick> bricks;
   std::vector<DirectionalVoxel> voxels;
 
-  bool hasBrick(Int3 b) const {
-    return static_cast<unsigned>(b.x) < static_cast<unsigned>(brickDims.x) && static_cast<unsigned>(b.y) < static_cast<unsigned>(brickDims.y) &&
-           static_cast<unsigned>(b.z) < static_cast<unsigned>(brickDims.z) &&
-           brickIndex[(static_cast<size_t>(b.z) * static_cast<size_t>(brickDims.y) + static_cast<size_t>(b.y)) * static_cast<size_t>(brickDims.x) + static_cast<size_t>(b.x)] >= 0;
-  }
-  // Record of voxel (x, y, z), or null where it is empty.
-  const DirectionalVoxel* find(int x, int y, int z) const {
-    const int bx = x >> 3, by = y >> 3, bz = z >> 3;
-    if (static_cast<unsigned>(bx) >= static_cast<unsigned>(brickDims.x) || static_cast<unsigned>(by) >= static_cast<unsigned>(brickDims.y) ||
-        static_cast<unsigned>(bz) >= static_cast<unsigned>(brickDims.z)) {
+  // Null where there is none.
+  const Brick* brickAt(Int3 b) const {
+    if (static_cast<unsigned>(b.x) >= static_cast<unsigned>(brickDims.x) || static_cast<unsigned>(b.y) >= static_cast<unsigned>(brickDims.y) ||
+        static_cast<unsigned>(b.z) >= static_cast<unsigned>(brickDims.z)) {
       return nullptr;
     }
-    const int32_t b = brickIndex[(static_cast<size_t>(bz) * static_cast<size_t>(brickDims.y) + static_cast<size_t>(by)) * static_cast<size_t>(brickDims.x) + static_cast<size_t>(bx)];
-    if (b < 0) return nullptr;
-    const Brick& brick = bricks[static_cast<size_t>(b)];
-    const auto word = static_cast<size_t>(z & 7);
-    const int bit = (x & 7) + 8 * (y & 7);
+    const int32_t i = brickIndex[(static_cast<size_t>(b.z) * static_cast<size_t>(brickDims.y) + static_cast<size_t>(b.y)) * static_cast<size_t>(brickDims.x) + static_cast<size_t>(b.x)];
+    return i < 0 ? nullptr : &bricks[static_cast<size_t>(i)];
+  }
+  // Record of voxel v, which lies in `brick`, or null where it is empty.
+  const DirectionalVoxel* find(const Brick& brick, Int3 v) const {
+    const auto word = static_cast<size_t>(v.z & 7);
+    const int bit = (v.x & 7) + 8 * (v.y & 7);
     if (!((brick.occupied[word] >> bit) & 1)) return nullptr;
     return &voxels[brick.firstVoxel + brick.before[word] + static_cast<size_t>(std::popcount(brick.occupied[word] & ((uint64_t{1} << bit) - 1)))];
+  }
+  const DirectionalVoxel* find(Int3 v) const {
+    const Brick* brick = brickAt({v.x >> 3, v.y >> 3, v.z >> 3});
+    return brick ? find(*brick, v) : nullptr;
   }
 };
 

@@ -192,9 +192,13 @@ void setLane(Ray8& r, unsigned i, const Ray& ray) {
 
 }  // namespace
 
-void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const { intersectPackets(rays, hits, false); }
+void RayScene::intersectClose(std::span<const Ray> rays, std::span<Hit> hits) const { intersectPackets(rays, hits, true); }
+
+void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, bool close) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  if (close) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (size_t first = 0; first < rays.size(); first += 8) {
     alignas(32) RTCRayHit8 r;
     alignas(32) int valid[8] = {};

@@ -37,6 +37,8 @@ class RayScene {
   Hit intersect(const Ray& ray) const;
   // The same for many rays without coherence, eight at a time: hits[i] belongs to rays[i].
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
+  // The same for rays that stay close together, as those of one pixel do: faster.
+  void intersectClose(std::span<const Ray> rays, std::span<Hit> hits) const;
   // What is left of light along the ray per channel: 1 unobstructed, 0 blocked, in between through glass.
   Vec3 transmittance(const Ray& ray) const;
   void transmittance(std::span<const Ray> rays, std::span<Vec3> left) const;
@@ -46,6 +48,7 @@ class RayScene {
 
  private:
   struct State;
+  void intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, bool close) const;
   std::unique_ptr<State> state_;
 };
 

@@ -10,7 +10,13 @@ TriangleVertices worldTriangle(const Scene& scene, uint32_t instanceIndex, uint3
   return {m.point(mesh.positions[i[0]]), m.point(mesh.positions[i[1]]), m.point(mesh.positions[i[2]])};
 }
 
-SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) {
+MaterialSample materialAt(const Scene& scene, const Hit& hit) {
+  return materialAt(scene, scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)], {hit.triangle, hit.b1, hit.b2});
+}
+
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) { return surfaceAt(scene, hit, direction, materialAt(scene, hit)); }
+
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material) {
   const Instance& instance = scene.instances[hit.instance];
   const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
   const Affine& m = instance.worldFromObject;
@@ -19,6 +25,7 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) {
   const TrianglePoint at{hit.triangle, hit.b1, hit.b2};
 
   SurfacePoint s;
+  s.m = material;
   s.instance = hit.instance;
   s.triangle = hit.triangle;
   s.material = &scene.materials[static_cast<size_t>(mesh.material)];
@@ -39,7 +46,6 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) {
     s.ns = dot(bent, s.ng) > 0 && lengthSquared(bent) > 1e-6f ? normalize(bent) : s.ng;
     if (dot(s.ns, d) > -0.005f) s.ns = s.ng;
   }
-  s.m = materialAt(scene, mesh, at);
   return s;
 }
 

@@ -21,6 +21,9 @@ struct SurfacePoint {
 
 // `direction` is that of the ray, pointing to the surface.
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction);
+// With material values from elsewhere.
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material);
+MaterialSample materialAt(const Scene& scene, const Hit& hit);
 
 // World positions of a triangle's vertices.
 struct TriangleVertices {

@@ -1,0 +1,186 @@
+#include "gather/pixel_shader.h"
+
+namespace roomlight {
+namespace {
+
+constexpr int kMostPanes = 16;
+constexpr size_t kFewest = 2;         // shadings of a pixel, where there are as many rays: one alone tells nothing of its noise
+constexpr float kSameNormal = 0.95f;  // cosine between normals of one surface
+constexpr float kSamePlane = 0.3f;    // of the distance between two points: how far off the tangent plane
+constexpr float kPictureRoughness = 0.08f, kPictureReflectance = 0.2f;  // smoother and brighter: reflects a picture, which has edges of its own
+
+bool isUniform(const Material& m, const Mesh& mesh) {
+  return m.baseColorTexture.texture < 0 && m.metallicRoughnessTexture.texture < 0 && m.transmissionTexture.texture < 0 &&
+         m.emissionTexture.texture < 0 && mesh.colors.empty() && mesh.colorAlphas.empty();
+}
+
+bool isPicture(const MaterialSample& m) { return m.roughness < kPictureRoughness && luminance(m.f0) > kPictureReflectance; }
+
+void accumulate(MaterialSample& sum, const MaterialSample& m, float weight) {
+  sum.baseColor += m.baseColor * weight, sum.emission += m.emission * weight, sum.f0 += m.f0 * weight, sum.f90 += m.f90 * weight;
+  sum.alpha += m.alpha * weight, sum.metallic += m.metallic * weight, sum.roughness += m.roughness * weight, sum.transmission += m.transmission * weight;
+}
+
+}  // namespace
+
+FilterPixel PixelSum::mean() const {
+  FilterPixel p = sum;
+  const float inverse = 1 / static_cast<float>(std::max(1u, rays));
+  p.diffuse *= inverse, p.sharp *= inverse, p.albedo *= inverse, p.specular *= inverse, p.rest *= inverse;
+  const float albedo = std::max(luminance(p.albedo), 1e-3f);
+  p.diffuseVariance *= inverse * inverse / (albedo * albedo), p.sharpVariance *= inverse * inverse / (albedo * albedo);
+  p.specularVariance *= inverse * inverse;
+  if (p.surface > 0) {
+    p.normal = length(p.normal) > 0 ? normalize(p.normal) : p.normal;
+    p.position *= 1 / p.surface;
+    p.roughness *= 1 / p.surface;
+  }
+  p.surface *= inverse;
+  return p;
+}
+
+// Rays on their way through panes, with what is left of each and where it stands.
+struct PixelShader::Layer {
+  std::array<Ray, kRaysAtOnce> ray;
+  std::array<Vec3, kRaysAtOnce> left;
+  std::array<bool, kRaysAtOnce> seen{};  // whether a surface before stands for what the ray sees
+  std::array<Hit, kRaysAtOnce> hit;
+  size_t count = 0;
+  void add(const Ray& r, Vec3 l, bool s) { ray[count] = r, left[count] = l, seen[count++] = s; }
+};
+
+// Rays of a layer that see one surface.
+struct PixelShader::Group {
+  uint32_t instance = kNoHit, triangle = 0;
+  Vec3 p, ng;  // where the first ray meets it
+  std::array<uint8_t, kRaysAtOnce> member{};
+  size_t count = 0;
+};
+
+PixelShader::Group* PixelShader::groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const {
+  for (size_t i = 0; i < used; ++i) {
+    if (groups[i].instance == hit.instance && groups[i].triangle == hit.triangle) return &groups[i];
+  }
+  const TriangleVertices t = worldTriangle(rays_.scene(), hit.instance, hit.triangle);
+  const Vec3 p = ray.origin + ray.direction * hit.t, n = normalize(cross(t.b - t.a, t.c - t.a)), ng = dot(n, ray.direction) < 0 ? n : -n;
+  for (size_t i = 0; i < used; ++i) {
+    Group& g = groups[i];
+    if (g.instance != hit.instance || dot(g.ng, ng) < kSameNormal) continue;
+    const Vec3 between = p - g.p;
+    if (std::abs(dot(between, g.ng)) <= kSamePlane * length(between)) return &g;
+  }
+  groups[used] = {hit.instance, hit.triangle, p, ng, {}, 0};
+  return &groups[used++];
+}
+
+MaterialSample PixelShader::meanMaterial(const Group& group, const Layer& layer, bool uniform) const {
+  if (uniform) return materialAt(rays_.scene(), layer.hit[group.member[0]]);
+  MaterialSample mean{{}, 0, 0, 0, 0, {}, {}, {}};
+  for (size_t i = 0; i < group.count; ++i) accumulate(mean, materialAt(rays_.scene(), layer.hit[group.member[i]]), 1 / static_cast<float>(group.count));
+  return mean;
+}
+
+// Of all sharp lights, seen from every ray of the group.
+void PixelShader::shadows(const Group& group, const Layer& layer, PixelSequence& sequence, std::vector<Shadow>& out, ConeCounters& count) const {
+  const SharpLights& lights = shader_.sharpLights();
+  out.assign(lights.count(), {});
+  if (lights.count() == 0) return;
+  std::array<Vec3, kRaysAtOnce> points;
+  std::array<Vec2, kRaysAtOnce> u;
+  for (size_t i = 0; i < group.count; ++i) {
+    const size_t k = group.member[i];
+    points[i] = offsetOrigin(layer.ray[k].origin + layer.ray[k].direction * layer.hit[k].t, group.ng);
+  }
+  Sampler sampler = sequence.forShadows();
+  for (size_t i = 0; i < group.count; ++i) u[i] = sampler.next2();
+  for (size_t l = 0; l < lights.count(); ++l) {
+    if (dot(lights.sample(l, group.p, u[0]).wi, group.ng) < -0.35f) continue;
+    out[l] = lights.shadow(l, std::span(points).first(group.count), std::span(u).first(group.count));
+    count.rays += group.count;
+  }
+}
+
+// Adds the light of one surface: shaded for some of the rays with the mean of their materials, for all where it shows a picture.
+void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, PixelSequence& sequence, PixelSum& pixel, Layer& behind, ConeCounters& count) const {
+  const Scene& scene = rays_.scene();
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[group.instance].mesh)];
+  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+  const MaterialSample m = meanMaterial(group, layer, isUniform(material, mesh));
+  const float cosTheta = std::abs(dot(group.ng, layer.ray[group.member[0]].direction));
+  const Vec3 through = passing(m, material, cosTheta);
+  const bool solid = luminance(through) < 0.5f;
+
+  const size_t most = std::max(std::min(kFewest, rays), rays / static_cast<size_t>(settings_.raysPerShading));
+  const size_t shadings = isPicture(m) ? group.count : (group.count * most + rays - 1) / rays;
+  const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
+  thread_local std::vector<Shadow> shadow;
+  shadows(group, layer, sequence, shadow, count);
+  Vec3 left;
+  for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
+  left *= m.alpha;
+
+  FilterPixel& sum = pixel.sum;
+  std::array<SurfaceLight, kRaysAtOnce> light;
+  float diffuse = 0, albedo = 0, specular = 0;
+  for (size_t j = 0; j < shadings; ++j) {
+    const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
+    const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
+    Sampler sampler = sequence.forShading();
+    light[j] = shader_.shade(s, -layer.ray[i].direction, shadow, sampler, count);
+    sum.diffuse += left * light[j].diffuse * weight;
+    sum.sharp += left * light[j].sharp * weight;
+    sum.albedo += left * light[j].albedo * weight;
+    sum.specular += left * light[j].specular * weight;
+    sum.rest += left * light[j].emitted * (weight / std::max(m.alpha, 1e-6f));
+    sum.sharpVariance += lengthSquared(left) / 3 * light[j].sharpVariance * weight * weight * static_cast<float>(shadings);
+    pixel.occlusion += light[j].occlusion * weight;
+    diffuse += luminance(left * light[j].diffuse), albedo += luminance(left * light[j].albedo), specular += luminance(left * light[j].specular);
+    if (solid && !layer.seen[i]) {
+      sum.normal += s.ns * weight;
+      sum.position += s.p * weight;
+      sum.roughness += m.roughness * weight;
+      sum.surface += weight;
+    }
+  }
+  if (shadings > 1) {
+    const float n = static_cast<float>(shadings), scale = weight * weight * n / (n - 1);
+    for (size_t j = 0; j < shadings; ++j) {
+      const float d = luminance(left * light[j].diffuse) - luminance(left * light[j].albedo) * (diffuse / std::max(albedo, 1e-6f));
+      const float g = luminance(left * light[j].specular) - specular / n;
+      sum.diffuseVariance += d * d * scale, sum.specularVariance += g * g * scale;
+    }
+  }
+  for (size_t i = 0; i < group.count && !isBlack(through); ++i) {
+    const size_t k = group.member[i];
+    const Vec3 rest = layer.left[k] * through;
+    if (luminance(rest) < 1e-3f) continue;
+    const Ray& r = layer.ray[k];
+    behind.add({offsetOrigin(r.origin + r.direction * layer.hit[k].t, -group.ng), r.direction, 0, kInfinity}, rest, layer.seen[k] || solid);
+  }
+}
+
+void PixelShader::add(std::span<const Ray> rays, PixelSequence& sequence, PixelSum& pixel, ConeCounters& count) const {
+  std::array<Layer, 2> layers;
+  for (const Ray& r : rays) layers[0].add(r, Vec3(1), false);
+  for (int pane = 0; pane < kMostPanes && layers[pane & 1].count > 0; ++pane) {
+    Layer& layer = layers[pane & 1];
+    Layer& behind = layers[(pane + 1) & 1];
+    behind.count = 0;
+    rays_.intersectClose(std::span(layer.ray).first(layer.count), std::span(layer.hit).first(layer.count));
+    count.rays += layer.count;
+    std::array<Group, kRaysAtOnce> groups;
+    size_t used = 0;
+    for (size_t i = 0; i < layer.count; ++i) {
+      if (!layer.hit[i].valid()) {
+        pixel.sum.rest += layer.left[i] * shader_.background(layer.ray[i].direction);
+        continue;
+      }
+      Group* g = groupOf(layer.ray[i], layer.hit[i], groups, used);
+      g->member[g->count++] = static_cast<uint8_t>(i);
+    }
+    for (size_t i = 0; i < used; ++i) shade(groups[i], layer, rays.size(), sequence, pixel, behind, count);
+  }
+  pixel.rays += static_cast<uint32_t>(rays.size());
+}
+
+}  // namespace roomlight

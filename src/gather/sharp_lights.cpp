@@ -1,0 +1,31 @@
+#include "gather/sharp_lights.h"
+
+namespace roomlight {
+namespace {
+
+constexpr size_t kAllLamps = 8;  // up to this many lamps each casts its own shadow
+
+}  // namespace
+
+Ray shadowRay(Vec3 p, const LightSample& light) { return {p, light.wi, 0, light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity}; }
+
+SharpLights::SharpLights(const RayScene& rays, const Lights& lights) : rays_(rays), lights_(lights), lamps_(lights.lampCount() <= kAllLamps ? lights.lampCount() : 0) {}
+
+LightSample SharpLights::sample(size_t light, Vec3 p, Vec2 u) const { return light < lamps_ ? lights_.sampleLamp(light, p) : lights_.sampleSun(light - lamps_, u); }
+
+Shadow SharpLights::shadow(size_t light, std::span<const Vec3> points, std::span<const Vec2> u) const {
+  std::array<Ray, kMostPoints> rays;
+  std::array<Vec3, kMostPoints> left;
+  const size_t n = points.size();
+  for (size_t i = 0; i < n; ++i) rays[i] = shadowRay(points[i], sample(light, points[i], u[i]));
+  rays_.transmittance(std::span(rays).first(n), std::span(left).first(n));
+  Shadow out;
+  for (size_t i = 0; i < n; ++i) out.left += left[i] / static_cast<float>(n);
+  for (size_t i = 0; i < n; ++i) {
+    const float off = luminance(left[i]) - luminance(out.left);
+    out.variance += off * off / static_cast<float>(n * std::max<size_t>(1, n - 1));
+  }
+  return out;
+}
+
+}  // namespace roomlight
