@@ -7,6 +7,7 @@ constexpr int kMostPanes = 16;
 constexpr size_t kFewest = 2;         // shadings of a pixel, where there are as many rays: one alone tells nothing of its noise
 constexpr float kSameNormal = 0.95f;  // cosine between normals of one surface
 constexpr float kSamePlane = 0.3f;    // of the distance between two points: how far off the tangent plane
+constexpr float kBehind = -0.35f;     // cosine
 constexpr float kPictureRoughness = 0.08f, kPictureReflectance = 0.2f;  // smoother and brighter: reflects a picture, which has edges of its own
 
 bool isUniform(const Material& m, const Mesh& mesh) {
@@ -14,7 +15,8 @@ bool isUniform(const Material& m, const Mesh& mesh) {
          m.emissionTexture.texture < 0 && mesh.colors.empty() && mesh.colorAlphas.empty();
 }
 
-bool isPicture(const MaterialSample& m) { return m.roughness < kPictureRoughness && luminance(m.f0) > kPictureReflectance; }
+// Panes too: what they reflect is not filtered.
+bool isPicture(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && (clear || luminance(m.f0) > kPictureReflectance); }
 
 void accumulate(MaterialSample& sum, const MaterialSample& m, float weight) {
   sum.baseColor += m.baseColor * weight, sum.emission += m.emission * weight, sum.f0 += m.f0 * weight, sum.f90 += m.f90 * weight;
@@ -46,6 +48,7 @@ struct PixelShader::Layer {
   std::array<bool, kRaysAtOnce> seen{};  // whether a surface before stands for what the ray sees
   std::array<Hit, kRaysAtOnce> hit;
   size_t count = 0;
+  Vec3 place(size_t i) const { return ray[i].origin + ray[i].direction * hit[i].t; }
   void add(const Ray& r, Vec3 l, bool s) { ray[count] = r, left[count] = l, seen[count++] = s; }
 };
 
@@ -89,12 +92,13 @@ void PixelShader::shadows(const Group& group, const Layer& layer, PixelSequence&
   std::array<Vec2, kRaysAtOnce> u;
   for (size_t i = 0; i < group.count; ++i) {
     const size_t k = group.member[i];
-    points[i] = offsetOrigin(layer.ray[k].origin + layer.ray[k].direction * layer.hit[k].t, group.ng);
+    points[i] = offsetOrigin(layer.place(k), group.ng);
   }
   Sampler sampler = sequence.forShadows();
   for (size_t i = 0; i < group.count; ++i) u[i] = sampler.next2();
   for (size_t l = 0; l < lights.count(); ++l) {
-    if (dot(lights.sample(l, group.p, u[0]).wi, group.ng) < -0.35f) continue;
+    // No normal of the group, nor a shading normal worth the name, faces a light so far behind.
+    if (dot(lights.sample(l, group.p, u[0]).wi, group.ng) < kBehind) continue;
     out[l] = lights.shadow(l, std::span(points).first(group.count), std::span(u).first(group.count));
     count.rays += group.count;
   }
@@ -111,7 +115,7 @@ void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, Pix
   const bool solid = luminance(through) < 0.5f;
 
   const size_t most = std::max(std::min(kFewest, rays), rays / static_cast<size_t>(settings_.raysPerShading));
-  const size_t shadings = isPicture(m) ? group.count : (group.count * most + rays - 1) / rays;
+  const size_t shadings = isPicture(m, !isBlack(through)) ? group.count : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
   thread_local std::vector<Shadow> shadow;
   shadows(group, layer, sequence, shadow, count);
@@ -121,20 +125,13 @@ void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, Pix
 
   FilterPixel& sum = pixel.sum;
   std::array<SurfaceLight, kRaysAtOnce> light;
-  float diffuse = 0, albedo = 0, specular = 0;
   for (size_t j = 0; j < shadings; ++j) {
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
     Sampler sampler = sequence.forShading();
     light[j] = shader_.shade(s, -layer.ray[i].direction, shadow, sampler, count);
-    sum.diffuse += left * light[j].diffuse * weight;
-    sum.sharp += left * light[j].sharp * weight;
-    sum.albedo += left * light[j].albedo * weight;
-    sum.specular += left * light[j].specular * weight;
+    addShading(light[j], left, weight, pixel);
     sum.rest += left * light[j].emitted * (weight / std::max(m.alpha, 1e-6f));
-    sum.sharpVariance += lengthSquared(left) / 3 * light[j].sharpVariance * weight * weight * static_cast<float>(shadings);
-    pixel.occlusion += light[j].occlusion * weight;
-    diffuse += luminance(left * light[j].diffuse), albedo += luminance(left * light[j].albedo), specular += luminance(left * light[j].specular);
     if (solid && !layer.seen[i]) {
       sum.normal += s.ns * weight;
       sum.position += s.p * weight;
@@ -142,20 +139,43 @@ void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, Pix
       sum.surface += weight;
     }
   }
-  if (shadings > 1) {
-    const float n = static_cast<float>(shadings), scale = weight * weight * n / (n - 1);
-    for (size_t j = 0; j < shadings; ++j) {
-      const float d = luminance(left * light[j].diffuse) - luminance(left * light[j].albedo) * (diffuse / std::max(albedo, 1e-6f));
-      const float g = luminance(left * light[j].specular) - specular / n;
-      sum.diffuseVariance += d * d * scale, sum.specularVariance += g * g * scale;
-    }
+  addVariance(std::span(light).first(shadings), left, weight, sum);
+  if (!isBlack(through)) passOn(group, layer, through, solid, behind);
+}
+
+void PixelShader::addShading(const SurfaceLight& light, Vec3 left, float weight, PixelSum& pixel) {
+  FilterPixel& sum = pixel.sum;
+  sum.diffuse += left * light.diffuse * weight;
+  sum.sharp += left * light.sharp * weight;
+  sum.albedo += left * light.albedo * weight;
+  sum.specular += left * light.specular * weight;
+  pixel.occlusion += light.occlusion * weight;
+}
+
+// From how the shadings of one surface differ. Shadows are the same for all of them, so there deviations add, not variances.
+void PixelShader::addVariance(std::span<const SurfaceLight> light, Vec3 left, float weight, FilterPixel& sum) {
+  float diffuse = 0, albedo = 0, specular = 0, shadows = 0;
+  for (const SurfaceLight& l : light) {
+    diffuse += luminance(left * l.diffuse), albedo += luminance(left * l.albedo), specular += luminance(left * l.specular);
+    shadows += l.sharpVariance;
   }
-  for (size_t i = 0; i < group.count && !isBlack(through); ++i) {
+  const float n = static_cast<float>(light.size());
+  sum.sharpVariance += lengthSquared(left) / 3 * shadows * n * weight * weight;
+  if (light.size() < 2) return;
+  const float scale = weight * weight * n / (n - 1), irradiance = diffuse / std::max(albedo, 1e-6f);
+  for (const SurfaceLight& l : light) {
+    const float d = luminance(left * l.diffuse) - luminance(left * l.albedo) * irradiance, g = luminance(left * l.specular) - specular / n;
+    sum.diffuseVariance += d * d * scale, sum.specularVariance += g * g * scale;
+  }
+}
+
+// Sends the group's rays on through their pane.
+void PixelShader::passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind) {
+  for (size_t i = 0; i < group.count; ++i) {
     const size_t k = group.member[i];
-    const Vec3 rest = layer.left[k] * through;
-    if (luminance(rest) < 1e-3f) continue;
-    const Ray& r = layer.ray[k];
-    behind.add({offsetOrigin(r.origin + r.direction * layer.hit[k].t, -group.ng), r.direction, 0, kInfinity}, rest, layer.seen[k] || solid);
+    const Vec3 left = layer.left[k] * through;
+    if (luminance(left) < 1e-3f) continue;
+    behind.add({offsetOrigin(layer.place(k), -group.ng), layer.ray[k].direction, 0, kInfinity}, left, layer.seen[k] || solid);
   }
 }
 

@@ -40,6 +40,9 @@ class PixelShader {
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
   void shadows(const Group& group, const Layer& layer, PixelSequence& sequence, std::vector<Shadow>& out, ConeCounters& count) const;
   void shade(const Group& group, const Layer& layer, size_t rays, PixelSequence& sequence, PixelSum& pixel, Layer& behind, ConeCounters& count) const;
+  static void addShading(const SurfaceLight& light, Vec3 left, float weight, PixelSum& pixel);
+  static void addVariance(std::span<const SurfaceLight> light, Vec3 left, float weight, FilterPixel& sum);
+  static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
 
   const RayScene& rays_;
   const ConeShader& shader_;
