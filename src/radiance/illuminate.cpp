@@ -5,10 +5,11 @@
 #include "base/sampler.h"
 #include "base/sampling.h"
 #include "radiance/attenuation.h"
+#include "radiance/near_lamps.h"
 #include "radiance/pyramid.h"
 #include "radiance/radiance_field.h"
 #include "radiance/sky_guide.h"
-#include "trace/surface_point.h"
+#include "radiance/slot_paths.h"
 
 namespace roomlight {
 namespace {
@@ -17,10 +18,6 @@ constexpr int kSkySamples = 8;
 constexpr int kStepsBetweenLeaps = 6;
 constexpr double kLongestLeap = 8;
 constexpr double kDark = 1e-4;
-constexpr uint32_t kPoints = 4;    // per slot
-constexpr int kMostPanes = 16;  // surfaces a link goes through or on from
-constexpr float kLift = 0.1f;  // voxels; how far points are lifted to see one another along a bent surface
-constexpr float kHiddenBehind = 0.15f;  // voxels; surfaces further behind a slot's place are not lit as it is
 
 // Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves.
 struct Link {
@@ -36,20 +33,23 @@ struct Link {
 class Illuminator {
  public:
   Illuminator(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings)
-      : rays_(rays), lights_(lights), voxels_(voxels), settings_(settings), direct_(voxels.slots.size()), indirect_(voxels.slots.size()) {}
+      : rays_(rays), lights_(lights), voxels_(voxels), settings_(settings), paths_(rays, voxels, settings.seed), near_(lights, voxels), direct_(voxels.slots.size()), indirect_(voxels.slots.size()) {}
 
   RadianceField run(const Progress& progress) {
     RadianceField field;
-    placePoints();
     if (settings_.links > 0) traceLinks(field, progress);
     progress.at(0.5f);
     gatherDirect(field);
+    NearLamps::Light near = near_.trace(rays_, paths_, settings_);
+    rayCount_ += near.rays;
+    for (size_t i = 0; i < near.far.size(); ++i) direct_[i] += near.far[i];
     progress.at(0.8f);
     bounce(field, progress);
     std::vector<Vec3> radiance(voxels_.slots.size());
     field.irradianceLux.resize(voxels_.slots.size());
     parallelFor(radiance.size(), 8192, [&](size_t i) {
       field.irradianceLux[i] = direct_[i] + indirect_[i];
+      if (!near.near.empty()) field.irradianceLux[i] += near.near[i];
       radiance[i] = voxels_.slots[i].albedo * field.irradianceLux[i] / kPi;
     });
     field.rays = rayCount_;
@@ -58,56 +58,6 @@ class Illuminator {
   }
 
  private:
-  // Points that receive a slot's light: spread over its voxel where its surface fills that. Each is looked up on the surface
-  // itself, for beside a curved surface the slot's plane lies behind it.
-  void placePoints() {
-    points_.resize(voxels_.slots.size());
-    parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
-      const auto [first, last] = slotsOfBrick(b);
-      std::vector<Ray> rays;
-      std::vector<Hit> hits;
-      for (size_t s = first; s < last; ++s) appendProbes(s, rays);
-      hits.resize(rays.size());
-      rays_.intersect(rays, hits);
-      for (size_t s = first, next = 0; s < last; ++s) {
-        const FaceSlot& slot = voxels_.slots[s];
-        points_[s].fill(lifted(slot.position, slot.normal));
-        if (!fillsVoxel(slot)) continue;
-        for (Vec3& p : points_[s]) {
-          const Ray& ray = rays[next];
-          const Hit& hit = hits[next++];
-          if (!hit.valid() || !facesAlong(hit, slot.normal)) continue;
-          const Vec3 found = ray.origin + ray.direction * hit.t;
-          if (connected(slot, found + slot.normal * (kLift * voxels_.voxelSizeM))) p = lifted(found, slot.normal);
-        }
-      }
-    });
-  }
-
-  bool fillsVoxel(const FaceSlot& slot) const { return slot.areaM2 > 0.8f * voxels_.voxelSizeM * voxels_.voxelSizeM; }
-
-  Vec3 lifted(Vec3 p, Vec3 n) const { return offsetOrigin(p, n) + n * (0.01f * voxels_.voxelSizeM); }
-
-  bool facesAlong(const Hit& hit, Vec3 n) const {
-    const TriangleVertices t = worldTriangle(rays_.scene(), hit.instance, hit.triangle);
-    const Vec3 ng = cross(t.b - t.a, t.c - t.a);
-    return std::abs(dot(ng, n)) > 0.7f * length(ng);
-  }
-
-  // Short rays down onto the slot's surface, one in each quarter of its square.
-  void appendProbes(size_t s, std::vector<Ray>& rays) const {
-    const FaceSlot& slot = voxels_.slots[s];
-    if (!fillsVoxel(slot)) return;
-    const Frame frame(slot.normal);
-    const float h = voxels_.voxelSizeM;
-    for (uint32_t k = 0; k < kPoints; ++k) {
-      Sampler sampler(s, k, settings_.seed + 6);
-      const Vec2 u = sampler.next2();
-      const float x = 0.4f * (u.x + static_cast<float>(k & 1)) - 0.4f, y = 0.4f * (u.y + static_cast<float>(k >> 1)) - 0.4f;
-      rays.push_back({slot.position + (frame.t * x + frame.b * y + slot.normal * 0.3f) * h, -slot.normal, 0, 0.6f * h});
-    }
-  }
-
   void traceLinks(RadianceField& field, const Progress& progress) {
     const auto n = static_cast<size_t>(settings_.links);
     links_.resize(voxels_.slots.size() * n);
@@ -115,7 +65,7 @@ class Illuminator {
     const bool sky = lights_.sky().present();
     std::atomic<size_t> done = 0;
     parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
-      const auto [first, last] = slotsOfBrick(b);
+      const auto [first, last] = paths_.slotsOfBrick(b);
       std::vector<Ray> rays;
       std::vector<Hit> hits;
       for (size_t s = first; s < last; ++s) {
@@ -125,15 +75,15 @@ class Illuminator {
         for (uint32_t i = 0; i < n; ++i) {
           Sampler sampler(s, i, settings_.seed);
           const Vec3 d = frame.toWorld(sampleCosineHemisphere(sampler.next2()));
-          rays.push_back({points_[s][i % kPoints], d, 0, kInfinity});
+          rays.push_back({paths_.point(s, i), d, 0, kInfinity});
         }
         hits.resize(n);
         rays_.intersect(rays, hits);
         for (size_t i = 0; i < n; ++i) {
-          Vec3 left(1);
           Sampler sampler(s, static_cast<uint32_t>(i), settings_.seed + 5);
-          links_[s * n + i] = follow(rays[i], hits[i], left, sampler);
-          if (sky) guide.add(b, slot.face, rays[i].direction, hits[i].valid() ? 0.0f : luminance(left));
+          const Arrival end = paths_.follow(rays[i], hits[i], sampler);
+          if (end.slot >= 0) links_[s * n + i] = {static_cast<uint32_t>(end.slot), luminance(end.left)};
+          if (sky) guide.add(b, slot.face, rays[i].direction, end.escaped ? luminance(end.left) : 0.0f);
         }
       }
       const size_t d = ++done;
@@ -141,50 +91,6 @@ class Illuminator {
     });
     rayCount_ += links_.size();
     if (sky) field.guide = guide.finish();
-  }
-
-  // Goes through panes with the share that they let through, else ends on them; `hit` ends as the surface that scatters, or invalid where the ray leaves the scene. A surface behind the
-  // one its slot stands for (the back of a panel before a wall, the inside of a pipe) has no light of its own in the voxels: the
-  // way goes on from there by a diffuse reflection.
-  Link follow(Ray ray, Hit& hit, Vec3& left, Sampler& sampler) const {
-    for (int k = 0; k < kMostPanes && hit.valid(); ++k) {
-      const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-      const bool clear = s.m.transmission > 0 || s.m.alpha < 1;
-      const Vec3 through = clear ? straightTransmittance(*s.material, s.m, std::abs(dot(s.ng, ray.direction))) : Vec3(0);
-      const float passes = std::min(1.0f, luminance(through));
-      if (!clear || sampler.next1() >= passes) {
-        const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
-        if (slot < 0) return {};
-        if (!isHidden(voxels_.slots[static_cast<size_t>(slot)], s)) return {static_cast<uint32_t>(slot), luminance(left)};
-        left *= bihemisphericalAlbedo(s.m);
-        ray = {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
-      } else {
-        left *= through / passes;
-        ray.origin = offsetOrigin(s.p, -s.ng);
-      }
-      if (luminance(left) < 0.03f) return {};
-      hit = rays_.intersect(ray);
-    }
-    return {};
-  }
-
-  // Not lit as the slot's place is: behind it, or parted from it by another surface (a pane that crosses the voxel).
-  bool isHidden(const FaceSlot& slot, const SurfacePoint& s) const {
-    if (dot(slot.position - s.p, slot.normal) > kHiddenBehind * voxels_.voxelSizeM) return true;
-    return !connected(slot, s.p + s.ng * (kLift * voxels_.voxelSizeM));
-  }
-
-  // Whether nothing stands between the slot's place, a little lifted, and p.
-  bool connected(const FaceSlot& slot, Vec3 p) const {
-    const Vec3 from = slot.position + slot.normal * (kLift * voxels_.voxelSizeM);
-    return luminance(rays_.transmittance({from, p - from, 0, 1})) > 0.25f;
-  }
-
-  std::pair<size_t, size_t> slotsOfBrick(size_t b) const {
-    const auto firstVoxel = voxels_.bricks[b].firstVoxel;
-    const size_t end = b + 1 < voxels_.bricks.size() ? voxels_.bricks[b + 1].firstVoxel : voxels_.voxels.size();
-    const auto slotBegin = [&](size_t v) { return v < voxels_.voxels.size() ? voxels_.voxels[v].firstSlot : voxels_.slots.size(); };
-    return {slotBegin(firstVoxel), slotBegin(end)};
   }
 
   struct Shadow {
@@ -195,7 +101,7 @@ class Illuminator {
   void gatherDirect(const RadianceField& field) {
     std::atomic<uint64_t> count = 0;
     parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
-      const auto [first, last] = slotsOfBrick(b);
+      const auto [first, last] = paths_.slotsOfBrick(b);
       std::vector<Ray> rays;
       std::vector<Shadow> shadows;
       std::vector<Vec3> left;
@@ -224,21 +130,22 @@ class Illuminator {
     for (int k = 0; k < perDelta; ++k) {
       Sampler sampler(s, static_cast<uint32_t>(k), settings_.seed + 1);
       for (size_t i = 0; i < lights_.lampCount(); ++i) {
-        const Vec3 p = points_[s][static_cast<size_t>(k) % kPoints];
+        if (near_.isNear(i, s)) continue;
+        const Vec3 p = paths_.point(s, static_cast<size_t>(k));
         add(lights_.sampleLamp(i, p), p, 1.0f / static_cast<float>(perDelta));
       }
     }
     for (uint32_t k = 0; k < 4; ++k) {
       Sampler sampler(s, k, settings_.seed + 2);
       for (size_t i = 0; i < lights_.sunCount(); ++i) {
-        const Vec3 p = points_[s][static_cast<size_t>(k) % kPoints];
+        const Vec3 p = paths_.point(s, static_cast<size_t>(k));
         add(lights_.sampleSun(i, sampler.next2()), p, 0.25f);
       }
     }
     if (lights_.hasEmitters()) {
       for (int k = 0; k < settings_.directSamples; ++k) {
         Sampler sampler(s, static_cast<uint32_t>(k), settings_.seed + 3);
-        const Vec3 p = points_[s][static_cast<size_t>(k) % kPoints];
+        const Vec3 p = paths_.point(s, static_cast<size_t>(k));
         const Vec2 u = sampler.next2();
         add(lights_.sampleEmitters(p, u, sampler.next1()), p, 1.0f / static_cast<float>(settings_.directSamples));
       }
@@ -247,7 +154,7 @@ class Illuminator {
     if (guide >= 0) {
       for (uint32_t k = 0; k < kSkySamples; ++k) {
         Sampler sampler(s, k, settings_.seed + 4);
-        const Vec3 p = points_[s][static_cast<size_t>(k) % kPoints];
+        const Vec3 p = paths_.point(s, static_cast<size_t>(k));
         const Vec2 u = sampler.next2();
         add(sampleSkyGuided(field.guide, guide, lights_, u, sampler.next1()), p, 1.0f / kSkySamples);
       }
@@ -326,7 +233,8 @@ class Illuminator {
   const Lights& lights_;
   const Voxels& voxels_;
   const RadianceSettings settings_;
-  std::vector<std::array<Vec3, kPoints>> points_;  // per slot
+  const SlotPaths paths_;
+  const NearLamps near_;
   std::vector<Link> links_;
   std::vector<Vec3> direct_, indirect_;
   uint64_t rayCount_ = 0;

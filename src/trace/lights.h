@@ -28,6 +28,7 @@ class Lights {
   float pdfLocal(Vec3 p, const SurfacePoint& q) const;
   // All point and spot lamps one by one (no emissive meshes).
   size_t lampCount() const { return lamps_.size(); }
+  const Lamp& lamp(size_t index) const { return lamps_[index]; }
   LightSample sampleLamp(size_t index, Vec3 p) const;
   // One of them, chosen by what each could give at p without shadows.
   LightSample sampleLamps(Vec3 p, float choice) const;

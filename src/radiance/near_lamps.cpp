@@ -1,0 +1,106 @@
+#include "radiance/near_lamps.h"
+
+#include "base/parallel.h"
+#include "base/sampling.h"
+#include "radiance/attenuation.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kNearVoxels = 4;  // further off a voxel sees the lamp under nearly the same distance everywhere
+constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
+constexpr size_t kMostParticles = size_t{1} << 19, kMostPerLamp = size_t{1} << 17, kFewestPerLamp = size_t{1} << 12, kChunk = 512;
+constexpr int kMostReflections = 64;
+
+// Part of the directions a lamp shines into, as 1 - cos of its cone.
+float extent(const Lamp& lamp) {
+  if (lamp.kind == LampKind::Point) return 2;
+  const float s = std::sin(0.5f * lamp.outerConeRad);
+  return 2 * s * s;
+}
+
+}  // namespace
+
+NearLamps::NearLamps(const Lights& lights, const Voxels& voxels) : lights_(lights), voxels_(voxels), nearAny_(voxels.slots.size()) {
+  std::vector<std::atomic<bool>> hasNear(lights.lampCount());
+  parallelFor(voxels.slots.size(), 4096, [&](size_t s) {
+    for (size_t l = 0; l < hasNear.size(); ++l) {
+      if (isNear(l, s)) nearAny_[s] = 1, hasNear[l] = true;
+    }
+  });
+  for (size_t l = 0; l < hasNear.size(); ++l) {
+    if (hasNear[l]) lamps_.push_back(l);
+  }
+}
+
+bool NearLamps::isNear(size_t lamp, size_t s) const {
+  const FaceSlot& slot = voxels_.slots[s];
+  const float h = voxels_.voxelSizeM;
+  return slot.areaM2 > kSmallest * h * h && lengthSquared(lights_.lamp(lamp).position - slot.position) < kNearVoxels * kNearVoxels * h * h;
+}
+
+// Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.
+float NearLamps::litArea(const FaceSlot& slot) const {
+  const float h2 = voxels_.voxelSizeM * voxels_.voxelSizeM;
+  return std::clamp(slot.areaM2, kSmallest * h2, h2 / std::max(0.577f, maxComponent(abs(slot.normal))));
+}
+
+NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings) const {
+  Light light;
+  if (lamps_.empty()) return light;
+  light.near.resize(voxels_.slots.size()), light.far.resize(voxels_.slots.size());
+  const size_t n = std::clamp(kMostParticles / lamps_.size(), kFewestPerLamp, kMostPerLamp);
+  std::vector<std::vector<Deposit>> deposits(n / kChunk);
+  for (const size_t l : lamps_) {
+    const Lamp& lamp = lights_.lamp(l);
+    const Frame frame(lamp.kind == LampKind::Point ? Vec3{0, 0, 1} : lamp.direction);
+    const float steradiansEach = 2 * kPi * extent(lamp) / static_cast<float>(n);
+    parallelFor(deposits.size(), 1, [&](size_t chunk) {
+      deposits[chunk].clear();
+      std::vector<Ray> out(kChunk);
+      std::vector<Hit> hits(kChunk);
+      for (size_t i = 0; i < kChunk; ++i) {
+        Sampler sampler(l, static_cast<uint32_t>(chunk * kChunk + i), settings.seed + 7);
+        out[i] = {lamp.position, frame.toWorld(sampleCone(sampler.next2(), extent(lamp))), 0, kInfinity};
+      }
+      rays.intersect(out, hits);
+      for (size_t i = 0; i < kChunk; ++i) {
+        Sampler sampler(l, static_cast<uint32_t>(chunk * kChunk + i), settings.seed + 8);
+        follow(rays, paths, l, out[i], hits[i], lampIntensity(lamp, out[i].direction) * steradiansEach, settings.attenuation, sampler, deposits[chunk]);
+      }
+    });
+    // In order, so that sums do not depend on threads.
+    for (const auto& chunk : deposits) {
+      for (const Deposit& d : chunk) (nearAny_[d.slot] ? light.near : light.far)[d.slot] += d.fluxLm / litArea(voxels_.slots[d.slot]);
+    }
+    light.rays += n;
+  }
+  return light;
+}
+
+// From slot to slot while these are near a lamp. What falls on another slot straight from the lamp is not ours.
+void NearLamps::follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, Attenuation kind, Sampler& sampler,
+                       std::vector<Deposit>& deposits) const {
+  bool reflected = false;
+  for (int k = 0; k < kMostReflections; ++k) {
+    const Arrival end = paths.follow(ray, hit, sampler);
+    if (end.slot < 0) return;
+    const auto s = static_cast<size_t>(end.slot);
+    reflected = reflected || end.reflected;
+    if (!reflected && !isNear(lamp, s)) return;
+    const FaceSlot& slot = voxels_.slots[s];
+    fluxLm *= end.left;
+    const float facing = -dot(slot.normal, ray.direction);
+    if (!reflected && facing > 0.05f) fluxLm *= attenuation(kind, slot.normal, -ray.direction) / facing;
+    deposits.push_back({static_cast<uint32_t>(s), fluxLm});
+    if (!nearAny_[s]) return;
+    const float survive = std::min(0.95f, maxComponent(slot.albedo));
+    if (sampler.next1() >= survive) return;
+    fluxLm *= slot.albedo / survive;
+    reflected = true;
+    ray = {offsetOrigin(end.p, end.n), Frame(end.n).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
+    hit = rays.intersect(ray);
+  }
+}
+
+}  // namespace roomlight
