@@ -10,6 +10,8 @@ namespace {
 constexpr float kOpaque = 0.004f;     // what is left of a cone when it is given up
 constexpr float kOverlap = 0.02f;     // voxel edges: planes are looked for a little outside their voxel, so that none falls between two
 constexpr float kMaskReach = 0.05f;  // voxel edges: planes are rounded, and may lie just outside the sub-cells of their surface
+constexpr float kSheet = 0.15f;       // voxel edges: planes that show opposite ways and lie no further apart are two sides of one sheet
+constexpr float kOwnSheet = 0.35f;    // base voxel edges: how far a bent sheet's plane may lie in front of a point on it
 constexpr float kNudge = 1e-3f;       // voxel edges: carries a step into the next voxel
 
 // Whether the sub-cell at p, from the voxel's middle in voxel edges, holds a surface.
@@ -20,25 +22,39 @@ bool isSet(uint64_t mask, Vec3 p) {
 
 struct Crossing {
   float t;
+  Vec3 normal;
   const DirectionalFace* face;
 };
 
+Vec3 normalOf(const DirectionalFace& f) {
+  return Vec3{static_cast<float>(f.normal[0]), static_cast<float>(f.normal[1]), static_cast<float>(f.normal[2])} * (1.0f / 127);
+}
+
+// Whether `f` (unit normal n) is one side of a sheet that shows its other side through `other`.
+bool isSheet(const DirectionalFace& f, Vec3 n, const DirectionalFace& other) {
+  return other.coverage > 0 && std::abs(planeDistance(f) + planeDistance(other)) < kSheet && dot(n, normalOf(other)) < -0.7f;
+}
+
 // Planes of one voxel that the ray crosses from their fronts between t0 and t1, nearest first. `q` is the ray's origin from the
 // voxel's middle; lengths in voxel edges.
-int crossings(const DirectionalVoxel& voxel, Vec3 q, Vec3 d, float t0, float t1, Crossing (&out)[6]) {
+// `ownNormal` is that of the surface the ray comes from, which may lie behind the plane of its own voxel where it is bent, by up
+// to `ownReach`: the plane's other side is not met then.
+int crossings(const DirectionalVoxel& voxel, Vec3 q, Vec3 d, float t0, float t1, Vec3 ownNormal, float ownReach, Crossing (&out)[6]) {
   int found = 0;
-  for (const DirectionalFace& f : voxel.face) {
+  for (size_t face = 0; face < 6; ++face) {
+    const DirectionalFace& f = voxel.face[face];
     if (f.coverage == 0) continue;
-    const Vec3 n = Vec3{static_cast<float>(f.normal[0]), static_cast<float>(f.normal[1]), static_cast<float>(f.normal[2])} * (1.0f / 127);
+    const Vec3 n = normalOf(f);
     const float facing = dot(n, d);
     if (facing >= -1e-4f) continue;
-    const float t = (planeDistance(f) - dot(n, q)) / facing;
+    const float ahead = dot(n, q) - planeDistance(f), t = -ahead / facing;
     if (t < t0 || t >= t1) continue;
+    if (ahead < ownReach && dot(n, ownNormal) < -0.3f && isSheet(f, n, voxel.face[face ^ 1])) continue;
     const Vec3 p = q + d * t;
     if (!isSet(voxel.mask, p + n * kMaskReach) && !isSet(voxel.mask, p - n * kMaskReach)) continue;
     int k = found++;
     for (; k > 0 && out[k - 1].t > t; --k) out[k] = out[k - 1];
-    out[k] = {t, &f};
+    out[k] = {t, n, &f};
   }
   return found;
 }
@@ -78,6 +94,8 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
   const float widest = 2 / widening;
   Vec3 origin = (from.origin - field.origin) / h;
   int level = 0;
+  Vec3 veil;
+  float veilUntil = 0;  // metres along the way
   for (float t = 0; out.left > 0;) {
     for (; t >= widest && level < coarsest; ++level) t *= 0.5f, origin *= 0.5f;
     const RadianceLevel& l = field.levels[static_cast<size_t>(level)];
@@ -94,10 +112,15 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
     if (const DirectionalVoxel* voxel = l.find(*brick, v)) {
       const Vec3 middle{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f};
       Crossing met[6];
-      const int count = crossings(*voxel, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap, met);
+      const int count = crossings(*voxel, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap, from.normal, kOwnSheet * h / l.voxelSizeM, met);
       for (int i = 0; i < count; ++i) {
         const DirectionalFace& f = *met[i].face;
-        const float alpha = out.left * static_cast<float>(f.coverage) * (1.0f / 255);
+        if (f.opacity < 255) {
+          // A veil or pane that spans voxels is met once, though both of their planes may be crossed on the way.
+          if (met[i].t * l.voxelSizeM < veilUntil && dot(met[i].normal, veil) > 0.5f) continue;
+          veil = met[i].normal, veilUntil = met[i].t * l.voxelSizeM + h;
+        }
+        const float alpha = out.left * static_cast<float>(f.coverage * f.opacity) * (1.0f / (255 * 255));
         out.radiance += Vec3{fromHalf(f.radiance[0]), fromHalf(f.radiance[1]), fromHalf(f.radiance[2])} * (alpha * field.unitCdM2);
         out.occlusion += alpha / (1 + shape.lambda * met[i].t * l.voxelSizeM);
         out.left -= alpha;

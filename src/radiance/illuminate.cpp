@@ -48,9 +48,10 @@ class Illuminator {
     std::vector<Vec3> radiance(voxels_.slots.size());
     field.irradianceLux.resize(voxels_.slots.size());
     parallelFor(radiance.size(), 8192, [&](size_t i) {
-      field.irradianceLux[i] = direct_[i] + indirect_[i];
-      if (!near.near.empty()) field.irradianceLux[i] += near.near[i];
-      radiance[i] = voxels_.slots[i].albedo * field.irradianceLux[i] / kPi;
+      const Vec3 e = direct_[i] + indirect_[i];
+      const bool hasNear = !near.near.empty();
+      field.irradianceLux[i] = hasNear ? e + near.near[i] : e;
+      radiance[i] = voxels_.slots[i].albedo * (hasNear ? e + near.near[i] * near.shown[i] : e) / kPi;
     });
     field.rays = rayCount_;
     buildPyramid(voxels_, radiance, field);

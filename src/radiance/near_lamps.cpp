@@ -11,6 +11,7 @@ constexpr float kNearVoxels = 4;  // further off a voxel sees the lamp under nea
 constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr size_t kMostParticles = size_t{1} << 19, kMostPerLamp = size_t{1} << 17, kFewestPerLamp = size_t{1} << 12, kChunk = 512;
 constexpr int kMostReflections = 64;
+constexpr float kOpen = 0.5f;  // share that leaves a surface which is no cavity, though lamp bodies stand before it
 
 // Part of the directions a lamp shines into, as 1 - cos of its cone.
 float extent(const Lamp& lamp) {
@@ -48,7 +49,9 @@ float NearLamps::litArea(const FaceSlot& slot) const {
 NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings) const {
   Light light;
   if (lamps_.empty()) return light;
-  light.near.resize(voxels_.slots.size()), light.far.resize(voxels_.slots.size());
+  const size_t slots = voxels_.slots.size();
+  light.near.resize(slots), light.far.resize(slots);
+  std::vector<float> reflected(slots), escaped(slots);
   const size_t n = std::clamp(kMostParticles / lamps_.size(), kFewestPerLamp, kMostPerLamp);
   std::vector<std::vector<Deposit>> deposits(n / kChunk);
   for (const size_t l : lamps_) {
@@ -71,9 +74,16 @@ NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, 
     });
     // In order, so that sums do not depend on threads.
     for (const auto& chunk : deposits) {
-      for (const Deposit& d : chunk) (nearAny_[d.slot] ? light.near : light.far)[d.slot] += d.fluxLm / litArea(voxels_.slots[d.slot]);
+      for (const Deposit& d : chunk) {
+        (nearAny_[d.slot] ? light.near : light.far)[d.slot] += d.fluxLm / litArea(voxels_.slots[d.slot]);
+        reflected[d.slot] += d.reflectedLm, escaped[d.slot] += d.escapedLm;
+      }
     }
     light.rays += n;
+  }
+  light.shown.assign(slots, 1);
+  for (size_t s = 0; s < slots; ++s) {
+    if (reflected[s] > 0) light.shown[s] = std::min(1.0f, escaped[s] / (kOpen * reflected[s]));
   }
   return light;
 }
@@ -81,23 +91,28 @@ NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, 
 // From slot to slot while these are near a lamp. What falls on another slot straight from the lamp is not ours.
 void NearLamps::follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, Attenuation kind, Sampler& sampler,
                        std::vector<Deposit>& deposits) const {
-  bool reflected = false;
+  bool reflected = false, sentByNear = false;
   for (int k = 0; k < kMostReflections; ++k) {
     const Arrival end = paths.follow(ray, hit, sampler);
-    if (end.slot < 0) return;
+    if (end.slot < 0) {
+      if (end.escaped && sentByNear) deposits.back().escapedLm = luminance(fluxLm * end.left);
+      return;
+    }
     const auto s = static_cast<size_t>(end.slot);
     reflected = reflected || end.reflected;
     if (!reflected && !isNear(lamp, s)) return;
     const FaceSlot& slot = voxels_.slots[s];
     fluxLm *= end.left;
+    if (!nearAny_[s] && sentByNear) deposits.back().escapedLm = luminance(fluxLm);
     const float facing = -dot(slot.normal, ray.direction);
     if (!reflected && facing > 0.05f) fluxLm *= attenuation(kind, slot.normal, -ray.direction) / facing;
-    deposits.push_back({static_cast<uint32_t>(s), fluxLm});
+    deposits.push_back({static_cast<uint32_t>(s), fluxLm, 0, 0});
     if (!nearAny_[s]) return;
     const float survive = std::min(0.95f, maxComponent(slot.albedo));
     if (sampler.next1() >= survive) return;
     fluxLm *= slot.albedo / survive;
-    reflected = true;
+    deposits.back().reflectedLm = luminance(fluxLm);
+    reflected = sentByNear = true;
     ray = {offsetOrigin(end.p, end.n), Frame(end.n).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
     hit = rays.intersect(ray);
   }

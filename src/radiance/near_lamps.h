@@ -21,6 +21,9 @@ class NearLamps {
   struct Light {
     std::vector<Vec3> near;  // on slots near lamps; what they reflect of it is contained in `near` and `far`. Empty: none
     std::vector<Vec3> far;   // on other slots, by reflection near lamps or on surfaces that no slot stands for
+    // Share of what a slot reflects of `near` that a cone may see, 0..1: in a cavity narrower than voxels, which cones look into
+    // from everywhere, no more than really comes out.
+    std::vector<float> shown;
     uint64_t rays = 0;
   };
   Light trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings) const;
@@ -29,6 +32,7 @@ class NearLamps {
   struct Deposit {
     uint32_t slot;
     Vec3 fluxLm;
+    float reflectedLm = 0, escapedLm = 0;  // further than to other slots near lamps
   };
   void follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, Attenuation attenuation,
               Sampler& sampler, std::vector<Deposit>& deposits) const;

@@ -11,7 +11,8 @@ constexpr float kWholeFrom = 0.6f;
 
 // One face while the pyramid is built. Lengths in edges of its voxel, from the voxel's middle.
 struct Face {
-  float opacity = 0;  // projected coverage along the face's axis, 0..1
+  float cover = 0;    // projected coverage along the face's axis, 0..1
+  float opacity = 1;  // of what covers
   Vec3 radiance, normal, point;
 };
 using Faces = std::array<Face, 6>;
@@ -20,7 +21,7 @@ int8_t toByte(float v) { return static_cast<int8_t>(std::lround(127 * std::clamp
 
 DirectionalFace pack(const Face& f, int axis, Vec3 columns, float unit) {
   DirectionalFace out;
-  if (!(f.opacity > 0)) return out;
+  if (!(f.cover > 0)) return out;
   const float distance = dot(f.point, f.normal);
   const Vec3 c = f.radiance / unit;
   out.radiance = {toHalf(c.x), toHalf(c.y), toHalf(c.z)};
@@ -28,8 +29,9 @@ DirectionalFace pack(const Face& f, int axis, Vec3 columns, float unit) {
   out.plane = static_cast<uint8_t>(std::lround(255 * std::clamp(0.5f + 0.5f * distance / kFarthestPlane, 0.0f, 1.0f)));
   // Of the columns along the axis that hold surfaces at all. Sub-cells on a border are covered in part: more than half of it
   // is taken for a whole surface, so that walls do not leak along their edges.
-  const float share = f.opacity / std::max(1.0f / 16, columns[axis]);
+  const float share = f.cover / std::max(1.0f / 16, columns[axis]);
   out.coverage = static_cast<uint8_t>(std::lround(std::clamp(255 * share / kWholeFrom, 1.0f, 255.0f)));
+  out.opacity = static_cast<uint8_t>(std::lround(std::clamp(255 * f.opacity, 1.0f, 255.0f)));
   return out;
 }
 
@@ -48,7 +50,8 @@ Faces baseFaces(const Voxels& voxels, const SurfaceVoxel& voxel, Vec3 middle, st
   const size_t end = voxel.firstSlot + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
   for (size_t i = voxel.firstSlot; i < end; ++i) {
     const FaceSlot& slot = voxels.slots[i];
-    faces[slot.face] = {std::min(1.0f, slot.areaM2 * std::abs(slot.normal[slot.face / 2]) / (h * h)), slotRadiance[i], slot.normal, (slot.position - middle) / h};
+    const float projected = slot.areaM2 / std::max(1e-3f, slot.opacity) * std::abs(slot.normal[slot.face / 2]);
+    faces[slot.face] = {std::min(1.0f, projected / (h * h)), slot.opacity, slotRadiance[i], slot.normal, (slot.position - middle) / h};
   }
   return faces;
 }
@@ -71,6 +74,7 @@ Faces combine(const std::array<const Faces*, 8>& child) {
     const int axis = face / 2, side = face & 1;  // the + face is seen by rays that come from the high side
     const int u = 1 << ((axis + 1) % 3), v = 1 << ((axis + 2) % 3), along = 1 << axis;
     Face sum;
+    float opaque = 0;
     for (int column = 0; column < 4; ++column) {
       const int base = (column & 1 ? u : 0) + (column & 2 ? v : 0);
       float left = 1;
@@ -78,18 +82,19 @@ Faces combine(const std::array<const Faces*, 8>& child) {
         const int k = base + high * along;
         if (!child[static_cast<size_t>(k)]) continue;
         const Face& f = (*child[static_cast<size_t>(k)])[static_cast<size_t>(face)];
-        const float w = std::min(left, f.opacity);
+        const float w = std::min(left, f.cover);
         const Vec3 middle{k & 1 ? 0.25f : -0.25f, k & 2 ? 0.25f : -0.25f, k & 4 ? 0.25f : -0.25f};
-        sum.radiance += f.radiance * w;
+        sum.radiance += f.radiance * (w * f.opacity);
+        opaque += w * f.opacity;
         sum.normal += f.normal * w;
         sum.point += (middle + 0.5f * f.point) * w;
         left -= w;
       }
-      sum.opacity += 1 - left;
+      sum.cover += 1 - left;
     }
     const float l = length(sum.normal);
-    if (!(sum.opacity > 0) || !(l > 0)) continue;
-    out[static_cast<size_t>(face)] = {sum.opacity / 4, sum.radiance / sum.opacity, sum.normal / l, sum.point / sum.opacity};
+    if (!(opaque > 0) || !(l > 0)) continue;
+    out[static_cast<size_t>(face)] = {sum.cover / 4, opaque / sum.cover, sum.radiance / opaque, sum.normal / l, sum.point / sum.cover};
   }
   return out;
 }

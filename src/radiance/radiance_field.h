@@ -35,7 +35,7 @@ struct DirectionalFace {
   std::array<int8_t, 3> normal{};      // in 1/127, unit
   uint8_t plane = 0;                   // distance from the voxel's middle along the normal; see planeDistance
   uint8_t coverage = 0;                // surface on the plane where the mask is set, in 1/255; 0: no surface faces this way
-  uint8_t unused = 0;
+  uint8_t opacity = 0;    // of that surface, in 1/255
 };
 
 // In voxel edges: no plane further from the middle than half a diagonal cuts the voxel.

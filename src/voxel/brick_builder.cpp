@@ -49,7 +49,7 @@ void addPiece(const Polygon& polygon, Vec3 corner, const LatticeTriangle& t, con
   sums.mask |= subVoxelMask(polygon, corner, g.vectorArea);
   const int face = dominantFace(t.front);
   SlotPiece piece;
-  piece.area = g.area * shade.coverage;
+  piece.area = g.area * shade.coverage, piece.wholeArea = g.area;
   const Vec3 projected = abs(t.front) * piece.area;
   sums.projected += projected;
   piece.projected = projected[face / 2];

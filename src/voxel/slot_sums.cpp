@@ -13,7 +13,7 @@ void SlotSums::add(const SlotPiece& piece, int face, std::vector<Layer>& layers)
   if (piece.instance != instance_) instance_ = piece.instance, instanceArea_ = 0;
   instanceArea_ += piece.area;
   if (instanceArea_ > bestArea_) bestArea_ = instanceArea_, bestInstance_ = piece.instance;
-  area_ += piece.area, projected_ += piece.projected;
+  area_ += piece.area, wholeArea_ += piece.wholeArea, projected_ += piece.projected;
   const float z = dot(piece.centroid, faceDirection(face));
   const bool stands = z > height_ + kSameLayer   ? piece.area > kLargeShare * pieceArea_
                       : z < height_ - kSameLayer ? kLargeShare * piece.area > pieceArea_
@@ -54,6 +54,7 @@ FaceSlot SlotSums::finish(int face, const Lattice& lattice, const std::vector<La
   slot.normal = l > 1e-6f * area_ ? normal_ / l : faceDirection(face);
   slot.albedo = meanAlbedo(layers);
   slot.emission = emission_ / area_;
+  slot.opacity = wholeArea_ > 0 ? std::min(1.0f, area_ / wholeArea_) : 1;
   slot.areaM2 = area_ * lattice.voxelSizeM * lattice.voxelSizeM;
   slot.instance = bestInstance_;
   slot.face = static_cast<uint8_t>(face);

@@ -10,6 +10,7 @@ namespace roomlight {
 // One piece of surface as the slot's side sees it.
 struct SlotPiece {
   float area = 0;       // opaque, voxels²
+  float wholeArea = 0;  // with what lets light through
   float projected = 0;  // the same, seen along the side's axis
   Vec3 centroid, normal;
   Vec3 albedo, emission;
@@ -32,7 +33,7 @@ class SlotSums {
  private:
   Vec3 meanAlbedo(const std::vector<Layer>& layers) const;
 
-  float area_ = 0, projected_ = 0;
+  float area_ = 0, wholeArea_ = 0, projected_ = 0;
   Vec3 normal_, albedo_, emission_;
   // Centroid of one piece, so that it really lies on a surface: of the foremost among the large ones. Light reaches the front
   // of a panel on a wall, not the plaster behind it, though both may lie in one voxel.

@@ -44,6 +44,7 @@ struct FaceSlot {
   Vec3 albedo;     // bihemispherical, area-weighted mean, 0..1
   Vec3 emission;   // luminance in cd/m² to this side, area-weighted mean: emission * areaM2 * pi is the exact flux in lm
   float areaM2 = 0;  // true (not projected) area of the opaque part of the surfaces on this side
+  float opacity = 1;   // 0..1, opaque share of those surfaces: below 1 for panes, veils and leaves cut out by a mask
   uint32_t instance = 0;  // the instance with the largest area here
   uint8_t face = 0;
 };
