@@ -50,7 +50,7 @@ void visitMembers(Visitor& v, Settings& s) {
   v.group("gather", [&](auto& g) {
     g.number("raysPerShading", s.gather.raysPerShading, 1, 8);
     g.number("conesPerShading", s.gather.conesPerShading, 1, 4096);
-    g.number("coneHalfAngleDeg", s.gather.coneHalfAngleDeg, 1, 60);
+    g.number("coneHalfAngleDeg", s.gather.coneHalfAngleDeg, 0.1, 60);
     g.number("startOffsetVoxels", s.gather.startOffsetVoxels, 0, 8);
     g.number("rayRoughness", s.gather.rayRoughness, 0, 1);
     g.number("filterPasses", s.gather.filterPasses, 0, 8);

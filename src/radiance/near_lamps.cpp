@@ -37,7 +37,7 @@ NearLamps::NearLamps(const Lights& lights, const Voxels& voxels) : lights_(light
 bool NearLamps::isNear(size_t lamp, size_t s) const {
   const FaceSlot& slot = voxels_.slots[s];
   const float h = voxels_.voxelSizeM;
-  return slot.areaM2 > kSmallest * h * h && lengthSquared(lights_.lamp(lamp).position - slot.position) < kNearVoxels * kNearVoxels * h * h;
+  return lengthSquared(lights_.lamp(lamp).position - slot.position) < kNearVoxels * kNearVoxels * h * h;
 }
 
 // Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.

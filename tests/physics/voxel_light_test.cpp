@@ -1,0 +1,127 @@
+// Light in voxels where voxels are coarser than what happens in them: beside lamps, at veils and at folded cloth.
+#include <gtest/gtest.h>
+
+#include "base/sampler.h"
+#include "base/sampling.h"
+#include "gather/cone_march.h"
+#include "support/rooms.h"
+#include "voxel/voxelise.h"
+
+namespace roomlight {
+namespace {
+
+struct Lit {
+  Voxelisation voxelisation;
+  RadianceField field;
+};
+
+Lit light(const Scene& scene, float voxelSizeM) {
+  const RayScene rays(scene);
+  const Lights lights(scene);
+  VoxelSettings voxel;
+  voxel.voxelSizeM = voxelSizeM;
+  Lit lit{voxelise(scene, voxel), {}};
+  lit.field = illuminate(rays, lights, lit.voxelisation.voxels, {});
+  return lit;
+}
+
+// Flux that all surfaces absorb, lm.
+double absorbed(const Lit& lit) {
+  double sum = 0;
+  for (size_t i = 0; i < lit.field.irradianceLux.size(); ++i) {
+    const FaceSlot& slot = lit.voxelisation.voxels.slots[i];
+    sum += static_cast<double>(luminance(lit.field.irradianceLux[i] * (Vec3(1) - slot.albedo))) * static_cast<double>(slot.areaM2);
+  }
+  return sum;
+}
+
+class LampBeforeAWall : public testing::TestWithParam<float> {};
+
+// What a lamp gives in a closed room ends in its walls, however close to one of them the lamp hangs.
+TEST_P(LampBeforeAWall, allItsFluxIsAbsorbed) {
+  Scene scene;
+  const int wall = test::addMaterial(scene, test::lambertian(0.5f));
+  test::addRoom(scene, {0, 0, 0}, {2.03f, 2.03f, 2.03f}, std::vector<int>(6, wall));
+  scene.lamps.push_back(test::pointLamp({GetParam(), 1.07f, 0.93f}, 100));
+  EXPECT_NEAR(absorbed(light(scene, 0.1f)), 400 * kPi, 0.02 * 400 * kPi);
+}
+INSTANTIATE_TEST_SUITE_P(Distances, LampBeforeAWall, testing::Values(0.005f, 0.03f, 0.15f, 1.0f));
+
+// A lamp in a closed lantern as thin as voxels: the room gets nothing, though cones of coarse voxels cut its edges.
+TEST(LampInACavity, conesSeeWhatComesOut) {
+  double seen = 0;
+  for (const float size : {0.05f, 0.08f, 0.11f}) {
+    Scene scene;
+    const int wall = test::addMaterial(scene, test::lambertian(0.5f)), black = test::addMaterial(scene, test::lambertian(0));
+    test::addRoom(scene, {0, 0, 0}, {2, 2, 2}, std::vector<int>(6, black));
+    Scene lantern;
+    test::addBox(lantern, Vec3(-0.5f * size), Vec3(0.5f * size), wall);
+    const float c = std::cos(0.4f), k = std::sin(0.4f);
+    for (Instance& i : lantern.instances) {
+      i.worldFromObject = Affine{{c, k, 0}, {-k, c, 0}, {0, 0, 1}, {1.013f, 1.021f, 1.007f}} * i.worldFromObject;
+      i.mesh += static_cast<int>(scene.meshes.size());
+    }
+    scene.instances.insert(scene.instances.end(), lantern.instances.begin(), lantern.instances.end());
+    scene.meshes.insert(scene.meshes.end(), lantern.meshes.begin(), lantern.meshes.end());
+    scene.lamps.push_back(test::pointLamp({1.013f, 1.021f, 1.007f}, 100));
+    const Lit lit = light(scene, 0.06f);
+    for (uint32_t i = 0; i < 8000; ++i) {
+      Sampler sampler(i, 0, 1);
+      const Vec2 u = sampler.next2();
+      const Vec3 from{2 * u.x, 2 * u.y, 0.002f}, to = Vec3{1.013f, 1.021f, 1.007f} + (Vec3{sampler.next1(), sampler.next1(), sampler.next1()} - Vec3(0.5f)) * (1.5f * size);
+      seen += static_cast<double>(luminance(marchCone(lit.field, {from, {0, 0, 1}}, normalize(to - from), {0.02f, 0}, 0).radiance)) / 24000;
+    }
+  }
+  // Inside it has some 100 000 cd/m².
+  EXPECT_LT(seen, 1);
+}
+
+// Half of the light passes a veil of opacity one half, whatever voxels its way crosses.
+TEST(Veil, passesItsShareOnce) {
+  Scene scene;
+  Material veil = test::lambertian(0.5f);
+  veil.alpha = 0.5f;
+  veil.alphaMode = AlphaMode::Blend;
+  test::addRectangle(scene, {0, 0, 0.03f}, {3, 0, 0.4f}, {0, 3, 0.3f}, test::addMaterial(scene, veil));
+  const Lit lit = light(scene, 0.07f);
+  double left = 0;
+  for (uint32_t i = 0; i < 2000; ++i) {
+    Sampler sampler(i, 0, 1);
+    const Vec2 u = sampler.next2();
+    const Vec3 d = sampleCosineHemisphere(sampler.next2());
+    const Vec3 target{1 + u.x, 1 + u.y, 0.03f + (1 + u.x) * 0.4f / 3 + (1 + u.y) * 0.1f};
+    left += static_cast<double>(marchCone(lit.field, {target - d, {0, 0, 1}}, d, {0.01f, 0}, 0).left) / 2000;
+  }
+  EXPECT_NEAR(left, 0.5, 0.03);
+}
+
+// Cloth folded more finely than voxels, lit from behind only: its front, which no light reaches, must not see its back.
+TEST(FoldedCloth, frontDoesNotSeeItsOwnBack) {
+  Scene scene;
+  const int cloth = test::addMaterial(scene, test::lambertian(0.8f));
+  constexpr float kFold = 0.05f, kDepth = 0.02f;
+  for (int i = 0; i < 40; ++i) {
+    const float x = kFold * static_cast<float>(i), z = i % 2 ? kDepth : 0;
+    test::addRectangle(scene, {x, 0, z}, {kFold, 0, i % 2 ? -kDepth : kDepth}, {0, 2, 0}, cloth);
+  }
+  const int black = test::addMaterial(scene, test::lambertian(0));
+  test::addRoom(scene, {0, 0, -2}, {2, 2, 2}, std::vector<int>(6, black));
+  scene.lamps.push_back(test::pointLamp({1, 1, -1}, 100));
+  const Lit lit = light(scene, 0.07f);
+  double seen = 0;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    Sampler sampler(i, 0, 1);
+    const Vec2 u = sampler.next2();
+    const float x = 0.5f + u.x, phase = x / kFold - std::floor(x / kFold);
+    const bool down = static_cast<int>(x / kFold) % 2 != 0;
+    const Vec3 p{x, 0.5f + u.y, kDepth * (down ? 1 - phase : phase)};
+    const Vec3 n = normalize(Vec3{down ? kDepth : -kDepth, 0, kFold});
+    const Vec3 d = Frame(n).toWorld(sampleCosineHemisphere(sampler.next2()));
+    seen += static_cast<double>(luminance(marchCone(lit.field, {p + n * 0.0035f, n}, d, {0.02f, 0}, 0).radiance)) / 4000;
+  }
+  // The back has 25 cd/m².
+  EXPECT_LT(seen, 0.5);
+}
+
+}  // namespace
+}  // namespace roomlight
