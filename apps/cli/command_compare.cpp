@@ -16,7 +16,7 @@ namespace roomlight::cli {
 namespace {
 
 struct Options {
-  std::string reference, picture, difference;
+  std::string reference, second, picture, difference;
   bool json = false;
 };
 
@@ -33,16 +33,18 @@ bool isPng(const std::string& file) {
 
 void print(const Report& r, const Options& o) {
   if (o.json) {
-    const nlohmann::ordered_json json = {{"mse", r.mse},
+    nlohmann::ordered_json json = {{"mse", r.mse},
                                          {"relMse", r.relMse},
                                          {"ssim", r.ssim},
                                          {"flip", r.flip},
                                          {"meanLuminanceErrorPercent", r.meanLuminanceErrorPercent},
                                          {"difference", o.difference}};
+    if (r.mseBeyondNoise) json["mseBeyondNoise"] = *r.mseBeyondNoise;
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return;
   }
   fmt::print("mse                        {:.6f}\n", r.mse);
+  if (r.mseBeyondNoise) fmt::print("mseBeyondNoise             {:.6f}\n", *r.mseBeyondNoise);
   fmt::print("relMse                     {:.6f}\n", r.relMse);
   fmt::print("ssim                       {:.4f}\n", r.ssim);
   fmt::print("flip                       {:.4f}\n", r.flip);
@@ -52,15 +54,19 @@ void print(const Report& r, const Options& o) {
 
 int runCompare(Options o) {
   if (o.difference.empty()) o.difference = o.picture + ".difference.png";
-  const Result<Image> reference = readImage(o.reference);
+  Result<Image> reference = readImage(o.reference);
   if (!reference) return bad(reference.error());
+  const Result<Image> second = o.second.empty() ? Result<Image>(Image{}) : readImage(o.second);
+  if (!second) return bad(second.error());
   const Result<Image> picture = readImage(o.picture);
   if (!picture) return bad(picture.error());
   if (isPng(o.reference) != isPng(o.picture)) {
     printWarnings({"one picture is linear and the other tone-mapped: the figures say little; compare two .exr"});
   }
-  const Result<Report> report = compare(reference.value(), picture.value());
+  const Result<Report> report =
+      o.second.empty() ? compare(reference.value(), picture.value()) : compare(reference.value(), second.value(), picture.value());
   if (!report) return bad(fmt::format("{}, {}: {}", o.reference, o.picture, report.error()));
+  if (!o.second.empty()) reference = meanOf(reference.value(), second.value());
   if (const Status s = checkWritable(o.difference); !s) return bad(s.error());
   const Status written = writePng(o.difference, differencePicture(reference.value(), picture.value()),
                                   {{"roomlight.reference", o.reference}, {"roomlight.picture", o.picture}});
@@ -76,11 +82,13 @@ Registered addCompare(CLI::App& program) {
   CLI::App* app = program.add_subcommand("compare", "Measure how far a picture is from a reference");
   app->add_option("REFERENCE", o->reference, "Picture taken as true: .exr, .hdr or .png")->required();
   app->add_option("PICTURE", o->picture, "Picture to judge, of the same size")->required();
+  app->add_option("--second", o->second, "A second reference with another seed; figures are against the mean of both");
   app->add_flag("--json", o->json, "Print JSON");
   app->add_option("--difference", o->difference, "Where the difference picture goes (default: PICTURE.difference.png)");
   app->footer(
       "mse: mean squared difference after one exposure for both, taken from the reference, clipped to 0-1 and encoded\n"
       "as sRGB. relMse: on linear values, relative to the reference. Both are 0 for equal pictures, ssim is 1.\n"
+      "mseBeyondNoise, with --second: mse without what the references' own noise adds to it.\n"
       "Example:\n"
       "  roomlight compare reference.exr cone.exr --json --difference difference.png");
   return {app, [o] { return runCompare(*o); }};

@@ -49,6 +49,15 @@ double meanSquaredError(const Image& a, const Image& b) {
   return sum / (3 * static_cast<double>(a.pixels.size()));
 }
 
+double productOfErrors(const Image& a, const Image& b, const Image& p) {
+  double sum = 0;
+  for (size_t i = 0; i < p.pixels.size(); ++i) {
+    const Vec3 product = (a.pixels[i] - p.pixels[i]) * (b.pixels[i] - p.pixels[i]);
+    for (int c = 0; c < 3; ++c) sum += static_cast<double>(product[c]);
+  }
+  return sum / (3 * static_cast<double>(p.pixels.size()));
+}
+
 double relativeMeanSquaredError(const Image& reference, const Image& picture, double meanLuminanceOfReference) {
   // Keeps dark pixels from ruling the mean: below a tenth of the mean luminance errors count as absolute.
   const double epsilon = 0.01 * meanLuminanceOfReference * meanLuminanceOfReference;
@@ -83,6 +92,22 @@ Result<Report> compare(const Image& reference, const Image& picture) {
   for (const float v : flip.values) report.flip += static_cast<double>(v);
   report.flip /= static_cast<double>(flip.values.size());
   report.meanLuminanceErrorPercent = 100 * (meanLuminance(picture) / report.referenceMeanLuminance - 1);
+  return report;
+}
+
+Image meanOf(const Image& a, const Image& b) {
+  assert(a.width == b.width && a.height == b.height);
+  Image mean = a;
+  for (size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] = (a.pixels[i] + b.pixels[i]) * 0.5f;
+  return mean;
+}
+
+Result<Report> compare(const Image& reference, const Image& second, const Image& picture) {
+  if (Status s = checkPair(reference, second); !s.ok()) return Error{s.error()};
+  Result<Report> report = compare(meanOf(reference, second), picture);
+  if (!report) return report;
+  const auto seen = [&](const Image& image) { return toneMap(image, report.value().ev100, ToneCurve::Clip); };
+  report.value().mseBeyondNoise = productOfErrors(seen(reference), seen(second), seen(picture));
   return report;
 }
 

@@ -1,6 +1,8 @@
 // How far a picture is from a reference of the same view: error measures and a picture of the difference.
 #pragma once
 
+#include <optional>
+
 #include "base/image.h"
 #include "base/result.h"
 
@@ -16,11 +18,18 @@ struct Report {
   double meanLuminanceErrorPercent = 0;  // 100 (mean luminance of picture / that of reference - 1); signed
   double referenceMeanLuminance = 0;     // in the unit of the pictures, cd/m²
   float ev100 = 0;                       // the exposure used
+  // With two references: what mse would be without their noise. With a and b independent, the mean of (a - p)(b - p) is free of
+  // both variances. May be slightly negative.
+  std::optional<double> mseBeyondNoise;
 };
 
 // Errors: sizes differ, no pixels, a value that is not finite (says which pixel), a black reference.
 // Cost: about 0.3 s for a million pixels on two cores, nearly all of it FLIP.
 Result<Report> compare(const Image& reference, const Image& picture);
+
+// Against the mean of two references of the same view that were rendered independently (other seeds, equal effort).
+Result<Report> compare(const Image& reference, const Image& second, const Image& picture);
+Image meanOf(const Image& a, const Image& b);  // of equal size
 
 // Where the picture is too bright (red) or too dark (blue), display-encoded: mid-grey is equal; full colour is a
 // difference of 0.25 in encoded luma. For pairs that compare() accepts.

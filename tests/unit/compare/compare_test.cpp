@@ -52,6 +52,20 @@ TEST(Compare, mseIsThatOfTheEncodedPicturesUnderTheReferencesExposure) {
   EXPECT_NEAR(compare(a, b).value().mse, d * d, 1e-6);
 }
 
+TEST(Compare, twoReferencesTellTheirNoiseFromThePicturesError) {
+  const Image truth = gradient(160, 120), picture = scaled(truth, 1.1f);
+  Image other = truth;
+  for (size_t i = 0; i < other.pixels.size(); ++i) {
+    Rng rng(i, 1, 10);
+    other.pixels[i] *= 1 + 0.15f * (2 * rng.uniform() - 1);
+  }
+  const double exact = compare(truth, picture).value().mse;
+  const Report r = compare(noisy(truth, 0.15f), other, picture).value();
+  EXPECT_GT(r.mse, 1.2 * exact);
+  EXPECT_NEAR(r.mseBeyondNoise.value(), exact, 0.1 * exact);
+  EXPECT_FALSE(compare(truth, gradient(8, 8), picture).ok());
+}
+
 TEST(Compare, mseDoesNotDependOnTheUnitOfTheScene) {
   const Image a = gradient(), b = noisy(a, 0.2f);
   EXPECT_NEAR(compare(a, b).value().mse, compare(scaled(a, 1000), scaled(b, 1000)).value().mse, 1e-7);
