@@ -52,6 +52,8 @@ class Sampler {
     const uint32_t key = nextKey();
     return toUnit(scrambleFirst(firstOf(key), key));
   }
+  // Without stratification, for what would use up the good dimensions.
+  float fast1() { return rng_.uniform(); }
 
  private:
   static constexpr uint32_t kStratifiedPairs = 24;

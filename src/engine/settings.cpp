@@ -34,6 +34,7 @@ void visitMembers(Visitor& v, Settings& s) {
   v.number("noiseLevel", s.noiseLevel, 0, 1);
   v.number("seed", s.seed, 0, std::numeric_limits<uint64_t>::max());
   v.number("threads", s.threads, 0, 1024);
+  v.group("path", [&](auto& g) { g.flag("lightPaths", s.path.lightPaths); });
   v.group("voxel", [&](auto& g) {
     g.number("voxelSizeM", s.voxel.voxelSizeM, 0, 10);
     g.number("memoryBudgetMiB", s.voxel.memoryBudgetMiB, 1, 1e6);
@@ -79,6 +80,7 @@ class Writer {
   void number(const char* name, const T& value, L, H) {
     json[name] = tidy(value);
   }
+  void flag(const char* name, bool value) { json[name] = value; }
   template <class T, size_t N>
   void choice(const char* name, const T& value, const Choice<T> (&choices)[N]) {
     for (const Choice<T>& c : choices) {
@@ -107,6 +109,7 @@ class RangeCheck {
       error = outOfRange(path_ + name, static_cast<T>(low), static_cast<T>(high));
     }
   }
+  void flag(const char*, bool) {}
   template <class T, size_t N>
   void choice(const char*, const T&, const Choice<T> (&)[N]) {}
   void color(const char* name, Vec3 value, double high) {
@@ -152,6 +155,12 @@ class Reader {
       if (!(v >= static_cast<T>(low) && v <= static_cast<T>(high))) return range<T>(name, low, high);
       value = v;
     }
+  }
+  void flag(const char* name, bool& value) {
+    const Json* j = find(name);
+    if (!j) return;
+    if (!j->is_boolean()) return fail(name, "must be true or false");
+    value = j->get<bool>();
   }
   template <class T, size_t N>
   void choice(const char* name, T& value, const Choice<T> (&choices)[N]) {

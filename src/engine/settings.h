@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "gather/cone_gather.h"
 #include "radiance/radiance_field.h"
+#include "reference/path_tracer.h"
 #include "voxel/voxelise.h"
 
 namespace roomlight {
@@ -21,6 +22,7 @@ struct RenderSettings {
   double noiseLevel = 0;   // technique "path": stop when the mean relative standard error is below this; 0: never
   uint64_t seed = 0;
   int threads = 0;         // 0: all cores
+  PathSettings path;          // technique "path"; size, samples, limits and seed are those above
   VoxelSettings voxel;        // technique "cone", like the two below
   RadianceSettings radiance;  // its seed is the one above
   GatherSettings gather;      // size, samples, time limit and seed are those above

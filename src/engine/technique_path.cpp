@@ -19,6 +19,7 @@ Image renderPath(const Scene& scene, const Camera& camera, const RenderSettings&
   path.samples = settings.samples > 0 ? settings.samples : endsOtherwise ? kNoLimit : kDefaultSamples;
   path.timeLimitS = settings.timeLimitS;
   path.noiseLevel = settings.noiseLevel;
+  path.lightPaths = settings.path.lightPaths;
   path.seed = settings.seed;
   PathResult result = stages.run("path", [&](const Progress& p) { return pathTrace(rays, lights, camera, path, p); });
   stages.number("samples", result.samples);

@@ -32,6 +32,9 @@ Vec3 discRadiance(const Sun& sun) {
   return sun.illuminanceLux / (kPi * s * s);
 }
 
+// The cone that holds all light of a lamp.
+float lampOneMinusCos(const Lamp& lamp) { return lamp.kind == LampKind::Point ? 2 : std::clamp(1 - std::cos(lamp.outerConeRad), 1e-6f, 2.0f); }
+
 }  // namespace
 
 Vec3 lampIntensity(const Lamp& lamp, Vec3 direction) {
@@ -43,6 +46,9 @@ Lights::Lights(const Scene& scene) : scene_(scene), suns_(scene.suns), sky_(scen
   for (const Lamp& lamp : scene.lamps) {
     if (lamp.kind != LampKind::Area && !isBlack(lamp.intensityCd)) lamps_.push_back(lamp);
   }
+  float flux = 0;
+  for (const Lamp& lamp : lamps_) flux += lampShare_.emplace_back(luminance(lamp.intensityCd) * lampOneMinusCos(lamp));
+  for (float& share : lampShare_) share /= flux;
   std::erase_if(suns_, [](const Sun& sun) { return isBlack(sun.illuminanceLux); });
   emitterOfInstance_.assign(scene.instances.size(), -1);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) addEmitter(i);
@@ -109,6 +115,30 @@ LightSample Lights::sampleLamp(size_t index, Vec3 p) const {
   s.wi = d / s.distance;
   s.radiance = lampIntensity(lamp, -s.wi) / (s.distance * s.distance);
   return s;
+}
+
+LampRay Lights::sampleLampRay(float choice, Vec2 u) const {
+  size_t i = 0;
+  for (; i + 1 < lamps_.size() && choice >= lampShare_[i]; ++i) choice -= lampShare_[i];
+  const Lamp& lamp = lamps_[i];
+  const float spread = lampOneMinusCos(lamp);
+  LampRay ray;
+  ray.origin = lamp.position;
+  ray.direction = lamp.kind == LampKind::Point ? sampleSphere(u) : Frame(lamp.direction).toWorld(sampleCone(u, spread));
+  ray.fluxLm = lampIntensity(lamp, ray.direction) / (conePdf(spread) * lampShare_[i]);
+  return ray;
+}
+
+float Lights::lampDensity(Vec3 p, Vec3 n) const {
+  float density = 0;
+  for (size_t i = 0; i < lamps_.size(); ++i) {
+    const Vec3 d = lamps_[i].position - p;
+    const float d2 = std::max(lengthSquared(d), 1e-8f), cosine = dot(n, d);
+    if (cosine <= 0) continue;
+    const float l = std::sqrt(d2), spread = lampOneMinusCos(lamps_[i]);
+    if (lamps_[i].kind == LampKind::Point || -dot(lamps_[i].direction, d) > (1 - spread) * l) density += lampShare_[i] * conePdf(spread) * cosine / (d2 * l);
+  }
+  return density;
 }
 
 LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {

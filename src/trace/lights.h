@@ -18,6 +18,12 @@ struct LightSample {
   bool valid() const { return !isBlack(radiance); }
 };
 
+// A ray that leaves a point or spot lamp.
+struct LampRay {
+  Vec3 origin, direction;
+  Vec3 fluxLm;  // intensity / density: all lamps' light, if this were the only ray
+};
+
 class Lights {
  public:
   explicit Lights(const Scene& scene);
@@ -32,6 +38,10 @@ class Lights {
   LightSample sampleLamp(size_t index, Vec3 p) const;
   // One of them, chosen by what each could give at p without shadows.
   LightSample sampleLamps(Vec3 p, float choice) const;
+  // Rays leave the lamps in proportion to their flux, evenly over the sphere or the spot's cone.
+  LampRay sampleLampRay(float choice, Vec2 u) const;
+  // Such rays per m² of a surface element at p with normal n, of all rays, if nothing stands between.
+  float lampDensity(Vec3 p, Vec3 n) const;
   // One sample among emissive meshes only, and its density.
   LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
   float pdfEmitters(Vec3 p, const SurfacePoint& q) const;
@@ -45,6 +55,7 @@ class Lights {
   LightSample sampleSky(Vec2 u) const;
 
   bool hasLocal() const { return !lamps_.empty() || !emitters_.empty(); }
+  bool lampsOnly() const { return emitters_.empty() && suns_.empty() && !sky_.present(); }
   bool hasEmitters() const { return !emitters_.empty(); }
   double emittedFluxLm() const { return emitterFluxLm_; }  // of emissive meshes
 
@@ -72,6 +83,7 @@ class Lights {
 
   const Scene& scene_;
   std::vector<Lamp> lamps_;
+  std::vector<float> lampShare_;  // of all rays from lamps
   std::vector<Sun> suns_;
   std::vector<Emitter> emitters_;
   std::vector<int32_t> emitterOfInstance_;

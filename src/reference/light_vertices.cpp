@@ -1,0 +1,85 @@
+#include "reference/light_vertices.h"
+
+#include "base/parallel.h"
+#include "base/sampler.h"
+
+namespace roomlight {
+namespace {
+
+constexpr size_t kPathsAtOnce = 256;
+constexpr int kLongestPath = 4096;
+// Keeps the random numbers of light paths apart from those of pixels.
+constexpr uint64_t kFirstKey = uint64_t{1} << 40;
+
+}  // namespace
+
+void LightVertices::trace(int paths, uint32_t pass, uint64_t seed) {
+  const auto count = static_cast<size_t>(paths);
+  struct Part {
+    std::vector<LightVertex> vertices;
+    uint64_t rays = 0;
+  };
+  std::vector<Part> parts((count + kPathsAtOnce - 1) / kPathsAtOnce);
+  parallelFor(parts.size(), 1, [&](size_t k) {
+    for (size_t i = k * kPathsAtOnce; i < std::min(count, (k + 1) * kPathsAtOnce); ++i) {
+      follow(i, 1 / static_cast<float>(paths), pass, seed, parts[k].vertices, parts[k].rays);
+    }
+  });
+  all_.clear();
+  for (const Part& part : parts) {
+    all_.insert(all_.end(), part.vertices.begin(), part.vertices.end());
+    rayCount_ += part.rays;
+  }
+}
+
+void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t seed, std::vector<LightVertex>& out, uint64_t& rayCount) const {
+  Sampler sampler(kFirstKey + path, pass, seed);
+  const float choice = sampler.next1();
+  const LampRay start = lights_.sampleLampRay(choice, sampler.next2());
+  Ray ray{start.origin, start.direction, 0, kInfinity};
+  Vec3 flux = start.fluxLm * share;
+  for (int length = 0; length < kLongestPath && !isBlack(flux); ++length) {
+    const Hit hit = rays_.intersect(ray);
+    ++rayCount;
+    if (!hit.valid()) return;
+    const Scene& scene = rays_.scene();
+    const SurfacePoint s = surfaceAt(scene, hit, ray.direction);
+    const Vec3 wi = -ray.direction;
+    const Bsdf bsdf(s.m, s.ns, s.ng, wi);
+    if (LightVertices::connects(bsdf)) {
+      const Vec3 scattered = flux * s.m.alpha;
+      out.push_back({hit, s.p, s.ng, s.ns, wi, scattered, luminance(scattered * bsdf.diffuseAlbedo()), luminance(scattered * bsdf.specularAlbedo()),
+                     bsdf.alpha(), lights_.lampDensity(s.p, s.ng)});
+    }
+    // Thin glass and blended alpha, as for paths from the camera.
+    if (s.m.alpha < 1 || s.m.transmission > 0) {
+      const Vec3 through = straightTransmittance(*s.material, s.m, dot(s.ns, wi));
+      const float t = luminance(through), r = luminance(bsdf.albedo()) * s.m.alpha;
+      const float chance = t + r > 0 ? t / (t + r) : 1;
+      if (sampler.next1() < chance) {
+        flux *= through / chance;
+        ray.origin = offsetOrigin(s.p, -s.ng);
+        continue;
+      }
+      flux *= s.m.alpha / (1 - chance);
+    }
+    // Russian roulette by albedo, from the first vertex on.
+    const float q = std::min(maxComponent(bsdf.albedo()), 0.98f);
+    if (sampler.next1() >= q) return;
+    flux *= 1 / q;
+    const Vec2 u = sampler.next2();
+    const BsdfSample next = bsdf.sample(u, sampler.next1());
+    if (!next.valid() || dot(next.wi, s.ng) <= 0) return;
+    if (next.mirror) {
+      flux *= next.weight;
+    } else {
+      // What a path coming the other way would find here: flux spreads by the true surface, scattering sees the shading normal.
+      const SurfacePoint back = surfaceAt(scene, hit, -next.wi);
+      const Vec3 f = Bsdf(back.m, back.ns, back.ng, next.wi).evaluate(wi);
+      flux *= f * (dot(s.ng, next.wi) / (std::max(dot(s.ng, wi), 1e-6f) * next.pdf));
+    }
+    ray = {offsetOrigin(s.p, s.ng), next.wi, 0, kInfinity};
+  }
+}
+
+}  // namespace roomlight

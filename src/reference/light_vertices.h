@@ -1,0 +1,64 @@
+// Where light of point and spot lamps goes first: the vertices of paths that start in the lamps, for paths from the camera
+// to connect to (Keller 1997; vertices pooled as by Davidovič et al. 2014). A lamp inside its shade lights a spot of a few
+// centimetres that rays from the room find by chance; paths from the lamp always do.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "trace/bsdf.h"
+#include "trace/lights.h"
+#include "trace/ray_scene.h"
+
+namespace roomlight {
+
+struct LightVertex {
+  Hit hit;
+  Vec3 p, ng, ns;        // normals on the side the light came from
+  Vec3 wi;               // unit, towards where the light came from
+  Vec3 flux;             // lm that arrive here and stand for this path's share of all paths
+  float diffuseLm = 0, glossyLm = 0;  // of flux times albedo, by lobe: what is worth connecting to
+  float alpha = 1;       // of the glossy lobe
+  float densityM2 = 0;   // lampDensity() here
+
+  // About the intensity towards wo, cd; for choosing among vertices. Never zero where light goes.
+  float estimateCd(Vec3 wo) const {
+    const float cosO = std::max(dot(wo, ng), 0.0f);
+    float cd = diffuseLm * cosO / kPi;
+    if (glossyLm > 0) cd += glossyLm * ggxD(dot(normalize(wo + wi), ns), alpha) / (4 * std::max(dot(wi, ng), cosO));
+    return cd;
+  }
+};
+
+class LightVertices {
+ public:
+  LightVertices(const RayScene& rays, const Lights& lights) : rays_(rays), lights_(lights) {}
+
+  // Traces `paths` of them anew; the same for any number of threads.
+  void trace(int paths, uint32_t pass, uint64_t seed);
+
+  const std::vector<LightVertex>& all() const { return all_; }
+  uint64_t rayCount() const { return rayCount_; }  // traced so far
+
+  // Can light that z scatters be had by connecting to z? Not where a lobe is so narrow that connections miss it.
+  static bool connects(const Bsdf& z) { return z.alpha() >= 0.05f; }
+  // Light from z to x is shared between the path that scattered at x and found z, and connections from x: this is the
+  // connections' part, by the densities per area of z with which either finds it. Any function of x and z would do.
+  static float share(float pdfAtX, Vec3 x, Vec3 z, Vec3 ngZ, float densityM2) {
+    const Vec3 d = z - x;
+    const float d2 = lengthSquared(d);
+    const float byPath = pdfAtX * std::abs(dot(ngZ, d)) / std::max(d2 * std::sqrt(d2), 1e-18f);
+    const float l = densityM2 * densityM2, c = byPath * byPath;
+    return l > 0 ? l / (l + c) : 0;
+  }
+
+ private:
+  void follow(uint64_t path, float share, uint32_t pass, uint64_t seed, std::vector<LightVertex>& out, uint64_t& rayCount) const;
+
+  const RayScene& rays_;
+  const Lights& lights_;
+  std::vector<LightVertex> all_;
+  uint64_t rayCount_ = 0;
+};
+
+}  // namespace roomlight

@@ -1,0 +1,192 @@
+#include "reference/path_walk.h"
+
+#include "base/sampling.h"
+
+namespace roomlight {
+namespace {
+
+// Paths longer than this are not physics but a loop between perfect mirrors; at albedo 0.95 the chance to get here is e-13.
+constexpr int kLongestPath = 4096;
+// Of so many vertices of light paths one is connected to, chosen by what it could give without shadows.
+constexpr int kCandidates = 4;
+
+}  // namespace
+
+struct PathWalk::State {
+  Ray ray;
+  Vec3 throughput{1, 1, 1};
+  Vec3 lastPoint;          // where the ray was scattered last, for the density of light sampling there
+  float lastPdf = 0;       // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
+  float lampShare = 1;     // of light from lamps: what connections at earlier vertices have left to this path
+
+  // Russian roulette by throughput from the third scattering on.
+  bool survives(int scattered, float share, Sampler& sampler) {
+    const float best = maxComponent(throughput) * share;
+    if (!(best > 0)) return false;
+    if (scattered < 3) return true;
+    const float q = std::min(best, 0.98f);
+    if (sampler.next1() >= q) return false;
+    throughput *= 1 / q;
+    return true;
+  }
+};
+
+Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount) const {
+  State path;
+  path.ray = ray;
+  return follow(path, sampler, rayCount);
+}
+
+// Pi times what an ideal white Lambertian patch there would reflect.
+Vec3 PathWalk::illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const {
+  SurfacePoint s;
+  s.p = p;
+  s.ng = s.ns = n;
+  s.m.baseColor = Vec3(1);
+  const Bsdf bsdf(s.m, n, n, n);
+  Vec3 sum = direct(s, bsdf, 1, sampler, rayCount);
+  const BsdfSample next = bsdf.sample(sampler.next2(), sampler.next1());
+  if (next.valid()) {
+    State path;
+    path.ray = {offsetOrigin(p, n), next.wi, 0, kInfinity};
+    path.throughput = next.weight;
+    path.lastPoint = p;
+    path.lastPdf = next.pdf;
+    sum += follow(path, sampler, rayCount);
+  }
+  return sum * kPi;
+}
+
+Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
+  Vec3 sum;
+  int scattered = 0;
+  for (int length = 0; length < kLongestPath; ++length) {
+    const Hit hit = rays_.intersect(path.ray);
+    ++rayCount;
+    if (!hit.valid()) {
+      sum += path.throughput * escaped(path);
+      break;
+    }
+    const SurfacePoint s = surfaceAt(scene_, hit, path.ray.direction);
+    if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
+      const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, lights_.pdfLocal(path.lastPoint, s)) : 1;
+      sum += path.throughput * emitted * w;
+    }
+    const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
+    float lampShare = path.lampShare;
+    if (vertices_ && path.lastPdf > 0 && LightVertices::connects(bsdf)) {
+      lampShare *= 1 - LightVertices::share(path.lastPdf, path.lastPoint, s.p, s.ng, lights_.lampDensity(s.p, s.ng));
+    }
+    // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
+    Vec3 here = direct(s, bsdf, lampShare, sampler, rayCount);
+    if (vertices_ && !bsdf.isMirror()) here += connected(s, bsdf, sampler, rayCount) * lampShare;
+    sum += path.throughput * here * s.m.alpha;
+    if (passThrough(path, s, bsdf, sampler)) continue;
+
+    const BsdfSample next = bsdf.sample(sampler.next2(), sampler.next1());
+    if (!next.valid() || dot(next.wi, s.ng) <= 0) break;
+    path.throughput *= next.weight;
+    path.lastPdf = next.mirror ? 0 : next.pdf;
+    path.lastPoint = s.p;
+    path.ray = {offsetOrigin(s.p, s.ng), next.wi, 0, kInfinity};
+    path.lampShare = lampShare;
+    if (!path.survives(++scattered, lights_.lampsOnly() ? lampShare : 1, sampler)) break;
+  }
+  return sum;
+}
+
+// Sky and sun discs along a ray that left the scene, weighted against having sampled them directly.
+Vec3 PathWalk::escaped(const State& path) const {
+  const Vec3 d = path.ray.direction;
+  Vec3 sum;
+  if (lights_.sky().present()) {
+    const float w = path.lastPdf > 0 && lights_.sky().sampled() ? misWeight(path.lastPdf, lights_.sky().pdf(d)) : 1;
+    sum += lights_.sky().radiance(d) * w;
+  }
+  for (size_t i = 0; i < lights_.sunCount(); ++i) {
+    float pdf;
+    const Vec3 disc = lights_.sunDisc(i, d, pdf);
+    if (pdf > 0) sum += disc * (path.lastPdf > 0 ? misWeight(path.lastPdf, pdf) : 1);
+  }
+  return sum;
+}
+
+// Thin glass and blended alpha: with a chance equal to what goes straight through, the ray goes on as if nothing had
+// scattered it, so light sampling at the last point (which sees through glass too) keeps its weights.
+bool PathWalk::passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler) const {
+  if (s.m.alpha >= 1 && s.m.transmission <= 0) return false;
+  const Vec3 through = straightTransmittance(*s.material, s.m, -dot(s.ns, path.ray.direction));
+  const float t = luminance(through), r = luminance(bsdf.albedo()) * s.m.alpha;
+  const float chance = t + r > 0 ? t / (t + r) : 1;
+  if (sampler.next1() < chance) {
+    path.throughput *= through / chance;
+    path.ray.origin = offsetOrigin(s.p, -s.ng);
+    path.ray.tMin = 0;
+    return true;
+  }
+  path.throughput *= s.m.alpha / (1 - chance);
+  return false;
+}
+
+Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount) const {
+  if (!light.valid()) return {};
+  Vec3 f = bsdf.evaluate(light.wi);
+  if (isBlack(f)) return {};
+  if (light.pdf > 0) f *= misWeight(light.pdf, bsdf.pdf(light.wi));
+  const float tMax = light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity;
+  ++rayCount;
+  return f * light.radiance * rays_.transmittance({offsetOrigin(s.p, s.ng), light.wi, 0, tMax});
+}
+
+Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount) const {
+  Vec3 sum;
+  if (lights_.hasLocal()) {
+    const Vec2 u = sampler.next2();
+    const LightSample light = lights_.sampleLocal(s.p, u, sampler.next1());
+    sum += contribution(s, bsdf, light, rayCount) * (light.pdf > 0 ? 1 : lampShare);
+  }
+  for (size_t i = 0; i < lights_.sunCount(); ++i) {
+    sum += contribution(s, bsdf, lights_.sampleSun(i, sampler.next2()), rayCount);
+  }
+  if (lights_.sky().sampled()) sum += contribution(s, bsdf, lights_.sampleSky(sampler.next2()), rayCount);
+  return sum;
+}
+
+// Light that reaches s from one vertex of a light path, times the part of it that is had by connections. The vertex is one
+// of a few candidates, resampled in proportion to an estimate of its light (Talbot, Cline & Egbert 2005).
+Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler, uint64_t& rayCount) const {
+  const std::vector<LightVertex>& all = vertices_->all();
+  const LightVertex* chosen = nullptr;
+  float chosenWeight = 0, chosenShare = 0, total = 0;
+  for (int i = 0; i < kCandidates; ++i) {
+    const LightVertex& v = all[std::min(static_cast<size_t>(sampler.fast1() * static_cast<float>(all.size())), all.size() - 1)];
+    const float u = sampler.fast1();
+    const Vec3 d = v.p - s.p;
+    const float d2 = lengthSquared(d), cosX = dot(d, s.ns), cosZ = -dot(d, v.ng);
+    if (cosX <= 0 || cosZ <= 0 || dot(d, s.ng) <= 0) continue;
+    const Vec3 towards = d / std::sqrt(d2);
+    const float pdf = bsdf.pdf(towards);
+    const float share = LightVertices::share(pdf, s.p, v.p, v.ng, v.densityM2);
+    const float weight = v.estimateCd(-towards) * pdf / d2 * share;
+    if (!(weight > 0)) continue;
+    total += weight;
+    if (u * total < weight) chosen = &v, chosenWeight = weight, chosenShare = share;
+  }
+  if (!chosen) return {};
+  const Vec3 from = offsetOrigin(s.p, s.ng), d = offsetOrigin(chosen->p, chosen->ng) - from;
+  const Vec3 exact = chosen->p - s.p, wi = normalize(exact);
+  const Vec3 f = bsdf.evaluate(wi);
+  if (isBlack(f)) return {};
+  const SurfacePoint z = surfaceAt(scene_, chosen->hit, wi);
+  // Radiance from z per flux: scattering with the cosine to the shading normal, of flux that came by the true one.
+  const Vec3 fz = Bsdf(z.m, z.ns, z.ng, -wi).evaluate(chosen->wi) / std::max(dot(z.ng, chosen->wi), 1e-6f);
+  if (isBlack(fz)) return {};
+  ++rayCount;
+  // To just short of z; an end further from it would let light through the corners of closed shades.
+  const Vec3 left = rays_.transmittance({from, d, 0, 1 - 1e-6f});
+  const float toArea = -dot(z.ng, wi) / lengthSquared(exact);
+  const float pick = static_cast<float>(all.size()) * total / (chosenWeight * kCandidates);
+  return f * fz * chosen->flux * left * (toArea * chosenShare * pick);
+}
+
+}  // namespace roomlight

@@ -1,0 +1,35 @@
+// One path from the camera, or from a light meter, to where it ends, with light sampled at every vertex.
+#pragma once
+
+#include "base/sampler.h"
+#include "reference/light_vertices.h"
+
+namespace roomlight {
+
+class PathWalk {
+ public:
+  // vertices: of light paths to connect to, or null.
+  PathWalk(const RayScene& rays, const Lights& lights, const LightVertices* vertices = nullptr)
+      : rays_(rays), lights_(lights), scene_(rays.scene()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr) {}
+
+  // Towards the ray's origin, cd/m².
+  Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount) const;
+  // On a surface element, lux.
+  Vec3 illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const;
+
+ private:
+  struct State;
+  Vec3 follow(State& path, Sampler& sampler, uint64_t& rayCount) const;
+  Vec3 escaped(const State& path) const;
+  bool passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler) const;
+  Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount) const;
+  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount) const;
+  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler, uint64_t& rayCount) const;
+
+  const RayScene& rays_;
+  const Lights& lights_;
+  const Scene& scene_;
+  const LightVertices* vertices_;
+};
+
+}  // namespace roomlight

@@ -1,0 +1,152 @@
+#include "reference/light_vertices.h"
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "reference/path_tracer.h"
+#include "support/rooms.h"
+
+namespace roomlight {
+namespace {
+
+// A room of 4 x 3 x 4 m.
+Scene room(const Material& walls) {
+  Scene scene;
+  test::addRoom(scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, test::addMaterial(scene, walls)));
+  return scene;
+}
+
+// A lamp in a shade of this size in metres, at this part of its width, with a pane of thin glass under it.
+Scene shadedLamp(const Material& shade, float place = 0.9f, float size = 0.3f) {
+  Scene scene = room(test::lambertian(0.6f));
+  const int s = test::addMaterial(scene, shade);
+  const Vec3 lo{1.6f, 1.8f, 1.2f}, x{size, 0, 0}, y{0, size, 0}, z{0, 0, size};
+  test::addRectangle(scene, lo, y, z, s);
+  test::addRectangle(scene, lo + x, z, y, s);
+  test::addRectangle(scene, lo, x, y, s);
+  test::addRectangle(scene, lo + z, y, x, s);
+  test::addRectangle(scene, lo + y, x, z, s);
+  Material glass;
+  glass.transmission = 1;
+  glass.metallic = 0;
+  glass.roughness = 0.4f;
+  test::addRectangle(scene, lo, x, z, test::addMaterial(scene, glass));
+  scene.lamps.push_back(test::pointLamp(lo + x * place + y * 0.5f + z * 0.5f, 100));
+  return scene;
+}
+
+PathResult render(const Scene& scene, int samples, bool lightPaths) {
+  const RayScene rays(scene);
+  const Lights lights(scene);
+  Camera camera;
+  camera.worldFromCamera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 1.4f, 3.9f}};
+  camera.yFovRad = 1.2f;
+  PathSettings settings;
+  settings.width = settings.height = 20;
+  settings.samples = samples;
+  settings.lightPaths = lightPaths;
+  return pathTrace(rays, lights, camera, settings);
+}
+
+double meanLuminance(const Image& image) {
+  double sum = 0;
+  for (const Vec3 p : image.pixels) sum += luminance(p);
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+// Of the mean luminance.
+double standardError(const PathResult& result) {
+  double sum = 0;
+  for (const Vec3 v : result.variance.pixels) sum += luminance(v);
+  return std::sqrt(sum) / static_cast<double>(result.variance.pixels.size());
+}
+
+TEST(LightVertices, FirstVerticesHoldAllTheLampsLight) {
+  Scene scene = room(test::lambertian(0));
+  scene.lamps.push_back(test::pointLamp({1, 2, 1}, 50));
+  scene.lamps.push_back(test::pointLamp({3, 1, 2}, 10));
+  Lamp spot = test::pointLamp({2, 2.5f, 2}, 200);
+  spot.kind = LampKind::Spot;
+  spot.direction = {0, -1, 0};
+  spot.innerConeRad = spot.outerConeRad = 0.5f;
+  scene.lamps.push_back(spot);
+  const RayScene rays(scene);
+  const Lights lights(scene);
+  LightVertices vertices(rays, lights);
+  vertices.trace(100000, 0, 1);
+  double lumens = 0;
+  for (const LightVertex& v : vertices.all()) lumens += luminance(v.flux);
+  const double expected = 4 * kPi * 60 + 2 * kPi * (1 - std::cos(0.5f)) * 200;
+  EXPECT_NEAR(lumens, expected, 0.01 * expected);
+}
+
+TEST(LightVertices, LieAsDenselyAsPredicted) {
+  Scene scene = room(test::lambertian(0));
+  scene.lamps.push_back(test::pointLamp({1, 0.5f, 1}, 50));
+  scene.lamps.push_back(test::pointLamp({3, 2, 2}, 20));
+  const RayScene rays(scene);
+  const Lights lights(scene);
+  LightVertices vertices(rays, lights);
+  const int paths = 400000;
+  vertices.trace(paths, 0, 3);
+  // The floor in half metres.
+  double counts[8][8] = {}, chi2 = 0;
+  for (const LightVertex& v : vertices.all()) {
+    if (v.p.y < 1e-3f && v.ng.y > 0.9f) counts[std::min(7, static_cast<int>(v.p.z * 2))][std::min(7, static_cast<int>(v.p.x * 2))] += 1;
+  }
+  for (int j = 0; j < 8; ++j) {
+    for (int i = 0; i < 8; ++i) {
+      double expected = 0;
+      for (int k = 0; k < 400; ++k) {
+        const float x = 0.5f * (static_cast<float>(i) + (static_cast<float>(k % 20) + 0.5f) / 20), z = 0.5f * (static_cast<float>(j) + (static_cast<float>(k / 20) + 0.5f) / 20);
+        expected += lights.lampDensity({x, 0, z}, {0, 1, 0}) * 0.25 / 400 * paths;
+      }
+      chi2 += (counts[j][i] - expected) * (counts[j][i] - expected) / expected;
+    }
+  }
+  EXPECT_LT(chi2, 104);  // 64 degrees of freedom, chance of more 0.001
+}
+
+TEST(PathTracer, ClosedShadeLetsNoLightOut) {
+  Scene scene = room(test::lambertian(0.6f));
+  test::addRoom(scene, {1.6f, 1.8f, 1.2f}, {1.9f, 2.1f, 1.5f}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(0.7f))));
+  scene.lamps.push_back(test::pointLamp({1.87f, 1.95f, 1.35f}, 100));
+  EXPECT_LT(meanLuminance(render(scene, 64, true).image), 1e-3);
+}
+
+class Shade : public testing::TestWithParam<std::tuple<float, float>> {};
+
+TEST_P(Shade, MeanIsThatOfPathsWithoutConnections) {
+  const auto [roughness, metallic] = GetParam();
+  Material shade = test::lambertian(0.7f);
+  shade.roughness = roughness;
+  shade.metallic = metallic;
+  const Scene scene = shadedLamp(shade);
+  const PathResult plain = render(scene, 1024, false), connected = render(scene, 256, true);
+  const double sigma = std::hypot(standardError(plain), standardError(connected));
+  EXPECT_LT(standardError(connected), standardError(plain));
+  EXPECT_NEAR(meanLuminance(connected.image), meanLuminance(plain.image), 3.5 * sigma) << sigma;
+}
+INSTANTIATE_TEST_SUITE_P(Materials, Shade, testing::Values(std::tuple{1.0f, 0.0f}, std::tuple{0.35f, 1.0f}, std::tuple{0.25f, 1.0f}));
+
+TEST(PathTracer, ConnectionsKeepTheMeanWithinOnePercent) {
+  const Scene scene = shadedLamp(test::lambertian(0.5f), 0.5f, 1);
+  const double m = meanLuminance(render(scene, 4096, false).image);
+  EXPECT_NEAR(meanLuminance(render(scene, 1024, true).image), m, 0.01 * m);
+}
+
+TEST(PathTracer, ConnectionsLowerTheNoiseOfAShadedLamp) {
+  const Scene scene = shadedLamp(test::lambertian(0.7f));
+  EXPECT_LT(render(scene, 64, true).noise, 0.6 * render(scene, 64, false).noise);
+}
+
+TEST(PathTracer, PictureDoesNotDependOnThreads) {
+  const Scene scene = shadedLamp(test::lambertian(0.7f));
+  Image one, two;
+  withThreads(1, [&] { one = render(scene, 4, true).image; });
+  withThreads(2, [&] { two = render(scene, 4, true).image; });
+  for (size_t i = 0; i < one.pixels.size(); ++i) ASSERT_TRUE(one.pixels[i] == two.pixels[i]) << "pixel " << i;
+}
+
+}  // namespace
+}  // namespace roomlight
