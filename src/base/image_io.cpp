@@ -18,12 +18,17 @@ constexpr uint64_t kLargestFileBytes = uint64_t{2} << 30;
 constexpr uint8_t kPngMagic[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr uint8_t kExrMagic[] = {0x76, 0x2f, 0x31, 0x01};
 
-enum class Format { Exr, Png, Hdr };
+enum class Format {
+  Exr,
+  Png,
+  Hdr,
+};
 
 // Libraries report over several lines; the contract is one.
 Error errorAt(const std::filesystem::path& file, std::string_view what) {
   std::string line(what.substr(0, 300));
-  std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
   return {fmt::format("{}: {}", file.string(), line)};
 }

@@ -171,7 +171,9 @@ PngSize readPngSize(std::span<const uint8_t> bytes) {
   const png_uint_32 width = png_get_uint_32(bytes.data() + 16), height = png_get_uint_32(bytes.data() + 20);
   const int depth = bytes[24], kind = bytes[25];
   if (width > PNG_UINT_31_MAX || height > PNG_UINT_31_MAX || depth < 1 || depth > 16) throw std::runtime_error("the PNG header is damaged");
-  const int channels = kind == PNG_COLOR_TYPE_RGB ? 3 : kind == PNG_COLOR_TYPE_RGB_ALPHA ? 4 : kind == PNG_COLOR_TYPE_GRAY_ALPHA ? 2 : 1;
+  const int channels = kind == PNG_COLOR_TYPE_RGB ? 3 : kind == PNG_COLOR_TYPE_RGB_ALPHA ? 4
+                                                    : kind == PNG_COLOR_TYPE_GRAY_ALPHA  ? 2
+                                                                                         : 1;
   return {static_cast<int>(width), static_cast<int>(height), channels * depth};
 }
 

@@ -16,7 +16,8 @@ Image renderPath(const Scene& scene, const Camera& camera, const RenderSettings&
   path.width = settings.width;
   path.height = settings.height;
   const bool endsOtherwise = settings.timeLimitS > 0 || settings.noiseLevel > 0;
-  path.samples = settings.samples > 0 ? settings.samples : endsOtherwise ? kNoLimit : kDefaultSamples;
+  path.samples = settings.samples > 0 ? settings.samples : endsOtherwise ? kNoLimit
+                                                                         : kDefaultSamples;
   path.timeLimitS = settings.timeLimitS;
   path.noiseLevel = settings.noiseLevel;
   path.lightPaths = settings.path.lightPaths;

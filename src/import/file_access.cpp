@@ -23,7 +23,8 @@ int base64Digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
   if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' ? 62 : c == '/' ? 63 : -1;
+  return c == '+' ? 62 : c == '/' ? 63
+                                  : -1;
 }
 
 Bytes base64Decode(std::string_view text, const std::string& place) {

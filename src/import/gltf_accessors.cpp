@@ -12,7 +12,14 @@
 namespace roomlight::importers {
 namespace {
 
-enum ComponentType { kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
+enum ComponentType {
+  kByte = 5120,
+  kUnsignedByte = 5121,
+  kShort = 5122,
+  kUnsignedShort = 5123,
+  kUnsignedInt = 5125,
+  kFloat = 5126,
+};
 
 size_t sizeOf(int componentType) {
   switch (componentType) {

@@ -18,12 +18,14 @@ constexpr size_t kMaxJsonDepth = 64;
 
 constexpr size_t kElementsPerByte = 64;  // Draco spends a byte on about five
 
+// clang-format off
 constexpr std::array kHonoured = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",     "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_lights_punctual",         "KHR_materials_emissive_strength",
     "KHR_materials_ior",          "KHR_materials_specular",      "KHR_materials_transmission",
     "KHR_materials_unlit",        "KHR_materials_volume",        "KHR_mesh_quantization",
     "KHR_meshopt_compression",    "KHR_texture_basisu",          "KHR_texture_transform"};
+// clang-format on
 
 bool honoured(std::string_view name) { return std::find(kHonoured.begin(), kHonoured.end(), name) != kHonoured.end(); }
 

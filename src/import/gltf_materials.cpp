@@ -27,7 +27,8 @@ class Reader {
     emission(in, m);
     const std::string mode = in.text("alphaMode", "OPAQUE");
     if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") in.at("alphaMode").fail("is none of OPAQUE, MASK and BLEND");
-    m.alphaMode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+    m.alphaMode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend
+                                                                     : AlphaMode::Opaque;
     m.alphaCutoff = limited(in, "alphaCutoff", 0.5f, 0, 1e6f);
     m.doubleSided = in.boolean("doubleSided", false);
     glass(in, m);

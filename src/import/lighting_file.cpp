@@ -70,7 +70,8 @@ void readArea(const JsonPlace& j, Lamp& lamp) {
   lamp.direction = direction(j["direction"]);
   lamp.widthM = static_cast<float>(j["width"].number(1e-4, 1000));
   lamp.heightM = static_cast<float>(j["height"].number(1e-4, 1000));
-  Vec3 up = j.has("up") ? direction(j["up"]) : std::abs(lamp.direction.y) < 0.99f ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
+  Vec3 up = j.has("up") ? direction(j["up"]) : std::abs(lamp.direction.y) < 0.99f ? Vec3{0, 1, 0}
+                                                                                  : Vec3{0, 0, -1};
   up -= lamp.direction * dot(up, lamp.direction);
   if (length(up) < 1e-3f) {
     j["up"].fail("must not point along 'direction'");

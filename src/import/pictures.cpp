@@ -26,7 +26,14 @@ namespace {
 
 using ByteView = std::span<const uint8_t>;
 
-enum class Format { Png, Jpeg, WebP, Bmp, Tga, Unknown };
+enum class Format {
+  Png,
+  Jpeg,
+  WebP,
+  Bmp,
+  Tga,
+  Unknown,
+};
 
 bool startsWith(ByteView bytes, std::string_view magic, size_t at = 0) {
   return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;

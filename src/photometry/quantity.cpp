@@ -13,12 +13,14 @@ struct Spelling {
   Unit unit;
   double factor;
 };
+// clang-format off
 constexpr Spelling kSpellings[] = {
     {"lm", Unit::Lumen, 1},           {"klm", Unit::Lumen, 1000},          {"cd", Unit::Candela, 1},           {"kcd", Unit::Candela, 1000},
     {"lx", Unit::Lux, 1},             {"lux", Unit::Lux, 1},               {"klx", Unit::Lux, 1000},           {"cd/m2", Unit::CandelaPerM2, 1},
     {"cd/m^2", Unit::CandelaPerM2, 1}, {"cd/m\u00b2", Unit::CandelaPerM2, 1}, {"nit", Unit::CandelaPerM2, 1},     {"kcd/m2", Unit::CandelaPerM2, 1000},
     {"K", Unit::Kelvin, 1},
 };
+// clang-format on
 
 std::string_view trimmed(std::string_view s) {
   while (!s.empty() && s.front() == ' ') s.remove_prefix(1);

@@ -7,7 +7,13 @@
 
 namespace roomlight {
 
-enum class Unit { Lumen, Candela, Lux, CandelaPerM2, Kelvin };
+enum class Unit {
+  Lumen,
+  Candela,
+  Lux,
+  CandelaPerM2,
+  Kelvin,
+};
 
 // "lm", "cd", "lx", "cd/m2", "K".
 std::string_view unitName(Unit unit);

@@ -11,7 +11,11 @@
 
 namespace roomlight {
 
-enum class Wrap : uint8_t { Repeat, ClampToEdge, MirroredRepeat };
+enum class Wrap : uint8_t {
+  Repeat,
+  ClampToEdge,
+  MirroredRepeat,
+};
 
 // 8-bit RGBA texels, rows from the top (v = 0 is the top row, as in glTF). Decoding sRGB is up to the reader: the use
 // (base colour, emission: sRGB; the rest: linear) decides.
@@ -30,7 +34,11 @@ struct TextureRef {
   float m[2][3] = {{1, 0, 0}, {0, 1, 0}};
 };
 
-enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
+enum class AlphaMode : uint8_t {
+  Opaque,
+  Mask,
+  Blend,
+};
 
 // glTF 2.0 metallic-roughness with the extensions named beside each value.
 struct Material {
@@ -81,7 +89,11 @@ struct Instance {
   Affine worldFromObject;
 };
 
-enum class LampKind : uint8_t { Point, Spot, Area };
+enum class LampKind : uint8_t {
+  Point,
+  Spot,
+  Area,
+};
 
 // A luminaire without geometry of its own (Point, Spot) or a Lambertian rectangle that emits to one side (Area; scene
 // loading turns it into an emissive mesh, see addAreaLampMeshes).

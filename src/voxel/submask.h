@@ -11,7 +11,8 @@ namespace roomlight {
 // no touched cell is missing. Columns along the axis nearest to the normal; within a column the plane bounds the height.
 inline uint64_t subVoxelMask(const Polygon& polygon, Vec3 corner, Vec3 normal) {
   const Vec3 an = abs(normal);
-  const int a = an.x >= an.y && an.x >= an.z ? 0 : an.y >= an.z ? 1 : 2;
+  const int a = an.x >= an.y && an.x >= an.z ? 0 : an.y >= an.z ? 1
+                                                                : 2;
   const int u = (a + 1) % 3, v = (a + 2) % 3;
   float lo[3] = {kInfinity, kInfinity, kInfinity}, hi[3] = {-kInfinity, -kInfinity, -kInfinity};
   std::array<Vec3, 10> q;

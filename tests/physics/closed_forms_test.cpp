@@ -61,8 +61,10 @@ double cubeExitance(const Scene& scene, int face, double emitted) {
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
       const float u = (static_cast<float>(i) + 0.5f) / n, v = (static_cast<float>(j) + 0.5f) / n;
-      const Vec3 p = face == 0 ? Vec3{u, 0, v} : face == 1 ? Vec3{u, 1, v} : Vec3{0, u, v};
-      const Vec3 normal = face == 0 ? Vec3{0, 1, 0} : face == 1 ? Vec3{0, -1, 0} : Vec3{1, 0, 0};
+      const Vec3 p = face == 0 ? Vec3{u, 0, v} : face == 1 ? Vec3{u, 1, v}
+                                                           : Vec3{0, u, v};
+      const Vec3 normal = face == 0 ? Vec3{0, 1, 0} : face == 1 ? Vec3{0, -1, 0}
+                                                                : Vec3{1, 0, 0};
       sum += luminance(measureIlluminance(rays, lights, p, normal, 512, static_cast<uint64_t>(j * n + i)).illuminanceLux);
     }
   }
@@ -126,7 +128,9 @@ std::array<double, 3> cubeRadiosity(int n) {
   }
   std::array<double, 3> mean{};
   for (const Patch& p : patches) {
-    const int slot = p.face == 2 ? 0 : p.face == 3 ? 1 : p.face == 0 ? 2 : -1;
+    const int slot = p.face == 2 ? 0 : p.face == 3 ? 1
+                                   : p.face == 0   ? 2
+                                                   : -1;
     if (slot >= 0) mean[static_cast<size_t>(slot)] += p.b / (n * n);
   }
   return mean;

@@ -41,8 +41,7 @@ inline void addRectangle(Scene& scene, Vec3 corner, Vec3 u, Vec3 v, int material
     }
   }
   scene.meshes.push_back(mesh);
-  scene.instances.push_back({"rectangle " + std::to_string(scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1,
-                             static_cast<int>(scene.instances.size()), {}});
+  scene.instances.push_back({"rectangle " + std::to_string(scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
 }
 
 // Faces of a box in the order x-, x+, y-, y+, z-, z+, each with its own material; fronts look inwards.

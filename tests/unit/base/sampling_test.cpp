@@ -95,7 +95,9 @@ TEST(Sampling, triangleIsUniformInArea) {
     ASSERT_GE(b.x, 0);
     ASSERT_GE(b.y, 0);
     ASSERT_LE(b.x + b.y, 1.00001f);
-    counts[b.x > 0.5f ? 1 : b.y > 0.5f ? 2 : b.x + b.y < 0.5f ? 3 : 0]++;
+    counts[b.x > 0.5f ? 1 : b.y > 0.5f     ? 2
+                        : b.x + b.y < 0.5f ? 3
+                                           : 0]++;
     sum1 += b.x, sum2 += b.y, product += static_cast<double>(b.x) * b.y;
   }
   EXPECT_TRUE(testing::fitsUniform(counts));

@@ -33,7 +33,8 @@ TEST(InfoCommand, tableNamesCamerasAndLamps) {
   const ProgramRun run = runProgram({"info", testing::writeRoom(folder)});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   for (const char* word : {"triangles", "Front", "Back", "Bulb", "200 cd", "4.00 x 3.00 x 4.00 m"}) {
-    EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
+    EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n"
+                                                     << run.out;
   }
 }
 

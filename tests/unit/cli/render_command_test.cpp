@@ -11,8 +11,8 @@ namespace roomlight {
 namespace {
 
 using Json = nlohmann::json;
-using testing::readFile;
 using testing::ProgramRun;
+using testing::readFile;
 using testing::runProgram;
 using testing::TemporaryFolder;
 using testing::writeFile;
@@ -81,7 +81,7 @@ TEST_F(RenderCommand, sameSeedGivesTheSameBitsWithOneAndTwoThreads) {
   for (const char* technique : {"path", "cone"}) {
     for (const char* threads : {"1", "2"}) {
       const ProgramRun run = render({"-o", path(std::string(threads) + ".exr"), "--technique", technique, "--samples", "4", "--seed", "3",
-                              "--threads", threads});
+                                     "--threads", threads});
       ASSERT_EQ(run.exitStatus, 0) << technique << ": " << run.err;
     }
     EXPECT_TRUE(picture("1.exr").pixels == picture("2.exr").pixels) << technique;

@@ -81,7 +81,8 @@ TEST_F(GltfGeometry, stripsFansAndPlainListsGiveTheSameSide) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["attributes"]["POSITION"] = f.addFloats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
     f.primitive()["mode"] = mode;
-    const std::vector<uint8_t> indices = mode == 4 ? std::vector<uint8_t>{0, 1, 2, 0, 2, 3} : mode == 5 ? std::vector<uint8_t>{0, 1, 3, 2} : std::vector<uint8_t>{0, 1, 2, 3};
+    const std::vector<uint8_t> indices = mode == 4 ? std::vector<uint8_t>{0, 1, 2, 0, 2, 3} : mode == 5 ? std::vector<uint8_t>{0, 1, 3, 2}
+                                                                                                        : std::vector<uint8_t>{0, 1, 2, 3};
     f.primitive()["indices"] = f.addAccessor(indices, 5121, "SCALAR");
     const Imported imported = read(f);
     const Mesh& mesh = imported.scene.meshes.at(0);

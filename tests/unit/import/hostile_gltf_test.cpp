@@ -78,7 +78,8 @@ TEST_F(HostileGltf, nodesThatAreNoTree) {
          for (int i = 1; i < 100'000; ++i) f.json["nodes"].push_back({{"children", {i + 1}}});
          f.json["nodes"].push_back(json::object());
          f.node()["children"] = {1};
-       }, "deeper than 512"},
+       },
+       "deeper than 512"},
       {"child out of range", [](GltfFile& f) { f.node()["children"] = {12}; }, "nodes[0].children[0]"},
       {"zero rotation", [](GltfFile& f) { f.node()["rotation"] = {0, 0, 0, 0}; }, "nodes[0].rotation"},
       {"short matrix", [](GltfFile& f) { f.node()["matrix"] = {1, 2, 3}; }, "nodes[0].matrix"},
@@ -117,19 +118,23 @@ TEST_F(HostileGltf, accessorsAndBuffers) {
       {"sparse out of range", [](GltfFile& f) {
          const int i = f.addView(std::string(1, 9)), v = f.addView(std::string(12, 0));
          f.json["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", i}, {"componentType", 5121}}}, {"values", {{"bufferView", v}}}};
-       }, "accessors[0].sparse.indices"},
+       },
+       "accessors[0].sparse.indices"},
       {"sparse beyond its view", [](GltfFile& f) {
          const int v = f.addView(std::string(4, 0));
          f.json["accessors"][0]["sparse"] = {{"count", 3}, {"indices", {{"bufferView", v}, {"componentType", 5125}}}, {"values", {{"bufferView", v}}}};
-       }, "accessors[0].sparse.indices"},
+       },
+       "accessors[0].sparse.indices"},
       {"instances of different number", [](GltfFile& f) {
          const int t = f.addFloats({0, 0, 0}, "VEC3"), s = f.addFloats({1, 1, 1, 1, 1, 1}, "VEC3");
          f.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", t}, {"SCALE", s}};
-       }, "SCALE: has 2 elements, others have 1"},
+       },
+       "SCALE: has 2 elements, others have 1"},
       {"a billion instances", [](GltfFile& f) {
          f.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 1'000'000'000}});
          f.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", 2}};
-       }, "unfolds"},
+       },
+       "unfolds"},
   });
 }
 
@@ -150,7 +155,8 @@ TEST_F(HostileGltf, lightsAndCameras) {
       {"light out of range", [](GltfFile& f) {
          f.json["extensions"]["KHR_lights_punctual"]["lights"] = json::array();
          f.node()["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
-       }, "nodes[0].extensions.KHR_lights_punctual.light"},
+       },
+       "nodes[0].extensions.KHR_lights_punctual.light"},
       {"no lights", [](GltfFile& f) { f.node()["extensions"]["KHR_lights_punctual"] = {{"light", 0}}; }, "the file has no lights"},
       {"field of view", camera({{"type", "perspective"}, {"perspective", {{"yfov", 7}, {"znear", 0.1}}}}), "cameras[0].perspective.yfov"},
       {"flat camera", camera({{"type", "orthographic"}, {"orthographic", {{"xmag", 0}, {"ymag", 1}}}}), "cameras[0].orthographic"},
@@ -184,7 +190,8 @@ TEST_F(HostileGltf, picturesThatLie) {
          f.json["images"] = json::array({json::object()});
          f.json["textures"] = {{{"source", 0}}};
          f.json["materials"][0]["normalTexture"] = {{"index", 0}};
-       }, "images[0]: 'bufferView' is missing"},
+       },
+       "images[0]: 'bufferView' is missing"},
   });
 }
 
