@@ -18,12 +18,13 @@
 #include "import/lighting_file.h"
 #include "interrupt.h"
 #include "output_files.h"
+#include "photometry/white_balance.h"
 
 namespace roomlight::cli {
 namespace {
 
 struct Options {
-  std::string scene, lighting, camera, size, exposure = "auto", tone = "neutral", stats, settingsFile;
+  std::string scene, lighting, camera, size, exposure = "auto", tone = "neutral", whiteBalance = "auto", stats, settingsFile;
   std::vector<std::string> outputs;
   std::optional<std::string> technique;
   std::optional<int> samples, threads;
@@ -39,6 +40,8 @@ struct Plan {
   RenderSettings settings;
   std::optional<float> ev100;  // none: automatic
   ToneCurve tone = ToneCurve::PbrNeutral;
+  bool automaticWhite = true;
+  std::optional<double> whiteK;  // none, and not automatic: no white balance
 };
 
 template <class T>
@@ -105,6 +108,13 @@ Result<Plan> makePlan(const Options& o) {
   const Result<ToneCurve> tone = toneCurveFromName(o.tone);
   if (!tone) return Error{"--tone: " + tone.error()};
   plan.tone = tone.value();
+  plan.automaticWhite = o.whiteBalance == "auto";
+  if (!plan.automaticWhite && o.whiteBalance != "none") {
+    plan.whiteK = parseNumber<double>(o.whiteBalance);
+    if (!plan.whiteK || !(*plan.whiteK >= kLowestWhiteK && *plan.whiteK <= kHighestWhiteK)) {
+      return Error{fmt::format("--white-balance {}: write auto, none or a temperature from {} to {} K", o.whiteBalance, kLowestWhiteK, kHighestWhiteK)};
+    }
+  }
   bool known = false;
   std::string names;
   for (const auto& [name, explanation] : techniques()) {
@@ -139,7 +149,27 @@ std::string dump(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Metadata describe(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered, float ev100) {
+// What display pictures are adapted by: a temperature taken for white, and how far the eye goes along.
+struct White {
+  double kelvin = 0, degree = 0;
+};
+
+White whiteOf(const Plan& plan, const Rendered& rendered, float ev100) {
+  if (plan.whiteK) return {*plan.whiteK, 1};
+  if (!plan.automaticWhite || isBlack(rendered.lightColour)) return {};
+  // The luminance that the exposure makes a middle grey.
+  return {nearestWhiteK(rendered.lightColour), degreeOfAdaptation(0.18 / static_cast<double>(exposureFromEv100(ev100)))};
+}
+
+Image displayPicture(const Plan& plan, const White& white, const Image& image, float ev100) {
+  if (white.degree == 0) return toneMap(image, ev100, plan.tone);
+  const Affine adapt = whiteBalance(white.kelvin, white.degree);
+  Image adapted(image.width, image.height);
+  parallelFor(image.pixels.size(), 16384, [&](size_t i) { adapted.pixels[i] = adapt.vector(image.pixels[i]); });
+  return toneMap(adapted, ev100, plan.tone);
+}
+
+Metadata describe(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered, float ev100, const White& white) {
   auto times = nlohmann::ordered_json::object();
   for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
   return {{"roomlight.version", version()},
@@ -151,15 +181,18 @@ Metadata describe(const Options& o, const Plan& plan, const Camera& camera, cons
           {"roomlight.camera", camera.name},
           {"roomlight.exposureEv100", fmt::format("{}", ev100)},
           {"roomlight.tone", std::string(toneCurveName(plan.tone))},
+          {"roomlight.whiteK", fmt::format("{:.0f}", white.kelvin)},
+          {"roomlight.whiteAdaptation", fmt::format("{:.3f}", white.degree)},
           {"roomlight.complete", rendered.complete ? "true" : "false"}};
 }
 
 Status writePictures(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered) {
   const float ev100 = plan.ev100 ? *plan.ev100 : automaticEv100(rendered.image);
-  const Metadata metadata = describe(o, plan, camera, rendered, ev100);
+  const White white = whiteOf(plan, rendered, ev100);
+  const Metadata metadata = describe(o, plan, camera, rendered, ev100, white);
   for (const std::string& out : o.outputs) {
     const bool exr = lowerExtension(out) == ".exr";
-    const Status s = exr ? writeExr(out, rendered.image, metadata) : writePng(out, toneMap(rendered.image, ev100, plan.tone), metadata);
+    const Status s = exr ? writeExr(out, rendered.image, metadata) : writePng(out, displayPicture(plan, white, rendered.image, ev100), metadata);
     if (!s) return s;
   }
   return Ok{};
@@ -267,6 +300,7 @@ Registered addRender(CLI::App& program) {
   app->add_option("--voxel-size", o->voxelSizeM, "Edge of a voxel in metres; 0: chosen from the memory budget");
   app->add_option("--exposure", o->exposure, "auto, or EV100 as on a light meter")->capture_default_str();
   app->add_option("--tone", o->tone, "Tone curve of .png: neutral, agx, filmic or clip")->capture_default_str();
+  app->add_option("--white-balance", o->whiteBalance, "White of .png: auto, none, or the temperature in kelvin of light that shall look white")->capture_default_str();
   app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
   app->add_option("--stats", o->stats, "Write time and memory of each stage to this JSON file");
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();

@@ -13,7 +13,7 @@ namespace {
 struct Technique {
   const char* name;
   const char* explanation;
-  Image (*render)(const Scene&, const Camera&, const RenderSettings&, Stages&);
+  Picture (*render)(const Scene&, const Camera&, const RenderSettings&, Stages&);
 };
 
 // The default first.
@@ -46,7 +46,11 @@ Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSe
   Rendered result;
   Stages stages(progress, result.stats);
   stages.number("triangles", static_cast<double>(scene.triangleCount()));
-  withThreads(settings.threads, [&] { result.image = technique->render(scene, camera, settings, stages); });
+  withThreads(settings.threads, [&] {
+    Picture picture = technique->render(scene, camera, settings, stages);
+    result.image = std::move(picture.image);
+    result.lightColour = picture.lightColour;
+  });
   result.complete = !stages.cancelled();
   const size_t broken = brokenPixels(result.image);
   assert(broken == 0);

@@ -25,6 +25,7 @@ struct RenderStats {
 
 struct Rendered {
   Image image;        // linear, cd/m²
+  Vec3 lightColour;   // of the light on what the picture shows, luminance 1; black where nothing tells
   RenderStats stats;
   bool complete = true;  // false: stopped early, the image is the best so far
 };

@@ -1,8 +1,9 @@
+#include "engine/light_colour.h"
 #include "engine/techniques.h"
 
 namespace roomlight {
 
-Image renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
+Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
   const Stopwatch watch;
   RadianceSettings radiance = settings.radiance;
   radiance.seed = settings.seed;
@@ -31,7 +32,8 @@ Image renderCone(const Scene& scene, const Camera& camera, const RenderSettings&
   stages.number("samples", result.samples);
   stages.number("rays", static_cast<double>(field.rays + result.rays));
   stages.number("cones", static_cast<double>(result.cones));
-  return std::move(result.image);
+  const Vec3 colour = lightColour(rays, camera, result.image);
+  return {std::move(result.image), colour};
 }
 
 }  // namespace roomlight

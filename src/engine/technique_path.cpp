@@ -1,3 +1,4 @@
+#include "engine/light_colour.h"
 #include "engine/techniques.h"
 #include "reference/path_tracer.h"
 
@@ -9,7 +10,7 @@ constexpr int kNoLimit = 1 << 24;
 
 }  // namespace
 
-Image renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
+Picture renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene); });
   PathSettings path;
@@ -26,7 +27,8 @@ Image renderPath(const Scene& scene, const Camera& camera, const RenderSettings&
   stages.number("samples", result.samples);
   stages.number("noise", std::isfinite(result.noise) ? result.noise : -1);
   stages.number("rays", static_cast<double>(result.rays));
-  return std::move(result.image);
+  const Vec3 colour = lightColour(rays, camera, result.image);
+  return {std::move(result.image), colour};
 }
 
 }  // namespace roomlight

@@ -5,7 +5,11 @@
 
 namespace roomlight {
 
-Image renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
-Image renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+struct Picture {
+  Image image;       // linear, cd/m²
+  Vec3 lightColour;  // see light_colour.h
+};
+Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+Picture renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 
 }  // namespace roomlight

@@ -160,6 +160,9 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--samples", "many"}, "samples"},
       {{"render", scene_, "-o", a, "--exposure", "bright"}, "--exposure"},
       {{"render", scene_, "-o", a, "--tone", "sepia"}, "neutral, agx, filmic, clip"},
+      {{"render", scene_, "-o", a, "--white-balance", "warm"}, "auto, none or a temperature"},
+      {{"render", scene_, "-o", a, "--white-balance", "100"}, "1667 to 25000 K"},
+      {{"render", scene_, "-o", a, "--white-balance", "nan"}, "--white-balance"},
       {{"render", scene_, "-o", a, "--voxel-size", "-1"}, "voxelSizeM"},
       {{"render", scene_, "-o", a, "--metres-per-unit", "0"}, "--metres-per-unit"},
       {{"render", scene_, "-o", a, "--settings", path("unknown.json")}, "sampels"},
@@ -223,6 +226,26 @@ TEST_F(RenderCommand, exposureAndToneChangeThePngAndNotTheExr) {
   EXPECT_FALSE(picture("a.png").pixels == picture("b.png").pixels);
   EXPECT_EQ(metadata("b.png").at("roomlight.exposureEv100"), "6");
   EXPECT_EQ(metadata("b.png").at("roomlight.tone"), "agx");
+}
+
+TEST_F(RenderCommand, whiteBalanceTurnsLampLightTowardsWhiteInThePngAlone) {
+  writeFile(path("warm.json"), R"({"scene": {"lamps": "off"}, "lamps": [{"type": "point", "position": [0, 2.5, 0], "flux": "800 lm", "temperature": "2700 K"}]})");
+  const auto redOverBlue = [&](const std::string& white) {
+    const ProgramRun run = render({"-o", path(white + ".exr"), "-o", path(white + ".png"), "--technique", "path", "--samples", "16", "--exposure", "7", "--tone", "clip",
+                                   "--lighting", path("warm.json"), "--white-balance", white});
+    EXPECT_EQ(run.exitStatus, 0) << run.err;
+    Vec3 sum;
+    for (const Vec3 p : picture(white + ".png").pixels) sum += p;
+    return sum.x / sum.z;
+  };
+  const float none = redOverBlue("none"), automatic = redOverBlue("auto"), full = redOverBlue("2700");
+  EXPECT_GT(none, 1.5f * full);
+  EXPECT_GT(full, automatic) << "light between warm walls is warmer than their lamp";
+  EXPECT_NEAR(automatic, 0.7f / 0.5f, 0.15f) << "walls look like their albedo";
+  EXPECT_TRUE(picture("none.exr").pixels == picture("auto.exr").pixels);
+  EXPECT_TRUE(picture("none.exr").pixels == picture("2700.exr").pixels);
+  EXPECT_LT(std::stod(metadata("auto.png").at("roomlight.whiteK")), 2700);
+  EXPECT_EQ(metadata("none.png").at("roomlight.whiteAdaptation"), "0.000");
 }
 
 TEST(Program, helpHasExamplesAndVersionHasANumber) {
