@@ -34,11 +34,11 @@ bool isPng(const std::string& file) {
 void print(const Report& r, const Options& o) {
   if (o.json) {
     nlohmann::ordered_json json = {{"mse", r.mse},
-                                         {"relMse", r.relMse},
-                                         {"ssim", r.ssim},
-                                         {"flip", r.flip},
-                                         {"meanLuminanceErrorPercent", r.meanLuminanceErrorPercent},
-                                         {"difference", o.difference}};
+                                   {"relMse", r.relMse},
+                                   {"ssim", r.ssim},
+                                   {"flip", r.flip},
+                                   {"meanLuminanceErrorPercent", r.meanLuminanceErrorPercent},
+                                   {"difference", o.difference}};
     if (r.mseBeyondNoise) json["mseBeyondNoise"] = *r.mseBeyondNoise;
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return;
@@ -54,6 +54,10 @@ void print(const Report& r, const Options& o) {
 
 int runCompare(Options o) {
   if (o.difference.empty()) o.difference = o.picture + ".difference.png";
+  if (!o.difference.ends_with(".png")) return bad(fmt::format("{}: the difference picture is a .png", o.difference));
+  if (o.difference == o.reference || o.difference == o.second || o.difference == o.picture) {
+    return bad(fmt::format("{}: is named twice; name another file for the difference picture", o.difference));
+  }
   Result<Image> reference = readImage(o.reference);
   if (!reference) return bad(reference.error());
   const Result<Image> second = o.second.empty() ? Result<Image>(Image{}) : readImage(o.second);

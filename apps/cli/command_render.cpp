@@ -5,6 +5,7 @@
 #include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/image_io.h"
 #include "base/parallel.h"
@@ -29,7 +30,7 @@ struct Options {
   std::optional<std::string> technique;
   std::optional<int> samples, threads;
   std::optional<double> timeLimitS, noiseLevel;
-  std::optional<uint64_t> seed;
+  std::optional<std::string> seed;
   std::optional<float> voxelSizeM;
   float metresPerUnit = 1;
   bool quiet = false;
@@ -74,7 +75,18 @@ Status checkOutputs(const Options& o) {
     if (e != ".exr" && e != ".png") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr or .png", out, e)};
     if (const Status s = checkWritable(out); !s) return s;
   }
-  return o.stats.empty() ? Status(Ok{}) : checkWritable(o.stats);
+  if (!o.stats.empty()) {
+    if (const Status s = checkWritable(o.stats); !s) return s;
+  }
+  // Files that are written must differ from each other and from those that are read.
+  std::vector<std::string> files = {o.scene, o.lighting, o.settingsFile, o.stats};
+  files.insert(files.end(), o.outputs.begin(), o.outputs.end());
+  std::set<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    std::error_code ignored;
+    if (!file.empty() && !seen.insert(std::filesystem::weakly_canonical(file, ignored)).second) return Error{fmt::format("{}: is named twice; name different files", file)};
+  }
+  return Ok{};
 }
 
 Result<Plan> makePlan(const Options& o) {
@@ -96,7 +108,11 @@ Result<Plan> makePlan(const Options& o) {
   s.threads = o.threads.value_or(s.threads);
   s.timeLimitS = o.timeLimitS.value_or(s.timeLimitS);
   s.noiseLevel = o.noiseLevel.value_or(s.noiseLevel);
-  s.seed = o.seed.value_or(s.seed);
+  if (o.seed) {
+    const auto seed = parseNumber<uint64_t>(*o.seed);
+    if (!seed) return Error{fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", *o.seed)};
+    s.seed = *seed;
+  }
   s.voxel.voxelSizeM = o.voxelSizeM.value_or(s.voxel.voxelSizeM);
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
   if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
@@ -241,7 +257,7 @@ int work(const Options& o, const Plan& plan) {
   if (!home) return bad(home.error());
   const Camera& camera = home.value().camera;
   if (!o.quiet) printWarnings(home.value().warnings);
-  if (interrupted()) return kInterrupted;
+  if (interrupted()) return bad("interrupted before there was a picture; nothing was written", kInterrupted);
 
   Result<Rendered> result = render(home.value().scene, camera, plan.settings, progress);
   if (!result) return bad(result.error());

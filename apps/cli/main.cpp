@@ -22,6 +22,12 @@ int runProgram(int argc, char** argv) {
       "'roomlight COMMAND --help' explains a command.");
   const std::vector<roomlight::cli::Registered> commands = {
       roomlight::cli::addRender(program), roomlight::cli::addCompare(program), roomlight::cli::addInfo(program)};
+  // An empty word, as an unset variable of a shell leaves it, would pass for "not given".
+  for (const roomlight::cli::Registered& command : commands) {
+    for (CLI::Option* option : command.app->get_options()) {
+      if (option->get_items_expected_max() > 0) option->check([](const std::string& value) { return std::string(value.empty() ? "has an empty value" : ""); }, "");
+    }
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version

@@ -59,6 +59,8 @@ TEST_F(CompareCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
                                                        {"compare", path("reference.exr"), path("missing.exr")},
                                                        {"compare", path("text.exr"), path("reference.exr")},
                                                        {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("no/d.png")},
+                                                       {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("d.exr")},
+                                                       {"compare", path("reference.exr"), path("bright.exr"), "--difference", ""},
                                                        {"compare", path("reference.exr")}};
   for (const auto& arguments : cases) {
     const ProgramRun run = runProgram(arguments);
