@@ -13,6 +13,7 @@ constexpr float kMaskReach = 0.05f;  // voxel edges: planes are rounded, and may
 constexpr float kSheet = 0.15f;       // voxel edges: planes that show opposite ways and lie no further apart are two sides of one sheet
 constexpr float kOwnSheet = 0.35f;    // base voxel edges: how far a bent sheet's plane may lie in front of a point on it
 constexpr float kNudge = 1e-3f;       // voxel edges: carries a step into the next voxel
+constexpr float kNarrowest = 1.2e-4f; // width of a cone at distance 1: no cone stays on a level for so long that the nudge is lost in rounding
 
 // Whether the sub-cell at p, from the voxel's middle in voxel edges, holds a surface.
 bool isSet(uint64_t mask, Vec3 p) {
@@ -89,7 +90,7 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
   const int coarsest = static_cast<int>(field.levels.size()) - 1;
   const Vec3 inverse{inverseOf(d.x), inverseOf(d.y), inverseOf(d.z)}, ahead{d.x > 0 ? 1.0f : 0.0f, d.y > 0 ? 1.0f : 0.0f, d.z > 0 ? 1.0f : 0.0f};
   // As wide as the cone, but never so wide that a voxel reaches back into the surface the cone left.
-  const float widening = 2 * std::min(shape.tanHalf, std::max(0.0f, dot(d, from.normal))) * std::exp2(levelShift);
+  const float widening = std::max(kNarrowest, 2 * std::min(shape.tanHalf, std::max(0.0f, dot(d, from.normal))) * std::exp2(levelShift));
   // Lengths from here on in edges of the level's voxels: on every level the cone is two voxels wide at the same number of them.
   const float widest = 2 / widening;
   Vec3 origin = (from.origin - field.origin) / h;

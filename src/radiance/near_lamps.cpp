@@ -52,7 +52,7 @@ NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, 
   const size_t slots = voxels_.slots.size();
   light.near.resize(slots), light.far.resize(slots);
   std::vector<float> reflected(slots), escaped(slots);
-  const size_t n = std::clamp(kMostParticles / lamps_.size(), kFewestPerLamp, kMostPerLamp);
+  const size_t n = std::clamp(kMostParticles / lamps_.size(), kFewestPerLamp, kMostPerLamp) / kChunk * kChunk;
   std::vector<std::vector<Deposit>> deposits(n / kChunk);
   for (const size_t l : lamps_) {
     const Lamp& lamp = lights_.lamp(l);

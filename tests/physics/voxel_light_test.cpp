@@ -47,6 +47,25 @@ TEST_P(LampBeforeAWall, allItsFluxIsAbsorbed) {
 }
 INSTANTIATE_TEST_SUITE_P(Distances, LampBeforeAWall, testing::Values(0.005f, 0.03f, 0.15f, 1.0f));
 
+// The same for a garland, whose lamps share the particles.
+TEST(LampsBeforeAWall, allTheirFluxIsAbsorbed) {
+  Scene scene;
+  const int wall = test::addMaterial(scene, test::lambertian(0.5f));
+  test::addRoom(scene, {0, 0, 0}, {2.03f, 2.03f, 2.03f}, std::vector<int>(6, wall));
+  for (int i = 0; i < 114; ++i) scene.lamps.push_back(test::pointLamp({0.04f, 0.3f + 0.0125f * static_cast<float>(i), 0.5f + 0.1f * static_cast<float>(i % 10)}, 1));
+  EXPECT_NEAR(absorbed(light(scene, 0.1f)), 114 * 4 * kPi, 0.02 * 114 * 4 * kPi);
+}
+
+// A cone without width, far from its surface: steps from voxel to voxel must not be lost in rounding.
+TEST(NarrowCone, arrivesFromAfar) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.5f));
+  test::addRectangle(scene, {0, 0, 0}, {0, 4, 0}, {0, 0, 4}, white);
+  test::addRectangle(scene, {12000, 0, 0}, {0, 0, 4}, {0, 4, 0}, white);
+  const Lit lit = light(scene, 0.1f);
+  EXPECT_LT(marchCone(lit.field, {{11999.9f, 2.03f, 2.03f}, {-1, 0, 0}}, {-1, 0, 0}, {0, 0}, 0).left, 0.01f);
+}
+
 // A lamp in a closed lantern as thin as voxels: the room gets nothing, though cones of coarse voxels cut its edges.
 TEST(LampInACavity, conesSeeWhatComesOut) {
   double seen = 0;
