@@ -79,7 +79,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
     }
     // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
     Vec3 here = direct(s, bsdf, lampShare, sampler, rayCount);
-    if (vertices_ && !bsdf.isMirror()) here += connected(s, bsdf, sampler, rayCount) * lampShare;
+    if (vertices_ && !bsdf.isMirrorOnly()) here += connected(s, bsdf, sampler, rayCount) * lampShare;
     sum += path.throughput * here * s.m.alpha;
     if (passThrough(path, s, bsdf, sampler)) continue;
 

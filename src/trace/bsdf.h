@@ -37,7 +37,7 @@ class Bsdf {
   Vec3 albedo() const { return specularAlbedo_ + diffuseAlbedo_; }
   Vec3 specularAlbedo() const { return specularAlbedo_; }
   Vec3 diffuseAlbedo() const { return diffuseAlbedo_; }
-  bool isMirror() const { return mirror_; }
+  bool isMirrorOnly() const { return mirror_ && isBlack(diffuseAlbedo_); }
   float alpha() const { return alpha_; }
 
  private:

@@ -135,6 +135,17 @@ TEST(PathTracer, ConnectionsKeepTheMeanWithinOnePercent) {
   EXPECT_NEAR(meanLuminance(render(scene, 1024, true).image), m, 0.01 * m);
 }
 
+// A diffuse surface under a perfect polish scatters like any other, and is connected like any other.
+TEST(PathTracer, ConnectionsKeepTheMeanOfAPolishedRoom) {
+  Scene scene = shadedLamp(test::lambertian(0.5f), 0.5f, 1);
+  scene.materials[0].specular = 1;
+  scene.materials[0].roughness = 0;
+  const PathResult plain = render(scene, 2048, false), connected = render(scene, 512, true);
+  const double sigma = std::hypot(standardError(plain), standardError(connected)), m = meanLuminance(plain.image);
+  EXPECT_LT(sigma, 0.01 * m);
+  EXPECT_NEAR(meanLuminance(connected.image), m, 3.5 * sigma);
+}
+
 TEST(PathTracer, ConnectionsLowerTheNoiseOfAShadedLamp) {
   const Scene scene = shadedLamp(test::lambertian(0.7f));
   EXPECT_LT(render(scene, 64, true).noise, 0.6 * render(scene, 64, false).noise);
