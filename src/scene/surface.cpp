@@ -145,6 +145,7 @@ MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p)
   if (material.emissionTexture.texture >= 0 && !isBlack(m.emission)) {
     m.emission *= textureAt(scene, mesh, material.emissionTexture, p, true).rgb;
   }
+  m.emission *= m.alpha;
   const float r = (material.ior - 1) / (material.ior + 1);
   const Vec3 dielectric = min(material.specularColor * (r * r), Vec3(1)) * material.specular;
   m.f0 = lerp(dielectric, m.baseColor, m.metallic);

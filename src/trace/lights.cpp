@@ -7,10 +7,12 @@
 namespace roomlight {
 namespace {
 
+bool emitsEvenly(const Material& material) { return material.emissionTexture.texture < 0 && material.alphaMode == AlphaMode::Opaque; }
+
 // Mean emission over a triangle: exact without a texture, else a fixed seven-point rule.
 Vec3 meanEmission(const Scene& scene, const Mesh& mesh, uint32_t triangle) {
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-  if (material.emissionTexture.texture < 0) return material.emission;
+  if (emitsEvenly(material)) return material.emission;
   constexpr float kPoints[7][2] = {{1 / 3.f, 1 / 3.f}, {.47f, .47f}, {.06f, .47f}, {.47f, .06f}, {.1f, .1f}, {.8f, .1f}, {.1f, .8f}};
   Vec3 sum;
   for (const auto& p : kPoints) sum += materialAt(scene, mesh, {triangle, p[0], p[1]}).emission;
@@ -175,7 +177,7 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
   }
   const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
   const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
-  const Vec3 emission = material.emissionTexture.texture < 0 ? material.emission : materialAt(scene_, mesh, {t.triangle, b.x, b.y}).emission;
+  const Vec3 emission = emitsEvenly(material) ? material.emission : materialAt(scene_, mesh, {t.triangle, b.x, b.y}).emission;
   s.radiance = emission / s.pdf;
   return s;
 }

@@ -1,6 +1,12 @@
 #include "trace/surface_point.h"
 
 namespace roomlight {
+namespace {
+
+// normalize() for lengths whose square a float does not hold: normals of triangles in huge or tiny units.
+Vec3 unit(Vec3 v) { return normalize(v / maxComponent(abs(v))); }
+
+}  // namespace
 
 TriangleVertices worldTriangle(const Scene& scene, uint32_t instanceIndex, uint32_t triangle) {
   const Instance& instance = scene.instances[instanceIndex];
@@ -31,11 +37,11 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const
   s.material = &scene.materials[static_cast<size_t>(mesh.material)];
   // Barycentric interpolation of the vertices is closer to the surface than origin + t * direction.
   s.p = m.point(a * (1 - hit.b1 - hit.b2) + b * hit.b1 + c * hit.b2);
-  const Vec3 objectNormal = cross(b - a, c - a);
+  const Vec3 objectNormal = unit(cross(b - a, c - a));
   // The cofactor matrix points backwards under a mirroring transform; front is what it is in object space (glTF 2.0, 3.7.4).
   const float side = m.determinant() < 0 ? -1.0f : 1.0f;
-  s.ng = normalize(m.normal(objectNormal)) * side;
-  s.ns = normalize(m.normal(shadingNormalAt(scene, mesh, at, normalize(objectNormal)))) * side;
+  s.ng = unit(m.normal(objectNormal)) * side;
+  s.ns = unit(m.normal(shadingNormalAt(scene, mesh, at, objectNormal))) * side;
   s.front = dot(s.ng, direction) < 0;
   if (!s.front) s.ng = -s.ng, s.ns = -s.ns;
   // A shading normal that the ray sees from behind would reflect into the surface; bend it to just above grazing.

@@ -15,7 +15,7 @@ Shade shadeAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
   // Light that goes straight through is not absorbed: a pane's small opaque share reflects what the whole pane does.
   if (s.coverage > 0 && s.coverage < 1 && m.alpha >= 1) s.albedo = min(s.albedo / s.coverage, Vec3(1));
   s.emission = m.emission;
-  if (s.coverage > 0) s.emission = s.emission / s.coverage;  // a lamp behind alpha keeps its flux
+  if (s.coverage > 0) s.emission = s.emission / s.coverage;  // of the part that blocks light, which alone counts
   return s;
 }
 

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "photometry/spot.h"
+#include "support/rooms.h"
+#include "trace/surface_point.h"
 
 namespace roomlight {
 namespace {
@@ -69,6 +71,55 @@ TEST(Lights, aSunDiscIsSeenInsideItsAngleOnly) {
     EXPECT_NEAR(pdf * solidAngle, 1, 1e-4) << halfDeg;
     EXPECT_EQ(luminance(lights.sunDisc(0, at(1.02 * halfDeg), pdf)), 0) << halfDeg;
     EXPECT_EQ(pdf, 0) << halfDeg;
+  }
+}
+
+// A square of 100 cd/m2 whose right half has this alpha.
+Scene halfSquare(AlphaMode mode, uint8_t alpha) {
+  Scene scene;
+  Material m = test::lambertian(0.5f, 100);
+  m.alphaMode = mode;
+  m.baseColorTexture.texture = 0;
+  test::addRectangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, test::addMaterial(scene, m));
+  scene.meshes[0].uv[0] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  scene.textures.push_back({"half", 64, 1, Wrap::ClampToEdge, Wrap::ClampToEdge, {}});
+  for (int x = 0; x < 64; ++x) {
+    for (const uint8_t v : {uint8_t{255}, uint8_t{255}, uint8_t{255}, x < 32 ? uint8_t{255} : alpha}) scene.textures[0].rgba.push_back(v);
+  }
+  return scene;
+}
+
+// Rays and light samples must agree on what shines; holes do not, and a veil as far as it is there.
+TEST(Lights, onlyTheOpaquePartOfASurfaceEmits) {
+  const std::tuple<AlphaMode, uint8_t, float> cases[] = {{AlphaMode::Mask, 0, 0.0f}, {AlphaMode::Blend, 0, 0.0f}, {AlphaMode::Blend, 51, 20.0f}, {AlphaMode::Opaque, 51, 100.0f}};
+  for (const auto& [mode, alpha, expected] : cases) {
+    const Scene scene = halfSquare(mode, alpha);
+    const Lights lights(scene);
+    const Vec3 p{0.5f, 0.5f, 1};
+    EXPECT_NEAR(lights.emittedFluxLm(), kPi * (50 + 0.5f * expected), 0.15 * kPi * 100);
+    for (int i = 0; i < 256; ++i) {
+      const LightSample s = lights.sampleEmitters(p, {(static_cast<float>(i % 16) + 0.5f) / 16, (static_cast<float>(i / 16) + 0.5f) / 16}, static_cast<float>(i % 2) * 0.5f + 0.25f);
+      const float x = p.x - s.wi.x / s.wi.z;
+      if (std::abs(x - 0.5f) < 0.02f) continue;
+      EXPECT_NEAR(luminance(s.radiance) * s.pdf, x < 0.5f ? 100 : expected, 0.1) << x;
+    }
+    // What a ray sees at the same places.
+    EXPECT_NEAR(luminance(materialAt(scene, scene.meshes[0], {0, 0.75f, 0.1f}).emission), expected, 0.1);
+    EXPECT_NEAR(luminance(materialAt(scene, scene.meshes[0], {0, 0.1f, 0.1f}).emission), 100, 0.1);
+  }
+}
+
+TEST(SurfacePoint, normalsAreUnitInAnyUnit) {
+  for (const float unit : {1e-7f, 1.0f, 1e10f}) {
+    Scene scene;
+    test::addRectangle(scene, {0, 0, 0}, {unit, 0, 0}, {0, unit, 0}, test::addMaterial(scene, test::lambertian(0.5f)));
+    scene.instances[0].worldFromObject = {{1 / unit, 0, 0}, {0, 1 / unit, 0}, {0, 0, 1 / unit}, {}};
+    for (const bool smooth : {false, true}) {
+      if (smooth) scene.meshes[0].normals.assign(4, {0, 0, 1});
+      const SurfacePoint s = surfaceAt(scene, {0, 0, 0.3f, 0.3f, 1}, {0, 0, -1});
+      EXPECT_NEAR(s.ng.z, 1, 1e-5f) << unit;
+      EXPECT_NEAR(s.ns.z, 1, 1e-5f) << unit;
+    }
   }
 }
 
