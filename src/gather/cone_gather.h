@@ -13,7 +13,7 @@ struct GatherSettings {
   int samples = 8;                // camera rays a pixel
   int raysPerShading = 2;         // camera rays that see one surface and share its light: cones, shadow rays, a reflection
   int conesPerShading = 2;        // diffuse cones
-  float coneHalfAngleDeg = 1;
+  float coneHalfAngleDeg = 0.3f;
   float startOffsetVoxels = 0.05f;  // along the normal
   float rayRoughness = 0.6f;      // reflections below this roughness follow exact rays
   float occlusionLambda = 0;      // f(r) = 1 / (1 + lambda r) in ambient occlusion, 1/m
