@@ -1,5 +1,6 @@
 #include "gather/cone_march.h"
 
+#include <bit>
 #include <cmath>
 
 #include "radiance/half.h"
@@ -23,39 +24,47 @@ bool isSet(uint64_t mask, Vec3 p) {
 
 struct Crossing {
   float t;
-  Vec3 normal;
-  const DirectionalFace* face;
+  size_t face;
 };
 
-Vec3 normalOf(const DirectionalFace& f) {
-  return Vec3{static_cast<float>(f.normal[0]), static_cast<float>(f.normal[1]), static_cast<float>(f.normal[2])} * (1.0f / 127);
+// Whether `face` (unit normal n) is one side of a sheet that shows its other side through the opposite face.
+bool isSheet(const DirectionalPlanes& voxel, size_t face, Vec3 n) {
+  const size_t other = face ^ 1;
+  return std::abs(voxel.distance(face) + voxel.distance(other)) < kSheet && dot(n, voxel.normal(other)) < -0.7f;
 }
 
-// Whether `f` (unit normal n) is one side of a sheet that shows its other side through `other`.
-bool isSheet(const DirectionalFace& f, Vec3 n, const DirectionalFace& other) {
-  return other.coverage > 0 && std::abs(planeDistance(f) + planeDistance(other)) < kSheet && dot(n, normalOf(other)) < -0.7f;
-}
+__m256 widened(const int8_t* v) { return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(v)))); }
+__m256 widened(const uint8_t* v) { return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(v)))); }
 
 // Planes of one voxel that the ray crosses from their fronts between t0 and t1, nearest first. `q` is the ray's origin from the
 // voxel's middle; lengths in voxel edges.
 // `ownNormal` is that of the surface the ray comes from, which may lie behind the plane of its own voxel where it is bent, by up
 // to `ownReach`: the plane's other side is not met then.
-int crossings(const DirectionalVoxel& voxel, Vec3 q, Vec3 d, float t0, float t1, Vec3 ownNormal, float ownReach, Crossing (&out)[6]) {
+int crossings(const DirectionalPlanes& voxel, Vec3 q, Vec3 d, float t0, float t1, Vec3 ownNormal, float ownReach, Crossing (&out)[6]) {
+  // All faces at once, normals in 1/127.
+  const __m256 x = widened(voxel.normalX.data()), y = widened(voxel.normalY.data()), z = widened(voxel.normalZ.data());
+  const auto along = [&](Vec3 v) { return _mm256_fmadd_ps(x, _mm256_set1_ps(v.x), _mm256_fmadd_ps(y, _mm256_set1_ps(v.y), _mm256_mul_ps(z, _mm256_set1_ps(v.z)))); };
+  const __m256 facing = along(d);
+  const __m256 plane = _mm256_fmadd_ps(widened(voxel.plane.data()), _mm256_set1_ps(127 * kFarthestPlane * 2 / 255), _mm256_set1_ps(-127 * kFarthestPlane));
+  const __m256 ahead = _mm256_sub_ps(along(q), plane), t = _mm256_div_ps(_mm256_sub_ps(_mm256_setzero_ps(), ahead), facing);
+  const __m256 within = _mm256_and_ps(_mm256_cmp_ps(t, _mm256_set1_ps(t0), _CMP_GE_OQ), _mm256_cmp_ps(t, _mm256_set1_ps(t1), _CMP_LT_OQ));
+  // Where no surface faces a way, the normal there is 0 and so is `facing`.
+  const __m256 met = _mm256_and_ps(within, _mm256_cmp_ps(facing, _mm256_set1_ps(-127 * 1e-4f), _CMP_LT_OQ));
+  unsigned faces = static_cast<unsigned>(_mm256_movemask_ps(met)) & 0x3f;
+  if (faces == 0) return 0;
+  alignas(32) float aheadOf[8], tOf[8];
+  _mm256_store_ps(aheadOf, ahead);
+  _mm256_store_ps(tOf, t);
   int found = 0;
-  for (size_t face = 0; face < 6; ++face) {
-    const DirectionalFace& f = voxel.face[face];
-    if (f.coverage == 0) continue;
-    const Vec3 n = normalOf(f);
-    const float facing = dot(n, d);
-    if (facing >= -1e-4f) continue;
-    const float ahead = dot(n, q) - planeDistance(f), t = -ahead / facing;
-    if (t < t0 || t >= t1) continue;
-    if (ahead < ownReach && dot(n, ownNormal) < -0.3f && isSheet(f, n, voxel.face[face ^ 1])) continue;
-    const Vec3 p = q + d * t;
+  for (; faces; faces &= faces - 1) {
+    const auto face = static_cast<size_t>(std::countr_zero(faces));
+    const Vec3 n = voxel.normal(face);
+    if (aheadOf[face] < 127 * ownReach && dot(n, ownNormal) < -0.3f && isSheet(voxel, face, n)) continue;
+    const Vec3 p = q + d * tOf[face];
     if (!isSet(voxel.mask, p + n * kMaskReach) && !isSet(voxel.mask, p - n * kMaskReach)) continue;
     int k = found++;
-    for (; k > 0 && out[k - 1].t > t; --k) out[k] = out[k - 1];
-    out[k] = {t, n, &f};
+    for (; k > 0 && out[k - 1].t > tOf[face]; --k) out[k] = out[k - 1];
+    out[k] = {tOf[face], face};
   }
   return found;
 }
@@ -110,19 +119,24 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
       continue;
     }
     const float leave = t + exitCube(p, v, inverse, ahead, 1) + kNudge;
-    if (const DirectionalVoxel* voxel = l.find(*brick, v)) {
+    if (const int64_t record = l.find(*brick, v); record >= 0) {
+      const DirectionalPlanes& planes = l.planes[static_cast<size_t>(record)];
+      const DirectionalLight& light = l.light[static_cast<size_t>(record)];
       const Vec3 middle{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f};
       Crossing met[6];
-      const int count = crossings(*voxel, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap, from.normal, kOwnSheet * h / l.voxelSizeM, met);
+      const int count = crossings(planes, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap, from.normal, kOwnSheet * h / l.voxelSizeM, met);
       for (int i = 0; i < count; ++i) {
-        const DirectionalFace& f = *met[i].face;
-        if (f.opacity < 255) {
+        const size_t face = met[i].face;
+        const int opacity = light.opacity[face];
+        if (opacity < 255) {
           // A veil or pane that spans voxels is met once, though both of their planes may be crossed on the way.
-          if (met[i].t * l.voxelSizeM < veilUntil && dot(met[i].normal, veil) > 0.5f) continue;
-          veil = met[i].normal, veilUntil = met[i].t * l.voxelSizeM + h;
+          const Vec3 n = planes.normal(face);
+          if (met[i].t * l.voxelSizeM < veilUntil && dot(n, veil) > 0.5f) continue;
+          veil = n, veilUntil = met[i].t * l.voxelSizeM + h;
         }
-        const float alpha = out.left * static_cast<float>(f.coverage * f.opacity) * (1.0f / (255 * 255));
-        out.radiance += Vec3{fromHalf(f.radiance[0]), fromHalf(f.radiance[1]), fromHalf(f.radiance[2])} * (alpha * field.unitCdM2);
+        const float alpha = out.left * static_cast<float>(light.coverage[face] * opacity) * (1.0f / (255 * 255));
+        const auto& radiance = light.radiance[face];
+        out.radiance += Vec3{fromHalf(radiance[0]), fromHalf(radiance[1]), fromHalf(radiance[2])} * (alpha * field.unitCdM2);
         out.occlusion += alpha / (1 + shape.lambda * met[i].t * l.voxelSizeM);
         out.left -= alpha;
       }

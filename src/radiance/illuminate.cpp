@@ -1,5 +1,6 @@
-#include <limits>
-#include <numeric>
+#include <immintrin.h>
+
+#include <atomic>
 
 #include "base/parallel.h"
 #include "base/sampler.h"
@@ -15,19 +16,27 @@ namespace roomlight {
 namespace {
 
 constexpr int kSkySamples = 8;
-constexpr int kStepsBetweenLeaps = 6;
-constexpr double kLongestLeap = 8;
+constexpr double kSlowest = 0.8;  // mode of light that Chebyshev's iteration is fastest for
+constexpr int kTrial = 12;        // steps
 constexpr double kDark = 1e-4;
+constexpr size_t kChunk = 4096;  // slots
 
-// Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves.
-struct Link {
-  static constexpr uint32_t kNone = (1u << 28) - 1;
-  uint32_t packed = kNone;
+// Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves. Nothing
+// comes along a ray that arrives nowhere.
+class Link {
+ public:
+  static constexpr float kUnit = 1.0f / 15;
   Link() = default;
-  Link(uint32_t slot, float left) : packed(slot | static_cast<uint32_t>(std::lround(15 * std::clamp(left, 0.0f, 1.0f))) << 28) {}
-  uint32_t slot() const { return packed & kNone; }
-  bool arrives() const { return slot() != kNone; }
-  float left() const { return static_cast<float>(packed >> 28) * (1.0f / 15); }
+  Link(uint32_t slot, float left) : packed_(slot | static_cast<uint32_t>(std::lround(15 * std::clamp(left, 0.0f, 1.0f))) << 28) {}
+  uint32_t slot() const { return packed_ & ((1u << 28) - 1); }
+  __m128 left() const { return _mm_cvtepi32_ps(_mm_srli_epi32(_mm_set1_epi32(static_cast<int>(packed_)), 28)); }  // in kUnit
+
+ private:
+  uint32_t packed_ = 0;
+};
+
+struct alignas(16) Padded {
+  float v[4];
 };
 
 class Illuminator {
@@ -162,72 +171,68 @@ class Illuminator {
     }
   }
 
-  // Jacobi iterations of E_i = mean over links of pi L(link), L = rho (E_direct + E) / pi. Every row of the transport matrix
-  // sums to at most 1 and rho is below 1, so the gain is below 1 and the series converges.
+  // Solves E = G (direct + E), where G is the mean over links of rho E. Every row of G sums to at most 1 and rho is below 1, so
+  // its modes shrink; they are nearly real, because transport is reciprocal. Chebyshev's iteration uses that: each step goes on
+  // along the one before.
   void bounce(RadianceField& field, const Progress& progress) {
-    const auto n = static_cast<size_t>(settings_.links);
-    const size_t slots = voxels_.slots.size();
-    if (n == 0) return;
-    std::vector<Vec3> reflected(slots), next(slots);  // rho E, i.e. pi times radiance
-    double previousDelta = 0, previousQ = 0, deltaAtLeap = std::numeric_limits<double>::infinity();
+    if (settings_.links == 0) return;
+    std::vector<Padded> reflected(voxels_.slots.size());
+    std::vector<Vec3> other(voxels_.slots.size());  // the step before, replaced by the step after
+    double slowest = kSlowest, omega = 1, mean = 0, delta = 0, before = 0, beforeThat = 0;
     for (int k = 0; k < settings_.maxBounces && !progress.stop(); ++k) {
-      parallelFor(slots, 8192, [&](size_t i) { reflected[i] = voxels_.slots[i].albedo * (direct_[i] + indirect_[i]); });
-      parallelFor(slots, 2048, [&](size_t i) {
-        Vec3 sum;
-        for (size_t j = i * n; j < (i + 1) * n; ++j) {
-          if (links_[j].arrives()) sum += reflected[links_[j].slot()] * links_[j].left();
-        }
-        next[i] = sum / static_cast<float>(n);
-      });
-      const double delta = change(next);
-      const double q = previousDelta > 0 ? std::min(0.99, delta / previousDelta) : 0.9;
-      field.residual = delta * q / (1 - q);
+      if (k > 0) omega = 1 / (1 - slowest * slowest * omega / (k == 1 ? 2 : 4));
+      beforeThat = before, before = delta;
+      delta = step(static_cast<float>(omega), reflected, other, mean);
+      if (k > kTrial && delta > beforeThat) slowest = 0;  // modes that are not real: on without momentum
+      // A mode l of G shrinks by m with l = (m + momentum / m) / (1 + momentum), those up to `slowest` by sqrt(momentum).
+      const double momentum = 2 / (1 + std::sqrt(1 - slowest * slowest)) - 1;
+      const double m = std::clamp(beforeThat > 0 ? std::sqrt(delta / beforeThat) : 0.9, std::sqrt(momentum), 0.995);
+      field.residual = delta * m / (1 - (m + momentum / m) / (1 + momentum));
       ++field.bounces;
-      const bool done = field.residual <= settings_.residual;
-      // Once only the slowest mode is left (light in a bright, nearly closed space) every step shrinks by the same factor, and
-      // the rest of the series is known (Lyusternik's acceleration). Checked by the steps that follow.
-      if (!done && k % kStepsBetweenLeaps == kStepsBetweenLeaps - 1 && q > 0.7 && std::abs(q - previousQ) < 0.03 && delta < 0.5 * deltaAtLeap) {
-        leap(next, static_cast<float>(std::min(kLongestLeap, q / (1 - q))));
-        deltaAtLeap = delta;
-      }
-      previousDelta = delta;
-      previousQ = q;
-      indirect_.swap(next);
-      if (done) break;
+      indirect_.swap(other);
+      if (field.residual <= settings_.residual) break;
     }
+    parallelFor(indirect_.size(), 8192, [&](size_t i) { indirect_[i] = max(Vec3(0), indirect_[i]); });
   }
 
-  void leap(std::vector<Vec3>& next, float factor) const {
-    parallelFor(next.size(), 8192, [&](size_t i) { next[i] = max(Vec3(0), next[i] + (next[i] - indirect_[i]) * factor); });
-  }
-
-  // What the iteration changed, as a fraction of the light r of each slot, averaged where there is change: sum a r² / sum a r.
-  // So a room counts in full beside a sunlit street that has long converged. What is darker than kDark of the mean hardly
-  // counts. Fixed chunks keep the order of the sums, and so the number of iterations, independent of threads.
-  double change(const std::vector<Vec3>& next) const {
-    const auto sums = [&](auto&& term) {
-      const size_t chunks = (next.size() + 65535) / 65536;
-      std::vector<std::pair<double, double>> parts(chunks);
-      parallelFor(chunks, 1, [&](size_t c) {
-        for (size_t i = c * 65536; i < std::min(next.size(), (c + 1) * 65536); ++i) {
-          const auto [first, second] = term(i);
-          parts[c].first += static_cast<double>(voxels_.slots[i].areaM2) * first;
-          parts[c].second += static_cast<double>(voxels_.slots[i].areaM2) * second;
-        }
-      });
-      std::pair<double, double> sum{0, 0};
-      for (const auto& p : parts) sum.first += p.first, sum.second += p.second;
-      return sum;
+  // One step. Returns by how much G changes its light, as a fraction of the light r of each slot, averaged where there is change:
+  // sum a r² / sum a r. So a room counts in full beside a sunlit street that has long converged. What is darker than kDark of
+  // the mean light (`mean`, of the step before) hardly counts. Fixed chunks keep the order of the sums, and so the number of
+  // steps, independent of threads.
+  double step(float omega, std::vector<Padded>& reflected, std::vector<Vec3>& other, double& mean) const {
+    struct Sums {
+      double light = 0, area = 0, squares = 0, fractions = 0;
     };
-    const auto light = [&](size_t i) { return static_cast<double>(luminance(next[i] + direct_[i])); };
-    const auto [total, area] = sums([&](size_t i) { return std::pair{light(i), 1.0}; });
-    if (!(total > 0)) return 0;
-    const double dark = kDark * total / area;
-    const auto [squares, fractions] = sums([&](size_t i) {
-      const double r = std::abs(static_cast<double>(luminance(next[i] - indirect_[i]))) / (light(i) + dark);
-      return std::pair{r * r, r};
+    const size_t slots = voxels_.slots.size();
+    const auto n = static_cast<size_t>(settings_.links);
+    parallelFor(slots, 8192, [&](size_t i) {
+      const Vec3 r = voxels_.slots[i].albedo * (direct_[i] + indirect_[i]);
+      reflected[i] = {{r.x, r.y, r.z, 0}};
     });
-    return fractions > 0 ? squares / fractions : 0;
+    std::vector<Sums> parts((slots + kChunk - 1) / kChunk);
+    parallelFor(parts.size(), 1, [&](size_t c) {
+      Sums& sum = parts[c];
+      for (size_t i = c * kChunk; i < std::min(slots, (c + 1) * kChunk); ++i) {
+        const Vec3 gathered = gather(&links_[i * n], n, reflected);
+        const double area = static_cast<double>(voxels_.slots[i].areaM2);
+        const double light = std::max(0.0, static_cast<double>(luminance(gathered + direct_[i])));
+        const double r = std::abs(static_cast<double>(luminance(gathered - indirect_[i]))) / (light + kDark * mean + 1e-30);
+        sum.light += area * light, sum.area += area, sum.squares += area * r * r, sum.fractions += area * r;
+        other[i] += (gathered - other[i]) * omega;
+      }
+    });
+    Sums sum;
+    for (const Sums& p : parts) sum.light += p.light, sum.area += p.area, sum.squares += p.squares, sum.fractions += p.fractions;
+    mean = sum.area > 0 ? sum.light / sum.area : 0;
+    return sum.fractions > 0 ? sum.squares / sum.fractions : 0;
+  }
+
+  static Vec3 gather(const Link* links, size_t n, const std::vector<Padded>& reflected) {
+    __m128 sum = _mm_setzero_ps();
+    for (size_t j = 0; j < n; ++j) sum = _mm_fmadd_ps(_mm_load_ps(reflected[links[j].slot()].v), links[j].left(), sum);
+    Padded out;
+    _mm_store_ps(out.v, _mm_mul_ps(sum, _mm_set1_ps(Link::kUnit / static_cast<float>(n))));
+    return {out.v[0], out.v[1], out.v[2]};
   }
 
   const RayScene& rays_;
@@ -246,7 +251,7 @@ class Illuminator {
 size_t RadianceField::bytes() const {
   size_t sum = irradianceLux.size() * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]);
   for (const RadianceLevel& level : levels) {
-    sum += level.brickIndex.size() * sizeof(int32_t) + level.bricks.size() * sizeof(Brick) + level.voxels.size() * sizeof(DirectionalVoxel);
+    sum += level.brickIndex.size() * sizeof(int32_t) + level.bricks.size() * sizeof(Brick) + level.planes.size() * (sizeof(DirectionalPlanes) + sizeof(DirectionalLight));
   }
   return sum;
 }

@@ -19,28 +19,24 @@ using Faces = std::array<Face, 6>;
 
 int8_t toByte(float v) { return static_cast<int8_t>(std::lround(127 * std::clamp(v, -1.0f, 1.0f))); }
 
-DirectionalFace pack(const Face& f, int axis, Vec3 columns, float unit) {
-  DirectionalFace out;
-  if (!(f.cover > 0)) return out;
+void pack(const Face& f, size_t face, Vec3 columns, float unit, DirectionalPlanes& planes, DirectionalLight& light) {
+  if (!(f.cover > 0)) return;
   const float distance = dot(f.point, f.normal);
   const Vec3 c = f.radiance / unit;
-  out.radiance = {toHalf(c.x), toHalf(c.y), toHalf(c.z)};
-  out.normal = {toByte(f.normal.x), toByte(f.normal.y), toByte(f.normal.z)};
-  out.plane = static_cast<uint8_t>(std::lround(255 * std::clamp(0.5f + 0.5f * distance / kFarthestPlane, 0.0f, 1.0f)));
+  light.radiance[face] = {toHalf(c.x), toHalf(c.y), toHalf(c.z)};
+  planes.normalX[face] = toByte(f.normal.x), planes.normalY[face] = toByte(f.normal.y), planes.normalZ[face] = toByte(f.normal.z);
+  planes.plane[face] = static_cast<uint8_t>(std::lround(255 * std::clamp(0.5f + 0.5f * distance / kFarthestPlane, 0.0f, 1.0f)));
   // Of the columns along the axis that hold surfaces at all. Sub-cells on a border are covered in part: more than half of it
   // is taken for a whole surface, so that walls do not leak along their edges.
-  const float share = f.cover / std::max(1.0f / 16, columns[axis]);
-  out.coverage = static_cast<uint8_t>(std::lround(std::clamp(255 * share / kWholeFrom, 1.0f, 255.0f)));
-  out.opacity = static_cast<uint8_t>(std::lround(std::clamp(255 * f.opacity, 1.0f, 255.0f)));
-  return out;
+  const float share = f.cover / std::max(1.0f / 16, columns[static_cast<int>(face / 2)]);
+  light.coverage[face] = static_cast<uint8_t>(std::lround(std::clamp(255 * share / kWholeFrom, 1.0f, 255.0f)));
+  light.opacity[face] = static_cast<uint8_t>(std::lround(std::clamp(255 * f.opacity, 1.0f, 255.0f)));
 }
 
-DirectionalVoxel pack(const Faces& faces, uint64_t mask, float unit) {
-  DirectionalVoxel v;
-  v.mask = mask;
+void pack(const Faces& faces, uint64_t mask, float unit, RadianceLevel& level, size_t record) {
+  level.planes[record].mask = mask;
   const Vec3 columns = columnCoverage(mask);
-  for (size_t face = 0; face < 6; ++face) v.face[face] = pack(faces[face], static_cast<int>(face / 2), columns, unit);
-  return v;
+  for (size_t face = 0; face < 6; ++face) pack(faces[face], face, columns, unit, level.planes[record], level.light[record]);
 }
 
 // The slots of a base voxel.
@@ -104,11 +100,6 @@ struct Working {
   std::vector<Faces> faces;
 };
 
-int64_t recordAt(const RadianceLevel& level, Int3 at) {
-  const DirectionalVoxel* v = level.find(at);
-  return v ? v - level.voxels.data() : -1;
-}
-
 void countRecords(RadianceLevel& level) {
   size_t voxels = 0;
   for (Brick& brick : level.bricks) {
@@ -120,7 +111,7 @@ void countRecords(RadianceLevel& level) {
     }
     voxels += before;
   }
-  level.voxels.resize(voxels);
+  level.planes.resize(voxels), level.light.resize(voxels);
 }
 
 // Occupancy of the next coarser level.
@@ -178,29 +169,29 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, Radi
   now.level.brickDims = voxels.brickDims;
   now.level.brickIndex = voxels.brickIndex;
   now.level.bricks = voxels.bricks;
-  now.level.voxels.resize(voxels.voxels.size());
+  now.level.planes.resize(voxels.voxels.size()), now.level.light.resize(voxels.voxels.size());
   now.faces.resize(voxels.voxels.size());
   forEachVoxel(now.level, [&](size_t record, Int3 v) {
     const Vec3 middle = voxels.origin + Vec3{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f} * voxels.voxelSizeM;
     now.faces[record] = baseFaces(voxels, voxels.voxels[record], middle, slotRadiance);
-    now.level.voxels[record] = pack(now.faces[record], voxels.voxels[record].mask, field.unitCdM2);
+    pack(now.faces[record], voxels.voxels[record].mask, field.unitCdM2, now.level, record);
   });
   while (true) {
     const Int3 dims = now.level.brickDims;
     if (dims.x <= 1 && dims.y <= 1 && dims.z <= 1) break;
     Working next;
     next.level = coarser(now.level);
-    next.faces.resize(next.level.voxels.size());
+    next.faces.resize(next.level.planes.size());
     forEachVoxel(next.level, [&](size_t record, Int3 v) {
       std::array<const Faces*, 8> child{};
       uint64_t mask = 0;
       for (int k = 0; k < 8; ++k) {
-        const int64_t c = recordAt(now.level, {2 * v.x + (k & 1), 2 * v.y + ((k >> 1) & 1), 2 * v.z + (k >> 2)});
+        const int64_t c = now.level.find({2 * v.x + (k & 1), 2 * v.y + ((k >> 1) & 1), 2 * v.z + (k >> 2)});
         child[static_cast<size_t>(k)] = c < 0 ? nullptr : &now.faces[static_cast<size_t>(c)];
-        if (c >= 0) mask |= halved(now.level.voxels[static_cast<size_t>(c)].mask) << (2 * (k & 1) + 8 * ((k >> 1) & 1) + 32 * (k >> 2));
+        if (c >= 0) mask |= halved(now.level.planes[static_cast<size_t>(c)].mask) << (2 * (k & 1) + 8 * ((k >> 1) & 1) + 32 * (k >> 2));
       }
       next.faces[record] = combine(child);
-      next.level.voxels[record] = pack(next.faces[record], mask, field.unitCdM2);
+      pack(next.faces[record], mask, field.unitCdM2, next.level, record);
     });
     field.levels.push_back(std::move(now.level));
     now = std::move(next);

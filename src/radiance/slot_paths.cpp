@@ -101,9 +101,9 @@ Arrival SlotPaths::follow(Ray ray, Hit hit, Sampler& sampler) const {
       end.escaped = true;
       return end;
     }
-    const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-    const bool clear = s.m.transmission > 0 || s.m.alpha < 1;
-    const Vec3 through = clear ? straightTransmittance(*s.material, s.m, std::abs(dot(s.ng, ray.direction))) : Vec3(0);
+    const SurfacePlace s = placeAt(rays_.scene(), hit, ray.direction);
+    const bool clear = letsLightThrough(*s.material);
+    const Vec3 through = clear ? straightTransmittance(*s.material, materialAt(rays_.scene(), hit), std::abs(dot(s.ng, ray.direction))) : Vec3(0);
     const float passes = std::min(1.0f, luminance(through));
     if (!clear || sampler.next1() >= passes) {
       const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
@@ -112,7 +112,7 @@ Arrival SlotPaths::follow(Ray ray, Hit hit, Sampler& sampler) const {
         end.slot = slot, end.p = s.p, end.n = s.ng;
         return end;
       }
-      end.left *= bihemisphericalAlbedo(s.m);
+      end.left *= bihemisphericalAlbedo(materialAt(rays_.scene(), hit));
       end.reflected = true;
       ray = {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
     } else {

@@ -192,6 +192,8 @@ Vec3 bihemisphericalAlbedo(const MaterialSample& m) {
   return specular + diffuse * (1 - std::min(1.0f, maxComponent(specular)));
 }
 
+bool letsLightThrough(const Material& m) { return m.alphaMode != AlphaMode::Opaque || (m.transmission > 0 && m.metallic < 1); }
+
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta) {
   Vec3 through{0, 0, 0};
   if (m.transmission > 0 && m.metallic < 1) {

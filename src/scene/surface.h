@@ -42,6 +42,9 @@ Vec3 shadingNormalAt(const Scene& scene, const Mesh& mesh, TrianglePoint p, Vec3
 // voxel of this material must reflect. Light that passes straight through is not in it.
 Vec3 bihemisphericalAlbedo(const MaterialSample& m);
 
+// Whether light may pass straight through somewhere on surfaces of this material: panes, veils, leaves cut out by a mask.
+bool letsLightThrough(const Material& m);
+
 // Transmittance of a thin pane along a ray that meets it under |cos theta|: base colour times what Fresnel
 // reflection on both sides leaves, times `transmission` and what alpha leaves open. Zero for an opaque surface.
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta);

@@ -24,9 +24,6 @@ struct ShadowContext {
 };
 
 bool isMasked(const Material& m) { return m.alphaMode == AlphaMode::Mask; }
-bool letsLightThrough(const Material& m) {
-  return m.alphaMode != AlphaMode::Opaque || (m.transmission > 0 && m.metallic < 1);
-}
 
 // Masked-out texels are no surface.
 void filterIntersect(const RTCFilterFunctionNArguments* args) {

@@ -20,30 +20,42 @@ MaterialSample materialAt(const Scene& scene, const Hit& hit) {
   return materialAt(scene, scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)], {hit.triangle, hit.b1, hit.b2});
 }
 
-SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) { return surfaceAt(scene, hit, direction, materialAt(scene, hit)); }
-
-SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material) {
+SurfacePlace placeAt(const Scene& scene, const Hit& hit, Vec3 direction) {
   const Instance& instance = scene.instances[hit.instance];
   const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
   const Affine& m = instance.worldFromObject;
   const uint32_t* i = &mesh.indices[size_t{3} * hit.triangle];
   const Vec3 a = mesh.positions[i[0]], b = mesh.positions[i[1]], c = mesh.positions[i[2]];
-  const TrianglePoint at{hit.triangle, hit.b1, hit.b2};
-
-  SurfacePoint s;
-  s.m = material;
-  s.instance = hit.instance;
-  s.triangle = hit.triangle;
+  SurfacePlace s;
   s.material = &scene.materials[static_cast<size_t>(mesh.material)];
   // Barycentric interpolation of the vertices is closer to the surface than origin + t * direction.
   s.p = m.point(a * (1 - hit.b1 - hit.b2) + b * hit.b1 + c * hit.b2);
-  const Vec3 objectNormal = unit(cross(b - a, c - a));
   // The cofactor matrix points backwards under a mirroring transform; front is what it is in object space (glTF 2.0, 3.7.4).
-  const float side = m.determinant() < 0 ? -1.0f : 1.0f;
-  s.ng = unit(m.normal(objectNormal)) * side;
-  s.ns = unit(m.normal(shadingNormalAt(scene, mesh, at, objectNormal))) * side;
+  s.ng = unit(m.normal(unit(cross(b - a, c - a)))) * (m.determinant() < 0 ? -1.0f : 1.0f);
   s.front = dot(s.ng, direction) < 0;
-  if (!s.front) s.ng = -s.ng, s.ns = -s.ns;
+  if (!s.front) s.ng = -s.ng;
+  return s;
+}
+
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) { return surfaceAt(scene, hit, direction, materialAt(scene, hit)); }
+
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material) {
+  const SurfacePlace place = placeAt(scene, hit, direction);
+  const Instance& instance = scene.instances[hit.instance];
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+  const Affine& m = instance.worldFromObject;
+  const uint32_t* i = &mesh.indices[size_t{3} * hit.triangle];
+  const Vec3 a = mesh.positions[i[0]], b = mesh.positions[i[1]], c = mesh.positions[i[2]];
+  const Vec3 objectNormal = unit(cross(b - a, c - a));
+
+  SurfacePoint s;
+  s.p = place.p, s.ng = place.ng, s.front = place.front;
+  s.m = material;
+  s.instance = hit.instance;
+  s.triangle = hit.triangle;
+  s.material = place.material;
+  s.ns = unit(m.normal(shadingNormalAt(scene, mesh, {hit.triangle, hit.b1, hit.b2}, objectNormal)));
+  if ((m.determinant() < 0) == s.front) s.ns = -s.ns;
   // A shading normal that the ray sees from behind would reflect into the surface; bend it to just above grazing.
   const float facing = -dot(s.ns, direction) / length(direction);
   if (facing < 0.01f || dot(s.ns, s.ng) <= 0) {

@@ -19,7 +19,15 @@ struct SurfacePoint {
   Vec3 emitted() const { return front || material->doubleSided ? m.emission : Vec3(0); }
 };
 
+// The part of it that needs no texture: cheap.
+struct SurfacePlace {
+  Vec3 p, ng;
+  bool front = true;
+  const Material* material = nullptr;
+};
+
 // `direction` is that of the ray, pointing to the surface.
+SurfacePlace placeAt(const Scene& scene, const Hit& hit, Vec3 direction);
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction);
 // With material values from elsewhere.
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material);
