@@ -70,7 +70,7 @@ TEST(VoxelFlux, OfABlendedPanelIsWhatThePathTracerSees) {
   test::addRectangle(scene, {0, 2, 0}, {1, 0, 0}, {0, 0, 1}, test::addMaterial(scene, material));
   const Sums sums = sumsOf(voxelise(scene, test::withSize(0.1f)).voxels);
   EXPECT_NEAR(sums.areaM2, 2 * 0.25, 1e-4);  // only what blocks light
-  EXPECT_NEAR(sums.fluxLm, static_cast<double>(kPi) * 1000, 0.1);
+  EXPECT_NEAR(sums.fluxLm, 0.25 * static_cast<double>(kPi) * 1000, 0.1);
 }
 
 }  // namespace
