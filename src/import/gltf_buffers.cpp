@@ -9,6 +9,7 @@ namespace roomlight::importers {
 namespace {
 
 constexpr uint64_t kMaxBytes = uint64_t{1} << 40;  // any number above is nonsense and would overflow sums
+constexpr uint64_t kMostReadings = 4;              // how often compressed views may use each byte of the buffers, on average
 
 std::optional<Json> meshoptOf(const Json& object) {
   auto found = object.extension("EXT_meshopt_compression");
@@ -62,6 +63,13 @@ void loadBuffers(GltfDocument& document) {
     } else {
       document.views[i].bytes = slice(buffers, view);
     }
+  }
+  // Each view unfolds into so much a byte; many on the same bytes would fill the memory.
+  uint64_t held = 0, used = 0;
+  for (const auto& buffer : buffers) held += buffer.size();
+  for (const size_t i : compressed) {
+    used += slice(buffers, *meshoptOf(views[i])).size();
+    if (used > kMostReadings * held) views[i].fail("too many compressed buffer views lie on the same bytes");
   }
   std::vector<Bytes> decoded(compressed.size());
   parallelOrFail(compressed.size(), [&](size_t k) {

@@ -8,6 +8,11 @@
 #include "import/failure.h"
 
 namespace roomlight::importers {
+namespace {
+
+constexpr size_t kLongestName = 256;
+
+}  // namespace
 
 void Json::fail(std::string_view what) const { importers::fail(path_, what); }
 
@@ -108,6 +113,8 @@ std::string Json::text(const char* key, const char* fallback) const {
   const auto member = find(key);
   return member ? member->text() : fallback;
 }
+
+std::string Json::name() const { return printable(text("name"), kLongestName); }
 
 bool Json::boolean(const char* key, bool fallback) const {
   const auto member = find(key);

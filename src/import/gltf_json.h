@@ -43,6 +43,7 @@ class Json {
   float number(const char* key, float fallback, float min, float max) const;
   uint64_t integer(const char* key, uint64_t fallback, uint64_t max) const;
   std::string text(const char* key, const char* fallback = "") const;
+  std::string name() const;  // the member "name", cut to a reasonable length: it is copied to every part of a thing
   bool boolean(const char* key, bool fallback) const;
   Vec3 vec3(const char* key, Vec3 fallback) const;
   // Index into a list of `count` things; -1 where absent.

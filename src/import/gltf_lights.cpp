@@ -8,7 +8,7 @@ namespace {
 constexpr float kBrightest = 1e12f;
 
 std::string nameOf(const Json& thing, const std::string& nodeName) {
-  const std::string name = thing.text("name");
+  const std::string name = thing.name();
   return name.empty() ? nodeName : name;
 }
 

@@ -18,7 +18,7 @@ class Reader {
 
   Material material(const Json& in) {
     Material m;
-    m.name = in.text("name");
+    m.name = in.name();
     if (const auto pbr = in.find("pbrMetallicRoughness")) metallicRoughness(*pbr, m);
     if (const auto normal = in.find("normalTexture")) {
       m.normalTexture = textures_.reference(*normal);

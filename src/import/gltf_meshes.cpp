@@ -188,7 +188,7 @@ std::vector<std::vector<int>> addGltfMeshes(GltfDocument& document, size_t maxTr
       if (triangles > maxTriangles) primitives[k].fail(fmt::format("all meshes together have more than {} triangles", maxTriangles));
       dropDegenerate(*mesh);
       if (mesh->indices.empty()) continue;
-      mesh->name = meshes[i].text("name");
+      mesh->name = meshes[i].name();
       mesh->material = primitives[k].index("material", materialCount);
       if (mesh->material < 0) {
         if (grey++ == 0) scene.materials.push_back(greyMaterial());

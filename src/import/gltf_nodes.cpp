@@ -55,9 +55,9 @@ class Walker {
     placeMesh(node, world);
     const Json cameras = document_.root().list("cameras");
     if (const int camera = node.index("camera", cameras.size()); camera >= 0) {
-      scene_.cameras.push_back(readGltfCamera(cameras[static_cast<size_t>(camera)], node.text("name"), world));
+      scene_.cameras.push_back(readGltfCamera(cameras[static_cast<size_t>(camera)], node.name(), world));
     }
-    if (const auto e = node.extension("KHR_lights_punctual")) addGltfLight(document_, *e, node.text("name"), world, scene_);
+    if (const auto e = node.extension("KHR_lights_punctual")) addGltfLight(document_, *e, node.name(), world, scene_);
     const Json children = node.list("children");
     for (size_t i = 0; i < children.size(); ++i) visit(children[i], world, depth + 1);
   }
@@ -81,7 +81,7 @@ class Walker {
     for (const int primitive : primitivesOfMesh_[static_cast<size_t>(mesh)]) {
       triangles_ += scene_.meshes[static_cast<size_t>(primitive)].triangleCount();
       if (triangles_ > maxTriangles_) node.fail(fmt::format("all instances together have more than {} triangles", maxTriangles_));
-      scene_.instances.push_back({node.text("name"), primitive, nextObject_, world});
+      scene_.instances.push_back({node.name(), primitive, nextObject_, world});
     }
     ++nextObject_;
   }

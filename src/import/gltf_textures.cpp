@@ -116,7 +116,7 @@ void GltfTextures::decode(Scene& scene) {
     Texture& picture = pictures[jobOfUse[i]];
     Texture texture = --usesLeft[jobOfUse[i]] == 0 ? std::move(picture) : picture;
     const Json image = images[static_cast<size_t>(uses_[i].image)];
-    texture.name = image.text("name");
+    texture.name = image.name();
     if (texture.name.empty() && image.find("uri")) texture.name = printable(image.at("uri").text());
     texture.wrapU = uses_[i].wrapU, texture.wrapV = uses_[i].wrapV;
     scene.textures.push_back(std::move(texture));

@@ -44,7 +44,10 @@ Result<Imported> importScene(const std::filesystem::path& file, const ImportOpti
   Result<Imported> imported = gltf ? importGltf(file, options) : importObj(file, options);
   if (imported && options.metresPerUnit != 1) scaleToMetres(imported.value().scene, options.metresPerUnit);
   if (imported) {
-    const Bounds3 bounds = imported.value().scene.bounds();
+    const Scene& scene = imported.value().scene;
+    Bounds3 bounds = scene.bounds();
+    for (const Lamp& lamp : scene.lamps) bounds.add(lamp.position);
+    for (const Camera& camera : scene.cameras) bounds.add(camera.worldFromCamera.w);
     const float farthest = std::max(maxComponent(abs(bounds.lo)), maxComponent(abs(bounds.hi)));
     if (!(farthest <= kFarthestM)) {
       return Error{fmt::format("{}: the scene reaches {:.3g} m from its origin, more than {:.0f} m; give --metres-per-unit", file.string(), farthest, kFarthestM)};

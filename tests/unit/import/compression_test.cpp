@@ -148,6 +148,13 @@ TEST_F(Compression, streamsThatClaimTooMuchAreRefusedBeforeMemoryIsTaken) {
   const auto meshopt = m.import(folder_ / "a.glb");
   ASSERT_FALSE(meshopt);
   EXPECT_NE(meshopt.error().find("more than its"), std::string::npos) << meshopt.error();
+
+  GltfFile many = meshoptGrid("TRIANGLES");
+  const auto view = many.json["bufferViews"].back();
+  for (int i = 0; i < 100; ++i) many.json["bufferViews"].push_back(view);
+  const auto unfolded = many.import(folder_ / "a.glb");
+  ASSERT_FALSE(unfolded);
+  EXPECT_NE(unfolded.error().find("too many compressed buffer views"), std::string::npos) << unfolded.error();
 }
 
 // The same rooms written by other programs, plain and compressed.

@@ -87,6 +87,18 @@ TEST_F(HostileGltf, nodesThatAreNoTree) {
       {"infinite scale", [](GltfFile& f) { f.node()["scale"] = {1e39, 1, 1}; }, "nodes[0].scale"},
       {"scale that overflows", [](GltfFile& f) { f.node() = {{"scale", {1e30, 1e30, 1e30}}, {"children", {1}}}; f.json["nodes"].push_back({{"scale", {1e30, 1e30, 1e30}}, {"mesh", 0}}); }, "too large"},
       {"farther than the moon", [](GltfFile& f) { f.node()["translation"] = {4e8, 0, 0}; }, "--metres-per-unit"},
+      {"a lamp among the stars", [](GltfFile& f) {
+         f.json["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}}});
+         f.json["nodes"].push_back({{"translation", {3e38, 0, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+         f.node()["children"] = {f.json["nodes"].size() - 1};
+       },
+       "--metres-per-unit"},
+      {"a camera among the stars", [](GltfFile& f) {
+         f.json["cameras"] = json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 1}}}}});
+         f.json["nodes"].push_back({{"translation", {0, 3e38, 0}}, {"camera", 0}});
+         f.node()["children"] = {f.json["nodes"].size() - 1};
+       },
+       "--metres-per-unit"},
   });
 }
 
@@ -136,6 +148,16 @@ TEST_F(HostileGltf, accessorsAndBuffers) {
        },
        "unfolds"},
   });
+}
+
+// Names are copied to every primitive and placement.
+TEST_F(HostileGltf, endlessNamesAreCut) {
+  GltfFile f = GltfFile::triangle();
+  f.node()["name"] = f.json["meshes"][0]["name"] = std::string(100'000, 'x');
+  const auto imported = f.import(folder_ / "a.glb");
+  ASSERT_TRUE(imported) << imported.error();
+  EXPECT_LT(imported.value().scene.instances[0].name.size(), 300u);
+  EXPECT_LT(imported.value().scene.meshes[0].name.size(), 300u);
 }
 
 TEST_F(HostileGltf, lightsAndCameras) {
