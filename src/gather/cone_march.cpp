@@ -89,6 +89,12 @@ bool goneForGood(Int3 brick, Int3 dims, Vec3 d) {
          (brick.y >= dims.y && d.y >= 0) || (brick.z >= dims.z && d.z >= 0);
 }
 
+// Share of a plane's light that is the cone's: all but the points' part of its glow (in 1/255 of the light).
+float kept(const RadianceField& field, uint8_t glow, Vec3 shown, float distance, float cosLight, float pdf) {
+  const float share = static_cast<float>(glow) * (1.0f / 255);
+  return 1 - share * (1 - field.glow.coneShare(share * luminance(shown), distance, cosLight, pdf));
+}
+
 float inverseOf(float v) { return 1 / (std::abs(v) > 1e-8f ? v : std::copysign(1e-8f, v)); }
 
 }  // namespace
@@ -136,7 +142,8 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
         }
         const float alpha = out.left * static_cast<float>(light.coverage[face] * opacity) * (1.0f / (255 * 255));
         const auto& radiance = light.radiance[face];
-        out.radiance += Vec3{fromHalf(radiance[0]), fromHalf(radiance[1]), fromHalf(radiance[2])} * (alpha * field.unitCdM2);
+        const Vec3 shown = Vec3{fromHalf(radiance[0]), fromHalf(radiance[1]), fromHalf(radiance[2])} * field.unitCdM2;
+        out.radiance += shown * (light.glow[face] == 0 || shape.pdf == 0 ? alpha : alpha * kept(field, light.glow[face], shown, met[i].t * l.voxelSizeM, -dot(planes.normal(face), d), shape.pdf));
         out.occlusion += alpha / (1 + shape.lambda * met[i].t * l.voxelSizeM);
         out.left -= alpha;
       }

@@ -14,6 +14,7 @@ struct ConeLight {
 struct ConeShape {
   float tanHalf;
   float lambda = 0;
+  float pdf = 0;  // per steradian, of all cones that share a task with the points of LampGlow; 0: cones alone see glow
 };
 
 // Where a cone begins: on the surface with unit normal `normal`, a little in front of it.

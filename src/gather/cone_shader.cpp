@@ -103,8 +103,29 @@ ConeShader::Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, bool
       take(sampleSkyGuided(field_.guide, guide, lights_, u, sampler.next1()), kSkySamples, 1.0f / kSkySamples);
     }
   }
+  if (!field_.glow.empty()) glow(s, bsdf, rayReflection, sampler, sum, count);
   return sum;
 }
+
+// Light that surfaces near lamps reflect, as far as cones leave it.
+void ConeShader::glow(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, Sampler& sampler, Lobes& sum, ConeCounters& count) const {
+  const GlowSample g = field_.glow.sample(s.p, s.ns, static_cast<float>(settings_.conesPerShading), diffuse_.tanHalf, sampler);
+  if (!g.light.valid()) return;
+  const Vec3 wi = g.light.wi;
+  Lobes f{bsdf.evaluateDiffuse(wi), {}};
+  f.diffuse *= field_.glow.pointShare(g.point, s.p, {conePdf(dot(wi, s.ns)), std::min(diffuse_.tanHalf, dot(wi, s.ng))});
+  if (s.m.roughness >= kSharpRoughness) {
+    const ConeShape shape = lobe(s, bsdf.pdfSpecular(wi));
+    f.specular = bsdf.evaluateSpecular(wi) * field_.glow.pointShare(g.point, s.p, {shape.pdf, rayReflection ? 0 : std::min(shape.tanHalf, dot(wi, s.ng))});
+  }
+  sum.add(f, g.light.radiance * visible(s, g.light, f, count));
+}
+
+// Of all diffuse cones of a shading together.
+float ConeShader::conePdf(float cosSurface) const { return static_cast<float>(settings_.conesPerShading) * std::max(0.0f, cosSurface) / kPi; }
+
+// A cone of the glossy lobe. The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
+ConeShape ConeShader::lobe(const SurfacePoint& s, float pdf) const { return {0.5f * s.m.roughness * s.m.roughness, 0, pdf}; }
 
 ConeStart ConeShader::coneStart(const SurfacePoint& s) const {
   return {s.p + s.ng * (settings_.startOffsetVoxels * voxels_.voxelSizeM), s.ng};
@@ -125,7 +146,9 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters&
     local = {local.x * std::cos(turn) - local.y * std::sin(turn), local.x * std::sin(turn) + local.y * std::cos(turn), local.z};
     Vec3 d = frame.toWorld(local);
     if (dot(d, s.ng) < 0.02f) d = normalize(d + s.ng * (0.04f - dot(d, s.ng)));
-    const ConeLight c = marchCone(field_, start, d, diffuse_, sampler.next1());
+    ConeShape shape = diffuse_;
+    shape.pdf = conePdf(dot(d, s.ns));
+    const ConeLight c = marchCone(field_, start, d, shape, sampler.next1());
     sum += c.radiance + settings_.ambientCdM2 * (1 - c.occlusion);
     occlusion += c.occlusion / static_cast<float>(n);
   }
@@ -137,10 +160,8 @@ Vec3 ConeShader::reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay,
   const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
   if (!r.valid() || isBlack(r.weight)) return {};
   if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
-  // The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
-  const ConeShape shape{0.5f * s.m.roughness * s.m.roughness, 0};
   ++count.cones;
-  return r.weight * marchCone(field_, coneStart(s), r.wi, shape, sampler.next1()).radiance;
+  return r.weight * marchCone(field_, coneStart(s), r.wi, lobe(s, r.pdf), sampler.next1()).radiance;
 }
 
 // What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold. Where the way
@@ -164,7 +185,7 @@ Vec3 ConeShader::along(Ray ray, Reflected from, Sampler& sampler, ConeCounters& 
       if (maxComponent(rho) > 1e-4f) lit += rho * indirect(s, sampler, count, unused);
       sum += left * lit * s.m.alpha;
     } else {
-      sum += left * rho * irradiance(s, sampler) * (s.m.alpha / kPi);
+      sum += left * rho * reflectedIrradiance(s, ray.direction, from, sampler) * (s.m.alpha / kPi);
     }
     const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, ray.direction))), mirrored = glossy ? bsdf.specularAlbedo() * s.m.alpha : Vec3(0);
     const float pThrough = luminance(left * through), pMirrored = luminance(left * mirrored), survive = std::min(1.0f, 2 * (pThrough + pMirrored));
@@ -198,8 +219,19 @@ Vec3 ConeShader::reflectedBackground(Vec3 d, const Reflected& from) const {
   return sum;
 }
 
-// From the slots around s, chosen at random with the weights of a tent, so that many look-ups show no edges of voxels.
-Vec3 ConeShader::irradiance(const SurfacePoint& s, Sampler& sampler) const {
+// At s, where a ray reflected at from.p arrives. What the points of LampGlow give is left to them.
+Vec3 ConeShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler) const {
+  const int64_t near = slotNear(s, sampler);
+  if (near < 0) return {};
+  const auto slot = static_cast<size_t>(near);
+  const Vec3 lux = field_.irradianceLux[slot];
+  if (from.pdf == 0 || field_.glow.empty() || field_.glowShare[slot] == 0) return lux;
+  const float share = field_.glowShare[slot], glow = share * luminance(lux * voxels_.slots[slot].albedo) / kPi;
+  return lux * (1 - share * (1 - field_.glow.coneShare(glow, length(s.p - from.p), -dot(s.ng, direction), from.pdf)));
+}
+
+// Among the slots around s, chosen at random with the weights of a tent, so that many look-ups show no edges of voxels.
+int64_t ConeShader::slotNear(const SurfacePoint& s, Sampler& sampler) const {
   const Frame frame(s.ng);
   const Vec2 u = sampler.next2();
   const float h = voxels_.voxelSizeM;
@@ -208,8 +240,7 @@ Vec3 ConeShader::irradiance(const SurfacePoint& s, Sampler& sampler) const {
     const FaceSlot& f = voxels_.slots[static_cast<size_t>(slot)];
     return dot(f.normal, s.ng) > 0.8f && std::abs(dot(f.position - s.p, s.ng)) < 0.3f * h;
   };
-  const int64_t slot = near >= 0 && onSameSurface(near) ? near : slotAtSurface(voxels_, s.p, s.ng);
-  return slot < 0 ? Vec3(0) : field_.irradianceLux[static_cast<size_t>(slot)];
+  return near >= 0 && onSameSurface(near) ? near : slotAtSurface(voxels_, s.p, s.ng);
 }
 
 }  // namespace roomlight

@@ -57,15 +57,19 @@ class ConeShader {
   };
 
   Vec3 visible(const SurfacePoint& s, const LightSample& light, const Lobes& f, ConeCounters& count) const;
+  void glow(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, Sampler& sampler, Lobes& sum, ConeCounters& count) const;
   Lobes towards(const LightSample& light, const Bsdf& bsdf, bool rayReflection, float strategies) const;
   Lobes sharp(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count, float& variance) const;
   Lobes soft(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, int32_t guide, Sampler& sampler, ConeCounters& count) const;
+  float conePdf(float cosSurface) const;
+  ConeShape lobe(const SurfacePoint& s, float pdf) const;
   ConeStart coneStart(const SurfacePoint& s) const;
   Vec3 indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters& count, float& occlusion) const;
   Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t guide, Sampler& sampler, ConeCounters& count) const;
   Vec3 along(Ray ray, Reflected from, Sampler& sampler, ConeCounters& count) const;
   Vec3 reflectedBackground(Vec3 d, const Reflected& from) const;
-  Vec3 irradiance(const SurfacePoint& s, Sampler& sampler) const;
+  Vec3 reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler) const;
+  int64_t slotNear(const SurfacePoint& s, Sampler& sampler) const;
 
   const RayScene& rays_;
   const Lights& lights_;

@@ -19,6 +19,8 @@ constexpr int kSkySamples = 8;
 constexpr double kSlowest = 0.8;  // mode of light that Chebyshev's iteration is fastest for
 constexpr int kTrial = 12;        // steps
 constexpr double kDark = 1e-4;
+constexpr double kSmall = 0.01;
+constexpr float kUnseen = 1e12f;  // cd/m²: of glow that no voxel shows, so that points take all of it
 constexpr size_t kChunk = 4096;  // slots
 
 // Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves. Nothing
@@ -54,16 +56,22 @@ class Illuminator {
     for (size_t i = 0; i < near.far.size(); ++i) direct_[i] += near.far[i];
     progress.at(0.8f);
     bounce(field, progress);
-    std::vector<Vec3> radiance(voxels_.slots.size());
+    std::vector<Vec3> radiance(voxels_.slots.size()), glow(near.near.size());
     field.irradianceLux.resize(voxels_.slots.size());
+    field.glowShare.resize(near.near.size());
     parallelFor(radiance.size(), 8192, [&](size_t i) {
       const Vec3 e = direct_[i] + indirect_[i];
-      const bool hasNear = !near.near.empty();
-      field.irradianceLux[i] = hasNear ? e + near.near[i] : e;
-      radiance[i] = voxels_.slots[i].albedo * (hasNear ? e + near.near[i] * near.shown[i] : e) / kPi;
+      field.irradianceLux[i] = e;
+      radiance[i] = voxels_.slots[i].albedo * e / kPi;
+      if (glow.empty()) return;
+      field.irradianceLux[i] += near.near[i];
+      field.glowShare[i] = luminance(near.near[i]) / std::max(luminance(field.irradianceLux[i]), 1e-30f);
+      glow[i] = voxels_.slots[i].albedo * near.near[i] / kPi;
     });
     field.rays = rayCount_;
-    buildPyramid(voxels_, radiance, field);
+    for (GlowPoint& g : near.points) g.radianceCdM2 = g.slot < 0 ? kUnseen : luminance(glow[static_cast<size_t>(g.slot)]);
+    field.glow = LampGlow(std::move(near.points), voxels_.voxelSizeM);
+    buildPyramid(voxels_, radiance, glow, field);
     return field;
   }
 
@@ -196,12 +204,14 @@ class Illuminator {
   }
 
   // One step. Returns by how much G changes its light, as a fraction of the light r of each slot, averaged where there is change:
-  // sum a r² / sum a r. So a room counts in full beside a sunlit street that has long converged. What is darker than kDark of
-  // the mean light (`mean`, of the step before) hardly counts. Fixed chunks keep the order of the sums, and so the number of
+  // sum a r² / sum a r. So a room counts in full beside a sunlit street that has long converged; but what is less than kSmall of all
+  // surfaces (the inside of a pipe) counts for less, and areas are those of black surfaces that absorb as much: light between two
+  // mirrors hardly ever settles, and hardly matters. What is darker than kDark of the mean of what is lit (`mean`, of the step before,
+  // weighted with the light itself) hardly counts. Fixed chunks keep the order of the sums, and so the number of
   // steps, independent of threads.
   double step(float omega, std::vector<Padded>& reflected, std::vector<Vec3>& other, double& mean) const {
     struct Sums {
-      double light = 0, area = 0, squares = 0, fractions = 0;
+      double light = 0, lightSquared = 0, area = 0, squares = 0, fractions = 0;
     };
     const size_t slots = voxels_.slots.size();
     const auto n = static_cast<size_t>(settings_.links);
@@ -214,17 +224,17 @@ class Illuminator {
       Sums& sum = parts[c];
       for (size_t i = c * kChunk; i < std::min(slots, (c + 1) * kChunk); ++i) {
         const Vec3 gathered = gather(&links_[i * n], n, reflected);
-        const double area = static_cast<double>(voxels_.slots[i].areaM2);
+        const double area = static_cast<double>(voxels_.slots[i].areaM2 * (1 - luminance(voxels_.slots[i].albedo)));
         const double light = std::max(0.0, static_cast<double>(luminance(gathered + direct_[i])));
         const double r = std::abs(static_cast<double>(luminance(gathered - indirect_[i]))) / (light + kDark * mean + 1e-30);
-        sum.light += area * light, sum.area += area, sum.squares += area * r * r, sum.fractions += area * r;
+        sum.light += area * light, sum.lightSquared += area * light * light, sum.area += area, sum.squares += area * r * r, sum.fractions += area * r;
         other[i] += (gathered - other[i]) * omega;
       }
     });
     Sums sum;
-    for (const Sums& p : parts) sum.light += p.light, sum.area += p.area, sum.squares += p.squares, sum.fractions += p.fractions;
-    mean = sum.area > 0 ? sum.light / sum.area : 0;
-    return sum.fractions > 0 ? sum.squares / sum.fractions : 0;
+    for (const Sums& p : parts) sum.light += p.light, sum.lightSquared += p.lightSquared, sum.area += p.area, sum.squares += p.squares, sum.fractions += p.fractions;
+    mean = sum.light > 0 ? sum.lightSquared / sum.light : 0;
+    return sum.fractions > 0 ? std::min(sum.squares / sum.fractions, sum.fractions / (kSmall * sum.area)) : 0;
   }
 
   static Vec3 gather(const Link* links, size_t n, const std::vector<Padded>& reflected) {
@@ -249,7 +259,7 @@ class Illuminator {
 }  // namespace
 
 size_t RadianceField::bytes() const {
-  size_t sum = irradianceLux.size() * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]);
+  size_t sum = irradianceLux.size() * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]) + glow.bytes() + glowShare.size() * sizeof(float);
   for (const RadianceLevel& level : levels) {
     sum += level.brickIndex.size() * sizeof(int32_t) + level.bricks.size() * sizeof(Brick) + level.planes.size() * (sizeof(DirectionalPlanes) + sizeof(DirectionalLight));
   }

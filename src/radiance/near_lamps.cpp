@@ -8,10 +8,11 @@ namespace roomlight {
 namespace {
 
 constexpr float kNearVoxels = 4;  // further off a voxel sees the lamp under nearly the same distance everywhere
+constexpr float kNearM = 0.5f;    // further off surfaces are no brighter than cones can deal with
 constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr size_t kMostParticles = size_t{1} << 19, kMostPerLamp = size_t{1} << 17, kFewestPerLamp = size_t{1} << 12, kChunk = 512;
 constexpr int kMostReflections = 64;
-constexpr float kOpen = 0.5f;  // share that leaves a surface which is no cavity, though lamp bodies stand before it
+constexpr float kPoints = 32768;  // that stand for a flux like that of the lamps
 
 // Part of the directions a lamp shines into, as 1 - cos of its cone.
 float extent(const Lamp& lamp) {
@@ -34,10 +35,9 @@ NearLamps::NearLamps(const Lights& lights, const Voxels& voxels) : lights_(light
   }
 }
 
-bool NearLamps::isNear(size_t lamp, size_t s) const {
-  const FaceSlot& slot = voxels_.slots[s];
-  const float h = voxels_.voxelSizeM;
-  return lengthSquared(lights_.lamp(lamp).position - slot.position) < kNearVoxels * kNearVoxels * h * h;
+bool NearLamps::isNear(size_t lamp, Vec3 p) const {
+  const float near = std::max(kNearM, kNearVoxels * voxels_.voxelSizeM);
+  return lengthSquared(lights_.lamp(lamp).position - p) < near * near;
 }
 
 // Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.
@@ -51,15 +51,16 @@ NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, 
   if (lamps_.empty()) return light;
   const size_t slots = voxels_.slots.size();
   light.near.resize(slots), light.far.resize(slots);
-  std::vector<float> reflected(slots), escaped(slots);
   const size_t n = std::clamp(kMostParticles / lamps_.size(), kFewestPerLamp, kMostPerLamp) / kChunk * kChunk;
-  std::vector<std::vector<Deposit>> deposits(n / kChunk);
+  std::vector<Trail> trails(n / kChunk);
+  float fluxLm = 0;
+  for (const size_t l : lamps_) fluxLm += luminance(lights_.lamp(l).intensityCd) * 2 * kPi * extent(lights_.lamp(l));
   for (const size_t l : lamps_) {
     const Lamp& lamp = lights_.lamp(l);
     const Frame frame(lamp.kind == LampKind::Point ? Vec3{0, 0, 1} : lamp.direction);
     const float steradiansEach = 2 * kPi * extent(lamp) / static_cast<float>(n);
-    parallelFor(deposits.size(), 1, [&](size_t chunk) {
-      deposits[chunk].clear();
+    parallelFor(trails.size(), 1, [&](size_t chunk) {
+      trails[chunk] = {};
       std::vector<Ray> out(kChunk);
       std::vector<Hit> hits(kChunk);
       for (size_t i = 0; i < kChunk; ++i) {
@@ -69,50 +70,53 @@ NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, 
       rays.intersect(out, hits);
       for (size_t i = 0; i < kChunk; ++i) {
         Sampler sampler(l, static_cast<uint32_t>(chunk * kChunk + i), settings.seed + 8);
-        follow(rays, paths, l, out[i], hits[i], lampIntensity(lamp, out[i].direction) * steradiansEach, settings.attenuation, sampler, deposits[chunk]);
+        follow(rays, paths, l, out[i], hits[i], lampIntensity(lamp, out[i].direction) * steradiansEach, fluxLm / kPoints, settings.attenuation, sampler, trails[chunk]);
       }
     });
     // In order, so that sums do not depend on threads.
-    for (const auto& chunk : deposits) {
-      for (const Deposit& d : chunk) {
+    for (const Trail& trail : trails) {
+      light.points.insert(light.points.end(), trail.points.begin(), trail.points.end());
+      for (const Deposit& d : trail.deposits) {
         (nearAny_[d.slot] ? light.near : light.far)[d.slot] += d.fluxLm / litArea(voxels_.slots[d.slot]);
-        reflected[d.slot] += d.reflectedLm, escaped[d.slot] += d.escapedLm;
       }
     }
     light.rays += n;
-  }
-  light.shown.assign(slots, 1);
-  for (size_t s = 0; s < slots; ++s) {
-    if (reflected[s] > 0) light.shown[s] = std::min(1.0f, escaped[s] / (kOpen * reflected[s]));
   }
   return light;
 }
 
 // From slot to slot while these are near a lamp. What falls on another slot straight from the lamp is not ours.
-void NearLamps::follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, Attenuation kind, Sampler& sampler,
-                       std::vector<Deposit>& deposits) const {
-  bool reflected = false, sentByNear = false;
+void NearLamps::follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, float pointLm, Attenuation kind,
+                       Sampler& sampler, Trail& trail) const {
+  std::vector<HiddenReflection> hidden;
+  // As many points as the flux asks for on average, each of `pointLm`.
+  const auto reflectedAt = [&](Vec3 p, Vec3 n, Vec3 flux, int64_t slot) {
+    const float luminous = luminance(flux), copies = std::floor(luminous / pointLm + sampler.fast1());
+    for (float k = 0; k < copies; ++k) trail.points.push_back({p, n, flux * (pointLm / luminous), slot, 0});
+  };
+  bool reflected = false;
   for (int k = 0; k < kMostReflections; ++k) {
-    const Arrival end = paths.follow(ray, hit, sampler);
-    if (end.slot < 0) {
-      if (end.escaped && sentByNear) deposits.back().escapedLm = luminance(fluxLm * end.left);
-      return;
+    hidden.clear();
+    const Arrival end = paths.follow(ray, hit, sampler, &hidden);
+    for (const HiddenReflection& h : hidden) {
+      if (isNearAny(h, lamp)) reflectedAt(h.p, h.n, fluxLm * h.left, h.slot);
     }
+    if (end.slot < 0) return;
     const auto s = static_cast<size_t>(end.slot);
     reflected = reflected || end.reflected;
     if (!reflected && !isNear(lamp, s)) return;
     const FaceSlot& slot = voxels_.slots[s];
     fluxLm *= end.left;
-    if (!nearAny_[s] && sentByNear) deposits.back().escapedLm = luminance(fluxLm);
     const float facing = -dot(slot.normal, ray.direction);
     if (!reflected && facing > 0.05f) fluxLm *= attenuation(kind, slot.normal, -ray.direction) / facing;
-    deposits.push_back({static_cast<uint32_t>(s), fluxLm, 0, 0});
+    trail.deposits.push_back({static_cast<uint32_t>(s), fluxLm});
     if (!nearAny_[s]) return;
-    const float survive = std::min(0.95f, maxComponent(slot.albedo));
+    const Vec3 albedo = bihemisphericalAlbedo(materialAt(rays.scene(), end.hit));
+    reflectedAt(end.p, end.n, fluxLm * albedo, end.slot);
+    const float survive = std::min(0.95f, maxComponent(albedo));
     if (sampler.next1() >= survive) return;
-    fluxLm *= slot.albedo / survive;
-    deposits.back().reflectedLm = luminance(fluxLm);
-    reflected = sentByNear = true;
+    fluxLm *= albedo / survive;
+    reflected = true;
     ray = {offsetOrigin(end.p, end.n), Frame(end.n).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
     hit = rays.intersect(ray);
   }

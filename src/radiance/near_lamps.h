@@ -15,15 +15,14 @@ class NearLamps {
   NearLamps(const Lights& lights, const Voxels& voxels);
 
   // Whether the slot's light from that lamp comes by particles rather than by shadow rays.
-  bool isNear(size_t lamp, size_t slot) const;
+  bool isNear(size_t lamp, size_t slot) const { return isNear(lamp, voxels_.slots[slot].position); }
 
+  bool any(size_t s) const { return nearAny_[s]; }
   // Illuminance per slot in lx, per channel.
   struct Light {
     std::vector<Vec3> near;  // on slots near lamps; what they reflect of it is contained in `near` and `far`. Empty: none
     std::vector<Vec3> far;   // on other slots, by reflection near lamps or on surfaces that no slot stands for
-    // Share of what a slot reflects of `near` that a cone may see, 0..1: in a cavity narrower than voxels, which cones look into
-    // from everywhere, no more than really comes out.
-    std::vector<float> shown;
+    std::vector<GlowPoint> points;  // of what surfaces near lamps reflect; radiance is for the caller to fill in
     uint64_t rays = 0;
   };
   Light trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings) const;
@@ -32,10 +31,16 @@ class NearLamps {
   struct Deposit {
     uint32_t slot;
     Vec3 fluxLm;
-    float reflectedLm = 0, escapedLm = 0;  // further than to other slots near lamps
   };
-  void follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, Attenuation attenuation,
-              Sampler& sampler, std::vector<Deposit>& deposits) const;
+  // What particles leave behind.
+  struct Trail {
+    std::vector<Deposit> deposits;
+    std::vector<GlowPoint> points;
+  };
+  void follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, float pointLm, Attenuation attenuation,
+              Sampler& sampler, Trail& trail) const;
+  bool isNear(size_t lamp, Vec3 p) const;
+  bool isNearAny(const HiddenReflection& h, size_t lamp) const { return h.slot >= 0 ? nearAny_[static_cast<size_t>(h.slot)] != 0 : isNear(lamp, h.p); }
   float litArea(const FaceSlot& slot) const;
 
   const Lights& lights_;

@@ -19,10 +19,10 @@ using Faces = std::array<Face, 6>;
 
 int8_t toByte(float v) { return static_cast<int8_t>(std::lround(127 * std::clamp(v, -1.0f, 1.0f))); }
 
-void pack(const Face& f, size_t face, Vec3 columns, float unit, DirectionalPlanes& planes, DirectionalLight& light) {
+void pack(const Face& f, size_t face, Vec3 columns, Vec3 glow, float unit, DirectionalPlanes& planes, DirectionalLight& light) {
   if (!(f.cover > 0)) return;
   const float distance = dot(f.point, f.normal);
-  const Vec3 c = f.radiance / unit;
+  const Vec3 shown = f.radiance + glow, c = shown / unit;
   light.radiance[face] = {toHalf(c.x), toHalf(c.y), toHalf(c.z)};
   planes.normalX[face] = toByte(f.normal.x), planes.normalY[face] = toByte(f.normal.y), planes.normalZ[face] = toByte(f.normal.z);
   planes.plane[face] = static_cast<uint8_t>(std::lround(255 * std::clamp(0.5f + 0.5f * distance / kFarthestPlane, 0.0f, 1.0f)));
@@ -31,12 +31,13 @@ void pack(const Face& f, size_t face, Vec3 columns, float unit, DirectionalPlane
   const float share = f.cover / std::max(1.0f / 16, columns[static_cast<int>(face / 2)]);
   light.coverage[face] = static_cast<uint8_t>(std::lround(std::clamp(255 * share / kWholeFrom, 1.0f, 255.0f)));
   light.opacity[face] = static_cast<uint8_t>(std::lround(std::clamp(255 * f.opacity, 1.0f, 255.0f)));
+  light.glow[face] = static_cast<uint8_t>(std::lround(255 * luminance(glow) / std::max(luminance(shown), 1e-30f)));
 }
 
-void pack(const Faces& faces, uint64_t mask, float unit, RadianceLevel& level, size_t record) {
+void pack(const Faces& faces, uint64_t mask, const PerFace<Vec3>& glow, float unit, RadianceLevel& level, size_t record) {
   level.planes[record].mask = mask;
   const Vec3 columns = columnCoverage(mask);
-  for (size_t face = 0; face < 6; ++face) pack(faces[face], face, columns, unit, level.planes[record], level.light[record]);
+  for (size_t face = 0; face < 6; ++face) pack(faces[face], face, columns, glow[face], unit, level.planes[record], level.light[record]);
 }
 
 // The slots of a base voxel.
@@ -50,6 +51,14 @@ Faces baseFaces(const Voxels& voxels, const SurfaceVoxel& voxel, Vec3 middle, st
     faces[slot.face] = {std::min(1.0f, projected / (h * h)), slot.opacity, slotRadiance[i], slot.normal, (slot.position - middle) / h};
   }
   return faces;
+}
+
+PerFace<Vec3> baseGlow(const Voxels& voxels, const SurfaceVoxel& voxel, std::span<const Vec3> slotGlow) {
+  PerFace<Vec3> glow;
+  const size_t count = static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+  if (slotGlow.empty()) return glow;
+  for (size_t i = voxel.firstSlot; i < voxel.firstSlot + count; ++i) glow[voxels.slots[i].face] = slotGlow[i];
+  return glow;
 }
 
 // A mask at half its resolution: the 2x2x2 sub-cells at the lower corner of a mask.
@@ -157,9 +166,9 @@ void forEachVoxel(const RadianceLevel& level, Visit&& visit) {
 
 }  // namespace
 
-void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, RadianceField& field) {
+void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, std::span<const Vec3> slotGlow, RadianceField& field) {
   float brightest = 0;
-  for (const Vec3 r : slotRadiance) brightest = std::max(brightest, maxComponent(r));
+  for (size_t i = 0; i < slotRadiance.size(); ++i) brightest = std::max(brightest, maxComponent(slotGlow.empty() ? slotRadiance[i] : slotRadiance[i] + slotGlow[i]));
   field.unitCdM2 = brightest > 0 ? brightest / 32768 : 1;  // below the largest half
   field.origin = voxels.origin;
   field.levels.clear();
@@ -174,7 +183,7 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, Radi
   forEachVoxel(now.level, [&](size_t record, Int3 v) {
     const Vec3 middle = voxels.origin + Vec3{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f} * voxels.voxelSizeM;
     now.faces[record] = baseFaces(voxels, voxels.voxels[record], middle, slotRadiance);
-    pack(now.faces[record], voxels.voxels[record].mask, field.unitCdM2, now.level, record);
+    pack(now.faces[record], voxels.voxels[record].mask, baseGlow(voxels, voxels.voxels[record], slotGlow), field.unitCdM2, now.level, record);
   });
   while (true) {
     const Int3 dims = now.level.brickDims;
@@ -191,7 +200,7 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, Radi
         if (c >= 0) mask |= halved(now.level.planes[static_cast<size_t>(c)].mask) << (2 * (k & 1) + 8 * ((k >> 1) & 1) + 32 * (k >> 2));
       }
       next.faces[record] = combine(child);
-      pack(next.faces[record], mask, field.unitCdM2, next.level, record);
+      pack(next.faces[record], mask, {}, field.unitCdM2, next.level, record);
     });
     field.levels.push_back(std::move(now.level));
     now = std::move(next);

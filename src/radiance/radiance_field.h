@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "radiance/lamp_glow.h"
 #include "trace/lights.h"
 #include "trace/ray_scene.h"
 #include "voxel/voxels.h"
@@ -23,7 +24,7 @@ struct RadianceSettings {
   int directSamples = 8;   // per slot among emissive meshes, and shared among lamps (1 to 4 each); suns get 4
   int links = 16;          // rays per slot that find where its indirect light comes from
   float residual = 0.002f; // bounces stop when the light still to come is below this fraction of what is there
-  int maxBounces = 200;
+  int maxBounces = 100;
   uint64_t seed = 0;
 };
 
@@ -49,10 +50,11 @@ struct alignas(32) DirectionalPlanes {
 };
 
 // What a ray reads that meets a plane.
-struct DirectionalLight {
+struct alignas(64) DirectionalLight {
   PerFace<std::array<uint16_t, 3>> radiance{};  // half floats, in units of RadianceField::unitCdM2
   PerFace<uint8_t> coverage{};  // surface on the plane where the mask is set, in 1/255
   PerFace<uint8_t> opacity{};   // of that surface, in 1/255
+  PerFace<uint8_t> glow{};      // part of the radiance that is kept as LampGlow too, in 1/255; on the base level, where alone there is any
 };
 
 struct RadianceLevel {
@@ -98,6 +100,8 @@ struct RadianceField {
   float unitCdM2 = 1;
   std::vector<Vec3> irradianceLux;    // per slot of Voxels: direct and indirect, per channel
   SkyGuide guide;
+  LampGlow glow;
+  std::vector<float> glowShare;  // per slot: of the luminous irradiance whose reflection is glow; empty: none
   int bounces = 0;               // done
   double residual = 0;           // estimate of light still missing where it is missing, fraction of what is there
   uint64_t rays = 0;

@@ -94,7 +94,7 @@ bool SlotPaths::isHidden(size_t s, Vec3 p, Vec3 n) const {
   return dot(slot.position - p, slot.normal) > kHiddenBehind * voxels_.voxelSizeM || !connected(s, p, n);
 }
 
-Arrival SlotPaths::follow(Ray ray, Hit hit, Sampler& sampler) const {
+Arrival SlotPaths::follow(Ray ray, Hit hit, Sampler& sampler, std::vector<HiddenReflection>* hidden) const {
   Arrival end;
   for (int k = 0; k < kMostPanes; ++k) {
     if (!hit.valid()) {
@@ -107,13 +107,13 @@ Arrival SlotPaths::follow(Ray ray, Hit hit, Sampler& sampler) const {
     const float passes = std::min(1.0f, luminance(through));
     if (!clear || sampler.next1() >= passes) {
       const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
-      if (slot < 0) return end;
-      if (!isHidden(static_cast<size_t>(slot), s.p, s.ng)) {
-        end.slot = slot, end.p = s.p, end.n = s.ng;
+      if (slot >= 0 && !isHidden(static_cast<size_t>(slot), s.p, s.ng)) {
+        end.slot = slot, end.p = s.p, end.n = s.ng, end.hit = hit;
         return end;
       }
       end.left *= bihemisphericalAlbedo(materialAt(rays_.scene(), hit));
       end.reflected = true;
+      if (hidden) hidden->push_back({s.p, s.ng, end.left, slot});
       ray = {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
     } else {
       end.left *= through / passes;

@@ -11,10 +11,17 @@
 
 namespace roomlight {
 
+// On a surface that no slot stands for. `left`: share of the light that leaves it.
+struct HiddenReflection {
+  Vec3 p, n, left;
+  int64_t slot;  // of a surface before it; -1: none
+};
+
 // Where the way of a ray ends.
 struct Arrival {
   int64_t slot = -1;      // -1: nowhere, or not known to voxels
   Vec3 p, n;              // on the slot's surface
+  Hit hit;                // there
   Vec3 left{1, 1, 1};     // share of the light that panes and reflections on the way leave
   bool escaped = false;   // out of the scene
   bool reflected = false; // on surfaces that no slot stands for
@@ -31,8 +38,8 @@ class SlotPaths {
 
   // Goes on from a ray's first hit, through panes with the share that they let through, to the slot that stands for the surface
   // met. A surface behind the one its slot stands for (the back of a panel before a wall, the inside of a pipe) has no light of
-  // its own in the voxels: there the way goes on by a diffuse reflection.
-  Arrival follow(Ray ray, Hit hit, Sampler& sampler) const;
+  // its own in the voxels: there the way goes on by a diffuse reflection, which is added to `hidden`.
+  Arrival follow(Ray ray, Hit hit, Sampler& sampler, std::vector<HiddenReflection>* hidden = nullptr) const;
 
   std::pair<size_t, size_t> slotsOfBrick(size_t brick) const;  // first, one past the last
 

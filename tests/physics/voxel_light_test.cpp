@@ -66,9 +66,10 @@ TEST(NarrowCone, arrivesFromAfar) {
   EXPECT_LT(marchCone(lit.field, {{11999.9f, 2.03f, 2.03f}, {-1, 0, 0}}, {-1, 0, 0}, {0, 0}, 0).left, 0.01f);
 }
 
-// A lamp in a closed lantern as thin as voxels: the room gets nothing, though cones of coarse voxels cut its edges.
-TEST(LampInACavity, conesSeeWhatComesOut) {
-  double seen = 0;
+// A lamp in a closed lantern as thin as voxels: the room gets nothing, though cones of coarse voxels cut its edges. They leave its
+// light to points, none of which is seen from outside.
+TEST(LampInACavity, roomGetsWhatComesOut) {
+  double seen = 0, sent = 0;
   for (const float size : {0.05f, 0.08f, 0.11f}) {
     Scene scene;
     const int wall = test::addMaterial(scene, test::lambertian(0.5f)), black = test::addMaterial(scene, test::lambertian(0));
@@ -84,15 +85,49 @@ TEST(LampInACavity, conesSeeWhatComesOut) {
     scene.meshes.insert(scene.meshes.end(), lantern.meshes.begin(), lantern.meshes.end());
     scene.lamps.push_back(test::pointLamp({1.013f, 1.021f, 1.007f}, 100));
     const Lit lit = light(scene, 0.06f);
+    const RayScene rays(scene);
+    ASSERT_FALSE(lit.field.glow.empty());
     for (uint32_t i = 0; i < 8000; ++i) {
       Sampler sampler(i, 0, 1);
       const Vec2 u = sampler.next2();
       const Vec3 from{2 * u.x, 2 * u.y, 0.002f}, to = Vec3{1.013f, 1.021f, 1.007f} + (Vec3{sampler.next1(), sampler.next1(), sampler.next1()} - Vec3(0.5f)) * (1.5f * size);
-      seen += static_cast<double>(luminance(marchCone(lit.field, {from, {0, 0, 1}}, normalize(to - from), {0.02f, 0}, 0).radiance)) / 24000;
+      const Vec3 d = normalize(to - from);
+      seen += static_cast<double>(luminance(marchCone(lit.field, {from, {0, 0, 1}}, d, {0.02f, 0, d.z / kPi}, 0).radiance)) / 24000;
+      const LightSample g = lit.field.glow.sample(from, {0, 0, 1}, 1, 0.02f, sampler).light;
+      if (g.valid()) sent += static_cast<double>(luminance(g.radiance * rays.transmittance({from, g.wi, 0, g.distance * (1 - 1e-4f)}))) * static_cast<double>(g.wi.z) / 24000;
     }
   }
   // Inside it has some 100 000 cd/m².
   EXPECT_LT(seen, 1);
+  EXPECT_LT(sent, 0.1);
+}
+
+// A lamp over a small white plate sends all its light there. Points and cones together give the room what the plate reflects: its
+// flux through the ceiling, by the form factor of a Lambertian disc seen as a point.
+TEST(LampOverAPlate, ceilingGetsItsReflectionOnce) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.8f)), black = test::addMaterial(scene, test::lambertian(0));
+  test::addRoom(scene, {0, 0, 0}, {3, 3, 3}, std::vector<int>(6, black));
+  test::addRectangle(scene, {1.47f, 1.47f, 0.5f}, {0.06f, 0, 0}, {0, 0.06f, 0}, white);
+  Lamp lamp = test::pointLamp({1.5f, 1.5f, 0.55f}, 100);
+  lamp.kind = LampKind::Spot, lamp.direction = {0, 0, -1}, lamp.innerConeRad = lamp.outerConeRad = 0.4f;
+  scene.lamps.push_back(lamp);
+  const Lit lit = light(scene, 0.08f);
+  const RayScene rays(scene);
+  const double flux = 2 * kPi * (1 - std::cos(0.4)) * 100 * 0.8, exact = flux / kPi / (2.5 * 2.5);
+  double points = 0, cones = 0;
+  constexpr int kSamples = 40000;
+  for (uint32_t i = 0; i < kSamples; ++i) {
+    Sampler sampler(i, 0, 3);
+    const Vec3 from{1.5f, 1.5f, 2.999f}, n{0, 0, -1};
+    const Vec3 d = Frame(n).toWorld(sampleCosineHemisphere(sampler.next2()));
+    cones += static_cast<double>(luminance(marchCone(lit.field, {from, n}, d, {0.005f, 0, -d.z / kPi}, 0).radiance)) * kPi / kSamples;
+    const GlowSample g = lit.field.glow.sample(from, n, 1, 0.005f, sampler);
+    ASSERT_TRUE(g.light.valid());
+    const float cosSurface = -g.light.wi.z, share = lit.field.glow.pointShare(g.point, from, {cosSurface / kPi, 0.005f});
+    points += static_cast<double>(luminance(g.light.radiance * rays.transmittance({from, g.light.wi, 0, g.light.distance * (1 - 1e-4f)})) * cosSurface * share) / kSamples;
+  }
+  EXPECT_NEAR(points + cones, exact, 0.02 * exact);
 }
 
 // Half of the light passes a veil of opacity one half, whatever voxels its way crosses.
