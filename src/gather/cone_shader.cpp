@@ -125,7 +125,7 @@ void ConeShader::glow(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflectio
 float ConeShader::conePdf(float cosSurface) const { return static_cast<float>(settings_.conesPerShading) * std::max(0.0f, cosSurface) / kPi; }
 
 // A cone of the glossy lobe. The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
-ConeShape ConeShader::lobe(const SurfacePoint& s, float pdf) const { return {0.5f * s.m.roughness * s.m.roughness, 0, pdf}; }
+ConeShape ConeShader::lobe(const SurfacePoint& s, float pdf) const { return {std::min(0.5f * s.m.roughness * s.m.roughness, diffuse_.tanHalf), 0, pdf}; }
 
 ConeStart ConeShader::coneStart(const SurfacePoint& s) const {
   return {s.p + s.ng * (settings_.startOffsetVoxels * voxels_.voxelSizeM), s.ng};

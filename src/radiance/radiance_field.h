@@ -22,7 +22,7 @@ enum class Attenuation : uint8_t {
 struct RadianceSettings {
   Attenuation attenuation = Attenuation::Plain;
   int directSamples = 8;   // per slot among emissive meshes, and shared among lamps (1 to 4 each); suns get 4
-  int links = 16;          // rays per slot that find where its indirect light comes from
+  int links = 8;          // rays per slot that find where its indirect light comes from
   float residual = 0.002f; // bounces stop when the light still to come is below this fraction of what is there
   int maxBounces = 100;
   uint64_t seed = 0;
