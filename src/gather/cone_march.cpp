@@ -13,6 +13,7 @@ constexpr float kOverlap = 0.02f;     // voxel edges: planes are looked for a li
 constexpr float kMaskReach = 0.05f;  // voxel edges: planes are rounded, and may lie just outside the sub-cells of their surface
 constexpr float kSheet = 0.15f;       // voxel edges: planes that show opposite ways and lie no further apart are two sides of one sheet
 constexpr float kOwnSheet = 0.35f;    // base voxel edges: how far a bent sheet's plane may lie in front of a point on it
+constexpr float kBeyond = 0.02f;      // voxel edges
 constexpr float kNudge = 1e-3f;       // voxel edges: carries a step into the next voxel
 constexpr float kNarrowest = 1.2e-4f; // width of a cone at distance 1: no cone stays on a level for so long that the nudge is lost in rounding
 
@@ -89,6 +90,15 @@ bool goneForGood(Int3 brick, Int3 dims, Vec3 d) {
          (brick.y >= dims.y && d.y >= 0) || (brick.z >= dims.z && d.z >= 0);
 }
 
+// Whether p lies in front of a plane that hides the surfaces met: there the plane goes on where they do not.
+bool isBeyond(const DirectionalPlanes& voxel, unsigned hiding, Vec3 p) {
+  for (; hiding; hiding &= hiding - 1) {
+    const auto face = static_cast<size_t>(std::countr_zero(hiding));
+    if (dot(p, voxel.normal(face)) - voxel.distance(face) > kBeyond) return true;
+  }
+  return false;
+}
+
 // Share of a plane's light that is the cone's: all but the points' part of its glow (in 1/255 of the light).
 float kept(const RadianceField& field, uint8_t glow, Vec3 shown, float distance, float cosLight, float pdf) {
   const float share = static_cast<float>(glow) * (1.0f / 255);
@@ -133,6 +143,7 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
       const int count = crossings(planes, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap, from.normal, kOwnSheet * h / l.voxelSizeM, met);
       for (int i = 0; i < count; ++i) {
         const size_t face = met[i].face;
+        if (isBeyond(planes, light.behind[face], origin - middle + d * met[i].t)) continue;
         const int opacity = light.opacity[face];
         if (opacity < 255) {
           // A veil or pane that spans voxels is met once, though both of their planes may be crossed on the way.

@@ -8,6 +8,7 @@ namespace roomlight {
 namespace {
 
 constexpr float kWholeFrom = 0.6f;
+constexpr float kBehind = 0.05f;  // voxel edges
 
 // One face while the pyramid is built. Lengths in edges of its voxel, from the voxel's middle.
 struct Face {
@@ -34,9 +35,19 @@ void pack(const Face& f, size_t face, Vec3 columns, Vec3 glow, float unit, Direc
   light.glow[face] = static_cast<uint8_t>(std::lround(255 * luminance(glow) / std::max(luminance(shown), 1e-30f)));
 }
 
+// The faces whose planes have the middle of `face` behind them.
+uint8_t planesBefore(const Faces& faces, size_t face) {
+  unsigned bits = 0;
+  for (size_t other = 0; other < 6; ++other) {
+    if (faces[other].cover > 0 && dot(faces[face].point - faces[other].point, faces[other].normal) < -kBehind) bits |= 1u << other;
+  }
+  return static_cast<uint8_t>(bits);
+}
+
 void pack(const Faces& faces, uint64_t mask, const PerFace<Vec3>& glow, float unit, RadianceLevel& level, size_t record) {
   level.planes[record].mask = mask;
   const Vec3 columns = columnCoverage(mask);
+  for (size_t face = 0; face < 6; ++face) level.light[record].behind[face] = planesBefore(faces, face);
   for (size_t face = 0; face < 6; ++face) pack(faces[face], face, columns, glow[face], unit, level.planes[record], level.light[record]);
 }
 

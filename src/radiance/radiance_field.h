@@ -54,6 +54,7 @@ struct alignas(64) DirectionalLight {
   PerFace<std::array<uint16_t, 3>> radiance{};  // half floats, in units of RadianceField::unitCdM2
   PerFace<uint8_t> coverage{};  // surface on the plane where the mask is set, in 1/255
   PerFace<uint8_t> opacity{};   // of that surface, in 1/255
+  PerFace<uint8_t> behind{};    // bit f: this face's surfaces lie behind the plane of face f, as at the edge of a box
   PerFace<uint8_t> glow{};      // part of the radiance that is kept as LampGlow too, in 1/255; on the base level, where alone there is any
 };
 
