@@ -13,6 +13,14 @@ constexpr uint64_t kFirstKey = uint64_t{1} << 40;
 
 }  // namespace
 
+Bsdf LightVertex::bsdf(Vec3 wo) const {
+  MaterialSample m;
+  m.baseColor = base;
+  m.f0 = f0, m.f90 = f90;
+  m.roughness = roughness;
+  return Bsdf(m, bentNormal(ns, ng, -wo), ng, wo);
+}
+
 void LightVertices::trace(int paths, uint32_t pass, uint64_t seed) {
   const auto count = static_cast<size_t>(paths);
   struct Part {
@@ -48,8 +56,8 @@ void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t s
     const Bsdf bsdf(s.m, s.ns, s.ng, wi);
     if (LightVertices::connects(bsdf)) {
       const Vec3 scattered = flux * s.m.alpha;
-      out.push_back({hit, s.p, s.ng, s.ns, wi, scattered, luminance(scattered * bsdf.diffuseAlbedo()), luminance(scattered * bsdf.specularAlbedo()),
-                     bsdf.alpha(), lights_.lampDensity(s.p, s.ng)});
+      out.push_back({s.p, s.ng, s.smooth, wi, luminance(scattered * bsdf.diffuseAlbedo()), luminance(scattered * bsdf.specularAlbedo()), bsdf.alpha(),
+                     lights_.lampDensity(s.p, s.ng), scattered, s.m.baseColor * ((1 - s.m.metallic) * (1 - s.m.transmission)), s.m.f0, s.m.f90, s.m.roughness});
     }
     // Thin glass and blended alpha, as for paths from the camera.
     if (s.m.alpha < 1 || s.m.transmission > 0) {

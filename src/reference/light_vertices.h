@@ -12,14 +12,18 @@
 
 namespace roomlight {
 
-struct LightVertex {
-  Hit hit;
-  Vec3 p, ng, ns;        // normals on the side the light came from
+// Complete in itself: a connection reads nothing of the mesh. The first half, one cache line, is what choosing needs.
+struct alignas(64) LightVertex {
+  Vec3 p, ng, ns;        // unit normals on the side the light came from, ns not bent
   Vec3 wi;               // unit, towards where the light came from
-  Vec3 flux;             // lm that arrive here and stand for this path's share of all paths
   float diffuseLm = 0, glossyLm = 0;  // of flux times albedo, by lobe: what is worth connecting to
   float alpha = 1;       // of the glossy lobe
   float densityM2 = 0;   // lampDensity() here
+  Vec3 flux;             // lm that arrive here and stand for this path's share of all paths
+  Vec3 base, f0, f90;    // as in MaterialSample; of the base, what is neither metal nor glass
+  float roughness = 1;
+
+  Bsdf bsdf(Vec3 wo) const;  // wo: unit, on the side of ng
 
   // About the intensity towards wo, cd; for choosing among vertices. Never zero where light goes.
   float estimateCd(Vec3 wo) const {

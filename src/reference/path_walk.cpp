@@ -12,6 +12,18 @@ constexpr int kCandidates = 4;
 
 }  // namespace
 
+// Drawn long before they are looked at, because they lie all over memory.
+struct PathWalk::Candidates {
+  const LightVertex* vertex[kCandidates];
+
+  void draw(const std::vector<LightVertex>& all, Sampler& sampler) {
+    for (const LightVertex*& v : vertex) {
+      v = &all[std::min(static_cast<size_t>(sampler.fast1() * static_cast<float>(all.size())), all.size() - 1)];
+      __builtin_prefetch(v);
+    }
+  }
+};
+
 struct PathWalk::State {
   Ray ray;
   Vec3 throughput{1, 1, 1};
@@ -60,7 +72,9 @@ Vec3 PathWalk::illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount)
 Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
   Vec3 sum;
   int scattered = 0;
+  Candidates candidates;
   for (int length = 0; length < kLongestPath; ++length) {
+    if (vertices_) candidates.draw(vertices_->all(), sampler);
     const Hit hit = rays_.intersect(path.ray);
     ++rayCount;
     if (!hit.valid()) {
@@ -79,7 +93,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
     }
     // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
     Vec3 here = direct(s, bsdf, lampShare, sampler, rayCount);
-    if (vertices_ && !bsdf.isMirrorOnly()) here += connected(s, bsdf, sampler, rayCount) * lampShare;
+    if (vertices_ && !bsdf.isMirrorOnly()) here += connected(s, bsdf, candidates, sampler, rayCount) * lampShare;
     sum += path.throughput * here * s.m.alpha;
     if (passThrough(path, s, bsdf, sampler)) continue;
 
@@ -130,9 +144,9 @@ bool PathWalk::passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf,
 
 Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount) const {
   if (!light.valid()) return {};
-  Vec3 f = bsdf.evaluate(light.wi);
-  if (isBlack(f)) return {};
-  if (light.pdf > 0) f *= misWeight(light.pdf, bsdf.pdf(light.wi));
+  const BsdfValue value = bsdf.value(light.wi);
+  if (isBlack(value.f)) return {};
+  const Vec3 f = light.pdf > 0 ? value.f * misWeight(light.pdf, value.pdf) : value.f;
   const float tMax = light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity;
   ++rayCount;
   return f * light.radiance * rays_.transmittance({offsetOrigin(s.p, s.ng), light.wi, 0, tMax});
@@ -154,12 +168,11 @@ Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, 
 
 // Light that reaches s from one vertex of a light path, times the part of it that is had by connections. The vertex is one
 // of a few candidates, resampled in proportion to an estimate of its light (Talbot, Cline & Egbert 2005).
-Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler, uint64_t& rayCount) const {
-  const std::vector<LightVertex>& all = vertices_->all();
+Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount) const {
   const LightVertex* chosen = nullptr;
   float chosenWeight = 0, chosenShare = 0, total = 0;
-  for (int i = 0; i < kCandidates; ++i) {
-    const LightVertex& v = all[std::min(static_cast<size_t>(sampler.fast1() * static_cast<float>(all.size())), all.size() - 1)];
+  for (const LightVertex* candidate : candidates.vertex) {
+    const LightVertex& v = *candidate;
     const float u = sampler.fast1();
     const Vec3 d = v.p - s.p;
     const float d2 = lengthSquared(d), cosX = dot(d, s.ns), cosZ = -dot(d, v.ng);
@@ -177,15 +190,14 @@ Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampl
   const Vec3 exact = chosen->p - s.p, wi = normalize(exact);
   const Vec3 f = bsdf.evaluate(wi);
   if (isBlack(f)) return {};
-  const SurfacePoint z = surfaceAt(scene_, chosen->hit, wi);
   // Radiance from z per flux: scattering with the cosine to the shading normal, of flux that came by the true one.
-  const Vec3 fz = Bsdf(z.m, z.ns, z.ng, -wi).evaluate(chosen->wi) / std::max(dot(z.ng, chosen->wi), 1e-6f);
+  const Vec3 fz = chosen->bsdf(-wi).evaluate(chosen->wi) / std::max(dot(chosen->ng, chosen->wi), 1e-6f);
   if (isBlack(fz)) return {};
   ++rayCount;
   // To just short of z; an end further from it would let light through the corners of closed shades.
   const Vec3 left = rays_.transmittance({from, d, 0, 1 - 1e-6f});
-  const float toArea = -dot(z.ng, wi) / lengthSquared(exact);
-  const float pick = static_cast<float>(all.size()) * total / (chosenWeight * kCandidates);
+  const float toArea = -dot(chosen->ng, wi) / lengthSquared(exact);
+  const float pick = static_cast<float>(vertices_->all().size()) * total / (chosenWeight * kCandidates);
   return f * fz * chosen->flux * left * (toArea * chosenShare * pick);
 }
 

@@ -19,12 +19,13 @@ class PathWalk {
 
  private:
   struct State;
+  struct Candidates;
   Vec3 follow(State& path, Sampler& sampler, uint64_t& rayCount) const;
   Vec3 escaped(const State& path) const;
   bool passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler) const;
   Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount) const;
   Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount) const;
-  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler, uint64_t& rayCount) const;
+  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount) const;
 
   const RayScene& rays_;
   const Lights& lights_;

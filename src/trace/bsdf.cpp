@@ -8,6 +8,7 @@ Bsdf::Bsdf(const MaterialSample& m, Vec3 ns, Vec3 ng, Vec3 wo)
     : frame_(ns), ng_(ng), wo_(frame_.toLocal(wo)), f0_(m.f0), f90_(m.f90), roughness_(m.roughness), alpha_(ggxAlpha(m.roughness)) {
   mirror_ = alpha_ < kMirrorAlpha;
   wo_.z = std::max(wo_.z, 1e-4f);
+  lambda_ = ggxLambda(wo_.z, alpha_);
   base_ = m.baseColor * ((1 - m.metallic) * (1 - m.transmission));
   const AlbedoTerms e = mirror_ ? AlbedoTerms{1 - schlickWeight(wo_.z), schlickWeight(wo_.z)}
                                 : ggxDirectionalAlbedo(wo_.z, roughness_);
@@ -22,40 +23,58 @@ Bsdf::Bsdf(const MaterialSample& m, Vec3 ns, Vec3 ng, Vec3 wo)
   specularChance_ = s + d > 0 ? s / (s + d) : 0;
 }
 
-float Bsdf::lobeAlbedo(float cosTheta) const {
-  const AlbedoTerms e = ggxDirectionalAlbedo(cosTheta, roughness_);
-  return std::min(1.0f, maxComponent(f0_ * e.scale + f90_ * e.bias));
+Vec3 Bsdf::diffuse(float cosI) const {
+  if (isBlack(base_)) return {};
+  const AlbedoTerms e = ggxDirectionalAlbedo(cosI, roughness_);
+  const float lobeAlbedo = std::min(1.0f, maxComponent(f0_ * e.scale + f90_ * e.bias));
+  return base_ * (diffuseScale_ * (1 - lobeAlbedo) * cosI / kPi);
+}
+
+Bsdf::Lobe Bsdf::lobe(Vec3 wi) const {
+  const Vec3 h = wi + wo_;
+  const float inverse = 1 / length(h), d = ggxD(h.z * inverse, alpha_);
+  return {dot(wo_, h) * inverse, d / (4 * wo_.z * (1 + lambda_)), (1 + lambda_) / (1 + lambda_ + ggxLambda(wi.z, alpha_))};
 }
 
 Vec3 Bsdf::evaluateDiffuse(Vec3 wiWorld) const {
   const float cosI = dot(wiWorld, frame_.n);
-  if (cosI <= 0 || dot(wiWorld, ng_) <= 0) return {};
-  return base_ * (diffuseScale_ * (1 - lobeAlbedo(cosI)) * cosI / kPi);
+  return cosI > 0 && dot(wiWorld, ng_) > 0 ? diffuse(cosI) : Vec3(0);
 }
 
 Vec3 Bsdf::evaluateSpecular(Vec3 wiWorld) const {
   if (mirror_ || specularChance_ <= 0 || dot(wiWorld, ng_) <= 0) return {};
   const Vec3 wi = frame_.toLocal(wiWorld);
   if (wi.z <= 0) return {};
-  const Vec3 h = normalize(wi + wo_);
-  return fresnelSchlick(f0_, f90_, dot(wo_, h)) * (ggxD(h.z, alpha_) * ggxG2(wo_.z, wi.z, alpha_) / (4 * wo_.z));
+  const Lobe l = lobe(wi);
+  return fresnelSchlick(f0_, f90_, l.cosH) * (l.pdf * l.toValue);
 }
 
-Vec3 Bsdf::evaluate(Vec3 wi) const { return evaluateDiffuse(wi) + evaluateSpecular(wi); }
+Vec3 Bsdf::evaluate(Vec3 wi) const { return value(wi).f; }
+
+BsdfValue Bsdf::value(Vec3 wiWorld) const {
+  const Vec3 wi = frame_.toLocal(wiWorld);
+  if (wi.z <= 0) return {};
+  const bool above = dot(wiWorld, ng_) > 0;
+  BsdfValue v;
+  v.pdf = (1 - specularChance_) * wi.z / kPi;
+  if (above) v.f = diffuse(wi.z);
+  if (mirror_ || specularChance_ <= 0) return v;
+  const Lobe l = lobe(wi);
+  v.pdf += specularChance_ * l.pdf;
+  if (above) v.f += fresnelSchlick(f0_, f90_, l.cosH) * (l.pdf * l.toValue);
+  return v;
+}
 
 float Bsdf::pdfSpecular(Vec3 wiWorld) const {
   const Vec3 wi = frame_.toLocal(wiWorld);
-  if (mirror_ || wi.z <= 0) return 0;
-  const Vec3 h = normalize(wi + wo_);
-  return ggxG1(wo_.z, alpha_) * ggxD(h.z, alpha_) / (4 * wo_.z);
+  return mirror_ || wi.z <= 0 ? 0 : lobe(wi).pdf;
 }
 
 float Bsdf::pdf(Vec3 wiWorld) const {
   const Vec3 wi = frame_.toLocal(wiWorld);
   if (wi.z <= 0) return 0;
-  float p = (1 - specularChance_) * wi.z / kPi;
-  if (specularChance_ > 0) p += specularChance_ * pdfSpecular(wiWorld);
-  return p;
+  const float p = (1 - specularChance_) * wi.z / kPi;
+  return specularChance_ > 0 && !mirror_ ? p + specularChance_ * lobe(wi).pdf : p;
 }
 
 BsdfSample Bsdf::sampleSpecular(Vec2 u) const {
@@ -70,8 +89,9 @@ BsdfSample Bsdf::sampleSpecular(Vec2 u) const {
   const Vec3 wi = h * (2 * dot(wo_, h)) - wo_;
   s.wi = frame_.toWorld(wi);
   if (wi.z <= 0 || dot(s.wi, ng_) <= 0) return s;
-  s.pdf = ggxG1(wo_.z, alpha_) * ggxD(h.z, alpha_) / (4 * wo_.z);
-  s.weight = fresnelSchlick(f0_, f90_, dot(wo_, h)) * (ggxG2(wo_.z, wi.z, alpha_) / ggxG1(wo_.z, alpha_));
+  const Lobe l = lobe(wi);
+  s.pdf = l.pdf;
+  s.weight = fresnelSchlick(f0_, f90_, l.cosH) * l.toValue;
   return s;
 }
 
@@ -90,9 +110,10 @@ BsdfSample Bsdf::sample(Vec2 u, float choice) const {
   } else {
     s.wi = frame_.toWorld(sampleCosineHemisphere(u));
   }
-  s.pdf = pdf(s.wi);
-  if (!(s.pdf > 0)) return {};
-  s.weight = evaluate(s.wi) / s.pdf;
+  const BsdfValue v = value(s.wi);
+  if (!(v.pdf > 0)) return {};
+  s.pdf = v.pdf;
+  s.weight = v.f / v.pdf;
   return s;
 }
 

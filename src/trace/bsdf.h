@@ -18,6 +18,11 @@ struct BsdfSample {
   bool valid() const { return mirror || pdf > 0; }
 };
 
+struct BsdfValue {
+  Vec3 f;        // times the cosine of wi
+  float pdf = 0;
+};
+
 class Bsdf {
  public:
   // ns: shading normal, ng: geometric normal, both on wo's side; wo: unit, towards the viewer; all world space.
@@ -28,6 +33,7 @@ class Bsdf {
   Vec3 evaluateDiffuse(Vec3 wi) const;   // its two parts apart
   Vec3 evaluateSpecular(Vec3 wi) const;
   float pdf(Vec3 wi) const;
+  BsdfValue value(Vec3 wi) const;        // evaluate() and pdf(), for less than both
   float pdfSpecular(Vec3 wi) const;  // of sampleSpecular; 0 for a mirror
   BsdfSample sample(Vec2 u, float choice) const;
   // A direction of the specular lobe alone; weight f_specular cos / pdf of that lobe. Not valid where it would enter the surface.
@@ -41,12 +47,19 @@ class Bsdf {
   float alpha() const { return alpha_; }
 
  private:
-  float lobeAlbedo(float cosTheta) const;
+  Vec3 diffuse(float cosI) const;
+  // Of the specular lobe towards wi, local: density, and evaluate() without Fresnel is density times what follows it.
+  struct Lobe {
+    float cosH;  // between wi and the half vector
+    float pdf;   // G1 D / 4 cos
+    float toValue;
+  };
+  Lobe lobe(Vec3 wi) const;
 
   Frame frame_;
   Vec3 ng_, wo_;  // wo in the frame
   Vec3 f0_, f90_, base_;
-  float roughness_, alpha_, diffuseScale_, specularChance_;
+  float roughness_, alpha_, lambda_, diffuseScale_, specularChance_;  // lambda_: ggxLambda() of wo
   Vec3 specularAlbedo_, diffuseAlbedo_;
   bool mirror_;
 };

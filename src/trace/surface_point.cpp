@@ -56,15 +56,18 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const
   s.material = place.material;
   s.ns = unit(m.normal(shadingNormalAt(scene, mesh, {hit.triangle, hit.b1, hit.b2}, objectNormal)));
   if ((m.determinant() < 0) == s.front) s.ns = -s.ns;
-  // A shading normal that the ray sees from behind would reflect into the surface; bend it to just above grazing.
-  const float facing = -dot(s.ns, direction) / length(direction);
-  if (facing < 0.01f || dot(s.ns, s.ng) <= 0) {
-    const Vec3 d = normalize(direction);
-    const Vec3 bent = s.ns - d * (0.02f - facing);
-    s.ns = dot(bent, s.ng) > 0 && lengthSquared(bent) > 1e-6f ? normalize(bent) : s.ng;
-    if (dot(s.ns, d) > -0.005f) s.ns = s.ng;
-  }
+  s.smooth = s.ns;
+  s.ns = bentNormal(s.ns, s.ng, direction);
   return s;
+}
+
+Vec3 bentNormal(Vec3 ns, Vec3 ng, Vec3 direction) {
+  const float facing = -dot(ns, direction) / length(direction);
+  if (facing >= 0.01f && dot(ns, ng) > 0) return ns;
+  const Vec3 d = normalize(direction);
+  const Vec3 sum = ns - d * (0.02f - facing);
+  const Vec3 bent = dot(sum, ng) > 0 && lengthSquared(sum) > 1e-6f ? normalize(sum) : ng;
+  return dot(bent, d) > -0.005f ? ng : bent;
 }
 
 }  // namespace roomlight

@@ -9,7 +9,8 @@ namespace roomlight {
 struct SurfacePoint {
   Vec3 p;              // world
   Vec3 ng;             // unit geometric normal on the side the ray came from
-  Vec3 ns;             // unit shading normal on that side
+  Vec3 smooth;         // unit shading normal on that side, as the mesh and its normal map have it
+  Vec3 ns;             // the same, bent to where the ray sees it from above
   bool front = true;   // the ray met the front (counter-clockwise) side
   uint32_t instance = 0, triangle = 0;
   const Material* material = nullptr;
@@ -32,6 +33,8 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction);
 // With material values from elsewhere.
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material);
 MaterialSample materialAt(const Scene& scene, const Hit& hit);
+// A shading normal that a ray sees from behind would reflect into the surface: bent to just above grazing.
+Vec3 bentNormal(Vec3 ns, Vec3 ng, Vec3 direction);
 
 // World positions of a triangle's vertices.
 struct TriangleVertices {
