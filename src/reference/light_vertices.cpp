@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/sampler.h"
+#include "trace/surfaces.h"
 
 namespace roomlight {
 namespace {
@@ -50,8 +51,7 @@ void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t s
     const Hit hit = rays_.intersect(ray);
     ++rayCount;
     if (!hit.valid()) return;
-    const Scene& scene = rays_.scene();
-    const SurfacePoint s = surfaceAt(scene, hit, ray.direction);
+    const SurfacePoint s = rays_.surfaces().at(hit, ray.direction);
     const Vec3 wi = -ray.direction;
     const Bsdf bsdf(s.m, s.ns, s.ng, wi);
     if (LightVertices::connects(bsdf)) {
@@ -82,8 +82,7 @@ void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t s
       flux *= next.weight;
     } else {
       // What a path coming the other way would find here: flux spreads by the true surface, scattering sees the shading normal.
-      const SurfacePoint back = surfaceAt(scene, hit, -next.wi);
-      const Vec3 f = Bsdf(back.m, back.ns, back.ng, next.wi).evaluate(wi);
+      const Vec3 f = Bsdf(s.m, bentNormal(s.smooth, s.ng, -next.wi), s.ng, next.wi).evaluate(wi);
       flux *= f * (dot(s.ng, next.wi) / (std::max(dot(s.ng, wi), 1e-6f) * next.pdf));
     }
     ray = {offsetOrigin(s.p, s.ng), next.wi, 0, kInfinity};

@@ -81,7 +81,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
       sum += path.throughput * escaped(path);
       break;
     }
-    const SurfacePoint s = surfaceAt(scene_, hit, path.ray.direction);
+    const SurfacePoint s = surfaces_.at(hit, path.ray.direction);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, lights_.pdfLocal(path.lastPoint, s)) : 1;
       sum += path.throughput * emitted * w;

@@ -3,6 +3,7 @@
 
 #include "base/sampler.h"
 #include "reference/light_vertices.h"
+#include "trace/surfaces.h"
 
 namespace roomlight {
 
@@ -10,7 +11,7 @@ class PathWalk {
  public:
   // vertices: of light paths to connect to, or null.
   PathWalk(const RayScene& rays, const Lights& lights, const LightVertices* vertices = nullptr)
-      : rays_(rays), lights_(lights), scene_(rays.scene()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr) {}
+      : rays_(rays), lights_(lights), surfaces_(rays.surfaces()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr) {}
 
   // Towards the ray's origin, cd/m².
   Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount) const;
@@ -29,7 +30,7 @@ class PathWalk {
 
   const RayScene& rays_;
   const Lights& lights_;
-  const Scene& scene_;
+  const Surfaces& surfaces_;
   const LightVertices* vertices_;
 };
 

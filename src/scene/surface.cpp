@@ -20,6 +20,7 @@ const std::array<float, 256>& srgbTable() {
 }
 
 int wrapTexel(int i, int size, Wrap wrap) {
+  if (i >= 0 && i < size) return i;
   switch (wrap) {
     case Wrap::ClampToEdge:
       return std::clamp(i, 0, size - 1);
@@ -36,15 +37,8 @@ int wrapTexel(int i, int size, Wrap wrap) {
   }
 }
 
-Vec2 uvAt(const Mesh& mesh, int set, TrianglePoint p) {
-  const std::vector<Vec2>& uv = mesh.uv[set];
-  if (uv.empty()) return {};
-  const uint32_t* i = &mesh.indices[size_t{3} * p.triangle];
-  return uv[i[0]] * (1 - p.b1 - p.b2) + uv[i[1]] * p.b1 + uv[i[2]] * p.b2;
-}
-
-Rgba textureAt(const Scene& scene, const Mesh& mesh, const TextureRef& ref, TrianglePoint p, bool srgb) {
-  return sampleTexture(scene.textures[static_cast<size_t>(ref.texture)], transformUv(ref, uvAt(mesh, ref.uvSet, p)), srgb);
+Rgba textureAt(const Scene& scene, const TextureRef& ref, const VertexValues& values, bool srgb) {
+  return sampleTexture(scene.textures[static_cast<size_t>(ref.texture)], transformUv(ref, values.uv[ref.uvSet]), srgb);
 }
 
 template <class T>
@@ -64,18 +58,6 @@ float alphaByMode(const Material& material, float alpha) {
   }
 }
 
-// Tangent along +u of the triangle, from its texture coordinates; zero where they are degenerate.
-Vec3 triangleTangent(const Mesh& mesh, const TextureRef& ref, TrianglePoint p, float& sign) {
-  const uint32_t* i = &mesh.indices[size_t{3} * p.triangle];
-  const std::vector<Vec2>& uv = mesh.uv[ref.uvSet];
-  const Vec2 d1 = uv[i[1]] - uv[i[0]], d2 = uv[i[2]] - uv[i[0]];
-  const Vec3 e1 = mesh.positions[i[1]] - mesh.positions[i[0]], e2 = mesh.positions[i[2]] - mesh.positions[i[0]];
-  const float det = d1.x * d2.y - d1.y * d2.x;
-  sign = det < 0 ? 1.0f : -1.0f;  // v runs down the picture, so the bitangent is against +v
-  if (det == 0) return {};
-  return (e1 * d2.y - e2 * d1.y) * (1 / det);
-}
-
 }  // namespace
 
 Vec2 transformUv(const TextureRef& ref, Vec2 uv) {
@@ -90,10 +72,11 @@ Rgba sampleTexture(const Texture& texture, Vec2 uv, bool srgb) {
   const int x0 = static_cast<int>(fx), y0 = static_cast<int>(fy);
   const float wx = x - fx, wy = y - fy;
   const auto& decode = srgbTable();
+  const int columns[2] = {wrapTexel(x0, texture.width, texture.wrapU), wrapTexel(x0 + 1, texture.width, texture.wrapU)};
+  const int rows[2] = {wrapTexel(y0, texture.height, texture.wrapV), wrapTexel(y0 + 1, texture.height, texture.wrapV)};
   Rgba sum{{0, 0, 0}, 0};
   for (int k = 0; k < 4; ++k) {
-    const int tx = wrapTexel(x0 + (k & 1), texture.width, texture.wrapU);
-    const int ty = wrapTexel(y0 + (k >> 1), texture.height, texture.wrapV);
+    const int tx = columns[k & 1], ty = rows[k >> 1];
     const float w = ((k & 1) ? wx : 1 - wx) * ((k >> 1) ? wy : 1 - wy);
     const uint8_t* t = &texture.rgba[4 * (static_cast<size_t>(ty) * static_cast<size_t>(texture.width) + static_cast<size_t>(tx))];
     const Vec3 rgb = srgb ? Vec3{decode[t[0]], decode[t[1]], decode[t[2]]}
@@ -109,19 +92,30 @@ float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
   if (material.alphaMode == AlphaMode::Opaque) return 1;
   float alpha = material.alpha;
   if (!mesh.colorAlphas.empty()) alpha *= interpolate(mesh.colorAlphas, mesh, p);
-  if (material.baseColorTexture.texture >= 0) alpha *= textureAt(scene, mesh, material.baseColorTexture, p, true).a;
+  if (material.baseColorTexture.texture >= 0) alpha *= textureAt(scene, material.baseColorTexture, vertexValuesAt(mesh, p), true).a;
   return alphaByMode(material, alpha);
 }
 
+VertexValues vertexValuesAt(const Mesh& mesh, TrianglePoint p) {
+  VertexValues v;
+  for (int set = 0; set < 2; ++set) {
+    if (!mesh.uv[set].empty()) v.uv[set] = interpolate(mesh.uv[set], mesh, p);
+  }
+  if (!mesh.colors.empty()) v.color = interpolate(mesh.colors, mesh, p);
+  if (!mesh.colorAlphas.empty()) v.colorAlpha = interpolate(mesh.colorAlphas, mesh, p);
+  return v;
+}
+
 MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
-  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+  return materialAt(scene, scene.materials[static_cast<size_t>(mesh.material)], vertexValuesAt(mesh, p));
+}
+
+MaterialSample materialAt(const Scene& scene, const Material& material, const VertexValues& values) {
   MaterialSample m;
-  m.baseColor = material.baseColor;
-  float alpha = material.alpha;
-  if (!mesh.colors.empty()) m.baseColor *= interpolate(mesh.colors, mesh, p);
-  if (!mesh.colorAlphas.empty()) alpha *= interpolate(mesh.colorAlphas, mesh, p);
+  m.baseColor = material.baseColor * values.color;
+  float alpha = material.alpha * values.colorAlpha;
   if (material.baseColorTexture.texture >= 0) {
-    const Rgba t = textureAt(scene, mesh, material.baseColorTexture, p, true);
+    const Rgba t = textureAt(scene, material.baseColorTexture, values, true);
     m.baseColor *= t.rgb;
     alpha *= t.a;
   }
@@ -130,7 +124,7 @@ MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p)
   m.metallic = material.metallic;
   m.roughness = material.roughness;
   if (material.metallicRoughnessTexture.texture >= 0) {
-    const Rgba t = textureAt(scene, mesh, material.metallicRoughnessTexture, p, false);
+    const Rgba t = textureAt(scene, material.metallicRoughnessTexture, values, false);
     m.roughness *= t.rgb.y;
     m.metallic *= t.rgb.z;
   }
@@ -138,12 +132,12 @@ MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p)
   m.roughness = std::clamp(m.roughness, 0.0f, 1.0f);
   m.transmission = material.transmission;
   if (material.transmissionTexture.texture >= 0) {
-    m.transmission *= textureAt(scene, mesh, material.transmissionTexture, p, false).rgb.x;
+    m.transmission *= textureAt(scene, material.transmissionTexture, values, false).rgb.x;
   }
   m.transmission = std::clamp(m.transmission, 0.0f, 1.0f);
   m.emission = material.emission;
   if (material.emissionTexture.texture >= 0 && !isBlack(m.emission)) {
-    m.emission *= textureAt(scene, mesh, material.emissionTexture, p, true).rgb;
+    m.emission *= textureAt(scene, material.emissionTexture, values, true).rgb;
   }
   m.emission *= m.alpha;
   const float r = (material.ior - 1) / (material.ior + 1);
@@ -161,23 +155,40 @@ Vec3 shadingNormalAt(const Scene& scene, const Mesh& mesh, TrianglePoint p, Vec3
     n = l > 1e-6f ? n / l : geometric;
   }
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-  const TextureRef& ref = material.normalTexture;
-  if (ref.texture < 0 || mesh.uv[ref.uvSet].empty()) return n;
-
+  if (!hasNormalMap(material, mesh)) return n;
   Vec3 tangent;
   float sign = 1;
   if (!mesh.tangents.empty()) {
     tangent = interpolate(mesh.tangents, mesh, p);
     sign = mesh.tangentSigns[mesh.indices[size_t{3} * p.triangle]];
   } else {
-    tangent = triangleTangent(mesh, ref, p, sign);
+    tangent = triangleTangent(mesh, material.normalTexture, p.triangle, sign);
   }
+  return bumpedNormal(scene, material, n, tangent, sign, vertexValuesAt(mesh, p));
+}
+
+bool hasNormalMap(const Material& material, const Mesh& mesh) {
+  return material.normalTexture.texture >= 0 && !mesh.uv[material.normalTexture.uvSet].empty();
+}
+
+Vec3 triangleTangent(const Mesh& mesh, const TextureRef& ref, uint32_t triangle, float& sign) {
+  const uint32_t* i = &mesh.indices[size_t{3} * triangle];
+  const std::vector<Vec2>& uv = mesh.uv[ref.uvSet];
+  const Vec2 d1 = uv[i[1]] - uv[i[0]], d2 = uv[i[2]] - uv[i[0]];
+  const Vec3 e1 = mesh.positions[i[1]] - mesh.positions[i[0]], e2 = mesh.positions[i[2]] - mesh.positions[i[0]];
+  const float det = d1.x * d2.y - d1.y * d2.x;
+  sign = det < 0 ? 1.0f : -1.0f;  // v runs down the picture, so the bitangent is against +v
+  if (det == 0) return {};
+  return (e1 * d2.y - e2 * d1.y) * (1 / det);
+}
+
+Vec3 bumpedNormal(const Scene& scene, const Material& material, Vec3 n, Vec3 tangent, float sign, const VertexValues& values) {
   tangent -= n * dot(n, tangent);
   const float l = length(tangent);
   if (!(l > 1e-12f)) return n;
   tangent = tangent / l;
   const Vec3 bitangent = cross(n, tangent) * sign;
-  Vec3 t = textureAt(scene, mesh, ref, p, false).rgb * 2 - Vec3(1);
+  Vec3 t = textureAt(scene, material.normalTexture, values, false).rgb * 2 - Vec3(1);
   t.x *= material.normalScale;
   t.y *= material.normalScale;
   const Vec3 bumped = tangent * t.x + bitangent * t.y + n * t.z;

@@ -31,12 +31,26 @@ struct TrianglePoint {
   float b1, b2;
 };
 
+// What the vertices of a mesh give a point, beside place and normal.
+struct VertexValues {
+  Vec2 uv[2];
+  Vec3 color{1, 1, 1};
+  float colorAlpha = 1;
+};
+VertexValues vertexValuesAt(const Mesh& mesh, TrianglePoint p);
+
 MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p);
+MaterialSample materialAt(const Scene& scene, const Material& material, const VertexValues& values);
 float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p);  // only the alpha, cheaper
 
 // Interpolated shading normal in object space, normal map applied; unit. `geometric` is the unit face normal, used
 // where the mesh has no normals.
 Vec3 shadingNormalAt(const Scene& scene, const Mesh& mesh, TrianglePoint p, Vec3 geometric);
+// Its parts: the map applied to the interpolated normal n, unit, which takes a tangent of any length (zero: no map)
+// and the side of the bitangent; and that tangent along +u of a triangle, from its texture coordinates (zero where they are degenerate).
+bool hasNormalMap(const Material& material, const Mesh& mesh);
+Vec3 bumpedNormal(const Scene& scene, const Material& material, Vec3 n, Vec3 tangent, float sign, const VertexValues& values);
+Vec3 triangleTangent(const Mesh& mesh, const TextureRef& ref, uint32_t triangle, float& sign);
 
 // Fraction of the light from a uniform hemisphere that the surface reflects in total, per channel; what a diffuse
 // voxel of this material must reflect. Light that passes straight through is not in it.

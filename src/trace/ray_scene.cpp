@@ -2,10 +2,12 @@
 
 #include <embree3/rtcore.h>
 
+#include <mutex>
 #include <vector>
 
 #include "base/parallel.h"
 #include "scene/surface.h"
+#include "trace/surfaces.h"
 
 namespace roomlight {
 namespace {
@@ -69,6 +71,8 @@ struct RayScene::State {
   RTCScene top = nullptr;
   std::vector<RTCScene> meshScenes;  // of instanced meshes, else null
   std::vector<GeometryTag> tags;     // one per mesh
+  std::once_flag surfacesMade;
+  std::unique_ptr<const Surfaces> surfaces;
 
   ~State() {
     if (top) rtcReleaseScene(top);
@@ -152,6 +156,10 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 const Scene& RayScene::scene() const { return *state_->scene; }
 const Bounds3& RayScene::bounds() const { return state_->bounds; }
+const Surfaces& RayScene::surfaces() const {
+  std::call_once(state_->surfacesMade, [&] { state_->surfaces = std::make_unique<const Surfaces>(*state_->scene); });
+  return *state_->surfaces;
+}
 
 Hit RayScene::intersect(const Ray& ray) const {
   RTCIntersectContext context;

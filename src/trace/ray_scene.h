@@ -9,6 +9,8 @@
 
 namespace roomlight {
 
+class Surfaces;
+
 constexpr uint32_t kNoHit = 0xffffffffu;
 
 struct Ray {
@@ -45,6 +47,7 @@ class RayScene {
 
   const Scene& scene() const;
   const Bounds3& bounds() const;
+  const Surfaces& surfaces() const;  // made at the first call
 
  private:
   struct State;
