@@ -17,15 +17,14 @@ inline uint32_t reverseBits(uint32_t v) {
   v = ((v & 0x33333333u) << 2) | ((v & 0xccccccccu) >> 2);
   return ((v & 0x55555555u) << 1) | ((v & 0xaaaaaaaau) >> 1);
 }
-inline uint32_t owenScramble(uint32_t v, uint32_t seed) {  // Laine-Karras permutation between bit reversals
-  v = reverseBits(v);
+inline uint32_t laineKarras(uint32_t v, uint32_t seed) {  // Owen's scrambling of reversed bits
   v += seed;
   v ^= v * 0x6c50b47cu;
   v ^= v * 0xb82f1e52u;
   v ^= v * 0xc7afe638u;
-  v ^= v * 0x8d22f6e6u;
-  return reverseBits(v);
+  return v ^ v * 0x8d22f6e6u;
 }
+inline uint32_t owenScramble(uint32_t v, uint32_t seed) { return reverseBits(laineKarras(reverseBits(v), seed)); }
 // Second dimension of Sobol's sequence from the first, which is the reversed index: Pascal's triangle modulo 2, applied in
 // five steps (Ahmed 2024).
 inline uint32_t sobolSecond(uint32_t first) {
@@ -39,7 +38,7 @@ inline uint32_t sobolSecond(uint32_t first) {
 
 class Sampler {
  public:
-  Sampler(uint64_t pixel, uint32_t sample, uint64_t seed) : rng_(pixel, sample, seed), sample_(sample) {
+  Sampler(uint64_t pixel, uint32_t sample, uint64_t seed) : rng_(pixel, sample, seed), reversedSample_(detail::reverseBits(sample)) {
     key_ = static_cast<uint32_t>(mix64(pixel * 0x9e3779b97f4a7c15ull + seed));
   }
   Vec2 next2() {
@@ -58,11 +57,11 @@ class Sampler {
  private:
   static constexpr uint32_t kStratifiedPairs = 24;
   uint32_t nextKey() { return mix32(key_ + 0x9e3779b9u * ++dimension_); }
-  uint32_t firstOf(uint32_t key) const { return detail::reverseBits(detail::owenScramble(sample_, key)); }
+  uint32_t firstOf(uint32_t key) const { return detail::laineKarras(reversedSample_, key); }
   static uint32_t scrambleFirst(uint32_t first, uint32_t key) { return detail::owenScramble(first, mix32(key ^ 0xa511e9b3u)); }
   static float toUnit(uint32_t v) { return static_cast<float>(v >> 8) * 0x1p-24f; }
   Rng rng_;
-  uint32_t key_, sample_, dimension_ = 0;
+  uint32_t key_, reversedSample_, dimension_ = 0;
 };
 
 }  // namespace roomlight

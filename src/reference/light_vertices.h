@@ -29,7 +29,11 @@ struct alignas(64) LightVertex {
   float estimateCd(Vec3 wo) const {
     const float cosO = std::max(dot(wo, ng), 0.0f);
     float cd = diffuseLm * cosO / kPi;
-    if (glossyLm > 0) cd += glossyLm * ggxD(dot(normalize(wo + wi), ns), alpha) / (4 * std::max(dot(wi, ng), cosO));
+    if (glossyLm > 0) {
+      const Vec3 h = wo + wi;
+      const float cosH = dot(h, ns), l2 = lengthSquared(h), a2 = alpha * alpha, k = (l2 + cosH * cosH * (a2 - 1)) / l2;
+      cd += glossyLm * a2 / (4 * kPi * std::max(dot(wi, ng), cosO) * k * k);
+    }
     return cd;
   }
 };
@@ -48,10 +52,8 @@ class LightVertices {
   static bool connects(const Bsdf& z) { return z.alpha() >= 0.05f; }
   // Light from z to x is shared between the path that scattered at x and found z, and connections from x: this is the
   // connections' part, by the densities per area of z with which either finds it. Any function of x and z would do.
-  static float share(float pdfAtX, Vec3 x, Vec3 z, Vec3 ngZ, float densityM2) {
-    const Vec3 d = z - x;
-    const float d2 = lengthSquared(d);
-    const float byPath = pdfAtX * std::abs(dot(ngZ, d)) / std::max(d2 * std::sqrt(d2), 1e-18f);
+  static float share(float pdfAtX, float cosZ, float inverseDistance2, float densityM2) {
+    const float byPath = pdfAtX * cosZ * inverseDistance2;
     const float l = densityM2 * densityM2, c = byPath * byPath;
     return l > 0 ? l / (l + c) : 0;
   }

@@ -89,7 +89,8 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
     float lampShare = path.lampShare;
     if (vertices_ && path.lastPdf > 0 && LightVertices::connects(bsdf)) {
-      lampShare *= 1 - LightVertices::share(path.lastPdf, path.lastPoint, s.p, s.ng, lights_.lampDensity(s.p, s.ng));
+      const float inverse2 = 1 / std::max(lengthSquared(s.p - path.lastPoint), 1e-12f);
+      lampShare *= 1 - LightVertices::share(path.lastPdf, -dot(s.ng, path.ray.direction), inverse2, lights_.lampDensity(s.p, s.ng));
     }
     // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
     Vec3 here = direct(s, bsdf, lampShare, sampler, rayCount);
@@ -175,12 +176,13 @@ Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidat
     const LightVertex& v = *candidate;
     const float u = sampler.fast1();
     const Vec3 d = v.p - s.p;
-    const float d2 = lengthSquared(d), cosX = dot(d, s.ns), cosZ = -dot(d, v.ng);
+    const float cosX = dot(d, s.ns), cosZ = -dot(d, v.ng);
     if (cosX <= 0 || cosZ <= 0 || dot(d, s.ng) <= 0) continue;
-    const Vec3 towards = d / std::sqrt(d2);
+    const float inverse2 = 1 / std::max(lengthSquared(d), 1e-12f), inverse = std::sqrt(inverse2);
+    const Vec3 towards = d * inverse;
     const float pdf = bsdf.pdf(towards);
-    const float share = LightVertices::share(pdf, s.p, v.p, v.ng, v.densityM2);
-    const float weight = v.estimateCd(-towards) * pdf / d2 * share;
+    const float share = LightVertices::share(pdf, cosZ * inverse, inverse2, v.densityM2);
+    const float weight = v.estimateCd(-towards) * pdf * inverse2 * share;
     if (!(weight > 0)) continue;
     total += weight;
     if (u * total < weight) chosen = &v, chosenWeight = weight, chosenShare = share;

@@ -9,6 +9,7 @@ Bsdf::Bsdf(const MaterialSample& m, Vec3 ns, Vec3 ng, Vec3 wo)
   mirror_ = alpha_ < kMirrorAlpha;
   wo_.z = std::max(wo_.z, 1e-4f);
   lambda_ = ggxLambda(wo_.z, alpha_);
+  lobeScale_ = alpha_ * alpha_ / (4 * kPi * wo_.z * (1 + lambda_));
   base_ = m.baseColor * ((1 - m.metallic) * (1 - m.transmission));
   const AlbedoTerms e = mirror_ ? AlbedoTerms{1 - schlickWeight(wo_.z), schlickWeight(wo_.z)}
                                 : ggxDirectionalAlbedo(wo_.z, roughness_);
@@ -30,23 +31,15 @@ Vec3 Bsdf::diffuse(float cosI) const {
   return base_ * (diffuseScale_ * (1 - lobeAlbedo) * cosI / kPi);
 }
 
-Bsdf::Lobe Bsdf::lobe(Vec3 wi) const {
-  const Vec3 h = wi + wo_;
-  const float inverse = 1 / length(h), d = ggxD(h.z * inverse, alpha_);
-  return {dot(wo_, h) * inverse, d / (4 * wo_.z * (1 + lambda_)), (1 + lambda_) / (1 + lambda_ + ggxLambda(wi.z, alpha_))};
-}
-
 Vec3 Bsdf::evaluateDiffuse(Vec3 wiWorld) const {
   const float cosI = dot(wiWorld, frame_.n);
   return cosI > 0 && dot(wiWorld, ng_) > 0 ? diffuse(cosI) : Vec3(0);
 }
 
 Vec3 Bsdf::evaluateSpecular(Vec3 wiWorld) const {
-  if (mirror_ || specularChance_ <= 0 || dot(wiWorld, ng_) <= 0) return {};
+  if (!hasLobe() || dot(wiWorld, ng_) <= 0) return {};
   const Vec3 wi = frame_.toLocal(wiWorld);
-  if (wi.z <= 0) return {};
-  const Lobe l = lobe(wi);
-  return fresnelSchlick(f0_, f90_, l.cosH) * (l.pdf * l.toValue);
+  return wi.z > 0 ? lobeWeight(wi) * lobePdf(wi) : Vec3(0);
 }
 
 Vec3 Bsdf::evaluate(Vec3 wi) const { return value(wi).f; }
@@ -54,27 +47,17 @@ Vec3 Bsdf::evaluate(Vec3 wi) const { return value(wi).f; }
 BsdfValue Bsdf::value(Vec3 wiWorld) const {
   const Vec3 wi = frame_.toLocal(wiWorld);
   if (wi.z <= 0) return {};
-  const bool above = dot(wiWorld, ng_) > 0;
   BsdfValue v;
-  v.pdf = (1 - specularChance_) * wi.z / kPi;
-  if (above) v.f = diffuse(wi.z);
-  if (mirror_ || specularChance_ <= 0) return v;
-  const Lobe l = lobe(wi);
-  v.pdf += specularChance_ * l.pdf;
-  if (above) v.f += fresnelSchlick(f0_, f90_, l.cosH) * (l.pdf * l.toValue);
+  v.pdf = pdfLocal(wi);
+  if (dot(wiWorld, ng_) <= 0) return v;
+  v.f = diffuse(wi.z);
+  if (hasLobe()) v.f += lobeWeight(wi) * lobePdf(wi);
   return v;
 }
 
 float Bsdf::pdfSpecular(Vec3 wiWorld) const {
   const Vec3 wi = frame_.toLocal(wiWorld);
-  return mirror_ || wi.z <= 0 ? 0 : lobe(wi).pdf;
-}
-
-float Bsdf::pdf(Vec3 wiWorld) const {
-  const Vec3 wi = frame_.toLocal(wiWorld);
-  if (wi.z <= 0) return 0;
-  const float p = (1 - specularChance_) * wi.z / kPi;
-  return specularChance_ > 0 && !mirror_ ? p + specularChance_ * lobe(wi).pdf : p;
+  return mirror_ || wi.z <= 0 ? 0 : lobePdf(wi);
 }
 
 BsdfSample Bsdf::sampleSpecular(Vec2 u) const {
@@ -89,9 +72,8 @@ BsdfSample Bsdf::sampleSpecular(Vec2 u) const {
   const Vec3 wi = h * (2 * dot(wo_, h)) - wo_;
   s.wi = frame_.toWorld(wi);
   if (wi.z <= 0 || dot(s.wi, ng_) <= 0) return s;
-  const Lobe l = lobe(wi);
-  s.pdf = l.pdf;
-  s.weight = fresnelSchlick(f0_, f90_, l.cosH) * l.toValue;
+  s.pdf = lobePdf(wi);
+  s.weight = lobeWeight(wi);
   return s;
 }
 

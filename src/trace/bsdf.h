@@ -32,7 +32,10 @@ class Bsdf {
   Vec3 evaluate(Vec3 wi) const;
   Vec3 evaluateDiffuse(Vec3 wi) const;   // its two parts apart
   Vec3 evaluateSpecular(Vec3 wi) const;
-  float pdf(Vec3 wi) const;
+  float pdf(Vec3 wiWorld) const {
+    const Vec3 wi = frame_.toLocal(wiWorld);
+    return wi.z > 0 ? pdfLocal(wi) : 0;
+  }
   BsdfValue value(Vec3 wi) const;        // evaluate() and pdf(), for less than both
   float pdfSpecular(Vec3 wi) const;  // of sampleSpecular; 0 for a mirror
   BsdfSample sample(Vec2 u, float choice) const;
@@ -48,18 +51,29 @@ class Bsdf {
 
  private:
   Vec3 diffuse(float cosI) const;
-  // Of the specular lobe towards wi, local: density, and evaluate() without Fresnel is density times what follows it.
-  struct Lobe {
-    float cosH;  // between wi and the half vector
-    float pdf;   // G1 D / 4 cos
-    float toValue;
-  };
-  Lobe lobe(Vec3 wi) const;
+  bool hasLobe() const { return !mirror_ && specularChance_ > 0; }
+  float pdfLocal(Vec3 wi) const {
+    const float p = (1 - specularChance_) * wi.z / kPi;
+    return hasLobe() ? p + specularChance_ * lobePdf(wi) : p;
+  }
+  // Of the specular lobe towards wi, local. Density: G1 D / (4 cos), with D written for a half vector of any length.
+  float lobePdf(Vec3 wi) const {
+    const Vec3 h = wi + wo_;
+    const float xy = h.x * h.x + h.y * h.y, z2 = h.z * h.z, q = (xy + z2) / (xy + alpha_ * alpha_ * z2);
+    return lobeScale_ * q * q;
+  }
+  // F G2 / G1: evaluateSpecular() over that density.
+  Vec3 lobeWeight(Vec3 wi) const {
+    const Vec3 h = wi + wo_;
+    const float c2 = wi.z * wi.z, root = std::sqrt(c2 + alpha_ * alpha_ * std::max(0.0f, 1 - c2));
+    return fresnelSchlick(f0_, f90_, dot(wo_, h) / length(h)) * ((1 + lambda_) * wi.z / ((0.5f + lambda_) * wi.z + 0.5f * root));
+  }
 
   Frame frame_;
   Vec3 ng_, wo_;  // wo in the frame
   Vec3 f0_, f90_, base_;
-  float roughness_, alpha_, lambda_, diffuseScale_, specularChance_;  // lambda_: ggxLambda() of wo
+  float roughness_, alpha_, diffuseScale_, specularChance_;
+  float lambda_, lobeScale_;  // ggxLambda() of wo; what is constant in lobePdf()
   Vec3 specularAlbedo_, diffuseAlbedo_;
   bool mirror_;
 };

@@ -62,10 +62,11 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const
 }
 
 Vec3 bentNormal(Vec3 ns, Vec3 ng, Vec3 direction) {
-  const float facing = -dot(ns, direction) / length(direction);
-  if (facing >= 0.01f && dot(ns, ng) > 0) return ns;
-  const Vec3 d = normalize(direction);
-  const Vec3 sum = ns - d * (0.02f - facing);
+  const float away = -dot(ns, direction), l2 = lengthSquared(direction);
+  if (away > 0 && away * away >= 1e-4f * l2 && dot(ns, ng) > 0) return ns;
+  const float l = std::sqrt(l2);
+  const Vec3 d = direction / l;
+  const Vec3 sum = ns - d * (0.02f - away / l);
   const Vec3 bent = dot(sum, ng) > 0 && lengthSquared(sum) > 1e-6f ? normalize(sum) : ng;
   return dot(bent, d) > -0.005f ? ng : bent;
 }
