@@ -50,7 +50,13 @@ Lights::Lights(const Scene& scene) : scene_(scene), suns_(scene.suns), sky_(scen
   }
   float flux = 0;
   for (const Lamp& lamp : lamps_) flux += lampShare_.emplace_back(luminance(lamp.intensityCd) * lampOneMinusCos(lamp));
-  for (float& share : lampShare_) share /= flux;
+  for (size_t i = 0; i < lamps_.size(); ++i) {
+    const Lamp& lamp = lamps_[i];
+    const bool point = lamp.kind == LampKind::Point;
+    const float spread = lampOneMinusCos(lamp), share = lampShare_[i] /= flux;
+    lampTerms_.push_back({lamp.position, lamp.direction, luminance(lamp.intensityCd), point ? -1 : std::cos(lamp.innerConeRad),
+                          point ? -1 : std::cos(lamp.outerConeRad), share * conePdf(spread), point ? -kInfinity : 1 - spread});
+  }
   std::erase_if(suns_, [](const Sun& sun) { return isBlack(sun.illuminanceLux); });
   emitterOfInstance_.assign(scene.instances.size(), -1);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) addEmitter(i);
@@ -63,6 +69,8 @@ void Lights::addEmitter(uint32_t index) {
   Emitter e;
   e.instance = index;
   e.doubleSided = material.doubleSided;
+  e.even = emitsEvenly(material);
+  e.emission = material.emission;
   e.slotOfTriangle.assign(mesh.triangleCount(), -1);
   Bounds3 bounds;
   Vec3 normal;
@@ -83,10 +91,12 @@ void Lights::addEmitter(uint32_t index) {
     bounds.add(v.a), bounds.add(v.b), bounds.add(v.c);
     flux += lm;
     e.slotOfTriangle[t] = static_cast<int32_t>(e.triangles.size());
-    e.triangles.push_back({t, static_cast<float>(flux), lm, area});
+    e.triangles.push_back({t, lm, area, v, n});
+    e.cdf.push_back(static_cast<float>(flux));
   }
   if (e.triangles.empty()) return;
-  for (EmitterTriangle& t : e.triangles) t.cdf /= static_cast<float>(flux), t.share /= static_cast<float>(flux);
+  for (EmitterTriangle& t : e.triangles) t.share /= static_cast<float>(flux);
+  for (float& end : e.cdf) end /= static_cast<float>(flux);
   e.centre = bounds.centre();
   e.radius2 = 0.25f * lengthSquared(bounds.size());
   e.normal = flat ? normal : Vec3(0);
@@ -102,10 +112,10 @@ float Lights::importance(const Emitter& e, Vec3 p) const {
   return e.fluxLm / (kPi * std::max(lengthSquared(p - e.centre), 0.25f * e.radius2 + 1e-6f));
 }
 
-float Lights::importance(const Lamp& lamp, Vec3 p) const {
+float Lights::importance(const LampTerms& lamp, Vec3 p) const {
   const Vec3 d = p - lamp.position;
-  const float d2 = std::max(lengthSquared(d), 1e-4f);
-  return luminance(lampIntensity(lamp, d / std::sqrt(d2))) / d2;
+  const float inverse2 = 1 / std::max(lengthSquared(d), 1e-4f), cd = lamp.intensityCd * inverse2;
+  return lamp.cosOuter <= -1 ? cd : cd * spotFalloff(dot(d, lamp.direction) * std::sqrt(inverse2), lamp.cosInner, lamp.cosOuter);
 }
 
 LightSample Lights::sampleLamp(size_t index, Vec3 p) const {
@@ -133,24 +143,21 @@ LampRay Lights::sampleLampRay(float choice, Vec2 u) const {
 
 float Lights::lampDensity(Vec3 p, Vec3 n) const {
   float density = 0;
-  for (size_t i = 0; i < lamps_.size(); ++i) {
-    const Vec3 d = lamps_[i].position - p;
-    const float d2 = std::max(lengthSquared(d), 1e-8f), cosine = dot(n, d);
+  for (const LampTerms& lamp : lampTerms_) {
+    const Vec3 d = lamp.position - p;
+    const float cosine = dot(n, d);
     if (cosine <= 0) continue;
-    const float l = std::sqrt(d2), spread = lampOneMinusCos(lamps_[i]);
-    if (lamps_[i].kind == LampKind::Point || -dot(lamps_[i].direction, d) > (1 - spread) * l) density += lampShare_[i] * conePdf(spread) * cosine / (d2 * l);
+    const float inverse2 = 1 / std::max(lengthSquared(d), 1e-8f), inverse = std::sqrt(inverse2);
+    if (-dot(lamp.direction, d) * inverse > lamp.cosSpread) density += lamp.raysPerSr * cosine * inverse2 * inverse;
   }
   return density;
 }
 
 LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {
-  const auto it = std::upper_bound(e.triangles.begin(), e.triangles.end(), choice,
-                                   [](float v, const EmitterTriangle& t) { return v < t.cdf; });
-  const EmitterTriangle& t = it == e.triangles.end() ? e.triangles.back() : *it;
-  const TriangleVertices v = worldTriangle(scene_, e.instance, t.triangle);
-  const Instance& instance = scene_.instances[e.instance];
-  const Vec3 twiceArea = cross(v.b - v.a, v.c - v.a);
-  const Vec3 n = normalize(twiceArea) * (instance.worldFromObject.determinant() < 0 ? -1.0f : 1.0f);
+  const auto slot = static_cast<size_t>(std::upper_bound(e.cdf.begin(), e.cdf.end(), choice) - e.cdf.begin());
+  const EmitterTriangle& t = e.triangles[std::min(slot, e.triangles.size() - 1)];
+  const TriangleVertices& v = t.v;
+  const Vec3 n = t.normal;
   LightSample s;
   Vec2 b;
   const float solidAngle = triangleSolidAngle(p, v.a, v.b, v.c);
@@ -162,6 +169,7 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
     if (!(s.distance > 1e-4f)) return s;
     s.pdf = chance * t.share / solidAngle;
     const Vec3 q = p + s.wi * s.distance;
+    const Vec3 twiceArea = cross(v.b - v.a, v.c - v.a);
     const float scale = 1 / lengthSquared(twiceArea);
     b = {dot(cross(v.c - q, v.a - q), twiceArea) * scale, dot(cross(v.a - q, v.b - q), twiceArea) * scale};
   } else {
@@ -175,9 +183,7 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
     if (!e.doubleSided && cosLight <= 0) return s;
     s.pdf = chance * t.share / t.areaM2 * d2 / std::max(std::abs(cosLight), 1e-6f);
   }
-  const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
-  const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
-  const Vec3 emission = emitsEvenly(material) ? material.emission : materialAt(scene_, mesh, {t.triangle, b.x, b.y}).emission;
+  const Vec3 emission = e.even ? e.emission : materialAt(scene_, {e.instance, t.triangle, b.x, b.y}).emission;
   s.radiance = emission / s.pdf;
   return s;
 }
@@ -186,7 +192,7 @@ float Lights::pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) cons
   const int32_t slot = e.slotOfTriangle[q.triangle];
   if (slot < 0 || (!q.front && !e.doubleSided)) return 0;
   const EmitterTriangle& t = e.triangles[static_cast<size_t>(slot)];
-  const TriangleVertices v = worldTriangle(scene_, q.instance, q.triangle);
+  const TriangleVertices& v = t.v;
   const float solidAngle = triangleSolidAngle(p, v.a, v.b, v.c);
   if (samplesSolidAngle(solidAngle)) return t.share / solidAngle;
   const Vec3 d = q.p - p;
@@ -197,12 +203,12 @@ float Lights::pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) cons
 
 LightSample Lights::sampleLocal(Vec3 p, Vec2 u, float choice) const {
   float total = 0;
-  for (const Lamp& lamp : lamps_) total += importance(lamp, p);
+  for (const LampTerms& lamp : lampTerms_) total += importance(lamp, p);
   for (const Emitter& e : emitters_) total += importance(e, p);
   if (!(total > 0)) return {};
   float v = choice * total;
   for (size_t i = 0; i < lamps_.size(); ++i) {
-    const float w = importance(lamps_[i], p);
+    const float w = importance(lampTerms_[i], p);
     if (v < w) {
       LightSample s = sampleLamp(i, p);
       s.radiance *= total / w;
@@ -222,7 +228,7 @@ float Lights::pdfLocal(Vec3 p, const SurfacePoint& q) const {
   const int32_t index = emitterOfInstance_[q.instance];
   if (index < 0) return 0;
   float total = 0;
-  for (const Lamp& lamp : lamps_) total += importance(lamp, p);
+  for (const LampTerms& lamp : lampTerms_) total += importance(lamp, p);
   for (const Emitter& e : emitters_) total += importance(e, p);
   const Emitter& e = emitters_[static_cast<size_t>(index)];
   return total > 0 ? importance(e, p) / total * pdfInEmitter(e, p, q) : 0;
@@ -230,11 +236,11 @@ float Lights::pdfLocal(Vec3 p, const SurfacePoint& q) const {
 
 LightSample Lights::sampleLamps(Vec3 p, float choice) const {
   float total = 0;
-  for (const Lamp& lamp : lamps_) total += importance(lamp, p);
+  for (const LampTerms& lamp : lampTerms_) total += importance(lamp, p);
   if (!(total > 0)) return {};
   float v = choice * total;
   for (size_t i = 0; i < lamps_.size(); ++i) {
-    const float w = importance(lamps_[i], p);
+    const float w = importance(lampTerms_[i], p);
     if (v < w || i + 1 == lamps_.size()) {
       LightSample s = sampleLamp(i, p);
       if (w > 0) s.radiance *= total / w;

@@ -62,9 +62,10 @@ class Lights {
  private:
   struct EmitterTriangle {
     uint32_t triangle;
-    float cdf;   // upper end of its share
     float share; // of the emitter's flux
     float areaM2;
+    TriangleVertices v;
+    Vec3 normal; // unit, of the front
   };
   struct Emitter {
     uint32_t instance;
@@ -72,18 +73,28 @@ class Lights {
     float radius2 = 0;
     float fluxLm = 0;
     bool doubleSided = false;
+    bool even = true;     // emits the same everywhere
+    Vec3 emission;        // if so
     std::vector<EmitterTriangle> triangles;
+    std::vector<float> cdf;               // upper ends of their shares
     std::vector<int32_t> slotOfTriangle;  // mesh triangle -> index into triangles, -1: does not emit
+  };
+  struct LampTerms {  // of lamps_[i], worked out once
+    Vec3 position, direction;
+    float intensityCd;           // luminance
+    float cosInner, cosOuter;    // of a spot; -1 for a point
+    float raysPerSr, cosSpread;  // density of lamp rays, of all lamps' rays, inside the cone of that cosine
   };
   void addEmitter(uint32_t instance);
   float importance(const Emitter& e, Vec3 p) const;
-  float importance(const Lamp& lamp, Vec3 p) const;
+  float importance(const LampTerms& lamp, Vec3 p) const;
   LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;
   float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
 
   const Scene& scene_;
   std::vector<Lamp> lamps_;
   std::vector<float> lampShare_;  // of all rays from lamps
+  std::vector<LampTerms> lampTerms_;
   std::vector<Sun> suns_;
   std::vector<Emitter> emitters_;
   std::vector<int32_t> emitterOfInstance_;
