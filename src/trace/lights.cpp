@@ -7,6 +7,8 @@
 namespace roomlight {
 namespace {
 
+constexpr size_t kRemembered = 64;
+
 bool emitsEvenly(const Material& material) { return material.emissionTexture.texture < 0 && material.alphaMode == AlphaMode::Opaque; }
 
 // Mean emission over a triangle: exact without a texture, else a fixed seven-point rule.
@@ -202,24 +204,28 @@ float Lights::pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) cons
 }
 
 LightSample Lights::sampleLocal(Vec3 p, Vec2 u, float choice) const {
+  // Few homes have more lights than are remembered here; of the rest the importance is worked out twice.
+  float remembered[kRemembered];
+  const size_t count = lamps_.size() + emitters_.size();
+  const auto weigh = [&](size_t i) { return i < lamps_.size() ? importance(lampTerms_[i], p) : importance(emitters_[i - lamps_.size()], p); };
   float total = 0;
-  for (const LampTerms& lamp : lampTerms_) total += importance(lamp, p);
-  for (const Emitter& e : emitters_) total += importance(e, p);
+  for (size_t i = 0; i < count; ++i) {
+    const float w = weigh(i);
+    if (i < kRemembered) remembered[i] = w;
+    total += w;
+  }
   if (!(total > 0)) return {};
   float v = choice * total;
-  for (size_t i = 0; i < lamps_.size(); ++i) {
-    const float w = importance(lampTerms_[i], p);
-    if (v < w) {
-      LightSample s = sampleLamp(i, p);
-      s.radiance *= total / w;
-      return s;
+  for (size_t i = 0; i < count; ++i) {
+    const float w = i < kRemembered ? remembered[i] : weigh(i);
+    if (v >= w) {
+      v -= w;
+      continue;
     }
-    v -= w;
-  }
-  for (const Emitter& e : emitters_) {
-    const float w = importance(e, p);
-    if (v < w) return sampleEmitter(e, p, u, v / w, w / total);
-    v -= w;
+    if (i >= lamps_.size()) return sampleEmitter(emitters_[i - lamps_.size()], p, u, v / w, w / total);
+    LightSample s = sampleLamp(i, p);
+    s.radiance *= total / w;
+    return s;
   }
   return {};
 }
