@@ -12,7 +12,7 @@ namespace roomlight {
 namespace {
 
 constexpr int kTile = 16;
-// Light paths a pass; more do not help as much as another pass. Some 4 vertices each, 100 B a vertex: 100 MiB at most.
+// Light paths a pass; more do not help as much as another pass. Some 4 vertices each, 128 B a vertex: 128 MiB at most.
 constexpr int kMostLightPaths = 1 << 18, kPixelsPerLightPath = 16;
 
 // Running sums per pixel; one pass adds one sample to every pixel.
