@@ -99,7 +99,7 @@ void NearLamps::follow(const RayScene& rays, const SlotPaths& paths, size_t lamp
     hidden.clear();
     const Arrival end = paths.follow(ray, hit, sampler, &hidden);
     for (const HiddenReflection& h : hidden) {
-      if (isNearAny(h, lamp)) reflectedAt(h.p, h.n, fluxLm * h.left, h.slot);
+      if (isNearAny(h, lamp)) reflectedAt(h.p, h.n, fluxLm * h.left, -1);
     }
     if (end.slot < 0) return;
     const auto s = static_cast<size_t>(end.slot);
