@@ -10,7 +10,8 @@ namespace {
 constexpr float kKernel[3] = {0.25f, 0.5f, 0.25f};
 constexpr float kSigmas = 3;               // differences within so many standard deviations count as noise
 constexpr float kSharpSigmas = 1;          // for sharp shadows, which differ where they should
-constexpr float kPlaneTolerance = 0.01f;   // distance from the tangent plane, of the distance between the two points' pixels
+constexpr float kPlaneTolerance = 0.01f;   // metres off the tangent plane, and
+constexpr float kSlope = 0.3f;             // of the distance between the two points
 constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
 constexpr int kSpecularPasses = 3;
 
@@ -98,11 +99,11 @@ std::vector<Lights> pass(const std::vector<Lights>& in, const std::vector<Guide>
           const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(w) + static_cast<size_t>(qx);
           const Guide& o = guides[q];
           const float facing = dot(g.normal, o.normal);
-          if (o.surface <= 0 || facing < 0.8f) continue;
+          if (o.surface <= 0 || facing < 0.3f) continue;
           const Vec3 between = o.position - g.position;
-          const float off = std::max(std::abs(dot(g.normal, between)), std::abs(dot(o.normal, between))) / (kPlaneTolerance + 0.1f * length(between));
-          // facing^48 along the normals.
-          const float f2 = facing * facing, f4 = f2 * f2, f8 = f4 * f4, f16 = f8 * f8, k = kKernel[i + 1] * kKernel[j + 1] * (f16 * f16 * f16);
+          const float off = std::max(std::abs(dot(g.normal, between)), std::abs(dot(o.normal, between))) / (kPlaneTolerance + kSlope * length(between));
+          // facing^4 along the normals: noise itself tells edges that light has.
+          const float f2 = facing * facing, k = kKernel[i + 1] * kKernel[j + 1] * f2 * f2;
           const Lights& other = in[q];
           diffuse.add(other.diffuse, k * falloff(off + difference(own.diffuse, other.diffuse, noise[p].x, noise[q].x, kSigmas)));
           sharp.add(other.sharp, k * falloff(off + difference(own.sharp, other.sharp, noise[p].y, noise[q].y, kSharpSigmas)));
