@@ -33,19 +33,19 @@ Vec3 ConeShader::background(Vec3 d) const {
   return sum;
 }
 
-SurfaceLight ConeShader::shade(const SurfacePoint& s, Vec3 wo, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count) const {
+SurfaceLight ConeShader::shade(const SurfacePoint& s, Vec3 wo, bool followed, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count) const {
   const Bsdf bsdf(s.m, s.ns, s.ng, wo);
-  const bool rayReflection = s.m.roughness < settings_.rayRoughness;
+  const Reflection by = followed ? Reflection::Followed : s.m.roughness < settings_.rayRoughness ? Reflection::Ray : Reflection::Cone;
   const int32_t guide = guideAt(field_.guide, voxels_, s.p, s.ng);
   SurfaceLight out;
-  const Lobes soft = this->soft(s, bsdf, rayReflection, guide, sampler, count), sharp = this->sharp(s, bsdf, rayReflection, shadows, sampler, count, out.sharpVariance);
+  const Lobes soft = this->soft(s, bsdf, by, guide, sampler, count), sharp = this->sharp(s, bsdf, by, shadows, sampler, count, out.sharpVariance);
   out.albedo = bsdf.diffuseAlbedo();
   out.diffuse = soft.diffuse;
   out.sharp = sharp.diffuse;
   out.specular = soft.specular + sharp.specular;
   out.emitted = s.emitted();
   if (maxComponent(out.albedo) > 1e-4f) out.diffuse += out.albedo * indirect(s, sampler, count, out.occlusion);
-  if (maxComponent(bsdf.specularAlbedo()) > 1e-4f) out.specular += reflection(s, bsdf, rayReflection, guide, sampler, count);
+  if (!followed && maxComponent(bsdf.specularAlbedo()) > 1e-4f) out.specular += reflection(s, bsdf, by, guide, sampler, count);
   return out;
 }
 
@@ -57,21 +57,22 @@ Vec3 ConeShader::visible(const SurfacePoint& s, const LightSample& light, const 
 }
 
 // Both lobes towards a light. Where reflections follow rays they find extended lights too; both ways share the specular lobe
-// by multiple importance sampling. `strategies` is how many light samples compete.
-ConeShader::Lobes ConeShader::towards(const LightSample& light, const Bsdf& bsdf, bool rayReflection, float strategies) const {
+// by multiple importance sampling, and from mirrors rays alone look for them. `strategies` is how many light samples compete.
+ConeShader::Lobes ConeShader::towards(const LightSample& light, const Bsdf& bsdf, Reflection by, float strategies) const {
   if (!light.valid()) return {};
   Lobes f{bsdf.evaluateDiffuse(light.wi), bsdf.evaluateSpecular(light.wi)};
-  if (rayReflection && light.pdf > 0) f.specular *= misWeight(strategies * light.pdf, bsdf.pdfSpecular(light.wi));
+  if (by == Reflection::Ray && light.pdf > 0) f.specular *= misWeight(strategies * light.pdf, bsdf.pdfSpecular(light.wi));
+  if (by == Reflection::Followed && light.pdf > 0) f.specular = {};
   return f;
 }
 
 // Light of suns and lamps. Their shadows are given, or traced where `shadows` is empty.
-ConeShader::Lobes ConeShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count,
+ConeShader::Lobes ConeShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count,
                                     float& variance) const {
   Lobes sum;
   for (size_t i = 0; i < sharp_.count(); ++i) {
     const LightSample light = sharp_.sample(i, s.p, sampler.next2());
-    const Lobes f = towards(light, bsdf, rayReflection, 1);
+    const Lobes f = towards(light, bsdf, by, 1);
     if (shadows.empty()) {
       sum.add(f, light.radiance * visible(s, light, f, count));
     } else {
@@ -84,10 +85,10 @@ ConeShader::Lobes ConeShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, boo
 }
 
 // Light of the sky, emissive meshes and, where they are many, lamps.
-ConeShader::Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, int32_t guide, Sampler& sampler, ConeCounters& count) const {
+ConeShader::Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const {
   Lobes sum;
   const auto take = [&](const LightSample& light, float strategies, float weight) {
-    const Lobes f = towards(light, bsdf, rayReflection, strategies);
+    const Lobes f = towards(light, bsdf, by, strategies);
     sum.add(f, light.radiance * visible(s, light, f, count) * weight);
   };
   if (lights_.lampCount() + lights_.sunCount() > sharp_.count()) {
@@ -103,12 +104,12 @@ ConeShader::Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, bool
       take(sampleSkyGuided(field_.guide, guide, lights_, u, sampler.next1()), kSkySamples, 1.0f / kSkySamples);
     }
   }
-  if (!field_.glow.empty()) glow(s, bsdf, rayReflection, sampler, sum, count);
+  if (!field_.glow.empty()) glow(s, bsdf, by, sampler, sum, count);
   return sum;
 }
 
 // Light that surfaces near lamps reflect, as far as cones leave it.
-void ConeShader::glow(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, Sampler& sampler, Lobes& sum, ConeCounters& count) const {
+void ConeShader::glow(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, Sampler& sampler, Lobes& sum, ConeCounters& count) const {
   const GlowSample g = field_.glow.sample(s.p, s.ns, static_cast<float>(settings_.conesPerShading), diffuse_.tanHalf, sampler);
   if (!g.light.valid()) return;
   const Vec3 wi = g.light.wi;
@@ -116,7 +117,7 @@ void ConeShader::glow(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflectio
   f.diffuse *= field_.glow.pointShare(g.point, s.p, {conePdf(dot(wi, s.ns)), std::min(diffuse_.tanHalf, dot(wi, s.ng))});
   if (s.m.roughness >= kSharpRoughness) {
     const ConeShape shape = lobe(s, bsdf.pdfSpecular(wi));
-    f.specular = bsdf.evaluateSpecular(wi) * field_.glow.pointShare(g.point, s.p, {shape.pdf, rayReflection ? 0 : std::min(shape.tanHalf, dot(wi, s.ng))});
+    f.specular = bsdf.evaluateSpecular(wi) * field_.glow.pointShare(g.point, s.p, {shape.pdf, by == Reflection::Ray ? 0 : std::min(shape.tanHalf, dot(wi, s.ng))});
   }
   sum.add(f, g.light.radiance * visible(s, g.light, f, count));
 }
@@ -156,10 +157,10 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters&
   return sum / static_cast<float>(n);
 }
 
-Vec3 ConeShader::reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t guide, Sampler& sampler, ConeCounters& count) const {
+Vec3 ConeShader::reflection(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const {
   const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
   if (!r.valid() || isBlack(r.weight)) return {};
-  if (byRay) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
+  if (by == Reflection::Ray) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
   ++count.cones;
   return r.weight * marchCone(field_, coneStart(s), r.wi, lobe(s, r.pdf), sampler.next1()).radiance;
 }
@@ -176,11 +177,12 @@ Vec3 ConeShader::along(Ray ray, Reflected from, Sampler& sampler, ConeCounters& 
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) sum += left * emitted * from.weight(lights_.pdfEmitters(from.p, s));
     const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
     const bool glossy = s.m.roughness < kChainRoughness;
+    const Reflection by = glossy ? Reflection::Ray : Reflection::Cone;
     const Vec3 rho = glossy ? bsdf.diffuseAlbedo() : bihemisphericalAlbedo(s.m);
     const int32_t guide = from.sharp ? guideAt(field_.guide, voxels_, s.p, s.ng) : -1;
     if (from.sharp) {
       float unused = 0;
-      const Lobes light = soft(s, bsdf, glossy, guide, sampler, count), point = sharp(s, bsdf, glossy, {}, sampler, count, unused);
+      const Lobes light = soft(s, bsdf, by, guide, sampler, count), point = sharp(s, bsdf, by, {}, sampler, count, unused);
       Vec3 lit = light.diffuse + light.specular + point.diffuse + point.specular;
       if (maxComponent(rho) > 1e-4f) lit += rho * indirect(s, sampler, count, unused);
       sum += left * lit * s.m.alpha;

@@ -28,14 +28,22 @@ struct SurfaceLight {
   float occlusion = 0;
 };
 
+// Who looks where a surface's glossy lobe reflects.
+enum class Reflection : uint8_t {
+  Cone,     // the shader
+  Ray,      // the shader, exactly: lights too
+  Followed  // the caller, who sends rays on from mirrors
+};
+
 // What goes straight through a surface met under |cos theta|.
 Vec3 passing(const MaterialSample& m, const Material& material, float cosTheta);
 
 class ConeShader {
  public:
   ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings);
-  // Without what passes straight through the surface. `shadows`: of every sharp light.
-  SurfaceLight shade(const SurfacePoint& s, Vec3 wo, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count) const;
+  // Without what passes straight through the surface and, where it is followed, without its reflection of other surfaces, sky and
+  // lights of any size. `shadows`: of every sharp light.
+  SurfaceLight shade(const SurfacePoint& s, Vec3 wo, bool followed, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count) const;
   // What a ray sees that meets no surface.
   Vec3 background(Vec3 d) const;
   const SharpLights& sharpLights() const { return sharp_; }
@@ -57,15 +65,15 @@ class ConeShader {
   };
 
   Vec3 visible(const SurfacePoint& s, const LightSample& light, const Lobes& f, ConeCounters& count) const;
-  void glow(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, Sampler& sampler, Lobes& sum, ConeCounters& count) const;
-  Lobes towards(const LightSample& light, const Bsdf& bsdf, bool rayReflection, float strategies) const;
-  Lobes sharp(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count, float& variance) const;
-  Lobes soft(const SurfacePoint& s, const Bsdf& bsdf, bool rayReflection, int32_t guide, Sampler& sampler, ConeCounters& count) const;
+  void glow(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, Sampler& sampler, Lobes& sum, ConeCounters& count) const;
+  Lobes towards(const LightSample& light, const Bsdf& bsdf, Reflection by, float strategies) const;
+  Lobes sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count, float& variance) const;
+  Lobes soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const;
   float conePdf(float cosSurface) const;
   ConeShape lobe(const SurfacePoint& s, float pdf) const;
   ConeStart coneStart(const SurfacePoint& s) const;
   Vec3 indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters& count, float& occlusion) const;
-  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, bool byRay, int32_t guide, Sampler& sampler, ConeCounters& count) const;
+  Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const;
   Vec3 along(Ray ray, Reflected from, Sampler& sampler, ConeCounters& count) const;
   Vec3 reflectedBackground(Vec3 d, const Reflected& from) const;
   Vec3 reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler) const;

@@ -8,15 +8,16 @@ constexpr size_t kFewest = 2;         // shadings of a pixel, where there are as
 constexpr float kSameNormal = 0.95f;  // cosine between normals of one surface
 constexpr float kSamePlane = 0.3f;    // of the distance between two points: how far off the tangent plane
 constexpr float kBehind = -0.35f;     // cosine
-constexpr float kPictureRoughness = 0.08f, kPictureReflectance = 0.2f;  // smoother and brighter: reflects a picture, which has edges of its own
+constexpr float kPictureRoughness = 0.08f, kMirrorReflectance = 0.2f;  // smoother: reflects a picture, which has edges of its own; and brighter: a mirror
 
 bool isUniform(const Material& m, const Mesh& mesh) {
   return m.baseColorTexture.texture < 0 && m.metallicRoughnessTexture.texture < 0 && m.transmissionTexture.texture < 0 &&
          m.emissionTexture.texture < 0 && mesh.colors.empty() && mesh.colorAlphas.empty();
 }
 
-// Panes too: what they reflect is not filtered.
-bool isPicture(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && (clear || luminance(m.f0) > kPictureReflectance); }
+bool isMirror(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && !clear && luminance(m.f0) > kMirrorReflectance; }
+// What panes reflect is not filtered.
+bool isPane(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && clear; }
 
 void accumulate(MaterialSample& sum, const MaterialSample& m, float weight) {
   sum.baseColor += m.baseColor * weight, sum.emission += m.emission * weight, sum.f0 += m.f0 * weight, sum.f90 += m.f90 * weight;
@@ -115,7 +116,8 @@ void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, Pix
   const bool solid = luminance(through) < 0.5f;
 
   const size_t most = std::max(std::min(kFewest, rays), rays / static_cast<size_t>(settings_.raysPerShading));
-  const size_t shadings = isPicture(m, !isBlack(through)) ? group.count : (group.count * most + rays - 1) / rays;
+  const bool mirror = isMirror(m, !isBlack(through));
+  const size_t shadings = isPane(m, !isBlack(through)) ? group.count : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
   thread_local std::vector<Shadow> shadow;
   shadows(group, layer, sequence, shadow, count);
@@ -129,10 +131,10 @@ void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, Pix
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
     Sampler sampler = sequence.forShading();
-    light[j] = shader_.shade(s, -layer.ray[i].direction, shadow, sampler, count);
+    light[j] = shader_.shade(s, -layer.ray[i].direction, mirror, shadow, sampler, count);
     addShading(light[j], left, weight, pixel);
     sum.rest += left * light[j].emitted * (weight / std::max(m.alpha, 1e-6f));
-    if (solid && !layer.seen[i]) {
+    if (solid && !mirror && !layer.seen[i]) {
       sum.normal += s.ns * weight;
       sum.position += s.p * weight;
       sum.roughness += m.roughness * weight;
@@ -141,6 +143,7 @@ void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, Pix
   }
   addVariance(std::span(light).first(shadings), left, weight, sum);
   if (!isBlack(through)) passOn(group, layer, through, solid, behind);
+  if (mirror) reflectOn(group, layer, m, sequence, behind);
 }
 
 void PixelShader::addShading(const SurfaceLight& light, Vec3 left, float weight, PixelSum& pixel) {
@@ -176,6 +179,18 @@ void PixelShader::passOn(const Group& group, const Layer& layer, Vec3 through, b
     const Vec3 left = layer.left[k] * through;
     if (luminance(left) < 1e-3f) continue;
     behind.add({offsetOrigin(layer.place(k), -group.ng), layer.ray[k].direction, 0, kInfinity}, left, layer.seen[k] || solid);
+  }
+}
+
+// Sends them on as a mirror reflects them.
+void PixelShader::reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, PixelSequence& sequence, Layer& behind) const {
+  for (size_t i = 0; i < group.count; ++i) {
+    const size_t k = group.member[i];
+    const Vec3 d = layer.ray[k].direction;
+    const SurfacePoint s = surfaceAt(rays_.scene(), layer.hit[k], d, m);
+    Sampler sampler = sequence.forShading();
+    const BsdfSample r = Bsdf(s.m, s.ns, s.ng, -d).sampleSpecular(sampler.next2());
+    if (r.valid() && !isBlack(r.weight)) behind.add({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, layer.left[k] * r.weight, layer.seen[k]);
   }
 }
 

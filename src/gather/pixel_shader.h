@@ -1,5 +1,6 @@
 // The camera rays of one pixel together. Rays that see the same surface share its shading: edges, textures and sharp shadows are
-// as smooth as the pixel's many cheap rays make them, while the rest of its light comes from few samples.
+// as smooth as the pixel's many cheap rays make them, while the rest of its light comes from few samples. Panes and mirrors send
+// the rays on: what is seen in a mirror is shaded, and filtered, like what is seen directly.
 #pragma once
 
 #include <span>
@@ -43,6 +44,7 @@ class PixelShader {
   static void addShading(const SurfaceLight& light, Vec3 left, float weight, PixelSum& pixel);
   static void addVariance(std::span<const SurfaceLight> light, Vec3 left, float weight, FilterPixel& sum);
   static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
+  void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, PixelSequence& sequence, Layer& behind) const;
 
   const RayScene& rays_;
   const ConeShader& shader_;
