@@ -138,6 +138,7 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
     if (const int64_t record = l.find(*brick, v); record >= 0) {
       const DirectionalPlanes& planes = l.planes[static_cast<size_t>(record)];
       const DirectionalLight& light = l.light[static_cast<size_t>(record)];
+      __builtin_prefetch(&light);  // on its way while planes are tested
       const Vec3 middle{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f};
       Crossing met[6];
       const int count = crossings(planes, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap, from.normal, kOwnSheet * h / l.voxelSizeM, met);
