@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kMostPanes = 16;
 constexpr int kSkySamples = 2;
+constexpr int kEmitterSamples = 2;
 constexpr float kSharpRoughness = 0.1f;  // below: mirrors, whose pictures are seen clearly
 constexpr float kChainRoughness = 0.3f;  // below: a reflection seen in a reflection is followed on
 constexpr int kLampSamples = 2;  // where lamps are many
@@ -95,8 +96,10 @@ ConeShader::Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Refl
     for (int k = 0; k < kLampSamples; ++k) take(lights_.sampleLamps(s.p, sampler.next1()), 1, 1.0f / kLampSamples);
   }
   if (lights_.hasEmitters()) {
-    const Vec2 u = sampler.next2();
-    take(lights_.sampleEmitters(s.p, u, sampler.next1()), 1, 1);
+    const float choice = sampler.next1();
+    for (int k = 0; k < kEmitterSamples; ++k) {
+      take(lights_.sampleEmitters(s.p, sampler.next2(), (choice + static_cast<float>(k)) / kEmitterSamples), kEmitterSamples, 1.0f / kEmitterSamples);
+    }
   }
   if (lights_.sky().present()) {
     for (int k = 0; k < kSkySamples; ++k) {
@@ -174,7 +177,7 @@ Vec3 ConeShader::along(Ray ray, Reflected from, Sampler& sampler, ConeCounters& 
     ++count.rays;
     if (!hit.valid()) return sum + left * reflectedBackground(ray.direction, from);
     const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-    if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) sum += left * emitted * from.weight(lights_.pdfEmitters(from.p, s));
+    if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) sum += left * emitted * from.weight(kEmitterSamples * lights_.pdfEmitters(from.p, s));
     const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
     const bool glossy = s.m.roughness < kChainRoughness;
     const Reflection by = glossy ? Reflection::Ray : Reflection::Cone;
