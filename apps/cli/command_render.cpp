@@ -257,11 +257,13 @@ int work(const Options& o, const Plan& plan) {
   if (!home) return bad(home.error());
   const Camera& camera = home.value().camera;
   if (!o.quiet) printWarnings(home.value().warnings);
-  if (interrupted()) return bad("interrupted before there was a picture; nothing was written", kInterrupted);
+  const auto noPicture = [] { return bad("interrupted before there was a picture; nothing was written", kInterrupted); };
+  if (interrupted()) return noPicture();
 
   Result<Rendered> result = render(home.value().scene, camera, plan.settings, progress);
   if (!result) return bad(result.error());
   Rendered& rendered = result.value();
+  if (rendered.image.pixels.empty()) return noPicture();
   rendered.stats.stages.insert(rendered.stats.stages.begin(), loadStats.stages.begin(), loadStats.stages.end());
 
   // The times inside a picture cannot hold the time it takes to write it; the statistics can.
@@ -322,7 +324,7 @@ Registered addRender(CLI::App& program) {
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
   app->add_flag("--quiet", o->quiet, "Only errors");
   app->footer(
-      "Ctrl-C ends the work and keeps the best picture so far (exit status 130); a second one ends at once.\n"
+      "Ctrl-C ends the work and keeps the best picture so far, if there is one (exit status 130); a second one ends at once.\n"
       "Examples:\n"
       "  roomlight render flat.glb -o flat.png\n"
       "  roomlight render flat.glb --technique path --time-limit 60 -o flat.exr -o flat.png --stats flat.json");

@@ -27,7 +27,7 @@ struct Rendered {
   Image image;        // linear, cd/m²
   Vec3 lightColour;   // of the light on what the picture shows, luminance 1; black where nothing tells
   RenderStats stats;
-  bool complete = true;  // false: stopped early, the image is the best so far
+  bool complete = true;  // false: stopped early, the image is the best so far; empty if there was none yet
 };
 
 // What long work tells its caller: the stage's name and the fraction of it done.

@@ -18,6 +18,7 @@ Picture renderCone(const Scene& scene, const Camera& camera, const RenderSetting
   const Voxelisation voxelisation = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, settings.voxel); });
   const Voxels& voxels = voxelisation.voxels;
   const RadianceField field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, voxels, radiance, p); });
+  if (stages.cancelled()) return {};
   // What the stages before took counts against the limit; the gather never ends before its first pass.
   if (settings.timeLimitS > 0) gather.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
   ConeResult result = stages.run("gather", [&](const Progress& p) { return gatherCones(rays, lights, voxels, field, camera, gather, p); });

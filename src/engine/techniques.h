@@ -6,7 +6,7 @@
 namespace roomlight {
 
 struct Picture {
-  Image image;       // linear, cd/m²
+  Image image;       // linear, cd/m²; empty if cancelled before there was one
   Vec3 lightColour;  // see light_colour.h
 };
 Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);

@@ -43,19 +43,21 @@ struct alignas(16) Padded {
 
 class Illuminator {
  public:
-  Illuminator(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings)
-      : rays_(rays), lights_(lights), voxels_(voxels), settings_(settings), paths_(rays, voxels, settings.seed), near_(lights, voxels), direct_(voxels.slots.size()), indirect_(voxels.slots.size()) {}
+  Illuminator(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress)
+      : rays_(rays), lights_(lights), voxels_(voxels), settings_(settings), progress_(progress), paths_(rays, voxels, settings.seed, progress), near_(lights, voxels), direct_(voxels.slots.size()), indirect_(voxels.slots.size()) {}
 
-  RadianceField run(const Progress& progress) {
+  RadianceField run() {
     RadianceField field;
-    if (settings_.links > 0) traceLinks(field, progress);
-    progress.at(0.5f);
+    if (settings_.links > 0) traceLinks(field);
+    progress_.at(0.5f);
     gatherDirect(field);
-    NearLamps::Light near = near_.trace(rays_, paths_, settings_);
+    NearLamps::Light near = near_.trace(rays_, paths_, settings_, progress_);
     rayCount_ += near.rays;
     for (size_t i = 0; i < near.far.size(); ++i) direct_[i] += near.far[i];
-    progress.at(0.8f);
-    bounce(field, progress);
+    progress_.at(0.8f);
+    bounce(field);
+    field.rays = rayCount_;
+    if (progress_.stop()) return field;
     std::vector<Vec3> radiance(voxels_.slots.size()), glow(near.near.size());
     field.irradianceLux.resize(voxels_.slots.size());
     field.glowShare.resize(near.near.size());
@@ -68,7 +70,6 @@ class Illuminator {
       field.glowShare[i] = luminance(near.near[i]) / std::max(luminance(field.irradianceLux[i]), 1e-30f);
       glow[i] = voxels_.slots[i].albedo * near.near[i] / kPi;
     });
-    field.rays = rayCount_;
     for (GlowPoint& g : near.points) g.radianceCdM2 = g.slot < 0 ? kUnseen : luminance(glow[static_cast<size_t>(g.slot)]);
     field.glow = LampGlow(std::move(near.points), voxels_.voxelSizeM);
     buildPyramid(voxels_, radiance, glow, field);
@@ -76,13 +77,14 @@ class Illuminator {
   }
 
  private:
-  void traceLinks(RadianceField& field, const Progress& progress) {
+  void traceLinks(RadianceField& field) {
     const auto n = static_cast<size_t>(settings_.links);
     links_.resize(voxels_.slots.size() * n);
     SkyGuideBuilder guide(voxels_, lights_.sky());
     const bool sky = lights_.sky().present();
     std::atomic<size_t> done = 0;
     parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
+      if (progress_.stop()) return;
       const auto [first, last] = paths_.slotsOfBrick(b);
       std::vector<Ray> rays;
       std::vector<Hit> hits;
@@ -105,10 +107,11 @@ class Illuminator {
         }
       }
       const size_t d = ++done;
-      if (d % 256 == 0) progress.at(0.5f * static_cast<float>(d) / static_cast<float>(voxels_.bricks.size()));
+      if (d % 256 == 0) progress_.at(0.5f * static_cast<float>(d) / static_cast<float>(voxels_.bricks.size()));
     });
+    if (progress_.stop()) return;
     rayCount_ += links_.size();
-    if (sky) field.guide = guide.finish();
+    if (sky) field.guide = guide.finish(progress_);
   }
 
   struct Shadow {
@@ -119,6 +122,7 @@ class Illuminator {
   void gatherDirect(const RadianceField& field) {
     std::atomic<uint64_t> count = 0;
     parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
+      if (progress_.stop()) return;
       const auto [first, last] = paths_.slotsOfBrick(b);
       std::vector<Ray> rays;
       std::vector<Shadow> shadows;
@@ -182,12 +186,12 @@ class Illuminator {
   // Solves E = G (direct + E), where G is the mean over links of rho E. Every row of G sums to at most 1 and rho is below 1, so
   // its modes shrink; they are nearly real, because transport is reciprocal. Chebyshev's iteration uses that: each step goes on
   // along the one before.
-  void bounce(RadianceField& field, const Progress& progress) {
+  void bounce(RadianceField& field) {
     if (settings_.links == 0) return;
     std::vector<Padded> reflected(voxels_.slots.size());
     std::vector<Vec3> other(voxels_.slots.size());  // the step before, replaced by the step after
     double slowest = kSlowest, omega = 1, mean = 0, delta = 0, before = 0, beforeThat = 0;
-    for (int k = 0; k < settings_.maxBounces && !progress.stop(); ++k) {
+    for (int k = 0; k < settings_.maxBounces && !progress_.stop(); ++k) {
       if (k > 0) omega = 1 / (1 - slowest * slowest * omega / (k == 1 ? 2 : 4));
       beforeThat = before, before = delta;
       delta = step(static_cast<float>(omega), reflected, other, mean);
@@ -249,6 +253,7 @@ class Illuminator {
   const Lights& lights_;
   const Voxels& voxels_;
   const RadianceSettings settings_;
+  const Progress& progress_;
   const SlotPaths paths_;
   const NearLamps near_;
   std::vector<Link> links_;
@@ -267,7 +272,7 @@ size_t RadianceField::bytes() const {
 }
 
 RadianceField illuminate(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress) {
-  return Illuminator(rays, lights, voxels, settings).run(progress);
+  return Illuminator(rays, lights, voxels, settings, progress).run();
 }
 
 }  // namespace roomlight

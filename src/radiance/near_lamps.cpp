@@ -46,9 +46,9 @@ float NearLamps::litArea(const FaceSlot& slot) const {
   return std::clamp(slot.areaM2, kSmallest * h2, h2 / std::max(0.577f, maxComponent(abs(slot.normal))));
 }
 
-NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings) const {
+NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress) const {
   Light light;
-  if (lamps_.empty()) return light;
+  if (lamps_.empty() || progress.stop()) return light;
   const size_t slots = voxels_.slots.size();
   light.near.resize(slots), light.far.resize(slots);
   const size_t n = std::clamp(kMostParticles / lamps_.size(), kFewestPerLamp, kMostPerLamp) / kChunk * kChunk;
@@ -56,11 +56,13 @@ NearLamps::Light NearLamps::trace(const RayScene& rays, const SlotPaths& paths, 
   float fluxLm = 0;
   for (const size_t l : lamps_) fluxLm += luminance(lights_.lamp(l).intensityCd) * 2 * kPi * extent(lights_.lamp(l));
   for (const size_t l : lamps_) {
+    if (progress.stop()) break;
     const Lamp& lamp = lights_.lamp(l);
     const Frame frame(lamp.kind == LampKind::Point ? Vec3{0, 0, 1} : lamp.direction);
     const float steradiansEach = 2 * kPi * extent(lamp) / static_cast<float>(n);
     parallelFor(trails.size(), 1, [&](size_t chunk) {
       trails[chunk] = {};
+      if (progress.stop()) return;
       std::vector<Ray> out(kChunk);
       std::vector<Hit> hits(kChunk);
       for (size_t i = 0; i < kChunk; ++i) {

@@ -25,7 +25,8 @@ class NearLamps {
     std::vector<GlowPoint> points;  // of what surfaces near lamps reflect; radiance is for the caller to fill in
     uint64_t rays = 0;
   };
-  Light trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings) const;
+  // Ends early, with a part of the light, once `progress` says stop.
+  Light trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress) const;
 
  private:
   struct Deposit {

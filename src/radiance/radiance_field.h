@@ -109,6 +109,7 @@ struct RadianceField {
   size_t bytes() const;
 };
 
+// Once `progress` says stop it ends within about a second, then without levels: there is nothing to gather.
 RadianceField illuminate(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings,
                          const Progress& progress = {});
 

@@ -68,10 +68,11 @@ bool SkyGuideBuilder::density(const Blocks& tries, Cdf& cdf) const {
   return true;
 }
 
-SkyGuide SkyGuideBuilder::finish() const {
+SkyGuide SkyGuideBuilder::finish(const Progress& progress) const {
   const size_t count = voxels_.bricks.size();
   std::vector<std::array<std::unique_ptr<Cdf>, 6>> found(count);
   parallelFor(count, 16, [&](size_t b) {
+    if (progress.stop()) return;
     Cdf cdf;
     for (size_t face = 0; face < 6; ++face) {
       if (blocks_[b][face] && density(around(b, face), cdf)) found[b][face] = std::make_unique<Cdf>(cdf);

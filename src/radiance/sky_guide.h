@@ -12,7 +12,7 @@ class SkyGuideBuilder {
  public:
   SkyGuideBuilder(const Voxels& voxels, const SkyDistribution& sky);
   void add(size_t brick, int face, Vec3 direction, float open);  // one thread a brick
-  SkyGuide finish() const;
+  SkyGuide finish(const Progress& progress) const;  // of no use once that says stop
 
  private:
   struct Tries {

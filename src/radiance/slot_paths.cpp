@@ -16,9 +16,11 @@ constexpr float kNothingLeft = 0.03f;
 
 }  // namespace
 
-SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed)
+SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress)
     : rays_(rays), voxels_(voxels), seed_(seed), points_(voxels.slots.size()), free_(voxels.slots.size()) {
-  parallelFor(voxels_.bricks.size(), 4, [&](size_t b) { place(b); });
+  parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
+    if (!progress.stop()) place(b);
+  });
 }
 
 // Points are spread over the voxel where the surface fills that. Each is looked up on the surface itself, for beside a curved

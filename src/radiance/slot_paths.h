@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/progress.h"
 #include "base/sampler.h"
 #include "trace/ray_scene.h"
 #include "voxel/voxels.h"
@@ -31,7 +32,8 @@ class SlotPaths {
  public:
   static constexpr uint32_t kPoints = 4;
 
-  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed);
+  // Of no use once `progress` says stop.
+  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress);
 
   // Points that receive a slot's light.
   Vec3 point(size_t slot, size_t k) const { return points_[slot][k % kPoints]; }

@@ -133,6 +133,27 @@ TEST(Cone, sameBitsWithAnyNumberOfThreads) {
 }
 
 // In a room of metres, f(r) = 1 / (1 + r) of its walls lies between that of the nearest and of the farthest point.
+// Asked to stop at any of its reports, illuminate traces nothing more and leaves no light that could be taken for all of it.
+TEST(Cone, illuminateStopsWhereItIs) {
+  const Scene scene = furnishedRoom();
+  const RayScene rays(scene);
+  const Lights lights(scene);
+  VoxelSettings voxel;
+  voxel.voxelSizeM = 0.1f;
+  const Voxelisation v = voxelise(scene, voxel);
+  const RadianceSettings settings;
+  const size_t links = v.voxels.slots.size() * static_cast<size_t>(settings.links);
+  for (const float from : {0.0f, 0.5f, 0.8f}) {
+    std::atomic<bool> stop = from <= 0;
+    const Progress progress{[&](float fraction) { stop = stop || fraction >= from; }, &stop};
+    const RadianceField field = illuminate(rays, lights, v.voxels, settings, progress);
+    EXPECT_TRUE(field.levels.empty()) << from;
+    EXPECT_EQ(field.bounces, 0) << from;
+    EXPECT_EQ(field.rays >= links, from > 0) << from;
+    EXPECT_EQ(field.rays > links, from > 0.5f) << from;
+  }
+}
+
 TEST(Cone, occlusionFallsWithDistance) {
   ConeSetup s = small();
   const double whole = mean(render(furnace(0.5f), {1.7f, 1.4f, 2.6f}, s).occlusion);

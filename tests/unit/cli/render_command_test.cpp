@@ -201,6 +201,14 @@ TEST_F(RenderCommand, interruptKeepsTheBestPictureSoFar) {
   EXPECT_EQ(metadata("a.exr").at("roomlight.complete"), "false");
 }
 
+TEST_F(RenderCommand, interruptBeforeThereIsAPictureSaysSo) {
+  const ProgramRun run = render({"-o", path("a.exr"), "--stats", path("a.json"), "--technique", "cone", "--voxel-size", "0.015"}, "bvh");
+  EXPECT_EQ(run.exitStatus, 130) << run.err;
+  EXPECT_NE(run.err.find("interrupted before there was a picture; nothing was written"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
+  EXPECT_FALSE(std::filesystem::exists(path("a.json")));
+}
+
 TEST_F(RenderCommand, timeLimitEndsWithAPictureAndSuccess) {
   for (const char* technique : {"path", "cone"}) {
     const ProgramRun run = render({"-o", path("a.exr"), "--technique", technique, "--time-limit", "0.3"});
