@@ -253,6 +253,9 @@ Status checkSettings(const RenderSettings& settings) {
   if (int64_t{settings.width} * settings.height > kLargestPicture) {
     return Error{fmt::format("width, height: {} x {} pixels are more than {}", settings.width, settings.height, kLargestPicture)};
   }
+  if (settings.voxel.smallestM > settings.voxel.largestM) {
+    return Error{fmt::format("voxel.smallestM: must not be above voxel.largestM: {} > {}", settings.voxel.smallestM, settings.voxel.largestM)};
+  }
   return Ok{};
 }
 

@@ -140,6 +140,7 @@ TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
 TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   writeFile(path("broken.glb"), "glTF but not really");
   writeFile(path("unknown.json"), R"({"sampels": 3})");
+  writeFile(path("limits.json"), R"({"voxel": {"smallestM": 0.2, "largestM": 0.1}})");
   writeFile(path("rig.json"), R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": 800}]})");
   const std::string a = path("a.png");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
@@ -172,6 +173,7 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--voxel-size", "-1"}, "voxelSizeM"},
       {{"render", scene_, "-o", a, "--metres-per-unit", "0"}, "--metres-per-unit"},
       {{"render", scene_, "-o", a, "--settings", path("unknown.json")}, "sampels"},
+      {{"render", scene_, "-o", a, "--settings", path("limits.json")}, "voxel.smallestM: must not be above voxel.largestM: 0.2 > 0.1"},
       {{"render", scene_, "-o", a, "--settings", path("missing.json")}, "missing.json"},
       {{"render", scene_, "-o", a, "--lighting", path("rig.json")}, "rig.json: lamps[0].flux: has no unit; write \"800 lm\""},
       {{"render", scene_, "-o", a, "--lighting", path("missing.json")}, "missing.json: no such file"},
