@@ -1,15 +1,21 @@
 #include "import/triangles.h"
 
 namespace roomlight::importers {
+namespace {
+
+// Of twice an area, in the file's units, of which nodes may make any size: edges of 1e-12, whose third powers floats hold.
+constexpr double kSmallest = 1e-24;
+
+}  // namespace
 
 void dropDegenerate(Mesh& mesh) {
   size_t kept = 0;
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     const uint32_t a = mesh.indices[t], b = mesh.indices[t + 1], c = mesh.indices[t + 2];
     const Vec3 ab = mesh.positions[b] - mesh.positions[a], ac = mesh.positions[c] - mesh.positions[a];
-    // In doubles: the area of a small triangle in small units is below what floats hold.
+    // In doubles: the square of a small triangle's area is below what floats hold.
     const double x = double(ab.y) * ac.z - double(ab.z) * ac.y, y = double(ab.z) * ac.x - double(ab.x) * ac.z, z = double(ab.x) * ac.y - double(ab.y) * ac.x;
-    if (x * x + y * y + z * z < 1e-32) continue;
+    if (x * x + y * y + z * z < kSmallest * kSmallest) continue;
     mesh.indices[kept++] = a, mesh.indices[kept++] = b, mesh.indices[kept++] = c;
   }
   mesh.indices.resize(kept);

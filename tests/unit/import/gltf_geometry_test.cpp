@@ -76,6 +76,22 @@ TEST_F(GltfGeometry, instancingPlacesTheMeshManyTimes) {
   EXPECT_EQ(imported.warnings.size(), 1u);
 }
 
+TEST_F(GltfGeometry, tinyTrianglesAreKeptForNodesToScaleUp) {
+  GltfFile f = GltfFile::triangle();
+  f.primitive()["attributes"]["POSITION"] = f.addFloats({0, 0, 0, 1e-10f, 0, 0, 0, 1e-10f, 0}, "VEC3");
+  f.node()["scale"] = {1e10, 1e10, 1e10};
+  const Scene scene = read(f).scene;
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  expectNear(scene.bounds().hi, {1, 1, 0});
+}
+
+TEST_F(GltfGeometry, trianglesWithoutAreaAreLeftOut) {
+  GltfFile f = GltfFile::triangle();
+  f.primitive()["attributes"]["POSITION"] = f.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0}, "VEC3");
+  f.primitive()["indices"] = f.addAccessor<uint8_t>({0, 1, 2, 0, 1, 3}, 5121, "SCALAR");
+  EXPECT_EQ(read(f).scene.triangleCount(), 1u);
+}
+
 TEST_F(GltfGeometry, stripsFansAndPlainListsGiveTheSameSide) {
   for (const int mode : {4, 5, 6}) {
     GltfFile f = GltfFile::triangle();
