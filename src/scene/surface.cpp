@@ -106,6 +106,15 @@ VertexValues vertexValuesAt(const Mesh& mesh, TrianglePoint p) {
   return v;
 }
 
+float texelsOn(const Scene& scene, const Mesh& mesh, uint32_t triangle, const TextureRef& ref) {
+  const auto& uv = mesh.uv[ref.uvSet ? 1 : 0];
+  if (ref.texture < 0 || uv.empty()) return 0;
+  const Texture& texture = scene.textures[static_cast<size_t>(ref.texture)];
+  const uint32_t* i = &mesh.indices[size_t{3} * triangle];
+  const Vec2 a = transformUv(ref, uv[i[0]]), b = transformUv(ref, uv[i[1]]) - a, c = transformUv(ref, uv[i[2]]) - a;
+  return 0.5f * std::abs(b.x * c.y - b.y * c.x) * static_cast<float>(texture.width) * static_cast<float>(texture.height);
+}
+
 MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
   return materialAt(scene, scene.materials[static_cast<size_t>(mesh.material)], vertexValuesAt(mesh, p));
 }

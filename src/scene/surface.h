@@ -24,6 +24,8 @@ struct Rgba {
 };
 Rgba sampleTexture(const Texture& texture, Vec2 uv, bool srgb);
 Vec2 transformUv(const TextureRef& ref, Vec2 uv);
+// How many texels of a texture lie on a triangle, repeats included.
+float texelsOn(const Scene& scene, const Mesh& mesh, uint32_t triangle, const TextureRef& ref);
 
 // Barycentric weights b1, b2 of a triangle's vertices 1 and 2 (b0 = 1 - b1 - b2).
 struct TrianglePoint {

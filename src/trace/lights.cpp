@@ -2,24 +2,13 @@
 
 #include "base/sampling.h"
 #include "photometry/spot.h"
+#include "trace/mean_emission.h"
 #include "trace/spherical_triangle.h"
 
 namespace roomlight {
 namespace {
 
 constexpr size_t kRemembered = 64;
-
-bool emitsEvenly(const Material& material) { return material.emissionTexture.texture < 0 && material.alphaMode == AlphaMode::Opaque; }
-
-// Mean emission over a triangle: exact without a texture, else a fixed seven-point rule.
-Vec3 meanEmission(const Scene& scene, const Mesh& mesh, uint32_t triangle) {
-  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-  if (emitsEvenly(material)) return material.emission;
-  constexpr float kPoints[7][2] = {{1 / 3.f, 1 / 3.f}, {.47f, .47f}, {.06f, .47f}, {.47f, .06f}, {.1f, .1f}, {.8f, .1f}, {.1f, .8f}};
-  Vec3 sum;
-  for (const auto& p : kPoints) sum += materialAt(scene, mesh, {triangle, p[0], p[1]}).emission;
-  return sum / 7.0f;
-}
 
 // Small triangles are sampled by area: cheaper, and exact enough for floats. Both sampling and density decide by this.
 bool samplesSolidAngle(float solidAngle) { return solidAngle > 1e-3f && solidAngle < 6.2f; }
@@ -61,13 +50,16 @@ Lights::Lights(const Scene& scene) : scene_(scene), suns_(scene.suns), sky_(scen
   }
   std::erase_if(suns_, [](const Sun& sun) { return isBlack(sun.illuminanceLux); });
   emitterOfInstance_.assign(scene.instances.size(), -1);
-  for (uint32_t i = 0; i < scene.instances.size(); ++i) addEmitter(i);
+  MeanEmission means(scene);
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) addEmitter(i, means);
 }
 
-void Lights::addEmitter(uint32_t index) {
-  const Mesh& mesh = scene_.meshes[static_cast<size_t>(scene_.instances[index].mesh)];
+void Lights::addEmitter(uint32_t index, MeanEmission& means) {
+  const int meshIndex = scene_.instances[index].mesh;
+  const Mesh& mesh = scene_.meshes[static_cast<size_t>(meshIndex)];
   const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
   if (isBlack(material.emission)) return;
+  const std::vector<float>& mean = means.ofMesh(meshIndex);
   Emitter e;
   e.instance = index;
   e.doubleSided = material.doubleSided;
@@ -82,7 +74,7 @@ void Lights::addEmitter(uint32_t index) {
     const TriangleVertices v = worldTriangle(scene_, index, t);
     const Vec3 twiceArea = cross(v.b - v.a, v.c - v.a);
     const float area = 0.5f * length(twiceArea);
-    const float lm = kPi * area * luminance(meanEmission(scene_, mesh, t)) * (e.doubleSided ? 2.0f : 1.0f);
+    const float lm = kPi * area * mean[t] * (e.doubleSided ? 2.0f : 1.0f);
     if (!(lm > 0)) continue;
     // The front is counter-clockwise in object space; a mirroring transform turns the world winding around.
     const float flip = scene_.instances[index].worldFromObject.determinant() < 0 ? -1.0f : 1.0f;

@@ -24,6 +24,8 @@ struct LampRay {
   Vec3 fluxLm;  // intensity / density: all lamps' light, if this were the only ray
 };
 
+class MeanEmission;
+
 class Lights {
  public:
   explicit Lights(const Scene& scene);
@@ -85,7 +87,7 @@ class Lights {
     float cosInner, cosOuter;    // of a spot; -1 for a point
     float raysPerSr, cosSpread;  // density of lamp rays, of all lamps' rays, inside the cone of that cosine
   };
-  void addEmitter(uint32_t instance);
+  void addEmitter(uint32_t instance, MeanEmission& means);
   float importance(const Emitter& e, Vec3 p) const;
   float importance(const LampTerms& lamp, Vec3 p) const;
   LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;

@@ -19,16 +19,6 @@ Shade shadeAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
   return s;
 }
 
-// Texels of a texture on the triangle.
-float texelsOn(const Scene& scene, const Mesh& mesh, uint32_t triangle, const TextureRef& ref) {
-  const auto& uv = mesh.uv[ref.uvSet ? 1 : 0];
-  if (ref.texture < 0 || uv.empty()) return 0;
-  const Texture& texture = scene.textures[static_cast<size_t>(ref.texture)];
-  const uint32_t* i = &mesh.indices[size_t{3} * triangle];
-  const Vec2 a = transformUv(ref, uv[i[0]]), b = transformUv(ref, uv[i[1]]) - a, c = transformUv(ref, uv[i[2]]) - a;
-  return 0.5f * std::abs(b.x * c.y - b.y * c.x) * static_cast<float>(texture.width) * static_cast<float>(texture.height);
-}
-
 TrianglePoint barycentric(const LatticeTriangle& t, uint32_t triangle, Vec3 p) {
   const Vec3 e1 = t.b - t.a, e2 = t.c - t.a, d = p - t.a;
   const float d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), p1 = dot(d, e1), p2 = dot(d, e2);

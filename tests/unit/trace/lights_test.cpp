@@ -109,6 +109,42 @@ TEST(Lights, onlyTheOpaquePartOfASurfaceEmits) {
   }
 }
 
+// A square of 100 cd/m2 where its texture is lit: a few texels of many.
+Scene spottedSquare(Wrap wrap, int spotTexels, float shift) {
+  constexpr int kSide = 512, kFrom = 301;
+  Scene scene;
+  Material m = test::lambertian(0.5f, 100);
+  m.emissionTexture.texture = 0;
+  test::addRectangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, test::addMaterial(scene, m));
+  for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) scene.meshes[0].uv[0].push_back({uv.x + shift, uv.y});
+  scene.textures.push_back({"spot", kSide, kSide, wrap, wrap, std::vector<uint8_t>(size_t{4} * kSide * kSide)});
+  for (int i = 0; i < spotTexels * spotTexels; ++i) {
+    const int x = kFrom + i % spotTexels, y = kFrom - 200 + i / spotTexels;
+    for (size_t c = 0; c < 4; ++c) scene.textures[0].rgba[4 * static_cast<size_t>(y * kSide + x) + c] = 255;
+  }
+  return scene;
+}
+
+// However small what shines, light samples find it.
+TEST(Lights, aSpotOfLightIsNotMissed) {
+  for (const Wrap wrap : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge}) {
+    for (const int texels : {1, 3, 40}) {
+      for (const float shift : {0.0f, 2.0f}) {
+        if (shift > 0 && wrap == Wrap::ClampToEdge) continue;
+        const Scene scene = spottedSquare(wrap, texels, shift);
+        const double exact = 100.0 * kPi * texels * texels / (512.0 * 512);
+        const double flux = Lights(scene).emittedFluxLm();
+        const bool large = texels == 40;
+        EXPECT_GT(flux, (large ? 0.9 : 0.09) * exact) << texels << " " << shift;
+        if (large) {
+          EXPECT_LT(flux, 1.1 * exact) << shift;
+        }
+      }
+    }
+    EXPECT_FALSE(Lights(spottedSquare(wrap, 0, 0)).hasEmitters());
+  }
+}
+
 TEST(SurfacePoint, normalsAreUnitInAnyUnit) {
   for (const float unit : {1e-7f, 1.0f, 1e10f}) {
     Scene scene;
