@@ -44,7 +44,7 @@ struct alignas(16) Padded {
 class Illuminator {
  public:
   Illuminator(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress)
-      : rays_(rays), lights_(lights), voxels_(voxels), settings_(settings), progress_(progress), paths_(rays, voxels, settings.seed, progress), near_(lights, voxels), direct_(voxels.slots.size()), indirect_(voxels.slots.size()) {}
+      : rays_(rays), lights_(lights), voxels_(voxels), settings_(settings), progress_(progress), paths_(rays, voxels, settings.seed, progress), near_(lights, voxels, paths_), direct_(voxels.slots.size()), indirect_(voxels.slots.size()) {}
 
   RadianceField run() {
     RadianceField field;

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "base/sampling.h"
 #include "radiance/attenuation.h"
+#include "radiance/lamp_cells.h"
 
 namespace roomlight {
 namespace {
@@ -23,11 +24,20 @@ float extent(const Lamp& lamp) {
 
 }  // namespace
 
-NearLamps::NearLamps(const Lights& lights, const Voxels& voxels) : lights_(lights), voxels_(voxels), nearAny_(voxels.slots.size()) {
+NearLamps::NearLamps(const Lights& lights, const Voxels& voxels, const SlotPaths& paths) : lights_(lights), voxels_(voxels), nearAny_(voxels.slots.size()) {
+  if (lights.lampCount() == 0) return;
   std::vector<std::atomic<bool>> hasNear(lights.lampCount());
-  parallelFor(voxels.slots.size(), 4096, [&](size_t s) {
-    for (size_t l = 0; l < hasNear.size(); ++l) {
-      if (isNear(l, s)) nearAny_[s] = 1, hasNear[l] = true;
+  const LampCells cells(lights, radius());
+  parallelFor(voxels.bricks.size(), 16, [&](size_t b) {
+    const auto [first, last] = paths.slotsOfBrick(b);
+    Bounds3 bounds;
+    for (size_t s = first; s < last; ++s) bounds.add(voxels.slots[s].position);
+    std::vector<size_t> candidates;
+    cells.around(bounds, candidates);
+    for (const size_t l : candidates) {
+      for (size_t s = first; s < last; ++s) {
+        if (isNear(l, s)) nearAny_[s] = 1, hasNear[l] = true;
+      }
     }
   });
   for (size_t l = 0; l < hasNear.size(); ++l) {
@@ -35,8 +45,10 @@ NearLamps::NearLamps(const Lights& lights, const Voxels& voxels) : lights_(light
   }
 }
 
+float NearLamps::radius() const { return std::max(kNearM, kNearVoxels * voxels_.voxelSizeM); }
+
 bool NearLamps::isNear(size_t lamp, Vec3 p) const {
-  const float near = std::max(kNearM, kNearVoxels * voxels_.voxelSizeM);
+  const float near = radius();
   return lengthSquared(lights_.lamp(lamp).position - p) < near * near;
 }
 

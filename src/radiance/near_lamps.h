@@ -12,7 +12,7 @@ namespace roomlight {
 
 class NearLamps {
  public:
-  NearLamps(const Lights& lights, const Voxels& voxels);
+  NearLamps(const Lights& lights, const Voxels& voxels, const SlotPaths& paths);
 
   // Whether the slot's light from that lamp comes by particles rather than by shadow rays.
   bool isNear(size_t lamp, size_t slot) const { return isNear(lamp, voxels_.slots[slot].position); }
@@ -40,6 +40,7 @@ class NearLamps {
   };
   void follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, float pointLm, Attenuation attenuation,
               Sampler& sampler, Trail& trail) const;
+  float radius() const;  // within which a lamp is near
   bool isNear(size_t lamp, Vec3 p) const;
   bool isNearAny(const HiddenReflection& h, size_t lamp) const { return h.slot >= 0 ? nearAny_[static_cast<size_t>(h.slot)] != 0 : isNear(lamp, h.p); }
   float litArea(const FaceSlot& slot) const;
