@@ -22,8 +22,7 @@ Vec3 passing(const MaterialSample& m, const Material& material, float cosTheta) 
 float ConeShader::Reflected::weight(float lightPdf) const { return pdf > 0 ? misWeight(pdf, lightPdf) : 1; }
 
 ConeShader::ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings)
-    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), settings_(settings), sharp_(rays, lights),
-      diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.occlusionLambda} {}
+    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), settings_(settings), sharp_(rays, lights), diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.occlusionLambda} {}
 
 Vec3 ConeShader::background(Vec3 d) const {
   Vec3 sum = lights_.sky().present() ? lights_.sky().radiance(d) : Vec3(0);
@@ -36,7 +35,8 @@ Vec3 ConeShader::background(Vec3 d) const {
 
 SurfaceLight ConeShader::shade(const SurfacePoint& s, Vec3 wo, bool followed, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count) const {
   const Bsdf bsdf(s.m, s.ns, s.ng, wo);
-  const Reflection by = followed ? Reflection::Followed : s.m.roughness < settings_.rayRoughness ? Reflection::Ray : Reflection::Cone;
+  const Reflection by = followed ? Reflection::Followed : s.m.roughness < settings_.rayRoughness ? Reflection::Ray
+                                                                                                 : Reflection::Cone;
   const int32_t guide = guideAt(field_.guide, voxels_, s.p, s.ng);
   SurfaceLight out;
   const Lobes soft = this->soft(s, bsdf, by, guide, sampler, count), sharp = this->sharp(s, bsdf, by, shadows, sampler, count, out.sharpVariance);
