@@ -1,6 +1,7 @@
 #include <immintrin.h>
 
 #include <atomic>
+#include <mutex>
 
 #include "base/parallel.h"
 #include "base/sampler.h"
@@ -20,6 +21,7 @@ constexpr double kSlowest = 0.8;  // mode of light that Chebyshev's iteration is
 constexpr int kTrial = 12;        // steps
 constexpr double kDark = 1e-4;
 constexpr double kSmall = 0.01;
+constexpr float kAbsorbs = 1e-3f;  // at least, where only the end of the bounces is judged
 constexpr float kUnseen = 1e12f;  // cd/m²: of glow that no voxel shows, so that points take all of it
 constexpr size_t kChunk = 4096;  // slots
 
@@ -83,6 +85,7 @@ class Illuminator {
     SkyGuideBuilder guide(voxels_, lights_.sky());
     const bool sky = lights_.sky().present();
     std::atomic<size_t> done = 0;
+    std::mutex reporting;
     parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
       if (progress_.stop()) return;
       const auto [first, last] = paths_.slotsOfBrick(b);
@@ -107,7 +110,10 @@ class Illuminator {
         }
       }
       const size_t d = ++done;
-      if (d % 256 == 0) progress_.at(0.5f * static_cast<float>(d) / static_cast<float>(voxels_.bricks.size()));
+      if (d % 256 == 0 && reporting.try_lock()) {
+        progress_.at(0.5f * static_cast<float>(d) / static_cast<float>(voxels_.bricks.size()));
+        reporting.unlock();
+      }
     });
     if (progress_.stop()) return;
     rayCount_ += links_.size();
@@ -228,7 +234,7 @@ class Illuminator {
       Sums& sum = parts[c];
       for (size_t i = c * kChunk; i < std::min(slots, (c + 1) * kChunk); ++i) {
         const Vec3 gathered = gather(&links_[i * n], n, reflected);
-        const double area = static_cast<double>(voxels_.slots[i].areaM2 * (1 - luminance(voxels_.slots[i].albedo)));
+        const double area = static_cast<double>(voxels_.slots[i].areaM2 * std::max(kAbsorbs, 1 - luminance(voxels_.slots[i].albedo)));
         const double light = std::max(0.0, static_cast<double>(luminance(gathered + direct_[i])));
         const double r = std::abs(static_cast<double>(luminance(gathered - indirect_[i]))) / (light + kDark * mean + 1e-30);
         sum.light += area * light, sum.lightSquared += area * light * light, sum.area += area, sum.squares += area * r * r, sum.fractions += area * r;

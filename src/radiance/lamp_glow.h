@@ -13,7 +13,7 @@
 namespace roomlight {
 
 struct GlowPoint {
-  Vec3 p, n;           // on a surface, and its normal on the lit side
+  Vec3 p, n;           // clear of a surface, as rays start there; its normal on the lit side
   Vec3 fluxLm;         // reflected, Lambertian; all points have the same luminous flux
   int64_t slot;        // that stands for the surface, -1: none, and
   float radianceCdM2;  // the luminance that it shows cones

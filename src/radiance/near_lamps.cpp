@@ -13,6 +13,8 @@ constexpr float kNearM = 0.5f;    // further off surfaces are no brighter than c
 constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr size_t kMostParticles = size_t{1} << 19, kMostPerLamp = size_t{1} << 17, kFewestPerLamp = size_t{1} << 12, kChunk = 512;
 constexpr int kMostReflections = 64;
+constexpr float kNarrow = 0.5f;      // rad
+constexpr float kNarrowVoxels = 8;  // radius of a disc of light
 constexpr float kPoints = 32768;  // that stand for a flux like that of the lamps
 
 // Part of the directions a lamp shines into, as 1 - cos of its cone.
@@ -28,12 +30,17 @@ NearLamps::NearLamps(const Lights& lights, const Voxels& voxels, const SlotPaths
   if (lights.lampCount() == 0) return;
   std::vector<std::atomic<bool>> hasNear(lights.lampCount());
   const LampCells cells(lights, radius());
+  std::vector<size_t> narrow;
+  for (size_t l = 0; l < hasNear.size(); ++l) {
+    if (narrowFor(lights.lamp(l)) > radius()) narrow.push_back(l);
+  }
   parallelFor(voxels.bricks.size(), 16, [&](size_t b) {
     const auto [first, last] = paths.slotsOfBrick(b);
     Bounds3 bounds;
     for (size_t s = first; s < last; ++s) bounds.add(voxels.slots[s].position);
     std::vector<size_t> candidates;
     cells.around(bounds, candidates);
+    candidates.insert(candidates.end(), narrow.begin(), narrow.end());
     for (const size_t l : candidates) {
       for (size_t s = first; s < last; ++s) {
         if (isNear(l, s)) nearAny_[s] = 1, hasNear[l] = true;
@@ -48,8 +55,18 @@ NearLamps::NearLamps(const Lights& lights, const Voxels& voxels, const SlotPaths
 float NearLamps::radius() const { return std::max(kNearM, kNearVoxels * voxels_.voxelSizeM); }
 
 bool NearLamps::isNear(size_t lamp, Vec3 p) const {
-  const float near = radius();
-  return lengthSquared(lights_.lamp(lamp).position - p) < near * near;
+  const Lamp& l = lights_.lamp(lamp);
+  const Vec3 d = p - l.position;
+  const float near = radius(), d2 = lengthSquared(d), far = narrowFor(l);
+  if (d2 < near * near) return true;
+  if (d2 > far * far) return false;
+  const float along = dot(d, l.direction), lit = along * std::tan(l.outerConeRad) + voxels_.voxelSizeM;
+  return along > 0 && d2 - along * along < lit * lit;
+}
+
+// How far a spot's disc of light is smaller than a few voxels, so that shadow rays from slots miss it, m. Not for wide ones.
+float NearLamps::narrowFor(const Lamp& lamp) const {
+  return lamp.kind == LampKind::Spot && lamp.outerConeRad < kNarrow ? kNarrowVoxels * voxels_.voxelSizeM / std::tan(std::max(lamp.outerConeRad, 1e-3f)) : 0;
 }
 
 // Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.
@@ -106,7 +123,7 @@ void NearLamps::follow(const RayScene& rays, const SlotPaths& paths, size_t lamp
   // As many points as the flux asks for on average, each of `pointLm`.
   const auto reflectedAt = [&](Vec3 p, Vec3 n, Vec3 flux, int64_t slot) {
     const float luminous = luminance(flux), copies = std::floor(luminous / pointLm + sampler.fast1());
-    for (float k = 0; k < copies; ++k) trail.points.push_back({p, n, flux * (pointLm / luminous), slot, 0});
+    for (float k = 0; k < copies; ++k) trail.points.push_back({offsetOrigin(p, n), n, flux * (pointLm / luminous), slot, 0});
   };
   bool reflected = false;
   for (int k = 0; k < kMostReflections; ++k) {
@@ -125,7 +142,7 @@ void NearLamps::follow(const RayScene& rays, const SlotPaths& paths, size_t lamp
     if (!reflected && facing > 0.05f) fluxLm *= attenuation(kind, slot.normal, -ray.direction) / facing;
     trail.deposits.push_back({static_cast<uint32_t>(s), fluxLm});
     if (!nearAny_[s]) return;
-    const Vec3 albedo = bihemisphericalAlbedo(materialAt(rays.scene(), end.hit));
+    const Vec3 albedo = paths.albedo(end);
     reflectedAt(end.p, end.n, fluxLm * albedo, end.slot);
     const float survive = std::min(0.95f, maxComponent(albedo));
     if (sampler.next1() >= survive) return;

@@ -42,6 +42,7 @@ class NearLamps {
               Sampler& sampler, Trail& trail) const;
   float radius() const;  // within which a lamp is near
   bool isNear(size_t lamp, Vec3 p) const;
+  float narrowFor(const Lamp& lamp) const;
   bool isNearAny(const HiddenReflection& h, size_t lamp) const { return h.slot >= 0 ? nearAny_[static_cast<size_t>(h.slot)] != 0 : isNear(lamp, h.p); }
   float litArea(const FaceSlot& slot) const;
 

@@ -96,6 +96,13 @@ bool SlotPaths::isHidden(size_t s, Vec3 p, Vec3 n) const {
   return dot(slot.position - p, slot.normal) > kHiddenBehind * voxels_.voxelSizeM || !connected(s, p, n);
 }
 
+// What a pane transmits is left out of its albedo; what a veil lets through between its threads is not.
+Vec3 SlotPaths::albedoOfTheRest(const Hit& hit, float passes) const {
+  const MaterialSample m = materialAt(rays_.scene(), hit);
+  const Vec3 albedo = bihemisphericalAlbedo(m);
+  return m.alpha >= 1 ? min(albedo / std::max(1e-3f, 1 - passes), Vec3(1)) : albedo;
+}
+
 Arrival SlotPaths::follow(Ray ray, Hit hit, Sampler& sampler, std::vector<HiddenReflection>* hidden) const {
   Arrival end;
   for (int k = 0; k < kMostPanes; ++k) {
@@ -110,10 +117,10 @@ Arrival SlotPaths::follow(Ray ray, Hit hit, Sampler& sampler, std::vector<Hidden
     if (!clear || sampler.next1() >= passes) {
       const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
       if (slot >= 0 && !isHidden(static_cast<size_t>(slot), s.p, s.ng)) {
-        end.slot = slot, end.p = s.p, end.n = s.ng, end.hit = hit;
+        end.slot = slot, end.p = s.p, end.n = s.ng, end.hit = hit, end.passes = passes;
         return end;
       }
-      end.left *= bihemisphericalAlbedo(materialAt(rays_.scene(), hit));
+      end.left *= albedoOfTheRest(hit, passes);
       end.reflected = true;
       if (hidden) hidden->push_back({s.p, s.ng, end.left, slot});
       ray = {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};

@@ -23,6 +23,7 @@ struct Arrival {
   int64_t slot = -1;      // -1: nowhere, or not known to voxels
   Vec3 p, n;              // on the slot's surface
   Hit hit;                // there
+  float passes = 0;       // share of the light that the surface lets through, which went on instead
   Vec3 left{1, 1, 1};     // share of the light that panes and reflections on the way leave
   bool escaped = false;   // out of the scene
   bool reflected = false; // on surfaces that no slot stands for
@@ -43,11 +44,14 @@ class SlotPaths {
   // its own in the voxels: there the way goes on by a diffuse reflection, which is added to `hidden`.
   Arrival follow(Ray ray, Hit hit, Sampler& sampler, std::vector<HiddenReflection>* hidden = nullptr) const;
 
+  // Albedo of the surface where it ends, for the light that does not pass it.
+  Vec3 albedo(const Arrival& end) const { return albedoOfTheRest(end.hit, end.passes); }
+
   std::pair<size_t, size_t> slotsOfBrick(size_t brick) const;  // first, one past the last
 
  private:
   void place(size_t brick);
-  float freeAbove(const FaceSlot& slot) const;
+  Vec3 albedoOfTheRest(const Hit& hit, float passes) const;
   bool fillsVoxel(const FaceSlot& slot) const;
   Vec3 lifted(Vec3 p, Vec3 n) const;
   bool facesAlong(const Hit& hit, Vec3 n) const;

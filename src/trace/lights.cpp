@@ -108,8 +108,8 @@ float Lights::importance(const Emitter& e, Vec3 p) const {
 
 float Lights::importance(const LampTerms& lamp, Vec3 p) const {
   const Vec3 d = p - lamp.position;
-  const float inverse2 = 1 / std::max(lengthSquared(d), 1e-4f), cd = lamp.intensityCd * inverse2;
-  return lamp.cosOuter <= -1 ? cd : cd * spotFalloff(dot(d, lamp.direction) * std::sqrt(inverse2), lamp.cosInner, lamp.cosOuter);
+  const float distance = length(d), cd = lamp.intensityCd / std::max(distance * distance, 1e-4f);
+  return lamp.cosOuter <= -1 ? cd : cd * spotFalloff(dot(d, lamp.direction) / std::max(distance, 1e-12f), lamp.cosInner, lamp.cosOuter);
 }
 
 LightSample Lights::sampleLamp(size_t index, Vec3 p) const {

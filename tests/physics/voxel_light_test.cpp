@@ -130,6 +130,77 @@ TEST(LampOverAPlate, ceilingGetsItsReflectionOnce) {
   EXPECT_NEAR(points + cones, exact, 0.02 * exact);
 }
 
+// A white room without its ceiling under an even sky: every surface, however deep, gets as much as the roof would.
+TEST(WhiteRoom, bouncesGoOnThoughNothingAbsorbs) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(1));
+  test::addRoom(scene, {0, 0, 0}, {2, 2, 2}, std::vector<int>(6, white));
+  scene.meshes.pop_back(), scene.instances.pop_back();
+  scene.sky.luminanceCdM2 = Vec3(1000);
+  const Lit lit = light(scene, 0.1f);
+  const Voxels& voxels = lit.voxelisation.voxels;
+  double sum = 0, area = 0;
+  for (size_t i = 0; i < voxels.slots.size(); ++i) {
+    const FaceSlot& s = voxels.slots[i];
+    const Vec3 inwards = Vec3(1) - s.position;
+    if (dot(s.normal, inwards) < 0.5f) continue;
+    sum += static_cast<double>(luminance(lit.field.irradianceLux[i]) * s.areaM2), area += static_cast<double>(s.areaM2);
+  }
+  EXPECT_NEAR(sum / area, 1000 * kPi, 20 * kPi);
+}
+
+// A shade that transmits half of the light takes none: all flux ends in the walls.
+TEST(LampInGlass, allItsFluxIsAbsorbed) {
+  Scene scene;
+  Material glass = test::lambertian(1);
+  glass.transmission = 0.5f;
+  const int wall = test::addMaterial(scene, test::lambertian(0.5f)), shade = test::addMaterial(scene, glass);
+  test::addRoom(scene, {0, 0, 0}, {2.03f, 2.03f, 2.03f}, std::vector<int>(6, wall));
+  test::addBox(scene, Vec3(0.9f), Vec3(1.1f), shade);
+  scene.lamps.push_back(test::pointLamp(Vec3(1), 100));
+  const Lit lit = light(scene, 0.1f);
+  double sum = 0;
+  for (size_t i = 0; i < lit.field.irradianceLux.size(); ++i) {
+    const FaceSlot& slot = lit.voxelisation.voxels.slots[i];
+    if (slot.instance < 6) sum += static_cast<double>(luminance(lit.field.irradianceLux[i]) * 0.5f * slot.areaM2);
+  }
+  EXPECT_NEAR(sum, 400 * kPi, 0.04 * 400 * kPi);
+}
+
+// A spot whose light falls on a disc smaller than a voxel.
+class NarrowSpot : public testing::TestWithParam<float> {};
+TEST_P(NarrowSpot, allItsFluxIsAbsorbed) {
+  Scene scene;
+  const int wall = test::addMaterial(scene, test::lambertian(0.5f));
+  test::addRoom(scene, {0, 0, 0}, {2.03f, 2.03f, 2.03f}, std::vector<int>(6, wall));
+  Lamp lamp = test::pointLamp({1.02f, 0.97f, 1.9f}, 1000);
+  lamp.kind = LampKind::Spot, lamp.direction = {0, 0, -1}, lamp.innerConeRad = lamp.outerConeRad = GetParam();
+  scene.lamps.push_back(lamp);
+  const double flux = 2 * kPi * (1 - std::cos(static_cast<double>(GetParam()))) * 1000;
+  EXPECT_NEAR(absorbed(light(scene, 0.1f)), flux, 0.03 * flux);
+}
+INSTANTIATE_TEST_SUITE_P(Angles, NarrowSpot, testing::Values(0.01f, 0.04f, 0.1f, 0.3f));
+
+// Points lie on surfaces, and shadow rays to them must not end in these: in a corner they come in at a grazing angle.
+TEST(Glow, pointsAreSeenFromBesideThem) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.8f));
+  test::addRoom(scene, {5, 5, 5}, {5.12f, 5.12f, 5.12f}, std::vector<int>(6, white));
+  scene.lamps.push_back(test::pointLamp(Vec3(5.06f), 100));
+  const Lit lit = light(scene, 0.05f);
+  const RayScene rays(scene);
+  double seen = 0, all = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    Sampler sampler(i, 0, 5);
+    const Vec3 from = offsetOrigin({5.002f, 5.06f, 5}, {0, 0, 1});
+    const LightSample g = lit.field.glow.sample(from, {0, 0, 1}, 1, 0.005f, sampler).light;
+    if (!g.valid()) continue;
+    const double l = static_cast<double>(luminance(g.radiance) * g.wi.z);
+    all += l, seen += l * static_cast<double>(luminance(rays.transmittance({from, g.wi, 0, g.distance * (1 - 1e-4f)})));
+  }
+  EXPECT_GT(seen, 0.99 * all);
+}
+
 // Half of the light passes a veil of opacity one half, whatever voxels its way crosses.
 TEST(Veil, passesItsShareOnce) {
   Scene scene;

@@ -44,6 +44,16 @@ TEST(Lights, fluxPerCandelaOfASpotIsTheIntegralOfItsFalloff) {
   }
 }
 
+// Chosen by importance, too: a spot a few millimetres away shines there as it does from afar.
+TEST(Lights, aSpotIsChosenHoweverClose) {
+  Scene scene;
+  Lamp lamp;
+  lamp.kind = LampKind::Spot, lamp.direction = {0, 0, -1}, lamp.innerConeRad = 0.2f, lamp.outerConeRad = 0.8f, lamp.intensityCd = Vec3(10);
+  scene.lamps.push_back(lamp);
+  const Lights lights(scene);
+  for (const float z : {0.002f, 0.005f, 0.02f}) EXPECT_NEAR(luminance(lights.sampleLocal({0, 0, -z}, {0.5f, 0.5f}, 0.5f).radiance) * z * z, 10, 0.01f) << z;
+}
+
 TEST(Lights, aSunGivesItsIlluminanceWhateverItsSize) {
   for (const double diameterDeg : {0.0, 0.001, 0.01, 0.03, 0.1, 0.533, 5.0, 40.0}) {
     Scene scene;
