@@ -35,10 +35,15 @@ void LightVertices::trace(int paths, uint32_t pass, uint64_t seed) {
     }
   });
   all_.clear();
-  for (const Part& part : parts) {
+  size_t total = 0;
+  for (const Part& part : parts) total += part.vertices.size();
+  all_.reserve(total);
+  for (Part& part : parts) {
     all_.insert(all_.end(), part.vertices.begin(), part.vertices.end());
+    part.vertices = {};
     rayCount_ += part.rays;
   }
+  perPath_ = static_cast<double>(total) / static_cast<double>(count);
 }
 
 void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t seed, std::vector<LightVertex>& out, uint64_t& rayCount) const {

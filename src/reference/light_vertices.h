@@ -46,6 +46,7 @@ class LightVertices {
   void trace(int paths, uint32_t pass, uint64_t seed);
 
   const std::vector<LightVertex>& all() const { return all_; }
+  double perPath() const { return perPath_; }  // vertices, in the last pass
   uint64_t rayCount() const { return rayCount_; }  // traced so far
 
   // Can light that z scatters be had by connecting to z? Not where a lobe is so narrow that connections miss it.
@@ -65,6 +66,7 @@ class LightVertices {
   const Lights& lights_;
   std::vector<LightVertex> all_;
   uint64_t rayCount_ = 0;
+  double perPath_ = 0;
 };
 
 }  // namespace roomlight

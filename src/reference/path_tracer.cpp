@@ -12,8 +12,10 @@ namespace roomlight {
 namespace {
 
 constexpr int kTile = 16;
-// Light paths a pass; more do not help as much as another pass. Some 4 vertices each, 128 B a vertex: 128 MiB at most.
-constexpr int kMostLightPaths = 1 << 18, kPixelsPerLightPath = 16;
+// Light paths a pass; more do not help as much as another pass. Vertices take 128 B each, twice that while they are collected; how
+// many a path has, the first pass tells.
+constexpr int kMostLightPaths = 1 << 18, kFirstLightPaths = 1 << 14, kPixelsPerLightPath = 16;
+constexpr double kMostLightVertices = 1 << 20;
 
 // Running sums per pixel; one pass adds one sample to every pixel.
 struct Accumulator {
@@ -50,7 +52,10 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
     // The picture keeps whole passes only: one that is stopped half way is dropped, but never the first.
     const int pass = result.samples;
     Image fresh(w, h);
-    if (settings.lightPaths && lights.lampCount() > 0) vertices.trace(lightPaths, static_cast<uint32_t>(pass), settings.seed);
+    if (settings.lightPaths && lights.lampCount() > 0) {
+      const int most = pass == 0 ? kFirstLightPaths : static_cast<int>(kMostLightVertices / std::max(1.0, vertices.perPath()));
+      vertices.trace(std::min(lightPaths, std::max(1, most)), static_cast<uint32_t>(pass), settings.seed);
+    }
     const PathWalk walk(rays, lights, &vertices);
     std::atomic<int> tilesDone = 0;
     std::mutex reporting;
