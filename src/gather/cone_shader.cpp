@@ -11,6 +11,7 @@ constexpr int kSkySamples = 2;
 constexpr int kEmitterSamples = 2;
 constexpr float kSharpRoughness = 0.1f;  // below: mirrors, whose pictures are seen clearly
 constexpr float kChainRoughness = 0.3f;  // below: a reflection seen in a reflection is followed on
+constexpr float kDoubt = 8;  // times the mean around
 constexpr int kLampSamples = 2;  // where lamps are many
 
 }  // namespace
@@ -139,6 +140,8 @@ ConeStart ConeShader::coneStart(const SurfacePoint& s) const {
 Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters& count, float& occlusion) const {
   const Frame frame(s.ns);
   const ConeStart start = coneStart(s);
+  const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
+  const float doubt = slot < 0 ? kInfinity : kDoubt * luminance(field_.irradianceLux[static_cast<size_t>(slot)]) / kPi;
   Vec3 sum;
   const int n = settings_.conesPerShading;
   const Vec2 u = sampler.next2();
@@ -153,11 +156,28 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters&
     ConeShape shape = diffuse_;
     shape.pdf = conePdf(dot(d, s.ns));
     const ConeLight c = marchCone(field_, start, d, shape, sampler.next1());
-    sum += c.radiance + settings_.ambientCdM2 * (1 - c.occlusion);
+    const bool doubtful = luminance(c.radiance) > doubt;
+    sum += (doubtful ? seen({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, {s.p, shape.pdf, -1, false}, sampler, count) : c.radiance) + settings_.ambientCdM2 * (1 - c.occlusion);
     occlusion += c.occlusion / static_cast<float>(n);
   }
   count.cones += static_cast<uint64_t>(n);
   return sum / static_cast<float>(n);
+}
+
+// What an exact ray sees by the light that voxels hold, without lights and sky: it tells whether a cone that found much more light than
+// its surroundings get looked through a wall thinner than voxels.
+Vec3 ConeShader::seen(Ray ray, const Reflected& from, Sampler& sampler, ConeCounters& count) const {
+  Vec3 sum, left(1);
+  for (int k = 0; k < kMostPanes && maxComponent(left) > 1e-3f; ++k) {
+    const Hit hit = rays_.intersect(ray);
+    ++count.rays;
+    if (!hit.valid()) break;
+    const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
+    sum += left * bihemisphericalAlbedo(s.m) * reflectedIrradiance(s, ray.direction, from, sampler) * (s.m.alpha / kPi);
+    left *= passing(s.m, *s.material, std::abs(dot(s.ns, ray.direction)));
+    ray.origin = offsetOrigin(s.p, -s.ng);
+  }
+  return sum;
 }
 
 Vec3 ConeShader::reflection(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const {
