@@ -11,8 +11,8 @@ constexpr int kSkySamples = 2;
 constexpr int kEmitterSamples = 2;
 constexpr float kSharpRoughness = 0.1f;  // below: mirrors, whose pictures are seen clearly
 constexpr float kChainRoughness = 0.3f;  // below: a reflection seen in a reflection is followed on
-constexpr float kDoubt = 8;  // times the mean around
 constexpr int kLampSamples = 2;  // where lamps are many
+constexpr float kDoubt = 8;      // times the mean around: where rays check what cones find
 
 }  // namespace
 
@@ -144,20 +144,17 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters&
   const float doubt = slot < 0 ? kInfinity : kDoubt * luminance(field_.irradianceLux[static_cast<size_t>(slot)]) / kPi;
   Vec3 sum;
   const int n = settings_.conesPerShading;
-  const Vec2 u = sampler.next2();
+  const Vec3 first = sampleCosineHemisphere(sampler.next2());
   for (int i = 0; i < n; ++i) {
-    // Strata of azimuth within the sample; the sampler spreads the samples of a pixel.
-    const Vec2 stratum{u.x, u.y};
-    Vec3 local = sampleCosineHemisphere({stratum.x, stratum.y});
+    // Turned about the normal: strata of azimuth within the shading; the sampler spreads the shadings of a pixel.
     const float turn = 2 * kPi * static_cast<float>(i) / static_cast<float>(n);
-    local = {local.x * std::cos(turn) - local.y * std::sin(turn), local.x * std::sin(turn) + local.y * std::cos(turn), local.z};
-    Vec3 d = frame.toWorld(local);
+    Vec3 d = frame.toWorld({first.x * std::cos(turn) - first.y * std::sin(turn), first.x * std::sin(turn) + first.y * std::cos(turn), first.z});
     if (dot(d, s.ng) < 0.02f) d = normalize(d + s.ng * (0.04f - dot(d, s.ng)));
     ConeShape shape = diffuse_;
     shape.pdf = conePdf(dot(d, s.ns));
     const ConeLight c = marchCone(field_, start, d, shape, sampler.next1());
-    const bool doubtful = luminance(c.radiance) > doubt;
-    sum += (doubtful ? seen({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, {s.p, shape.pdf, -1, false}, sampler, count) : c.radiance) + settings_.ambientCdM2 * (1 - c.occlusion);
+    sum += luminance(c.radiance) > doubt ? seen({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, {s.p, shape.pdf, -1, false}, sampler, count) : c.radiance;
+    sum += settings_.ambientCdM2 * (1 - c.occlusion);
     occlusion += c.occlusion / static_cast<float>(n);
   }
   count.cones += static_cast<uint64_t>(n);

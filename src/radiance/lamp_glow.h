@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "base/sampler.h"
@@ -36,8 +35,6 @@ class LampGlow {
   LampGlow(std::vector<GlowPoint> points, float voxelSizeM);
 
   bool empty() const { return points_.empty(); }
-  size_t size() const { return points_.size(); }
-  const std::vector<GlowPoint>& points() const { return points_; }
 
   // One point, chosen by what it could give without shadows to a surface at p with normal n, of what diffuse cones leave to points.
   GlowSample sample(Vec3 p, Vec3 n, float diffuseCones, float tanHalf, Sampler& sampler) const;

@@ -17,7 +17,6 @@ class NearLamps {
   // Whether the slot's light from that lamp comes by particles rather than by shadow rays.
   bool isNear(size_t lamp, size_t slot) const { return isNear(lamp, voxels_.slots[slot].position); }
 
-  bool any(size_t s) const { return nearAny_[s]; }
   // Illuminance per slot in lx, per channel.
   struct Light {
     std::vector<Vec3> near;  // on slots near lamps; what they reflect of it is contained in `near` and `far`. Empty: none
