@@ -12,6 +12,7 @@ constexpr int kEmitterSamples = 2;
 constexpr float kSharpRoughness = 0.1f;  // below: mirrors, whose pictures are seen clearly
 constexpr float kChainRoughness = 0.3f;  // below: a reflection seen in a reflection is followed on
 constexpr int kLampSamples = 2;  // where lamps are many
+constexpr float kLift = 0.1f;    // voxels: for places to see one another along a bent surface
 constexpr float kDoubt = 8;      // times the mean around: where rays check what cones find
 
 }  // namespace
@@ -141,7 +142,8 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters&
   const Frame frame(s.ns);
   const ConeStart start = coneStart(s);
   const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
-  const float doubt = slot < 0 ? kInfinity : kDoubt * luminance(field_.irradianceLux[static_cast<size_t>(slot)]) / kPi;
+  const Vec3 irradiance = slot < 0 ? Vec3(0) : field_.irradianceLux[static_cast<size_t>(slot)];
+  const float doubt = slot < 0 ? kInfinity : kDoubt * luminance(irradiance) / kPi;
   Vec3 sum;
   const int n = settings_.conesPerShading;
   const Vec3 first = sampleCosineHemisphere(sampler.next2());
@@ -153,7 +155,7 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters&
     ConeShape shape = diffuse_;
     shape.pdf = conePdf(dot(d, s.ns));
     const ConeLight c = marchCone(field_, start, d, shape, sampler.next1());
-    sum += luminance(c.radiance) > doubt ? seen({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, {s.p, shape.pdf, -1, false}, sampler, count) : c.radiance;
+    sum += luminance(c.radiance) > doubt ? seen({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, {s.p, shape.pdf, -1, false}, irradiance, sampler, count) : c.radiance;
     sum += settings_.ambientCdM2 * (1 - c.occlusion);
     occlusion += c.occlusion / static_cast<float>(n);
   }
@@ -162,19 +164,34 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters&
 }
 
 // What an exact ray sees by the light that voxels hold, without lights and sky: it tells whether a cone that found much more light than
-// its surroundings get looked through a wall thinner than voxels.
-Vec3 ConeShader::seen(Ray ray, const Reflected& from, Sampler& sampler, ConeCounters& count) const {
+// its surroundings get looked through a wall thinner than voxels. Where a slot does not stand for the place met (a bar that goes
+// on through a wall has sun on one end of it), that is lit afresh, and what others reflect there is taken for that of the ray's start.
+Vec3 ConeShader::seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sampler, ConeCounters& count) const {
   Vec3 sum, left(1);
   for (int k = 0; k < kMostPanes && maxComponent(left) > 1e-3f; ++k) {
     const Hit hit = rays_.intersect(ray);
     ++count.rays;
     if (!hit.valid()) break;
     const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-    sum += left * bihemisphericalAlbedo(s.m) * reflectedIrradiance(s, ray.direction, from, sampler) * (s.m.alpha / kPi);
+    if (const int64_t slot = slotAtSurface(voxels_, s.p, s.ng); slot >= 0 && isParted(static_cast<size_t>(slot), s, count)) {
+      const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
+      float unused = 0;
+      const Vec3 direct = soft(s, bsdf, Reflection::Cone, guideAt(field_.guide, voxels_, s.p, s.ng), sampler, count).diffuse + sharp(s, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
+      sum += left * (direct + bsdf.diffuseAlbedo() * startLux / kPi) * s.m.alpha;
+    } else {
+      sum += left * bihemisphericalAlbedo(s.m) * reflectedIrradiance(s, ray.direction, from, sampler) * (s.m.alpha / kPi);
+    }
     left *= passing(s.m, *s.material, std::abs(dot(s.ns, ray.direction)));
     ray.origin = offsetOrigin(s.p, -s.ng);
   }
   return sum;
+}
+
+// Whether another surface stands between a place and where its slot takes its light.
+bool ConeShader::isParted(size_t slot, const SurfacePoint& s, ConeCounters& count) const {
+  const Vec3 from = s.p + s.ng * (kLift * voxels_.voxelSizeM), to = voxels_.slots[slot].position + s.ng * (kLift * voxels_.voxelSizeM);
+  ++count.rays;
+  return luminance(rays_.transmittance({from, to - from, 0, 1})) < 0.25f;
 }
 
 Vec3 ConeShader::reflection(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const {

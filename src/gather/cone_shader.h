@@ -74,7 +74,8 @@ class ConeShader {
   ConeStart coneStart(const SurfacePoint& s) const;
   Vec3 indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters& count, float& occlusion) const;
   Vec3 reflection(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const;
-  Vec3 seen(Ray ray, const Reflected& from, Sampler& sampler, ConeCounters& count) const;
+  Vec3 seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sampler, ConeCounters& count) const;
+  bool isParted(size_t slot, const SurfacePoint& s, ConeCounters& count) const;
   Vec3 along(Ray ray, Reflected from, Sampler& sampler, ConeCounters& count) const;
   Vec3 reflectedBackground(Vec3 d, const Reflected& from) const;
   Vec3 reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler) const;

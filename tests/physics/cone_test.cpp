@@ -119,6 +119,24 @@ TEST(Cone, lightOutdoorsDoesNotShortenBouncesIndoors) {
   EXPECT_NEAR(mean(render(scene, {1.9f, 1.5f, 3.4f}, s).image), alone, 0.01 * alone);
 }
 
+// A lamp-lit room whose walls have no thickness, with a window frame in one of them, before and after sunrise: no daylight comes in.
+TEST(Cone, daylightStaysOutside) {
+  Scene night;
+  const int wall = test::addMaterial(night, test::lambertian(0.6f));
+  test::addRoom(night, {0, 0, 0}, {3, 2.6f, 3}, std::vector<int>(6, wall));
+  test::addBox(night, {1, 0.9f, -0.03f}, {2, 0.97f, 0.03f}, wall);
+  test::addBox(night, {1, 1.8f, -0.03f}, {2, 1.87f, 0.03f}, wall);
+  night.lamps.push_back(test::pointLamp({1.5f, 2.1f, 1.5f}, 20));
+  Scene day = night;
+  Sun sun;
+  sun.toLight = normalize(Vec3{0.3f, 0.7f, -0.8f});
+  sun.illuminanceLux = Vec3(50000);
+  day.suns.push_back(sun);
+  day.sky.luminanceCdM2 = Vec3(3000);
+  const double dark = mean(render(night, {1.5f, 1.3f, 2.7f}, small()).image), bright = mean(render(day, {1.5f, 1.3f, 2.7f}, small()).image);
+  EXPECT_NEAR(bright, dark, 0.02 * dark);
+}
+
 TEST(Cone, sameBitsWithAnyNumberOfThreads) {
   ConeSetup s = small();
   s.gather.filterPasses = 3;
