@@ -15,7 +15,7 @@ void gatherHome(benchmark::State& state, const Home& home) {
   settings.width = 480, settings.height = 270;
   double traced = 0, cones = 0;
   for (auto _ : state) {
-    const ConeResult result = gatherCones(rays, lights, v.voxels, field, home.camera, settings);
+    const GatheredPicture result = gatherCones(rays, lights, v.voxels, field, home.camera, settings);
     traced += static_cast<double>(result.rays), cones += static_cast<double>(result.cones);
   }
   state.counters["MraysPerS"] = benchmark::Counter(traced / 1e6, benchmark::Counter::kIsRate);

@@ -18,6 +18,7 @@ struct Technique {
 
 // The default first.
 constexpr Technique kTechniques[] = {
+    {"hybrid", "exact rays that read light cached in voxels: fast, without leaks", renderHybrid},
     {"cone", "light cached in voxels, gathered by cones: fast", renderCone},
     {"path", "path tracing: the reference, slow and exact up to noise", renderPath},
 };

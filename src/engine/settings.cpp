@@ -48,6 +48,13 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("residual", s.radiance.residual, 1e-6, 1);
     g.number("maxBounces", s.radiance.maxBounces, 0, 100000);
   });
+  v.group("hybrid", [&](auto& g) {
+    g.number("raysPerShading", s.hybrid.raysPerShading, 1, 8);
+    g.number("gatherRays", s.hybrid.gatherRays, 1, 4096);
+    g.number("nearVoxels", s.hybrid.nearVoxels, 0, 1000);
+    g.number("rayRoughness", s.hybrid.rayRoughness, 0, 1);
+    g.number("filterPasses", s.hybrid.filterPasses, 0, 8);
+  });
   v.group("gather", [&](auto& g) {
     g.number("raysPerShading", s.gather.raysPerShading, 1, 8);
     g.number("conesPerShading", s.gather.conesPerShading, 1, 4096);

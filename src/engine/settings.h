@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "gather/cone_gather.h"
+#include "gather/ray_gather.h"
 #include "radiance/radiance_field.h"
 #include "reference/path_tracer.h"
 #include "voxel/voxelise.h"
@@ -23,9 +24,10 @@ struct RenderSettings {
   uint64_t seed = 0;
   int threads = 0;         // 0: all cores
   PathSettings path;          // technique "path"; size, samples, limits and seed are those above
-  VoxelSettings voxel;        // technique "cone", like the two below
-  RadianceSettings radiance;  // its seed is the one above
-  GatherSettings gather;      // size, samples, time limit and seed are those above
+  VoxelSettings voxel;        // techniques "hybrid" and "cone"
+  RadianceSettings radiance;  // of the same; its seed is the one above
+  RayGatherSettings hybrid;   // technique "hybrid"; size, samples, time limit and seed are those above
+  GatherSettings gather;      // technique "cone"; size, samples, time limit and seed are those above
 };
 
 // One JSON object with every member, in the order above, less those that repeat one above.

@@ -21,7 +21,7 @@ Picture renderCone(const Scene& scene, const Camera& camera, const RenderSetting
   if (stages.cancelled()) return {};
   // What the stages before took counts against the limit; the gather never ends before its first pass.
   if (settings.timeLimitS > 0) gather.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
-  ConeResult result = stages.run("gather", [&](const Progress& p) { return gatherCones(rays, lights, voxels, field, camera, gather, p); });
+  GatheredPicture result = stages.run("gather", [&](const Progress& p) { return gatherCones(rays, lights, voxels, field, camera, gather, p); });
 
   stages.number("voxelSizeM", static_cast<double>(voxels.voxelSizeM));
   stages.number("voxels", static_cast<double>(voxels.voxels.size()));

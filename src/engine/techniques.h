@@ -9,6 +9,7 @@ struct Picture {
   Image image;       // linear, cd/m²; empty if cancelled before there was one
   Vec3 lightColour;  // see light_colour.h
 };
+Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 

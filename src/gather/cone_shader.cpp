@@ -17,28 +17,21 @@ constexpr float kDoubt = 8;      // times the mean around: where rays check what
 
 }  // namespace
 
-Vec3 passing(const MaterialSample& m, const Material& material, float cosTheta) {
-  return m.transmission <= 0 && m.alpha >= 1 ? Vec3(0) : straightTransmittance(material, m, cosTheta);
-}
-
 float ConeShader::Reflected::weight(float lightPdf) const { return pdf > 0 ? misWeight(pdf, lightPdf) : 1; }
 
 ConeShader::ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings)
     : rays_(rays), lights_(lights), voxels_(voxels), field_(field), settings_(settings), sharp_(rays, lights), diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.occlusionLambda} {}
 
-Vec3 ConeShader::background(Vec3 d) const {
-  Vec3 sum = lights_.sky().present() ? lights_.sky().radiance(d) : Vec3(0);
-  for (size_t i = 0; i < lights_.sunCount(); ++i) {
-    float pdf;
-    sum += lights_.sunDisc(i, d, pdf);
-  }
-  return sum;
+void ConeShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const {
+  for (size_t i = 0; i < work.size(); ++i) light[i] = shade(work[i], shadows.subspan(work[i].firstShadow, sharp_.count()), count);
 }
 
-SurfaceLight ConeShader::shade(const SurfacePoint& s, Vec3 wo, bool followed, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count) const {
-  const Bsdf bsdf(s.m, s.ns, s.ng, wo);
-  const Reflection by = followed ? Reflection::Followed : s.m.roughness < settings_.rayRoughness ? Reflection::Ray
-                                                                                                 : Reflection::Cone;
+SurfaceLight ConeShader::shade(const Shading& work, std::span<const Shadow> shadows, GatherCounters& count) const {
+  const SurfacePoint& s = work.s;
+  Sampler sampler = work.sampler;
+  const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
+  const Reflection by = work.followed ? Reflection::Followed : s.m.roughness < settings_.rayRoughness ? Reflection::Ray
+                                                                                                      : Reflection::Cone;
   const int32_t guide = guideAt(field_.guide, voxels_, s.p, s.ng);
   SurfaceLight out;
   const Lobes soft = this->soft(s, bsdf, by, guide, sampler, count), sharp = this->sharp(s, bsdf, by, shadows, sampler, count, out.sharpVariance);
@@ -46,14 +39,13 @@ SurfaceLight ConeShader::shade(const SurfacePoint& s, Vec3 wo, bool followed, st
   out.diffuse = soft.diffuse;
   out.sharp = sharp.diffuse;
   out.specular = soft.specular + sharp.specular;
-  out.emitted = s.emitted();
   if (maxComponent(out.albedo) > 1e-4f) out.diffuse += out.albedo * indirect(s, sampler, count, out.occlusion);
-  if (!followed && maxComponent(bsdf.specularAlbedo()) > 1e-4f) out.specular += reflection(s, bsdf, by, guide, sampler, count);
+  if (!work.followed && maxComponent(bsdf.specularAlbedo()) > 1e-4f) out.specular += reflection(s, bsdf, by, guide, sampler, count);
   return out;
 }
 
 // What arrives of a light sample.
-Vec3 ConeShader::visible(const SurfacePoint& s, const LightSample& light, const Lobes& f, ConeCounters& count) const {
+Vec3 ConeShader::visible(const SurfacePoint& s, const LightSample& light, const Lobes& f, GatherCounters& count) const {
   if (isBlack(f.diffuse) && isBlack(f.specular)) return {};
   ++count.rays;
   return rays_.transmittance(shadowRay(offsetOrigin(s.p, s.ng), light));
@@ -61,7 +53,7 @@ Vec3 ConeShader::visible(const SurfacePoint& s, const LightSample& light, const 
 
 // Both lobes towards a light. Where reflections follow rays they find extended lights too; both ways share the specular lobe
 // by multiple importance sampling, and from mirrors rays alone look for them. `strategies` is how many light samples compete.
-ConeShader::Lobes ConeShader::towards(const LightSample& light, const Bsdf& bsdf, Reflection by, float strategies) const {
+Lobes ConeShader::towards(const LightSample& light, const Bsdf& bsdf, Reflection by, float strategies) const {
   if (!light.valid()) return {};
   Lobes f{bsdf.evaluateDiffuse(light.wi), bsdf.evaluateSpecular(light.wi)};
   if (by == Reflection::Ray && light.pdf > 0) f.specular *= misWeight(strategies * light.pdf, bsdf.pdfSpecular(light.wi));
@@ -70,7 +62,7 @@ ConeShader::Lobes ConeShader::towards(const LightSample& light, const Bsdf& bsdf
 }
 
 // Light of suns and lamps. Their shadows are given, or traced where `shadows` is empty.
-ConeShader::Lobes ConeShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows, Sampler& sampler, ConeCounters& count,
+Lobes ConeShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows, Sampler& sampler, GatherCounters& count,
                                     float& variance) const {
   Lobes sum;
   for (size_t i = 0; i < sharp_.count(); ++i) {
@@ -88,7 +80,7 @@ ConeShader::Lobes ConeShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Ref
 }
 
 // Light of the sky, emissive meshes and, where they are many, lamps.
-ConeShader::Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const {
+Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, GatherCounters& count) const {
   Lobes sum;
   const auto take = [&](const LightSample& light, float strategies, float weight) {
     const Lobes f = towards(light, bsdf, by, strategies);
@@ -114,7 +106,7 @@ ConeShader::Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Refl
 }
 
 // Light that surfaces near lamps reflect, as far as cones leave it.
-void ConeShader::glow(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, Sampler& sampler, Lobes& sum, ConeCounters& count) const {
+void ConeShader::glow(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, Sampler& sampler, Lobes& sum, GatherCounters& count) const {
   const GlowSample g = field_.glow.sample(s.p, s.ns, static_cast<float>(settings_.conesPerShading), diffuse_.tanHalf, sampler);
   if (!g.light.valid()) return;
   const Vec3 wi = g.light.wi;
@@ -138,7 +130,7 @@ ConeStart ConeShader::coneStart(const SurfacePoint& s) const {
 }
 
 // Mean radiance over the cosine-weighted hemisphere, by cones.
-Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters& count, float& occlusion) const {
+Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, GatherCounters& count, float& occlusion) const {
   const Frame frame(s.ns);
   const ConeStart start = coneStart(s);
   const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
@@ -166,7 +158,7 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, ConeCounters&
 // What an exact ray sees by the light that voxels hold, without lights and sky: it tells whether a cone that found much more light than
 // its surroundings get looked through a wall thinner than voxels. Where a slot does not stand for the place met (a bar that goes
 // on through a wall has sun on one end of it), that is lit afresh, and what others reflect there is taken for that of the ray's start.
-Vec3 ConeShader::seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sampler, ConeCounters& count) const {
+Vec3 ConeShader::seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sampler, GatherCounters& count) const {
   Vec3 sum, left(1);
   for (int k = 0; k < kMostPanes && maxComponent(left) > 1e-3f; ++k) {
     const Hit hit = rays_.intersect(ray);
@@ -188,13 +180,13 @@ Vec3 ConeShader::seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sa
 }
 
 // Whether another surface stands between a place and where its slot takes its light.
-bool ConeShader::isParted(size_t slot, const SurfacePoint& s, ConeCounters& count) const {
+bool ConeShader::isParted(size_t slot, const SurfacePoint& s, GatherCounters& count) const {
   const Vec3 from = s.p + s.ng * (kLift * voxels_.voxelSizeM), to = voxels_.slots[slot].position + s.ng * (kLift * voxels_.voxelSizeM);
   ++count.rays;
   return luminance(rays_.transmittance({from, to - from, 0, 1})) < 0.25f;
 }
 
-Vec3 ConeShader::reflection(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, ConeCounters& count) const {
+Vec3 ConeShader::reflection(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, GatherCounters& count) const {
   const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
   if (!r.valid() || isBlack(r.weight)) return {};
   if (by == Reflection::Ray) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
@@ -204,7 +196,7 @@ Vec3 ConeShader::reflection(const SurfacePoint& s, const Bsdf& bsdf, Reflection 
 
 // What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold. Where the way
 // goes on, through a pane or as a further reflection, one of the two is followed, in proportion to its light.
-Vec3 ConeShader::along(Ray ray, Reflected from, Sampler& sampler, ConeCounters& count) const {
+Vec3 ConeShader::along(Ray ray, Reflected from, Sampler& sampler, GatherCounters& count) const {
   Vec3 sum, left(1);
   for (int k = 0; k < kMostPanes; ++k) {
     const Hit hit = rays_.intersect(ray);

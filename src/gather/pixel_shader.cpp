@@ -1,5 +1,7 @@
 #include "gather/pixel_shader.h"
 
+#include "trace/bsdf.h"
+
 namespace roomlight {
 namespace {
 
@@ -84,11 +86,11 @@ MaterialSample PixelShader::meanMaterial(const Group& group, const Layer& layer,
   return mean;
 }
 
-// Of all sharp lights, seen from every ray of the group.
-void PixelShader::shadows(const Group& group, const Layer& layer, PixelSequence& sequence, std::vector<Shadow>& out, ConeCounters& count) const {
-  const SharpLights& lights = shader_.sharpLights();
-  out.assign(lights.count(), {});
-  if (lights.count() == 0) return;
+// Of all sharp lights, seen from every ray of the group. Returns where they begin in `out`.
+uint32_t PixelShader::shadows(const Group& group, const Layer& layer, PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const {
+  const auto begin = static_cast<uint32_t>(out.size());
+  out.resize(begin + sharp_.count());
+  if (sharp_.count() == 0) return begin;
   std::array<Vec3, kRaysAtOnce> points;
   std::array<Vec2, kRaysAtOnce> u;
   for (size_t i = 0; i < group.count; ++i) {
@@ -97,16 +99,17 @@ void PixelShader::shadows(const Group& group, const Layer& layer, PixelSequence&
   }
   Sampler sampler = sequence.forShadows();
   for (size_t i = 0; i < group.count; ++i) u[i] = sampler.next2();
-  for (size_t l = 0; l < lights.count(); ++l) {
+  for (size_t l = 0; l < sharp_.count(); ++l) {
     // No normal of the group, nor a shading normal worth the name, faces a light so far behind.
-    if (dot(lights.sample(l, group.p, u[0]).wi, group.ng) < kBehind) continue;
-    out[l] = lights.shadow(l, std::span(points).first(group.count), std::span(u).first(group.count));
+    if (dot(sharp_.sample(l, group.p, u[0]).wi, group.ng) < kBehind) continue;
+    out[begin + l] = sharp_.shadow(l, std::span(points).first(group.count), std::span(u).first(group.count));
     count.rays += group.count;
   }
+  return begin;
 }
 
-// Adds the light of one surface: shaded for some of the rays with the mean of their materials, for all where it shows a picture.
-void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, PixelSequence& sequence, PixelSum& pixel, Layer& behind, ConeCounters& count) const {
+// One surface: to be shaded for some of the rays with the mean of their materials, for all where it shows a picture.
+void PixelShader::see(const Group& group, const Layer& layer, size_t rays, PixelSequence& sequence, PixelSum& pixel, TileWork& work, Layer& behind, GatherCounters& count) const {
   const Scene& scene = rays_.scene();
   const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[group.instance].mesh)];
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
@@ -115,44 +118,45 @@ void PixelShader::shade(const Group& group, const Layer& layer, size_t rays, Pix
   const Vec3 through = passing(m, material, cosTheta);
   const bool solid = luminance(through) < 0.5f;
 
-  const size_t most = std::max(std::min(kFewest, rays), rays / static_cast<size_t>(settings_.raysPerShading));
+  const size_t most = std::max(std::min(kFewest, rays), rays / static_cast<size_t>(raysPerShading_));
   const bool mirror = isMirror(m, !isBlack(through));
   const size_t shadings = isPane(m, !isBlack(through)) ? group.count : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
-  thread_local std::vector<Shadow> shadow;
-  shadows(group, layer, sequence, shadow, count);
+  const uint32_t shadow = shadows(group, layer, sequence, work.shadows, count);
   Vec3 left;
   for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
-  left *= m.alpha;
 
   FilterPixel& sum = pixel.sum;
-  std::array<SurfaceLight, kRaysAtOnce> light;
+  work.parts.push_back({&pixel, static_cast<uint32_t>(work.shadings.size()), static_cast<uint32_t>(shadings), left * m.alpha, weight});
   for (size_t j = 0; j < shadings; ++j) {
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
-    Sampler sampler = sequence.forShading();
-    light[j] = shader_.shade(s, -layer.ray[i].direction, mirror, shadow, sampler, count);
-    addShading(light[j], left, weight, pixel);
-    sum.rest += left * light[j].emitted * (weight / std::max(m.alpha, 1e-6f));
+    sum.rest += left * s.emitted() * weight;
     if (solid && !mirror && !layer.seen[i]) {
       sum.normal += s.ns * weight;
       sum.position += s.p * weight;
       sum.roughness += m.roughness * weight;
       sum.surface += weight;
     }
+    work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(), shadow, mirror});
   }
-  addVariance(std::span(light).first(shadings), left, weight, sum);
   if (!isBlack(through)) passOn(group, layer, through, solid, behind);
   if (mirror) reflectOn(group, layer, m, sequence, behind);
 }
 
-void PixelShader::addShading(const SurfaceLight& light, Vec3 left, float weight, PixelSum& pixel) {
-  FilterPixel& sum = pixel.sum;
-  sum.diffuse += left * light.diffuse * weight;
-  sum.sharp += left * light.sharp * weight;
-  sum.albedo += left * light.albedo * weight;
-  sum.specular += left * light.specular * weight;
-  pixel.occlusion += light.occlusion * weight;
+void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light) {
+  for (const TileWork::Part& part : work.parts) {
+    FilterPixel& sum = part.pixel->sum;
+    const std::span<const SurfaceLight> shadings = light.subspan(part.first, part.count);
+    for (const SurfaceLight& l : shadings) {
+      sum.diffuse += part.left * l.diffuse * part.weight;
+      sum.sharp += part.left * l.sharp * part.weight;
+      sum.albedo += part.left * l.albedo * part.weight;
+      sum.specular += part.left * l.specular * part.weight;
+      part.pixel->occlusion += l.occlusion * part.weight;
+    }
+    addVariance(shadings, part.left, part.weight, sum);
+  }
 }
 
 // From how the shadings of one surface differ. Shadows are the same for all of them, so there deviations add, not variances.
@@ -194,7 +198,7 @@ void PixelShader::reflectOn(const Group& group, const Layer& layer, const Materi
   }
 }
 
-void PixelShader::add(std::span<const Ray> rays, PixelSequence& sequence, PixelSum& pixel, ConeCounters& count) const {
+void PixelShader::see(std::span<const Ray> rays, PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const {
   std::array<Layer, 2> layers;
   for (const Ray& r : rays) layers[0].add(r, Vec3(1), false);
   for (int pane = 0; pane < kMostPanes && layers[pane & 1].count > 0; ++pane) {
@@ -207,13 +211,13 @@ void PixelShader::add(std::span<const Ray> rays, PixelSequence& sequence, PixelS
     size_t used = 0;
     for (size_t i = 0; i < layer.count; ++i) {
       if (!layer.hit[i].valid()) {
-        pixel.sum.rest += layer.left[i] * shader_.background(layer.ray[i].direction);
+        pixel.sum.rest += layer.left[i] * background(lights_, layer.ray[i].direction);
         continue;
       }
       Group* g = groupOf(layer.ray[i], layer.hit[i], groups, used);
       g->member[g->count++] = static_cast<uint8_t>(i);
     }
-    for (size_t i = 0; i < used; ++i) shade(groups[i], layer, rays.size(), sequence, pixel, behind, count);
+    for (size_t i = 0; i < used; ++i) see(groups[i], layer, rays.size(), sequence, pixel, work, behind, count);
   }
   pixel.rays += static_cast<uint32_t>(rays.size());
 }

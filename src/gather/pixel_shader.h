@@ -5,8 +5,9 @@
 
 #include <span>
 
-#include "gather/cone_shader.h"
 #include "gather/filter.h"
+#include "gather/shading.h"
+#include "scene/surface.h"
 
 namespace roomlight {
 
@@ -28,27 +29,43 @@ struct PixelSum {
   FilterPixel mean() const;
 };
 
+// What the pixels of a tile have seen and want lit.
+struct TileWork {
+  struct Part {  // one surface in one pixel
+    PixelSum* pixel;
+    uint32_t first, count;  // shadings
+    Vec3 left;              // share of their light that reaches the eye
+    float weight;           // camera rays that each stands for
+  };
+  std::vector<Shading> shadings;
+  std::vector<Shadow> shadows;
+  std::vector<Part> parts;
+  void clear() { shadings.clear(), shadows.clear(), parts.clear(); }
+};
+
 class PixelShader {
  public:
-  PixelShader(const RayScene& rays, const ConeShader& shader, const GatherSettings& settings) : rays_(rays), shader_(shader), settings_(settings) {}
-  // At most kRaysAtOnce rays.
-  void add(std::span<const Ray> rays, PixelSequence& sequence, PixelSum& pixel, ConeCounters& count) const;
+  PixelShader(const RayScene& rays, const Lights& lights, int raysPerShading) : rays_(rays), lights_(lights), sharp_(rays, lights), raysPerShading_(raysPerShading) {}
+  // At most kRaysAtOnce rays. What shines by itself is added to `pixel` at once; what has to be lit, to `work`.
+  void see(std::span<const Ray> rays, PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const;
+  // Adds the light of everything in `work` to its pixels.
+  static void add(const TileWork& work, std::span<const SurfaceLight> light);
 
  private:
   struct Layer;
   struct Group;
   Group* groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const;
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
-  void shadows(const Group& group, const Layer& layer, PixelSequence& sequence, std::vector<Shadow>& out, ConeCounters& count) const;
-  void shade(const Group& group, const Layer& layer, size_t rays, PixelSequence& sequence, PixelSum& pixel, Layer& behind, ConeCounters& count) const;
-  static void addShading(const SurfaceLight& light, Vec3 left, float weight, PixelSum& pixel);
+  uint32_t shadows(const Group& group, const Layer& layer, PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
+  void see(const Group& group, const Layer& layer, size_t rays, PixelSequence& sequence, PixelSum& pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addVariance(std::span<const SurfaceLight> light, Vec3 left, float weight, FilterPixel& sum);
   static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
   void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, PixelSequence& sequence, Layer& behind) const;
 
   const RayScene& rays_;
-  const ConeShader& shader_;
-  const GatherSettings& settings_;
+  const Lights& lights_;
+  const SharpLights sharp_;
+  const int raysPerShading_;
 };
 
 }  // namespace roomlight

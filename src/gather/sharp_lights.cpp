@@ -7,6 +7,15 @@ constexpr size_t kAllLamps = 8;  // up to this many lamps each casts its own sha
 
 }  // namespace
 
+Vec3 background(const Lights& lights, Vec3 direction) {
+  Vec3 sum = lights.sky().present() ? lights.sky().radiance(direction) : Vec3(0);
+  for (size_t i = 0; i < lights.sunCount(); ++i) {
+    float pdf;
+    sum += lights.sunDisc(i, direction, pdf);
+  }
+  return sum;
+}
+
 Ray shadowRay(Vec3 p, const LightSample& light) { return {p, light.wi, 0, light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity}; }
 
 SharpLights::SharpLights(const RayScene& rays, const Lights& lights) : rays_(rays), lights_(lights), lamps_(lights.lampCount() <= kAllLamps ? lights.lampCount() : 0) {}

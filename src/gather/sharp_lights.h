@@ -32,6 +32,9 @@ class SharpLights {
   size_t lamps_;  // 0 where they are so many that a few have to be chosen by importance
 };
 
+// What a ray sees that meets no surface, cd/m².
+Vec3 background(const Lights& lights, Vec3 direction);
+
 // Of a light sample, as seen from p.
 Ray shadowRay(Vec3 p, const LightSample& light);
 

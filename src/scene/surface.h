@@ -65,4 +65,9 @@ bool letsLightThrough(const Material& m);
 // reflection on both sides leaves, times `transmission` and what alpha leaves open. Zero for an opaque surface.
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta);
 
+// The same, known to be nothing at a look at the sample.
+inline Vec3 passing(const MaterialSample& m, const Material& material, float cosTheta) {
+  return m.transmission <= 0 && m.alpha >= 1 ? Vec3(0) : straightTransmittance(material, m, cosTheta);
+}
+
 }  // namespace roomlight

@@ -34,7 +34,7 @@ struct Turn {
   }
 };
 
-ConeResult render(Scene scene, Vec3 eye, const ConeSetup& setup, Turn turn = {}) {
+GatheredPicture render(Scene scene, Vec3 eye, const ConeSetup& setup, Turn turn = {}) {
   for (Instance& i : scene.instances) i.worldFromObject = turn.matrix() * i.worldFromObject;
   Camera camera;
   camera.worldFromCamera = turn.matrix() * Affine{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, eye};

@@ -1,0 +1,113 @@
+#include "gather/picture.h"
+
+#include <cmath>
+#include <mutex>
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "base/sampler.h"
+#include "gather/filter.h"
+#include "gather/pixel_shader.h"
+#include "trace/camera_rays.h"
+
+namespace roomlight {
+namespace {
+
+constexpr int kTile = 16;
+constexpr size_t kTilesAtOnce = 4;
+
+struct Rectangle {
+  int x0, y0, x1, y1;
+};
+
+Rectangle tileAt(size_t index, int width, int height) {
+  const int tilesX = (width + kTile - 1) / kTile, x = static_cast<int>(index) % tilesX * kTile, y = static_cast<int>(index) / tilesX * kTile;
+  return {x, y, std::min(width, x + kTile), std::min(height, y + kTile)};
+}
+
+// Where the camera rays of all pixels lie: one well-distributed set, shifted at random from pixel to pixel.
+class PixelRays {
+ public:
+  PixelRays(const Camera& camera, const PictureSettings& settings) : rays_(camera, settings.width, settings.height), seed_(settings.seed), width_(settings.width) {
+    for (int s = 0; s < settings.samples; ++s) places_.push_back(Sampler(0, static_cast<uint32_t>(s), seed_).next2());
+  }
+  // Rays first, first + 1, .. of a pixel.
+  std::span<const Ray> at(int x, int y, size_t first, size_t count, std::array<Ray, kRaysAtOnce>& out) const {
+    const uint64_t bits = mix64((static_cast<uint64_t>(y) * static_cast<uint64_t>(width_) + static_cast<uint64_t>(x)) * 0x9e3779b97f4a7c15ull + seed_);
+    const Vec2 shift{static_cast<float>(bits >> 40) * 0x1p-24f, static_cast<float>(bits & 0xffffffu) * 0x1p-24f};
+    for (size_t i = 0; i < count; ++i) {
+      const Vec2 u = places_[first + i] + shift;
+      out[i] = rays_.ray(static_cast<float>(x) + u.x - std::floor(u.x), static_cast<float>(y) + u.y - std::floor(u.y));
+    }
+    return std::span(out).first(count);
+  }
+
+ private:
+  CameraRays rays_;
+  uint64_t seed_;
+  int width_;
+  std::vector<Vec2> places_;
+};
+
+}  // namespace
+
+GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings,
+                              const Progress& progress) {
+  const int w = settings.width, h = settings.height;
+  const PixelRays pixelRays(camera, settings);
+  const PixelShader pixelShader(rays, lights, settings.raysPerShading);
+  GatheredPicture result;
+  std::vector<PixelSum> sums(static_cast<size_t>(w) * static_cast<size_t>(h));
+  const size_t tiles = static_cast<size_t>((w + kTile - 1) / kTile) * static_cast<size_t>((h + kTile - 1) / kTile);
+  std::atomic<uint64_t> rayCount = 0, coneCount = 0;
+  std::mutex reporting;
+  const Stopwatch watch;
+  while (result.samples < settings.samples) {
+    const auto first = static_cast<size_t>(result.samples), n = std::min(kRaysAtOnce, static_cast<size_t>(settings.samples) - first);
+    std::atomic<size_t> tilesDone = 0;
+    parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {
+      GatherCounters count;
+      TileWork work;
+      std::vector<SurfaceLight> light;
+      std::array<Ray, kRaysAtOnce> some;
+      for (size_t tile = begin; tile < end; ++tile) {
+        if (progress.stop() && first > 0) return;
+        work.clear();
+        const Rectangle r = tileAt(tile, w, h);
+        for (int y = r.y0; y < r.y1; ++y) {
+          for (int x = r.x0; x < r.x1; ++x) {
+            const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
+            PixelSum& sum = sums[pixel];
+            PixelSequence sequence{pixel, settings.seed, sum.shadings, sum.shadows};
+            pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, sum, work, count);
+            sum.shadings = sequence.shadings, sum.shadows = sequence.shadows;
+          }
+        }
+        light.resize(work.shadings.size());
+        shader.shade(work.shadings, work.shadows, light, count);
+        PixelShader::add(work, light);
+        const size_t done = ++tilesDone;
+        if (done % 64 == 0 && reporting.try_lock()) {
+          progress.at((static_cast<float>(first) + static_cast<float>(n) * static_cast<float>(done) / static_cast<float>(tiles)) / static_cast<float>(settings.samples));
+          reporting.unlock();
+        }
+      }
+      rayCount += count.rays;
+      coneCount += count.cones;
+    });
+    result.samples += static_cast<int>(n);
+    if (progress.stop() || (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS)) break;
+  }
+  FilterInput means(w, h);
+  result.occlusion = Image(w, h);
+  parallelFor(sums.size(), 4096, [&](size_t i) {
+    means.pixels[i] = sums[i].mean();
+    result.occlusion.pixels[i] = Vec3(sums[i].occlusion / static_cast<float>(std::max(1u, sums[i].rays)));
+  });
+  result.image = settings.filterPasses > 0 ? filtered(means, settings.filterPasses) : composed(means);
+  result.rays = rayCount;
+  result.cones = coneCount;
+  return result;
+}
+
+}  // namespace roomlight

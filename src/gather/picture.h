@@ -1,0 +1,30 @@
+// From camera rays to a picture: pass by pass, tile by tile, with any shader.
+#pragma once
+
+#include "base/image.h"
+#include "base/progress.h"
+#include "gather/shading.h"
+#include "scene/scene.h"
+
+namespace roomlight {
+
+struct PictureSettings {
+  int width = 960, height = 540;
+  int samples = 8;          // camera rays a pixel
+  int raysPerShading = 2;   // camera rays that see one surface and share its light: cones, shadow rays, a reflection
+  int filterPasses = 5;     // of the filter that removes remaining noise (filter.h); 0: none
+  double timeLimitS = 0;    // stop after a whole pass
+  uint64_t seed = 0;
+};
+
+struct GatheredPicture {
+  Image image;        // linear, cd/m²
+  Image occlusion;    // mean ambient occlusion, 0 open to 1 closed, in every channel; of technique cone
+  int samples = 0;
+  uint64_t rays = 0, cones = 0;
+};
+
+GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings,
+                              const Progress& progress);
+
+}  // namespace roomlight

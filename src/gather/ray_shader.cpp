@@ -1,0 +1,348 @@
+#include "gather/ray_shader.h"
+
+#include "base/sampling.h"
+#include "radiance/sky_guide.h"
+
+namespace roomlight {
+namespace {
+
+constexpr int kDeepest = 8;      // vertices of a path, after which the cache is read whatever it is worth
+constexpr int kMostPanes = 16;
+constexpr float kClear = 0.1f;   // roughness below which a reflection is a picture: what it shows is lit afresh
+constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
+constexpr float kNothing = 1e-4f;
+
+enum Kind : uint8_t {
+  kShines = 1,  // emits light
+  kClearKind = 2,  // lets light through
+  kMirrorKind = 4
+};
+
+uint8_t kindOf(const Material& m) {
+  uint8_t kind = 0;
+  if (!isBlack(m.emission)) kind |= kShines;
+  if (letsLightThrough(m)) kind |= kClearKind;
+  if (m.metallic > 0.5f && m.roughness < kGlossy) kind |= kMirrorKind;
+  return kind;
+}
+
+}  // namespace
+
+// A ray on its way, and the parts of what it finds that its item's lobes send to the eye.
+struct RayShader::Path {
+  Ray ray;
+  Lobes factor;
+  Vec3 from;      // where its direction was chosen,
+  float pdf;      // and with which density, of all rays that share the task; 0: no light was sampled for it
+  int32_t guide;  // that sky samples there followed
+  uint32_t item;
+  uint8_t depth, panes;
+  bool clear;     // what it meets is seen clearly
+};
+
+// A surface to be lit. The first of an item has lobes apart; later ones send their light back along a path.
+struct RayShader::Vertex {
+  const SurfacePoint& s;
+  const Bsdf& bsdf;
+  Lobes factor;
+  int32_t guide;
+  uint32_t item;
+  uint8_t depth;
+  bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
+
+  Lobes value(Vec3 wi) const {
+    if (first) return {bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
+    const Vec3 f = bsdf.evaluate(wi);
+    return {factor.diffuse * f, factor.specular * f};
+  }
+};
+
+struct RayShader::Workspace {
+  struct Shadowed {
+    uint32_t item;
+    Lobes light;
+  };
+  struct Doubt {
+    Path path;
+    Hit hit;
+    int64_t slot;
+    Vec3 p, n;
+  };
+  std::span<SurfaceLight> out;
+  std::vector<Sampler> samplers;
+  std::vector<Path> paths, next;
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  std::vector<Ray> shadowRays;
+  std::vector<Shadowed> shadowed;
+  std::vector<Vec3> left;
+  std::vector<Doubt> doubts;
+  uint64_t rayCount = 0;
+
+  void add(uint32_t item, const Lobes& light) { out[item].diffuse += light.diffuse, out[item].specular += light.specular; }
+  void shadow(uint32_t item, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({item, light}); }
+};
+
+RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
+    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), settings_(settings), sharp_(rays, lights) {
+  const Scene& scene = rays.scene();
+  for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
+}
+
+void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const {
+  thread_local Workspace w;
+  w.out = light;
+  w.samplers.clear(), w.paths.clear(), w.next.clear();
+  w.rayCount = 0;
+  for (size_t i = 0; i < work.size(); ++i) {
+    light[i] = {};
+    w.samplers.push_back(work[i].sampler);
+    start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), light[i], w);
+  }
+  traceShadows(w);
+  while (!w.next.empty()) {
+    w.paths.swap(w.next);
+    w.next.clear();
+    w.rays.clear();
+    for (const Path& p : w.paths) w.rays.push_back(p.ray);
+    w.hits.resize(w.rays.size());
+    rays_.intersect(w.rays, w.hits);
+    w.rayCount += w.rays.size();
+    for (size_t i = 0; i < w.paths.size(); ++i) arrive(w.paths[i], w.hits[i], w);
+    resolveUnsure(w);
+    traceShadows(w);
+  }
+  count.rays += w.rayCount;
+}
+
+void RayShader::start(const Shading& work, uint32_t item, std::span<const Shadow> shadows, SurfaceLight& out, Workspace& w) const {
+  const SurfacePoint& s = work.s;
+  const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
+  const bool apart = !work.followed && s.m.roughness < settings_.rayRoughness;
+  const Vertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), item, 0, true, work.followed, apart, s.m.roughness < kClear};
+  out.albedo = bsdf.diffuseAlbedo();
+  for (size_t i = 0; i < sharp_.count(); ++i) {
+    const LightSample light = sharp_.sample(i, s.p, w.samplers[item].next2());
+    if (!light.valid()) continue;
+    Lobes f = v.value(light.wi);
+    if (light.pdf > 0) f.specular *= misWeight(light.pdf, bsdf.pdfSpecular(light.wi));
+    out.sharp += f.diffuse * light.radiance * shadows[i].left;
+    out.specular += f.specular * light.radiance * shadows[i].left;
+    const float l = luminance(f.diffuse * light.radiance);
+    out.sharpVariance += l * l * shadows[i].variance;
+  }
+  scatter(v, w);
+}
+
+// Sends rays from a surface: to lights, and on to other surfaces.
+void RayShader::scatter(const Vertex& v, Workspace& w) const {
+  lightsAt(v, w);
+  if (!field_.glow.empty()) glowAt(v, w);
+  gatherAt(v, w);
+}
+
+void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
+  Sampler& sampler = w.samplers[v.item];
+  const float n = v.first ? static_cast<float>(settings_.gatherRays) : 1;
+  const auto take = [&](const LightSample& light) {
+    if (!light.valid() || dot(light.wi, v.s.ng) <= 0) return;
+    Lobes f = v.value(light.wi);
+    if (light.pdf > 0) {
+      // Rays that gather find the same lights; the two share them by multiple importance sampling.
+      if (v.apart) {
+        f.diffuse *= misWeight(light.pdf, n * std::max(0.0f, dot(light.wi, v.s.ns)) / kPi);
+        f.specular *= misWeight(light.pdf, v.bsdf.pdfSpecular(light.wi));
+      } else {
+        const float weight = misWeight(light.pdf, n * (v.followed ? std::max(0.0f, dot(light.wi, v.s.ns)) / kPi : v.bsdf.pdf(light.wi)));
+        f.diffuse *= weight, f.specular *= weight;
+      }
+    }
+    const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
+    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.item, shadowRay(offsetOrigin(v.s.p, v.s.ng), light), sum);
+  };
+  if (v.first) {
+    if (lights_.lampCount() + lights_.sunCount() > sharp_.count()) take(lights_.sampleLamps(v.s.p, sampler.next1()));
+  } else {
+    if (lights_.lampCount() > 0) take(lights_.sampleLamps(v.s.p, sampler.next1()));
+    for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
+  }
+  if (lights_.hasEmitters()) {
+    const Vec2 u = sampler.next2();
+    take(lights_.sampleEmitters(v.s.p, u, sampler.next1()));
+  }
+  if (lights_.sky().present()) {
+    const Vec2 u = sampler.next2();
+    take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
+  }
+}
+
+// Light that surfaces near lamps reflect, as far as gathering rays leave it to LampGlow's points.
+void RayShader::glowAt(const Vertex& v, Workspace& w) const {
+  const float n = v.first ? static_cast<float>(settings_.gatherRays) : 1;
+  const GlowSample g = field_.glow.sample(v.s.p, v.s.ns, n, 0, w.samplers[v.item]);
+  if (!g.light.valid() || dot(g.light.wi, v.s.ng) <= 0) return;
+  const Vec3 wi = g.light.wi;
+  Lobes f = v.value(wi);
+  const float cosine = n * std::max(0.0f, dot(wi, v.s.ns)) / kPi, mixed = n * v.bsdf.pdf(wi);
+  f.diffuse *= field_.glow.pointShare(g.point, v.s.p, {v.apart || v.followed ? cosine : mixed, 0});
+  f.specular *= v.clear ? 0 : field_.glow.pointShare(g.point, v.s.p, {v.apart ? v.bsdf.pdfSpecular(wi) : mixed, 0});
+  const Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
+  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.item, shadowRay(offsetOrigin(v.s.p, v.s.ng), g.light), sum);
+}
+
+void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
+  Sampler& sampler = w.samplers[v.item];
+  const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
+  const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear) {
+    if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.item, static_cast<uint8_t>(v.depth + 1), 0, clear});
+  };
+  if (!v.first) {
+    const Vec2 u = sampler.next2();
+    const BsdfSample b = v.bsdf.sample(u, sampler.next1());
+    if (!b.valid()) return;
+    const float survive = std::clamp(maxComponent(b.weight), 0.05f, 1.0f);
+    if (sampler.next1() >= survive) return;
+    const Vec3 weight = b.weight / survive;
+    return send(b.wi, {v.factor.diffuse * weight, v.factor.specular * weight}, b.mirror ? 0 : b.pdf, v.clear && b.mirror);
+  }
+  const int n = settings_.gatherRays;
+  const float share = 1 / static_cast<float>(n);
+  const bool diffuseOnly = v.apart || v.followed;
+  if (!diffuseOnly || maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
+    const Frame frame(v.s.ns);
+    for (int i = 0; i < n; ++i) {
+      const Vec2 u = sampler.next2();
+      if (diffuseOnly) {
+        const Vec3 local = sampleCosineHemisphere(u), d = frame.toWorld(local);
+        const float pdf = std::max(local.z, 1e-6f) / kPi;
+        send(d, {v.bsdf.evaluateDiffuse(d) * (share / pdf), Vec3(0)}, static_cast<float>(n) * pdf, false);
+      } else {
+        const BsdfSample b = v.bsdf.sample(u, sampler.next1());
+        if (!b.valid() || b.mirror) continue;
+        send(b.wi, {v.bsdf.evaluateDiffuse(b.wi) * (share / b.pdf), v.bsdf.evaluateSpecular(b.wi) * (share / b.pdf)}, static_cast<float>(n) * b.pdf, false);
+      }
+    }
+  }
+  if (v.apart && maxComponent(v.bsdf.specularAlbedo()) > kNothing) {
+    const BsdfSample b = v.bsdf.sampleSpecular(sampler.next2());
+    if (b.valid()) send(b.wi, {Vec3(0), b.weight}, b.mirror ? 0 : b.pdf, v.clear);
+  }
+}
+
+Vec3 RayShader::backgroundAlong(const Path& path) const {
+  const Vec3 d = path.ray.direction;
+  const auto weight = [&](float lightPdf) { return path.pdf > 0 ? misWeight(path.pdf, lightPdf) : 1; };
+  Vec3 sum;
+  if (lights_.sky().present()) sum += lights_.sky().radiance(d) * weight(pdfSkyGuided(field_.guide, path.guide, lights_, d));
+  for (size_t i = 0; i < lights_.sunCount(); ++i) {
+    float pdf;
+    const Vec3 disc = lights_.sunDisc(i, d, pdf);
+    if (pdf > 0) sum += disc * weight(pdf);
+  }
+  return sum;
+}
+
+// What a path finds where its ray ends, and how it goes on from there.
+void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
+  if (!hit.valid()) {
+    const Vec3 light = backgroundAlong(path);
+    return w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light});
+  }
+  const uint8_t kind = kind_[hit.instance];
+  if (kind == 0 && !path.clear) {
+    const SurfacePlace s = placeAt(rays_.scene(), hit, path.ray.direction);
+    if (cached(path, hit, s.p, s.ng, w)) return;
+  }
+  const SurfacePoint s = rays_.surfaces().at(hit, path.ray.direction);
+  if (kind & kShines) {
+    if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
+      const Vec3 light = emitted * (path.pdf > 0 ? misWeight(path.pdf, lights_.pdfEmitters(path.from, s)) : 1);
+      w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light});
+    }
+  }
+  if (!(kind & kClearKind)) {
+    if (path.clear || (kind & kMirrorKind) || !cached(path, hit, s.p, s.ng, w)) goOn(path, s, w);
+    return;
+  }
+  // Through it or reflected, one of the two, in proportion.
+  const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, path.ray.direction)));
+  const float p = luminance(through), q = s.m.alpha * luminance(bihemisphericalAlbedo(s.m)), chance = p + q > 0 ? p / (p + q) : 0;
+  Path after = path;
+  if (w.samplers[path.item].fast1() < chance) {
+    if (++after.panes > kMostPanes) return;
+    after.factor = {path.factor.diffuse * through / chance, path.factor.specular * through / chance};
+    after.ray.origin = offsetOrigin(s.p, -s.ng);
+    w.next.push_back(after);
+  } else if (q > 0) {
+    const float stays = s.m.alpha / (1 - chance);
+    after.factor = {path.factor.diffuse * stays, path.factor.specular * stays};
+    if (path.clear || !cached(after, hit, s.p, s.ng, w)) goOn(after, s, w);
+  }
+}
+
+// Whether the light there comes from the cache, now or, if another ray must tell, later.
+bool RayShader::cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspace& w) const {
+  const SlotCache::Place place = cache_.find(p, n);
+  if (path.depth >= kDeepest) {
+    if (place.slot >= 0) read(path, place.slot, p, n, w);
+    return true;
+  }
+  // Light beside lamps is in the cache alone.
+  const bool near = hit.t < settings_.nearVoxels * voxels_.voxelSizeM && (place.slot < 0 || field_.glowShare.empty() || field_.glowShare[static_cast<size_t>(place.slot)] == 0);
+  if (near || place.trust == Trust::None) return false;
+  if (place.trust == Trust::Sure) {
+    read(path, place.slot, p, n, w);
+  } else {
+    w.doubts.push_back({path, hit, place.slot, p, n});
+  }
+  return true;
+}
+
+// Lights the surface afresh.
+void RayShader::goOn(const Path& path, const SurfacePoint& s, Workspace& w) const {
+  if (path.depth >= kDeepest) return;
+  const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
+  const bool clear = path.clear && s.m.roughness < kClear;
+  scatter({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.item, path.depth, false, false, false, clear}, w);
+}
+
+// What the points of LampGlow give is left to them.
+void RayShader::read(const Path& path, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const {
+  Vec3 light = cache_.radiance(slot);
+  if (path.pdf > 0 && !field_.glow.empty()) {
+    const float share = field_.glowShare[static_cast<size_t>(slot)];
+    if (share > 0) light *= 1 - share * (1 - field_.glow.coneShare(share * luminance(light), length(p - path.from), -dot(n, path.ray.direction), path.pdf));
+  }
+  w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light});
+}
+
+void RayShader::resolveUnsure(Workspace& w) const {
+  w.rays.clear();
+  for (const Workspace::Doubt& d : w.doubts) w.rays.push_back(cache_.between(d.slot, d.p, d.n));
+  w.left.resize(w.rays.size());
+  rays_.transmittance(w.rays, w.left);
+  w.rayCount += w.rays.size();
+  for (size_t i = 0; i < w.doubts.size(); ++i) {
+    const Workspace::Doubt& d = w.doubts[i];
+    if (luminance(w.left[i]) > 0.25f) {
+      read(d.path, d.slot, d.p, d.n, w);
+    } else {
+      goOn(d.path, rays_.surfaces().at(d.hit, d.path.ray.direction), w);
+    }
+  }
+  w.doubts.clear();
+}
+
+void RayShader::traceShadows(Workspace& w) const {
+  w.left.resize(w.shadowRays.size());
+  rays_.transmittance(w.shadowRays, w.left);
+  w.rayCount += w.shadowRays.size();
+  for (size_t i = 0; i < w.shadowed.size(); ++i) {
+    const Workspace::Shadowed& s = w.shadowed[i];
+    w.add(s.item, {s.light.diffuse * w.left[i], s.light.specular * w.left[i]});
+  }
+  w.shadowRays.clear(), w.shadowed.clear();
+}
+
+}  // namespace roomlight

@@ -1,0 +1,46 @@
+// Light at surface points by rays, for many points at once: rays to lights, and rays that gather what other surfaces reflect and
+// read it from the slots they hit. Where a slot cannot be trusted the path goes on from there, as in path tracing.
+#pragma once
+
+#include "gather/ray_gather.h"
+#include "gather/shading.h"
+#include "radiance/slot_cache.h"
+#include "trace/bsdf.h"
+#include "trace/surfaces.h"
+
+namespace roomlight {
+
+class RayShader final : public SurfaceShader {
+ public:
+  RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings);
+  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const override;
+
+ private:
+  struct Path;
+  struct Vertex;
+  struct Workspace;
+
+  void start(const Shading& work, uint32_t item, std::span<const Shadow> shadows, SurfaceLight& out, Workspace& w) const;
+  void scatter(const Vertex& v, Workspace& w) const;
+  void lightsAt(const Vertex& v, Workspace& w) const;
+  void glowAt(const Vertex& v, Workspace& w) const;
+  void gatherAt(const Vertex& v, Workspace& w) const;
+  void arrive(const Path& path, const Hit& hit, Workspace& w) const;
+  bool cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspace& w) const;
+  void goOn(const Path& path, const SurfacePoint& s, Workspace& w) const;
+  void read(const Path& path, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const;
+  void traceShadows(Workspace& w) const;
+  void resolveUnsure(Workspace& w) const;
+  Vec3 backgroundAlong(const Path& path) const;
+
+  const RayScene& rays_;
+  const Lights& lights_;
+  const Voxels& voxels_;
+  const RadianceField& field_;
+  const SlotCache cache_;
+  const RayGatherSettings& settings_;
+  const SharpLights sharp_;
+  std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
+};
+
+}  // namespace roomlight

@@ -1,0 +1,49 @@
+// A surface point to be lit, the light that it sends to the eye, and who works that out: what the techniques of this folder
+// share and where they differ.
+#pragma once
+
+#include <span>
+
+#include "base/sampler.h"
+#include "gather/sharp_lights.h"
+#include "trace/surface_point.h"
+
+namespace roomlight {
+
+struct GatherCounters {
+  uint64_t rays = 0, cones = 0;
+};
+
+struct Shading {
+  SurfacePoint s;
+  Vec3 wo;               // unit, towards the eye
+  Sampler sampler;
+  uint32_t firstShadow;  // of every sharp light, in a list beside this one
+  bool followed;         // a mirror: the caller sends rays on where it reflects
+};
+
+// Light that a surface sends to the eye, in cd/m², without what it emits, what passes straight through it and, where that is
+// followed, its reflection of other surfaces, sky and lights of any size.
+struct SurfaceLight {
+  Vec3 diffuse;   // reflected by the Lambertian lobe: from all around, and
+  Vec3 sharp;     // from suns and lamps
+  Vec3 albedo;    // of that lobe: (diffuse + sharp) / albedo is irradiance / pi
+  Vec3 specular;  // reflected by the glossy lobe
+  float sharpVariance = 0;  // of the luminance of `sharp`
+  float occlusion = 0;
+};
+
+// Light by the lobe that reflects it; or, before the light is multiplied in, the two lobes' values.
+struct Lobes {
+  Vec3 diffuse, specular;
+  void add(const Lobes& f, Vec3 light) { diffuse += f.diffuse * light, specular += f.specular * light; }
+};
+
+class SurfaceShader {
+ public:
+  virtual ~SurfaceShader() = default;
+  // light[i] of work[i].
+  virtual void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const = 0;
+};
+
+}  // namespace roomlight
