@@ -49,8 +49,11 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("maxBounces", s.radiance.maxBounces, 0, 100000);
   });
   v.group("hybrid", [&](auto& g) {
+    g.number("firstSamples", s.hybrid.firstSamples, 1, 8);
+    g.number("tolerance", s.hybrid.tolerance, 0, 1);
     g.number("raysPerShading", s.hybrid.raysPerShading, 1, 8);
     g.number("gatherRays", s.hybrid.gatherRays, 1, 4096);
+    g.number("lightSamples", s.hybrid.lightSamples, 1, 4096);
     g.number("nearVoxels", s.hybrid.nearVoxels, 0, 1000);
     g.number("rayRoughness", s.hybrid.rayRoughness, 0, 1);
     g.number("filterPasses", s.hybrid.filterPasses, 0, 8);

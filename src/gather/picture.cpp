@@ -1,5 +1,6 @@
 #include "gather/picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 
@@ -7,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "gather/filter.h"
+#include "gather/noise_map.h"
 #include "gather/pixel_shader.h"
 #include "trace/camera_rays.h"
 
@@ -63,7 +65,12 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
   std::mutex reporting;
   const Stopwatch watch;
   while (result.samples < settings.samples) {
-    const auto first = static_cast<size_t>(result.samples), n = std::min(kRaysAtOnce, static_cast<size_t>(settings.samples) - first);
+    const auto first = static_cast<size_t>(result.samples);
+    const bool chosen = first > 0 && settings.tolerance > 0;
+    const auto most = static_cast<size_t>(first > 0 || !(settings.tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
+    const size_t n = std::min(kRaysAtOnce, most - first);
+    const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, w, h, settings.tolerance) : std::vector<uint8_t>();
+    if (chosen && std::find(noisy.begin(), noisy.end(), 1) == noisy.end()) break;
     std::atomic<size_t> tilesDone = 0;
     parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {
       GatherCounters count;
@@ -77,10 +84,10 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
         for (int y = r.y0; y < r.y1; ++y) {
           for (int x = r.x0; x < r.x1; ++x) {
             const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
+            if (chosen && !noisy[pixel]) continue;
             PixelSum& sum = sums[pixel];
-            PixelSequence sequence{pixel, settings.seed, sum.shadings, sum.shadows};
+            const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings.seed);
             pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, sum, work, count);
-            sum.shadings = sequence.shadings, sum.shadows = sequence.shadows;
           }
         }
         light.resize(work.shadings.size());

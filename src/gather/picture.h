@@ -10,7 +10,9 @@ namespace roomlight {
 
 struct PictureSettings {
   int width = 960, height = 540;
-  int samples = 8;          // camera rays a pixel
+  int samples = 8;          // camera rays a pixel, at most
+  int firstSamples = 8;     // before it is known which pixels need more
+  float tolerance = 0;      // relative standard error of a pixel's luminance above which it does; 0: all pixels get all
   int raysPerShading = 2;   // camera rays that see one surface and share its light: cones, shadow rays, a reflection
   int filterPasses = 5;     // of the filter that removes remaining noise (filter.h); 0: none
   double timeLimitS = 0;    // stop after a whole pass

@@ -28,6 +28,19 @@ void accumulate(MaterialSample& sum, const MaterialSample& m, float weight) {
 
 }  // namespace
 
+PixelSequence::PixelSequence(int x, int y, uint32_t pass, uint64_t seed) : seed_(seed) {
+  const auto spread = [](uint32_t v) {  // a zero after every bit
+    v = (v | (v << 8)) & 0x00ff00ffu;
+    v = (v | (v << 4)) & 0x0f0f0f0fu;
+    v = (v | (v << 2)) & 0x33333333u;
+    return (v | (v << 1)) & 0x55555555u;
+  };
+  constexpr uint32_t kBlock = 512;  // pixels along an edge of what shares a sequence
+  const auto ux = static_cast<uint32_t>(x), uy = static_cast<uint32_t>(y);
+  index_ = spread(ux % kBlock) | (spread(uy % kBlock) << 1);
+  key_ = mix64((uint64_t{pass} << 48) + (uint64_t{uy / kBlock} << 24) + ux / kBlock);
+}
+
 FilterPixel PixelSum::mean() const {
   FilterPixel p = sum;
   const float inverse = 1 / static_cast<float>(std::max(1u, rays));
@@ -87,7 +100,7 @@ MaterialSample PixelShader::meanMaterial(const Group& group, const Layer& layer,
 }
 
 // Of all sharp lights, seen from every ray of the group. Returns where they begin in `out`.
-uint32_t PixelShader::shadows(const Group& group, const Layer& layer, PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const {
+uint32_t PixelShader::shadows(const Group& group, const Layer& layer, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const {
   const auto begin = static_cast<uint32_t>(out.size());
   out.resize(begin + sharp_.count());
   if (sharp_.count() == 0) return begin;
@@ -97,8 +110,7 @@ uint32_t PixelShader::shadows(const Group& group, const Layer& layer, PixelSeque
     const size_t k = group.member[i];
     points[i] = offsetOrigin(layer.place(k), group.ng);
   }
-  Sampler sampler = sequence.forShadows();
-  for (size_t i = 0; i < group.count; ++i) u[i] = sampler.next2();
+  for (size_t i = 0; i < group.count; ++i) u[i] = sequence.forShadow(surface, static_cast<uint32_t>(i)).next2();
   for (size_t l = 0; l < sharp_.count(); ++l) {
     // No normal of the group, nor a shading normal worth the name, faces a light so far behind.
     if (dot(sharp_.sample(l, group.p, u[0]).wi, group.ng) < kBehind) continue;
@@ -109,7 +121,7 @@ uint32_t PixelShader::shadows(const Group& group, const Layer& layer, PixelSeque
 }
 
 // One surface: to be shaded for some of the rays with the mean of their materials, for all where it shows a picture.
-void PixelShader::see(const Group& group, const Layer& layer, size_t rays, PixelSequence& sequence, PixelSum& pixel, TileWork& work, Layer& behind, GatherCounters& count) const {
+void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, Layer& behind, GatherCounters& count) const {
   const Scene& scene = rays_.scene();
   const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[group.instance].mesh)];
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
@@ -122,7 +134,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, Pixel
   const bool mirror = isMirror(m, !isBlack(through));
   const size_t shadings = isPane(m, !isBlack(through)) ? group.count : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
-  const uint32_t shadow = shadows(group, layer, sequence, work.shadows, count);
+  const uint32_t shadow = shadows(group, layer, surface, sequence, work.shadows, count);
   Vec3 left;
   for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
 
@@ -138,10 +150,10 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, Pixel
       sum.roughness += m.roughness * weight;
       sum.surface += weight;
     }
-    work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(), shadow, mirror});
+    work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(surface, static_cast<uint32_t>(j), static_cast<uint32_t>(std::max(most, shadings))), shadow, mirror});
   }
   if (!isBlack(through)) passOn(group, layer, through, solid, behind);
-  if (mirror) reflectOn(group, layer, m, sequence, behind);
+  if (mirror) reflectOn(group, layer, m, surface, sequence, behind);
 }
 
 void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light) {
@@ -187,20 +199,21 @@ void PixelShader::passOn(const Group& group, const Layer& layer, Vec3 through, b
 }
 
 // Sends them on as a mirror reflects them.
-void PixelShader::reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, PixelSequence& sequence, Layer& behind) const {
+void PixelShader::reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface, const PixelSequence& sequence, Layer& behind) const {
   for (size_t i = 0; i < group.count; ++i) {
     const size_t k = group.member[i];
     const Vec3 d = layer.ray[k].direction;
     const SurfacePoint s = surfaceAt(rays_.scene(), layer.hit[k], d, m);
-    Sampler sampler = sequence.forShading();
-    const BsdfSample r = Bsdf(s.m, s.ns, s.ng, -d).sampleSpecular(sampler.next2());
+    const Vec2 u = sequence.forShadow(surface, static_cast<uint32_t>(i)).next2();
+    const BsdfSample r = Bsdf(s.m, s.ns, s.ng, -d).sampleSpecular(u);
     if (r.valid() && !isBlack(r.weight)) behind.add({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, layer.left[k] * r.weight, layer.seen[k]);
   }
 }
 
-void PixelShader::see(std::span<const Ray> rays, PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const {
+void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const {
   std::array<Layer, 2> layers;
   for (const Ray& r : rays) layers[0].add(r, Vec3(1), false);
+  uint32_t surface = 0;
   for (int pane = 0; pane < kMostPanes && layers[pane & 1].count > 0; ++pane) {
     Layer& layer = layers[pane & 1];
     Layer& behind = layers[(pane + 1) & 1];
@@ -217,7 +230,8 @@ void PixelShader::see(std::span<const Ray> rays, PixelSequence& sequence, PixelS
       Group* g = groupOf(layer.ray[i], layer.hit[i], groups, used);
       g->member[g->count++] = static_cast<uint8_t>(i);
     }
-    for (size_t i = 0; i < used; ++i) see(groups[i], layer, rays.size(), sequence, pixel, work, behind, count);
+    pixel.edge |= used > 1 || (pane == 0 && used == 1 && groups[0].count < layer.count);
+    for (size_t i = 0; i < used; ++i) see(groups[i], layer, rays.size(), surface++, sequence, pixel, work, behind, count);
   }
   pixel.rays += static_cast<uint32_t>(rays.size());
 }

@@ -13,19 +13,27 @@ namespace roomlight {
 
 constexpr size_t kRaysAtOnce = SharpLights::kMostPoints;
 
-// Random numbers of one pixel, a set for each shading and each group of shadows.
-struct PixelSequence {
-  uint64_t pixel = 0, seed = 0;
-  uint32_t shadings = 0, shadows = 0;  // used
-  Sampler forShading() { return {pixel, shadings++, seed}; }
-  Sampler forShadows() { return {pixel, shadows++, mix64(seed + 1)}; }
+// Random numbers of one pixel. Pixels take their points of one sequence along Morton's curve, so that every square block of 2^k
+// pixels together has a well-distributed set: what a filter makes of them has far less noise than from points chosen apart (Ahmed &
+// Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of pixels").
+class PixelSequence {
+ public:
+  PixelSequence(int x, int y, uint32_t pass, uint64_t seed);
+  // Of `count` shadings that pixels have of one surface, a power of two; `surface` counts those of this pixel.
+  Sampler forShading(uint32_t surface, uint32_t i, uint32_t count) const { return {key_ + 2 * surface, index_ * count + i, seed_}; }
+  Sampler forShadow(uint32_t surface, uint32_t ray) const { return {key_ + 2 * surface + 1, index_ * static_cast<uint32_t>(kRaysAtOnce) + ray, seed_}; }
+
+ private:
+  uint64_t key_, seed_;
+  uint32_t index_;
 };
 
 // Sums over camera rays; variances are of the sums.
 struct PixelSum {
   FilterPixel sum;
   float occlusion = 0;
-  uint32_t rays = 0, shadings = 0, shadows = 0;
+  uint32_t rays = 0;
+  bool edge = false;  // more than one surface seen
   FilterPixel mean() const;
 };
 
@@ -47,7 +55,7 @@ class PixelShader {
  public:
   PixelShader(const RayScene& rays, const Lights& lights, int raysPerShading) : rays_(rays), lights_(lights), sharp_(rays, lights), raysPerShading_(raysPerShading) {}
   // At most kRaysAtOnce rays. What shines by itself is added to `pixel` at once; what has to be lit, to `work`.
-  void see(std::span<const Ray> rays, PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const;
+  void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const;
   // Adds the light of everything in `work` to its pixels.
   static void add(const TileWork& work, std::span<const SurfaceLight> light);
 
@@ -56,11 +64,11 @@ class PixelShader {
   struct Group;
   Group* groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const;
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
-  uint32_t shadows(const Group& group, const Layer& layer, PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
-  void see(const Group& group, const Layer& layer, size_t rays, PixelSequence& sequence, PixelSum& pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
+  uint32_t shadows(const Group& group, const Layer& layer, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
+  void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addVariance(std::span<const SurfaceLight> light, Vec3 left, float weight, FilterPixel& sum);
   static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
-  void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, PixelSequence& sequence, Layer& behind) const;
+  void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface, const PixelSequence& sequence, Layer& behind) const;
 
   const RayScene& rays_;
   const Lights& lights_;

@@ -144,10 +144,12 @@ void RayShader::scatter(const Vertex& v, Workspace& w) const {
 void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
   Sampler& sampler = w.samplers[v.item];
   const float n = v.first ? static_cast<float>(settings_.gatherRays) : 1;
-  const auto take = [&](const LightSample& light) {
+  const int many = v.first ? settings_.lightSamples : 1;
+  const auto take = [&](LightSample light) {
     if (!light.valid() || dot(light.wi, v.s.ng) <= 0) return;
     Lobes f = v.value(light.wi);
     if (light.pdf > 0) {
+      light.pdf *= static_cast<float>(many), light.radiance *= 1 / static_cast<float>(many);
       // Rays that gather find the same lights; the two share them by multiple importance sampling.
       if (v.apart) {
         f.diffuse *= misWeight(light.pdf, n * std::max(0.0f, dot(light.wi, v.s.ns)) / kPi);
@@ -167,12 +169,16 @@ void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
     for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
   }
   if (lights_.hasEmitters()) {
-    const Vec2 u = sampler.next2();
-    take(lights_.sampleEmitters(v.s.p, u, sampler.next1()));
+    for (int k = 0; k < many; ++k) {
+      const Vec2 u = sampler.next2();
+      take(lights_.sampleEmitters(v.s.p, u, sampler.next1()));
+    }
   }
   if (lights_.sky().present()) {
-    const Vec2 u = sampler.next2();
-    take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
+    for (int k = 0; k < many; ++k) {
+      const Vec2 u = sampler.next2();
+      take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
+    }
   }
 }
 
@@ -232,7 +238,8 @@ void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
 
 Vec3 RayShader::backgroundAlong(const Path& path) const {
   const Vec3 d = path.ray.direction;
-  const auto weight = [&](float lightPdf) { return path.pdf > 0 ? misWeight(path.pdf, lightPdf) : 1; };
+  const float many = path.depth == 1 ? static_cast<float>(settings_.lightSamples) : 1;
+  const auto weight = [&](float lightPdf) { return path.pdf > 0 ? misWeight(path.pdf, many * lightPdf) : 1; };
   Vec3 sum;
   if (lights_.sky().present()) sum += lights_.sky().radiance(d) * weight(pdfSkyGuided(field_.guide, path.guide, lights_, d));
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
@@ -257,7 +264,7 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   const SurfacePoint s = rays_.surfaces().at(hit, path.ray.direction);
   if (kind & kShines) {
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
-      const Vec3 light = emitted * (path.pdf > 0 ? misWeight(path.pdf, lights_.pdfEmitters(path.from, s)) : 1);
+      const Vec3 light = emitted * (path.pdf > 0 ? misWeight(path.pdf, (path.depth == 1 ? static_cast<float>(settings_.lightSamples) : 1) * lights_.pdfEmitters(path.from, s)) : 1);
       w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light});
     }
   }
