@@ -1,0 +1,188 @@
+// Technique hybrid held against closed forms and the reference: furnaces, sealed rooms beside bright ones, contact.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "compare/compare.h"
+#include "gather/cone_gather.h"
+#include "gather/ray_gather.h"
+#include "reference/path_tracer.h"
+#include "support/record.h"
+#include "support/rooms.h"
+#include "voxel/voxelise.h"
+
+namespace roomlight {
+namespace {
+
+// A scene with its rays, voxels and light, ready to be looked at.
+struct Lit {
+  Scene scene;
+  RayScene rays;
+  Lights lights;
+  Voxelisation voxels;
+  RadianceField field;
+
+  Lit(Scene s, float voxelSizeM) : scene(std::move(s)), rays(scene), lights(scene), voxels(voxelise(scene, {.voxelSizeM = voxelSizeM})), field(illuminate(rays, lights, voxels.voxels, {})) {}
+  Image hybrid(const Camera& camera, RayGatherSettings settings = small()) const { return gatherRays(rays, lights, voxels.voxels, field, camera, settings).image; }
+  Image cone(const Camera& camera) const {
+    GatherSettings settings;
+    settings.width = settings.height = 48;
+    return gatherCones(rays, lights, voxels.voxels, field, camera, settings).image;
+  }
+  static RayGatherSettings small() {
+    RayGatherSettings settings;
+    settings.width = settings.height = 48;
+    return settings;
+  }
+};
+
+Camera cameraAt(Vec3 eye, Vec3 towards) {
+  const Vec3 z = normalize(eye - towards), x = normalize(cross(Vec3{0, 1, 0}, z));
+  Camera camera;
+  camera.worldFromCamera = {x, cross(z, x), z, eye};
+  camera.yFovRad = 1.3f;
+  return camera;
+}
+
+double mean(const Image& image) {
+  double sum = 0;
+  for (const Vec3 p : image.pixels) sum += static_cast<double>(luminance(p));
+  return sum / static_cast<double>(image.pixels.size());
+}
+
+class HybridFurnace : public testing::TestWithParam<float> {};
+
+// Every wall emits 10 and reflects rho: 10 / (1 - rho) everywhere. One per cent at 0.8: what is asked of the bounces.
+TEST_P(HybridFurnace, radianceIsEmissionOverOneMinusAlbedo) {
+  const float rho = GetParam();
+  Scene scene;
+  const int wall = test::addMaterial(scene, test::lambertian(rho, 10));
+  test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4, 2.6f, 3}, std::vector<int>(6, wall));
+  const Lit lit(std::move(scene), 0.1f);
+  const double measured = mean(lit.hybrid(cameraAt({1.7f, 1.4f, 2.6f}, {1, 1, 0}))), expected = 10 / (1 - static_cast<double>(rho));
+  test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}, voxels of 0.1 m", rho), "hybrid", expected, measured);
+  EXPECT_NEAR(measured, expected, 0.01 * expected);
+}
+INSTANTIATE_TEST_SUITE_P(Albedos, HybridFurnace, testing::Values(0.0f, 0.5f, 0.8f));
+
+// Two rooms on one floor under one ceiling, a wall between them; a lamp on one side. Nothing of its light belongs on the other.
+Scene twoRooms(float wallM) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.7f));
+  test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {6.1f, 2.5f, 3.1f}, std::vector<int>(6, white));
+  const Vec3 lo{3.03f, 0, 0}, hi{3.03f + wallM, 2.6f, 3.2f};
+  if (wallM > 0) {
+    test::addBox(scene, lo, hi, white);
+  } else {
+    test::addRectangle(scene, lo, {0, 2.6f, 0}, {0, 0, 3.2f}, white);
+  }
+  scene.lamps.push_back(test::pointLamp({1.4f, 1.9f, 1.6f}, 100));
+  return scene;
+}
+
+struct Leak {
+  float wallM, voxelSizeM;
+};
+void PrintTo(const Leak& leak, std::ostream* out) { *out << leak.wallM << " m of wall, voxels of " << leak.voxelSizeM << " m"; }
+
+class SealedRoom : public testing::TestWithParam<Leak> {};
+
+TEST_P(SealedRoom, staysDark) {
+  const auto [wallM, voxelSizeM] = GetParam();
+  const Lit lit(twoRooms(wallM), voxelSizeM);
+  const Camera inBright = cameraAt({0.3f, 1.4f, 2.8f}, {2.9f, 0.7f, 0.4f}), inDark = cameraAt({5.8f, 1.4f, 2.8f}, {3.1f + wallM, 0.7f, 0.4f});
+  const double bright = mean(lit.hybrid(inBright)), hybrid = mean(lit.hybrid(inDark)) / bright, cone = mean(lit.cone(inDark)) / bright;
+  const std::string place = fmt::format("{}, voxels of {} cm", wallM > 0 ? fmt::format("wall of {} cm", 100 * wallM) : std::string("a single polygon"), 100 * voxelSizeM);
+  test::record("Sealed room beside a bright one, share of its luminance", place, "hybrid", 0, hybrid);
+  test::record("Sealed room beside a bright one, share of its luminance", place, "cone", 0, cone);
+  EXPECT_GT(bright, 1);
+  EXPECT_LE(hybrid, 0.001);
+}
+
+std::vector<Leak> leaks() {
+  std::vector<Leak> all;
+  for (const float wallM : {0.2f, 0.1f, 0.05f, 0.02f, 0.01f, 0.0f}) {
+    for (const float voxelSizeM : {0.02f, 0.04f, 0.08f}) all.push_back({wallM, voxelSizeM});
+  }
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Walls, SealedRoom, testing::ValuesIn(leaks()));
+
+// A table on legs of 2 cm with a cup on it, on the floor of a room with a window.
+Scene tableWithCup() {
+  Scene scene;
+  const int wall = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f)), cup = test::addMaterial(scene, test::lambertian(0.8f));
+  const int window = test::addMaterial(scene, test::lambertian(0, 2000));
+  test::addRoom(scene, {0, 0, 0}, {3.1f, 2.5f, 3.3f}, std::vector<int>(6, wall));
+  test::addRectangle(scene, {0.01f, 1.0f, 1.0f}, {0, 1.1f, 0}, {0, 0, 1.1f}, window);
+  for (const float x : {1.1f, 1.88f}) {
+    for (const float z : {0.9f, 1.38f}) test::addBox(scene, {x, 0, z}, {x + 0.02f, 0.7f, z + 0.02f}, wood);
+  }
+  test::addBox(scene, {1.05f, 0.7f, 0.85f}, {1.95f, 0.72f, 1.45f}, wood);
+  test::addBox(scene, {1.45f, 0.72f, 1.1f}, {1.53f, 0.81f, 1.18f}, cup);
+  return scene;
+}
+
+constexpr int kWidth = 160, kHeight = 120;
+
+// Pixels within `radius` of where the camera sees one of the points.
+std::vector<bool> around(const Camera& camera, const std::vector<Vec3>& points, float radius) {
+  std::vector<bool> mask(kWidth * kHeight);
+  const float scale = 0.5f * kHeight / std::tan(0.5f * camera.yFovRad);
+  for (const Vec3 p : points) {
+    const Vec3 d = p - camera.worldFromCamera.w, local{dot(d, camera.worldFromCamera.x), dot(d, camera.worldFromCamera.y), -dot(d, camera.worldFromCamera.z)};
+    const float px = 0.5f * kWidth + scale * local.x / local.z, py = 0.5f * kHeight - scale * local.y / local.z;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        if (std::hypot(static_cast<float>(x) + 0.5f - px, static_cast<float>(y) + 0.5f - py) < radius) mask[static_cast<size_t>(y * kWidth + x)] = true;
+      }
+    }
+  }
+  return mask;
+}
+
+// mse without the references' noise, of the pixels in the mask.
+double errorIn(const std::vector<bool>& mask, const Image& picture, Image a, Image b) {
+  Image p = picture;
+  const Image mean = meanOf(a, b);
+  size_t count = 0;
+  for (size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i]) {
+      ++count;
+    } else {
+      p.pixels[i] = a.pixels[i] = b.pixels[i] = mean.pixels[i];
+    }
+  }
+  return *compare(a, b, p).value().mseBeyondNoise * static_cast<double>(mask.size()) / static_cast<double>(count);
+}
+
+TEST(Hybrid, keepsContact) {
+  const Lit lit(tableWithCup(), 0.05f);
+  const Camera camera = cameraAt({2.6f, 1.25f, 2.6f}, {1.45f, 0.4f, 1.1f});
+  PathSettings path;
+  path.width = kWidth, path.height = kHeight, path.samples = 400;
+  const Image a = pathTrace(lit.rays, lit.lights, camera, path).image;
+  path.seed = 1;
+  const Image b = pathTrace(lit.rays, lit.lights, camera, path).image;
+  RayGatherSettings settings;
+  settings.width = kWidth, settings.height = kHeight;
+  const Image picture = lit.hybrid(camera, settings);
+  const std::vector<Vec3> contacts{{1.49f, 0.72f, 1.18f}, {1.53f, 0.72f, 1.14f}, {1.12f, 0, 1.39f}, {1.89f, 0, 1.39f}, {1.89f, 0, 0.91f}, {1.12f, 0, 0.91f}};
+  const double all = errorIn(std::vector<bool>(kWidth * kHeight, true), picture, a, b), contact = errorIn(around(camera, contacts, 6), picture, a, b);
+  test::record("Table with a cup, mse of the whole picture and where things touch", "whole picture", "hybrid", 0, all);
+  test::record("Table with a cup, mse of the whole picture and where things touch", "within 6 pixels of contacts", "hybrid", 0, contact);
+  EXPECT_LE(contact, 2 * all);
+}
+
+// The same picture whatever the number of threads.
+TEST(Hybrid, sameBitsWithAnyNumberOfThreads) {
+  const Lit lit(twoRooms(0.1f), 0.1f);
+  const Camera camera = cameraAt({0.3f, 1.4f, 2.8f}, {2.9f, 0.7f, 0.4f});
+  Image one, two;
+  withThreads(1, [&] { one = lit.hybrid(camera); });
+  withThreads(2, [&] { two = lit.hybrid(camera); });
+  for (size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], two.pixels[i]) << i;
+}
+
+}  // namespace
+}  // namespace roomlight
