@@ -42,6 +42,9 @@ class Accumulators {
 };
 
 // Adds what one triangle leaves in one voxel: to the side its front faces, and to the opposite one.
+// Walls often stand on the middle of a floor's voxels: in their plane a place would be on neither side.
+constexpr float kOffCentre = 0.04f;  // of the way to a corner
+
 void addPiece(const Polygon& polygon, Vec3 corner, const LatticeTriangle& t, const Shade& shade, bool emitsBack, uint32_t instance,
               VoxelSums& sums, std::vector<Layer>& layers) {
   const AreaCentroid g = areaOf(polygon);
@@ -53,7 +56,7 @@ void addPiece(const Polygon& polygon, Vec3 corner, const LatticeTriangle& t, con
   const Vec3 projected = abs(t.front) * piece.area;
   sums.projected += projected;
   piece.projected = projected[face / 2];
-  piece.centroid = g.centroid, piece.normal = t.front;
+  piece.place = g.centroid + (polygon.v[0] - g.centroid) * kOffCentre, piece.normal = t.front;
   piece.albedo = shade.albedo, piece.emission = shade.emission;
   piece.instance = instance;
   sums.slots[static_cast<size_t>(face)].add(piece, face, layers);

@@ -14,11 +14,11 @@ void SlotSums::add(const SlotPiece& piece, int face, std::vector<Layer>& layers)
   instanceArea_ += piece.area;
   if (instanceArea_ > bestArea_) bestArea_ = instanceArea_, bestInstance_ = piece.instance;
   area_ += piece.area, wholeArea_ += piece.wholeArea, projected_ += piece.projected;
-  const float z = dot(piece.centroid, faceDirection(face));
+  const float z = dot(piece.place, faceDirection(face));
   const bool stands = z > height_ + kSameLayer   ? piece.area > kLargeShare * pieceArea_
                       : z < height_ - kSameLayer ? kLargeShare * piece.area > pieceArea_
                                                  : piece.area > pieceArea_;
-  if (stands) pieceArea_ = piece.area, position_ = piece.centroid, height_ = z;
+  if (stands) pieceArea_ = piece.area, position_ = piece.place, height_ = z;
   normal_ += piece.normal * piece.area, albedo_ += piece.albedo * piece.area, emission_ += piece.emission * piece.area;
   layers.push_back({z, piece.projected, piece.area, piece.albedo, firstLayer_});
   firstLayer_ = static_cast<int32_t>(layers.size()) - 1;

@@ -12,7 +12,7 @@ struct SlotPiece {
   float area = 0;       // opaque, voxels²
   float wholeArea = 0;  // with what lets light through
   float projected = 0;  // the same, seen along the side's axis
-  Vec3 centroid, normal;
+  Vec3 place, normal;   // place: a point of it, by the centre
   Vec3 albedo, emission;
   uint32_t instance = 0;
 };
