@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
-#include "gather/filter.h"
+#include "filter/filter.h"
 #include "gather/noise_map.h"
 #include "gather/pixel_shader.h"
 #include "trace/camera_rays.h"

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "gather/filter.h"
+#include "filter/filter.h"
 #include "gather/shading.h"
 #include "scene/surface.h"
 

@@ -1,4 +1,4 @@
-#include "gather/filter.h"
+#include "filter/filter.h"
 
 #include <cmath>
 
