@@ -1,126 +1,56 @@
 #include "filter/filter.h"
 
-#include <cmath>
+#include <atomic>
+#include <span>
 
 #include "base/parallel.h"
+#include "filter/filter_kernel.h"
 
 namespace roomlight {
 namespace {
 
-constexpr float kKernel[3] = {0.25f, 0.5f, 0.25f};
-constexpr float kSigmas = 3;               // differences within so many standard deviations count as noise
-constexpr float kSharpSigmas = 1;          // for sharp shadows, which differ where they should
-constexpr float kPlaneTolerance = 0.01f;   // metres off the tangent plane, and
-constexpr float kSlope = 0.3f;             // of the distance between the two points
-constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
 constexpr int kSpecularPasses = 3;
-
-struct Value {
-  Vec3 light;
-  float variance = 0;
-};
-struct Lights {
-  Value diffuse, sharp, specular;
-};
-
-// What tells which pixels see like surfaces, packed for the many look-ups.
-struct Guide {
-  Vec3 normal;
-  float surface = 0;
-  Vec3 position;
-  float roughness = 0;
-};
-
-// Variances of diffuse, sharp and specular light.
-using Noise = std::vector<Vec3>;
-
-// e^-x from 0 to 3 within 0.03; 0 from 8 on.
-float falloff(float x) {
-  const float a = std::max(0.0f, 1 - 0.125f * x), b = a * a, c = b * b;
-  return c * c;
-}
-
-// Means over 3 x 3 pixels, for the variance of single pixels is itself noise; but no less than a pixel's own, so that an outlier
-// is taken for one.
-Noise noiseOf(const std::vector<Lights>& lights, int w, int h) {
-  const auto width = static_cast<size_t>(w);
-  Noise own(lights.size()), rows(lights.size()), out(lights.size());
-  parallelFor(static_cast<size_t>(h), 8, [&](size_t y) {
-    Vec3* at = &own[y * width];
-    for (size_t x = 0; x < width; ++x) {
-      const Lights& l = lights[y * width + x];
-      at[x] = {l.diffuse.variance, l.sharp.variance, l.specular.variance};
-    }
-    for (size_t x = 0; x < width; ++x) rows[y * width + x] = (at[x == 0 ? x : x - 1] + at[x] + at[x + 1 == width ? x : x + 1]) * (1.0f / 3);
-  });
-  parallelFor(static_cast<size_t>(h), 8, [&](size_t y) {
-    const size_t above = y == 0 ? y : y - 1, below = y + 1 == static_cast<size_t>(h) ? y : y + 1;
-    for (size_t x = 0; x < width; ++x) {
-      const Vec3 mean = (rows[above * width + x] + rows[y * width + x] + rows[below * width + x]) * (1.0f / 3);
-      out[y * width + x] = max(mean, own[y * width + x]);
-    }
-  });
-  return out;
-}
-
-// A weighted mean under way.
-struct Sum {
-  Vec3 light;
-  float variance, total;
-  Sum(const Value& own, float k) : light(own.light * k), variance(own.variance * k * k), total(k) {}
-  void add(const Value& v, float k) { light += v.light * k, variance += v.variance * k * k, total += k; }
-  Value mean() const { return {light / total, variance / (total * total)}; }
-};
-
-// How far the light of two pixels differs, in units of their noise together: as seen from either, so that as much passes from a
-// bright spot to its surroundings as back.
-float difference(const Value& a, const Value& b, float varianceA, float varianceB, float sigmas) {
-  return std::abs(luminance(a.light) - luminance(b.light)) / (sigmas * std::sqrt(varianceA + varianceB) + 1e-6f);
-}
-
-// One pass over neighbours `step` pixels away.
-std::vector<Lights> pass(const std::vector<Lights>& in, const std::vector<Guide>& guides, int w, int h, int step, bool filterSpecular) {
-  const Noise noise = noiseOf(in, w, h);
-  std::vector<Lights> out(in.size());
-  parallelFor(static_cast<size_t>(h), 4, [&](size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < w; ++x) {
-      const size_t p = row * static_cast<size_t>(w) + static_cast<size_t>(x);
-      const Guide& g = guides[p];
-      const Lights& own = in[p];
-      out[p] = own;
-      if (g.surface <= 0) continue;
-      const bool glossy = filterSpecular && g.roughness >= kMirrorRoughness;
-      Sum diffuse(own.diffuse, kKernel[1] * kKernel[1]), sharp(own.sharp, kKernel[1] * kKernel[1]), specular(own.specular, kKernel[1] * kKernel[1]);
-      for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i) {
-          const int qx = x + i * step, qy = y + j * step;
-          if ((i == 0 && j == 0) || qx < 0 || qy < 0 || qx >= w || qy >= h) continue;
-          const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(w) + static_cast<size_t>(qx);
-          const Guide& o = guides[q];
-          const float facing = dot(g.normal, o.normal);
-          if (o.surface <= 0 || facing < 0.3f) continue;
-          const Vec3 between = o.position - g.position;
-          const float off = std::max(std::abs(dot(g.normal, between)), std::abs(dot(o.normal, between))) / (kPlaneTolerance + kSlope * length(between));
-          // facing^4 along the normals: noise itself tells edges that light has.
-          const float f2 = facing * facing, k = kKernel[i + 1] * kKernel[j + 1] * f2 * f2;
-          const Lights& other = in[q];
-          diffuse.add(other.diffuse, k * falloff(off + difference(own.diffuse, other.diffuse, noise[p].x, noise[q].x, kSigmas)));
-          sharp.add(other.sharp, k * falloff(off + difference(own.sharp, other.sharp, noise[p].y, noise[q].y, kSharpSigmas)));
-          if (glossy && o.roughness >= kMirrorRoughness && std::abs(g.roughness - o.roughness) <= 0.1f) {
-            specular.add(other.specular, k * falloff(off + difference(own.specular, other.specular, noise[p].z, noise[q].z, kSigmas)));
-          }
-        }
-      }
-      out[p].diffuse = diffuse.mean(), out[p].sharp = sharp.mean();
-      if (glossy) out[p].specular = specular.mean();
-    }
-  });
-  return out;
-}
 
 // Kept from zero so that light can be divided by it.
 Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
+
+void store(float* line, ptrdiff_t pitch, Vec3 v) { line[0] = v.x, line[pitch] = v.y, line[2 * pitch] = v.z; }
+Vec3 fetch(const float* line, ptrdiff_t pitch) { return {line[0], line[pitch], line[2 * pitch]}; }
+
+// Writes a row of pixels into its lines. Is any of it lit sharply?
+bool pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
+  const ptrdiff_t pitch = rows.pitch();
+  bool sharp = false;
+  float* at = rows.line(0, y);
+  for (const FilterPixel& p : pixels) {
+    store(at + FilterRows::kNormal * pitch, pitch, p.surface > 0 ? p.normal : Vec3());
+    store(at + FilterRows::kPosition * pitch, pitch, p.position);
+    at[FilterRows::kRoughness * pitch] = p.roughness;
+    const Vec3 lights[kFilterLights] = {p.diffuse / divisor(p.albedo), p.sharp / divisor(p.albedo), p.specular};
+    const float variances[kFilterLights] = {p.diffuseVariance, p.sharpVariance, p.specularVariance};
+    for (int k = 0; k < kFilterLights; ++k) {
+      float* light = at + FilterRows::light(k, 0) * pitch;
+      store(light, pitch, lights[k]);
+      light[FilterRows::kVariance * pitch] = variances[k];
+    }
+    sharp = sharp || !isBlack(p.sharp);
+    ++at;
+  }
+  return sharp;
+}
+
+// A row of the picture.
+void compose(std::span<const FilterPixel> pixels, const FilterRows& rows, const FilterPass& pass, int y, Vec3* out) {
+  const ptrdiff_t pitch = rows.pitch();
+  const float* at = rows.line(0, y);
+  for (const FilterPixel& p : pixels) {
+    Vec3 lights[kFilterLights];
+    for (int k = 0; k < kFilterLights; ++k) lights[k] = fetch(at + FilterRows::light(k, pass.place[k]) * pitch, pitch);
+    // Where the albedo was raised to divide by it, light that no surface reflected is kept.
+    *out++ = (p.surface > 0 ? (lights[0] + lights[1]) * divisor(p.albedo) : p.diffuse + p.sharp) + lights[2] + p.rest;
+    ++at;
+  }
+}
 
 }  // namespace
 
@@ -131,20 +61,24 @@ Image composed(const FilterInput& input) {
 }
 
 Image filtered(const FilterInput& input, int passes) {
-  std::vector<Lights> lights(input.pixels.size());
-  std::vector<Guide> guides(input.pixels.size());
-  parallelFor(lights.size(), 16384, [&](size_t i) {
-    const FilterPixel& p = input.pixels[i];
-    lights[i] = {{p.diffuse / divisor(p.albedo), p.diffuseVariance}, {p.sharp / divisor(p.albedo), p.sharpVariance}, {p.specular, p.specularVariance}};
-    guides[i] = {p.normal, p.surface, p.position, p.roughness};
+  const int w = input.width, h = input.height;
+  FilterRows rows(w, h, std::max(1, 1 << std::max(0, passes - 1)));
+  const auto pixelsOfRow = [&](size_t y) { return std::span(input.pixels).subspan(y * static_cast<size_t>(w), static_cast<size_t>(w)); };
+  std::atomic<bool> sharp = false;
+  parallelFor(static_cast<size_t>(h), 4, [&](size_t y) {
+    rows.clearMargins(static_cast<int>(y));
+    if (pack(pixelsOfRow(y), rows, static_cast<int>(y))) sharp = true;
   });
-  for (int k = 0; k < passes; ++k) lights = pass(lights, guides, input.width, input.height, 1 << k, k < kSpecularPasses);
-  Image out(input.width, input.height);
-  parallelFor(lights.size(), 16384, [&](size_t i) {
-    const FilterPixel& p = input.pixels[i];
-    // Where the albedo was raised to divide by it, light that no surface reflected is kept.
-    out.pixels[i] = (p.surface > 0 ? (lights[i].diffuse.light + lights[i].sharp.light) * divisor(p.albedo) : p.diffuse + p.sharp) + lights[i].specular.light + p.rest;
-  });
+  FilterPass pass;
+  for (int k = 0; k < passes; ++k) {
+    pass.step = 1 << k;
+    pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses;
+    parallelFor(static_cast<size_t>(h), 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
+    parallelFor(static_cast<size_t>(h), 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });
+    for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
+  }
+  Image out(w, h);
+  parallelFor(static_cast<size_t>(h), 4, [&](size_t y) { compose(pixelsOfRow(y), rows, pass, static_cast<int>(y), &out.at(0, static_cast<int>(y))); });
   return out;
 }
 

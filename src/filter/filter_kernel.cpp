@@ -1,0 +1,224 @@
+#include "filter/filter_kernel.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter/filter_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace roomlight {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+
+constexpr float kKernel[3] = {0.25f, 0.2f, 0.1f};   // of the pixel, of those beside it, of those at its corners
+constexpr float kSigmas[kFilterLights] = {2, 1, 2.5f};  // differences within so many standard deviations count as noise; sharp shadows differ where they should
+constexpr float kOwnNoise = 0.5f;          // of a pixel's own variance counts at least, so that an outlier is taken for one
+constexpr float kPlaneTolerance = 0.02f;   // metres off the tangent plane, and
+constexpr float kSlope = 0.5f;             // of the distance between the two points
+constexpr float kLeastFacing = 0.3f;       // cosine between normals
+constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
+constexpr float kSameRoughness = 0.1f;
+
+V load(const float* p) { return hn::LoadU(D(), p); }
+V set(float v) { return hn::Set(D(), v); }
+
+struct V3 {
+  V x, y, z;
+};
+V3 load3(const float* p, ptrdiff_t pitch) { return {load(p), load(p + pitch), load(p + 2 * pitch)}; }
+V dot(const V3& a, const V3& b) { return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z))); }
+V luminance(const V3& c) { return dot(c, {set(0.2126f), set(0.7152f), set(0.0722f)}); }
+
+// e^-x from 0 to 3 within 0.03; 0 from 8 on.
+V falloff(V x) {
+  const V a = hn::Max(hn::Zero(D()), hn::NegMulAdd(set(0.125f), x, set(1))), b = hn::Mul(a, a), c = hn::Mul(b, b);
+  return hn::Mul(c, c);
+}
+
+// What pixels see.
+struct Place {
+  V3 n, p;
+};
+Place placeAt(const float* pixel, ptrdiff_t pitch) { return {load3(pixel + FilterRows::kNormal * pitch, pitch), load3(pixel + FilterRows::kPosition * pitch, pitch)}; }
+
+// How far two places are off each other's tangent plane, in tolerances.
+V offPlane(const Place& a, const Place& b) {
+  const V3 between{hn::Sub(b.p.x, a.p.x), hn::Sub(b.p.y, a.p.y), hn::Sub(b.p.z, a.p.z)};
+  const V tolerance = hn::MulAdd(set(kSlope), hn::Sqrt(dot(between, between)), set(kPlaneTolerance));
+  return hn::Div(hn::Max(hn::Abs(dot(a.n, between)), hn::Abs(dot(b.n, between))), tolerance);
+}
+
+// cosine^4 between normals, 0 where they differ too much: noise itself tells edges that light has.
+V likeness(V facing) {
+  const V f2 = hn::Mul(facing, facing);
+  return hn::IfThenElseZero(hn::Ge(facing, set(kLeastFacing)), hn::Mul(f2, f2));
+}
+
+void findNoise(FilterRows& rows, const FilterPass& pass, int light, int y) {
+  const D d;
+  const int variance = FilterRows::light(light, pass.place[light]) + FilterRows::kVariance;
+  const float *above = rows.line(variance, std::max(0, y - 1)), *own = rows.line(variance, y), *below = rows.line(variance, std::min(rows.height() - 1, y + 1));
+  float* out = rows.line(FilterRows::kNoise + light, y);
+  for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
+    V sum = hn::Zero(d);
+    for (const float* line : {above, own, below}) sum = hn::Add(sum, hn::Add(hn::Add(load(line + x - 1), load(line + x)), load(line + x + 1)));
+    hn::StoreU(hn::Max(hn::Mul(sum, set(1.0f / 9)), hn::Mul(load(own + x), set(kOwnNoise))), d, out + x);
+  }
+}
+
+void findSeen(FilterRows& rows, const FilterPass& pass, int light, int y) {
+  const D d;
+  const ptrdiff_t pitch = rows.pitch(), colour = FilterRows::light(light, pass.place[light]) * pitch;
+  const float* row = rows.line(0, y);
+  float* out = rows.line(FilterRows::kSeen + light, y);
+  for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
+    const float* here = row + x;
+    V sum = luminance(load3(here + colour, pitch));
+    if (light == 0) {
+      const Place own = placeAt(here, pitch);
+      V total = set(1);
+      for (int j = y > 0 ? -1 : 0; j <= (y + 1 < rows.height() ? 1 : 0); ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          if (i == 0 && j == 0) continue;
+          const float* there = here + j * rows.rowPitch() + i;
+          const Place other = placeAt(there, pitch);
+          const V weight = hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other)));
+          sum = hn::MulAdd(weight, luminance(load3(there + colour, pitch)), sum), total = hn::Add(total, weight);
+        }
+      }
+      sum = hn::Div(sum, total);
+    }
+    hn::StoreU(sum, d, out + x);
+  }
+}
+
+void prepare(FilterRows& rows, const FilterPass& pass, int y) {
+  for (int k = 0; k < kFilterLights; ++k) {
+    if (!pass.filter[k]) continue;
+    findNoise(rows, pass, k, y);
+    findSeen(rows, pass, k, y);
+  }
+}
+
+// A weighted mean under way, and the pixel it is for.
+struct Sum {
+  V3 own;
+  V ownVariance, seen, noise;
+  V3 light;
+  V variance, total;
+
+  Sum() = default;
+  Sum(const V3& c, V v, V s, V n) : own(c), ownVariance(v), seen(s), noise(n), total(set(kKernel[0])) {
+    light = {hn::Mul(c.x, total), hn::Mul(c.y, total), hn::Mul(c.z, total)};
+    variance = hn::Mul(v, hn::Mul(total, total));
+  }
+  void add(const V3& c, V v, V weight) {
+    light = {hn::MulAdd(c.x, weight, light.x), hn::MulAdd(c.y, weight, light.y), hn::MulAdd(c.z, weight, light.z)};
+    variance = hn::MulAdd(v, hn::Mul(weight, weight), variance);
+    total = hn::Add(total, weight);
+  }
+};
+
+template <bool kSharp, bool kSpecular>
+void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
+  const D d;
+  constexpr bool kUsed[kFilterLights] = {true, kSharp, kSpecular};
+  const ptrdiff_t pitch = rows.pitch();
+  const float* row = rows.line(0, y);
+  for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
+    const float* here = row + x;
+    const Place own = placeAt(here, pitch);
+    const V roughness = load(here + FilterRows::kRoughness * pitch);
+    Sum sums[kFilterLights];
+    for (int k = 0; k < kFilterLights; ++k) {
+      if (!kUsed[k]) continue;
+      const float* at = here + FilterRows::light(k, pass.place[k]) * pitch;
+      sums[k] = Sum(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(here + (FilterRows::kSeen + k) * pitch), load(here + (FilterRows::kNoise + k) * pitch));
+    }
+    for (int j = -1; j <= 1; ++j) {
+      if (y + j * pass.step < 0 || y + j * pass.step >= rows.height()) continue;
+      for (int i = -1; i <= 1; ++i) {
+        if (i == 0 && j == 0) continue;
+        const float* there = here + j * pass.step * rows.rowPitch() + i * pass.step;
+        const Place other = placeAt(there, pitch);
+        const V kernel = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), likeness(dot(own.n, other.n))), off = offPlane(own, other);
+        for (int k = 0; k < kFilterLights; ++k) {
+          if (!kUsed[k]) continue;
+          Sum& s = sums[k];
+          // How far the light of two pixels differs, in units of their noise together: as seen from either, so that as much passes
+          // from a bright spot to its surroundings as back.
+          const V noise = hn::Sqrt(hn::Add(s.noise, load(there + (FilterRows::kNoise + k) * pitch)));
+          const V between = hn::Abs(hn::Sub(load(there + (FilterRows::kSeen + k) * pitch), s.seen));
+          V weight = hn::Mul(kernel, falloff(hn::Add(off, hn::Div(between, hn::MulAdd(set(kSigmas[k]), noise, set(1e-6f))))));
+          if (k == 2) {
+            const V r = load(there + FilterRows::kRoughness * pitch);
+            const auto alike = hn::And(hn::Ge(r, set(kMirrorRoughness)), hn::Le(hn::Abs(hn::Sub(r, roughness)), set(kSameRoughness)));
+            weight = hn::IfThenElseZero(alike, weight);
+          }
+          const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
+          s.add(load3(at, pitch), load(at + FilterRows::kVariance * pitch), weight);
+        }
+      }
+    }
+    for (int k = 0; k < kFilterLights; ++k) {
+      if (!kUsed[k]) continue;
+      const Sum& s = sums[k];
+      const V inverse = hn::Div(set(1), s.total);
+      const auto kept = hn::Lt(roughness, set(k == 2 ? kMirrorRoughness : -1));
+      float* at = rows.line(FilterRows::light(k, 1 - pass.place[k]), y) + x;
+      hn::StoreU(hn::IfThenElse(kept, s.own.x, hn::Mul(s.light.x, inverse)), d, at);
+      hn::StoreU(hn::IfThenElse(kept, s.own.y, hn::Mul(s.light.y, inverse)), d, at + pitch);
+      hn::StoreU(hn::IfThenElse(kept, s.own.z, hn::Mul(s.light.z, inverse)), d, at + 2 * pitch);
+      hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, hn::Mul(inverse, inverse))), d, at + FilterRows::kVariance * pitch);
+    }
+  }
+}
+
+void filterLights(FilterRows& rows, const FilterPass& pass, int y) {
+  if (pass.filter[1]) return pass.filter[2] ? filterPixels<true, true>(rows, pass, y) : filterPixels<true, false>(rows, pass, y);
+  return pass.filter[2] ? filterPixels<false, true>(rows, pass, y) : filterPixels<false, false>(rows, pass, y);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace roomlight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace roomlight {
+namespace {
+
+HWY_EXPORT(prepare);
+HWY_EXPORT(filterLights);
+constexpr ptrdiff_t kMostLanes = 16;  // the last vector of a line reaches so far beyond it
+
+}  // namespace
+
+FilterRows::FilterRows(int w, int h, int margin)
+    : width_(w), height_(h), margin_(margin), pitch_(w + 2 * ptrdiff_t{margin} + kMostLanes), floats_(new float[static_cast<size_t>(pitch_) * kCount * static_cast<size_t>(h)]), begin_(floats_.get() + margin) {}
+
+void FilterRows::clearMargins(int y) {
+  for (int q = 0; q < kCount; ++q) {
+    float* at = line(q, y);
+    std::fill(at - margin_, at, 0.0f);
+    std::fill(at + width_, at - margin_ + pitch_, 0.0f);
+  }
+}
+
+void prepareRow(FilterRows& rows, const FilterPass& pass, int y) {
+  HWY_DYNAMIC_DISPATCH(prepare)
+  (rows, pass, y);
+}
+void filterRow(FilterRows& rows, const FilterPass& pass, int y) {
+  HWY_DYNAMIC_DISPATCH(filterLights)
+  (rows, pass, y);
+}
+
+}  // namespace roomlight
+#endif

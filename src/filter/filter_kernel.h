@@ -1,0 +1,52 @@
+// The inner loops of the filter, for as many pixels at once as the machine's vectors hold (Highway, chosen at run time).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace roomlight {
+
+constexpr int kFilterLights = 3;  // diffuse, sharp, specular
+
+// What the filter knows of a picture: rows of pixels, of each row one line of floats a quantity.
+class FilterRows {
+ public:
+  // Quantities. kSeen is the luminance by which pixels are compared. Each light has two places for its colour and variance: a pass
+  // reads one and writes the other.
+  static constexpr int kNormal = 0, kPosition = 3, kRoughness = 6, kNoise = 7, kSeen = kNoise + kFilterLights, kLight = kSeen + kFilterLights, kVariance = 3;
+  static constexpr int kCount = kLight + kFilterLights * 2 * 4;
+  static constexpr int light(int k, int place) { return kLight + (2 * k + place) * 4; }
+
+  FilterRows(int w, int h, int margin);
+  int width() const { return width_; }
+  int height() const { return height_; }
+  // Distance between lines, and between the same lines of two rows.
+  ptrdiff_t pitch() const { return pitch_; }
+  ptrdiff_t rowPitch() const { return pitch_ * kCount; }
+  // Pixel 0 of a row. Before it and after the last lie margins as wide as the constructor was told, of zeros once cleared: normals
+  // without length, which face nothing.
+  float* line(int quantity, int y) { return begin_ + (static_cast<ptrdiff_t>(y) * kCount + quantity) * pitch_; }
+  const float* line(int quantity, int y) const { return begin_ + (static_cast<ptrdiff_t>(y) * kCount + quantity) * pitch_; }
+  void clearMargins(int y);
+
+ private:
+  int width_, height_;
+  ptrdiff_t margin_, pitch_;
+  std::unique_ptr<float[]> floats_;
+  float* begin_;
+};
+
+struct FilterPass {
+  int step = 1;                     // pixels between neighbours
+  int place[kFilterLights] = {};    // where each light is read
+  bool filter[kFilterLights] = {};  // and whether it is filtered
+};
+
+// Makes row y ready to be compared with others. Noise: means of a light's variance over 3 x 3 pixels, for the variance of single pixels
+// is itself noise. What is seen of diffuse light: means over the 3 x 3 pixels as far as they lie on one surface, because single
+// pixels that differ by noise would keep their difference (as patches are compared by Rousselle et al. 2012).
+void prepareRow(FilterRows& rows, const FilterPass& pass, int y);
+// Filters row y, by its neighbours `step` rows and pixels away.
+void filterRow(FilterRows& rows, const FilterPass& pass, int y);
+
+}  // namespace roomlight

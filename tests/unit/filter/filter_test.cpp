@@ -1,0 +1,124 @@
+#include "filter/filter.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "base/parallel.h"
+#include "noisy_wall.h"
+
+namespace roomlight {
+namespace {
+
+using test::momentsOf;
+using test::noisyWall;
+
+TEST(Filter, takesNoiseAwayAndKeepsTheMean) {
+  const FilterInput in = noisyWall(97, 61, 10, 3);
+  const test::Moments before = momentsOf(composed(in), 0, 97), after = momentsOf(filtered(in, 5), 0, 97);
+  EXPECT_LT(after.variance, before.variance / 50);
+  EXPECT_NEAR(after.mean, before.mean, 0.01 * before.mean);
+}
+
+TEST(Filter, leavesAPictureWithoutNoise) {
+  FilterInput in = noisyWall(40, 30, 10, 0);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) in.at(x, y).diffuse = Vec3(x < 20 ? 5.0f : 1.0f), in.at(x, y).sharp = Vec3(y < 15 ? 3.0f : 0.0f);
+  }
+  const Image before = composed(in), after = filtered(in, 5);
+  for (size_t i = 0; i < before.pixels.size(); ++i) EXPECT_NEAR(luminance(after.pixels[i]), luminance(before.pixels[i]), 1e-4f);
+}
+
+TEST(Filter, keepsTexturesSharp) {
+  FilterInput in = noisyWall(40, 30, 10, 2);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      FilterPixel& p = in.at(x, y);
+      const Vec3 albedo = (x + y) % 2 ? Vec3(0.8f) : Vec3(0.1f);
+      p.diffuse = p.diffuse / p.albedo * albedo;
+      p.albedo = albedo;
+    }
+  }
+  const Image after = filtered(in, 5);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) EXPECT_NEAR(luminance(after.at(x, y) / in.at(x, y).albedo), 10, 1.5f);
+  }
+}
+
+TEST(Filter, mixesNoLightOfWallsThatMeet) {
+  FilterInput in = noisyWall(64, 32, 10, 2), dark = noisyWall(64, 32, 6, 2, 1);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 32; x < 64; ++x) {
+      in.at(x, y) = dark.at(x, y);
+      in.at(x, y).normal = {-1, 0, 0};
+    }
+  }
+  const Image after = filtered(in, 5);
+  EXPECT_NEAR(momentsOf(after, 0, 32).mean, 5, 0.15);
+  EXPECT_NEAR(momentsOf(after, 32, 64).mean, 3, 0.15);
+  EXPECT_LT(momentsOf(after, 32, 64).variance, 0.05);
+}
+
+TEST(Filter, spreadsAnOutlierInsteadOfLosingIt) {
+  FilterInput in = noisyWall(64, 64, 10, 1);
+  FilterPixel& p = in.at(30, 31);
+  p.diffuse += Vec3(500);
+  p.diffuseVariance = 1e6f;
+  const Image before = composed(in), after = filtered(in, 5);
+  EXPECT_LT(luminance(after.at(30, 31)), 100);
+  EXPECT_GT(momentsOf(after, 0, 64).mean, 0.985 * momentsOf(before, 0, 64).mean);
+}
+
+TEST(Filter, leavesWhatIsNoSurfaceAndMirrors) {
+  FilterInput in = noisyWall(32, 32, 10, 1);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 16; ++x) in.at(x, y) = {}, in.at(x, y).rest = Vec3(static_cast<float>(x * y));
+    for (int x = 16; x < 32; ++x) {
+      FilterPixel& p = in.at(x, y);
+      p.diffuse = {}, p.diffuseVariance = 0;
+      p.specular = Vec3(static_cast<float>(x ^ y)), p.specularVariance = 100;
+      p.roughness = 0.02f;
+    }
+  }
+  const Image before = composed(in), after = filtered(in, 5);
+  for (size_t i = 0; i < before.pixels.size(); ++i) EXPECT_EQ(after.pixels[i], before.pixels[i]);
+}
+
+// With reflections, sharp light and edges.
+FilterInput variedPicture() {
+  FilterInput in = noisyWall(75, 43, 10, 3);
+  for (int y = 0; y < in.height; ++y) {
+    for (int x = 0; x < in.width; ++x) {
+      FilterPixel& p = in.at(x, y);
+      Rng rng(static_cast<uint64_t>(x), static_cast<uint64_t>(y), 7);
+      p.sharp = Vec3(x > y ? 2.0f : 0.5f), p.sharpVariance = 0.3f * rng.uniform();
+      p.specular = {rng.uniform(), 2 * rng.uniform(), rng.uniform()}, p.specularVariance = 0.3f;
+      p.roughness = x < 30 ? 0.04f : 0.3f;
+      p.normal = normalize({0.3f * rng.uniform(), 0.2f * rng.uniform(), 1});
+      if (x + y > 100) p = {};
+    }
+  }
+  return in;
+}
+
+TEST(Filter, givesTheSameOnEveryInstructionSet) {
+  const FilterInput in = variedPicture();
+  const Image best = filtered(in, 5);
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    const Image other = filtered(in, 5);
+    for (size_t i = 0; i < best.pixels.size(); ++i) EXPECT_NEAR(luminance(other.pixels[i]), luminance(best.pixels[i]), 1e-4f) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+}
+
+TEST(Filter, givesTheSameBitsWithAnyNumberOfThreads) {
+  const FilterInput in = variedPicture();
+  Image one;
+  withThreads(1, [&] { one = filtered(in, 5); });
+  EXPECT_EQ(one.pixels, filtered(in, 5).pixels);
+}
+
+}  // namespace
+}  // namespace roomlight
