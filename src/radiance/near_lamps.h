@@ -6,49 +6,41 @@
 #include <vector>
 
 #include "radiance/radiance_field.h"
+#include "radiance/slot_light.h"
 #include "radiance/slot_paths.h"
 
 namespace roomlight {
 
-class NearLamps {
+// Where a lamp's light comes by particles rather than by shadow rays.
+class LampSurroundings {
  public:
-  NearLamps(const Lights& lights, const Voxels& voxels, const SlotPaths& paths);
-
-  // Whether the slot's light from that lamp comes by particles rather than by shadow rays.
-  bool isNear(size_t lamp, size_t slot) const { return isNear(lamp, voxels_.slots[slot].position); }
-
-  // Illuminance per slot in lx, per channel.
-  struct Light {
-    std::vector<Vec3> near;  // on slots near lamps; what they reflect of it is contained in `near` and `far`. Empty: none
-    std::vector<Vec3> far;   // on other slots, by reflection near lamps or on surfaces that no slot stands for
-    std::vector<GlowPoint> points;  // of what surfaces near lamps reflect; radiance is for the caller to fill in
-    uint64_t rays = 0;
-  };
-  // Ends early, with a part of the light, once `progress` says stop.
-  Light trace(const RayScene& rays, const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress) const;
+  LampSurroundings(const Lamp& lamp, float voxelSizeM);
+  bool contains(Vec3 p) const;
+  // Whether it may contain anything of the box.
+  bool touches(const Bounds3& box) const;
 
  private:
-  struct Deposit {
-    uint32_t slot;
-    Vec3 fluxLm;
-  };
-  // What particles leave behind.
-  struct Trail {
-    std::vector<Deposit> deposits;
-    std::vector<GlowPoint> points;
-  };
-  void follow(const RayScene& rays, const SlotPaths& paths, size_t lamp, Ray ray, Hit hit, Vec3 fluxLm, float pointLm, Attenuation attenuation,
-              Sampler& sampler, Trail& trail) const;
-  float radius() const;  // within which a lamp is near
-  bool isNear(size_t lamp, Vec3 p) const;
-  float narrowFor(const Lamp& lamp) const;
-  bool isNearAny(const HiddenReflection& h, size_t lamp) const { return h.slot >= 0 ? nearAny_[static_cast<size_t>(h.slot)] != 0 : isNear(lamp, h.p); }
-  float litArea(const FaceSlot& slot) const;
-
-  const Lights& lights_;
-  const Voxels& voxels_;
-  std::vector<uint8_t> nearAny_;   // per slot
-  std::vector<size_t> lamps_;      // those with slots near them
+  Vec3 position_, direction_;
+  float near_, far_;  // m: in all directions, and along a narrow spot
+  float tanOuter_, voxelSizeM_;
 };
+
+// What particles of one lamp leave behind, for an intensity of 1 cd in each channel.
+struct ParticleLight {
+  SlotLight near;  // lx; on slots in its surroundings: what they reflect of it is contained in `near` and `far`
+  SlotLight far;   // lx; on other slots, by reflection in its surroundings or on surfaces that no slot stands for
+  std::vector<GlowPoint> points;  // of what surfaces in its surroundings reflect, about kPoints of them for all its flux
+  Bounds3 way;     // of all particles
+  uint64_t rays = 0;
+};
+
+constexpr float kGlowPoints = 32768;  // that stand for a flux like that of the lamps
+
+// Flux of a lamp of 1 cd, lm.
+float unitFluxLm(const Lamp& lamp);
+
+// `particles`: how many a lamp gets where it has `lamps` beside it. Ends early, with a part of the light, once `progress` says stop.
+ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Lamp& lamp, size_t lamps,
+                             const RadianceSettings& settings, const Progress& progress);
 
 }  // namespace roomlight

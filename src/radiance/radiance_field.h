@@ -21,10 +21,11 @@ enum class Attenuation : uint8_t {
 
 struct RadianceSettings {
   Attenuation attenuation = Attenuation::Plain;
-  int directSamples = 8;   // per slot among emissive meshes, and shared among lamps (1 to 4 each); suns get 4
-  int links = 8;          // rays per slot that find where its indirect light comes from
+  int directSamples = 8;   // per slot among emissive meshes, half as many (4 at most) of each lamp and sun; fewer where shadows are the same all round
+  int links = 8;          // rays per slot that find where its indirect light comes from; half of them on flat sheets, which share theirs
   float residual = 0.002f; // bounces stop when the light still to come is below this fraction of what is there
   int maxBounces = 100;
+  bool pyramid = true;     // directional levels for cones; without them only what slots receive is known
   uint64_t seed = 0;
 };
 
@@ -109,7 +110,8 @@ struct RadianceField {
   size_t bytes() const;
 };
 
-// Once `progress` says stop it ends within about a second, then without levels: there is nothing to gather.
+// All light anew; LightCache (light_cache.h) keeps what a change leaves as it is. Once `progress` says stop it ends within about a
+// second, then without levels and irradiance: there is nothing to gather.
 RadianceField illuminate(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings,
                          const Progress& progress = {});
 

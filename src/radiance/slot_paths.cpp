@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "base/sampling.h"
 #include "radiance/radiance_field.h"
-#include "trace/surface_point.h"
+#include "voxel/lattice.h"
 
 namespace roomlight {
 namespace {
@@ -11,134 +11,240 @@ namespace {
 constexpr int kMostPanes = 16;          // surfaces a ray goes through or on from
 constexpr float kLift = 0.1f;           // voxels; how far points are lifted to see one another along a bent surface
 constexpr float kProbeHeight = 0.3f;    // voxels
+constexpr float kLeastProbe = 0.02f;    // voxels
 constexpr float kHiddenBehind = 0.15f;  // voxels; surfaces further behind a slot's place are not lit as it is
 constexpr float kNothingLeft = 0.03f;
+constexpr float kOneSheet = 1.1f;       // of the area with which a plane fills the voxel: more is more than one
+
+uint32_t keyOf(Int3 voxel, int face) {
+  const auto part = [](int v) { return static_cast<uint64_t>(static_cast<uint32_t>(v)); };
+  return static_cast<uint32_t>(mix64(mix64(part(voxel.x) | part(voxel.y) << 32) + (part(voxel.z) | part(face) << 32)));
+}
+
+// Unit normal on the side that a ray along d meets, however small the triangle is.
+Vec3 facing(Vec3 ng, Vec3 d) {
+  const Vec3 n = ng / maxComponent(abs(ng));
+  return n / std::copysign(length(n), -dot(n, d));
+}
+
+// Metres from the slot's place to the border of its voxel before it.
+float toBorder(const Voxels& voxels, const FaceSlot& slot) {
+  const int axis = slot.face / 2;
+  const float q = (slot.position[axis] - voxels.origin[axis]) / voxels.voxelSizeM, below = q - std::floor(q);
+  return voxels.voxelSizeM * (slot.face & 1 ? below : 1 - below);
+}
+
+// Whether voxel v holds one sheet and nothing else, and nothing of the next one stands on it.
+bool isOneSheet(const Voxels& voxels, const SurfaceVoxel& voxel, Int3 v, const FaceSlot& slot) {
+  const int ofAxis = 3 << (slot.face & ~1);
+  const float h = voxels.voxelSizeM;
+  if ((voxel.faces & ~ofAxis) != 0 || !(slot.areaM2 * std::abs(slot.normal[slot.face / 2]) < kOneSheet * h * h * slot.opacity)) return false;
+  const Vec3 up = faceDirection(slot.face);
+  return toBorder(voxels, slot) > 2 * kLift * h || voxels.voxelAt({v.x + static_cast<int>(up.x), v.y + static_cast<int>(up.y), v.z + static_cast<int>(up.z)}) < 0;
+}
 
 }  // namespace
 
+std::pair<size_t, size_t> slotsOfBrick(const Voxels& voxels, size_t brick) {
+  const auto firstVoxel = voxels.bricks[brick].firstVoxel;
+  const size_t end = brick + 1 < voxels.bricks.size() ? voxels.bricks[brick + 1].firstVoxel : voxels.voxels.size();
+  const auto slotBegin = [&](size_t v) { return v < voxels.voxels.size() ? voxels.voxels[v].firstSlot : voxels.slots.size(); };
+  return {slotBegin(firstVoxel), slotBegin(end)};
+}
+
 SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress)
-    : rays_(rays), voxels_(voxels), seed_(seed), points_(voxels.slots.size()), free_(voxels.slots.size()) {
-  parallelFor(voxels_.bricks.size(), 4, [&](size_t b) {
-    if (!progress.stop()) place(b);
+    : rays_(&rays), voxels_(&voxels), points_(voxels.slots.size()), key_(voxels.slots.size()), sheet_(voxels.slots.size()), free_(voxels.slots.size()) {
+  for (const Instance& i : rays.scene().instances) clear_.push_back(letsLightThrough(rays.scene().materials[static_cast<size_t>(rays.scene().meshes[static_cast<size_t>(i.mesh)].material)]));
+  parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
+    if (!progress.stop()) prepare(b, seed);
   });
+}
+
+void SlotPaths::prepare(size_t brick, uint64_t seed) {
+  nameSlots(brick);
+  const auto [first, last] = slotsOfBrick(*voxels_, brick);
+  probe(first, last, seed);
+}
+
+void SlotPaths::nameSlots(size_t b) {
+  const Brick& brick = voxels_->bricks[b];
+  const Int3 corner = latticeOf(*voxels_).brickOf(brick.coord);
+  size_t record = brick.firstVoxel;
+  for (int z = 0; z < kBrickSize; ++z) {
+    for (uint64_t bits = brick.occupied[static_cast<size_t>(z)]; bits; bits &= bits - 1, ++record) {
+      const int bit = std::countr_zero(bits);
+      const Int3 inBrick{bit & 7, bit >> 3, z}, v{brick.coord.x * kBrickSize + inBrick.x, brick.coord.y * kBrickSize + inBrick.y, brick.coord.z * kBrickSize + inBrick.z};
+      const Int3 inWorld{corner.x * kBrickSize + inBrick.x, corner.y * kBrickSize + inBrick.y, corner.z * kBrickSize + inBrick.z};
+      const SurfaceVoxel& voxel = voxels_->voxels[record];
+      const size_t end = voxel.firstSlot + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+      for (size_t s = voxel.firstSlot; s < end; ++s) {
+        key_[s] = keyOf(inWorld, voxels_->slots[s].face);
+        sheet_[s] = isOneSheet(*voxels_, voxel, v, voxels_->slots[s]);
+      }
+    }
+  }
 }
 
 // Points are spread over the voxel where the surface fills that. Each is looked up on the surface itself, for beside a curved
 // surface the slot's plane lies behind it.
-void SlotPaths::place(size_t brick) {
-  const auto [first, last] = slotsOfBrick(brick);
+void SlotPaths::probe(size_t first, size_t last, uint64_t seed) {
+  const float highest = kProbeHeight * voxels_->voxelSizeM;
   std::vector<Ray> rays;
+  std::vector<Hit> hits;
   for (size_t s = first; s < last; ++s) {
-    const FaceSlot& slot = voxels_.slots[s];
-    rays.push_back({offsetOrigin(slot.position, slot.normal), slot.normal, 0, kProbeHeight * voxels_.voxelSizeM});
+    const FaceSlot& slot = voxels_->slots[s];
+    if (!sheet_[s]) rays.push_back({offsetOrigin(slot.position, slot.normal), slot.normal, 0, highest});
   }
-  std::vector<Hit> hits(rays.size());
-  rays_.intersect(rays, hits);
-  for (size_t s = first; s < last; ++s) {
-    const Hit& above = hits[s - first];
-    free_[s] = above.valid() ? above.t : kProbeHeight * voxels_.voxelSizeM;
+  hits.resize(rays.size());
+  rays_->intersect(rays, hits);
+  for (size_t s = first, next = 0; s < last; ++s) {
+    free_[s] = highest;
+    if (!sheet_[s] && hits[next++].valid()) free_[s] = hits[next - 1].t;
   }
   rays.clear();
-  for (size_t s = first; s < last; ++s) appendProbes(s, rays);
+  for (size_t s = first; s < last; ++s) appendProbes(s, seed, rays);
   hits.resize(rays.size());
-  rays_.intersect(rays, hits);
+  rays_->intersect(rays, hits);
+  std::vector<std::pair<Vec3*, Vec3>> asked;  // point, and where it would be
+  std::vector<Ray> parting;
   for (size_t s = first, next = 0; s < last; ++s) {
-    const FaceSlot& slot = voxels_.slots[s];
+    const FaceSlot& slot = voxels_->slots[s];
     points_[s].fill(lifted(slot.position, slot.normal));
     if (!fillsVoxel(slot)) continue;
     for (Vec3& p : points_[s]) {
       const Ray& ray = rays[next];
       const Hit& hit = hits[next++];
-      if (!hit.valid() || !facesAlong(hit, slot.normal)) continue;
+      if (!hit.valid() || dot(facing(hit.ng, ray.direction), slot.normal) < 0.7f) continue;
       const Vec3 found = ray.origin + ray.direction * hit.t;
-      if (connected(s, found, slot.normal)) p = lifted(found, slot.normal);
+      if (sheet_[s]) {
+        p = lifted(found, slot.normal);
+      } else {
+        asked.emplace_back(&p, lifted(found, slot.normal));
+        parting.push_back(between(s, found, slot.normal));
+      }
     }
+  }
+  std::vector<Vec3> left(parting.size());
+  rays_->transmittance(parting, left);
+  for (size_t i = 0; i < asked.size(); ++i) {
+    if (luminance(left[i]) > 0.25f) *asked[i].first = asked[i].second;
   }
 }
 
-bool SlotPaths::fillsVoxel(const FaceSlot& slot) const { return slot.areaM2 > 0.8f * voxels_.voxelSizeM * voxels_.voxelSizeM; }
+Vec3 SlotPaths::lifted(Vec3 p, Vec3 n) const { return offsetOrigin(p, n) + n * (0.01f * voxels_->voxelSizeM); }
 
-Vec3 SlotPaths::lifted(Vec3 p, Vec3 n) const { return offsetOrigin(p, n) + n * (0.01f * voxels_.voxelSizeM); }
-
-bool SlotPaths::facesAlong(const Hit& hit, Vec3 n) const {
-  const TriangleVertices t = worldTriangle(rays_.scene(), hit.instance, hit.triangle);
-  const Vec3 ng = cross(t.b - t.a, t.c - t.a);
-  return std::abs(dot(ng, n)) > 0.7f * length(ng);
-}
-
-// Short rays down onto the slot's surface, one in each quarter of its square.
-void SlotPaths::appendProbes(size_t s, std::vector<Ray>& rays) const {
-  const FaceSlot& slot = voxels_.slots[s];
+// Short rays down onto the slot's surface, one in each quarter of its square. They start below whatever lies over it: in its own
+// voxel, if there is nothing else in that.
+void SlotPaths::appendProbes(size_t s, uint64_t seed, std::vector<Ray>& rays) const {
+  const FaceSlot& slot = voxels_->slots[s];
   if (!fillsVoxel(slot)) return;
   const Frame frame(slot.normal);
-  const float h = voxels_.voxelSizeM;
-  const float height = free_[s] < kProbeHeight * h ? 0.5f * free_[s] : kProbeHeight * h;
+  const float h = voxels_->voxelSizeM;
+  float height = free_[s] < kProbeHeight * h ? 0.5f * free_[s] : kProbeHeight * h;
+  if (sheet_[s]) height = std::clamp(toBorder(*voxels_, slot), kLeastProbe * h, height);
   for (uint32_t k = 0; k < kPoints; ++k) {
-    Sampler sampler(s, k, seed_ + 6);
+    Sampler sampler(key_[s], k, seed + 6);
     const Vec2 u = sampler.next2();
     const float x = 0.4f * (u.x + static_cast<float>(k & 1)) - 0.4f, y = 0.4f * (u.y + static_cast<float>(k >> 1)) - 0.4f;
     rays.push_back({slot.position + (frame.t * x + frame.b * y) * h + slot.normal * height, -slot.normal, 0, height + kProbeHeight * h});
   }
 }
 
-// Whether nothing stands between the slot's place and p, both a little lifted, but not into what lies close above.
-bool SlotPaths::connected(size_t s, Vec3 p, Vec3 n) const {
-  const FaceSlot& slot = voxels_.slots[s];
-  const float lift = std::min(kLift * voxels_.voxelSizeM, 0.5f * free_[s]);
+// From the slot's place to p, both a little lifted, but not into what lies close above.
+Ray SlotPaths::between(size_t s, Vec3 p, Vec3 n) const {
+  const FaceSlot& slot = voxels_->slots[s];
+  const float lift = std::min(kLift * voxels_->voxelSizeM, 0.5f * free_[s]);
   const Vec3 from = offsetOrigin(slot.position, slot.normal) + slot.normal * lift;
   const Vec3 to = offsetOrigin(p, n) + n * lift;
-  return luminance(rays_.transmittance({from, to - from, 0, 1})) > 0.25f;
-}
-
-// Not lit as the slot's place is: behind it, or parted from it by another surface (a pane that crosses the voxel).
-bool SlotPaths::isHidden(size_t s, Vec3 p, Vec3 n) const {
-  const FaceSlot& slot = voxels_.slots[s];
-  return dot(slot.position - p, slot.normal) > kHiddenBehind * voxels_.voxelSizeM || !connected(s, p, n);
+  return {from, to - from, 0, 1};
 }
 
 // What a pane transmits is left out of its albedo; what a veil lets through between its threads is not.
 Vec3 SlotPaths::albedoOfTheRest(const Hit& hit, float passes) const {
-  const MaterialSample m = materialAt(rays_.scene(), hit);
+  const MaterialSample m = materialAt(rays_->scene(), hit);
   const Vec3 albedo = bihemisphericalAlbedo(m);
   return m.alpha >= 1 ? min(albedo / std::max(1e-3f, 1 - passes), Vec3(1)) : albedo;
 }
 
-Arrival SlotPaths::follow(Ray ray, Hit hit, Sampler& sampler, std::vector<HiddenReflection>* hidden) const {
-  Arrival end;
-  for (int k = 0; k < kMostPanes; ++k) {
-    if (!hit.valid()) {
-      end.escaped = true;
-      return end;
-    }
-    const SurfacePlace s = placeAt(rays_.scene(), hit, ray.direction);
-    const bool clear = letsLightThrough(*s.material);
-    const Vec3 through = clear ? straightTransmittance(*s.material, materialAt(rays_.scene(), hit), std::abs(dot(s.ng, ray.direction))) : Vec3(0);
-    const float passes = std::min(1.0f, luminance(through));
-    if (!clear || sampler.next1() >= passes) {
-      const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
-      if (slot >= 0 && !isHidden(static_cast<size_t>(slot), s.p, s.ng)) {
-        end.slot = slot, end.p = s.p, end.n = s.ng, end.hit = hit, end.passes = passes;
-        return end;
+void SlotPaths::follow(std::span<const Ray> rays, std::span<Sampler> samplers, std::vector<Arrival>& ends, std::vector<HiddenReflection>* hidden) const {
+  const Scene& scene = rays_->scene();
+  ends.assign(rays.size(), {});
+  std::vector<size_t> on(rays.size()), next;  // rays on their way
+  for (size_t i = 0; i < rays.size(); ++i) on[i] = i, ends[i].ray = rays[i];
+  std::vector<Ray> way(rays.begin(), rays.end()), parting;
+  std::vector<Hit> hits;
+  std::vector<Meeting> meetings;
+  std::vector<Vec3> left;
+  const auto goOn = [&](size_t i, const Ray& ray) {
+    ends[i].ray = ray;
+    if (!(luminance(ends[i].left) < kNothingLeft)) next.push_back(i);
+  };
+  const auto arrive = [&](const Meeting& m) {
+    Arrival& end = ends[on[m.ray]];
+    end.slot = m.slot, end.hit = hits[m.ray], end.passes = m.passes;
+  };
+  // Not lit as the slot's place is: behind it, or parted from it by another surface (a pane that crosses the voxel).
+  const auto reflect = [&](const Meeting& m) {
+    const size_t i = on[m.ray];
+    Arrival& end = ends[i];
+    const SurfacePlace s = placeAt(scene, hits[m.ray], end.ray.direction);
+    end.left *= albedoOfTheRest(hits[m.ray], m.passes);
+    end.reflected = true;
+    if (hidden) hidden->push_back({i, s.p, s.ng, end.left, m.slot});
+    goOn(i, {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(samplers[i].next2())), 0, kInfinity});
+  };
+  for (int k = 0; k < kMostPanes && !on.empty(); ++k) {
+    hits.resize(on.size());
+    rays_->intersect(way, hits);
+    next.clear(), meetings.clear(), parting.clear();
+    for (size_t j = 0; j < on.size(); ++j) {
+      const Hit& hit = hits[j];
+      Arrival& end = ends[on[j]];
+      if (!hit.valid()) {
+        end.escaped = true;
+        continue;
       }
-      end.left *= albedoOfTheRest(hit, passes);
-      end.reflected = true;
-      if (hidden) hidden->push_back({s.p, s.ng, end.left, slot});
-      ray = {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
-    } else {
-      end.left *= through / passes;
-      ray.origin = offsetOrigin(s.p, -s.ng);
+      const Vec3 d = end.ray.direction;
+      Meeting m{j, end.ray.origin + d * hit.t, facing(hit.ng, d), 0, -1};
+      if (clear_[hit.instance]) {
+        const SurfacePlace s = placeAt(scene, hit, d);
+        const Vec3 through = straightTransmittance(*s.material, materialAt(scene, hit), std::abs(dot(s.ng, d)));
+        m.passes = std::min(1.0f, luminance(through));
+        if (samplers[on[j]].next1() < m.passes) {
+          end.left *= through / m.passes;
+          goOn(on[j], {offsetOrigin(s.p, -s.ng), d, 0, kInfinity});
+          continue;
+        }
+      }
+      m.slot = slotAtSurface(*voxels_, m.p, m.n);
+      if (m.slot < 0) {
+        reflect(m);
+        continue;
+      }
+      const auto s = static_cast<size_t>(m.slot);
+      const FaceSlot& slot = voxels_->slots[s];
+      if (dot(slot.position - m.p, slot.normal) > kHiddenBehind * voxels_->voxelSizeM) {
+        reflect(m);
+      } else if (sheet_[s]) {
+        arrive(m);
+      } else {
+        meetings.push_back(m);
+        parting.push_back(between(s, m.p, m.n));
+      }
     }
-    if (luminance(end.left) < kNothingLeft) return end;
-    hit = rays_.intersect(ray);
+    left.resize(parting.size());
+    rays_->transmittance(parting, left);
+    for (size_t i = 0; i < meetings.size(); ++i) {
+      if (luminance(left[i]) > 0.25f) {
+        arrive(meetings[i]);
+      } else {
+        reflect(meetings[i]);
+      }
+    }
+    on.swap(next);
+    way.clear();
+    for (const size_t i : on) way.push_back(ends[i].ray);
   }
-  return end;
-}
-
-std::pair<size_t, size_t> SlotPaths::slotsOfBrick(size_t brick) const {
-  const auto firstVoxel = voxels_.bricks[brick].firstVoxel;
-  const size_t end = brick + 1 < voxels_.bricks.size() ? voxels_.bricks[brick + 1].firstVoxel : voxels_.voxels.size();
-  const auto slotBegin = [&](size_t v) { return v < voxels_.voxels.size() ? voxels_.voxels[v].firstSlot : voxels_.slots.size(); };
-  return {slotBegin(firstVoxel), slotBegin(end)};
 }
 
 }  // namespace roomlight

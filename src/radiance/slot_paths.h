@@ -2,27 +2,33 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "base/progress.h"
 #include "base/sampler.h"
 #include "trace/ray_scene.h"
+#include "trace/surface_point.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
 
-// On a surface that no slot stands for. `left`: share of the light that leaves it.
+// First slot of a brick, one past its last.
+std::pair<size_t, size_t> slotsOfBrick(const Voxels& voxels, size_t brick);
+
+// On a surface that no slot stands for.
 struct HiddenReflection {
-  Vec3 p, n, left;
+  size_t ray;  // index of the ray followed
+  Vec3 p, n, left;  // left: share of the light that leaves it
   int64_t slot;  // of a surface before it; -1: none
 };
 
 // Where the way of a ray ends.
 struct Arrival {
   int64_t slot = -1;      // -1: nowhere, or not known to voxels
-  Vec3 p, n;              // on the slot's surface
-  Hit hit;                // there
+  Ray ray;                // its last part
+  Hit hit;                // on the slot's surface
   float passes = 0;       // share of the light that the surface lets through, which went on instead
   Vec3 left{1, 1, 1};     // share of the light that panes and reflections on the way leave
   bool escaped = false;   // out of the scene
@@ -33,37 +39,54 @@ class SlotPaths {
  public:
   static constexpr uint32_t kPoints = 4;
 
-  // Of no use once `progress` says stop.
+  SlotPaths() = default;
+  // Of no use once `progress` says stop. Refers to rays and voxels.
   SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress);
 
   // Points that receive a slot's light.
   Vec3 point(size_t slot, size_t k) const { return points_[slot][k % kPoints]; }
 
-  // Goes on from a ray's first hit, through panes with the share that they let through, to the slot that stands for the surface
-  // met. A surface behind the one its slot stands for (the back of a panel before a wall, the inside of a pipe) has no light of
-  // its own in the voxels: there the way goes on by a diffuse reflection, which is added to `hidden`.
-  Arrival follow(Ray ray, Hit hit, Sampler& sampler, std::vector<HiddenReflection>* hidden = nullptr) const;
+  // Number for random numbers, which depends on nothing but the place of the slot in the world: what is traced again after an
+  // instance has moved meets the same as before.
+  uint32_t key(size_t slot) const { return key_[slot]; }
+
+  // Whether its voxel holds one sheet of surface and nothing else.
+  bool isSheet(size_t slot) const { return sheet_[slot] != 0; }
+
+  // Follows rays through panes, with the share that they let through, to the slots that stand for the surfaces met. A surface
+  // behind the one its slot stands for (the back of a panel before a wall, the inside of a pipe) has no light of its own in the
+  // voxels: there the way goes on by a diffuse reflection, which is added to `hidden`. ends[i] belongs to rays[i].
+  void follow(std::span<const Ray> rays, std::span<Sampler> samplers, std::vector<Arrival>& ends, std::vector<HiddenReflection>* hidden = nullptr) const;
 
   // Albedo of the surface where it ends, for the light that does not pass it.
   Vec3 albedo(const Arrival& end) const { return albedoOfTheRest(end.hit, end.passes); }
-
-  std::pair<size_t, size_t> slotsOfBrick(size_t brick) const;  // first, one past the last
+  size_t bytes() const { return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t) + sizeof(uint8_t) + sizeof(float)); }
+  SurfacePlace place(const Arrival& end) const { return placeAt(rays_->scene(), end.hit, end.ray.direction); }
 
  private:
-  void place(size_t brick);
-  Vec3 albedoOfTheRest(const Hit& hit, float passes) const;
-  bool fillsVoxel(const FaceSlot& slot) const;
+  // A surface on the way of a ray: whether a slot stands for it is known only after a look at what parts them.
+  struct Meeting {
+    size_t ray;  // index into the rays on their way
+    Vec3 p, n;
+    float passes;
+    int64_t slot;
+  };
+  void prepare(size_t brick, uint64_t seed);
+  void nameSlots(size_t brick);
+  void probe(size_t first, size_t last, uint64_t seed);
+  bool fillsVoxel(const FaceSlot& slot) const { return slot.areaM2 > 0.8f * voxels_->voxelSizeM * voxels_->voxelSizeM; }
   Vec3 lifted(Vec3 p, Vec3 n) const;
-  bool facesAlong(const Hit& hit, Vec3 n) const;
-  void appendProbes(size_t slot, std::vector<Ray>& rays) const;
-  bool connected(size_t slot, Vec3 p, Vec3 n) const;
-  bool isHidden(size_t slot, Vec3 p, Vec3 n) const;
+  void appendProbes(size_t slot, uint64_t seed, std::vector<Ray>& rays) const;
+  Ray between(size_t slot, Vec3 p, Vec3 n) const;
+  Vec3 albedoOfTheRest(const Hit& hit, float passes) const;
 
-  const RayScene& rays_;
-  const Voxels& voxels_;
-  const uint64_t seed_;
-  std::vector<std::array<Vec3, kPoints>> points_;  // per slot
-  std::vector<float> free_;  // per slot: metres above its place that are empty, up to the height of its probes
+  const RayScene* rays_ = nullptr;
+  const Voxels* voxels_ = nullptr;
+  std::vector<uint8_t> clear_;  // per instance: lets light through somewhere
+  std::vector<std::array<Vec3, kPoints>> points_;  // per slot, like those below
+  std::vector<uint32_t> key_;
+  std::vector<uint8_t> sheet_;
+  std::vector<float> free_;  // metres above its place that are empty, up to the height of its probes
 };
 
 }  // namespace roomlight

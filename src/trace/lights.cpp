@@ -177,7 +177,7 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
     if (!e.doubleSided && cosLight <= 0) return s;
     s.pdf = chance * t.share / t.areaM2 * d2 / std::max(std::abs(cosLight), 1e-6f);
   }
-  const Vec3 emission = e.even ? e.emission : materialAt(scene_, {e.instance, t.triangle, b.x, b.y}).emission;
+  const Vec3 emission = e.even ? e.emission : materialAt(scene_, {e.instance, t.triangle, b.x, b.y, 0, {}}).emission;
   s.radiance = emission / s.pdf;
   return s;
 }

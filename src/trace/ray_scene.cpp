@@ -57,9 +57,11 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-Hit hitOf(unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t) {
+// Embree leaves `ng` in the space of the geometry.
+Hit hitOf(const Scene& scene, unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t, Vec3 ng) {
   if (geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {instID != RTC_INVALID_GEOMETRY_ID ? instID : geomID, primID, u, v, t};
+  if (instID == RTC_INVALID_GEOMETRY_ID) return {geomID, primID, u, v, t, ng};
+  return {instID, primID, u, v, t, scene.instances[instID].worldFromObject.normal(ng)};
 }
 
 }  // namespace
@@ -170,7 +172,7 @@ Hit RayScene::intersect(const Ray& ray) const {
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->top, &context, &r);
-  return hitOf(r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar);
+  return hitOf(*state_->scene, r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
 }
 
 Vec3 RayScene::transmittance(const Ray& ray) const {
@@ -216,7 +218,8 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
     }
     rtcIntersect8(valid, state_->top, &context, &r);
     for (unsigned i = 0; i < n; ++i) {
-      hits[first + i] = hitOf(r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i]);
+      const Vec3 ng{r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]};
+      hits[first + i] = hitOf(*state_->scene, r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i], ng);
     }
   }
 }

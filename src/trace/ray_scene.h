@@ -22,6 +22,7 @@ struct Hit {
   uint32_t instance = kNoHit, triangle = 0;
   float b1 = 0, b2 = 0;  // barycentric weights of the triangle's vertices 1 and 2
   float t = kInfinity;
+  Vec3 ng;  // along the triangle's normal to either side, world, not unit; of rays' hits only
   bool valid() const { return instance != kNoHit; }
 };
 

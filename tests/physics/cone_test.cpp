@@ -160,15 +160,15 @@ TEST(Cone, illuminateStopsWhereItIs) {
   voxel.voxelSizeM = 0.1f;
   const Voxelisation v = voxelise(scene, voxel);
   const RadianceSettings settings;
-  const size_t links = v.voxels.slots.size() * static_cast<size_t>(settings.links);
+  uint64_t before = 0;
   for (const float from : {0.0f, 0.5f, 0.8f}) {
     std::atomic<bool> stop = from <= 0;
     const Progress progress{[&](float fraction) { stop = stop || fraction >= from; }, &stop};
     const RadianceField field = illuminate(rays, lights, v.voxels, settings, progress);
     EXPECT_TRUE(field.levels.empty()) << from;
     EXPECT_EQ(field.bounces, 0) << from;
-    EXPECT_EQ(field.rays >= links, from > 0) << from;
-    EXPECT_EQ(field.rays > links, from > 0.5f) << from;
+    EXPECT_EQ(field.rays > before, from > 0) << from;
+    before = field.rays;
   }
 }
 

@@ -1,0 +1,50 @@
+// Light that reaches slots straight from lamps, emissive meshes, suns and the sky, by shadow rays through panes.
+#pragma once
+
+#include <atomic>
+#include <span>
+
+#include "radiance/near_lamps.h"
+#include "radiance/radiance_field.h"
+#include "radiance/slot_paths.h"
+
+namespace roomlight {
+
+// What part of direct light, traced brick by brick.
+class DirectLight {
+ public:
+  DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings)
+      : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), settings_(settings) {}
+
+  // Illuminance in lx per channel of the slots of one brick, added to one value per slot of the scene. Of a lamp for 1 cd, less what
+  // its particles carry. Where `near` boxes are given and no ray could cross one of them nothing is done: false.
+  bool lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
+  bool suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
+  bool sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
+  bool emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
+
+  uint64_t rayCount() const { return count_; }
+
+ private:
+  struct Samples {
+    uint32_t first, most;  // per slot: to begin with, and where the first and those of its neighbours do not agree on shadows
+  };
+  template <class Sample>
+  bool anyCrosses(size_t brick, uint32_t samples, std::span<const Bounds3> near, const Sample& sample) const;
+  template <class Sample>
+  void trace(size_t brick, Samples samples, std::span<Vec3> lux, const Sample& sample);
+  uint32_t perDelta() const { return static_cast<uint32_t>(std::clamp(settings_.directSamples / 2, 1, 4)); }  // of a lamp or sun
+  Vec3 point(size_t slot, uint32_t k) const { return paths_.point(slot, k + paths_.key(slot)); }
+
+  const RayScene& rays_;
+  const Lights& lights_;
+  const Voxels& voxels_;
+  const SlotPaths& paths_;
+  const RadianceSettings& settings_;
+  std::atomic<uint64_t> count_ = 0;
+};
+
+// Whether a segment (tMin, tMax of the ray) comes closer than `margin` to one of the boxes.
+bool crosses(const Ray& ray, std::span<const Bounds3> boxes, float margin);
+
+}  // namespace roomlight

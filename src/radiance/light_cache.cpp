@@ -1,0 +1,212 @@
+#include "radiance/light_cache.h"
+
+#include <atomic>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "radiance/direct_light.h"
+#include "radiance/pyramid.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kUnseen = 1e12f;   // cd/m²: of glow that no voxel shows, so that points take all of it
+constexpr size_t kDarkLamps = 16;  // kept
+
+bool sameLight(const Lamp& a, const Lamp& b) {
+  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad;
+}
+
+// Reports from one thread at a time.
+class Steps {
+ public:
+  Steps(const Progress& progress, float from, float to, size_t count) : progress_(progress), from_(from), to_(to), count_(count) {}
+  void one() {
+    const size_t d = ++done_;
+    if (d % 256 == 0 && reporting_.try_lock()) {
+      progress_.at(from_ + (to_ - from_) * static_cast<float>(d) / static_cast<float>(count_));
+      reporting_.unlock();
+    }
+  }
+
+ private:
+  const Progress& progress_;
+  const float from_, to_;
+  const size_t count_;
+  std::atomic<size_t> done_ = 0;
+  std::mutex reporting_;
+};
+
+}  // namespace
+
+LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress)
+    : settings_(settings), paths_(rays, voxels, settings.seed, progress) {
+  const Sources from{rays, lights, voxels, progress};
+  traceAllLinks(from);
+  progress.at(0.5f);
+  traceFixedLights(from);
+  matchLamps(from);
+  progress.at(0.8f);
+  indirect_.assign(voxels.slots.size(), {});
+  solve(from);
+}
+
+void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
+  const Sources from{rays, lights, voxels, progress};
+  field_.rays = 0;
+  matchLamps(from);
+  progress.at(0.5f);
+  solve(from);
+}
+
+void LightCache::traceAllLinks(const Sources& from) {
+  const bool hasSky = from.lights.sky().present();
+  SkyGuideBuilder guide(from.voxels, from.lights.sky());
+  if (from.progress.stop()) return;
+  links_ = planLinks(from.voxels, paths_, settings_.links);
+  Steps steps(from.progress, 0, 0.5f, from.voxels.bricks.size());
+  parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
+    if (from.progress.stop()) return;
+    const auto [first, last] = slotsOfBrick(from.voxels, b);
+    std::vector<LinkOf> wanted;
+    for (auto s = static_cast<uint32_t>(first); s < last; ++s) {
+      for (uint32_t i = 0; i < links_.count(s); ++i) wanted.push_back({s, i});
+    }
+    traceLinks(from.voxels, paths_, b, wanted, settings_.seed, links_, hasSky ? &guide : nullptr);
+    steps.one();
+  });
+  if (from.progress.stop()) return;
+  field_.rays += links_.links.size();
+  if (hasSky) field_.guide = guide.finish(from.progress);
+}
+
+// Suns, sky and emissive meshes.
+void LightCache::traceFixedLights(const Sources& from) {
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  const auto all = [&](const auto& ofBrick) {
+    std::vector<Vec3> lux(from.voxels.slots.size());
+    parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
+      if (!from.progress.stop()) ofBrick(b, lux);
+    });
+    return SlotLight(from.voxels, lux);
+  };
+  if (from.lights.sunCount() > 0) suns_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
+  if (from.lights.sky().present()) sky_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.sky(field_.guide, b, {}, lux); });
+  if (from.lights.hasEmitters()) emitters_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.emitters(b, {}, lux); });
+  field_.rays += direct.rayCount();
+}
+
+void LightCache::traceLamp(const Sources& from, LampLight& light) {
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  const LampSurroundings around(light.lamp, from.voxels.voxelSizeM);
+  std::vector<Vec3> lux(from.voxels.slots.size());
+  std::atomic<bool> any = false;
+  parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
+    if (from.progress.stop()) return;
+    direct.lamp(light.lamp, b, {}, lux);
+    const auto [first, last] = slotsOfBrick(from.voxels, b);
+    for (size_t s = first; s < last && !any; ++s) {
+      if (around.contains(from.voxels.slots[s].position)) any = true;
+    }
+  });
+  light.direct = SlotLight(from.voxels, lux);
+  if (any && !from.progress.stop()) light.particles = traceParticles(from.rays, from.voxels, paths_, light.lamp, from.lights.lampCount(), settings_, from.progress);
+  field_.rays += direct.rayCount() + light.particles.rays;
+}
+
+// What is known of lamps in the same place stays; the rest is traced.
+void LightCache::matchLamps(const Sources& from) {
+  std::vector<LampLight> next, dark;
+  std::vector<uint8_t> used(lamps_.size(), 0);
+  for (size_t i = 0; i < from.lights.lampCount(); ++i) {
+    const Lamp& lamp = from.lights.lamp(i);
+    size_t k = 0;
+    while (k < lamps_.size() && (used[k] || !sameLight(lamps_[k].lamp, lamp))) ++k;
+    if (k < lamps_.size()) {
+      used[k] = 1;
+      next.push_back(std::move(lamps_[k]));
+      next.back().lamp = lamp;
+    } else {
+      next.push_back({lamp, {}, {}});
+      traceLamp(from, next.back());
+    }
+  }
+  for (size_t k = lamps_.size(); k-- > 0 && dark.size() < kDarkLamps;) {
+    if (used[k]) continue;
+    dark.push_back(std::move(lamps_[k]));
+    dark.back().lamp.intensityCd = {};
+  }
+  next.insert(next.end(), std::make_move_iterator(dark.rbegin()), std::make_move_iterator(dark.rend()));
+  lamps_ = std::move(next);
+}
+
+void LightCache::solve(const Sources& from) {
+  if (from.progress.stop()) return;
+  const Voxels& voxels = from.voxels;
+  direct_.assign(voxels.slots.size(), {});
+  std::vector<Vec3> near, far;
+  for (const SlotLight* light : {&suns_, &sky_, &emitters_}) light->addTo(voxels, Vec3(1), direct_);
+  for (const LampLight& l : lamps_) {
+    if (isBlack(l.lamp.intensityCd)) continue;
+    l.direct.addTo(voxels, l.lamp.intensityCd, direct_);
+    if (l.particles.near.empty()) continue;
+    near.resize(voxels.slots.size()), far.resize(voxels.slots.size());
+    l.particles.near.addTo(voxels, l.lamp.intensityCd, near);
+    l.particles.far.addTo(voxels, l.lamp.intensityCd, far);
+  }
+  smooth(links_, far);
+  for (size_t i = 0; i < far.size(); ++i) direct_[i] += far[i];
+  if (settings_.links > 0) {
+    const Bounces done = bounce(voxels, links_, direct_, indirect_, settings_, from.progress);
+    field_.bounces = done.done, field_.residual = done.residual;
+  }
+  if (!from.progress.stop()) fillField(from, near);
+}
+
+void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
+  const Voxels& voxels = from.voxels;
+  std::vector<Vec3> shared = indirect_, radiance(settings_.pyramid ? voxels.slots.size() : 0), glow(near.size());
+  smooth(links_, shared);
+  field_.irradianceLux.resize(voxels.slots.size());
+  field_.glowShare.resize(near.size());
+  parallelFor(voxels.slots.size(), 8192, [&](size_t i) {
+    const Vec3 e = direct_[i] + shared[i];
+    field_.irradianceLux[i] = e;
+    if (settings_.pyramid) radiance[i] = voxels.slots[i].albedo * e / kPi;
+    if (near.empty()) return;
+    field_.irradianceLux[i] += near[i];
+    field_.glowShare[i] = luminance(near[i]) / std::max(luminance(field_.irradianceLux[i]), 1e-30f);
+    glow[i] = voxels.slots[i].albedo * near[i] / kPi;
+  });
+  field_.glow = LampGlow(glowPoints(glow), voxels.voxelSizeM);
+  if (settings_.pyramid) buildPyramid(voxels, radiance, glow, field_);
+}
+
+// Of all lamps' points as many as their flux asks for, so that in the end all have about the same.
+std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) const {
+  float fluxLm = 0;
+  for (const LampLight& l : lamps_) {
+    if (!l.particles.points.empty()) fluxLm += luminance(l.lamp.intensityCd) * unitFluxLm(l.lamp);
+  }
+  std::vector<GlowPoint> points;
+  float carry = 0.5f;
+  for (const LampLight& l : lamps_) {
+    if (isBlack(l.lamp.intensityCd)) continue;
+    for (GlowPoint g : l.particles.points) {
+      g.fluxLm *= l.lamp.intensityCd;
+      const float copies = luminance(g.fluxLm) * kGlowPoints / fluxLm;
+      g.fluxLm = g.fluxLm / copies;
+      g.radianceCdM2 = g.slot < 0 ? kUnseen : luminance(glow[static_cast<size_t>(g.slot)]);
+      for (carry += copies; carry >= 1; --carry) points.push_back(g);
+    }
+  }
+  return points;
+}
+
+size_t LightCache::bytes() const {
+  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + emitters_.bytes() + (direct_.size() + indirect_.size()) * sizeof(Vec3);
+  for (const LampLight& l : lamps_) sum += l.direct.bytes() + l.particles.near.bytes() + l.particles.far.bytes() + l.particles.points.size() * sizeof(GlowPoint);
+  return sum;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,114 @@
+#include "radiance/links.h"
+
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/sampling.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kLevel = 0.5f;    // voxels; steps between neighbours of one sheet are smaller
+constexpr float kAlike = 0.9f;    // cosine between their normals
+constexpr int kEnoughKin = 5;     // to get along with half of the links
+constexpr int kBins = 16;         // of directions, along an edge of each half of an octahedron
+
+bool areKin(const FaceSlot& a, const FaceSlot& b, float h) {
+  return dot(a.normal, b.normal) > kAlike && std::abs(dot(a.position - b.position, a.normal)) < kLevel * h;
+}
+
+// Neighbouring voxels across the slot's face, where both hold one sheet and nothing else: no wall stands between them.
+Kin kinOf(const Voxels& voxels, const SlotPaths& paths, size_t s, Int3 v) {
+  Kin kin;
+  kin.fill(static_cast<uint32_t>(s));
+  if (!paths.isSheet(s)) return kin;
+  const FaceSlot& slot = voxels.slots[s];
+  const int axis = slot.face / 2;
+  for (size_t k = 0, place = 0; k < 9; ++k) {
+    if (k == 4) continue;
+    int step[3] = {};
+    step[(axis + 1) % 3] = static_cast<int>(k % 3) - 1, step[(axis + 2) % 3] = static_cast<int>(k / 3) - 1;
+    const int64_t record = voxels.voxelAt({v.x + step[0], v.y + step[1], v.z + step[2]});
+    const int64_t other = record < 0 ? -1 : voxels.slotAt(voxels.voxels[static_cast<size_t>(record)], slot.face);
+    const auto o = static_cast<size_t>(other);
+    if (other >= 0 && paths.isSheet(o) && areKin(slot, voxels.slots[o], voxels.voxelSizeM)) kin[place] = static_cast<uint32_t>(o);
+    ++place;
+  }
+  return kin;
+}
+
+// Like directions have near numbers: cells of an octahedron unfolded.
+uint32_t binOf(Vec3 d) {
+  const float scale = 1 / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
+  const auto cell = [&](float v) { return static_cast<uint32_t>(std::clamp((0.5f * v * scale + 0.5f) * kBins, 0.0f, kBins - 1.0f)); };
+  const uint32_t x = cell(d.x), y = cell(d.y);
+  return (d.z < 0 ? kBins * kBins : 0) + y * kBins + (y & 1 ? kBins - 1 - x : x);
+}
+
+}  // namespace
+
+Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most) {
+  Links out;
+  out.kin.resize(voxels.slots.size());
+  parallelFor(voxels.bricks.size(), 16, [&](size_t b) {
+    const Brick& brick = voxels.bricks[b];
+    size_t record = brick.firstVoxel;
+    for (int z = 0; z < kBrickSize; ++z) {
+      for (uint64_t bits = brick.occupied[static_cast<size_t>(z)]; bits; bits &= bits - 1, ++record) {
+        const int bit = std::countr_zero(bits);
+        const Int3 v{brick.coord.x * kBrickSize + (bit & 7), brick.coord.y * kBrickSize + (bit >> 3), brick.coord.z * kBrickSize + z};
+        const SurfaceVoxel& voxel = voxels.voxels[record];
+        const size_t end = voxel.firstSlot + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+        for (size_t s = voxel.firstSlot; s < end; ++s) out.kin[s] = kinOf(voxels, paths, s, v);
+      }
+    }
+  });
+  out.first.resize(voxels.slots.size() + 1);
+  uint32_t next = 0;
+  for (size_t s = 0; s < voxels.slots.size(); ++s) {
+    out.first[s] = next;
+    const auto kin = std::count_if(out.kin[s].begin(), out.kin[s].end(), [&](uint32_t o) { return o != s; });
+    next += static_cast<uint32_t>(kin >= kEnoughKin ? (most + 1) / 2 : most);
+  }
+  out.first.back() = next;
+  out.links.resize(next);
+  return out;
+}
+
+Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed) {
+  Sampler sampler(paths.key(link.slot), link.i, seed);
+  return {paths.point(link.slot, link.i), Frame(voxels.slots[link.slot].normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
+}
+
+void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::vector<LinkOf>& wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide) {
+  // In order of direction: rays traced together then meet the same things.
+  std::vector<Ray> unsorted, rays;
+  std::vector<uint32_t> bins, order(wanted.size());
+  std::array<uint32_t, 2 * kBins * kBins + 1> next{};
+  for (const LinkOf& w : wanted) {
+    bins.push_back(binOf(unsorted.emplace_back(linkRay(voxels, paths, w, seed)).direction));
+    ++next[bins.back() + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (uint32_t j = 0; j < bins.size(); ++j) order[next[bins[j]]++] = j;
+  std::vector<Sampler> samplers;
+  for (const uint32_t j : order) {
+    rays.push_back(unsorted[j]);
+    samplers.emplace_back(paths.key(wanted[j].slot), wanted[j].i, seed + 5);
+  }
+  std::vector<Arrival> ends;
+  paths.follow(rays, samplers, ends);
+  for (size_t k = 0; k < ends.size(); ++k) {
+    const Arrival& end = ends[k];
+    const LinkOf& of = wanted[order[k]];
+    const bool arrives = end.slot >= 0;
+    links.links[links.first[of.slot] + of.i] = Link(arrives ? static_cast<uint32_t>(end.slot) : of.slot, arrives ? luminance(end.left) : 0, end.reflected);
+  }
+  if (!guide) return;
+  // In the order asked for, so that sums are the same.
+  std::vector<float> open(ends.size());
+  for (size_t k = 0; k < ends.size(); ++k) open[order[k]] = ends[k].escaped ? luminance(ends[k].left) : 0.0f;
+  for (size_t j = 0; j < open.size(); ++j) guide->add(brick, voxels.slots[wanted[j].slot].face, unsorted[j].direction, open[j]);
+}
+
+}  // namespace roomlight

@@ -1,0 +1,65 @@
+// Links: where light comes to a slot from. Rays traced once, along which bounces are iterated without tracing.
+#pragma once
+
+#include <immintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "radiance/radiance_field.h"
+#include "radiance/sky_guide.h"
+#include "radiance/slot_paths.h"
+
+namespace roomlight {
+
+// Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves. Nothing
+// comes along a ray that arrives nowhere.
+class Link {
+ public:
+  static constexpr float kUnit = 1.0f / 15;
+  Link() = default;
+  Link(uint32_t slot, float left, bool bent) : packed_(slot | (bent ? kBent : 0) | static_cast<uint32_t>(std::lround(15 * std::clamp(left, 0.0f, 1.0f))) << 28) {}
+  uint32_t slot() const { return packed_ & (kBent - 1); }
+  __m128 left() const { return _mm_cvtepi32_ps(_mm_srli_epi32(_mm_set1_epi32(static_cast<int>(packed_)), 28)); }  // in kUnit
+  bool isDark() const { return packed_ >> 28 == 0; }
+  bool isBent() const { return (packed_ & kBent) != 0; }  // reflected on the way
+  Link withSlot(uint32_t slot) const {
+    Link out;
+    out.packed_ = (packed_ & ~(kBent - 1)) | slot;
+    return out;
+  }
+
+ private:
+  static constexpr uint32_t kBent = 1u << 27;
+  uint32_t packed_ = 0;
+};
+
+// Neighbours that a slot shares a flat sheet of surface with; the slot itself where there is none.
+constexpr size_t kKin = 8;
+using Kin = std::array<uint32_t, kKin>;
+
+struct Links {
+  std::vector<uint32_t> first;  // per slot, and the end: where its links begin
+  std::vector<Link> links;
+  std::vector<Kin> kin;         // per slot
+  size_t bytes() const { return (first.size() + links.size()) * sizeof(uint32_t) + kin.size() * sizeof(Kin); }
+  size_t count(size_t slot) const { return first[slot + 1] - first[slot]; }
+};
+
+// Kin of all slots, and room for as many links as each gets: `links`, half as many where neighbours on the sheet have theirs.
+Links planLinks(const Voxels& voxels, const SlotPaths& paths, int links);
+
+struct LinkOf {
+  uint32_t slot, i;
+};
+
+// The ray of a link.
+Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed);
+
+// Traces the wanted links of one brick, and tells `guide` (null: no sky) what they saw of the sky.
+void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::vector<LinkOf>& wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide);
+
+}  // namespace roomlight

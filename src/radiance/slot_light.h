@@ -1,0 +1,36 @@
+// Light on slots as it is kept: bricks that it does not reach take no memory, the others hold half floats.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "voxel/voxels.h"
+
+namespace roomlight {
+
+class SlotLight {
+ public:
+  SlotLight() = default;
+  // One value a slot, not negative; channels as they come.
+  SlotLight(const Voxels& voxels, std::span<const Vec3> perSlot);
+
+  bool empty() const { return values_.empty(); }
+  bool reaches(size_t brick) const { return !first_.empty() && first_[brick] != kNone; }
+  // Adds scale times this to one value a slot.
+  void addTo(const Voxels& voxels, Vec3 scale, std::span<Vec3> perSlot) const;
+  void addBrick(const Voxels& voxels, size_t brick, Vec3 scale, std::span<Vec3> perSlot) const;
+  // Of another brick with the same slots: to the slots from `firstSlot` on.
+  void copyBrick(size_t brick, size_t slots, std::span<Vec3> to) const;
+  size_t bytes() const { return first_.size() * sizeof(uint32_t) + values_.size() * sizeof(values_[0]); }
+
+ private:
+  static constexpr uint32_t kNone = 0xffffffffu;
+  std::vector<uint32_t> first_;                  // per brick: where its values begin
+  std::vector<std::array<uint16_t, 3>> values_;  // in unit_
+  float unit_ = 1;
+};
+
+}  // namespace roomlight
