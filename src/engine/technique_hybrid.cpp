@@ -7,6 +7,7 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   const Stopwatch watch;
   RadianceSettings radiance = settings.radiance;
   radiance.seed = settings.seed;
+  radiance.pyramid = false;
   RayGatherSettings gather = settings.hybrid;
   gather.width = settings.width;
   gather.height = settings.height;

@@ -258,8 +258,8 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   }
   const uint8_t kind = kind_[hit.instance];
   if (kind == 0 && !path.clear) {
-    const SurfacePlace s = placeAt(rays_.scene(), hit, path.ray.direction);
-    if (cached(path, hit, s.p, s.ng, w)) return;
+    const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
+    if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return;
   }
   const SurfacePoint s = rays_.surfaces().at(hit, path.ray.direction);
   if (kind & kShines) {

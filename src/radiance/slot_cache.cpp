@@ -8,25 +8,57 @@ namespace {
 constexpr float kLift = 0.1f;       // voxels: for places to see one another along a bent surface
 constexpr float kOffPlane = 0.35f;  // voxels: beyond, a place belongs to another surface
 
+int8_t packed(float v) { return static_cast<int8_t>(std::lround(127 * v)); }
+
 }  // namespace
 
-SlotCache::SlotCache(const Voxels& voxels, const RadianceField& field) : voxels_(voxels), radiance_(voxels.slots.size()) {
-  parallelFor(radiance_.size(), 16384, [&](size_t i) { radiance_[i] = voxels.slots[i].albedo * field.irradianceLux[i] / kPi; });
+SlotCache::SlotCache(const Voxels& voxels, const RadianceField& field) : voxels_(voxels), perMetre_(1 / voxels.voxelSizeM), records_(voxels.slots.size()) {
+  parallelFor(voxels.voxels.size(), 8192, [&](size_t v) {
+    const SurfaceVoxel& voxel = voxels.voxels[v];
+    const auto count = static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+    for (uint32_t i = voxel.firstSlot; i < voxel.firstSlot + count; ++i) {
+      const FaceSlot& slot = voxels.slots[i];
+      Record& r = records_[i];
+      r.radiance = slot.albedo * field.irradianceLux[i] / kPi;
+      r.normalX = packed(slot.normal.x), r.normalY = packed(slot.normal.y), r.normalZ = packed(slot.normal.z);
+      r.offset = dot(slot.position - voxels.origin, r.normal()) * perMetre_;
+      r.alone = count == 1;
+    }
+  });
+}
+
+// The slot that faces n best among those of a voxel.
+int64_t SlotCache::slotOf(const SurfaceVoxel& voxel, Vec3 n) const {
+  const int64_t exact = voxels_.slotAt(voxel, dominantFace(n));
+  if (exact >= 0) return exact;
+  int64_t best = -1;
+  float bestCos = 0;
+  const auto count = static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+  for (uint32_t i = voxel.firstSlot; i < voxel.firstSlot + count; ++i) {
+    const float c = dot(records_[i].normal(), n);
+    if (c > bestCos) bestCos = c, best = i;
+  }
+  return best;
 }
 
 SlotCache::Place SlotCache::find(Vec3 p, Vec3 n) const {
-  const int64_t slot = slotAtSurface(voxels_, p, n);
-  if (slot < 0) return {};
-  const FaceSlot& f = voxels_.slots[static_cast<size_t>(slot)];
-  if (std::abs(dot(f.position - p, f.normal)) > kOffPlane * voxels_.voxelSizeM) return {slot, Trust::None};
-  const int64_t record = voxels_.voxelAt(voxels_.voxelOf(p));
-  const bool alone = record >= 0 && std::popcount(static_cast<unsigned>(voxels_.voxels[static_cast<size_t>(record)].faces)) == 1;
-  return {slot, alone ? Trust::Sure : Trust::Unsure};
+  const Vec3 q = (p - voxels_.origin) * perMetre_;
+  // Rounding may put a point of a surface into the neighbouring voxel: look a little to both sides as well.
+  for (const float nudge : {0.0f, 0.02f, -0.02f, 0.3f, -0.3f}) {
+    const Vec3 at = q + n * nudge;
+    const int64_t found = voxels_.voxelAt({static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), static_cast<int>(std::floor(at.z))});
+    const int64_t slot = found < 0 ? -1 : slotOf(voxels_.voxels[static_cast<size_t>(found)], n);
+    if (slot < 0) continue;
+    const Record& r = records_[static_cast<size_t>(slot)];
+    if (std::abs(dot(q, r.normal()) - r.offset) > kOffPlane) return {slot, Trust::None};
+    return {slot, r.alone ? Trust::Sure : Trust::Unsure};
+  }
+  return {};
 }
 
 Ray SlotCache::between(int64_t slot, Vec3 p, Vec3 n) const {
-  const Vec3 from = p + n * (kLift * voxels_.voxelSizeM), to = voxels_.slots[static_cast<size_t>(slot)].position + n * (kLift * voxels_.voxelSizeM);
-  return {from, to - from, 0, 1};
+  const Vec3 lift = n * (kLift * voxels_.voxelSizeM), from = p + lift;
+  return {from, voxels_.slots[static_cast<size_t>(slot)].position + lift - from, 0, 1};
 }
 
 }  // namespace roomlight

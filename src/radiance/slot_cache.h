@@ -16,7 +16,7 @@ enum class Trust : uint8_t {
 
 class SlotCache {
  public:
-  // Refers to both.
+  // Refers to the voxels.
   SlotCache(const Voxels& voxels, const RadianceField& field);
 
   struct Place {
@@ -26,13 +26,24 @@ class SlotCache {
   // For a point of a surface and its unit normal on the side that is looked at.
   Place find(Vec3 p, Vec3 n) const;
   // Reflected, as a Lambertian surface of the slot's albedo, cd/m².
-  Vec3 radiance(int64_t slot) const { return radiance_[static_cast<size_t>(slot)]; }
-  // Points between which a ray tells whether a slot stands for p, both a little before the surface.
+  Vec3 radiance(int64_t slot) const { return records_[static_cast<size_t>(slot)].radiance; }
+  // A ray between p and the slot's place, both a little before their surface: where nothing is in its way the slot stands for p.
   Ray between(int64_t slot, Vec3 p, Vec3 n) const;
 
  private:
+  // What is read of a slot, in half a cache line.
+  struct alignas(32) Record {
+    Vec3 radiance;
+    float offset;                            // of its plane along the normal, in voxels from the lattice's origin
+    int8_t normalX, normalY, normalZ;        // in 1/127
+    bool alone;                              // in its voxel
+    Vec3 normal() const { return Vec3{static_cast<float>(normalX), static_cast<float>(normalY), static_cast<float>(normalZ)} * (1.0f / 127); }
+  };
+  int64_t slotOf(const SurfaceVoxel& voxel, Vec3 n) const;
+
   const Voxels& voxels_;
-  std::vector<Vec3> radiance_;
+  float perMetre_;  // voxels
+  std::vector<Record> records_;
 };
 
 }  // namespace roomlight
