@@ -10,6 +10,7 @@ constexpr int kDeepest = 8;      // vertices of a path, after which the cache is
 constexpr int kMostPanes = 16;
 constexpr float kClear = 0.1f;   // roughness below which a reflection is a picture: what it shows is lit afresh
 constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
+constexpr float kSpread = 0.4f;  // roughness of what is seen by surfaces, at least
 constexpr float kNothing = 1e-4f;
 
 enum Kind : uint8_t {
@@ -49,6 +50,7 @@ struct RayShader::Vertex {
   uint32_t item;
   uint8_t depth;
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
+  bool seenClearly = false;
 
   Lobes value(Vec3 wi) const {
     if (first) return {bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
@@ -85,6 +87,7 @@ struct RayShader::Workspace {
 
 RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
     : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), settings_(settings), sharp_(rays, lights) {
+  for (size_t i = 0; i < lights.lampCount(); ++i) surroundings_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
   const Scene& scene = rays.scene();
   for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
 }
@@ -165,7 +168,10 @@ void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
   if (v.first) {
     if (lights_.lampCount() + lights_.sunCount() > sharp_.count()) take(lights_.sampleLamps(v.s.p, sampler.next1()));
   } else {
-    if (lights_.lampCount() > 0) take(lights_.sampleLamps(v.s.p, sampler.next1()));
+    if (lights_.lampCount() > 0) {
+      const LightSample lamp = lights_.sampleLamps(v.s.p, sampler.next1());
+      if (v.seenClearly || !isBeside(v.s.p, lamp)) take(lamp);
+    }
     for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
   }
   if (lights_.hasEmitters()) {
@@ -180,6 +186,17 @@ void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
       take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
     }
   }
+}
+
+// Whether p lies in the surroundings of the lamp sampled from there: what surfaces reflect of its light is in the cache and in
+// LampGlow, and is not found a second time by paths that go on.
+bool RayShader::isBeside(Vec3 p, const LightSample& lamp) const {
+  if (!lamp.valid()) return false;
+  const Vec3 at = p + lamp.wi * lamp.distance;
+  for (size_t i = 0; i < surroundings_.size(); ++i) {
+    if (lengthSquared(lights_.lamp(i).position - at) < 1e-6f && surroundings_[i].contains(p)) return true;
+  }
+  return false;
 }
 
 // Light that surfaces near lamps reflect, as far as gathering rays leave it to LampGlow's points.
@@ -307,11 +324,14 @@ bool RayShader::cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspa
 }
 
 // Lights the surface afresh.
-void RayShader::goOn(const Path& path, const SurfacePoint& s, Workspace& w) const {
+void RayShader::goOn(const Path& path, SurfacePoint s, Workspace& w) const {
   if (path.depth >= kDeepest) return;
+  // What a mirror throws on others is found by chance only, too rarely: it is spread (Kaplanyan & Dachsbacher 2013, path space
+  // regularization).
+  if (!path.clear) s.m.roughness = std::max(s.m.roughness, kSpread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  scatter({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.item, path.depth, false, false, false, clear}, w);
+  scatter({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.item, path.depth, false, false, false, clear, path.clear}, w);
 }
 
 // What the points of LampGlow give is left to them.

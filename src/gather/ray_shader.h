@@ -4,6 +4,7 @@
 
 #include "gather/ray_gather.h"
 #include "gather/shading.h"
+#include "radiance/near_lamps.h"
 #include "radiance/slot_cache.h"
 #include "trace/bsdf.h"
 #include "trace/surfaces.h"
@@ -23,11 +24,12 @@ class RayShader final : public SurfaceShader {
   void start(const Shading& work, uint32_t item, std::span<const Shadow> shadows, SurfaceLight& out, Workspace& w) const;
   void scatter(const Vertex& v, Workspace& w) const;
   void lightsAt(const Vertex& v, Workspace& w) const;
+  bool isBeside(Vec3 p, const LightSample& lamp) const;
   void glowAt(const Vertex& v, Workspace& w) const;
   void gatherAt(const Vertex& v, Workspace& w) const;
   void arrive(const Path& path, const Hit& hit, Workspace& w) const;
   bool cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspace& w) const;
-  void goOn(const Path& path, const SurfacePoint& s, Workspace& w) const;
+  void goOn(const Path& path, SurfacePoint s, Workspace& w) const;
   void read(const Path& path, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const;
   void traceShadows(Workspace& w) const;
   void resolveUnsure(Workspace& w) const;
@@ -40,6 +42,7 @@ class RayShader final : public SurfaceShader {
   const SlotCache cache_;
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
+  std::vector<LampSurroundings> surroundings_;  // per lamp
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
 };
 
