@@ -7,7 +7,7 @@
 namespace roomlight {
 
 struct RayGatherSettings : PictureSettings {
-  RayGatherSettings() { samples = 20, firstSamples = 4, tolerance = 0.06f; }
+  RayGatherSettings() { samples = 20, firstSamples = 4, tolerance = 0.12f; }
   int gatherRays = 1;       // per shading, for light that surfaces reflect
   int lightSamples = 1;     // per shading, of the sky and of emissive meshes each
   float nearVoxels = 2;     // what is hit nearer than this is lit afresh, not read from the cache

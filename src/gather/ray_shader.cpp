@@ -11,6 +11,7 @@ constexpr int kMostPanes = 16;
 constexpr float kClear = 0.1f;   // roughness below which a reflection is a picture: what it shows is lit afresh
 constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
 constexpr float kSpread = 0.4f;  // roughness of what is seen by surfaces, at least
+constexpr float kMost = 64;      // times the light that the cache tells of: what a single path may find at most
 constexpr float kNothing = 1e-4f;
 
 enum Kind : uint8_t {
@@ -62,6 +63,7 @@ struct RayShader::Vertex {
 struct RayShader::Workspace {
   struct Shadowed {
     uint32_t item;
+    bool sure;
     Lobes light;
   };
   struct Doubt {
@@ -79,15 +81,27 @@ struct RayShader::Workspace {
   std::vector<Shadowed> shadowed;
   std::vector<Vec3> left;
   std::vector<Doubt> doubts;
+  std::vector<float> most;  // luminance that one path may add to an item's diffuse light, and to its specular light
   uint64_t rayCount = 0;
 
-  void add(uint32_t item, const Lobes& light) { out[item].diffuse += light.diffuse, out[item].specular += light.specular; }
-  void shadow(uint32_t item, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({item, light}); }
+  // `sure`: of a light that is sampled too, so that none of its samples stands for much.
+  void add(uint32_t item, const Lobes& light, bool sure = false) {
+    const float diffuse = luminance(light.diffuse), specular = luminance(light.specular), limit = sure ? kInfinity : most[item];
+    out[item].diffuse += diffuse > limit ? light.diffuse * (limit / diffuse) : light.diffuse;
+    out[item].specular += specular > limit ? light.specular * (limit / specular) : light.specular;
+  }
+  void shadow(uint32_t item, bool sure, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({item, sure, light}); }
 };
 
 RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
     : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), settings_(settings), sharp_(rays, lights) {
   for (size_t i = 0; i < lights.lampCount(); ++i) surroundings_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
+  double sum = 0, area = 0;
+  for (size_t i = 0; i < voxels.slots.size(); ++i) {
+    sum += static_cast<double>(std::sqrt(luminance(field.irradianceLux[i])) * voxels.slots[i].areaM2);
+    area += static_cast<double>(voxels.slots[i].areaM2);
+  }
+  if (area > 0) meanRadiance_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi;
   const Scene& scene = rays.scene();
   for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
 }
@@ -95,7 +109,7 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
 void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const {
   thread_local Workspace w;
   w.out = light;
-  w.samplers.clear(), w.paths.clear(), w.next.clear();
+  w.samplers.clear(), w.paths.clear(), w.next.clear(), w.most.clear();
   w.rayCount = 0;
   for (size_t i = 0; i < work.size(); ++i) {
     light[i] = {};
@@ -124,6 +138,7 @@ void RayShader::start(const Shading& work, uint32_t item, std::span<const Shadow
   const bool apart = !work.followed && s.m.roughness < settings_.rayRoughness;
   const Vertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), item, 0, true, work.followed, apart, s.m.roughness < kClear};
   out.albedo = bsdf.diffuseAlbedo();
+  w.most.push_back(mostAt(s, bsdf, v));
   for (size_t i = 0; i < sharp_.count(); ++i) {
     const LightSample light = sharp_.sample(i, s.p, w.samplers[item].next2());
     if (!light.valid()) continue;
@@ -135,6 +150,15 @@ void RayShader::start(const Shading& work, uint32_t item, std::span<const Shadow
     out.sharpVariance += l * l * shadows[i].variance;
   }
   scatter(v, w);
+}
+
+// A path that finds far more light than the cache tells of all paths together is a rare one, and its light is noise rather than
+// picture: bounded.
+float RayShader::mostAt(const SurfacePoint& s, const Bsdf& bsdf, const Vertex& v) const {
+  if (v.clear) return kInfinity;
+  const SlotCache::Place place = cache_.find(s.p, s.ng);
+  const float expected = place.slot < 0 ? kInfinity : luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi;
+  return kMost / static_cast<float>(settings_.gatherRays) * luminance(bsdf.albedo()) * std::max(expected, meanRadiance_);
 }
 
 // Sends rays from a surface: to lights, and on to other surfaces.
@@ -163,7 +187,7 @@ void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
       }
     }
     const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
-    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.item, shadowRay(offsetOrigin(v.s.p, v.s.ng), light), sum);
+    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.item, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), light), sum);
   };
   if (v.first) {
     if (lights_.lampCount() + lights_.sunCount() > sharp_.count()) take(lights_.sampleLamps(v.s.p, sampler.next1()));
@@ -210,7 +234,7 @@ void RayShader::glowAt(const Vertex& v, Workspace& w) const {
   f.diffuse *= field_.glow.pointShare(g.point, v.s.p, {v.apart || v.followed ? cosine : mixed, 0});
   f.specular *= v.clear ? 0 : field_.glow.pointShare(g.point, v.s.p, {v.apart ? v.bsdf.pdfSpecular(wi) : mixed, 0});
   const Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.item, shadowRay(offsetOrigin(v.s.p, v.s.ng), g.light), sum);
+  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.item, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), g.light), sum);
 }
 
 void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
@@ -271,7 +295,7 @@ Vec3 RayShader::backgroundAlong(const Path& path) const {
 void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   if (!hit.valid()) {
     const Vec3 light = backgroundAlong(path);
-    return w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light});
+    return w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light}, path.depth == 1);
   }
   const uint8_t kind = kind_[hit.instance];
   if (kind == 0 && !path.clear) {
@@ -282,7 +306,7 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   if (kind & kShines) {
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const Vec3 light = emitted * (path.pdf > 0 ? misWeight(path.pdf, (path.depth == 1 ? static_cast<float>(settings_.lightSamples) : 1) * lights_.pdfEmitters(path.from, s)) : 1);
-      w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light});
+      w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light}, path.depth == 1);
     }
   }
   if (!(kind & kClearKind)) {
@@ -367,7 +391,7 @@ void RayShader::traceShadows(Workspace& w) const {
   w.rayCount += w.shadowRays.size();
   for (size_t i = 0; i < w.shadowed.size(); ++i) {
     const Workspace::Shadowed& s = w.shadowed[i];
-    w.add(s.item, {s.light.diffuse * w.left[i], s.light.specular * w.left[i]});
+    w.add(s.item, {s.light.diffuse * w.left[i], s.light.specular * w.left[i]}, s.sure);
   }
   w.shadowRays.clear(), w.shadowed.clear();
 }

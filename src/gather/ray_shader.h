@@ -22,6 +22,7 @@ class RayShader final : public SurfaceShader {
   struct Workspace;
 
   void start(const Shading& work, uint32_t item, std::span<const Shadow> shadows, SurfaceLight& out, Workspace& w) const;
+  float mostAt(const SurfacePoint& s, const Bsdf& bsdf, const Vertex& v) const;
   void scatter(const Vertex& v, Workspace& w) const;
   void lightsAt(const Vertex& v, Workspace& w) const;
   bool isBeside(Vec3 p, const LightSample& lamp) const;
@@ -42,6 +43,7 @@ class RayShader final : public SurfaceShader {
   const SlotCache cache_;
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
+  float meanRadiance_ = 0;
   std::vector<LampSurroundings> surroundings_;  // per lamp
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
 };
