@@ -51,6 +51,13 @@ class Sampler {
     const uint32_t key = nextKey();
     return toUnit(scrambleFirst(firstOf(key), key));
   }
+  // The i-th of n in place of this one, n a power of two: together they are as well distributed as what they replace.
+  Sampler split(uint32_t i, uint32_t n) const {
+    Sampler part = *this;
+    part.reversedSample_ = detail::reverseBits(detail::reverseBits(reversedSample_) * n + i);
+    part.rng_ = Rng(key_, part.reversedSample_, dimension_);
+    return part;
+  }
   // Without stratification, for what would use up the good dimensions.
   float fast1() { return rng_.uniform(); }
 

@@ -57,7 +57,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
                               const Progress& progress) {
   const int w = settings.width, h = settings.height;
   const PixelRays pixelRays(camera, settings);
-  const PixelShader pixelShader(rays, lights, settings.raysPerShading);
+  const PixelShader pixelShader(rays, lights, settings);
   GatheredPicture result;
   std::vector<PixelSum> sums(static_cast<size_t>(w) * static_cast<size_t>(h));
   const size_t tiles = static_cast<size_t>((w + kTile - 1) / kTile) * static_cast<size_t>((h + kTile - 1) / kTile);

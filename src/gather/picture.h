@@ -14,6 +14,7 @@ struct PictureSettings {
   int firstSamples = 8;     // before it is known which pixels need more
   float tolerance = 0;      // relative standard error of a pixel's luminance above which it does; 0: all pixels get all
   int raysPerShading = 2;   // camera rays that see one surface and share its light: cones, shadow rays, a reflection
+  int fewestShadings = 2;   // where there are as many rays
   int filterPasses = 5;     // of the filter that removes remaining noise (filter.h); 0: none
   double timeLimitS = 0;    // stop after a whole pass
   uint64_t seed = 0;

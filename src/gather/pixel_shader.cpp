@@ -6,7 +6,6 @@ namespace roomlight {
 namespace {
 
 constexpr int kMostPanes = 16;
-constexpr size_t kFewest = 2;         // shadings of a pixel, where there are as many rays: one alone tells nothing of its noise
 constexpr float kSameNormal = 0.95f;  // cosine between normals of one surface
 constexpr float kSamePlane = 0.3f;    // of the distance between two points: how far off the tangent plane
 constexpr float kBehind = -0.35f;     // cosine
@@ -130,7 +129,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   const Vec3 through = passing(m, material, cosTheta);
   const bool solid = luminance(through) < 0.5f;
 
-  const size_t most = std::max(std::min(kFewest, rays), rays / static_cast<size_t>(raysPerShading_));
+  const size_t most = std::max(std::min(static_cast<size_t>(settings_.fewestShadings), rays), rays / static_cast<size_t>(settings_.raysPerShading));
   const bool mirror = isMirror(m, !isBlack(through));
   const size_t shadings = isPane(m, !isBlack(through)) ? group.count : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
@@ -180,7 +179,11 @@ void PixelShader::addVariance(std::span<const SurfaceLight> light, Vec3 left, fl
   }
   const float n = static_cast<float>(light.size());
   sum.sharpVariance += lengthSquared(left) / 3 * shadows * n * weight * weight;
-  if (light.size() < 2) return;
+  if (light.size() < 2) {
+    const float l2 = luminance(left) * luminance(left) * weight * weight;
+    for (const SurfaceLight& l : light) sum.diffuseVariance += l.diffuseVariance * l2, sum.specularVariance += l.specularVariance * l2;
+    return;
+  }
   const float scale = weight * weight * n / (n - 1), irradiance = diffuse / std::max(albedo, 1e-6f);
   for (const SurfaceLight& l : light) {
     const float d = luminance(left * l.diffuse) - luminance(left * l.albedo) * irradiance, g = luminance(left * l.specular) - specular / n;

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "filter/filter.h"
-#include "gather/shading.h"
+#include "gather/picture.h"
 #include "scene/surface.h"
 
 namespace roomlight {
@@ -53,7 +53,7 @@ struct TileWork {
 
 class PixelShader {
  public:
-  PixelShader(const RayScene& rays, const Lights& lights, int raysPerShading) : rays_(rays), lights_(lights), sharp_(rays, lights), raysPerShading_(raysPerShading) {}
+  PixelShader(const RayScene& rays, const Lights& lights, const PictureSettings& settings) : rays_(rays), lights_(lights), sharp_(rays, lights), settings_(settings) {}
   // At most kRaysAtOnce rays. What shines by itself is added to `pixel` at once; what has to be lit, to `work`.
   void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const;
   // Adds the light of everything in `work` to its pixels.
@@ -73,7 +73,7 @@ class PixelShader {
   const RayScene& rays_;
   const Lights& lights_;
   const SharpLights sharp_;
-  const int raysPerShading_;
+  const PictureSettings& settings_;
 };
 
 }  // namespace roomlight

@@ -30,25 +30,25 @@ uint8_t kindOf(const Material& m) {
 
 }  // namespace
 
-// A ray on its way, and the parts of what it finds that its item's lobes send to the eye.
+// A ray on its way, and the parts of what it finds that its surface's lobes send to the eye.
 struct RayShader::Path {
   Ray ray;
   Lobes factor;
   Vec3 from;      // where its direction was chosen,
-  float pdf;      // and with which density, of all rays that share the task; 0: no light was sampled for it
+  float pdf;      // and with which density; 0: no light was sampled for it
   int32_t guide;  // that sky samples there followed
-  uint32_t item;
+  uint32_t estimate;
   uint8_t depth, panes;
   bool clear;     // what it meets is seen clearly
 };
 
-// A surface to be lit. The first of an item has lobes apart; later ones send their light back along a path.
+// A surface to be lit. The first has its lobes apart; later ones send their light back along a path.
 struct RayShader::Vertex {
   const SurfacePoint& s;
   const Bsdf& bsdf;
   Lobes factor;
   int32_t guide;
-  uint32_t item;
+  uint32_t estimate;
   uint8_t depth;
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
   bool seenClearly = false;
@@ -62,7 +62,7 @@ struct RayShader::Vertex {
 
 struct RayShader::Workspace {
   struct Shadowed {
-    uint32_t item;
+    uint32_t estimate;
     bool sure;
     Lobes light;
   };
@@ -72,25 +72,34 @@ struct RayShader::Workspace {
     int64_t slot;
     Vec3 p, n;
   };
-  std::span<SurfaceLight> out;
+  // Per estimate; those of a shading follow one another.
   std::vector<Sampler> samplers;
+  std::vector<Lobes> found;
+  std::vector<Lobes> most;  // of what a single path may add, in every channel: its luminance
   std::vector<Path> paths, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
+  std::vector<Vec3> places;
   std::vector<Ray> shadowRays;
   std::vector<Shadowed> shadowed;
   std::vector<Vec3> left;
   std::vector<Doubt> doubts;
-  std::vector<float> most;  // luminance that one path may add to an item's diffuse light, and to its specular light
   uint64_t rayCount = 0;
 
-  // `sure`: of a light that is sampled too, so that none of its samples stands for much.
-  void add(uint32_t item, const Lobes& light, bool sure = false) {
-    const float diffuse = luminance(light.diffuse), specular = luminance(light.specular), limit = sure ? kInfinity : most[item];
-    out[item].diffuse += diffuse > limit ? light.diffuse * (limit / diffuse) : light.diffuse;
-    out[item].specular += specular > limit ? light.specular * (limit / specular) : light.specular;
+  void clear() {
+    samplers.clear(), found.clear(), most.clear(), paths.clear(), next.clear();
+    rayCount = 0;
   }
-  void shadow(uint32_t item, bool sure, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({item, sure, light}); }
+  // `sure`: of a light that is sampled too, so that none of its samples stands for much.
+  void add(uint32_t estimate, const Lobes& factor, Vec3 radiance, bool sure = false) {
+    const auto bounded = [&](Vec3 light, float limit) {
+      const float l = luminance(light);
+      return sure || l <= limit ? light : light * (limit / l);
+    };
+    found[estimate].diffuse += bounded(factor.diffuse * radiance, most[estimate].diffuse.x);
+    found[estimate].specular += bounded(factor.specular * radiance, most[estimate].specular.x);
+  }
+  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({estimate, sure, light}); }
 };
 
 RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
@@ -108,39 +117,58 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
 
 void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const {
   thread_local Workspace w;
-  w.out = light;
-  w.samplers.clear(), w.paths.clear(), w.next.clear(), w.most.clear();
-  w.rayCount = 0;
-  for (size_t i = 0; i < work.size(); ++i) {
-    light[i] = {};
-    w.samplers.push_back(work[i].sampler);
-    start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), light[i], w);
-  }
+  w.clear();
+  for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], shadows.subspan(work[i].firstShadow, sharp_.count()), w);
   traceShadows(w);
   while (!w.next.empty()) {
     w.paths.swap(w.next);
     w.next.clear();
-    w.rays.clear();
-    for (const Path& p : w.paths) w.rays.push_back(p.ray);
-    w.hits.resize(w.rays.size());
-    rays_.intersect(w.rays, w.hits);
-    w.rayCount += w.rays.size();
-    for (size_t i = 0; i < w.paths.size(); ++i) arrive(w.paths[i], w.hits[i], w);
-    resolveUnsure(w);
+    follow(w);
     traceShadows(w);
   }
+  const auto n = static_cast<size_t>(settings_.estimates);
+  for (size_t i = 0; i < work.size(); ++i) sumUp(std::span(w.found).subspan(i * n, n), light[i]);
   count.rays += w.rayCount;
 }
 
-void RayShader::start(const Shading& work, uint32_t item, std::span<const Shadow> shadows, SurfaceLight& out, Workspace& w) const {
+// The mean of estimates, and its variance from how they differ.
+void RayShader::sumUp(std::span<const Lobes> found, SurfaceLight& out) {
+  const auto n = static_cast<float>(found.size());
+  for (const Lobes& l : found) out.diffuse += l.diffuse / n, out.specular += l.specular / n;
+  if (found.size() < 2) return;
+  for (const Lobes& l : found) {
+    const float d = luminance(l.diffuse - out.diffuse), s = luminance(l.specular - out.specular);
+    out.diffuseVariance += d * d / (n * (n - 1)), out.specularVariance += s * s / (n * (n - 1));
+  }
+}
+
+// Sends all paths on by one ray.
+void RayShader::follow(Workspace& w) const {
+  w.rays.clear();
+  for (const Path& p : w.paths) w.rays.push_back(p.ray);
+  w.hits.resize(w.rays.size());
+  rays_.intersect(w.rays, w.hits);
+  w.rayCount += w.rays.size();
+  w.places.clear();
+  for (size_t i = 0; i < w.rays.size(); ++i) {
+    if (w.hits[i].valid()) w.places.push_back(w.rays[i].origin + w.rays[i].direction * w.hits[i].t);
+  }
+  cache_.prefetch(w.places);
+  for (size_t i = 0; i < w.paths.size(); ++i) arrive(w.paths[i], w.hits[i], w);
+  resolveUnsure(w);
+}
+
+// Sends out everything that lights a surface, and returns what is known at once.
+SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shadows, Workspace& w) const {
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
   const bool apart = !work.followed && s.m.roughness < settings_.rayRoughness;
-  const Vertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), item, 0, true, work.followed, apart, s.m.roughness < kClear};
+  Vertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart, s.m.roughness < kClear};
+  SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
-  w.most.push_back(mostAt(s, bsdf, v));
+  Sampler sampler = work.sampler;
   for (size_t i = 0; i < sharp_.count(); ++i) {
-    const LightSample light = sharp_.sample(i, s.p, w.samplers[item].next2());
+    const LightSample light = sharp_.sample(i, s.p, sampler.next2());
     if (!light.valid()) continue;
     Lobes f = v.value(light.wi);
     if (light.pdf > 0) f.specular *= misWeight(light.pdf, bsdf.pdfSpecular(light.wi));
@@ -149,16 +177,22 @@ void RayShader::start(const Shading& work, uint32_t item, std::span<const Shadow
     const float l = luminance(f.diffuse * light.radiance);
     out.sharpVariance += l * l * shadows[i].variance;
   }
-  scatter(v, w);
+  const float most = kMost * luminance(bsdf.albedo()) * expectedRadiance(s);
+  for (int k = 0; k < settings_.estimates; ++k) {
+    v.estimate = static_cast<uint32_t>(w.samplers.size());
+    w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(settings_.estimates)));
+    w.found.push_back({});
+    w.most.push_back({Vec3(most), Vec3(v.clear ? kInfinity : most)});
+    scatter(v, w);
+  }
+  return out;
 }
 
-// A path that finds far more light than the cache tells of all paths together is a rare one, and its light is noise rather than
-// picture: bounded.
-float RayShader::mostAt(const SurfacePoint& s, const Bsdf& bsdf, const Vertex& v) const {
-  if (v.clear) return kInfinity;
+// Of light that falls on a surface, by the cache. A path that finds far more than all paths together should is a rare one: what it
+// finds is noise rather than picture, and is bounded.
+float RayShader::expectedRadiance(const SurfacePoint& s) const {
   const SlotCache::Place place = cache_.find(s.p, s.ng);
-  const float expected = place.slot < 0 ? kInfinity : luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi;
-  return kMost / static_cast<float>(settings_.gatherRays) * luminance(bsdf.albedo()) * std::max(expected, meanRadiance_);
+  return place.slot < 0 ? kInfinity : std::max(meanRadiance_, luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi);
 }
 
 // Sends rays from a surface: to lights, and on to other surfaces.
@@ -168,26 +202,25 @@ void RayShader::scatter(const Vertex& v, Workspace& w) const {
   gatherAt(v, w);
 }
 
+float RayShader::cosinePdf(const Vertex& v, Vec3 wi) { return std::max(0.0f, dot(wi, v.s.ns)) / kPi; }
+
 void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
-  Sampler& sampler = w.samplers[v.item];
-  const float n = v.first ? static_cast<float>(settings_.gatherRays) : 1;
-  const int many = v.first ? settings_.lightSamples : 1;
-  const auto take = [&](LightSample light) {
+  Sampler& sampler = w.samplers[v.estimate];
+  const auto take = [&](const LightSample& light) {
     if (!light.valid() || dot(light.wi, v.s.ng) <= 0) return;
     Lobes f = v.value(light.wi);
     if (light.pdf > 0) {
-      light.pdf *= static_cast<float>(many), light.radiance *= 1 / static_cast<float>(many);
       // Rays that gather find the same lights; the two share them by multiple importance sampling.
       if (v.apart) {
-        f.diffuse *= misWeight(light.pdf, n * std::max(0.0f, dot(light.wi, v.s.ns)) / kPi);
+        f.diffuse *= misWeight(light.pdf, cosinePdf(v, light.wi));
         f.specular *= misWeight(light.pdf, v.bsdf.pdfSpecular(light.wi));
       } else {
-        const float weight = misWeight(light.pdf, n * (v.followed ? std::max(0.0f, dot(light.wi, v.s.ns)) / kPi : v.bsdf.pdf(light.wi)));
+        const float weight = misWeight(light.pdf, v.followed ? cosinePdf(v, light.wi) : v.bsdf.pdf(light.wi));
         f.diffuse *= weight, f.specular *= weight;
       }
     }
     const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
-    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.item, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), light), sum);
+    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), light), sum);
   };
   if (v.first) {
     if (lights_.lampCount() + lights_.sunCount() > sharp_.count()) take(lights_.sampleLamps(v.s.p, sampler.next1()));
@@ -199,16 +232,12 @@ void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
     for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
   }
   if (lights_.hasEmitters()) {
-    for (int k = 0; k < many; ++k) {
-      const Vec2 u = sampler.next2();
-      take(lights_.sampleEmitters(v.s.p, u, sampler.next1()));
-    }
+    const Vec2 u = sampler.next2();
+    take(lights_.sampleEmitters(v.s.p, u, sampler.next1()));
   }
   if (lights_.sky().present()) {
-    for (int k = 0; k < many; ++k) {
-      const Vec2 u = sampler.next2();
-      take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
-    }
+    const Vec2 u = sampler.next2();
+    take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
   }
 }
 
@@ -225,24 +254,23 @@ bool RayShader::isBeside(Vec3 p, const LightSample& lamp) const {
 
 // Light that surfaces near lamps reflect, as far as gathering rays leave it to LampGlow's points.
 void RayShader::glowAt(const Vertex& v, Workspace& w) const {
-  const float n = v.first ? static_cast<float>(settings_.gatherRays) : 1;
-  const GlowSample g = field_.glow.sample(v.s.p, v.s.ns, n, 0, w.samplers[v.item]);
+  const GlowSample g = field_.glow.sample(v.s.p, v.s.ns, 1, 0, w.samplers[v.estimate]);
   if (!g.light.valid() || dot(g.light.wi, v.s.ng) <= 0) return;
   const Vec3 wi = g.light.wi;
   Lobes f = v.value(wi);
-  const float cosine = n * std::max(0.0f, dot(wi, v.s.ns)) / kPi, mixed = n * v.bsdf.pdf(wi);
+  const float cosine = cosinePdf(v, wi), mixed = v.bsdf.pdf(wi);
   f.diffuse *= field_.glow.pointShare(g.point, v.s.p, {v.apart || v.followed ? cosine : mixed, 0});
   f.specular *= v.clear ? 0 : field_.glow.pointShare(g.point, v.s.p, {v.apart ? v.bsdf.pdfSpecular(wi) : mixed, 0});
   const Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.item, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), g.light), sum);
+  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), g.light), sum);
 }
 
 void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
-  Sampler& sampler = w.samplers[v.item];
+  Sampler& sampler = w.samplers[v.estimate];
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.item, static_cast<uint8_t>(v.depth + 1), 0, clear});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();
@@ -253,23 +281,15 @@ void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
     const Vec3 weight = b.weight / survive;
     return send(b.wi, {v.factor.diffuse * weight, v.factor.specular * weight}, b.mirror ? 0 : b.pdf, v.clear && b.mirror);
   }
-  const int n = settings_.gatherRays;
-  const float share = 1 / static_cast<float>(n);
   const bool diffuseOnly = v.apart || v.followed;
-  if (!diffuseOnly || maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
-    const Frame frame(v.s.ns);
-    for (int i = 0; i < n; ++i) {
-      const Vec2 u = sampler.next2();
-      if (diffuseOnly) {
-        const Vec3 local = sampleCosineHemisphere(u), d = frame.toWorld(local);
-        const float pdf = std::max(local.z, 1e-6f) / kPi;
-        send(d, {v.bsdf.evaluateDiffuse(d) * (share / pdf), Vec3(0)}, static_cast<float>(n) * pdf, false);
-      } else {
-        const BsdfSample b = v.bsdf.sample(u, sampler.next1());
-        if (!b.valid() || b.mirror) continue;
-        send(b.wi, {v.bsdf.evaluateDiffuse(b.wi) * (share / b.pdf), v.bsdf.evaluateSpecular(b.wi) * (share / b.pdf)}, static_cast<float>(n) * b.pdf, false);
-      }
-    }
+  const Vec2 u = sampler.next2();
+  if (!diffuseOnly) {
+    const BsdfSample b = v.bsdf.sample(u, sampler.next1());
+    if (b.valid() && !b.mirror) send(b.wi, {v.bsdf.evaluateDiffuse(b.wi) / b.pdf, v.bsdf.evaluateSpecular(b.wi) / b.pdf}, b.pdf, false);
+  } else if (maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
+    const Vec3 local = sampleCosineHemisphere(u), d = Frame(v.s.ns).toWorld(local);
+    const float pdf = std::max(local.z, 1e-6f) / kPi;
+    send(d, {v.bsdf.evaluateDiffuse(d) / pdf, Vec3(0)}, pdf, false);
   }
   if (v.apart && maxComponent(v.bsdf.specularAlbedo()) > kNothing) {
     const BsdfSample b = v.bsdf.sampleSpecular(sampler.next2());
@@ -279,8 +299,7 @@ void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
 
 Vec3 RayShader::backgroundAlong(const Path& path) const {
   const Vec3 d = path.ray.direction;
-  const float many = path.depth == 1 ? static_cast<float>(settings_.lightSamples) : 1;
-  const auto weight = [&](float lightPdf) { return path.pdf > 0 ? misWeight(path.pdf, many * lightPdf) : 1; };
+  const auto weight = [&](float lightPdf) { return path.pdf > 0 ? misWeight(path.pdf, lightPdf) : 1; };
   Vec3 sum;
   if (lights_.sky().present()) sum += lights_.sky().radiance(d) * weight(pdfSkyGuided(field_.guide, path.guide, lights_, d));
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
@@ -293,10 +312,7 @@ Vec3 RayShader::backgroundAlong(const Path& path) const {
 
 // What a path finds where its ray ends, and how it goes on from there.
 void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
-  if (!hit.valid()) {
-    const Vec3 light = backgroundAlong(path);
-    return w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light}, path.depth == 1);
-  }
+  if (!hit.valid()) return w.add(path.estimate, path.factor, backgroundAlong(path), path.depth == 1);
   const uint8_t kind = kind_[hit.instance];
   if (kind == 0 && !path.clear) {
     const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
@@ -305,8 +321,7 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   const SurfacePoint s = rays_.surfaces().at(hit, path.ray.direction);
   if (kind & kShines) {
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
-      const Vec3 light = emitted * (path.pdf > 0 ? misWeight(path.pdf, (path.depth == 1 ? static_cast<float>(settings_.lightSamples) : 1) * lights_.pdfEmitters(path.from, s)) : 1);
-      w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light}, path.depth == 1);
+      w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, lights_.pdfEmitters(path.from, s)) : 1), path.depth == 1);
     }
   }
   if (!(kind & kClearKind)) {
@@ -317,7 +332,7 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, path.ray.direction)));
   const float p = luminance(through), q = s.m.alpha * luminance(bihemisphericalAlbedo(s.m)), chance = p + q > 0 ? p / (p + q) : 0;
   Path after = path;
-  if (w.samplers[path.item].fast1() < chance) {
+  if (w.samplers[path.estimate].fast1() < chance) {
     if (++after.panes > kMostPanes) return;
     after.factor = {path.factor.diffuse * through / chance, path.factor.specular * through / chance};
     after.ray.origin = offsetOrigin(s.p, -s.ng);
@@ -355,7 +370,7 @@ void RayShader::goOn(const Path& path, SurfacePoint s, Workspace& w) const {
   if (!path.clear) s.m.roughness = std::max(s.m.roughness, kSpread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  scatter({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.item, path.depth, false, false, false, clear, path.clear}, w);
+  scatter({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, path.clear}, w);
 }
 
 // What the points of LampGlow give is left to them.
@@ -365,7 +380,7 @@ void RayShader::read(const Path& path, int64_t slot, Vec3 p, Vec3 n, Workspace& 
     const float share = field_.glowShare[static_cast<size_t>(slot)];
     if (share > 0) light *= 1 - share * (1 - field_.glow.coneShare(share * luminance(light), length(p - path.from), -dot(n, path.ray.direction), path.pdf));
   }
-  w.add(path.item, {path.factor.diffuse * light, path.factor.specular * light});
+  w.add(path.estimate, path.factor, light);
 }
 
 void RayShader::resolveUnsure(Workspace& w) const {
@@ -391,7 +406,7 @@ void RayShader::traceShadows(Workspace& w) const {
   w.rayCount += w.shadowRays.size();
   for (size_t i = 0; i < w.shadowed.size(); ++i) {
     const Workspace::Shadowed& s = w.shadowed[i];
-    w.add(s.item, {s.light.diffuse * w.left[i], s.light.specular * w.left[i]}, s.sure);
+    w.add(s.estimate, s.light, w.left[i], s.sure);
   }
   w.shadowRays.clear(), w.shadowed.clear();
 }

@@ -21,9 +21,12 @@ class RayShader final : public SurfaceShader {
   struct Vertex;
   struct Workspace;
 
-  void start(const Shading& work, uint32_t item, std::span<const Shadow> shadows, SurfaceLight& out, Workspace& w) const;
-  float mostAt(const SurfacePoint& s, const Bsdf& bsdf, const Vertex& v) const;
+  SurfaceLight start(const Shading& work, std::span<const Shadow> shadows, Workspace& w) const;
+  static void sumUp(std::span<const Lobes> found, SurfaceLight& out);
+  void follow(Workspace& w) const;
+  float expectedRadiance(const SurfacePoint& s) const;
   void scatter(const Vertex& v, Workspace& w) const;
+  static float cosinePdf(const Vertex& v, Vec3 wi);
   void lightsAt(const Vertex& v, Workspace& w) const;
   bool isBeside(Vec3 p, const LightSample& lamp) const;
   void glowAt(const Vertex& v, Workspace& w) const;

@@ -30,6 +30,7 @@ struct SurfaceLight {
   Vec3 albedo;    // of that lobe: (diffuse + sharp) / albedo is irradiance / pi
   Vec3 specular;  // reflected by the glossy lobe
   float sharpVariance = 0;  // of the luminance of `sharp`
+  float diffuseVariance = 0, specularVariance = 0;  // of the others', where the shader took several samples; else 0
   float occlusion = 0;
 };
 

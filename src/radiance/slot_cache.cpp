@@ -56,6 +56,28 @@ SlotCache::Place SlotCache::find(Vec3 p, Vec3 n) const {
   return {};
 }
 
+void SlotCache::prefetch(std::span<const Vec3> points) const {
+  constexpr size_t kAtOnce = 64;
+  std::array<Int3, kAtOnce> voxel;
+  std::array<int64_t, kAtOnce> at;
+  for (; !points.empty(); points = points.subspan(std::min(kAtOnce, points.size()))) {
+    const size_t n = std::min(kAtOnce, points.size());
+    for (size_t i = 0; i < n; ++i) {
+      const Vec3 q = (points[i] - voxels_.origin) * perMetre_;
+      voxel[i] = {static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)), static_cast<int>(std::floor(q.z))};
+      at[i] = voxels_.brickAt({voxel[i].x / kBrickSize, voxel[i].y / kBrickSize, voxel[i].z / kBrickSize});
+      if (at[i] >= 0) __builtin_prefetch(&voxels_.bricks[static_cast<size_t>(at[i])]), __builtin_prefetch(&voxels_.bricks[static_cast<size_t>(at[i])].before);
+    }
+    for (size_t i = 0; i < n; ++i) {
+      if (at[i] >= 0) at[i] = voxels_.voxelAt(voxel[i]);
+      if (at[i] >= 0) __builtin_prefetch(&voxels_.voxels[static_cast<size_t>(at[i])]);
+    }
+    for (size_t i = 0; i < n; ++i) {
+      if (at[i] >= 0) __builtin_prefetch(&records_[voxels_.voxels[static_cast<size_t>(at[i])].firstSlot]);
+    }
+  }
+}
+
 Ray SlotCache::between(int64_t slot, Vec3 p, Vec3 n) const {
   const Vec3 lift = n * (kLift * voxels_.voxelSizeM), from = p + lift;
   return {from, voxels_.slots[static_cast<size_t>(slot)].position + lift - from, 0, 1};

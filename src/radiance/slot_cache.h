@@ -1,6 +1,7 @@
 // What rays read where they arrive: the light that slots reflect, and whether a place is one that its slot stands for.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "radiance/radiance_field.h"
@@ -25,6 +26,8 @@ class SlotCache {
   };
   // For a point of a surface and its unit normal on the side that is looked at.
   Place find(Vec3 p, Vec3 n) const;
+  // Has what find() reads fetched into the processor's cache: what many points need comes at once, not one after the other.
+  void prefetch(std::span<const Vec3> points) const;
   // Reflected, as a Lambertian surface of the slot's albedo, cd/m².
   Vec3 radiance(int64_t slot) const { return records_[static_cast<size_t>(slot)].radiance; }
   // A ray between p and the slot's place, both a little before their surface: where nothing is in its way the slot stands for p.
