@@ -318,7 +318,7 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
     const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
     if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return;
   }
-  const SurfacePoint s = rays_.surfaces().at(hit, path.ray.direction);
+  const SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   if (kind & kShines) {
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, lights_.pdfEmitters(path.from, s)) : 1), path.depth == 1);
@@ -394,7 +394,7 @@ void RayShader::resolveUnsure(Workspace& w) const {
     if (luminance(w.left[i]) > 0.25f) {
       read(d.path, d.slot, d.p, d.n, w);
     } else {
-      goOn(d.path, rays_.surfaces().at(d.hit, d.path.ray.direction), w);
+      goOn(d.path, surfaceAt(rays_.scene(), d.hit, d.path.ray.direction), w);
     }
   }
   w.doubts.clear();
