@@ -10,6 +10,7 @@ namespace roomlight {
 namespace {
 
 constexpr int kSpecularPasses = 3;
+constexpr int kBand = 160;  // rows
 
 // Kept from zero so that light can be divided by it.
 Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
@@ -17,10 +18,9 @@ Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
 void store(float* line, ptrdiff_t pitch, Vec3 v) { line[0] = v.x, line[pitch] = v.y, line[2 * pitch] = v.z; }
 Vec3 fetch(const float* line, ptrdiff_t pitch) { return {line[0], line[pitch], line[2 * pitch]}; }
 
-// Writes a row of pixels into its lines. Is any of it lit sharply?
-bool pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
+// Writes a row of pixels into its lines.
+void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
   const ptrdiff_t pitch = rows.pitch();
-  bool sharp = false;
   float* at = rows.line(0, y);
   for (const FilterPixel& p : pixels) {
     store(at + FilterRows::kNormal * pitch, pitch, p.surface > 0 ? p.normal : Vec3());
@@ -33,10 +33,8 @@ bool pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
       store(light, pitch, lights[k]);
       light[FilterRows::kVariance * pitch] = variances[k];
     }
-    sharp = sharp || !isBlack(p.sharp);
     ++at;
   }
-  return sharp;
 }
 
 // A row of the picture.
@@ -61,24 +59,37 @@ Image composed(const FilterInput& input) {
 }
 
 Image filtered(const FilterInput& input, int passes) {
-  const int w = input.width, h = input.height;
-  FilterRows rows(w, h, std::max(1, 1 << std::max(0, passes - 1)));
-  const auto pixelsOfRow = [&](size_t y) { return std::span(input.pixels).subspan(y * static_cast<size_t>(w), static_cast<size_t>(w)); };
+  const int w = input.width, h = input.height, farthest = 1 << std::max(0, passes - 1);
+  const auto pixelsOfRow = [&](int y) { return std::span(input.pixels).subspan(static_cast<size_t>(y) * static_cast<size_t>(w), static_cast<size_t>(w)); };
   std::atomic<bool> sharp = false;
-  parallelFor(static_cast<size_t>(h), 4, [&](size_t y) {
-    rows.clearMargins(static_cast<int>(y));
-    if (pack(pixelsOfRow(y), rows, static_cast<int>(y))) sharp = true;
+  parallelFor(input.pixels.size(), 65536, [&](size_t i) {
+    if (!isBlack(input.pixels[i].sharp)) sharp = true;
   });
-  FilterPass pass;
-  for (int k = 0; k < passes; ++k) {
-    pass.step = 1 << k;
-    pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses;
-    parallelFor(static_cast<size_t>(h), 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
-    parallelFor(static_cast<size_t>(h), 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });
-    for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
-  }
+  // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
+  // take far more memory than all else.
+  const int reach = 2 * farthest - 1 + passes;
   Image out(w, h);
-  parallelFor(static_cast<size_t>(h), 4, [&](size_t y) { compose(pixelsOfRow(y), rows, pass, static_cast<int>(y), &out.at(0, static_cast<int>(y))); });
+  for (int first = 0; first < h; first += kBand) {
+    const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
+    const auto rowCount = static_cast<size_t>(end - begin);
+    FilterRows rows(w, end - begin, farthest);
+    parallelFor(rowCount, 4, [&](size_t y) {
+      rows.clearMargins(static_cast<int>(y));
+      pack(pixelsOfRow(begin + static_cast<int>(y)), rows, static_cast<int>(y));
+    });
+    FilterPass pass;
+    for (int k = 0; k < passes; ++k) {
+      pass.step = 1 << k;
+      pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses;
+      parallelFor(rowCount, 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
+      parallelFor(rowCount, 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });
+      for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
+    }
+    parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
+      const int y = first + static_cast<int>(i);
+      compose(pixelsOfRow(y), rows, pass, y - begin, &out.at(0, y));
+    });
+  }
   return out;
 }
 

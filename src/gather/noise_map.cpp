@@ -18,14 +18,14 @@ struct Look {
   bool edge = false;
 };
 
-Look lookOf(const PixelSum& sum) {
-  const FilterPixel p = sum.mean();
+Look lookOf(const FilterPixel& sum, const PixelCount& count) {
+  const FilterPixel p = meanOf(sum, count);
   Look l;
   l.normal = p.normal, l.position = p.position, l.surface = p.surface;
   l.luminance = luminance(p.diffuse + p.sharp + p.specular + p.rest);
   const float albedo = std::max(luminance(p.albedo), 1e-3f);
   l.variance = (p.diffuseVariance + p.sharpVariance) * albedo * albedo + p.specularVariance;
-  l.edge = sum.edge;
+  l.edge = count.edge;
   return l;
 }
 
@@ -37,20 +37,21 @@ bool alike(const Look& a, const Look& b) {
 
 }  // namespace
 
-std::vector<uint8_t> noisyPixels(const std::vector<PixelSum>& sums, int width, int height, float tolerance) {
-  std::vector<Look> looks(sums.size());
+std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<PixelCount>& counts, float tolerance) {
+  const int width = sums.width, height = sums.height;
+  std::vector<Look> looks(counts.size());
   std::vector<double> rows(static_cast<size_t>(height));
   parallelFor(static_cast<size_t>(height), 8, [&](size_t y) {
     for (size_t x = 0; x < static_cast<size_t>(width); ++x) {
       const size_t i = y * static_cast<size_t>(width) + x;
-      looks[i] = lookOf(sums[i]);
+      looks[i] = lookOf(sums.pixels[i], counts[i]);
       rows[y] += static_cast<double>(looks[i].luminance);
     }
   });
   double mean = 0;
-  for (const double r : rows) mean += r / static_cast<double>(sums.size());
+  for (const double r : rows) mean += r / static_cast<double>(counts.size());
   const float dark = kDark * static_cast<float>(mean);
-  std::vector<uint8_t> out(sums.size());
+  std::vector<uint8_t> out(counts.size());
   parallelFor(static_cast<size_t>(height), 4, [&](size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
@@ -71,7 +72,7 @@ std::vector<uint8_t> noisyPixels(const std::vector<PixelSum>& sums, int width, i
       level = level / all + dark;
       // The variance of a few pixels, each of few samples, may be too small by chance.
       variance = std::max(variance / (like * like), around / (all * like));
-      if (own.edge) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, sums[i].rays));
+      if (own.edge) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
       out[i] = variance > tolerance * tolerance * level * level;
     }
   });

@@ -8,6 +8,6 @@
 namespace roomlight {
 
 // One flag a pixel. `tolerance`: relative standard error of luminance that the filter can be trusted with.
-std::vector<uint8_t> noisyPixels(const std::vector<PixelSum>& sums, int width, int height, float tolerance);
+std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<PixelCount>& counts, float tolerance);
 
 }  // namespace roomlight

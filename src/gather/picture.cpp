@@ -59,7 +59,8 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
   const PixelRays pixelRays(camera, settings);
   const PixelShader pixelShader(rays, lights, settings);
   GatheredPicture result;
-  std::vector<PixelSum> sums(static_cast<size_t>(w) * static_cast<size_t>(h));
+  FilterInput sums(w, h);
+  std::vector<PixelCount> counts(sums.pixels.size());
   const size_t tiles = static_cast<size_t>((w + kTile - 1) / kTile) * static_cast<size_t>((h + kTile - 1) / kTile);
   std::atomic<uint64_t> rayCount = 0, coneCount = 0;
   std::mutex reporting;
@@ -69,7 +70,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     const bool chosen = first > 0 && settings.tolerance > 0;
     const auto most = static_cast<size_t>(first > 0 || !(settings.tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
     const size_t n = std::min(kRaysAtOnce, most - first);
-    const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, w, h, settings.tolerance) : std::vector<uint8_t>();
+    const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, counts, settings.tolerance) : std::vector<uint8_t>();
     if (chosen && std::find(noisy.begin(), noisy.end(), 1) == noisy.end()) break;
     std::atomic<size_t> tilesDone = 0;
     parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {
@@ -85,9 +86,8 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
           for (int x = r.x0; x < r.x1; ++x) {
             const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
             if (chosen && !noisy[pixel]) continue;
-            PixelSum& sum = sums[pixel];
             const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings.seed);
-            pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, sum, work, count);
+            pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, {&sums.pixels[pixel], &counts[pixel]}, work, count);
           }
         }
         light.resize(work.shadings.size());
@@ -105,13 +105,12 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     result.samples += static_cast<int>(n);
     if (progress.stop() || (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS)) break;
   }
-  FilterInput means(w, h);
   result.occlusion = Image(w, h);
-  parallelFor(sums.size(), 4096, [&](size_t i) {
-    means.pixels[i] = sums[i].mean();
-    result.occlusion.pixels[i] = Vec3(sums[i].occlusion / static_cast<float>(std::max(1u, sums[i].rays)));
+  parallelFor(counts.size(), 4096, [&](size_t i) {
+    sums.pixels[i] = meanOf(sums.pixels[i], counts[i]);
+    result.occlusion.pixels[i] = Vec3(counts[i].occlusion / static_cast<float>(std::max(1u, counts[i].rays)));
   });
-  result.image = settings.filterPasses > 0 ? filtered(means, settings.filterPasses) : composed(means);
+  result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses) : composed(sums);
   result.rays = rayCount;
   result.cones = coneCount;
   return result;

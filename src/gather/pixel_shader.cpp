@@ -40,9 +40,9 @@ PixelSequence::PixelSequence(int x, int y, uint32_t pass, uint64_t seed) : seed_
   key_ = mix64((uint64_t{pass} << 48) + (uint64_t{uy / kBlock} << 24) + ux / kBlock);
 }
 
-FilterPixel PixelSum::mean() const {
+FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count) {
   FilterPixel p = sum;
-  const float inverse = 1 / static_cast<float>(std::max(1u, rays));
+  const float inverse = 1 / static_cast<float>(std::max(1u, count.rays));
   p.diffuse *= inverse, p.sharp *= inverse, p.albedo *= inverse, p.specular *= inverse, p.rest *= inverse;
   const float albedo = std::max(luminance(p.albedo), 1e-3f);
   p.diffuseVariance *= inverse * inverse / (albedo * albedo), p.sharpVariance *= inverse * inverse / (albedo * albedo);
@@ -120,7 +120,7 @@ uint32_t PixelShader::shadows(const Group& group, const Layer& layer, uint32_t s
 }
 
 // One surface: to be shaded for some of the rays with the mean of their materials, for all where it shows a picture.
-void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, Layer& behind, GatherCounters& count) const {
+void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const {
   const Scene& scene = rays_.scene();
   const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[group.instance].mesh)];
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
@@ -137,8 +137,8 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   Vec3 left;
   for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
 
-  FilterPixel& sum = pixel.sum;
-  work.parts.push_back({&pixel, static_cast<uint32_t>(work.shadings.size()), static_cast<uint32_t>(shadings), left * m.alpha, weight});
+  FilterPixel& sum = *pixel.sum;
+  work.parts.push_back({pixel, static_cast<uint32_t>(work.shadings.size()), static_cast<uint32_t>(shadings), left * m.alpha, weight});
   for (size_t j = 0; j < shadings; ++j) {
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
@@ -157,14 +157,14 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
 
 void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light) {
   for (const TileWork::Part& part : work.parts) {
-    FilterPixel& sum = part.pixel->sum;
+    FilterPixel& sum = *part.pixel.sum;
     const std::span<const SurfaceLight> shadings = light.subspan(part.first, part.count);
     for (const SurfaceLight& l : shadings) {
       sum.diffuse += part.left * l.diffuse * part.weight;
       sum.sharp += part.left * l.sharp * part.weight;
       sum.albedo += part.left * l.albedo * part.weight;
       sum.specular += part.left * l.specular * part.weight;
-      part.pixel->occlusion += l.occlusion * part.weight;
+      part.pixel.count->occlusion += l.occlusion * part.weight;
     }
     addVariance(shadings, part.left, part.weight, sum);
   }
@@ -213,7 +213,7 @@ void PixelShader::reflectOn(const Group& group, const Layer& layer, const Materi
   }
 }
 
-void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const {
+void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work, GatherCounters& count) const {
   std::array<Layer, 2> layers;
   for (const Ray& r : rays) layers[0].add(r, Vec3(1), false);
   uint32_t surface = 0;
@@ -227,16 +227,16 @@ void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, 
     size_t used = 0;
     for (size_t i = 0; i < layer.count; ++i) {
       if (!layer.hit[i].valid()) {
-        pixel.sum.rest += layer.left[i] * background(lights_, layer.ray[i].direction);
+        pixel.sum->rest += layer.left[i] * background(lights_, layer.ray[i].direction);
         continue;
       }
       Group* g = groupOf(layer.ray[i], layer.hit[i], groups, used);
       g->member[g->count++] = static_cast<uint8_t>(i);
     }
-    pixel.edge |= used > 1 || (pane == 0 && used == 1 && groups[0].count < layer.count);
+    pixel.count->edge |= used > 1 || (pane == 0 && used == 1 && groups[0].count < layer.count);
     for (size_t i = 0; i < used; ++i) see(groups[i], layer, rays.size(), surface++, sequence, pixel, work, behind, count);
   }
-  pixel.rays += static_cast<uint32_t>(rays.size());
+  pixel.count->rays += static_cast<uint32_t>(rays.size());
 }
 
 }  // namespace roomlight

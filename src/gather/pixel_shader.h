@@ -28,19 +28,22 @@ class PixelSequence {
   uint32_t index_;
 };
 
-// Sums over camera rays; variances are of the sums.
-struct PixelSum {
-  FilterPixel sum;
-  float occlusion = 0;
+// What a pixel keeps beside the sums over its camera rays.
+struct PixelCount {
   uint32_t rays = 0;
   bool edge = false;  // more than one surface seen
-  FilterPixel mean() const;
+  float occlusion = 0;
 };
+struct PixelSum {  // variances are of the sums
+  FilterPixel* sum;
+  PixelCount* count;
+};
+FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count);
 
 // What the pixels of a tile have seen and want lit.
 struct TileWork {
   struct Part {  // one surface in one pixel
-    PixelSum* pixel;
+    PixelSum pixel;
     uint32_t first, count;  // shadings
     Vec3 left;              // share of their light that reaches the eye
     float weight;           // camera rays that each stands for
@@ -55,7 +58,7 @@ class PixelShader {
  public:
   PixelShader(const RayScene& rays, const Lights& lights, const PictureSettings& settings) : rays_(rays), lights_(lights), sharp_(rays, lights), settings_(settings) {}
   // At most kRaysAtOnce rays. What shines by itself is added to `pixel` at once; what has to be lit, to `work`.
-  void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, GatherCounters& count) const;
+  void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work, GatherCounters& count) const;
   // Adds the light of everything in `work` to its pixels.
   static void add(const TileWork& work, std::span<const SurfaceLight> light);
 
@@ -65,7 +68,7 @@ class PixelShader {
   Group* groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const;
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
   uint32_t shadows(const Group& group, const Layer& layer, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
-  void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum& pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
+  void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addVariance(std::span<const SurfaceLight> light, Vec3 left, float weight, FilterPixel& sum);
   static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
   void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface, const PixelSequence& sequence, Layer& behind) const;
