@@ -16,8 +16,7 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene); });
-  const Voxelisation voxelisation = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, settings.voxel); });
-  const Voxels& voxels = voxelisation.voxels;
+  const Voxels voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, settings.voxel).voxels; });
   const RadianceField field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, voxels, radiance, p); });
   if (stages.cancelled()) return {};
   // What the stages before took counts against the limit; the gather never ends before its first pass.
