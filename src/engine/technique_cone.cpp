@@ -14,7 +14,7 @@ Picture renderCone(const Scene& scene, const Camera& camera, const RenderSetting
   if (settings.samples > 0) gather.samples = settings.samples;
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
-  const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene); });
+  const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
   const Voxelisation voxelisation = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, settings.voxel); });
   const Voxels& voxels = voxelisation.voxels;
   const RadianceField field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, voxels, radiance, p); });

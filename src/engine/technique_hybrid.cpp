@@ -15,7 +15,7 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   if (settings.samples > 0) gather.samples = settings.samples;
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
-  const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene); });
+  const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
   const Voxels voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, settings.voxel).voxels; });
   const RadianceField field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, voxels, radiance, p); });
   if (stages.cancelled()) return {};

@@ -182,7 +182,7 @@ SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shado
     v.estimate = static_cast<uint32_t>(w.samplers.size());
     w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(settings_.estimates)));
     w.found.push_back({});
-    w.most.push_back({Vec3(most), Vec3(v.clear ? kInfinity : most)});
+    w.most.push_back({Vec3(most), Vec3(most)});
     scatter(v, w);
   }
   return out;

@@ -35,7 +35,7 @@ Vec3 lampIntensity(const Lamp& lamp, Vec3 direction) {
   return lamp.intensityCd * spotFalloff(dot(direction, lamp.direction), std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
 }
 
-Lights::Lights(const Scene& scene) : scene_(scene), suns_(scene.suns), sky_(scene.sky) {
+Lights::Lights(const Scene& scene, bool sunApart) : scene_(scene), suns_(scene.suns), sky_(scene.sky, sunApart) {
   for (const Lamp& lamp : scene.lamps) {
     if (lamp.kind != LampKind::Area && !isBlack(lamp.intensityCd)) lamps_.push_back(lamp);
   }
@@ -272,6 +272,14 @@ float Lights::pdfEmitters(Vec3 p, const SurfacePoint& q) const {
 }
 
 LightSample Lights::sampleSun(size_t index, Vec2 u) const {
+  if (index >= suns_.size()) {
+    const SkyDistribution::Sample d = sky_.sampleSpot(u);
+    LightSample s;
+    s.wi = d.d;
+    const Vec3 radiance = sky_.spotRadiance(d.d, s.pdf);
+    if (s.pdf > 0) s.radiance = radiance / s.pdf;
+    return s;
+  }
   const Sun& sun = suns_[index];
   LightSample s;
   if (sun.halfAngleRad <= 0) {
@@ -286,6 +294,7 @@ LightSample Lights::sampleSun(size_t index, Vec2 u) const {
 }
 
 Vec3 Lights::sunDisc(size_t index, Vec3 d, float& pdf) const {
+  if (index >= suns_.size()) return sky_.spotRadiance(d, pdf);
   const Sun& sun = suns_[index];
   pdf = 0;
   // |d - toLight|^2 = 2 (1 - cos), without the rounding of a cosine near 1.

@@ -28,7 +28,8 @@ class MeanEmission;
 
 class Lights {
  public:
-  explicit Lights(const Scene& scene);
+  // `sunApart`: the sun in an image of the sky counts as one of the suns. The same light, for who takes care of sharp shadows.
+  explicit Lights(const Scene& scene, bool sunApart = false);
 
   // One sample among lamps and emissive meshes, chosen by what each could give at p without shadows.
   LightSample sampleLocal(Vec3 p, Vec2 u, float choice) const;
@@ -48,7 +49,7 @@ class Lights {
   LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
   float pdfEmitters(Vec3 p, const SurfacePoint& q) const;
 
-  size_t sunCount() const { return suns_.size(); }
+  size_t sunCount() const { return suns_.size() + (sky_.hasSpot() ? 1 : 0); }
   LightSample sampleSun(size_t index, Vec2 u) const;
   // Radiance of sun discs along d with the density sampleSun has there (0 outside and for delta suns).
   Vec3 sunDisc(size_t index, Vec3 d, float& pdf) const;

@@ -1,11 +1,16 @@
 #include "trace/sky_distribution.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace roomlight {
 namespace {
 
 constexpr int kMaxTableWidth = 512, kConstantTableWidth = 64;
+// What stands apart as a spot: a part of the sky's light this large, within this angle of the brightest cell, of cells at least so bright
+// beside it.
+constexpr double kSpotShare = 0.05, kSpotContrast = 0.02;
+constexpr float kSpotRad = 0.06f;
 
 Vec3 texel(const Image& image, int x, int y) {
   x = (x % image.width + image.width) % image.width;
@@ -24,7 +29,7 @@ int findCell(const float* cdf, int count, float v, float& within) {
 
 }  // namespace
 
-SkyDistribution::SkyDistribution(const Sky& sky) : sky_(sky) {
+SkyDistribution::SkyDistribution(const Sky& sky, bool spotApart) : sky_(sky) {
   present_ = sky.present();
   mean_ = sky.luminanceCdM2;
   cosRotation_ = std::cos(sky.rotationRad);
@@ -64,8 +69,76 @@ SkyDistribution::SkyDistribution(const Sky& sky) : sky_(sky) {
     present_ = false;
     return;
   }
+  if (spotApart) total -= takeSpot(weights);
   tabulate(weights, total);
 }
+
+// Takes cells around the brightest out of the table, where they hold a good part of the sky's light. Returns their weight.
+double SkyDistribution::takeSpot(std::vector<double>& weights) {
+  const auto density = [&](size_t i) { return weights[i] / std::sin(kPi * (static_cast<double>(i / static_cast<size_t>(width_)) + 0.5) / height_); };
+  size_t brightest = 0;
+  double total = 0;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    total += weights[i];
+    if (density(i) > density(brightest)) brightest = i;
+  }
+  const double least = kSpotContrast * density(brightest);
+  const Vec3 middle = directionIn(static_cast<int>(brightest % static_cast<size_t>(width_)), static_cast<int>(brightest / static_cast<size_t>(width_)), 0.5f, 0.5f);
+  double taken = 0;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    const int row = static_cast<int>(i / static_cast<size_t>(width_)), column = static_cast<int>(i % static_cast<size_t>(width_));
+    if (density(i) < least || dot(directionIn(column, row, 0.5f, 0.5f), middle) < std::cos(kSpotRad)) continue;
+    spot_.push_back({static_cast<int64_t>(i), cellMean(column, row), 1, 0});
+    taken += weights[i];
+  }
+  double flux = 0;
+  const auto fluxOf = [&](const SpotCell& c) {
+    return static_cast<double>(luminance(c.radiance)) / static_cast<double>(spotPdf(c));  // of share 1
+  };
+  for (const SpotCell& c : spot_) flux += fluxOf(c);
+  if (taken < kSpotShare * total || !(flux > 0)) {
+    spot_.clear();
+    return 0;
+  }
+  float upTo = 0;
+  for (SpotCell& c : spot_) {
+    c.share = static_cast<float>(fluxOf(c) / flux);
+    c.upTo = upTo += c.share;
+    weights[static_cast<size_t>(c.cell)] = 0;
+  }
+  return taken;
+}
+
+// Of the texels under a cell of the table.
+Vec3 SkyDistribution::cellMean(int column, int row) const {
+  const Image& image = sky_.image;
+  const int x0 = column * image.width / width_, x1 = std::max(x0 + 1, (column + 1) * image.width / width_);
+  const int y0 = row * image.height / height_, y1 = std::max(y0 + 1, (row + 1) * image.height / height_);
+  Vec3 sum;
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) sum += image.at(x, y);
+  }
+  return sum / static_cast<float>((x1 - x0) * (y1 - y0));
+}
+
+SkyDistribution::Sample SkyDistribution::sampleSpot(Vec2 u) const {
+  const auto it = std::upper_bound(spot_.begin(), spot_.end(), u.x, [](float v, const SpotCell& c) { return v < c.upTo; });
+  const SpotCell& c = it == spot_.end() ? spot_.back() : *it;
+  const float within = std::clamp((u.x - (c.upTo - c.share)) / c.share, 0.0f, 0.999999f);
+  return {directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_), within, u.y), spotPdf(c)};
+}
+
+Vec3 SkyDistribution::spotRadiance(Vec3 d, float& pdf) const {
+  pdf = 0;
+  if (spot_.empty()) return {};
+  const int64_t cell = cellOf(d);
+  const auto it = std::lower_bound(spot_.begin(), spot_.end(), cell, [](const SpotCell& c, int64_t v) { return c.cell < v; });
+  if (it == spot_.end() || it->cell != cell) return {};
+  pdf = spotPdf(*it);
+  return it->radiance;
+}
+
+float SkyDistribution::spotPdf(const SpotCell& c) const { return c.share / solidAngleAt(std::sin(kPi * (static_cast<float>(c.cell / width_) + 0.5f) / static_cast<float>(height_))); }
 
 void SkyDistribution::tabulateConstant() {
   width_ = kConstantTableWidth, height_ = kConstantTableWidth / 2;
@@ -110,9 +183,23 @@ Vec2 SkyDistribution::toUv(Vec3 d) const {
   return {0.5f + std::atan2(x, -z) / (2 * kPi), std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi};
 }
 
+int64_t SkyDistribution::cellOf(Vec3 d) const {
+  const Vec2 uv = toUv(d);
+  const int column = std::clamp(static_cast<int>(uv.x * static_cast<float>(width_)), 0, width_ - 1);
+  const int row = std::clamp(static_cast<int>(uv.y * static_cast<float>(height_)), 0, height_ - 1);
+  return static_cast<int64_t>(row) * width_ + column;
+}
+
+float SkyDistribution::solidAngleAt(float sinTheta) const { return (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(sinTheta, 1e-6f); }
+
 Vec3 SkyDistribution::radiance(Vec3 d) const {
   const Image& image = sky_.image;
   if (image.width == 0) return sky_.luminanceCdM2;
+  if (!spot_.empty()) {
+    float pdf;
+    spotRadiance(d, pdf);
+    if (pdf > 0) return {};
+  }
   const Vec2 uv = toUv(d);
   const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
   const float fx = std::floor(x), fy = std::floor(y);
@@ -129,16 +216,16 @@ SkyDistribution::Sample SkyDistribution::sample(Vec2 u) const {
   return inCell(column, row, dx, dy);
 }
 
-SkyDistribution::Sample SkyDistribution::inCell(int column, int row, float dx, float dy) const {
+Vec3 SkyDistribution::directionIn(int column, int row, float dx, float dy) const {
   const float theta = kPi * (static_cast<float>(row) + dy) / static_cast<float>(height_);
   const float phi = 2 * kPi * ((static_cast<float>(column) + dx) / static_cast<float>(width_) - 0.5f);
   const float s = std::sin(theta), x = s * std::sin(phi), z = -s * std::cos(phi);
-  Sample out;
-  out.d = {cosRotation_ * x + sinRotation_ * z, std::cos(theta), -sinRotation_ * x + cosRotation_ * z};
-  const float cell = cells_[static_cast<size_t>(row) * width_ + column];
-  const float solidAngle = (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(s, 1e-6f);
-  out.pdf = cell / solidAngle;
-  return out;
+  return {cosRotation_ * x + sinRotation_ * z, std::cos(theta), -sinRotation_ * x + cosRotation_ * z};
+}
+
+SkyDistribution::Sample SkyDistribution::inCell(int column, int row, float dx, float dy) const {
+  const float sinTheta = std::sin(kPi * (static_cast<float>(row) + dy) / static_cast<float>(height_));
+  return {directionIn(column, row, dx, dy), cells_[static_cast<size_t>(row) * width_ + column] / solidAngleAt(sinTheta)};
 }
 
 SkyDistribution::Sample SkyDistribution::sampleBlock(int block, Vec2 u) const {
@@ -175,12 +262,7 @@ int SkyDistribution::blockOf(Vec3 d) const {
 
 float SkyDistribution::pdf(Vec3 d) const {
   if (cells_.empty()) return 0;
-  const Vec2 uv = toUv(d);
-  const int column = std::clamp(static_cast<int>(uv.x * static_cast<float>(width_)), 0, width_ - 1);
-  const int row = std::clamp(static_cast<int>(uv.y * static_cast<float>(height_)), 0, height_ - 1);
-  const float s = std::sqrt(std::max(0.0f, 1 - d.y * d.y));
-  const float solidAngle = (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(s, 1e-6f);
-  return cells_[static_cast<size_t>(row) * width_ + column] / solidAngle;
+  return cells_[static_cast<size_t>(cellOf(d))] / solidAngleAt(std::sqrt(std::max(0.0f, 1 - d.y * d.y)));
 }
 
 }  // namespace roomlight

@@ -10,7 +10,8 @@ namespace roomlight {
 
 class SkyDistribution {
  public:
-  explicit SkyDistribution(const Sky& sky);
+  // `spotApart`: whether a small and bright part of an image, as a sun is, is no part of all else here but stands in spot...().
+  explicit SkyDistribution(const Sky& sky, bool spotApart = false);
 
   bool present() const { return present_; }
   // A constant sky is found best by BSDF sampling; only images are sampled directly.
@@ -25,6 +26,12 @@ class SkyDistribution {
   Sample sample(Vec2 u) const;
   float pdf(Vec3 d) const;
 
+  // The spot that stands apart, of even light within each cell of the table. Its samples all give the same luminance over density,
+  // except for what cells differ in colour.
+  bool hasSpot() const { return !spot_.empty(); }
+  Sample sampleSpot(Vec2 u) const;
+  Vec3 spotRadiance(Vec3 d, float& pdf) const;  // cd/m² and density of sampleSpot() there; 0 outside
+
   // The sphere in kBlocks parts of the map, for callers that know which of them are worth while. `pdf` of a sample is the
   // density inside its block: pdf(d) / blockShare(block).
   static constexpr int kBlocksX = 32, kBlocksY = 16, kBlocks = kBlocksX * kBlocksY;
@@ -35,7 +42,12 @@ class SkyDistribution {
  private:
   Vec2 toUv(Vec3 d) const;
   void tabulateConstant();
+  double takeSpot(std::vector<double>& weights);
+  Vec3 cellMean(int column, int row) const;
+  int64_t cellOf(Vec3 d) const;
+  float solidAngleAt(float sinTheta) const;
   void tabulate(const std::vector<double>& weights, double total);
+  Vec3 directionIn(int column, int row, float dx, float dy) const;
   Sample inCell(int column, int row, float dx, float dy) const;
   const Sky& sky_;
   bool present_ = false;
@@ -46,6 +58,13 @@ class SkyDistribution {
   std::vector<float> rowCdf_;    // height + 1
   std::vector<float> columnCdf_; // (width + 1) per row
   std::vector<float> blockShare_;
+  struct SpotCell {
+    int64_t cell;
+    Vec3 radiance;
+    float share, upTo;  // of the spot's luminous flux, and the sum of shares up to this one
+  };
+  float spotPdf(const SpotCell& c) const;
+  std::vector<SpotCell> spot_;
 };
 
 }  // namespace roomlight
