@@ -34,7 +34,10 @@ void visitMembers(Visitor& v, Settings& s) {
   v.number("noiseLevel", s.noiseLevel, 0, 1);
   v.number("seed", s.seed, 0, std::numeric_limits<uint64_t>::max());
   v.number("threads", s.threads, 0, 1024);
-  v.group("path", [&](auto& g) { g.flag("lightPaths", s.path.lightPaths); });
+  v.group("path", [&](auto& g) {
+    g.flag("lightPaths", s.path.lightPaths);
+    g.flag("filter", s.path.filter);
+  });
   v.group("voxel", [&](auto& g) {
     g.number("voxelSizeM", s.voxel.voxelSizeM, 0, 10);
     g.number("memoryBudgetMiB", s.voxel.memoryBudgetMiB, 1, 1e6);

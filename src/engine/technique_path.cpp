@@ -22,6 +22,7 @@ Picture renderPath(const Scene& scene, const Camera& camera, const RenderSetting
   path.timeLimitS = settings.timeLimitS;
   path.noiseLevel = settings.noiseLevel;
   path.lightPaths = settings.path.lightPaths;
+  path.filter = settings.path.filter;
   path.seed = settings.seed;
   PathResult result = stages.run("path", [&](const Progress& p) { return pathTrace(rays, lights, camera, path, p); });
   stages.number("samples", result.samples);

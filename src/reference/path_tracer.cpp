@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "reference/path_walk.h"
+#include "reference/pixel_sums.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight {
@@ -17,94 +18,134 @@ constexpr int kTile = 16;
 constexpr int kMostLightPaths = 1 << 18, kFirstLightPaths = 1 << 14, kPixelsPerLightPath = 16;
 constexpr double kMostLightVertices = 1 << 20;
 
-// Running sums per pixel; one pass adds one sample to every pixel.
-struct Accumulator {
+constexpr int kFilterPasses = 5;
+
+}  // namespace
+
+struct PathTracer::State {
+  State(const RayScene& r, const Lights& l, const Camera& c, const PathSettings& s, bool withFeatures)
+      : rays(r), lights(l), cameraRays(c, s.width, s.height), settings(s), vertices(r, l), sum(s.width, s.height), squares(s.width, s.height), pixels(withFeatures ? sum.pixels.size() : 0) {}
+
+  const RayScene& rays;
+  const Lights& lights;
+  CameraRays cameraRays;
+  PathSettings settings;
+  LightVertices vertices;
+  // Running sums per pixel.
   Image sum, squares;
+  std::vector<PixelSums> pixels;
+  int samples = 0;
+  std::atomic<uint64_t> rayCount = 0;
+
+  void traceLightPaths() {
+    if (!settings.lightPaths || lights.lampCount() == 0) return;
+    const int paths = std::clamp(settings.width * settings.height / kPixelsPerLightPath, 1024, kMostLightPaths);
+    const int most = samples == 0 ? kFirstLightPaths : static_cast<int>(kMostLightVertices / std::max(1.0, vertices.perPath()));
+    vertices.trace(std::min(paths, std::max(1, most)), static_cast<uint32_t>(samples), settings.seed);
+  }
 };
 
-double meanRelativeError(const Accumulator& a, int samples) {
-  if (samples < 2) return kInfinity;
+PathTracer::PathTracer(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings, bool features)
+    : state_(std::make_unique<State>(rays, lights, camera, settings, features)) {}
+PathTracer::~PathTracer() = default;
+
+bool PathTracer::pass(const Progress& progress) {
+  State& st = *state_;
+  const int w = st.settings.width, h = st.settings.height;
+  // Whole passes only are kept.
+  Image fresh(w, h);
+  std::vector<FilterPixel> seen(st.pixels.size());
+  st.traceLightPaths();
+  const PathWalk walk(st.rays, st.lights, &st.vertices);
+  const int tilesX = (w + kTile - 1) / kTile, tilesY = (h + kTile - 1) / kTile;
+  std::atomic<int> tilesDone = 0;
+  std::mutex reporting;
+  parallelFor(static_cast<size_t>(tilesX) * tilesY, 1, [&](size_t tile) {
+    if (progress.stop() && st.samples > 0) return;
+    const int x0 = static_cast<int>(tile % tilesX) * kTile, y0 = static_cast<int>(tile / tilesX) * kTile;
+    uint64_t count = 0;
+    for (int y = y0; y < std::min(h, y0 + kTile); ++y) {
+      for (int x = x0; x < std::min(w, x0 + kTile); ++x) {
+        const uint64_t pixel = static_cast<uint64_t>(y) * w + x;
+        Sampler sampler(pixel, static_cast<uint32_t>(st.samples), st.settings.seed);
+        const Vec2 jitter = sampler.next2();
+        const Ray ray = st.cameraRays.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+        fresh.at(x, y) = seen.empty() ? walk.radiance(ray, sampler, count) : walk.radiance(ray, sampler, count, seen[pixel]);
+      }
+    }
+    st.rayCount += count;
+    const int done = ++tilesDone;
+    if (done % 64 == 0 && reporting.try_lock()) {
+      progress.at(static_cast<float>(done) / static_cast<float>(tilesX * tilesY));
+      reporting.unlock();
+    }
+  });
+  if (progress.stop() && st.samples > 0) return false;
+  parallelFor(fresh.pixels.size(), 65536, [&](size_t i) {
+    st.sum.pixels[i] += fresh.pixels[i];
+    st.squares.pixels[i] += fresh.pixels[i] * fresh.pixels[i];
+  });
+  parallelFor(seen.size(), 16384, [&](size_t i) { st.pixels[i].add(seen[i]); });
+  ++st.samples;
+  return true;
+}
+
+int PathTracer::samples() const { return state_->samples; }
+uint64_t PathTracer::rays() const { return state_->rayCount + state_->vertices.rayCount(); }
+
+Image PathTracer::mean() const {
+  Image out = state_->sum;
+  for (Vec3& p : out.pixels) p = p / static_cast<float>(samples());
+  return out;
+}
+
+Image PathTracer::variance() const {
+  const float n = static_cast<float>(samples());
+  Image out = state_->squares;
+  for (size_t i = 0; i < out.pixels.size(); ++i) {
+    const Vec3 m = state_->sum.pixels[i] / n;
+    out.pixels[i] = max(out.pixels[i] / n - m * m, Vec3(0)) / std::max(1.0f, n - 1);
+  }
+  return out;
+}
+
+double PathTracer::noise() const {
+  if (samples() < 2) return kInfinity;
   double error = 0, mean = 0;
-  const double n = samples;
-  for (size_t i = 0; i < a.sum.pixels.size(); ++i) {
-    const double m = luminance(a.sum.pixels[i]) / n, s = luminance(a.squares.pixels[i]) / n;
+  const double n = samples();
+  for (size_t i = 0; i < state_->sum.pixels.size(); ++i) {
+    const double m = luminance(state_->sum.pixels[i]) / n, s = luminance(state_->squares.pixels[i]) / n;
     error += std::sqrt(std::max(0.0, s - m * m) / (n - 1));
     mean += m;
   }
   return mean > 0 ? error / mean : 0;
 }
 
-}  // namespace
+FilterInput PathTracer::features() const {
+  FilterInput out(state_->settings.width, state_->settings.height);
+  parallelFor(state_->pixels.size(), 16384, [&](size_t i) { out.pixels[i] = state_->pixels[i].mean(samples()); });
+  return out;
+}
 
 PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings,
                      const Progress& progress) {
-  const int w = settings.width, h = settings.height;
-  const CameraRays cameraRays(camera, w, h);
-  LightVertices vertices(rays, lights);
-  const int lightPaths = std::clamp(w * h / kPixelsPerLightPath, 1024, kMostLightPaths);
-  Accumulator a{Image(w, h), Image(w, h)};
-  const int tilesX = (w + kTile - 1) / kTile, tilesY = (h + kTile - 1) / kTile;
-  std::atomic<uint64_t> rayCount = 0;
+  PathTracer tracer(rays, lights, camera, settings, settings.filter);
   const Stopwatch watch;
-  PathResult result;
-
-  while (result.samples < settings.samples) {
-    // The picture keeps whole passes only: one that is stopped half way is dropped, but never the first.
-    const int pass = result.samples;
-    Image fresh(w, h);
-    if (settings.lightPaths && lights.lampCount() > 0) {
-      const int most = pass == 0 ? kFirstLightPaths : static_cast<int>(kMostLightVertices / std::max(1.0, vertices.perPath()));
-      vertices.trace(std::min(lightPaths, std::max(1, most)), static_cast<uint32_t>(pass), settings.seed);
-    }
-    const PathWalk walk(rays, lights, &vertices);
-    std::atomic<int> tilesDone = 0;
-    std::mutex reporting;
-    parallelFor(static_cast<size_t>(tilesX) * tilesY, 1, [&](size_t tile) {
-      if (progress.stop() && pass > 0) return;
-      const int x0 = static_cast<int>(tile % tilesX) * kTile, y0 = static_cast<int>(tile / tilesX) * kTile;
-      uint64_t count = 0;
-      for (int y = y0; y < std::min(h, y0 + kTile); ++y) {
-        for (int x = x0; x < std::min(w, x0 + kTile); ++x) {
-          Sampler sampler(static_cast<uint64_t>(y) * w + x, static_cast<uint32_t>(pass), settings.seed);
-          const Vec2 jitter = sampler.next2();
-          fresh.at(x, y) = walk.radiance(cameraRays.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y), sampler, count);
-        }
-      }
-      rayCount += count;
-      const int done = ++tilesDone;
-      if (done % 64 == 0 && reporting.try_lock()) {
-        const float all = static_cast<float>(pass) + static_cast<float>(done) / static_cast<float>(tilesX * tilesY);
-        float fraction = all / static_cast<float>(settings.samples);
-        if (settings.timeLimitS > 0) fraction = std::max(fraction, static_cast<float>(watch.seconds() / settings.timeLimitS));
-        progress.at(std::min(1.0f, fraction));
-        reporting.unlock();
-      }
-    });
-    if (progress.stop() && pass > 0) break;
-    parallelFor(fresh.pixels.size(), 65536, [&](size_t i) {
-      a.sum.pixels[i] += fresh.pixels[i];
-      a.squares.pixels[i] += fresh.pixels[i] * fresh.pixels[i];
-    });
-    ++result.samples;
-    if (progress.stop()) break;
+  Progress inner;
+  inner.cancelled = progress.cancelled;
+  if (progress.report) {
+    inner.report = [&](float done) {
+      float fraction = (static_cast<float>(tracer.samples()) + done) / static_cast<float>(settings.samples);
+      if (settings.timeLimitS > 0) fraction = std::max(fraction, static_cast<float>(watch.seconds() / settings.timeLimitS));
+      progress.at(std::min(1.0f, fraction));
+    };
+  }
+  while (tracer.samples() < settings.samples) {
+    if (!tracer.pass(inner) || progress.stop()) break;
     if (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS) break;
-    if (settings.noiseLevel > 0 && result.samples >= 16 && result.samples % 8 == 0 &&
-        meanRelativeError(a, result.samples) <= settings.noiseLevel) {
-      break;
-    }
+    if (settings.noiseLevel > 0 && tracer.samples() >= 16 && tracer.samples() % 8 == 0 && tracer.noise() <= settings.noiseLevel) break;
   }
-
-  const float n = static_cast<float>(result.samples);
-  result.image = Image(w, h);
-  result.variance = Image(w, h);
-  for (size_t i = 0; i < a.sum.pixels.size(); ++i) {
-    const Vec3 m = a.sum.pixels[i] / n;
-    result.image.pixels[i] = m;
-    result.variance.pixels[i] = max(a.squares.pixels[i] / n - m * m, Vec3(0)) / std::max(1.0f, n - 1);
-  }
-  result.noise = meanRelativeError(a, result.samples);
-  result.rays = rayCount + vertices.rayCount();
-  return result;
+  return {settings.filter ? filtered(tracer.features(), kFilterPasses) : tracer.mean(), tracer.variance(), tracer.samples(), tracer.noise(), tracer.rays()};
 }
 
 MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples, uint64_t seed) {

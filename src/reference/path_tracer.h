@@ -2,8 +2,11 @@
 // Russian roulette without a bounce cap. Sees rays, materials and lights; never a voxel.
 #pragma once
 
+#include <memory>
+
 #include "base/image.h"
 #include "base/progress.h"
+#include "filter/filter.h"
 #include "trace/lights.h"
 #include "trace/ray_scene.h"
 
@@ -15,12 +18,35 @@ struct PathSettings {
   double timeLimitS = 0;   // stop after this long (after a whole pass); 0: no limit
   double noiseLevel = 0;   // stop when the mean relative standard error over pixels is below this; 0: never
   bool lightPaths = true;  // also follow light from point and spot lamps, and connect to where it arrives
+  bool filter = false;     // the picture is filtered (filter/filter.h): for looking at; no reference then
   uint64_t seed = 0;
+};
+
+// Path tracing pass by pass: each adds one sample to every pixel. Refers to the rays and lights.
+class PathTracer {
+ public:
+  // Size, light paths and seed of the settings count. With features, what a filter needs is kept as well: 128 B more a pixel.
+  PathTracer(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings, bool features = false);
+  ~PathTracer();
+
+  // Reports the fraction of this pass. False: stopped half way, and dropped. The first is never stopped.
+  bool pass(const Progress& progress = {});
+
+  int samples() const;     // passes so far
+  Image mean() const;      // linear, cd/m²
+  Image variance() const;  // of each pixel's mean, per channel; 0 with one sample
+  double noise() const;    // mean relative standard error over pixels; infinite with one sample
+  uint64_t rays() const;   // traced so far, of every kind
+  FilterInput features() const;  // needs features
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 struct PathResult {
   Image image;        // linear, cd/m²
-  Image variance;     // of each pixel's mean, per channel
+  Image variance;     // of each pixel's mean before filtering, per channel
   int samples = 0;    // per pixel, done
   double noise = 0;   // mean relative standard error
   uint64_t rays = 0;  // traced, of every kind

@@ -10,7 +10,15 @@ constexpr int kLongestPath = 4096;
 // Of so many vertices of light paths one is connected to, chosen by what it could give without shadows.
 constexpr int kCandidates = 4;
 
+// The part of light from wi that the diffuse lobe scatters.
+Vec3 diffuseShare(const Bsdf& bsdf, Vec3 wi) { return min(bsdf.evaluateDiffuse(wi) / max(bsdf.evaluate(wi), Vec3(1e-20f)), Vec3(1)); }
+
 }  // namespace
+
+// Of light at one surface: what the diffuse lobe scatters, that of suns apart.
+struct PathWalk::Parts {
+  Vec3 diffuse, sharp;
+};
 
 // Drawn long before they are looked at, because they lie all over memory.
 struct PathWalk::Candidates {
@@ -43,10 +51,53 @@ struct PathWalk::State {
   }
 };
 
+struct PathWalk::NoRecord {
+  static constexpr bool kOn = false;
+};
+
+// Sorts the light of a path by its first surface.
+class PathWalk::FirstSurface {
+ public:
+  static constexpr bool kOn = true;
+  explicit FirstSurface(FilterPixel& pixel) : pixel_(pixel) { pixel = {}; }
+
+  bool isHere(const SurfacePoint& s, const Bsdf& bsdf) const { return state_ == kLooking && s.m.alpha >= 1 && s.m.transmission <= 0 && !bsdf.isMirrorOnly(); }
+  void see(const SurfacePoint& s, const Bsdf& bsdf, Vec3 throughput) {
+    pixel_.albedo = throughput * bsdf.diffuseAlbedo();
+    pixel_.normal = s.ns, pixel_.position = s.p;
+    pixel_.roughness = s.m.roughness;
+    pixel_.surface = 1;
+  }
+  // Light that the surface itself has gathered.
+  void add(Vec3 all, const Parts& parts) { pixel_.diffuse += parts.diffuse, pixel_.sharp += parts.sharp, pixel_.specular += max(all - parts.diffuse - parts.sharp, Vec3(0)); }
+  void goOn(const Bsdf& bsdf, const BsdfSample& next) { state_ = kSeen, diffuse_ = next.mirror ? Vec3(0) : diffuseShare(bsdf, next.wi); }
+  // Panes scatter sharp pictures of other things.
+  void scatteredByPane() { state_ = state_ == kLooking ? kGivenUp : state_; }
+  // Light from anywhere else.
+  void add(Vec3 light) {
+    if (state_ != kSeen) return static_cast<void>(pixel_.rest += light);
+    pixel_.diffuse += light * diffuse_, pixel_.specular += light * (Vec3(1) - diffuse_);
+  }
+
+ private:
+  enum State { kLooking,
+               kSeen,
+               kGivenUp };
+  FilterPixel& pixel_;
+  State state_ = kLooking;
+  Vec3 diffuse_;  // of light that arrives after the first surface, what its diffuse lobe scattered
+};
+
 Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount) const {
   State path;
   path.ray = ray;
-  return follow(path, sampler, rayCount);
+  return follow(path, sampler, rayCount, NoRecord());
+}
+
+Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen) const {
+  State path;
+  path.ray = ray;
+  return follow(path, sampler, rayCount, FirstSurface(seen));
 }
 
 // Pi times what an ideal white Lambertian patch there would reflect.
@@ -56,7 +107,7 @@ Vec3 PathWalk::illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount)
   s.ng = s.ns = n;
   s.m.baseColor = Vec3(1);
   const Bsdf bsdf(s.m, n, n, n);
-  Vec3 sum = direct(s, bsdf, 1, sampler, rayCount);
+  Vec3 sum = direct<false>(s, bsdf, 1, sampler, rayCount, nullptr);
   const BsdfSample next = bsdf.sample(sampler.next2(), sampler.next1());
   if (next.valid()) {
     State path;
@@ -64,12 +115,13 @@ Vec3 PathWalk::illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount)
     path.throughput = next.weight;
     path.lastPoint = p;
     path.lastPdf = next.pdf;
-    sum += follow(path, sampler, rayCount);
+    sum += follow(path, sampler, rayCount, NoRecord());
   }
   return sum * kPi;
 }
 
-Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
+template <class Record>
+Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record record) const {
   Vec3 sum;
   int scattered = 0;
   Candidates candidates;
@@ -78,13 +130,17 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
     const Hit hit = rays_.intersect(path.ray);
     ++rayCount;
     if (!hit.valid()) {
-      sum += path.throughput * escaped(path);
+      const Vec3 light = path.throughput * escaped(path);
+      sum += light;
+      if constexpr (Record::kOn) record.add(light);
       break;
     }
     const SurfacePoint s = surfaces_.at(hit, path.ray.direction);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, lights_.pdfLocal(path.lastPoint, s)) : 1;
-      sum += path.throughput * emitted * w;
+      const Vec3 light = path.throughput * emitted * w;
+      sum += light;
+      if constexpr (Record::kOn) record.add(light);
     }
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
     float lampShare = path.lampShare;
@@ -93,13 +149,35 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount) const {
       lampShare *= 1 - LightVertices::share(path.lastPdf, -dot(s.ng, path.ray.direction), inverse2, lights_.lampDensity(s.p, s.ng));
     }
     // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
-    Vec3 here = direct(s, bsdf, lampShare, sampler, rayCount);
-    if (vertices_ && !bsdf.isMirrorOnly()) here += connected(s, bsdf, candidates, sampler, rayCount) * lampShare;
+    bool first = false;
+    if constexpr (Record::kOn) first = record.isHere(s, bsdf);
+    Vec3 here;
+    if (first) {
+      if constexpr (Record::kOn) {
+        record.see(s, bsdf, path.throughput);
+        Parts parts;
+        here = direct<true>(s, bsdf, lampShare, sampler, rayCount, &parts);
+        if (vertices_) {
+          Vec3 diffuse;
+          here += connected<true>(s, bsdf, candidates, sampler, rayCount, &diffuse) * lampShare;
+          parts.diffuse += diffuse * lampShare;
+        }
+        record.add(path.throughput * here, {path.throughput * parts.diffuse, path.throughput * parts.sharp});
+      }
+    } else {
+      here = direct<false>(s, bsdf, lampShare, sampler, rayCount, nullptr);
+      if (vertices_ && !bsdf.isMirrorOnly()) here += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr) * lampShare;
+      if constexpr (Record::kOn) record.add(path.throughput * here * s.m.alpha);
+    }
     sum += path.throughput * here * s.m.alpha;
     if (passThrough(path, s, bsdf, sampler)) continue;
 
     const BsdfSample next = bsdf.sample(sampler.next2(), sampler.next1());
     if (!next.valid() || dot(next.wi, s.ng) <= 0) break;
+    if constexpr (Record::kOn) {
+      if (first) record.goOn(bsdf, next);
+      if (s.m.alpha < 1 || s.m.transmission > 0) record.scatteredByPane();
+    }
     path.throughput *= next.weight;
     path.lastPdf = next.mirror ? 0 : next.pdf;
     path.lastPoint = s.p;
@@ -143,33 +221,42 @@ bool PathWalk::passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf,
   return false;
 }
 
-Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount) const {
+template <bool kParts>
+Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const {
   if (!light.valid()) return {};
   const BsdfValue value = bsdf.value(light.wi);
   if (isBlack(value.f)) return {};
   const Vec3 f = light.pdf > 0 ? value.f * misWeight(light.pdf, value.pdf) : value.f;
   const float tMax = light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity;
   ++rayCount;
-  return f * light.radiance * rays_.transmittance({offsetOrigin(s.p, s.ng), light.wi, 0, tMax});
+  const Vec3 all = f * light.radiance * rays_.transmittance({offsetOrigin(s.p, s.ng), light.wi, 0, tMax});
+  if constexpr (kParts) *diffuse = all * diffuseShare(bsdf, light.wi);
+  return all;
 }
 
-Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount) const {
-  Vec3 sum;
+template <bool kParts>
+Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts) const {
+  Vec3 sum, local, sun, sky;
   if (lights_.hasLocal()) {
     const Vec2 u = sampler.next2();
     const LightSample light = lights_.sampleLocal(s.p, u, sampler.next1());
-    sum += contribution(s, bsdf, light, rayCount) * (light.pdf > 0 ? 1 : lampShare);
+    const float left = light.pdf > 0 ? 1 : lampShare;
+    sum += contribution<kParts>(s, bsdf, light, rayCount, &local) * left;
+    if constexpr (kParts) parts->diffuse += local * left;
   }
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
-    sum += contribution(s, bsdf, lights_.sampleSun(i, sampler.next2()), rayCount);
+    sum += contribution<kParts>(s, bsdf, lights_.sampleSun(i, sampler.next2()), rayCount, &sun);
+    if constexpr (kParts) parts->sharp += sun, sun = {};
   }
-  if (lights_.sky().sampled()) sum += contribution(s, bsdf, lights_.sampleSky(sampler.next2()), rayCount);
+  if (lights_.sky().sampled()) sum += contribution<kParts>(s, bsdf, lights_.sampleSky(sampler.next2()), rayCount, &sky);
+  if constexpr (kParts) parts->diffuse += sky;
   return sum;
 }
 
 // Light that reaches s from one vertex of a light path, times the part of it that is had by connections. The vertex is one
 // of a few candidates, resampled in proportion to an estimate of its light (Talbot, Cline & Egbert 2005).
-Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount) const {
+template <bool kParts>
+Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse) const {
   const LightVertex* chosen = nullptr;
   float chosenWeight = 0, chosenShare = 0, total = 0;
   for (const LightVertex* candidate : candidates.vertex) {
@@ -200,7 +287,9 @@ Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidat
   const Vec3 left = rays_.transmittance({from, d, 0, 1 - 1e-6f});
   const float toArea = -dot(chosen->ng, wi) / lengthSquared(exact);
   const float pick = static_cast<float>(vertices_->all().size()) * total / (chosenWeight * kCandidates);
-  return f * fz * chosen->flux * left * (toArea * chosenShare * pick);
+  const Vec3 all = f * fz * chosen->flux * left * (toArea * chosenShare * pick);
+  if constexpr (kParts) *diffuse = all * diffuseShare(bsdf, wi);
+  return all;
 }
 
 }  // namespace roomlight

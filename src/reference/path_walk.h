@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/sampler.h"
+#include "filter/filter.h"
 #include "reference/light_vertices.h"
 #include "trace/surfaces.h"
 
@@ -15,18 +16,29 @@ class PathWalk {
 
   // Towards the ray's origin, cd/m².
   Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount) const;
+  // The same, and for a filter: parts of the light, by how the first surface that is no mirror scatters it, and what is seen there,
+  // looking through panes. Variances are left alone; of what was in `seen` nothing is kept.
+  Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen) const;
   // On a surface element, lux.
   Vec3 illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const;
 
  private:
   struct State;
   struct Candidates;
-  Vec3 follow(State& path, Sampler& sampler, uint64_t& rayCount) const;
+  struct Parts;
+  struct NoRecord;
+  class FirstSurface;
+  template <class Record>
+  Vec3 follow(State& path, Sampler& sampler, uint64_t& rayCount, Record record) const;
   Vec3 escaped(const State& path) const;
   bool passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler) const;
-  Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount) const;
-  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount) const;
-  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount) const;
+  // What goes to `parts` and `diffuse`, where that is asked for, is contained in the value.
+  template <bool kParts>
+  Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const;
+  template <bool kParts>
+  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts) const;
+  template <bool kParts>
+  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse) const;
 
   const RayScene& rays_;
   const Lights& lights_;
