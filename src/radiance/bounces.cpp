@@ -1,6 +1,7 @@
 #include "radiance/bounces.h"
 
 #include "base/parallel.h"
+#include "radiance/half.h"
 
 namespace roomlight {
 namespace {
@@ -11,20 +12,41 @@ constexpr double kDark = 1e-4;
 constexpr double kSmall = 0.01;
 constexpr float kAbsorbs = 1e-3f;  // at least, where only the end of the bounces is judged
 constexpr size_t kChunk = 4096;    // slots
+constexpr float kHeadroom = 1.0f / 4096;  // half floats end at 65504: light may grow by 16 from one step to the next
 constexpr size_t kAhead = 32;      // links whose light is on its way from memory
 
+// Three channels and a zero, or a fourth value: what one instruction takes.
 struct alignas(16) Padded {
-  float v[4];
+  Padded() = default;
+  Padded(Vec3 xyz, float w) : v{xyz.x, xyz.y, xyz.z, w} {}
+  explicit Padded(__m128 all) { _mm_store_ps(v, all); }
+  __m128 load() const { return _mm_load_ps(v); }
+  float v[4] = {};
 };
+
+// The same as half floats: twice as many stay in the cache.
+struct Halves {
+  Halves() = default;
+  explicit Halves(__m128 all) { _mm_storel_epi64(reinterpret_cast<__m128i*>(v), _mm_cvtps_ph(_mm_min_ps(all, _mm_set1_ps(65504)), 0)); }
+  __m128 load() const { return fromHalf4(v); }
+  alignas(8) uint16_t v[4] = {};
+};
+
+float luminanceOf(__m128 v) { return _mm_cvtss_f32(_mm_dp_ps(v, _mm_setr_ps(0.2126f, 0.7152f, 0.0722f, 0), 0x71)); }
 
 class Iteration {
  public:
-  Iteration(const Voxels& voxels, const Links& links, std::span<const Vec3> direct, std::vector<Vec3>& indirect)
-      : links_(links), direct_(direct), indirect_(indirect), surfaces_(voxels.slots.size()), reflected_(voxels.slots.size()), other_(voxels.slots.size()) {
+  Iteration(const Voxels& voxels, const Links& links, std::span<const Vec3> direct, std::span<const Vec3> indirect)
+      : links_(links), surfaces_(direct.size()), direct_(direct.size()), indirect_(direct.size()), other_(direct.size()), reflected_(direct.size()), next_(direct.size()) {
     parallelFor(surfaces_.size(), 8192, [&](size_t i) {
       const FaceSlot& slot = voxels.slots[i];
       surfaces_[i] = {slot.albedo, slot.areaM2 * std::max(kAbsorbs, 1 - luminance(slot.albedo))};
+      direct_[i] = {direct[i], 0}, indirect_[i] = {indirect[i], 0};
     });
+    float brightest = 1e-30f;
+    for (size_t i = 0; i < direct.size(); ++i) brightest = std::max(brightest, maxComponent(direct[i] + indirect[i]));
+    unit_ = brightest * kHeadroom;
+    parallelFor(surfaces_.size(), 8192, [&](size_t i) { reflected_[i] = reflectedBy(i, _mm_add_ps(direct_[i].load(), indirect_[i].load()), unit_); });
   }
 
   Bounces run(const RadianceSettings& settings, const Progress& progress) {
@@ -43,8 +65,14 @@ class Iteration {
       indirect_.swap(other_);
       if (out.residual <= settings.residual) break;
     }
-    parallelFor(indirect_.size(), 8192, [&](size_t i) { indirect_[i] = max(Vec3(0), indirect_[i]); });
     return out;
+  }
+
+  void result(std::vector<Vec3>& indirect) const {
+    parallelFor(indirect_.size(), 8192, [&](size_t i) {
+      const auto& v = indirect_[i].v;
+      indirect[i] = max(Vec3(0), {v[0], v[1], v[2]});
+    });
   }
 
  private:
@@ -57,54 +85,56 @@ class Iteration {
   double step(float omega) {
     struct Sums {
       double light = 0, lightSquared = 0, area = 0, squares = 0, fractions = 0;
+      __m128 brightest = _mm_setzero_ps();
     };
     const size_t slots = surfaces_.size();
-    parallelFor(slots, 8192, [&](size_t i) {
-      const Vec3 r = surfaces_[i].albedo * (direct_[i] + indirect_[i]);
-      reflected_[i] = {{r.x, r.y, r.z, 0}};
-    });
+    const float nextUnit = std::max(unit_, brightest_ * kHeadroom);
     std::vector<Sums> parts((slots + kChunk - 1) / kChunk);
     parallelFor(parts.size(), 1, [&](size_t c) {
       Sums& sum = parts[c];
       for (size_t i = c * kChunk; i < std::min(slots, (c + 1) * kChunk); ++i) {
-        const Vec3 gathered = gather(i);
-        const double area = static_cast<double>(surfaces_[i].absorbingM2);
-        const double light = std::max(0.0, static_cast<double>(luminance(gathered + direct_[i])));
-        const double r = std::abs(static_cast<double>(luminance(gathered - indirect_[i]))) / (light + kDark * mean_ + 1e-30);
+        const __m128 gathered = gather(i), straight = direct_[i].load(), before = other_[i].load();
+        const auto area = static_cast<double>(surfaces_[i].v[3]);
+        const auto light = static_cast<double>(std::max(0.0f, luminanceOf(_mm_add_ps(gathered, straight))));
+        const double r = static_cast<double>(std::abs(luminanceOf(_mm_sub_ps(gathered, indirect_[i].load())))) / (light + kDark * mean_ + 1e-30);
         sum.light += area * light, sum.lightSquared += area * light * light, sum.area += area, sum.squares += area * r * r, sum.fractions += area * r;
-        other_[i] += (gathered - other_[i]) * omega;
+        const __m128 after = _mm_fmadd_ps(_mm_sub_ps(gathered, before), _mm_set1_ps(omega), before);
+        other_[i] = Padded(after);
+        const __m128 all = _mm_add_ps(straight, after);
+        sum.brightest = _mm_max_ps(sum.brightest, all);
+        next_[i] = reflectedBy(i, all, nextUnit);
       }
     });
+    reflected_.swap(next_);
+    unit_ = nextUnit;
+    __m128 brightest = _mm_setzero_ps();
+    for (const Sums& p : parts) brightest = _mm_max_ps(brightest, p.brightest);
+    const Padded channels(brightest);
+    brightest_ = std::max({channels.v[0], channels.v[1], channels.v[2]});
     Sums sum;
     for (const Sums& p : parts) sum.light += p.light, sum.lightSquared += p.lightSquared, sum.area += p.area, sum.squares += p.squares, sum.fractions += p.fractions;
     mean_ = sum.light > 0 ? sum.lightSquared / sum.light : 0;
     return sum.fractions > 0 ? std::min(sum.squares / sum.fractions, sum.fractions / (kSmall * sum.area)) : 0;
   }
 
-  Vec3 gather(size_t slot) const {
+  Halves reflectedBy(size_t slot, __m128 lux, float unit) const { return Halves(_mm_mul_ps(_mm_mul_ps(surfaces_[slot].load(), lux), _mm_set1_ps(1 / unit))); }
+
+  __m128 gather(size_t slot) const {
     const size_t first = links_.first[slot], last = links_.first[slot + 1], end = links_.links.size();
     __m128 sum = _mm_setzero_ps();
     for (size_t j = first; j < last; ++j) {
       if (j + kAhead < end) __builtin_prefetch(&reflected_[links_.links[j + kAhead].slot()]);
       const Link link = links_.links[j];
-      sum = _mm_fmadd_ps(_mm_load_ps(reflected_[link.slot()].v), link.left(), sum);
+      sum = _mm_fmadd_ps(reflected_[link.slot()].load(), link.left(), sum);
     }
-    Padded out;
-    _mm_store_ps(out.v, _mm_mul_ps(sum, _mm_set1_ps(Link::kUnit / static_cast<float>(std::max<size_t>(1, last - first)))));
-    return {out.v[0], out.v[1], out.v[2]};
+    return _mm_mul_ps(sum, _mm_set1_ps(unit_ * Link::kUnit / static_cast<float>(std::max<size_t>(1, last - first))));
   }
 
-  // What a step asks of a slot: a quarter of its record.
-  struct Surface {
-    Vec3 albedo;
-    float absorbingM2;  // black surface that takes as much
-  };
   const Links& links_;
-  const std::span<const Vec3> direct_;
-  std::vector<Vec3>& indirect_;
-  std::vector<Surface> surfaces_;
-  std::vector<Padded> reflected_;
-  std::vector<Vec3> other_;  // the step before, replaced by the step after
+  std::vector<Padded> surfaces_;  // albedo, and black surface that takes as much, m²
+  std::vector<Padded> direct_, indirect_, other_;  // other: the step before, replaced by the step after
+  std::vector<Halves> reflected_, next_;           // in unit_: of the light there is, and after this step
+  float unit_ = 1, brightest_ = 0;
   double mean_ = 0;
 };
 
@@ -112,7 +142,10 @@ class Iteration {
 
 Bounces bounce(const Voxels& voxels, const Links& links, std::span<const Vec3> direct, std::vector<Vec3>& indirect, const RadianceSettings& settings,
                const Progress& progress) {
-  return Iteration(voxels, links, direct, indirect).run(settings, progress);
+  Iteration iteration(voxels, links, direct, indirect);
+  const Bounces done = iteration.run(settings, progress);
+  iteration.result(indirect);
+  return done;
 }
 
 void smooth(const Links& links, std::vector<Vec3>& perSlot) {

@@ -181,7 +181,7 @@ bool DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::spa
     return lights_.sampleEmitters(p, u, sampler.next1());
   };
   if (!near.empty() && !anyCrosses(brick, most, near, sample)) return false;
-  trace(brick, {(most + 3) / 4, most}, lux, sample);
+  trace(brick, {(most + 1) / 2, most}, lux, sample);
   return true;
 }
 

@@ -48,12 +48,14 @@ LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels&
   matchLamps(from);
   progress.at(0.8f);
   indirect_.assign(voxels.slots.size(), {});
+  marks_ = marksOf(voxels);
   solve(from);
 }
 
 void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
   const Sources from{rays, lights, voxels, progress};
   field_.rays = 0;
+  paths_.refer(rays, voxels);
   matchLamps(from);
   progress.at(0.5f);
   solve(from);
@@ -67,12 +69,7 @@ void LightCache::traceAllLinks(const Sources& from) {
   Steps steps(from.progress, 0, 0.5f, from.voxels.bricks.size());
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
-    const auto [first, last] = slotsOfBrick(from.voxels, b);
-    std::vector<LinkOf> wanted;
-    for (auto s = static_cast<uint32_t>(first); s < last; ++s) {
-      for (uint32_t i = 0; i < links_.count(s); ++i) wanted.push_back({s, i});
-    }
-    traceLinks(from.voxels, paths_, b, wanted, settings_.seed, links_, hasSky ? &guide : nullptr);
+    traceLinks(from.voxels, paths_, b, linksOfBrick(from.voxels, links_, b), settings_.seed, links_, hasSky ? &guide : nullptr);
     steps.one();
   });
   if (from.progress.stop()) return;
@@ -98,20 +95,28 @@ void LightCache::traceFixedLights(const Sources& from) {
 
 void LightCache::traceLamp(const Sources& from, LampLight& light) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
-  const LampSurroundings around(light.lamp, from.voxels.voxelSizeM);
   std::vector<Vec3> lux(from.voxels.slots.size());
-  std::atomic<bool> any = false;
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
-    if (from.progress.stop()) return;
-    direct.lamp(light.lamp, b, {}, lux);
+    if (!from.progress.stop()) direct.lamp(light.lamp, b, {}, lux);
+  });
+  light.direct = SlotLight(from.voxels, lux);
+  traceLampParticles(from, light);
+  field_.rays += direct.rayCount() + light.particles.rays;
+}
+
+// None where there is no surface near the lamp.
+void LightCache::traceLampParticles(const Sources& from, LampLight& light) {
+  light.particles = {};
+  const LampSurroundings around(light.lamp, from.voxels.voxelSizeM);
+  std::atomic<bool> any = false;
+  parallelFor(from.voxels.bricks.size(), 16, [&](size_t b) {
+    if (any || !around.touches(boundsOfBrick(from.voxels, b))) return;
     const auto [first, last] = slotsOfBrick(from.voxels, b);
     for (size_t s = first; s < last && !any; ++s) {
       if (around.contains(from.voxels.slots[s].position)) any = true;
     }
   });
-  light.direct = SlotLight(from.voxels, lux);
-  if (any && !from.progress.stop()) light.particles = traceParticles(from.rays, from.voxels, paths_, light.lamp, from.lights.lampCount(), settings_, from.progress);
-  field_.rays += direct.rayCount() + light.particles.rays;
+  if (any && !from.progress.stop()) light.particles = traceParticles(from.rays, from.voxels, paths_, light.lamp, std::max<size_t>(1, from.lights.lampCount()), settings_, from.progress);
 }
 
 // What is known of lamps in the same place stays; the rest is traced.
@@ -138,6 +143,15 @@ void LightCache::matchLamps(const Sources& from) {
   }
   next.insert(next.end(), std::make_move_iterator(dark.rbegin()), std::make_move_iterator(dark.rend()));
   lamps_ = std::move(next);
+}
+
+void LightCache::forgetLampsBut(const Lights& lights) {
+  std::erase_if(lamps_, [&](const LampLight& known) {
+    for (size_t i = 0; i < lights.lampCount(); ++i) {
+      if (sameLight(known.lamp, lights.lamp(i))) return false;
+    }
+    return true;
+  });
 }
 
 void LightCache::solve(const Sources& from) {

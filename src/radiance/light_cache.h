@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "radiance/bounces.h"
+#include "radiance/carried.h"
 #include "radiance/links.h"
 #include "radiance/near_lamps.h"
 #include "radiance/radiance_field.h"
@@ -12,6 +15,11 @@
 #include "radiance/slot_paths.h"
 
 namespace roomlight {
+
+struct MovedInstances {
+  std::span<const uint32_t> instances;
+  std::span<const Bounds3> places;  // where they were and where they are, m (see Voxelisation::instanceBounds); none empty
+};
 
 class LightCache {
  public:
@@ -22,6 +30,11 @@ class LightCache {
   // After lamps were switched, dimmed, coloured, moved, added or removed; suns, sky, emissive meshes and geometry are as before. Only
   // lamps in new places are traced, those dimmed or coloured are scaled, and bounces go on from the light there was.
   void relight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
+
+  // After instances moved, appeared or vanished; suns and sky are as before, lamps may have changed too. `rays`, `lights` and `voxels`
+  // are of the scene as it is now. What changed bricks, or ways that cross the changed places, have to do with is traced again; the
+  // rest comes out as if all were lit anew with the same seed.
+  void update(const RayScene& rays, const Lights& lights, const Voxels& voxels, const MovedInstances& moved, const Progress& progress = {});
 
   const RadianceField& field() const { return field_; }
   RadianceField take() { return std::move(field_); }
@@ -34,15 +47,28 @@ class LightCache {
     SlotLight direct;
     ParticleLight particles;
   };
+  // Traces a light in a brick, if a ray may cross one of the boxes or there are none; false otherwise (see DirectLight).
+  using BrickTracer = std::function<bool(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux)>;
   struct Sources {
     const RayScene& rays;
     const Lights& lights;
     const Voxels& voxels;
     const Progress& progress;
   };
+  struct Change {
+    const Carried& carried;
+    std::span<const Bounds3> places;
+  };
   void traceAllLinks(const Sources& from);
+  void updateLinks(const Sources& from, const SlotPaths& paths, const Change& change);
+  SlotLight updated(const Sources& from, const SlotLight& before, const Change& change, const BrickTracer& trace) const;
+  SlotLight carriedLight(const Sources& from, const SlotLight& before, const Carried& carried) const;
+  void updateFixedLights(const Sources& from, const Change& change, bool emittersMoved);
+  void updateLamps(const Sources& from, const Change& change);
   void traceFixedLights(const Sources& from);
   void traceLamp(const Sources& from, LampLight& light);
+  void traceLampParticles(const Sources& from, LampLight& light);
+  void forgetLampsBut(const Lights& lights);
   void matchLamps(const Sources& from);
   void solve(const Sources& from);
   void fillField(const Sources& from, std::vector<Vec3>& near);
@@ -51,6 +77,7 @@ class LightCache {
   RadianceSettings settings_;
   SlotPaths paths_;
   Links links_;
+  std::vector<BrickMark> marks_;
   SlotLight suns_, sky_, emitters_;
   std::vector<LampLight> lamps_;
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot

@@ -75,12 +75,21 @@ Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most) {
   return out;
 }
 
+std::vector<LinkOf> linksOfBrick(const Voxels& voxels, const Links& links, size_t brick) {
+  std::vector<LinkOf> all;
+  const auto [first, last] = slotsOfBrick(voxels, brick);
+  for (auto s = static_cast<uint32_t>(first); s < last; ++s) {
+    for (uint32_t i = 0; i < links.count(s); ++i) all.push_back({s, i});
+  }
+  return all;
+}
+
 Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed) {
   Sampler sampler(paths.key(link.slot), link.i, seed);
   return {paths.point(link.slot, link.i), Frame(voxels.slots[link.slot].normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
 }
 
-void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::vector<LinkOf>& wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide) {
+void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide) {
   // In order of direction: rays traced together then meet the same things.
   std::vector<Ray> unsorted, rays;
   std::vector<uint32_t> bins, order(wanted.size());

@@ -56,10 +56,13 @@ struct LinkOf {
   uint32_t slot, i;
 };
 
+// All links of a brick.
+std::vector<LinkOf> linksOfBrick(const Voxels& voxels, const Links& links, size_t brick);
+
 // The ray of a link.
 Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed);
 
 // Traces the wanted links of one brick, and tells `guide` (null: no sky) what they saw of the sky.
-void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::vector<LinkOf>& wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide);
+void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide);
 
 }  // namespace roomlight

@@ -89,6 +89,20 @@ SkyGuide SkyGuideBuilder::finish(const Progress& progress) const {
   return guide;
 }
 
+SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carried& carried) {
+  SkyGuide out;
+  out.guideOfBrick.resize(carried.oldBrick.size());
+  for (size_t b = 0; b < out.guideOfBrick.size(); ++b) {
+    const SkyGuide& from = carried.keeps(b) ? before : fresh;
+    const auto& guides = from.guideOfBrick[carried.keeps(b) ? static_cast<size_t>(carried.oldBrick[b]) : b];
+    for (size_t face = 0; face < 6; ++face) {
+      out.guideOfBrick[b][face] = guides[face] < 0 ? -1 : static_cast<int32_t>(out.cdf.size());
+      if (guides[face] >= 0) out.cdf.push_back(from.cdf[static_cast<size_t>(guides[face])]);
+    }
+  }
+  return out;
+}
+
 int32_t guideAt(const SkyGuide& guides, const Voxels& voxels, Vec3 p, Vec3 n) {
   if (guides.guideOfBrick.empty()) return -1;
   for (const float nudge : {-0.02f, 0.02f, 0.5f}) {

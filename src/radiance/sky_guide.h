@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "radiance/carried.h"
 #include "radiance/radiance_field.h"
 
 namespace roomlight {
@@ -25,6 +26,9 @@ class SkyGuideBuilder {
   const SkyDistribution& sky_;
   std::vector<std::array<std::unique_ptr<Blocks>, 6>> blocks_;  // per brick and face; null: no slot
 };
+
+// The guides of `fresh`, and those of `before` for bricks that are carried.
+SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carried& carried);
 
 // A sky direction for a surface: by `guide` (an index into SkyGuide::cdf), or where that is -1 by the sky's own brightness.
 // `radiance` is divided by the density.

@@ -52,12 +52,24 @@ std::pair<size_t, size_t> slotsOfBrick(const Voxels& voxels, size_t brick) {
   return {slotBegin(firstVoxel), slotBegin(end)};
 }
 
-SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress)
+SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, const SlotPaths* before, const Carried* carried)
     : rays_(&rays), voxels_(&voxels), points_(voxels.slots.size()), key_(voxels.slots.size()), sheet_(voxels.slots.size()), free_(voxels.slots.size()) {
   for (const Instance& i : rays.scene().instances) clear_.push_back(letsLightThrough(rays.scene().materials[static_cast<size_t>(rays.scene().meshes[static_cast<size_t>(i.mesh)].material)]));
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
-    if (!progress.stop()) prepare(b, seed);
+    if (progress.stop()) return;
+    if (carried && carried->keeps(b)) {
+      copyFrom(*before, carried->firstOld[b], b);
+    } else {
+      prepare(b, seed);
+    }
   });
+}
+
+void SlotPaths::copyFrom(const SlotPaths& before, size_t firstBefore, size_t brick) {
+  const auto [first, last] = slotsOfBrick(*voxels_, brick);
+  for (size_t s = first, o = firstBefore; s < last; ++s, ++o) {
+    points_[s] = before.points_[o], key_[s] = before.key_[o], sheet_[s] = before.sheet_[o], free_[s] = before.free_[o];
+  }
 }
 
 void SlotPaths::prepare(size_t brick, uint64_t seed) {

@@ -8,6 +8,7 @@
 
 #include "base/progress.h"
 #include "base/sampler.h"
+#include "radiance/carried.h"
 #include "trace/ray_scene.h"
 #include "trace/surface_point.h"
 #include "voxel/voxels.h"
@@ -41,7 +42,12 @@ class SlotPaths {
 
   SlotPaths() = default;
   // Of no use once `progress` says stop. Refers to rays and voxels.
-  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress);
+  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress) : SlotPaths(rays, voxels, seed, progress, nullptr, nullptr) {}
+  // Where bricks are carried from `before` what was found there stands.
+  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, const SlotPaths* before, const Carried* carried);
+
+  // The same scene and voxels, wherever they are now.
+  void refer(const RayScene& rays, const Voxels& voxels) { rays_ = &rays, voxels_ = &voxels; }
 
   // Points that receive a slot's light.
   Vec3 point(size_t slot, size_t k) const { return points_[slot][k % kPoints]; }
@@ -72,6 +78,7 @@ class SlotPaths {
     int64_t slot;
   };
   void prepare(size_t brick, uint64_t seed);
+  void copyFrom(const SlotPaths& before, size_t firstBefore, size_t brick);
   void nameSlots(size_t brick);
   void probe(size_t first, size_t last, uint64_t seed);
   bool fillsVoxel(const FaceSlot& slot) const { return slot.areaM2 > 0.8f * voxels_->voxelSizeM * voxels_->voxelSizeM; }

@@ -1,0 +1,34 @@
+// What of the slots stays when instances have moved: bricks with the same records as before, away from what moved.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "voxel/voxels.h"
+
+namespace roomlight {
+
+// Tells a brick's records from others, wherever they stand in the arrays.
+struct BrickMark {
+  Int3 coord;  // in bricks from the world's origin
+  uint64_t hash = 0;
+  uint32_t firstSlot = 0, slots = 0;
+};
+std::vector<BrickMark> marksOf(const Voxels& voxels);
+
+struct Carried {
+  static constexpr uint32_t kGone = 0xffffffffu;
+  std::vector<int32_t> oldBrick;   // per brick; -1: new, changed, or close to a change
+  std::vector<uint32_t> newSlot;   // per old slot; kGone where its brick is not carried
+  std::vector<uint32_t> firstOld;  // per brick: its first slot before, where carried
+  bool keeps(size_t brick) const { return oldBrick[brick] >= 0; }
+};
+
+// `changed`: where instances are and were, m.
+Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels, std::span<const Bounds3> changed);
+
+Bounds3 boundsOfBrick(const Voxels& voxels, size_t brick);
+bool overlap(const Bounds3& a, const Bounds3& b, float margin);
+
+}  // namespace roomlight

@@ -1,0 +1,188 @@
+// A light cache brought up to date equals one made anew.
+#include "radiance/light_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "base/parallel.h"
+#include "support/rooms.h"
+#include "voxel/voxelise.h"
+
+namespace roomlight {
+namespace {
+
+// A room with a window in a wall, a table, a box of its own that moves, and two lamps.
+struct Home {
+  Scene scene;
+  Voxelisation voxelisation;
+  std::vector<uint32_t> box;  // instances
+
+  explicit Home(bool sky = false) {
+    const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+    test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
+    if (sky) scene.meshes.pop_back(), scene.instances.pop_back(), scene.sky.luminanceCdM2 = Vec3(500);
+    test::addBox(scene, {2.5f, 0, 1}, {3.5f, 0.7f, 2.5f}, wood);
+    const auto first = static_cast<uint32_t>(scene.instances.size());
+    test::addBox(scene, {0.52f, 0.01f, 0.53f}, {1.03f, 0.57f, 1.04f}, wood);
+    for (uint32_t i = first; i < scene.instances.size(); ++i) box.push_back(i);
+    scene.lamps = {test::pointLamp({1.3f, 1.9f, 1.2f}, 80), test::pointLamp({3.1f, 2.45f, 4.1f}, 50)};
+    VoxelSettings settings;
+    settings.voxelSizeM = 0.1f;
+    voxelisation = voxelise(scene, settings);
+  }
+  const Voxels& voxels() const { return voxelisation.voxels; }
+
+  // Where the box is and was.
+  std::vector<Bounds3> moveBox(Vec3 by) {
+    std::vector<Bounds3> places;
+    const auto note = [&] {
+      Bounds3 place;
+      for (const uint32_t i : box) place.add(voxelisation.instanceBounds[i]);
+      places.push_back(place);
+    };
+    note();
+    for (const uint32_t i : box) scene.instances[i].worldFromObject.w += by;
+    roomlight::update(voxelisation, scene, box);
+    note();
+    return places;
+  }
+};
+
+RadianceSettings exact() {
+  RadianceSettings settings;
+  settings.residual = 1e-5f;
+  settings.pyramid = false;
+  return settings;
+}
+
+LightCache lit(const Home& home, const RadianceSettings& settings = exact()) { return LightCache(RayScene(home.scene), Lights(home.scene), home.voxels(), settings); }
+
+void expectSame(const LightCache& a, const LightCache& b, float tolerance) {
+  ASSERT_EQ(a.field().irradianceLux.size(), b.field().irradianceLux.size());
+  for (size_t s = 0; s < a.field().irradianceLux.size(); ++s) {
+    const float x = luminance(a.field().irradianceLux[s]), y = luminance(b.field().irradianceLux[s]);
+    ASSERT_NEAR(x, y, tolerance * (y + 0.1f)) << s;
+  }
+}
+
+TEST(Relight, scalesLampsThatStayWhereTheyAre) {
+  Home home;
+  const RayScene rays(home.scene);
+  LightCache cache(rays, Lights(home.scene), home.voxels(), exact());
+  home.scene.lamps[0].intensityCd = {10, 40, 90};
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_EQ(cache.field().rays, 0u);
+  expectSame(cache, LightCache(rays, Lights(home.scene), home.voxels(), exact()), 2e-3f);
+}
+
+TEST(Relight, remembersLampsSwitchedOff) {
+  Home home;
+  const RayScene rays(home.scene);
+  const LightCache before = lit(home);
+  LightCache cache(rays, Lights(home.scene), home.voxels(), exact());
+  const Lamp lamp = home.scene.lamps[1];
+  home.scene.lamps.pop_back();
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_EQ(cache.field().rays, 0u);
+  expectSame(cache, LightCache(rays, Lights(home.scene), home.voxels(), exact()), 2e-3f);
+  home.scene.lamps.insert(home.scene.lamps.begin(), lamp);
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_EQ(cache.field().rays, 0u);
+  expectSame(cache, before, 2e-3f);
+}
+
+TEST(Relight, tracesOnlyTheLampThatMoved) {
+  Home home;
+  const RayScene rays(home.scene);
+  LightCache cache(rays, Lights(home.scene), home.voxels(), exact());
+  const uint64_t all = cache.field().rays;
+  home.scene.lamps[1].position = {2.2f, 1.1f, 3.3f};
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_GT(cache.field().rays, 0u);
+  EXPECT_LT(cache.field().rays, all / 2);
+  expectSame(cache, LightCache(rays, Lights(home.scene), home.voxels(), exact()), 2e-3f);
+}
+
+TEST(Relight, ofNothingAtAllIsDark) {
+  Home home;
+  const RayScene rays(home.scene);
+  LightCache cache(rays, Lights(home.scene), home.voxels(), exact());
+  home.scene.lamps.clear();
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  for (const Vec3& e : cache.field().irradianceLux) ASSERT_LT(luminance(e), 0.1f);
+}
+
+// Particles of a lamp close to surfaces would come upon the box; this one has none.
+Home withLampInTheAir() {
+  Home home;
+  home.scene.lamps = {test::pointLamp({2, 1.6f, 2.9f}, 80)};
+  return home;
+}
+
+// Light straight from lamps does not start from what there was: bit for bit.
+TEST(Update, directLightIsThatOfASceneLitAnew) {
+  Home home = withLampInTheAir();
+  RadianceSettings settings = exact();
+  settings.maxBounces = 0;
+  LightCache cache = lit(home, settings);
+  const uint64_t all = cache.field().rays;
+  const std::vector<Bounds3> places = home.moveBox({0.43f, 0, 0.71f});
+  const RayScene rays(home.scene);
+  cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+  EXPECT_LT(cache.field().rays, all * 3 / 4);
+  const LightCache fresh = lit(home, settings);
+  ASSERT_EQ(cache.field().irradianceLux.size(), fresh.field().irradianceLux.size());
+  for (size_t s = 0; s < fresh.field().irradianceLux.size(); ++s) {
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(cache.field().irradianceLux[s][k], fresh.field().irradianceLux[s][k]) << s;
+  }
+}
+
+TEST(Update, equalsASceneLitAnew) {
+  Home home;
+  LightCache cache = lit(home);
+  for (const Vec3 by : {Vec3{0.43f, 0, 0.71f}, Vec3{0.2f, 0.3f, 2.1f}, Vec3{-6, 0, 0}, Vec3{5.2f, 0, 0.1f}}) {
+    const std::vector<Bounds3> places = home.moveBox(by);
+    const RayScene rays(home.scene);
+    cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+    expectSame(cache, lit(home), 2e-3f);
+  }
+}
+
+// The guide to the sky keeps what other links taught it: the same but for noise.
+TEST(Update, underASkyEqualsASceneLitAnewButForNoise) {
+  Home home(true);
+  LightCache cache = lit(home);
+  const std::vector<Bounds3> places = home.moveBox({0.43f, 0, 0.71f});
+  const RayScene rays(home.scene);
+  cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+  const LightCache fresh = lit(home);
+  double a = 0, b = 0;
+  for (size_t s = 0; s < fresh.field().irradianceLux.size(); ++s) {
+    const double area = static_cast<double>(home.voxels().slots[s].areaM2);
+    a += area * static_cast<double>(luminance(cache.field().irradianceLux[s])), b += area * static_cast<double>(luminance(fresh.field().irradianceLux[s]));
+  }
+  EXPECT_NEAR(a, b, 0.01 * b);
+}
+
+TEST(LightCache, sameBitsWithAnyNumberOfThreads) {
+  std::vector<std::vector<Vec3>> results;
+  for (const int threads : {1, 2}) {
+    withThreads(threads, [&] {
+      Home home(true);
+      LightCache cache = lit(home, {});
+      const std::vector<Bounds3> places = home.moveBox({0.43f, 0, 0.71f});
+      home.scene.lamps[1].position = {2.2f, 1.1f, 3.3f};
+      const RayScene rays(home.scene);
+      cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+      home.scene.lamps[0].intensityCd *= 0.5f;
+      cache.relight(rays, Lights(home.scene), home.voxels());
+      results.push_back(cache.field().irradianceLux);
+    });
+  }
+  ASSERT_EQ(results[0].size(), results[1].size());
+  for (size_t s = 0; s < results[0].size(); ++s) ASSERT_TRUE(results[0][s] == results[1][s]) << s;
+}
+
+}  // namespace
+}  // namespace roomlight
