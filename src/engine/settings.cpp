@@ -22,6 +22,7 @@ struct Choice {
   T value;
 };
 constexpr Choice<Attenuation> kAttenuations[] = {{"plain", Attenuation::Plain}, {"normalWeighted", Attenuation::NormalWeighted}};
+constexpr Choice<BounceBy> kBounces[] = {{"rays", BounceBy::Rays}, {"cones", BounceBy::Cones}};
 
 // The one list of members: name, where it is, smallest and largest value. Reader, writer and range check all walk it.
 template <class Visitor, class Settings>
@@ -48,6 +49,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.choice("attenuation", s.radiance.attenuation, kAttenuations);
     g.number("directSamples", s.radiance.directSamples, 1, 4096);
     g.number("links", s.radiance.links, 1, 4096);
+    g.choice("bounceBy", s.radiance.bounceBy, kBounces);
     g.number("residual", s.radiance.residual, 1e-6, 1);
     g.number("maxBounces", s.radiance.maxBounces, 0, 100000);
   });

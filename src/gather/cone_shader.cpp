@@ -63,7 +63,7 @@ Lobes ConeShader::towards(const LightSample& light, const Bsdf& bsdf, Reflection
 
 // Light of suns and lamps. Their shadows are given, or traced where `shadows` is empty.
 Lobes ConeShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows, Sampler& sampler, GatherCounters& count,
-                                    float& variance) const {
+                        float& variance) const {
   Lobes sum;
   for (size_t i = 0; i < sharp_.count(); ++i) {
     const LightSample light = sharp_.sample(i, s.p, sampler.next2());

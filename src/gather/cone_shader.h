@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gather/cone_gather.h"
-#include "gather/cone_march.h"
+#include "radiance/cone_march.h"
 #include "gather/shading.h"
 #include "trace/bsdf.h"
 #include "trace/lights.h"

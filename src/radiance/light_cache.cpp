@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "radiance/cone_bounces.h"
 #include "radiance/direct_light.h"
 #include "radiance/pyramid.h"
 
@@ -170,10 +171,9 @@ void LightCache::solve(const Sources& from) {
   }
   smooth(links_, far);
   for (size_t i = 0; i < far.size(); ++i) direct_[i] += far[i];
-  if (settings_.links > 0) {
-    const Bounces done = bounce(voxels, links_, direct_, indirect_, settings_, from.progress);
-    field_.bounces = done.done, field_.residual = done.residual;
-  }
+  const Bounces done = settings_.bounceBy == BounceBy::Cones ? bounceByCones(voxels, paths_, direct_, indirect_, settings_, from.progress)
+                                                             : bounce(voxels, links_, direct_, indirect_, settings_, from.progress);
+  field_.bounces = done.done, field_.residual = done.residual;
   if (!from.progress.stop()) fillField(from, near);
 }
 

@@ -19,10 +19,17 @@ enum class Attenuation : uint8_t {
   Plain            // max(n . l, 0)
 };
 
+// How light goes on from slot to slot.
+enum class BounceBy : uint8_t {
+  Rays,  // along links, traced once
+  Cones  // through the directional pyramid, as the published study has it: slow, and less exact
+};
+
 struct RadianceSettings {
   Attenuation attenuation = Attenuation::Plain;
   int directSamples = 8;   // per slot among emissive meshes, half as many (4 at most) of each lamp and sun; fewer where shadows are the same all round
   int links = 8;          // rays per slot that find where its indirect light comes from; half of them on flat sheets, which share theirs
+  BounceBy bounceBy = BounceBy::Rays;
   float residual = 0.002f; // bounces stop when the light still to come is below this fraction of what is there
   int maxBounces = 100;
   bool pyramid = true;     // directional levels for cones; without them only what slots receive is known

@@ -48,5 +48,17 @@ TEST(BouncesByRays, furnaceIsEmissionOverOneMinusAlbedo) {
   }
 }
 
+// Walls at an angle to the voxels leak along their steps.
+TEST(BouncesByCones, furnaceIsEmissionOverOneMinusAlbedo) {
+  RadianceSettings settings;
+  settings.bounceBy = BounceBy::Cones;
+  for (const float rho : {0.5f, 0.8f}) {
+    for (const float angle : {0.0f, 0.5f}) {
+      const double exact = kLe / (1 - rho);
+      EXPECT_NEAR(meanOfSeeds(rho, angle, settings), exact, (angle > 0 ? 0.02 : 0.01) * exact) << rho << " " << angle;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace roomlight

@@ -1,4 +1,4 @@
-#include "gather/cone_march.h"
+#include "radiance/cone_march.h"
 
 #include <bit>
 #include <cmath>
