@@ -6,7 +6,7 @@
 
 namespace roomlight {
 
-// As bounce() in bounces.h, by cones in place of links: some seconds a bounce in a furnished room.
+// As bounce() in bounces.h, by cones in place of links, which is far slower.
 Bounces bounceByCones(const Voxels& voxels, const SlotPaths& paths, std::span<const Vec3> direct, std::vector<Vec3>& indirect, const RadianceSettings& settings,
                       const Progress& progress);
 
