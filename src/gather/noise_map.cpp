@@ -13,7 +13,8 @@ constexpr float kDark = 0.02f;      // of the picture's mean: where noise is har
 
 struct Look {
   Vec3 normal, position;
-  float luminance = 0, variance = 0;  // of the pixel's mean
+  float luminance = 0, variance = 0;  // of the pixel's mean; the variance without that of shadows' edges,
+  float sharpVariance = 0;            // which no filter shares out
   float surface = 0;
   bool edge = false;
 };
@@ -24,7 +25,8 @@ Look lookOf(const FilterPixel& sum, const PixelCount& count) {
   l.normal = p.normal, l.position = p.position, l.surface = p.surface;
   l.luminance = luminance(p.diffuse + p.sharp + p.specular + p.rest);
   const float albedo = std::max(luminance(p.albedo), 1e-3f);
-  l.variance = (p.diffuseVariance + p.sharpVariance) * albedo * albedo + p.specularVariance;
+  l.variance = p.diffuseVariance * albedo * albedo + p.specularVariance;
+  l.sharpVariance = p.sharpVariance * albedo * albedo;
   l.edge = count.edge;
   return l;
 }
@@ -58,20 +60,20 @@ std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<Pixe
       const size_t i = row * static_cast<size_t>(width) + static_cast<size_t>(x);
       const Look& own = looks[i];
       // Nothing here may follow the pixel's own luminance: refining those that came out dark would make pictures too bright.
-      float variance = 0, like = 0, around = 0, all = 0, level = 0, low = kInfinity, high = 0;
+      float variance = 0, like = 0, around = 0, all = 0, level = 0, sharp = 0, beside = 0, low = kInfinity, high = 0;
       for (int dy = -kReach; dy <= kReach; ++dy) {
         for (int dx = -kReach; dx <= kReach; ++dx) {
           const int qx = x + dx, qy = y + dy;
           if (qx < 0 || qy < 0 || qx >= width || qy >= height) continue;
           const Look& o = looks[static_cast<size_t>(qy) * static_cast<size_t>(width) + static_cast<size_t>(qx)];
-          if (std::max(std::abs(dx), std::abs(dy)) <= 1) low = std::min(low, o.luminance), high = std::max(high, o.luminance);
+          if (std::max(std::abs(dx), std::abs(dy)) <= 1) low = std::min(low, o.luminance), high = std::max(high, o.luminance), sharp += o.sharpVariance, beside += 1;
           all += 1, around += o.variance, level += o.luminance;
           if ((dx == 0 && dy == 0) || (own.surface > 0 && alike(own, o))) variance += o.variance, like += 1;
         }
       }
       level = level / all + dark;
       // The variance of a few pixels, each of few samples, may be too small by chance.
-      variance = std::max(variance / (like * like), around / (all * like));
+      variance = std::max(variance / (like * like), around / (all * like)) + sharp / beside;
       if (own.edge) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
       out[i] = variance > tolerance * tolerance * level * level;
     }
