@@ -11,7 +11,7 @@ constexpr int kMostPanes = 16;
 constexpr float kClear = 0.1f;   // roughness below which a reflection is a picture: what it shows is lit afresh
 constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
 constexpr float kSpread = 0.4f;  // roughness of what is seen by surfaces, at least
-constexpr float kMost = 64;      // times the light that the cache tells of: what a single path may find at most
+constexpr float kMost = 1024;      // times the light that the cache tells of: what a single path may find at most
 constexpr float kNothing = 1e-4f;
 
 enum Kind : uint8_t {
@@ -340,7 +340,13 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   } else if (q > 0) {
     const float stays = s.m.alpha / (1 - chance);
     after.factor = {path.factor.diffuse * stays, path.factor.specular * stays};
-    if (path.clear || !cached(after, hit, s.p, s.ng, w)) goOn(after, s, w);
+    if (path.clear) return goOn(after, s, w);
+    // Slots know the albedo of what does not let light through.
+    const SlotCache::Place place = cache_.find(s.p, s.ng);
+    const Vec3 rest = place.slot < 0 ? Vec3(1) : bihemisphericalAlbedo(s.m) / max(voxels_.slots[static_cast<size_t>(place.slot)].albedo, Vec3(1e-3f));
+    Path known = after;
+    known.factor = {after.factor.diffuse * rest, after.factor.specular * rest};
+    if (!cached(known, hit, s.p, s.ng, w)) goOn(after, s, w);
   }
 }
 
