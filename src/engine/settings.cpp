@@ -35,6 +35,7 @@ void visitMembers(Visitor& v, Settings& s) {
   v.number("noiseLevel", s.noiseLevel, 0, 1);
   v.number("seed", s.seed, 0, std::numeric_limits<uint64_t>::max());
   v.number("threads", s.threads, 0, 1024);
+  v.flag("blend", s.blend);
   v.group("path", [&](auto& g) {
     g.flag("lightPaths", s.path.lightPaths);
     g.flag("filter", s.path.filter);

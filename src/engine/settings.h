@@ -23,6 +23,7 @@ struct RenderSettings {
   double noiseLevel = 0;   // technique "path": stop when the mean relative standard error is below this; 0: never
   uint64_t seed = 0;
   int threads = 0;         // 0: all cores
+  bool blend = true;       // technique "hybrid": paths are traced and blended in while the time limit leaves time (refine.h)
   PathSettings path;          // technique "path"; size, samples, limits and seed are those above
   VoxelSettings voxel;        // techniques "hybrid" and "cone"
   RadianceSettings radiance;  // of the same; its seed is the one above

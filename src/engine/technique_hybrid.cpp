@@ -1,4 +1,5 @@
 #include "engine/light_colour.h"
+#include "engine/refine.h"
 #include "engine/techniques.h"
 
 namespace roomlight {
@@ -32,6 +33,8 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   stages.number("residual", field.residual);
   stages.number("samples", result.samples);
   stages.number("rays", static_cast<double>(field.rays + result.rays));
+  const double left = settings.timeLimitS - watch.seconds();
+  if (settings.blend && left > 0 && !stages.cancelled()) refineByPath(rays, lights, camera, settings, left, stages, result.image);
   const Vec3 colour = lightColour(rays, camera, result.image);
   return {std::move(result.image), colour};
 }

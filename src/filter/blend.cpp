@@ -162,7 +162,8 @@ Blend Blender::result() const {
 
   std::vector<Vec3> believed(seen_.size());
   std::vector<Power> last;
-  std::vector<float> shares(seen_.size()), noises(seen_.size());
+  std::vector<float> shares(seen_.size());
+  std::vector<Power> certain(seen_.size());
   for (int k = kSteps; k >= 0; --k) {
     const std::vector<Seen>& level = levels[k];
     std::vector<Power> powers(seen_.size());
@@ -179,7 +180,8 @@ Blend Blender::result() const {
       const float noise = std::max(p.noise, level[i].variance), error = p.error - kDoubt * std::sqrt(p.uncertainty);
       const float share = error > 0 ? error / (error + noise) : 0;
       believed[i] += (level[i].error - believed[i]) * share;
-      shares[i] = share, noises[i] = p.noise;
+      shares[i] = share;
+      certain[i] = {std::max(0.0f, error), p.noise, 0};
     });
     if (k == 0) last = std::move(powers);
   }
@@ -187,12 +189,12 @@ Blend Blender::result() const {
   Blend out;
   out.image = first_;
   forAll([&](int, int, size_t i) { out.image.pixels[i] = max(first_.pixels[i] + believed[i] * scale_[i], Vec3(0)); });
-  // Errors that remain, by wider windows than those that chose the shares: where these are large, chance had a part in it.
+  // Errors that remain: what stands out, or what wider windows say, where chance has less of a part.
   last = pooled(std::move(last), 2);
   const float exposure = exposureFromEv100(automaticEv100(out.image));
   double relative = 0, encoded = 0;
   for (size_t i = 0; i < shares.size(); ++i) {
-    const float kept = 1 - shares[i], error = kept * kept * std::max(0.0f, last[i].error) + shares[i] * shares[i] * noises[i];
+    const float kept = 1 - shares[i], error = kept * kept * std::max(certain[i].error, last[i].error) + shares[i] * shares[i] * certain[i].noise;
     relative += static_cast<double>(error);
     encoded += static_cast<double>(encodedSquare(luminance(out.image.pixels[i]) * exposure, std::sqrt(error) * scale_[i] * exposure));
   }
