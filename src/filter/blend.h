@@ -8,7 +8,7 @@ namespace roomlight {
 
 struct Blend {
   Image image;               // linear, in the pictures' unit
-  double relativeError = 0;  // estimate of what is left: root mean square, relative to a pixel's luminance; within a factor of about 3
+  double relativeError = 0;  // estimate of what is left: root mean square, relative to a pixel's luminance; within a factor of about 4
   double srgbMse = 0;        // the same as compare's mse would have it: exposed automatically and encoded as sRGB
 };
 

@@ -120,8 +120,8 @@ TEST(PathTracer, FilterLowersTheErrorOfFewSamples) {
   EXPECT_LT(meanSquare(pathTrace(rays, lights, room.camera, settings).image, truth), 0.4 * raw);
 }
 
-// The first picture is a filtered one, a fifth too dark. The estimate is too low by up to 2.6, because variances take samples for
-// independent that are stratified (docs/methods/filter.md).
+// The first picture is a filtered one, a fifth too dark. The estimate of what is left is too low by 2 to 4 here
+// (docs/methods/filter.md).
 TEST(PathTracer, BlendOfARoomConverges) {
   const Room room;
   const RayScene rays(room.scene);
@@ -143,8 +143,8 @@ TEST(PathTracer, BlendOfARoomConverges) {
     for (const Vec3& p : truth.pixels) mean += luminance(p) / static_cast<double>(truth.pixels.size());
     for (size_t i = 0; i < truth.pixels.size(); ++i) relative += lengthSquared(b.image.pixels[i] - truth.pixels[i]) / 3 / std::pow(luminance(truth.pixels[i]) + 0.05 * mean, 2);
     relative = std::sqrt(relative / static_cast<double>(truth.pixels.size()));
-    EXPECT_LT(b.relativeError, 3 * relative) << samples;
-    EXPECT_GT(b.relativeError, relative / 3) << samples;
+    EXPECT_LT(b.relativeError, 1.5 * relative) << samples;
+    EXPECT_GT(b.relativeError, relative / 5) << samples;
   }
 }
 
