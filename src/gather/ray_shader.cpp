@@ -12,12 +12,14 @@ constexpr float kClear = 0.1f;   // roughness below which a reflection is a pict
 constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
 constexpr float kSpread = 0.4f;  // roughness of what is seen by surfaces, at least
 constexpr float kMost = 1024;      // times the light that the cache tells of: what a single path may find at most
+
 constexpr float kNothing = 1e-4f;
 
 enum Kind : uint8_t {
   kShines = 1,  // emits light
   kClearKind = 2,  // lets light through
-  kMirrorKind = 4
+  kMirrorKind = 4,
+  kSheenKind = 8  // glossy: throws sunlight on in one direction
 };
 
 uint8_t kindOf(const Material& m) {
@@ -25,6 +27,7 @@ uint8_t kindOf(const Material& m) {
   if (!isBlack(m.emission)) kind |= kShines;
   if (letsLightThrough(m)) kind |= kClearKind;
   if (m.metallic > 0.5f && m.roughness < kGlossy) kind |= kMirrorKind;
+  if (m.specular > 0 || m.metallic > 0) kind |= kSheenKind;
   return kind;
 }
 
@@ -104,6 +107,10 @@ struct RayShader::Workspace {
 
 RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
     : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), settings_(settings), sharp_(rays, lights) {
+  if (lights.sunCount() == 1) {
+    const LightSample sun = lights.sampleSun(0, {0.5f, 0.5f});
+    sunDirection_ = sun.wi, sunColour_ = sun.radiance / luminance(sun.radiance);
+  }
   for (size_t i = 0; i < lights.lampCount(); ++i) surroundings_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
   double sum = 0, area = 0;
   for (size_t i = 0; i < voxels.slots.size(); ++i) {
@@ -314,7 +321,7 @@ Vec3 RayShader::backgroundAlong(const Path& path) const {
 void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   if (!hit.valid()) return w.add(path.estimate, path.factor, backgroundAlong(path), path.depth == 1);
   const uint8_t kind = kind_[hit.instance];
-  if (kind == 0 && !path.clear) {
+  if ((kind & ~kSheenKind) == 0 && !path.clear) {
     const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
     if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return;
   }
@@ -354,14 +361,14 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
 bool RayShader::cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspace& w) const {
   const SlotCache::Place place = cache_.find(p, n);
   if (path.depth >= kDeepest) {
-    if (place.slot >= 0) read(path, place.slot, p, n, w);
+    if (place.slot >= 0) read(path, hit, place.slot, p, n, w);
     return true;
   }
   // Light beside lamps is in the cache alone.
   const bool near = hit.t < settings_.nearVoxels * voxels_.voxelSizeM && (place.slot < 0 || field_.glowShare.empty() || field_.glowShare[static_cast<size_t>(place.slot)] == 0);
   if (near || place.trust == Trust::None) return false;
   if (place.trust == Trust::Sure) {
-    read(path, place.slot, p, n, w);
+    read(path, hit, place.slot, p, n, w);
   } else {
     w.doubts.push_back({path, hit, place.slot, p, n});
   }
@@ -380,13 +387,26 @@ void RayShader::goOn(const Path& path, SurfacePoint s, Workspace& w) const {
 }
 
 // What the points of LampGlow give is left to them.
-void RayShader::read(const Path& path, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const {
+void RayShader::read(const Path& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const {
   Vec3 light = cache_.radiance(slot);
+  if ((kind_[hit.instance] & kSheenKind) && !field_.sunLux.empty() && field_.sunLux[static_cast<size_t>(slot)] > 0) light = max(Vec3(0), light + sheen(path, hit, slot));
   if (path.pdf > 0 && !field_.glow.empty()) {
     const float share = field_.glowShare[static_cast<size_t>(slot)];
     if (share > 0) light *= 1 - share * (1 - field_.glow.coneShare(share * luminance(light), length(p - path.from), -dot(n, path.ray.direction), path.pdf));
   }
   w.add(path.estimate, path.factor, light);
+}
+
+// What a glossy surface throws on of the sun towards the path, less what the cache spreads evenly of it: the sun's illuminance is
+// cached, its reflection is not.
+Vec3 RayShader::sheen(const Path& path, const Hit& hit, int64_t slot) const {
+  SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
+  s.m.roughness = std::max(s.m.roughness, kSpread);
+  const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
+  const float lux = field_.sunLux[static_cast<size_t>(slot)], cosine = std::max(dot(voxels_.slots[static_cast<size_t>(slot)].normal, sunDirection_), 0.05f);
+  MaterialSample glossyPart = s.m;
+  glossyPart.baseColor = Vec3(0);
+  return sunColour_ * (lux * (bsdf.evaluateSpecular(sunDirection_) / cosine - bihemisphericalAlbedo(glossyPart) / kPi));
 }
 
 void RayShader::resolveUnsure(Workspace& w) const {
@@ -398,7 +418,7 @@ void RayShader::resolveUnsure(Workspace& w) const {
   for (size_t i = 0; i < w.doubts.size(); ++i) {
     const Workspace::Doubt& d = w.doubts[i];
     if (luminance(w.left[i]) > 0.25f) {
-      read(d.path, d.slot, d.p, d.n, w);
+      read(d.path, d.hit, d.slot, d.p, d.n, w);
     } else {
       goOn(d.path, surfaceAt(rays_.scene(), d.hit, d.path.ray.direction), w);
     }

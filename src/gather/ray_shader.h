@@ -34,7 +34,8 @@ class RayShader final : public SurfaceShader {
   void arrive(const Path& path, const Hit& hit, Workspace& w) const;
   bool cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspace& w) const;
   void goOn(const Path& path, SurfacePoint s, Workspace& w) const;
-  void read(const Path& path, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const;
+  void read(const Path& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const;
+  Vec3 sheen(const Path& path, const Hit& hit, int64_t slot) const;
   void traceShadows(Workspace& w) const;
   void resolveUnsure(Workspace& w) const;
   Vec3 backgroundAlong(const Path& path) const;
@@ -47,6 +48,7 @@ class RayShader final : public SurfaceShader {
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
   float meanRadiance_ = 0;
+  Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
   std::vector<LampSurroundings> surroundings_;  // per lamp
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
 };

@@ -192,6 +192,12 @@ void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
     field_.glowShare[i] = luminance(near[i]) / std::max(luminance(field_.irradianceLux[i]), 1e-30f);
     glow[i] = voxels.slots[i].albedo * near[i] / kPi;
   });
+  if (from.lights.sunCount() == 1 && !suns_.empty()) {
+    std::vector<Vec3> sun(voxels.slots.size());
+    suns_.addTo(voxels, Vec3(1), sun);
+    field_.sunLux.resize(sun.size());
+    parallelFor(sun.size(), 8192, [&](size_t i) { field_.sunLux[i] = luminance(sun[i]); });
+  }
   field_.glow = LampGlow(glowPoints(glow), voxels.voxelSizeM);
   if (settings_.pyramid) buildPyramid(voxels, radiance, glow, field_);
 }

@@ -108,6 +108,7 @@ struct RadianceField {
   std::vector<RadianceLevel> levels;  // 0: base voxels; each next one twice as large
   float unitCdM2 = 1;
   std::vector<Vec3> irradianceLux;    // per slot of Voxels: direct and indirect, per channel
+  std::vector<float> sunLux;     // per slot: luminous irradiance straight from the sun, where there is one alone; else empty
   SkyGuide guide;
   LampGlow glow;
   std::vector<float> glowShare;  // per slot: of the luminous irradiance whose reflection is glow; empty: none
