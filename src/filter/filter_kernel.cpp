@@ -66,6 +66,13 @@ void findNoise(FilterRows& rows, const FilterPass& pass, int light, int y) {
   const float *above = rows.line(variance, std::max(0, y - 1)), *own = rows.line(variance, y), *below = rows.line(variance, std::min(rows.height() - 1, y + 1));
   float* out = rows.line(FilterRows::kNoise + light, y);
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
+    if (light == 1) {
+      // Penumbras have noise all over, the edge of a sharp shadow in a line of pixels.
+      V least = load(own + x);
+      for (const float* line : {above, own, below}) least = hn::Min(least, hn::Min(hn::Min(load(line + x - 1), load(line + x)), load(line + x + 1)));
+      hn::StoreU(least, d, out + x);
+      continue;
+    }
     V sum = hn::Zero(d);
     for (const float* line : {above, own, below}) sum = hn::Add(sum, hn::Add(hn::Add(load(line + x - 1), load(line + x)), load(line + x + 1)));
     hn::StoreU(hn::Max(hn::Mul(sum, set(1.0f / 9)), hn::Mul(load(own + x), set(kOwnNoise))), d, out + x);
