@@ -18,8 +18,7 @@ constexpr float kNothing = 1e-4f;
 enum Kind : uint8_t {
   kShines = 1,  // emits light
   kClearKind = 2,  // lets light through
-  kMirrorKind = 4,
-  kSheenKind = 8  // glossy: throws sunlight on in one direction
+  kMirrorKind = 4
 };
 
 uint8_t kindOf(const Material& m) {
@@ -27,7 +26,6 @@ uint8_t kindOf(const Material& m) {
   if (!isBlack(m.emission)) kind |= kShines;
   if (letsLightThrough(m)) kind |= kClearKind;
   if (m.metallic > 0.5f && m.roughness < kGlossy) kind |= kMirrorKind;
-  if (m.specular > 0 || m.metallic > 0) kind |= kSheenKind;
   return kind;
 }
 
@@ -321,7 +319,7 @@ Vec3 RayShader::backgroundAlong(const Path& path) const {
 void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   if (!hit.valid()) return w.add(path.estimate, path.factor, backgroundAlong(path), path.depth == 1);
   const uint8_t kind = kind_[hit.instance];
-  if ((kind & ~kSheenKind) == 0 && !path.clear) {
+  if (kind == 0 && !path.clear) {
     const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
     if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return;
   }
@@ -348,12 +346,7 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
     const float stays = s.m.alpha / (1 - chance);
     after.factor = {path.factor.diffuse * stays, path.factor.specular * stays};
     if (path.clear) return goOn(after, s, w);
-    // Slots know the albedo of what does not let light through.
-    const SlotCache::Place place = cache_.find(s.p, s.ng);
-    const Vec3 rest = place.slot < 0 ? Vec3(1) : bihemisphericalAlbedo(s.m) / max(voxels_.slots[static_cast<size_t>(place.slot)].albedo, Vec3(1e-3f));
-    Path known = after;
-    known.factor = {after.factor.diffuse * rest, after.factor.specular * rest};
-    if (!cached(known, hit, s.p, s.ng, w)) goOn(after, s, w);
+    if (!cached(after, hit, s.p, s.ng, w)) goOn(after, s, w);
   }
 }
 
@@ -388,8 +381,10 @@ void RayShader::goOn(const Path& path, SurfacePoint s, Workspace& w) const {
 
 // What the points of LampGlow give is left to them.
 void RayShader::read(const Path& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const {
-  Vec3 light = cache_.radiance(slot);
-  if ((kind_[hit.instance] & kSheenKind) && !field_.sunLux.empty() && field_.sunLux[static_cast<size_t>(slot)] > 0) light = max(Vec3(0), light + sheen(path, hit, slot));
+  // The slot's albedo is that of what does not let light through, of the instance that has most of it.
+  const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
+  Vec3 light = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[static_cast<size_t>(slot)] / kPi;
+  if (!field_.sunLux.empty() && field_.sunLux[static_cast<size_t>(slot)] > 0) light = max(Vec3(0), light + sunward(path, hit, slot));
   if (path.pdf > 0 && !field_.glow.empty()) {
     const float share = field_.glowShare[static_cast<size_t>(slot)];
     if (share > 0) light *= 1 - share * (1 - field_.glow.coneShare(share * luminance(light), length(p - path.from), -dot(n, path.ray.direction), path.pdf));
@@ -397,16 +392,14 @@ void RayShader::read(const Path& path, const Hit& hit, int64_t slot, Vec3 p, Vec
   w.add(path.estimate, path.factor, light);
 }
 
-// What a glossy surface throws on of the sun towards the path, less what the cache spreads evenly of it: the sun's illuminance is
-// cached, its reflection is not.
-Vec3 RayShader::sheen(const Path& path, const Hit& hit, int64_t slot) const {
+// Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its
+// reflection by gloss and shading normals is not.
+Vec3 RayShader::sunward(const Path& path, const Hit& hit, int64_t slot) const {
   SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   s.m.roughness = std::max(s.m.roughness, kSpread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
-  const float lux = field_.sunLux[static_cast<size_t>(slot)], cosine = std::max(dot(voxels_.slots[static_cast<size_t>(slot)].normal, sunDirection_), 0.05f);
-  MaterialSample glossyPart = s.m;
-  glossyPart.baseColor = Vec3(0);
-  return sunColour_ * (lux * (bsdf.evaluateSpecular(sunDirection_) / cosine - bihemisphericalAlbedo(glossyPart) / kPi));
+  const float cosine = std::max(dot(voxels_.slots[static_cast<size_t>(slot)].normal, sunDirection_), 0.05f);
+  return sunColour_ * (field_.sunLux[static_cast<size_t>(slot)] * (bsdf.evaluate(sunDirection_) / cosine - bihemisphericalAlbedo(s.m) / kPi));
 }
 
 void RayShader::resolveUnsure(Workspace& w) const {

@@ -35,7 +35,7 @@ class RayShader final : public SurfaceShader {
   bool cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspace& w) const;
   void goOn(const Path& path, SurfacePoint s, Workspace& w) const;
   void read(const Path& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const;
-  Vec3 sheen(const Path& path, const Hit& hit, int64_t slot) const;
+  Vec3 sunward(const Path& path, const Hit& hit, int64_t slot) const;
   void traceShadows(Workspace& w) const;
   void resolveUnsure(Workspace& w) const;
   Vec3 backgroundAlong(const Path& path) const;

@@ -23,6 +23,7 @@ SlotCache::SlotCache(const Voxels& voxels, const RadianceField& field) : voxels_
       r.normalX = packed(slot.normal.x), r.normalY = packed(slot.normal.y), r.normalZ = packed(slot.normal.z);
       r.offset = dot(slot.position - voxels.origin, r.normal()) * perMetre_;
       r.alone = count == 1;
+      r.instance = slot.instance;
     }
   });
 }

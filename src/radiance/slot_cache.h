@@ -30,6 +30,8 @@ class SlotCache {
   void prefetch(std::span<const Vec3> points) const;
   // Reflected, as a Lambertian surface of the slot's albedo, cd/m².
   Vec3 radiance(int64_t slot) const { return records_[static_cast<size_t>(slot)].radiance; }
+  // The one that most of the slot's surface belongs to: what others have in its voxel may be of another albedo.
+  uint32_t instance(int64_t slot) const { return records_[static_cast<size_t>(slot)].instance; }
   // A ray between p and the slot's place, both a little before their surface: where nothing is in its way the slot stands for p.
   Ray between(int64_t slot, Vec3 p, Vec3 n) const;
 
@@ -40,6 +42,7 @@ class SlotCache {
     float offset;                            // of its plane along the normal, in voxels from the lattice's origin
     int8_t normalX, normalY, normalZ;        // in 1/127
     bool alone;                              // in its voxel
+    uint32_t instance;
     Vec3 normal() const { return Vec3{static_cast<float>(normalX), static_cast<float>(normalY), static_cast<float>(normalZ)} * (1.0f / 127); }
   };
   int64_t slotOf(const SurfaceVoxel& voxel, Vec3 n) const;
