@@ -10,7 +10,7 @@ constexpr int kDeepest = 8;      // vertices of a path, after which the cache is
 constexpr int kMostPanes = 16;
 constexpr float kClear = 0.1f;   // roughness below which a reflection is a picture: what it shows is lit afresh
 constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
-constexpr float kSpread = 0.4f;  // roughness of what is seen by surfaces, at least
+constexpr float kSpread = 0.4f;  // roughness of what is seen by rough surfaces, at least
 constexpr float kMost = 1024;      // times the light that the cache tells of: what a single path may find at most
 
 constexpr float kNothing = 1e-4f;
@@ -41,6 +41,7 @@ struct RayShader::Path {
   uint32_t estimate;
   uint8_t depth, panes;
   bool clear;     // what it meets is seen clearly
+  float spread;   // roughness that surfaces have for it at least
 };
 
 // A surface to be lit. The first has its lobes apart; later ones send their light back along a path.
@@ -273,9 +274,9 @@ void RayShader::glowAt(const Vertex& v, Workspace& w) const {
 void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
   Sampler& sampler = w.samplers[v.estimate];
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
-  const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear) {
+  const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();
@@ -284,21 +285,21 @@ void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
     const float survive = std::clamp(maxComponent(b.weight), 0.05f, 1.0f);
     if (sampler.next1() >= survive) return;
     const Vec3 weight = b.weight / survive;
-    return send(b.wi, {v.factor.diffuse * weight, v.factor.specular * weight}, b.mirror ? 0 : b.pdf, v.clear && b.mirror);
+    return send(b.wi, {v.factor.diffuse * weight, v.factor.specular * weight}, b.mirror ? 0 : b.pdf, v.clear && b.mirror, v.clear && b.mirror ? 0 : kSpread);
   }
   const bool diffuseOnly = v.apart || v.followed;
   const Vec2 u = sampler.next2();
   if (!diffuseOnly) {
     const BsdfSample b = v.bsdf.sample(u, sampler.next1());
-    if (b.valid() && !b.mirror) send(b.wi, {v.bsdf.evaluateDiffuse(b.wi) / b.pdf, v.bsdf.evaluateSpecular(b.wi) / b.pdf}, b.pdf, false);
+    if (b.valid() && !b.mirror) send(b.wi, {v.bsdf.evaluateDiffuse(b.wi) / b.pdf, v.bsdf.evaluateSpecular(b.wi) / b.pdf}, b.pdf, false, kSpread);
   } else if (maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
     const Vec3 local = sampleCosineHemisphere(u), d = Frame(v.s.ns).toWorld(local);
     const float pdf = std::max(local.z, 1e-6f) / kPi;
-    send(d, {v.bsdf.evaluateDiffuse(d) / pdf, Vec3(0)}, pdf, false);
+    send(d, {v.bsdf.evaluateDiffuse(d) / pdf, Vec3(0)}, pdf, false, kSpread);
   }
   if (v.apart && maxComponent(v.bsdf.specularAlbedo()) > kNothing) {
     const BsdfSample b = v.bsdf.sampleSpecular(sampler.next2());
-    if (b.valid()) send(b.wi, {Vec3(0), b.weight}, b.mirror ? 0 : b.pdf, v.clear);
+    if (b.valid()) send(b.wi, {Vec3(0), b.weight}, b.mirror ? 0 : b.pdf, v.clear, v.clear ? 0 : std::min(kSpread, v.s.m.roughness));
   }
 }
 
@@ -373,7 +374,7 @@ void RayShader::goOn(const Path& path, SurfacePoint s, Workspace& w) const {
   if (path.depth >= kDeepest) return;
   // What a mirror throws on others is found by chance only, too rarely: it is spread (Kaplanyan & Dachsbacher 2013, path space
   // regularization).
-  if (!path.clear) s.m.roughness = std::max(s.m.roughness, kSpread);
+  s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
   scatter({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, path.clear}, w);
