@@ -8,12 +8,8 @@ namespace {
 
 constexpr int kDeepest = 8;      // vertices of a path, after which the cache is read whatever it is worth
 constexpr int kMostPanes = 16;
-constexpr float kClear = 0.1f;   // roughness below which a reflection is a picture: what it shows is lit afresh
 constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
-constexpr float kSpread = 0.4f;  // roughness of what is seen by rough surfaces, at least
 constexpr float kMost = 1024;      // times the light that the cache tells of: what a single path may find at most
-
-constexpr float kNothing = 1e-4f;
 
 enum Kind : uint8_t {
   kShines = 1,  // emits light
@@ -31,86 +27,12 @@ uint8_t kindOf(const Material& m) {
 
 }  // namespace
 
-// A ray on its way, and the parts of what it finds that its surface's lobes send to the eye.
-struct RayShader::Path {
-  Ray ray;
-  Lobes factor;
-  Vec3 from;      // where its direction was chosen,
-  float pdf;      // and with which density; 0: no light was sampled for it
-  int32_t guide;  // that sky samples there followed
-  uint32_t estimate;
-  uint8_t depth, panes;
-  bool clear;     // what it meets is seen clearly
-  float spread;   // roughness that surfaces have for it at least
-};
-
-// A surface to be lit. The first has its lobes apart; later ones send their light back along a path.
-struct RayShader::Vertex {
-  const SurfacePoint& s;
-  const Bsdf& bsdf;
-  Lobes factor;
-  int32_t guide;
-  uint32_t estimate;
-  uint8_t depth;
-  bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
-  bool seenClearly = false;
-
-  Lobes value(Vec3 wi) const {
-    if (first) return {bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
-    const Vec3 f = bsdf.evaluate(wi);
-    return {factor.diffuse * f, factor.specular * f};
-  }
-};
-
-struct RayShader::Workspace {
-  struct Shadowed {
-    uint32_t estimate;
-    bool sure;
-    Lobes light;
-  };
-  struct Doubt {
-    Path path;
-    Hit hit;
-    int64_t slot;
-    Vec3 p, n;
-  };
-  // Per estimate; those of a shading follow one another.
-  std::vector<Sampler> samplers;
-  std::vector<Lobes> found;
-  std::vector<Lobes> most;  // of what a single path may add, in every channel: its luminance
-  std::vector<Path> paths, next;
-  std::vector<Ray> rays;
-  std::vector<Hit> hits;
-  std::vector<Vec3> places;
-  std::vector<Ray> shadowRays;
-  std::vector<Shadowed> shadowed;
-  std::vector<Vec3> left;
-  std::vector<Doubt> doubts;
-  uint64_t rayCount = 0;
-
-  void clear() {
-    samplers.clear(), found.clear(), most.clear(), paths.clear(), next.clear();
-    rayCount = 0;
-  }
-  // `sure`: of a light that is sampled too, so that none of its samples stands for much.
-  void add(uint32_t estimate, const Lobes& factor, Vec3 radiance, bool sure = false) {
-    const auto bounded = [&](Vec3 light, float limit) {
-      const float l = luminance(light);
-      return sure || l <= limit ? light : light * (limit / l);
-    };
-    found[estimate].diffuse += bounded(factor.diffuse * radiance, most[estimate].diffuse.x);
-    found[estimate].specular += bounded(factor.specular * radiance, most[estimate].specular.x);
-  }
-  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({estimate, sure, light}); }
-};
-
 RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
-    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), settings_(settings), sharp_(rays, lights) {
+    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), settings_(settings), sharp_(rays, lights), scatter_(lights, voxels, field, lights.lampCount() + lights.sunCount() > sharp_.count()) {
   if (lights.sunCount() == 1) {
     const LightSample sun = lights.sampleSun(0, {0.5f, 0.5f});
     sunDirection_ = sun.wi, sunColour_ = sun.radiance / luminance(sun.radiance);
   }
-  for (size_t i = 0; i < lights.lampCount(); ++i) surroundings_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
   double sum = 0, area = 0;
   for (size_t i = 0; i < voxels.slots.size(); ++i) {
     sum += static_cast<double>(std::sqrt(luminance(field.irradianceLux[i])) * voxels.slots[i].areaM2);
@@ -122,7 +44,7 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
 }
 
 void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const {
-  thread_local Workspace w;
+  thread_local GatherWork w;
   w.clear();
   for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], shadows.subspan(work[i].firstShadow, sharp_.count()), w);
   traceShadows(w);
@@ -149,9 +71,9 @@ void RayShader::sumUp(std::span<const Lobes> found, SurfaceLight& out) {
 }
 
 // Sends all paths on by one ray.
-void RayShader::follow(Workspace& w) const {
+void RayShader::follow(GatherWork& w) const {
   w.rays.clear();
-  for (const Path& p : w.paths) w.rays.push_back(p.ray);
+  for (const GatherPath& p : w.paths) w.rays.push_back(p.ray);
   w.hits.resize(w.rays.size());
   rays_.intersect(w.rays, w.hits);
   w.rayCount += w.rays.size();
@@ -165,11 +87,11 @@ void RayShader::follow(Workspace& w) const {
 }
 
 // Sends out everything that lights a surface, and returns what is known at once.
-SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shadows, Workspace& w) const {
+SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shadows, GatherWork& w) const {
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
   const bool apart = !work.followed && s.m.roughness < settings_.rayRoughness;
-  Vertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart, s.m.roughness < kClear};
+  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart, s.m.roughness < kClear};
   SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
   Sampler sampler = work.sampler;
@@ -189,7 +111,7 @@ SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shado
     w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(settings_.estimates)));
     w.found.push_back({});
     w.most.push_back({Vec3(most), Vec3(most)});
-    scatter(v, w);
+    scatter_.from(v, w);
   }
   return out;
 }
@@ -201,109 +123,7 @@ float RayShader::expectedRadiance(const SurfacePoint& s) const {
   return place.slot < 0 ? kInfinity : std::max(meanRadiance_, luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi);
 }
 
-// Sends rays from a surface: to lights, and on to other surfaces.
-void RayShader::scatter(const Vertex& v, Workspace& w) const {
-  lightsAt(v, w);
-  if (!field_.glow.empty()) glowAt(v, w);
-  gatherAt(v, w);
-}
-
-float RayShader::cosinePdf(const Vertex& v, Vec3 wi) { return std::max(0.0f, dot(wi, v.s.ns)) / kPi; }
-
-void RayShader::lightsAt(const Vertex& v, Workspace& w) const {
-  Sampler& sampler = w.samplers[v.estimate];
-  const auto take = [&](const LightSample& light) {
-    if (!light.valid() || dot(light.wi, v.s.ng) <= 0) return;
-    Lobes f = v.value(light.wi);
-    if (light.pdf > 0) {
-      // Rays that gather find the same lights; the two share them by multiple importance sampling.
-      if (v.apart) {
-        f.diffuse *= misWeight(light.pdf, cosinePdf(v, light.wi));
-        f.specular *= misWeight(light.pdf, v.bsdf.pdfSpecular(light.wi));
-      } else {
-        const float weight = misWeight(light.pdf, v.followed ? cosinePdf(v, light.wi) : v.bsdf.pdf(light.wi));
-        f.diffuse *= weight, f.specular *= weight;
-      }
-    }
-    const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
-    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), light), sum);
-  };
-  if (v.first) {
-    if (lights_.lampCount() + lights_.sunCount() > sharp_.count()) take(lights_.sampleLamps(v.s.p, sampler.next1()));
-  } else {
-    if (lights_.lampCount() > 0) {
-      const LightSample lamp = lights_.sampleLamps(v.s.p, sampler.next1());
-      if (v.seenClearly || !isBeside(v.s.p, lamp)) take(lamp);
-    }
-    for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
-  }
-  if (lights_.hasEmitters()) {
-    const Vec2 u = sampler.next2();
-    take(lights_.sampleEmitters(v.s.p, u, sampler.next1()));
-  }
-  if (lights_.sky().present()) {
-    const Vec2 u = sampler.next2();
-    take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
-  }
-}
-
-// Whether p lies in the surroundings of the lamp sampled from there: what surfaces reflect of its light is in the cache and in
-// LampGlow, and is not found a second time by paths that go on.
-bool RayShader::isBeside(Vec3 p, const LightSample& lamp) const {
-  if (!lamp.valid()) return false;
-  const Vec3 at = p + lamp.wi * lamp.distance;
-  for (size_t i = 0; i < surroundings_.size(); ++i) {
-    if (lengthSquared(lights_.lamp(i).position - at) < 1e-6f && surroundings_[i].contains(p)) return true;
-  }
-  return false;
-}
-
-// Light that surfaces near lamps reflect, as far as gathering rays leave it to LampGlow's points.
-void RayShader::glowAt(const Vertex& v, Workspace& w) const {
-  const GlowSample g = field_.glow.sample(v.s.p, v.s.ns, 1, 0, w.samplers[v.estimate]);
-  if (!g.light.valid() || dot(g.light.wi, v.s.ng) <= 0) return;
-  const Vec3 wi = g.light.wi;
-  Lobes f = v.value(wi);
-  const float cosine = cosinePdf(v, wi), mixed = v.bsdf.pdf(wi);
-  f.diffuse *= field_.glow.pointShare(g.point, v.s.p, {v.apart || v.followed ? cosine : mixed, 0});
-  f.specular *= v.clear ? 0 : field_.glow.pointShare(g.point, v.s.p, {v.apart ? v.bsdf.pdfSpecular(wi) : mixed, 0});
-  const Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), g.light), sum);
-}
-
-void RayShader::gatherAt(const Vertex& v, Workspace& w) const {
-  Sampler& sampler = w.samplers[v.estimate];
-  const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
-  const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
-    if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, spread});
-  };
-  if (!v.first) {
-    const Vec2 u = sampler.next2();
-    const BsdfSample b = v.bsdf.sample(u, sampler.next1());
-    if (!b.valid()) return;
-    const float survive = std::clamp(maxComponent(b.weight), 0.05f, 1.0f);
-    if (sampler.next1() >= survive) return;
-    const Vec3 weight = b.weight / survive;
-    return send(b.wi, {v.factor.diffuse * weight, v.factor.specular * weight}, b.mirror ? 0 : b.pdf, v.clear && b.mirror, v.clear && b.mirror ? 0 : kSpread);
-  }
-  const bool diffuseOnly = v.apart || v.followed;
-  const Vec2 u = sampler.next2();
-  if (!diffuseOnly) {
-    const BsdfSample b = v.bsdf.sample(u, sampler.next1());
-    if (b.valid() && !b.mirror) send(b.wi, {v.bsdf.evaluateDiffuse(b.wi) / b.pdf, v.bsdf.evaluateSpecular(b.wi) / b.pdf}, b.pdf, false, kSpread);
-  } else if (maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
-    const Vec3 local = sampleCosineHemisphere(u), d = Frame(v.s.ns).toWorld(local);
-    const float pdf = std::max(local.z, 1e-6f) / kPi;
-    send(d, {v.bsdf.evaluateDiffuse(d) / pdf, Vec3(0)}, pdf, false, kSpread);
-  }
-  if (v.apart && maxComponent(v.bsdf.specularAlbedo()) > kNothing) {
-    const BsdfSample b = v.bsdf.sampleSpecular(sampler.next2());
-    if (b.valid()) send(b.wi, {Vec3(0), b.weight}, b.mirror ? 0 : b.pdf, v.clear, v.clear ? 0 : std::min(kSpread, v.s.m.roughness));
-  }
-}
-
-Vec3 RayShader::backgroundAlong(const Path& path) const {
+Vec3 RayShader::backgroundAlong(const GatherPath& path) const {
   const Vec3 d = path.ray.direction;
   const auto weight = [&](float lightPdf) { return path.pdf > 0 ? misWeight(path.pdf, lightPdf) : 1; };
   Vec3 sum;
@@ -317,7 +137,7 @@ Vec3 RayShader::backgroundAlong(const Path& path) const {
 }
 
 // What a path finds where its ray ends, and how it goes on from there.
-void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
+void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) const {
   if (!hit.valid()) return w.add(path.estimate, path.factor, backgroundAlong(path), path.depth == 1);
   const uint8_t kind = kind_[hit.instance];
   if (kind == 0 && !path.clear) {
@@ -337,7 +157,7 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
   // Through it or reflected, one of the two, in proportion.
   const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, path.ray.direction)));
   const float p = luminance(through), q = s.m.alpha * luminance(bihemisphericalAlbedo(s.m)), chance = p + q > 0 ? p / (p + q) : 0;
-  Path after = path;
+  GatherPath after = path;
   if (w.samplers[path.estimate].fast1() < chance) {
     if (++after.panes > kMostPanes) return;
     after.factor = {path.factor.diffuse * through / chance, path.factor.specular * through / chance};
@@ -352,7 +172,7 @@ void RayShader::arrive(const Path& path, const Hit& hit, Workspace& w) const {
 }
 
 // Whether the light there comes from the cache, now or, if another ray must tell, later.
-bool RayShader::cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspace& w) const {
+bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const {
   const SlotCache::Place place = cache_.find(p, n);
   if (path.depth >= kDeepest) {
     if (place.slot >= 0) read(path, hit, place.slot, p, n, w);
@@ -370,18 +190,18 @@ bool RayShader::cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspa
 }
 
 // Lights the surface afresh.
-void RayShader::goOn(const Path& path, SurfacePoint s, Workspace& w) const {
+void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const {
   if (path.depth >= kDeepest) return;
   // What a mirror throws on others is found by chance only, too rarely: it is spread (Kaplanyan & Dachsbacher 2013, path space
   // regularization).
   s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  scatter({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, path.clear}, w);
+  scatter_.from({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, path.clear}, w);
 }
 
 // What the points of LampGlow give is left to them.
-void RayShader::read(const Path& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const {
+void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const {
   // The slot's albedo is that of what does not let light through, of the instance that has most of it.
   const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
   Vec3 light = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[static_cast<size_t>(slot)] / kPi;
@@ -395,7 +215,7 @@ void RayShader::read(const Path& path, const Hit& hit, int64_t slot, Vec3 p, Vec
 
 // Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its
 // reflection by gloss and shading normals is not.
-Vec3 RayShader::sunward(const Path& path, const Hit& hit, int64_t slot) const {
+Vec3 RayShader::sunward(const GatherPath& path, const Hit& hit, int64_t slot) const {
   SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   s.m.roughness = std::max(s.m.roughness, kSpread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
@@ -403,14 +223,14 @@ Vec3 RayShader::sunward(const Path& path, const Hit& hit, int64_t slot) const {
   return sunColour_ * (field_.sunLux[static_cast<size_t>(slot)] * (bsdf.evaluate(sunDirection_) / cosine - bihemisphericalAlbedo(s.m) / kPi));
 }
 
-void RayShader::resolveUnsure(Workspace& w) const {
+void RayShader::resolveUnsure(GatherWork& w) const {
   w.rays.clear();
-  for (const Workspace::Doubt& d : w.doubts) w.rays.push_back(cache_.between(d.slot, d.p, d.n));
+  for (const GatherWork::Doubt& d : w.doubts) w.rays.push_back(cache_.between(d.slot, d.p, d.n));
   w.left.resize(w.rays.size());
   rays_.transmittance(w.rays, w.left);
   w.rayCount += w.rays.size();
   for (size_t i = 0; i < w.doubts.size(); ++i) {
-    const Workspace::Doubt& d = w.doubts[i];
+    const GatherWork::Doubt& d = w.doubts[i];
     if (luminance(w.left[i]) > 0.25f) {
       read(d.path, d.hit, d.slot, d.p, d.n, w);
     } else {
@@ -420,12 +240,12 @@ void RayShader::resolveUnsure(Workspace& w) const {
   w.doubts.clear();
 }
 
-void RayShader::traceShadows(Workspace& w) const {
+void RayShader::traceShadows(GatherWork& w) const {
   w.left.resize(w.shadowRays.size());
   rays_.transmittance(w.shadowRays, w.left);
   w.rayCount += w.shadowRays.size();
   for (size_t i = 0; i < w.shadowed.size(); ++i) {
-    const Workspace::Shadowed& s = w.shadowed[i];
+    const GatherWork::Shadowed& s = w.shadowed[i];
     w.add(s.estimate, s.light, w.left[i], s.sure);
   }
   w.shadowRays.clear(), w.shadowed.clear();

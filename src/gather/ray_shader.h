@@ -3,11 +3,8 @@
 #pragma once
 
 #include "gather/ray_gather.h"
-#include "gather/shading.h"
-#include "radiance/near_lamps.h"
+#include "gather/ray_scatter.h"
 #include "radiance/slot_cache.h"
-#include "trace/bsdf.h"
-#include "trace/surfaces.h"
 
 namespace roomlight {
 
@@ -17,28 +14,18 @@ class RayShader final : public SurfaceShader {
   void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const override;
 
  private:
-  struct Path;
-  struct Vertex;
-  struct Workspace;
-
-  SurfaceLight start(const Shading& work, std::span<const Shadow> shadows, Workspace& w) const;
+  SurfaceLight start(const Shading& work, std::span<const Shadow> shadows, GatherWork& w) const;
   static void sumUp(std::span<const Lobes> found, SurfaceLight& out);
-  void follow(Workspace& w) const;
+  void follow(GatherWork& w) const;
   float expectedRadiance(const SurfacePoint& s) const;
-  void scatter(const Vertex& v, Workspace& w) const;
-  static float cosinePdf(const Vertex& v, Vec3 wi);
-  void lightsAt(const Vertex& v, Workspace& w) const;
-  bool isBeside(Vec3 p, const LightSample& lamp) const;
-  void glowAt(const Vertex& v, Workspace& w) const;
-  void gatherAt(const Vertex& v, Workspace& w) const;
-  void arrive(const Path& path, const Hit& hit, Workspace& w) const;
-  bool cached(const Path& path, const Hit& hit, Vec3 p, Vec3 n, Workspace& w) const;
-  void goOn(const Path& path, SurfacePoint s, Workspace& w) const;
-  void read(const Path& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, Workspace& w) const;
-  Vec3 sunward(const Path& path, const Hit& hit, int64_t slot) const;
-  void traceShadows(Workspace& w) const;
-  void resolveUnsure(Workspace& w) const;
-  Vec3 backgroundAlong(const Path& path) const;
+  void arrive(const GatherPath& path, const Hit& hit, GatherWork& w) const;
+  bool cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const;
+  void goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const;
+  void read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const;
+  Vec3 sunward(const GatherPath& path, const Hit& hit, int64_t slot) const;
+  void traceShadows(GatherWork& w) const;
+  void resolveUnsure(GatherWork& w) const;
+  Vec3 backgroundAlong(const GatherPath& path) const;
 
   const RayScene& rays_;
   const Lights& lights_;
@@ -47,9 +34,9 @@ class RayShader final : public SurfaceShader {
   const SlotCache cache_;
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
+  const RayScatter scatter_;
   float meanRadiance_ = 0;
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
-  std::vector<LampSurroundings> surroundings_;  // per lamp
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
 };
 

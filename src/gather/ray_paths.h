@@ -1,0 +1,87 @@
+// What the two halves of technique hybrid's shading hand to one another: RayScatter sends rays from surfaces, RayShader follows them.
+#pragma once
+
+#include <vector>
+
+#include "gather/shading.h"
+#include "trace/bsdf.h"
+
+namespace roomlight {
+
+constexpr float kClear = 0.1f;   // roughness below which a reflection is a picture: what it shows is lit afresh
+constexpr float kSpread = 0.4f;  // roughness of what is seen by rough surfaces, at least
+
+// A ray on its way, and the parts of what it finds that its surface's lobes send to the eye.
+struct GatherPath {
+  Ray ray;
+  Lobes factor;
+  Vec3 from;      // where its direction was chosen,
+  float pdf;      // and with which density; 0: no light was sampled for it
+  int32_t guide;  // that sky samples there followed
+  uint32_t estimate;
+  uint8_t depth, panes;
+  bool clear;     // what it meets is seen clearly
+  float spread;   // roughness that surfaces have for it at least
+};
+
+// A surface to be lit. The first has its lobes apart; later ones send their light back along a path.
+struct GatherVertex {
+  const SurfacePoint& s;
+  const Bsdf& bsdf;
+  Lobes factor;
+  int32_t guide;
+  uint32_t estimate;
+  uint8_t depth;
+  bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
+  bool seenClearly = false;
+
+  Lobes value(Vec3 wi) const {
+    if (first) return {bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
+    const Vec3 f = bsdf.evaluate(wi);
+    return {factor.diffuse * f, factor.specular * f};
+  }
+};
+
+struct GatherWork {
+  struct Shadowed {
+    uint32_t estimate;
+    bool sure;
+    Lobes light;
+  };
+  struct Doubt {
+    GatherPath path;
+    Hit hit;
+    int64_t slot;
+    Vec3 p, n;
+  };
+  // Per estimate; those of a shading follow one another.
+  std::vector<Sampler> samplers;
+  std::vector<Lobes> found;
+  std::vector<Lobes> most;  // of what a single path may add, in every channel: its luminance
+  std::vector<GatherPath> paths, next;
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  std::vector<Vec3> places;
+  std::vector<Ray> shadowRays;
+  std::vector<Shadowed> shadowed;
+  std::vector<Vec3> left;
+  std::vector<Doubt> doubts;
+  uint64_t rayCount = 0;
+
+  void clear() {
+    samplers.clear(), found.clear(), most.clear(), paths.clear(), next.clear();
+    rayCount = 0;
+  }
+  // `sure`: of a light that is sampled too, so that none of its samples stands for much.
+  void add(uint32_t estimate, const Lobes& factor, Vec3 radiance, bool sure = false) {
+    const auto bounded = [&](Vec3 light, float limit) {
+      const float l = luminance(light);
+      return sure || l <= limit ? light : light * (limit / l);
+    };
+    found[estimate].diffuse += bounded(factor.diffuse * radiance, most[estimate].diffuse.x);
+    found[estimate].specular += bounded(factor.specular * radiance, most[estimate].specular.x);
+  }
+  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({estimate, sure, light}); }
+};
+
+}  // namespace roomlight

@@ -1,0 +1,31 @@
+// Rays from a surface: to every kind of light, and on to other surfaces. All share the light by multiple importance sampling (Veach
+// 1997, power heuristic).
+#pragma once
+
+#include "gather/ray_paths.h"
+#include "radiance/near_lamps.h"
+#include "radiance/radiance_field.h"
+
+namespace roomlight {
+
+class RayScatter {
+ public:
+  // `sampleLamps`: lamps are too many for each to cast its own shadow on what the camera sees.
+  RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, bool sampleLamps);
+  // Adds its shadow rays and paths to `w`.
+  void from(const GatherVertex& v, GatherWork& w) const;
+
+ private:
+  static float cosinePdf(const GatherVertex& v, Vec3 wi);
+  void lightsAt(const GatherVertex& v, GatherWork& w) const;
+  bool isBeside(Vec3 p, const LightSample& lamp) const;
+  void glowAt(const GatherVertex& v, GatherWork& w) const;
+  void gatherAt(const GatherVertex& v, GatherWork& w) const;
+
+  const Lights& lights_;
+  const RadianceField& field_;
+  const bool sampleLamps_;
+  std::vector<LampSurroundings> surroundings_;  // per lamp
+};
+
+}  // namespace roomlight
