@@ -65,13 +65,17 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
   std::atomic<uint64_t> rayCount = 0, coneCount = 0;
   std::mutex reporting;
   const Stopwatch watch;
+  double passSeconds = 0, passRays = 0;  // of the last
   while (result.samples < settings.samples) {
     const auto first = static_cast<size_t>(result.samples);
     const bool chosen = first > 0 && settings.tolerance > 0;
     const auto most = static_cast<size_t>(first > 0 || !(settings.tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
     const size_t n = std::min(kRaysAtOnce, most - first);
     const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, counts, settings.tolerance) : std::vector<uint8_t>();
-    if (chosen && std::find(noisy.begin(), noisy.end(), 1) == noisy.end()) break;
+    const double chosenRays = static_cast<double>(n) * static_cast<double>(chosen ? std::count(noisy.begin(), noisy.end(), 1) : static_cast<std::ptrdiff_t>(counts.size()));
+    if (chosenRays == 0) break;
+    const double started = watch.seconds();
+    if (settings.timeLimitS > 0 && first > 0 && started + passSeconds * chosenRays / passRays > settings.timeLimitS) break;
     std::atomic<size_t> tilesDone = 0;
     parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {
       GatherCounters count;
@@ -103,7 +107,8 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
       coneCount += count.cones;
     });
     result.samples += static_cast<int>(n);
-    if (progress.stop() || (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS)) break;
+    passSeconds = watch.seconds() - started, passRays = chosenRays;
+    if (progress.stop()) break;
   }
   result.occlusion = Image(w, h);
   parallelFor(counts.size(), 4096, [&](size_t i) {

@@ -16,7 +16,7 @@ struct PictureSettings {
   int raysPerShading = 2;   // camera rays that see one surface and share its light: cones, shadow rays, a reflection
   int fewestShadings = 2;   // where there are as many rays
   int filterPasses = 5;     // of the filter that removes remaining noise (filter.h); 0: none
-  double timeLimitS = 0;    // stop after a whole pass
+  double timeLimitS = 0;    // no pass after the first is begun that would end later
   uint64_t seed = 0;
 };
 
