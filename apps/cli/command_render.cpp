@@ -12,6 +12,7 @@
 #include "base/tone.h"
 #include "commands.h"
 #include "console.h"
+#include "engine/quality.h"
 #include "engine/render.h"
 #include "engine/stages.h"
 #include "engine/version.h"
@@ -25,7 +26,7 @@ namespace roomlight::cli {
 namespace {
 
 struct Options {
-  std::string scene, lighting, camera, size, exposure = "auto", tone = "neutral", whiteBalance = "auto", stats, settingsFile;
+  std::string scene, lighting, camera, size, exposure = "auto", tone = "neutral", whiteBalance = "auto", stats, settingsFile, quality;
   std::vector<std::string> outputs;
   std::optional<std::string> technique;
   std::optional<int> samples, threads;
@@ -91,11 +92,13 @@ Status checkOutputs(const Options& o) {
 
 Result<Plan> makePlan(const Options& o) {
   Plan plan;
-  plan.settings.technique = techniques().front().first;
+  if (!o.quality.empty()) {
+    if (const Status status = applyQuality(o.quality, plan.settings); !status) return Error{"--" + status.error()};
+  }
   if (!o.settingsFile.empty()) {
     const Result<std::string> text = readTextFile(o.settingsFile);
     if (!text) return Error{text.error()};
-    const Result<RenderSettings> read = settingsFromJson(text.value(), o.settingsFile, plan.settings);
+    const Result<RenderSettings> read = settingsFromJson(text.value(), o.settingsFile, plan.settings, o.quality);
     if (!read) return Error{read.error()};
     plan.settings = read.value();
   }
@@ -249,7 +252,7 @@ Result<Home> loadHome(const Options& o) {
 int work(const Options& o, const Plan& plan) {
   const Stopwatch total;
   ProgressDisplay display(o.quiet);
-  RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted()};
+  RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), [&](double relativeError, double mse) { display.estimate(relativeError, mse); }};
   RenderStats loadStats;
   Stages loading(progress, loadStats);
 
@@ -279,6 +282,7 @@ int work(const Options& o, const Plan& plan) {
   if (!o.stats.empty()) {
     if (const Status s = writeStats(o.stats, rendered.stats, total.seconds() * 1e3); !s) return bad(s.error(), kFailed);
   }
+  display.lineOfEstimate();
   for (const std::string& out : o.outputs) display.line(fmt::format("wrote {}{}", out, rendered.complete ? "" : " (stopped early: the best so far)"));
   return rendered.complete ? kOk : kInterrupted;
 }
@@ -293,9 +297,8 @@ int runRender(const Options& o) {
   return code;
 }
 
-std::string techniqueHelp() {
-  std::string text = "How light is computed:";
-  for (const auto& [name, explanation] : techniques()) text += fmt::format(" {} ({}){}", name, explanation, name == techniques().back().first ? "" : ";");
+std::string listed(std::string text, const std::vector<std::pair<std::string, std::string>>& choices) {
+  for (const auto& [name, explanation] : choices) text += fmt::format(" {} ({}){}", name, explanation, name == choices.back().first ? "" : ";");
   return text;
 }
 
@@ -309,7 +312,8 @@ Registered addRender(CLI::App& program) {
   app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
   app->add_option("--camera", o->camera, "Name of a camera in the scene, or its number from 0");
   app->add_option("--size", o->size, "Width and height in pixels, for example 960x540");
-  app->add_option("--technique", o->technique, techniqueHelp());
+  app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
+  app->add_option("--quality", o->quality, listed("How much is done for a picture, if nothing else says so:", qualities()));
   app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");
   app->add_option("--time-limit", o->timeLimitS, "Stop after this many seconds, but not before every pixel has a sample");
   app->add_option("--noise-level", o->noiseLevel, "Stop when the mean relative error per pixel is below this (technique path), for example 0.02");

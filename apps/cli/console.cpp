@@ -52,6 +52,14 @@ void ProgressDisplay::line(const std::string& text) {
   std::fflush(stderr);
 }
 
+void ProgressDisplay::estimate(double relativeError, double srgbMse) {
+  estimate_ = fmt::format("estimated error {:.2g} % of a pixel's luminance, mse {:.1e}", 100 * relativeError, srgbMse);
+}
+
+void ProgressDisplay::lineOfEstimate() {
+  if (!estimate_.empty()) line(estimate_);
+}
+
 void ProgressDisplay::report(const std::string& stage, float fraction) {
   if (quiet_) return;
   if (stage != stage_ || fraction <= 0) {
@@ -69,7 +77,8 @@ void ProgressDisplay::report(const std::string& stage, float fraction) {
   const int filled = static_cast<int>(fraction * kBarWidth);
   // No guess before there is something to guess from.
   const std::string left = fraction > 0.01f && elapsed > 0.5 ? duration(elapsed * (1 / static_cast<double>(fraction) - 1)) + " left" : "";
-  fmt::print(stderr, "\r\x1b[K{:<12} [{:#>{}}{:.>{}}] {:3.0f} %  {}", stage, "", filled, "", kBarWidth - filled, fraction * 100, left);
+  fmt::print(stderr, "\r\x1b[K{:<12} [{:#>{}}{:.>{}}] {:3.0f} %  {}{}{}", stage, "", filled, "", kBarWidth - filled, fraction * 100, left, left.empty() || estimate_.empty() ? "" : ", ",
+             estimate_);
   std::fflush(stderr);
   barShown_ = true;
 }

@@ -22,12 +22,15 @@ class ProgressDisplay {
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
   // fraction 0 begins the stage, 1 ends it.
   void report(const std::string& stage, float fraction);
+  // Of the error that the picture still has: shown beside the bar, and at last in a line of its own.
+  void estimate(double relativeError, double srgbMse);
+  void lineOfEstimate();
   void line(const std::string& text);  // not shown when quiet
 
  private:
   void clear();
   bool quiet_, terminal_, barShown_ = false;
-  std::string stage_;
+  std::string stage_, estimate_;
   Stopwatch watch_;
   double lastDrawnS_ = -1;
 };

@@ -1,42 +1,99 @@
 #include "engine/refine.h"
 
+#include <cmath>
+
 #include "filter/blend.h"
 #include "reference/path_tracer.h"
 
 namespace roomlight {
 namespace {
 
-constexpr int kFewestSamples = 2;  // one alone tells nothing of its noise
+constexpr int kFewestSamples = 2;         // one alone tells nothing of its noise
+constexpr int kTriedPart = 8;             // of width and height, to see how long a pass takes
+constexpr double kBlendInPasses = 1;      // time of a blend, before there was one
+constexpr double kLookAgain = 1.4;        // times the samples of the last blend: when the error is estimated again
 
-}  // namespace
-
-void refineByPath(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings, double seconds, Stages& stages, Image& picture) {
+PathSettings pathSettings(const RenderSettings& settings) {
   PathSettings path = settings.path;
   path.width = settings.width, path.height = settings.height;
   // Other random numbers than those of the picture.
   path.seed = settings.seed + 1;
-  PathTracer tracer(rays, lights, camera, path, true);
-  stages.run("refine", [&](const Progress& progress) {
-    const Stopwatch watch;
+  return path;
+}
+
+double secondsOfAPass(const RayScene& rays, const Lights& lights, const Camera& camera, PathSettings path) {
+  const double pixels = static_cast<double>(path.width) * path.height;
+  path.width = (path.width + kTriedPart - 1) / kTriedPart, path.height = (path.height + kTriedPart - 1) / kTriedPart;
+  PathTracer small(rays, lights, camera, path, true);
+  const Stopwatch watch;
+  small.pass();
+  return watch.seconds() * pixels / (static_cast<double>(path.width) * path.height);
+}
+
+class Refinement {
+ public:
+  Refinement(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings, double seconds, double pass, const Stages& stages, const Image& picture)
+      : aim_(settings.blendUntilMse), seconds_(seconds), longest_(pass), blendSeconds_(kBlendInPasses * pass), stages_(stages), picture_(picture), tracer_(rays, lights, camera, pathSettings(settings), true) {}
+
+  void run(const Progress& progress) {
     Progress inner;
     inner.cancelled = progress.cancelled;
-    if (progress.report) inner.report = [&](float) { progress.at(static_cast<float>(std::min(1.0, watch.seconds() / seconds))); };
-    // A pass that would end after the limit is not begun.
-    double longest = 0;
-    while (!progress.stop() && watch.seconds() + longest <= seconds) {
-      const double before = watch.seconds();
-      if (!tracer.pass(inner)) break;
-      longest = std::max(longest, watch.seconds() - before);
+    if (progress.report) inner.report = [&](float) { progress.at(done()); };
+    while (!progress.stop() && fits(longest_)) {
+      const double before = watch_.seconds();
+      if (!tracer_.pass(inner)) break;
+      longest_ = std::max(0.5 * longest_, watch_.seconds() - before);
+      if (tracer_.samples() < kFewestSamples || tracer_.samples() < kLookAgain * blended_ || !fits(blendSeconds_ + longest_)) continue;
+      look();
+      if (best_.srgbMse <= aim_) return;
     }
-    if (tracer.samples() < kFewestSamples) return false;
-    Blend blended = blend(picture, tracer.mean(), tracer.variance(), tracer.features());
-    picture = std::move(blended.image);
-    stages.number("estimatedError", blended.relativeError);
-    stages.number("estimatedMse", blended.srgbMse);
-    return true;
-  });
-  stages.number("pathSamples", tracer.samples());
-  stages.number("pathRays", static_cast<double>(tracer.rays()));
+    if (tracer_.samples() >= kFewestSamples && tracer_.samples() > blended_) look();
+  }
+  const PathTracer& tracer() const { return tracer_; }
+  bool improved() const { return blended_ > 0; }
+  Blend& best() { return best_; }
+
+ private:
+  // Whether so much work, and the blend that must follow, ends in time.
+  bool fits(double work) const { return watch_.seconds() + work + blendSeconds_ <= seconds_; }
+  float done() const {
+    const double byTime = watch_.seconds() / seconds_, byError = improved() ? aim_ / best_.srgbMse : 0;
+    return static_cast<float>(std::min(1.0, std::max(byTime, byError)));
+  }
+  void look() {
+    const double before = watch_.seconds();
+    best_ = blend(picture_, tracer_.mean(), tracer_.variance(), tracer_.features());
+    blended_ = tracer_.samples();
+    blendSeconds_ = watch_.seconds() - before;
+    stages_.estimate(best_.relativeError, best_.srgbMse);
+  }
+
+  const Stopwatch watch_;
+  const double aim_, seconds_;
+  double longest_, blendSeconds_;
+  const Stages& stages_;
+  const Image& picture_;
+  PathTracer tracer_;
+  Blend best_;
+  int blended_ = 0;
+};
+
+}  // namespace
+
+void refineByPath(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings, double seconds, Stages& stages, Image& picture) {
+  const Stopwatch watch;
+  const double pass = std::isfinite(seconds) ? secondsOfAPass(rays, lights, camera, pathSettings(settings)) : 0;
+  const double left = seconds - watch.seconds();
+  if ((kFewestSamples + kBlendInPasses) * pass > left) return;
+  Refinement refinement(rays, lights, camera, settings, left, pass, stages, picture);
+  stages.run("refine", [&](const Progress& progress) { return refinement.run(progress), true; });
+  if (refinement.improved()) {
+    stages.number("estimatedError", refinement.best().relativeError);
+    stages.number("estimatedMse", refinement.best().srgbMse);
+    picture = std::move(refinement.best().image);
+  }
+  stages.number("pathSamples", refinement.tracer().samples());
+  stages.number("pathRays", static_cast<double>(refinement.tracer().rays()));
 }
 
 }  // namespace roomlight

@@ -30,10 +30,12 @@ struct Rendered {
   bool complete = true;  // false: stopped early, the image is the best so far; empty if there was none yet
 };
 
-// What long work tells its caller: the stage's name and the fraction of it done.
+// What long work tells its caller: the stage's name and the fraction of it done; and, where a technique can tell, the error that the
+// picture still has: root mean square relative to a pixel's luminance, and mse of the encoded picture.
 struct RenderProgress {
   std::function<void(const std::string& stage, float fraction)> report;
   const std::atomic<bool>* cancelled = nullptr;
+  std::function<void(double relativeError, double srgbMse)> estimate;
 };
 
 // Errors: an unknown technique, settings out of range. `scene` must be validated.

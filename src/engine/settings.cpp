@@ -8,6 +8,8 @@
 #include <optional>
 #include <set>
 
+#include "engine/quality.h"
+
 namespace roomlight {
 namespace {
 
@@ -28,6 +30,7 @@ constexpr Choice<BounceBy> kBounces[] = {{"rays", BounceBy::Rays}, {"cones", Bou
 template <class Visitor, class Settings>
 void visitMembers(Visitor& v, Settings& s) {
   v.text("technique", s.technique);
+  v.text("quality", s.quality);
   v.number("width", s.width, 1, 65536);
   v.number("height", s.height, 1, 65536);
   v.number("samples", s.samples, 0, 1 << 24);
@@ -36,12 +39,14 @@ void visitMembers(Visitor& v, Settings& s) {
   v.number("seed", s.seed, 0, std::numeric_limits<uint64_t>::max());
   v.number("threads", s.threads, 0, 1024);
   v.flag("blend", s.blend);
+  v.number("blendUntilMse", s.blendUntilMse, 0, 1);
   v.group("path", [&](auto& g) {
     g.flag("lightPaths", s.path.lightPaths);
     g.flag("filter", s.path.filter);
   });
   v.group("voxel", [&](auto& g) {
     g.number("voxelSizeM", s.voxel.voxelSizeM, 0, 10);
+    g.number("sizeFactor", s.voxel.sizeFactor, 0.1, 10);
     g.number("memoryBudgetMiB", s.voxel.memoryBudgetMiB, 1, 1e6);
     g.number("smallestM", s.voxel.smallestM, 1e-4, 10);
     g.number("largestM", s.voxel.largestM, 1e-4, 10);
@@ -246,7 +251,7 @@ std::string settingsToJson(const RenderSettings& settings) {
   return writer.json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-Result<RenderSettings> settingsFromJson(std::string_view text, const std::string& where, const RenderSettings& defaults) {
+Result<RenderSettings> settingsFromJson(std::string_view text, const std::string& where, const RenderSettings& defaults, const std::string& quality) {
   Json json;
   try {
     json = Json::parse(text);
@@ -254,10 +259,17 @@ Result<RenderSettings> settingsFromJson(std::string_view text, const std::string
     return Error{fmt::format("{}: not valid JSON: {}", where, e.what())};
   }
   RenderSettings settings = defaults;
+  // What a quality stands for comes first, so that the other members go before it wherever they are in the text.
+  std::string chosen = quality;
+  if (quality.empty()) Reader(json, where + ": ").text("quality", chosen);
+  if (!chosen.empty()) {
+    if (const Status status = applyQuality(chosen, settings); !status) return Error{fmt::format("{}: {}", where, status.error())};
+  }
   Reader reader(json, where + ": ");
   visitMembers(reader, settings);
   reader.finish();
   if (reader.error) return *reader.error;
+  if (!quality.empty()) settings.quality = quality;
   return settings;
 }
 
@@ -265,6 +277,8 @@ Status checkSettings(const RenderSettings& settings) {
   RangeCheck check;
   visitMembers(check, settings);
   if (check.error) return *check.error;
+  RenderSettings named;
+  if (const Status status = applyQuality(settings.quality, named); !status) return status;
   if (int64_t{settings.width} * settings.height > kLargestPicture) {
     return Error{fmt::format("width, height: {} x {} pixels are more than {}", settings.width, settings.height, kLargestPicture)};
   }

@@ -16,7 +16,8 @@
 namespace roomlight {
 
 struct RenderSettings {
-  std::string technique = "cone";  // a name of techniques()
+  std::string technique = "hybrid";  // a name of techniques()
+  std::string quality = "good";      // a name of qualities(); what it stands for is in the members below
   int width = 960, height = 540;
   int samples = 0;         // per pixel; 0: the technique's default, or no limit where time or noise ends the work
   double timeLimitS = 0;   // stop after this long, but not before every pixel has one sample; 0: no limit
@@ -24,6 +25,7 @@ struct RenderSettings {
   uint64_t seed = 0;
   int threads = 0;         // 0: all cores
   bool blend = true;       // technique "hybrid": paths are traced and blended in while the time limit leaves time (refine.h)
+  double blendUntilMse = 0;   // and, without a limit too, until the error estimated is below this; 0: time alone ends it
   PathSettings path;          // technique "path"; size, samples, limits and seed are those above
   VoxelSettings voxel;        // techniques "hybrid" and "cone"
   RadianceSettings radiance;  // of the same; its seed is the one above
@@ -34,9 +36,10 @@ struct RenderSettings {
 // One JSON object with every member, in the order above, less those that repeat one above.
 std::string settingsToJson(const RenderSettings& settings);
 
-// Members that the text does not mention keep their value in `defaults`. An unknown key, a wrong type or a value out of
-// range is an error that starts with `where` (the file's name) and the JSON path.
-Result<RenderSettings> settingsFromJson(std::string_view text, const std::string& where, const RenderSettings& defaults = {});
+// Members that the text does not mention keep their value in `defaults`, or get that of the quality it names; `quality`, where given,
+// goes before that. An unknown key, a wrong type or a value out of range is an error that starts with `where` (the file's name)
+// and the JSON path.
+Result<RenderSettings> settingsFromJson(std::string_view text, const std::string& where, const RenderSettings& defaults = {}, const std::string& quality = {});
 
 // Values in range? The error names the member as in JSON. The technique's name is left to render().
 Status checkSettings(const RenderSettings& settings);

@@ -31,6 +31,10 @@ class Stages {
     report(name, 1);
     return value;
   }
+  // Of the error that is left, so far.
+  void estimate(double relativeError, double srgbMse) const {
+    if (progress_.estimate) progress_.estimate(relativeError, srgbMse);
+  }
   void number(const std::string& name, double value) { stats_.numbers.emplace_back(name, value); }
   bool cancelled() const { return progress_.cancelled && progress_.cancelled->load(std::memory_order_relaxed); }
 

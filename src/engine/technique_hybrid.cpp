@@ -1,11 +1,14 @@
 #include "engine/light_colour.h"
 #include "engine/refine.h"
 #include "engine/techniques.h"
+#include "engine/time_plan.h"
 
 namespace roomlight {
 
 Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
   const Stopwatch watch;
+  const bool limited = settings.timeLimitS > 0;
+  const auto left = [&] { return limited ? std::max(0.0, settings.timeLimitS - watch.seconds()) : std::numeric_limits<double>::infinity(); };
   RadianceSettings radiance = settings.radiance;
   radiance.seed = settings.seed;
   radiance.pyramid = false;
@@ -17,12 +20,15 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
-  const Voxels voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, settings.voxel).voxels; });
-  const RadianceField field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, voxels, radiance, p); });
+  const VoxelLight light = limited ? lightVoxelsWithin(left(), rays, lights, settings.voxel, radiance, stages) : lightVoxels(rays, lights, settings.voxel, radiance, stages);
   if (stages.cancelled()) return {};
-  // What the stages before took counts against the limit; the gather never ends before its first pass.
-  if (settings.timeLimitS > 0) gather.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
-  GatheredPicture result = stages.run("gather", [&](const Progress& p) { return gatherRays(rays, lights, voxels, field, camera, gather, p); });
+  const Voxels& voxels = light.voxels;
+  const RadianceField& field = light.field;
+  GatheredPicture result = stages.run("gather", [&](const Progress& p) {
+    if (limited) gather = gatherWithin(left(), rays, lights, light, camera, gather);
+    return gatherRays(rays, lights, voxels, field, camera, gather, p);
+  });
+  if (gather.width != settings.width || gather.height != settings.height) result.image = enlarged(result.image, settings.width, settings.height);
 
   stages.number("voxelSizeM", static_cast<double>(voxels.voxelSizeM));
   stages.number("voxels", static_cast<double>(voxels.voxels.size()));
@@ -32,9 +38,9 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   stages.number("bounces", field.bounces);
   stages.number("residual", field.residual);
   stages.number("samples", result.samples);
+  stages.number("pixelsGathered", static_cast<double>(gather.width) * gather.height);
   stages.number("rays", static_cast<double>(field.rays + result.rays));
-  const double left = settings.timeLimitS - watch.seconds();
-  if (settings.blend && left > 0 && !stages.cancelled()) refineByPath(rays, lights, camera, settings, left, stages, result.image);
+  if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, lights, camera, settings, left(), stages, result.image);
   const Vec3 colour = lightColour(rays, camera, result.image);
   return {std::move(result.image), colour};
 }

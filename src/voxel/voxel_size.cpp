@@ -34,7 +34,7 @@ float chooseVoxelSize(const Scene& scene, const VoxelSettings& settings) {
   const double wanted = std::sqrt(area * kVoxelsPerCrossSection * kBytesPerVoxel / budget);
   double h = std::clamp(wanted, static_cast<double>(settings.smallestM), static_cast<double>(settings.largestM));
   // A small home on a huge ground plane: the memory may grow beyond the budget, but not without limit.
-  h = std::max(h, wanted / 2);
+  h = std::max(h, wanted / 2) * static_cast<double>(settings.sizeFactor);
   return feasibleVoxelSizeM(scene.bounds(), static_cast<float>(h));
 }
 

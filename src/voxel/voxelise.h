@@ -12,6 +12,7 @@ namespace roomlight {
 
 struct VoxelSettings {
   float voxelSizeM = 0;        // 0: chosen from the budget
+  float sizeFactor = 1;        // times the size so chosen
   float memoryBudgetMiB = 128; // for Voxels when the size is chosen; a size given by hand may exceed it
   float smallestM = 0.05f;     // limits of the automatic choice
   float largestM = 0.5f;

@@ -155,6 +155,7 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--size", "0x10"}, "width"},
       {{"render", scene_, "-o", a, "--size", "65536x65536"}, "pixels"},
       {{"render", scene_, "-o", a, "--technique", "magic"}, "cone, path"},
+      {{"render", scene_, "-o", a, "--quality", "perfect"}, "draft, good, best"},
       {{"render", scene_, "-o", a, "--camera", "Side"}, "'Front', 'Back'"},
       {{"render", scene_, "-o", a, "--camera", "2"}, "'Front', 'Back'"},
       {{"render", scene_, "-o", a, "--samples", "-1"}, "samples"},
@@ -203,6 +204,25 @@ TEST_F(RenderCommand, interruptKeepsTheBestPictureSoFar) {
   EXPECT_EQ(metadata("a.exr").at("roomlight.complete"), "false");
 }
 
+TEST_F(RenderCommand, bestGoesOnUntilInterruptedAndTellsTheErrorThatIsLeft) {
+  writeFile(path("endless.json"), R"({"blendUntilMse": 1e-12})");
+  const ProgramRun run = render({"-o", path("a.exr"), "--quality", "best", "--settings", path("endless.json"), "--stats", path("s.json")}, "gather");
+  EXPECT_EQ(run.exitStatus, 130) << run.err;
+  EXPECT_EQ(picture("a.exr").width, 32);
+  const ProgramRun limited = render({"-o", path("b.exr"), "--time-limit", "2", "--stats", path("s.json")});
+  ASSERT_EQ(limited.exitStatus, 0) << limited.err;
+  EXPECT_NE(limited.err.find("estimated error"), std::string::npos) << limited.err;
+  EXPECT_GT(Json::parse(readFile(path("s.json")))["numbers"]["estimatedMse"], 0);
+}
+
+TEST_F(RenderCommand, qualityIsAStartThatSingleSettingsChange) {
+  ASSERT_EQ(render({"-o", path("a.exr"), "--quality", "draft", "--voxel-size", "0.3", "--stats", path("s.json")}).exitStatus, 0);
+  EXPECT_NEAR(Json::parse(readFile(path("s.json")))["numbers"]["voxelSizeM"].get<double>(), 0.3, 1e-6);
+  const Json settings = Json::parse(metadata("a.exr").at("roomlight.settings"));
+  EXPECT_EQ(settings["quality"], "draft");
+  EXPECT_EQ(settings["hybrid"]["tolerance"], 0);
+}
+
 TEST_F(RenderCommand, interruptBeforeThereIsAPictureSaysSo) {
   const ProgramRun run = render({"-o", path("a.exr"), "--stats", path("a.json"), "--technique", "cone", "--voxel-size", "0.015"}, "bvh");
   EXPECT_EQ(run.exitStatus, 130) << run.err;
@@ -212,7 +232,7 @@ TEST_F(RenderCommand, interruptBeforeThereIsAPictureSaysSo) {
 }
 
 TEST_F(RenderCommand, timeLimitEndsWithAPictureAndSuccess) {
-  for (const char* technique : {"path", "cone"}) {
+  for (const char* technique : {"path", "cone", "hybrid"}) {
     const ProgramRun run = render({"-o", path("a.exr"), "--technique", technique, "--time-limit", "0.3"});
     EXPECT_EQ(run.exitStatus, 0) << technique << ": " << run.err;
     EXPECT_EQ(picture("a.exr").width, 32);

@@ -1,0 +1,82 @@
+#include "engine/time_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/clock.h"
+#include "base/parallel.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kTriedSize = 4;       // voxels that are tried first, in edges of those wanted
+constexpr double kGrowth = 1.6;       // light on voxels takes their edge to the power of minus this
+constexpr double kLightShare = 0.5;   // of the time, at most
+constexpr float kHardlyFiner = 2.5f;  // voxels not smaller than this, in edges of those wanted, are no gain over those tried
+constexpr int kTriedPart = 8;         // of width and height; also the smallest picture
+constexpr double kFilterShare = 0.1;  // of the time of the first pass
+
+}  // namespace
+
+VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
+  VoxelLight out;
+  out.voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(rays.scene(), voxel).voxels; });
+  out.field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, out.voxels, radiance, p); });
+  return out;
+}
+
+VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
+  const Stopwatch watch;
+  const float wanted = chooseVoxelSize(rays.scene(), voxel);
+  VoxelSettings tried = voxel;
+  tried.voxelSizeM = kTriedSize * wanted;
+  VoxelLight light = stages.run("plan", [&](const Progress& p) {
+    VoxelLight out;
+    out.voxels = voxelise(rays.scene(), tried).voxels;
+    out.field = illuminate(rays, lights, out.voxels, radiance, p);
+    return out;
+  });
+  if (stages.cancelled()) return light;
+  const double took = watch.seconds(), allowed = kLightShare * seconds - took;
+  const float affordable = allowed > 0 ? kTriedSize * static_cast<float>(std::pow(took / allowed, 1 / kGrowth)) : kInfinity;
+  if (affordable > kHardlyFiner) return light;
+  VoxelSettings fine = voxel;
+  fine.voxelSizeM = std::max(1.0f, affordable) * wanted;
+  return lightVoxels(rays, lights, fine, radiance, stages);
+}
+
+RayGatherSettings gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather) {
+  const Stopwatch watch;
+  RayGatherSettings small = gather;
+  small.width = (gather.width + kTriedPart - 1) / kTriedPart, small.height = (gather.height + kTriedPart - 1) / kTriedPart;
+  small.samples = std::min(gather.samples, gather.firstSamples), small.tolerance = 0;
+  gatherRays(rays, lights, light.voxels, light.field, camera, small);
+  const double smaller = static_cast<double>(gather.width) * gather.height / (static_cast<double>(small.width) * small.height);
+  const double took = watch.seconds(), first = took * smaller, left = seconds - took;
+  const double part = std::sqrt(std::clamp(left / ((1 + kFilterShare) * first), 1.0 / (kTriedPart * kTriedPart), 1.0));
+  const auto shortened = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(part * pixels))); };
+  gather.width = shortened(gather.width), gather.height = shortened(gather.height);
+  gather.timeLimitS = std::max(1e-3, left - kFilterShare * part * part * first);
+  return gather;
+}
+
+Image enlarged(const Image& image, int width, int height) {
+  Image out(width, height);
+  const auto place = [](int i, int size, int sizeOut, int& low, int& high) {
+    const float at = std::clamp((static_cast<float>(i) + 0.5f) * static_cast<float>(size) / static_cast<float>(sizeOut) - 0.5f, 0.0f, static_cast<float>(size - 1));
+    low = static_cast<int>(at), high = std::min(low + 1, size - 1);
+    return at - static_cast<float>(low);
+  };
+  parallelFor(static_cast<size_t>(height), 8, [&](size_t row) {
+    const int y = static_cast<int>(row);
+    int x0, x1, y0, y1;
+    const float v = place(y, image.height, height, y0, y1);
+    for (int x = 0; x < width; ++x) {
+      const float u = place(x, image.width, width, x0, x1);
+      out.at(x, y) = (image.at(x0, y0) * (1 - u) + image.at(x1, y0) * u) * (1 - v) + (image.at(x0, y1) * (1 - u) + image.at(x1, y1) * u) * v;
+    }
+  });
+  return out;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,105 @@
+// Technique hybrid with little time, with much, and without end.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/clock.h"
+#include "engine/render.h"
+#include "engine/time_plan.h"
+#include "support/rooms.h"
+
+namespace roomlight {
+namespace {
+
+struct LitRoom {
+  Scene scene;
+  Camera camera;
+  LitRoom() {
+    const int wall = test::addMaterial(scene, test::lambertian(0.6f));
+    test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 3}, std::vector<int>(6, wall));
+    test::addBox(scene, {1, 0, 1}, {1.6f, 0.9f, 1.6f}, wall);
+    scene.lamps.push_back(test::pointLamp({2.8f, 2.0f, 1.5f}, 100));
+    camera.worldFromCamera.w = {2, 1.3f, 2.8f};
+  }
+};
+
+RenderSettings small(double timeLimitS) {
+  RenderSettings settings;
+  settings.width = 64, settings.height = 36;
+  settings.timeLimitS = timeLimitS;
+  return settings;
+}
+
+double number(const Rendered& rendered, const std::string& name) {
+  for (const auto& [n, value] : rendered.stats.numbers) {
+    if (n == name) return value;
+  }
+  return -1;
+}
+
+bool isPicture(const Image& image) {
+  if (image.width != 64 || image.height != 36) return false;
+  return std::all_of(image.pixels.begin(), image.pixels.end(), [](Vec3 p) { return isFinite(p) && luminance(p) > 0; });
+}
+
+TEST(TimeLimit, tooLittleTimeStillGivesAPicture) {
+  const LitRoom room;
+  const Rendered rendered = render(room.scene, room.camera, small(1e-4)).value();
+  EXPECT_TRUE(isPicture(rendered.image));
+  EXPECT_TRUE(rendered.complete);
+  EXPECT_LT(number(rendered, "pixelsGathered"), 64 * 36);
+  EXPECT_EQ(number(rendered, "estimatedMse"), -1) << "no time to tell";
+}
+
+// The allowance is for busy machines.
+TEST(TimeLimit, timeThatIsLeftPutsThePictureRight) {
+  const LitRoom room;
+  const Stopwatch watch;
+  const Rendered rendered = render(room.scene, room.camera, small(2)).value();
+  EXPECT_LT(watch.seconds(), 4);
+  EXPECT_TRUE(isPicture(rendered.image));
+  EXPECT_GT(number(rendered, "pathSamples"), 1);
+  EXPECT_GT(number(rendered, "estimatedMse"), 0);
+  EXPECT_LT(number(rendered, "estimatedMse"), 0.01);
+}
+
+TEST(TimeLimit, withoutOneAPictureGoesOnUntilItsErrorIsSmall) {
+  const LitRoom room;
+  RenderSettings settings = small(0);
+  settings.blendUntilMse = 0.0005;
+  int estimates = 0;
+  RenderProgress progress;
+  progress.estimate = [&](double relativeError, double) { estimates += relativeError > 0; };
+  const Rendered rendered = render(room.scene, room.camera, settings, progress).value();
+  EXPECT_GT(estimates, 0);
+  EXPECT_LE(number(rendered, "estimatedMse"), settings.blendUntilMse);
+  settings.blend = false;
+  EXPECT_EQ(number(render(room.scene, room.camera, settings).value(), "pathSamples"), -1);
+}
+
+TEST(TimeLimit, whatIsStoppedWhileItIsPutRightIsKept) {
+  const LitRoom room;
+  RenderSettings settings = small(0);
+  settings.blendUntilMse = 1e-12;
+  std::atomic<bool> cancelled = false;
+  RenderProgress progress;
+  progress.cancelled = &cancelled;
+  progress.estimate = [&](double, double) { cancelled = true; };
+  const Rendered rendered = render(room.scene, room.camera, settings, progress).value();
+  EXPECT_FALSE(rendered.complete);
+  EXPECT_TRUE(isPicture(rendered.image));
+}
+
+TEST(TimeLimit, enlargedPicturesKeepTheirPlace) {
+  Image ramp(4, 2);
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 4; ++x) ramp.at(x, y) = Vec3(static_cast<float>(x));
+  }
+  const Image large = enlarged(ramp, 16, 6);
+  EXPECT_NEAR(large.at(0, 0).x, 0, 1e-6);
+  EXPECT_NEAR(large.at(15, 5).x, 3, 1e-6);
+  for (int x = 2; x < 14; ++x) EXPECT_NEAR(large.at(x, 3).x, (static_cast<float>(x) + 0.5f) / 4 - 0.5f, 1e-5) << x;
+}
+
+}  // namespace
+}  // namespace roomlight
