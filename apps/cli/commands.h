@@ -21,6 +21,7 @@ struct Registered {
 };
 Registered addRender(CLI::App& program);
 Registered addCompare(CLI::App& program);
+Registered addDevelop(CLI::App& program);
 Registered addInfo(CLI::App& program);
 
 }  // namespace roomlight::cli

@@ -285,7 +285,7 @@ TEST_F(RenderCommand, whiteBalanceTurnsLampLightTowardsWhiteInThePngAlone) {
 }
 
 TEST(Program, helpHasExamplesAndVersionHasANumber) {
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"render", "--help"}, {"compare", "--help"}, {"info", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"render", "--help"}, {"compare", "--help"}, {"develop", "--help"}, {"info", "--help"}}) {
     const ProgramRun run = runProgram(arguments);
     EXPECT_EQ(run.exitStatus, 0);
     EXPECT_NE(run.out.find("Example"), std::string::npos) << run.out;
