@@ -71,6 +71,7 @@ struct RayScene::State {
   Bounds3 bounds;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
+  RayLog* log = nullptr;
   std::vector<RTCScene> meshScenes;  // of instanced meshes, else null
   std::vector<GeometryTag> tags;     // one per mesh
   std::once_flag surfacesMade;
@@ -86,6 +87,11 @@ struct RayScene::State {
 
   RTCGeometry makeGeometry(int meshIndex, const Affine& transform);
   void build();
+  void note(RayLog::Kind kind, std::span<const Ray> rays) const {
+    if (!log) return;
+    log->batches.push_back({kind, log->rays.size(), rays.size()});
+    log->rays.insert(log->rays.end(), rays.begin(), rays.end());
+  }
 };
 
 RTCGeometry RayScene::State::makeGeometry(int meshIndex, const Affine& transform) {
@@ -156,6 +162,7 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
+void RayScene::record(RayLog* log) { state_->log = log; }
 const Scene& RayScene::scene() const { return *state_->scene; }
 const Bounds3& RayScene::bounds() const { return state_->bounds; }
 const Surfaces& RayScene::surfaces() const {
@@ -203,6 +210,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
 void RayScene::intersectClose(std::span<const Ray> rays, std::span<Hit> hits) const { intersectPackets(rays, hits, true); }
 
 void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, bool close) const {
+  state_->note(close ? RayLog::Kind::NearestClose : RayLog::Kind::Nearest, rays);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   if (close) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -225,6 +233,7 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
 }
 
 void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> left) const {
+  state_->note(RayLog::Kind::Shadow, rays);
   for (size_t first = 0; first < rays.size(); first += 8) {
     Vec3 lanes[8];
     ShadowContext context;

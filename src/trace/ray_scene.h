@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -26,6 +27,19 @@ struct Hit {
   bool valid() const { return instance != kNoHit; }
 };
 
+// Rays in the order in which they were traced, many at a time, for measuring.
+struct RayLog {
+  enum class Kind : uint8_t { Nearest,
+                              NearestClose,
+                              Shadow };
+  struct Batch {
+    Kind kind;
+    size_t first, count;
+  };
+  std::vector<Ray> rays;
+  std::vector<Batch> batches;
+};
+
 // A bounding-volume hierarchy over all instances of a scene, which it refers to and must not outlive. Surfaces block
 // from both sides; alpha-masked texels are holes; thin glass and alpha-blended surfaces are hit by intersect() and
 // attenuate transmittance(). Safe to use from many threads.
@@ -45,6 +59,9 @@ class RayScene {
   // What is left of light along the ray per channel: 1 unobstructed, 0 blocked, in between through glass.
   Vec3 transmittance(const Ray& ray) const;
   void transmittance(std::span<const Ray> rays, std::span<Vec3> left) const;
+
+  // From here on, what is traced many rays at a time is added to `log`, by one thread only; null ends that.
+  void record(RayLog* log);
 
   const Scene& scene() const;
   const Bounds3& bounds() const;
