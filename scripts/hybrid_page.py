@@ -1,0 +1,126 @@
+"""The page that scripts/measure_hybrid writes."""
+import os
+from statistics import median
+
+
+def percent(x):
+    return f"{x:+.1f} %"
+
+
+def worst(rows, way, key):
+    row = max(rows, key=lambda r: abs(r[way][key]))
+    return abs(row[way][key]), row["name"].replace("_", " ")
+
+
+def verdict(met):
+    return "met" if met else "missed"
+
+
+def asked(rows, records, benches):
+    """Rows of what was asked: text, measured, met."""
+    for way, limit in (("good", 0.0005), ("draft", 0.0015)):
+        for key, name in (("mseBeyondNoise", "without the references' noise"), ("mse", "as it is")):
+            count = sum(r[way][key] <= limit for r in rows)
+            yield f"{way}: mse at most {limit}, {name}", f"{count} of {len(rows)}; largest {worst(rows, way, key)[0]:.5f}, {worst(rows, way, key)[1]}", count == len(rows)
+    bright = sum(abs(r["good"]["meanLuminanceErrorPercent"]) <= 2 for r in rows)
+    yield "good: mean luminance within 2 %", f"{bright} of {len(rows)}; largest {worst(rows, 'good', 'meanLuminanceErrorPercent')[0]:.1f} %, {worst(rows, 'good', 'meanLuminanceErrorPercent')[1]}", bright == len(rows)
+    for filtered, limit in ((False, 1 / 100), (True, 1 / 10)):
+        ratio = median(r["good"]["seconds"] / r["good"]["path"][filtered][0] for r in rows)
+        yield f"good: time at most 1/{1 / limit:.0f} of path's {'with' if filtered else 'without'} filter for the same mse, median", f"1/{1 / ratio:.0f}", ratio <= limit
+    for way, limit in (("good", 2), ("draft", 0.4)):
+        seconds = [r["speed"][way]["seconds"] for r in rows]
+        yield f"{way}: {limit} s after loading", f"{sum(s <= limit for s in seconds)} of {len(rows)}; median {median(seconds):.2f}, longest {max(seconds):.2f}", max(seconds) <= limit
+    memory = [r["speed"]["good"]["MiB"] / r["pathMiB"] for r in rows]
+    yield "good: peak memory at most 1.5 of path's", f"largest {max(memory):.2f}", max(memory) <= 1.5
+    if "illuminate" in benches:
+        seconds = [b["real_time"] / 1e3 for b in benches["illuminate"]]
+        yield "relight after one lamp changed: 0.15 s", f"median {median(seconds):.2f}, longest {max(seconds):.2f}", max(seconds) <= 0.15
+    if "gather" in benches:
+        rates = [b["percentOfBare"] for b in benches["gather"]]
+        yield "gather: at least half the rays a second of bare Embree for the same rays", f"{min(rates):.0f} to {max(rates):.0f} %", min(rates) >= 50
+    leaks = [m for g, _, t, m in records if "Sealed" in g and t == "hybrid"]
+    if leaks:
+        yield "leaks: dark room at most 0.1 % of the bright one", f"largest {100 * max(leaks):.4f} %", max(leaks) <= 0.001
+    contact = [m for g, _, _, m in records if "cup" in g]
+    if len(contact) == 2:
+        yield "contact: error at most twice the whole picture's", f"{contact[1] / contact[0]:.2f}", contact[1] <= 2 * contact[0]
+
+
+def errors(rows):
+    yield "| scene, rig | draft: mse | beyond noise | mean | good: mse | beyond noise | mean | best: mse | beyond noise | estimated | s | cone: mse | beyond noise | mean | s |"
+    yield "|---" * 15 + "|"
+    for r in rows:
+        cells = [r["name"].replace("_", " ")]
+        for way in ("draft", "good"):
+            cells += [f"{r[way]['mse']:.5f}", f"{r[way]['mseBeyondNoise']:.5f}", percent(r[way]["meanLuminanceErrorPercent"])]
+        best, cone = r["best"], r["cone"]
+        cells += [f"{best['mse']:.5f}", f"{best['mseBeyondNoise']:.5f}", f"{best['numbers'].get('estimatedMse', float('nan')):.5f}", f"{best['seconds']:.0f}"]
+        cells += [f"{cone['mse']:.5f}", f"{cone['mseBeyondNoise']:.5f}", percent(cone["meanLuminanceErrorPercent"]), f"{cone['seconds']:.1f}"]
+        yield "| " + " | ".join(cells) + " |"
+
+
+def ratios(rows):
+    yield "| scene, rig | draft s | path s | ratio | filtered s | ratio | good s | path s | ratio | filtered s | ratio |"
+    yield "|---" * 11 + "|"
+    for r in rows:
+        cells = [r["name"].replace("_", " ")]
+        for way in ("draft", "good"):
+            cells.append(f"{r[way]['seconds']:.2f}")
+            for filtered in (False, True):
+                seconds, beyond = r[way]["path"][filtered]
+                cells += [f"{'~' if beyond else ''}{seconds:.1f}", f"1/{seconds / r[way]['seconds']:.1f}"]
+        yield "| " + " | ".join(cells) + " |"
+    cells = ["median"]
+    for way in ("draft", "good"):
+        cells.append(f"{median(r[way]['seconds'] for r in rows):.2f}")
+        for filtered in (False, True):
+            cells += ["", f"1/{median(r[way]['path'][filtered][0] / r[way]['seconds'] for r in rows):.1f}"]
+    yield "| " + " | ".join(cells) + " |"
+
+
+def speeds(rows):
+    stages = ("bvh", "lights", "voxelise", "illuminate", "gather")
+    yield "| scene, rig | quality | " + " | ".join(stages) + " | in all | MiB | of path's |"
+    yield "|---" * (len(stages) + 5) + "|"
+    for r in rows:
+        for way, s in r["speed"].items():
+            times = " | ".join(f"{s['stages'].get(n, 0):.2f}" for n in stages)
+            yield f"| {r['name'].replace('_', ' ')} | {way} | {times} | {s['seconds']:.2f} | {s['MiB']:.0f} | {s['MiB'] / r['pathMiB']:.2f} |"
+
+
+def tests(records):
+    leaks = {}
+    for group, place, technique, measured in records:
+        if "Sealed" in group:
+            leaks.setdefault(place, {})[technique] = measured
+    yield "| wall, voxels | hybrid | cone |"
+    yield "|---|---|---|"
+    for place, by in leaks.items():
+        yield f"| {place} | {100 * by['hybrid']:.4f} % | {100 * by['cone']:.4f} % |"
+    yield from ("", "Table on legs of 2 cm with a cup on it, mse beyond noise:", "", "| | hybrid |", "|---|---|")
+    for group, place, _, measured in records:
+        if "cup" in group:
+            yield f"| {place} | {measured:.6f} |"
+
+
+def page(rows, records, benches, pictures, args):
+    lines = ["# Technique hybrid, measured", "",
+             f"Made by `scripts/measure_hybrid` on {os.cpu_count()} cores: errors and the times beside them at {args.size}, times and memory of stages at {args.time_size}.",
+             "`mse` is against the mean of two references of `path`; `beyond noise` is mse without the noise that these still hold. `mean` is the",
+             f"error of the mean luminance. `best` goes on until it estimates an mse of 0.0002, for {args.best_seconds:g} s at most; `estimated` is what it says of itself.", "",
+             "## Asked", "", "| asked | measured | |", "|---|---|---|"]
+    lines += [f"| {text} | {measured} | {verdict(met)} |" for text, measured, met in asked(rows, records, benches)]
+    lines += ["", "## Errors", "", *errors(rows)]
+    counts = ", ".join(map(str, args.samples))
+    lines += ["", "## Time for the same error", "",
+              f"Seconds after loading that `path` needs for the mse beyond noise of `draft` and of `good`, from its own runs with {counts} samples a pixel: without its",
+              "filter as error = constant / samples, with it between the runs; ~ is beyond the longest run.", "", *ratios(rows)]
+    lines += ["", "## Times and memory", "", f"Seconds after loading; the quickest of {args.runs}.", "", *speeds(rows)]
+    if records:
+        lines += ["", "## Leaks and contact", "", "From `tests/physics/hybrid_test.cpp`: mean luminance of a sealed room beside a bright one, in per cent of the bright one's.", "", *tests(records)]
+    if pictures:
+        lines += ["", "## Equal time", "", "From left to right: `hybrid` good, `path` and `path` with filter for as long, the reference."]
+        for name in pictures:
+            seconds = next(r["good"]["seconds"] for r in rows if r["name"] == name)
+            lines += ["", f"{name.replace('_', ' ')}, {seconds:.1f} s:", "", f"![{name.replace('_', ' ')}](../pictures/equal_time_{name}.jpg)"]
+    return "\n".join(lines) + "\n"
