@@ -16,7 +16,7 @@ struct Preset {
 constexpr Preset kPresets[] = {
     {"draft", "for trying out",
      [](RenderSettings& s) {
-       s.voxel.sizeFactor = 2;
+       s.voxel.sizeFactor = 1.4f;
        s.radiance.directSamples = 4, s.radiance.links = 4, s.radiance.residual = 0.01f;
        s.hybrid.samples = 4, s.hybrid.firstSamples = 4, s.hybrid.tolerance = 0;
      }},

@@ -4,6 +4,12 @@
 #include "engine/time_plan.h"
 
 namespace roomlight {
+namespace {
+
+// Rays decide what is seen, so voxels may be coarser than cones need them: a third of the slots, and no more error.
+constexpr float kCoarser = 1.5f;
+
+}  // namespace
 
 Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
   const Stopwatch watch;
@@ -12,6 +18,8 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   RadianceSettings radiance = settings.radiance;
   radiance.seed = settings.seed;
   radiance.pyramid = false;
+  VoxelSettings voxel = settings.voxel;
+  voxel.sizeFactor *= kCoarser;
   RayGatherSettings gather = settings.hybrid;
   gather.width = settings.width;
   gather.height = settings.height;
@@ -20,7 +28,7 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
-  const VoxelLight light = limited ? lightVoxelsWithin(left(), rays, lights, settings.voxel, radiance, stages) : lightVoxels(rays, lights, settings.voxel, radiance, stages);
+  const VoxelLight light = limited ? lightVoxelsWithin(left(), rays, lights, voxel, radiance, stages) : lightVoxels(rays, lights, voxel, radiance, stages);
   if (stages.cancelled()) return {};
   const Voxels& voxels = light.voxels;
   const RadianceField& field = light.field;

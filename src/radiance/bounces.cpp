@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kSlowest = 0.8;  // mode of light that Chebyshev's iteration is fastest for
 constexpr int kTrial = 12;        // steps
+constexpr double kRounding = 6e-4;  // of half floats: steps no larger than this go round in circles
 constexpr double kDark = 1e-4;
 constexpr double kSmall = 0.01;
 constexpr float kAbsorbs = 1e-3f;  // at least, where only the end of the bounces is judged
@@ -63,7 +64,7 @@ class Iteration {
       out.residual = delta * m / (1 - (m + momentum / m) / (1 + momentum));
       ++out.done;
       indirect_.swap(other_);
-      if (out.residual <= settings.residual) break;
+      if (out.residual <= settings.residual || delta <= kRounding) break;
     }
     return out;
   }

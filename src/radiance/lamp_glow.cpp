@@ -21,7 +21,7 @@ LampGlow::LampGlow(std::vector<GlowPoint> points, float voxelSizeM) : points_(st
 // Cones read glow on the base level only, and leave that where they are two voxels wide. That distance varies by a factor of two
 // (see marchCone's levelShift).
 float LampGlow::shareAt(const GlowPoint& g, float distance, float cosLight, const GlowCone& cone) const {
-  const float onBase = std::clamp(std::log2(voxelSizeM_ / std::max(cone.tanHalf * distance, 1e-9f)), 0.0f, 1.0f);
+  const float onBase = cone.tanHalf <= 0 ? 1 : std::clamp(std::log2(voxelSizeM_ / std::max(cone.tanHalf * distance, 1e-9f)), 0.0f, 1.0f);
   return 1 - onBase * coneShare(g.radianceCdM2, distance, cosLight, cone.pdf);
 }
 
@@ -41,6 +41,9 @@ GlowSample LampGlow::sample(Vec3 p, Vec3 n, float diffuseCones, float tanHalf, S
     // One in each part of the list, which is sorted by lamp.
     const float u = (static_cast<float>(i) + (i == 0 ? first : sampler.fast1())) / static_cast<float>(kCandidates);
     candidate[i] = std::min(points_.size() - 1, static_cast<size_t>(u * static_cast<float>(points_.size())));
+    __builtin_prefetch(&points_[candidate[i]]);
+  }
+  for (size_t i = 0; i < kCandidates; ++i) {
     const GlowPoint& g = points_[candidate[i]];
     const Vec3 d = g.p - p;
     const float d2 = lengthSquared(d), distance = std::sqrt(d2), cosSurface = dot(d, n) / std::max(distance, 1e-12f), cosLight = -dot(d, g.n) / std::max(distance, 1e-12f);
