@@ -315,7 +315,7 @@ Registered addRender(CLI::App& program) {
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
   app->add_option("--quality", o->quality, listed("How much is done for a picture, if nothing else says so:", qualities()));
   app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");
-  app->add_option("--time-limit", o->timeLimitS, "Stop after this many seconds, but not before every pixel has a sample");
+  app->add_option("--time-limit", o->timeLimitS, "Be done this many seconds after loading, with the best picture for that; every pixel has light in any case");
   app->add_option("--noise-level", o->noiseLevel, "Stop when the mean relative error per pixel is below this (technique path), for example 0.02");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same picture");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");

@@ -20,7 +20,7 @@ struct RenderSettings {
   std::string quality = "good";      // a name of qualities(); what it stands for is in the members below
   int width = 960, height = 540;
   int samples = 0;         // per pixel; 0: the technique's default, or no limit where time or noise ends the work
-  double timeLimitS = 0;   // stop after this long, but not before every pixel has one sample; 0: no limit
+  double timeLimitS = 0;   // be done after this long, but not before every pixel has light; 0: no limit
   double noiseLevel = 0;   // technique "path": stop when the mean relative standard error is below this; 0: never
   uint64_t seed = 0;
   int threads = 0;         // 0: all cores
