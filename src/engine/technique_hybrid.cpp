@@ -33,10 +33,11 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   const Voxels& voxels = light.voxels;
   const RadianceField& field = light.field;
   GatheredPicture result = stages.run("gather", [&](const Progress& p) {
-    if (limited) gather = gatherWithin(left(), rays, lights, light, camera, gather);
+    if (limited) return gatherWithin(left(), rays, lights, light, camera, gather, p);
     return gatherRays(rays, lights, voxels, field, camera, gather, p);
   });
-  if (gather.width != settings.width || gather.height != settings.height) result.image = enlarged(result.image, settings.width, settings.height);
+  const size_t gathered = result.image.pixels.size();
+  if (result.image.width != settings.width || result.image.height != settings.height) result.image = enlarged(result.image, settings.width, settings.height);
 
   stages.number("voxelSizeM", static_cast<double>(voxels.voxelSizeM));
   stages.number("voxels", static_cast<double>(voxels.voxels.size()));
@@ -46,7 +47,7 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   stages.number("bounces", field.bounces);
   stages.number("residual", field.residual);
   stages.number("samples", result.samples);
-  stages.number("pixelsGathered", static_cast<double>(gather.width) * gather.height);
+  stages.number("pixelsGathered", static_cast<double>(gathered));
   stages.number("rays", static_cast<double>(field.rays + result.rays));
   if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, lights, camera, settings, left(), stages, result.image);
   const Vec3 colour = lightColour(rays, camera, result.image);

@@ -14,6 +14,7 @@ constexpr double kGrowth = 1.6;       // light on voxels takes their edge to the
 constexpr double kLightShare = 0.5;   // of the time, at most
 constexpr float kHardlyFiner = 2.5f;  // voxels not smaller than this, in edges of those wanted, are no gain over those tried
 constexpr int kTriedPart = 8;         // of width and height; also the smallest picture
+constexpr double kHardlyLarger = 1.3;  // times that: no gain
 constexpr double kFilterShare = 0.1;  // of the time of the first pass
 
 }  // namespace
@@ -45,19 +46,20 @@ VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights&
   return lightVoxels(rays, lights, fine, radiance, stages);
 }
 
-RayGatherSettings gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather) {
+GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather, const Progress& progress) {
   const Stopwatch watch;
   RayGatherSettings small = gather;
   small.width = (gather.width + kTriedPart - 1) / kTriedPart, small.height = (gather.height + kTriedPart - 1) / kTriedPart;
   small.samples = std::min(gather.samples, gather.firstSamples), small.tolerance = 0;
-  gatherRays(rays, lights, light.voxels, light.field, camera, small);
+  GatheredPicture tried = gatherRays(rays, lights, light.voxels, light.field, camera, small);
   const double smaller = static_cast<double>(gather.width) * gather.height / (static_cast<double>(small.width) * small.height);
   const double took = watch.seconds(), first = took * smaller, left = seconds - took;
-  const double part = std::sqrt(std::clamp(left / ((1 + kFilterShare) * first), 1.0 / (kTriedPart * kTriedPart), 1.0));
+  const double part = std::sqrt(std::min(1.0, std::max(0.0, left) / ((1 + kFilterShare) * first)));
+  if (part < kHardlyLarger / kTriedPart || progress.stop()) return tried;
   const auto shortened = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(part * pixels))); };
   gather.width = shortened(gather.width), gather.height = shortened(gather.height);
   gather.timeLimitS = std::max(1e-3, left - kFilterShare * part * part * first);
-  return gather;
+  return gatherRays(rays, lights, light.voxels, light.field, camera, gather, progress);
 }
 
 Image enlarged(const Image& image, int width, int height) {

@@ -21,9 +21,9 @@ VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSe
 // leave half of `seconds` to the picture; where that is hardly less, the large ones stay.
 VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
 
-// `gather` with a time limit, and with as few pixels as it takes to have all of them once within `seconds`. Tries a small picture of the
-// same view.
-RayGatherSettings gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather);
+// A picture of the settings' size, or of as much fewer pixels as it takes to have all of them once within `seconds`. Tries a small
+// picture first, which may be the one returned.
+GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather, const Progress& progress);
 
 // A picture of width x height, from one of fewer pixels.
 Image enlarged(const Image& image, int width, int height);
