@@ -7,6 +7,15 @@ namespace {
 
 constexpr float kLift = 0.1f;       // voxels: for places to see one another along a bent surface
 constexpr float kOffPlane = 0.35f;  // voxels: beyond, a place belongs to another surface
+constexpr float kOnPlane = 0.05f;   // voxels: within, it belongs to the slot's own sheet and not to one close behind
+constexpr float kOpposite = -0.95f; // cosine between the normals of a sheet's two sides
+
+// One sheet and nothing else: no surface in its voxel parts one of its places from another.
+bool isSheet(const Voxels& voxels, const SurfaceVoxel& voxel) {
+  const int count = std::popcount(static_cast<unsigned>(voxel.faces));
+  return count == 1 || (count == 2 && voxels.slots[voxel.firstSlot].face / 2 == voxels.slots[voxel.firstSlot + 1].face / 2 &&
+                        dot(voxels.slots[voxel.firstSlot].normal, voxels.slots[voxel.firstSlot + 1].normal) < kOpposite);
+}
 
 int8_t packed(float v) { return static_cast<int8_t>(std::lround(127 * v)); }
 
@@ -22,7 +31,7 @@ SlotCache::SlotCache(const Voxels& voxels, const RadianceField& field) : voxels_
       r.radiance = slot.albedo * field.irradianceLux[i] / kPi;
       r.normalX = packed(slot.normal.x), r.normalY = packed(slot.normal.y), r.normalZ = packed(slot.normal.z);
       r.offset = dot(slot.position - voxels.origin, r.normal()) * perMetre_;
-      r.alone = count == 1;
+      r.alone = isSheet(voxels, voxel);
       r.instance = slot.instance;
     }
   });
@@ -51,8 +60,9 @@ SlotCache::Place SlotCache::find(Vec3 p, Vec3 n) const {
     const int64_t slot = found < 0 ? -1 : slotOf(voxels_.voxels[static_cast<size_t>(found)], n);
     if (slot < 0) continue;
     const Record& r = records_[static_cast<size_t>(slot)];
-    if (std::abs(dot(q, r.normal()) - r.offset) > kOffPlane) return {slot, Trust::None};
-    return {slot, r.alone ? Trust::Sure : Trust::Unsure};
+    const float off = std::abs(dot(q, r.normal()) - r.offset);
+    return {slot, off > kOffPlane ? Trust::None : r.alone && off < kOnPlane ? Trust::Sure
+                                                                            : Trust::Unsure};
   }
   return {};
 }

@@ -41,7 +41,7 @@ class SlotCache {
     Vec3 radiance;
     float offset;                            // of its plane along the normal, in voxels from the lattice's origin
     int8_t normalX, normalY, normalZ;        // in 1/127
-    bool alone;                              // in its voxel
+    bool alone;                              // in its voxel, but for the other side of its sheet
     uint32_t instance;
     Vec3 normal() const { return Vec3{static_cast<float>(normalX), static_cast<float>(normalY), static_cast<float>(normalZ)} * (1.0f / 127); }
   };

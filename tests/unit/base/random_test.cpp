@@ -82,5 +82,20 @@ TEST(Sampler, differentPairsAreNotCorrelated) {
   EXPECT_TRUE(testing::fitsUniform(counts));
 }
 
+// Two halves of each of 128 samples are as evenly spread as 256 samples: one in every cell of 16 x 16, and of 256 x 1.
+TEST(Sampler, splitSamplesAreWellDistributedTogether) {
+  std::set<int> squares, columns;
+  for (uint32_t i = 0; i < 128; ++i) {
+    for (uint32_t k = 0; k < 2; ++k) {
+      Sampler part = Sampler(7, i, 3).split(k, 2);
+      const Vec2 u = part.next2();
+      squares.insert(static_cast<int>(u.x * 16) * 16 + static_cast<int>(u.y * 16));
+      columns.insert(static_cast<int>(u.x * 256));
+    }
+  }
+  EXPECT_EQ(squares.size(), 256u);
+  EXPECT_EQ(columns.size(), 256u);
+}
+
 }  // namespace
 }  // namespace roomlight

@@ -162,7 +162,7 @@ TEST(SurfacePoint, normalsAreUnitInAnyUnit) {
     scene.instances[0].worldFromObject = {{1 / unit, 0, 0}, {0, 1 / unit, 0}, {0, 0, 1 / unit}, {}};
     for (const bool smooth : {false, true}) {
       if (smooth) scene.meshes[0].normals.assign(4, {0, 0, 1});
-      const SurfacePoint s = surfaceAt(scene, {0, 0, 0.3f, 0.3f, 1}, {0, 0, -1});
+      const SurfacePoint s = surfaceAt(scene, {0, 0, 0.3f, 0.3f, 1, {}}, {0, 0, -1});
       EXPECT_NEAR(s.ng.z, 1, 1e-5f) << unit;
       EXPECT_NEAR(s.ns.z, 1, 1e-5f) << unit;
     }
