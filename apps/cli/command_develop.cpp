@@ -7,7 +7,6 @@
 #include "base/tone.h"
 #include "commands.h"
 #include "console.h"
-#include "jpeg_file.h"
 #include "output_files.h"
 
 namespace roomlight::cli {

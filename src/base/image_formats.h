@@ -20,6 +20,7 @@ Image readExr(const std::filesystem::path& file);
 Metadata readExrMetadata(const std::filesystem::path& file);
 
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
+void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes);
 Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black
 Metadata readPngMetadata(std::span<const uint8_t> bytes);
 

@@ -112,6 +112,10 @@ Status writePng(const std::filesystem::path& file, const Image& encoded, const M
   return writeAtomically(file, [&](const auto& temporary) { formats::writePng(temporary, encoded, metadata); });
 }
 
+Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeJpeg(temporary, encoded, mostBytes); });
+}
+
 Result<Image> readImage(const std::filesystem::path& file) {
   return guarded<Image>(file, [&] {
     switch (formatOf(file)) {

@@ -17,6 +17,8 @@ using Metadata = std::map<std::string, std::string>;
 Status writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata);
 // Values already display-encoded (0..1, sRGB); clipped and rounded to 8 bits.
 Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
+// The same as JPEG: as good as fits into so many bytes, or as bad as is still a picture. No metadata.
+Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes);
 
 // EXR (linear), Radiance .hdr (linear) or PNG (decoded from sRGB to linear), by content.
 Result<Image> readImage(const std::filesystem::path& file);
