@@ -43,6 +43,7 @@ class Refinement {
       const double before = watch_.seconds();
       if (!tracer_.pass(inner)) break;
       longest_ = std::max(0.5 * longest_, watch_.seconds() - before);
+      progress.at(done());
       if (tracer_.samples() < kFewestSamples || tracer_.samples() < kLookAgain * blended_ || !fits(blendSeconds_ + longest_)) continue;
       look();
       if (best_.srgbMse <= aim_) return;
