@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/time_plan.h"
 #include "filter/blend.h"
 #include "reference/path_tracer.h"
 
@@ -9,7 +10,6 @@ namespace roomlight {
 namespace {
 
 constexpr int kFewestSamples = 2;         // one alone tells nothing of its noise
-constexpr int kTriedPart = 8;             // of width and height, to see how long a pass takes
 constexpr double kBlendInPasses = 1;      // time of a blend, before there was one
 constexpr double kLookAgain = 1.4;        // times the samples of the last blend: when the error is estimated again
 
@@ -23,7 +23,8 @@ PathSettings pathSettings(const RenderSettings& settings) {
 
 double secondsOfAPass(const RayScene& rays, const Lights& lights, const Camera& camera, PathSettings path) {
   const double pixels = static_cast<double>(path.width) * path.height;
-  path.width = (path.width + kTriedPart - 1) / kTriedPart, path.height = (path.height + kTriedPart - 1) / kTriedPart;
+  const int divisor = triedPart(path.width, path.height);
+  path.width = (path.width + divisor - 1) / divisor, path.height = (path.height + divisor - 1) / divisor;
   PathTracer small(rays, lights, camera, path, true);
   const Stopwatch watch;
   small.pass();

@@ -13,7 +13,8 @@ constexpr float kTriedSize = 4;       // voxels that are tried first, in edges o
 constexpr double kGrowth = 1.6;       // light on voxels takes their edge to the power of minus this
 constexpr double kLightShare = 0.5;   // of the time, at most
 constexpr float kHardlyFiner = 2.5f;  // voxels not smaller than this, in edges of those wanted, are no gain over those tried
-constexpr int kTriedPart = 8;         // of width and height; also the smallest picture
+constexpr int kTriedPart = 8;         // of width and height, at most; also the smallest picture
+constexpr double kTriedPixels = 500;  // at least
 constexpr double kHardlyLarger = 1.3;  // times that: no gain
 constexpr double kFilterShare = 0.1;  // of the time of the first pass
 
@@ -46,16 +47,19 @@ VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights&
   return lightVoxels(rays, lights, fine, radiance, stages);
 }
 
+int triedPart(int width, int height) { return static_cast<int>(std::clamp(std::sqrt(static_cast<double>(width) * height / kTriedPixels), 1.0, static_cast<double>(kTriedPart))); }
+
 GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather, const Progress& progress) {
   const Stopwatch watch;
   RayGatherSettings small = gather;
-  small.width = (gather.width + kTriedPart - 1) / kTriedPart, small.height = (gather.height + kTriedPart - 1) / kTriedPart;
+  const int divisor = triedPart(gather.width, gather.height);
+  small.width = (gather.width + divisor - 1) / divisor, small.height = (gather.height + divisor - 1) / divisor;
   small.samples = std::min(gather.samples, gather.firstSamples), small.tolerance = 0;
   GatheredPicture tried = gatherRays(rays, lights, light.voxels, light.field, camera, small);
   const double smaller = static_cast<double>(gather.width) * gather.height / (static_cast<double>(small.width) * small.height);
   const double took = watch.seconds(), first = took * smaller, left = seconds - took;
   const double part = std::sqrt(std::min(1.0, std::max(0.0, left) / ((1 + kFilterShare) * first)));
-  if (part < kHardlyLarger / kTriedPart || progress.stop()) return tried;
+  if (progress.stop() || (part < 1 && part < kHardlyLarger / divisor)) return tried;
   const auto shortened = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(part * pixels))); };
   gather.width = shortened(gather.width), gather.height = shortened(gather.height);
   gather.timeLimitS = std::max(1e-3, left - kFilterShare * part * part * first);

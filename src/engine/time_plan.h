@@ -21,6 +21,10 @@ VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSe
 // leave half of `seconds` to the picture; where that is hardly less, the large ones stay.
 VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
 
+// How much smaller in width and height a picture is that tells how long one of this size takes: enough pixels to outweigh what does not
+// grow with them.
+int triedPart(int width, int height);
+
 // A picture of the settings' size, or of as much fewer pixels as it takes to have all of them once within `seconds`. Tries a small
 // picture first, which may be the one returned.
 GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather, const Progress& progress);
