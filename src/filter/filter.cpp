@@ -10,7 +10,7 @@ namespace roomlight {
 namespace {
 
 constexpr int kSpecularPasses = 3;
-constexpr int kBand = 160;  // rows
+constexpr int kBand = 96;  // rows
 
 // Kept from zero so that light can be divided by it.
 Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }

@@ -110,10 +110,10 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     passSeconds = watch.seconds() - started, passRays = chosenRays;
     if (progress.stop()) break;
   }
-  result.occlusion = Image(w, h);
+  if (std::any_of(counts.begin(), counts.end(), [](const PixelCount& c) { return c.occlusion > 0; })) result.occlusion = Image(w, h);
   parallelFor(counts.size(), 4096, [&](size_t i) {
     sums.pixels[i] = meanOf(sums.pixels[i], counts[i]);
-    result.occlusion.pixels[i] = Vec3(counts[i].occlusion / static_cast<float>(std::max(1u, counts[i].rays)));
+    if (!result.occlusion.pixels.empty()) result.occlusion.pixels[i] = Vec3(counts[i].occlusion / static_cast<float>(std::max(1u, counts[i].rays)));
   });
   result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses) : composed(sums);
   result.rays = rayCount;

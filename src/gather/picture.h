@@ -22,7 +22,7 @@ struct PictureSettings {
 
 struct GatheredPicture {
   Image image;        // linear, cd/m²
-  Image occlusion;    // mean ambient occlusion, 0 open to 1 closed, in every channel; of technique cone
+  Image occlusion;    // mean ambient occlusion, 0 open to 1 closed, in every channel; empty where nothing is closed, or the technique does not ask
   int samples = 0;
   uint64_t rays = 0, cones = 0;
 };

@@ -156,7 +156,7 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
   Vec2 b;
   const float solidAngle = triangleSolidAngle(p, v.a, v.b, v.c);
   if (samplesSolidAngle(solidAngle)) {
-    s.wi = SphericalTriangle(p, v.a, v.b, v.c).sample(u);
+    s.wi = SphericalTriangle(p, v.a, v.b, v.c, solidAngle).sample(u);
     const float cosLight = dot(n, s.wi);
     if (cosLight == 0 || (!e.doubleSided && cosLight > 0)) return s;
     s.distance = dot(v.a - p, n) / cosLight;

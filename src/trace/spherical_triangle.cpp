@@ -1,18 +1,6 @@
 #include "trace/spherical_triangle.h"
 
 namespace roomlight {
-namespace {
-
-float safeAcos(float v) { return std::acos(std::clamp(v, -1.0f, 1.0f)); }
-
-// Angle between the planes through two arcs that meet at a corner; m and n are the arcs' plane normals.
-float dihedral(Vec3 m, Vec3 n) {
-  const float l = std::sqrt(lengthSquared(m) * lengthSquared(n));
-  return l > 0 ? safeAcos(dot(m, n) / l) : 0;
-}
-
-}  // namespace
-
 float triangleSolidAngle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 x = a - p, y = b - p, z = c - p;
   const float lx = length(x), ly = length(y), lz = length(z);
@@ -22,12 +10,11 @@ float triangleSolidAngle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   return 2 * (half < 0 ? half + kPi : half);
 }
 
-SphericalTriangle::SphericalTriangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) : a_(normalize(a - p)), b_(normalize(b - p)), c_(normalize(c - p)) {
-  solidAngle_ = triangleSolidAngle(p, a, b, c);
-  const Vec3 ab = cross(a_, b_), ca = cross(c_, a_);
-  alpha_ = dihedral(ab, -ca);
-  cosAlpha_ = std::cos(alpha_);
-  sinAlpha_ = std::sin(alpha_);
+SphericalTriangle::SphericalTriangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, float solidAngle) : a_(normalize(a - p)), b_(normalize(b - p)), c_(normalize(c - p)), solidAngle_(solidAngle) {
+  // The angle between the planes of the arcs AB and AC.
+  const Vec3 ab = cross(a_, b_), ac = cross(a_, c_);
+  const float l = std::sqrt(lengthSquared(ab) * lengthSquared(ac));
+  if (l > 0) cosAlpha_ = std::clamp(dot(ab, ac) / l, -1.0f, 1.0f), sinAlpha_ = std::min(1.0f, length(cross(ab, ac)) / l);
   cosC_ = dot(a_, b_);
 }
 
@@ -35,8 +22,9 @@ Vec3 SphericalTriangle::sample(Vec2 u) const {
   // The sub-triangle with vertex on arc AC and area u.x * solidAngle; then a point on the arc from B to that vertex.
   // The sampled area plus pi is the sum of the sub-triangle's angles; the corner at C' follows.
   const float area = u.x * solidAngle_;
-  const float phi = area - alpha_;
-  const float s = std::sin(phi), t = std::cos(phi);
+  // Sine and cosine of that area less the angle at A.
+  const float sinArea = std::sin(area), cosArea = std::cos(area);
+  const float s = sinArea * cosAlpha_ - cosArea * sinAlpha_, t = cosArea * cosAlpha_ + sinArea * sinAlpha_;
   const float uu = t - cosAlpha_;
   const float vv = s + sinAlpha_ * cosC_;
   const float denominator = (vv * s + uu * t) * sinAlpha_;

@@ -3,8 +3,11 @@
 namespace roomlight {
 namespace {
 
-// normalize() for lengths whose square a float does not hold: normals of triangles in huge or tiny units.
-Vec3 unit(Vec3 v) { return normalize(v / maxComponent(abs(v))); }
+// normalize(), and for lengths whose square a float does not hold: normals of triangles in huge or tiny units.
+Vec3 unit(Vec3 v) {
+  const float l2 = lengthSquared(v);
+  return l2 > 1e-30f && l2 < 1e30f ? v / std::sqrt(l2) : normalize(v / maxComponent(abs(v)));
+}
 
 }  // namespace
 
