@@ -54,7 +54,7 @@ def errors(rows):
         for way in ("draft", "good"):
             cells += [f"{r[way]['mse']:.5f}", f"{r[way]['mseBeyondNoise']:.5f}", percent(r[way]["meanLuminanceErrorPercent"])]
         best, cone = r["best"], r["cone"]
-        cells += [f"{best['mse']:.5f}", f"{best['mseBeyondNoise']:.5f}", f"{best['numbers'].get('estimatedMse', float('nan')):.5f}", f"{best['seconds']:.0f}"]
+        cells += [f"{best['mse']:.5f}", f"{best['mseBeyondNoise']:.5f}", f"{best['numbers']['estimatedMse']:.5f}" if "estimatedMse" in best["numbers"] else "–", f"{best['seconds']:.0f}"]
         cells += [f"{cone['mse']:.5f}", f"{cone['mseBeyondNoise']:.5f}", percent(cone["meanLuminanceErrorPercent"]), f"{cone['seconds']:.1f}"]
         yield "| " + " | ".join(cells) + " |"
 
@@ -107,7 +107,7 @@ def page(rows, records, benches, pictures, args):
     lines = ["# Technique hybrid, measured", "",
              f"Made by `scripts/measure_hybrid` on {os.cpu_count()} cores: errors and the times beside them at {args.size}, times and memory of stages at {args.time_size}.",
              "`mse` is against the mean of two references of `path`; `beyond noise` is mse without the noise that these still hold. `mean` is the",
-             f"error of the mean luminance. `best` goes on until it estimates an mse of 0.0002, for {args.best_seconds:g} s at most; `estimated` is what it says of itself.", "",
+             f"error of the mean luminance. `best` goes on until it estimates an mse of 0.0002, for {args.best_seconds:g} s at most; `estimated` is what it says of itself, – where no time was left for paths.", "",
              "## Asked", "", "| asked | measured | |", "|---|---|---|"]
     lines += [f"| {text} | {measured} | {verdict(met)} |" for text, measured, met in asked(rows, records, benches)]
     lines += ["", "## Errors", "", *errors(rows)]
