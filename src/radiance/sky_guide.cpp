@@ -115,30 +115,37 @@ int32_t guideAt(const SkyGuide& guides, const Voxels& voxels, Vec3 p, Vec3 n) {
   return -1;
 }
 
-float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d) {
-  const SkyDistribution& sky = lights.sky();
-  const float plain = sky.pdf(d);
+namespace {
+
+float pdfAt(const SkyGuide& guides, int32_t guide, const SkyDistribution& sky, Vec2 uv) {
+  const float plain = sky.pdfAt(uv);
   if (guide < 0) return plain;
-  const int block = sky.blockOf(d);
+  const int block = sky.blockAt(uv);
   const float share = sky.blockShare(block);
   return share > 0 ? plain * (kUnguidedShare + (1 - kUnguidedShare) * shareOf(guides.cdf[static_cast<size_t>(guide)], block) / share) : plain;
 }
 
+}  // namespace
+
+float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d) { return pdfAt(guides, guide, lights.sky(), lights.sky().toUv(d)); }
+
 LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) {
   const SkyDistribution& sky = lights.sky();
-  LightSample s;
+  SkyDistribution::Sample found;
   if (guide < 0 || choice < kUnguidedShare) {
-    s.wi = sky.sample(u).d;
+    found = sky.sample(u);
   } else {
     const Cdf& cdf = guides.cdf[static_cast<size_t>(guide)];
     const float v = (choice - kUnguidedShare) / (1 - kUnguidedShare);
     const auto it = std::upper_bound(cdf.begin(), cdf.end(), v);
-    s.wi = sky.sampleBlock(std::min(static_cast<int>(it - cdf.begin()), kBlocks - 1), u).d;
+    found = sky.sampleBlock(std::min(static_cast<int>(it - cdf.begin()), kBlocks - 1), u);
   }
-  const float pdf = pdfSkyGuided(guides, guide, lights, s.wi);
+  const float pdf = pdfAt(guides, guide, sky, found.uv);
   if (!(pdf > 0)) return {};
+  LightSample s;
+  s.wi = found.d;
   s.pdf = pdf;
-  s.radiance = sky.radiance(s.wi) / pdf;
+  s.radiance = sky.radianceAt(found.uv) / pdf;
   return s;
 }
 

@@ -125,17 +125,20 @@ SkyDistribution::Sample SkyDistribution::sampleSpot(Vec2 u) const {
   const auto it = std::upper_bound(spot_.begin(), spot_.end(), u.x, [](float v, const SpotCell& c) { return v < c.upTo; });
   const SpotCell& c = it == spot_.end() ? spot_.back() : *it;
   const float within = std::clamp((u.x - (c.upTo - c.share)) / c.share, 0.0f, 0.999999f);
-  return {directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_), within, u.y), spotPdf(c)};
+  return {directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_), within, u.y), spotPdf(c), {}};
+}
+
+const SkyDistribution::SpotCell* SkyDistribution::spotAt(Vec2 uv) const {
+  if (spot_.empty()) return nullptr;
+  const int64_t cell = cellAt(uv);
+  const auto it = std::lower_bound(spot_.begin(), spot_.end(), cell, [](const SpotCell& c, int64_t v) { return c.cell < v; });
+  return it == spot_.end() || it->cell != cell ? nullptr : &*it;
 }
 
 Vec3 SkyDistribution::spotRadiance(Vec3 d, float& pdf) const {
-  pdf = 0;
-  if (spot_.empty()) return {};
-  const int64_t cell = cellOf(d);
-  const auto it = std::lower_bound(spot_.begin(), spot_.end(), cell, [](const SpotCell& c, int64_t v) { return c.cell < v; });
-  if (it == spot_.end() || it->cell != cell) return {};
-  pdf = spotPdf(*it);
-  return it->radiance;
+  const SpotCell* c = spot_.empty() ? nullptr : spotAt(toUv(d));
+  pdf = c ? spotPdf(*c) : 0;
+  return c ? c->radiance : Vec3(0);
 }
 
 float SkyDistribution::spotPdf(const SpotCell& c) const { return c.share / solidAngleAt(std::sin(kPi * (static_cast<float>(c.cell / width_) + 0.5f) / static_cast<float>(height_))); }
@@ -170,9 +173,13 @@ void SkyDistribution::tabulate(const std::vector<double>& weights, double total)
     rowCdf_[static_cast<size_t>(y) + 1] = static_cast<float>(rows / total);
   }
   blockShare_.assign(kBlocks, 0);
+  blockRows_.assign(static_cast<size_t>(kBlocksX) * static_cast<size_t>(height_), 0);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      blockShare_[static_cast<size_t>(y * kBlocksY / height_ * kBlocksX + x * kBlocksX / width_)] += cells_[static_cast<size_t>(y) * width_ + x];
+      const float share = cells_[static_cast<size_t>(y) * width_ + x];
+      const int high = height_ / kBlocksY, block = y / high * kBlocksX + x * kBlocksX / width_;
+      blockShare_[static_cast<size_t>(block)] += share;
+      blockRows_[static_cast<size_t>(block * high + y % high)] += share;
     }
   }
 }
@@ -183,8 +190,7 @@ Vec2 SkyDistribution::toUv(Vec3 d) const {
   return {0.5f + std::atan2(x, -z) / (2 * kPi), std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi};
 }
 
-int64_t SkyDistribution::cellOf(Vec3 d) const {
-  const Vec2 uv = toUv(d);
+int64_t SkyDistribution::cellAt(Vec2 uv) const {
   const int column = std::clamp(static_cast<int>(uv.x * static_cast<float>(width_)), 0, width_ - 1);
   const int row = std::clamp(static_cast<int>(uv.y * static_cast<float>(height_)), 0, height_ - 1);
   return static_cast<int64_t>(row) * width_ + column;
@@ -192,15 +198,10 @@ int64_t SkyDistribution::cellOf(Vec3 d) const {
 
 float SkyDistribution::solidAngleAt(float sinTheta) const { return (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(sinTheta, 1e-6f); }
 
-Vec3 SkyDistribution::radiance(Vec3 d) const {
+Vec3 SkyDistribution::radianceAt(Vec2 uv) const {
   const Image& image = sky_.image;
   if (image.width == 0) return sky_.luminanceCdM2;
-  if (!spot_.empty()) {
-    float pdf;
-    spotRadiance(d, pdf);
-    if (pdf > 0) return {};
-  }
-  const Vec2 uv = toUv(d);
+  if (spotAt(uv)) return {};
   const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
   const float fx = std::floor(x), fy = std::floor(y);
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
@@ -224,24 +225,20 @@ Vec3 SkyDistribution::directionIn(int column, int row, float dx, float dy) const
 }
 
 SkyDistribution::Sample SkyDistribution::inCell(int column, int row, float dx, float dy) const {
-  const float sinTheta = std::sin(kPi * (static_cast<float>(row) + dy) / static_cast<float>(height_));
-  return {directionIn(column, row, dx, dy), cells_[static_cast<size_t>(row) * width_ + column] / solidAngleAt(sinTheta)};
+  const Vec2 uv{(static_cast<float>(column) + dx) / static_cast<float>(width_), (static_cast<float>(row) + dy) / static_cast<float>(height_)};
+  return {directionIn(column, row, dx, dy), cells_[static_cast<size_t>(row) * width_ + column] / solidAngleAt(std::sin(kPi * uv.y)), uv};
 }
 
 SkyDistribution::Sample SkyDistribution::sampleBlock(int block, Vec2 u) const {
   const int rows = height_ / kBlocksY, columns = width_ / kBlocksX;
   const int y0 = block / kBlocksX * rows, x0 = block % kBlocksX * columns;
   const auto at = [&](int row, int column) { return cells_[static_cast<size_t>(row) * width_ + column]; };
-  const auto rowShare = [&](int row) {
-    float sum = 0;
-    for (int x = x0; x < x0 + columns; ++x) sum += at(row, x);
-    return sum;
-  };
+  const float* rowShares = &blockRows_[static_cast<size_t>(block) * static_cast<size_t>(rows)];
   // Walks to the row, then to the cell, in which u falls; what is left of u lands inside it.
   float v = u.y * blockShare(block), share = 0;
   int row = y0;
   for (;; ++row) {
-    share = rowShare(row);
+    share = rowShares[row - y0];
     if (v < share || row + 1 == y0 + rows) break;
     v -= share;
   }
@@ -255,14 +252,10 @@ SkyDistribution::Sample SkyDistribution::sampleBlock(int block, Vec2 u) const {
   return out;
 }
 
-int SkyDistribution::blockOf(Vec3 d) const {
-  const Vec2 uv = toUv(d);
+int SkyDistribution::blockAt(Vec2 uv) const {
   return std::clamp(static_cast<int>(uv.y * kBlocksY), 0, kBlocksY - 1) * kBlocksX + std::clamp(static_cast<int>(uv.x * kBlocksX), 0, kBlocksX - 1);
 }
 
-float SkyDistribution::pdf(Vec3 d) const {
-  if (cells_.empty()) return 0;
-  return cells_[static_cast<size_t>(cellOf(d))] / solidAngleAt(std::sqrt(std::max(0.0f, 1 - d.y * d.y)));
-}
+float SkyDistribution::pdfAt(Vec2 uv) const { return cells_.empty() ? 0 : cells_[static_cast<size_t>(cellAt(uv))] / solidAngleAt(std::sin(kPi * uv.y)); }
 
 }  // namespace roomlight

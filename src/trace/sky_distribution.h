@@ -16,15 +16,19 @@ class SkyDistribution {
   bool present() const { return present_; }
   // A constant sky is found best by BSDF sampling; only images are sampled directly.
   bool sampled() const { return sky_.image.width > 0 && present_; }
-  Vec3 radiance(Vec3 d) const;  // cd/m² along unit world direction d; image bilinear
+  Vec3 radiance(Vec3 d) const { return radianceAt(toUv(d)); }  // cd/m² along unit world direction d; image bilinear
+  Vec3 radianceAt(Vec2 uv) const;  // for a place in the map: (0, 0) is its upper left corner
   Vec3 mean() const { return mean_; }  // over the sphere
 
   struct Sample {
     Vec3 d;
     float pdf = 0;  // per steradian
+    Vec2 uv{};      // of d, in the map
   };
   Sample sample(Vec2 u) const;
-  float pdf(Vec3 d) const;
+  float pdf(Vec3 d) const { return pdfAt(toUv(d)); }
+  float pdfAt(Vec2 uv) const;
+  Vec2 toUv(Vec3 d) const;
 
   // The spot that stands apart, of even light within each cell of the table. Its samples all give the same luminance over density,
   // except for what cells differ in colour.
@@ -35,16 +39,23 @@ class SkyDistribution {
   // The sphere in kBlocks parts of the map, for callers that know which of them are worth while. `pdf` of a sample is the
   // density inside its block: pdf(d) / blockShare(block).
   static constexpr int kBlocksX = 32, kBlocksY = 16, kBlocks = kBlocksX * kBlocksY;
-  int blockOf(Vec3 d) const;
+  int blockOf(Vec3 d) const { return blockAt(toUv(d)); }
+  int blockAt(Vec2 uv) const;
   float blockShare(int block) const { return blockShare_[static_cast<size_t>(block)]; }  // of the sky's light, weighted as in sample(); sums to 1
   Sample sampleBlock(int block, Vec2 u) const;
 
  private:
-  Vec2 toUv(Vec3 d) const;
+  struct SpotCell {
+    int64_t cell;
+    Vec3 radiance;
+    float share, upTo;  // of the spot's luminous flux, and the sum of shares up to this one
+  };
   void tabulateConstant();
   double takeSpot(std::vector<double>& weights);
   Vec3 cellMean(int column, int row) const;
-  int64_t cellOf(Vec3 d) const;
+  int64_t cellAt(Vec2 uv) const;
+  const SpotCell* spotAt(Vec2 uv) const;
+  float spotPdf(const SpotCell& c) const;
   float solidAngleAt(float sinTheta) const;
   void tabulate(const std::vector<double>& weights, double total);
   Vec3 directionIn(int column, int row, float dx, float dy) const;
@@ -58,12 +69,7 @@ class SkyDistribution {
   std::vector<float> rowCdf_;    // height + 1
   std::vector<float> columnCdf_; // (width + 1) per row
   std::vector<float> blockShare_;
-  struct SpotCell {
-    int64_t cell;
-    Vec3 radiance;
-    float share, upTo;  // of the spot's luminous flux, and the sum of shares up to this one
-  };
-  float spotPdf(const SpotCell& c) const;
+  std::vector<float> blockRows_;  // per block: shares of its rows of cells
   std::vector<SpotCell> spot_;
 };
 
