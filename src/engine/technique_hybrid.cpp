@@ -49,7 +49,7 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   stages.number("samples", result.samples);
   stages.number("pixelsGathered", static_cast<double>(gathered));
   stages.number("rays", static_cast<double>(field.rays + result.rays));
-  if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, lights, camera, settings, left(), stages, result.image);
+  if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, Lights(scene), camera, settings, left(), stages, result.image);  // no sun apart: as it is in the sky
   const Vec3 colour = lightColour(rays, camera, result.image);
   return {std::move(result.image), colour};
 }
