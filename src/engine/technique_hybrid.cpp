@@ -21,35 +21,23 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   VoxelSettings voxel = settings.voxel;
   voxel.sizeFactor *= kCoarser;
   RayGatherSettings gather = settings.hybrid;
-  gather.width = settings.width;
-  gather.height = settings.height;
-  gather.seed = settings.seed;
-  if (settings.samples > 0) gather.samples = settings.samples;
+  applyPictureSettings(settings, gather);
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
   const VoxelLight light = limited ? lightVoxelsWithin(left(), rays, lights, voxel, radiance, stages) : lightVoxels(rays, lights, voxel, radiance, stages);
   if (stages.cancelled()) return {};
-  const Voxels& voxels = light.voxels;
-  const RadianceField& field = light.field;
   GatheredPicture result = stages.run("gather", [&](const Progress& p) {
     if (limited) return gatherWithin(left(), rays, lights, light, camera, gather, p);
-    return gatherRays(rays, lights, voxels, field, camera, gather, p);
+    return gatherRays(rays, lights, light.voxels, light.field, camera, gather, p);
   });
   const size_t gathered = result.image.pixels.size();
   if (result.image.width != settings.width || result.image.height != settings.height) result.image = enlarged(result.image, settings.width, settings.height);
 
-  stages.number("voxelSizeM", static_cast<double>(voxels.voxelSizeM));
-  stages.number("voxels", static_cast<double>(voxels.voxels.size()));
-  stages.number("slots", static_cast<double>(voxels.slots.size()));
-  stages.number("voxelMiB", static_cast<double>(voxels.bytes()) / 1048576);
-  stages.number("radianceMiB", static_cast<double>(field.bytes()) / 1048576);
-  stages.number("bounces", field.bounces);
-  stages.number("residual", field.residual);
-  stages.number("samples", result.samples);
+  tellNumbers(light, result, stages);
   stages.number("pixelsGathered", static_cast<double>(gathered));
-  stages.number("rays", static_cast<double>(field.rays + result.rays));
-  if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, Lights(scene), camera, settings, left(), stages, result.image);  // no sun apart: as it is in the sky
+  // Paths see the sky as it is, with its sun in it.
+  if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, Lights(scene), camera, settings, left(), stages, result.image);
   const Vec3 colour = lightColour(rays, camera, result.image);
   return {std::move(result.image), colour};
 }

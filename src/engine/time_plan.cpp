@@ -20,13 +20,6 @@ constexpr double kFilterShare = 0.1;  // of the time of the first pass
 
 }  // namespace
 
-VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
-  VoxelLight out;
-  out.voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(rays.scene(), voxel).voxels; });
-  out.field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, out.voxels, radiance, p); });
-  return out;
-}
-
 VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
   const Stopwatch watch;
   const float wanted = chooseVoxelSize(rays.scene(), voxel);

@@ -1,23 +1,12 @@
 // What of technique hybrid fits into a time limit, by trying small pieces first.
 #pragma once
 
-#include "engine/stages.h"
+#include "engine/voxel_stages.h"
 #include "gather/ray_gather.h"
-#include "radiance/radiance_field.h"
-#include "trace/ray_scene.h"
-#include "voxel/voxelise.h"
 
 namespace roomlight {
 
-struct VoxelLight {
-  Voxels voxels;
-  RadianceField field;
-};
-
-// Stages "voxelise" and "illuminate".
-VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
-
-// The same after a stage "plan", which lights voxels four times as large. What is wanted follows with as large voxels as it takes to
+// lightVoxels() after a stage "plan", which lights voxels four times as large. What is wanted follows with as large voxels as it takes to
 // leave half of `seconds` to the picture; where that is hardly less, the large ones stay.
 VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
 

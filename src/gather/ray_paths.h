@@ -57,7 +57,7 @@ struct GatherWork {
   // Per estimate; those of a shading follow one another.
   std::vector<Sampler> samplers;
   std::vector<Lobes> found;
-  std::vector<Lobes> most;  // of what a single path may add, in every channel: its luminance
+  std::vector<float> most;  // luminance that a single path may add, by either lobe
   std::vector<GatherPath> paths, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
@@ -78,8 +78,8 @@ struct GatherWork {
       const float l = luminance(light);
       return sure || l <= limit ? light : light * (limit / l);
     };
-    found[estimate].diffuse += bounded(factor.diffuse * radiance, most[estimate].diffuse.x);
-    found[estimate].specular += bounded(factor.specular * radiance, most[estimate].specular.x);
+    found[estimate].diffuse += bounded(factor.diffuse * radiance, most[estimate]);
+    found[estimate].specular += bounded(factor.specular * radiance, most[estimate]);
   }
   void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({estimate, sure, light}); }
 };

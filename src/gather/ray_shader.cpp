@@ -9,7 +9,7 @@ namespace {
 constexpr int kDeepest = 8;      // vertices of a path, after which the cache is read whatever it is worth
 constexpr int kMostPanes = 16;
 constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
-constexpr float kMost = 1024;      // times the light that the cache tells of: what a single path may find at most
+constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
 enum Kind : uint8_t {
   kShines = 1,  // emits light
@@ -110,7 +110,7 @@ SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shado
     v.estimate = static_cast<uint32_t>(w.samplers.size());
     w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(settings_.estimates)));
     w.found.push_back({});
-    w.most.push_back({Vec3(most), Vec3(most)});
+    w.most.push_back(most);
     scatter_.from(v, w);
   }
   return out;

@@ -1,0 +1,31 @@
+#include "engine/voxel_stages.h"
+
+namespace roomlight {
+
+VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
+  VoxelLight out;
+  out.voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(rays.scene(), voxel).voxels; });
+  out.field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, out.voxels, radiance, p); });
+  return out;
+}
+
+void applyPictureSettings(const RenderSettings& from, PictureSettings& to) {
+  to.width = from.width;
+  to.height = from.height;
+  to.seed = from.seed;
+  if (from.samples > 0) to.samples = from.samples;
+}
+
+void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages& stages) {
+  stages.number("voxelSizeM", static_cast<double>(light.voxels.voxelSizeM));
+  stages.number("voxels", static_cast<double>(light.voxels.voxels.size()));
+  stages.number("slots", static_cast<double>(light.voxels.slots.size()));
+  stages.number("voxelMiB", static_cast<double>(light.voxels.bytes()) / 1048576);
+  stages.number("radianceMiB", static_cast<double>(light.field.bytes()) / 1048576);
+  stages.number("bounces", light.field.bounces);
+  stages.number("residual", light.field.residual);
+  stages.number("samples", picture.samples);
+  stages.number("rays", static_cast<double>(light.field.rays + picture.rays));
+}
+
+}  // namespace roomlight

@@ -1,0 +1,26 @@
+// What techniques `hybrid` and `cone` have in common: voxels, the light in them, the size of the picture, what is told of it all.
+#pragma once
+
+#include "engine/stages.h"
+#include "gather/picture.h"
+#include "radiance/radiance_field.h"
+#include "trace/ray_scene.h"
+#include "voxel/voxelise.h"
+
+namespace roomlight {
+
+struct VoxelLight {
+  Voxels voxels;
+  RadianceField field;
+};
+
+// Stages "voxelise" and "illuminate".
+VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
+
+// Size, samples and seed of all techniques in the settings of one.
+void applyPictureSettings(const RenderSettings& from, PictureSettings& to);
+
+// Sizes of voxels and light, and what was traced.
+void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages& stages);
+
+}  // namespace roomlight
