@@ -160,7 +160,7 @@ Result<Camera> pickCamera(const Scene& scene, const std::string& wanted) {
 
 nlohmann::ordered_json stagesJson(const RenderStats& stats) {
   auto list = nlohmann::ordered_json::array();
-  for (const StageStats& s : stats.stages) list.push_back({{"name", s.name}, {"timeMs", s.timeMs}, {"peakMemoryMiB", s.peakMemoryMiB}});
+  for (const StageStats& s : stats.stages) list.push_back({{"name", s.name}, {"timeMs", s.timeMs}, {"cpuMs", s.cpuMs}, {"peakMemoryMiB", s.peakMemoryMiB}});
   return list;
 }
 

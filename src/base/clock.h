@@ -1,7 +1,8 @@
-// Wall time since construction.
+// Wall time since construction, and processor time of the whole process.
 #pragma once
 
 #include <chrono>
+#include <ctime>
 
 namespace roomlight {
 
@@ -13,5 +14,12 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
 };
+
+// Of all threads so far.
+inline double processCpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace roomlight

@@ -15,6 +15,7 @@ namespace roomlight {
 struct StageStats {
   std::string name;       // "bvh", "voxelise", "illuminate", "gather", "path", ...
   double timeMs = 0;
+  double cpuMs = 0;  // of all threads together: cpuMs / timeMs cores were busy
   double peakMemoryMiB = 0;  // of the process, at the end of the stage
 };
 

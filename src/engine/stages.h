@@ -19,12 +19,13 @@ class Stages {
   template <class Work>
   auto run(const std::string& name, Work&& work) {
     const Stopwatch watch;
+    const double cpuBefore = processCpuSeconds();
     report(name, 0);
     Progress inner;
     inner.cancelled = progress_.cancelled;
     if (progress_.report) inner.report = [this, &name](float fraction) { report(name, std::min(fraction, 0.999f)); };
     auto value = work(inner);
-    stats_.stages.push_back({name, watch.seconds() * 1e3, peakMemoryMiB()});
+    stats_.stages.push_back({name, watch.seconds() * 1e3, (processCpuSeconds() - cpuBefore) * 1e3, peakMemoryMiB()});
     if constexpr (requires { value.error(); }) {
       if (!value) return value;
     }

@@ -12,6 +12,7 @@ namespace {
 constexpr float kTriedSize = 4;       // voxels that are tried first, in edges of those wanted
 constexpr double kGrowth = 1.6;       // light on voxels takes their edge to the power of minus this
 constexpr double kLightShare = 0.5;   // of the time, at most
+constexpr double kPatience = 1.25;    // of the time that lighting should take: then it is given up
 constexpr float kHardlyFiner = 2.5f;  // voxels not smaller than this, in edges of those wanted, are no gain over those tried
 constexpr int kTriedPart = 8;         // of width and height, at most; also the smallest picture
 constexpr double kTriedPixels = 500;  // at least
@@ -37,7 +38,8 @@ VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights&
   if (affordable > kHardlyFiner) return light;
   VoxelSettings fine = voxel;
   fine.voxelSizeM = std::max(1.0f, affordable) * wanted;
-  return lightVoxels(rays, lights, fine, radiance, stages);
+  VoxelLight finer = lightVoxelsBefore(kPatience * allowed, rays, lights, fine, radiance, stages);
+  return finer.field.irradianceLux.empty() ? light : finer;
 }
 
 int triedPart(int width, int height) { return static_cast<int>(std::clamp(std::sqrt(static_cast<double>(width) * height / kTriedPixels), 1.0, static_cast<double>(kTriedPart))); }

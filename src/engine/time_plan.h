@@ -7,7 +7,8 @@
 namespace roomlight {
 
 // lightVoxels() after a stage "plan", which lights voxels four times as large. What is wanted follows with as large voxels as it takes to
-// leave half of `seconds` to the picture; where that is hardly less, the large ones stay.
+// leave half of `seconds` to the picture; where that is hardly less, or takes a quarter more time
+// than foreseen, the large ones stay.
 VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
 
 // How much smaller in width and height a picture is that tells how long one of this size takes: enough pixels to outweigh what does not

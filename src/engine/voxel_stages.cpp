@@ -1,11 +1,30 @@
 #include "engine/voxel_stages.h"
 
+#include "base/clock.h"
+
 namespace roomlight {
 
 VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
   VoxelLight out;
   out.voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(rays.scene(), voxel).voxels; });
   out.field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, out.voxels, radiance, p); });
+  return out;
+}
+
+VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
+  const Stopwatch watch;
+  VoxelLight out;
+  out.voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(rays.scene(), voxel).voxels; });
+  out.field = stages.run("illuminate", [&](const Progress& p) {
+    std::atomic<bool> over = watch.seconds() > seconds;
+    Progress watched;
+    watched.cancelled = &over;
+    watched.report = [&](float fraction) {
+      p.at(fraction);
+      if (p.stop() || watch.seconds() > seconds) over = true;
+    };
+    return illuminate(rays, lights, out.voxels, radiance, watched);
+  });
   return out;
 }
 

@@ -17,6 +17,9 @@ struct VoxelLight {
 // Stages "voxelise" and "illuminate".
 VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
 
+// The same, given up once `seconds` are over: then without light (no field.irradianceLux).
+VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
+
 // Size, samples and seed of all techniques in the settings of one.
 void applyPictureSettings(const RenderSettings& from, PictureSettings& to);
 

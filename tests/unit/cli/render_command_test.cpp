@@ -70,6 +70,7 @@ TEST_F(RenderCommand, statisticsNameTimeAndMemoryOfEachStage) {
   for (const Json& stage : stats["stages"]) {
     EXPECT_FALSE(stage["name"].get<std::string>().empty());
     EXPECT_GT(stage["peakMemoryMiB"], 1);
+    EXPECT_GE(stage["cpuMs"].get<double>(), 0);
     sum += stage["timeMs"].get<double>();
   }
   EXPECT_LE(sum, stats["totalMs"].get<double>() * 1.01);

@@ -51,6 +51,20 @@ TEST(TimeLimit, tooLittleTimeStillGivesAPicture) {
   EXPECT_EQ(number(rendered, "estimatedMse"), -1) << "no time to tell";
 }
 
+TEST(TimeLimit, lightOnVoxelsIsGivenUpWhenItsTimeIsOver) {
+  const LitRoom room;
+  const RayScene rays(room.scene);
+  const Lights lights(room.scene);
+  RenderStats stats;
+  const RenderProgress quiet;
+  Stages stages(quiet, stats);
+  RadianceSettings radiance;
+  radiance.pyramid = false;
+  EXPECT_TRUE(lightVoxelsBefore(0, rays, lights, {}, radiance, stages).field.irradianceLux.empty());
+  const VoxelLight light = lightVoxelsBefore(1e9, rays, lights, {}, radiance, stages);
+  EXPECT_EQ(light.field.irradianceLux.size(), light.voxels.slots.size());
+}
+
 // The allowance is for busy machines.
 TEST(TimeLimit, timeThatIsLeftPutsThePictureRight) {
   const LitRoom room;
