@@ -1,4 +1,5 @@
 #include "engine/light_colour.h"
+#include "engine/technique_settings.h"
 #include "engine/techniques.h"
 #include "engine/voxel_stages.h"
 
@@ -6,18 +7,15 @@ namespace roomlight {
 
 Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
   const Stopwatch watch;
-  RadianceSettings radiance = settings.radiance;
-  radiance.seed = settings.seed;
-  GatherSettings gather = settings.gather;
-  applyPictureSettings(settings, gather);
+  StageSettings<GatherSettings> use = coneStages(settings);
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
-  const VoxelLight light = lightVoxels(rays, lights, settings.voxel, radiance, stages);
+  const VoxelLight light = lightVoxels(rays, lights, use.voxel, use.radiance, stages);
   if (stages.cancelled()) return {};
   // What the stages before took counts against the limit; the gather never ends before its first pass.
-  if (settings.timeLimitS > 0) gather.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
-  GatheredPicture result = stages.run("gather", [&](const Progress& p) { return gatherCones(rays, lights, light.voxels, light.field, camera, gather, p); });
+  if (settings.timeLimitS > 0) use.gather.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
+  GatheredPicture result = stages.run("gather", [&](const Progress& p) { return gatherCones(rays, lights, light.voxels, light.field, camera, use.gather, p); });
 
   tellNumbers(light, result, stages);
   stages.number("cones", static_cast<double>(result.cones));

@@ -1,35 +1,24 @@
 #include "engine/light_colour.h"
 #include "engine/refine.h"
+#include "engine/technique_settings.h"
 #include "engine/techniques.h"
 #include "engine/time_plan.h"
 
 namespace roomlight {
-namespace {
-
-// Rays decide what is seen, so voxels may be coarser than cones need them: a third of the slots, and no more error.
-constexpr float kCoarser = 1.5f;
-
-}  // namespace
 
 Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
   const Stopwatch watch;
   const bool limited = settings.timeLimitS > 0;
   const auto left = [&] { return limited ? std::max(0.0, settings.timeLimitS - watch.seconds()) : std::numeric_limits<double>::infinity(); };
-  RadianceSettings radiance = settings.radiance;
-  radiance.seed = settings.seed;
-  radiance.pyramid = false;
-  VoxelSettings voxel = settings.voxel;
-  voxel.sizeFactor *= kCoarser;
-  RayGatherSettings gather = settings.hybrid;
-  applyPictureSettings(settings, gather);
+  const StageSettings<RayGatherSettings> use = hybridStages(settings);
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
-  const VoxelLight light = limited ? lightVoxelsWithin(left(), rays, lights, voxel, radiance, stages) : lightVoxels(rays, lights, voxel, radiance, stages);
+  const VoxelLight light = limited ? lightVoxelsWithin(left(), rays, lights, use.voxel, use.radiance, stages) : lightVoxels(rays, lights, use.voxel, use.radiance, stages);
   if (stages.cancelled()) return {};
   GatheredPicture result = stages.run("gather", [&](const Progress& p) {
-    if (limited) return gatherWithin(left(), rays, lights, light, camera, gather, p);
-    return gatherRays(rays, lights, light.voxels, light.field, camera, gather, p);
+    if (limited) return gatherWithin(left(), rays, lights, light, camera, use.gather, p);
+    return gatherRays(rays, lights, light.voxels, light.field, camera, use.gather, p);
   });
   const size_t gathered = result.image.pixels.size();
   if (result.image.width != settings.width || result.image.height != settings.height) result.image = enlarged(result.image, settings.width, settings.height);

@@ -28,13 +28,6 @@ VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights&
   return out;
 }
 
-void applyPictureSettings(const RenderSettings& from, PictureSettings& to) {
-  to.width = from.width;
-  to.height = from.height;
-  to.seed = from.seed;
-  if (from.samples > 0) to.samples = from.samples;
-}
-
 void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages& stages) {
   stages.number("voxelSizeM", static_cast<double>(light.voxels.voxelSizeM));
   stages.number("voxels", static_cast<double>(light.voxels.voxels.size()));

@@ -1,4 +1,4 @@
-// What techniques `hybrid` and `cone` have in common: voxels, the light in them, the size of the picture, what is told of it all.
+// What techniques `hybrid` and `cone` have in common: voxels, the light in them, what is told of it all.
 #pragma once
 
 #include "engine/stages.h"
@@ -19,9 +19,6 @@ VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSe
 
 // The same, given up once `seconds` are over: then without light (no field.irradianceLux).
 VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
-
-// Size, samples and seed of all techniques in the settings of one.
-void applyPictureSettings(const RenderSettings& from, PictureSettings& to);
 
 // Sizes of voxels and light, and what was traced.
 void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages& stages);

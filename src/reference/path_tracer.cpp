@@ -148,22 +148,24 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
   return {settings.filter ? filtered(tracer.features(), kFilterPasses) : tracer.mean(), tracer.variance(), tracer.samples(), tracer.noise(), tracer.rays()};
 }
 
-MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples, uint64_t seed) {
+std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                             const Progress& progress) {
   const PathWalk walk(rays, lights);
-  double sum[3] = {}, squares = 0;
-  uint64_t rayCount = 0;
-  for (int i = 0; i < samples; ++i) {
-    Sampler sampler(0, static_cast<uint32_t>(i), seed);
-    const Vec3 e = walk.illuminance(position, normal, sampler, rayCount);
-    for (int c = 0; c < 3; ++c) sum[c] += e[c];
-    squares += static_cast<double>(luminance(e)) * luminance(e);
-  }
-  MeterReading reading;
-  const double n = samples;
-  reading.illuminanceLux = {static_cast<float>(sum[0] / n), static_cast<float>(sum[1] / n), static_cast<float>(sum[2] / n)};
-  const double mean = luminance(reading.illuminanceLux);
-  reading.standardErrorLux = std::sqrt(std::max(0.0, squares / n - mean * mean) / std::max(1.0, n - 1));
-  return reading;
+  const auto sample = [&](size_t meter, int first, int count) {
+    MeterSums sums;
+    uint64_t rayCount = 0;
+    for (int i = 0; i < count; ++i) {
+      Sampler sampler(meter, static_cast<uint32_t>(first + i), settings.seed);
+      sums.add(walk.illuminance(elements[meter].position, elements[meter].normal, sampler, rayCount));
+    }
+    return sums;
+  };
+  return readMeters(elements.size(), settings, sample, progress);
+}
+
+MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples, uint64_t seed) {
+  const SurfaceElement element{position, normal};
+  return measureIlluminance(rays, lights, {&element, 1}, {0, samples, samples, seed}).front();
 }
 
 }  // namespace roomlight

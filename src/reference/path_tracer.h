@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "base/image.h"
 #include "base/progress.h"
 #include "filter/filter.h"
 #include "trace/lights.h"
+#include "trace/meter.h"
 #include "trace/ray_scene.h"
 
 namespace roomlight {
@@ -55,12 +57,10 @@ struct PathResult {
 PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings,
                      const Progress& progress = {});
 
-// An incident light meter: illuminance in lux on a surface element at `position` whose unit normal is `normal`.
-struct MeterReading {
-  Vec3 illuminanceLux;         // luminance(rgb) is the reading
-  double standardErrorLux = 0; // of independent samples; stratification makes the real error smaller
-};
-MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples,
-                                uint64_t seed);
+// Incident light meters: a reading for each element, as readMeters() has it.
+std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                             const Progress& progress = {});
+// One, with so many samples.
+MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples, uint64_t seed);
 
 }  // namespace roomlight

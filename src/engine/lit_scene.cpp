@@ -1,0 +1,78 @@
+#include "engine/lit_scene.h"
+
+#include <fmt/format.h>
+
+#include "engine/technique_settings.h"
+#include "engine/voxel_stages.h"
+#include "gather/cone_shader.h"
+#include "gather/meters.h"
+#include "gather/ray_shader.h"
+#include "reference/path_tracer.h"
+
+namespace roomlight {
+namespace {
+
+template <class Settings>
+Settings sized(Settings settings, int width, int height) {
+  settings.width = width, settings.height = height;
+  return settings;
+}
+
+// By technique `path`.
+class TracedScene final : public LitScene {
+ public:
+  TracedScene(const Scene& scene, const RenderSettings& settings, Stages& stages) : LitScene(scene, false, stages), settings_(settings) {}
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+    return measureIlluminance(rays(), lights(), elements, settings, progress);
+  }
+  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+    return pathTrace(rays(), lights(), camera, sized(pathStage(settings_), width, height), progress).image;
+  }
+
+ private:
+  const RenderSettings settings_;
+};
+
+// By a shader that reads light from voxels.
+template <class Shader, class Settings>
+class VoxelScene final : public LitScene {
+ public:
+  VoxelScene(const Scene& scene, const StageSettings<Settings>& use, Stages& stages)
+      : LitScene(scene, true, stages), gather_(use.gather), light_(lightVoxels(rays(), lights(), use.voxel, use.radiance, stages)) {
+    if (!stages.cancelled()) shader_.emplace(rays(), lights(), light_.voxels, light_.field, gather_);
+  }
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+    return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
+  }
+  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+    return gatherPicture(rays(), lights(), *shader_, camera, sized(gather_, width, height), progress).image;
+  }
+
+ private:
+  const Settings gather_;
+  const VoxelLight light_;
+  std::optional<Shader> shader_;
+};
+
+}  // namespace
+
+LitScene::LitScene(const Scene& scene, bool sunApart, Stages& stages)
+    : rays_(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })), lights_(stages.run("lights", [&](const Progress&) { return Lights(scene, sunApart); })) {}
+
+Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages) {
+  if (const Status status = checkSettings(settings); !status) return Error{status.error()};
+  std::unique_ptr<LitScene> out;
+  if (settings.technique == "path") {
+    out = std::make_unique<TracedScene>(scene, settings, stages);
+  } else if (settings.technique == "hybrid") {
+    out = std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, hybridStages(settings), stages);
+  } else if (settings.technique == "cone") {
+    out = std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, coneStages(settings), stages);
+  } else {
+    return Error{fmt::format("technique: unknown name '{}'", settings.technique)};
+  }
+  if (stages.cancelled()) return std::unique_ptr<LitScene>();
+  return out;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,19 @@
+// What the settings of a picture mean for the stages of each technique.
+#pragma once
+
+#include "engine/settings.h"
+
+namespace roomlight {
+
+template <class Gather>
+struct StageSettings {
+  VoxelSettings voxel;
+  RadianceSettings radiance;
+  Gather gather;
+};
+
+StageSettings<RayGatherSettings> hybridStages(const RenderSettings& settings);
+StageSettings<GatherSettings> coneStages(const RenderSettings& settings);
+PathSettings pathStage(const RenderSettings& settings);
+
+}  // namespace roomlight
