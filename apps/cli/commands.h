@@ -23,5 +23,6 @@ Registered addRender(CLI::App& program);
 Registered addCompare(CLI::App& program);
 Registered addDevelop(CLI::App& program);
 Registered addInfo(CLI::App& program);
+Registered addValidate(CLI::App& program);
 
 }  // namespace roomlight::cli

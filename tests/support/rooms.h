@@ -2,77 +2,16 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "scene/scene.h"
+#include "scene/primitives.h"
 
 namespace roomlight::test {
 
-// A material that reflects as a perfect Lambertian of this albedo.
-inline Material lambertian(float albedo, float emissionCdM2 = 0) {
-  Material m;
-  m.baseColor = Vec3(albedo);
-  m.metallic = 0;
-  m.roughness = 1;
-  m.specular = 0;
-  m.emission = Vec3(emissionCdM2);
-  return m;
-}
-
-inline int addMaterial(Scene& scene, const Material& material) {
-  scene.materials.push_back(material);
-  return static_cast<int>(scene.materials.size()) - 1;
-}
-
-// Rectangle corner, corner + u, corner + u + v, corner + v, cut into n x n cells; front side along cross(u, v). Its own
-// instance and object.
-inline void addRectangle(Scene& scene, Vec3 corner, Vec3 u, Vec3 v, int material, int n = 1) {
-  Mesh mesh;
-  mesh.material = material;
-  for (int j = 0; j <= n; ++j) {
-    for (int i = 0; i <= n; ++i) {
-      mesh.positions.push_back(corner + u * (static_cast<float>(i) / static_cast<float>(n)) + v * (static_cast<float>(j) / static_cast<float>(n)));
-    }
-  }
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const auto a = static_cast<uint32_t>(j * (n + 1) + i), b = a + 1, c = a + static_cast<uint32_t>(n) + 1, d = c + 1;
-      for (const uint32_t k : {a, b, d, a, d, c}) mesh.indices.push_back(k);
-    }
-  }
-  scene.meshes.push_back(mesh);
-  scene.instances.push_back({"rectangle " + std::to_string(scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
-}
-
-// Faces of a box in the order x-, x+, y-, y+, z-, z+, each with its own material; fronts look inwards.
-inline void addRoom(Scene& scene, Vec3 lo, Vec3 hi, const std::vector<int>& materials) {
-  const Vec3 s = hi - lo;
-  const Vec3 x{s.x, 0, 0}, y{0, s.y, 0}, z{0, 0, s.z};
-  addRectangle(scene, lo, y, z, materials[0]);
-  addRectangle(scene, lo + x, z, y, materials[1]);
-  addRectangle(scene, lo, z, x, materials[2]);
-  addRectangle(scene, lo + y, x, z, materials[3]);
-  addRectangle(scene, lo, x, y, materials[4]);
-  addRectangle(scene, lo + z, y, x, materials[5]);
-}
-
-// Fronts look outwards.
-inline void addBox(Scene& scene, Vec3 lo, Vec3 hi, int material) {
-  const Vec3 s = hi - lo;
-  const Vec3 x{s.x, 0, 0}, y{0, s.y, 0}, z{0, 0, s.z};
-  addRectangle(scene, lo, z, y, material);
-  addRectangle(scene, lo + x, y, z, material);
-  addRectangle(scene, lo, x, z, material);
-  addRectangle(scene, lo + y, z, x, material);
-  addRectangle(scene, lo, y, x, material);
-  addRectangle(scene, lo + z, x, y, material);
-}
-
-inline Lamp pointLamp(Vec3 position, float candela) {
-  Lamp lamp;
-  lamp.position = position;
-  lamp.intensityCd = Vec3(candela);
-  return lamp;
-}
+using roomlight::addBox;
+using roomlight::addMaterial;
+using roomlight::addRectangle;
+using roomlight::addRoom;
+using roomlight::lambertian;
+using roomlight::pointLamp;
 
 }  // namespace roomlight::test

@@ -1,0 +1,93 @@
+// roomlight validate: meters of every technique where the light is known.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/parallel.h"
+#include "commands.h"
+#include "console.h"
+#include "engine/render.h"
+#include "engine/version.h"
+#include "interrupt.h"
+#include "output_files.h"
+#include "validate/report.h"
+
+namespace roomlight::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> techniques;
+  std::string json, html;
+  int threads = 0;
+  uint64_t seed = 0;
+  bool brief = false, quiet = false;
+};
+
+int bad(const std::string& message, int code = kBadInput) {
+  printError(message);
+  return code;
+}
+
+// One line a case and technique: its worst place.
+void printTable(const Validation& v) {
+  fmt::print("{:<24} {:<7} {:<38} {:>10} {:>10} {:>9}\n", "case", "by", "worst place", "expected", "got", "error");
+  for (size_t i = 0; i < v.rows.size();) {
+    size_t worst = i, end = i;
+    for (; end < v.rows.size() && v.rows[end].technique == v.rows[i].technique && v.rows[end].name == v.rows[i].name; ++end) {
+      if (std::abs(v.rows[end].errorPercent) > std::abs(v.rows[worst].errorPercent)) worst = end;
+    }
+    const ValidationRow& r = v.rows[worst];
+    fmt::print("{:<24} {:<7} {:<38} {:>10.5g} {:>10.5g} {:>+7.2f} %{}\n", r.name, r.technique, r.place, r.expected, r.got, r.errorPercent, r.pass ? "" : "  MISSED");
+    i = end;
+  }
+  for (const ValidationSummary& s : v.techniques) {
+    fmt::print("{}: {} of {} places within {:g} %{}; largest error {:+.2f} % ({})\n", s.technique, s.passed, s.places, s.allowedPercent, s.technique == "cone" ? " of the sum over their case" : "", s.worstPercent, s.worstPlace);
+  }
+}
+
+int runValidate(const Options& o) {
+  interrupted();
+  for (const std::string& file : {o.json, o.html}) {
+    if (file.empty()) continue;
+    if (const Status s = checkWritable(file); !s) return bad(s.error());
+  }
+  ValidationSettings settings;
+  if (!o.techniques.empty()) settings.techniques = o.techniques;
+  settings.brief = o.brief;
+  settings.render.seed = o.seed;
+  settings.render.threads = o.threads;
+  ProgressDisplay display(o.quiet);
+  display.report("validate", 0);
+  Progress progress{[&](float f) { display.report("validate", f); }, &interrupted()};
+  Result<Validation> v = Error{""};
+  withThreads(o.threads, [&] { v = validateTechniques(settings, progress); });
+  if (!v) return bad(v.error());
+  display.report("validate", 1);
+  if (!o.quiet) printTable(v.value());
+  if (!o.json.empty()) {
+    if (const Status s = writeTextFile(o.json, validationJson(v.value())); !s) return bad(s.error(), kFailed);
+  }
+  if (!o.html.empty()) {
+    if (const Status s = writeTextFile(o.html, validationHtml(v.value(), version())); !s) return bad(s.error(), kFailed);
+  }
+  if (!v.value().complete) return bad("interrupted; what was measured so far is above", kInterrupted);
+  return v.value().pass() ? kOk : kFailed;
+}
+
+}  // namespace
+
+Registered addValidate(CLI::App& program) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("validate", "Measure scenes whose light is known, by every technique, and judge the result");
+  app->add_option("--technique", o->techniques, "Only this technique; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_flag("--brief", o->brief, "Every third place, with more noise");
+  app->add_option("--json", o->json, "Write all values to this file");
+  app->add_option("--html", o->html, "Write a page with all values to this file");
+  app->add_option("--seed", o->seed, "Random seed");
+  app->add_option("--threads", o->threads, "Threads; 0: all cores")->check(CLI::Range(0, 1024));
+  app->add_flag("--quiet", o->quiet, "Only errors; the exit status tells: 0 all met, 1 some missed");
+  app->footer("Cases: closed forms, furnaces, CIE 171:2006 (docs/methods/validation.md).\nExample:\n  roomlight validate --html validation.html");
+  return {app, [o] { return runValidate(*o); }};
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,27 @@
+// Small scenes of rectangles, for tests and validation: rooms, boxes, panels, lamps.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace roomlight {
+
+// A material that reflects as a perfect Lambertian of this albedo.
+Material lambertian(float albedo, float emissionCdM2 = 0);
+
+int addMaterial(Scene& scene, const Material& material);
+
+// Rectangle corner, corner + u, corner + u + v, corner + v, cut into n x n cells; front side along cross(u, v). Its own
+// instance and object.
+void addRectangle(Scene& scene, Vec3 corner, Vec3 u, Vec3 v, int material, int n = 1);
+
+// Faces of a box in the order x-, x+, y-, y+, z-, z+, each with its own material; fronts look inwards.
+void addRoom(Scene& scene, Vec3 lo, Vec3 hi, const std::vector<int>& materials);
+
+// Fronts look outwards.
+void addBox(Scene& scene, Vec3 lo, Vec3 hi, int material);
+
+Lamp pointLamp(Vec3 position, float candela);
+
+}  // namespace roomlight

@@ -1,0 +1,118 @@
+#include "validate/validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/lit_scene.h"
+#include "validate/cases.h"
+
+namespace roomlight {
+namespace {
+
+constexpr double kNextToNothing = 0.01;
+constexpr double kMeterTolerance = 0.002, kBriefTolerance = 0.005;  // relative standard error of one reading, where it is a value by itself
+
+std::vector<MakeCase> allCases() {
+  std::vector<MakeCase> out;
+  for (const auto* group : {&closedFormCases(), &lampCases()}) out.insert(out.end(), group->begin(), group->end());
+  return out;
+}
+
+// Values that are means over many readings need less of each, small differences of large ones more.
+MeterSettings meterSettings(const ValidationCase& of, bool brief) {
+  size_t fewest = of.quantities.front().elements.size();
+  double smallest = 1;
+  for (const Quantity& q : of.quantities) {
+    fewest = std::min(fewest, q.elements.size());
+    if (q.offset != 0) smallest = std::min(smallest, std::abs(q.expected) / (std::abs(q.expected) + std::abs(q.offset)));
+  }
+  MeterSettings meter;
+  meter.tolerance = (brief ? kBriefTolerance : kMeterTolerance) * std::sqrt(static_cast<double>(fewest)) * smallest;
+  meter.fewestSamples = fewest > 1 ? 16 : 256;
+  meter.mostSamples = 1 << 18;
+  return meter;
+}
+
+std::vector<double> values(const ValidationCase& of, const LitScene& lit, bool brief, const Progress& progress) {
+  std::vector<SurfaceElement> elements;
+  for (const Quantity& q : of.quantities) elements.insert(elements.end(), q.elements.begin(), q.elements.end());
+  Progress quiet;
+  quiet.cancelled = progress.cancelled;
+  const std::vector<MeterReading> readings = lit.illuminance(elements, meterSettings(of, brief), quiet);
+  std::vector<double> out;
+  size_t next = 0;
+  for (const Quantity& q : of.quantities) {
+    double value = q.offset;
+    for (const double w : q.weights) value += w * static_cast<double>(luminance(readings[next++].illuminanceLux));
+    out.push_back(value);
+  }
+  return out;
+}
+
+// Rows of one case and technique.
+std::vector<ValidationRow> judged(const ValidationCase& of, const std::string& technique, const std::vector<double>& got) {
+  double largest = 0, all = 0, sum = 0;
+  for (size_t i = 0; i < got.size(); ++i) largest = std::max(largest, std::abs(of.quantities[i].expected)), all += of.quantities[i].expected, sum += got[i];
+  const double allowed = allowedPercent(technique), total = all != 0 ? 100 * (sum / all - 1) : 0;
+  std::vector<ValidationRow> rows;
+  for (size_t i = 0; i < got.size(); ++i) {
+    const Quantity& q = of.quantities[i];
+    const double error = 100 * (got[i] - q.expected) / std::max(std::abs(q.expected), kNextToNothing * largest);
+    rows.push_back({of.name, of.title, of.unit, of.basis, q.place, technique, q.expected, got[i], error, std::abs(technique == "cone" ? total : error) <= allowed});
+  }
+  return rows;
+}
+
+ValidationSummary summary(const std::vector<ValidationRow>& rows, const std::string& technique) {
+  ValidationSummary out{technique, allowedPercent(technique), 0, "", 0, 0};
+  for (const ValidationRow& r : rows) {
+    if (r.technique != technique) continue;
+    ++out.places, out.passed += r.pass;
+    if (std::abs(r.errorPercent) > std::abs(out.worstPercent)) out.worstPercent = r.errorPercent, out.worstPlace = r.name + ", " + r.place;
+  }
+  return out;
+}
+
+}  // namespace
+
+double allowedPercent(const std::string& technique) { return technique == "path" ? 1 : technique == "cone" ? 10 : 3; }
+
+bool Validation::pass() const {
+  return std::all_of(rows.begin(), rows.end(), [](const ValidationRow& r) { return r.pass; });
+}
+
+Result<Validation> validateTechniques(const ValidationSettings& settings, const Progress& progress) {
+  Validation out;
+  const std::vector<MakeCase> cases = allCases();
+  size_t done = 0;
+  for (const MakeCase make : cases) {
+    ValidationCase of = make();
+    if (settings.brief) {
+      std::vector<Quantity> few;
+      for (size_t i = 0; i < of.quantities.size(); i += 3) few.push_back(std::move(of.quantities[i]));
+      of.quantities = std::move(few);
+    }
+    for (const std::string& technique : settings.techniques) {
+      RenderSettings render = settings.render;
+      render.technique = technique;
+      RenderStats stats;
+      RenderProgress quiet;
+      quiet.cancelled = progress.cancelled;
+      Stages stages(quiet, stats);
+      const Result<std::unique_ptr<LitScene>> lit = lightScene(of.scene, render, stages);
+      if (!lit) return Error{lit.error()};
+      if (!progress.stop()) {
+        const std::vector<double> got = values(of, *lit.value(), settings.brief, progress);
+        if (!progress.stop()) {
+          for (ValidationRow& row : judged(of, technique, got)) out.rows.push_back(std::move(row));
+        }
+      }
+      if (progress.stop()) out.complete = false;
+      progress.at(static_cast<float>(++done) / static_cast<float>(cases.size() * settings.techniques.size()));
+    }
+  }
+  for (const std::string& technique : settings.techniques) out.techniques.push_back(summary(out.rows, technique));
+  return out;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,49 @@
+// Runs the cases of cases.h by every technique and judges what meters read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/result.h"
+#include "engine/settings.h"
+
+namespace roomlight {
+
+struct ValidationRow {
+  std::string name, title, unit, basis;  // of the case
+  std::string place, technique;
+  double expected = 0, got = 0;
+  // Of what is expected there or, where that is next to nothing, of a hundredth of the largest value that the case expects.
+  double errorPercent = 0;
+  bool pass = false;
+};
+
+struct ValidationSummary {
+  std::string technique;
+  double allowedPercent = 0;  // at each place; for technique "cone" of the sum over a case
+  double worstPercent = 0;    // of the same
+  std::string worstPlace;
+  int passed = 0, places = 0;
+};
+
+struct Validation {
+  std::vector<ValidationRow> rows;
+  std::vector<ValidationSummary> techniques;
+  bool complete = true;  // false: stopped early
+  bool pass() const;
+};
+
+struct ValidationSettings {
+  std::vector<std::string> techniques = {"path", "hybrid", "cone"};
+  bool brief = false;     // every third place, less certain meters: a quick look
+  RenderSettings render;  // technique is overruled
+};
+
+// How far a technique may be off, in per cent: path 1, others 3 at each place; cone 10 over a case.
+double allowedPercent(const std::string& technique);
+
+// Errors: an unknown technique, settings out of range.
+Result<Validation> validateTechniques(const ValidationSettings& settings, const Progress& progress = {});
+
+}  // namespace roomlight
