@@ -8,58 +8,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <optional>
 
-#include "base/image_io.h"
 #include "import/json_file.h"
-#include "import/json_reader.h"
-#include "photometry/colour_temperature.h"
+#include "import/lighting_sky.h"
+#include "import/lighting_values.h"
 #include "photometry/spot.h"
-#include "photometry/sun.h"
 
 namespace roomlight {
 namespace {
 
-constexpr double kMostLight = 1e12;      // of any unit; keeps squares finite in floats
-constexpr double kFarthestM = 1e6;
 constexpr size_t kMostLamps = 100'000;
 
-double rad(double degrees) { return degrees * kPi / 180; }
-
-Vec3 direction(const JsonPlace& j) {
-  const Vec3 v = j.vector(-kFarthestM, kFarthestM);
-  const float l = length(v);
-  if (l > 1e-6f) return v / l;
-  j.fail("must not be zero");
-  return {0, -1, 0};
-}
-
-// Colour of luminance 1: white, a colour temperature, or the given linear Rec.709 scaled.
-Vec3 colour(const JsonPlace& j) {
-  if (j.has("temperature") && j.has("color")) j.fail("give 'temperature' or 'color', not both");
-  if (j.has("temperature")) return blackBodyColour(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
-  if (!j.has("color")) return Vec3(1);
-  const Vec3 c = j["color"].vector(0, kMostLight);
-  if (luminance(c) >= 1e-6f) return c / luminance(c);
-  j["color"].fail("must not be black");
-  return Vec3(1);
-}
-
-// Exactly one of the keys must be there.
-std::string theOne(const JsonPlace& j, std::initializer_list<const char*> keys) {
-  std::string found, all;
-  int count = 0;
-  for (const char* key : keys) {
-    all += (all.empty() ? "" : ", ") + std::string(key);
-    if (j.has(key)) found = key, ++count;
-  }
-  if (count != 1) j.fail(fmt::format("give exactly one of {}", all));
-  return count == 1 ? found : std::string();
-}
-
 void readSpot(const JsonPlace& j, Lamp& lamp) {
-  lamp.direction = direction(j["direction"]);
+  lamp.direction = readDirection(j["direction"]);
   const double outer = j.number("outerCone", 0.5, 90, 45), inner = j.number("innerCone", 0, 90, 0);
   if (inner > outer) j["innerCone"].fail("must not be larger than outerCone");
   lamp.outerConeRad = static_cast<float>(rad(outer));
@@ -67,11 +29,11 @@ void readSpot(const JsonPlace& j, Lamp& lamp) {
 }
 
 void readArea(const JsonPlace& j, Lamp& lamp) {
-  lamp.direction = direction(j["direction"]);
+  lamp.direction = readDirection(j["direction"]);
   lamp.widthM = static_cast<float>(j["width"].number(1e-4, 1000));
   lamp.heightM = static_cast<float>(j["height"].number(1e-4, 1000));
-  Vec3 up = j.has("up") ? direction(j["up"]) : std::abs(lamp.direction.y) < 0.99f ? Vec3{0, 1, 0}
-                                                                                  : Vec3{0, 0, -1};
+  Vec3 up = j.has("up") ? readDirection(j["up"]) : std::abs(lamp.direction.y) < 0.99f ? Vec3{0, 1, 0}
+                                                                                      : Vec3{0, 0, -1};
   up -= lamp.direction * dot(up, lamp.direction);
   if (length(up) < 1e-3f) {
     j["up"].fail("must not point along 'direction'");
@@ -85,16 +47,12 @@ Lamp readLamp(const JsonPlace& j, size_t number) {
   if (!j.isObject({"name", "type", "position", "direction", "up", "flux", "intensity", "luminance", "temperature", "color", "innerCone", "outerCone", "width", "height"})) return lamp;
   lamp.name = j.text("name", fmt::format("lamp {}", number + 1));
   lamp.position = j["position"].vector(-kFarthestM, kFarthestM);
-  const Vec3 c = colour(j);
+  const Vec3 c = readColour(j);
   const std::string type = j["type"].oneOf({"point", "spot", "area"});
-  const auto forbid = [&](std::initializer_list<const char*> keys) {
-    for (const char* key : keys) {
-      if (j.has(key)) j[key].fail(fmt::format("means nothing for a lamp of type {}", type));
-    }
-  };
+  const std::string why = "for a lamp of type " + type;
   if (type == "area") {
     lamp.kind = LampKind::Area;
-    forbid({"intensity", "innerCone", "outerCone"});
+    forbid(j, {"intensity", "innerCone", "outerCone"}, why);
     readArea(j, lamp);
     const std::string unit = theOne(j, {"flux", "luminance"});
     const double area = static_cast<double>(lamp.widthM) * lamp.heightM;
@@ -103,115 +61,19 @@ Lamp readLamp(const JsonPlace& j, size_t number) {
     if (luminance(lamp.luminanceCdM2) > 1.001 * kMostLight) j["flux"].fail("is more than 1e12 cd/m2 on so small an area");
     return lamp;
   }
-  forbid({"luminance", "width", "height", "up"});
+  forbid(j, {"luminance", "width", "height", "up"}, why);
   double fluxPerCandela = 4 * kPi;
   if (type == "spot") {
     lamp.kind = LampKind::Spot;
     readSpot(j, lamp);
     fluxPerCandela = spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
   } else {
-    forbid({"direction", "innerCone", "outerCone"});
+    forbid(j, {"direction", "innerCone", "outerCone"}, why);
   }
   const std::string unit = theOne(j, {"flux", "intensity"});
   if (unit == "flux") lamp.intensityCd = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / fluxPerCandela);
   if (unit == "intensity") lamp.intensityCd = c * static_cast<float>(j["intensity"].quantity(Unit::Candela, 0, kMostLight));
   return lamp;
-}
-
-// By direction with its illuminance, or by place and time under a clear sky. Below the horizon there is no sun.
-Sun readSun(const JsonPlace& j) {
-  Sun sun;
-  if (!j.isObject({"name", "direction", "latitude", "longitude", "time", "north", "illuminance", "angularDiameter", "temperature", "color"})) return sun;
-  sun.name = j.text("name", "sun");
-  sun.halfAngleRad = static_cast<float>(rad(j.number("angularDiameter", 0, 90, 0.533) / 2));
-  const Vec3 c = colour(j);
-  double lux = 0;
-  if (j.has("direction")) {
-    for (const char* key : {"latitude", "longitude", "time", "north"}) {
-      if (j.has(key)) j[key].fail("give 'direction' or place and time, not both");
-    }
-    sun.toLight = direction(j["direction"]);
-    lux = j["illuminance"].quantity(Unit::Lux, 0, kMostLight);
-  } else {
-    const double latitude = j["latitude"].number(-90, 90), longitude = j["longitude"].number(-180, 180), north = j.number("north", -360, 360, 0);
-    const Result<Moment> moment = parseMoment(j["time"].text());
-    if (!moment) {
-      j["time"].fail(moment.error());
-      return sun;
-    }
-    const SunPosition p = sunPosition(moment.value(), latitude, longitude);
-    const double bearing = p.bearingRad - rad(north);  // from the scene's -z axis, clockwise seen from above
-    sun.toLight = normalize(Vec3{static_cast<float>(std::sin(bearing) * std::cos(p.altitudeRad)), static_cast<float>(std::sin(p.altitudeRad)),
-                                 static_cast<float>(-std::cos(bearing) * std::cos(p.altitudeRad))});
-    lux = j.has("illuminance") ? j["illuminance"].quantity(Unit::Lux, 0, kMostLight) : clearSkySunLux(moment.value(), p.altitudeRad);
-    if (p.altitudeRad <= 0) lux = 0;
-  }
-  sun.illuminanceLux = c * static_cast<float>(lux);
-  return sun;
-}
-
-// Illuminance that an equirectangular picture gives to a horizontal surface, in its own unit.
-double horizontalIlluminance(const Image& image) {
-  double sum = 0;
-  for (int y = 0; 2 * y < image.height; ++y) {
-    // Exact integral of cos over a row; of an odd number of rows the middle one counts with its upper half.
-    const double low = std::sin(std::numbers::pi * y / image.height), high = std::sin(std::min(0.5, (y + 1.0) / image.height) * std::numbers::pi);
-    double row = 0;
-    for (int x = 0; x < image.width; ++x) row += luminance(image.at(x, y));
-    sum += row * 0.5 * (high * high - low * low);
-  }
-  return sum * 2 * std::numbers::pi / image.width;
-}
-
-void readSkyImage(const JsonPlace& j, const std::filesystem::path& folder, Sky& sky) {
-  const std::filesystem::path file = folder / j["image"].text();
-  // Opening a pipe or a terminal would wait for it.
-  std::error_code code;
-  if (std::filesystem::exists(file, code) && !std::filesystem::is_regular_file(file, code)) {
-    j["image"].fail("is not a file");
-    return;
-  }
-  Result<Image> image = readImage(file);
-  if (!image) {
-    j["image"].fail(image.error());
-    return;
-  }
-  sky.image = std::move(image.value());
-  double factor = 1;
-  const std::string unit = theOne(j, {"unit", "horizontalIlluminance"});
-  if (unit == "unit") factor = j["unit"].quantity(Unit::CandelaPerM2, 0, kMostLight);
-  if (unit == "horizontalIlluminance") {
-    const double now = horizontalIlluminance(sky.image);
-    const double wanted = j["horizontalIlluminance"].quantity(Unit::Lux, 0, kMostLight);
-    if (!(now > 0)) j["horizontalIlluminance"].fail("the picture's upper half is black");
-    factor = wanted / std::max(now, 1e-30);
-  }
-  for (Vec3& p : sky.image.pixels) {
-    p *= static_cast<float>(factor);
-    if (!(minComponent(p) >= 0) || !(maxComponent(p) < kMostLight)) {
-      j["image"].fail("holds values that are negative, not finite or beyond 1e12 cd/m2");
-      return;
-    }
-  }
-}
-
-Sky readSky(const JsonPlace& j, const std::filesystem::path& folder) {
-  Sky sky;
-  if (!j.isObject({"luminance", "temperature", "color", "image", "unit", "horizontalIlluminance", "rotation"})) return sky;
-  sky.rotationRad = static_cast<float>(rad(j.number("rotation", -360, 360, 0)));
-  const std::string kind = theOne(j, {"luminance", "image"});
-  if (kind == "image") {
-    for (const char* key : {"temperature", "color"}) {
-      if (j.has(key)) j[key].fail("means nothing beside 'image'");
-    }
-    readSkyImage(j, folder, sky);
-  } else if (kind == "luminance") {
-    for (const char* key : {"unit", "horizontalIlluminance"}) {
-      if (j.has(key)) j[key].fail("means nothing beside 'luminance'");
-    }
-    sky.luminanceCdM2 = colour(j) * static_cast<float>(j["luminance"].quantity(Unit::CandelaPerM2, 0, kMostLight));
-  }
-  return sky;
 }
 
 // What the file says about the light that the scene brought along.

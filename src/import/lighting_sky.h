@@ -1,0 +1,17 @@
+// Sun and sky of a lighting file (docs/formats/lighting.md). What is wrong is told to the place; see json_reader.h.
+#pragma once
+
+#include <filesystem>
+
+#include "import/json_reader.h"
+#include "scene/scene.h"
+
+namespace roomlight {
+
+// By direction with its illuminance, or by place and time under a clear sky. Below the horizon there is no sun: its illuminance is 0.
+Sun readSun(const JsonPlace& j);
+
+// Even luminance, or a picture, which a relative path seeks in `folder`.
+Sky readSky(const JsonPlace& j, const std::filesystem::path& folder);
+
+}  // namespace roomlight
