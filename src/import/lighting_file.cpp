@@ -2,7 +2,8 @@
 //   { "scene": { "lamps": "keep"|"off", "suns": .., "sky": .., "emission": "keep"|"off"|factor },
 //     "lamps": [ { "type": "point"|"spot"|"area", "position": [x,y,z], "flux"|"intensity"|"luminance": "800 lm", .. } ],
 //     "sun": { "direction": [x,y,z], "illuminance": "75000 lx" } or { "latitude", "longitude", "time" } or a list of them,
-//     "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" | "horizontalIlluminance": "10 klx" } }
+//     "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" | "horizontalIlluminance": "10 klx" },
+//     "daylight": { "sky": "clear"|"intermediate"|"overcast"|1..16, "latitude", "longitude", "time", .. } }
 #include "import/lighting_file.h"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <optional>
 
 #include "import/json_file.h"
+#include "import/lighting_daylight.h"
 #include "import/lighting_sky.h"
 #include "import/lighting_values.h"
 #include "photometry/spot.h"
@@ -108,7 +110,7 @@ struct Lighting {
 
 Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder) {
   Lighting out;
-  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky"})) return out;
+  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight"})) return out;
   if (root.has("version") && root["version"].number(1, 1e6) != 1) root["version"].fail("must be 1");
   if (root.has("comment")) root["comment"].text();
   if (root.has("scene")) out.kept = readKept(root["scene"]);
@@ -125,6 +127,12 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
     for (size_t i = 0; i < std::min<size_t>(count, 16); ++i) out.suns.push_back(readSun(sun.isArray() ? sun[i] : sun));
   }
   if (root.has("sky")) out.sky = readSky(root["sky"], folder);
+  if (root.has("daylight")) {
+    forbid(root, {"sun", "sky"}, "beside 'daylight', which brings both");
+    Daylight daylight = readDaylight(root["daylight"], folder);
+    out.suns.push_back(daylight.sun);
+    out.sky = std::move(daylight.sky);
+  }
   return out;
 }
 

@@ -7,7 +7,6 @@
 
 #include "base/image_io.h"
 #include "import/lighting_values.h"
-#include "photometry/sun.h"
 
 namespace roomlight {
 namespace {
@@ -59,6 +58,12 @@ void readSkyImage(const JsonPlace& j, const std::filesystem::path& folder, Sky& 
 
 }  // namespace
 
+Vec3 towardsSun(const SunPosition& position, double northDeg) {
+  const double bearing = position.bearingRad - rad(northDeg);  // from the scene's -z axis, clockwise seen from above
+  return normalize(Vec3{static_cast<float>(std::sin(bearing) * std::cos(position.altitudeRad)), static_cast<float>(std::sin(position.altitudeRad)),
+                        static_cast<float>(-std::cos(bearing) * std::cos(position.altitudeRad))});
+}
+
 Sun readSun(const JsonPlace& j) {
   Sun sun;
   if (!j.isObject({"name", "direction", "latitude", "longitude", "time", "north", "illuminance", "angularDiameter", "temperature", "color"})) return sun;
@@ -80,9 +85,7 @@ Sun readSun(const JsonPlace& j) {
       return sun;
     }
     const SunPosition p = sunPosition(moment.value(), latitude, longitude);
-    const double bearing = p.bearingRad - rad(north);  // from the scene's -z axis, clockwise seen from above
-    sun.toLight = normalize(Vec3{static_cast<float>(std::sin(bearing) * std::cos(p.altitudeRad)), static_cast<float>(std::sin(p.altitudeRad)),
-                                 static_cast<float>(-std::cos(bearing) * std::cos(p.altitudeRad))});
+    sun.toLight = towardsSun(p, north);
     lux = j.has("illuminance") ? j["illuminance"].quantity(Unit::Lux, 0, kMostLight) : sunLux(moment.value(), p.altitudeRad);
     if (p.altitudeRad <= 0) lux = 0;
   }

@@ -73,12 +73,14 @@ SunPosition sunPosition(const Moment& moment, double latitudeDeg, double longitu
   return p;
 }
 
-double clearSkySunLux(const Moment& moment, double altitudeRad) {
-  const double s = std::sin(altitudeRad);
-  if (s <= 0) return 0;
+double sunDistanceFactor(const Moment& moment) {
   const double dayOfYear = daysSinceJ2000(moment) - daysSinceJ2000({moment.year, 1, 1, 0}) + 1;
-  const double outside = 127.5e3 * (1 + 0.034 * std::cos(2 * std::numbers::pi / 365 * (dayOfYear - 2)));
-  return outside * std::exp(-0.21 / s);
+  return 1 + 0.034 * std::cos(2 * std::numbers::pi / 365 * (dayOfYear - 2));
+}
+
+double sunLux(const Moment& moment, double altitudeRad, double extinction) {
+  const double s = std::sin(altitudeRad);
+  return s > 0 ? 127.5e3 * sunDistanceFactor(moment) * std::exp(-extinction / s) : 0;
 }
 
 }  // namespace roomlight

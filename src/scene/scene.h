@@ -122,6 +122,7 @@ struct Sun {
 struct Sky {
   Vec3 luminanceCdM2{0, 0, 0};  // constant part; ignored when an image is given
   Image image;                  // in cd/m² after scaling
+  bool horizonEdge = false;     // its upper and lower half meet in an edge: nothing is interpolated across
   float rotationRad = 0;        // turns the sky about +y, counter-clockwise seen from above
   bool present() const { return image.width > 0 || !isBlack(luminanceCdM2); }
 };

@@ -204,9 +204,17 @@ Vec3 SkyDistribution::radianceAt(Vec2 uv) const {
   if (spotAt(uv)) return {};
   const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
   const float fx = std::floor(x), fy = std::floor(y);
-  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  const int ix = static_cast<int>(fx);
+  int iy = static_cast<int>(fy), below = iy + 1;
+  if (sky_.horizonEdge && below == image.height / 2) {
+    if (uv.y < 0.5f) {
+      below = iy;
+    } else {
+      iy = below;
+    }
+  }
   const Vec3 top = lerp(texel(image, ix, iy), texel(image, ix + 1, iy), x - fx);
-  const Vec3 bottom = lerp(texel(image, ix, iy + 1), texel(image, ix + 1, iy + 1), x - fx);
+  const Vec3 bottom = lerp(texel(image, ix, below), texel(image, ix + 1, below), x - fx);
   return lerp(top, bottom, y - fy);
 }
 
