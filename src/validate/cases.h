@@ -30,9 +30,10 @@ struct ValidationCase {
 // Made one after the other: scenes may be large.
 using MakeCase = ValidationCase (*)();
 
-// Closed forms and furnaces; lamps and reflections of CIE 171:2006, 5.2 to 5.4 and 5.6 to 5.8.
+// Closed forms and furnaces; lamps and reflections of CIE 171:2006, 5.2 to 5.4 and 5.6 to 5.8; daylight of the same, 5.9 to 5.14.
 const std::vector<MakeCase>& closedFormCases();
 const std::vector<MakeCase>& lampCases();
+const std::vector<MakeCase>& daylightCases();
 
 // One reading times `scale`.
 Quantity reading(const std::string& place, const SurfaceElement& element, double scale, double expected);

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kStyle = R"(body{font:15px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-weight:600}h2{margin-top:2.2rem;font-size:1.15rem}
 table{border-collapse:collapse;width:100%;font-size:.88rem}th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid #ddd}
-th:first-child,td:first-child{text-align:left}th{color:#555;font-weight:600}
+td{white-space:nowrap}th:first-child,td:first-child{text-align:left;white-space:normal}th{color:#555;font-weight:600}
 .pass{color:#0a6b3d}.fail{color:#b00020;font-weight:700}.basis{color:#666;font-size:.85rem;margin:.2rem 0 .6rem}svg{max-width:100%;height:auto})";
 
 std::string escaped(const std::string& text) {
@@ -50,7 +50,7 @@ std::string dots(const Validation& v) {
                          r.pass ? "#0a6b3d" : "#b00020", escaped(r.name), escaped(r.place), r.errorPercent);
     }
   }
-  for (int p = -10; p <= 10; p += 5) out += fmt::format("<text x='{:.1f}' y='{:.0f}' font-size='12' text-anchor='middle' fill='#555'>{:+d} %</text>", x(p), height - 6, p);
+  for (int p = -10; p <= 10; p += 5) out += fmt::format("<text x='{:.1f}' y='{:.0f}' font-size='12' text-anchor='middle' fill='#555'>{}{} %</text>", x(p), height - 6, p > 0 ? "+" : "", p);
   return out + "</svg>";
 }
 

@@ -14,7 +14,7 @@ constexpr double kMeterTolerance = 0.002, kBriefTolerance = 0.005;  // relative 
 
 std::vector<MakeCase> allCases() {
   std::vector<MakeCase> out;
-  for (const auto* group : {&closedFormCases(), &lampCases()}) out.insert(out.end(), group->begin(), group->end());
+  for (const auto* group : {&closedFormCases(), &lampCases(), &daylightCases()}) out.insert(out.end(), group->begin(), group->end());
   return out;
 }
 

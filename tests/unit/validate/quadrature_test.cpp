@@ -84,7 +84,7 @@ void expectOf(const ValidationCase& of, size_t first, const std::vector<double>&
 }
 
 ValidationCase find(const std::string& name) {
-  for (const auto* group : {&closedFormCases(), &lampCases()}) {
+  for (const auto* group : {&closedFormCases(), &lampCases(), &daylightCases()}) {
     for (const MakeCase make : *group) {
       if (ValidationCase c = make(); c.name == name) return c;
     }
@@ -99,6 +99,7 @@ TEST(ValidationCases, expectWhatIsPublished) {
   expectOf(find("CIE 171, 5.6 wall"), 0, {35.90, 27.99, 21.64, 16.72, 12.97}, 0.01);
   expectOf(find("CIE 171, 5.6 ceiling"), 0, {26.80, 30.94, 33.98, 35.57}, 0.01);
   expectOf(find("CIE 171, 5.7"), 0, {16.08, 16.33, 15.40, 13.33, 10.32, 7.08, 3.38, 3.63, 3.02, 0}, 0.02);
+  expectOf(find("CIE 171, 5.11 sky 5"), 0, {0.95, 1.06, 1.79, 3.09, 3.54, 3.17, 1.27, 1.75, 2.49, 3.59, 5.19, 7.11, 7.99, 4.13}, 0.01);
 }
 
 }  // namespace

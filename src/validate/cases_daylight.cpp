@@ -1,0 +1,171 @@
+// Daylight through openings after CIE 171:2006, 5.9, 5.11, 5.13 and 5.14. Skies are those of ISO 15469:2004, written down a second time in
+// double precision, so that pictures of skies, their sampling and what openings let in are all judged.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "photometry/sky_image.h"
+#include "scene/primitives.h"
+#include "validate/cases.h"
+#include "validate/quadrature_of.h"
+
+namespace roomlight {
+namespace {
+
+using quadrature::Point;
+using quadrature::Rectangle;
+using std::numbers::pi;
+
+constexpr double kHorizontalLux = 10000, kGroundAlbedo = 0.3;
+constexpr double kSunAltitude = pi / 3;  // towards +z, where the facade looks
+
+// Gradation and indicatrix of the standard's types 1 to 15.
+struct CieSky {
+  double a, b, c, d, e;
+};
+constexpr CieSky kSkies[] = {{4, -.7, 0, -1, 0},       {4, -.7, 2, -1.5, .15},    {1.1, -.8, 0, -1, 0},      {1.1, -.8, 2, -1.5, .15},  {0, -1, 0, -1, 0},
+                             {0, -1, 2, -1.5, .15},    {0, -1, 5, -2.5, .3},      {0, -1, 10, -3, .45},      {-1, -.55, 2, -1.5, .15},  {-1, -.55, 5, -2.5, .3},
+                             {-1, -.55, 10, -3, .45},  {-1, -.32, 10, -3, .45},   {-1, -.32, 16, -3, .3},    {-1, -.15, 16, -3, .3},    {-1, -.15, 24, -2.8, .15}};
+
+// Luminance of type 1 to 16 along d, relative.
+double relativeLuminance(int type, Point d) {
+  const double cosZ = std::max(d.y, 1e-6);
+  if (type == 16) return (1 + 2 * cosZ) / 3;
+  const CieSky& s = kSkies[type - 1];
+  const double chi = std::acos(std::clamp(d.y * std::sin(kSunAltitude) + d.z * std::cos(kSunAltitude), -1.0, 1.0));
+  return (1 + s.a * std::exp(s.b / cosZ)) * (1 + s.c * (std::exp(s.d * chi) - std::exp(s.d * pi / 2)) + s.e * std::cos(chi) * std::cos(chi));
+}
+
+// A sky that gives kHorizontalLux, over ground of albedo kGroundAlbedo.
+class Daylight {
+ public:
+  explicit Daylight(int type) : type_(type) {
+    const auto ring = [&](double zenith) {
+      return std::sin(zenith) * std::cos(zenith) * quadrature::integral([&](double azimuth) { return relativeLuminance(type_, {std::sin(zenith) * std::sin(azimuth), std::cos(zenith), std::sin(zenith) * std::cos(azimuth)}); }, 0, 2 * pi, 8);
+    };
+    scale_ = kHorizontalLux / quadrature::integral(ring, 0, pi / 2, 32);
+  }
+  double luminance(Point d) const { return d.y > 0 ? scale_ * relativeLuminance(type_, d) : kGroundAlbedo * kHorizontalLux / pi; }
+  Sky sky() const {
+    Sky out;
+    out.image = skyImage([&](Vec3 d) { return relativeLuminance(type_, {static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)}); }, kHorizontalLux, Vec3(1),
+                         Vec3(static_cast<float>(kGroundAlbedo * kHorizontalLux / pi)));
+    out.horizonEdge = true;
+    return out;
+  }
+
+ private:
+  const int type_;
+  double scale_ = 1;
+};
+
+// 100 E / E_hz.
+Quantity percent(const std::string& place, const SurfaceElement& e, double expectedLux) { return reading(place, e, 100 / kHorizontalLux, 100 * expectedLux / kHorizontalLux); }
+
+const char* const kBasis = "luminance of the sky integrated over what is visible of the opening";
+
+// A black room with an opening of that edge in the middle of its roof.
+ValidationCase roof(int type, float edge) {
+  ValidationCase out{fmt::format("CIE 171, 5.9 {} m, sky {}", edge, type), fmt::format("roof opening of {} x {} m under CIE sky {}", edge, edge, type), "% of E_hz", kBasis, {}, {}};
+  const int black = addMaterial(out.scene, lambertian(0));
+  const float lo = 2 - edge / 2, hi = 2 + edge / 2;
+  addRoom(out.scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, black));
+  out.scene.instances.erase(out.scene.instances.begin() + 3);  // the ceiling
+  if (edge < 4) {
+    addRectangle(out.scene, {0, 3, 0}, {4, 0, 0}, {0, 0, lo}, black);
+    addRectangle(out.scene, {0, 3, hi}, {4, 0, 0}, {0, 0, 4 - hi}, black);
+    addRectangle(out.scene, {0, 3, lo}, {lo, 0, 0}, {0, 0, edge}, black);
+    addRectangle(out.scene, {hi, 3, lo}, {4 - hi, 0, 0}, {0, 0, edge}, black);
+  }
+  const Daylight day(type);
+  out.scene.sky = day.sky();
+  const double low = static_cast<double>(lo), size = static_cast<double>(edge);
+  const auto add = [&](const std::string& place, const SurfaceElement& e) {
+    out.quantities.push_back(percent(place, e, quadrature::illuminance(exact(e), {{low, 3, low}, {size, 0, 0}, {0, 0, size}}, [&](Point, Point d) { return day.luminance(d); }, 40)));
+  };
+  for (int i = 0; i < 6; ++i) add(wallName(i), wallPoint(i));
+  for (int i = 0; i < 4; ++i) add(floorName(i), floorPoint(i));
+  return out;
+}
+
+// A black room whose wall at y = 4 m has an opening of 2 x 1 m, 1 m up. Of its height the part from `low` to `high` shows the sky or the ground
+// to an element; what else `beyond` the facade shows, in the parts' order, has an even luminance.
+struct Part {
+  double low, high;
+  double luminance;  // below 0: sky and ground
+};
+using Parts = std::vector<Part> (*)(double depth, double height);  // for a point so far from the facade and so high
+
+ValidationCase facade(const std::string& name, const std::string& title, int type, const std::string& basis, void (*beyond)(Scene&), Parts parts) {
+  ValidationCase out{name, title, "% of E_hz", basis, {}, {}};
+  const int black = addMaterial(out.scene, lambertian(0));
+  addRoom(out.scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, black));
+  out.scene.instances.erase(out.scene.instances.begin() + 5);  // the facade
+  for (const auto& [x, y, w, h] : {std::array{0.0f, 0.0f, 4.0f, 1.0f}, {0.0f, 2.0f, 4.0f, 1.0f}, {0.0f, 1.0f, 1.0f, 1.0f}, {3.0f, 1.0f, 1.0f, 1.0f}}) addRectangle(out.scene, {x, y, 4}, {0, h, 0}, {w, 0, 0}, black);
+  if (beyond) beyond(out.scene);
+  const Daylight day(type);
+  out.scene.sky = day.sky();
+  const auto add = [&](const std::string& place, const SurfaceElement& e) {
+    const Point p = exact(e.position);
+    double lux = 0;
+    for (Part part : parts(4 - p.z, p.y)) {
+      part.low = std::clamp(part.low, 1.0, 2.0), part.high = std::clamp(part.high, 1.0, 2.0);
+      // Cut where the horizon is.
+      for (const auto& [from, to] : {std::pair{part.low, std::clamp(p.y, part.low, part.high)}, {std::clamp(p.y, part.low, part.high), part.high}}) {
+        if (to - from < 1e-12) continue;
+        lux += quadrature::illuminance(exact(e), {{1, from, 4}, {2, 0, 0}, {0, to - from, 0}}, [&](Point, Point d) { return part.luminance < 0 ? day.luminance(d) : part.luminance; }, 24);
+      }
+    }
+    out.quantities.push_back(percent(place, e, lux));
+  };
+  for (int i = 0; i < 6; ++i) add(wallName(i), wallPoint(i));
+  for (int i = 0; i < 8; ++i) add(floorName(i), floorPoint(i));
+  return out;
+}
+
+template <int kType>
+ValidationCase smallRoof() { return roof(kType, 1); }
+template <int kType>
+ValidationCase largeRoof() { return roof(kType, 4); }
+
+template <int kType>
+ValidationCase openFacade() {
+  return facade(fmt::format("CIE 171, 5.11 sky {}", kType), fmt::format("facade opening of 2 x 1 m under CIE sky {} over ground of albedo 0.3", kType), kType, kBasis, nullptr,
+                [](double, double) { return std::vector<Part>{{1, 2, -1}}; });
+}
+
+// Height on the facade where a line from (depth, height) meets it on its way to a point `out` beyond it and `up` high.
+double crossing(double depth, double height, double out, double up) { return height + (up - height) * depth / (depth + out); }
+
+constexpr double kShelfDepth = 1, kShelfHeight = 2.5;
+ValidationCase shelfAbove() {
+  return facade("CIE 171, 5.13", "the same under a black horizontal mask, 0.5 m above it and 1 m deep, sky 5", 5, kBasis,
+                [](Scene& scene) { addRectangle(scene, {-100, static_cast<float>(kShelfHeight), 4}, {204, 0, 0}, {0, 0, static_cast<float>(kShelfDepth)}, 0); },
+                [](double depth, double height) { return std::vector<Part>{{1, crossing(depth, height, kShelfDepth, kShelfHeight), -1}}; });
+}
+
+constexpr double kMaskDistance = 6, kMaskHeight = 4.5, kMaskLuminance = 200;
+ValidationCase maskOpposite() {
+  return facade("CIE 171, 5.14", "the same with a bright vertical mask 6 m before it, 4.5 m high, sky 5", 5, kBasis,
+                [](Scene& scene) {
+                  const int bright = addMaterial(scene, lambertian(0, static_cast<float>(kMaskLuminance)));
+                  addRectangle(scene, {-1000, 0, 4 + static_cast<float>(kMaskDistance)}, {0, static_cast<float>(kMaskHeight), 0}, {2004, 0, 0}, bright);
+                },
+                [](double depth, double height) {
+                  const double foot = crossing(depth, height, kMaskDistance, 0), top = crossing(depth, height, kMaskDistance, kMaskHeight);
+                  return std::vector<Part>{{1, foot, -1}, {foot, top, kMaskLuminance}, {top, 2, -1}};
+                });
+}
+
+}  // namespace
+
+const std::vector<MakeCase>& daylightCases() {
+  static const std::vector<MakeCase> cases = {smallRoof<1>, smallRoof<5>, smallRoof<12>, smallRoof<16>, largeRoof<3>, largeRoof<8>, largeRoof<13>, largeRoof<16>, openFacade<1>, openFacade<2>, openFacade<4>, openFacade<5>,
+                                              openFacade<6>, openFacade<7>, openFacade<9>, openFacade<10>, openFacade<11>, openFacade<14>, openFacade<15>, openFacade<16>, shelfAbove, maskOpposite};
+  return cases;
+}
+
+}  // namespace roomlight
