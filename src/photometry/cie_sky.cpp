@@ -28,7 +28,7 @@ double scattering(const Indicatrix& i, double angleRad) {
 }  // namespace
 
 SkyCover skyCover(int cieType) { return cieType <= 5 || cieType == 16 ? SkyCover::Overcast : cieType <= 10 ? SkyCover::Intermediate
-                                                                                                          : SkyCover::Clear; }
+                                                                                                           : SkyCover::Clear; }
 
 bool dependsOnSun(int cieType) { return cieType != 16 && kIndicatrix[cieType - 1].c > 0; }
 

@@ -26,9 +26,7 @@ constexpr double kSunAltitude = pi / 3;  // towards +z, where the facade looks
 struct CieSky {
   double a, b, c, d, e;
 };
-constexpr CieSky kSkies[] = {{4, -.7, 0, -1, 0},       {4, -.7, 2, -1.5, .15},    {1.1, -.8, 0, -1, 0},      {1.1, -.8, 2, -1.5, .15},  {0, -1, 0, -1, 0},
-                             {0, -1, 2, -1.5, .15},    {0, -1, 5, -2.5, .3},      {0, -1, 10, -3, .45},      {-1, -.55, 2, -1.5, .15},  {-1, -.55, 5, -2.5, .3},
-                             {-1, -.55, 10, -3, .45},  {-1, -.32, 10, -3, .45},   {-1, -.32, 16, -3, .3},    {-1, -.15, 16, -3, .3},    {-1, -.15, 24, -2.8, .15}};
+constexpr CieSky kSkies[] = {{4, -.7, 0, -1, 0}, {4, -.7, 2, -1.5, .15}, {1.1, -.8, 0, -1, 0}, {1.1, -.8, 2, -1.5, .15}, {0, -1, 0, -1, 0}, {0, -1, 2, -1.5, .15}, {0, -1, 5, -2.5, .3}, {0, -1, 10, -3, .45}, {-1, -.55, 2, -1.5, .15}, {-1, -.55, 5, -2.5, .3}, {-1, -.55, 10, -3, .45}, {-1, -.32, 10, -3, .45}, {-1, -.32, 16, -3, .3}, {-1, -.15, 16, -3, .3}, {-1, -.15, 24, -2.8, .15}};
 
 // Luminance of type 1 to 16 along d, relative.
 double relativeLuminance(int type, Point d) {
@@ -84,7 +82,8 @@ ValidationCase roof(int type, float edge) {
   out.scene.sky = day.sky();
   const double low = static_cast<double>(lo), size = static_cast<double>(edge);
   const auto add = [&](const std::string& place, const SurfaceElement& e) {
-    out.quantities.push_back(percent(place, e, quadrature::illuminance(exact(e), {{low, 3, low}, {size, 0, 0}, {0, 0, size}}, [&](Point, Point d) { return day.luminance(d); }, 40)));
+    out.quantities.push_back(percent(place, e, quadrature::illuminance(
+                                                   exact(e), {{low, 3, low}, {size, 0, 0}, {0, 0, size}}, [&](Point, Point d) { return day.luminance(d); }, 40)));
   };
   for (int i = 0; i < 6; ++i) add(wallName(i), wallPoint(i));
   for (int i = 0; i < 4; ++i) add(floorName(i), floorPoint(i));
@@ -116,7 +115,8 @@ ValidationCase facade(const std::string& name, const std::string& title, int typ
       // Cut where the horizon is.
       for (const auto& [from, to] : {std::pair{part.low, std::clamp(p.y, part.low, part.high)}, {std::clamp(p.y, part.low, part.high), part.high}}) {
         if (to - from < 1e-12) continue;
-        lux += quadrature::illuminance(exact(e), {{1, from, 4}, {2, 0, 0}, {0, to - from, 0}}, [&](Point, Point d) { return part.luminance < 0 ? day.luminance(d) : part.luminance; }, 24);
+        lux += quadrature::illuminance(
+            exact(e), {{1, from, 4}, {2, 0, 0}, {0, to - from, 0}}, [&](Point, Point d) { return part.luminance < 0 ? day.luminance(d) : part.luminance; }, 24);
       }
     }
     out.quantities.push_back(percent(place, e, lux));
@@ -142,22 +142,24 @@ double crossing(double depth, double height, double out, double up) { return hei
 
 constexpr double kShelfDepth = 1, kShelfHeight = 2.5;
 ValidationCase shelfAbove() {
-  return facade("CIE 171, 5.13", "the same under a black horizontal mask, 0.5 m above it and 1 m deep, sky 5", 5, kBasis,
-                [](Scene& scene) { addRectangle(scene, {-100, static_cast<float>(kShelfHeight), 4}, {204, 0, 0}, {0, 0, static_cast<float>(kShelfDepth)}, 0); },
-                [](double depth, double height) { return std::vector<Part>{{1, crossing(depth, height, kShelfDepth, kShelfHeight), -1}}; });
+  return facade(
+      "CIE 171, 5.13", "the same under a black horizontal mask, 0.5 m above it and 1 m deep, sky 5", 5, kBasis,
+      [](Scene& scene) { addRectangle(scene, {-100, static_cast<float>(kShelfHeight), 4}, {204, 0, 0}, {0, 0, static_cast<float>(kShelfDepth)}, 0); },
+      [](double depth, double height) { return std::vector<Part>{{1, crossing(depth, height, kShelfDepth, kShelfHeight), -1}}; });
 }
 
 constexpr double kMaskDistance = 6, kMaskHeight = 4.5, kMaskLuminance = 200;
 ValidationCase maskOpposite() {
-  return facade("CIE 171, 5.14", "the same with a bright vertical mask 6 m before it, 4.5 m high, sky 5", 5, kBasis,
-                [](Scene& scene) {
-                  const int bright = addMaterial(scene, lambertian(0, static_cast<float>(kMaskLuminance)));
-                  addRectangle(scene, {-1000, 0, 4 + static_cast<float>(kMaskDistance)}, {0, static_cast<float>(kMaskHeight), 0}, {2004, 0, 0}, bright);
-                },
-                [](double depth, double height) {
-                  const double foot = crossing(depth, height, kMaskDistance, 0), top = crossing(depth, height, kMaskDistance, kMaskHeight);
-                  return std::vector<Part>{{1, foot, -1}, {foot, top, kMaskLuminance}, {top, 2, -1}};
-                });
+  return facade(
+      "CIE 171, 5.14", "the same with a bright vertical mask 6 m before it, 4.5 m high, sky 5", 5, kBasis,
+      [](Scene& scene) {
+        const int bright = addMaterial(scene, lambertian(0, static_cast<float>(kMaskLuminance)));
+        addRectangle(scene, {-1000, 0, 4 + static_cast<float>(kMaskDistance)}, {0, static_cast<float>(kMaskHeight), 0}, {2004, 0, 0}, bright);
+      },
+      [](double depth, double height) {
+        const double foot = crossing(depth, height, kMaskDistance, 0), top = crossing(depth, height, kMaskDistance, kMaskHeight);
+        return std::vector<Part>{{1, foot, -1}, {foot, top, kMaskLuminance}, {top, 2, -1}};
+      });
 }
 
 }  // namespace

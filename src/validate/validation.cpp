@@ -75,7 +75,8 @@ ValidationSummary summary(const std::vector<ValidationRow>& rows, const std::str
 
 }  // namespace
 
-double allowedPercent(const std::string& technique) { return technique == "path" ? 1 : technique == "cone" ? 10 : 3; }
+double allowedPercent(const std::string& technique) { return technique == "path" ? 1 : technique == "cone" ? 10
+                                                                                                           : 3; }
 
 bool Validation::pass() const {
   return std::all_of(rows.begin(), rows.end(), [](const ValidationRow& r) { return r.pass; });
