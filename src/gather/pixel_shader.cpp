@@ -23,6 +23,7 @@ bool isPane(const MaterialSample& m, bool clear) { return m.roughness < kPicture
 void accumulate(MaterialSample& sum, const MaterialSample& m, float weight) {
   sum.baseColor += m.baseColor * weight, sum.emission += m.emission * weight, sum.f0 += m.f0 * weight, sum.f90 += m.f90 * weight;
   sum.alpha += m.alpha * weight, sum.metallic += m.metallic * weight, sum.roughness += m.roughness * weight, sum.transmission += m.transmission * weight;
+  sum.glazed = m.glazed;
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ PixelShader::Group* PixelShader::groupOf(const Ray& ray, const Hit& hit, std::sp
 
 MaterialSample PixelShader::meanMaterial(const Group& group, const Layer& layer, bool uniform) const {
   if (uniform) return materialAt(rays_.scene(), layer.hit[group.member[0]]);
-  MaterialSample mean{{}, 0, 0, 0, 0, {}, {}, {}};
+  MaterialSample mean{{}, 0, 0, 0, 0, {}, {}, {}, nullptr};
   for (size_t i = 0; i < group.count; ++i) accumulate(mean, materialAt(rays_.scene(), layer.hit[group.member[i]]), 1 / static_cast<float>(group.count));
   return mean;
 }

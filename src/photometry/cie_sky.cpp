@@ -17,8 +17,16 @@ struct Indicatrix {
 };
 
 // Table 1 of the standard, types 1 to 15.
-constexpr Gradation kGradation[] = {{4, -0.70}, {4, -0.70}, {1.1, -0.8}, {1.1, -0.8}, {0, -1}, {0, -1}, {0, -1}, {0, -1}, {-1, -0.55}, {-1, -0.55}, {-1, -0.55}, {-1, -0.32}, {-1, -0.32}, {-1, -0.15}, {-1, -0.15}};
-constexpr Indicatrix kIndicatrix[] = {{0, -1, 0}, {2, -1.5, 0.15}, {0, -1, 0}, {2, -1.5, 0.15}, {0, -1, 0}, {2, -1.5, 0.15}, {5, -2.5, 0.30}, {10, -3, 0.45}, {2, -1.5, 0.15}, {5, -2.5, 0.30}, {10, -3, 0.45}, {10, -3, 0.45}, {16, -3, 0.30}, {16, -3, 0.30}, {24, -2.8, 0.15}};
+// clang-format off
+constexpr Gradation kGradation[] = {
+    {4, -0.70}, {4, -0.70}, {1.1, -0.8}, {1.1, -0.8}, {0, -1}, {0, -1}, {0, -1}, {0, -1},
+    {-1, -0.55}, {-1, -0.55}, {-1, -0.55}, {-1, -0.32}, {-1, -0.32}, {-1, -0.15}, {-1, -0.15},
+};
+constexpr Indicatrix kIndicatrix[] = {
+    {0, -1, 0}, {2, -1.5, 0.15}, {0, -1, 0}, {2, -1.5, 0.15}, {0, -1, 0}, {2, -1.5, 0.15}, {5, -2.5, 0.30}, {10, -3, 0.45},
+    {2, -1.5, 0.15}, {5, -2.5, 0.30}, {10, -3, 0.45}, {10, -3, 0.45}, {16, -3, 0.30}, {16, -3, 0.30}, {24, -2.8, 0.15},
+};
+// clang-format on
 
 double scattering(const Indicatrix& i, double angleRad) {
   const double c = std::cos(angleRad);
@@ -27,8 +35,10 @@ double scattering(const Indicatrix& i, double angleRad) {
 
 }  // namespace
 
-SkyCover skyCover(int cieType) { return cieType <= 5 || cieType == 16 ? SkyCover::Overcast : cieType <= 10 ? SkyCover::Intermediate
-                                                                                                           : SkyCover::Clear; }
+SkyCover skyCover(int cieType) {
+  if (cieType <= 5 || cieType == 16) return SkyCover::Overcast;
+  return cieType <= 10 ? SkyCover::Intermediate : SkyCover::Clear;
+}
 
 bool dependsOnSun(int cieType) { return cieType != 16 && kIndicatrix[cieType - 1].c > 0; }
 
@@ -53,8 +63,8 @@ double skyHorizontalLux(SkyCover cover, double sunAltitudeRad) {
 }
 
 double sunExtinction(SkyCover cover) {
-  return cover == SkyCover::Clear ? 0.21 : cover == SkyCover::Intermediate ? 0.80
-                                                                           : std::numeric_limits<double>::infinity();
+  if (cover == SkyCover::Overcast) return std::numeric_limits<double>::infinity();
+  return cover == SkyCover::Clear ? 0.21 : 0.80;
 }
 
 }  // namespace roomlight

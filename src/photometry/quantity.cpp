@@ -18,7 +18,7 @@ constexpr Spelling kSpellings[] = {
     {"lm", Unit::Lumen, 1},           {"klm", Unit::Lumen, 1000},          {"cd", Unit::Candela, 1},           {"kcd", Unit::Candela, 1000},
     {"lx", Unit::Lux, 1},             {"lux", Unit::Lux, 1},               {"klx", Unit::Lux, 1000},           {"cd/m2", Unit::CandelaPerM2, 1},
     {"cd/m^2", Unit::CandelaPerM2, 1}, {"cd/m\u00b2", Unit::CandelaPerM2, 1}, {"nit", Unit::CandelaPerM2, 1},     {"kcd/m2", Unit::CandelaPerM2, 1000},
-    {"K", Unit::Kelvin, 1},
+    {"K", Unit::Kelvin, 1},           {"W/m2", Unit::WattPerM2, 1},         {"W/m^2", Unit::WattPerM2, 1},      {"W/m\u00b2", Unit::WattPerM2, 1},
 };
 // clang-format on
 
@@ -37,6 +37,7 @@ std::string_view unitName(Unit unit) {
     case Unit::Lux: return "lx";
     case Unit::CandelaPerM2: return "cd/m2";
     case Unit::Kelvin: return "K";
+    case Unit::WattPerM2: return "W/m2";
   }
   return "";
 }

@@ -13,9 +13,10 @@ enum class Unit {
   Lux,
   CandelaPerM2,
   Kelvin,
+  WattPerM2,
 };
 
-// "lm", "cd", "lx", "cd/m2", "K".
+// "lm", "cd", "lx", "cd/m2", "K", "W/m2".
 std::string_view unitName(Unit unit);
 
 // The number in `text`, whose unit must be `unit` ("cd/m²" and "nit" are read as cd/m2; "klx", "klm", "kcd" as thousands).

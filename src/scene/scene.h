@@ -8,6 +8,7 @@
 
 #include "base/image.h"
 #include "base/vec.h"
+#include "scene/glazing.h"
 
 namespace roomlight {
 
@@ -63,6 +64,8 @@ struct Material {
   Vec3 attenuationColor{1, 1, 1};  // KHR_materials_volume: transmittance of attenuationDistanceM of the medium
   float attenuationDistanceM = kInfinity;
   float thicknessM = 0;  // KHR_materials_volume: 0 is thin
+  Glazing glazing;       // with panes: a smooth window, set by glaze(); only baseColor, alpha and emission count beside it
+  float glazingReflectance = 0;  // glazingHemisphericalReflectance(glazing)
 };
 
 // One primitive: triangles of one material. Optional arrays are empty or as long as `positions`.

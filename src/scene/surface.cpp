@@ -153,6 +153,12 @@ MaterialSample materialAt(const Scene& scene, const Material& material, const Ve
   const Vec3 dielectric = min(material.specularColor * (r * r), Vec3(1)) * material.specular;
   m.f0 = lerp(dielectric, m.baseColor, m.metallic);
   m.f90 = Vec3(lerp(material.specular, 1.0f, m.metallic));
+  if (material.glazing.panes > 0) {
+    m.glazed = &material;
+    m.metallic = m.roughness = 0;
+    m.transmission = 1;
+    m.f0 = Vec3(glazingLight(material.glazing, 1).reflected), m.f90 = Vec3(1);
+  }
   return m;
 }
 
@@ -206,17 +212,31 @@ Vec3 bumpedNormal(const Scene& scene, const Material& material, Vec3 n, Vec3 tan
 }
 
 Vec3 bihemisphericalAlbedo(const MaterialSample& m) {
+  if (m.glazed) return Vec3(m.glazed->glazingReflectance);
   const AlbedoTerms e = ggxHemisphericalAlbedo(m.roughness);
   const Vec3 specular = m.f0 * e.scale + m.f90 * e.bias;
   const Vec3 diffuse = m.baseColor * ((1 - m.metallic) * (1 - m.transmission));
   return specular + diffuse * (1 - std::min(1.0f, maxComponent(specular)));
 }
 
-bool letsLightThrough(const Material& m) { return m.alphaMode != AlphaMode::Opaque || (m.transmission > 0 && m.metallic < 1); }
+void glaze(Material& material, const Glazing& glazing) {
+  Material window;
+  window.name = material.name;
+  window.emission = material.emission, window.emissionTexture = material.emissionTexture;
+  window.doubleSided = material.doubleSided;
+  window.ior = glazing.ior;
+  window.glazing = glazing;
+  window.glazingReflectance = glazingHemisphericalReflectance(glazing);
+  material = window;
+}
+
+bool letsLightThrough(const Material& m) { return m.glazing.panes > 0 || m.alphaMode != AlphaMode::Opaque || (m.transmission > 0 && m.metallic < 1); }
 
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta) {
   Vec3 through{0, 0, 0};
-  if (m.transmission > 0 && m.metallic < 1) {
+  if (m.glazed) {
+    through = m.baseColor * glazingLight(material.glazing, cosTheta).transmitted;
+  } else if (m.transmission > 0 && m.metallic < 1) {
     // One interface of a thin wall, as KHR_materials_transmission defines it and CIE 171 test 5.5 expects.
     const Vec3 f = fresnelSchlick(m.f0, m.f90, cosTheta);
     through = m.baseColor * (Vec3(1) - f) * (m.transmission * (1 - m.metallic));

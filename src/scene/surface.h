@@ -15,6 +15,7 @@ struct MaterialSample {
   Vec3 emission;          // luminance in cd/m²
   Vec3 f0;                // specular reflectance at normal incidence
   Vec3 f90;               // and at grazing incidence
+  const Material* glazed = nullptr;  // the scene's material, where it is a window: reflects as its glazing does, not by f0 and f90
 };
 
 // Bilinear look-up with wrapping; result in 0..1, decoded from sRGB to linear when `srgb`. w is alpha (never decoded).
@@ -58,11 +59,15 @@ Vec3 triangleTangent(const Mesh& mesh, const TextureRef& ref, uint32_t triangle,
 // voxel of this material must reflect. Light that passes straight through is not in it.
 Vec3 bihemisphericalAlbedo(const MaterialSample& m);
 
+// Makes a material a clear window, whatever it was before; what it emits stays.
+void glaze(Material& material, const Glazing& glazing);
+
 // Whether light may pass straight through somewhere on surfaces of this material: panes, veils, leaves cut out by a mask.
 bool letsLightThrough(const Material& m);
 
 // Transmittance of a thin pane along a ray that meets it under |cos theta|: base colour times what Fresnel
-// reflection on both sides leaves, times `transmission` and what alpha leaves open. Zero for an opaque surface.
+// reflection on both sides leaves, times `transmission` and what alpha leaves open; of a window what its glazing lets through.
+// Zero for an opaque surface.
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta);
 
 // The same, known to be nothing at a look at the sample.

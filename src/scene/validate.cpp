@@ -54,6 +54,10 @@ std::string checkMaterial(const Scene& scene, const Material& m) {
   for (const float v : numbers) {
     if (!std::isfinite(v)) return "a factor is not finite";
   }
+  const Glazing& g = m.glazing;
+  const bool saneGlazing = g.panes >= 0 && g.panes <= kMostGlazingPanes && g.ior >= 1 && g.ior <= 4 && g.internalTransmittance > 0 && g.internalTransmittance <= 1 &&
+                           m.glazingReflectance >= 0 && m.glazingReflectance <= 1;
+  if (!saneGlazing) return "glazing is out of range";
   const TextureRef* refs[] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture,
                               &m.transmissionTexture};
   for (const TextureRef* ref : refs) {

@@ -13,7 +13,7 @@ Bsdf::Bsdf(const MaterialSample& m, Vec3 ns, Vec3 ng, Vec3 wo)
   base_ = m.baseColor * ((1 - m.metallic) * (1 - m.transmission));
   const AlbedoTerms e = mirror_ ? AlbedoTerms{1 - schlickWeight(wo_.z), schlickWeight(wo_.z)}
                                 : ggxDirectionalAlbedo(wo_.z, roughness_);
-  specularAlbedo_ = f0_ * e.scale + f90_ * e.bias;
+  specularAlbedo_ = m.glazed ? Vec3(glazingLight(m.glazed->glazing, wo_.z).reflected) : f0_ * e.scale + f90_ * e.bias;
   const float eo = std::min(1.0f, maxComponent(specularAlbedo_));
   const AlbedoTerms mean = ggxHemisphericalAlbedo(roughness_);
   const float eMean = std::min(0.9999f, maxComponent(f0_ * mean.scale + f90_ * mean.bias));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace roomlight {
@@ -22,6 +23,30 @@ TEST(Sun, standsWhereThePublishedExamplePutsIt) {
 TEST(Sun, hasThePublishedDeclination) {
   EXPECT_NEAR(sunPosition(parseMoment("1992-10-12T23:59:02Z").value(), 90, 0).altitudeRad * kDeg, -7.78507, 0.01);
   EXPECT_NEAR(sunPosition(parseMoment("1992-10-12T23:59:02Z").value(), -90, 0).altitudeRad * kDeg, 7.78507, 0.01);
+}
+
+// By another theory: longitude of the earth from the leading terms of VSOP87, nutation, aberration and apparent sidereal time (Meeus 1998,
+// chapters 12, 22 and 25); it has the example of NREL SPA within 0.002 degrees.
+TEST(Sun, standsWhereAFinerTheoryHasIt) {
+  const struct {
+    const char* where;
+    const char* time;
+    double latitude, longitude, altitude, bearing;
+  } cases[] = {
+      {"Berlin", "2026-06-21T12:00Z", 52.52, 13.405, 59.285, 203.740},
+      {"Sydney", "2026-12-21T02:30Z", -33.8688, 151.2093, 76.799, 319.813},
+      {"Tromso, midnight sun", "2026-06-21T22:45Z", 69.6492, 18.9553, 3.086, 359.749},
+      {"Quito", "2026-03-20T18:00Z", -0.1807, -78.4678, 80.306, 271.376},
+      {"Ushuaia", "2026-01-15T21:45Z", -54.8019, -68.303, 25.272, 268.968},
+      {"Singapore", "2031-09-08T03:20Z", 1.3521, 103.8198, 64.031, 79.513},
+      {"Honolulu", "1995-02-11T21:05Z", 21.3069, -157.8583, 46.939, 142.797},
+      {"Svalbard, days before the polar night", "2040-10-20T11:00Z", 78.2232, 15.6267, 1.100, 184.380},
+  };
+  for (const auto& c : cases) {
+    const SunPosition p = sunPosition(parseMoment(c.time).value(), c.latitude, c.longitude);
+    EXPECT_NEAR(p.altitudeRad * kDeg, c.altitude, 0.02) << c.where;
+    EXPECT_NEAR(p.bearingRad * kDeg, c.bearing, 0.02 / std::cos(p.altitudeRad)) << c.where;
+  }
 }
 
 TEST(Sun, southOfTheTropicsItStandsInTheNorthAtNoon) {
