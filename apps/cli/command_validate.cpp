@@ -17,7 +17,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> techniques;
-  std::string json, html;
+  std::string only, json, html;
   int threads = 0;
   uint64_t seed = 0;
   bool brief = false, quiet = false;
@@ -53,6 +53,7 @@ int runValidate(const Options& o) {
   }
   ValidationSettings settings;
   if (!o.techniques.empty()) settings.techniques = o.techniques;
+  settings.only = o.only;
   settings.brief = o.brief;
   settings.render.seed = o.seed;
   settings.render.threads = o.threads;
@@ -63,6 +64,7 @@ int runValidate(const Options& o) {
   withThreads(o.threads, [&] { v = validateTechniques(settings, progress); });
   if (!v) return bad(v.error());
   display.report("validate", 1);
+  if (v.value().complete && v.value().rows.empty()) return bad(fmt::format("--case: no case's name holds '{}'", o.only));
   if (!o.quiet) printTable(v.value());
   if (!o.json.empty()) {
     if (const Status s = writeTextFile(o.json, validationJson(v.value())); !s) return bad(s.error(), kFailed);
@@ -80,6 +82,7 @@ Registered addValidate(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("validate", "Measure scenes whose light is known, by every technique, and judge the result");
   app->add_option("--technique", o->techniques, "Only this technique; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--case", o->only, "Only cases whose name holds this, such as 5.11");
   app->add_flag("--brief", o->brief, "Every third place, with more noise");
   app->add_option("--json", o->json, "Write all values to this file");
   app->add_option("--html", o->html, "Write a page with all values to this file");

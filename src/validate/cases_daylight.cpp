@@ -1,4 +1,4 @@
-// Daylight through openings after CIE 171:2006, 5.9, 5.11, 5.13 and 5.14. Skies are those of ISO 15469:2004, written down a second time in
+// Daylight through openings and panes after CIE 171:2006, 5.5 and 5.9 to 5.14. Skies are those of ISO 15469:2004, written down a second time in
 // double precision, so that pictures of skies, their sampling and what openings let in are all judged.
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 
 #include "photometry/sky_image.h"
 #include "scene/primitives.h"
+#include "scene/surface.h"
 #include "validate/cases.h"
 #include "validate/quadrature_of.h"
 
@@ -60,14 +61,31 @@ class Daylight {
   double scale_ = 1;
 };
 
+// 6 mm of clear glass: transmittance of a slab, s and p polarised light apart, with all reflections inside.
+constexpr double kIor = 1.52, kInternal = 0.96;
+double slab(double cosine) {
+  const double inside = std::sqrt(1 - (1 - cosine * cosine) / (kIor * kIor)), a = std::pow(kInternal, 1 / inside);
+  const auto through = [&](double r) { return (1 - r) * (1 - r) * a / (1 - r * r * a * a); };
+  const double s = (cosine - kIor * inside) / (cosine + kIor * inside), p = (kIor * cosine - inside) / (kIor * cosine + inside);
+  return (through(s * s) + through(p * p)) / 2;
+}
+
+int addGlass(Scene& scene) {
+  Material glass = lambertian(1);
+  glass.name = "glass";
+  glaze(glass, {1, static_cast<float>(kIor), static_cast<float>(kInternal)});
+  return addMaterial(scene, glass);
+}
+
 // 100 E / E_hz.
 Quantity percent(const std::string& place, const SurfaceElement& e, double expectedLux) { return reading(place, e, 100 / kHorizontalLux, 100 * expectedLux / kHorizontalLux); }
 
 const char* const kBasis = "luminance of the sky integrated over what is visible of the opening";
 
 // A black room with an opening of that edge in the middle of its roof.
-ValidationCase roof(int type, float edge) {
-  ValidationCase out{fmt::format("CIE 171, 5.9 {} m, sky {}", edge, type), fmt::format("roof opening of {} x {} m under CIE sky {}", edge, edge, type), "% of E_hz", kBasis, {}, {}};
+ValidationCase roof(int type, float edge, bool glazed = false) {
+  const std::string what = glazed ? "glazed " : "";
+  ValidationCase out{fmt::format("CIE 171, 5.{} {} m, sky {}", glazed ? "10" : "9", edge, type), fmt::format("{}roof opening of {} x {} m under CIE sky {}", what, edge, edge, type), "% of E_hz", kBasis, {}, {}};
   const int black = addMaterial(out.scene, lambertian(0));
   const float lo = 2 - edge / 2, hi = 2 + edge / 2;
   addRoom(out.scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, black));
@@ -78,12 +96,13 @@ ValidationCase roof(int type, float edge) {
     addRectangle(out.scene, {0, 3, lo}, {lo, 0, 0}, {0, 0, edge}, black);
     addRectangle(out.scene, {hi, 3, lo}, {4 - hi, 0, 0}, {0, 0, edge}, black);
   }
+  if (glazed) addRectangle(out.scene, {lo, 3, lo}, {edge, 0, 0}, {0, 0, edge}, addGlass(out.scene));
   const Daylight day(type);
   out.scene.sky = day.sky();
   const double low = static_cast<double>(lo), size = static_cast<double>(edge);
   const auto add = [&](const std::string& place, const SurfaceElement& e) {
     out.quantities.push_back(percent(place, e, quadrature::illuminance(
-                                                   exact(e), {{low, 3, low}, {size, 0, 0}, {0, 0, size}}, [&](Point, Point d) { return day.luminance(d); }, 40)));
+                                                   exact(e), {{low, 3, low}, {size, 0, 0}, {0, 0, size}}, [&](Point, Point d) { return day.luminance(d) * (glazed ? slab(d.y) : 1); }, 40)));
   };
   for (int i = 0; i < 6; ++i) add(wallName(i), wallPoint(i));
   for (int i = 0; i < 4; ++i) add(floorName(i), floorPoint(i));
@@ -98,13 +117,14 @@ struct Part {
 };
 using Parts = std::vector<Part> (*)(double depth, double height);  // for a point so far from the facade and so high
 
-ValidationCase facade(const std::string& name, const std::string& title, int type, const std::string& basis, void (*beyond)(Scene&), Parts parts) {
+ValidationCase facade(const std::string& name, const std::string& title, int type, const std::string& basis, void (*beyond)(Scene&), Parts parts, bool glazed = false) {
   ValidationCase out{name, title, "% of E_hz", basis, {}, {}};
   const int black = addMaterial(out.scene, lambertian(0));
   addRoom(out.scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, black));
   out.scene.instances.erase(out.scene.instances.begin() + 5);  // the facade
   for (const auto& [x, y, w, h] : {std::array{0.0f, 0.0f, 4.0f, 1.0f}, {0.0f, 2.0f, 4.0f, 1.0f}, {0.0f, 1.0f, 1.0f, 1.0f}, {3.0f, 1.0f, 1.0f, 1.0f}}) addRectangle(out.scene, {x, y, 4}, {0, h, 0}, {w, 0, 0}, black);
   if (beyond) beyond(out.scene);
+  if (glazed) addRectangle(out.scene, {1, 1, 4}, {2, 0, 0}, {0, 1, 0}, addGlass(out.scene));
   const Daylight day(type);
   out.scene.sky = day.sky();
   const auto add = [&](const std::string& place, const SurfaceElement& e) {
@@ -116,7 +136,7 @@ ValidationCase facade(const std::string& name, const std::string& title, int typ
       for (const auto& [from, to] : {std::pair{part.low, std::clamp(p.y, part.low, part.high)}, {std::clamp(p.y, part.low, part.high), part.high}}) {
         if (to - from < 1e-12) continue;
         lux += quadrature::illuminance(
-            exact(e), {{1, from, 4}, {2, 0, 0}, {0, to - from, 0}}, [&](Point, Point d) { return part.luminance < 0 ? day.luminance(d) : part.luminance; }, 24);
+            exact(e), {{1, from, 4}, {2, 0, 0}, {0, to - from, 0}}, [&](Point, Point d) { return (part.luminance < 0 ? day.luminance(d) : part.luminance) * (glazed ? slab(d.z) : 1); }, 24);
       }
     }
     out.quantities.push_back(percent(place, e, lux));
@@ -132,9 +152,28 @@ template <int kType>
 ValidationCase largeRoof() { return roof(kType, 4); }
 
 template <int kType>
-ValidationCase openFacade() {
-  return facade(fmt::format("CIE 171, 5.11 sky {}", kType), fmt::format("facade opening of 2 x 1 m under CIE sky {} over ground of albedo 0.3", kType), kType, kBasis, nullptr,
-                [](double, double) { return std::vector<Part>{{1, 2, -1}}; });
+ValidationCase glazedRoof() { return roof(kType, 1, true); }
+
+template <int kType, bool kGlazed>
+ValidationCase window() {
+  return facade(fmt::format("CIE 171, 5.{} sky {}", kGlazed ? 12 : 11, kType), fmt::format("{}facade opening of 2 x 1 m under CIE sky {} over ground of albedo 0.3", kGlazed ? "glazed " : "", kType), kType, kBasis, nullptr,
+                [](double, double) { return std::vector<Part>{{1, 2, -1}}; }, kGlazed);
+}
+
+// Sunlight through a pane, by its angle of incidence.
+ValidationCase clearGlass() {
+  ValidationCase out{"CIE 171, 5.5", "sunlight through 6 mm of clear glass, by angle of incidence", "% of the light before it", "slab of glass with s and p polarised light apart", {}, {}};
+  const int glass = addGlass(out.scene), black = addMaterial(out.scene, lambertian(0));
+  out.scene.suns.push_back({"sun", {0, 1, 0}, Vec3(10000), 0});
+  // A pane for each angle, all under one sun; so far apart that each meter sees its own.
+  for (int i = 0; i <= 8; ++i) {
+    const double angle = 10 * i * pi / 180;
+    const Vec3 middle{static_cast<float>(20 * i), 1, 0}, along{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0};
+    addRectangle(out.scene, middle - along * 5 - Vec3{0, 0, 5}, {0, 0, 10}, along * 10, glass);
+    addRectangle(out.scene, middle - Vec3{0.5f, 6, 0.5f}, {0, 0, 1}, {1, 0, 0}, black);
+    out.quantities.push_back(reading(fmt::format("{}°", 10 * i), {middle - Vec3{0.13f, 6, -0.21f}, {0, 1, 0}}, 0.01, 100 * slab(std::cos(angle))));
+  }
+  return out;
 }
 
 // Height on the facade where a line from (depth, height) meets it on its way to a point `out` beyond it and `up` high.
@@ -165,8 +204,8 @@ ValidationCase maskOpposite() {
 }  // namespace
 
 const std::vector<MakeCase>& daylightCases() {
-  static const std::vector<MakeCase> cases = {smallRoof<1>, smallRoof<5>, smallRoof<12>, smallRoof<16>, largeRoof<3>, largeRoof<8>, largeRoof<13>, largeRoof<16>, openFacade<1>, openFacade<2>, openFacade<4>, openFacade<5>,
-                                              openFacade<6>, openFacade<7>, openFacade<9>, openFacade<10>, openFacade<11>, openFacade<14>, openFacade<15>, openFacade<16>, shelfAbove, maskOpposite};
+  static const std::vector<MakeCase> cases = {clearGlass, smallRoof<1>, smallRoof<5>, smallRoof<12>, smallRoof<16>, largeRoof<3>, largeRoof<8>, largeRoof<13>, largeRoof<16>, glazedRoof<1>, glazedRoof<8>, glazedRoof<16>, window<1, false>, window<2, false>, window<4, false>, window<5, false>,
+                                              window<6, false>, window<7, false>, window<9, false>, window<10, false>, window<11, false>, window<14, false>, window<15, false>, window<16, false>, window<1, true>, window<5, true>, window<12, true>, window<16, true>, shelfAbove, maskOpposite};
   return cases;
 }
 

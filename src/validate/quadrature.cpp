@@ -92,7 +92,7 @@ std::vector<Radiosity> unitCube(double albedo, double exitanceOfFloor) {
   return {{{o, z, x}, albedo, exitanceOfFloor}, {{y, x, z}, albedo, 0}, {{o, y, z}, albedo, 0}, {{x, z, y}, albedo, 0}, {{o, x, y}, albedo, 0}, {{z, y, x}, albedo, 0}};
 }
 
-std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::vector<Element>& elements, int cells) {
+std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::vector<Element>& elements, int cells, const std::function<double(const Element&)>& direct) {
   struct Patch {
     Rectangle rectangle;
     Element middle;
@@ -104,7 +104,8 @@ std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::
     for (int j = 0; j < cells; ++j) {
       for (int i = 0; i < cells; ++i) {
         const Point corner = r.rectangle.corner + u * i + v * j;
-        patches.push_back({{corner, u, v}, {corner + u * 0.5 + v * 0.5, normal}, r.albedo, r.exitance});
+        const Element middle{corner + u * 0.5 + v * 0.5, normal};
+        patches.push_back({{corner, u, v}, middle, r.albedo, r.exitance + (direct ? r.albedo * direct(middle) : 0)});
       }
     }
   }

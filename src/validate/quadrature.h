@@ -51,6 +51,7 @@ std::vector<Radiosity> unitCube(double albedo, double exitanceOfFloor);
 
 // Illuminance, lx, of elements in a scene of Lambertian rectangles without obstructions, by radiosity: each rectangle is cut into cells x cells patches of even radiosity, and patches
 // light each other's middles, and the elements, by exact configuration factors.
-std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::vector<Element>& elements, int cells);
+// `direct`, where there is one, is light on the middles of patches from elsewhere: what they reflect of it reaches the elements, itself it does not.
+std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::vector<Element>& elements, int cells, const std::function<double(const Element&)>& direct = {});
 
 }  // namespace roomlight::quadrature

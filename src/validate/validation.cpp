@@ -88,6 +88,10 @@ Result<Validation> validateTechniques(const ValidationSettings& settings, const 
   size_t done = 0;
   for (const MakeCase make : cases) {
     ValidationCase of = make();
+    if (of.name.find(settings.only) == std::string::npos) {
+      done += settings.techniques.size();
+      continue;
+    }
     if (settings.brief) {
       std::vector<Quantity> few;
       for (size_t i = 0; i < of.quantities.size(); i += 3) few.push_back(std::move(of.quantities[i]));

@@ -36,6 +36,7 @@ struct Validation {
 
 struct ValidationSettings {
   std::vector<std::string> techniques = {"path", "hybrid", "cone"};
+  std::string only;       // cases whose name holds this
   bool brief = false;     // every third place, less certain meters: a quick look
   RenderSettings render;  // technique is overruled
 };
