@@ -14,109 +14,16 @@
 #include "base/image_io.h"
 #include "import/json_file.h"
 #include "import/json_reader.h"
-#include "photometry/colour_temperature.h"
-#include "photometry/spot.h"
+#include "import/lighting_json.h"
+#include "import/lighting_lamps.h"
 #include "photometry/sun.h"
 
 namespace roomlight {
 namespace {
 
-constexpr double kMostLight = 1e12;      // of any unit; keeps squares finite in floats
-constexpr double kFarthestM = 1e6;
+using namespace importers;
+
 constexpr size_t kMostLamps = 100'000;
-
-double rad(double degrees) { return degrees * kPi / 180; }
-
-Vec3 direction(const JsonPlace& j) {
-  const Vec3 v = j.vector(-kFarthestM, kFarthestM);
-  const float l = length(v);
-  if (l > 1e-6f) return v / l;
-  j.fail("must not be zero");
-  return {0, -1, 0};
-}
-
-// Colour of luminance 1: white, a colour temperature, or the given linear Rec.709 scaled.
-Vec3 colour(const JsonPlace& j) {
-  if (j.has("temperature") && j.has("color")) j.fail("give 'temperature' or 'color', not both");
-  if (j.has("temperature")) return blackBodyColour(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
-  if (!j.has("color")) return Vec3(1);
-  const Vec3 c = j["color"].vector(0, kMostLight);
-  if (luminance(c) >= 1e-6f) return c / luminance(c);
-  j["color"].fail("must not be black");
-  return Vec3(1);
-}
-
-// Exactly one of the keys must be there.
-std::string theOne(const JsonPlace& j, std::initializer_list<const char*> keys) {
-  std::string found, all;
-  int count = 0;
-  for (const char* key : keys) {
-    all += (all.empty() ? "" : ", ") + std::string(key);
-    if (j.has(key)) found = key, ++count;
-  }
-  if (count != 1) j.fail(fmt::format("give exactly one of {}", all));
-  return count == 1 ? found : std::string();
-}
-
-void readSpot(const JsonPlace& j, Lamp& lamp) {
-  lamp.direction = direction(j["direction"]);
-  const double outer = j.number("outerCone", 0.5, 90, 45), inner = j.number("innerCone", 0, 90, 0);
-  if (inner > outer) j["innerCone"].fail("must not be larger than outerCone");
-  lamp.outerConeRad = static_cast<float>(rad(outer));
-  lamp.innerConeRad = static_cast<float>(rad(inner));
-}
-
-void readArea(const JsonPlace& j, Lamp& lamp) {
-  lamp.direction = direction(j["direction"]);
-  lamp.widthM = static_cast<float>(j["width"].number(1e-4, 1000));
-  lamp.heightM = static_cast<float>(j["height"].number(1e-4, 1000));
-  Vec3 up = j.has("up") ? direction(j["up"]) : std::abs(lamp.direction.y) < 0.99f ? Vec3{0, 1, 0}
-                                                                                  : Vec3{0, 0, -1};
-  up -= lamp.direction * dot(up, lamp.direction);
-  if (length(up) < 1e-3f) {
-    j["up"].fail("must not point along 'direction'");
-    return;
-  }
-  lamp.up = normalize(up);
-}
-
-Lamp readLamp(const JsonPlace& j, size_t number) {
-  Lamp lamp;
-  if (!j.isObject({"name", "type", "position", "direction", "up", "flux", "intensity", "luminance", "temperature", "color", "innerCone", "outerCone", "width", "height"})) return lamp;
-  lamp.name = j.text("name", fmt::format("lamp {}", number + 1));
-  lamp.position = j["position"].vector(-kFarthestM, kFarthestM);
-  const Vec3 c = colour(j);
-  const std::string type = j["type"].oneOf({"point", "spot", "area"});
-  const auto forbid = [&](std::initializer_list<const char*> keys) {
-    for (const char* key : keys) {
-      if (j.has(key)) j[key].fail(fmt::format("means nothing for a lamp of type {}", type));
-    }
-  };
-  if (type == "area") {
-    lamp.kind = LampKind::Area;
-    forbid({"intensity", "innerCone", "outerCone"});
-    readArea(j, lamp);
-    const std::string unit = theOne(j, {"flux", "luminance"});
-    const double area = static_cast<double>(lamp.widthM) * lamp.heightM;
-    if (unit == "flux") lamp.luminanceCdM2 = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / (kPi * std::max(area, 1e-8)));
-    if (unit == "luminance") lamp.luminanceCdM2 = c * static_cast<float>(j["luminance"].quantity(Unit::CandelaPerM2, 0, kMostLight));
-    if (luminance(lamp.luminanceCdM2) > 1.001 * kMostLight) j["flux"].fail("is more than 1e12 cd/m2 on so small an area");
-    return lamp;
-  }
-  forbid({"luminance", "width", "height", "up"});
-  double fluxPerCandela = 4 * kPi;
-  if (type == "spot") {
-    lamp.kind = LampKind::Spot;
-    readSpot(j, lamp);
-    fluxPerCandela = spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
-  } else {
-    forbid({"direction", "innerCone", "outerCone"});
-  }
-  const std::string unit = theOne(j, {"flux", "intensity"});
-  if (unit == "flux") lamp.intensityCd = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / fluxPerCandela);
-  if (unit == "intensity") lamp.intensityCd = c * static_cast<float>(j["intensity"].quantity(Unit::Candela, 0, kMostLight));
-  return lamp;
-}
 
 // By direction with its illuminance, or by place and time under a clear sky. Below the horizon there is no sun.
 Sun readSun(const JsonPlace& j) {
