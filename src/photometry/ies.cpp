@@ -75,19 +75,12 @@ std::pair<size_t, std::string> readHeader(const std::vector<Line>& lines, const 
   damage(lines.empty() ? 1 : lines.back().number, "there is no line TILT=; this is no IES file, or it is cut short");
 }
 
-void checkAscending(const std::vector<double>& angles, size_t line, const char* what, double low, double high) {
-  for (size_t i = 0; i < angles.size(); ++i) {
-    if (angles[i] < low - kAngleSlackDeg || angles[i] > high + kAngleSlackDeg) damage(line, fmt::format("{} {} is not between {} and {}", what, angles[i], low, high));
-    if (i > 0 && angles[i] <= angles[i - 1]) damage(line, fmt::format("{}s must ascend, but {} follows {}", what, angles[i], angles[i - 1]));
-  }
-}
-
 // How the lamp stands in the luminaire, angles, and what part of the flux is left at each.
 void readTiltTable(Words& words, PhotometricWeb& web) {
   words.number("the lamp-to-luminaire geometry of TILT");
   const size_t count = words.count("the number of tilt angles", kMostAngles);
-  const std::vector<double> angles = words.numbers(count, "tilt angles");
-  checkAscending(angles, words.lineNumber(), "tilt angle", 0, 180);
+  std::vector<double> angles = words.numbers(count, "tilt angles");
+  checkAngles(angles, words.lineNumber(), "tilt angle", 0, 180);
   for (const double a : angles) web.tiltRad.push_back(static_cast<float>(a * kPi / 180));
   for (const double f : words.numbers(count, "tilt factors")) {
     if (f < 0 || f > 10) damage(words.lineNumber(), fmt::format("tilt factor {} is not between 0 and 10", f));
@@ -169,10 +162,10 @@ void readWeb(Words& words, const Edition& edition, PhotometricWeb& web, Oddities
 
   Planes planes;
   planes.inPlaneDeg = words.numbers(vertical, "vertical angles");
-  checkAscending(planes.inPlaneDeg, words.lineNumber(), "vertical angle", type == 1 ? 0 : -90, type == 1 ? 180 : 90);
+  checkAngles(planes.inPlaneDeg, words.lineNumber(), "vertical angle", type == 1 ? 0 : -90, type == 1 ? 180 : 90);
   planes.angleDeg = words.numbers(horizontal, "horizontal angles");
   planes.line = words.lineNumber();
-  checkAscending(planes.angleDeg, planes.line, "horizontal angle", type == 1 ? -90 : -180, type == 1 ? 360 : 180);
+  checkAngles(planes.angleDeg, planes.line, "horizontal angle", type == 1 ? -90 : -180, type == 1 ? 360 : 180);
   if (horizontal * vertical > words.left()) damage(words.lineNumber(), fmt::format("{} intensities should follow, but the file is too short", horizontal * vertical));
   planes.candela = readCandela(words, horizontal, vertical, factor, odd);
   if (!words.atEnd()) odd.add("goes on after the last intensity; the rest is ignored");

@@ -51,6 +51,15 @@ std::vector<double> between(const Plane& a, const Plane& b, double t) {
 
 }  // namespace
 
+void checkAngles(std::vector<double>& angles, size_t line, const std::string& what, double low, double high) {
+  constexpr double kSlackDeg = 0.01;
+  for (size_t i = 0; i < angles.size(); ++i) {
+    if (angles[i] < low - kSlackDeg || angles[i] > high + kSlackDeg) damage(line, fmt::format("{} {} is not between {} and {}", what, angles[i], low, high));
+    angles[i] = std::clamp(angles[i], low, high);
+    if (i > 0 && angles[i] - angles[i - 1] < kSameDeg) damage(line, fmt::format("{}s must ascend, but {} follows {}", what, angles[i], angles[i - 1]));
+  }
+}
+
 void fillWeb(Planes planes, Symmetry symmetry, PhotometricWeb& web, Oddities& odd) {
   web.cRad.clear(), web.gammaRad.clear(), web.candela.clear();
   for (const double g : planes.inPlaneDeg) web.gammaRad.push_back(static_cast<float>(rad(g)));

@@ -24,6 +24,9 @@ enum class Symmetry {
   Quadrants,   // about both
 };
 
+// Angles must lie between low and high, or up to 0.01 degrees beyond, and ascend by 0.001 or more; fails with what they are.
+void checkAngles(std::vector<double>& anglesDeg, size_t line, const std::string& what, double lowDeg, double highDeg);
+
 // Planes to all of the circle. Planes in wrong order, a missing C0 and one that is written twice are oddities.
 void fillWeb(Planes planes, Symmetry symmetry, PhotometricWeb& web, Oddities& odd);
 

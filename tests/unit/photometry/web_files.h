@@ -48,4 +48,31 @@ struct IesText {
   }
 };
 
+// An EULUMDAT file; `planes` is the whole circle, of which only what the symmetry leaves is written.
+struct LdtText {
+  int symmetry = 1;
+  std::string name = "test", lamps = "1";
+  double lumens = 1000, ratioPercent = 100, factor = 1, lengthMm = 0, widthMm = 0;
+  std::vector<double> planes = steps(0, 345, 15), gammas = steps(0, 90, 5);
+  Intensity candelaPerKlm = [](double, double g) { return 1000 / std::numbers::pi * std::cos(radians(g)); };
+
+  std::string text() const {
+    std::string out = fmt::format("Roomlight\r\n1\r\n{}\r\n{}\r\n15\r\n{}\r\n5\r\nreport\r\n{}\r\n7\r\ntest.ldt\r\ntoday\r\n", symmetry, planes.size(), gammas.size(), name);
+    out += fmt::format("1300\r\n200\r\n90\r\n{}\r\n{}\r\n0\r\n0\r\n0\r\n0\r\n100\r\n{}\r\n{}\r\n0\r\n1\r\n", lengthMm, widthMm, ratioPercent, factor);
+    out += fmt::format("{}\r\nLED\r\n{}\r\n3000 K\r\n80\r\n11\r\n", lamps, lumens);
+    const auto lines = [&](const std::vector<double>& values) {
+      for (const double v : values) out += fmt::format("{:.9g}\r\n", v);
+    };
+    lines(std::vector<double>(10, 0.5)), lines(planes), lines(gammas);
+    const size_t n = planes.size();
+    const size_t written = symmetry == 0 ? n : symmetry == 1 ? 1
+                                           : symmetry == 4   ? n / 4 + 1
+                                                             : n / 2 + 1;
+    for (size_t k = 0; k < written; ++k) {
+      for (const double g : gammas) lines({candelaPerKlm(planes[(k + (symmetry == 3 ? 3 * n / 4 : 0)) % n], g)});
+    }
+    return out;
+  }
+};
+
 }  // namespace roomlight::testing
