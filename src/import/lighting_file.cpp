@@ -1,6 +1,6 @@
 // Lighting files, version 1 (docs/formats/lighting.md):
 //   { "scene": { "lamps": "keep"|"off", "suns": .., "sky": .., "emission": "keep"|"off"|factor },
-//     "lamps": [ { "type": "point"|"spot"|"area", "position": [x,y,z], "flux"|"intensity"|"luminance": "800 lm", .. } ],
+//     "lamps": [ { "type": "point"|"spot"|"area"|"photometric", "position": [x,y,z], "flux"|"intensity"|"luminance": "800 lm", .. } ],
 //     "sun": { "direction": [x,y,z], "illuminance": "75000 lx" } or { "latitude", "longitude", "time" } or a list of them,
 //     "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" | "horizontalIlluminance": "10 klx" } }
 #include "import/lighting_file.h"
@@ -151,7 +151,7 @@ struct Lighting {
   std::optional<Sky> sky;
 };
 
-Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder) {
+Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder, PhotometricFiles& files) {
   Lighting out;
   if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky"})) return out;
   if (root.has("version") && root["version"].number(1, 1e6) != 1) root["version"].fail("must be 1");
@@ -161,7 +161,7 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
     const JsonPlace lamps = root["lamps"];
     const size_t count = lamps.arraySize();
     if (count > kMostLamps) lamps.fail(fmt::format("more than {} lamps", kMostLamps));
-    for (size_t i = 0; i < std::min(count, kMostLamps); ++i) out.lamps.push_back(readLamp(lamps[i], i));
+    for (size_t i = 0; i < std::min(count, kMostLamps); ++i) out.lamps.push_back(readLamp(lamps[i], i, folder, files));
   }
   if (root.has("sun")) {
     const JsonPlace sun = root["sun"];
@@ -197,16 +197,18 @@ void apply(Lighting& lighting, Scene& scene) {
 
 }  // namespace
 
-Status applyLightingFile(const std::filesystem::path& file, Scene& scene) {
+Status applyLightingFile(const std::filesystem::path& file, Scene& scene, std::vector<std::string>* warnings) {
   const Result<nlohmann::json> json = readJsonFile(file);
   if (!json) return Error{json.error()};
   std::string error;
-  Lighting lighting = readLighting(JsonPlace(json.value(), "", error), file.parent_path());
+  PhotometricFiles files;
+  Lighting lighting = readLighting(JsonPlace(json.value(), "", error), file.parent_path(), files);
   if (!error.empty()) return Error{fmt::format("{}: {}", file.string(), error)};
   if (!emissionStaysInRange(scene, lighting.kept.emission)) {
     return Error{fmt::format("{}: scene.emission: would make a material brighter than 1e12 cd/m2", file.string())};
   }
   apply(lighting, scene);
+  if (warnings) warnings->insert(warnings->end(), files.warnings().begin(), files.warnings().end());
   return Ok{};
 }
 
