@@ -21,6 +21,13 @@ struct Options {
 
 Json vector(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
+// Of the luminaire as it is here: dimmed, tilted, with another flux.
+Json webJson(const Lamp& lamp) {
+  const PhotometricWeb& web = *lamp.web;
+  const double part = static_cast<double>(luminance(lamp.intensityCd) / web.peakCd);
+  return {{"name", web.name}, {"manufacturer", web.manufacturer}, {"format", web.format}, {"fluxLm", web.fluxLm * part}, {"fileFluxLm", web.fluxLm}, {"statedFluxLm", web.statedFluxLm}, {"watts", web.watts}, {"openingM", {web.sizeC0M, web.sizeC90M}}, {"round", web.round}, {"as", lamp.extended ? "area" : "point"}};
+}
+
 Json lampJson(const Lamp& lamp) {
   Json j = {{"name", lamp.name}};
   if (lamp.kind == LampKind::Area) {
@@ -32,6 +39,7 @@ Json lampJson(const Lamp& lamp) {
     j["kind"] = lamp.kind == LampKind::Spot ? "spot" : "point";
     j["intensityCd"] = luminance(lamp.intensityCd);
   }
+  if (lamp.web) j["kind"] = "photometric", j["web"] = webJson(lamp);
   j["positionM"] = vector(lamp.position);
   return j;
 }
@@ -79,6 +87,12 @@ void printTable(const Json& j) {
              high[1] - low[1], high[2] - low[2], low[0], low[1], low[2], high[0], high[1], high[2]);
   fmt::print("{:<18} {}\n", "lamps", j["lamps"].size());
   for (const Json& lamp : j["lamps"]) {
+    if (lamp["kind"] == "photometric") {
+      const Json& web = lamp["web"];
+      fmt::print("  photometric {}: {:.6g} lm, peak {:.6g} cd, as {}; {}, {}\n", shown(lamp["name"]), web["fluxLm"].get<double>(), lamp["intensityCd"].get<double>(),
+                 web["as"].get<std::string>(), web["format"].get<std::string>(), shown(web["name"]));
+      continue;
+    }
     const bool area = lamp["kind"] == "area";
     fmt::print("  {} {}: {}\n", lamp["kind"].get<std::string>(), shown(lamp["name"]),
                area ? fmt::format("{:.6g} cd/m2, {:.6g} lm", lamp["luminanceCdM2"].get<double>(), lamp["fluxLm"].get<double>())

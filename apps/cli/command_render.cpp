@@ -240,7 +240,7 @@ Result<Home> loadHome(const Options& o) {
   if (!imported) return Error{imported.error()};
   Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
   if (!o.lighting.empty()) {
-    if (const Status s = applyLightingFile(o.lighting, home.scene); !s) return Error{s.error()};
+    if (const Status s = applyLightingFile(o.lighting, home.scene, &home.warnings); !s) return Error{s.error()};
   }
   const Result<Camera> camera = pickCamera(home.scene, o.camera);
   if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};

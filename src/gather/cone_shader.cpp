@@ -87,7 +87,7 @@ Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, i
     sum.add(f, light.radiance * visible(s, light, f, count) * weight);
   };
   if (lights_.lampCount() + lights_.sunCount() > sharp_.count()) {
-    for (int k = 0; k < kLampSamples; ++k) take(lights_.sampleLamps(s.p, sampler.next1()), 1, 1.0f / kLampSamples);
+    for (int k = 0; k < kLampSamples; ++k) take(lights_.sampleLamps(s.p, sampler), 1, 1.0f / kLampSamples);
   }
   if (lights_.hasEmitters()) {
     const float choice = sampler.next1();

@@ -42,10 +42,10 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
     if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), light), sum);
   };
   if (v.first) {
-    if (sampleLamps_) take(lights_.sampleLamps(v.s.p, sampler.next1()));
+    if (sampleLamps_) take(lights_.sampleLamps(v.s.p, sampler));
   } else {
     if (lights_.lampCount() > 0) {
-      const LightSample lamp = lights_.sampleLamps(v.s.p, sampler.next1());
+      const LightSample lamp = lights_.sampleLamps(v.s.p, sampler);
       if (v.seenClearly || !isBeside(v.s.p, lamp)) take(lamp);
     }
     for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
@@ -63,12 +63,7 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
 // Whether p lies in the surroundings of the lamp sampled from there: what surfaces reflect of its light is in the cache and in
 // LampGlow, and is not found a second time by paths that go on.
 bool RayScatter::isBeside(Vec3 p, const LightSample& lamp) const {
-  if (!lamp.valid()) return false;
-  const Vec3 at = p + lamp.wi * lamp.distance;
-  for (size_t i = 0; i < surroundings_.size(); ++i) {
-    if (lengthSquared(lights_.lamp(i).position - at) < 1e-6f && surroundings_[i].contains(p)) return true;
-  }
-  return false;
+  return lamp.valid() && surroundings_[static_cast<size_t>(lamp.lamp)].contains(p);
 }
 
 // Light that surfaces near lamps reflect, as far as gathering rays leave it to LampGlow's points.

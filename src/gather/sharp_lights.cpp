@@ -18,9 +18,9 @@ Vec3 background(const Lights& lights, Vec3 direction) {
 
 Ray shadowRay(Vec3 p, const LightSample& light) { return {p, light.wi, 0, light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity}; }
 
-SharpLights::SharpLights(const RayScene& rays, const Lights& lights) : rays_(rays), lights_(lights), lamps_(lights.lampCount() <= kAllLamps ? lights.lampCount() : 0) {}
+SharpLights::SharpLights(const RayScene& rays, const Lights& lights) : rays_(rays), lights_(lights), lamps_(lights.lampCount() <= kAllLamps && !lights.hasExtendedLamps() ? lights.lampCount() : 0) {}
 
-LightSample SharpLights::sample(size_t light, Vec3 p, Vec2 u) const { return light < lamps_ ? lights_.sampleLamp(light, p) : lights_.sampleSun(light - lamps_, u); }
+LightSample SharpLights::sample(size_t light, Vec3 p, Vec2 u) const { return light < lamps_ ? lights_.sampleLamp(light, p, u) : lights_.sampleSun(light - lamps_, u); }
 
 Shadow SharpLights::shadow(size_t light, std::span<const Vec3> points, std::span<const Vec2> u) const {
   std::array<Ray, kMostPoints> rays;

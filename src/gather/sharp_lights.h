@@ -29,7 +29,7 @@ class SharpLights {
  private:
   const RayScene& rays_;
   const Lights& lights_;
-  size_t lamps_;  // 0 where they are so many that a few have to be chosen by importance
+  size_t lamps_;  // 0 where they are so many that a few have to be chosen by importance, or where one is extended: its shadows are not
 };
 
 // What a ray sees that meets no surface, cd/m².

@@ -16,6 +16,8 @@ Result<Imported> importGltf(const std::filesystem::path& file, const ImportOptio
     const auto primitivesOfMesh = importers::addGltfMeshes(*document, options.maxTriangles, imported.scene);
     importers::addGltfNodes(*document, primitivesOfMesh, options.maxTriangles, imported.scene);
     imported.warnings = document->warnings.lines();
+    const auto& odd = document->photometric.warnings();
+    imported.warnings.insert(imported.warnings.end(), odd.begin(), odd.end());
     return imported;
   });
 }

@@ -9,6 +9,7 @@
 
 #include "import/file_access.h"
 #include "import/gltf_json.h"
+#include "import/photometric_file.h"
 #include "import/warnings.h"
 
 namespace roomlight::importers {
@@ -38,6 +39,7 @@ struct GltfDocument {
   std::vector<BufferView> views;
   ElementBudget budget;
   Warnings warnings;
+  PhotometricFiles photometric;
 
   Json root() const { return Json(json, ""); }
 };

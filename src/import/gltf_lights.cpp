@@ -1,6 +1,12 @@
 #include "import/gltf_lights.h"
 
+#include <fmt/format.h>
+
+#include <cctype>
 #include <cmath>
+
+#include "import/failure.h"
+#include "import/photometric_file.h"
 
 namespace roomlight::importers {
 namespace {
@@ -10,6 +16,14 @@ constexpr float kBrightest = 1e12f;
 std::string nameOf(const Json& thing, const std::string& nodeName) {
   const std::string name = thing.name();
   return name.empty() ? nodeName : name;
+}
+
+// "spot.ies", also where a modelling program has numbered copies: "spot.ies.002".
+std::string photometricName(const std::string& nodeName) {
+  std::string name = nodeName;
+  const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  if (const size_t n = name.size(); n > 4 && name[n - 4] == '.' && isDigit(name[n - 3]) && isDigit(name[n - 2]) && isDigit(name[n - 1])) name.resize(n - 4);
+  return isPhotometric(name) ? name : "";
 }
 
 }  // namespace
@@ -67,6 +81,47 @@ void addGltfLight(const GltfDocument& document, const Json& extension, const std
   } else if (type != "point") {
     in.at("type").fail("is none of point, spot and directional");
   }
+  scene.lamps.push_back(lamp);
+}
+
+void addGltfLuminaire(GltfDocument& document, const Json& node, const Affine& world, Scene& scene) {
+  const auto extras = node.find("extras");
+  const auto ours = extras && extras->raw().is_object() ? extras->find("roomlight") : std::nullopt;
+  std::string name = ours ? ours->at("ies").text() : photometricName(node.name());
+  if (name.empty()) return;
+  double fluxLm = -1, factor = 1;
+  LampSize size = LampSize::AsStated;
+  if (ours) {
+    for (const auto& [key, value] : ours->raw().items()) {
+      if (key != "ies" && key != "fluxLm" && key != "dimming" && key != "lightLossFactor" && key != "as") ours->fail(fmt::format("the key '{}' is unknown", printable(key)));
+    }
+    if (ours->find("fluxLm")) fluxLm = static_cast<double>(ours->number("fluxLm", 0, 0, kBrightest));
+    factor = static_cast<double>(ours->number("dimming", 1, 0, 1) * ours->number("lightLossFactor", 1, 1e-6f, 1));
+    const std::string as = ours->text("as");
+    if (!as.empty() && as != "point" && as != "area") ours->at("as").fail("is neither point nor area");
+    size = as == "point" ? LampSize::Point : as == "area" ? LampSize::Area
+                                                          : LampSize::AsStated;
+  }
+  const std::string place = ours ? ours->at("ies").path() : node.path();
+  std::filesystem::path file;
+  try {
+    file = pathInside(document.folder, name, place);
+  } catch (const Failure&) {
+    if (ours) throw;
+  }
+  std::error_code code;
+  if (!ours && !std::filesystem::is_regular_file(file, code)) return document.warnings.add(fmt::format("the luminaire '{}' is left out: there is no such file beside the scene", printable(name)));
+  const Result<PhotometricFiles::Web> web = document.photometric.read(file);
+  if (!web) fail(place, fmt::format("'{}': {}", printable(name), web.error()));
+  if (size == LampSize::Area && !web.value()->hasOpening()) fail(place, "the file states no luminous opening; 'as' must be point");
+  Lamp lamp;
+  lamp.name = node.name().empty() ? name : node.name();
+  lamp.position = world.w;
+  lamp.direction = -normalize(world.z);
+  lamp.up = perpendicular(normalize(world.y), lamp.direction);
+  if (isBlack(lamp.up)) fail(place, "the node's transform leaves no direction for C0");
+  setWeb(lamp, web.value(), size, Vec3(1), fluxLm, factor);
+  if (!(luminance(lamp.intensityCd) <= 1.001f * kBrightest)) fail(place, "an intensity is above 1e12 cd");
   scene.lamps.push_back(lamp);
 }
 

@@ -1,4 +1,4 @@
-// Cameras and KHR_lights_punctual lights of a glTF file.
+// Cameras, KHR_lights_punctual lights and photometric luminaires of a glTF file.
 #pragma once
 
 #include <string>
@@ -12,5 +12,8 @@ namespace roomlight::importers {
 Camera readGltfCamera(const Json& camera, const std::string& nodeName, const Affine& world);
 // `extension` is that of the node; adds a lamp, or a sun for a directional light.
 void addGltfLight(const GltfDocument& document, const Json& extension, const std::string& nodeName, const Affine& world, Scene& scene);
+// Where the node's extras hold {"roomlight": {"ies": file, ..}}, or its name is that of a photometric file beside the scene: nadir along its
+// -z, C0 along its +y.
+void addGltfLuminaire(GltfDocument& document, const Json& node, const Affine& world, Scene& scene);
 
 }  // namespace roomlight::importers

@@ -58,6 +58,7 @@ class Walker {
       scene_.cameras.push_back(readGltfCamera(cameras[static_cast<size_t>(camera)], node.name(), world));
     }
     if (const auto e = node.extension("KHR_lights_punctual")) addGltfLight(document_, *e, node.name(), world, scene_);
+    addGltfLuminaire(document_, node, world, scene_);
     const Json children = node.list("children");
     for (size_t i = 0; i < children.size(); ++i) visit(children[i], world, depth + 1);
   }

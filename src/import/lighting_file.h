@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "scene/scene.h"
@@ -11,7 +12,8 @@ namespace roomlight {
 
 // Reads the file and applies it to the scene: adds its lamps (Area lamps as emissive meshes too), suns and sky; where
 // the file says so, switches off lights and emissive materials that the scene already has. Unknown keys, wrong types,
-// missing units and values out of range are errors that name the file and the JSON path. The scene is untouched then.
-Status applyLightingFile(const std::filesystem::path& file, Scene& scene);
+// missing units and values out of range are errors that name the file and the JSON path. The scene is untouched then. What was odd in
+// photometric files goes to `warnings`, one line each.
+Status applyLightingFile(const std::filesystem::path& file, Scene& scene, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace roomlight

@@ -131,17 +131,16 @@ bool DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> 
   Lamp unit = lamp;
   unit.intensityCd = Vec3(1);
   const LampSurroundings around(lamp, voxels_.voxelSizeM);
-  const auto sample = [&](size_t s, uint32_t, Vec3 p) {
-    LightSample out;
-    const Vec3 d = lamp.position - p;
-    if (dot(d, voxels_.slots[s].normal) <= 0 || around.contains(voxels_.slots[s].position)) return out;
-    out.distance = length(d);
-    out.wi = d / out.distance;
-    out.radiance = lampIntensity(unit, -out.wi) / (out.distance * out.distance);
-    return out;
+  const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
+    if (around.contains(voxels_.slots[s].position)) return LightSample{};
+    if (!lamp.extended) return sampleLamp(unit, p, {});
+    Sampler sampler(paths_.key(s), k, settings_.seed + 5);
+    return sampleLamp(unit, p, sampler.next2());
   };
-  if (!near.empty() && !anyCrosses(brick, perDelta(), near, sample)) return false;
-  trace(brick, {1, perDelta()}, lux, sample);
+  const auto soft = static_cast<uint32_t>(settings_.directSamples);
+  const Samples samples = lamp.extended ? Samples{(soft + 1) / 2, soft} : Samples{1, perDelta()};
+  if (!near.empty() && !anyCrosses(brick, samples.most, near, sample)) return false;
+  trace(brick, samples, lux, sample);
   return true;
 }
 

@@ -15,7 +15,8 @@ constexpr float kUnseen = 1e12f;   // cd/m²: of glow that no voxel shows, so th
 constexpr size_t kDarkLamps = 16;  // kept
 
 bool sameLight(const Lamp& a, const Lamp& b) {
-  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad;
+  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad &&
+         a.web == b.web && (!a.web || (a.up == b.up && a.extended == b.extended));
 }
 
 // Reports from one thread at a time.
@@ -206,7 +207,7 @@ void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
 std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) const {
   float fluxLm = 0;
   for (const LampLight& l : lamps_) {
-    if (!l.particles.points.empty()) fluxLm += luminance(l.lamp.intensityCd) * unitFluxLm(l.lamp);
+    if (!l.particles.points.empty()) fluxLm += luminance(l.lamp.intensityCd) * l.particles.fluxPerCandela;
   }
   std::vector<GlowPoint> points;
   float carry = 0.5f;

@@ -17,12 +17,9 @@ constexpr int kMostReflections = 64;
 constexpr float kNarrow = 0.5f;      // rad
 constexpr float kNarrowVoxels = 8;  // radius of a disc of light
 
-// Part of the directions a lamp shines into, as 1 - cos of its cone.
-float extent(const Lamp& lamp) {
-  if (lamp.kind == LampKind::Point) return 2;
-  const float s = std::sin(0.5f * lamp.outerConeRad);
-  return 2 * s * s;
-}
+// Half-angle that holds most light of a lamp that has a beam.
+float beamRad(const Lamp& lamp) { return lamp.web ? beamHalfAngleRad(*lamp.web) : lamp.kind == LampKind::Spot ? lamp.outerConeRad
+                                                                                                              : kPi; }
 
 // The same random numbers for a lamp whatever others there are.
 uint64_t keyOf(const Lamp& lamp) {
@@ -49,16 +46,14 @@ struct Trail {
 class Particles {
  public:
   Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Lamp& lamp, size_t count, const RadianceSettings& settings)
-      : rays_(rays), voxels_(voxels), paths_(paths), lamp_(lamp), count_(count), settings_(settings), around_(lamp, voxels.voxelSizeM), key_(keyOf(lamp)), pointLm_(unitFluxLm(lamp) / std::min(kGlowPoints, static_cast<float>(count))) {}
+      : rays_(rays), voxels_(voxels), paths_(paths), lamp_(lamp), count_(count), settings_(settings), around_(lamp, voxels.voxelSizeM), key_(keyOf(lamp)), directions_(lamp), pointLm_(directions_.fluxPerCandela() / std::min(kGlowPoints, static_cast<float>(count))) {}
 
   const LampSurroundings& around() const { return around_; }
+  float fluxPerCandela() const { return directions_.fluxPerCandela(); }
 
   // All of a chunk step by step together, so that they can be traced together.
   Trail trace(size_t chunk) const {
     Trail trail;
-    trail.way.add(lamp_.position);
-    const Frame frame(lamp_.kind == LampKind::Point ? Vec3{0, 0, 1} : lamp_.direction);
-    const float steradiansEach = 2 * kPi * extent(lamp_) / static_cast<float>(count_);
     Lamp unit = lamp_;
     unit.intensityCd = Vec3(1);
     std::vector<Ray> rays;
@@ -66,9 +61,12 @@ class Particles {
     std::vector<Vec3> fluxLm;
     for (size_t i = 0; i < kChunk; ++i) {
       Sampler sampler(key_, static_cast<uint32_t>(chunk * kChunk + i), settings_.seed + 7);
-      const Ray& ray = rays.emplace_back(lamp_.position, frame.toWorld(sampleCone(sampler.next2(), extent(lamp_))), 0, kInfinity);
+      float pdf = 0;
+      const Vec3 direction = directions_.sample(sampler.next2(), pdf), place = lampPlace(lamp_, lamp_.extended ? sampler.next2() : Vec2{});
+      trail.way.add(place);
+      const Ray& ray = rays.emplace_back(place, direction, 0, kInfinity);
       samplers.emplace_back(key_, static_cast<uint32_t>(chunk * kChunk + i), settings_.seed + 8);
-      fluxLm.push_back(lampIntensity(unit, ray.direction) * steradiansEach);
+      fluxLm.push_back(lampIntensity(unit, ray.direction) / (pdf * static_cast<float>(count_)));
     }
     for (int k = 0; k < kMostReflections && !rays.empty(); ++k) step(k > 0, rays, samplers, fluxLm, trail);
     return trail;
@@ -128,19 +126,29 @@ class Particles {
   const RadianceSettings& settings_;
   const LampSurroundings around_;
   const uint64_t key_;
+  const LampDirections directions_;
   const float pointLm_;
 };
 
 }  // namespace
 
 LampSurroundings::LampSurroundings(const Lamp& lamp, float voxelSizeM)
-    : position_(lamp.position), direction_(lamp.direction), near_(std::max(kNearM, kNearVoxels * voxelSizeM)), far_(0), tanOuter_(std::tan(lamp.outerConeRad)), voxelSizeM_(voxelSizeM) {
+    : position_(lamp.position), direction_(lamp.direction), acrossC0_(lamp.up), acrossC90_(cross(lamp.up, lamp.direction)), near_(std::max(kNearM, kNearVoxels * voxelSizeM)), far_(0), tanOuter_(std::tan(beamRad(lamp))), voxelSizeM_(voxelSizeM) {
   // How far a spot's disc of light is smaller than a few voxels, so that shadow rays from slots miss it. Not for wide ones.
-  if (lamp.kind == LampKind::Spot && lamp.outerConeRad < kNarrow) far_ = kNarrowVoxels * voxelSizeM / std::tan(std::max(lamp.outerConeRad, 1e-3f));
+  const float outerRad = beamRad(lamp);
+  if (outerRad < kNarrow) far_ = kNarrowVoxels * voxelSizeM / std::tan(std::max(outerRad, 1e-3f));
+  if (lamp.extended) halfC0_ = 0.5f * lamp.web->sizeC0M, halfC90_ = 0.5f * lamp.web->sizeC90M;
+}
+
+// From the nearest place of the rectangle about the opening.
+Vec3 LampSurroundings::toOpening(Vec3 p) const {
+  const Vec3 d = p - position_;
+  if (halfC0_ <= 0) return d;
+  return d - acrossC0_ * std::clamp(dot(d, acrossC0_), -halfC0_, halfC0_) - acrossC90_ * std::clamp(dot(d, acrossC90_), -halfC90_, halfC90_);
 }
 
 bool LampSurroundings::contains(Vec3 p) const {
-  const Vec3 d = p - position_;
+  const Vec3 d = toOpening(p);
   const float d2 = lengthSquared(d);
   if (d2 < near_ * near_) return true;
   if (d2 > far_ * far_) return false;
@@ -149,11 +157,9 @@ bool LampSurroundings::contains(Vec3 p) const {
 }
 
 bool LampSurroundings::touches(const Bounds3& box) const {
-  const float reach = std::max(near_, far_);
+  const float reach = std::max(near_, far_) + std::sqrt(halfC0_ * halfC0_ + halfC90_ * halfC90_);
   return lengthSquared(position_ - max(box.lo, min(box.hi, position_))) < reach * reach;
 }
-
-float unitFluxLm(const Lamp& lamp) { return 2 * kPi * extent(lamp); }
 
 ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Lamp& lamp, size_t lamps,
                              const RadianceSettings& settings, const Progress& progress) {
@@ -176,6 +182,7 @@ ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const S
   }
   light.near = SlotLight(voxels, near), light.far = SlotLight(voxels, far);
   light.rays = n;
+  light.fluxPerCandela = particles.fluxPerCandela();
   return light;
 }
 

@@ -20,7 +20,10 @@ class LampSurroundings {
   bool touches(const Bounds3& box) const;
 
  private:
-  Vec3 position_, direction_;
+  Vec3 toOpening(Vec3 p) const;
+
+  Vec3 position_, direction_, acrossC0_, acrossC90_;  // unit
+  float halfC0_ = 0, halfC90_ = 0;                    // m; of an extended lamp's opening
   float near_, far_;  // m: in all directions, and along a narrow spot
   float tanOuter_, voxelSizeM_;
 };
@@ -31,13 +34,11 @@ struct ParticleLight {
   SlotLight far;   // lx; on other slots, by reflection in its surroundings or on surfaces that no slot stands for
   std::vector<GlowPoint> points;  // of what surfaces in its surroundings reflect, about kPoints of them for all its flux
   Bounds3 way;     // of all particles
+  float fluxPerCandela = 0;  // lm/cd, of the lamp
   uint64_t rays = 0;
 };
 
 constexpr float kGlowPoints = 32768;  // that stand for a flux like that of the lamps
-
-// Flux of a lamp of 1 cd, lm.
-float unitFluxLm(const Lamp& lamp);
 
 // `particles`: how many a lamp gets where it has `lamps` beside it. Ends early, with a part of the light, once `progress` says stop.
 ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Lamp& lamp, size_t lamps,

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/image.h"
 #include "base/vec.h"
+#include "photometry/photometric_web.h"
 #include "scene/glazing.h"
 
 namespace roomlight {
@@ -99,14 +101,18 @@ enum class LampKind : uint8_t {
 };
 
 // A luminaire without geometry of its own (Point, Spot) or a Lambertian rectangle that emits to one side (Area; scene
-// loading turns it into an emissive mesh, see addAreaLampMeshes).
+// loading turns it into an emissive mesh, see addAreaLampMeshes). A Point may have a photometric web: then its nadir is `direction`,
+// C0 is `up`, and light leaves its position, or evenly every place of its luminous opening about there.
 struct Lamp {
   std::string name;
   LampKind kind = LampKind::Point;
   Vec3 position;
-  Vec3 direction{0, -1, 0};  // unit; axis of a spot, normal of an area lamp
-  Vec3 up{1, 0, 0};          // unit, along the rectangle's height
-  Vec3 intensityCd{0, 0, 0};  // Point: in every direction; Spot: inside the inner cone. luminance(rgb) is the candela
+  Vec3 direction{0, -1, 0};  // unit; axis of a spot, normal of an area lamp, nadir of a web
+  Vec3 up{1, 0, 0};          // unit, along the rectangle's height; C0 of a web, perpendicular to `direction`
+  // Point: in every direction, or in that of the web's peak; Spot: inside the inner cone. luminance(rgb) is the candela
+  Vec3 intensityCd{0, 0, 0};
+  std::shared_ptr<const PhotometricWeb> web;       // Point, or none; lamps may share it
+  bool extended = false;                           // of a web with an opening: as large as that, instead of a point
   float innerConeRad = 0, outerConeRad = kPi / 4;  // Spot: half-angles
   float widthM = 0, heightM = 0;                   // Area
   Vec3 luminanceCdM2{0, 0, 0};                     // Area

@@ -78,6 +78,10 @@ std::string checkLights(const Scene& scene) {
     if (!isLight(lamp.intensityCd) || !isLight(lamp.luminanceCdM2) || !isFinite(lamp.position) || !isFinite(lamp.direction)) {
       return fmt::format("lamp {} '{}': a value is negative or not finite", i, lamp.name);
     }
+    if (!lamp.web) continue;
+    const bool frame = std::abs(lengthSquared(lamp.direction) - 1) < 1e-3f && std::abs(lengthSquared(lamp.up) - 1) < 1e-3f && std::abs(dot(lamp.direction, lamp.up)) < 1e-3f;
+    if (lamp.kind != LampKind::Point || !frame) return fmt::format("lamp {} '{}': a web needs a point lamp with its nadir and C0 perpendicular", i, lamp.name);
+    if (!(lamp.web->peakCd > 0) || (lamp.extended && !lamp.web->hasOpening())) return fmt::format("lamp {} '{}': its web has no light or no opening", i, lamp.name);
   }
   for (size_t i = 0; i < scene.suns.size(); ++i) {
     if (!isLight(scene.suns[i].illuminanceLux) || !isFinite(scene.suns[i].toLight)) {

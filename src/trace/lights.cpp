@@ -1,5 +1,7 @@
 #include "trace/lights.h"
 
+#include <map>
+
 #include "base/sampling.h"
 #include "photometry/spot.h"
 #include "trace/mean_emission.h"
@@ -25,33 +27,43 @@ Vec3 discRadiance(const Sun& sun) {
   return sun.illuminanceLux / (kPi * s * s);
 }
 
-// The cone that holds all light of a lamp.
-float lampOneMinusCos(const Lamp& lamp) { return lamp.kind == LampKind::Point ? 2 : std::clamp(1 - std::cos(lamp.outerConeRad), 1e-6f, 2.0f); }
-
 }  // namespace
-
-Vec3 lampIntensity(const Lamp& lamp, Vec3 direction) {
-  if (lamp.kind == LampKind::Point) return lamp.intensityCd;
-  return lamp.intensityCd * spotFalloff(dot(direction, lamp.direction), std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
-}
 
 Lights::Lights(const Scene& scene, bool sunApart) : scene_(scene), suns_(scene.suns), sky_(scene.sky, sunApart) {
   for (const Lamp& lamp : scene.lamps) {
     if (lamp.kind != LampKind::Area && !isBlack(lamp.intensityCd)) lamps_.push_back(lamp);
   }
-  float flux = 0;
-  for (const Lamp& lamp : lamps_) flux += lampShare_.emplace_back(luminance(lamp.intensityCd) * lampOneMinusCos(lamp));
-  for (size_t i = 0; i < lamps_.size(); ++i) {
-    const Lamp& lamp = lamps_[i];
-    const bool point = lamp.kind == LampKind::Point;
-    const float spread = lampOneMinusCos(lamp), share = lampShare_[i] /= flux;
-    lampTerms_.push_back({lamp.position, lamp.direction, luminance(lamp.intensityCd), point ? -1 : std::cos(lamp.innerConeRad),
-                          point ? -1 : std::cos(lamp.outerConeRad), share * conePdf(spread), point ? -kInfinity : 1 - spread});
-  }
+  addLamps();
   std::erase_if(suns_, [](const Sun& sun) { return isBlack(sun.illuminanceLux); });
   emitterOfInstance_.assign(scene.instances.size(), -1);
   MeanEmission means(scene);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) addEmitter(i, means);
+}
+
+void Lights::addLamps() {
+  std::map<const PhotometricWeb*, std::shared_ptr<const WebSampler>> samplers;
+  float flux = 0;
+  for (const Lamp& lamp : lamps_) {
+    std::shared_ptr<const WebSampler> sampler;
+    if (lamp.web) {
+      std::shared_ptr<const WebSampler>& known = samplers[lamp.web.get()];
+      if (!known) known = std::make_shared<const WebSampler>(*lamp.web);
+      sampler = known;
+    }
+    const LampDirections& directions = lampDirections_.emplace_back(lamp, sampler);
+    flux += lampShare_.emplace_back(luminance(lamp.intensityCd) * directions.fluxPerCandela());
+    extendedLamps_ = extendedLamps_ || lamp.extended;
+  }
+  for (size_t i = 0; i < lamps_.size(); ++i) {
+    const Lamp& lamp = lamps_[i];
+    const bool point = lamp.kind == LampKind::Point;
+    const float solidAngle = lampDirections_[i].fluxPerCandela(), share = lampShare_[i] /= flux;
+    LampTerms terms{lamp.position, lamp.direction, luminance(lamp.intensityCd), point ? -1 : std::cos(lamp.innerConeRad), point ? -1 : std::cos(lamp.outerConeRad),
+                    share / solidAngle, point ? -kInfinity : 1 - solidAngle / (2 * kPi), lamp.web ? &lamp : nullptr};
+    if (lamp.web) terms.shinesUp = shinesUp(*lamp.web);
+    if (lamp.extended) terms.radius2 = 0.25f * (lamp.web->sizeC0M * lamp.web->sizeC0M + lamp.web->sizeC90M * lamp.web->sizeC90M);
+    lampTerms_.push_back(terms);
+  }
 }
 
 void Lights::addEmitter(uint32_t index, MeanEmission& means) {
@@ -107,42 +119,56 @@ float Lights::importance(const Emitter& e, Vec3 p) const {
 }
 
 float Lights::importance(const LampTerms& lamp, Vec3 p) const {
+  if (lamp.web) return webImportance(lamp, p);
   const Vec3 d = p - lamp.position;
   const float distance = length(d), cd = lamp.intensityCd / std::max(distance * distance, 1e-4f);
   return lamp.cosOuter <= -1 ? cd : cd * spotFalloff(dot(d, lamp.direction) / std::max(distance, 1e-12f), lamp.cosInner, lamp.cosOuter);
 }
 
-LightSample Lights::sampleLamp(size_t index, Vec3 p) const {
-  const Lamp& lamp = lamps_[index];
-  LightSample s;
-  const Vec3 d = lamp.position - p;
-  s.distance = length(d);
-  if (s.distance < 1e-4f) return s;
-  s.wi = d / s.distance;
-  s.radiance = lampIntensity(lamp, -s.wi) / (s.distance * s.distance);
+// Zero only where no place of the lamp gives light to p.
+float Lights::webImportance(const LampTerms& lamp, Vec3 p) const {
+  const Vec3 d = p - lamp.position;
+  const float d2 = lengthSquared(d);
+  const float seen = d2 > 1e-12f ? luminance(lampIntensity(*lamp.web, d / std::sqrt(d2))) : lamp.intensityCd;
+  if (lamp.radius2 <= 0) return seen / std::max(d2, 1e-4f);
+  // Other places of the opening may shine to where its centre does not; none does behind it unless the web says so.
+  constexpr float kElsewhere = 0.1f;
+  if (!lamp.shinesUp && dot(d, lamp.direction) <= 0) return 0;
+  return (seen + kElsewhere * lamp.intensityCd) / std::max(d2, 0.25f * lamp.radius2 + 1e-4f);
+}
+
+LightSample Lights::sampleLamp(size_t index, Vec3 p, Vec2 u) const {
+  LightSample s = roomlight::sampleLamp(lamps_[index], p, u);
+  s.lamp = static_cast<int32_t>(index);
   return s;
 }
 
-LampRay Lights::sampleLampRay(float choice, Vec2 u) const {
+LampRay Lights::sampleLampRay(Sampler& sampler) const {
+  float choice = sampler.next1();
+  const Vec2 u = sampler.next2();
   size_t i = 0;
   for (; i + 1 < lamps_.size() && choice >= lampShare_[i]; ++i) choice -= lampShare_[i];
   const Lamp& lamp = lamps_[i];
-  const float spread = lampOneMinusCos(lamp);
   LampRay ray;
-  ray.origin = lamp.position;
-  ray.direction = lamp.kind == LampKind::Point ? sampleSphere(u) : Frame(lamp.direction).toWorld(sampleCone(u, spread));
-  ray.fluxLm = lampIntensity(lamp, ray.direction) / (conePdf(spread) * lampShare_[i]);
+  float pdf = 0;
+  ray.origin = lampPlace(lamp, lamp.extended ? sampler.next2() : Vec2{});
+  ray.direction = lampDirections_[i].sample(u, pdf);
+  ray.fluxLm = lampIntensity(lamp, ray.direction) / (pdf * lampShare_[i]);
   return ray;
 }
 
 float Lights::lampDensity(Vec3 p, Vec3 n) const {
   float density = 0;
-  for (const LampTerms& lamp : lampTerms_) {
+  for (size_t i = 0; i < lampTerms_.size(); ++i) {
+    const LampTerms& lamp = lampTerms_[i];
     const Vec3 d = lamp.position - p;
     const float cosine = dot(n, d);
     if (cosine <= 0) continue;
     const float inverse2 = 1 / std::max(lengthSquared(d), 1e-8f), inverse = std::sqrt(inverse2);
-    if (-dot(lamp.direction, d) * inverse > lamp.cosSpread) density += lamp.raysPerSr * cosine * inverse2 * inverse;
+    if (lamp.web) {
+      density += lampShare_[i] * lampDirections_[i].pdf(d * -inverse) * cosine * inverse2 * inverse;
+    } else if (-dot(lamp.direction, d) * inverse > lamp.cosSpread)
+      density += lamp.raysPerSr * cosine * inverse2 * inverse;
   }
   return density;
 }
@@ -215,7 +241,7 @@ LightSample Lights::sampleLocal(Vec3 p, Vec2 u, float choice) const {
       continue;
     }
     if (i >= lamps_.size()) return sampleEmitter(emitters_[i - lamps_.size()], p, u, v / w, w / total);
-    LightSample s = sampleLamp(i, p);
+    LightSample s = sampleLamp(i, p, u);
     s.radiance *= total / w;
     return s;
   }
@@ -232,7 +258,9 @@ float Lights::pdfLocal(Vec3 p, const SurfacePoint& q) const {
   return total > 0 ? importance(e, p) / total * pdfInEmitter(e, p, q) : 0;
 }
 
-LightSample Lights::sampleLamps(Vec3 p, float choice) const {
+LightSample Lights::sampleLamps(Vec3 p, Sampler& sampler) const {
+  const float choice = sampler.next1();
+  const Vec2 u = extendedLamps_ ? sampler.next2() : Vec2{};
   float total = 0;
   for (const LampTerms& lamp : lampTerms_) total += importance(lamp, p);
   if (!(total > 0)) return {};
@@ -240,7 +268,7 @@ LightSample Lights::sampleLamps(Vec3 p, float choice) const {
   for (size_t i = 0; i < lamps_.size(); ++i) {
     const float w = importance(lampTerms_[i], p);
     if (v < w || i + 1 == lamps_.size()) {
-      LightSample s = sampleLamp(i, p);
+      LightSample s = sampleLamp(i, p, u);
       if (w > 0) s.radiance *= total / w;
       return s;
     }

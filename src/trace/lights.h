@@ -3,20 +3,13 @@
 
 #include <vector>
 
+#include "base/sampler.h"
 #include "scene/scene.h"
+#include "trace/lamp_light.h"
 #include "trace/sky_distribution.h"
 #include "trace/surface_point.h"
 
 namespace roomlight {
-
-// One way light may reach a point, before visibility.
-struct LightSample {
-  Vec3 wi;            // unit, towards the light
-  float distance = kInfinity;
-  Vec3 radiance;      // incident radiance / pdf: times f cos is the estimate. Delta lights: intensity / distance² / chance
-  float pdf = 0;      // per steradian, selection included; 0: delta light, no other strategy can find it
-  bool valid() const { return !isBlack(radiance); }
-};
 
 // A ray that leaves a point or spot lamp.
 struct LampRay {
@@ -30,6 +23,8 @@ class Lights {
  public:
   // `sunApart`: the sun in an image of the sky counts as one of the suns. The same light, for who takes care of sharp shadows.
   explicit Lights(const Scene& scene, bool sunApart = false);
+  Lights(Lights&&) = default;
+  Lights(const Lights&) = delete;
 
   // One sample among lamps and emissive meshes, chosen by what each could give at p without shadows.
   LightSample sampleLocal(Vec3 p, Vec2 u, float choice) const;
@@ -38,12 +33,14 @@ class Lights {
   // All point and spot lamps one by one (no emissive meshes).
   size_t lampCount() const { return lamps_.size(); }
   const Lamp& lamp(size_t index) const { return lamps_[index]; }
-  LightSample sampleLamp(size_t index, Vec3 p) const;
+  bool hasExtendedLamps() const { return extendedLamps_; }
+  LightSample sampleLamp(size_t index, Vec3 p, Vec2 u) const;
   // One of them, chosen by what each could give at p without shadows.
-  LightSample sampleLamps(Vec3 p, float choice) const;
-  // Rays leave the lamps in proportion to their flux, evenly over the sphere or the spot's cone.
-  LampRay sampleLampRay(float choice, Vec2 u) const;
-  // Such rays per m² of a surface element at p with normal n, of all rays, if nothing stands between.
+  LightSample sampleLamps(Vec3 p, Sampler& sampler) const;
+  // Rays leave the lamps in proportion to their flux, in their LampDirections.
+  LampRay sampleLampRay(Sampler& sampler) const;
+  // Such rays per m² of a surface element at p with normal n, of all rays, if nothing stands between. Of an extended lamp as if all
+  // came from its centre.
   float lampDensity(Vec3 p, Vec3 n) const;
   // One sample among emissive meshes only, and its density.
   LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
@@ -86,26 +83,30 @@ class Lights {
     Vec3 position, direction;
     float intensityCd;           // luminance
     float cosInner, cosOuter;    // of a spot; -1 for a point
-    float raysPerSr, cosSpread;  // density of lamp rays, of all lamps' rays, inside the cone of that cosine
+    float raysPerSr, cosSpread;  // density of lamp rays, of all lamps' rays, inside the cone of that cosine; without a web
+    const Lamp* web;             // the lamp, where it has a web
+    float radius2 = 0;           // m²; of an extended lamp
+    bool shinesUp = true;        // of a web
   };
   void addEmitter(uint32_t instance, MeanEmission& means);
   float importance(const Emitter& e, Vec3 p) const;
   float importance(const LampTerms& lamp, Vec3 p) const;
+  float webImportance(const LampTerms& lamp, Vec3 p) const;
+  void addLamps();
   LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;
   float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
 
   const Scene& scene_;
   std::vector<Lamp> lamps_;
   std::vector<float> lampShare_;  // of all rays from lamps
+  std::vector<LampDirections> lampDirections_;
   std::vector<LampTerms> lampTerms_;
   std::vector<Sun> suns_;
   std::vector<Emitter> emitters_;
   std::vector<int32_t> emitterOfInstance_;
   SkyDistribution sky_;
   double emitterFluxLm_ = 0;
+  bool extendedLamps_ = false;
 };
-
-// Intensity of a lamp towards a unit direction away from it; the spot's falloff is KHR_lights_punctual's.
-Vec3 lampIntensity(const Lamp& lamp, Vec3 direction);
 
 }  // namespace roomlight

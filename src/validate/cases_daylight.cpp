@@ -156,8 +156,9 @@ ValidationCase glazedRoof() { return roof(kType, 1, true); }
 
 template <int kType, bool kGlazed>
 ValidationCase window() {
-  return facade(fmt::format("CIE 171, 5.{} sky {}", kGlazed ? 12 : 11, kType), fmt::format("{}facade opening of 2 x 1 m under CIE sky {} over ground of albedo 0.3", kGlazed ? "glazed " : "", kType), kType, kBasis, nullptr,
-                [](double, double) { return std::vector<Part>{{1, 2, -1}}; }, kGlazed);
+  return facade(
+      fmt::format("CIE 171, 5.{} sky {}", kGlazed ? 12 : 11, kType), fmt::format("{}facade opening of 2 x 1 m under CIE sky {} over ground of albedo 0.3", kGlazed ? "glazed " : "", kType), kType, kBasis, nullptr,
+      [](double, double) { return std::vector<Part>{{1, 2, -1}}; }, kGlazed);
 }
 
 // Sunlight through a pane, by its angle of incidence.

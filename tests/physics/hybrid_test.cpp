@@ -9,6 +9,7 @@
 #include "reference/path_tracer.h"
 #include "support/record.h"
 #include "support/rooms.h"
+#include "support/webs.h"
 #include "voxel/voxelise.h"
 
 namespace roomlight {
@@ -173,6 +174,32 @@ TEST(Hybrid, keepsContact) {
   test::record("Table with a cup, mse of the whole picture and where things touch", "within 6 pixels of contacts", "hybrid", 0, contact);
   EXPECT_LE(contact, 2 * all);
 }
+
+// A room lit by luminaires with webs: one as a point inside a shade, one as large as its opening.
+Scene webRoom(bool extended) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.6f));
+  test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {3.1f, 2.5f, 3.3f}, std::vector<int>(6, white));
+  test::addBox(scene, {1.0f, 0, 1.1f}, {1.7f, 0.7f, 1.6f}, white);
+  const auto web = [&](float c, float g) { return 200 * std::pow(std::cos(0.5f * g), 6.0f) * (1 + 0.5f * std::cos(c)); };
+  scene.lamps.push_back(test::webLamp({1.4f, 2.3f, 1.7f}, test::makeWeb(web, 180, 10, extended ? 0.9f : 0, extended ? 0.2f : 0)));
+  return scene;
+}
+
+class HybridLuminaire : public testing::TestWithParam<bool> {};
+
+// Both techniques give the same light.
+TEST_P(HybridLuminaire, agreesWithPath) {
+  const Lit lit(webRoom(GetParam()), 0.06f);
+  const Camera camera = cameraAt({2.8f, 1.5f, 3.0f}, {1.2f, 0.8f, 1.2f});
+  PathSettings path;
+  path.width = path.height = 48, path.samples = 512;
+  const double expected = mean(pathTrace(lit.rays, lit.lights, camera, path).image), measured = mean(lit.hybrid(camera)), cone = mean(lit.cone(camera));
+  test::record("Room lit by a photometric web, mean luminance, cd/m²", GetParam() ? "as large as its opening" : "as a point", "hybrid", expected, measured);
+  test::record("Room lit by a photometric web, mean luminance, cd/m²", GetParam() ? "as large as its opening" : "as a point", "cone", expected, cone);
+  EXPECT_NEAR(measured, expected, 0.01 * expected);
+}
+INSTANTIATE_TEST_SUITE_P(Sizes, HybridLuminaire, testing::Bool());
 
 // The same picture whatever the number of threads.
 TEST(Hybrid, sameBitsWithAnyNumberOfThreads) {

@@ -154,7 +154,7 @@ TEST_F(LightingFile, errorsNameFileAndPlaceAndLeaveTheSceneAlone) {
       {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "width": 2}]})", "lamps[0].width: means nothing for a lamp of type point"},
       {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "temperature": "900 K"}]})", "out of range"},
       {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "temperature": "2700 K", "color": [1, 1, 1]}]})", "not both"},
-      {R"({"lamps": [{"type": "tube", "position": [0, 0, 0], "flux": "1 lm"}]})", "unknown 'tube'; there are point, spot, area"},
+      {R"({"lamps": [{"type": "tube", "position": [0, 0, 0], "flux": "1 lm"}]})", "unknown 'tube'; there are point, spot, area, photometric"},
       {R"({"lamps": [{"type": "point", "position": [0, 0], "flux": "1 lm"}]})", "lamps[0].position: must be a list of three numbers"},
       {R"({"lamps": [{"type": "point", "position": [0, 1e30, 0], "flux": "1 lm"}]})", "lamps[0].position[1]"},
       {R"({"lamps": [{"type": "spot", "position": [0, 0, 0], "direction": [0, 0, 0], "flux": "1 lm"}]})", "lamps[0].direction: must not be zero"},

@@ -6,7 +6,9 @@
 
 #include "photometry/spot.h"
 #include "support/rooms.h"
+#include "support/webs.h"
 #include "trace/surface_point.h"
+#include "unit/base/chi_square.h"
 
 namespace roomlight {
 namespace {
@@ -52,6 +54,59 @@ TEST(Lights, aSpotIsChosenHoweverClose) {
   scene.lamps.push_back(lamp);
   const Lights lights(scene);
   for (const float z : {0.002f, 0.005f, 0.02f}) EXPECT_NEAR(luminance(lights.sampleLocal({0, 0, -z}, {0.5f, 0.5f}, 0.5f).radiance) * z * z, 10, 0.01f) << z;
+}
+
+// Rays of a lamp land as densely as lampDensity says: both follow the web.
+TEST(Lights, raysLeaveAWebByItsLight) {
+  Scene scene;
+  scene.lamps.push_back(test::webLamp({0, 0, 0}, test::makeWeb([](float c, float g) { return (1 + std::cos(c)) * (2 - g); }, 100, 15)));
+  scene.lamps.push_back(test::pointLamp({0, 0, 0}, 0.3f));
+  const Lights lights(scene);
+  constexpr int kPolar = 16, kAzimuth = 16, kRays = 400'000, kFine = 32;
+  std::vector<double> counts(kPolar * kAzimuth), expected(kPolar * kAzimuth);
+  double flux = 0;
+  for (int i = 0; i < kRays; ++i) {
+    Sampler sampler(static_cast<uint64_t>(i), 0, 5);
+    const LampRay ray = lights.sampleLampRay(sampler);
+    flux += static_cast<double>(luminance(ray.fluxLm)) / kRays;
+    const double turn = 0.5 + std::atan2(static_cast<double>(ray.direction.z), static_cast<double>(ray.direction.x)) / (2 * std::numbers::pi);
+    const int p = std::min(kPolar - 1, static_cast<int>((static_cast<double>(ray.direction.y) + 1) / 2 * kPolar)), a = std::min(kAzimuth - 1, static_cast<int>(turn * kAzimuth));
+    counts[static_cast<size_t>(p * kAzimuth + a)] += 1;
+  }
+  for (int i = 0; i < kPolar * kFine * kAzimuth * kFine; ++i) {
+    const int p = i / (kAzimuth * kFine), a = i % (kAzimuth * kFine);
+    const double y = -1 + 2 * (p + 0.5) / (kPolar * kFine), phi = 2 * std::numbers::pi * ((a + 0.5) / (kAzimuth * kFine) - 0.5), r = std::sqrt(1 - y * y);
+    const Vec3 d{static_cast<float>(r * std::cos(phi)), static_cast<float>(y), static_cast<float>(r * std::sin(phi))};
+    expected[static_cast<size_t>(p / kFine * kAzimuth + a / kFine)] += kRays * static_cast<double>(lights.lampDensity(d, -d)) * 4 * std::numbers::pi / (kPolar * kFine * kAzimuth * kFine);
+  }
+  EXPECT_TRUE(testing::fits(counts, expected));
+  const double exact = scene.lamps[0].web->fluxLm + 0.3 * 4 * std::numbers::pi;
+  EXPECT_NEAR(flux / exact, 1, 5e-3);
+}
+
+// However it is placed, an extended lamp is chosen wherever any of it shines.
+TEST(Lights, anExtendedLampIsTheMeanOverItsPlaces) {
+  Scene scene;
+  const auto web = test::makeWeb([](float, float g) { return g < 0.3f ? 100.0f : 0.0f; }, 90, 90, 1, 0.5f);
+  scene.lamps.push_back(test::webLamp({0, 2, 0}, web));
+  scene.lamps.push_back(test::pointLamp({5, 2, 0}, 1));
+  const Lights lights(scene);
+  for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{0.5f, 0, 0.2f}, Vec3{0.9f, 0.5f, 0}, Vec3{1.2f, 1.9f, 0}}) {
+    double exact = static_cast<double>(luminance(lights.sampleLamp(1, p, {}).radiance));
+    constexpr int kGrid = 400, kSamples = 200'000;
+    for (int i = 0; i < kGrid * kGrid; ++i) {
+      const Vec2 u{(static_cast<float>(i % kGrid) + 0.5f) / kGrid, (static_cast<float>(i / kGrid) + 0.5f) / kGrid};
+      exact += static_cast<double>(luminance(lights.sampleLamp(0, p, u).radiance)) / (kGrid * kGrid);
+    }
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      Sampler sampler(static_cast<uint64_t>(i), 0, 3);
+      const Vec2 u = sampler.next2();
+      const auto v = static_cast<double>(luminance(lights.sampleLocal(p, u, sampler.next1()).radiance));
+      sum += v / kSamples, squares += v * v / kSamples;
+    }
+    EXPECT_NEAR(sum, exact, 4 * std::sqrt((squares - sum * sum) / kSamples) + 2e-3 * exact) << p.x;
+  }
 }
 
 TEST(Lights, aSunGivesItsIlluminanceWhateverItsSize) {

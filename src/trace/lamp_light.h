@@ -1,0 +1,40 @@
+// Light of one point or spot lamp, with or without a photometric web.
+#pragma once
+
+#include <memory>
+
+#include "photometry/web_sampler.h"
+#include "scene/scene.h"
+#include "trace/light_sample.h"
+
+namespace roomlight {
+
+// Intensity of a lamp towards a unit direction away from it; the spot's falloff is KHR_lights_punctual's.
+Vec3 lampIntensity(const Lamp& lamp, Vec3 direction);
+
+// Where light leaves it: its position, or a place of its opening, even over the area.
+Vec3 lampPlace(const Lamp& lamp, Vec2 u);
+
+// From one such place to p. An extended lamp is the mean over its places, each of which shines as the whole would from there: from afar
+// that is the web, and for a Lambertian web it is the luminous panel from anywhere.
+LightSample sampleLamp(const Lamp& lamp, Vec3 p, Vec2 u);
+
+// Directions in which rays leave a lamp: of a web as its light goes, else even over the sphere or the spot's cone.
+class LampDirections {
+ public:
+  // `sampler`: of the lamp's web, for lamps that share it; made anew where there is none.
+  explicit LampDirections(const Lamp& lamp, std::shared_ptr<const WebSampler> sampler = {});
+
+  Vec3 sample(Vec2 u, float& pdf) const;  // pdf: per steradian
+  float pdf(Vec3 direction) const;
+  // Flux per candela of intensityCd, lm/cd; of a spot that of its cone without falloff.
+  float fluxPerCandela() const { return fluxPerCandela_; }
+
+ private:
+  std::shared_ptr<const WebSampler> sampler_;
+  Vec3 direction_, up_;
+  float oneMinusCos_ = 2;  // of the cone that holds all light, without a web
+  float fluxPerCandela_;
+};
+
+}  // namespace roomlight
