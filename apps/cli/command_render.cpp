@@ -1,12 +1,10 @@
 // roomlight render: a scene and light in, pictures out.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "arguments.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
 #include "base/tone.h"
@@ -46,14 +44,6 @@ struct Plan {
   std::optional<double> whiteK;  // none, and not automatic: no white balance
 };
 
-template <class T>
-std::optional<T> parseNumber(std::string_view text) {
-  T value{};
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 Status applySize(const std::string& size, RenderSettings& settings) {
   const size_t x = size.find('x');
   const auto width = parseNumber<int>(std::string_view(size).substr(0, x));
@@ -62,12 +52,6 @@ Status applySize(const std::string& size, RenderSettings& settings) {
   settings.width = *width;
   settings.height = *height;
   return Ok{};
-}
-
-std::string lowerExtension(const std::filesystem::path& file) {
-  std::string e = file.extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e;
 }
 
 Status checkOutputs(const Options& o) {
@@ -79,15 +63,9 @@ Status checkOutputs(const Options& o) {
   if (!o.stats.empty()) {
     if (const Status s = checkWritable(o.stats); !s) return s;
   }
-  // Files that are written must differ from each other and from those that are read.
   std::vector<std::string> files = {o.scene, o.lighting, o.settingsFile, o.stats};
   files.insert(files.end(), o.outputs.begin(), o.outputs.end());
-  std::set<std::filesystem::path> seen;
-  for (const std::string& file : files) {
-    std::error_code ignored;
-    if (!file.empty() && !seen.insert(std::filesystem::weakly_canonical(file, ignored)).second) return Error{fmt::format("{}: is named twice; name different files", file)};
-  }
-  return Ok{};
+  return checkDistinct(files);
 }
 
 Result<Plan> makePlan(const Options& o) {
@@ -134,13 +112,7 @@ Result<Plan> makePlan(const Options& o) {
       return Error{fmt::format("--white-balance {}: write auto, none or a temperature from {} to {} K", o.whiteBalance, kLowestWhiteK, kHighestWhiteK)};
     }
   }
-  bool known = false;
-  std::string names;
-  for (const auto& [name, explanation] : techniques()) {
-    known = known || name == s.technique;
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  if (!known) return Error{fmt::format("unknown technique '{}'; there are {}", s.technique, names)};
+  if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
   return plan;
 }
 
@@ -295,11 +267,6 @@ int runRender(const Options& o) {
   int code = kFailed;
   withThreads(plan.value().settings.threads, [&] { code = work(o, plan.value()); });
   return code;
-}
-
-std::string listed(std::string text, const std::vector<std::pair<std::string, std::string>>& choices) {
-  for (const auto& [name, explanation] : choices) text += fmt::format(" {} ({}){}", name, explanation, name == choices.back().first ? "" : ";");
-  return text;
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct Registered {
   Command run;
 };
 Registered addRender(CLI::App& program);
+Registered addMeasure(CLI::App& program);
 Registered addCompare(CLI::App& program);
 Registered addDevelop(CLI::App& program);
 Registered addInfo(CLI::App& program);

@@ -17,11 +17,13 @@ int runProgram(int argc, char** argv) {
       "Examples:\n"
       "  roomlight render flat.glb -o flat.png\n"
       "  roomlight render flat.glb --lighting evening.json --camera Kitchen -o kitchen.exr -o kitchen.png\n"
+      "  roomlight measure flat.glb --lighting evening.json --html report.html\n"
       "  roomlight compare reference.exr flat.exr\n"
       "  roomlight info flat.glb\n"
       "'roomlight COMMAND --help' explains a command.");
   const std::vector<roomlight::cli::Registered> commands = {
-      roomlight::cli::addRender(program), roomlight::cli::addCompare(program), roomlight::cli::addDevelop(program), roomlight::cli::addInfo(program), roomlight::cli::addValidate(program)};
+      roomlight::cli::addRender(program), roomlight::cli::addMeasure(program), roomlight::cli::addValidate(program), roomlight::cli::addCompare(program),
+      roomlight::cli::addDevelop(program), roomlight::cli::addInfo(program)};
   // An empty word, as an unset variable of a shell leaves it, would pass for "not given".
   for (const roomlight::cli::Registered& command : commands) {
     for (CLI::Option* option : command.app->get_options()) {

@@ -116,6 +116,7 @@ struct Lamp {
   float innerConeRad = 0, outerConeRad = kPi / 4;  // Spot: half-angles
   float widthM = 0, heightM = 0;                   // Area
   Vec3 luminanceCdM2{0, 0, 0};                     // Area
+  float wattsW = 0;                                // what it draws; 0: not stated
 };
 
 // A source at infinity: the sun or a glTF directional light.
@@ -147,6 +148,15 @@ struct Camera {
   float yMagM = 1;  // orthographic: half of the height seen
 };
 
+// A room as its floor: what is measured and judged together.
+struct Room {
+  std::string name;
+  std::vector<Vec2> floor;  // corners (x, z), counter-clockwise seen from above
+  float elevationM = 0;     // of the floor
+  float heightM = 2.5f;     // of the ceiling above it
+  std::string use;          // "living", "kitchen", ...: what it should be lit for (measure/targets.h); empty: unknown
+};
+
 struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
@@ -156,6 +166,7 @@ struct Scene {
   std::vector<Sun> suns;
   Sky sky;
   std::vector<Camera> cameras;
+  std::vector<Room> rooms;  // where the file knows them
 
   size_t triangleCount() const;  // of all instances
   Bounds3 bounds() const;        // of all instances, in world space

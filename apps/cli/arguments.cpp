@@ -1,0 +1,41 @@
+#include "arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/render.h"
+
+namespace roomlight::cli {
+
+std::string lowerExtension(const std::filesystem::path& file) {
+  std::string e = file.extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return e;
+}
+
+Status checkDistinct(const std::vector<std::string>& files) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    std::error_code ignored;
+    if (!file.empty() && !seen.insert(std::filesystem::weakly_canonical(file, ignored)).second) return Error{fmt::format("{}: is named twice; name different files", file)};
+  }
+  return Ok{};
+}
+
+Status checkTechnique(const std::string& wanted) {
+  std::string names;
+  for (const auto& [name, explanation] : techniques()) {
+    if (name == wanted) return Ok{};
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return Error{fmt::format("unknown technique '{}'; there are {}", wanted, names)};
+}
+
+std::string listed(std::string text, const std::vector<std::pair<std::string, std::string>>& choices) {
+  for (const auto& [name, explanation] : choices) text += fmt::format(" {} ({}){}", name, explanation, name == choices.back().first ? "" : ";");
+  return text;
+}
+
+}  // namespace roomlight::cli

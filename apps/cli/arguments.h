@@ -1,0 +1,34 @@
+// What commands that light a scene share in reading their options.
+#pragma once
+
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace roomlight::cli {
+
+// The whole text as a number.
+template <class T>
+std::optional<T> parseNumber(std::string_view text) {
+  T value{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string lowerExtension(const std::filesystem::path& file);
+
+// Files that are written must differ from each other and from those that are read; empty names are none.
+Status checkDistinct(const std::vector<std::string>& files);
+
+Status checkTechnique(const std::string& name);
+
+// `text` and the choices with their explanations, for the help of an option.
+std::string listed(std::string text, const std::vector<std::pair<std::string, std::string>>& choices);
+
+}  // namespace roomlight::cli

@@ -1,0 +1,234 @@
+// roomlight measure: a scene and light in, light meters' readings out.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "arguments.h"
+#include "base/parallel.h"
+#include "commands.h"
+#include "console.h"
+#include "engine/quality.h"
+#include "engine/version.h"
+#include "import/import.h"
+#include "import/lighting_file.h"
+#include "interrupt.h"
+#include "measure/measure.h"
+#include "measure/meter_file.h"
+#include "measure/report.h"
+#include "output_files.h"
+
+namespace roomlight::cli {
+namespace {
+
+struct Options {
+  std::string scene, lighting, meters, quality, tolerance = "1%", json, csv, eye, view;
+  std::vector<std::string> points;
+  std::optional<std::string> technique;
+  std::optional<int> threads;
+  std::optional<std::string> seed;
+  float metresPerUnit = 1;
+  bool quiet = false;
+};
+
+// Everything that can be known to be wrong before any work is done.
+struct Plan {
+  RenderSettings render;
+  MeasureSettings measure;
+  MeterPlan onCommandLine;
+};
+
+Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape, std::initializer_list<size_t> counts) {
+  std::vector<float> numbers;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const auto value = parseNumber<float>(std::string_view(text).substr(begin, end - begin));
+    if (!value || !(std::abs(*value) <= 1e6f)) return Error{fmt::format("{} {}: write {}", option, text, shape)};
+    numbers.push_back(*value);
+    begin = end + 1;
+  }
+  if (std::find(counts.begin(), counts.end(), numbers.size()) == counts.end()) return Error{fmt::format("{} {}: write {}", option, text, shape)};
+  return numbers;
+}
+
+Result<PointPlan> parsePoint(const std::string& text, size_t number) {
+  const Result<std::vector<float>> n = parseList("--point", text, "x,y,z or x,y,z,nx,ny,nz in metres", {3, 6});
+  if (!n) return Error{n.error()};
+  const std::vector<float>& v = n.value();
+  PointPlan point;
+  point.name = fmt::format("point {}", number);
+  point.place.position = {v[0], v[1], v[2]};
+  if (v.size() == 6) {
+    const Vec3 normal{v[3], v[4], v[5]};
+    if (length(normal) < 1e-6f) return Error{fmt::format("--point {}: the normal must not be zero", text)};
+    point.place.normal = normalize(normal);
+  }
+  return point;
+}
+
+Result<GlarePlan> parseEye(const Options& o) {
+  const Result<std::vector<float>> eye = parseList("--eye", o.eye, "x,y,z in metres", {3}), view = parseList("--view", o.view, "x,y,z, the direction looked along", {3});
+  if (!eye) return Error{eye.error()};
+  if (!view) return Error{view.error()};
+  GlarePlan glare;
+  glare.name = "eye";
+  glare.position = {eye.value()[0], eye.value()[1], eye.value()[2]};
+  const Vec3 direction{view.value()[0], view.value()[1], view.value()[2]};
+  if (length(direction) < 1e-6f) return Error{fmt::format("--view {}: must not be zero", o.view)};
+  glare.direction = normalize(direction);
+  return glare;
+}
+
+// "1%" or 0.01.
+Result<double> parseTolerance(const std::string& text) {
+  const bool percent = text.ends_with('%');
+  const auto value = parseNumber<double>(std::string_view(text).substr(0, text.size() - (percent ? 1 : 0)));
+  const double tolerance = value.value_or(0) / (percent ? 100 : 1);
+  if (!value || !(tolerance >= 1e-4 && tolerance <= 0.5)) return Error{fmt::format("--tolerance {}: write a relative error from 0.01% to 50%", text)};
+  return tolerance;
+}
+
+Result<Plan> makePlan(const Options& o) {
+  Plan plan;
+  if (!o.quality.empty()) {
+    if (const Status status = applyQuality(o.quality, plan.render); !status) return Error{"--" + status.error()};
+  }
+  plan.render.technique = o.technique.value_or(plan.render.technique);
+  plan.render.threads = o.threads.value_or(plan.render.threads);
+  if (o.seed) {
+    const auto seed = parseNumber<uint64_t>(*o.seed);
+    if (!seed) return Error{fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", *o.seed)};
+    plan.render.seed = plan.measure.meters.seed = *seed;
+  }
+  if (const Status status = checkSettings(plan.render); !status) return Error{status.error()};
+  if (const Status status = checkTechnique(plan.render.technique); !status) return Error{status.error()};
+  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
+  const Result<double> tolerance = parseTolerance(o.tolerance);
+  if (!tolerance) return Error{tolerance.error()};
+  plan.measure.meters.tolerance = tolerance.value();
+  for (const std::string& text : o.points) {
+    const Result<PointPlan> point = parsePoint(text, plan.onCommandLine.points.size() + 1);
+    if (!point) return Error{point.error()};
+    plan.onCommandLine.points.push_back(point.value());
+  }
+  if (o.eye.empty() != o.view.empty()) return Error{"--eye and --view: give both or none"};
+  if (!o.eye.empty()) {
+    const Result<GlarePlan> eye = parseEye(o);
+    if (!eye) return Error{eye.error()};
+    plan.onCommandLine.glares.push_back(eye.value());
+  }
+  return plan;
+}
+
+Status checkOutputs(const Options& o) {
+  for (const std::string& file : {o.json, o.csv}) {
+    if (file.empty()) continue;
+    if (const Status s = checkWritable(file); !s) return s;
+  }
+  return checkDistinct({o.scene, o.lighting, o.meters, o.json, o.csv});
+}
+
+struct Home {
+  Scene scene;
+  MeterPlan meters;
+  std::vector<std::string> warnings;
+};
+
+Result<Home> loadHome(const Options& o, const Plan& plan) {
+  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit});
+  if (!imported) return Error{imported.error()};
+  Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
+  if (!o.lighting.empty()) {
+    if (const Status s = applyLightingFile(o.lighting, home.scene); !s) return Error{s.error()};
+  }
+  if (!o.meters.empty()) {
+    Result<MeterPlan> read = readMeterFile(o.meters, home.scene.rooms);
+    if (!read) return Error{read.error()};
+    home.meters = std::move(read.value());
+  }
+  MeterPlan& m = home.meters;
+  m.points.insert(m.points.end(), plan.onCommandLine.points.begin(), plan.onCommandLine.points.end());
+  m.glares.insert(m.glares.end(), plan.onCommandLine.glares.begin(), plan.onCommandLine.glares.end());
+  return home;
+}
+
+int bad(const std::string& message, int code = kBadInput) {
+  printError(message);
+  return code;
+}
+
+Status writeReports(const Options& o, const Plan& plan, const Measurements& m) {
+  const ReportHeader header{o.scene, o.lighting, o.meters, plan.render.technique, plan.render.quality, version(), plan.measure.meters.tolerance};
+  if (!o.json.empty()) {
+    if (const Status s = writeTextFile(o.json, reportJson(header, m)); !s) return s;
+  }
+  if (!o.csv.empty()) {
+    if (const Status s = writeTextFile(o.csv, reportCsv(m)); !s) return s;
+  }
+  return Ok{};
+}
+
+int work(const Options& o, const Plan& plan) {
+  ProgressDisplay display(o.quiet);
+  const RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
+  RenderStats stats;
+  Stages stages(progress, stats);
+  const auto stopped = [] { return bad("interrupted before everything was measured; nothing was written", kInterrupted); };
+
+  Result<Home> home = stages.run("load", [&](const Progress&) { return loadHome(o, plan); });
+  if (!home) return bad(home.error());
+  if (!o.quiet) printWarnings(home.value().warnings);
+  if (interrupted()) return stopped();
+  Result<std::unique_ptr<LitScene>> lit = lightScene(home.value().scene, plan.render, stages);
+  if (!lit) return bad(lit.error());
+  if (!lit.value()) return stopped();
+  Measurements m = measure(*lit.value(), home.value().meters, plan.measure, stages);
+  if (interrupted()) return stopped();
+  if (!o.quiet) printWarnings(m.warnings);
+  fmt::print("{}", reportTable(m));
+  if (const Status s = writeReports(o, plan, m); !s) return bad(s.error(), kFailed);
+  for (const std::string& file : {o.json, o.csv}) {
+    if (!file.empty()) display.line(fmt::format("wrote {}", file));
+  }
+  return kOk;
+}
+
+int runMeasure(const Options& o) {
+  interrupted();  // from here on Ctrl-C is ours
+  const Result<Plan> plan = makePlan(o);
+  if (!plan) return bad(plan.error());
+  if (const Status s = checkOutputs(o); !s) return bad(s.error());
+  int code = kFailed;
+  withThreads(plan.value().render.threads, [&] { code = work(o, plan.value()); });
+  return code;
+}
+
+}  // namespace
+
+Registered addMeasure(CLI::App& program) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("measure", "Light a scene and hold light meters into it");
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf or .obj")->required();
+  app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
+  app->add_option("--meters", o->meters, "Meter file: rooms, grids, points, spot meters and eyes (docs/formats/meters.md); without it, every room");
+  app->add_option("--point", o->points, "Incident meter at x,y,z, or x,y,z,nx,ny,nz for a receptor that does not face up; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--eye", o->eye, "Where glare (UGR) is judged: x,y,z");
+  app->add_option("--view", o->view, "Direction that eye looks along: x,y,z");
+  app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
+  app->add_option("--quality", o->quality, listed("How much is done, if nothing else says so:", qualities()));
+  app->add_option("--tolerance", o->tolerance, "Relative standard error at which a meter is read")->capture_default_str();
+  app->add_option("--json", o->json, "Write all readings to this JSON file");
+  app->add_option("--csv", o->csv, "Write all readings to this table, one line each");
+  app->add_option("--seed", o->seed, "Random seed; the same seed gives the same readings");
+  app->add_option("--threads", o->threads, "Threads; 0: all cores");
+  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
+  app->add_flag("--quiet", o->quiet, "Only the table and errors");
+  app->footer(
+      "Examples:\n"
+      "  roomlight measure flat.glb --lighting evening.json\n"
+      "  roomlight measure flat.glb --meters desk.json --json desk_readings.json\n"
+      "  roomlight measure flat.glb --point 1.2,0.75,2.0 --eye 1,1.2,3 --view 0,0,-1");
+  return {app, [o] { return runMeasure(*o); }};
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,188 @@
+// Meter files, version 1 (docs/formats/meters.md):
+//   { "border": 0.5, "spacing": 0.25, "maintenanceFactor": 0.8, "groundReflectance": 0.2,
+//     "rooms": [ { "name", "use", "floor": [[x, z], ..], "elevation", "height", "workPlane", "surfaces": ["workPlane", "floor", "walls"], "watts", targets } ],
+//     "grids": [ { "name", "corner": [x,y,z], "u": [..], "v": [..], targets } ],
+//     "points": [ { "name", "position", "normal", "target" } ],
+//     "spots": [ { "name", "position", "direction" | "lookAt", "angle" } ],
+//     "glare": [ { "name", "position", "direction" | "lookAt", "ugr" } ] }
+//   targets: "target": "150 lx", "uniformity": 0.6, "ugr": 19, "powerDensity": 6
+#include "measure/meter_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "import/json_file.h"
+#include "import/json_reader.h"
+#include "measure/outline.h"
+
+namespace roomlight {
+namespace {
+
+constexpr double kFarthestM = 1e5, kMostLux = 1e9;
+constexpr size_t kMostCorners = 1000, kMostEntries = 10'000;
+constexpr double kLeastAreaM2 = 0.01;
+
+Vec3 place(const JsonPlace& j) { return j.vector(-kFarthestM, kFarthestM); }
+
+Vec3 unit(const JsonPlace& j, Vec3 v) {
+  const float l = length(v);
+  if (l > 1e-6f) return v / l;
+  j.fail("must not be zero");
+  return {0, -1, 0};
+}
+
+Vec3 direction(const JsonPlace& j, Vec3 from) {
+  if (j.has("direction") == j.has("lookAt")) {
+    j.fail("give exactly one of direction, lookAt");
+    return {0, 0, -1};
+  }
+  return j.has("direction") ? unit(j["direction"], place(j["direction"])) : unit(j["lookAt"], place(j["lookAt"]) - from);
+}
+
+// What the file says goes before what a standard says.
+void readTargets(const JsonPlace& j, Targets& targets) {
+  if (j.has("target")) targets.lux = j["target"].quantity(Unit::Lux, 0.01, kMostLux);
+  if (j.has("uniformity")) targets.uniformity = j["uniformity"].number(0, 1);
+  if (j.has("ugr")) targets.ugr = j["ugr"].number(0, 50);
+  if (j.has("powerDensity")) targets.wattsPerM2 = j["powerDensity"].number(0, 1e4);
+  if (j.has("target") || j.has("uniformity") || j.has("ugr") || j.has("powerDensity")) targets.source = targets.source.empty() ? "meter file" : targets.source + ", meter file";
+}
+
+std::vector<Vec2> readFloor(const JsonPlace& j) {
+  std::vector<Vec2> floor;
+  const size_t corners = j.arraySize();
+  if (corners < 3 || corners > kMostCorners) {
+    j.fail(fmt::format("must have from 3 to {} corners", kMostCorners));
+    return floor;
+  }
+  for (size_t i = 0; i < corners; ++i) {
+    if (j[i].arraySize() != 2) {
+      j[i].fail("must be [x, z]");
+      return floor;
+    }
+    floor.push_back({static_cast<float>(j[i][size_t{0}].number(-kFarthestM, kFarthestM)), static_cast<float>(j[i][size_t{1}].number(-kFarthestM, kFarthestM))});
+  }
+  const double area = signedAreaM2(floor);
+  if (std::abs(area) < kLeastAreaM2) j.fail("has no area");
+  if (area < 0) std::reverse(floor.begin(), floor.end());
+  return floor;
+}
+
+Room knownRoom(const JsonPlace& j, const std::string& name, std::span<const Room> sceneRooms) {
+  for (const Room& r : sceneRooms) {
+    if (r.name == name) return r;
+  }
+  std::string names;
+  for (const Room& r : sceneRooms) names += (names.empty() ? "" : ", ") + r.name;
+  if (!j.has("floor")) j.fail(fmt::format("the scene knows no room '{}'{}; give its 'floor' as a list of [x, z]", name, names.empty() ? "" : " (it knows " + names + ")"));
+  Room room;
+  room.name = name;
+  return room;
+}
+
+RoomPlan readRoom(const JsonPlace& j, std::span<const Room> sceneRooms) {
+  if (!j.isObject({"name", "use", "floor", "elevation", "height", "workPlane", "surfaces", "watts", "target", "uniformity", "ugr", "powerDensity"})) return {};
+  Room room = knownRoom(j, j["name"].text(), sceneRooms);
+  if (j.has("use")) {
+    room.use = j["use"].text();
+    std::string known;
+    for (const RoomUse& use : roomUses()) known += (known.empty() ? "" : ", ") + use.name;
+    if (!findRoomUse(room.use)) j["use"].fail(fmt::format("unknown '{}'; there are {}; leave it out and give 'target'", room.use.substr(0, 60), known));
+  }
+  if (j.has("floor")) room.floor = readFloor(j["floor"]);
+  room.elevationM = static_cast<float>(j.number("elevation", -kFarthestM, kFarthestM, static_cast<double>(room.elevationM)));
+  room.heightM = static_cast<float>(j.number("height", 0.1, 1000, static_cast<double>(room.heightM)));
+  RoomPlan plan = planRoom(room);
+  plan.workPlaneM = j.number("workPlane", 0, 100, plan.workPlaneM);
+  plan.wattsW = j.number("watts", 0, 1e7, 0);
+  readTargets(j, plan.targets);
+  if (j.has("surfaces")) {
+    plan.onWorkPlane = false;
+    const JsonPlace list = j["surfaces"];
+    for (size_t i = 0; i < list.arraySize(); ++i) {
+      const std::string s = list[i].oneOf({"workPlane", "floor", "walls"});
+      (s == "workPlane" ? plan.onWorkPlane : s == "floor" ? plan.onFloor : plan.onWalls) = true;
+    }
+  }
+  return plan;
+}
+
+GridPlan readGrid(const JsonPlace& j) {
+  GridPlan grid;
+  if (!j.isObject({"name", "corner", "u", "v", "target", "uniformity"})) return grid;
+  grid.name = j["name"].text();
+  grid.corner = place(j["corner"]), grid.alongU = place(j["u"]), grid.alongV = place(j["v"]);
+  const float u = length(grid.alongU), v = length(grid.alongV);
+  if (u < 1e-3f || v < 1e-3f || std::abs(dot(grid.alongU, grid.alongV)) > 1e-3f * u * v) j.fail("'u' and 'v' must be the sides of a rectangle, from 'corner' on");
+  readTargets(j, grid.targets);
+  return grid;
+}
+
+PointPlan readPoint(const JsonPlace& j) {
+  PointPlan point;
+  if (!j.isObject({"name", "position", "normal", "target"})) return point;
+  point.name = j["name"].text();
+  point.place.position = place(j["position"]);
+  if (j.has("normal")) point.place.normal = unit(j["normal"], place(j["normal"]));
+  readTargets(j, point.targets);
+  return point;
+}
+
+SpotPlan readSpot(const JsonPlace& j) {
+  SpotPlan spot;
+  if (!j.isObject({"name", "position", "direction", "lookAt", "angle"})) return spot;
+  spot.name = j["name"].text();
+  spot.position = place(j["position"]);
+  spot.direction = direction(j, spot.position);
+  spot.angleDeg = j.number("angle", 0.1, 90, 1);
+  return spot;
+}
+
+GlarePlan readGlare(const JsonPlace& j) {
+  GlarePlan glare;
+  if (!j.isObject({"name", "position", "direction", "lookAt", "ugr"})) return glare;
+  glare.name = j["name"].text();
+  glare.position = place(j["position"]);
+  glare.direction = direction(j, glare.position);
+  readTargets(j, glare.targets);
+  return glare;
+}
+
+template <class Read>
+auto readList(const JsonPlace& j, const char* key, Read&& read) {
+  std::vector<decltype(read(j))> list;
+  if (!j.has(key)) return list;
+  const JsonPlace entries = j[key];
+  const size_t count = entries.arraySize();
+  if (count > kMostEntries) entries.fail(fmt::format("has more than {} entries", kMostEntries));
+  for (size_t i = 0; i < std::min(count, kMostEntries); ++i) list.push_back(read(entries[i]));
+  return list;
+}
+
+}  // namespace
+
+Result<MeterPlan> readMeterFile(const std::filesystem::path& file, std::span<const Room> sceneRooms) {
+  const Result<nlohmann::json> document = readJsonFile(file);
+  if (!document) return Error{document.error()};
+  std::string error;
+  const JsonPlace j(document.value(), "", error);
+  MeterPlan plan;
+  if (j.isObject({"border", "spacing", "maintenanceFactor", "groundReflectance", "rooms", "grids", "points", "spots", "glare"})) {
+    plan.grid.spacingM = j.number("spacing", 0.01, 100, 0);
+    if (j.has("border")) plan.grid.borderM = j["border"].number(0, 10), plan.grid.borderShare = 0.45;
+    plan.maintenanceFactor = j.number("maintenanceFactor", 0.1, 1, 1);
+    plan.groundReflectance = j.number("groundReflectance", 0, 1, 0.2);
+    plan.rooms = readList(j, "rooms", [&](const JsonPlace& room) { return readRoom(room, sceneRooms); });
+    plan.grids = readList(j, "grids", readGrid);
+    plan.points = readList(j, "points", readPoint);
+    plan.spots = readList(j, "spots", readSpot);
+    plan.glares = readList(j, "glare", readGlare);
+    if (plan.empty()) j.fail("asks for nothing; give at least one of rooms, grids, points, spots, glare");
+  }
+  if (!error.empty()) return Error{fmt::format("{}: {}", file.string(), error)};
+  return plan;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,22 @@
+// Measurements for people and for programs.
+#pragma once
+
+#include <string>
+
+#include "measure/measurements.h"
+
+namespace roomlight {
+
+// What was measured, and how.
+struct ReportHeader {
+  std::string scene, lighting, meters;  // file names; empty: none
+  std::string technique, quality, version;
+  double tolerance = 0.01;
+};
+
+std::string reportTable(const Measurements& m);                            // for a terminal
+std::string reportJson(const ReportHeader& header, const Measurements& m);
+// One line a reading: kind,name,room,x,y,z,nx,ny,nz,quantity,unit,value.
+std::string reportCsv(const Measurements& m);
+
+}  // namespace roomlight

@@ -1,0 +1,92 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "measure/exposure.h"
+#include "measure/report.h"
+
+namespace roomlight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json statistics(const Statistics& s) { return {{"points", s.points}, {"mean", s.mean}, {"min", s.least}, {"max", s.most}, {"u0", s.u0()}, {"u1", s.u1()}}; }
+
+const char* kindName(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::WorkPlane: return "workPlane";
+    case SurfaceKind::Floor: return "floor";
+    case SurfaceKind::Wall: return "wall";
+    case SurfaceKind::Rectangle: break;
+  }
+  return "rectangle";
+}
+
+Json values(const std::vector<float>& list) {
+  Json j = Json::array();
+  for (const float v : list) j.push_back(finite(static_cast<double>(v)));
+  return j;
+}
+
+Json gridJson(const GridReading& g) {
+  const Lattice& l = g.points.lattice;
+  Json j = {{"name", g.name}, {"room", g.room}, {"surface", kindName(g.kind)}, {"illuminanceLux", statistics(g.lux())}};
+  if (!g.points.daylightPercent.empty()) j["daylightFactorPercent"] = statistics(statisticsOf(g.points.daylightPercent));
+  j["leftOutInFurniture"] = g.leftOut;
+  j["lattice"] = {{"columns", l.columns}, {"rows", l.rows}, {"firstM", vector(l.columns && l.rows ? l.centre(0, 0) : l.corner)}, {"columnStepM", vector(l.u * l.stepUM)}, {"rowStepM", vector(l.v * l.stepVM)}, {"normal", vector(l.normal)}};
+  j["lux"] = values(g.points.lux);  // row by row; null where nothing was measured
+  if (!g.points.daylightPercent.empty()) j["daylightPercent"] = values(g.points.daylightPercent);
+  return j;
+}
+
+Json roomJson(const RoomReading& r) {
+  Json j = {{"name", r.room.name}, {"use", r.room.use}, {"areaM2", r.areaM2}, {"lamps", r.lamps}};
+  j["wattsW"] = r.wattsKnown() ? Json(r.wattsW) : Json(nullptr);
+  j["wattsPerM2"] = r.wattsKnown() && r.areaM2 > 0 ? Json(r.wattsW / r.areaM2) : Json(nullptr);
+  return j;
+}
+
+Json pointJson(const PointReading& p) {
+  Json j = {{"name", p.plan.name}, {"positionM", vector(p.plan.place.position)}, {"normal", vector(p.plan.place.normal)}, {"illuminanceLux", p.lux}, {"standardErrorLux", p.standardErrorLux}, {"ev100", finite(incidentEv100(p.lux))}};
+  if (p.daylightPercent) j["daylightFactorPercent"] = *p.daylightPercent;
+  return j;
+}
+
+}  // namespace
+
+std::string reportJson(const ReportHeader& header, const Measurements& m) {
+  Json rooms = Json::array(), grids = Json::array(), points = Json::array(), spots = Json::array(), glares = Json::array(), targets = Json::array();
+  for (const RoomReading& r : m.rooms) rooms.push_back(roomJson(r));
+  for (const GridReading& g : m.grids) grids.push_back(gridJson(g));
+  for (const PointReading& p : m.points) points.push_back(pointJson(p));
+  for (const SpotReading& s : m.spots) {
+    spots.push_back({{"name", s.plan.name}, {"positionM", vector(s.plan.position)}, {"direction", vector(s.plan.direction)}, {"angleDeg", s.plan.angleDeg}, {"luminanceCdM2", s.luminanceCdM2}, {"ev100", finite(reflectedEv100(s.luminanceCdM2))}});
+  }
+  for (const GlareReading& g : m.glares) {
+    glares.push_back({{"name", g.plan.name}, {"positionM", vector(g.plan.position)}, {"direction", vector(g.plan.direction)}, {"ugr", g.ugr ? Json(*g.ugr) : Json(nullptr)}, {"ugrStandardError", g.ugrError}, {"backgroundCdM2", g.backgroundCdM2}, {"eyeLux", g.eyeLux}, {"luminairesSeen", g.sources}});
+  }
+  for (const Verdict& v : verdictsOf(m)) {
+    targets.push_back({{"where", v.where}, {"what", v.what}, {"unit", v.unit}, {v.atMost ? "atMost" : "atLeast", v.wanted}, {"found", v.got}, {"met", v.met()}, {"source", v.source}});
+  }
+  const Json j = {{"roomlight", header.version},
+                  {"scene", header.scene},
+                  {"lighting", header.lighting},
+                  {"meters", header.meters},
+                  {"technique", header.technique},
+                  {"quality", header.quality},
+                  {"tolerance", header.tolerance},
+                  {"maintenanceFactor", m.maintenanceFactor},
+                  {"rooms", rooms},
+                  {"grids", grids},
+                  {"points", points},
+                  {"spots", spots},
+                  {"glare", glares},
+                  {"targets", targets},
+                  {"warnings", m.warnings}};
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace roomlight

@@ -1,0 +1,28 @@
+// What rooms should be lit to.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roomlight {
+
+struct Targets {
+  std::optional<double> lux;         // at least, on average on the work plane
+  std::optional<double> uniformity;  // U0 at least
+  std::optional<double> ugr;         // at most
+  std::optional<double> wattsPerM2;  // at most
+  std::string source;                // the standard, or the file that says so
+};
+
+struct RoomUse {
+  std::string name;  // "living"
+  Targets targets;
+  double workPlaneM;  // above the floor, where the standard measures
+};
+
+// Homes after GB 50034 (general lighting, on 0.75 m; power density of homes), offices after EN 12464-1.
+const std::vector<RoomUse>& roomUses();
+const RoomUse* findRoomUse(const std::string& name);
+
+}  // namespace roomlight

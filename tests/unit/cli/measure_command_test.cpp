@@ -1,0 +1,87 @@
+// `roomlight measure` from outside.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "unit/cli/program.h"
+
+namespace roomlight {
+namespace {
+
+using testing::ProgramRun;
+using testing::readFile;
+using testing::runProgram;
+using testing::TemporaryFolder;
+using testing::writeFile;
+
+TEST(MeasureCommand, findsTheRoomAndWritesEveryReport) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--quality", "draft", "--tolerance", "5%", "--json", folder / "m.json", "--csv", folder / "m.csv"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  for (const char* word : {"mean lx", "Area 1, work plane", "U0"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
+  const auto j = nlohmann::json::parse(readFile(folder / "m.json"));
+  ASSERT_EQ(j["grids"].size(), 1u);
+  EXPECT_NEAR(j["rooms"][0]["areaM2"].get<double>(), 16, 0.5);
+  const auto& lux = j["grids"][0]["illuminanceLux"];
+  EXPECT_GT(lux["min"].get<double>(), 0);  // no point is in the pillar
+  EXPECT_GT(lux["mean"].get<double>(), lux["min"].get<double>());
+  EXPECT_EQ(j["technique"], "hybrid");
+  const std::string csv = readFile(folder / "m.csv");
+  EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + lux["points"].get<size_t>());
+}
+
+// The bulb of 200 cd is 2.5 m up: direct light alone is 200 / 2.5² = 32 lx on the floor below it.
+TEST(MeasureCommand, pointMetersShowLuxAndExposure) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--technique", "path", "--point", "0,0.001,0", "--point", "0,2.999,0", "--json", folder / "m.json", "--quiet"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  EXPECT_TRUE(run.err.empty()) << run.err;
+  const auto j = nlohmann::json::parse(readFile(folder / "m.json"));
+  ASSERT_EQ(j["points"].size(), 2u);
+  const double below = j["points"][0]["illuminanceLux"].get<double>(), onTop = j["points"][1]["illuminanceLux"].get<double>();
+  EXPECT_GT(below, 32);
+  EXPECT_LT(below, 100);
+  // It looks at the ceiling a millimetre above: its albedo, 0.614, times 200 / 0.5² lx from the bulb, and a little more from the room.
+  EXPECT_GT(onTop, 0.99 * 0.614 * 800);
+  EXPECT_LT(onTop, 1.1 * 0.614 * 800);
+  EXPECT_NEAR(j["points"][0]["ev100"].get<double>(), std::log2(below / 2.5), 1e-6);
+}
+
+TEST(MeasureCommand, meterFileNamesRoomsAndTargets) {
+  const TemporaryFolder folder;
+  writeFile(folder / "meters.json", R"({"rooms": [{"name": "Hall", "floor": [[-2, -2], [-2, 2], [2, 2], [2, -2]], "height": 3, "watts": 20, "target": "1 lx", "uniformity": 1, "powerDensity": 6}],
+    "spots": [{"name": "Wall", "position": [0, 1.5, 1], "direction": [-1, 0, 0], "angle": 5}], "glare": [{"name": "Chair", "position": [0, 1.2, 1.9], "direction": [0, 0, -1]}]})");
+  const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--meters", folder / "meters.json", "--quality", "draft", "--tolerance", "2%"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  for (const char* word : {"Hall, work plane", "met", "MISSED", "<= 6.00 W/m²", "1.25 W/m²", "Wall", "cd/m²", "Chair", "UGR"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
+}
+
+TEST(MeasureCommand, whatIsWrongIsOneLineAndExitStatusTwo) {
+  const TemporaryFolder folder;
+  const std::string room = testing::writeRoom(folder);
+  writeFile(folder / "bad.json", R"({"points": [{"name": "A"}]})");
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"--point", "1,2"}, "--point 1,2: write x,y,z"},
+      {{"--point", "1,2,3,0,0,0"}, "the normal must not be zero"},
+      {{"--eye", "1,2,3"}, "--eye and --view: give both"},
+      {{"--tolerance", "0"}, "--tolerance 0"},
+      {{"--technique", "magic"}, "unknown technique 'magic'"},
+      {{"--meters", folder / "bad.json"}, "points[0]: 'position' is missing"},
+      {{"--meters", folder / "none.json"}, "none.json"},
+      {{"--json", folder / "a.json", "--csv", folder / "a.json"}, "is named twice"},
+      {{"--json", folder / "no/a.json"}, "cannot be written"},
+  };
+  for (const auto& [arguments, expected] : cases) {
+    std::vector<std::string> all = {"measure", room, "--quiet"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ProgramRun run = runProgram(all);
+    EXPECT_EQ(run.exitStatus, 2) << expected;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_NE(run.err.find(expected), std::string::npos) << run.err;
+  }
+}
+
+}  // namespace
+}  // namespace roomlight
