@@ -52,6 +52,7 @@ JsonPlace JsonPlace::operator[](size_t index) const { return {(*value_)[index], 
 
 bool JsonPlace::isArray() const { return value_->is_array(); }
 bool JsonPlace::isNumber() const { return value_->is_number(); }
+bool JsonPlace::isText(std::string_view text) const { return value_->is_string() && value_->get_ref<const std::string&>() == text; }
 
 size_t JsonPlace::arraySize() const {
   if (value_->is_array()) return value_->size();

@@ -25,6 +25,7 @@ class JsonPlace {
   size_t arraySize() const;  // fails where it is none
   bool isArray() const;
   bool isNumber() const;
+  bool isText(std::string_view text) const;  // this one
   const std::string& path() const { return path_; }
 
   std::string text() const;

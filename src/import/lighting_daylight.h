@@ -14,7 +14,7 @@ struct Daylight {
   Sky sky;  // black at night
 };
 
-// `folder`: where the path of a weather file begins.
+// By the sky's kind, or by measured irradiance and Perez's all-weather sky. `folder`: where the path of a weather file begins.
 Daylight readDaylight(const JsonPlace& j, const std::filesystem::path& folder);
 
 }  // namespace roomlight

@@ -3,7 +3,8 @@
 //     "lamps": [ { "type": "point"|"spot"|"area"|"photometric", "position": [x,y,z], "flux"|"intensity"|"luminance": "800 lm", .. } ],
 //     "sun": { "direction": [x,y,z], "illuminance": "75000 lx" } or { "latitude", "longitude", "time" } or a list of them,
 //     "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" | "horizontalIlluminance": "10 klx" },
-//     "daylight": { "sky": "clear"|"intermediate"|"overcast"|1..16, "latitude", "longitude", "time", .. } }
+//     "daylight": { "sky": "clear"|"intermediate"|"overcast"|1..16|"perez", "latitude", "longitude", "time", .. },
+//     "glazing": [ { "material": "Glass", "panes": 2, "internalTransmittance": 0.96, "ior": 1.52 } ] }
 #include "import/lighting_file.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 
 #include "import/json_file.h"
 #include "import/lighting_daylight.h"
+#include "import/lighting_glazing.h"
 #include "import/lighting_lamps.h"
 #include "import/lighting_sky.h"
 #include "import/lighting_values.h"
@@ -53,11 +55,12 @@ struct Lighting {
   std::vector<Lamp> lamps;
   std::vector<Sun> suns;
   std::optional<Sky> sky;
+  std::vector<GlazedMaterial> glazing;
 };
 
 Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder, PhotometricFiles& files) {
   Lighting out;
-  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight"})) return out;
+  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight", "glazing"})) return out;
   if (root.has("version") && root["version"].number(1, 1e6) != 1) root["version"].fail("must be 1");
   if (root.has("comment")) root["comment"].text();
   if (root.has("scene")) out.kept = readKept(root["scene"]);
@@ -80,10 +83,11 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
     out.suns.push_back(daylight.sun);
     out.sky = std::move(daylight.sky);
   }
+  if (root.has("glazing")) out.glazing = readGlazing(root["glazing"]);
   return out;
 }
 
-// The one thing that depends on the scene: its emission times the factor must stay in range.
+// Depends on the scene: its emission times the factor must stay in range.
 bool emissionStaysInRange(const Scene& scene, float factor) {
   return std::all_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
     return factor <= 1 || maxComponent(m.emission) <= kMostLight / factor;
@@ -96,6 +100,7 @@ void apply(Lighting& lighting, Scene& scene) {
   if (!kept.suns) scene.suns.clear();
   if (!kept.sky) scene.sky = {};
   for (Material& m : scene.materials) m.emission *= kept.emission;
+  applyGlazing(lighting.glazing, scene);
   const size_t first = scene.lamps.size();
   scene.lamps.insert(scene.lamps.end(), lighting.lamps.begin(), lighting.lamps.end());
   addAreaLampMeshes(scene, first);
@@ -117,6 +122,7 @@ Status applyLightingFile(const std::filesystem::path& file, Scene& scene, std::v
   if (!emissionStaysInRange(scene, lighting.kept.emission)) {
     return Error{fmt::format("{}: scene.emission: would make a material brighter than 1e12 cd/m2", file.string())};
   }
+  if (const std::string wrong = missingMaterial(lighting.glazing, scene); !wrong.empty()) return Error{fmt::format("{}: {}", file.string(), wrong)};
   apply(lighting, scene);
   if (warnings) warnings->insert(warnings->end(), files.warnings().begin(), files.warnings().end());
   return Ok{};

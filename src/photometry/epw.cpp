@@ -43,8 +43,10 @@ class Record {
       fail(fmt::format("field {} ({}) is not a number", i + 1, what));
     } else if (v < low || v > high) {
       fail(fmt::format("field {} ({}) is {}; it must be from {} to {}", i + 1, what, v, low, high));
+    } else {
+      return v;
     }
-    return v;
+    return low;
   }
   std::optional<double> measured(size_t i, const char* what, double low, double high, double missing) {
     const double v = number(i, what, -1e9, 1e9);

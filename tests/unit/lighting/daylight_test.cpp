@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <fstream>
 #include <numbers>
 
 #include "import/lighting_file.h"
 #include "photometry/cie_sky.h"
+#include "photometry/perez_sky.h"
 #include "photometry/sun.h"
 #include "trace/sky_distribution.h"
 #include "unit/temporary_folder.h"
@@ -81,6 +84,49 @@ TEST_F(Daylight, nightIsDark) {
   EXPECT_FALSE(scene_.sky.present());
 }
 
+TEST_F(Daylight, theAllWeatherSkyHasTheLightThatWasMeasured) {
+  for (const auto& [direct, diffuse] : {std::pair(0.0, 180.0), std::pair(60.0, 250.0), std::pair(300.0, 220.0), std::pair(820.0, 90.0)}) {
+    const Status s = apply(fmt::format(R"({{"daylight": {{"sky": "perez", "latitude": 48.14, "longitude": 11.58, "time": "2026-06-10T16:30+02:00",
+      "directNormal": "{} W/m2", "diffuseHorizontal": "{} W/m2", "ground": 0.25}}}})",
+                                       direct, diffuse));
+    ASSERT_TRUE(s) << s.error();
+    const Moment moment = parseMoment("2026-06-10T16:30+02:00").value();
+    const double altitude = sunPosition(moment, 48.14, 11.58).altitudeRad;
+    const PerezSky sky = perezSky({direct, diffuse}, std::numbers::pi / 2 - altitude, kSolarConstant * sunDistanceFactor(moment));
+    EXPECT_NEAR(skyLux(), diffuse * sky.diffuseEfficacy, 0.002 * diffuse * sky.diffuseEfficacy);
+    EXPECT_EQ(scene_.suns.size(), direct > 0 ? 1u : 0u);
+    const double sun = scene_.suns.empty() ? 0 : static_cast<double>(luminance(scene_.suns[0].illuminanceLux));
+    EXPECT_NEAR(sun, direct * sky.directEfficacy, 1e-3 * sun);
+    const double ground = 0.25 * (diffuse * sky.diffuseEfficacy + sun * std::sin(altitude)) / std::numbers::pi;
+    EXPECT_NEAR(luminanceAt({0, -1, 0}), ground, 0.001 * ground);
+  }
+}
+
+std::string hourOf(int month, int day, int hour, int direct, int diffuse, int directLux, int diffuseLux) {
+  return fmt::format("2005,{},{},{},60,?9?9?9,20.0,8.0,50,101300,0,1300,300,500,{},{},50000,{},{},9999,180,3.0,5,5\n", month, day, hour, direct, diffuse, directLux, diffuseLux);
+}
+
+TEST_F(Daylight, weatherTellsPlaceAndIrradiance) {
+  std::ofstream(folder_ / "town.epw") << "LOCATION,Town,-,DEU,IWEC,1,48.14,11.58,1.0,500\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\n"
+                                      << hourOf(6, 10, 15, 100, 300, 0, 0) << hourOf(6, 10, 16, 700, 120, 0, 0) << hourOf(6, 10, 17, 600, 110, 55000, 14000) << hourOf(6, 10, 23, 0, 0, 0, 0);
+  // 16:30 of summer time is 15:30 of standard time, within hour 16.
+  const auto at = [&](const std::string& time) { return apply(R"({"daylight": {"weather": "town.epw", "time": ")" + time + "\"}}"); };
+  ASSERT_TRUE(at("2026-06-10T16:30+02:00"));
+  const Moment moment = parseMoment("2026-06-10T16:30+02:00").value();
+  const PerezSky sky = perezSky({700, 120}, std::numbers::pi / 2 - sunPosition(moment, 48.14, 11.58).altitudeRad, kSolarConstant * sunDistanceFactor(moment), precipitableWaterCm(8));
+  EXPECT_NEAR(skyLux(), 120 * sky.diffuseEfficacy, 0.002 * skyLux());
+  EXPECT_NEAR(luminance(scene_.suns.at(0).illuminanceLux), 700 * sky.directEfficacy, 50);
+  // Where lux were given they count.
+  ASSERT_TRUE(at("2026-06-10T17:30+02:00"));
+  EXPECT_NEAR(skyLux(), 14000, 30);
+  EXPECT_NEAR(luminance(scene_.suns.at(0).illuminanceLux), 55000, 10);
+  ASSERT_TRUE(at("2026-06-10T21:30Z"));
+  EXPECT_FALSE(scene_.sky.present());
+  const Status none = at("2026-01-10T12:00Z");
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().find("daylight.weather: has no weather of that hour"), std::string::npos) << none.error();
+}
+
 TEST_F(Daylight, whatIsWrongIsNamed) {
   const std::pair<const char*, const char*> cases[] = {
       {R"({"daylight": {"sky": 17}})", "daylight.sky: 17 is out of range"},
@@ -88,7 +134,11 @@ TEST_F(Daylight, whatIsWrongIsNamed) {
       {R"({"daylight": {"sky": "cloudy"}})", "daylight.sky: unknown 'cloudy'"},
       {R"({"daylight": {"sky": "clear", "horizontalIlluminance": "10 klx"}})", "daylight: 'latitude' is missing"},
       {R"({"daylight": {"sky": "overcast"}})", "daylight: 'latitude' is missing"},
-      {R"({"daylight": {"sky": "clear", "direction": [0, 1, 1]}})", "daylight: 'sunIlluminance' is missing"},
+      {R"({"daylight": {"sky": "perez", "direction": [0, 1, 1], "directNormal": "500 W/m2"}})", "daylight: 'diffuseHorizontal' is missing"},
+      {R"({"daylight": {"sky": "perez", "direction": [0, 1, 1], "directNormal": "500 W/m2", "diffuseHorizontal": "0 W/m2"}})", "daylight: direct light without any diffuse light"},
+      {R"({"daylight": {"sky": "perez", "direction": [0, 1, 1], "directNormal": "500 lx", "diffuseHorizontal": "9 W/m2"}})", "daylight.directNormal: '500 lx' is in lx, where W/m2 is needed"},
+      {R"({"daylight": {"weather": "none.epw", "time": "2026-06-10T16:30+02:00"}})", "none.epw"},
+      {R"({"daylight": {"sky": "clear", "direction": [0, 1, 1]}})", "daylight: 'sunIlluminance' is needed"},
       {R"({"daylight": {"sky": "overcast", "horizontalIlluminance": "1 lx", "ground": 1.5}})", "daylight.ground: 1.5 is out of range"},
       {R"({"daylight": {"sky": "overcast", "horizontalIlluminance": "1 lx"}, "sky": {"luminance": "1 cd/m2"}})", "sky: means nothing beside 'daylight'"},
   };

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/image_io.h"
+#include "scene/surface.h"
 #include "trace/lights.h"
 #include "unit/temporary_folder.h"
 
@@ -203,6 +204,27 @@ TEST_F(LightingFile, errorsNameFileAndPlaceAndLeaveTheSceneAlone) {
     EXPECT_EQ(scene_.materials[0].emission.x, 100);
   }
   EXPECT_NE(applyLightingFile(folder_ / "missing.json", scene_).error().find("no such file"), std::string::npos);
+}
+
+TEST_F(LightingFile, glazingMakesWindowsOfMaterials) {
+  scene_.materials.resize(3);
+  scene_.materials[1].name = scene_.materials[2].name = "Glass";
+  scene_.materials[1].baseColor = Vec3(0.3f);
+  scene_.materials[1].transmission = 0.5f;
+  const Status s = apply(R"({"glazing": [{"material": "Glass", "panes": 2, "internalTransmittance": 0.9}]})");
+  ASSERT_TRUE(s) << s.error();
+  EXPECT_EQ(scene_.materials[0].glazing.panes, 0);
+  for (size_t i = 1; i < 3; ++i) {
+    const Material& m = scene_.materials[i];
+    EXPECT_EQ(m.glazing.panes, 2);
+    EXPECT_EQ(m.glazing.ior, 1.52f);
+    const MaterialSample sample = materialAt(scene_, m, VertexValues());
+    EXPECT_NEAR(straightTransmittance(m, sample, 0.6f).y, glazingLight({2, 1.52f, 0.9f}, 0.6f).transmitted, 1e-6);
+    EXPECT_NEAR(bihemisphericalAlbedo(sample).y, glazingHemisphericalReflectance({2, 1.52f, 0.9f}), 1e-6);
+  }
+  const Status missing = apply(R"({"glazing": [{"material": "Pane"}]})");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().find("glazing[0].material: no material is called 'Pane'; there are '', 'Glass', 'Glass'"), std::string::npos) << missing.error();
 }
 
 }  // namespace

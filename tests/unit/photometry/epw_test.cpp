@@ -59,6 +59,7 @@ TEST(Epw, saysInWhichLineWhatIsWrong) {
       {"LOCATION,Town,a,b,c,1,95,0,0,0\n", "line 1: field 7 (latitude) is 95"},
       {kHeader, "line 8: the file ends without an hour"},
       {kHeader + kNoon + "1996,3,1\n", "line 10: has 3 fields"},
+      {kHeader + "1996,inf" + kNoon.substr(6), "line 9: field 2 (month) is not a number"},
       {kHeader + "1996,13" + kNoon.substr(6), "line 9: field 2 (month) is 13"},
       {kHeader + "1996,3,1,12,60,?9,24.5,9,61,101200,1000,1400,400,800,many,210,0,0,0,0,90,2.0,4,4\n", "line 9: field 15 (direct normal irradiance) is not a number"},
       {kHeader + "1996,3,1,12,60,?9,24.5,9,61,101200,1000,1400,400,800,-5,210,0,0,0,0,90,2.0,4,4\n", "line 9: field 15 (direct normal irradiance) is -5"},

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "photometry/cie_sky.h"
+#include "photometry/perez_sky.h"
 #include "photometry/sky_image.h"
 #include "trace/sky_distribution.h"
 
@@ -33,11 +34,8 @@ SkyFunction cieSky(int type, Vec3 sun) {
   return [=](Vec3 d) { return cieSkyLuminance(type, static_cast<double>(d.y), std::acos(std::clamp(static_cast<double>(dot(d, sun)), -1.0, 1.0)), zenith); };
 }
 
-class SkyPicture : public testing::TestWithParam<int> {};
-
-TEST_P(SkyPicture, lightsRoofsAndFacadesAsTheFormulaDoes) {
-  const Vec3 sun = normalize(Vec3{0.5f, 0.6f, -0.4f});
-  const SkyFunction exact = cieSky(GetParam(), sun);
+// What the picture of a sky of 10 klx over ground of 700 cd/m² gives to roofs and facades.
+void expectTheSameLight(const SkyFunction& exact) {
   const double scale = 10'000 / horizontalIlluminance(exact), ground = 700;
   Sky sky;
   sky.image = skyImage(exact, 10'000, Vec3(1), Vec3(static_cast<float>(ground)));
@@ -52,7 +50,18 @@ TEST_P(SkyPicture, lightsRoofsAndFacadesAsTheFormulaDoes) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Types, SkyPicture, testing::Range(1, kCieSkyTypes + 1));
+
+class CiePicture : public testing::TestWithParam<int> {};
+TEST_P(CiePicture, lightsRoofsAndFacadesAsTheFormulaDoes) { expectTheSameLight(cieSky(GetParam(), normalize(Vec3{0.5f, 0.6f, -0.4f}))); }
+INSTANTIATE_TEST_SUITE_P(Types, CiePicture, testing::Range(1, kCieSkyTypes + 1));
+
+class PerezPicture : public testing::TestWithParam<double> {};
+TEST_P(PerezPicture, lightsRoofsAndFacadesAsTheFormulaDoes) {
+  const Vec3 sun = normalize(Vec3{0.5f, 0.4f, -0.4f});
+  const PerezSky sky = perezSky({GetParam() * 120, 120}, std::acos(static_cast<double>(sun.y)));
+  expectTheSameLight([=](Vec3 d) { return perezLuminance(sky, static_cast<double>(d.y), std::acos(std::clamp(static_cast<double>(dot(d, sun)), -1.0, 1.0))); });
+}
+INSTANTIATE_TEST_SUITE_P(DirectOverDiffuse, PerezPicture, testing::Values(0, 0.2, 0.5, 1, 1.8, 3, 6, 8));
 
 TEST(SkyPicture, hasAnEdgeAtTheHorizon) {
   Sky sky;
