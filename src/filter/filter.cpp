@@ -32,6 +32,7 @@ void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
       float* light = at + FilterRows::light(k, 0) * pitch;
       store(light, pitch, lights[k]);
       light[FilterRows::kVariance * pitch] = variances[k];
+      light[FilterRows::kWeight * pitch] = p.weight;
     }
     ++at;
   }

@@ -17,6 +17,7 @@ struct FilterPixel {
   Vec3 normal, position;
   float roughness = 0;
   float surface = 0;  // 0..1: share of samples that saw a surface
+  float weight = 1;   // samples that the pixel stands for among its neighbours
 };
 
 struct FilterInput {

@@ -22,6 +22,7 @@ constexpr float kOwnNoise = 0.5f;          // of a pixel's own variance counts a
 constexpr float kPlaneTolerance = 0.02f;   // metres off the tangent plane, and
 constexpr float kSlope = 0.5f;             // of the distance between the two points
 constexpr float kLeastFacing = 0.3f;       // cosine between normals
+constexpr float kNoSamples = 1e-6f;        // instead of the weight of margins, which is zero
 constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
 constexpr float kSameRoughness = 0.1f;
 
@@ -88,18 +89,20 @@ void findSeen(FilterRows& rows, const FilterPass& pass, int light, int y) {
     const float* here = row + x;
     V sum = luminance(load3(here + colour, pitch));
     if (light == 0) {
+      const ptrdiff_t samples = colour + FilterRows::kWeight * pitch;
       const Place own = placeAt(here, pitch);
-      V total = set(1);
+      V total = load(here + samples);
+      sum = hn::Mul(sum, total);
       for (int j = y > 0 ? -1 : 0; j <= (y + 1 < rows.height() ? 1 : 0); ++j) {
         for (int i = -1; i <= 1; ++i) {
           if (i == 0 && j == 0) continue;
           const float* there = here + j * rows.rowPitch() + i;
           const Place other = placeAt(there, pitch);
-          const V weight = hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other)));
+          const V weight = hn::Mul(load(there + samples), hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other))));
           sum = hn::MulAdd(weight, luminance(load3(there + colour, pitch)), sum), total = hn::Add(total, weight);
         }
       }
-      sum = hn::Div(sum, total);
+      sum = hn::Div(sum, hn::Max(total, set(kNoSamples)));
     }
     hn::StoreU(sum, d, out + x);
   }
@@ -113,22 +116,24 @@ void prepare(FilterRows& rows, const FilterPass& pass, int y) {
   }
 }
 
-// A weighted mean under way, and the pixel it is for.
+// A weighted mean under way, and the pixel it is for. Pixels weigh by their samples: those that got more were chosen by what their first
+// samples found, so that a mean of pixels alike would be too dark (rare bright samples made themselves rarer), the mean of all samples is not.
 struct Sum {
   V3 own;
-  V ownVariance, seen, noise;
+  V ownVariance, ownWeight, seen, noise;
   V3 light;
-  V variance, total;
+  V variance, total, kernel;
 
   Sum() = default;
-  Sum(const V3& c, V v, V s, V n) : own(c), ownVariance(v), seen(s), noise(n), total(set(kKernel[0])) {
+  Sum(const V3& c, V v, V w, V s, V n) : own(c), ownVariance(v), ownWeight(w), seen(s), noise(n), total(hn::Mul(w, set(kKernel[0]))), kernel(set(kKernel[0])) {
     light = {hn::Mul(c.x, total), hn::Mul(c.y, total), hn::Mul(c.z, total)};
     variance = hn::Mul(v, hn::Mul(total, total));
   }
-  void add(const V3& c, V v, V weight) {
+  void add(const V3& c, V v, V samples, V share) {
+    const V weight = hn::Mul(samples, share);
     light = {hn::MulAdd(c.x, weight, light.x), hn::MulAdd(c.y, weight, light.y), hn::MulAdd(c.z, weight, light.z)};
     variance = hn::MulAdd(v, hn::Mul(weight, weight), variance);
-    total = hn::Add(total, weight);
+    total = hn::Add(total, weight), kernel = hn::Add(kernel, share);
   }
 };
 
@@ -146,7 +151,7 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
     for (int k = 0; k < kFilterLights; ++k) {
       if (!kUsed[k]) continue;
       const float* at = here + FilterRows::light(k, pass.place[k]) * pitch;
-      sums[k] = Sum(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(here + (FilterRows::kSeen + k) * pitch), load(here + (FilterRows::kNoise + k) * pitch));
+      sums[k] = Sum(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), load(here + (FilterRows::kSeen + k) * pitch), load(here + (FilterRows::kNoise + k) * pitch));
     }
     for (int j = -1; j <= 1; ++j) {
       if (y + j * pass.step < 0 || y + j * pass.step >= rows.height()) continue;
@@ -169,20 +174,21 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
             weight = hn::IfThenElseZero(alike, weight);
           }
           const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-          s.add(load3(at, pitch), load(at + FilterRows::kVariance * pitch), weight);
+          s.add(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), weight);
         }
       }
     }
     for (int k = 0; k < kFilterLights; ++k) {
       if (!kUsed[k]) continue;
       const Sum& s = sums[k];
-      const V inverse = hn::Div(set(1), s.total);
+      const V inverse = hn::Div(set(1), hn::Max(s.total, set(kNoSamples)));
       const auto kept = hn::Lt(roughness, set(k == 2 ? kMirrorRoughness : -1));
       float* at = rows.line(FilterRows::light(k, 1 - pass.place[k]), y) + x;
       hn::StoreU(hn::IfThenElse(kept, s.own.x, hn::Mul(s.light.x, inverse)), d, at);
       hn::StoreU(hn::IfThenElse(kept, s.own.y, hn::Mul(s.light.y, inverse)), d, at + pitch);
       hn::StoreU(hn::IfThenElse(kept, s.own.z, hn::Mul(s.light.z, inverse)), d, at + 2 * pitch);
       hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, hn::Mul(inverse, inverse))), d, at + FilterRows::kVariance * pitch);
+      hn::StoreU(hn::IfThenElse(kept, s.ownWeight, hn::Div(s.total, s.kernel)), d, at + FilterRows::kWeight * pitch);
     }
   }
 }

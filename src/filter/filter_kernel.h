@@ -11,11 +11,11 @@ constexpr int kFilterLights = 3;  // diffuse, sharp, specular
 // What the filter knows of a picture: rows of pixels, of each row one line of floats a quantity.
 class FilterRows {
  public:
-  // Quantities. kSeen is the luminance by which pixels are compared. Each light has two places for its colour and variance: a pass
+  // Quantities. kSeen is the luminance by which pixels are compared. Each light has two places for its colour, variance and weight: a pass
   // reads one and writes the other.
-  static constexpr int kNormal = 0, kPosition = 3, kRoughness = 6, kNoise = 7, kSeen = kNoise + kFilterLights, kLight = kSeen + kFilterLights, kVariance = 3;
-  static constexpr int kCount = kLight + kFilterLights * 2 * 4;
-  static constexpr int light(int k, int place) { return kLight + (2 * k + place) * 4; }
+  static constexpr int kNormal = 0, kPosition = 3, kRoughness = 6, kNoise = 7, kSeen = kNoise + kFilterLights, kLight = kSeen + kFilterLights, kVariance = 3, kWeight = 4, kParts = 5;
+  static constexpr int kCount = kLight + kFilterLights * 2 * kParts;
+  static constexpr int light(int k, int place) { return kLight + (2 * k + place) * kParts; }
 
   FilterRows(int w, int h, int margin);
   int width() const { return width_; }

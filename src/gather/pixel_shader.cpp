@@ -54,6 +54,7 @@ FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count) {
     p.roughness *= 1 / p.surface;
   }
   p.surface *= inverse;
+  p.weight = static_cast<float>(std::max(1u, count.rays));
   return p;
 }
 
