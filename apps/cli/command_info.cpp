@@ -1,4 +1,4 @@
-// roomlight info: what a scene holds.
+// roomlight info: what a scene or a photometric file holds.
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "console.h"
 #include "import/import.h"
+#include "import/photometric_file.h"
 
 namespace roomlight::cli {
 namespace {
@@ -21,11 +22,17 @@ struct Options {
 
 Json vector(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
-// Of the luminaire as it is here: dimmed, tilted, with another flux.
-Json webJson(const Lamp& lamp) {
-  const PhotometricWeb& web = *lamp.web;
-  const double part = static_cast<double>(luminance(lamp.intensityCd) / web.peakCd);
-  return {{"name", web.name}, {"manufacturer", web.manufacturer}, {"format", web.format}, {"fluxLm", web.fluxLm * part}, {"fileFluxLm", web.fluxLm}, {"statedFluxLm", web.statedFluxLm}, {"watts", web.watts}, {"openingM", {web.sizeC0M, web.sizeC90M}}, {"round", web.round}, {"as", lamp.extended ? "area" : "point"}};
+// As the file says.
+Json webJson(const PhotometricWeb& web) {
+  return {{"name", web.name},
+          {"manufacturer", web.manufacturer},
+          {"format", web.format},
+          {"fileFluxLm", web.fluxLm},
+          {"statedFluxLm", web.statedFluxLm},
+          {"peakCd", web.peakCd},
+          {"watts", web.watts},
+          {"openingM", {web.sizeC0M, web.sizeC90M}},
+          {"round", web.round}};
 }
 
 Json lampJson(const Lamp& lamp) {
@@ -39,7 +46,12 @@ Json lampJson(const Lamp& lamp) {
     j["kind"] = lamp.kind == LampKind::Spot ? "spot" : "point";
     j["intensityCd"] = luminance(lamp.intensityCd);
   }
-  if (lamp.web) j["kind"] = "photometric", j["web"] = webJson(lamp);
+  if (lamp.web) {
+    // Of the luminaire as it is here: dimmed, tilted, with another flux.
+    j["kind"] = "photometric", j["as"] = lamp.extended ? "area" : "point";
+    j["fluxLm"] = lamp.web->fluxLm * static_cast<double>(luminance(lamp.intensityCd) / lamp.web->peakCd);
+    j["web"] = webJson(*lamp.web);
+  }
   j["positionM"] = vector(lamp.position);
   return j;
 }
@@ -89,8 +101,8 @@ void printTable(const Json& j) {
   for (const Json& lamp : j["lamps"]) {
     if (lamp["kind"] == "photometric") {
       const Json& web = lamp["web"];
-      fmt::print("  photometric {}: {:.6g} lm, peak {:.6g} cd, as {}; {}, {}\n", shown(lamp["name"]), web["fluxLm"].get<double>(), lamp["intensityCd"].get<double>(),
-                 web["as"].get<std::string>(), web["format"].get<std::string>(), shown(web["name"]));
+      fmt::print("  photometric {}: {:.6g} lm, peak {:.6g} cd, as {}; {}, {}\n", shown(lamp["name"]), lamp["fluxLm"].get<double>(), lamp["intensityCd"].get<double>(),
+                 lamp["as"].get<std::string>(), web["format"].get<std::string>(), shown(web["name"]));
       continue;
     }
     const bool area = lamp["kind"] == "area";
@@ -106,7 +118,30 @@ void printTable(const Json& j) {
   for (const Json& c : j["cameras"]) fmt::print("  {} {}: {}\n", index++, shown(c["name"]), c["kind"].get<std::string>());
 }
 
+int showPhotometricFile(const Options& o) {
+  importers::PhotometricFiles files;
+  const auto web = files.read(o.scene);
+  if (!web) {
+    printError(fmt::format("{}: {}", o.scene, web.error()));
+    return kBadInput;
+  }
+  Json j = webJson(*web.value());
+  j["warnings"] = files.warnings();
+  if (o.json) {
+    fmt::print("{}\n", j.dump(2, ' ', false, Json::error_handler_t::replace));
+    return kOk;
+  }
+  const PhotometricWeb& w = *web.value();
+  fmt::print("{:<18} {}\n{:<18} {}\n{:<18} {}\n", "luminaire", shown(j["name"]), "manufacturer", shown(j["manufacturer"]), "format", w.format);
+  fmt::print("{:<18} {:.6g} lm\n{:<18} {}\n{:<18} {:.6g} cd\n", "flux", w.fluxLm, "stated flux", w.statedFluxLm > 0 ? fmt::format("{:.6g} lm", w.statedFluxLm) : "none", "peak", w.peakCd);
+  fmt::print("{:<18} {}\n", "opening", w.hasOpening() ? fmt::format("{:.4g} m along C0, {:.4g} m along C90, {}", w.sizeC0M, w.sizeC90M, w.round ? "round" : "rectangular") : "none");
+  printWarnings(files.warnings());
+  return kOk;
+}
+
 int runInfo(const Options& o) {
+  if (importers::isPhotometric(o.scene)) return showPhotometricFile(o);
+
   if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) {
     printError("--metres-per-unit: must be above 0 and at most 1000000");
     return kBadInput;
@@ -130,8 +165,8 @@ int runInfo(const Options& o) {
 
 Registered addInfo(CLI::App& program) {
   const auto o = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("info", "Say what a scene holds");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf or .obj")->required();
+  CLI::App* app = program.add_subcommand("info", "Say what a scene or a photometric file holds");
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf or .obj; or one luminaire: .ies or .ldt")->required();
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
   app->add_flag("--json", o->json, "Print JSON");
   app->footer("Example:\n  roomlight info flat.glb --json");
