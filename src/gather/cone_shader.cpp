@@ -34,7 +34,7 @@ SurfaceLight ConeShader::shade(const Shading& work, std::span<const Shadow> shad
                                                                                                       : Reflection::Cone;
   const int32_t guide = guideAt(field_.guide, voxels_, s.p, s.ng);
   SurfaceLight out;
-  const Lobes soft = this->soft(s, bsdf, by, guide, sampler, count), sharp = this->sharp(s, bsdf, by, shadows, sampler, count, out.sharpVariance);
+  const Lobes soft = this->soft(s, bsdf, by, guide, sampler, count, !work.skyKnown), sharp = this->sharp(s, bsdf, by, shadows, sampler, count, out.sharpVariance);
   out.albedo = bsdf.diffuseAlbedo();
   out.diffuse = soft.diffuse;
   out.sharp = sharp.diffuse;
@@ -80,7 +80,7 @@ Lobes ConeShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, 
 }
 
 // Light of the sky, emissive meshes and, where they are many, lamps.
-Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, GatherCounters& count) const {
+Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, GatherCounters& count, bool skyToo) const {
   Lobes sum;
   const auto take = [&](const LightSample& light, float strategies, float weight) {
     const Lobes f = towards(light, bsdf, by, strategies);
@@ -95,7 +95,7 @@ Lobes ConeShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, i
       take(lights_.sampleEmitters(s.p, sampler.next2(), (choice + static_cast<float>(k)) / kEmitterSamples), kEmitterSamples, 1.0f / kEmitterSamples);
     }
   }
-  if (lights_.sky().present()) {
+  if (skyToo && lights_.sky().present()) {
     for (int k = 0; k < kSkySamples; ++k) {
       const Vec2 u = sampler.next2();
       take(sampleSkyGuided(field_.guide, guide, lights_, u, sampler.next1()), kSkySamples, 1.0f / kSkySamples);

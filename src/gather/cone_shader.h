@@ -38,7 +38,7 @@ class ConeShader final : public SurfaceShader {
   void glow(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, Sampler& sampler, Lobes& sum, GatherCounters& count) const;
   Lobes towards(const LightSample& light, const Bsdf& bsdf, Reflection by, float strategies) const;
   Lobes sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows, Sampler& sampler, GatherCounters& count, float& variance) const;
-  Lobes soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, GatherCounters& count) const;
+  Lobes soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, GatherCounters& count, bool skyToo = true) const;
   float conePdf(float cosSurface) const;
   ConeShape lobe(const SurfacePoint& s, float pdf) const;
   ConeStart coneStart(const SurfacePoint& s) const;

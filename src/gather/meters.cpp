@@ -19,7 +19,7 @@ SurfacePoint whitePatch(const SurfaceElement& element) {
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
                                              const MeterSettings& settings, const Progress& progress) {
   const SharpLights sharp(rays, lights);
-  const auto sample = [&](size_t meter, int first, int count) {
+  const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     thread_local std::vector<Shading> shadings;
     thread_local std::vector<Shadow> shadows;
     thread_local std::vector<SurfaceLight> light;
@@ -33,16 +33,14 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
         const Vec2 u = sampler.next2();
         shadows.push_back(sharp.shadow(i, {&origin, 1}, {&u, 1}));
       }
-      shadings.push_back({s, s.ng, sampler, firstShadow, false});
+      shadings.push_back({s, s.ng, sampler, firstShadow, false, true});
     }
     light.assign(shadings.size(), {});
     GatherCounters counters;
     shader.shade(shadings, shadows, light, counters);
-    MeterSums sums;
-    for (const SurfaceLight& l : light) sums.add((l.diffuse + l.sharp) * kPi);
-    return sums;
+    for (size_t k = 0; k < light.size(); ++k) lux[k] += (light[k].diffuse + light[k].sharp) * kPi;
   };
-  return readMeters(elements.size(), settings, sample, progress);
+  return readMeters(rays, lights, elements, settings, sample, progress);
 }
 
 }  // namespace roomlight

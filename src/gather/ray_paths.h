@@ -21,6 +21,7 @@ struct GatherPath {
   uint32_t estimate;
   uint8_t depth, panes;
   bool clear;     // what it meets is seen clearly
+  bool skyKnown;  // the sky, if the ray sees it, is counted elsewhere
   float spread;   // roughness that surfaces have for it at least
 };
 
@@ -34,6 +35,7 @@ struct GatherVertex {
   uint8_t depth;
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
   bool seenClearly = false;
+  bool skyKnown = false;
 
   Lobes value(Vec3 wi) const {
     if (first) return {bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};

@@ -54,7 +54,7 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
     const Vec2 u = sampler.next2();
     take(lights_.sampleEmitters(v.s.p, u, sampler.next1()));
   }
-  if (lights_.sky().present()) {
+  if (lights_.sky().present() && !v.skyKnown) {
     const Vec2 u = sampler.next2();
     take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
   }
@@ -84,7 +84,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -92,6 +92,7 @@ SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shado
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
   const bool apart = !work.followed && s.m.roughness < settings_.rayRoughness;
   GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart, s.m.roughness < kClear};
+  v.skyKnown = work.skyKnown;
   SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
   Sampler sampler = work.sampler;
@@ -127,7 +128,7 @@ Vec3 RayShader::backgroundAlong(const GatherPath& path) const {
   const Vec3 d = path.ray.direction;
   const auto weight = [&](float lightPdf) { return path.pdf > 0 ? misWeight(path.pdf, lightPdf) : 1; };
   Vec3 sum;
-  if (lights_.sky().present()) sum += lights_.sky().radiance(d) * weight(pdfSkyGuided(field_.guide, path.guide, lights_, d));
+  if (lights_.sky().present() && !path.skyKnown) sum += lights_.sky().radiance(d) * weight(pdfSkyGuided(field_.guide, path.guide, lights_, d));
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
     float pdf;
     const Vec3 disc = lights_.sunDisc(i, d, pdf);

@@ -20,6 +20,7 @@ struct Shading {
   Sampler sampler;
   uint32_t firstShadow;  // of every sharp light, in a list beside this one
   bool followed;         // a mirror: the caller sends rays on where it reflects
+  bool skyKnown = false; // what comes straight from the sky, through panes too, is left to the caller
 };
 
 // Light that a surface sends to the eye, in cd/m², without what it emits, what passes straight through it and, where that is

@@ -151,16 +151,13 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
                                              const Progress& progress) {
   const PathWalk walk(rays, lights);
-  const auto sample = [&](size_t meter, int first, int count) {
-    MeterSums sums;
+  return readMeters(rays, lights, elements, settings, [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     uint64_t rayCount = 0;
     for (int i = 0; i < count; ++i) {
       Sampler sampler(meter, static_cast<uint32_t>(first + i), settings.seed);
-      sums.add(walk.illuminance(elements[meter].position, elements[meter].normal, sampler, rayCount));
+      lux[static_cast<size_t>(i)] += walk.illuminanceButSky(elements[meter].position, elements[meter].normal, sampler, rayCount);
     }
-    return sums;
-  };
-  return readMeters(elements.size(), settings, sample, progress);
+  }, progress);
 }
 
 MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples, uint64_t seed) {

@@ -37,6 +37,7 @@ struct PathWalk::State {
   Vec3 throughput{1, 1, 1};
   Vec3 lastPoint;          // where the ray was scattered last, for the density of light sampling there
   float lastPdf = 0;       // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
+  bool skyKnown = false;   // the sky, if the ray sees it, is counted already
   float lampShare = 1;     // of light from lamps: what connections at earlier vertices have left to this path
 
   // Russian roulette by throughput from the third scattering on.
@@ -101,13 +102,13 @@ Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, Fi
 }
 
 // Pi times what an ideal white Lambertian patch there would reflect.
-Vec3 PathWalk::illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const {
+Vec3 PathWalk::illuminanceButSky(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const {
   SurfacePoint s;
   s.p = p;
   s.ng = s.ns = n;
   s.m.baseColor = Vec3(1);
   const Bsdf bsdf(s.m, n, n, n);
-  Vec3 sum = direct<false>(s, bsdf, 1, sampler, rayCount, nullptr);
+  Vec3 sum = direct<false>(s, bsdf, 1, sampler, rayCount, nullptr, false);
   const BsdfSample next = bsdf.sample(sampler.next2(), sampler.next1());
   if (next.valid()) {
     State path;
@@ -115,6 +116,7 @@ Vec3 PathWalk::illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount)
     path.throughput = next.weight;
     path.lastPoint = p;
     path.lastPdf = next.pdf;
+    path.skyKnown = true;
     sum += follow(path, sampler, rayCount, NoRecord());
   }
   return sum * kPi;
@@ -181,6 +183,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     path.throughput *= next.weight;
     path.lastPdf = next.mirror ? 0 : next.pdf;
     path.lastPoint = s.p;
+    path.skyKnown = false;
     path.ray = {offsetOrigin(s.p, s.ng), next.wi, 0, kInfinity};
     path.lampShare = lampShare;
     if (!path.survives(++scattered, lights_.lampsOnly() ? lampShare : 1, sampler)) break;
@@ -192,7 +195,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
 Vec3 PathWalk::escaped(const State& path) const {
   const Vec3 d = path.ray.direction;
   Vec3 sum;
-  if (lights_.sky().present()) {
+  if (lights_.sky().present() && !path.skyKnown) {
     const float w = path.lastPdf > 0 && lights_.sky().sampled() ? misWeight(path.lastPdf, lights_.sky().pdf(d)) : 1;
     sum += lights_.sky().radiance(d) * w;
   }
@@ -235,7 +238,7 @@ Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const Light
 }
 
 template <bool kParts>
-Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts) const {
+Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, bool skyToo) const {
   Vec3 sum, local, sun, sky;
   if (lights_.hasLocal()) {
     const Vec2 u = sampler.next2();
@@ -248,7 +251,7 @@ Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, 
     sum += contribution<kParts>(s, bsdf, lights_.sampleSun(i, sampler.next2()), rayCount, &sun);
     if constexpr (kParts) parts->sharp += sun, sun = {};
   }
-  if (lights_.sky().sampled()) sum += contribution<kParts>(s, bsdf, lights_.sampleSky(sampler.next2()), rayCount, &sky);
+  if (skyToo && lights_.sky().sampled()) sum += contribution<kParts>(s, bsdf, lights_.sampleSky(sampler.next2()), rayCount, &sky);
   if constexpr (kParts) parts->diffuse += sky;
   return sum;
 }

@@ -19,8 +19,8 @@ class PathWalk {
   // The same, and for a filter: parts of the light, by how the first surface that is no mirror scatters it, and what is seen there,
   // looking through panes. Variances are left alone; of what was in `seen` nothing is kept.
   Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen) const;
-  // On a surface element, lux.
-  Vec3 illuminance(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const;
+  // On a surface element, lux. Without what comes straight from the sky, through panes too: who calls adds that.
+  Vec3 illuminanceButSky(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const;
 
  private:
   struct State;
@@ -36,7 +36,7 @@ class PathWalk {
   template <bool kParts>
   Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const;
   template <bool kParts>
-  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts) const;
+  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, bool skyToo = true) const;
   template <bool kParts>
   Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse) const;
 

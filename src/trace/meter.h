@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/progress.h"
 #include "base/vec.h"
+#include "trace/lights.h"
+#include "trace/ray_scene.h"
 
 namespace roomlight {
 
@@ -27,22 +30,14 @@ struct MeterSettings {
   uint64_t seed = 0;
 };
 
-// Sums over samples of one meter.
-class MeterSums {
- public:
-  void add(Vec3 lux);
-  void add(const MeterSums& sums);
-  MeterReading reading() const;
+// Light on elements but what comes straight from the sky: that of `count` samples of one of them, from the one numbered `first` on,
+// is added to `lux`.
+using SampleMeter = std::function<void(size_t element, int first, int count, std::span<Vec3> lux)>;
 
- private:
-  double r_ = 0, g_ = 0, b_ = 0, squares_ = 0;  // squares_: of luminance
-  int count_ = 0;
-};
-
-// A reading for each of `meters`, from sample(meter, first, count): `count` samples from the one numbered `first` on, called from many threads.
+// A reading for each element; `sample` is called from many threads. The sky is sampled here, where it is open (open_sky.h).
 // Every meter takes fewestSamples; those that are not yet as certain as the tolerance asks, or as a hundredth of what meters show on average
 // needs, go on to twice as many, up to mostSamples. Does not depend on the number of threads. Once `progress` says stop, readings are those so far.
-std::vector<MeterReading> readMeters(size_t meters, const MeterSettings& settings, const std::function<MeterSums(size_t meter, int first, int count)>& sample,
+std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings, const SampleMeter& sample,
                                      const Progress& progress = {});
 
 }  // namespace roomlight

@@ -19,7 +19,7 @@ std::vector<MakeCase> allCases() {
 }
 
 // Values that are means over many readings need less of each, small differences of large ones more.
-MeterSettings meterSettings(const ValidationCase& of, bool brief) {
+MeterSettings meterSettings(const ValidationCase& of, bool brief, uint64_t seed) {
   size_t fewest = of.quantities.front().elements.size();
   double smallest = 1;
   for (const Quantity& q : of.quantities) {
@@ -30,15 +30,16 @@ MeterSettings meterSettings(const ValidationCase& of, bool brief) {
   meter.tolerance = (brief ? kBriefTolerance : kMeterTolerance) * std::sqrt(static_cast<double>(fewest)) * smallest;
   meter.fewestSamples = fewest > 1 ? 16 : 256;
   meter.mostSamples = 1 << 18;
+  meter.seed = seed;
   return meter;
 }
 
-std::vector<double> values(const ValidationCase& of, const LitScene& lit, bool brief, const Progress& progress) {
+std::vector<double> values(const ValidationCase& of, const LitScene& lit, const ValidationSettings& settings, const Progress& progress) {
   std::vector<SurfaceElement> elements;
   for (const Quantity& q : of.quantities) elements.insert(elements.end(), q.elements.begin(), q.elements.end());
   Progress quiet;
   quiet.cancelled = progress.cancelled;
-  const std::vector<MeterReading> readings = lit.illuminance(elements, meterSettings(of, brief), quiet);
+  const std::vector<MeterReading> readings = lit.illuminance(elements, meterSettings(of, settings.brief, settings.render.seed), quiet);
   std::vector<double> out;
   size_t next = 0;
   for (const Quantity& q : of.quantities) {
@@ -107,7 +108,7 @@ Result<Validation> validateTechniques(const ValidationSettings& settings, const 
       const Result<std::unique_ptr<LitScene>> lit = lightScene(of.scene, render, stages);
       if (!lit) return Error{lit.error()};
       if (!progress.stop()) {
-        const std::vector<double> got = values(of, *lit.value(), settings.brief, progress);
+        const std::vector<double> got = values(of, *lit.value(), settings, progress);
         if (!progress.stop()) {
           for (ValidationRow& row : judged(of, technique, got)) out.rows.push_back(std::move(row));
         }
