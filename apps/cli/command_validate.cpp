@@ -34,14 +34,15 @@ void printTable(const Validation& v) {
   for (size_t i = 0; i < v.rows.size();) {
     size_t worst = i, end = i;
     for (; end < v.rows.size() && v.rows[end].technique == v.rows[i].technique && v.rows[end].name == v.rows[i].name; ++end) {
-      if (std::abs(v.rows[end].errorPercent) > std::abs(v.rows[worst].errorPercent)) worst = end;
+      if (std::abs(v.rows[end].error) > std::abs(v.rows[worst].error)) worst = end;
     }
     const ValidationRow& r = v.rows[worst];
-    fmt::print("{:<24} {:<7} {:<38} {:>10.5g} {:>10.5g} {:>+7.2f} %{}\n", r.name, r.technique, r.place, r.expected, r.got, r.errorPercent, r.pass ? "" : "  MISSED");
+    fmt::print("{:<24} {:<7} {:<38} {:>10.5g} {:>10.5g} {:>+7.2f} {}{}\n", r.name, r.technique, r.place, r.expected, r.got, r.error, r.errorUnit, r.pass ? "" : "  MISSED");
     i = end;
   }
   for (const ValidationSummary& s : v.techniques) {
-    fmt::print("{}: {} of {} places within {:g} %{}; largest error {:+.2f} % ({})\n", s.technique, s.passed, s.places, s.allowedPercent, s.technique == "cone" ? " of the sum over their case" : "", s.worstPercent, s.worstPlace);
+    fmt::print("{}: {} of {} places met ({:g} %{}; glare ratings {:g})", s.technique, s.passed, s.places, s.allowedPercent, s.technique == "cone" ? " of the sum over a case" : "", kAllowedUgr);
+    fmt::print("{}\n", s.worstPlace.empty() ? "" : fmt::format("; largest error {:+.2f} %, {}", s.worstPercent, s.worstPlace));
   }
 }
 
@@ -63,7 +64,6 @@ int runValidate(const Options& o) {
   Result<Validation> v = Error{""};
   withThreads(o.threads, [&] { v = validateTechniques(settings, progress); });
   if (!v) return bad(v.error());
-  display.report("validate", 1);
   if (v.value().complete && v.value().rows.empty()) return bad(fmt::format("--case: no case's name holds '{}'", o.only));
   if (!o.quiet) printTable(v.value());
   if (!o.json.empty()) {

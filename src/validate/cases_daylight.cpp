@@ -161,6 +161,44 @@ ValidationCase window() {
       [](double, double) { return std::vector<Part>{{1, 2, -1}}; }, kGlazed);
 }
 
+// The room of 5.11 with surfaces that reflect: what the sky gives to each patch, and radiosity.
+ValidationCase greyRoom() {
+  ValidationCase out{"daylit grey room", "facade opening of 2 x 1 m, sky 16; floor 0.3, walls 0.5, ceiling 0.7", "% of E_hz", "light of sky and ground on patches by quadrature, radiosity on 12 x 12 of them a surface", {}, {}};
+  const auto of = [&](double albedo) { return addMaterial(out.scene, lambertian(static_cast<float>(albedo))); };
+  const double floor = 0.3, walls = 0.5, ceiling = 0.7;
+  const int grey = of(walls);
+  addRoom(out.scene, {0, 0, 0}, {4, 3, 4}, {grey, grey, of(floor), of(ceiling), grey, grey});
+  out.scene.instances.erase(out.scene.instances.begin() + 5);
+  using quadrature::Radiosity;
+  std::vector<Radiosity> surfaces = {{{{0, 0, 0}, {0, 0, 4}, {4, 0, 0}}, floor, 0}, {{{0, 3, 0}, {4, 0, 0}, {0, 0, 4}}, ceiling, 0}, {{{0, 0, 0}, {0, 3, 0}, {0, 0, 4}}, walls, 0}, {{{4, 0, 0}, {0, 0, 4}, {0, 3, 0}}, walls, 0}, {{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}, walls, 0}};
+  for (const auto& [x, y, w, h] : {std::array{0.0, 0.0, 4.0, 1.0}, {0.0, 2.0, 4.0, 1.0}, {0.0, 1.0, 1.0, 1.0}, {3.0, 1.0, 1.0, 1.0}}) {
+    addRectangle(out.scene, {static_cast<float>(x), static_cast<float>(y), 4}, {0, static_cast<float>(h), 0}, {static_cast<float>(w), 0, 0}, grey);
+    surfaces.push_back({{{x, y, 4}, {0, h, 0}, {w, 0, 0}}, walls, 0});
+  }
+  const Daylight day(16);
+  out.scene.sky = day.sky();
+  const auto direct = [&](const quadrature::Element& e) {
+    if (e.position.z >= 4) return 0.0;
+    const double cut = std::clamp(e.position.y, 1.0, 2.0);
+    double lux = 0;
+    for (const auto& [from, to] : {std::pair{1.0, cut}, {cut, 2.0}}) {
+      if (to - from > 1e-12) lux += quadrature::illuminance(e, {{1, from, 4}, {2, 0, 0}, {0, to - from, 0}}, [&](Point, Point d) { return day.luminance(d); }, 12);
+    }
+    return lux;
+  };
+  std::vector<SurfaceElement> elements;
+  std::vector<std::string> names;
+  for (int i = 0; i < 6; ++i) elements.push_back(wallPoint(i)), names.push_back(wallName(i));
+  for (int i = 0; i < 8; ++i) elements.push_back(floorPoint(i)), names.push_back(floorName(i));
+  elements.push_back({{2, 0.85f, 2}, {0, 1, 0}}), names.push_back("work plane, middle");
+  elements.push_back({{2, 3, 2}, {0, -1, 0}}), names.push_back("ceiling, middle");
+  std::vector<quadrature::Element> at;
+  for (const SurfaceElement& e : elements) at.push_back(exact(e));
+  const std::vector<double> reflected = quadrature::illuminance(surfaces, at, 12, direct);
+  for (size_t i = 0; i < at.size(); ++i) out.quantities.push_back(percent(names[i], elements[i], direct(at[i]) + reflected[i]));
+  return out;
+}
+
 // Sunlight through a pane, by its angle of incidence.
 ValidationCase clearGlass() {
   ValidationCase out{"CIE 171, 5.5", "sunlight through 6 mm of clear glass, by angle of incidence", "% of the light before it", "slab of glass with s and p polarised light apart", {}, {}};
@@ -206,7 +244,7 @@ ValidationCase maskOpposite() {
 
 const std::vector<MakeCase>& daylightCases() {
   static const std::vector<MakeCase> cases = {clearGlass, smallRoof<1>, smallRoof<5>, smallRoof<12>, smallRoof<16>, largeRoof<3>, largeRoof<8>, largeRoof<13>, largeRoof<16>, glazedRoof<1>, glazedRoof<8>, glazedRoof<16>, window<1, false>, window<2, false>, window<4, false>, window<5, false>,
-                                              window<6, false>, window<7, false>, window<9, false>, window<10, false>, window<11, false>, window<14, false>, window<15, false>, window<16, false>, window<1, true>, window<5, true>, window<12, true>, window<16, true>, shelfAbove, maskOpposite};
+                                              window<6, false>, window<7, false>, window<9, false>, window<10, false>, window<11, false>, window<14, false>, window<15, false>, window<16, false>, window<1, true>, window<5, true>, window<12, true>, window<16, true>, shelfAbove, maskOpposite, greyRoom};
   return cases;
 }
 

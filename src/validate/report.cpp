@@ -45,9 +45,9 @@ std::string dots(const Validation& v) {
     out += fmt::format("<text x='0' y='{:.0f}' font-size='14'>{}</text><rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{}' fill='#e4f2ea'/>", y + 5, s.technique, low, y - 16, high - low, 32);
     size_t k = 0;
     for (const ValidationRow& r : v.rows) {
-      if (r.technique != s.technique) continue;
-      out += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='3' fill='{}' fill-opacity='.6'><title>{}, {}: {:+.2f} %</title></circle>", x(r.errorPercent), y + static_cast<double>(k++ % 7) * 4 - 12,
-                         r.pass ? "#0a6b3d" : "#b00020", escaped(r.name), escaped(r.place), r.errorPercent);
+      if (r.technique != s.technique || r.errorUnit != "%") continue;
+      out += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='3' fill='{}' fill-opacity='.6'><title>{}, {}: {:+.2f} {}</title></circle>", x(r.error), y + static_cast<double>(k++ % 7) * 4 - 12,
+                         r.pass ? "#0a6b3d" : "#b00020", escaped(r.name), escaped(r.place), r.error, r.errorUnit);
     }
   }
   for (int p = -10; p <= 10; p += 5) out += fmt::format("<text x='{:.1f}' y='{:.0f}' font-size='12' text-anchor='middle' fill='#555'>{}{} %</text>", x(p), height - 6, p > 0 ? "+" : "", p);
@@ -73,7 +73,7 @@ std::string tables(const Validation& v) {
       out += fmt::format("<tr><td>{}<td>{:.5g}", escaped(rows[p]->place), rows[p]->expected);
       for (size_t t = 0; t < techniques.size(); ++t) {
         const ValidationRow& r = *rows[t * places + p];
-        out += fmt::format("<td>{:.5g}<td>{:+.2f} %<td>{}", r.got, r.errorPercent, verdict(r.pass));
+        out += fmt::format("<td>{:.5g}<td>{:+.2f} {}<td>{}", r.got, r.error, r.errorUnit, verdict(r.pass));
       }
       out += "</tr>";
     }
@@ -92,14 +92,14 @@ std::string validationJson(const Validation& v) {
     json["techniques"].push_back({{"technique", s.technique}, {"allowedPercent", s.allowedPercent}, {"worstPercent", s.worstPercent}, {"worstPlace", s.worstPlace}, {"passed", s.passed}, {"places", s.places}});
   }
   for (const ValidationRow& r : v.rows) {
-    json["rows"].push_back({{"case", r.name}, {"title", r.title}, {"unit", r.unit}, {"basis", r.basis}, {"place", r.place}, {"technique", r.technique}, {"expected", r.expected}, {"got", r.got}, {"errorPercent", r.errorPercent}, {"pass", r.pass}});
+    json["rows"].push_back({{"case", r.name}, {"title", r.title}, {"unit", r.unit}, {"basis", r.basis}, {"place", r.place}, {"technique", r.technique}, {"expected", r.expected}, {"got", r.got}, {"error", r.error}, {"errorUnit", r.errorUnit}, {"pass", r.pass}});
   }
   return json.dump(1) + "\n";
 }
 
 std::string validationHtml(const Validation& v, const std::string& version) {
   std::string out = fmt::format("<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport content='width=device-width'><title>roomlight: validation</title><style>{}</style><h1>Validation of roomlight {}</h1>", kStyle, escaped(version));
-  out += "<p>Light meters in scenes whose light is known. Expected values are integrated numerically, apart from the program's own light. Allowed is 1 % at each place for <i>path</i>, 3 % for <i>hybrid</i>, and for <i>cone</i> 10 % of the sum over a case.</p>";
+  out += "<p>Light meters in scenes whose light is known. Expected values are integrated numerically, apart from the program's own light. Allowed is 1 % at each place for <i>path</i>, 3 % for <i>hybrid</i>, and for <i>cone</i> 10 % of the sum over a case; of glare ratings half a unit.</p>";
   out += "<table><tr><th>technique<th>allowed<th>places met<th>largest error<th>where<th></tr>";
   for (const ValidationSummary& s : v.techniques) {
     out += fmt::format("<tr><td>{}<td>{:g} %<td>{} of {}<td>{:+.2f} %<td>{}<td>{}</tr>", s.technique, s.allowedPercent, s.passed, s.places, s.worstPercent, escaped(s.worstPlace), verdict(s.passed == s.places));

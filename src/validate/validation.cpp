@@ -1,15 +1,21 @@
 #include "validate/validation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/lit_scene.h"
 #include "validate/cases.h"
+#include "validate/glare_tables.h"
 
 namespace roomlight {
 namespace {
 
 constexpr double kNextToNothing = 0.01;
+constexpr const char* kGlareCase = "UGR";
+constexpr size_t kGlareSteps = 10;
 constexpr double kMeterTolerance = 0.002, kBriefTolerance = 0.005;  // relative standard error of one reading, where it is a value by itself
 
 std::vector<MakeCase> allCases() {
@@ -59,9 +65,31 @@ std::vector<ValidationRow> judged(const ValidationCase& of, const std::string& t
   for (size_t i = 0; i < got.size(); ++i) {
     const Quantity& q = of.quantities[i];
     const double error = 100 * (got[i] - q.expected) / std::max(std::abs(q.expected), kNextToNothing * largest);
-    rows.push_back({of.name, of.title, of.unit, of.basis, q.place, technique, q.expected, got[i], error, std::abs(technique == "cone" ? total : error) <= allowed});
+    rows.push_back({of.name, of.title, of.unit, of.basis, q.place, technique, q.expected, got[i], error, "%", std::abs(technique == "cone" ? total : error) <= allowed});
   }
   return rows;
+}
+
+// A case of those wanted, or none of its quantities.
+ValidationCase chosen(ValidationCase of, const ValidationSettings& settings) {
+  std::vector<Quantity> some;
+  const bool wanted = of.name.find(settings.only) != std::string::npos;
+  for (size_t i = 0; i < of.quantities.size() && wanted; i += settings.brief ? 3 : 1) some.push_back(std::move(of.quantities[i]));
+  of.quantities = std::move(some);
+  return of;
+}
+
+Result<std::vector<ValidationRow>> measured(const ValidationCase& of, const std::string& technique, const ValidationSettings& settings, const Progress& progress) {
+  RenderSettings render = settings.render;
+  render.technique = technique;
+  RenderStats stats;
+  RenderProgress quiet;
+  quiet.cancelled = progress.cancelled;
+  Stages stages(quiet, stats);
+  const Result<std::unique_ptr<LitScene>> lit = lightScene(of.scene, render, stages);
+  if (!lit) return Error{lit.error()};
+  if (progress.stop()) return std::vector<ValidationRow>();
+  return judged(of, technique, values(of, *lit.value(), settings, progress));
 }
 
 ValidationSummary summary(const std::vector<ValidationRow>& rows, const std::string& technique) {
@@ -69,7 +97,7 @@ ValidationSummary summary(const std::vector<ValidationRow>& rows, const std::str
   for (const ValidationRow& r : rows) {
     if (r.technique != technique) continue;
     ++out.places, out.passed += r.pass;
-    if (std::abs(r.errorPercent) > std::abs(out.worstPercent)) out.worstPercent = r.errorPercent, out.worstPlace = r.name + ", " + r.place;
+    if (r.errorUnit == "%" && std::abs(r.error) > std::abs(out.worstPercent)) out.worstPercent = r.error, out.worstPlace = r.name + ", " + r.place;
   }
   return out;
 }
@@ -86,37 +114,34 @@ bool Validation::pass() const {
 Result<Validation> validateTechniques(const ValidationSettings& settings, const Progress& progress) {
   Validation out;
   const std::vector<MakeCase> cases = allCases();
+  const bool glare = std::string(kGlareCase).find(settings.only) != std::string::npos;
+  // A table of glare ratings takes about as long as so many cases.
+  const size_t steps = (cases.size() + (glare ? kGlareSteps : 0)) * settings.techniques.size();
   size_t done = 0;
+  const auto step = [&](size_t n) { progress.at(static_cast<float>(done += n) / static_cast<float>(steps)); };
   for (const MakeCase make : cases) {
-    ValidationCase of = make();
-    if (of.name.find(settings.only) == std::string::npos) {
-      done += settings.techniques.size();
-      continue;
-    }
-    if (settings.brief) {
-      std::vector<Quantity> few;
-      for (size_t i = 0; i < of.quantities.size(); i += 3) few.push_back(std::move(of.quantities[i]));
-      of.quantities = std::move(few);
-    }
+    const ValidationCase of = chosen(make(), settings);
     for (const std::string& technique : settings.techniques) {
-      RenderSettings render = settings.render;
-      render.technique = technique;
-      RenderStats stats;
-      RenderProgress quiet;
-      quiet.cancelled = progress.cancelled;
-      Stages stages(quiet, stats);
-      const Result<std::unique_ptr<LitScene>> lit = lightScene(of.scene, render, stages);
-      if (!lit) return Error{lit.error()};
-      if (!progress.stop()) {
-        const std::vector<double> got = values(of, *lit.value(), settings, progress);
-        if (!progress.stop()) {
-          for (ValidationRow& row : judged(of, technique, got)) out.rows.push_back(std::move(row));
-        }
+      if (!of.quantities.empty() && !progress.stop()) {
+        Result<std::vector<ValidationRow>> rows = measured(of, technique, settings, progress);
+        if (!rows) return Error{rows.error()};
+        if (!progress.stop()) std::move(rows.value().begin(), rows.value().end(), std::back_inserter(out.rows));
       }
-      if (progress.stop()) out.complete = false;
-      progress.at(static_cast<float>(++done) / static_cast<float>(cases.size() * settings.techniques.size()));
+      step(1);
     }
   }
+  for (const std::string& technique : settings.techniques) {
+    if (!glare || progress.stop()) break;
+    const Result<std::vector<GlareRow>> rows = validateGlare(technique, settings.brief, settings.render, progress);
+    if (!rows) return Error{rows.error()};
+    for (const GlareRow& r : rows.value()) {
+      const double error = r.got - r.expected;
+      out.rows.push_back({kGlareCase, "glare by a ceiling of Lambertian panels in the rooms of CIE 117, H = 2 m, 0.25 H apart", "UGR", "panels summed up one by one, background by radiosity on 12 x 12 patches a surface",
+                          fmt::format("{} H x {} H", r.room.x, r.room.y), technique, r.expected, r.got, error, "UGR", std::abs(error) <= kAllowedUgr});
+    }
+    step(kGlareSteps);
+  }
+  out.complete = !progress.stop();
   for (const std::string& technique : settings.techniques) out.techniques.push_back(summary(out.rows, technique));
   return out;
 }

@@ -14,15 +14,17 @@ struct ValidationRow {
   std::string name, title, unit, basis;  // of the case
   std::string place, technique;
   double expected = 0, got = 0;
-  // Of what is expected there or, where that is next to nothing, of a hundredth of the largest value that the case expects.
-  double errorPercent = 0;
+  // In per cent of what is expected there or, where that is next to nothing, of a hundredth of the largest value that the case expects; of glare
+  // ratings the difference.
+  double error = 0;
+  std::string errorUnit = "%";  // or "UGR"
   bool pass = false;
 };
 
 struct ValidationSummary {
   std::string technique;
   double allowedPercent = 0;  // at each place; for technique "cone" of the sum over a case
-  double worstPercent = 0;    // of the same
+  double worstPercent = 0;    // of the same, of values that are judged in per cent
   std::string worstPlace;
   int passed = 0, places = 0;
 };
@@ -37,12 +39,13 @@ struct Validation {
 struct ValidationSettings {
   std::vector<std::string> techniques = {"path", "hybrid", "cone"};
   std::string only;       // cases whose name holds this
-  bool brief = false;     // every third place, less certain meters: a quick look
+  bool brief = false;     // every third place and every fourth room, less certain meters: a quick look
   RenderSettings render;  // technique is overruled
 };
 
-// How far a technique may be off, in per cent: path 1, others 3 at each place; cone 10 over a case.
+// How far a technique may be off, in per cent: path 1, others 3 at each place; cone 10 over a case. Of glare ratings, each.
 double allowedPercent(const std::string& technique);
+constexpr double kAllowedUgr = 0.5;
 
 // Errors: an unknown technique, settings out of range.
 Result<Validation> validateTechniques(const ValidationSettings& settings, const Progress& progress = {});
