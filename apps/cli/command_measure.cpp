@@ -23,7 +23,7 @@ namespace roomlight::cli {
 namespace {
 
 struct Options {
-  std::string scene, lighting, meters, quality, tolerance = "1%", json, csv, html, eye, view;
+  std::string scene, lighting, meters, quality, tolerance = "2%", json, csv, html, eye, view;
   std::vector<std::string> points;
   std::optional<std::string> technique;
   std::optional<int> threads;

@@ -14,7 +14,7 @@ constexpr double kDark = 0.25, kLight = 0.94;             // lightness of the en
 constexpr double kFirstHueDeg = 295, kLastHueDeg = 105;   // violet-blue, yellow
 constexpr double kMostChroma = 0.17;
 constexpr double kSteps[] = {1, 1.5, 2, 3, 5, 7.5};
-constexpr double kLeastContrast = 3;
+constexpr double kLeastContrast = 3, kMostContrast = 100;
 
 // Linear Rec.709 of Oklab (Ottosson 2020, "A perceptual color space for image processing").
 Vec3 fromOklab(double lightness, double a, double b) {
@@ -67,8 +67,7 @@ LightScale scaleOf(std::span<const float> values) {
   }
   if (lit.empty()) return {};
   std::sort(lit.begin(), lit.end());
-  const size_t cut = lit.size() / 100;
-  const double low = lit[cut], high = lit[lit.size() - 1 - cut];
+  const double high = lit[lit.size() - 1 - lit.size() / 100], low = std::max(lit[lit.size() / 20], high / kMostContrast);
   LightScale scale{roundSteps(low / 2, low).back(), roundSteps(high, 2 * high).front()};
   if (scale.high < kLeastContrast * scale.low) scale.low = roundSteps(scale.high / kLeastContrast / 2, scale.high / kLeastContrast).back();
   return scale;

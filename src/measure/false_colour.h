@@ -19,7 +19,7 @@ struct LightScale {
   double low = 1, high = 1000;
   double position(double value) const;  // 0..1
 };
-// From the values (not numbers left out): their 1st and 99th percentiles rounded outwards to steps of roundSteps(), at least a factor 3 apart.
+// From the values (not numbers left out): their 5th and 99th percentiles rounded outwards to steps of roundSteps(), a factor 3 to 150 apart.
 LightScale scaleOf(std::span<const float> values);
 
 // The steps by which EN 12464-1 grades illuminances, 1 - 1.5 - 2 - 3 - 5 - 7.5 - 10 and so on, from low to high.

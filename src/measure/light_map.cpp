@@ -12,9 +12,22 @@ namespace {
 
 constexpr float kMarginM = 0.45f;
 constexpr int kShadesAStep = 6;            // colours between two contours
+constexpr size_t kShortestRun = 8;         // points of a contour
+constexpr float kLabelPx = 30;             // from one label to the next, at least
 constexpr double kWidthPx = 620, kHeightPx = 520;
 constexpr float kLampHeightM = 4;          // lamps up to so high above the plane are marked
 constexpr float kLargestLampM = 3;         // what emits and is larger is no lamp
+
+// The values with a ring of their own edge around them, so that colours and lines go on to the border of the outer cells.
+std::vector<float> ringed(const Field& field) {
+  const int columns = field.lattice.columns, rows = field.lattice.rows;
+  const std::vector<float> inner = withoutGaps(field.lux, columns, rows);
+  std::vector<float> out;
+  for (int y = -1; y <= rows; ++y) {
+    for (int x = -1; x <= columns; ++x) out.push_back(inner[field.lattice.index(std::clamp(x, 0, columns - 1), std::clamp(y, 0, rows - 1))]);
+  }
+  return out;
+}
 
 // Centimetres in the picture.
 int cm(float metres) { return static_cast<int>(std::lround(metres * 100)); }
@@ -24,24 +37,31 @@ class Drawing {
   Drawing(const GridReading& grid, const Scene& scene, const LightScale& scale, int number)
       : grid_(grid), field_(grid.map ? *grid.map : grid.points), scene_(scene), scale_(scale), number_(number), wall_(std::abs(lattice().normal.y) < 0.5f),
         size_{lattice().stepUM * static_cast<float>(lattice().columns), lattice().stepVM * static_cast<float>(lattice().rows)},
-        values_(withoutGaps(field_.lux, lattice().columns, lattice().rows)) {}
+        px_(static_cast<float>(std::max((static_cast<double>(size_.x + 2 * kMarginM) * 100) / kWidthPx, (static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30) / kHeightPx))),
+        values_(ringed(field_)) {}
 
   std::string svg() const {
     const double width = static_cast<double>(size_.x + 2 * kMarginM) * 100, height = static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30;
-    const double scale = std::min(kWidthPx / width, kHeightPx / height);
     std::string s = fmt::format("<svg class=\"map\" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {:.0f} {:.0f}\" style=\"--px:{:.3f}px\" role=\"img\" aria-label=\"{}\">\n",
-                                width * scale, height * scale, -cm(kMarginM), -cm(kMarginM), width, height, 1 / scale, escaped(grid_.name));
+                                width / static_cast<double>(px_), height / static_cast<double>(px_), -cm(kMarginM), -cm(kMarginM), width, height, px_, escaped(grid_.name));
     s += fmt::format("<clipPath id=\"c{}\"><path clip-rule=\"evenodd\" d=\"{}\"/></clipPath>\n", number_, region());
     s += fmt::format("<g clip-path=\"url(#c{})\">\n{}</g>\n", number_, shades());
     s += plan();
-    s += contourLines();
+    s += contourLines() + points();
     s += lamps();
-    s += scaleBar(static_cast<float>(1 / scale));
+    s += scaleBar();
     return s + "</svg>\n";
   }
 
  private:
   const Lattice& lattice() const { return field_.lattice; }
+  std::vector<std::vector<ContourPoint>> lines(double level) const {
+    auto loops = contours(values_, lattice().columns + 2, lattice().rows + 2, static_cast<float>(level));
+    for (auto& loop : loops) {
+      for (ContourPoint& point : loop) point.p = point.p - Vec2{1, 1};
+    }
+    return loops;
+  }
   // From cells to the picture; on walls up is up.
   Vec2 place(Vec2 cells) const {
     const float y = cells.y * lattice().stepVM;
@@ -77,7 +97,7 @@ class Drawing {
     std::string s = fmt::format("<rect x=\"0\" y=\"0\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", cm(size_.x), cm(size_.y), hexColour(falseColour(0)));
     for (size_t i = 1; i < levels.size(); ++i) {
       std::string d;
-      for (const auto& loop : contours(values_, lattice().columns, lattice().rows, static_cast<float>(levels[i]))) {
+      for (const auto& loop : lines(levels[i])) {
         for (size_t k = 0; k < loop.size(); ++k) {
           const Vec2 p = place(loop[k].p);
           d += fmt::format("{}{},{}", k ? "L" : "M", cm(p.x), cm(p.y));
@@ -92,9 +112,11 @@ class Drawing {
 
   // Labels go where a line runs well inside.
   std::string contourLines() const {
-    std::string lines, labels;
+    std::string paths, labels;
+    std::vector<Vec2> labelled;
+    const float clear = kLabelPx / 100 * px_;
     for (const double level : roundSteps(scale_.low, scale_.high)) {
-      for (const auto& loop : contours(values_, lattice().columns, lattice().rows, static_cast<float>(level))) {
+      for (const auto& loop : lines(level)) {
         std::string d;
         bool on = false;
         std::vector<Vec2> run, best;
@@ -112,12 +134,15 @@ class Drawing {
           run.push_back(p);
           if (run.size() > best.size()) best = run;
         }
-        if (best.size() < 4) continue;
-        lines += d;
-        if (best.size() >= 9) labels += fmt::format("<text class=\"level\" x=\"{}\" y=\"{}\">{}</text>\n", cm(best[best.size() / 2].x), cm(best[best.size() / 2].y), fmt::format("{:g}", level));
+        if (best.size() < kShortestRun) continue;
+        paths += d;
+        const Vec2 middle = best[best.size() / 2];
+        if (std::any_of(labelled.begin(), labelled.end(), [&](Vec2 p) { return std::hypot(p.x - middle.x, p.y - middle.y) < clear; })) continue;
+        labelled.push_back(middle);
+        labels += fmt::format("<text class=\"level\" x=\"{}\" y=\"{}\">{:g}</text>\n", cm(middle.x), cm(middle.y), level);
       }
     }
-    return fmt::format("<path class=\"contour\" d=\"{}\"/>\n{}", lines, labels);
+    return fmt::format("<path class=\"contour\" clip-path=\"url(#c{})\" d=\"{}\"/>\n{}", number_, paths, labels);
   }
 
   std::string plan() const {
@@ -129,6 +154,17 @@ class Drawing {
       for (size_t i = 0; i < line.size(); ++i) d += fmt::format("{}{} {}", i ? "L" : "M", cm(line[i].x), cm(line[i].y));
     }
     return fmt::format("<path class=\"wall\" d=\"{}\"/>\n", d);
+  }
+
+  // Where statistics come from.
+  std::string points() const {
+    std::string d;
+    for (const SurfaceElement& e : grid_.points.lattice.elements()) {
+      Vec2 p = place(e.position);
+      if (wall_) p.y = size_.y - p.y;
+      d += fmt::format("M{} {}h0", cm(p.x), cm(p.y));
+    }
+    return fmt::format("<path class=\"point\" d=\"{}\"/>\n", d);
   }
 
   std::string lamp(Vec3 at, const std::string& name) const {
@@ -151,10 +187,10 @@ class Drawing {
     return s;
   }
 
-  std::string scaleBar(float px) const {
+  std::string scaleBar() const {
     const int y = cm(size_.y + kMarginM) + 12;
     const int metres = size_.x > 1.5f ? 1 : 0, length = metres ? 100 : 10;
-    return fmt::format("<g class=\"bar\"><path d=\"M0,{0}v{1:.0f}h{2}v-{1:.0f}\"/><text x=\"{3:.0f}\" y=\"{4:.0f}\">{5}</text></g>\n", y, 6 * px, length, static_cast<float>(length) + 6 * px, static_cast<float>(y) + 8 * px,
+    return fmt::format("<g class=\"bar\"><path d=\"M0,{0}v{1:.0f}h{2}v-{1:.0f}\"/><text x=\"{3:.0f}\" y=\"{4:.0f}\">{5}</text></g>\n", y, 6 * px_, length, static_cast<float>(length) + 6 * px_, static_cast<float>(y) + 8 * px_,
                        metres ? "1 m" : "10 cm");
   }
 
@@ -164,7 +200,8 @@ class Drawing {
   const LightScale& scale_;
   const int number_;
   const bool wall_;
-  const Vec2 size_;
+  const Vec2 size_;  // metres
+  const float px_;   // centimetres a pixel
   const std::vector<float> values_;
 };
 

@@ -11,7 +11,7 @@ namespace roomlight {
 struct ReportHeader {
   std::string scene, lighting, meters;  // file names; empty: none
   std::string technique, quality, version;
-  double tolerance = 0.01;
+  double tolerance = 0.02;
 };
 
 std::string reportTable(const Measurements& m);                            // for a terminal

@@ -27,14 +27,15 @@ th:first-child,td:first-child{padding-left:0}
 .met,.missed{font-weight:600;white-space:nowrap}
 .met{color:var(--good)}.missed{color:var(--bad)}
 .summary{display:flex;gap:36px;flex-wrap:wrap;margin:22px 0 6px}
-.summary div b{display:block;font-size:26px;font-weight:600;line-height:1.2}
+.summary div b{color:var(--ink);display:block;font-size:26px;font-weight:600;line-height:1.2}
 .summary div{color:var(--soft);font-size:13px}
 .figure{display:flex;gap:26px;align-items:flex-start;margin:12px 0 6px}
 svg text{font:12px "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif;fill:var(--ink)}
 .map{flex:none}
 .map .wall{fill:none;stroke:#111820;stroke-width:calc(1.3*var(--px));stroke-linejoin:round;stroke-linecap:round}
 .map .contour{fill:none;stroke:#fff;stroke-opacity:.8;stroke-width:calc(1.1*var(--px))}
-.map text.level{font-size:calc(11.5px*var(--px)/1px);font-size:calc(11.5*var(--px));text-anchor:middle;dominant-baseline:central;paint-order:stroke;stroke:#fff;stroke-opacity:.85;stroke-width:calc(3*var(--px));stroke-linejoin:round}
+.map .point{stroke:#111820;stroke-opacity:.55;stroke-width:calc(2.6*var(--px));stroke-linecap:round}
+.map text.level{font-size:calc(11.5*var(--px));text-anchor:middle;dominant-baseline:central;paint-order:stroke;stroke:#fff;stroke-opacity:.85;stroke-width:calc(3*var(--px));stroke-linejoin:round}
 .map .lamp circle{fill:#fff;stroke:#111820;stroke-width:calc(1.2*var(--px))}
 .map .lamp path{stroke:#111820;stroke-width:calc(1.2*var(--px))}
 .map .bar path{fill:none;stroke:var(--ink);stroke-width:calc(1.4*var(--px))}
@@ -163,6 +164,7 @@ std::string notes(const ReportHeader& h, const Measurements& m) {
   note(fmt::format("Technique {}, quality {}; every reading is taken to a relative standard error of {:g} %.", escaped(h.technique), escaped(h.quality), 100 * h.tolerance));
   note("Points lie as EN 12464-1 lays them: p = 0.2 · 5<sup>log d</sup> apart, without a band along the walls of 0.5 m or 15 % of the shorter side. U0 is the lowest over the mean, U1 the lowest over the highest reading.");
   note(m.maintenanceFactor < 1 ? fmt::format("Readings are those of new lamps; targets are judged at {:g} of them (maintenance factor).", m.maintenanceFactor) : "Readings are those of new lamps in clean rooms; no maintenance factor is applied.");
+  note("On the maps, dots are the points of the statistics, crossed circles are lamps; white lines join places of equal illuminance, in lux. Surfaces are drawn where they are cut at the height of the plane.");
   if (!m.glares.empty()) note("UGR after CIE 117; lamps of less than 0.005 m², and lamps without a size, after CIE 147.");
   for (const std::string& w : m.warnings) note(escaped(w));
   return s + "</ul></section>\n";
