@@ -13,6 +13,7 @@
 #include "import/import.h"
 #include "import/lighting_file.h"
 #include "interrupt.h"
+#include "measure/daylight.h"
 #include "measure/measure.h"
 #include "measure/meter_file.h"
 #include "measure/report.h"
@@ -22,13 +23,13 @@ namespace roomlight::cli {
 namespace {
 
 struct Options {
-  std::string scene, lighting, meters, quality, tolerance = "1%", json, csv, eye, view;
+  std::string scene, lighting, meters, quality, tolerance = "2%", json, csv, html, eye, view;
   std::vector<std::string> points;
   std::optional<std::string> technique;
   std::optional<int> threads;
   std::optional<std::string> seed;
   float metresPerUnit = 1;
-  bool quiet = false;
+  bool daylightFactor = false, quiet = false;
 };
 
 // Everything that can be known to be wrong before any work is done.
@@ -106,6 +107,7 @@ Result<Plan> makePlan(const Options& o) {
   const Result<double> tolerance = parseTolerance(o.tolerance);
   if (!tolerance) return Error{tolerance.error()};
   plan.measure.meters.tolerance = tolerance.value();
+  plan.measure.maps = !o.html.empty();
   for (const std::string& text : o.points) {
     const Result<PointPlan> point = parsePoint(text, plan.onCommandLine.points.size() + 1);
     if (!point) return Error{point.error()};
@@ -121,11 +123,11 @@ Result<Plan> makePlan(const Options& o) {
 }
 
 Status checkOutputs(const Options& o) {
-  for (const std::string& file : {o.json, o.csv}) {
+  for (const std::string& file : {o.json, o.csv, o.html}) {
     if (file.empty()) continue;
     if (const Status s = checkWritable(file); !s) return s;
   }
-  return checkDistinct({o.scene, o.lighting, o.meters, o.json, o.csv});
+  return checkDistinct({o.scene, o.lighting, o.meters, o.json, o.csv, o.html});
 }
 
 struct Home {
@@ -157,7 +159,7 @@ int bad(const std::string& message, int code = kBadInput) {
   return code;
 }
 
-Status writeReports(const Options& o, const Plan& plan, const Measurements& m) {
+Status writeReports(const Options& o, const Plan& plan, const Measurements& m, const Scene& scene) {
   const ReportHeader header{o.scene, o.lighting, o.meters, plan.render.technique, plan.render.quality, version(), plan.measure.meters.tolerance};
   if (!o.json.empty()) {
     if (const Status s = writeTextFile(o.json, reportJson(header, m)); !s) return s;
@@ -165,7 +167,22 @@ Status writeReports(const Options& o, const Plan& plan, const Measurements& m) {
   if (!o.csv.empty()) {
     if (const Status s = writeTextFile(o.csv, reportCsv(m)); !s) return s;
   }
+  if (!o.html.empty()) {
+    if (const Status s = writeTextFile(o.html, reportHtml(header, m, scene)); !s) return s;
+  }
   return Ok{};
+}
+
+// A second time, under an overcast sky. The lamps are back afterwards: reports show them. False: interrupted.
+bool measureDaylight(const Plan& plan, Home& home, Measurements& m, Stages& stages) {
+  std::vector<Lamp> lamps = home.scene.lamps;
+  std::vector<Material> materials = home.scene.materials;
+  lightByOvercastSky(home.scene, home.meters.groundReflectance);
+  const Result<std::unique_ptr<LitScene>> lit = lightScene(home.scene, plan.render, stages);
+  if (lit && lit.value()) addDaylight(m, *lit.value(), plan.measure.meters, stages);
+  home.scene.lamps = std::move(lamps);
+  home.scene.materials = std::move(materials);
+  return !interrupted();
 }
 
 int work(const Options& o, const Plan& plan) {
@@ -183,11 +200,13 @@ int work(const Options& o, const Plan& plan) {
   if (!lit) return bad(lit.error());
   if (!lit.value()) return stopped();
   Measurements m = measure(*lit.value(), home.value().meters, plan.measure, stages);
+  lit.value().reset();
   if (interrupted()) return stopped();
+  if (o.daylightFactor && !measureDaylight(plan, home.value(), m, stages)) return stopped();
   if (!o.quiet) printWarnings(m.warnings);
   fmt::print("{}", reportTable(m));
-  if (const Status s = writeReports(o, plan, m); !s) return bad(s.error(), kFailed);
-  for (const std::string& file : {o.json, o.csv}) {
+  if (const Status s = writeReports(o, plan, m, home.value().scene); !s) return bad(s.error(), kFailed);
+  for (const std::string& file : {o.json, o.csv, o.html}) {
     if (!file.empty()) display.line(fmt::format("wrote {}", file));
   }
   return kOk;
@@ -219,13 +238,15 @@ Registered addMeasure(CLI::App& program) {
   app->add_option("--tolerance", o->tolerance, "Relative standard error at which a meter is read")->capture_default_str();
   app->add_option("--json", o->json, "Write all readings to this JSON file");
   app->add_option("--csv", o->csv, "Write all readings to this table, one line each");
+  app->add_option("--html", o->html, "Write a report with plans and false-colour maps to this HTML file");
+  app->add_flag("--daylight-factor", o->daylightFactor, "Measure grids and points a second time, under a CIE overcast sky alone, as a share of the light outdoors");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same readings");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
   app->add_flag("--quiet", o->quiet, "Only the table and errors");
   app->footer(
       "Examples:\n"
-      "  roomlight measure flat.glb --lighting evening.json\n"
+      "  roomlight measure flat.glb --lighting evening.json --html report.html\n"
       "  roomlight measure flat.glb --meters desk.json --json desk_readings.json\n"
       "  roomlight measure flat.glb --point 1.2,0.75,2.0 --eye 1,1.2,3 --view 0,0,-1");
   return {app, [o] { return runMeasure(*o); }};

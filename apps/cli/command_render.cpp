@@ -17,6 +17,7 @@
 #include "import/import.h"
 #include "import/lighting_file.h"
 #include "interrupt.h"
+#include "measure/luminance_picture.h"
 #include "output_files.h"
 #include "photometry/white_balance.h"
 
@@ -24,7 +25,7 @@ namespace roomlight::cli {
 namespace {
 
 struct Options {
-  std::string scene, lighting, camera, size, exposure = "auto", tone = "neutral", whiteBalance = "auto", stats, settingsFile, quality;
+  std::string scene, lighting, camera, size, exposure = "auto", tone = "neutral", whiteBalance = "auto", kind = "picture", stats, settingsFile, quality;
   std::vector<std::string> outputs;
   std::optional<std::string> technique;
   std::optional<int> samples, threads;
@@ -58,6 +59,7 @@ Status checkOutputs(const Options& o) {
   for (const std::string& out : o.outputs) {
     const std::string e = lowerExtension(out);
     if (e != ".exr" && e != ".png") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr or .png", out, e)};
+    if (e == ".exr" && o.kind == "falsecolour") return Error{fmt::format("{}: false colours are for looking at; use .png, or --output-kind luminance for .exr", out)};
     if (const Status s = checkWritable(out); !s) return s;
   }
   if (!o.stats.empty()) {
@@ -102,6 +104,7 @@ Result<Plan> makePlan(const Options& o) {
     plan.ev100 = parseNumber<float>(o.exposure);
     if (!plan.ev100 || !(std::abs(*plan.ev100) <= 64)) return Error{fmt::format("--exposure {}: write auto or an EV100 from -64 to 64", o.exposure)};
   }
+  if (o.kind != "picture" && o.kind != "luminance" && o.kind != "falsecolour") return Error{fmt::format("--output-kind {}: write picture, luminance or falsecolour", o.kind)};
   const Result<ToneCurve> tone = toneCurveFromName(o.tone);
   if (!tone) return Error{"--tone: " + tone.error()};
   plan.tone = tone.value();
@@ -177,10 +180,26 @@ Metadata describe(const Options& o, const Plan& plan, const Camera& camera, cons
           {"roomlight.complete", rendered.complete ? "true" : "false"}};
 }
 
+// How bright things are: .exr in cd/m², .png in grey up to a round luminance or in false colours.
+Status writeLuminance(const Options& o, const Rendered& rendered, Metadata metadata) {
+  const LightScale scale = luminanceScale(rendered.image);
+  metadata["roomlight.lowCdM2"] = fmt::format("{:g}", scale.low);
+  metadata["roomlight.highCdM2"] = fmt::format("{:g}", scale.high);
+  for (const std::string& out : o.outputs) {
+    const bool exr = lowerExtension(out) == ".exr";
+    const Status s = exr                        ? writeExr(out, luminanceOnly(rendered.image), metadata)
+                     : o.kind == "falsecolour" ? writePng(out, falseColourPicture(rendered.image, scale), metadata)
+                                               : writePng(out, greyPicture(rendered.image, scale.high), metadata);
+    if (!s) return s;
+  }
+  return Ok{};
+}
+
 Status writePictures(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered) {
   const float ev100 = plan.ev100 ? *plan.ev100 : automaticEv100(rendered.image);
   const White white = whiteOf(plan, rendered, ev100);
   const Metadata metadata = describe(o, plan, camera, rendered, ev100, white);
+  if (o.kind != "picture") return writeLuminance(o, rendered, metadata);
   for (const std::string& out : o.outputs) {
     const bool exr = lowerExtension(out) == ".exr";
     const Status s = exr ? writeExr(out, rendered.image, metadata) : writePng(out, displayPicture(plan, white, rendered.image, ev100), metadata);
@@ -290,6 +309,7 @@ Registered addRender(CLI::App& program) {
   app->add_option("--exposure", o->exposure, "auto, or EV100 as on a light meter")->capture_default_str();
   app->add_option("--tone", o->tone, "Tone curve of .png: neutral, agx, filmic or clip")->capture_default_str();
   app->add_option("--white-balance", o->whiteBalance, "White of .png: auto, none, or the temperature in kelvin of light that shall look white")->capture_default_str();
+  app->add_option("--output-kind", o->kind, "picture; luminance: .exr in cd/m2 without colour, .png in grey; or falsecolour: .png in colours that tell luminance, with a legend")->capture_default_str();
   app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
   app->add_option("--stats", o->stats, "Write time and memory of each stage to this JSON file");
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();

@@ -64,7 +64,11 @@ Lattice rectangleLattice(Vec3 corner, Vec3 alongU, Vec3 alongV, Vec3 normal, con
 }
 
 Lattice floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& settings) {
-  const Vec2 u = longestSide(floor), v{-u.y, u.x};
+  Vec2 u = longestSide(floor);
+  // Of the four ways to lay a rectangle along it, the one most like the world's axes.
+  if (std::abs(u.x) < std::abs(u.y)) u = {-u.y, u.x};
+  if (u.x < 0) u = u * -1;
+  const Vec2 v{-u.y, u.x};
   Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
   for (const Vec2 p : floor) {
     const float a = p.x * u.x + p.y * u.y, b = p.x * v.x + p.y * v.y;

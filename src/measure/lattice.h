@@ -39,7 +39,7 @@ double gridSpacingM(double sideM, double otherSideM);
 
 // The rectangle corner, corner + alongU, corner + alongV.
 Lattice rectangleLattice(Vec3 corner, Vec3 alongU, Vec3 alongV, Vec3 normal, const GridSettings& settings);
-// A horizontal plane over a floor at height yM, its columns along the longest side. Has no used cell where the floor is too narrow.
+// A horizontal plane over a floor at height yM, its columns along or across the longest side. Has no used cell where the floor is too narrow.
 Lattice floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& settings);
 // The walls around a floor, one for each side longer than 0.3 m, a centimetre in front of them.
 std::vector<Lattice> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM, const GridSettings& settings);

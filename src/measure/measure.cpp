@@ -46,18 +46,28 @@ void addHorizontal(const RayScene& rays, const RoomPlan& plan, const GridSetting
   m.grids.push_back(std::move(g));
 }
 
+// Lamps without geometry, and things that emit; a lamp of kind Area is one of those, too, and states their watts.
+void countLamps(const Scene& scene, RoomReading& r) {
+  const auto inside = [&](Vec3 p) { return contains(r.room.floor, {p.x, p.z}) && p.y >= r.room.elevationM && p.y <= r.room.elevationM + r.room.heightM; };
+  size_t stated = 0;
+  for (const Lamp& lamp : scene.lamps) {
+    if (!inside(lamp.position)) continue;
+    if (lamp.kind != LampKind::Area) ++r.lamps;
+    if (lamp.wattsW > 0) ++stated;
+    r.wattsW += static_cast<double>(lamp.wattsW);
+  }
+  for (const Instance& i : scene.instances) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(i.mesh)];
+    if (!isBlack(scene.materials[static_cast<size_t>(mesh.material)].emission) && inside(instanceBounds(scene, i).centre())) ++r.lamps;
+  }
+  r.lampsWithoutWatts = r.lamps - std::min(r.lamps, stated);
+}
+
 void addRoom(const RayScene& rays, const RoomPlan& plan, const GridSettings& grid, bool maps, Measurements& m) {
   RoomReading r;
   r.room = plan.room, r.targets = plan.targets;
   r.areaM2 = std::abs(signedAreaM2(plan.room.floor));
-  for (const Lamp& lamp : rays.scene().lamps) {
-    const bool inside = contains(plan.room.floor, {lamp.position.x, lamp.position.z}) && lamp.position.y >= plan.room.elevationM &&
-                        lamp.position.y <= plan.room.elevationM + plan.room.heightM;
-    if (!inside) continue;
-    ++r.lamps;
-    r.wattsW += static_cast<double>(lamp.wattsW);
-    if (lamp.wattsW <= 0) ++r.lampsWithoutWatts;
-  }
+  countLamps(rays.scene(), r);
   if (plan.wattsW > 0) r.wattsW = plan.wattsW, r.lampsWithoutWatts = 0;
   m.rooms.push_back(std::move(r));
   if (plan.onWorkPlane) addHorizontal(rays, plan, grid, SurfaceKind::WorkPlane, static_cast<float>(plan.workPlaneM), maps, m);
@@ -88,11 +98,12 @@ void addAreas(const RayScene& rays, const GridSettings& grid, bool maps, Measure
   if (m.rooms.empty()) m.warnings.push_back("no floor under a ceiling was found; say what to measure with --meters or --point");
 }
 
-void addGrid(const GridPlan& plan, const GridSettings& grid, Measurements& m) {
+void addGrid(const RayScene& rays, const GridPlan& plan, const GridSettings& grid, Measurements& m) {
   GridReading g;
   g.name = plan.name, g.kind = SurfaceKind::Rectangle, g.targets = plan.targets;
   // The task itself: nothing of it is left out.
   g.points.lattice = rectangleLattice(plan.corner, plan.alongU, plan.alongV, normalize(cross(plan.alongU, plan.alongV)), {grid.spacingM, 0, 0});
+  g.leftOut = leaveOutThings(rays, g.points.lattice);
   m.grids.push_back(std::move(g));
 }
 
@@ -133,7 +144,7 @@ Measurements measure(const LitScene& lit, const MeterPlan& plan, const MeasureSe
       for (const Room& room : rays.scene().rooms) addRoom(rays, planRoom(room), plan.grid, settings.maps, m);
       if (m.rooms.empty()) addAreas(rays, plan.grid, settings.maps, m);
     }
-    for (const GridPlan& grid : plan.grids) addGrid(grid, plan.grid, m);
+    for (const GridPlan& grid : plan.grids) addGrid(rays, grid, plan.grid, m);
     return 0;
   });
   std::vector<Field*> points, maps;

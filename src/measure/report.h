@@ -11,12 +11,14 @@ namespace roomlight {
 struct ReportHeader {
   std::string scene, lighting, meters;  // file names; empty: none
   std::string technique, quality, version;
-  double tolerance = 0.01;
+  double tolerance = 0.02;
 };
 
 std::string reportTable(const Measurements& m);                            // for a terminal
 std::string reportJson(const ReportHeader& header, const Measurements& m);
 // One line a reading: kind,name,room,x,y,z,nx,ny,nz,quantity,unit,value.
 std::string reportCsv(const Measurements& m);
+// One page on its own, without scripts, with a picture of the light on every grid (fine where it has a map).
+std::string reportHtml(const ReportHeader& header, const Measurements& m, const Scene& scene);
 
 }  // namespace roomlight

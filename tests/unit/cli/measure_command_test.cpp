@@ -58,6 +58,28 @@ TEST(MeasureCommand, meterFileNamesRoomsAndTargets) {
   for (const char* word : {"Hall, work plane", "met", "MISSED", "<= 6.00 W/m²", "1.25 W/m²", "Wall", "cd/m²", "Chair", "UGR"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
 }
 
+TEST(MeasureCommand, htmlReportStandsAloneWithDaylight) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--quality", "draft", "--tolerance", "10%", "--daylight-factor", "--html", folder / "m.html"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  EXPECT_NE(run.out.find("mean DF %"), std::string::npos) << run.out;
+  const std::string html = readFile(folder / "m.html");
+  for (const char* part : {"<!doctype html>", "Area 1, work plane", "class=\"map\"", "class=\"contour\"", "class=\"lamp\"", "class=\"legend\"", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
+  for (const char* part : {"<script", "src=", "href=", ">nan", ">inf", "-2147483648"}) EXPECT_EQ(html.find(part), std::string::npos) << part;
+  EXPECT_LT(html.size(), size_t{2'000'000});
+}
+
+TEST(MeasureCommand, renderShowsLuminance) {
+  const TemporaryFolder folder;
+  const std::string room = testing::writeRoom(folder);
+  EXPECT_EQ(runProgram({"render", room, "--size", "64x48", "--quality", "draft", "--quiet", "--output-kind", "falsecolour", "-o", folder / "f.png"}).exitStatus, 0);
+  EXPECT_EQ(runProgram({"render", room, "--size", "64x48", "--quality", "draft", "--quiet", "--output-kind", "luminance", "-o", folder / "l.png", "-o", folder / "l.exr"}).exitStatus, 0);
+  const ProgramRun wrong = runProgram({"render", room, "--output-kind", "falsecolour", "-o", folder / "f.exr"});
+  EXPECT_EQ(wrong.exitStatus, 2);
+  EXPECT_NE(wrong.err.find("use .png"), std::string::npos) << wrong.err;
+  EXPECT_EQ(runProgram({"render", room, "--output-kind", "x", "-o", folder / "f.png"}).exitStatus, 2);
+}
+
 TEST(MeasureCommand, whatIsWrongIsOneLineAndExitStatusTwo) {
   const TemporaryFolder folder;
   const std::string room = testing::writeRoom(folder);

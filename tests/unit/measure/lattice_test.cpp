@@ -53,7 +53,7 @@ TEST(Lattice, followsATurnedRoom) {
   for (const Vec2 p : kSquare) floor.push_back({c * p.x - s * p.y * 1.5f, s * p.x + c * p.y * 1.5f});
   const Lattice l = floorLattice(floor, 0, {});
   EXPECT_EQ(l.count(), static_cast<size_t>(l.columns) * static_cast<size_t>(l.rows));
-  EXPECT_NEAR(static_cast<double>(std::abs(dot(l.u, {-s, 0, c}))), 1, 1e-5);
+  EXPECT_NEAR(static_cast<double>(dot(l.u, {c, 0, s})), 1, 1e-5);
 }
 
 TEST(Lattice, wallsLookInwards) {
