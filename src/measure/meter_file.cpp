@@ -179,7 +179,9 @@ Result<MeterPlan> readMeterFile(const std::filesystem::path& file, std::span<con
     plan.points = readList(j, "points", readPoint);
     plan.spots = readList(j, "spots", readSpot);
     plan.glares = readList(j, "glare", readGlare);
-    if (plan.empty()) j.fail("asks for nothing; give at least one of rooms, grids, points, spots, glare");
+    // What holds for all rooms may stand alone.
+    const bool ofAll = j.has("border") || j.has("spacing") || j.has("maintenanceFactor") || j.has("groundReflectance");
+    if (plan.empty() && !ofAll) j.fail("asks for nothing; give at least one of rooms, grids, points, spots, glare");
   }
   if (!error.empty()) return Error{fmt::format("{}: {}", file.string(), error)};
   return plan;
