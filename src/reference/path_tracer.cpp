@@ -17,6 +17,7 @@ constexpr int kTile = 16;
 // many a path has, the first pass tells.
 constexpr int kMostLightPaths = 1 << 18, kFirstLightPaths = 1 << 14, kPixelsPerLightPath = 16;
 constexpr double kMostLightVertices = 1 << 20;
+constexpr int kMeterLightPaths = 1 << 16;  // each round of samples has its own
 
 constexpr int kFilterPasses = 5;
 
@@ -150,14 +151,19 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
 
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
                                              const Progress& progress) {
-  const PathWalk walk(rays, lights);
-  return readMeters(rays, lights, elements, settings, [&](size_t meter, int first, int count, std::span<Vec3> lux) {
+  LightVertices vertices(rays, lights);
+  const auto prepare = [&](uint32_t round) {
+    if (lights.lampCount() > 0) vertices.trace(kMeterLightPaths, round, settings.seed);
+  };
+  const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
+    const PathWalk walk(rays, lights, &vertices);
     uint64_t rayCount = 0;
     for (int i = 0; i < count; ++i) {
       Sampler sampler(meter, static_cast<uint32_t>(first + i), settings.seed);
       lux[static_cast<size_t>(i)] += walk.illuminanceButSky(elements[meter].position, elements[meter].normal, sampler, rayCount);
     }
-  }, progress);
+  };
+  return readMeters(rays, lights, elements, settings, sample, progress, prepare);
 }
 
 MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples, uint64_t seed) {

@@ -109,6 +109,11 @@ Vec3 PathWalk::illuminanceButSky(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& ray
   s.m.baseColor = Vec3(1);
   const Bsdf bsdf(s.m, n, n, n);
   Vec3 sum = direct<false>(s, bsdf, 1, sampler, rayCount, nullptr, false);
+  if (vertices_) {
+    Candidates candidates;
+    candidates.draw(vertices_->all(), sampler);
+    sum += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr);
+  }
   const BsdfSample next = bsdf.sample(sampler.next2(), sampler.next1());
   if (next.valid()) {
     State path;

@@ -73,14 +73,16 @@ void lightBySky(const RayScene& rays, const OpenSky& sky, const SurfaceElement& 
 }  // namespace
 
 std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings, const SampleMeter& sample,
-                                     const Progress& progress) {
+                                     const Progress& progress, const PrepareMeters& prepare) {
   const size_t n = elements.size();
   std::vector<std::optional<OpenSky>> skies(lights.sky().present() ? n : 0);
   parallelFor(skies.size(), 8, [&](size_t i) { skies[i].emplace(rays, lights, elements[i], settings.seed + i); });
   std::vector<Sums> sums(n);
   std::vector<size_t> open(n);
   for (size_t i = 0; i < n; ++i) open[i] = i;
+  uint32_t round = 0;
   for (int done = 0, count = settings.fewestSamples; !open.empty() && count <= settings.mostSamples; done = count, count *= 2) {
+    if (prepare) prepare(round++);
     std::vector<Batch> batches;
     for (const size_t i : open) {
       for (int first = done; first < count; first += kAtOnce) batches.push_back({i, first, std::min(kAtOnce, count - first), {}});

@@ -34,10 +34,13 @@ struct MeterSettings {
 // is added to `lux`.
 using SampleMeter = std::function<void(size_t element, int first, int count, std::span<Vec3> lux)>;
 
+// Called before every round of samples, with its number.
+using PrepareMeters = std::function<void(uint32_t round)>;
+
 // A reading for each element; `sample` is called from many threads. The sky is sampled here, where it is open (open_sky.h).
 // Every meter takes fewestSamples; those that are not yet as certain as the tolerance asks, or as a hundredth of what meters show on average
 // needs, go on to twice as many, up to mostSamples. Does not depend on the number of threads. Once `progress` says stop, readings are those so far.
 std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings, const SampleMeter& sample,
-                                     const Progress& progress = {});
+                                     const Progress& progress = {}, const PrepareMeters& prepare = {});
 
 }  // namespace roomlight
