@@ -2,6 +2,7 @@
 
 #include "base/sampling.h"
 #include "radiance/sky_guide.h"
+#include "trace/shadow_ray.h"
 
 namespace roomlight {
 namespace {
@@ -48,7 +49,7 @@ SurfaceLight ConeShader::shade(const Shading& work, std::span<const Shadow> shad
 Vec3 ConeShader::visible(const SurfacePoint& s, const LightSample& light, const Lobes& f, GatherCounters& count) const {
   if (isBlack(f.diffuse) && isBlack(f.specular)) return {};
   ++count.rays;
-  return rays_.transmittance(shadowRay(offsetOrigin(s.p, s.ng), light));
+  return rays_.transmittance(shadowRay(offsetOrigin(s.p, s.ng), s.p, light));
 }
 
 // Both lobes towards a light. Where reflections follow rays they find extended lights too; both ways share the specular lobe

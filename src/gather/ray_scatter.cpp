@@ -2,6 +2,7 @@
 
 #include "base/sampling.h"
 #include "radiance/sky_guide.h"
+#include "trace/shadow_ray.h"
 
 namespace roomlight {
 namespace {
@@ -39,7 +40,7 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
       }
     }
     const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
-    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), light), sum);
+    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), sum);
   };
   if (v.first) {
     if (sampleLamps_) take(lights_.sampleLamps(v.s.p, sampler));
@@ -76,7 +77,7 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   f.diffuse *= field_.glow.pointShare(g.point, v.s.p, {v.apart || v.followed ? cosine : mixed, 0});
   f.specular *= v.clear ? 0 : field_.glow.pointShare(g.point, v.s.p, {v.apart ? v.bsdf.pdfSpecular(wi) : mixed, 0});
   const Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), g.light), sum);
+  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, g.light), sum);
 }
 
 void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {

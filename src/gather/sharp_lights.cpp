@@ -1,5 +1,7 @@
 #include "gather/sharp_lights.h"
 
+#include "trace/shadow_ray.h"
+
 namespace roomlight {
 namespace {
 
@@ -16,8 +18,6 @@ Vec3 background(const Lights& lights, Vec3 direction) {
   return sum;
 }
 
-Ray shadowRay(Vec3 p, const LightSample& light) { return {p, light.wi, 0, light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity}; }
-
 SharpLights::SharpLights(const RayScene& rays, const Lights& lights) : rays_(rays), lights_(lights), lamps_(lights.lampCount() <= kAllLamps && !lights.hasExtendedLamps() ? lights.lampCount() : 0) {}
 
 LightSample SharpLights::sample(size_t light, Vec3 p, Vec2 u) const { return light < lamps_ ? lights_.sampleLamp(light, p, u) : lights_.sampleSun(light - lamps_, u); }
@@ -26,7 +26,7 @@ Shadow SharpLights::shadow(size_t light, std::span<const Vec3> points, std::span
   std::array<Ray, kMostPoints> rays;
   std::array<Vec3, kMostPoints> left;
   const size_t n = points.size();
-  for (size_t i = 0; i < n; ++i) rays[i] = shadowRay(points[i], sample(light, points[i], u[i]));
+  for (size_t i = 0; i < n; ++i) rays[i] = shadowRay(points[i], points[i], sample(light, points[i], u[i]));
   rays_.transmittance(std::span(rays).first(n), std::span(left).first(n));
   Shadow out;
   for (size_t i = 0; i < n; ++i) out.left += left[i] / static_cast<float>(n);

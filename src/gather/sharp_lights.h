@@ -35,7 +35,4 @@ class SharpLights {
 // What a ray sees that meets no surface, cd/m².
 Vec3 background(const Lights& lights, Vec3 direction);
 
-// Of a light sample, as seen from p.
-Ray shadowRay(Vec3 p, const LightSample& light);
-
 }  // namespace roomlight

@@ -5,6 +5,7 @@
 #include "base/sampling.h"
 #include "radiance/attenuation.h"
 #include "radiance/sky_guide.h"
+#include "trace/shadow_ray.h"
 
 namespace roomlight {
 namespace {
@@ -97,7 +98,7 @@ void DirectLight::trace(size_t brick, Samples samples, std::span<Vec3> lux, cons
     if (!light.valid()) return;
     const float a = attenuation(settings_.attenuation, slot.normal, light.wi);
     if (a <= 0 || dot(light.wi, slot.normal) <= 0) return;
-    rays.push_back({p, light.wi, 0, light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity});
+    rays.push_back(shadowRay(p, p, light));
     shadows.push_back({s, light.radiance * a});
   };
   const auto arrive = [&](const auto& see) {

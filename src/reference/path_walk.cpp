@@ -1,6 +1,7 @@
 #include "reference/path_walk.h"
 
 #include "base/sampling.h"
+#include "trace/shadow_ray.h"
 
 namespace roomlight {
 namespace {
@@ -235,9 +236,8 @@ Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const Light
   const BsdfValue value = bsdf.value(light.wi);
   if (isBlack(value.f)) return {};
   const Vec3 f = light.pdf > 0 ? value.f * misWeight(light.pdf, value.pdf) : value.f;
-  const float tMax = light.distance < kInfinity ? light.distance * (1 - 1e-4f) : kInfinity;
   ++rayCount;
-  const Vec3 all = f * light.radiance * rays_.transmittance({offsetOrigin(s.p, s.ng), light.wi, 0, tMax});
+  const Vec3 all = f * light.radiance * rays_.transmittance(shadowRay(offsetOrigin(s.p, s.ng), s.p, light));
   if constexpr (kParts) *diffuse = all * diffuseShare(bsdf, light.wi);
   return all;
 }
