@@ -1,5 +1,6 @@
 #include "scene/primitives.h"
 
+#include <cmath>
 #include <string>
 
 namespace roomlight {
@@ -57,6 +58,28 @@ void addBox(Scene& scene, Vec3 lo, Vec3 hi, int material) {
   addRectangle(scene, lo + y, z, x, material);
   addRectangle(scene, lo, y, x, material);
   addRectangle(scene, lo + z, x, y, material);
+}
+
+void addSphere(Scene& scene, Vec3 centre, float radiusM, int material, int rings) {
+  Mesh mesh;
+  mesh.material = material;
+  const int around = 2 * rings;
+  for (int j = 0; j <= rings; ++j) {
+    for (int i = 0; i <= around; ++i) {
+      const float polar = kPi * static_cast<float>(j) / static_cast<float>(rings), azimuth = 2 * kPi * static_cast<float>(i % around) / static_cast<float>(around);
+      const Vec3 n{std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth)};
+      mesh.positions.push_back(centre + n * radiusM), mesh.normals.push_back(n);
+    }
+  }
+  for (int j = 0; j < rings; ++j) {
+    for (int i = 0; i < around; ++i) {
+      const auto a = static_cast<uint32_t>(j * (around + 1) + i), b = a + 1, c = a + static_cast<uint32_t>(around) + 1, d = c + 1;
+      if (j > 0) mesh.indices.insert(mesh.indices.end(), {a, b, d});
+      if (j + 1 < rings) mesh.indices.insert(mesh.indices.end(), {a, d, c});
+    }
+  }
+  scene.meshes.push_back(mesh);
+  scene.instances.push_back({"sphere " + std::to_string(scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
 }
 
 Lamp pointLamp(Vec3 position, float candela) {

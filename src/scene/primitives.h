@@ -22,6 +22,9 @@ void addRoom(Scene& scene, Vec3 lo, Vec3 hi, const std::vector<int>& materials);
 // Fronts look outwards.
 void addBox(Scene& scene, Vec3 lo, Vec3 hi, int material);
 
+// `rings` from pole to pole and twice as many around; smooth normals. Fronts look outwards.
+void addSphere(Scene& scene, Vec3 centre, float radiusM, int material, int rings = 32);
+
 Lamp pointLamp(Vec3 position, float candela);
 
 }  // namespace roomlight

@@ -30,6 +30,19 @@ ValidationCase rectangle() {
   return out;
 }
 
+// Very near the globe its own surface must not shade it.
+ValidationCase globe() {
+  ValidationCase out{"globe", "shining sphere, radius 0.1 m, 3000 cd/m²", "lx", "E = π L (r/d)² cos θ", {}, {}};
+  const Vec3 centre{8, 2.4f, 6};
+  addSphere(out.scene, centre, 0.1f, addMaterial(out.scene, lambertian(0, 3000)), 64);
+  for (const float aside : {0.0f, 0.05f, 0.1f, 0.2f, 0.5f, 2.0f}) {
+    const double h = 0.15, d2 = h * h + static_cast<double>(aside * aside);
+    out.quantities.push_back(reading(fmt::format("0.05 m above its top, {} m aside", aside), {{centre.x + aside, centre.y + 0.15f, centre.z}, {0, -1, 0}}, 1, pi * 3000 * 0.01 / d2 * h / std::sqrt(d2)));
+  }
+  out.quantities.push_back(reading("2 m below", {{centre.x, centre.y - 2, centre.z}, {0, 1, 0}}, 1, pi * 3000 * 0.01 / 4));
+  return out;
+}
+
 ValidationCase furnace() {
   ValidationCase out{"furnace", "closed box, every wall shines and reflects half", "lx", "E = π Le / (1 - ρ)", {}, {}};
   addRoom(out.scene, {0, 0, 0}, {3, 2.5f, 4}, std::vector<int>(6, addMaterial(out.scene, lambertian(0.5f, 100))));
@@ -60,7 +73,7 @@ ValidationCase cube() {
 }  // namespace
 
 const std::vector<MakeCase>& closedFormCases() {
-  static const std::vector<MakeCase> cases = {rectangle, furnace, cube};
+  static const std::vector<MakeCase> cases = {rectangle, globe, furnace, cube};
   return cases;
 }
 
