@@ -190,6 +190,9 @@ TEST(Hybrid, keepsContact) {
   test::record("Table with a cup, mse of the whole picture and where things touch", "whole picture", "hybrid", 0, all);
   test::record("Table with a cup, mse of the whole picture and where things touch", "within 6 pixels of contacts", "hybrid", 0, contact);
   EXPECT_LE(contact, 2 * all);
+  // Where one pixel in 4 gathers, those at contacts still do.
+  settings.gatherEvery = 4;
+  EXPECT_LE(errorIn(around(camera, contacts, 6), lit.hybrid(camera, settings), a, b), 2 * all);
 }
 
 // A room lit by luminaires with webs: one as a point inside a shade, one as large as its opening.
@@ -222,10 +225,14 @@ INSTANTIATE_TEST_SUITE_P(Sizes, HybridLuminaire, testing::Bool());
 TEST(Hybrid, sameBitsWithAnyNumberOfThreads) {
   const Lit lit(twoRooms(0.1f), 0.1f);
   const Camera camera = cameraAt({0.3f, 1.4f, 2.8f}, {2.9f, 0.7f, 0.4f});
-  Image one, two;
-  withThreads(1, [&] { one = lit.hybrid(camera); });
-  withThreads(2, [&] { two = lit.hybrid(camera); });
-  for (size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], two.pixels[i]) << i;
+  for (const int every : {1, 4}) {
+    RayGatherSettings settings = Lit::small();
+    settings.gatherEvery = every;
+    Image one, two;
+    withThreads(1, [&] { one = lit.hybrid(camera, settings); });
+    withThreads(2, [&] { two = lit.hybrid(camera, settings); });
+    for (size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], two.pixels[i]) << i;
+  }
 }
 
 }  // namespace
