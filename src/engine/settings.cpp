@@ -64,6 +64,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("tolerance", s.hybrid.tolerance, 0, 1);
     g.number("raysPerShading", s.hybrid.raysPerShading, 1, 8);
     g.number("estimates", s.hybrid.estimates, 1, 256);
+    g.number("gatherEvery", s.hybrid.gatherEvery, 1, 16);
     g.number("nearVoxels", s.hybrid.nearVoxels, 0, 1000);
     g.number("rayRoughness", s.hybrid.rayRoughness, 0, 1);
     g.number("filterPasses", s.hybrid.filterPasses, 0, 8);

@@ -28,11 +28,12 @@ void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
     at[FilterRows::kRoughness * pitch] = p.roughness;
     const Vec3 lights[kFilterLights] = {p.diffuse / divisor(p.albedo), p.sharp / divisor(p.albedo), p.specular};
     const float variances[kFilterLights] = {p.diffuseVariance, p.sharpVariance, p.specularVariance};
+    const float weights[kFilterLights] = {p.weight * p.diffuseShare, p.weight, p.weight * p.specularShare};
     for (int k = 0; k < kFilterLights; ++k) {
       float* light = at + FilterRows::light(k, 0) * pitch;
       store(light, pitch, lights[k]);
       light[FilterRows::kVariance * pitch] = variances[k];
-      light[FilterRows::kWeight * pitch] = p.weight;
+      light[FilterRows::kWeight * pitch] = weights[k];
     }
     ++at;
   }

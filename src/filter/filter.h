@@ -17,7 +17,8 @@ struct FilterPixel {
   Vec3 normal, position;
   float roughness = 0;
   float surface = 0;  // 0..1: share of samples that saw a surface
-  float weight = 1;   // samples that the pixel stands for among its neighbours
+  float weight = 1;   // samples that the pixel stands for among its neighbours,
+  float diffuseShare = 1, specularShare = 1;  // and how many times as many of these lights; 0: none, its neighbours tell
 };
 
 struct FilterInput {

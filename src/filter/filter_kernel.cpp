@@ -22,7 +22,8 @@ constexpr float kOwnNoise = 0.5f;          // of a pixel's own variance counts a
 constexpr float kPlaneTolerance = 0.02f;   // metres off the tangent plane, and
 constexpr float kSlope = 0.5f;             // of the distance between the two points
 constexpr float kLeastFacing = 0.3f;       // cosine between normals
-constexpr float kNoSamples = 1e-6f;        // instead of the weight of margins, which is zero
+constexpr float kNoSamples = 1e-6f;        // instead of a weight of zero
+constexpr float kUnseen = -1;              // where no pixel has samples yet: like everything
 constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
 constexpr float kSameRoughness = 0.1f;
 
@@ -65,6 +66,7 @@ void findNoise(FilterRows& rows, const FilterPass& pass, int light, int y) {
   const D d;
   const int variance = FilterRows::light(light, pass.place[light]) + FilterRows::kVariance;
   const float *above = rows.line(variance, std::max(0, y - 1)), *own = rows.line(variance, y), *below = rows.line(variance, std::min(rows.height() - 1, y + 1));
+  const ptrdiff_t weights = (FilterRows::kWeight - FilterRows::kVariance) * rows.pitch();
   float* out = rows.line(FilterRows::kNoise + light, y);
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
     if (light == 1) {
@@ -74,9 +76,12 @@ void findNoise(FilterRows& rows, const FilterPass& pass, int light, int y) {
       hn::StoreU(least, d, out + x);
       continue;
     }
-    V sum = hn::Zero(d);
-    for (const float* line : {above, own, below}) sum = hn::Add(sum, hn::Add(hn::Add(load(line + x - 1), load(line + x)), load(line + x + 1)));
-    hn::StoreU(hn::Max(hn::Mul(sum, set(1.0f / 9)), hn::Mul(load(own + x), set(kOwnNoise))), d, out + x);
+    V sum = hn::Zero(d), sampled = hn::Zero(d);
+    for (const float* line : {above, own, below}) {
+      sum = hn::Add(sum, hn::Add(hn::Add(load(line + x - 1), load(line + x)), load(line + x + 1)));
+      for (int i = -1; i <= 1; ++i) sampled = hn::Add(sampled, hn::IfThenElseZero(hn::Gt(load(line + weights + x + i), hn::Zero(d)), set(1)));
+    }
+    hn::StoreU(hn::Max(hn::Mul(sum, hn::Div(set(1), hn::Max(sampled, set(1)))), hn::Mul(load(own + x), set(kOwnNoise))), d, out + x);
   }
 }
 
@@ -87,11 +92,10 @@ void findSeen(FilterRows& rows, const FilterPass& pass, int light, int y) {
   float* out = rows.line(FilterRows::kSeen + light, y);
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
     const float* here = row + x;
-    V sum = luminance(load3(here + colour, pitch));
+    const ptrdiff_t samples = colour + FilterRows::kWeight * pitch;
+    V sum = luminance(load3(here + colour, pitch)), total = load(here + samples);
     if (light == 0) {
-      const ptrdiff_t samples = colour + FilterRows::kWeight * pitch;
       const Place own = placeAt(here, pitch);
-      V total = load(here + samples);
       sum = hn::Mul(sum, total);
       for (int j = y > 0 ? -1 : 0; j <= (y + 1 < rows.height() ? 1 : 0); ++j) {
         for (int i = -1; i <= 1; ++i) {
@@ -104,7 +108,7 @@ void findSeen(FilterRows& rows, const FilterPass& pass, int light, int y) {
       }
       sum = hn::Div(sum, hn::Max(total, set(kNoSamples)));
     }
-    hn::StoreU(sum, d, out + x);
+    hn::StoreU(hn::IfThenElse(hn::Gt(total, hn::Zero(d)), sum, set(kUnseen)), d, out + x);
   }
 }
 
@@ -166,7 +170,8 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
           // How far the light of two pixels differs, in units of their noise together: as seen from either, so that as much passes
           // from a bright spot to its surroundings as back.
           const V noise = hn::Sqrt(hn::Add(s.noise, load(there + (FilterRows::kNoise + k) * pitch)));
-          const V between = hn::Abs(hn::Sub(load(there + (FilterRows::kSeen + k) * pitch), s.seen));
+          const V seen = load(there + (FilterRows::kSeen + k) * pitch);
+          const V between = hn::IfThenElseZero(hn::Ge(hn::Min(seen, s.seen), hn::Zero(d)), hn::Abs(hn::Sub(seen, s.seen)));
           V weight = hn::Mul(kernel, falloff(hn::Add(off, hn::Div(between, hn::MulAdd(set(kSigmas[k]), noise, set(1e-6f))))));
           if (k == 2) {
             const V r = load(there + FilterRows::kRoughness * pitch);
@@ -219,8 +224,9 @@ FilterRows::FilterRows(int w, int h, int margin)
 void FilterRows::clearMargins(int y) {
   for (int q = 0; q < kCount; ++q) {
     float* at = line(q, y);
-    std::fill(at - margin_, at, 0.0f);
-    std::fill(at + width_, at - margin_ + pitch_, 0.0f);
+    const float value = q >= kLight && (q - kLight) % kParts == kWeight ? 1.0f : 0.0f;
+    std::fill(at - margin_, at, value);
+    std::fill(at + width_, at - margin_ + pitch_, value);
   }
 }
 

@@ -23,8 +23,8 @@ class FilterRows {
   // Distance between lines, and between the same lines of two rows.
   ptrdiff_t pitch() const { return pitch_; }
   ptrdiff_t rowPitch() const { return pitch_ * kCount; }
-  // Pixel 0 of a row. Before it and after the last lie margins as wide as the constructor was told, of zeros once cleared: normals
-  // without length, which face nothing.
+  // Pixel 0 of a row. Before it and after the last lie margins as wide as the constructor was told, of zeros once cleared (normals
+  // without length, which face nothing) but for weights, which are 1.
   float* line(int quantity, int y) { return begin_ + (static_cast<ptrdiff_t>(y) * kCount + quantity) * pitch_; }
   const float* line(int quantity, int y) const { return begin_ + (static_cast<ptrdiff_t>(y) * kCount + quantity) * pitch_; }
   void clearMargins(int y);
@@ -44,7 +44,7 @@ struct FilterPass {
 
 // Makes row y ready to be compared with others. Noise: means of a light's variance over 3 x 3 pixels, for the variance of single pixels
 // is itself noise. What is seen of diffuse light: means over the 3 x 3 pixels as far as they lie on one surface, because single
-// pixels that differ by noise would keep their difference (as patches are compared by Rousselle et al. 2012).
+// pixels that differ by noise would keep their difference (as patches are compared by Rousselle et al. 2012). Pixels of weight 0 tell nothing of either.
 void prepareRow(FilterRows& rows, const FilterPass& pass, int y);
 // Filters row y, by its neighbours `step` rows and pixels away.
 void filterRow(FilterRows& rows, const FilterPass& pass, int y);

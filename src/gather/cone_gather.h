@@ -8,10 +8,10 @@
 namespace roomlight {
 
 struct GatherSettings : PictureSettings {
+  GatherSettings() { rayRoughness = 0.6f; }
   int conesPerShading = 2;        // diffuse cones
   float coneHalfAngleDeg = 0.3f;
   float startOffsetVoxels = 0.05f;  // along the normal
-  float rayRoughness = 0.6f;      // reflections below this roughness follow exact rays
   float occlusionLambda = 0;      // f(r) = 1 / (1 + lambda r) in ambient occlusion, 1/m
   Vec3 ambientCdM2{0, 0, 0};      // luminance of light that ambient occlusion attenuates; 0: physical light only
 };

@@ -33,7 +33,7 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
         const Vec2 u = sampler.next2();
         shadows.push_back(sharp.shadow(i, {&origin, 1}, {&u, 1}));
       }
-      shadings.push_back({s, s.ng, sampler, firstShadow, false, true});
+      shadings.push_back({s, s.ng, sampler, firstShadow, false, 1, true});
     }
     light.assign(shadings.size(), {});
     GatherCounters counters;

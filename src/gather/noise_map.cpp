@@ -17,6 +17,7 @@ struct Look {
   float sharpVariance = 0;            // which no filter shares out
   float surface = 0;
   bool edge = false;
+  bool known = true;  // whether all of its light was sampled
 };
 
 Look lookOf(const FilterPixel& sum, const PixelCount& count) {
@@ -28,30 +29,33 @@ Look lookOf(const FilterPixel& sum, const PixelCount& count) {
   l.variance = p.diffuseVariance * albedo * albedo + p.specularVariance;
   l.sharpVariance = p.sharpVariance * albedo * albedo;
   l.edge = count.edge;
+  l.known = p.diffuseShare > 0 && p.specularShare > 0;
   return l;
 }
 
-bool alike(const Look& a, const Look& b) {
-  if (b.surface <= 0 || dot(a.normal, b.normal) < kFacing) return false;
-  const Vec3 between = b.position - a.position;
-  return std::abs(dot(a.normal, between)) <= kPlane * length(between) + 1e-3f;
-}
+bool alike(const Look& a, const Look& b) { return b.surface > 0 && onOneSurface(a.normal, a.position, b.normal, b.position); }
 
 }  // namespace
+
+bool onOneSurface(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition) {
+  const Vec3 between = otherPosition - position;
+  return dot(normal, otherNormal) >= kFacing && std::abs(dot(normal, between)) <= kPlane * length(between) + 1e-3f;
+}
 
 std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<PixelCount>& counts, float tolerance) {
   const int width = sums.width, height = sums.height;
   std::vector<Look> looks(counts.size());
-  std::vector<double> rows(static_cast<size_t>(height));
+  std::vector<double> rows(static_cast<size_t>(height)), known(static_cast<size_t>(height));
   parallelFor(static_cast<size_t>(height), 8, [&](size_t y) {
     for (size_t x = 0; x < static_cast<size_t>(width); ++x) {
       const size_t i = y * static_cast<size_t>(width) + x;
       looks[i] = lookOf(sums.pixels[i], counts[i]);
-      rows[y] += static_cast<double>(looks[i].luminance);
+      if (looks[i].known) rows[y] += static_cast<double>(looks[i].luminance), known[y] += 1;
     }
   });
-  double mean = 0;
-  for (const double r : rows) mean += r / static_cast<double>(counts.size());
+  double mean = 0, allKnown = 0;
+  for (const double k : known) allKnown += k;
+  for (const double r : rows) mean += r / std::max(1.0, allKnown);
   const float dark = kDark * static_cast<float>(mean);
   std::vector<uint8_t> out(counts.size());
   parallelFor(static_cast<size_t>(height), 4, [&](size_t row) {
@@ -66,15 +70,18 @@ std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<Pixe
           const int qx = x + dx, qy = y + dy;
           if (qx < 0 || qy < 0 || qx >= width || qy >= height) continue;
           const Look& o = looks[static_cast<size_t>(qy) * static_cast<size_t>(width) + static_cast<size_t>(qx)];
-          if (std::max(std::abs(dx), std::abs(dy)) <= 1) low = std::min(low, o.luminance), high = std::max(high, o.luminance), sharp += o.sharpVariance, beside += 1;
+          if (std::max(std::abs(dx), std::abs(dy)) <= 1) sharp += o.sharpVariance, beside += 1;
+          if (!o.known) continue;
+          if (std::max(std::abs(dx), std::abs(dy)) <= 1) low = std::min(low, o.luminance), high = std::max(high, o.luminance);
           all += 1, around += o.variance, level += o.luminance;
           if ((dx == 0 && dy == 0) || (own.surface > 0 && alike(own, o))) variance += o.variance, like += 1;
         }
       }
+      all = std::max(all, 1.0f), like = std::max(like, 1.0f);  // what is known of none is believed to be as it should
       level = level / all + dark;
       // The variance of a few pixels, each of few samples, may be too small by chance.
       variance = std::max(variance / (like * like), around / (all * like)) + sharp / beside;
-      if (own.edge) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
+      if (own.edge && high >= low) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
       out[i] = variance > tolerance * tolerance * level * level;
     }
   });

@@ -1,6 +1,7 @@
 #include "gather/picture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <mutex>
 
@@ -10,6 +11,7 @@
 #include "filter/filter.h"
 #include "gather/noise_map.h"
 #include "gather/pixel_shader.h"
+#include "gather/sparse_gather.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight {
@@ -17,10 +19,6 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr size_t kTilesAtOnce = 4;
-
-struct Rectangle {
-  int x0, y0, x1, y1;
-};
 
 Rectangle tileAt(size_t index, int width, int height) {
   const int tilesX = (width + kTile - 1) / kTile, x = static_cast<int>(index) % tilesX * kTile, y = static_cast<int>(index) / tilesX * kTile;
@@ -57,6 +55,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
                               const Progress& progress) {
   const int w = settings.width, h = settings.height;
   const PixelRays pixelRays(camera, settings);
+  const auto every = settings.filterPasses > 0 ? std::bit_floor(static_cast<uint32_t>(settings.gatherEvery)) : 1u;
   const PixelShader pixelShader(rays, lights, settings);
   GatheredPicture result;
   FilterInput sums(w, h);
@@ -90,10 +89,11 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
           for (int x = r.x0; x < r.x1; ++x) {
             const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
             if (chosen && !noisy[pixel]) continue;
-            const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings.seed);
+            const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings.seed, every);
             pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, {&sums.pixels[pixel], &counts[pixel]}, work, count);
           }
         }
+        if (every > 1) gatherSparsely(work, r, every, settings.rayRoughness, static_cast<uint32_t>(n), sums);
         light.resize(work.shadings.size());
         shader.shade(work.shadings, work.shadows, light, count);
         PixelShader::add(work, light);

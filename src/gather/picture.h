@@ -15,7 +15,9 @@ struct PictureSettings {
   float tolerance = 0;      // relative standard error of a pixel's luminance above which it does; 0: all pixels get all
   int raysPerShading = 2;   // camera rays that see one surface and share its light: cones, shadow rays, a reflection
   int fewestShadings = 2;   // where there are as many rays
+  int gatherEvery = 1;      // pixels of which one gathers for all, a power of two, by as many times the estimates; the filter spreads what it finds
   int filterPasses = 5;     // of the filter that removes remaining noise (filter.h); 0: none
+  float rayRoughness = 0.3f;  // reflections below this roughness get a ray of their own
   double timeLimitS = 0;    // no pass after the first is begun that would end later
   uint64_t seed = 0;
 };

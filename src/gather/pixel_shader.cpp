@@ -26,9 +26,16 @@ void accumulate(MaterialSample& sum, const MaterialSample& m, float weight) {
   sum.glazed = m.glazed;
 }
 
+// Which of `every` pixels along the curve gathers in a pass: far from those of passes before.
+uint32_t turn(uint32_t pass, uint32_t every) {
+  uint32_t turn = 0;
+  for (uint32_t bit = pass / 4, place = every / 2; place > 0; bit /= 2, place /= 2) turn += bit % 2 * place;
+  return turn;
+}
+
 }  // namespace
 
-PixelSequence::PixelSequence(int x, int y, uint32_t pass, uint64_t seed) : seed_(seed) {
+PixelSequence::PixelSequence(int x, int y, uint32_t pass, uint64_t seed, uint32_t every) : seed_(seed) {
   const auto spread = [](uint32_t v) {  // a zero after every bit
     v = (v | (v << 8)) & 0x00ff00ffu;
     v = (v | (v << 4)) & 0x0f0f0f0fu;
@@ -39,15 +46,19 @@ PixelSequence::PixelSequence(int x, int y, uint32_t pass, uint64_t seed) : seed_
   const auto ux = static_cast<uint32_t>(x), uy = static_cast<uint32_t>(y);
   index_ = spread(ux % kBlock) | (spread(uy % kBlock) << 1);
   key_ = mix64((uint64_t{pass} << 48) + (uint64_t{uy / kBlock} << 24) + ux / kBlock);
+  gathers_ = index_ % every == turn(pass, every);
+  shadingIndex_ = gathers_ ? index_ / every : index_;
 }
 
 FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count) {
   FilterPixel p = sum;
   const float inverse = 1 / static_cast<float>(std::max(1u, count.rays));
-  p.diffuse *= inverse, p.sharp *= inverse, p.albedo *= inverse, p.specular *= inverse, p.rest *= inverse;
+  const float diffuse = count.gathered == count.rays ? inverse : 1 / static_cast<float>(std::max(1u, count.gathered));
+  const float specular = count.glossy == count.rays ? inverse : 1 / static_cast<float>(std::max(1u, count.glossy));
+  p.diffuse *= diffuse, p.sharp *= inverse, p.albedo *= inverse, p.specular *= specular, p.rest *= inverse;
   const float albedo = std::max(luminance(p.albedo), 1e-3f);
-  p.diffuseVariance *= inverse * inverse / (albedo * albedo), p.sharpVariance *= inverse * inverse / (albedo * albedo);
-  p.specularVariance *= inverse * inverse;
+  p.diffuseVariance *= diffuse * diffuse / (albedo * albedo), p.sharpVariance *= inverse * inverse / (albedo * albedo);
+  p.specularVariance *= specular * specular;
   if (p.surface > 0) {
     p.normal = length(p.normal) > 0 ? normalize(p.normal) : p.normal;
     p.position *= 1 / p.surface;
@@ -55,6 +66,7 @@ FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count) {
   }
   p.surface *= inverse;
   p.weight = static_cast<float>(std::max(1u, count.rays));
+  p.diffuseShare = static_cast<float>(count.gathered) / p.weight, p.specularShare = static_cast<float>(count.glossy) / p.weight;
   return p;
 }
 
@@ -140,7 +152,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
 
   FilterPixel& sum = *pixel.sum;
-  work.parts.push_back({pixel, static_cast<uint32_t>(work.shadings.size()), static_cast<uint32_t>(shadings), left * m.alpha, weight});
+  work.parts.push_back({pixel, static_cast<uint32_t>(work.shadings.size()), static_cast<uint32_t>(shadings), left * m.alpha, weight, sequence.gathers()});
   for (size_t j = 0; j < shadings; ++j) {
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
@@ -162,34 +174,37 @@ void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light)
     FilterPixel& sum = *part.pixel.sum;
     const std::span<const SurfaceLight> shadings = light.subspan(part.first, part.count);
     for (const SurfaceLight& l : shadings) {
-      sum.diffuse += part.left * l.diffuse * part.weight;
+      sum.diffuse += part.left * l.diffuse * (part.weight * static_cast<float>(part.gathers));
       sum.sharp += part.left * l.sharp * part.weight;
       sum.albedo += part.left * l.albedo * part.weight;
-      sum.specular += part.left * l.specular * part.weight;
+      sum.specular += part.left * l.specular * (part.weight * static_cast<float>(part.glossy));
       part.pixel.count->occlusion += l.occlusion * part.weight;
     }
-    addVariance(shadings, part.left, part.weight, sum);
+    addVariance(shadings, part);
   }
 }
 
 // From how the shadings of one surface differ. Shadows are the same for all of them, so there deviations add, not variances.
-void PixelShader::addVariance(std::span<const SurfaceLight> light, Vec3 left, float weight, FilterPixel& sum) {
+void PixelShader::addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part) {
+  FilterPixel& sum = *part.pixel.sum;
+  const Vec3 left = part.left;
+  const float ofDiffuse = part.weight * static_cast<float>(part.gathers), ofSpecular = part.weight * static_cast<float>(part.glossy);
   float diffuse = 0, albedo = 0, specular = 0, shadows = 0;
   for (const SurfaceLight& l : light) {
     diffuse += luminance(left * l.diffuse), albedo += luminance(left * l.albedo), specular += luminance(left * l.specular);
     shadows += l.sharpVariance;
   }
   const float n = static_cast<float>(light.size());
-  sum.sharpVariance += lengthSquared(left) / 3 * shadows * n * weight * weight;
+  sum.sharpVariance += lengthSquared(left) / 3 * shadows * n * part.weight * part.weight;
   if (light.size() < 2) {
-    const float l2 = luminance(left) * luminance(left) * weight * weight;
-    for (const SurfaceLight& l : light) sum.diffuseVariance += l.diffuseVariance * l2, sum.specularVariance += l.specularVariance * l2;
+    const float l2 = luminance(left) * luminance(left), diffuse2 = l2 * ofDiffuse * ofDiffuse, specular2 = l2 * ofSpecular * ofSpecular;
+    for (const SurfaceLight& l : light) sum.diffuseVariance += l.diffuseVariance * diffuse2, sum.specularVariance += l.specularVariance * specular2;
     return;
   }
-  const float scale = weight * weight * n / (n - 1), irradiance = diffuse / std::max(albedo, 1e-6f);
+  const float diffuse2 = ofDiffuse * ofDiffuse * n / (n - 1), specular2 = ofSpecular * ofSpecular * n / (n - 1), irradiance = diffuse / std::max(albedo, 1e-6f);
   for (const SurfaceLight& l : light) {
     const float d = luminance(left * l.diffuse) - luminance(left * l.albedo) * irradiance, g = luminance(left * l.specular) - specular / n;
-    sum.diffuseVariance += d * d * scale, sum.specularVariance += g * g * scale;
+    sum.diffuseVariance += d * d * diffuse2, sum.specularVariance += g * g * specular2;
   }
 }
 
@@ -238,7 +253,8 @@ void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, 
     pixel.count->edge |= used > 1 || (pane == 0 && used == 1 && groups[0].count < layer.count);
     for (size_t i = 0; i < used; ++i) see(groups[i], layer, rays.size(), surface++, sequence, pixel, work, behind, count);
   }
-  pixel.count->rays += static_cast<uint32_t>(rays.size());
+  const auto n = static_cast<uint32_t>(rays.size());
+  pixel.count->rays += n, pixel.count->gathered += n, pixel.count->glossy += n;
 }
 
 }  // namespace roomlight

@@ -18,19 +18,23 @@ constexpr size_t kRaysAtOnce = SharpLights::kMostPoints;
 // Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of pixels").
 class PixelSequence {
  public:
-  PixelSequence(int x, int y, uint32_t pass, uint64_t seed);
+  // Of `every` pixels, a power of two, one in every pass gathers for all.
+  PixelSequence(int x, int y, uint32_t pass, uint64_t seed, uint32_t every = 1);
+  bool gathers() const { return gathers_; }
   // Of `count` shadings that pixels have of one surface, a power of two; `surface` counts those of this pixel.
-  Sampler forShading(uint32_t surface, uint32_t i, uint32_t count) const { return {key_ + 2 * surface, index_ * count + i, seed_}; }
+  Sampler forShading(uint32_t surface, uint32_t i, uint32_t count) const { return {key_ + 2 * surface, shadingIndex_ * count + i, seed_}; }
   Sampler forShadow(uint32_t surface, uint32_t ray) const { return {key_ + 2 * surface + 1, index_ * static_cast<uint32_t>(kRaysAtOnce) + ray, seed_}; }
 
  private:
   uint64_t key_, seed_;
-  uint32_t index_;
+  uint32_t index_, shadingIndex_;  // those that gather follow one another
+  bool gathers_;
 };
 
 // What a pixel keeps beside the sums over its camera rays.
 struct PixelCount {
   uint32_t rays = 0;
+  uint32_t gathered = 0, glossy = 0;  // that diffuse and specular light is known of, each times the estimates it got
   bool edge = false;  // more than one surface seen
   float occlusion = 0;
 };
@@ -47,6 +51,8 @@ struct TileWork {
     uint32_t first, count;  // shadings
     Vec3 left;              // share of their light that reaches the eye
     float weight;           // camera rays that each stands for
+    bool turn;              // whether its pixel is one of those that gather for others
+    uint32_t gathers = 1, glossy = 1;  // what its diffuse and specular light counts for
   };
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
@@ -69,7 +75,7 @@ class PixelShader {
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
   uint32_t shadows(const Group& group, const Layer& layer, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
   void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
-  static void addVariance(std::span<const SurfaceLight> light, Vec3 left, float weight, FilterPixel& sum);
+  static void addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part);
   static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
   void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface, const PixelSequence& sequence, Layer& behind) const;
 

@@ -10,7 +10,6 @@ struct RayGatherSettings : PictureSettings {
   RayGatherSettings() { samples = 20, firstSamples = 4, tolerance = 0.12f, raysPerShading = 2, fewestShadings = 1; }
   int estimates = 2;        // per shading, a power of two: each a ray that gathers what surfaces reflect, and one to every kind of light
   float nearVoxels = 2;     // what is hit nearer than this is lit afresh, not read from the cache
-  float rayRoughness = 0.3f;  // reflections below this roughness get a ray of their own
 };
 
 GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,

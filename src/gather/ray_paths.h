@@ -36,9 +36,10 @@ struct GatherVertex {
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
   bool seenClearly = false;
   bool skyKnown = false;
+  bool glossOnly = false;  // leaves the diffuse lobe's light to others
 
   Lobes value(Vec3 wi) const {
-    if (first) return {bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
+    if (first) return {glossOnly ? Vec3(0) : bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
     const Vec3 f = bsdf.evaluate(wi);
     return {factor.diffuse * f, factor.specular * f};
   }

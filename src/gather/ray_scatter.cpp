@@ -101,7 +101,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   if (!diffuseOnly) {
     const BsdfSample b = v.bsdf.sample(u, sampler.next1());
     if (b.valid() && !b.mirror) send(b.wi, {v.bsdf.evaluateDiffuse(b.wi) / b.pdf, v.bsdf.evaluateSpecular(b.wi) / b.pdf}, b.pdf, false, kSpread);
-  } else if (maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
+  } else if (!v.glossOnly && maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
     const Vec3 local = sampleCosineHemisphere(u), d = Frame(v.s.ns).toWorld(local);
     const float pdf = std::max(local.z, 1e-6f) / kPi;
     send(d, {v.bsdf.evaluateDiffuse(d) / pdf, Vec3(0)}, pdf, false, kSpread);

@@ -54,8 +54,12 @@ void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> sha
     follow(w);
     traceShadows(w);
   }
-  const auto n = static_cast<size_t>(settings_.estimates);
-  for (size_t i = 0; i < work.size(); ++i) sumUp(std::span(w.found).subspan(i * n, n), light[i]);
+  size_t first = 0;
+  for (size_t i = 0; i < work.size(); ++i) {
+    const auto n = static_cast<size_t>(estimates(work[i]));
+    sumUp(std::span(w.found).subspan(first, n), light[i]);
+    first += n;
+  }
   count.rays += w.rayCount;
 }
 
@@ -90,8 +94,7 @@ void RayShader::follow(GatherWork& w) const {
 SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shadows, GatherWork& w) const {
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
-  const bool apart = !work.followed && s.m.roughness < settings_.rayRoughness;
-  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart, s.m.roughness < kClear};
+  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
   v.skyKnown = work.skyKnown;
   SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
@@ -106,10 +109,12 @@ SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shado
     const float l = luminance(f.diffuse * light.radiance);
     out.sharpVariance += l * l * shadows[i].variance;
   }
-  const float most = kMost * luminance(bsdf.albedo()) * expectedRadiance(s);
-  for (int k = 0; k < settings_.estimates; ++k) {
+  const int n = estimates(work);
+  const float most = n > 0 ? kMost * luminance(bsdf.albedo()) * expectedRadiance(s) : 0;
+  v.glossOnly = work.gathers == 0;
+  for (int k = 0; k < n; ++k) {
     v.estimate = static_cast<uint32_t>(w.samplers.size());
-    w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(settings_.estimates)));
+    w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(n)));
     w.found.push_back({});
     w.most.push_back(most);
     scatter_.from(v, w);

@@ -14,6 +14,9 @@ class RayShader final : public SurfaceShader {
   void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const override;
 
  private:
+  bool apart(const Shading& work) const { return !work.followed && work.s.m.roughness < settings_.rayRoughness; }
+  int estimates(const Shading& work) const { return settings_.estimates * (work.gathers > 0 ? work.gathers : apart(work) ? 1
+                                                                                                                         : 0); }
   SurfaceLight start(const Shading& work, std::span<const Shadow> shadows, GatherWork& w) const;
   static void sumUp(std::span<const Lobes> found, SurfaceLight& out);
   void follow(GatherWork& w) const;

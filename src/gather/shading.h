@@ -20,6 +20,7 @@ struct Shading {
   Sampler sampler;
   uint32_t firstShadow;  // of every sharp light, in a list beside this one
   bool followed;         // a mirror: the caller sends rays on where it reflects
+  int gathers = 1;       // times as many estimates as else; 0: of sharp lights, and of what smooth surfaces reflect, alone
   bool skyKnown = false; // what comes straight from the sky, through panes too, is left to the caller
 };
 

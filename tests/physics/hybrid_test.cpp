@@ -51,18 +51,35 @@ double mean(const Image& image) {
   return sum / static_cast<double>(image.pixels.size());
 }
 
-class HybridFurnace : public testing::TestWithParam<float> {};
-
-// Every wall emits 10 and reflects rho: 10 / (1 - rho) everywhere. One per cent at 0.8: what is asked of the bounces.
-TEST_P(HybridFurnace, radianceIsEmissionOverOneMinusAlbedo) {
-  const float rho = GetParam();
+// Every wall emits 10 and reflects rho.
+Lit furnace(float rho) {
   Scene scene;
   const int wall = test::addMaterial(scene, test::lambertian(rho, 10));
   test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4, 2.6f, 3}, std::vector<int>(6, wall));
-  const Lit lit(std::move(scene), 0.1f);
+  return Lit(std::move(scene), 0.1f);
+}
+
+class HybridFurnace : public testing::TestWithParam<float> {};
+
+// 10 / (1 - rho) everywhere. One per cent at 0.8: what is asked of the bounces.
+TEST_P(HybridFurnace, radianceIsEmissionOverOneMinusAlbedo) {
+  const float rho = GetParam();
+  const Lit lit = furnace(rho);
   const double measured = mean(lit.hybrid(cameraAt({1.7f, 1.4f, 2.6f}, {1, 1, 0}))), expected = 10 / (1 - static_cast<double>(rho));
   test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}, voxels of 0.1 m", rho), "hybrid", expected, measured);
   EXPECT_NEAR(measured, expected, 0.01 * expected);
+}
+
+// The same where one pixel of 16 gathers for all: none is left without light.
+TEST_P(HybridFurnace, sparseGatherLeavesNoPixelOut) {
+  const float rho = GetParam();
+  const Lit lit = furnace(rho);
+  RayGatherSettings settings = Lit::small();
+  settings.gatherEvery = 16;
+  const Image image = lit.hybrid(cameraAt({1.7f, 1.4f, 2.6f}, {1, 1, 0}), settings);
+  const double expected = 10 / (1 - static_cast<double>(rho));
+  EXPECT_NEAR(mean(image), expected, 0.01 * expected);
+  for (const Vec3 p : image.pixels) EXPECT_NEAR(static_cast<double>(luminance(p)), expected, 0.1 * expected);
 }
 INSTANTIATE_TEST_SUITE_P(Albedos, HybridFurnace, testing::Values(0.0f, 0.5f, 0.8f));
 
@@ -173,6 +190,9 @@ TEST(Hybrid, keepsContact) {
   test::record("Table with a cup, mse of the whole picture and where things touch", "whole picture", "hybrid", 0, all);
   test::record("Table with a cup, mse of the whole picture and where things touch", "within 6 pixels of contacts", "hybrid", 0, contact);
   EXPECT_LE(contact, 2 * all);
+  // Where one pixel in 4 gathers, those at contacts still do.
+  settings.gatherEvery = 4;
+  EXPECT_LE(errorIn(around(camera, contacts, 6), lit.hybrid(camera, settings), a, b), 2 * all);
 }
 
 // A room lit by luminaires with webs: one as a point inside a shade, one as large as its opening.
@@ -205,10 +225,14 @@ INSTANTIATE_TEST_SUITE_P(Sizes, HybridLuminaire, testing::Bool());
 TEST(Hybrid, sameBitsWithAnyNumberOfThreads) {
   const Lit lit(twoRooms(0.1f), 0.1f);
   const Camera camera = cameraAt({0.3f, 1.4f, 2.8f}, {2.9f, 0.7f, 0.4f});
-  Image one, two;
-  withThreads(1, [&] { one = lit.hybrid(camera); });
-  withThreads(2, [&] { two = lit.hybrid(camera); });
-  for (size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], two.pixels[i]) << i;
+  for (const int every : {1, 4}) {
+    RayGatherSettings settings = Lit::small();
+    settings.gatherEvery = every;
+    Image one, two;
+    withThreads(1, [&] { one = lit.hybrid(camera, settings); });
+    withThreads(2, [&] { two = lit.hybrid(camera, settings); });
+    for (size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], two.pixels[i]) << i;
+  }
 }
 
 }  // namespace

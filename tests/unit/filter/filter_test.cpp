@@ -113,6 +113,26 @@ TEST(Filter, givesTheSameOnEveryInstructionSet) {
   hwy::GetChosenTarget().DeInit();
 }
 
+// Of a noisy texture, where light was sampled in one pixel of 16; unsampled pixels hold nothing. A wall that meets it at a right angle, with other light
+// and samples of its own, gives it none.
+TEST(Filter, givesUnsampledPixelsTheLightOfTheirSurface) {
+  FilterInput in = noisyWall(96, 64, 10, 0.5f), beside = noisyWall(96, 64, 40, 0.5f, 1);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      FilterPixel& p = in.at(x, y);
+      if (x >= 62) p = beside.at(x, y), p.normal = {-1, 0, 0};
+      const Vec3 albedo = (x + y) % 2 ? Vec3(0.8f) : Vec3(0.1f);
+      p.diffuse = p.diffuse / p.albedo * albedo, p.albedo = albedo;
+      p.specular = Vec3(3);
+      if (x % 4 != 1 || y % 4 != 2) p.diffuse = p.specular = {}, p.diffuseVariance = p.diffuseShare = p.specularShare = 0;
+    }
+  }
+  const Image after = filtered(in, 5);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 96; ++x) EXPECT_NEAR(luminance((after.at(x, y) - Vec3(3)) / in.at(x, y).albedo), x < 62 ? 10 : 40, 1) << x << ' ' << y;
+  }
+}
+
 // One sample in eight finds light; pixels that found some with their first four samples get sixteen more, which makes it rarer there.
 // A mean of pixels would be 47 % too dark, that of samples is not.
 TEST(Filter, weighsPixelsByTheirSamples) {
