@@ -80,12 +80,13 @@ def ratios(rows):
 
 def speeds(rows):
     stages = ("bvh", "lights", "voxelise", "illuminate", "gather")
-    yield "| scene, rig | quality | " + " | ".join(stages) + " | in all | MiB | of path's |"
-    yield "|---" * (len(stages) + 5) + "|"
+    yield "| scene, rig | quality | " + " | ".join(stages) + " | in all | cores busy: illuminate | gather | in all | MiB | of path's |"
+    yield "|---" * (len(stages) + 8) + "|"
     for r in rows:
         for way, s in r["speed"].items():
             times = " | ".join(f"{s['stages'].get(n, 0):.2f}" for n in stages)
-            yield f"| {r['name'].replace('_', ' ')} | {way} | {times} | {s['seconds']:.2f} | {s['MiB']:.0f} | {s['MiB'] / r['pathMiB']:.2f} |"
+            busy = " | ".join(f"{sum(s['cpu'][n] for n in names) / max(1e-9, sum(s['stages'][n] for n in names)):.2f}" for names in (["illuminate"], ["gather"], list(s["stages"])))
+            yield f"| {r['name'].replace('_', ' ')} | {way} | {times} | {s['seconds']:.2f} | {busy} | {s['MiB']:.0f} | {s['MiB'] / r['pathMiB']:.2f} |"
 
 
 def tests(records):
@@ -115,7 +116,8 @@ def page(rows, records, benches, pictures, args):
     lines += ["", "## Time for the same error", "",
               f"Seconds after loading that `path` needs for the mse beyond noise of `draft` and of `good`, from its own runs with {counts} samples a pixel: without its",
               "filter as error = constant / samples, with it between the runs; ~ is beyond the longest run.", "", *ratios(rows)]
-    lines += ["", "## Times and memory", "", f"Seconds after loading; the quickest of {args.runs}.", "", *speeds(rows)]
+    lines += ["", "## Times and memory", "", f"Seconds after loading; the quickest of {args.runs}. Cores busy: processor time over time, of {os.cpu_count()}.", "",
+              "What each core does while one picture is made (`scripts/trace_cores`):", "", "![processor time of every thread over time](../pictures/cores.svg)", "", *speeds(rows)]
     if records:
         lines += ["", "## Leaks and contact", "", "From `tests/physics/hybrid_test.cpp`: mean luminance of a sealed room beside a bright one, in per cent of the bright one's.", "", *tests(records)]
     if pictures:
