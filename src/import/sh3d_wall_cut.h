@@ -1,0 +1,38 @@
+// Holes in one wall.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "import/sh3d_openings.h"
+
+namespace roomlight::importers::sh3d {
+
+// A flat piece of a wall's side between two corners of its outline, seen from outside the wall.
+struct Panel {
+  PlanPoint a, b;
+  double baseCm = 0, topACm = 0, topBCm = 0;
+  double lengthCm() const;
+  PlanRing outline() const;  // of (distance from a, height)
+};
+
+struct WallSides {
+  std::vector<Panel> left, right;
+};
+
+// Openings of one wall that run in the same direction and overlap in depth, as one.
+struct WallCut {
+  Opening opening;                 // of (u, h): what is cut out of both sides
+  WallSides const* sides = nullptr;
+
+  // What this cut takes from a panel, of (distance from a, height).
+  PlanArea holeIn(const Panel& panel) const;
+  // Where the side's surface lies at u.
+  PlanPoint on(const std::vector<Panel>& side, double u) const;
+};
+
+// Cuts with something in them; `sides` must outlive them. Openings that do not reach both sides, or stand across the wall (more than 60
+// degrees), cut nothing.
+std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings);
+
+}  // namespace roomlight::importers::sh3d
