@@ -173,26 +173,26 @@ tinyobj::callback_t callbacks() {
 
 }  // namespace
 
-Imported readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, size_t maxTriangles) {
+Scene readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings) {
   ObjLines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   std::istream in(&lines);
   Builder builder(lines, maxTriangles);
   std::string ignored;
   tinyobj::LoadObjWithCallback(in, callbacks(), &builder, nullptr, &ignored, &ignored);
   if (!lines.failure().empty()) throw Failure(lines.failure());
-  Imported imported;
-  Warnings warnings;
-  const std::vector<std::string> names = builder.finish(imported.scene, warnings);
-  addObjMaterials(companions, lines.libraries(), names, imported.scene, warnings);
-  imported.warnings = warnings.lines();
-  return imported;
+  Scene scene;
+  const std::vector<std::string> names = builder.finish(scene, warnings);
+  addObjMaterials(companions, lines.libraries(), names, scene, warnings);
+  return scene;
 }
 
 }  // namespace importers
 
 Result<Imported> importObj(const std::filesystem::path& file, const ImportOptions& options) {
   return importers::guarded(file, [&] {
-    return importers::readObj(importers::readWholeFile(file, ""), importers::companionsIn(file.parent_path()), options.maxTriangles);
+    importers::Warnings warnings;
+    Scene scene = importers::readObj(importers::readWholeFile(file, ""), importers::companionsIn(file.parent_path()), options.maxTriangles, warnings);
+    return Imported{std::move(scene), warnings.lines()};
   });
 }
 

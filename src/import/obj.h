@@ -4,11 +4,12 @@
 #include <span>
 
 #include "import/file_access.h"
-#include "import/import.h"
+#include "import/warnings.h"
+#include "scene/scene.h"
 
 namespace roomlight::importers {
 
 // The scene as the file says it, in its own unit; `companions` reads its MTL files and their pictures. Throws Failure.
-Imported readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, size_t maxTriangles);
+Scene readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings);
 
 }  // namespace roomlight::importers

@@ -45,16 +45,16 @@ ReadCompanion companionsOf(const Archive& archive, const std::string& entry) {
 
 }  // namespace
 
-Imported Models::read(const std::string& entry) const {
+Scene Models::read(const std::string& entry) {
   const auto bytes = archive_.read(entry);
   if (!bytes) fail("", "is missing");
   const std::string other = otherFormat(extensionOf(entry), *bytes);
   if (!other.empty()) fail("", "is in the format " + other + ", which is not read; export it as OBJ");
-  if (!startsWith(*bytes, "PK\x03\x04")) return readObj(*bytes, companionsOf(archive_, entry), maxTriangles_);
+  if (!startsWith(*bytes, "PK\x03\x04")) return readObj(*bytes, companionsOf(archive_, entry), maxTriangles_, warnings_);
   // A zip file in the zip file: the first model in it.
   const Archive inner(*bytes, fmt::format("entry '{}'", printable(entry)), {.entryBytes = size_t{256} << 20, .totalBytes = size_t{1} << 30});
   for (const std::string& name : inner.names()) {
-    if (extensionOf(name) == "obj") return readObj(*inner.read(name), companionsOf(inner, name), maxTriangles_);
+    if (extensionOf(name) == "obj") return readObj(*inner.read(name), companionsOf(inner, name), maxTriangles_, warnings_);
   }
   fail("", "is a zip file without an OBJ file; export it as OBJ");
 }
@@ -64,21 +64,20 @@ const Model* Models::find(const std::string& entry) {
   Model& model = it->second;
   if (isNew) {
     try {
-      Imported imported = read(entry);
+      Scene scene = read(entry);
       const int firstMaterial = static_cast<int>(scene_.materials.size()), firstTexture = static_cast<int>(scene_.textures.size());
-      for (Texture& t : imported.scene.textures) scene_.textures.push_back(std::move(t));
-      for (Material& m : imported.scene.materials) {
+      for (Texture& t : scene.textures) scene_.textures.push_back(std::move(t));
+      for (Material& m : scene.materials) {
         for (TextureRef* ref : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture, &m.transmissionTexture}) {
           if (ref->texture >= 0) ref->texture += firstTexture;
         }
         scene_.materials.push_back(std::move(m));
       }
-      for (const Instance& i : imported.scene.instances) {
-        model.meshes.push_back(std::move(imported.scene.meshes[static_cast<size_t>(i.mesh)]));
+      for (const Instance& i : scene.instances) {
+        model.meshes.push_back(std::move(scene.meshes[static_cast<size_t>(i.mesh)]));
         model.meshes.back().material += firstMaterial;
         model.objects.push_back(i.object);
       }
-      for (const std::string& line : imported.warnings) warnings_.add("models: " + line);
     } catch (const Failure& failure) {
       warnings_.add(fmt::format("the model '{}' {}", printable(entry), printable(failure.what(), 200)));
     }

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 
-#include "import/import.h"
 #include "import/sh3d_archive.h"
 #include "import/warnings.h"
 #include "scene/scene.h"
@@ -27,7 +26,7 @@ class Models {
   const Model* find(const std::string& entry);
 
  private:
-  Imported read(const std::string& entry) const;
+  Scene read(const std::string& entry);
 
   const Archive& archive_;
   size_t maxTriangles_;
