@@ -20,6 +20,8 @@ Vec3 hue(uint32_t rgb) {
   return isBlack(c) ? Vec3(1) : c / luminance(c);
 }
 
+double brightness(const LightSource& s) { return static_cast<double>(luminance(linearColour(s.colour))); }
+
 double areaOf(const Mesh& mesh, const Affine& m) {
   double sum = 0;
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
@@ -119,7 +121,11 @@ void addLight(const Home& home, const Piece& p, size_t firstInstance, double lum
   const double fluxLm = p.power * lumenAtFullPower;
   if (!(fluxLm > 0)) return;
   if (!p.lightSources.empty()) {
-    for (const LightSource& s : p.lightSources) addSource(home, p, s, fluxLm / static_cast<double>(p.lightSources.size()), scene, object);
+    double whole = 0;
+    for (const LightSource& s : p.lightSources) whole += brightness(s);
+    for (const LightSource& s : p.lightSources) {
+      addSource(home, p, s, whole > 0 ? fluxLm * brightness(s) / whole : fluxLm / static_cast<double>(p.lightSources.size()), scene, object);
+    }
   } else if (!lightUpMaterials(p, firstInstance, fluxLm, scene)) {
     warnings.add("lights without light sources stay dark");
   }

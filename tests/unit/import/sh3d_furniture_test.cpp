@@ -172,12 +172,11 @@ double fluxLm(const Scene& scene) {
 }
 
 TEST(Sh3dLights, sourcesShareTheFluxOfThePower) {
-  const std::string two = "<lightSource x='0' y='0' z='1' color='FFFF8000'/><lightSource x='1' y='1' z='0' color='FFFFFFFF' diameter='0.1'/>";
+  const std::string two = "<lightSource x='0' y='0' z='1' color='FFBCBCBC'/><lightSource x='1' y='1' z='0' color='FFFFFFFF' diameter='0.1'/>";
   const Scene scene = pieceScene("power='0.5' elevation='20'", two, kModel, "light");
   EXPECT_NEAR(fluxLm(scene), 800, 0.1);
   ASSERT_EQ(scene.lamps.size(), 1u);
-  EXPECT_NEAR(4 * std::numbers::pi * static_cast<double>(luminance(scene.lamps[0].intensityCd)), 400, 0.05);
-  EXPECT_GT(scene.lamps[0].intensityCd.x, scene.lamps[0].intensityCd.z);
+  EXPECT_NEAR(4 * std::numbers::pi * static_cast<double>(luminance(scene.lamps[0].intensityCd)), 800 * 0.502886 / 1.502886, 0.05);  // sRGB 188 of 255 is 0.502886
   // Left, front, top; the ball lies right, back, bottom and is 10 cm wide.
   EXPECT_NEAR(length(scene.lamps[0].position - Vec3(2.5f, 1, 2.25f)), 0, 1e-5);
   const Bounds3 ball = boundsOf(scene, "piece (light)");
@@ -185,6 +184,13 @@ TEST(Sh3dLights, sourcesShareTheFluxOfThePower) {
   EXPECT_NEAR(ball.size().y, 0.1, 1e-5);
   EXPECT_NEAR(volumeM3(scene, "piece (light)"), 4 * std::numbers::pi / 3 * 0.05 * 0.05 * 0.05, 1e-4);
   EXPECT_GT(volumeM3(scene, "piece (light)"), 0);  // its fronts look outwards
+}
+
+TEST(Sh3dLights, coloursTintButDoNotDim) {
+  const Scene scene = pieceScene("power='0.5'", "<lightSource x='0' y='0' z='1' color='FF402000'/>", kModel, "light");
+  EXPECT_NEAR(fluxLm(scene), 800, 0.1);
+  EXPECT_GT(scene.lamps[0].intensityCd.x, 2 * scene.lamps[0].intensityCd.y);
+  EXPECT_EQ(scene.lamps[0].intensityCd.z, 0);
 }
 
 TEST(Sh3dLights, turnAndMirrorWithTheirPiece) {
