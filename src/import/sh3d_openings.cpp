@@ -4,13 +4,6 @@
 #include <cmath>
 
 namespace roomlight::importers::sh3d {
-namespace {
-
-constexpr double kReachCm = 1;      // windows that end this close to a wall's side cut it
-constexpr double kThroughCm = 400;  // added to pieces that cut both sides; Sweet Home 3D adds four times the wall
-
-}  // namespace
-
 std::vector<Opening> openingsOf(const Home& home, Warnings& warnings) {
   std::vector<Opening> out;
   for (const Piece& p : home.pieces) {
@@ -18,8 +11,8 @@ std::vector<Opening> openingsOf(const Home& home, Warnings& warnings) {
     if (!(p.widthCm > 0) || !(p.heightCm > 0)) continue;
     Opening o;
     o.along = {std::cos(p.angleRad), std::sin(p.angleRad)};
-    const double reach = p.depthCm / 2 + (p.door.cutOutOnBothSides ? kThroughCm : kReachCm);
-    o.vLow = o.v(p.centre) - reach, o.vHigh = o.v(p.centre) + reach;
+    o.vLow = o.v(p.centre) - p.depthCm / 2, o.vHigh = o.v(p.centre) + p.depthCm / 2;
+    o.bothSides = p.door.cutOutOnBothSides;
     const double left = p.mirrored ? 1 - p.door.wallLeft - p.door.wallWidth : p.door.wallLeft;
     const double uLow = o.u(p.centre) + (left - 0.5) * p.widthCm, width = p.door.wallWidth * p.widthCm;
     const double height = p.door.wallHeight * p.heightCm;

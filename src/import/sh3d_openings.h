@@ -12,14 +12,15 @@ namespace roomlight::importers::sh3d {
 // both measured from the plan's origin, h above the ground; in cm.
 struct Opening {
   PlanPoint along{1, 0};           // unit: the axis u; v is a quarter turn clockwise on the plan
-  double vLow = 0, vHigh = 0;      // how deep it reaches
+  double vLow = 0, vHigh = 0;      // how deep the piece reaches
+  bool bothSides = false;          // cuts both sides of a wall that it touches
   PlanArea shape;                  // of (u, h)
 
   double u(PlanPoint p) const { return p.x * along.x + p.y * along.y; }
   double v(PlanPoint p) const { return p.y * along.x - p.x * along.y; }
 };
 
-// Of all doors and windows that are bound to walls. A piece that cuts both sides reaches as deep as any wall.
+// Of all doors and windows that are bound to walls.
 std::vector<Opening> openingsOf(const Home& home, Warnings& warnings);
 
 // Rings of an SVG path in the unit square, x to the right and y down, curves as chords; empty where it cannot be read.

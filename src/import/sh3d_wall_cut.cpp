@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kLeastAlong = 0.5;  // cosine between wall and opening
 constexpr double kSmallestCm2 = 0.01;
+constexpr double kReachCm = 1;        // windows that end this close to a wall's side cut it
+constexpr double kThroughCm = 400;    // how far what cuts both sides reaches into the wall
 
 struct Share {
   double first = 0, last = 1;
@@ -41,18 +43,26 @@ PlanArea sideInFrame(const std::vector<Panel>& side, const Opening& o) {
   return out;
 }
 
-bool near(const Panel& p, const Opening& o) {
-  double low = 1e300, high = -1e300, bottom = 1e300, top = -1e300;
-  for (const PlanRing& ring : o.shape) {
-    for (const PlanPoint& q : ring) low = std::min(low, q.x), high = std::max(high, q.x), bottom = std::min(bottom, q.y), top = std::max(top, q.y);
-  }
-  const double ua = o.u(p.a), ub = o.u(p.b), va = o.v(p.a), vb = o.v(p.b);
-  return std::max(ua, ub) > low && std::min(ua, ub) < high && std::max(va, vb) > o.vLow && std::min(va, vb) < o.vHigh && p.baseCm < top &&
-         std::max(p.topACm, p.topBCm) > bottom;
-}
+struct Range {
+  double low = 1e300, high = -1e300;
+  void add(double v) { low = std::min(low, v), high = std::max(high, v); }
+  bool overlaps(Range o) const { return high > o.low && low < o.high; }
+};
 
-bool nearAny(const std::vector<Panel>& side, const Opening& o) {
-  return std::any_of(side.begin(), side.end(), [&](const Panel& p) { return near(p, o); });
+// Whether the piece itself touches the wall's body where both are side by side.
+bool touches(const WallSides& sides, const Opening& o) {
+  Range us, hs, depth;
+  for (const PlanRing& ring : o.shape) {
+    for (const PlanPoint& q : ring) us.add(q.x), hs.add(q.y);
+  }
+  for (const auto* side : {&sides.left, &sides.right}) {
+    for (const Panel& p : *side) {
+      Range u, h;
+      u.add(o.u(p.a)), u.add(o.u(p.b)), h.add(p.baseCm), h.add(std::max(p.topACm, p.topBCm));
+      if (u.overlaps(us) && h.overlaps(hs)) depth.add(o.v(p.a)), depth.add(o.v(p.b));
+    }
+  }
+  return depth.overlaps({o.vLow, o.vHigh});
 }
 
 // The same opening in the frame of another that runs the same way or the opposite one.
@@ -67,6 +77,16 @@ std::optional<Opening> inFrameOf(const Opening& frame, const Opening& o) {
     for (PlanPoint& q : ring) q.x = -q.x;
   }
   return turned;
+}
+
+// Its back is the end of the piece that lies deeper in the wall, without the reach that made it go through.
+void makeNiche(WallCut& cut) {
+  Opening& o = cut.opening;
+  const Panel& open = (cut.throughLeft ? cut.sides->left : cut.sides->right).front();
+  const Panel& closed = (cut.throughLeft ? cut.sides->right : cut.sides->left).front();
+  const double towards = o.v(closed.a) + o.v(closed.b) - o.v(open.a) - o.v(open.b);
+  cut.backV = towards > 0 ? o.vHigh - kReachCm : o.vLow + kReachCm;
+  if ((cut.backV - o.v(open.a)) * towards <= 0) o.shape.clear();  // the piece only touches the wall
 }
 
 }  // namespace
@@ -103,8 +123,10 @@ PlanPoint WallCut::on(const std::vector<Panel>& side, double u) const {
 std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings) {
   std::vector<WallCut> cuts;
   for (const Opening& o : openings) {
-    if (!nearAny(sides.left, o) || !nearAny(sides.right, o)) continue;
+    if (!touches(sides, o)) continue;
     Opening merged = o;
+    const double reach = o.bothSides ? kThroughCm : kReachCm;
+    merged.vLow -= reach, merged.vHigh += reach;
     for (size_t i = 0; i < cuts.size();) {
       const Opening& known = cuts[i].opening;
       const auto same = inFrameOf(known, merged);
@@ -122,8 +144,12 @@ std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> ope
   }
   std::erase_if(cuts, [&](WallCut& cut) {
     Opening& o = cut.opening;
-    o.shape = intersected(intersected(o.shape, sideInFrame(sides.left, o)), sideInFrame(sides.right, o));
-    return areaOf(o.shape) < kSmallestCm2;
+    const PlanArea left = sideInFrame(sides.left, o), right = sideInFrame(sides.right, o);
+    cut.throughLeft = !left.empty(), cut.throughRight = !right.empty();
+    if (cut.throughLeft) o.shape = intersected(o.shape, left);
+    if (cut.throughRight) o.shape = intersected(o.shape, right);
+    if (cut.throughLeft != cut.throughRight) makeNiche(cut);
+    return (!cut.throughLeft && !cut.throughRight) || areaOf(o.shape) < kSmallestCm2;
   });
   return cuts;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "import/sh3d_baseboards.h"
 #include "import/sh3d_openings.h"
 #include "import/sh3d_surfaces.h"
 #include "import/sh3d_wall_cut.h"
@@ -13,19 +14,14 @@ namespace {
 
 constexpr double kTinyCm = 1e-3;
 
-struct Heights {
-  double baseCm = 0;
-  std::vector<double> topCm;  // at every corner of a side
-};
-
-Heights heightsOf(const Home& home, const Wall& wall, size_t corners) {
+WallHeights heightsOf(const Home& home, const Wall& wall, size_t corners) {
   const double floor = elevationOf(home, wall.level);
-  Heights h{floor - slabBelowCm(home, wall.level), {}};
+  WallHeights h{floor - slabBelowCm(home, wall.level), floor, {}};
   for (size_t i = 0; i < corners; ++i) h.topCm.push_back(floor + wallHeightCm(home, wall, i, corners));
   return h;
 }
 
-std::vector<Panel> panelsOf(const PlanRing& side, const Heights& h) {
+std::vector<Panel> panelsOf(const PlanRing& side, const WallHeights& h) {
   std::vector<Panel> out;
   for (size_t i = 0; i + 1 < side.size(); ++i) {
     if (std::hypot(side[i + 1].x - side[i].x, side[i + 1].y - side[i].y) < kTinyCm) continue;
@@ -86,18 +82,27 @@ void addReveals(const WallCut& cut, int material, Surfaces& out) {
       // Into the opening, which lies to the left of its outline.
       const Vec3 front{static_cast<float>((p.y - q.y) * o.along.x), static_cast<float>(q.x - p.x), static_cast<float>((p.y - q.y) * o.along.y)};
       for (size_t k = 0; k + 1 < stops.size(); ++k) {
-        const auto corner = [&](const std::vector<Panel>& side, double t) {
-          const PlanPoint at{p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t}, on = cut.on(side, at.x);
+        const auto corner = [&](bool left, double t) {
+          const PlanPoint at{p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t}, on = left ? cut.onLeft(at.x) : cut.onRight(at.x);
           return SurfaceCorner{toWorld(on, at.y), {static_cast<float>(o.v(on) / 100), static_cast<float>((at.x + at.y) / 100)}};
         };
-        out.quad(material, {corner(sides.left, stops[k]), corner(sides.left, stops[k + 1]), corner(sides.right, stops[k + 1]), corner(sides.right, stops[k])}, front);
+        out.quad(material, {corner(true, stops[k]), corner(true, stops[k + 1]), corner(false, stops[k + 1]), corner(false, stops[k])}, front);
       }
     }
   }
 }
 
+void addNicheBack(const WallCut& cut, int material, Surfaces& out) {
+  if (cut.throughLeft && cut.throughRight) return;
+  const auto corner = [&](PlanPoint p) { return SurfaceCorner{toWorld(cut.back(p.x), p.y), {static_cast<float>(p.x / 100), static_cast<float>(-p.y / 100)}}; };
+  for (const PlanTriangle& t : trianglesOf(cut.opening.shape)) {
+    const PlanPoint open = cut.throughLeft ? cut.onLeft(t[0].x) : cut.onRight(t[0].x), back = cut.back(t[0].x);
+    out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), horizontal(open.x - back.x, open.y - back.y));
+  }
+}
+
 // Top and bottom between the sides, and the two ends.
-void addRest(const WallOutline& outline, const Heights& h, int top, int rest, Surfaces& out) {
+void addRest(const WallOutline& outline, const WallHeights& h, int top, int rest, Surfaces& out) {
   const auto corner = [&](const PlanRing& side, size_t i, double height) {
     return SurfaceCorner{toWorld(side[i], height), {static_cast<float>(side[i].x / 100), static_cast<float>((side[i].y + height) / 100)}};
   };
@@ -121,6 +126,7 @@ void addRest(const WallOutline& outline, const Heights& h, int top, int rest, Su
 
 void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Warnings& warnings) {
   const std::vector<WallOutline> outlines = wallOutlines(home);
+  const std::vector<WallOutline> boards = wallOutlines(home, baseboardOffsets(home));
   const std::vector<Opening> openings = openingsOf(home, warnings);
   for (size_t i = 0; i < home.walls.size(); ++i) {
     const Wall& w = home.walls[i];
@@ -129,7 +135,7 @@ void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Warni
       warnings.add("walls without length are left out");
       continue;
     }
-    const Heights h = heightsOf(home, w, outlines[i].left.size());
+    const WallHeights h = heightsOf(home, w, outlines[i].left.size());
     const WallSides sides{panelsOf(outlines[i].left, h), panelsOf(outlines[i].right, h)};
     std::vector<WallCut> cuts;
     if (!sides.left.empty() && !sides.right.empty()) cuts = cutsOf(sides, openings);
@@ -140,7 +146,8 @@ void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Warni
     addSide(sides.left, true, cuts, left, surfaces);
     addSide(sides.right, false, cuts, paints.material(w.right, "wall"), surfaces);
     addRest(outlines[i], h, paints.plain(top, "wall top"), plain, surfaces);
-    for (const WallCut& cut : cuts) addReveals(cut, plain, surfaces);
+    for (const WallCut& cut : cuts) addReveals(cut, plain, surfaces), addNicheBack(cut, plain, surfaces);
+    addBaseboards(w, outlines[i], boards[i], h, cuts, paints, surfaces);
     surfaces.finish(scene, w.id.empty() ? "wall" : w.id, object++);
   }
 }

@@ -116,9 +116,48 @@ TEST(Sh3dOpenings, onlyThePartInTheWallCuts) {
 }
 
 TEST(Sh3dOpenings, wallsAcrossOrFarAwayStayWhole) {
-  const Scene scene = indoors(wallXml("across", 200, -100, 200, 100, 20) + wallXml("far", 0, 100, 400, 100, 20) + doorXml(200, 0, 100, 200, 0));
+  const Scene scene = indoors(wallXml("across", 200, -100, 200, 100, 20) + wallXml("far", 0, 100, 400, 100, 20) +
+                              doorXml(200, 0, 100, 200, 0, "wallCutOutOnBothSides='true'"));
   EXPECT_NEAR(volumeM3(scene, "across"), 2 * 0.2 * 2.5, 1e-5);
   EXPECT_NEAR(volumeM3(scene, "far"), 4 * 0.2 * 2.5, 1e-5);
+}
+
+// A piece 20 cm deep that stands 12 cm into a wall of 30 cm: a niche, or a hole where it cuts both sides.
+TEST(Sh3dOpenings, piecesThatEndInTheWallMakeNiches) {
+  for (const double side : {-1.0, 1.0}) {
+    const Scene niche = indoors(wallXml("w", 0, 0, 400, 0, 30) + doorXml(200, side * 13, 100, 100, 0, "elevation='50'"));
+    EXPECT_NEAR(volumeM3(niche, "w"), 0.3 * 10 - 0.12, 1e-4);
+    const RayScene rays(niche);
+    const float s = static_cast<float>(side);
+    EXPECT_NEAR(rays.intersect({{2, 1, 2 * s}, {0, 0, -s}}).t, 2 - 0.03f, 1e-5);
+    EXPECT_NEAR(rays.intersect({{2, 1, -2 * s}, {0, 0, s}}).t, 2 - 0.15f, 1e-5);
+    const Scene hole = indoors(wallXml("w", 0, 0, 400, 0, 30) + doorXml(200, side * 13, 100, 100, 0, "elevation='50' wallCutOutOnBothSides='true'"));
+    EXPECT_NEAR(volumeM3(hole, "w"), 0.3 * (10 - 1), 1e-4);
+  }
+  const Scene beside = indoors(wallXml("w", 0, 0, 400, 0, 30) + doorXml(200, 25.1, 100, 100, 0, "elevation='50'"));
+  EXPECT_NEAR(volumeM3(beside, "w"), 0.3 * 10, 1e-5);
+}
+
+// Inside a room of 3.8 x 2.8 m, 2 cm thick and 10 cm high, without the door's 90 cm.
+TEST(Sh3dOpenings, baseboardsRunAroundTheRoomAndStopAtDoors) {
+  std::string walls = boxWalls(400, 300, 20);
+  for (size_t at = walls.find("/>"); at != std::string::npos; at = walls.find("/>", at + 90)) {
+    walls.replace(at, 2, "><baseboard attribute='rightSideBaseboard' thickness='2' height='10' color='FF804020'/></wall>");
+  }
+  const Scene scene = indoors(walls + doorXml(400, 120, 90, 210, std::numbers::pi / 2));
+  double front = 0, top = 0;
+  for (const char* id : {"w0", "w1", "w2", "w3"}) {
+    for (const Face& f : facesOf(scene, id)) {
+      if (scene.materials[static_cast<size_t>(f.material)].name != "baseboard") continue;
+      if (f.normal.y > 0.5f) top += static_cast<double>(f.areaM2);
+      if (std::abs(f.normal.y) < 0.5f && dot(f.normal, Vec3(2, 0.05f, 1.5f) - f.centre) > 0 && f.areaM2 > 0.003f) front += static_cast<double>(f.areaM2);
+    }
+  }
+  EXPECT_NEAR(front, 0.1 * (2 * (3.76 + 2.76) - 0.9), 1e-4);
+  EXPECT_NEAR(top, 3.8 * 2.8 - 3.76 * 2.76 - 0.9 * 0.02, 1e-4);
+  const RayScene rays(scene);
+  EXPECT_FALSE(rays.intersect({{2, 0.05f, 1.2f}, {1, 0, 0}}).valid());
+  EXPECT_NEAR(rays.intersect({{2, 0.05f, 2.2f}, {1, 0, 0}}).t, 1.88, 1e-5);
 }
 
 }  // namespace
