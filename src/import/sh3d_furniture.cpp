@@ -15,6 +15,7 @@ namespace roomlight::importers::sh3d {
 namespace {
 
 constexpr float kFlat = 1e-7f;  // extents below are none; in the model's unit
+constexpr int kHideEdges = 2;   // of modelFlags: materials that draw edges are not shown
 
 Affine turnedX(double a) {
   const float c = static_cast<float>(std::cos(a)), s = static_cast<float>(std::sin(a));
@@ -51,27 +52,33 @@ Bounds3 boundsThrough(const Affine& m, const std::vector<const Mesh*>& meshes, c
   return b;
 }
 
-// Groups that a transformation moves carry its name; panes and mirrors move with the leaf that they are in.
-bool moves(const Transformation& t, const std::string& group) {
-  std::string name = t.name;
-  if (name.ends_with("_transformation")) name.resize(name.size() - std::string("_transformation").size());
-  const auto starts = [&](const std::string& prefix) {
-    return group.starts_with(prefix) && (group.size() == prefix.size() || std::isdigit(static_cast<unsigned char>(group[prefix.size()])) == 0);
-  };
-  if (name.empty()) return false;
-  if (starts(name)) return true;
-  const size_t on = name.find("opening_on_");
-  if (on == std::string::npos) return false;
-  const std::string head = name.substr(0, on), tail = name.substr(on + std::string("opening").size());
-  return starts(head + "window_pane" + tail) || starts(head + "mirror" + tail);
+// Whether a group's name begins with that, and not with a longer number.
+bool isOf(const std::string& group, const std::string& prefix) {
+  return group.starts_with(prefix) && (group.size() == prefix.size() || std::isdigit(static_cast<unsigned char>(group[prefix.size()])) == 0);
 }
 
-std::vector<Affine> poses(const Piece& piece, const std::vector<const Mesh*>& meshes) {
-  std::vector<Affine> out(meshes.size());
-  for (size_t i = 0; i < meshes.size(); ++i) {
-    for (const Transformation& t : piece.transformations) {
-      if (moves(t, meshes[i]->name)) out[i] = fromRows(t.rows) * out[i];
+// "sweethome3d_hinge_1" moves what is "opening_on_hinge_1", with the panes and mirrors in it; so do rails, and balls move arms. Any other
+// transformation moves the groups of its name.
+bool moves(const Transformation& t, const std::string& group) {
+  const std::string head = "sweethome3d_", tail = "_transformation";
+  const std::string name = t.name.ends_with(tail) ? t.name.substr(0, t.name.size() - tail.size()) : t.name;
+  if (name.empty()) return false;
+  if (name.starts_with(head)) {
+    for (const char* what : {"opening_on_", "window_pane_on_", "window_mirror_on_", "mirror_on_", "arm_on_"}) {
+      if (isOf(group, head + what + name.substr(head.size()))) return true;
     }
+  }
+  return isOf(group, name);
+}
+
+std::vector<Affine> poses(const Piece& piece, const std::vector<const Mesh*>& meshes, Warnings& warnings) {
+  std::vector<Affine> out(meshes.size());
+  for (const Transformation& t : piece.transformations) {
+    bool moved = false;
+    for (size_t i = 0; i < meshes.size(); ++i) {
+      if (moves(t, meshes[i]->name)) out[i] = fromRows(t.rows) * out[i], moved = true;
+    }
+    if (!moved) warnings.add("transformations of parts that the model does not name are left out");
   }
   return out;
 }
@@ -106,13 +113,14 @@ class Placer {
     if (!model) return standIn(p, object);
     std::vector<const Mesh*> meshes;
     for (const Mesh& mesh : model->meshes) meshes.push_back(&mesh);
-    const std::vector<Affine> posed = poses(p, meshes);
+    const std::vector<Affine> posed = poses(p, meshes, warnings_);
     const Affine worldFrom = worldFromModel(home_, p, meshes, posed);
     if (!(std::abs(worldFrom.determinant()) > 0)) {
       warnings_.add("pieces without height, width or depth are left out");
       return;
     }
     for (size_t i = 0; i < model->meshes.size(); ++i) {
+      if ((p.modelFlags & kHideEdges) && isEdge(model->meshes[i])) continue;
       triangles_ += model->meshes[i].triangleCount();
       if (triangles_ > maxTriangles_) fail(p.place, fmt::format("the home has more than {} triangles", maxTriangles_));
       const Affine m = worldFrom * posed[i];
@@ -122,6 +130,8 @@ class Placer {
   }
 
  private:
+  bool isEdge(const Mesh& mesh) const { return scene_.materials[static_cast<size_t>(mesh.material)].name.starts_with("edge_color"); }
+
   void standIn(const Piece& p, int object) {
     if (p.kind != PieceKind::Furniture) {
       warnings_.add("doors, windows and lights whose model is missing are not drawn");

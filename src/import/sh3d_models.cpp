@@ -32,14 +32,14 @@ std::string otherFormat(const std::string& extension, const Bytes& bytes) {
   return {};
 }
 
-// Companions of an entry: entries beside and below it.
+// Companions of an entry: entries beside and below it. Some models name pictures on their author's disk: those are missing, as no entry has
+// such a name.
 ReadCompanion companionsOf(const Archive& archive, const std::string& entry) {
   const size_t slash = entry.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : entry.substr(0, slash + 1);
-  return [&archive, folder](std::string_view reference, const std::string& place) -> std::optional<Bytes> {
+  return [&archive, folder](std::string_view reference, const std::string&) -> std::optional<Bytes> {
     const auto name = normalisedEntryName(reference);
-    if (!name) fail(place, "leads out of the model's folder");
-    return archive.read(folder + *name);
+    return name ? archive.read(folder + *name) : std::nullopt;
   };
 }
 

@@ -60,11 +60,13 @@ TextureRef Paints::reference(const TextureUse& use) {
   if (it == textures_.end()) return ref;
   if (use.fittingArea) warnings_.add("textures that fit their area are laid by their size instead");
   ref.texture = it->second;
-  // Metres to repeats of the picture, turned counter-clockwise as seen, then moved.
+  // Metres to repeats of the picture: moved by its offset (right and up, of its size), turned, then scaled. v points down here.
   const double c = std::cos(use.angleRad), s = std::sin(use.angleRad);
-  const double w = use.widthCm * use.scale / 100, h = use.heightCm * use.scale / 100;
-  ref.m[0][0] = static_cast<float>(c / w), ref.m[0][1] = static_cast<float>(-s / w), ref.m[0][2] = static_cast<float>(-use.xOffset);
-  ref.m[1][0] = static_cast<float>(s / h), ref.m[1][1] = static_cast<float>(c / h), ref.m[1][2] = static_cast<float>(use.yOffset);
+  const double w = use.widthCm * use.scale / 100, h = use.heightCm * use.scale / 100, u0 = -use.xOffset * w, v0 = use.yOffset * h;
+  const double rows[2][3] = {{c / w, s / w, (c * u0 + s * v0) / w}, {-s / h, c / h, (c * v0 - s * u0) / h}};
+  for (size_t i = 0; i < 2; ++i) {
+    for (size_t k = 0; k < 3; ++k) ref.m[i][k] = static_cast<float>(rows[i][k]);
+  }
   return ref;
 }
 

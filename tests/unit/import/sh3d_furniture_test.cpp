@@ -105,7 +105,7 @@ TEST(Sh3dFurniture, transformationsMoveTheirGroups) {
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
       "g frame\nf 1 2 3 4\ng sweethome3d_opening_on_hinge_1\nf 5 6 7 8\ng sweethome3d_window_pane_on_hinge_1\nf 5 6 7\n"
       "g sweethome3d_opening_on_hinge_12\nf 1 5 8 4\n";
-  const Scene scene = pieceScene("", "<transformation name='sweethome3d_opening_on_hinge_1' matrix='1 0 0 0 0 1 0 0 0 0 1 1'/>", {{"1/wedge.obj", door}});
+  const Scene scene = pieceScene("", "<transformation name='sweethome3d_hinge_1' matrix='1 0 0 0 0 1 0 0 0 0 1 1'/>", {{"1/wedge.obj", door}});
   // The model is 2 deep with its leaf moved by 1: the frame's group of the other name ends in the middle.
   expectBox(scene, {2.5f, 0, 1.75f}, {3.5f, 0.8f, 2.25f});
   float deepest = 0;
@@ -113,6 +113,36 @@ TEST(Sh3dFurniture, transformationsMoveTheirGroups) {
     if (std::abs(f.normal.x) > 0.9f) deepest = std::max({deepest, f.a.z, f.b.z, f.c.z});
   }
   EXPECT_NEAR(deepest, 2, 1e-5);
+}
+
+TEST(Sh3dFurniture, edgesAreHiddenWhereTheModelSaysSo) {
+  const std::string edged = "v 0 0 0\nv 1 0 0\nv 0 1 1\nv 1 1 0\nusemtl a\nf 1 2 3\nusemtl edge_color_1\nf 2 3 4\n";
+  EXPECT_EQ(facesOf(pieceScene("", "", {{"1/wedge.obj", edged}}), "piece").size(), 2u);
+  EXPECT_EQ(facesOf(pieceScene("modelFlags='2'", "", {{"1/wedge.obj", edged}}), "piece").size(), 1u);
+}
+
+// A checkered floor of 2 x 1 m a picture, moved by a quarter picture to the right and half a one up, then turned by a right angle.
+TEST(Sh3dTextures, areLaidByTheirSizeOffsetAndAngle) {
+  const std::string bmp("BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x01\0\0\0\x01\0\0\0\x01\0\x18\0\0\0\0\0\x04\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x40\x80\xff\0", 58);
+  const auto map = [&](const std::string& more, Vec2 at) {
+    const std::string room = "<room name='R' ceilingVisible='false'><texture attribute='floorTexture' name='t' image='7' width='200' height='100' " + more +
+                             "/><point x='0' y='0'/><point x='400' y='0'/><point x='400' y='300'/></room>";
+    const Result<Imported> r = importHome(room, {{"7", bmp}});
+    EXPECT_TRUE(r.ok()) << r.error();
+    if (!r) return Vec2();
+    for (const Material& m : r.value().scene.materials) {
+      if (m.baseColorTexture.texture < 0) continue;
+      const auto& t = m.baseColorTexture.m;
+      return Vec2{t[0][0] * at.x + t[0][1] * at.y + t[0][2], t[1][0] * at.x + t[1][1] * at.y + t[1][2]};
+    }
+    ADD_FAILURE() << "no texture";
+    return Vec2();
+  };
+  const auto expect = [](Vec2 got, float u, float v) { EXPECT_NEAR(std::hypot(got.x - u, got.y - v), 0, 1e-5); };
+  expect(map("", {1, 0.25f}), 0.5f, 0.25f);
+  expect(map("scale='2'", {1, 0.25f}), 0.25f, 0.125f);
+  expect(map("xOffset='0.25' yOffset='0.5'", {1, 0.25f}), 0.25f, 0.75f);
+  expect(map("angle='1.5707963'", {1, 0.25f}), 0.125f, -1);
 }
 
 TEST(Sh3dFurniture, coloursReplaceThoseOfTheModel) {
