@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string scene;
   float metresPerUnit = 1;
+  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
   bool json = false;
 };
 
@@ -146,7 +147,7 @@ int runInfo(const Options& o) {
     printError("--metres-per-unit: must be above 0 and at most 1000000");
     return kBadInput;
   }
-  const Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit});
+  const Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
   if (!imported) {
     printError(imported.error());
     return kBadInput;
@@ -168,6 +169,9 @@ Registered addInfo(CLI::App& program) {
   CLI::App* app = program.add_subcommand("info", "Say what a scene or a photometric file holds");
   app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf or .obj; or one luminaire: .ies or .ldt")->required();
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
+  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
   app->add_flag("--json", o->json, "Print JSON");
   app->footer("Example:\n  roomlight info flat.glb --json");
   return {app, [o] { return runInfo(*o); }};

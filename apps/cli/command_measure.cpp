@@ -29,6 +29,7 @@ struct Options {
   std::optional<int> threads;
   std::optional<std::string> seed;
   float metresPerUnit = 1;
+  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
   bool daylightFactor = false, quiet = false;
 };
 
@@ -137,7 +138,7 @@ struct Home {
 };
 
 Result<Home> loadHome(const Options& o, const Plan& plan) {
-  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit});
+  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
   if (!imported) return Error{imported.error()};
   Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
   if (!o.lighting.empty()) {
@@ -243,6 +244,9 @@ Registered addMeasure(CLI::App& program) {
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same readings");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
+  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
   app->add_flag("--quiet", o->quiet, "Only the table and errors");
   app->footer(
       "Examples:\n"

@@ -33,6 +33,7 @@ struct Options {
   std::optional<std::string> seed;
   std::optional<float> voxelSizeM;
   float metresPerUnit = 1;
+  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
   bool quiet = false;
 };
 
@@ -227,7 +228,7 @@ struct Home {
 };
 
 Result<Home> loadHome(const Options& o) {
-  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit});
+  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
   if (!imported) return Error{imported.error()};
   Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
   if (!o.lighting.empty()) {
@@ -313,6 +314,9 @@ Registered addRender(CLI::App& program) {
   app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
   app->add_option("--stats", o->stats, "Write time and memory of each stage to this JSON file");
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
+  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
   app->add_flag("--quiet", o->quiet, "Only errors");
   app->footer(
       "Ctrl-C ends the work and keeps the best picture so far, if there is one (exit status 130); a second one ends at once.\n"

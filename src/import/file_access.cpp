@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <fstream>
@@ -112,6 +113,17 @@ std::filesystem::path pathInside(const std::filesystem::path& folder, std::strin
   const auto fromHome = target.lexically_relative(home);
   if (fromHome.empty() || *fromHome.begin() == "..") refuse("leaves the scene's folder through a link");
   return target;
+}
+
+ReadCompanion companionsIn(const std::filesystem::path& folder) {
+  return [folder](std::string_view reference, const std::string& place) -> std::optional<Bytes> {
+    std::string relative(reference);
+    std::replace(relative.begin(), relative.end(), '\\', '/');
+    const std::filesystem::path file = pathInside(folder, relative, place);
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(file, code)) return std::nullopt;
+    return readWholeFile(file, place);
+  };
 }
 
 std::optional<Bytes> dataUri(std::string_view uri, const std::string& place) {

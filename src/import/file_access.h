@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,13 @@ Bytes readWholeFile(const std::filesystem::path& file, const std::string& place)
 // The file that a relative reference names. Throws Failure when the reference has a scheme, is absolute, or leaves
 // `folder`, also by way of symbolic links. The file need not exist.
 std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view reference, const std::string& place);
+
+// Reads a file that another one names by a relative reference with '/' or '\\' between folders; none where there is no such file. Throws
+// Failure where the reference leads out, or the file cannot be read.
+using ReadCompanion = std::function<std::optional<Bytes>(std::string_view reference, const std::string& place)>;
+
+// Of a file in `folder`.
+ReadCompanion companionsIn(const std::filesystem::path& folder);
 
 // "%20" to " ". Throws Failure on a bad escape or an escaped NUL.
 std::string percentDecode(std::string_view uri, const std::string& place);

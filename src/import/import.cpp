@@ -21,6 +21,10 @@ void scaleToMetres(Scene& scene, float s) {
     camera.nearM *= s;
     camera.yMagM *= s;
   }
+  for (Room& room : scene.rooms) {
+    for (Vec2& corner : room.floor) corner = corner * s;
+    room.elevationM *= s, room.heightM *= s;
+  }
   for (Material& material : scene.materials) {
     material.thicknessM *= s;
     material.attenuationDistanceM *= s;
@@ -39,9 +43,10 @@ Result<Imported> importScene(const std::filesystem::path& file, const ImportOpti
   if (!std::filesystem::is_regular_file(file, code)) return Error{fmt::format("{}: no such file", file.string())};
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const bool gltf = extension == ".gltf" || extension == ".glb", obj = extension == ".obj";
-  if (!gltf && !obj) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb or .obj", file.string(), extension)};
-  Result<Imported> imported = gltf ? importGltf(file, options) : importObj(file, options);
+  const bool gltf = extension == ".gltf" || extension == ".glb", obj = extension == ".obj", sh3d = extension == ".sh3d";
+  if (!gltf && !obj && !sh3d) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb, .obj or .sh3d", file.string(), extension)};
+  Result<Imported> imported = gltf ? importGltf(file, options) : obj ? importObj(file, options)
+                                                                     : importSh3d(file, options);
   if (imported && options.metresPerUnit != 1) scaleToMetres(imported.value().scene, options.metresPerUnit);
   if (imported) {
     const Scene& scene = imported.value().scene;

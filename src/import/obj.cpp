@@ -1,5 +1,7 @@
 // Wavefront OBJ: v x y z, vt u v, vn x y z; f a/b/c ... with indices from 1, or from -1 backwards; o and g name objects
 // and groups, usemtl the material of the faces below, mtllib the file with the materials.
+#include "import/obj.h"
+
 #include <fmt/format.h>
 
 #include <istream>
@@ -10,7 +12,6 @@
 #include <tiny_obj_loader.h>
 
 #include "import/failure.h"
-#include "import/file_access.h"
 #include "import/guarded.h"
 #include "import/import.h"
 #include "import/obj_lines.h"
@@ -170,27 +171,29 @@ tinyobj::callback_t callbacks() {
   return c;
 }
 
-Imported readObj(const std::filesystem::path& file, const ImportOptions& options) {
-  const Bytes bytes = readWholeFile(file, "");
+}  // namespace
+
+Scene readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings) {
   ObjLines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   std::istream in(&lines);
-  Builder builder(lines, options.maxTriangles);
+  Builder builder(lines, maxTriangles);
   std::string ignored;
   tinyobj::LoadObjWithCallback(in, callbacks(), &builder, nullptr, &ignored, &ignored);
   if (!lines.failure().empty()) throw Failure(lines.failure());
-  Imported imported;
-  Warnings warnings;
-  const std::vector<std::string> names = builder.finish(imported.scene, warnings);
-  addObjMaterials(file.parent_path(), lines.libraries(), names, imported.scene, warnings);
-  imported.warnings = warnings.lines();
-  return imported;
+  Scene scene;
+  const std::vector<std::string> names = builder.finish(scene, warnings);
+  addObjMaterials(companions, lines.libraries(), names, scene, warnings);
+  return scene;
 }
 
-}  // namespace
 }  // namespace importers
 
 Result<Imported> importObj(const std::filesystem::path& file, const ImportOptions& options) {
-  return importers::guarded(file, [&] { return importers::readObj(file, options); });
+  return importers::guarded(file, [&] {
+    importers::Warnings warnings;
+    Scene scene = importers::readObj(importers::readWholeFile(file, ""), importers::companionsIn(file.parent_path()), options.maxTriangles, warnings);
+    return Imported{std::move(scene), warnings.lines()};
+  });
 }
 
 }  // namespace roomlight

@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "import/failure.h"
-#include "import/file_access.h"
 #include "import/grey_material.h"
 #include "import/obj_textures.h"
 
@@ -49,18 +48,14 @@ std::string withAllNumbers(const std::string& text) {
   return out;
 }
 
-void readLibrary(const std::filesystem::path& folder, const std::string& name, Libraries& out, Warnings& warnings) {
+void readLibrary(const ReadCompanion& companions, const std::string& name, Libraries& out, Warnings& warnings) {
   const std::string place = fmt::format("mtllib '{}'", printable(name));
-  std::string relative = name;
-  std::replace(relative.begin(), relative.end(), '\\', '/');
-  const std::filesystem::path file = pathInside(folder, relative, place);
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(file, code)) {
+  const std::optional<Bytes> bytes = companions(name, place);
+  if (!bytes) {
     warnings.add(fmt::format("MTL file '{}' is missing, its materials are grey", printable(name)));
     return;
   }
-  const Bytes bytes = readWholeFile(file, place);
-  const std::string text(bytes.begin(), bytes.end());
+  const std::string text(bytes->begin(), bytes->end());
   size_t count = 0;
   for (size_t at = text.find("newmtl"); at != std::string::npos && count <= kMaxMaterials; at = text.find("newmtl", at + 6)) ++count;
   if (count > kMaxMaterials) fail(place, fmt::format("holds more than {} materials", kMaxMaterials));
@@ -163,17 +158,17 @@ std::set<std::string> picturesOf(const std::vector<const tinyobj::material_t*>& 
 
 }  // namespace
 
-void addObjMaterials(const std::filesystem::path& folder, const std::vector<std::string>& libraries, const std::vector<std::string>& names,
+void addObjMaterials(const ReadCompanion& companions, const std::vector<std::string>& libraries, const std::vector<std::string>& names,
                      Scene& scene, Warnings& warnings) {
   Libraries read;
-  for (const std::string& library : libraries) readLibrary(folder, library, read, warnings);
+  for (const std::string& library : libraries) readLibrary(companions, library, read, warnings);
   std::vector<const tinyobj::material_t*> used;
   for (const std::string& name : names) {
     const auto it = read.indices.find(name);
     used.push_back(name.empty() || it == read.indices.end() ? nullptr : &read.materials[static_cast<size_t>(it->second)]);
     if (!name.empty() && !used.back()) warnings.add("materials that no MTL file holds are grey");
   }
-  ObjTextures textures(folder, picturesOf(used), warnings);
+  ObjTextures textures(companions, picturesOf(used), warnings);
   Translator translator(textures, scene, warnings);
   for (size_t i = 0; i < names.size(); ++i) {
     Material grey = greyMaterial(names[i].empty() ? "default" : names[i]);

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "import/failure.h"
-#include "import/file_access.h"
 #include "import/pictures.h"
 
 namespace roomlight::importers {
@@ -28,26 +27,21 @@ bool hasAlpha(const Texture& t) {
 
 }  // namespace
 
-ObjTextures::ObjTextures(const std::filesystem::path& folder, const std::set<std::string>& names, Warnings& warnings) {
+ObjTextures::ObjTextures(const ReadCompanion& companions, const std::set<std::string>& names, Warnings& warnings) {
   std::vector<std::string> found;
   std::vector<Bytes> files;
   for (const std::string& name : names) {
-    std::string relative = name;
-    std::replace(relative.begin(), relative.end(), '\\', '/');
-    const std::string place = fmt::format("picture '{}'", printable(name));
-    const std::filesystem::path file = pathInside(folder, relative, place);
-    std::error_code code;
-    if (!std::filesystem::is_regular_file(file, code)) {
+    std::optional<Bytes> bytes = companions(name, fmt::format("picture '{}'", printable(name)));
+    if (!bytes) {
       warnings.add("pictures that MTL files name are missing");
       continue;
     }
-    Bytes bytes = readWholeFile(file, place);
-    if (const auto kind = undecodable(bytes)) {
+    if (const auto kind = undecodable(*bytes)) {
       warnings.add(fmt::format("pictures of kind {} cannot be decoded", *kind));
       continue;
     }
     found.push_back(name);
-    files.push_back(std::move(bytes));
+    files.push_back(std::move(*bytes));
   }
   std::vector<PictureJob> jobs;
   for (size_t i = 0; i < found.size(); ++i) jobs.push_back({fmt::format("picture '{}'", printable(found[i])), files[i]});

@@ -1,11 +1,11 @@
 // Pictures that MTL files name, and the textures made from them.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 
+#include "import/file_access.h"
 #include "import/warnings.h"
 #include "scene/scene.h"
 
@@ -15,7 +15,7 @@ class ObjTextures {
  public:
   // Reads and decodes the pictures. One that is missing or of an unknown format is a warning; a damaged one, or one
   // outside the folder, throws Failure.
-  ObjTextures(const std::filesystem::path& folder, const std::set<std::string>& names, Warnings& warnings);
+  ObjTextures(const ReadCompanion& companions, const std::set<std::string>& names, Warnings& warnings);
 
   // Index of the scene's texture made of the colour of one picture and the alpha of another; "" is no picture. -1 where
   // neither was read. The same request gives the same texture.

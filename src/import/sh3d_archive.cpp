@@ -1,0 +1,110 @@
+#include "import/sh3d_archive.h"
+
+#include <fmt/format.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <map>
+
+#include "import/failure.h"
+
+namespace roomlight::importers {
+namespace {
+
+using Zip = std::unique_ptr<zip_t, decltype([](zip_t* z) { zip_discard(z); })>;
+using ZipFile = std::unique_ptr<zip_file_t, decltype([](zip_file_t* f) { zip_fclose(f); })>;
+
+std::string textOf(zip_error_t& error) {
+  std::string text = printable(zip_error_strerror(&error), 200);
+  zip_error_fini(&error);
+  return text;
+}
+
+}  // namespace
+
+std::optional<std::string> normalisedEntryName(std::string_view name) {
+  if (name.empty() || name.size() > 2048 || name.find('\0') != std::string_view::npos) return {};
+  std::string slashes(name), out;
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  if (slashes.front() == '/' || (slashes.size() > 1 && slashes[1] == ':')) return {};
+  for (size_t at = 0; at <= slashes.size();) {
+    const size_t end = std::min(slashes.find('/', at), slashes.size());
+    const std::string part = slashes.substr(at, end - at);
+    if (part == "..") return {};
+    if (!part.empty() && part != ".") out += (out.empty() ? "" : "/") + part;
+    at = end + 1;
+  }
+  if (out.empty()) return {};
+  return out;
+}
+
+struct Archive::State {
+  Zip zip;
+  std::string place;
+  ArchiveLimits limits;
+  std::map<std::string, zip_uint64_t, std::less<>> entries;
+  size_t unpacked = 0;
+};
+
+Archive::Archive(std::span<const uint8_t> bytes, const std::string& place, const ArchiveLimits& limits) : state_(std::make_unique<State>()) {
+  state_->place = place, state_->limits = limits;
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+  if (!source) fail(place, "the archive cannot be read: " + textOf(error));
+  state_->zip.reset(zip_open_from_source(source, ZIP_RDONLY, &error));
+  if (!state_->zip) {
+    zip_source_free(source);
+    fail(place, fmt::format("is no zip file, or a damaged one ({}); save it once more", textOf(error)));
+  }
+  zip_error_fini(&error);
+  const zip_int64_t count = zip_get_num_entries(state_->zip.get(), 0);
+  if (count < 0 || static_cast<size_t>(count) > limits.entries) fail(place, fmt::format("holds {} entries; the limit is {}", count, limits.entries));
+  for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(count); ++i) {
+    const char* raw = zip_get_name(state_->zip.get(), i, ZIP_FL_ENC_GUESS);
+    const std::string_view name = raw ? raw : "";
+    if (name.ends_with('/')) continue;  // a folder
+    if (const auto normalised = normalisedEntryName(name)) {
+      if (state_->entries.emplace(*normalised, i).second) names_.push_back(*normalised);
+    } else {
+      ++refused_;
+    }
+  }
+}
+
+Archive::~Archive() = default;
+
+bool Archive::has(std::string_view name) const { return state_->entries.contains(name); }
+
+std::optional<Bytes> Archive::read(std::string_view name) const {
+  const auto it = state_->entries.find(name);
+  if (it == state_->entries.end()) return {};
+  const std::string place = fmt::format("{}{}entry '{}'", state_->place, state_->place.empty() ? "" : ": ", printable(name));
+  const ArchiveLimits& limits = state_->limits;
+  zip_stat_t stat;
+  if (zip_stat_index(state_->zip.get(), it->second, 0, &stat) != 0) fail(place, "is damaged");
+  constexpr zip_uint64_t kWanted = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE;
+  if ((stat.valid & kWanted) != kWanted) fail(place, "is damaged: it does not say how large it is");
+  if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) && stat.encryption_method != ZIP_EM_NONE) fail(place, "is encrypted; save it without a password");
+  if (stat.size > limits.entryBytes) fail(place, fmt::format("unpacks to {} bytes; the limit is {}", stat.size, limits.entryBytes));
+  const size_t ratio = stat.size > limits.largeBytes ? limits.largeRatio : limits.ratio;
+  if (stat.size / ratio > stat.comp_size) fail(place, fmt::format("unpacks {} bytes to {}, which no home does", stat.comp_size, stat.size));
+  state_->unpacked += stat.size;
+  if (state_->unpacked > limits.totalBytes) fail(place, fmt::format("all entries together unpack to more than {} bytes", limits.totalBytes));
+
+  const ZipFile file(zip_fopen_index(state_->zip.get(), it->second, 0));
+  if (!file) fail(place, fmt::format("cannot be unpacked: {}", printable(zip_strerror(state_->zip.get()), 200)));
+  Bytes bytes(stat.size);
+  size_t filled = 0;
+  while (filled < bytes.size()) {
+    const zip_int64_t got = zip_fread(file.get(), bytes.data() + filled, bytes.size() - filled);
+    if (got <= 0) fail(place, "is damaged or cut short");
+    filled += static_cast<size_t>(got);
+  }
+  // The last read, of nothing, checks the sum over the bytes; more bytes than claimed are damage too.
+  uint8_t more = 0;
+  if (zip_fread(file.get(), &more, 1) != 0) fail(place, "is damaged: its checksum or its size is wrong");
+  return bytes;
+}
+
+}  // namespace roomlight::importers

@@ -1,0 +1,27 @@
+// Baseboards along walls.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "import/sh3d_paints.h"
+#include "import/sh3d_surfaces.h"
+#include "import/sh3d_wall_cut.h"
+#include "import/sh3d_wall_outline.h"
+
+namespace roomlight::importers::sh3d {
+
+struct WallHeights {
+  double baseCm = 0, floorCm = 0;  // of the wall's body and of its level
+  std::vector<double> topCm;       // at every corner of a side
+};
+
+// The outlines' distances from the walls' axes with the baseboards on them.
+std::vector<WallOffsets> baseboardOffsets(const Home& home);
+
+// Adds the baseboards of both sides, which stand between the outlines `wall` and `boards`, without what openings cut away. They have their own
+// paint, or that of their side.
+void addBaseboards(const Wall& wall, const WallOutline& outline, const WallOutline& boards, const WallHeights& heights, std::span<const WallCut> cuts,
+                   Paints& paints, Surfaces& out);
+
+}  // namespace roomlight::importers::sh3d

@@ -1,0 +1,16 @@
+// Cameras of a home.
+#pragma once
+
+#include "import/sh3d_home.h"
+#include "import/warnings.h"
+#include "scene/scene.h"
+
+namespace roomlight::importers::sh3d {
+
+// The one that is on comes first, then the other of observer and top, then the stored ones by their names.
+void addCameras(const Home& home, Scene& scene, Warnings& warnings);
+
+// The one that is on, or the first; none where the home has none.
+const Camera* cameraInUse(const Home& home);
+
+}  // namespace roomlight::importers::sh3d

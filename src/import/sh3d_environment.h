@@ -1,0 +1,16 @@
+// Sun, sky and ground around a home.
+#pragma once
+
+#include "import/sh3d_home.h"
+#include "import/sh3d_paints.h"
+#include "import/warnings.h"
+#include "scene/scene.h"
+
+namespace roomlight::importers::sh3d {
+
+// A clear CIE sky (type 12) and its sun, by the compass' place and the time of the camera in use. The sky has the hue of the home's sky
+// colour, its light is that of the time. At night there is neither. Needs Scene's geometry to be complete: the ground lies around it, just
+// below the floors, out to 5 m; farther away the sky's lower half stands for it.
+void addEnvironment(const Home& home, Paints& paints, Scene& scene, int& object, Warnings& warnings);
+
+}  // namespace roomlight::importers::sh3d

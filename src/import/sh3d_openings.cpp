@@ -1,0 +1,37 @@
+#include "import/sh3d_openings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomlight::importers::sh3d {
+std::vector<Opening> openingsOf(const Home& home, Warnings& warnings) {
+  std::vector<Opening> out;
+  for (const Piece& p : home.pieces) {
+    if (p.kind != PieceKind::DoorOrWindow || !p.door.boundToWall || !isShown(home, p.level)) continue;
+    if (!(p.widthCm > 0) || !(p.heightCm > 0)) continue;
+    Opening o;
+    o.along = {std::cos(p.angleRad), std::sin(p.angleRad)};
+    o.vLow = o.v(p.centre) - p.depthCm / 2, o.vHigh = o.v(p.centre) + p.depthCm / 2;
+    o.bothSides = p.door.cutOutOnBothSides;
+    const double left = p.mirrored ? 1 - p.door.wallLeft - p.door.wallWidth : p.door.wallLeft;
+    const double uLow = o.u(p.centre) + (left - 0.5) * p.widthCm, width = p.door.wallWidth * p.widthCm;
+    const double height = p.door.wallHeight * p.heightCm;
+    const double top = elevationOf(home, p.level) + p.elevationCm + p.heightCm * (1 - p.door.wallTop);
+    PlanArea unit = p.door.cutOutShape.empty() ? PlanArea() : svgPath(p.door.cutOutShape);
+    if (unit.empty()) {
+      if (!p.door.cutOutShape.empty()) warnings.add("cut-out shapes that cannot be read are taken as rectangles");
+      unit = {{{0, 0}, {0, 1}, {1, 1}, {1, 0}}};
+    }
+    for (PlanRing& ring : unit) {
+      for (PlanPoint& q : ring) {
+        const double x = p.mirrored ? 1 - q.x : q.x;
+        q = {uLow + x * width, top - q.y * height};
+      }
+    }
+    o.shape = united(unit, {});
+    if (!o.shape.empty()) out.push_back(std::move(o));
+  }
+  return out;
+}
+
+}  // namespace roomlight::importers::sh3d

@@ -1,0 +1,29 @@
+// Where doors and windows cut walls.
+#pragma once
+
+#include <vector>
+
+#include "import/sh3d_home.h"
+#include "import/warnings.h"
+
+namespace roomlight::importers::sh3d {
+
+// A hole that is pushed through walls at a right angle to the piece's width. Coordinates of its frame: u along the width, v along the depth,
+// both measured from the plan's origin, h above the ground; in cm.
+struct Opening {
+  PlanPoint along{1, 0};           // unit: the axis u; v is a quarter turn clockwise on the plan
+  double vLow = 0, vHigh = 0;      // how deep the piece reaches
+  bool bothSides = false;          // cuts both sides of a wall that it touches
+  PlanArea shape;                  // of (u, h)
+
+  double u(PlanPoint p) const { return p.x * along.x + p.y * along.y; }
+  double v(PlanPoint p) const { return p.y * along.x - p.x * along.y; }
+};
+
+// Of all doors and windows that are bound to walls.
+std::vector<Opening> openingsOf(const Home& home, Warnings& warnings);
+
+// Rings of an SVG path in the unit square, x to the right and y down, curves as chords; empty where it cannot be read.
+PlanArea svgPath(const std::string& path);
+
+}  // namespace roomlight::importers::sh3d

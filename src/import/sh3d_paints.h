@@ -1,0 +1,42 @@
+// Colours and textures of Home.xml as the scene's materials.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "import/sh3d_archive.h"
+#include "import/sh3d_home.h"
+#include "import/warnings.h"
+#include "scene/scene.h"
+
+namespace roomlight::importers::sh3d {
+
+// White on the screen is white paint, which reflects 85 %: a home that reflects everything would never get dark.
+constexpr float kWhiteReflectance = 0.85f;
+
+Vec3 linearColour(uint32_t rgb);  // sRGB 0xRRGGBB to linear Rec.709, 0 to 1
+
+class Paints {
+ public:
+  // Decodes the pictures; one that is missing or of an unknown kind is a warning. Throws Failure where one is damaged.
+  Paints(const Archive& archive, const std::set<std::string>& images, Scene& scene, Warnings& warnings);
+
+  // Index of the material; white where the paint says nothing. Meshes give texture coordinates in metres, u to the right and v down.
+  int material(const Paint& paint, const std::string& name);
+  // The same without the texture: for the narrow faces beside a side.
+  int plain(const Paint& paint, const std::string& name);
+  // The texture as a material uses it, for coordinates in metres; index -1 where its picture was not read.
+  TextureRef reference(const TextureUse& use);
+  const Texture* picture(const std::string& image) const;
+
+ private:
+  Scene& scene_;
+  Warnings& warnings_;
+  std::map<std::string, int> textures_, made_;
+};
+
+// Diffuse of that colour, with the gloss of a shininess from 0 to 1.
+Material paintedMaterial(const std::string& name, Vec3 reflectance, double shininess);
+
+}  // namespace roomlight::importers::sh3d

@@ -1,0 +1,151 @@
+#include "import/sh3d_rooms.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "import/sh3d_openings.h"
+#include "import/sh3d_surfaces.h"
+#include "import/sh3d_wall_outline.h"
+
+namespace roomlight::importers::sh3d {
+namespace {
+
+constexpr double kSameHeightCm = 1e-3;
+
+bool isHighest(const Home& home, int level) {
+  if (level < 0) return true;
+  const double own = elevationOf(home, level);
+  return std::none_of(home.levels.begin(), home.levels.end(), [&](const Level& l) { return l.viewable && l.elevationCm > own + kSameHeightCm; });
+}
+
+double levelTopCm(const Home& home, int level) {
+  return level < 0 ? home.wallHeightCm : home.levels[static_cast<size_t>(level)].elevationCm + home.levels[static_cast<size_t>(level)].heightCm;
+}
+
+// A corner of a wall on the plan and how high the wall is there.
+struct WallCorner {
+  PlanPoint at;
+  double topCm = 0;
+};
+
+std::vector<WallCorner> wallCorners(const Home& home, int level, const std::vector<WallOutline>& outlines) {
+  std::vector<WallCorner> out;
+  for (size_t i = 0; i < home.walls.size(); ++i) {
+    const Wall& w = home.walls[i];
+    if (w.level != level) continue;
+    for (const PlanRing* side : {&outlines[i].left, &outlines[i].right}) {
+      for (size_t k = 0; k < side->size(); ++k) out.push_back({(*side)[k], elevationOf(home, level) + wallHeightCm(home, w, k, side->size())});
+    }
+  }
+  return out;
+}
+
+// What every part of the work needs of a room.
+struct Drawn {
+  const Room* room = nullptr;
+  double floorCm = 0;
+  bool flat = true;
+  double ceilingCm = 0;                    // of a flat one
+  std::vector<WallCorner> const* corners = nullptr;
+
+  // Height of the ceiling: the top of the wall whose corner is nearest.
+  double ceilingAt(PlanPoint p) const {
+    if (flat || corners->empty()) return ceilingCm;
+    double nearest = 1e300, top = ceilingCm;
+    for (const WallCorner& c : *corners) {
+      const double d = (c.at.x - p.x) * (c.at.x - p.x) + (c.at.y - p.y) * (c.at.y - p.y);
+      if (d < nearest) nearest = d, top = c.topCm;
+    }
+    return top;
+  }
+};
+
+// The stairs' holes on the plan: through floors that they rise through, through ceilings that they rise above.
+PlanArea stairwells(const Home& home, const std::vector<Piece>& pieces, double heightCm) {
+  PlanArea out;
+  for (const Piece& p : pieces) {
+    if (p.staircaseCutOutShape.empty() || !isShown(home, p.level)) continue;
+    const double bottom = elevationOf(home, p.level) + p.elevationCm, top = bottom + p.heightCm;
+    if (!(bottom < heightCm - kSameHeightCm && top >= heightCm - kSameHeightCm)) continue;
+    PlanArea shape = svgPath(p.staircaseCutOutShape);
+    const double c = std::cos(p.angleRad), s = std::sin(p.angleRad);
+    for (PlanRing& ring : shape) {
+      for (PlanPoint& q : ring) {
+        const double x = ((p.mirrored ? 1 - q.x : q.x) - 0.5) * p.widthCm, y = (q.y - 0.5) * p.depthCm;
+        q = {p.centre.x + x * c - y * s, p.centre.y + x * s + y * c};
+      }
+    }
+    out = united(out, shape);
+  }
+  return out;
+}
+
+void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int material, Surfaces& out) {
+  const auto corner = [&](PlanPoint p) {
+    return SurfaceCorner{toWorld(p, ceiling ? drawn.ceilingAt(p) : drawn.floorCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
+  };
+  for (const PlanTriangle& t : trianglesOf(area)) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
+}
+
+// The room without those of the same height that the file names later.
+PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling) {
+  PlanArea area = united({all[i].room->points}, {});
+  for (size_t k = i + 1; k < all.size(); ++k) {
+    const Room& other = *all[k].room;
+    if (!(ceiling ? other.ceilingVisible : other.floorVisible)) continue;
+    const double here = ceiling ? all[i].ceilingCm : all[i].floorCm, there = ceiling ? all[k].ceilingCm : all[k].floorCm;
+    if (std::abs(here - there) < kSameHeightCm) area = subtracted(area, {other.points});
+  }
+  return area;
+}
+
+// Counter-clockwise seen from above: z points towards the reader of the plan, as its y does.
+void addToScene(const Drawn& drawn, Scene& scene) {
+  roomlight::Room room;
+  room.name = drawn.room->name.empty() ? "room" : drawn.room->name;
+  PlanRing ring = drawn.room->points;
+  if (signedAreaOf(ring) > 0) std::reverse(ring.begin(), ring.end());
+  double height = 0;
+  for (const PlanPoint& p : ring) {
+    room.floor.push_back({static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)});
+    height = std::max(height, drawn.ceilingAt(p) - drawn.floorCm);
+  }
+  room.elevationM = static_cast<float>(drawn.floorCm / 100);
+  room.heightM = static_cast<float>(height / 100);
+  scene.rooms.push_back(std::move(room));
+}
+
+}  // namespace
+
+void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Warnings& warnings) {
+  const std::vector<WallOutline> outlines = wallOutlines(home);
+  std::map<int, std::vector<WallCorner>> corners;
+  std::vector<Drawn> all;
+  for (const Room& room : home.rooms) {
+    if (!isShown(home, room.level)) continue;
+    if (room.points.size() < 3 || std::abs(signedAreaOf(room.points)) < 1) {
+      warnings.add("rooms without area are left out");
+      continue;
+    }
+    const auto [entry, isNew] = corners.try_emplace(room.level);
+    if (isNew) entry->second = wallCorners(home, room.level, outlines);
+    all.push_back({&room, elevationOf(home, room.level), room.ceilingFlat || !isHighest(home, room.level), levelTopCm(home, room.level), &entry->second});
+  }
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Room& room = *all[i].room;
+    const std::string name = room.name.empty() ? "room" : room.name;
+    addToScene(all[i], scene);
+    Surfaces surfaces;
+    if (room.floorVisible) {
+      const PlanArea area = subtracted(visibleArea(all, i, false), stairwells(home, home.pieces, all[i].floorCm));
+      addFace(area, all[i], false, paints.material(room.floor, "floor"), surfaces);
+    }
+    if (room.ceilingVisible) {
+      const PlanArea area = subtracted(visibleArea(all, i, true), stairwells(home, home.pieces, all[i].ceilingCm));
+      addFace(area, all[i], true, paints.material(room.ceiling, "ceiling"), surfaces);
+    }
+    surfaces.finish(scene, name, object++);
+  }
+}
+
+}  // namespace roomlight::importers::sh3d

@@ -1,0 +1,45 @@
+// Holes in one wall.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "import/sh3d_openings.h"
+
+namespace roomlight::importers::sh3d {
+
+// A flat piece of a wall's side between two corners of its outline, seen from outside the wall.
+struct Panel {
+  PlanPoint a, b;
+  double baseCm = 0, topACm = 0, topBCm = 0;
+  double lengthCm() const;
+  PlanRing outline() const;  // of (distance from a, height)
+};
+
+struct WallSides {
+  std::vector<Panel> left, right;
+};
+
+// Openings of one wall that run in the same direction and overlap in depth, as one.
+struct WallCut {
+  Opening opening;  // of (u, h): what is cut out of both sides, or of the one that a niche is in
+  WallSides const* sides = nullptr;
+  bool throughLeft = true, throughRight = true;  // which sides it cuts; one only: a niche, whose back lies at `backV`
+  double backV = 0;
+
+  // What this cut takes from a panel, of (distance from a, height).
+  PlanArea holeIn(const Panel& panel) const;
+  // Where the opening ends at u: on the side's surface, or at the niche's back.
+  PlanPoint onLeft(double u) const { return throughLeft ? on(sides->left, u) : back(u); }
+  PlanPoint onRight(double u) const { return throughRight ? on(sides->right, u) : back(u); }
+  PlanPoint back(double u) const { return {u * opening.along.x - backV * opening.along.y, u * opening.along.y + backV * opening.along.x}; }
+
+ private:
+  PlanPoint on(const std::vector<Panel>& side, double u) const;
+};
+
+// Cuts with something in them; `sides` must outlive them. Openings that end less than 1 cm inside a wall go through. Those that stand across
+// the wall (more than 60 degrees) cut nothing.
+std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings);
+
+}  // namespace roomlight::importers::sh3d

@@ -1,0 +1,30 @@
+// The plan of walls: both sides as polylines, cut or prolonged where walls are joined.
+#pragma once
+
+#include <vector>
+
+#include "import/sh3d_home.h"
+
+namespace roomlight::importers::sh3d {
+
+// From start to end, as many corners on both sides: 2, or more on a round wall. In cm.
+struct WallOutline {
+  PlanRing left, right;
+  PlanRing ring() const;  // around the wall, from the start of its left side
+};
+
+// How far the sides lie from the walls' axes, for outlines that are thicker than the wall (baseboards).
+struct WallOffsets {
+  double leftCm = 0, rightCm = 0;
+};
+
+// One outline a wall; those without length have none (empty sides). Round walls are cut into chords that leave the arc by at most 1 mm,
+// with their corners on it. Where two walls name each other, each side ends at its intersection with the neighbour's, unless that lies
+// farther away than twice the thicker wall: so are sharp corners kept from growing spikes.
+std::vector<WallOutline> wallOutlines(const Home& home, const std::vector<WallOffsets>& offsets);
+std::vector<WallOutline> wallOutlines(const Home& home);  // of the bare walls
+
+// Height of the wall's top above its level at that corner of an outline's side; linear along it.
+double wallHeightCm(const Home& home, const Wall& wall, size_t corner, size_t corners);
+
+}  // namespace roomlight::importers::sh3d

@@ -1,0 +1,171 @@
+// Walls and rooms of Sweet Home 3D's homes: what they measure.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "unit/import/sh3d_file.h"
+
+namespace roomlight {
+namespace {
+
+using namespace testing;
+
+TEST(Sh3dWalls, aLoneWallIsABoxOfItsMeasures) {
+  const Scene scene = homeScene(wallXml("w0", 100, 200, 500, 200, 20, "height='240'"));
+  EXPECT_NEAR(volumeM3(scene, "w0"), 4 * 0.2 * 2.4, 1e-5);
+  const Bounds3 b = boundsOf(scene, "w0");
+  EXPECT_EQ(b.lo, Vec3(1, 0, 1.9f));
+  EXPECT_EQ(b.hi, Vec3(5, 2.4f, 2.1f));
+}
+
+// The plan is not mirrored: north is -z, east +x, and the wall's left side, walking east, is its northern one.
+TEST(Sh3dWalls, sidesHaveTheirOwnColours) {
+  const Scene scene = homeScene(wallXml("w0", 0, 0, 400, 0, 20, "leftSideColor='FFFF0000' rightSideColor='FF0000FF'"));
+  for (const Face& f : facesOf(scene, "w0")) {
+    if (std::abs(f.normal.z) < 0.99f) continue;
+    const Vec3 c = scene.materials[static_cast<size_t>(f.material)].baseColor;
+    EXPECT_EQ(f.normal.z<0, c.x> 0.5f);
+    EXPECT_EQ(f.normal.z > 0, c.z > 0.5f);
+    EXPECT_NEAR(f.centre.z, f.normal.z * 0.1f, 1e-6);
+  }
+}
+
+TEST(Sh3dWalls, slopedWallsAreTrapezoids) {
+  const Scene scene = homeScene(wallXml("w0", 0, 0, 300, 400, 10, "height='200' heightAtEnd='300'"));
+  EXPECT_NEAR(volumeM3(scene, "w0"), 5 * 0.1 * 2.5, 1e-5);
+}
+
+TEST(Sh3dWalls, joinedCornersAreMitred) {
+  const Scene scene = homeScene(boxWalls(400, 300, 20));
+  const double ring = (4.2 * 3.2 - 3.8 * 2.8) * 2.5;
+  double sum = 0;
+  for (const char* id : {"w0", "w1", "w2", "w3"}) sum += volumeM3(scene, id);
+  EXPECT_NEAR(sum, ring, 1e-4);
+  EXPECT_NEAR(volumeM3(scene, "w0"), 4 * 0.2 * 2.5, 1e-5);  // a trapezoid around its axis
+}
+
+TEST(Sh3dWalls, thickAndThinWallsMeetAtTheirSides) {
+  const Scene scene = homeScene(wallXml("a", 0, 0, 400, 0, 40, "wallAtEnd='b'") + wallXml("b", 400, 0, 400, 300, 10, "wallAtStart='a'"));
+  // The thick wall ends between (4.05, -0.2) and (3.95, 0.2); the thin one begins there.
+  EXPECT_NEAR(volumeM3(scene, "a"), 0.4 * 4.0 * 2.5, 1e-4);
+  EXPECT_NEAR(volumeM3(scene, "b"), 0.1 * 3.0 * 2.5, 1e-4);
+  const Bounds3 a = boundsOf(scene, "a"), b = boundsOf(scene, "b");
+  EXPECT_NEAR(a.hi.x, 4.05, 1e-6);
+  EXPECT_NEAR(b.lo.z, -0.2, 1e-6);
+}
+
+// The direction in which a wall was drawn changes nothing.
+TEST(Sh3dWalls, jointsOfEveryDirectionFillTheSameSpace) {
+  for (const bool turnA : {false, true}) {
+    for (const bool turnB : {false, true}) {
+      const std::string a = turnA ? wallXml("a", 400, 0, 0, 0, 20, "wallAtStart='b'") : wallXml("a", 0, 0, 400, 0, 20, "wallAtEnd='b'");
+      const std::string b = turnB ? wallXml("b", 400, 300, 400, 0, 20, "wallAtEnd='a'") : wallXml("b", 400, 0, 400, 300, 20, "wallAtStart='a'");
+      const Scene scene = homeScene(a + b);
+      EXPECT_NEAR(volumeM3(scene, "a"), 4 * 0.2 * 2.5, 1e-4);
+      EXPECT_NEAR(volumeM3(scene, "b"), 3 * 0.2 * 2.5, 1e-4);
+      EXPECT_NEAR(boundsOf(scene, "a").hi.x, 4.1, 1e-6);
+      EXPECT_NEAR(boundsOf(scene, "b").lo.z, -0.1, 1e-6);
+    }
+  }
+}
+
+TEST(Sh3dWalls, sharpCornersDoNotGrowSpikes) {
+  const Scene scene = homeScene(wallXml("a", 0, 0, 400, 0, 20, "wallAtEnd='b'") + wallXml("b", 400, 0, 0, 20, 20, "wallAtStart='a'"));
+  EXPECT_LT(boundsOf(scene, "a").hi.x, 4.41f);
+}
+
+TEST(Sh3dWalls, roundWallsAreRingSectors) {
+  // A quarter ring around (2, 2) and a half one; positive extents bulge to the right, here towards +z.
+  const double r = 2 * std::numbers::sqrt2, sector = std::numbers::pi / 2;
+  const Scene scene = homeScene(wallXml("a", 0, 0, 400, 0, 20, "arcExtent='" + std::to_string(sector) + "'") +
+                                wallXml("b", 0, 900, 400, 900, 20, "arcExtent='-3.14159265'"));
+  // Chords leave the arc by at most 1 mm.
+  EXPECT_NEAR(volumeM3(scene, "a"), sector * r * 0.2 * 2.5, 1e-3 * sector * r * 0.2 * 2.5);
+  EXPECT_NEAR(volumeM3(scene, "b"), std::numbers::pi * 2 * 0.2 * 2.5, 1e-3 * std::numbers::pi);
+  EXPECT_NEAR(boundsOf(scene, "a").hi.z, r - 2 + 0.1, 2e-3);
+  EXPECT_NEAR(boundsOf(scene, "b").lo.z, 9 - 2.1, 2e-3);
+}
+
+TEST(Sh3dWalls, levelsStandOnEachOtherAndReachThroughTheSlab) {
+  const std::string levels =
+      "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>"
+      "<level id='l1' name='1' elevation='262' floorThickness='12' height='250'/>"
+      "<level id='l2' name='2' elevation='524' floorThickness='12' height='250' viewable='false'/>";
+  const Scene scene = homeScene(levels + wallXml("a", 0, 0, 400, 0, 20, "level='l0'") + wallXml("b", 0, 0, 400, 0, 20, "level='l1' height='200'") +
+                                wallXml("c", 0, 0, 400, 0, 20, "level='l2'"));
+  EXPECT_EQ(boundsOf(scene, "a").hi.y, 2.5f);
+  EXPECT_EQ(boundsOf(scene, "b").lo.y, 2.5f);
+  EXPECT_NEAR(boundsOf(scene, "b").hi.y, 4.62, 1e-6);
+  EXPECT_TRUE(boundsOf(scene, "c").empty());
+}
+
+TEST(Sh3dRooms, floorsAndCeilingsHaveTheirAreas) {
+  const Scene scene = homeScene(roomXml({{0, 0}, {500, 0}, {500, 300}, {200, 300}, {200, 400}, {0, 400}}, "name='L'"));
+  EXPECT_NEAR(areaFacing(scene, "L", {0, 1, 0}), 17, 1e-5);
+  EXPECT_NEAR(areaFacing(scene, "L", {0, -1, 0}), 17, 1e-5);
+  ASSERT_EQ(scene.rooms.size(), 1u);
+  EXPECT_EQ(scene.rooms[0].name, "L");
+  EXPECT_EQ(scene.rooms[0].floor.size(), 6u);
+  EXPECT_FLOAT_EQ(scene.rooms[0].heightM, 2.5f);
+}
+
+TEST(Sh3dRooms, laterRoomsLieOnTop) {
+  const Scene scene = homeScene(roomXml({{0, 0}, {500, 0}, {500, 400}, {0, 400}}, "name='A' ceilingVisible='false'") +
+                                roomXml({{100, 100}, {300, 100}, {300, 200}, {100, 200}}, "name='B' ceilingVisible='false'"));
+  EXPECT_NEAR(areaFacing(scene, "A", {0, 1, 0}), 18, 1e-5);
+  EXPECT_NEAR(areaFacing(scene, "B", {0, 1, 0}), 2, 1e-5);
+  EXPECT_NEAR(areaFacing(scene, "A", {0, -1, 0}), 0, 1e-9);
+}
+
+TEST(Sh3dRooms, ceilingsFollowTheWallsOfTheHighestLevel) {
+  const std::string walls = wallXml("a", 0, 0, 400, 0, 10, "height='200'") + wallXml("b", 0, 300, 400, 300, 10, "height='350'");
+  const Scene scene = homeScene(walls + roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' floorVisible='false'"));
+  EXPECT_NEAR(boundsOf(scene, "R").lo.y, 2, 1e-6);
+  EXPECT_NEAR(boundsOf(scene, "R").hi.y, 3.5, 1e-6);
+  EXPECT_FLOAT_EQ(scene.rooms[0].heightM, 3.5f);
+  const Scene flat = homeScene(walls + roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' floorVisible='false' ceilingFlat='true'"));
+  EXPECT_EQ(boundsOf(flat, "R").lo.y, boundsOf(flat, "R").hi.y);
+}
+
+TEST(Sh3dRooms, staircasesCutTheFloorThatTheyComeUpThrough) {
+  const std::string levels =
+      "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>"
+      "<level id='l1' name='1' elevation='262' floorThickness='12' height='250'/>";
+  const std::string stairs =
+      "<pieceOfFurniture name='stairs' level='l0' x='200' y='200' width='100' depth='200' height='262' angle='1.5707963' "
+      "staircaseCutOutShape='M0,0 v1 h1 v-1 z'/>";
+  const auto square = [](const char* level, const char* name) {
+    return roomXml({{0, 0}, {500, 0}, {500, 400}, {0, 400}}, std::string("level='") + level + "' name='" + name + "'");
+  };
+  const Scene scene = homeScene(levels + stairs + square("l0", "down") + square("l1", "up"));
+  EXPECT_NEAR(areaFacing(scene, "down", {0, 1, 0}), 20, 1e-4);
+  EXPECT_NEAR(areaFacing(scene, "down", {0, -1, 0}), 18, 1e-4);
+  EXPECT_NEAR(areaFacing(scene, "up", {0, 1, 0}), 18, 1e-4);
+  EXPECT_NEAR(areaFacing(scene, "up", {0, -1, 0}), 20, 1e-4);
+}
+
+TEST(Sh3dCameras, lookWhereTheyAreTurned) {
+  const Scene scene = homeScene(
+      wallXml("w", 0, 0, 100, 0, 10) +
+          "<environment photoWidth='800' photoHeight='400'/>"
+          "<observerCamera attribute='observerCamera' x='100' y='200' z='170' yaw='0' pitch='0' fieldOfView='1.1'/>"
+          "<camera attribute='topCamera' x='0' y='0' z='1000' yaw='3.14159265' pitch='0.7853982' fieldOfView='1.1'/>"
+          "<observerCamera name='west' attribute='storedCamera' x='0' y='0' z='0' yaw='1.5707963' pitch='0' fieldOfView='1.1'/>",
+      "camera='observerCamera'");
+  ASSERT_EQ(scene.cameras.size(), 3u);
+  const auto forward = [&](size_t i) { return -scene.cameras[i].worldFromCamera.z; };
+  EXPECT_NEAR(length(forward(0) - Vec3(0, 0, 1)), 0, 1e-6);
+  EXPECT_EQ(scene.cameras[0].worldFromCamera.w, Vec3(1, 1.7f, 2));
+  EXPECT_NEAR(length(forward(1) - normalize(Vec3(0, -1, -1))), 0, 1e-6);
+  EXPECT_NEAR(length(forward(2) - Vec3(-1, 0, 0)), 0, 1e-6);
+  EXPECT_EQ(scene.cameras[2].name, "west");
+  for (const Camera& c : scene.cameras) {
+    EXPECT_NEAR(length(cross(c.worldFromCamera.x, c.worldFromCamera.y) - c.worldFromCamera.z), 0, 1e-6);
+    EXPECT_GT(c.worldFromCamera.y.y, 0);
+    EXPECT_NEAR(std::tan(c.yFovRad / 2) * 2, std::tan(1.1 / 2), 1e-6);  // 1.1 rad across the width, which is twice the height
+  }
+}
+
+}  // namespace
+}  // namespace roomlight
