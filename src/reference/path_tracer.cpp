@@ -17,7 +17,7 @@ constexpr int kTile = 16;
 // many a path has, the first pass tells.
 constexpr int kMostLightPaths = 1 << 18, kFirstLightPaths = 1 << 14, kPixelsPerLightPath = 16;
 constexpr double kMostLightVertices = 1 << 20;
-constexpr int kMeterLightPaths = 1 << 16;  // each round of samples has its own
+constexpr size_t kFewestLightPaths = 1024, kMostMeterLightPaths = 1 << 16;  // of meters; each round of samples has its own
 
 constexpr int kFilterPasses = 5;
 
@@ -152,8 +152,8 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
                                              const Progress& progress) {
   LightVertices vertices(rays, lights);
-  const auto prepare = [&](uint32_t round) {
-    if (lights.lampCount() > 0) vertices.trace(kMeterLightPaths, round, settings.seed);
+  const auto prepare = [&](uint32_t round, size_t samples) {
+    if (lights.lampCount() > 0) vertices.trace(static_cast<int>(std::clamp<size_t>(samples / 4, kFewestLightPaths, kMostMeterLightPaths)), round, settings.seed);
   };
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     const PathWalk walk(rays, lights, &vertices);

@@ -82,7 +82,7 @@ std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
   for (size_t i = 0; i < n; ++i) open[i] = i;
   uint32_t round = 0;
   for (int done = 0, count = settings.fewestSamples; !open.empty() && count <= settings.mostSamples; done = count, count *= 2) {
-    if (prepare) prepare(round++);
+    if (prepare) prepare(round++, open.size() * static_cast<size_t>(count - done));
     std::vector<Batch> batches;
     for (const size_t i : open) {
       for (int first = done; first < count; first += kAtOnce) batches.push_back({i, first, std::min(kAtOnce, count - first), {}});

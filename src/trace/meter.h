@@ -34,8 +34,8 @@ struct MeterSettings {
 // is added to `lux`.
 using SampleMeter = std::function<void(size_t element, int first, int count, std::span<Vec3> lux)>;
 
-// Called before every round of samples, with its number.
-using PrepareMeters = std::function<void(uint32_t round)>;
+// Called before every round, with its number and how many samples all meters take in it.
+using PrepareMeters = std::function<void(uint32_t round, size_t samples)>;
 
 // A reading for each element; `sample` is called from many threads. The sky is sampled here, where it is open (open_sky.h).
 // Every meter takes fewestSamples; those that are not yet as certain as the tolerance asks, or as a hundredth of what meters show on average
