@@ -142,7 +142,7 @@ Result<Home> loadHome(const Options& o, const Plan& plan) {
   if (!imported) return Error{imported.error()};
   Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
   if (!o.lighting.empty()) {
-    if (const Status s = applyLightingFile(o.lighting, home.scene); !s) return Error{s.error()};
+    if (const Status s = applyLightingFile(o.lighting, home.scene, &home.warnings); !s) return Error{s.error()};
   }
   if (!o.meters.empty()) {
     Result<MeterPlan> read = readMeterFile(o.meters, home.scene.rooms);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/parallel.h"
+#include "arguments.h"
 #include "commands.h"
 #include "console.h"
 #include "engine/render.h"
@@ -52,6 +53,7 @@ int runValidate(const Options& o) {
     if (file.empty()) continue;
     if (const Status s = checkWritable(file); !s) return bad(s.error());
   }
+  if (const Status s = checkDistinct({o.json, o.html}); !s) return bad(s.error());
   ValidationSettings settings;
   if (!o.techniques.empty()) settings.techniques = o.techniques;
   settings.only = o.only;

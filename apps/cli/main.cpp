@@ -1,4 +1,5 @@
 // roomlight: light in a home, from the command line.
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <vector>
@@ -48,7 +49,9 @@ int runProgram(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return runProgram(argc, argv);
+    const int status = runProgram(argc, argv);
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+    roomlight::cli::printError("standard output cannot be written");
   } catch (const std::bad_alloc&) {
     roomlight::cli::printError("not enough memory");
   } catch (const std::exception& e) {

@@ -46,11 +46,9 @@ void readPhotometric(const JsonPlace& j, Vec3 c, double factor, const std::files
   if (!(luminance(lamp.intensityCd) <= 1.001f * static_cast<float>(kMostLight))) j["flux"].fail("makes an intensity above 1e12 cd");
 }
 
-}  // namespace
-
-Lamp readLamp(const JsonPlace& j, size_t number, const std::filesystem::path& folder, PhotometricFiles& files) {
+Lamp readKind(const JsonPlace& j, size_t number, const std::filesystem::path& folder, PhotometricFiles& files) {
   Lamp lamp;
-  if (!j.isObject({"name", "type", "position", "direction", "up", "flux", "intensity", "luminance", "temperature", "color", "innerCone", "outerCone", "width", "height", "file", "as", "dimming", "lightLossFactor"})) return lamp;
+  if (!j.isObject({"name", "type", "position", "direction", "up", "flux", "intensity", "luminance", "temperature", "color", "innerCone", "outerCone", "width", "height", "file", "as", "dimming", "lightLossFactor", "watts"})) return lamp;
   lamp.name = j.text("name", fmt::format("lamp {}", number + 1));
   lamp.position = j["position"].vector(-kFarthestM, kFarthestM);
   const Vec3 c = readColour(j);
@@ -88,6 +86,14 @@ Lamp readLamp(const JsonPlace& j, size_t number, const std::filesystem::path& fo
   if (unit == "flux") lamp.intensityCd = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / fluxPerCandela);
   if (unit == "intensity") lamp.intensityCd = c * static_cast<float>(j["intensity"].quantity(Unit::Candela, 0, kMostLight));
   lamp.intensityCd *= static_cast<float>(factor);
+  return lamp;
+}
+
+}  // namespace
+
+Lamp readLamp(const JsonPlace& j, size_t number, const std::filesystem::path& folder, PhotometricFiles& files) {
+  Lamp lamp = readKind(j, number, folder, files);
+  if (j.has("watts")) lamp.wattsW = static_cast<float>(j["watts"].number(0, 1e6));
   return lamp;
 }
 

@@ -66,6 +66,7 @@ Vec3 perpendicular(Vec3 wish, Vec3 direction) {
 void setWeb(Lamp& lamp, const PhotometricFiles::Web& web, LampSize size, Vec3 colour, double fluxLm, double factor) {
   lamp.kind = LampKind::Point;
   lamp.web = web;
+  lamp.wattsW = static_cast<float>(web->watts);
   const bool large = web->hasOpening() && std::max(web->sizeC0M, web->sizeC90M) >= kSmallestOpeningM;
   lamp.extended = size == LampSize::Area || (size == LampSize::AsStated && large);
   const float tilt = std::acos(std::clamp(-lamp.direction.y, -1.0f, 1.0f));

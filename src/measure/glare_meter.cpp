@@ -7,6 +7,8 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/sampling.h"
+#include "trace/lamp_light.h"
+#include "trace/shadow_ray.h"
 #include "trace/spherical_triangle.h"
 #include "trace/surface_point.h"
 
@@ -14,6 +16,7 @@ namespace roomlight {
 namespace {
 
 constexpr double kRaysALuminaire = 4096;
+constexpr uint32_t kRaysALamp = 64;
 constexpr double kTightness = 0.2;         // of the tolerance of other meters: the background is a difference
 constexpr float kAlmost = 1 - 1e-4f;       // of the way to a luminaire
 constexpr double kLeastSolidAngleSr = 1e-12;
@@ -86,6 +89,37 @@ Seen look(const RayScene& rays, uint32_t instance, Vec3 eye, Vec3 view) {
   return seen;
 }
 
+// Projected area towards a direction away from the lamp, m²; of a lamp without an opening none.
+double openingTowards(const Lamp& lamp, Vec3 away) {
+  if (!lamp.extended || !lamp.web) return 0;
+  const double area = static_cast<double>(lamp.web->sizeC0M) * static_cast<double>(lamp.web->sizeC90M);
+  return area * (lamp.web->round ? static_cast<double>(kPi) / 4 : 1) * static_cast<double>(std::abs(dot(away, lamp.direction)));
+}
+
+// A lamp without a mesh: a small source, or as large as its opening. What is visible of that is sampled.
+void addLamp(const RayScene& rays, const Lamp& lamp, Vec3 eye, Vec3 view, SeenLamps& out) {
+  const Vec3 to = lamp.position - eye;
+  const float distance = length(to);
+  const Vec3 direction = to / std::max(distance, 1e-6f);
+  const uint32_t samples = lamp.extended ? kRaysALamp : 1;
+  double lux = 0, cd = 0;  // on the plane that faces the view; towards the eye
+  for (uint32_t k = 0; k < samples; ++k) {
+    const LightSample light = sampleLamp(lamp, eye, Sampler(0, k, 0).next2());
+    if (!light.valid()) continue;
+    const double l = static_cast<double>(luminance(light.radiance * rays.transmittance(shadowRay(eye, eye, light)))) / samples;
+    lux += l * static_cast<double>(std::max(0.0f, dot(light.wi, view))), cd += l * static_cast<double>(light.distance * light.distance);
+  }
+  out.directLux += lux;
+  if (cd <= 0 || dot(direction, view) <= 0) return;
+  const double area = openingTowards(lamp, -direction), distance2 = static_cast<double>(distance * distance);
+  if (area > kLargeSourceM2) ++out.large;
+  if (area < kSmallSourceM2) {
+    out.sources.push_back(smallSource(direction, cd, static_cast<double>(distance)));
+  } else {
+    out.sources.push_back({direction, cd / area, area / distance2});
+  }
+}
+
 }  // namespace
 
 SeenLamps seenLamps(const RayScene& rays, Vec3 eye, Vec3 view) {
@@ -111,14 +145,7 @@ SeenLamps seenLamps(const RayScene& rays, Vec3 eye, Vec3 view) {
   }
   for (const Lamp& lamp : scene.lamps) {
     if (lamp.kind == LampKind::Area) continue;  // they are meshes too
-    const Vec3 to = lamp.position - eye;
-    const float distance = length(to);
-    const Vec3 direction = to / std::max(distance, 1e-6f);
-    const double cd = static_cast<double>(luminance(lampIntensity(lamp, -direction) * rays.transmittance({eye, to, 0, kAlmost})));
-    const float ahead = dot(direction, view);
-    if (cd <= 0 || ahead <= 0) continue;
-    out.directLux += cd * static_cast<double>(ahead) / static_cast<double>(distance * distance);
-    out.sources.push_back(smallSource(direction, cd, static_cast<double>(distance)));
+    addLamp(rays, lamp, eye, view, out);
   }
   return out;
 }

@@ -161,6 +161,10 @@ Measurements measure(const LitScene& lit, const MeterPlan& plan, const MeasureSe
   }
   if (!plan.spots.empty()) stages.run("spots", [&](const Progress& p) { return m.spots = readSpots(lit, plan.spots, p), 0; });
   if (!plan.glares.empty()) stages.run("glare", [&](const Progress& p) { return m.glares = readGlares(lit, plan.glares, settings.meters, p, m.warnings), 0; });
+  const std::vector<std::string> open = notJudged(m);
+  m.warnings.insert(m.warnings.end(), open.begin(), open.end());
+  const Lights& lights = lit.lights();
+  if (!lights.hasLocal() && lights.sunCount() == 0 && !lights.sky().present()) m.warnings.push_back("the scene has no light at all: give it some by --lighting");
   return m;
 }
 

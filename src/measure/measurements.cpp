@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "measure/outline.h"
 
 namespace roomlight {
 
@@ -13,6 +16,30 @@ std::string threeDigits(double value) {
   // What rounds up to the next power of ten has one digit more before the point.
   const int digits = static_cast<int>(std::floor(std::log10(std::abs(rounded)) + 1e-9)) + 1;
   return fmt::format("{:.{}f}", rounded, std::clamp(3 - digits, 0, 6));
+}
+
+namespace {
+
+bool isIn(const Room& room, Vec3 p) { return p.y >= room.elevationM && p.y <= room.elevationM + room.heightM && contains(room.floor, {p.x, p.z}); }
+
+}  // namespace
+
+std::vector<std::string> notJudged(const Measurements& m) {
+  std::vector<std::string> list;
+  for (const GridReading& g : m.grids) {
+    if (g.kind == SurfaceKind::WorkPlane && g.lux().points == 0 && g.targets.lux) list.push_back(fmt::format("{}: illuminance is not judged, since no point is left ({} lie in furniture)", g.name, g.leftOut));
+  }
+  for (const GlareReading& g : m.glares) {
+    if (!g.ugr && g.plan.targets.ugr) list.push_back(fmt::format("{}: glare is not judged, since there is no rating", g.plan.name));
+  }
+  for (const RoomReading& r : m.rooms) {
+    const auto ofRoom = [&](const GridReading& g) { return g.room == r.room.name && g.kind == SurfaceKind::WorkPlane; };
+    if ((r.targets.lux || r.targets.uniformity) && std::none_of(m.grids.begin(), m.grids.end(), ofRoom)) list.push_back(fmt::format("{}: illuminance is not judged, since its work plane is not measured", r.room.name));
+    const auto eye = [&](const GlareReading& g) { return isIn(r.room, g.plan.position); };
+    if (r.targets.ugr && std::none_of(m.glares.begin(), m.glares.end(), eye)) list.push_back(fmt::format("{}: glare is not judged, since there is no eye in it (glare, or --eye and --view)", r.room.name));
+    if (r.targets.wattsPerM2 && !r.wattsKnown()) list.push_back(fmt::format("{}: W/m² are not judged, since the watts of {} of {} lamps are not stated", r.room.name, r.lampsWithoutWatts, r.lamps));
+  }
+  return list;
 }
 
 std::vector<Verdict> verdictsOf(const Measurements& m) {
@@ -32,6 +59,9 @@ std::vector<Verdict> verdictsOf(const Measurements& m) {
     if (g.ugr) judge(g.plan.name, "glare UGR", "", g.plan.targets, g.plan.targets.ugr, *g.ugr, true);
   }
   for (const RoomReading& r : m.rooms) {
+    for (const GlareReading& g : m.glares) {
+      if (g.ugr && !g.plan.targets.ugr && isIn(r.room, g.plan.position)) judge(r.room.name + ", " + g.plan.name, "glare UGR", "", r.targets, r.targets.ugr, *g.ugr, true);
+    }
     if (r.wattsKnown() && r.areaM2 > 0) judge(r.room.name, "power density", "W/m²", r.targets, r.targets.wattsPerM2, r.wattsW / r.areaM2, true);
   }
   return list;

@@ -80,6 +80,9 @@ struct Measurements {
   std::vector<std::string> warnings;
 };
 
+// Targets that nothing was measured for, each with the reason.
+std::vector<std::string> notJudged(const Measurements& m);
+
 // Numbers for people: three significant digits.
 std::string threeDigits(double value);
 

@@ -96,11 +96,13 @@ RoomPlan readRoom(const JsonPlace& j, std::span<const Room> sceneRooms) {
   room.heightM = static_cast<float>(j.number("height", 0.1, 1000, static_cast<double>(room.heightM)));
   RoomPlan plan = planRoom(room);
   plan.workPlaneM = j.number("workPlane", 0, 100, plan.workPlaneM);
+  if (plan.workPlaneM >= static_cast<double>(room.heightM)) j[j.has("workPlane") ? "workPlane" : "height"].fail("the work plane must lie below the ceiling; give the room's 'height'");
   plan.wattsW = j.number("watts", 0, 1e7, 0);
   readTargets(j, plan.targets);
   if (j.has("surfaces")) {
     plan.onWorkPlane = false;
     const JsonPlace list = j["surfaces"];
+    if (list.arraySize() == 0) list.fail("names no surface; there are workPlane, floor, walls");
     for (size_t i = 0; i < list.arraySize(); ++i) {
       const std::string s = list[i].oneOf({"workPlane", "floor", "walls"});
       (s == "workPlane" ? plan.onWorkPlane : s == "floor" ? plan.onFloor : plan.onWalls) = true;

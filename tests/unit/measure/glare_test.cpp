@@ -96,5 +96,29 @@ TEST(SeenLamps, aPointLampIsASmallSource) {
   EXPECT_NEAR(seen.directLux, 25, 1e-3);
 }
 
+// A Lambertian panel of 1 x 0.5 m and 1000 cd that faces the eye, given by its web.
+TEST(SeenLamps, aLuminaireWithAnOpeningIsAsLargeAsThat) {
+  Scene scene;
+  test::addRectangle(scene, {-5, -1, -5}, {0, 0, 10}, {10, 0, 0}, test::addMaterial(scene, test::lambertian(0.5f)));
+  PhotometricWeb web;
+  web.cRad = {0, 2 * kPi};
+  for (int i = 0; i <= 90; ++i) web.gammaRad.push_back(static_cast<float>(i) * kPi / 180);
+  for (int plane = 0; plane < 2; ++plane) {
+    for (const float gamma : web.gammaRad) web.candela.push_back(1000 * std::max(0.0f, std::cos(gamma)));
+  }
+  web.sizeC0M = 1, web.sizeC90M = 0.5f;
+  sumUp(web);
+  Lamp lamp = test::pointLamp({0, 0, -4}, 1000);
+  lamp.direction = {0, 0, 1}, lamp.up = {1, 0, 0};
+  lamp.web = std::make_shared<const PhotometricWeb>(web), lamp.extended = true;
+  scene.lamps.push_back(lamp);
+  const RayScene rays(scene);
+  const SeenLamps seen = seenLamps(rays, {0, 0, 0}, kView);
+  ASSERT_EQ(seen.sources.size(), 1u);
+  EXPECT_NEAR(seen.sources[0].luminanceCdM2, 2000, 40);
+  EXPECT_NEAR(seen.sources[0].solidAngleSr, 0.5 / 16, 1e-6);
+  EXPECT_NEAR(seen.directLux, 1000 / 16.0, 2);
+}
+
 }  // namespace
 }  // namespace roomlight
