@@ -188,7 +188,7 @@ Status writeLuminance(const Options& o, const Rendered& rendered, Metadata metad
   metadata["roomlight.highCdM2"] = fmt::format("{:g}", scale.high);
   for (const std::string& out : o.outputs) {
     const bool exr = lowerExtension(out) == ".exr";
-    const Status s = exr                        ? writeExr(out, luminanceOnly(rendered.image), metadata)
+    const Status s = exr                       ? writeExr(out, luminanceOnly(rendered.image), metadata)
                      : o.kind == "falsecolour" ? writePng(out, falseColourPicture(rendered.image, scale), metadata)
                                                : writePng(out, greyPicture(rendered.image, scale.high), metadata);
     if (!s) return s;

@@ -22,6 +22,7 @@ struct GatherPath {
   uint8_t depth, panes;
   bool clear;     // what it meets is seen clearly
   bool skyKnown;  // the sky, if the ray sees it, is counted elsewhere
+  bool leavesNear;  // what reaches `from` straight from a light that this lies near is in the cache
   float spread;   // roughness that surfaces have for it at least
 };
 
@@ -34,7 +35,7 @@ struct GatherVertex {
   uint32_t estimate;
   uint8_t depth;
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
-  bool seenClearly = false;
+  bool leavesNear = false;  // light straight from lights it lies near is in the cache
   bool skyKnown = false;
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
 

@@ -11,8 +11,8 @@ constexpr float kNothing = 1e-4f;
 
 }  // namespace
 
-RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, bool sampleLamps) : lights_(lights), field_(field), sampleLamps_(sampleLamps) {
-  for (size_t i = 0; i < lights.lampCount(); ++i) surroundings_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
+RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, bool sampleLamps) : lights_(lights), field_(field), sampleLamps_(sampleLamps), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
+  for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
 }
 
 // Sends rays from a surface: to lights, and on to other surfaces.
@@ -47,13 +47,14 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   } else {
     if (lights_.lampCount() > 0) {
       const LightSample lamp = lights_.sampleLamps(v.s.p, sampler);
-      if (v.seenClearly || !isBeside(v.s.p, lamp)) take(lamp);
+      if (!leavesToCache(v, lamp)) take(lamp);
     }
     for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
   }
   if (lights_.hasEmitters()) {
     const Vec2 u = sampler.next2();
-    take(lights_.sampleEmitters(v.s.p, u, sampler.next1()));
+    const LightSample light = lights_.sampleEmitters(v.s.p, u, sampler.next1());
+    if (!leavesToCache(v, light)) take(light);
   }
   if (lights_.sky().present() && !v.skyKnown) {
     const Vec2 u = sampler.next2();
@@ -61,10 +62,17 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   }
 }
 
-// Whether p lies in the surroundings of the lamp sampled from there: what surfaces reflect of its light is in the cache and in
-// LampGlow, and is not found a second time by paths that go on.
-bool RayScatter::isBeside(Vec3 p, const LightSample& lamp) const {
-  return lamp.valid() && surroundings_[static_cast<size_t>(lamp.lamp)].contains(p);
+// Whether it lies in the surroundings of the lamp or emissive mesh sampled from there: what surfaces reflect of its light is in the
+// cache and in LampGlow, and is not found a second time by paths that go on. Polished metal reflects emissive meshes as they are.
+bool RayScatter::leavesToCache(const GatherVertex& v, const LightSample& light) const {
+  if (!light.valid() || !v.leavesNear) return false;
+  if (light.emitter >= 0) return !isPolishedMetal(*v.s.material) && besideEmitters_[static_cast<size_t>(light.emitter)].contains(v.s.p);
+  return besideLamps_[static_cast<size_t>(light.lamp)].contains(v.s.p);
+}
+
+bool RayScatter::isCached(const GatherPath& path, uint32_t instance) const {
+  const int32_t emitter = lights_.emitterOf(instance);
+  return path.leavesNear && emitter >= 0 && besideEmitters_[static_cast<size_t>(emitter)].contains(path.from);
 }
 
 // Light that surfaces near lamps reflect, as far as gathering rays leave it to LampGlow's points.
@@ -85,7 +93,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.leavesNear && !isPolishedMetal(*v.s.material), spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gather/ray_paths.h"
-#include "radiance/near_lamps.h"
+#include "radiance/surroundings.h"
 #include "radiance/radiance_field.h"
 
 namespace roomlight {
@@ -14,18 +14,21 @@ class RayScatter {
   RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, bool sampleLamps);
   // Adds its shadow rays and paths to `w`.
   void from(const GatherVertex& v, GatherWork& w) const;
+  // Whether light straight from the emissive mesh of an instance to where the path came from is in the cache.
+  bool isCached(const GatherPath& path, uint32_t instance) const;
 
  private:
   static float cosinePdf(const GatherVertex& v, Vec3 wi);
   void lightsAt(const GatherVertex& v, GatherWork& w) const;
-  bool isBeside(Vec3 p, const LightSample& lamp) const;
+  bool leavesToCache(const GatherVertex& v, const LightSample& light) const;
   void glowAt(const GatherVertex& v, GatherWork& w) const;
   void gatherAt(const GatherVertex& v, GatherWork& w) const;
 
   const Lights& lights_;
   const RadianceField& field_;
   const bool sampleLamps_;
-  std::vector<LampSurroundings> surroundings_;  // per lamp
+  std::vector<LightSurroundings> besideLamps_;           // of each
+  const std::vector<LightSurroundings> besideEmitters_;  // of each
 };
 
 }  // namespace roomlight

@@ -8,7 +8,6 @@ namespace {
 
 constexpr int kDeepest = 8;      // vertices of a path, after which the cache is read whatever it is worth
 constexpr int kMostPanes = 16;
-constexpr float kGlossy = 0.2f;  // roughness of metals that are no part of the cache, because they pass light on in one direction
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
 enum Kind : uint8_t {
@@ -21,7 +20,7 @@ uint8_t kindOf(const Material& m) {
   uint8_t kind = 0;
   if (!isBlack(m.emission)) kind |= kShines;
   if (letsLightThrough(m)) kind |= kClearKind;
-  if (m.metallic > 0.5f && m.roughness < kGlossy) kind |= kMirrorKind;
+  if (isPolishedMetal(m)) kind |= kMirrorKind;  // no part of the cache
   return kind;
 }
 
@@ -152,7 +151,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
   }
   const SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   if (kind & kShines) {
-    if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
+    if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
       w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, lights_.pdfEmitters(path.from, s)) : 1), path.depth == 1);
     }
   }
@@ -203,7 +202,7 @@ void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) cons
   s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  scatter_.from({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, path.clear}, w);
+  scatter_.from({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear}, w);
 }
 
 // What the points of LampGlow give is left to them.

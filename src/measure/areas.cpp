@@ -22,7 +22,9 @@ constexpr float kElbowM = 0.35f;          // free to all sides of where a person
 constexpr int kMostHits = 64;
 constexpr double kMapCells = 48;          // along the longer side
 
-enum Cell : int { kOutside = -1, kInThing = -2, kOpen = -3 };  // or the number of an area, from 0 on
+enum Cell : int { kOutside = -1,
+                  kInThing = -2,
+                  kOpen = -3 };  // or the number of an area, from 0 on
 
 Hit look(const RayScene& rays, Vec3 from, Vec3 direction, float most = kInfinity) { return rays.intersect({from, direction, 1e-4f, most}); }
 

@@ -6,17 +6,18 @@ namespace roomlight {
 namespace {
 
 // Sides of a square of four neighbouring nodes.
-enum Side { kTop, kRight, kBottom, kLeft, kNone };
+enum Side { kTop,
+            kRight,
+            kBottom,
+            kLeft,
+            kNone };
 struct Pieces {
   Side from1, to1, from2, to2;
 };
 
 // By which nodes are inside (1 top left, 2 top right, 4 bottom right, 8 bottom left): lines that keep the inside on the same hand.
 constexpr Pieces kPieces[16] = {
-    {kNone, kNone, kNone, kNone}, {kLeft, kTop, kNone, kNone},     {kTop, kRight, kNone, kNone},     {kLeft, kRight, kNone, kNone},
-    {kRight, kBottom, kNone, kNone}, {kLeft, kTop, kRight, kBottom}, {kTop, kBottom, kNone, kNone},    {kLeft, kBottom, kNone, kNone},
-    {kBottom, kLeft, kNone, kNone},  {kBottom, kTop, kNone, kNone},  {kTop, kRight, kBottom, kLeft},   {kBottom, kRight, kNone, kNone},
-    {kRight, kLeft, kNone, kNone},   {kRight, kTop, kNone, kNone},   {kTop, kLeft, kNone, kNone},      {kNone, kNone, kNone, kNone}};
+    {kNone, kNone, kNone, kNone}, {kLeft, kTop, kNone, kNone}, {kTop, kRight, kNone, kNone}, {kLeft, kRight, kNone, kNone}, {kRight, kBottom, kNone, kNone}, {kLeft, kTop, kRight, kBottom}, {kTop, kBottom, kNone, kNone}, {kLeft, kBottom, kNone, kNone}, {kBottom, kLeft, kNone, kNone}, {kBottom, kTop, kNone, kNone}, {kTop, kRight, kBottom, kLeft}, {kBottom, kRight, kNone, kNone}, {kRight, kLeft, kNone, kNone}, {kRight, kTop, kNone, kNone}, {kTop, kLeft, kNone, kNone}, {kNone, kNone, kNone, kNone}};
 // Where opposite nodes are inside and the middle is too.
 constexpr Pieces kJoined5 = {kLeft, kBottom, kRight, kTop}, kJoined10 = {kTop, kLeft, kBottom, kRight};
 

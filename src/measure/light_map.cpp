@@ -35,10 +35,7 @@ int cm(float metres) { return static_cast<int>(std::lround(metres * 100)); }
 class Drawing {
  public:
   Drawing(const GridReading& grid, const Scene& scene, const LightScale& scale, int number)
-      : grid_(grid), field_(grid.map ? *grid.map : grid.points), scene_(scene), scale_(scale), number_(number), wall_(std::abs(lattice().normal.y) < 0.5f),
-        size_{lattice().stepUM * static_cast<float>(lattice().columns), lattice().stepVM * static_cast<float>(lattice().rows)},
-        px_(static_cast<float>(std::max((static_cast<double>(size_.x + 2 * kMarginM) * 100) / kWidthPx, (static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30) / kHeightPx))),
-        values_(ringed(field_)) {}
+      : grid_(grid), field_(grid.map ? *grid.map : grid.points), scene_(scene), scale_(scale), number_(number), wall_(std::abs(lattice().normal.y) < 0.5f), size_{lattice().stepUM * static_cast<float>(lattice().columns), lattice().stepVM * static_cast<float>(lattice().rows)}, px_(static_cast<float>(std::max((static_cast<double>(size_.x + 2 * kMarginM) * 100) / kWidthPx, (static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30) / kHeightPx))), values_(ringed(field_)) {}
 
   std::string svg() const {
     const double width = static_cast<double>(size_.x + 2 * kMarginM) * 100, height = static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30;
@@ -210,11 +207,16 @@ class Drawing {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return out;
 }

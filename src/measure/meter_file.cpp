@@ -105,7 +105,8 @@ RoomPlan readRoom(const JsonPlace& j, std::span<const Room> sceneRooms) {
     if (list.arraySize() == 0) list.fail("names no surface; there are workPlane, floor, walls");
     for (size_t i = 0; i < list.arraySize(); ++i) {
       const std::string s = list[i].oneOf({"workPlane", "floor", "walls"});
-      (s == "workPlane" ? plan.onWorkPlane : s == "floor" ? plan.onFloor : plan.onWalls) = true;
+      (s == "workPlane" ? plan.onWorkPlane : s == "floor" ? plan.onFloor
+                                                          : plan.onWalls) = true;
     }
   }
   return plan;

@@ -8,8 +8,7 @@ RoomUse home(const char* name, double lux) { return {name, {lux, std::nullopt, s
 }  // namespace
 
 const std::vector<RoomUse>& roomUses() {
-  static const std::vector<RoomUse> uses = {home("living", 100), home("bedroom", 75), home("dining", 150), home("kitchen", 100), home("bathroom", 100),
-                                            {"office", {500, 0.6, 19, std::nullopt, "EN 12464-1"}, 0.75}};
+  static const std::vector<RoomUse> uses = {home("living", 100), home("bedroom", 75), home("dining", 150), home("kitchen", 100), home("bathroom", 100), {"office", {500, 0.6, 19, std::nullopt, "EN 12464-1"}, 0.75}};
   return uses;
 }
 

@@ -131,7 +131,7 @@ void DirectLight::trace(size_t brick, Samples samples, std::span<Vec3> lux, cons
 bool DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
   Lamp unit = lamp;
   unit.intensityCd = Vec3(1);
-  const LampSurroundings around(lamp, voxels_.voxelSizeM);
+  const LightSurroundings around(lamp, voxels_.voxelSizeM);
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     if (around.contains(voxels_.slots[s].position)) return LightSample{};
     if (!lamp.extended) return sampleLamp(unit, p, {});
@@ -178,7 +178,8 @@ bool DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::spa
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     Sampler sampler(paths_.key(s), k, settings_.seed + 3);
     const Vec2 u = sampler.next2();
-    return lights_.sampleEmitters(p, u, sampler.next1());
+    const LightSample light = lights_.sampleEmitters(p, u, sampler.next1());
+    return light.valid() && besideEmitters_[static_cast<size_t>(light.emitter)].contains(voxels_.slots[s].position) ? LightSample{} : light;
   };
   if (!near.empty() && !anyCrosses(brick, most, near, sample)) return false;
   trace(brick, {(most + 1) / 2, most}, lux, sample);

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <span>
 
-#include "radiance/near_lamps.h"
+#include "radiance/surroundings.h"
 #include "radiance/radiance_field.h"
 #include "radiance/slot_paths.h"
 
@@ -14,10 +14,10 @@ namespace roomlight {
 class DirectLight {
  public:
   DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings)
-      : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), settings_(settings) {}
+      : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), settings_(settings), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {}
 
-  // Illuminance in lx per channel of the slots of one brick, added to one value per slot of the scene. Of a lamp for 1 cd, less what
-  // its particles carry. Where `near` boxes are given and no ray could cross one of them nothing is done: false.
+  // Illuminance in lx per channel of the slots of one brick, added to one value per slot of the scene. Of a lamp for 1 cd. Of lamps
+  // and emissive meshes less what their particles carry. Where `near` boxes are given and no ray could cross one of them nothing is done: false.
   bool lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   bool suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   bool sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
@@ -41,6 +41,7 @@ class DirectLight {
   const Voxels& voxels_;
   const SlotPaths& paths_;
   const RadianceSettings& settings_;
+  const std::vector<LightSurroundings> besideEmitters_;
   std::atomic<uint64_t> count_ = 0;
 };
 

@@ -47,6 +47,7 @@ LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels&
   traceAllLinks(from);
   progress.at(0.5f);
   traceFixedLights(from);
+  matchEmitters(from);
   matchLamps(from);
   progress.at(0.8f);
   indirect_.assign(voxels.slots.size(), {});
@@ -102,23 +103,49 @@ void LightCache::traceLamp(const Sources& from, LampLight& light) {
     if (!from.progress.stop()) direct.lamp(light.lamp, b, {}, lux);
   });
   light.direct = SlotLight(from.voxels, lux);
-  traceLampParticles(from, light);
-  field_.rays += direct.rayCount() + light.particles.rays;
+  light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
+  field_.rays += direct.rayCount();
 }
 
-// None where there is no surface near the lamp.
-void LightCache::traceLampParticles(const Sources& from, LampLight& light) {
-  light.particles = {};
-  const LampSurroundings around(light.lamp, from.voxels.voxelSizeM);
+ParticleSource LightCache::particlesOfLamp(const Sources& from, const Lamp& lamp) const {
+  return particlesOf(lamp, std::max<size_t>(1, from.lights.lampCount()), from.voxels.voxelSizeM);
+}
+
+// None where there is no surface near the source.
+ParticleLight LightCache::particlesFrom(const Sources& from, const ParticleSource& source) {
   std::atomic<bool> any = false;
   parallelFor(from.voxels.bricks.size(), 16, [&](size_t b) {
-    if (any || !around.touches(boundsOfBrick(from.voxels, b))) return;
+    if (any || !source.around.touches(boundsOfBrick(from.voxels, b))) return;
     const auto [first, last] = slotsOfBrick(from.voxels, b);
     for (size_t s = first; s < last && !any; ++s) {
-      if (around.contains(from.voxels.slots[s].position)) any = true;
+      if (source.around.contains(from.voxels.slots[s].position)) any = true;
     }
   });
-  if (any && !from.progress.stop()) light.particles = traceParticles(from.rays, from.voxels, paths_, light.lamp, std::max<size_t>(1, from.lights.lampCount()), settings_, from.progress);
+  if (!any || from.progress.stop()) return {};
+  ParticleLight light = traceParticles(from.rays, from.voxels, paths_, source, settings_, from.progress);
+  field_.rays += light.rays;
+  return light;
+}
+
+// Of emissive meshes that are small; `known` are looked for among those there are, the others are traced.
+void LightCache::matchEmitters(const Sources& from) {
+  std::vector<size_t> small;
+  for (size_t i = 0; i < from.lights.emitterCount(); ++i) {
+    if (isSmall(from.lights, i, from.voxels.voxelSizeM)) small.push_back(i);
+  }
+  std::vector<EmitterLight> next;
+  for (const size_t i : small) {
+    const EmitterLight key{from.lights.emitterBounds(i), from.lights.emitterFluxLm(i), {}};
+    const auto known = std::find_if(nearEmitters_.begin(), nearEmitters_.end(), [&](const EmitterLight& e) { return e.isOf(key); });
+    if (known != nearEmitters_.end()) {
+      next.push_back(std::move(*known));
+      nearEmitters_.erase(known);
+    } else {
+      next.push_back(key);
+      next.back().particles = particlesFrom(from, particlesOf(from.lights, i, small.size(), from.voxels.voxelSizeM));
+    }
+  }
+  nearEmitters_ = std::move(next);
 }
 
 // What is known of lamps in the same place stays; the rest is traced.
@@ -160,15 +187,15 @@ void LightCache::solve(const Sources& from) {
   if (from.progress.stop()) return;
   const Voxels& voxels = from.voxels;
   direct_.assign(voxels.slots.size(), {});
-  std::vector<Vec3> near, far;
   for (const SlotLight* light : {&suns_, &sky_, &emitters_}) light->addTo(voxels, Vec3(1), direct_);
   for (const LampLight& l : lamps_) {
-    if (isBlack(l.lamp.intensityCd)) continue;
-    l.direct.addTo(voxels, l.lamp.intensityCd, direct_);
-    if (l.particles.near.empty()) continue;
+    if (!isBlack(l.lamp.intensityCd)) l.direct.addTo(voxels, l.lamp.intensityCd, direct_);
+  }
+  std::vector<Vec3> near, far;
+  for (const auto& [particles, scale] : litParticles()) {
     near.resize(voxels.slots.size()), far.resize(voxels.slots.size());
-    l.particles.near.addTo(voxels, l.lamp.intensityCd, near);
-    l.particles.far.addTo(voxels, l.lamp.intensityCd, far);
+    particles->near.addTo(voxels, scale, near);
+    particles->far.addTo(voxels, scale, far);
   }
   smooth(links_, far);
   for (size_t i = 0; i < far.size(); ++i) direct_[i] += far[i];
@@ -203,18 +230,27 @@ void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
   if (settings_.pyramid) buildPyramid(voxels, radiance, glow, field_);
 }
 
-// Of all lamps' points as many as their flux asks for, so that in the end all have about the same.
+// Of all that shines and has left any, with what makes them its light.
+std::vector<std::pair<const ParticleLight*, Vec3>> LightCache::litParticles() const {
+  std::vector<std::pair<const ParticleLight*, Vec3>> out;
+  for (const EmitterLight& e : nearEmitters_) out.emplace_back(&e.particles, Vec3(1));
+  for (const LampLight& l : lamps_) out.emplace_back(&l.particles, l.lamp.intensityCd);
+  std::erase_if(out, [](const auto& p) { return p.first->near.empty() || isBlack(p.second); });
+  return out;
+}
+
+// Of all sources' points as many as their flux asks for, so that in the end all have about the same.
 std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) const {
+  const auto sources = litParticles();
   float fluxLm = 0;
-  for (const LampLight& l : lamps_) {
-    if (!l.particles.points.empty()) fluxLm += luminance(l.lamp.intensityCd) * l.particles.fluxPerCandela;
+  for (const auto& [particles, scale] : sources) {
+    if (!particles->points.empty()) fluxLm += luminance(scale) * particles->fluxLm;
   }
   std::vector<GlowPoint> points;
   float carry = 0.5f;
-  for (const LampLight& l : lamps_) {
-    if (isBlack(l.lamp.intensityCd)) continue;
-    for (GlowPoint g : l.particles.points) {
-      g.fluxLm *= l.lamp.intensityCd;
+  for (const auto& [particles, scale] : sources) {
+    for (GlowPoint g : particles->points) {
+      g.fluxLm *= scale;
       const float copies = luminance(g.fluxLm) * kGlowPoints / fluxLm;
       g.fluxLm = g.fluxLm / copies;
       g.radianceCdM2 = g.slot < 0 ? kUnseen : luminance(glow[static_cast<size_t>(g.slot)]);
@@ -226,7 +262,8 @@ std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) con
 
 size_t LightCache::bytes() const {
   size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + emitters_.bytes() + (direct_.size() + indirect_.size()) * sizeof(Vec3);
-  for (const LampLight& l : lamps_) sum += l.direct.bytes() + l.particles.near.bytes() + l.particles.far.bytes() + l.particles.points.size() * sizeof(GlowPoint);
+  for (const LampLight& l : lamps_) sum += l.direct.bytes() + l.particles.bytes();
+  for (const EmitterLight& e : nearEmitters_) sum += e.particles.bytes();
   return sum;
 }
 

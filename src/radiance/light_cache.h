@@ -9,7 +9,7 @@
 #include "radiance/bounces.h"
 #include "radiance/carried.h"
 #include "radiance/links.h"
-#include "radiance/near_lamps.h"
+#include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
 #include "radiance/slot_light.h"
 #include "radiance/slot_paths.h"
@@ -47,6 +47,12 @@ class LightCache {
     SlotLight direct;
     ParticleLight particles;
   };
+  struct EmitterLight {
+    Bounds3 bounds;  // of the emissive mesh, and
+    float fluxLm;    // luminous: what tells it from others
+    ParticleLight particles;
+    bool isOf(const EmitterLight& o) const { return bounds.lo == o.bounds.lo && bounds.hi == o.bounds.hi && fluxLm == o.fluxLm; }
+  };
   // Traces a light in a brick, if a ray may cross one of the boxes or there are none; false otherwise (see DirectLight).
   using BrickTracer = std::function<bool(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux)>;
   struct Sources {
@@ -64,11 +70,16 @@ class LightCache {
   SlotLight updated(const Sources& from, const SlotLight& before, const Change& change, const BrickTracer& trace) const;
   SlotLight carriedLight(const Sources& from, const SlotLight& before, const Carried& carried) const;
   void updateFixedLights(const Sources& from, const Change& change, bool emittersMoved);
+  void updateParticles(const Sources& from, const Change& change);
   void updateLamps(const Sources& from, const Change& change);
   void traceFixedLights(const Sources& from);
   void traceLamp(const Sources& from, LampLight& light);
-  void traceLampParticles(const Sources& from, LampLight& light);
+  ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
+  ParticleLight particlesFrom(const Sources& from, const ParticleSource& source);
+  void carryParticles(const Sources& from, const Carried& carried, ParticleLight& particles) const;
+  std::vector<std::pair<const ParticleLight*, Vec3>> litParticles() const;
   void forgetLampsBut(const Lights& lights);
+  void matchEmitters(const Sources& from);
   void matchLamps(const Sources& from);
   void solve(const Sources& from);
   void fillField(const Sources& from, std::vector<Vec3>& near);
@@ -79,6 +90,7 @@ class LightCache {
   Links links_;
   std::vector<BrickMark> marks_;
   SlotLight suns_, sky_, emitters_;
+  std::vector<EmitterLight> nearEmitters_;
   std::vector<LampLight> lamps_;
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
   RadianceField field_;

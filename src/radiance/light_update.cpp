@@ -55,6 +55,8 @@ void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels
   updateFixedLights(from, change, emittersMoved);
   forgetLampsBut(lights);
   updateLamps(from, change);
+  updateParticles(from, change);
+  matchEmitters(from);
   matchLamps(from);
   progress.at(0.8f);
   std::vector<Vec3> indirect(voxels.slots.size());
@@ -119,28 +121,41 @@ void LightCache::updateFixedLights(const Sources& from, const Change& change, bo
   field_.rays += direct.rayCount();
 }
 
-// Particles of a lamp are sent out again if any has been near a change; those of one lamp are quickly traced.
 void LightCache::updateLamps(const Sources& from, const Change& change) {
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  for (LampLight& light : lamps_) {
+    light.direct = updated(from, light.direct, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { return direct.lamp(light.lamp, b, near, lux); });
+  }
+  field_.rays += direct.rayCount();
+}
+
+// Particles of a source are sent out again if any has been near a change; those of one source are quickly traced.
+void LightCache::updateParticles(const Sources& from, const Change& change) {
   std::vector<Bounds3> dirty(change.places.begin(), change.places.end());
   for (size_t b = 0; b < from.voxels.bricks.size(); ++b) {
     if (!change.carried.keeps(b)) dirty.push_back(boundsOfBrick(from.voxels, b));
   }
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  const auto isTouched = [&](const ParticleLight& particles, const LightSurroundings& around) {
+    return std::any_of(dirty.begin(), dirty.end(), [&](const Bounds3& d) { return overlap(particles.way, d, 0) || around.touches(d); });
+  };
+  // Emissive meshes left out here are traced by matchEmitters, where they still are.
+  std::erase_if(nearEmitters_, [&](const EmitterLight& e) { return isTouched(e.particles, LightSurroundings(e.bounds, from.voxels.voxelSizeM)); });
+  for (EmitterLight& e : nearEmitters_) carryParticles(from, change.carried, e.particles);
   for (LampLight& light : lamps_) {
-    light.direct = updated(from, light.direct, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { return direct.lamp(light.lamp, b, near, lux); });
-    ParticleLight& particles = light.particles;
-    const LampSurroundings around(light.lamp, from.voxels.voxelSizeM);
-    if (std::any_of(dirty.begin(), dirty.end(), [&](const Bounds3& d) { return overlap(particles.way, d, 0) || around.touches(d); })) {
-      traceLampParticles(from, light);
-      field_.rays += particles.rays;
-      continue;
-    }
-    particles.near = carriedLight(from, particles.near, change.carried), particles.far = carriedLight(from, particles.far, change.carried);
-    for (GlowPoint& g : particles.points) {
-      if (g.slot >= 0) g.slot = static_cast<int64_t>(change.carried.newSlot[static_cast<size_t>(g.slot)]);
+    const ParticleSource source = particlesOfLamp(from, light.lamp);
+    if (isTouched(light.particles, source.around)) {
+      light.particles = particlesFrom(from, source);
+    } else {
+      carryParticles(from, change.carried, light.particles);
     }
   }
-  field_.rays += direct.rayCount();
+}
+
+void LightCache::carryParticles(const Sources& from, const Carried& carried, ParticleLight& particles) const {
+  particles.near = carriedLight(from, particles.near, carried), particles.far = carriedLight(from, particles.far, carried);
+  for (GlowPoint& g : particles.points) {
+    if (g.slot >= 0) g.slot = static_cast<int64_t>(carried.newSlot[static_cast<size_t>(g.slot)]);
+  }
 }
 
 }  // namespace roomlight

@@ -202,7 +202,7 @@ void SlotPaths::follow(std::span<const Ray> rays, std::span<Sampler> samplers, s
     const SurfacePlace s = placeAt(scene, hits[m.ray], end.ray.direction);
     end.left *= albedoOfTheRest(hits[m.ray], m.passes);
     end.reflected = true;
-    if (hidden) hidden->push_back({i, s.p, s.ng, end.left, m.slot});
+    if (hidden) hidden->push_back({i, s.p, s.ng, end.left, m.slot, s.material});
     goOn(i, {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(samplers[i].next2())), 0, kInfinity});
   };
   for (int k = 0; k < kMostPanes && !on.empty(); ++k) {

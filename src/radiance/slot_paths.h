@@ -23,6 +23,7 @@ struct HiddenReflection {
   size_t ray;  // index of the ray followed
   Vec3 p, n, left;  // left: share of the light that leaves it
   int64_t slot;  // of a surface before it; -1: none
+  const Material* material;
 };
 
 // Where the way of a ray ends.

@@ -48,7 +48,7 @@ void LightVertices::trace(int paths, uint32_t pass, uint64_t seed) {
 
 void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t seed, std::vector<LightVertex>& out, uint64_t& rayCount) const {
   Sampler sampler(kFirstKey + path, pass, seed);
-  const LampRay start = lights_.sampleLampRay(sampler);
+  const LightRay start = lights_.sampleLampRay(sampler);
   Ray ray{start.origin, start.direction, 0, kInfinity};
   Vec3 flux = start.fluxLm * share;
   for (int length = 0; length < kLongestPath && !isBlack(flux); ++length) {

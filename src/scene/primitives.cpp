@@ -1,7 +1,8 @@
 #include "scene/primitives.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <string>
 
 namespace roomlight {
 
@@ -35,7 +36,7 @@ void addRectangle(Scene& scene, Vec3 corner, Vec3 u, Vec3 v, int material, int n
     }
   }
   scene.meshes.push_back(mesh);
-  scene.instances.push_back({"rectangle " + std::to_string(scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
+  scene.instances.push_back({fmt::format("rectangle {}", scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
 }
 
 void addRoom(Scene& scene, Vec3 lo, Vec3 hi, const std::vector<int>& materials) {
@@ -60,26 +61,37 @@ void addBox(Scene& scene, Vec3 lo, Vec3 hi, int material) {
   addRectangle(scene, lo + z, x, y, material);
 }
 
-void addSphere(Scene& scene, Vec3 centre, float radiusM, int material, int rings) {
+namespace {
+
+// `place(s, t)` with t up and s to the left as seen from the front; s and t from 0 to 1, in m and n steps.
+template <class Place>
+void addSheet(Scene& scene, const char* name, int material, int m, int n, const Place& place) {
   Mesh mesh;
   mesh.material = material;
-  const int around = 2 * rings;
-  for (int j = 0; j <= rings; ++j) {
-    for (int i = 0; i <= around; ++i) {
-      const float polar = kPi * static_cast<float>(j) / static_cast<float>(rings), azimuth = 2 * kPi * static_cast<float>(i % around) / static_cast<float>(around);
-      const Vec3 n{std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth)};
-      mesh.positions.push_back(centre + n * radiusM), mesh.normals.push_back(n);
-    }
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= m; ++i) mesh.positions.push_back(place(static_cast<float>(i % m) / static_cast<float>(m), static_cast<float>(j) / static_cast<float>(n)));
   }
-  for (int j = 0; j < rings; ++j) {
-    for (int i = 0; i < around; ++i) {
-      const auto a = static_cast<uint32_t>(j * (around + 1) + i), b = a + 1, c = a + static_cast<uint32_t>(around) + 1, d = c + 1;
-      if (j > 0) mesh.indices.insert(mesh.indices.end(), {a, b, d});
-      if (j + 1 < rings) mesh.indices.insert(mesh.indices.end(), {a, d, c});
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < m; ++i) {
+      const auto a = static_cast<uint32_t>(j * (m + 1) + i), b = a + 1, c = a + static_cast<uint32_t>(m) + 1, d = c + 1;
+      for (const uint32_t k : {a, d, b, a, c, d}) mesh.indices.push_back(k);
     }
   }
   scene.meshes.push_back(mesh);
-  scene.instances.push_back({"sphere " + std::to_string(scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
+  scene.instances.push_back({fmt::format("{} {}", name, scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
+}
+
+}  // namespace
+
+void addSphere(Scene& scene, Vec3 centre, float radius, int material, int n) {
+  addSheet(scene, "sphere", material, 2 * n, n, [&](float s, float t) {
+    const float sine = std::sin(kPi * t);
+    return centre + Vec3{sine * std::cos(2 * kPi * s), -std::cos(kPi * t), sine * std::sin(2 * kPi * s)} * radius;
+  });
+}
+
+void addTube(Scene& scene, Vec3 base, float radius, float height, int material, int n) {
+  addSheet(scene, "tube", material, n, 1, [&](float s, float t) { return base + Vec3{radius * std::cos(2 * kPi * s), height * t, radius * std::sin(2 * kPi * s)}; });
 }
 
 Lamp pointLamp(Vec3 position, float candela) {

@@ -1,4 +1,4 @@
-// Small scenes of rectangles, for tests and validation: rooms, boxes, panels, lamps.
+// Small scenes of rectangles and round things, for tests and validation: rooms, boxes, panels, lamps.
 #pragma once
 
 #include <vector>
@@ -22,8 +22,11 @@ void addRoom(Scene& scene, Vec3 lo, Vec3 hi, const std::vector<int>& materials);
 // Fronts look outwards.
 void addBox(Scene& scene, Vec3 lo, Vec3 hi, int material);
 
-// `rings` from pole to pole and twice as many around; smooth normals. Fronts look outwards.
-void addSphere(Scene& scene, Vec3 centre, float radiusM, int material, int rings = 32);
+// Of n x 2n faces between parallels and meridians; fronts look outwards.
+void addSphere(Scene& scene, Vec3 centre, float radius, int material, int n = 24);
+
+// The wall of an upright cylinder without its ends, from base on up along +y, of n faces; fronts look outwards.
+void addTube(Scene& scene, Vec3 base, float radius, float height, int material, int n = 48);
 
 Lamp pointLamp(Vec3 position, float candela);
 

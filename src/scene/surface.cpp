@@ -232,6 +232,11 @@ void glaze(Material& material, const Glazing& glazing) {
 
 bool letsLightThrough(const Material& m) { return m.glazing.panes > 0 || m.alphaMode != AlphaMode::Opaque || (m.transmission > 0 && m.metallic < 1); }
 
+bool isPolishedMetal(const Material& m) {
+  constexpr float kPolished = 0.2f;  // roughness
+  return m.metallic > 0.5f && m.roughness < kPolished;
+}
+
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta) {
   Vec3 through{0, 0, 0};
   if (m.glazed) {

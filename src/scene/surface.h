@@ -65,6 +65,9 @@ void glaze(Material& material, const Glazing& glazing);
 // Whether light may pass straight through somewhere on surfaces of this material: panes, veils, leaves cut out by a mask.
 bool letsLightThrough(const Material& m);
 
+// Whether it reflects as a mirror does, so that its light keeps its direction.
+bool isPolishedMetal(const Material& m);
+
 // Transmittance of a thin pane along a ray that meets it under |cos theta|: base colour times what Fresnel
 // reflection on both sides leaves, times `transmission` and what alpha leaves open; of a window what its glazing lets through.
 // Zero for an opaque surface.

@@ -78,7 +78,6 @@ void Lights::addEmitter(uint32_t index, MeanEmission& means) {
   e.even = emitsEvenly(material);
   e.emission = material.emission;
   e.slotOfTriangle.assign(mesh.triangleCount(), -1);
-  Bounds3 bounds;
   Vec3 normal;
   bool flat = !material.doubleSided;
   double flux = 0;
@@ -94,8 +93,8 @@ void Lights::addEmitter(uint32_t index, MeanEmission& means) {
     if (e.triangles.empty()) normal = n;
     flat = flat && dot(n, normal) > 0.9999f && std::abs(dot(v.a - (e.triangles.empty() ? v.a : e.centre), normal)) < 1e-3f;
     if (e.triangles.empty()) e.centre = v.a;
-    bounds.add(v.a), bounds.add(v.b), bounds.add(v.c);
-    flux += lm;
+    e.bounds.add(v.a), e.bounds.add(v.b), e.bounds.add(v.c);
+    flux += lm, e.areaM2 += area;
     e.slotOfTriangle[t] = static_cast<int32_t>(e.triangles.size());
     e.triangles.push_back({t, lm, area, v, n});
     e.cdf.push_back(static_cast<float>(flux));
@@ -103,8 +102,8 @@ void Lights::addEmitter(uint32_t index, MeanEmission& means) {
   if (e.triangles.empty()) return;
   for (EmitterTriangle& t : e.triangles) t.share /= static_cast<float>(flux);
   for (float& end : e.cdf) end /= static_cast<float>(flux);
-  e.centre = bounds.centre();
-  e.radius2 = 0.25f * lengthSquared(bounds.size());
+  e.centre = e.bounds.centre();
+  e.radius2 = 0.25f * lengthSquared(e.bounds.size());
   e.normal = flat ? normal : Vec3(0);
   e.fluxLm = static_cast<float>(flux);
   emitterFluxLm_ += flux;
@@ -143,13 +142,13 @@ LightSample Lights::sampleLamp(size_t index, Vec3 p, Vec2 u) const {
   return s;
 }
 
-LampRay Lights::sampleLampRay(Sampler& sampler) const {
+LightRay Lights::sampleLampRay(Sampler& sampler) const {
   float choice = sampler.next1();
   const Vec2 u = sampler.next2();
   size_t i = 0;
   for (; i + 1 < lamps_.size() && choice >= lampShare_[i]; ++i) choice -= lampShare_[i];
   const Lamp& lamp = lamps_[i];
-  LampRay ray;
+  LightRay ray;
   float pdf = 0;
   ray.origin = lampPlace(lamp, lamp.extended ? sampler.next2() : Vec2{});
   ray.direction = lampDirections_[i].sample(u, pdf);
@@ -173,12 +172,34 @@ float Lights::lampDensity(Vec3 p, Vec3 n) const {
   return density;
 }
 
-LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {
+const Lights::EmitterTriangle& Lights::chosenTriangle(const Emitter& e, float choice) {
   const auto slot = static_cast<size_t>(std::upper_bound(e.cdf.begin(), e.cdf.end(), choice) - e.cdf.begin());
-  const EmitterTriangle& t = e.triangles[std::min(slot, e.triangles.size() - 1)];
+  return e.triangles[std::min(slot, e.triangles.size() - 1)];
+}
+
+Vec3 Lights::emissionAt(const Emitter& e, const EmitterTriangle& t, Vec2 b) const {
+  return e.even ? e.emission : materialAt(scene_, {e.instance, t.triangle, b.x, b.y, 0, {}}).emission;
+}
+
+LightRay Lights::sampleEmitterRay(size_t index, Sampler& sampler) const {
+  const Emitter& e = emitters_[index];
+  const EmitterTriangle& t = chosenTriangle(e, sampler.next1());
+  const TriangleVertices& v = t.v;
+  const Vec2 b = sampleTriangle(sampler.next2());
+  const Vec3 local = sampleCosineHemisphere(sampler.next2()), n = e.doubleSided && sampler.next1() < 0.5f ? -t.normal : t.normal;
+  LightRay ray;
+  ray.origin = offsetOrigin(v.a * (1 - b.x - b.y) + v.b * b.x + v.c * b.y, n);
+  ray.direction = Frame(n).toWorld(local);
+  ray.fluxLm = emissionAt(e, t, b) * (kPi * t.areaM2 * (e.doubleSided ? 2.0f : 1.0f) / t.share);
+  return ray;
+}
+
+LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {
+  const EmitterTriangle& t = chosenTriangle(e, choice);
   const TriangleVertices& v = t.v;
   const Vec3 n = t.normal;
   LightSample s;
+  s.emitter = emitterOfInstance_[e.instance];
   Vec2 b;
   const float solidAngle = triangleSolidAngle(p, v.a, v.b, v.c);
   if (samplesSolidAngle(solidAngle)) {
@@ -203,8 +224,7 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
     if (!e.doubleSided && cosLight <= 0) return s;
     s.pdf = chance * t.share / t.areaM2 * d2 / std::max(std::abs(cosLight), 1e-6f);
   }
-  const Vec3 emission = e.even ? e.emission : materialAt(scene_, {e.instance, t.triangle, b.x, b.y, 0, {}}).emission;
-  s.radiance = emission / s.pdf;
+  s.radiance = emissionAt(e, t, b) / s.pdf;
   return s;
 }
 

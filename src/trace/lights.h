@@ -11,10 +11,10 @@
 
 namespace roomlight {
 
-// A ray that leaves a point or spot lamp.
-struct LampRay {
+// A ray that leaves a light.
+struct LightRay {
   Vec3 origin, direction;
-  Vec3 fluxLm;  // intensity / density: all lamps' light, if this were the only ray
+  Vec3 fluxLm;  // emission / density: all the light of what it was chosen from, if this were the only ray
 };
 
 class MeanEmission;
@@ -38,13 +38,21 @@ class Lights {
   // One of them, chosen by what each could give at p without shadows.
   LightSample sampleLamps(Vec3 p, Sampler& sampler) const;
   // Rays leave the lamps in proportion to their flux, in their LampDirections.
-  LampRay sampleLampRay(Sampler& sampler) const;
+  LightRay sampleLampRay(Sampler& sampler) const;
   // Such rays per m² of a surface element at p with normal n, of all rays, if nothing stands between. Of an extended lamp as if all
   // came from its centre.
   float lampDensity(Vec3 p, Vec3 n) const;
   // One sample among emissive meshes only, and its density.
   LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
   float pdfEmitters(Vec3 p, const SurfacePoint& q) const;
+  // Emissive meshes one by one: each is all of one instance that emits.
+  size_t emitterCount() const { return emitters_.size(); }
+  int32_t emitterOf(uint32_t instance) const { return emitterOfInstance_[instance]; }  // -1: none
+  const Bounds3& emitterBounds(size_t index) const { return emitters_[index].bounds; }
+  float emitterAreaM2(size_t index) const { return emitters_[index].areaM2; }  // of one side
+  float emitterFluxLm(size_t index) const { return emitters_[index].fluxLm; }  // luminous
+  // From its surface: places by flux, directions by cosine.
+  LightRay sampleEmitterRay(size_t index, Sampler& sampler) const;
 
   size_t sunCount() const { return suns_.size() + (sky_.hasSpot() ? 1 : 0); }
   LightSample sampleSun(size_t index, Vec2 u) const;
@@ -70,7 +78,9 @@ class Lights {
   struct Emitter {
     uint32_t instance;
     Vec3 centre, normal;  // normal: of a flat one-sided emitter, else zero
+    Bounds3 bounds;
     float radius2 = 0;
+    float areaM2 = 0;
     float fluxLm = 0;
     bool doubleSided = false;
     bool even = true;     // emits the same everywhere
@@ -95,6 +105,8 @@ class Lights {
   void addLamps();
   LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;
   float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
+  static const EmitterTriangle& chosenTriangle(const Emitter& e, float choice);
+  Vec3 emissionAt(const Emitter& e, const EmitterTriangle& t, Vec2 b) const;
 
   const Scene& scene_;
   std::vector<Lamp> lamps_;

@@ -182,7 +182,8 @@ ValidationCase greyRoom() {
     const double cut = std::clamp(e.position.y, 1.0, 2.0);
     double lux = 0;
     for (const auto& [from, to] : {std::pair{1.0, cut}, {cut, 2.0}}) {
-      if (to - from > 1e-12) lux += quadrature::illuminance(e, {{1, from, 4}, {2, 0, 0}, {0, to - from, 0}}, [&](Point, Point d) { return day.luminance(d); }, 12);
+      if (to - from > 1e-12) lux += quadrature::illuminance(
+                                 e, {{1, from, 4}, {2, 0, 0}, {0, to - from, 0}}, [&](Point, Point d) { return day.luminance(d); }, 12);
     }
     return lux;
   };

@@ -11,6 +11,8 @@ using roomlight::addBox;
 using roomlight::addMaterial;
 using roomlight::addRectangle;
 using roomlight::addRoom;
+using roomlight::addSphere;
+using roomlight::addTube;
 using roomlight::lambertian;
 using roomlight::pointLamp;
 

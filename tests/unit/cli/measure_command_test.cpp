@@ -20,7 +20,8 @@ TEST(MeasureCommand, findsTheRoomAndWritesEveryReport) {
   const TemporaryFolder folder;
   const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--quality", "draft", "--tolerance", "5%", "--json", folder / "m.json", "--csv", folder / "m.csv"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  for (const char* word : {"mean lx", "Area 1, work plane", "U0"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
+  for (const char* word : {"mean lx", "Area 1, work plane", "U0"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n"
+                                                                                                                    << run.out;
   const auto j = nlohmann::json::parse(readFile(folder / "m.json"));
   ASSERT_EQ(j["grids"].size(), 1u);
   EXPECT_NEAR(j["rooms"][0]["areaM2"].get<double>(), 16, 0.5);
@@ -55,7 +56,8 @@ TEST(MeasureCommand, meterFileNamesRoomsAndTargets) {
     "spots": [{"name": "Wall", "position": [0, 1.5, 1], "direction": [-1, 0, 0], "angle": 5}], "glare": [{"name": "Chair", "position": [0, 1.2, 1.9], "direction": [0, 0, -1]}]})");
   const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--meters", folder / "meters.json", "--quality", "draft", "--tolerance", "2%"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  for (const char* word : {"Hall, work plane", "met", "MISSED", "<= 6.00 W/m²", "1.25 W/m²", "Wall", "cd/m²", "Chair", "UGR"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
+  for (const char* word : {"Hall, work plane", "met", "MISSED", "<= 6.00 W/m²", "1.25 W/m²", "Wall", "cd/m²", "Chair", "UGR"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n"
+                                                                                                                                                                                << run.out;
 }
 
 TEST(MeasureCommand, htmlReportStandsAloneWithDaylight) {

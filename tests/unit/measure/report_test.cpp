@@ -60,7 +60,8 @@ TEST(Report, csvQuotesNames) {
 
 TEST(Report, tableSaysWhatWasMissed) {
   const std::string table = reportTable(sample());
-  for (const char* word : {"600", "0.67", "MISSED", "met", "<= 6.00 W/m²"}) EXPECT_NE(table.find(word), std::string::npos) << word << "\n" << table;
+  for (const char* word : {"600", "0.67", "MISSED", "met", "<= 6.00 W/m²"}) EXPECT_NE(table.find(word), std::string::npos) << word << "\n"
+                                                                                                                           << table;
 }
 
 }  // namespace

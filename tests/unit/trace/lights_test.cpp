@@ -67,7 +67,7 @@ TEST(Lights, raysLeaveAWebByItsLight) {
   double flux = 0;
   for (int i = 0; i < kRays; ++i) {
     Sampler sampler(static_cast<uint64_t>(i), 0, 5);
-    const LampRay ray = lights.sampleLampRay(sampler);
+    const LightRay ray = lights.sampleLampRay(sampler);
     flux += static_cast<double>(luminance(ray.fluxLm)) / kRays;
     const double turn = 0.5 + std::atan2(static_cast<double>(ray.direction.z), static_cast<double>(ray.direction.x)) / (2 * std::numbers::pi);
     const int p = std::min(kPolar - 1, static_cast<int>((static_cast<double>(ray.direction.y) + 1) / 2 * kPolar)), a = std::min(kAzimuth - 1, static_cast<int>(turn * kAzimuth));
@@ -136,6 +136,31 @@ TEST(Lights, aSunDiscIsSeenInsideItsAngleOnly) {
     EXPECT_NEAR(pdf * solidAngle, 1, 1e-4) << halfDeg;
     EXPECT_EQ(luminance(lights.sunDisc(0, at(1.02 * halfDeg), pdf)), 0) << halfDeg;
     EXPECT_EQ(pdf, 0) << halfDeg;
+  }
+}
+
+// Rays of a square of 100 cd/m2 that pass through the square opposite, one metre away: its flux times their form factor, which for unit squares is
+// (2 / pi) (ln(2 / sqrt 3) + 2 sqrt 2 atan(1 / sqrt 2) - pi / 2) (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, C-11).
+TEST(Lights, raysLeaveAnEmissiveMeshByCosine) {
+  for (const bool doubleSided : {false, true}) {
+    Scene scene;
+    Material shining = test::lambertian(0, 100);
+    shining.doubleSided = doubleSided;
+    test::addRectangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, test::addMaterial(scene, shining), 3);
+    const Lights lights(scene);
+    constexpr uint32_t kRays = 65536;
+    double all = 0, through = 0;
+    for (uint32_t i = 0; i < kRays; ++i) {
+      Sampler sampler(1, i, 0);
+      const LightRay ray = lights.sampleEmitterRay(0, sampler);
+      const double lm = static_cast<double>(luminance(ray.fluxLm)) / kRays;
+      all += lm;
+      const Vec3 there = ray.origin + ray.direction / ray.direction.z;
+      if (ray.direction.z > 0 && there.x > 0 && there.x < 1 && there.y > 0 && there.y < 1) through += lm;
+    }
+    const double side = 100 * kPi, formFactor = 2 / std::numbers::pi * (std::log(2 / std::sqrt(3.0)) + 2 * std::sqrt(2.0) * std::atan(1 / std::sqrt(2.0)) - std::numbers::pi / 2);
+    EXPECT_NEAR(all, doubleSided ? 2 * side : side, 1e-3 * side);
+    EXPECT_NEAR(through, side * formFactor, 0.01 * side * formFactor);
   }
 }
 

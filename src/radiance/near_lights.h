@@ -1,0 +1,46 @@
+// Light close to small sources: point and spot lamps, bulbs, globes. Within a voxel beside them illuminance varies as 1/d², and shadow
+// rays to a few points miss its mean; and from afar such a voxel is small and very bright, so that a few links miss it or take it for
+// too much. Particles sent out by the source do neither, and keep its flux.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "radiance/radiance_field.h"
+#include "radiance/slot_light.h"
+#include "radiance/slot_paths.h"
+#include "radiance/surroundings.h"
+
+namespace roomlight {
+
+// What sends particles out: a lamp as if it had 1 cd in each channel, or an emissive mesh as it is.
+struct ParticleSource {
+  LightSurroundings around;
+  uint64_t key;       // the same random numbers for a source whatever others there are
+  float fluxLm;       // luminous
+  size_t particles;
+  bool isSurface;     // rays may find it: what polished metal reflects of it is left to them
+  std::function<LightRay(Sampler&)> ray;  // with the flux of all, if it were the only one
+};
+
+// Of sources that share the particles: `lamps` are all of a scene, `emitters` its small emissive meshes.
+ParticleSource particlesOf(const Lamp& lamp, size_t lamps, float voxelSizeM);
+ParticleSource particlesOf(const Lights& lights, size_t emitter, size_t emitters, float voxelSizeM);
+
+// What particles of one source leave behind.
+struct ParticleLight {
+  SlotLight near;  // lx; on slots in its surroundings: what they reflect of it is contained in `near` and `far`
+  SlotLight far;   // lx; on other slots, by reflection in its surroundings or on surfaces that no slot stands for; and on polished metal
+  std::vector<GlowPoint> points;  // of what surfaces in its surroundings reflect, about kPoints of them for all its flux
+  Bounds3 way;     // of all particles
+  float fluxLm = 0;  // luminous, of the source
+  uint64_t rays = 0;
+  size_t bytes() const { return near.bytes() + far.bytes() + points.size() * sizeof(GlowPoint); }
+};
+
+constexpr float kGlowPoints = 32768;  // that stand for a flux like that of all sources
+
+// Ends early, with a part of the light, once `progress` says stop.
+ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Progress& progress);
+
+}  // namespace roomlight

@@ -1,0 +1,112 @@
+// Small emissive meshes close to other surfaces: where their light goes in voxels, and what meters read.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "engine/lit_scene.h"
+#include "support/record.h"
+#include "support/rooms.h"
+#include "voxel/voxelise.h"
+
+namespace roomlight {
+namespace {
+
+struct Lit {
+  Voxels voxels;
+  RadianceField field;
+  double emittedLm;
+};
+
+Lit light(const Scene& scene, float voxelSizeM) {
+  const RayScene rays(scene);
+  const Lights lights(scene);
+  Lit lit{voxelise(scene, {.voxelSizeM = voxelSizeM}).voxels, {}, lights.emittedFluxLm()};
+  lit.field = illuminate(rays, lights, lit.voxels, {});
+  return lit;
+}
+
+// What arrives on slots. Where surfaces lie one behind the other in a voxel the foremost takes the light.
+double receivedLm(const Lit& lit) {
+  double sum = 0;
+  for (size_t i = 0; i < lit.field.irradianceLux.size(); ++i) {
+    const FaceSlot& slot = lit.voxels.slots[i];
+    const float h = lit.voxels.voxelSizeM, area = std::min(slot.areaM2, h * h / std::max(0.577f, maxComponent(abs(slot.normal))));
+    sum += static_cast<double>(luminance(lit.field.irradianceLux[i]) * area);
+  }
+  return sum;
+}
+
+class Bulb : public testing::TestWithParam<float> {};
+
+// In a black room every ray ends where it arrives first.
+TEST_P(Bulb, atTheCeilingKeepsItsFlux) {
+  Scene scene;
+  const int black = test::addMaterial(scene, test::lambertian(0)), bulb = test::addMaterial(scene, test::lambertian(0, 10000));
+  test::addRoom(scene, {0, 0, 0}, {2.03f, 2.03f, 2.03f}, std::vector<int>(6, black));
+  test::addSphere(scene, {1.07f, 1.97f, 0.93f}, 0.03f, bulb);
+  const Lit lit = light(scene, GetParam());
+  EXPECT_NEAR(receivedLm(lit), lit.emittedLm, 0.02 * lit.emittedLm);
+}
+
+TEST_P(Bulb, inAShadeKeepsItsFlux) {
+  Scene scene;
+  const int black = test::addMaterial(scene, test::lambertian(0)), bulb = test::addMaterial(scene, test::lambertian(0, 10000));
+  test::addRoom(scene, {0, 0, 0}, {2.03f, 2.03f, 2.03f}, std::vector<int>(6, black));
+  test::addSphere(scene, {1.07f, 1.01f, 0.93f}, 0.03f, bulb);
+  test::addTube(scene, {1.07f, 0.9f, 0.93f}, 0.12f, 0.22f, black);
+  const Lit lit = light(scene, GetParam());
+  EXPECT_NEAR(receivedLm(lit), lit.emittedLm, 0.02 * lit.emittedLm);
+}
+INSTANTIATE_TEST_SUITE_P(Voxels, Bulb, testing::Values(0.03f, 0.06f, 0.1f));
+
+std::vector<MeterReading> readings(const Scene& scene, const char* technique, const std::vector<SurfaceElement>& elements) {
+  RenderSettings settings;
+  settings.technique = technique;
+  RenderStats stats;
+  const RenderProgress quiet;
+  Stages stages(quiet, stats);
+  MeterSettings meter;
+  meter.tolerance = 0.005;
+  meter.mostSamples = 1 << 19;
+  return lightScene(scene, settings, stages).value()->illuminance(elements, meter);
+}
+
+// A lamp on a table in a grey room, its shade open above and below: a bulb, or a point as bright. The bulb is white, so that it takes none of
+// the light in the shade either: but at the edges of shadows both give the same.
+Scene tableLamp(bool bulb) {
+  constexpr float kRadiusM = 0.03f, kLuminance = 30000;
+  Scene scene;
+  const int grey = test::addMaterial(scene, test::lambertian(0.6f)), paper = test::addMaterial(scene, test::lambertian(0.7f));
+  test::addRoom(scene, {0, 0, 0}, {4.03f, 2.53f, 3.53f}, std::vector<int>(6, grey));
+  test::addBox(scene, {0.3f, 0.7f, 0.3f}, {1.5f, 0.74f, 1.1f}, grey);
+  test::addTube(scene, {0.8f, 1.0f, 0.7f}, 0.12f, 0.22f, paper);
+  const Vec3 place{0.8f, 1.12f, 0.7f};
+  if (bulb) {
+    test::addSphere(scene, place, kRadiusM, test::addMaterial(scene, test::lambertian(1, kLuminance)));
+  } else {
+    scene.lamps.push_back(test::pointLamp(place, kPi * kRadiusM * kRadiusM * kLuminance));
+  }
+  return scene;
+}
+
+void expectSame(const char* reference, const std::vector<SurfaceElement>& elements, const std::vector<MeterReading>& expected, const std::vector<MeterReading>& measured) {
+  for (size_t i = 0; i < elements.size(); ++i) {
+    const double e = static_cast<double>(luminance(expected[i].illuminanceLux)), m = static_cast<double>(luminance(measured[i].illuminanceLux));
+    const Vec3 p = elements[i].position;
+    test::record("Table lamp, a bulb in an open shade, illuminance, lx", fmt::format("at ({:.1f}, {:.2f}, {:.1f}), {}", p.x, p.y, p.z, reference), "hybrid", e, m);
+    EXPECT_NEAR(m, e, 0.03 * e) << i;
+  }
+}
+
+TEST(TableLamp, hybridReadsWhatPathReads) {
+  const std::vector<SurfaceElement> elements{{{0.85f, 0.75f, 0.75f}, {0, 1, 0}}, {{0.9f, 2.52f, 0.8f}, {0, -1, 0}}};
+  expectSame("path", elements, readings(tableLamp(true), "path", elements), readings(tableLamp(true), "hybrid", elements));
+}
+
+// Where none of the bulb is seen paths hardly find the lit inside of the shade: a point they find from both ends.
+TEST(TableLamp, hybridReadsOfABulbWhatPathReadsOfAPoint) {
+  const std::vector<SurfaceElement> elements{{{1.3f, 0.75f, 0.9f}, {0, 1, 0}}, {{3, 0.85f, 2}, {0, 1, 0}}, {{2, 2.52f, 3}, {0, -1, 0}}, {{2, 1.2f, 3.5f}, {0, 0, -1}}, {{0.001f, 1.1f, 0.7f}, {1, 0, 0}}};
+  expectSame("path with a point", elements, readings(tableLamp(false), "path", elements), readings(tableLamp(true), "hybrid", elements));
+}
+
+}  // namespace
+}  // namespace roomlight
