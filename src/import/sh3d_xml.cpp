@@ -151,7 +151,7 @@ class Reader {
 
   void room(const Element& e) {
     Room r;
-    r.name = e.text("name"), r.level = levelOf(e);
+    r.name = e.text("name"), r.place = e.place(), r.level = levelOf(e);
     r.floorVisible = e.flag("floorVisible", true), r.ceilingVisible = e.flag("ceilingVisible", true);
     r.ceilingFlat = e.flag("ceilingFlat", false);
     r.floor = readPaint(e, "floorColor", "floorShininess", "floorTexture");
