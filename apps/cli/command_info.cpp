@@ -167,7 +167,7 @@ int runInfo(const Options& o) {
 Registered addInfo(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("info", "Say what a scene or a photometric file holds");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf or .obj; or one luminaire: .ies or .ldt")->required();
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj or .sh3d; or one luminaire: .ies or .ldt")->required();
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
   app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
       ->capture_default_str()

@@ -60,8 +60,9 @@ Imported readSh3d(const std::filesystem::path& file, const ImportOptions& option
   Scene& scene = imported.scene;
   Paints paints(archive, imagesOf(home), scene, warnings);
   int object = 0;
-  addWalls(home, paints, scene, object, warnings);
-  addRooms(home, paints, scene, object, warnings);
+  Effort effort;
+  addWalls(home, paints, scene, object, effort, warnings);
+  addRooms(home, paints, scene, object, effort, warnings);
   Models models(archive, options.maxTriangles, scene, warnings);
   addFurniture(home, models, paints, options.maxTriangles, options.lumenAtFullPower, scene, object, warnings);
   addCameras(home, scene, warnings);

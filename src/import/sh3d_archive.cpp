@@ -74,15 +74,27 @@ Archive::Archive(std::span<const uint8_t> bytes, const std::string& place, const
 
 Archive::~Archive() = default;
 
-bool Archive::has(std::string_view name) const { return state_->entries.contains(name); }
+bool Archive::has(std::string_view name) const { return indexOf(name).has_value(); }
+
+std::optional<uint64_t> Archive::indexOf(std::string_view name) const {
+  auto it = state_->entries.find(name);
+  if (it == state_->entries.end() && name.find('%') != std::string_view::npos) {
+    try {
+      it = state_->entries.find(percentDecode(name, ""));
+    } catch (const Failure&) {
+      return {};  // no escapes, and no such entry
+    }
+  }
+  return it == state_->entries.end() ? std::nullopt : std::optional<uint64_t>(it->second);
+}
 
 std::optional<Bytes> Archive::read(std::string_view name) const {
-  const auto it = state_->entries.find(name);
-  if (it == state_->entries.end()) return {};
+  const auto index = indexOf(name);
+  if (!index) return {};
   const std::string place = fmt::format("{}{}entry '{}'", state_->place, state_->place.empty() ? "" : ": ", printable(name));
   const ArchiveLimits& limits = state_->limits;
   zip_stat_t stat;
-  if (zip_stat_index(state_->zip.get(), it->second, 0, &stat) != 0) fail(place, "is damaged");
+  if (zip_stat_index(state_->zip.get(), *index, 0, &stat) != 0) fail(place, "is damaged");
   constexpr zip_uint64_t kWanted = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE;
   if ((stat.valid & kWanted) != kWanted) fail(place, "is damaged: it does not say how large it is");
   if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) && stat.encryption_method != ZIP_EM_NONE) fail(place, "is encrypted; save it without a password");
@@ -92,7 +104,7 @@ std::optional<Bytes> Archive::read(std::string_view name) const {
   state_->unpacked += stat.size;
   if (state_->unpacked > limits.totalBytes) fail(place, fmt::format("all entries together unpack to more than {} bytes", limits.totalBytes));
 
-  const ZipFile file(zip_fopen_index(state_->zip.get(), it->second, 0));
+  const ZipFile file(zip_fopen_index(state_->zip.get(), *index, 0));
   if (!file) fail(place, fmt::format("cannot be unpacked: {}", printable(zip_strerror(state_->zip.get()), 200)));
   Bytes bytes(stat.size);
   size_t filled = 0;

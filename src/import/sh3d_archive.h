@@ -36,11 +36,13 @@ class Archive {
   size_t refused() const { return refused_; }
   bool has(std::string_view name) const;
 
-  // The unpacked entry; none where there is no such entry. Throws Failure: damaged, encrypted, or beyond a limit.
+  // The unpacked entry; none where there is no such entry. A name with percent escapes also means the entry of the name without them. Throws
+  // Failure: damaged, encrypted, or beyond a limit.
   std::optional<Bytes> read(std::string_view name) const;
 
  private:
   struct State;
+  std::optional<uint64_t> indexOf(std::string_view name) const;
   std::unique_ptr<State> state_;
   std::vector<std::string> names_;
   size_t refused_ = 0;

@@ -51,7 +51,7 @@ struct Wall {
 };
 
 struct Room {
-  std::string name;
+  std::string name, place;
   int level = -1;
   std::vector<PlanPoint> points;
   bool floorVisible = true, ceilingVisible = true, ceilingFlat = false;

@@ -29,6 +29,9 @@ std::vector<Opening> openingsOf(const Home& home, Warnings& warnings) {
       }
     }
     o.shape = united(unit, {});
+    for (const PlanRing& ring : o.shape) o.points += ring.size();
+    o.centre = p.centre;
+    o.radiusCm = std::hypot(p.depthCm / 2, p.widthCm * (std::abs(left - 0.5) + width / p.widthCm));
     if (!o.shape.empty()) out.push_back(std::move(o));
   }
   return out;

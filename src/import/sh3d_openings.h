@@ -15,6 +15,9 @@ struct Opening {
   double vLow = 0, vHigh = 0;      // how deep the piece reaches
   bool bothSides = false;          // cuts both sides of a wall that it touches
   PlanArea shape;                  // of (u, h)
+  size_t points = 0;               // of the shape
+  PlanPoint centre;                // on the plan, with all of the piece within
+  double radiusCm = 0;
 
   double u(PlanPoint p) const { return p.x * along.x + p.y * along.y; }
   double v(PlanPoint p) const { return p.y * along.x - p.x * along.y; }

@@ -47,6 +47,9 @@ struct Drawn {
   bool flat = true;
   double ceilingCm = 0;                    // of a flat one
   std::vector<WallCorner> const* corners = nullptr;
+  PlanPoint lo, hi;                        // around it
+
+  bool overlaps(const Drawn& o) const { return lo.x < o.hi.x && o.lo.x < hi.x && lo.y < o.hi.y && o.lo.y < hi.y; }
 
   // Height of the ceiling: the top of the wall whose corner is nearest.
   double ceilingAt(PlanPoint p) const {
@@ -61,10 +64,11 @@ struct Drawn {
 };
 
 // The stairs' holes on the plan: through floors that they rise through, through ceilings that they rise above.
-PlanArea stairwells(const Home& home, const std::vector<Piece>& pieces, double heightCm) {
+PlanArea stairwells(const Home& home, const std::vector<const Piece*>& stairs, double heightCm, const std::string& place, Effort& effort) {
   PlanArea out;
-  for (const Piece& p : pieces) {
-    if (p.staircaseCutOutShape.empty() || !isShown(home, p.level)) continue;
+  size_t points = 0;
+  for (const Piece* piece : stairs) {
+    const Piece& p = *piece;
     const double bottom = elevationOf(home, p.level) + p.elevationCm, top = bottom + p.heightCm;
     if (!(bottom < heightCm - kSameHeightCm && top >= heightCm - kSameHeightCm)) continue;
     PlanArea shape = svgPath(p.staircaseCutOutShape);
@@ -75,37 +79,46 @@ PlanArea stairwells(const Home& home, const std::vector<Piece>& pieces, double h
         q = {p.centre.x + x * c - y * s, p.centre.y + x * s + y * c};
       }
     }
+    for (const PlanRing& ring : shape) points += ring.size();
+    effort.spend(points * 8, place);
     out = united(out, shape);
   }
   return out;
 }
 
-void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int material, Surfaces& out) {
+void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int material, Effort& effort, Surfaces& out) {
   const auto corner = [&](PlanPoint p) {
     return SurfaceCorner{toWorld(p, ceiling ? drawn.ceilingAt(p) : drawn.floorCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
   };
-  for (const PlanTriangle& t : trianglesOf(area)) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
+  const std::vector<PlanTriangle> triangles = trianglesOf(area);
+  effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + drawn.corners->size() / 8 : 1), drawn.room->place);
+  for (const PlanTriangle& t : triangles) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
 }
 
 // The room without those of the same height that the file names later.
-PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling) {
+PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling, Effort& effort) {
   PlanArea area = united({all[i].room->points}, {});
+  effort.spend(all.size() / 16, all[i].room->place);
   for (size_t k = i + 1; k < all.size(); ++k) {
     const Room& other = *all[k].room;
-    if (!(ceiling ? other.ceilingVisible : other.floorVisible)) continue;
+    if (!all[i].overlaps(all[k]) || !(ceiling ? other.ceilingVisible : other.floorVisible)) continue;
     const double here = ceiling ? all[i].ceilingCm : all[i].floorCm, there = ceiling ? all[k].ceilingCm : all[k].floorCm;
-    if (std::abs(here - there) < kSameHeightCm) area = subtracted(area, {other.points});
+    if (std::abs(here - there) >= kSameHeightCm) continue;
+    for (const PlanRing& ring : area) effort.spend(8 * ring.size(), all[i].room->place);
+    effort.spend(8 * other.points.size(), all[i].room->place);
+    area = subtracted(area, {other.points});
   }
   return area;
 }
 
 // Counter-clockwise seen from above: z points towards the reader of the plan, as its y does.
-void addToScene(const Drawn& drawn, Scene& scene) {
+void addToScene(const Drawn& drawn, Effort& effort, Scene& scene) {
   roomlight::Room room;
   room.name = drawn.room->name.empty() ? "room" : drawn.room->name;
   PlanRing ring = drawn.room->points;
   if (signedAreaOf(ring) > 0) std::reverse(ring.begin(), ring.end());
   double height = 0;
+  effort.spend(ring.size() * (1 + drawn.corners->size() / 8), drawn.room->place);
   for (const PlanPoint& p : ring) {
     room.floor.push_back({static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)});
     height = std::max(height, drawn.ceilingAt(p) - drawn.floorCm);
@@ -117,7 +130,7 @@ void addToScene(const Drawn& drawn, Scene& scene) {
 
 }  // namespace
 
-void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Warnings& warnings) {
+void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effort& effort, Warnings& warnings) {
   const std::vector<WallOutline> outlines = wallOutlines(home);
   std::map<int, std::vector<WallCorner>> corners;
   std::vector<Drawn> all;
@@ -129,20 +142,29 @@ void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Warni
     }
     const auto [entry, isNew] = corners.try_emplace(room.level);
     if (isNew) entry->second = wallCorners(home, room.level, outlines);
-    all.push_back({&room, elevationOf(home, room.level), room.ceilingFlat || !isHighest(home, room.level), levelTopCm(home, room.level), &entry->second});
+    all.push_back({&room, elevationOf(home, room.level), room.ceilingFlat || !isHighest(home, room.level), levelTopCm(home, room.level), &entry->second, {}, {}});
+    Drawn& drawn = all.back();
+    drawn.lo = drawn.hi = room.points.front();
+    for (const PlanPoint& p : room.points) {
+      drawn.lo = {std::min(drawn.lo.x, p.x), std::min(drawn.lo.y, p.y)}, drawn.hi = {std::max(drawn.hi.x, p.x), std::max(drawn.hi.y, p.y)};
+    }
+  }
+  std::vector<const Piece*> stairs;
+  for (const Piece& p : home.pieces) {
+    if (!p.staircaseCutOutShape.empty() && isShown(home, p.level)) stairs.push_back(&p);
   }
   for (size_t i = 0; i < all.size(); ++i) {
     const Room& room = *all[i].room;
     const std::string name = room.name.empty() ? "room" : room.name;
-    addToScene(all[i], scene);
+    addToScene(all[i], effort, scene);
     Surfaces surfaces;
     if (room.floorVisible) {
-      const PlanArea area = subtracted(visibleArea(all, i, false), stairwells(home, home.pieces, all[i].floorCm));
-      addFace(area, all[i], false, paints.material(room.floor, "floor"), surfaces);
+      const PlanArea area = subtracted(visibleArea(all, i, false, effort), stairwells(home, stairs, all[i].floorCm, room.place, effort));
+      addFace(area, all[i], false, paints.material(room.floor, "floor"), effort, surfaces);
     }
     if (room.ceilingVisible) {
-      const PlanArea area = subtracted(visibleArea(all, i, true), stairwells(home, home.pieces, all[i].ceilingCm));
-      addFace(area, all[i], true, paints.material(room.ceiling, "ceiling"), surfaces);
+      const PlanArea area = subtracted(visibleArea(all, i, true, effort), stairwells(home, stairs, all[i].ceilingCm, room.place, effort));
+      addFace(area, all[i], true, paints.material(room.ceiling, "ceiling"), effort, surfaces);
     }
     surfaces.finish(scene, name, object++);
   }

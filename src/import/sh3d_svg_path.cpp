@@ -10,7 +10,7 @@ namespace roomlight::importers::sh3d {
 namespace {
 
 constexpr int kChords = 24;  // of a curve
-constexpr size_t kMostPoints = 20'000;
+constexpr size_t kMostPoints = 2000;
 constexpr double kLargest = 100;  // of the unit square
 
 class PathReader {

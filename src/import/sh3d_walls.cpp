@@ -122,9 +122,24 @@ void addRest(const WallOutline& outline, const WallHeights& h, int top, int rest
   }
 }
 
+// Those that may touch a wall.
+std::vector<Opening> openingsAt(const WallOutline& outline, const std::vector<Opening>& openings, const std::string& place, Effort& effort) {
+  PlanPoint lo{1e300, 1e300}, hi{-1e300, -1e300};
+  for (const PlanPoint& p : outline.ring()) lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)}, hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+  std::vector<Opening> out;
+  effort.spend(openings.size() / 16, place);
+  for (const Opening& o : openings) {
+    const double r = o.radiusCm + 2;
+    if (o.centre.x + r < lo.x || o.centre.x - r > hi.x || o.centre.y + r < lo.y || o.centre.y - r > hi.y) continue;
+    out.push_back(o);
+    effort.spend(outline.left.size() * o.points * out.size(), place);
+  }
+  return out;
+}
+
 }  // namespace
 
-void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Warnings& warnings) {
+void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Effort& effort, Warnings& warnings) {
   const std::vector<WallOutline> outlines = wallOutlines(home);
   const std::vector<WallOutline> boards = wallOutlines(home, baseboardOffsets(home));
   const std::vector<Opening> openings = openingsOf(home, warnings);
@@ -138,7 +153,7 @@ void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Warni
     const WallHeights h = heightsOf(home, w, outlines[i].left.size());
     const WallSides sides{panelsOf(outlines[i].left, h), panelsOf(outlines[i].right, h)};
     std::vector<WallCut> cuts;
-    if (!sides.left.empty() && !sides.right.empty()) cuts = cutsOf(sides, openings);
+    if (!sides.left.empty() && !sides.right.empty()) cuts = cutsOf(sides, openingsAt(outlines[i], openings, w.place, effort));
     Paint top;
     top.colour = w.topColour ? w.topColour : w.left.colour;
     Surfaces surfaces;

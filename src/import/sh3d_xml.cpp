@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "import/failure.h"
@@ -15,11 +16,14 @@ constexpr size_t kMaxXmlBytes = size_t{64} << 20;
 constexpr size_t kMaxThings = 200'000;
 constexpr size_t kMaxRoomPoints = 2000, kMaxLevels = 1000;
 constexpr int kDeepestGroup = 64;
+constexpr double kUsualTextureCm = 100, kWidestViewRad = 3;
 
 TextureUse readTexture(const Element& e) {
   TextureUse t;
   t.image = e.text("image");
-  t.widthCm = e.number("width", 1e-3, kFarthestCm), t.heightCm = e.number("height", 1e-3, kFarthestCm);
+  // Textures that came with a model have no size of their own: -1.
+  const double width = e.number("width", -1, kFarthestCm), height = e.number("height", -1, kFarthestCm);
+  t.widthCm = width > 1e-3 ? width : kUsualTextureCm, t.heightCm = height > 1e-3 ? height : kUsualTextureCm;
   t.xOffset = e.number("xOffset", -1e6, 1e6, 0), t.yOffset = e.number("yOffset", -1e6, 1e6, 0);
   t.angleRad = e.angleRad("angle", 0), t.scale = e.number("scale", 1e-4, 1e4, 1);
   t.fittingArea = e.flag("fittingArea", false);
@@ -30,7 +34,7 @@ TextureUse readTexture(const Element& e) {
 Paint readPaint(const Element& e, const char* colourKey, const char* shininessKey, std::string_view use) {
   Paint paint;
   paint.colour = e.colour(colourKey);
-  paint.shininess = e.number(shininessKey, 0, 1, 0);
+  paint.shininess = std::min(e.number(shininessKey, 0, 128, 0), 1.0);
   e.children([&](const Element& child) {
     if (child.kind() == "texture" && (use.empty() || child.text("attribute") == use)) paint.texture = readTexture(child);
   });
@@ -93,7 +97,7 @@ class Reader {
     c.name = e.text("name");
     c.x = e.lengthCm("x"), c.y = e.lengthCm("y"), c.z = e.lengthCm("z");
     c.yawRad = e.angleRad("yaw"), c.pitchRad = e.angleRad("pitch");
-    c.fieldOfViewRad = e.number("fieldOfView", 0.01, 3.14);
+    c.fieldOfViewRad = std::min(e.number("fieldOfView", 0.01, 6.3), kWidestViewRad);  // lenses that are none see more
     c.timeMs = e.integerIfAny("time");
     const std::string lens = e.text("lens", "PINHOLE");
     c.pinhole = lens == "PINHOLE" || lens == "NORMAL";
@@ -151,7 +155,7 @@ class Reader {
 
   void room(const Element& e) {
     Room r;
-    r.name = e.text("name"), r.level = levelOf(e);
+    r.name = e.text("name"), r.place = e.place(), r.level = levelOf(e);
     r.floorVisible = e.flag("floorVisible", true), r.ceilingVisible = e.flag("ceilingVisible", true);
     r.ceilingFlat = e.flag("ceilingFlat", false);
     r.floor = readPaint(e, "floorColor", "floorShininess", "floorTexture");

@@ -180,6 +180,20 @@ TEST(Sh3dFurniture, missingModelsAreBoxesWithAWarning) {
   EXPECT_NE(damaged.value().warnings[0].find("line 2"), std::string::npos);
 }
 
+TEST(Sh3dFurniture, namesOfModelsMayBeEscaped) {
+  const Result<Imported> r = importHome("<pieceOfFurniture name='piece' x='300' y='200' width='100' depth='50' height='80' model='1/my%20we%25ge.obj'/>" +
+                                            std::string("<pieceOfFurniture name='q' x='0' y='0' width='1' depth='1' height='1' model='1/50%.obj'/>"),
+                                        {{"1/my we%ge.obj", kWedge}, {"1/wedge.mtl", kWedgeMtl}, {"1/50%.obj", kWedge}});
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_EQ(facesOf(r.value().scene, "piece").size(), 8u);
+  EXPECT_EQ(facesOf(r.value().scene, "q").size(), 8u);
+}
+
+TEST(Sh3dFurniture, texturesOfModelsHaveNoSize) {
+  const std::string paint = "<material name='red' shininess='3'><texture name='t' width='-1' height='-1' image='none'/></material>";
+  EXPECT_EQ(facesOf(pieceScene("", paint), "piece").size(), 8u);
+}
+
 TEST(Sh3dFurniture, modelsInAZipFileOfTheirOwn) {
   const Scene scene = pieceScene("", "", {{"1/wedge.obj", zipped({{"textures/x.txt", "x"}, {"m/wedge.obj", kWedge}, {"m/wedge.mtl", kWedgeMtl}})}});
   expectBox(scene, {2.5f, 0, 1.75f}, {3.5f, 0.8f, 2.25f});

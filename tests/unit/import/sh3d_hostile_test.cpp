@@ -108,6 +108,27 @@ TEST(HostileSh3d, deepNestingIsAnswered) {
   EXPECT_TRUE(importHome(kWall + nested("x", 1'000'000)).ok());
 }
 
+// Small files whose things all cut each other: answered within seconds, and homes of many things are not refused.
+TEST(HostileSh3d, workThatGrowsWithProductsEnds) {
+  const auto many = [](int count, const auto& make) {
+    std::string out;
+    for (int i = 0; i < count; ++i) out += make(i);
+    return out;
+  };
+  const auto walls = [](int i) { return wallXml("w" + std::to_string(i), 0, i % 7, 400, i % 7, 30, "arcExtent='0.5'"); };
+  const auto doors = [](int i) { return "<doorOrWindow name='d' x='" + std::to_string(i % 300) + "' y='5' width='90' depth='90' height='90'/>"; };
+  expectXmlRefused(homeXml(many(3000, doors) + many(3000, walls)), "more often than those of any home");
+  const auto rooms = [](int i) { return roomXml({{0.01 * i, 0}, {400, 0}, {400, 300 - 0.01 * i}, {0, 300}}); };
+  expectXmlRefused(homeXml(many(20000, rooms)), "more often than those of any home");
+  const auto houses = [](int i) {
+    const double x = i % 30 * 1000, y = i / 30 * 1000;
+    const std::string n = std::to_string(i);
+    return "<doorOrWindow name='d' x='" + std::to_string(x + 200) + "' y='" + std::to_string(y) + "' width='90' depth='20' height='90'/>" + wallXml("a" + n, x, y, x + 400, y, 10) +
+           wallXml("b" + n, x, y, x, y + 300, 10) + roomXml({{x, y}, {x + 400, y}, {x + 400, y + 300}, {x, y + 300}});
+  };
+  EXPECT_TRUE(importHome(many(900, houses)).ok());
+}
+
 TEST(HostileSh3d, degenerateThingsDoNoHarm) {
   const std::string flat = "<pieceOfFurniture name='p' x='0' y='0' width='0' depth='0' height='0'/>";
   const std::string nothing = "<doorOrWindow name='d' x='0' y='0' width='0' depth='0' height='100'/>" + std::string("<doorOrWindow name='d' x='200' y='0' width='90' depth='9' height='90' cutOutShape='M0,0 L9e9'/>");

@@ -145,6 +145,13 @@ TEST(Sh3dRooms, staircasesCutTheFloorThatTheyComeUpThrough) {
   EXPECT_NEAR(areaFacing(scene, "up", {0, -1, 0}), 20, 1e-4);
 }
 
+TEST(Sh3dCameras, wideLensesBecomePinholes) {
+  const Result<Imported> r = importHome(wallXml("w", 0, 0, 100, 0, 10) +
+                                        "<camera attribute='storedCamera' lens='SPHERICAL' x='0' y='0' z='0' yaw='0' pitch='0' fieldOfView='6.28'/>");
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_LT(r.value().scene.cameras[0].yFovRad, 3.1f);
+}
+
 TEST(Sh3dCameras, lookWhereTheyAreTurned) {
   const Scene scene = homeScene(
       wallXml("w", 0, 0, 100, 0, 10) +
