@@ -160,30 +160,31 @@ int bad(const std::string& message, int code = kBadInput) {
   return code;
 }
 
+// All of them, even if one cannot be written; the first error.
 Status writeReports(const Options& o, const Plan& plan, const Measurements& m, const Scene& scene) {
   const ReportHeader header{o.scene, o.lighting, o.meters, plan.render.technique, plan.render.quality, version(), plan.measure.meters.tolerance};
-  if (!o.json.empty()) {
-    if (const Status s = writeTextFile(o.json, reportJson(header, m)); !s) return s;
-  }
-  if (!o.csv.empty()) {
-    if (const Status s = writeTextFile(o.csv, reportCsv(m)); !s) return s;
-  }
-  if (!o.html.empty()) {
-    if (const Status s = writeTextFile(o.html, reportHtml(header, m, scene)); !s) return s;
-  }
-  return Ok{};
+  Status first = Ok{};
+  const auto write = [&](const std::string& file, const auto& text) {
+    if (file.empty()) return;
+    if (const Status s = writeTextFile(file, text()); !s && first) first = s;
+  };
+  write(o.json, [&] { return reportJson(header, m); });
+  write(o.csv, [&] { return reportCsv(m); });
+  write(o.html, [&] { return reportHtml(header, m, scene); });
+  return first;
 }
 
-// A second time, under an overcast sky. The lamps are back afterwards: reports show them. False: interrupted.
-bool measureDaylight(const Plan& plan, Home& home, Measurements& m, Stages& stages) {
+// A second time, under an overcast sky. The lamps are back afterwards: reports show them.
+Status measureDaylight(const Plan& plan, Home& home, Measurements& m, Stages& stages) {
   std::vector<Lamp> lamps = home.scene.lamps;
   std::vector<Material> materials = home.scene.materials;
   lightByOvercastSky(home.scene, home.meters.groundReflectance);
   const Result<std::unique_ptr<LitScene>> lit = lightScene(home.scene, plan.render, stages);
-  if (lit && lit.value()) addDaylight(m, *lit.value(), plan.measure.meters, stages);
+  if (!lit) return Error{lit.error()};
+  if (lit.value()) addDaylight(m, *lit.value(), plan.measure.meters, stages);
   home.scene.lamps = std::move(lamps);
   home.scene.materials = std::move(materials);
-  return !interrupted();
+  return Ok{};
 }
 
 int work(const Options& o, const Plan& plan) {
@@ -203,7 +204,10 @@ int work(const Options& o, const Plan& plan) {
   Measurements m = measure(*lit.value(), home.value().meters, plan.measure, stages);
   lit.value().reset();
   if (interrupted()) return stopped();
-  if (o.daylightFactor && !measureDaylight(plan, home.value(), m, stages)) return stopped();
+  if (o.daylightFactor) {
+    if (const Status s = measureDaylight(plan, home.value(), m, stages); !s) return bad(s.error());
+    if (interrupted()) return stopped();
+  }
   if (!o.quiet) printWarnings(m.warnings);
   fmt::print("{}", reportTable(m));
   if (const Status s = writeReports(o, plan, m, home.value().scene); !s) return bad(s.error(), kFailed);

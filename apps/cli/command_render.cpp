@@ -24,8 +24,10 @@
 namespace roomlight::cli {
 namespace {
 
+constexpr const char* kUsualTone = "neutral";
+
 struct Options {
-  std::string scene, lighting, camera, size, exposure = "auto", tone = "neutral", whiteBalance = "auto", kind = "picture", stats, settingsFile, quality;
+  std::string scene, lighting, camera, size, exposure = "auto", tone = kUsualTone, whiteBalance = "auto", kind = "picture", stats, settingsFile, quality;
   std::vector<std::string> outputs;
   std::optional<std::string> technique;
   std::optional<int> samples, threads;
@@ -106,6 +108,9 @@ Result<Plan> makePlan(const Options& o) {
     if (!plan.ev100 || !(std::abs(*plan.ev100) <= 64)) return Error{fmt::format("--exposure {}: write auto or an EV100 from -64 to 64", o.exposure)};
   }
   if (o.kind != "picture" && o.kind != "luminance" && o.kind != "falsecolour") return Error{fmt::format("--output-kind {}: write picture, luminance or falsecolour", o.kind)};
+  if (o.kind != "picture" && (o.exposure != "auto" || o.tone != kUsualTone)) {
+    return Error{fmt::format("--output-kind {} has a scale of luminance instead of --exposure and --tone; leave them out", o.kind)};
+  }
   const Result<ToneCurve> tone = toneCurveFromName(o.tone);
   if (!tone) return Error{"--tone: " + tone.error()};
   plan.tone = tone.value();

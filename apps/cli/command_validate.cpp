@@ -54,6 +54,9 @@ int runValidate(const Options& o) {
     if (const Status s = checkWritable(file); !s) return bad(s.error());
   }
   if (const Status s = checkDistinct({o.json, o.html}); !s) return bad(s.error());
+  for (const std::string& technique : o.techniques) {
+    if (const Status s = checkTechnique(technique); !s) return bad(s.error());
+  }
   ValidationSettings settings;
   if (!o.techniques.empty()) settings.techniques = o.techniques;
   settings.only = o.only;

@@ -56,6 +56,7 @@ struct Lighting {
   std::vector<Sun> suns;
   std::optional<Sky> sky;
   std::vector<GlazedMaterial> glazing;
+  std::vector<std::string> warnings;
 };
 
 Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder, PhotometricFiles& files) {
@@ -80,6 +81,7 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
   if (root.has("daylight")) {
     forbid(root, {"sun", "sky"}, "beside 'daylight', which brings both");
     Daylight daylight = readDaylight(root["daylight"], folder);
+    if (isBlack(daylight.sun.illuminanceLux) && !daylight.sky.present()) out.warnings.push_back("daylight: the sun is below the horizon then; there is none");
     out.suns.push_back(daylight.sun);
     out.sky = std::move(daylight.sky);
   }
@@ -124,7 +126,10 @@ Status applyLightingFile(const std::filesystem::path& file, Scene& scene, std::v
   }
   if (const std::string wrong = missingMaterial(lighting.glazing, scene); !wrong.empty()) return Error{fmt::format("{}: {}", file.string(), wrong)};
   apply(lighting, scene);
-  if (warnings) warnings->insert(warnings->end(), files.warnings().begin(), files.warnings().end());
+  if (warnings) {
+    warnings->insert(warnings->end(), lighting.warnings.begin(), lighting.warnings.end());
+    warnings->insert(warnings->end(), files.warnings().begin(), files.warnings().end());
+  }
   return Ok{};
 }
 

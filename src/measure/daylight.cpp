@@ -2,10 +2,13 @@
 
 #include <cmath>
 
+#include "photometry/cie_sky.h"
+
 namespace roomlight {
 namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
+constexpr int kTraditionalOvercast = 16;  // of the CIE's types
 constexpr int kRows = 256, kColumns = 16;  // the sky is the same all around
 
 }  // namespace
@@ -20,7 +23,7 @@ void lightByOvercastSky(Scene& scene, double groundReflectance) {
   Image image(kColumns, kRows);
   for (int row = 0; row < kRows; ++row) {
     const double altitude = kPiD * (0.5 - (row + 0.5) / kRows);
-    const double l = altitude > 0 ? zenith * (1 + 2 * std::sin(altitude)) / 3 : groundReflectance * kOvercastLux / kPiD;
+    const double l = altitude > 0 ? zenith * cieSkyLuminance(kTraditionalOvercast, std::sin(altitude), 0, 0) : groundReflectance * kOvercastLux / kPiD;
     for (int column = 0; column < kColumns; ++column) image.at(column, row) = Vec3(static_cast<float>(l));
   }
   scene.sky = {};

@@ -125,7 +125,10 @@ void readFields(const LitScene& lit, const std::vector<Field*>& fields, const Me
 
 void readPoints(const LitScene& lit, const MeterPlan& plan, const MeterSettings& settings, const Progress& progress, Measurements& m) {
   std::vector<SurfaceElement> elements;
-  for (const PointPlan& p : plan.points) elements.push_back(p.place);
+  for (const PointPlan& p : plan.points) {
+    elements.push_back(p.place);
+    if (insideThing(lit.rays(), p.place.position)) m.warnings.push_back(fmt::format("{}: lies inside a thing, where little light comes", p.name));
+  }
   const std::vector<MeterReading> readings = lit.illuminance(elements, settings, progress);
   for (size_t i = 0; i < readings.size(); ++i) {
     m.points.push_back({plan.points[i], static_cast<double>(luminance(readings[i].illuminanceLux)), readings[i].standardErrorLux, std::nullopt});

@@ -44,25 +44,25 @@ std::vector<std::string> notJudged(const Measurements& m) {
 
 std::vector<Verdict> verdictsOf(const Measurements& m) {
   std::vector<Verdict> list;
-  const auto judge = [&](const std::string& where, const char* what, const char* unit, const Targets& t, std::optional<double> wanted, double got, bool atMost) {
-    if (wanted) list.push_back({where, what, unit, t.source, *wanted, got, atMost});
+  const auto judge = [&](const std::string& where, const char* what, const char* unit, const std::optional<Target>& wanted, double got, bool atMost) {
+    if (wanted) list.push_back({where, what, unit, wanted->source, wanted->value, got, atMost});
   };
   for (const GridReading& g : m.grids) {
     if (g.kind != SurfaceKind::WorkPlane && g.kind != SurfaceKind::Rectangle) continue;
     const Statistics s = g.lux();
     if (s.points == 0) continue;
-    judge(g.name, "mean illuminance", "lx", g.targets, g.targets.lux, s.mean * m.maintenanceFactor, false);
-    judge(g.name, "uniformity U0", "", g.targets, g.targets.uniformity, s.u0(), false);
+    judge(g.name, "mean illuminance", "lx", g.targets.lux, s.mean * m.maintenanceFactor, false);
+    judge(g.name, "uniformity U0", "", g.targets.uniformity, s.u0(), false);
   }
-  for (const PointReading& p : m.points) judge(p.plan.name, "illuminance", "lx", p.plan.targets, p.plan.targets.lux, p.lux * m.maintenanceFactor, false);
+  for (const PointReading& p : m.points) judge(p.plan.name, "illuminance", "lx", p.plan.targets.lux, p.lux * m.maintenanceFactor, false);
   for (const GlareReading& g : m.glares) {
-    if (g.ugr) judge(g.plan.name, "glare UGR", "", g.plan.targets, g.plan.targets.ugr, *g.ugr, true);
+    if (g.ugr) judge(g.plan.name, "glare UGR", "", g.plan.targets.ugr, *g.ugr, true);
   }
   for (const RoomReading& r : m.rooms) {
     for (const GlareReading& g : m.glares) {
-      if (g.ugr && !g.plan.targets.ugr && isIn(r.room, g.plan.position)) judge(r.room.name + ", " + g.plan.name, "glare UGR", "", r.targets, r.targets.ugr, *g.ugr, true);
+      if (g.ugr && !g.plan.targets.ugr && isIn(r.room, g.plan.position)) judge(r.room.name + ", " + g.plan.name, "glare UGR", "", r.targets.ugr, *g.ugr, true);
     }
-    if (r.wattsKnown() && r.areaM2 > 0) judge(r.room.name, "power density", "W/m²", r.targets, r.targets.wattsPerM2, r.wattsW / r.areaM2, true);
+    if (r.wattsKnown() && r.areaM2 > 0) judge(r.room.name, "power density", "W/m²", r.targets.wattsPerM2, r.wattsW / r.areaM2, true);
   }
   return list;
 }

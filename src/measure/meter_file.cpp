@@ -1,5 +1,5 @@
 // Meter files, version 1 (docs/formats/meters.md):
-//   { "border": 0.5, "spacing": 0.25, "maintenanceFactor": 0.8, "groundReflectance": 0.2,
+//   { "version": 1, "comment", "border": 0.5, "spacing": 0.25, "maintenanceFactor": 0.8, "groundReflectance": 0.2,
 //     "rooms": [ { "name", "use", "floor": [[x, z], ..], "elevation", "height", "workPlane", "surfaces": ["workPlane", "floor", "walls"], "watts", targets } ],
 //     "grids": [ { "name", "corner": [x,y,z], "u": [..], "v": [..], targets } ],
 //     "points": [ { "name", "position", "normal", "target" } ],
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "import/json_file.h"
 #include "import/json_reader.h"
@@ -22,6 +23,7 @@ namespace {
 
 constexpr double kFarthestM = 1e5, kMostLux = 1e9;
 constexpr size_t kMostCorners = 1000, kMostEntries = 10'000;
+constexpr const char* kThisFile = "meter file";
 constexpr double kLeastAreaM2 = 0.01;
 
 Vec3 place(const JsonPlace& j) { return j.vector(-kFarthestM, kFarthestM); }
@@ -43,11 +45,10 @@ Vec3 direction(const JsonPlace& j, Vec3 from) {
 
 // What the file says goes before what a standard says.
 void readTargets(const JsonPlace& j, Targets& targets) {
-  if (j.has("target")) targets.lux = j["target"].quantity(Unit::Lux, 0.01, kMostLux);
-  if (j.has("uniformity")) targets.uniformity = j["uniformity"].number(0, 1);
-  if (j.has("ugr")) targets.ugr = j["ugr"].number(0, 50);
-  if (j.has("powerDensity")) targets.wattsPerM2 = j["powerDensity"].number(0, 1e4);
-  if (j.has("target") || j.has("uniformity") || j.has("ugr") || j.has("powerDensity")) targets.source = targets.source.empty() ? "meter file" : targets.source + ", meter file";
+  if (j.has("target")) targets.lux = Target{j["target"].quantity(Unit::Lux, 0.01, kMostLux), kThisFile};
+  if (j.has("uniformity")) targets.uniformity = Target{j["uniformity"].number(0, 1), kThisFile};
+  if (j.has("ugr")) targets.ugr = Target{j["ugr"].number(0, 50), kThisFile};
+  if (j.has("powerDensity")) targets.wattsPerM2 = Target{j["powerDensity"].number(0, 1e4), kThisFile};
 }
 
 std::vector<Vec2> readFloor(const JsonPlace& j) {
@@ -66,6 +67,7 @@ std::vector<Vec2> readFloor(const JsonPlace& j) {
   }
   const double area = signedAreaM2(floor);
   if (std::abs(area) < kLeastAreaM2) j.fail("has no area");
+  if (crossesItself(floor)) j.fail("crosses itself; list its corners in turn along the walls");
   if (area < 0) std::reverse(floor.begin(), floor.end());
   return floor;
 }
@@ -133,12 +135,16 @@ PointPlan readPoint(const JsonPlace& j) {
   return point;
 }
 
+Gaze readGaze(const JsonPlace& j) {
+  Gaze gaze{j["name"].text(), place(j["position"]), {}};
+  gaze.direction = direction(j, gaze.position);
+  return gaze;
+}
+
 SpotPlan readSpot(const JsonPlace& j) {
   SpotPlan spot;
   if (!j.isObject({"name", "position", "direction", "lookAt", "angle"})) return spot;
-  spot.name = j["name"].text();
-  spot.position = place(j["position"]);
-  spot.direction = direction(j, spot.position);
+  static_cast<Gaze&>(spot) = readGaze(j);
   spot.angleDeg = j.number("angle", 0.1, 90, 1);
   return spot;
 }
@@ -146,11 +152,17 @@ SpotPlan readSpot(const JsonPlace& j) {
 GlarePlan readGlare(const JsonPlace& j) {
   GlarePlan glare;
   if (!j.isObject({"name", "position", "direction", "lookAt", "ugr"})) return glare;
-  glare.name = j["name"].text();
-  glare.position = place(j["position"]);
-  glare.direction = direction(j, glare.position);
+  static_cast<Gaze&>(glare) = readGaze(j);
   readTargets(j, glare.targets);
   return glare;
+}
+
+// Readings are told apart by the names of their rooms.
+void refuseTwins(const JsonPlace& j, const std::vector<RoomPlan>& rooms) {
+  std::set<std::string> names;
+  for (size_t i = 0; i < rooms.size(); ++i) {
+    if (!names.insert(rooms[i].room.name).second) j["rooms"][i].fail(fmt::format("is the second room named '{}'", rooms[i].room.name));
+  }
 }
 
 template <class Read>
@@ -172,12 +184,15 @@ Result<MeterPlan> readMeterFile(const std::filesystem::path& file, std::span<con
   std::string error;
   const JsonPlace j(document.value(), "", error);
   MeterPlan plan;
-  if (j.isObject({"border", "spacing", "maintenanceFactor", "groundReflectance", "rooms", "grids", "points", "spots", "glare"})) {
+  if (j.isObject({"version", "comment", "border", "spacing", "maintenanceFactor", "groundReflectance", "rooms", "grids", "points", "spots", "glare"})) {
     plan.grid.spacingM = j.number("spacing", 0.01, 100, 0);
     if (j.has("border")) plan.grid.borderM = j["border"].number(0, 10), plan.grid.borderShare = 0.45;
     plan.maintenanceFactor = j.number("maintenanceFactor", 0.1, 1, 1);
     plan.groundReflectance = j.number("groundReflectance", 0, 1, 0.2);
+    if (j.has("version") && j["version"].number(1, 1e6) != 1) j["version"].fail("must be 1");
+    if (j.has("comment")) j["comment"].text();
     plan.rooms = readList(j, "rooms", [&](const JsonPlace& room) { return readRoom(room, sceneRooms); });
+    refuseTwins(j, plan.rooms);
     plan.grids = readList(j, "grids", readGrid);
     plan.points = readList(j, "points", readPoint);
     plan.spots = readList(j, "spots", readSpot);

@@ -32,15 +32,17 @@ struct PointPlan {
   Targets targets;
 };
 
-struct SpotPlan {
+// Who looks from a place in a direction.
+struct Gaze {
   std::string name;
   Vec3 position, direction{0, 0, -1};  // unit
-  double angleDeg = 1;                 // of the field, a square
 };
 
-struct GlarePlan {
-  std::string name;
-  Vec3 position, direction{0, 0, -1};  // unit
+struct SpotPlan : Gaze {
+  double angleDeg = 1;  // of the field, a square
+};
+
+struct GlarePlan : Gaze {
   Targets targets;
 };
 

@@ -14,6 +14,23 @@ double signedAreaM2(std::span<const Vec2> corners) {
   return twice / 2;
 }
 
+bool crossesItself(std::span<const Vec2> corners) {
+  const size_t n = corners.size();
+  const auto turn = [](Vec2 a, Vec2 b, Vec2 c) {
+    const double abx = static_cast<double>(b.x) - static_cast<double>(a.x), aby = static_cast<double>(b.y) - static_cast<double>(a.y);
+    return abx * (static_cast<double>(c.y) - static_cast<double>(a.y)) - aby * (static_cast<double>(c.x) - static_cast<double>(a.x));
+  };
+  for (size_t i = 0; i < n; ++i) {
+    const Vec2 a = corners[i], b = corners[(i + 1) % n];
+    for (size_t j = i + 2; j < n; ++j) {
+      if ((j + 1) % n == i) continue;
+      const Vec2 c = corners[j], d = corners[(j + 1) % n];
+      if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) return true;
+    }
+  }
+  return false;
+}
+
 bool contains(std::span<const Vec2> corners, Vec2 p) {
   bool inside = false;
   for (size_t i = 0; i < corners.size(); ++i) {

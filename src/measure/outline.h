@@ -10,6 +10,8 @@ namespace roomlight {
 
 // Above zero where the corners run counter-clockwise seen from above.
 double signedAreaM2(std::span<const Vec2> corners);
+// Whether two sides meet other than where they follow one another.
+bool crossesItself(std::span<const Vec2> corners);
 bool contains(std::span<const Vec2> corners, Vec2 p);
 double distanceToEdgeM(std::span<const Vec2> corners, Vec2 p);
 // Unit direction of the longest side.

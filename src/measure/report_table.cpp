@@ -109,6 +109,7 @@ std::string reportTable(const Measurements& m) {
   if (std::any_of(m.rooms.begin(), m.rooms.end(), [](const RoomReading& r) { return r.lamps > 0 || r.wattsW > 0; })) parts.push_back(power(m));
   const std::vector<Verdict> verdicts = verdictsOf(m);
   if (!verdicts.empty()) parts.push_back(targets(verdicts));
+  if (!verdicts.empty() && m.maintenanceFactor < 1) parts.push_back(fmt::format("Illuminances of targets are {:g} of the readings (maintenance factor).\n", m.maintenanceFactor));
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : "\n") + part;
   return text;

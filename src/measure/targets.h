@@ -7,12 +7,16 @@
 
 namespace roomlight {
 
+struct Target {
+  double value = 0;
+  std::string source;  // the standard, or the file that says so
+};
+
 struct Targets {
-  std::optional<double> lux;         // at least, on average on the work plane
-  std::optional<double> uniformity;  // U0 at least
-  std::optional<double> ugr;         // at most
-  std::optional<double> wattsPerM2;  // at most
-  std::string source;                // the standard, or the file that says so
+  std::optional<Target> lux;         // at least, on average on the work plane
+  std::optional<Target> uniformity;  // U0 at least
+  std::optional<Target> ugr;         // at most
+  std::optional<Target> wattsPerM2;  // at most
 };
 
 struct RoomUse {

@@ -22,7 +22,8 @@ class Daylight : public ::testing::Test {
     const std::filesystem::path file = folder_ / "day.json";
     std::ofstream(file) << json;
     scene_ = {};
-    return applyLightingFile(file, scene_);
+    warnings_.clear();
+    return applyLightingFile(file, scene_, &warnings_);
   }
   double luminanceAt(Vec3 d) const { return static_cast<double>(luminance(SkyDistribution(scene_.sky).radiance(normalize(d)))); }
   // On level ground, from the sky alone.
@@ -39,6 +40,7 @@ class Daylight : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   Scene scene_;
+  std::vector<std::string> warnings_;
 };
 
 TEST_F(Daylight, overcastNeedsNothingButItsIlluminance) {
@@ -82,6 +84,8 @@ TEST_F(Daylight, nightIsDark) {
   ASSERT_TRUE(apply(R"({"daylight": {"sky": "clear", "latitude": 48, "longitude": 11, "time": "2026-04-10T23:30+02:00"}})"));
   EXPECT_TRUE(scene_.suns.empty());
   EXPECT_FALSE(scene_.sky.present());
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("below the horizon"), std::string::npos);
 }
 
 TEST_F(Daylight, theAllWeatherSkyHasTheLightThatWasMeasured) {

@@ -18,7 +18,7 @@ Result<MeterPlan> read(const std::string& text, const std::vector<Room>& rooms =
 
 TEST(MeterFile, readsEveryKind) {
   const Result<MeterPlan> plan = read(R"({
-    "spacing": 0.5, "maintenanceFactor": 0.8,
+    "version": 1, "spacing": 0.5, "maintenanceFactor": 0.8,
     "rooms": [{"name": "Study", "use": "office", "floor": [[0, 0], [4, 0], [4, 3], [0, 3]], "elevation": 2.8, "height": 2.5, "surfaces": ["workPlane", "walls"], "watts": 60, "target": "300 lx"}],
     "grids": [{"name": "Worktop", "corner": [0, 0.9, 0], "u": [0, 0, 0.6], "v": [2, 0, 0], "target": "150 lx"}],
     "points": [{"name": "Pillow", "position": [1, 0.5, 1]}],
@@ -27,16 +27,18 @@ TEST(MeterFile, readsEveryKind) {
   ASSERT_TRUE(plan) << plan.error();
   const MeterPlan& p = plan.value();
   ASSERT_EQ(p.rooms.size(), 1u);
-  EXPECT_EQ(p.rooms[0].targets.lux, 300);
-  EXPECT_EQ(p.rooms[0].targets.uniformity, 0.6);  // of the use
+  EXPECT_EQ(p.rooms[0].targets.lux->value, 300);
+  EXPECT_EQ(p.rooms[0].targets.uniformity->value, 0.6);  // of the use
+  EXPECT_EQ(p.rooms[0].targets.lux->source, "meter file");
+  EXPECT_EQ(p.rooms[0].targets.uniformity->source, "EN 12464-1");
   EXPECT_EQ(p.rooms[0].workPlaneM, 0.75);
   EXPECT_TRUE(p.rooms[0].onWalls && p.rooms[0].onWorkPlane && !p.rooms[0].onFloor);
   EXPECT_EQ(p.rooms[0].room.floor[1].y, 3);  // turned counter-clockwise seen from above
-  EXPECT_EQ(p.grids[0].targets.lux, 150);
+  EXPECT_EQ(p.grids[0].targets.lux->value, 150);
   EXPECT_TRUE(p.points[0].place.normal == Vec3(0, 1, 0));
   EXPECT_TRUE(p.spots[0].direction == Vec3(0, 0, -1));
   EXPECT_TRUE(p.glares[0].direction == Vec3(0, 0, -1));
-  EXPECT_EQ(p.glares[0].targets.ugr, 19);
+  EXPECT_EQ(p.glares[0].targets.ugr->value, 19);
 }
 
 TEST(MeterFile, takesRoomsOfTheScene) {
@@ -45,8 +47,8 @@ TEST(MeterFile, takesRoomsOfTheScene) {
   const Result<MeterPlan> plan = read(R"({"rooms": [{"name": "Kitchen", "use": "kitchen"}]})", {kitchen});
   ASSERT_TRUE(plan) << plan.error();
   EXPECT_EQ(plan.value().rooms[0].room.elevationM, 3);
-  EXPECT_EQ(plan.value().rooms[0].targets.lux, 100);
-  EXPECT_EQ(plan.value().rooms[0].targets.wattsPerM2, 6);
+  EXPECT_EQ(plan.value().rooms[0].targets.lux->value, 100);
+  EXPECT_EQ(plan.value().rooms[0].targets.wattsPerM2->value, 6);
 }
 
 TEST(MeterFile, errorsNameThePlace) {
@@ -54,6 +56,9 @@ TEST(MeterFile, errorsNameThePlace) {
       {R"({"rooms": [{"name": "A"}]})", "rooms[0]: the scene knows no room 'A'"},
       {R"({"rooms": [{"name": "A", "floor": [[0, 0], [1, 0]]}]})", "rooms[0].floor: must have from 3"},
       {R"({"rooms": [{"name": "A", "floor": [[0, 0], [1, 0], [2, 0]]}]})", "rooms[0].floor: has no area"},
+      {R"({"rooms": [{"name": "A", "floor": [[0, 0], [4, 0], [0, 3], [2, 5]]}]})", "rooms[0].floor: crosses itself"},
+      {R"({"rooms": [{"name": "A", "floor": [[0, 0], [1, 0], [1, 1]]}, {"name": "A", "floor": [[2, 0], [3, 0], [3, 1]]}]})", "rooms[1]: is the second room named 'A'"},
+      {R"({"version": 2, "spacing": 0.5})", "version: must be"},
       {R"({"rooms": [{"name": "A", "floor": [[0, 0], [1, 0], [1]]}]})", "rooms[0].floor[2]: must be [x, z]"},
       {R"({"rooms": [{"name": "A", "use": "garage", "floor": [[0, 0], [1, 0], [1, 1]]}]})", "rooms[0].use: unknown 'garage'"},
       {R"({"points": [{"name": "A", "position": [0, 0, 0], "target": 150}]})", "points[0].target: has no unit"},

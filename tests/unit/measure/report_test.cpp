@@ -12,12 +12,12 @@ Measurements sample() {
   Measurements m;
   GridReading g;
   g.name = "Study, \"work\" plane", g.room = "Study";
-  g.targets = {500, 0.6, std::nullopt, std::nullopt, "EN 12464-1"};
+  g.targets = {Target{500, "EN 12464-1"}, Target{0.6, "EN 12464-1"}, {}, {}};
   g.points.lattice.columns = 3, g.points.lattice.rows = 1, g.points.lattice.used = {1, 0, 1};
   g.points.lux = {400, std::nanf(""), 800};
   m.grids.push_back(g);
   RoomReading r;
-  r.room.name = "Study", r.areaM2 = 10, r.lamps = 1, r.wattsW = 90, r.targets.wattsPerM2 = 6;
+  r.room.name = "Study", r.areaM2 = 10, r.lamps = 1, r.wattsW = 90, r.targets.wattsPerM2 = Target{6, "test"};
   m.rooms.push_back(r);
   return m;
 }
