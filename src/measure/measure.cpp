@@ -6,7 +6,7 @@
 
 #include "measure/areas.h"
 #include "measure/glare_meter.h"
-#include "measure/outline.h"
+#include "scene/outline.h"
 #include "measure/spot_meter.h"
 
 namespace roomlight {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/outline.h"
+#include "scene/outline.h"
 
 namespace roomlight {
 

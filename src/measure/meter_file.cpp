@@ -16,7 +16,7 @@
 
 #include "import/json_file.h"
 #include "import/json_reader.h"
-#include "measure/outline.h"
+#include "scene/outline.h"
 
 namespace roomlight {
 namespace {

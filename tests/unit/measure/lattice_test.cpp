@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "measure/outline.h"
+#include "scene/outline.h"
 
 namespace roomlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "measure/outline.h"
+#include "scene/outline.h"
 
 #include <cmath>
 
