@@ -19,8 +19,8 @@ void writeExr(const std::filesystem::path& file, const Image& image, const Metad
 Image readExr(const std::filesystem::path& file);
 Metadata readExrMetadata(const std::filesystem::path& file);
 
-void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
-void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes);
+void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha);
+void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp);
 Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black
 Metadata readPngMetadata(std::span<const uint8_t> bytes);
 

@@ -108,12 +108,12 @@ Status writeExr(const std::filesystem::path& file, const Image& image, const Met
   return writeAtomically(file, [&](const auto& temporary) { formats::writeExr(temporary, image, metadata); });
 }
 
-Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata) {
-  return writeAtomically(file, [&](const auto& temporary) { formats::writePng(temporary, encoded, metadata); });
+Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writePng(temporary, encoded, metadata, alpha); });
 }
 
-Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes) {
-  return writeAtomically(file, [&](const auto& temporary) { formats::writeJpeg(temporary, encoded, mostBytes); });
+Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeJpeg(temporary, encoded, mostBytes, xmp); });
 }
 
 Result<Image> readImage(const std::filesystem::path& file) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 
 #include "base/image.h"
@@ -15,10 +16,11 @@ using Metadata = std::map<std::string, std::string>;
 
 // Linear values, 32-bit float, ZIP compressed. Written to a temporary name beside the file and renamed.
 Status writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata);
-// Values already display-encoded (0..1, sRGB); clipped and rounded to 8 bits.
-Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
-// The same as JPEG: as good as fits into so many bytes, or as bad as is still a picture. No metadata.
-Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes);
+// Values already display-encoded (0..1, sRGB); clipped and rounded to 8 bits. `alpha`: opacity of each pixel, 0..1, whose colour is not
+// multiplied by it; empty: all opaque.
+Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha = {});
+// The same as JPEG: as good as fits into so many bytes, or as bad as is still a picture. `xmp`: metadata as an XMP packet; may be empty.
+Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp = {});
 
 // EXR (linear), Radiance .hdr (linear) or PNG (decoded from sRGB to linear), by content.
 Result<Image> readImage(const std::filesystem::path& file);

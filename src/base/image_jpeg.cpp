@@ -23,9 +23,20 @@ std::string compressed(const Image& image, const std::vector<unsigned char>& rgb
   return out;
 }
 
+// A packet as the APP1 segment of XMP part 3, 1.1.3: marker, length, name with its zero, packet; behind the first segment, JFIF's.
+void insertXmp(std::string& jpeg, const std::string& xmp) {
+  static constexpr char kName[] = "http://ns.adobe.com/xap/1.0/";
+  const size_t length = 2 + sizeof kName + xmp.size();
+  if (length > 0xffff) throw std::runtime_error("the XMP packet is too long for one segment");
+  const auto twoBytes = [](size_t v) { return std::string{static_cast<char>(v >> 8), static_cast<char>(v & 0xff)}; };
+  const auto byteAt = [&](size_t i) { return static_cast<size_t>(static_cast<unsigned char>(jpeg.at(i))); };
+  const size_t place = 4 + 256 * byteAt(4) + byteAt(5);
+  jpeg.insert(place, "\xff\xe1" + twoBytes(length) + std::string(kName, sizeof kName) + xmp);
+}
+
 }  // namespace
 
-void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes) {
+void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) {
   std::vector<unsigned char> rgb;
   rgb.reserve(3 * encoded.pixels.size());
   for (const Vec3& p : encoded.pixels) {
@@ -36,6 +47,7 @@ void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t m
     bytes = compressed(encoded, rgb, quality);
     if (bytes.size() <= mostBytes) break;
   }
+  if (!xmp.empty()) insertXmp(bytes, xmp);
   std::ofstream out(file, std::ios::binary);
   out << bytes << std::flush;
   if (!out) throw std::runtime_error("cannot be written");

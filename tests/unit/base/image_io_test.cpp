@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/image_formats.h"
 #include "base/random.h"
 #include "base/tone.h"
 #include "unit/temporary_folder.h"
@@ -53,6 +54,36 @@ TEST(ImageIo, pngRoundsToEightBitsAndDecodesToLinear) {
   const auto metadata = readMetadata(folder / "a.png");
   ASSERT_TRUE(metadata.ok()) << metadata.error();
   for (const auto& [key, value] : kMetadata) EXPECT_EQ(metadata.value().at(key), value);
+}
+
+TEST(ImageIo, pngKeepsOpacity) {
+  const TemporaryFolder folder;
+  Image image(3, 1);
+  image.pixels = {Vec3(1), Vec3(1), Vec3(1)};
+  const std::vector<float> alpha = {0, 0.4f, 1};
+  ASSERT_TRUE(writePng(folder / "a.png", image, {}, alpha).ok());
+  const std::string file = readFile(folder / "a.png");
+  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(file.data()), file.size());
+  const formats::PngSize size = formats::readPngSize(bytes);
+  EXPECT_EQ(size.bitsPerPixel, 32);
+  const std::vector<uint8_t> rgba = formats::readPngTexels(bytes, size);
+  EXPECT_EQ(rgba[3], 0);
+  EXPECT_EQ(rgba[7], 102);
+  EXPECT_EQ(rgba[11], 255);
+  EXPECT_EQ(rgba[4], 255) << "colours are not multiplied by it";
+}
+
+TEST(ImageIo, jpegHoldsAnXmpPacketBehindItsFirstSegment) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(writeJpeg(folder / "a.jpg", Image(8, 8), 100000, "<x:xmpmeta/>").ok());
+  const std::string file = readFile(folder / "a.jpg");
+  EXPECT_EQ(file.substr(0, 4), "\xff\xd8\xff\xe0");
+  const size_t first = 4 + 256 * static_cast<unsigned char>(file[4]) + static_cast<unsigned char>(file[5]);
+  const std::string packet = std::string("http://ns.adobe.com/xap/1.0/") + '\0' + "<x:xmpmeta/>";
+  EXPECT_EQ(file.substr(first, 2), "\xff\xe1");
+  EXPECT_EQ(static_cast<size_t>(static_cast<unsigned char>(file[first + 3])), 2 + packet.size());
+  EXPECT_EQ(file.substr(first + 4, packet.size()), packet);
+  EXPECT_EQ(file[first + 4 + packet.size()], '\xff') << "the next segment follows";
 }
 
 TEST(ImageIo, pngRefusesNotANumber) {
