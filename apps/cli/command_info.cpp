@@ -65,8 +65,8 @@ Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
   for (const Lamp& lamp : scene.lamps) lamps.push_back(lampJson(lamp));
   for (const Sun& sun : scene.suns) suns.push_back({{"name", sun.name}, {"illuminanceLux", luminance(sun.illuminanceLux)}, {"toLight", vector(sun.toLight)}});
   for (const Camera& c : scene.cameras) {
-    cameras.push_back({{"name", c.name}, {"kind", c.orthographic ? "orthographic" : "perspective"}, {"positionM", vector(c.worldFromCamera.w)}});
-    if (!c.orthographic) cameras.back()["verticalAngleDeg"] = c.yFovRad * 180 / kPi;
+    cameras.push_back({{"name", c.name}, {"kind", c.projection == Projection::Orthographic ? "orthographic" : "perspective"}, {"positionM", vector(c.worldFromCamera.w)}});
+    if (c.projection == Projection::Perspective) cameras.back()["verticalAngleDeg"] = c.yFovRad * 180 / kPi;
   }
   return {{"triangles", scene.triangleCount()},
           {"meshes", scene.meshes.size()},

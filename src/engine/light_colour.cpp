@@ -19,7 +19,8 @@ Vec3 lightColour(const RayScene& rays, const Camera& camera, const Image& image)
   for (int j = 0; j < kRaysASide; ++j) {
     for (int i = 0; i < kRaysASide; ++i) {
       const int x = (2 * i + 1) * image.width / (2 * kRaysASide), y = (2 * j + 1) * image.height / (2 * kRaysASide);
-      const Ray ray = cameraRays.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      const Ray ray = cameraRays.seeing(rays, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      if (ray.tMax <= 0) continue;
       const Hit hit = rays.intersect(ray);
       if (!hit.valid()) continue;
       const SurfacePoint s = surfaceAt(rays.scene(), hit, ray.direction);

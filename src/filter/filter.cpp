@@ -1,5 +1,6 @@
 #include "filter/filter.h"
 
+#include <algorithm>
 #include <atomic>
 #include <span>
 
@@ -11,6 +12,9 @@ namespace {
 
 constexpr int kSpecularPasses = 3;
 constexpr int kBand = 96;  // rows
+
+// Pixels to each side that all passes together look.
+int reachOf(int passes) { return 2 * (1 << std::max(0, passes - 1)) - 1 + passes; }
 
 // Kept from zero so that light can be divided by it.
 Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
@@ -52,6 +56,20 @@ void compose(std::span<const FilterPixel> pixels, const FilterRows& rows, const 
   }
 }
 
+// With as many columns of the other side beside each edge as all passes reach.
+Image filteredRound(const FilterInput& input, int passes) {
+  const int w = input.width, h = input.height, beside = reachOf(passes), wide = w + 2 * beside;
+  FilterInput padded(wide, h);
+  parallelFor(static_cast<size_t>(h), 4, [&](size_t y) {
+    const size_t row = y * static_cast<size_t>(w);
+    for (int x = 0; x < wide; ++x) padded.at(x, static_cast<int>(y)) = input.pixels[row + static_cast<size_t>(((x - beside) % w + w) % w)];
+  });
+  const Image all = filtered(padded, passes);
+  Image out(w, h);
+  for (int y = 0; y < h; ++y) std::copy_n(&all.at(beside, y), w, &out.at(0, y));
+  return out;
+}
+
 }  // namespace
 
 Image composed(const FilterInput& input) {
@@ -60,7 +78,8 @@ Image composed(const FilterInput& input) {
   return out;
 }
 
-Image filtered(const FilterInput& input, int passes) {
+Image filtered(const FilterInput& input, int passes, bool wrap) {
+  if (wrap) return filteredRound(input, passes);
   const int w = input.width, h = input.height, farthest = 1 << std::max(0, passes - 1);
   const auto pixelsOfRow = [&](int y) { return std::span(input.pixels).subspan(static_cast<size_t>(y) * static_cast<size_t>(w), static_cast<size_t>(w)); };
   std::atomic<bool> sharp = false;
@@ -69,7 +88,7 @@ Image filtered(const FilterInput& input, int passes) {
   });
   // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
   // take far more memory than all else.
-  const int reach = 2 * farthest - 1 + passes;
+  const int reach = reachOf(passes);
   Image out(w, h);
   for (int first = 0; first < h; first += kBand) {
     const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);

@@ -30,6 +30,7 @@ struct FilterInput {
 
 Image composed(const FilterInput& input);  // without filtering
 // Pass k looks 2^k pixels far. Diffuse light is filtered as irradiance, so textures stay sharp; mirrors are left alone.
-Image filtered(const FilterInput& input, int passes);
+// `wrap`: the picture goes on at its other side, as panoramas do.
+Image filtered(const FilterInput& input, int passes, bool wrap = false);
 
 }  // namespace roomlight

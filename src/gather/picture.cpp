@@ -28,7 +28,7 @@ Rectangle tileAt(size_t index, int width, int height) {
 // Where the camera rays of all pixels lie: one well-distributed set, shifted at random from pixel to pixel.
 class PixelRays {
  public:
-  PixelRays(const Camera& camera, const PictureSettings& settings) : rays_(camera, settings.width, settings.height), seed_(settings.seed), width_(settings.width) {
+  PixelRays(const RayScene& scene, const Camera& camera, const PictureSettings& settings) : scene_(scene), rays_(camera, settings.width, settings.height), seed_(settings.seed), width_(settings.width) {
     for (int s = 0; s < settings.samples; ++s) places_.push_back(Sampler(0, static_cast<uint32_t>(s), seed_).next2());
   }
   // Rays first, first + 1, .. of a pixel.
@@ -37,12 +37,14 @@ class PixelRays {
     const Vec2 shift{static_cast<float>(bits >> 40) * 0x1p-24f, static_cast<float>(bits & 0xffffffu) * 0x1p-24f};
     for (size_t i = 0; i < count; ++i) {
       const Vec2 u = places_[first + i] + shift;
-      out[i] = rays_.ray(static_cast<float>(x) + u.x - std::floor(u.x), static_cast<float>(y) + u.y - std::floor(u.y));
+      out[i] = rays_.seeing(scene_, static_cast<float>(x) + u.x - std::floor(u.x), static_cast<float>(y) + u.y - std::floor(u.y));
     }
     return std::span(out).first(count);
   }
+  bool wrap() const { return rays_.wraps(); }
 
  private:
+  const RayScene& scene_;
   CameraRays rays_;
   uint64_t seed_;
   int width_;
@@ -54,7 +56,7 @@ class PixelRays {
 GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings,
                               const Progress& progress) {
   const int w = settings.width, h = settings.height;
-  const PixelRays pixelRays(camera, settings);
+  const PixelRays pixelRays(rays, camera, settings);
   const auto every = settings.filterPasses > 0 ? std::bit_floor(static_cast<uint32_t>(settings.gatherEvery)) : 1u;
   const PixelShader pixelShader(rays, lights, settings);
   GatheredPicture result;
@@ -115,7 +117,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     sums.pixels[i] = meanOf(sums.pixels[i], counts[i]);
     if (!result.occlusion.pixels.empty()) result.occlusion.pixels[i] = Vec3(counts[i].occlusion / static_cast<float>(std::max(1u, counts[i].rays)));
   });
-  result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses) : composed(sums);
+  result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses, pixelRays.wrap()) : composed(sums);
   result.rays = rayCount;
   result.cones = coneCount;
   return result;

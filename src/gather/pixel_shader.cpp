@@ -232,7 +232,9 @@ void PixelShader::reflectOn(const Group& group, const Layer& layer, const Materi
 
 void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work, GatherCounters& count) const {
   std::array<Layer, 2> layers;
-  for (const Ray& r : rays) layers[0].add(r, Vec3(1), false);
+  for (const Ray& r : rays) {
+    if (r.tMax > 0) layers[0].add(r, Vec3(1), false);  // others see no light (CameraRays::seeing)
+  }
   uint32_t surface = 0;
   for (int pane = 0; pane < kMostPanes && layers[pane & 1].count > 0; ++pane) {
     Layer& layer = layers[pane & 1];
@@ -250,7 +252,7 @@ void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, 
       Group* g = groupOf(layer.ray[i], layer.hit[i], groups, used);
       g->member[g->count++] = static_cast<uint8_t>(i);
     }
-    pixel.count->edge |= used > 1 || (pane == 0 && used == 1 && groups[0].count < layer.count);
+    pixel.count->edge |= used > 1 || (pane == 0 && used == 1 && groups[0].count < rays.size());
     for (size_t i = 0; i < used; ++i) see(groups[i], layer, rays.size(), surface++, sequence, pixel, work, behind, count);
   }
   const auto n = static_cast<uint32_t>(rays.size());

@@ -36,7 +36,7 @@ Camera readGltfCamera(const Json& in, const std::string& nodeName, const Affine&
   if (type == "orthographic") {
     const Json o = in.at("orthographic");
     const float xMag = std::abs(o.number("xmag", 1, -1e6f, 1e6f));
-    camera.orthographic = true;
+    camera.projection = Projection::Orthographic;
     camera.yMagM = std::abs(o.number("ymag", 1, -1e6f, 1e6f));
     if (xMag == 0 || camera.yMagM == 0) o.fail("sees nothing: xmag and ymag must not be zero");
     camera.aspect = xMag / camera.yMagM;

@@ -70,7 +70,8 @@ bool PathTracer::pass(const Progress& progress) {
         const uint64_t pixel = static_cast<uint64_t>(y) * w + x;
         Sampler sampler(pixel, static_cast<uint32_t>(st.samples), st.settings.seed);
         const Vec2 jitter = sampler.next2();
-        const Ray ray = st.cameraRays.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+        const Ray ray = st.cameraRays.seeing(st.rays, static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+        if (ray.tMax <= 0) continue;  // sees no light
         fresh.at(x, y) = seen.empty() ? walk.radiance(ray, sampler, count) : walk.radiance(ray, sampler, count, seen[pixel]);
       }
     }
@@ -146,7 +147,7 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
     if (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS) break;
     if (settings.noiseLevel > 0 && tracer.samples() >= 16 && tracer.samples() % 8 == 0 && tracer.noise() <= settings.noiseLevel) break;
   }
-  return {settings.filter ? filtered(tracer.features(), kFilterPasses) : tracer.mean(), tracer.variance(), tracer.samples(), tracer.noise(), tracer.rays()};
+  return {settings.filter ? filtered(tracer.features(), kFilterPasses, CameraRays(camera, settings.width, settings.height).wraps()) : tracer.mean(), tracer.variance(), tracer.samples(), tracer.noise(), tracer.rays()};
 }
 
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,

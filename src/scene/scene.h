@@ -137,6 +137,14 @@ struct Sky {
   bool present() const { return image.width > 0 || !isBlack(luminanceCdM2); }
 };
 
+// How a camera's rays leave it; trace/camera_rays.h is the one place that knows what each means.
+enum class Projection : uint8_t {
+  Perspective,
+  Orthographic,
+  Panorama,        // equirectangular, all directions: the centre looks along -z, +x to its right, the top row is +y
+  StereoPanorama,  // two of them, the left eye's above the right eye's, each eye on a circle about the camera (omni-directional stereo)
+};
+
 // Looks along -z of its own frame, +y up.
 struct Camera {
   std::string name;
@@ -144,8 +152,11 @@ struct Camera {
   float yFovRad = 0.9f;  // perspective: full vertical angle at the camera's own aspect ratio
   float aspect = 0;      // width / height the author meant; 0: unknown
   float nearM = 0;
-  bool orthographic = false;
-  float yMagM = 1;  // orthographic: half of the height seen
+  Projection projection = Projection::Perspective;
+  bool emptyBackdrop = false;  // rays that meet nothing see no light, instead of the sky
+  float yMagM = 1;             // orthographic: half of the height seen
+  // What is higher than this in the world is not seen, but gives and takes light as ever; bodies that it cuts show a section.
+  float cutHeightM = kInfinity;
 };
 
 // A room as its floor: what is measured and judged together.

@@ -1,4 +1,4 @@
-// Rays through the pixels of a camera.
+// Rays through the pixels of a camera: the one place that knows projections and cuts.
 #pragma once
 
 #include "scene/scene.h"
@@ -6,31 +6,44 @@
 
 namespace roomlight {
 
+constexpr float kEyeDistanceM = 0.064f;  // of stereo panoramas: the mean of grown-ups is 63 mm
+
+// The angle or height that a camera states holds when the picture is at least as wide as the author's aspect; a narrower picture
+// keeps the width instead, so that nothing the author framed is lost. Panoramas fill any picture.
 class CameraRays {
  public:
-  // The camera's vertical angle holds when the picture is at least as wide as the author's aspect; a narrower picture
-  // keeps the horizontal angle instead, so that nothing the author framed is lost.
-  CameraRays(const Camera& camera, int width, int height) : camera_(camera), width_(width), height_(height) {
-    const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    halfHeight_ = camera.orthographic ? camera.yMagM : std::tan(0.5f * camera.yFovRad);
-    if (camera.aspect > 0 && aspect < camera.aspect) halfHeight_ *= camera.aspect / aspect;
-    halfWidth_ = halfHeight_ * aspect;
-  }
-  // Through picture coordinates (x, y) in pixels from the top left corner; unit direction.
-  Ray ray(float x, float y) const {
-    const float px = (2 * x / static_cast<float>(width_) - 1) * halfWidth_;
-    const float py = (1 - 2 * y / static_cast<float>(height_)) * halfHeight_;
-    const Affine& m = camera_.worldFromCamera;
-    if (camera_.orthographic) return {m.point({px, py, 0}), normalize(m.vector({0, 0, -1})), 0, kInfinity};
-    return {m.w, normalize(m.vector({px, py, -1})), camera_.nearM, kInfinity};
-  }
-  // Angle that one pixel subtends at the picture's centre, radians (perspective).
-  float pixelAngleRad() const { return 2 * halfHeight_ / static_cast<float>(height_); }
+  CameraRays(const Camera& camera, int width, int height);
+
+  // Through picture coordinates (x, y) in pixels from the top left corner; unit direction. Begins below the camera's cut and ends there.
+  Ray ray(float x, float y) const;
+  // The same, or a ray of tMax 0 where the camera sees no light: in the section of a body that is cut, or past everything with an
+  // empty backdrop. Costs rays for cameras that cut or have such a backdrop, else nothing.
+  Ray seeing(const RayScene& scene, float x, float y) const;
+
+  // Whether the picture's left and right edges are neighbours.
+  bool wraps() const;
+  // Width of a pixel in the scene; orthographic cameras only.
+  float metresPerPixel() const { return 2 * halfHeight_ / static_cast<float>(height_); }
+  // Solid angle of a pixel seen from the camera, sr; 0 for orthographic ones.
+  double solidAngleSr(int x, int y) const;
 
  private:
+  Ray panoramaRay(float x, float y, float height) const;
+
   Camera camera_;
   int width_, height_;
   float halfWidth_ = 1, halfHeight_ = 1;
 };
+
+// What a ray of CameraRays comes to.
+enum class Sight : uint8_t {
+  Scene,     // light: of a surface, or of the sky
+  Section,   // a body that the camera's cut went through
+  Backdrop,  // nothing, where the backdrop is empty
+};
+Sight sightOf(const RayScene& scene, const Camera& camera, const Ray& ray);
+
+// Whether p lies in a wall, a board, a pane: something with faces turned away from p on both sides along x or z, within a metre.
+bool insideBody(const RayScene& scene, Vec3 p);
 
 }  // namespace roomlight

@@ -165,5 +165,20 @@ TEST(Filter, givesTheSameBitsWithAnyNumberOfThreads) {
   EXPECT_EQ(one.pixels, filtered(in, 5).pixels);
 }
 
+// A panorama's left and right edges are neighbours: turned by any number of pixels it is filtered to the same picture.
+TEST(Filter, seesNoSeamWhereAPictureGoesOnAtItsOtherSide) {
+  const int w = 48, h = 20, turn = 17;
+  FilterInput in = noisyWall(w, h, 10, 3);
+  for (FilterPixel& p : in.pixels) p.position = {};  // near each other, whatever the turn
+  FilterInput turned = in;
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) turned.at((x + turn) % w, y) = in.at(x, y);
+  }
+  const Image a = filtered(in, 3, true), b = filtered(turned, 3, true);
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) EXPECT_NEAR(luminance(a.at(x, y)), luminance(b.at((x + turn) % w, y)), 1e-4f);
+  }
+}
+
 }  // namespace
 }  // namespace roomlight

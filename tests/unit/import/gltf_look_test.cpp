@@ -193,7 +193,7 @@ TEST_F(GltfLook, lightsAndCameras) {
   ASSERT_EQ(scene.cameras.size(), 2u);
   EXPECT_FLOAT_EQ(scene.cameras[0].yFovRad, 0.8f);
   EXPECT_FLOAT_EQ(scene.cameras[0].aspect, 1.5f);
-  EXPECT_TRUE(scene.cameras[1].orthographic);
+  EXPECT_EQ(scene.cameras[1].projection, Projection::Orthographic);
   EXPECT_FLOAT_EQ(scene.cameras[1].yMagM, 2);
 }
 
