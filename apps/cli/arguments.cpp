@@ -15,6 +15,19 @@ std::string lowerExtension(const std::filesystem::path& file) {
   return e;
 }
 
+Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape, std::initializer_list<size_t> counts) {
+  std::vector<float> numbers;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const auto value = parseNumber<float>(std::string_view(text).substr(begin, end - begin));
+    if (!value || !(std::abs(*value) <= 1e6f)) return Error{fmt::format("{} {}: write {}", option, text, shape)};
+    numbers.push_back(*value);
+    begin = end + 1;
+  }
+  if (std::find(counts.begin(), counts.end(), numbers.size()) == counts.end()) return Error{fmt::format("{} {}: write {}", option, text, shape)};
+  return numbers;
+}
+
 Status checkDistinct(const std::vector<std::string>& files) {
   std::set<std::filesystem::path> seen;
   for (const std::string& file : files) {

@@ -40,19 +40,6 @@ struct Plan {
   MeterPlan onCommandLine;
 };
 
-Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape, std::initializer_list<size_t> counts) {
-  std::vector<float> numbers;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
-    const auto value = parseNumber<float>(std::string_view(text).substr(begin, end - begin));
-    if (!value || !(std::abs(*value) <= 1e6f)) return Error{fmt::format("{} {}: write {}", option, text, shape)};
-    numbers.push_back(*value);
-    begin = end + 1;
-  }
-  if (std::find(counts.begin(), counts.end(), numbers.size()) == counts.end()) return Error{fmt::format("{} {}: write {}", option, text, shape)};
-  return numbers;
-}
-
 Result<PointPlan> parsePoint(const std::string& text, size_t number) {
   const Result<std::vector<float>> n = parseList("--point", text, "x,y,z or x,y,z,nx,ny,nz in metres", {3, 6});
   if (!n) return Error{n.error()};

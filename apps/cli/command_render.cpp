@@ -20,6 +20,7 @@
 #include "measure/luminance_picture.h"
 #include "output_files.h"
 #include "photometry/white_balance.h"
+#include "view_options.h"
 
 namespace roomlight::cli {
 namespace {
@@ -37,6 +38,7 @@ struct Options {
   float metresPerUnit = 1;
   double lumenAtFullPower = ImportOptions().lumenAtFullPower;
   bool quiet = false;
+  ViewOptions view;
 };
 
 // Everything that can be known to be wrong before any work is done.
@@ -46,6 +48,7 @@ struct Plan {
   ToneCurve tone = ToneCurve::PbrNeutral;
   bool automaticWhite = true;
   std::optional<double> whiteK;  // none, and not automatic: no white balance
+  ViewWish view;
 };
 
 Status applySize(const std::string& size, RenderSettings& settings) {
@@ -61,7 +64,8 @@ Status applySize(const std::string& size, RenderSettings& settings) {
 Status checkOutputs(const Options& o) {
   for (const std::string& out : o.outputs) {
     const std::string e = lowerExtension(out);
-    if (e != ".exr" && e != ".png") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr or .png", out, e)};
+    if (e != ".exr" && e != ".png" && e != ".jpg") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr, .png or .jpg", out, e)};
+    if (e == ".jpg" && o.kind != "picture") return Error{fmt::format("{}: .jpg would blur what can be read off the colours; use .png", out)};
     if (e == ".exr" && o.kind == "falsecolour") return Error{fmt::format("{}: false colours are for looking at; use .png, or --output-kind luminance for .exr", out)};
     if (const Status s = checkWritable(out); !s) return s;
   }
@@ -122,6 +126,11 @@ Result<Plan> makePlan(const Options& o) {
     }
   }
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
+  const Result<ViewWish> view = readViewWish(o.view, !o.camera.empty());
+  if (!view) return Error{view.error()};
+  plan.view = view.value();
+  const RenderSettings usual;
+  if (!o.size.empty() || s.width != usual.width || s.height != usual.height) plan.view.size = {s.width, s.height};
   return plan;
 }
 
@@ -172,18 +181,22 @@ Image displayPicture(const Plan& plan, const White& white, const Image& image, f
 Metadata describe(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered, float ev100, const White& white) {
   auto times = nlohmann::ordered_json::object();
   for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
-  return {{"roomlight.version", version()},
-          {"roomlight.settings", settingsToJson(plan.settings)},
-          {"roomlight.seed", std::to_string(plan.settings.seed)},
-          {"roomlight.timesMs", dump(times, -1)},
-          {"roomlight.scene", o.scene},
-          {"roomlight.lighting", o.lighting},
-          {"roomlight.camera", camera.name},
-          {"roomlight.exposureEv100", fmt::format("{}", ev100)},
-          {"roomlight.tone", std::string(toneCurveName(plan.tone))},
-          {"roomlight.whiteK", fmt::format("{:.0f}", white.kelvin)},
-          {"roomlight.whiteAdaptation", fmt::format("{:.3f}", white.degree)},
-          {"roomlight.complete", rendered.complete ? "true" : "false"}};
+  Metadata metadata = {{"roomlight.version", version()},
+                       {"roomlight.settings", settingsToJson(plan.settings)},
+                       {"roomlight.seed", std::to_string(plan.settings.seed)},
+                       {"roomlight.timesMs", dump(times, -1)},
+                       {"roomlight.scene", o.scene},
+                       {"roomlight.lighting", o.lighting},
+                       {"roomlight.camera", camera.name},
+                       {"roomlight.view", o.view.view},
+                       {"roomlight.exposureEv100", fmt::format("{}", ev100)},
+                       {"roomlight.tone", std::string(toneCurveName(plan.tone))},
+                       {"roomlight.whiteK", fmt::format("{:.0f}", white.kelvin)},
+                       {"roomlight.whiteAdaptation", fmt::format("{:.3f}", white.degree)},
+                       {"roomlight.complete", rendered.complete ? "true" : "false"}};
+  if (camera.projection == Projection::Orthographic) metadata["roomlight.metresPerPixel"] = fmt::format("{}", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel());
+  if (camera.cutHeightM < kInfinity) metadata["roomlight.cutHeightM"] = fmt::format("{}", camera.cutHeightM);
+  return metadata;
 }
 
 // How bright things are: .exr in cd/m², .png in grey up to a round luminance or in false colours.
@@ -201,15 +214,38 @@ Status writeLuminance(const Options& o, const Rendered& rendered, Metadata metad
   return Ok{};
 }
 
+// What viewers know panoramas by (Google's Photo Sphere XMP metadata).
+std::string panoramaXmp(int width, int height) {
+  return fmt::format(
+      "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?><x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
+      "<rdf:Description rdf:about=\"\" xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" GPano:ProjectionType=\"equirectangular\" GPano:UsePanoramaViewer=\"True\" "
+      "GPano:FullPanoWidthPixels=\"{0}\" GPano:FullPanoHeightPixels=\"{1}\" GPano:CroppedAreaImageWidthPixels=\"{0}\" GPano:CroppedAreaImageHeightPixels=\"{1}\" "
+      "GPano:CroppedAreaLeftPixels=\"0\" GPano:CroppedAreaTopPixels=\"0\"/></rdf:RDF></x:xmpmeta><?xpacket end=\"w\"?>",
+      width, height);
+}
+
+Status writePicture(const std::string& out, const Plan& plan, const Camera& camera, const Rendered& rendered, const White& white, float ev100, Metadata metadata) {
+  constexpr Vec3 kSection(0.2f, 0.2f, 0.22f), kPaper(1, 1, 1);
+  const std::string extension = lowerExtension(out);
+  if (extension == ".exr") return writeExr(out, rendered.image, metadata);
+  const Image display = displayPicture(plan, white, unmixed(rendered.image, rendered.sights), ev100);
+  const std::string xmp = camera.projection == Projection::Panorama ? panoramaXmp(display.width, display.height) : "";
+  if (extension == ".jpg") return writeJpeg(out, drawn(display, rendered.sights, kSection, kPaper), SIZE_MAX, xmp);
+  if (!xmp.empty()) metadata["XML:com.adobe.xmp"] = xmp;
+  std::vector<float> alpha;
+  if (camera.emptyBackdrop) {
+    for (const float nothing : rendered.sights.backdrop) alpha.push_back(1 - nothing);
+  }
+  return writePng(out, drawn(display, rendered.sights, kSection, std::nullopt), metadata, alpha);
+}
+
 Status writePictures(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered) {
   const float ev100 = plan.ev100 ? *plan.ev100 : automaticEv100(rendered.image);
   const White white = whiteOf(plan, rendered, ev100);
   const Metadata metadata = describe(o, plan, camera, rendered, ev100, white);
   if (o.kind != "picture") return writeLuminance(o, rendered, metadata);
   for (const std::string& out : o.outputs) {
-    const bool exr = lowerExtension(out) == ".exr";
-    const Status s = exr ? writeExr(out, rendered.image, metadata) : writePng(out, displayPicture(plan, white, rendered.image, ev100), metadata);
-    if (!s) return s;
+    if (const Status s = writePicture(out, plan, camera, rendered, white, ev100, metadata); !s) return s;
   }
   return Ok{};
 }
@@ -232,7 +268,7 @@ struct Home {
   std::vector<std::string> warnings;
 };
 
-Result<Home> loadHome(const Options& o) {
+Result<Home> loadHome(const Options& o, Plan& plan) {
   Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
   if (!imported) return Error{imported.error()};
   Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
@@ -241,19 +277,24 @@ Result<Home> loadHome(const Options& o) {
   }
   const Result<Camera> camera = pickCamera(home.scene, o.camera);
   if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
-  home.camera = camera.value();
+  const std::vector<Room> rooms = roomsFor(home.scene, plan.view);
+  const Result<Viewed> viewed = makeView(home.scene, rooms, camera.value(), !o.camera.empty() || !home.scene.cameras.empty(), {plan.settings.width, plan.settings.height}, plan.view);
+  if (!viewed) return Error{fmt::format("{}: {}", o.scene, viewed.error())};
+  home.camera = viewed.value().camera;
+  plan.settings.width = viewed.value().width, plan.settings.height = viewed.value().height;
+  if (const Status s = checkSettings(plan.settings); !s) return Error{s.error()};
   return home;
 }
 
 // "render" with everything checked; stages of loading come first in the statistics.
-int work(const Options& o, const Plan& plan) {
+int work(const Options& o, Plan plan) {
   const Stopwatch total;
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), [&](double relativeError, double mse) { display.estimate(relativeError, mse); }};
   RenderStats loadStats;
   Stages loading(progress, loadStats);
 
-  Result<Home> home = loading.run("load", [&](const Progress&) { return loadHome(o); });
+  Result<Home> home = loading.run("load", [&](const Progress&) { return loadHome(o, plan); });
   if (!home) return bad(home.error());
   const Camera& camera = home.value().camera;
   if (!o.quiet) printWarnings(home.value().warnings);
@@ -280,6 +321,7 @@ int work(const Options& o, const Plan& plan) {
     if (const Status s = writeStats(o.stats, rendered.stats, total.seconds() * 1e3); !s) return bad(s.error(), kFailed);
   }
   display.lineOfEstimate();
+  if (camera.projection == Projection::Orthographic) display.line(fmt::format("one pixel is {:.4g} m", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel()));
   for (const std::string& out : o.outputs) display.line(fmt::format("wrote {}{}", out, rendered.complete ? "" : " (stopped early: the best so far)"));
   return rendered.complete ? kOk : kInterrupted;
 }
@@ -300,10 +342,11 @@ Registered addRender(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
   app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj or .sh3d")->required();
-  app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2) or .png (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2), .png or .jpg (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
   app->add_option("--camera", o->camera, "Name of a camera in the scene, or its number from 0");
-  app->add_option("--size", o->size, "Width and height in pixels, for example 960x540");
+  addViewOptions(*app, o->view);
+  app->add_option("--size", o->size, "Width and height in pixels, for example 960x540; views other than camera choose their own");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
   app->add_option("--quality", o->quality, listed("How much is done for a picture, if nothing else says so:", qualities()));
   app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "base/parallel.h"
+#include "engine/light_colour.h"
 #include "engine/techniques.h"
 
 namespace roomlight {
@@ -34,6 +35,12 @@ size_t brokenPixels(const Image& image) {
 
 }  // namespace
 
+Picture finished(const RayScene& rays, const Camera& camera, Image image) {
+  const Vec3 colour = lightColour(rays, camera, image);
+  Sights sights = sightsOf(rays, camera, image.width, image.height);
+  return {std::move(image), colour, std::move(sights)};
+}
+
 Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSettings& settings, const RenderProgress& progress) {
   if (const Status status = checkSettings(settings); !status) return Error{status.error()};
   const Technique* technique = nullptr;
@@ -51,6 +58,7 @@ Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSe
     Picture picture = technique->render(scene, camera, settings, stages);
     result.image = std::move(picture.image);
     result.lightColour = picture.lightColour;
+    result.sights = std::move(picture.sights);
   });
   result.complete = !stages.cancelled();
   const size_t broken = brokenPixels(result.image);

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/result.h"
 #include "engine/settings.h"
+#include "engine/sights.h"
 #include "scene/scene.h"
 
 namespace roomlight {
@@ -27,6 +28,7 @@ struct RenderStats {
 struct Rendered {
   Image image;        // linear, cd/m²
   Vec3 lightColour;   // of the light on what the picture shows, luminance 1; black where nothing tells
+  Sights sights;
   RenderStats stats;
   bool complete = true;  // false: stopped early, the image is the best so far; empty if there was none yet
 };

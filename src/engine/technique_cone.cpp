@@ -1,4 +1,3 @@
-#include "engine/light_colour.h"
 #include "engine/technique_settings.h"
 #include "engine/techniques.h"
 #include "engine/voxel_stages.h"
@@ -19,8 +18,7 @@ Picture renderCone(const Scene& scene, const Camera& camera, const RenderSetting
 
   tellNumbers(light, result, stages);
   stages.number("cones", static_cast<double>(result.cones));
-  const Vec3 colour = lightColour(rays, camera, result.image);
-  return {std::move(result.image), colour};
+  return finished(rays, camera, std::move(result.image));
 }
 
 }  // namespace roomlight

@@ -1,4 +1,3 @@
-#include "engine/light_colour.h"
 #include "engine/refine.h"
 #include "engine/technique_settings.h"
 #include "engine/techniques.h"
@@ -27,8 +26,7 @@ Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSetti
   stages.number("pixelsGathered", static_cast<double>(gathered));
   // Paths see the sky as it is, with its sun in it.
   if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, Lights(scene), camera, settings, left(), stages, result.image);
-  const Vec3 colour = lightColour(rays, camera, result.image);
-  return {std::move(result.image), colour};
+  return finished(rays, camera, std::move(result.image));
 }
 
 }  // namespace roomlight

@@ -1,4 +1,3 @@
-#include "engine/light_colour.h"
 #include "engine/technique_settings.h"
 #include "engine/techniques.h"
 
@@ -11,8 +10,7 @@ Picture renderPath(const Scene& scene, const Camera& camera, const RenderSetting
   stages.number("samples", result.samples);
   stages.number("noise", std::isfinite(result.noise) ? result.noise : -1);
   stages.number("rays", static_cast<double>(result.rays));
-  const Vec3 colour = lightColour(rays, camera, result.image);
-  return {std::move(result.image), colour};
+  return finished(rays, camera, std::move(result.image));
 }
 
 }  // namespace roomlight

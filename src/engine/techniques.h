@@ -1,6 +1,7 @@
 // One function a technique; the table in render.cpp names them.
 #pragma once
 
+#include "engine/sights.h"
 #include "engine/stages.h"
 
 namespace roomlight {
@@ -8,7 +9,11 @@ namespace roomlight {
 struct Picture {
   Image image;       // linear, cd/m²; empty if cancelled before there was one
   Vec3 lightColour;  // see light_colour.h
+  Sights sights;
 };
+// With what is seen in it.
+Picture finished(const RayScene& rays, const Camera& camera, Image image);
+
 Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);

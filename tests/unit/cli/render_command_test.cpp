@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/image_formats.h"
 #include "base/image_io.h"
 #include "unit/cli/program.h"
 
@@ -138,6 +139,35 @@ TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
   EXPECT_NEAR(meanLuminance(at + R"("intensity": "63.662 cd"})", "candela.exr") / one, 1, 1e-3) << "800 lm / 4 pi";
 }
 
+// The room is 4 x 4 m: at 0.1 m a pixel, with 0.6 m around the found floor, about 52 pixels.
+TEST_F(RenderCommand, planHasItsScaleAndATransparentBackdrop) {
+  const ProgramRun run = runProgram({"render", scene_, "-o", path("p.png"), "--view", "plan", "--metres-per-pixel", "0.1", "--samples", "2"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  EXPECT_NE(run.err.find("one pixel is 0.1 m"), std::string::npos) << run.err;
+  EXPECT_NEAR(picture("p.png").width, 52, 4);
+  EXPECT_EQ(metadata("p.png").at("roomlight.metresPerPixel"), "0.1");
+  const std::string file = readFile(path("p.png"));
+  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(file.data()), file.size());
+  const std::vector<uint8_t> rgba = formats::readPngTexels(bytes, formats::readPngSize(bytes));
+  EXPECT_EQ(rgba[3], 0) << "the corner lies outside";
+  EXPECT_EQ(rgba[rgba.size() / 2 + 3], 255);
+}
+
+TEST_F(RenderCommand, panoramaTellsViewersWhatItIs) {
+  const ProgramRun run = runProgram({"render", scene_, "-o", path("p.jpg"), "-o", path("p.png"), "--view", "panorama", "--size", "64x32", "--samples", "2"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  EXPECT_NE(readFile(path("p.jpg")).find("GPano:FullPanoWidthPixels=\"64\""), std::string::npos);
+  EXPECT_NE(metadata("p.png").at("XML:com.adobe.xmp").find("GPano:ProjectionType=\"equirectangular\""), std::string::npos);
+}
+
+TEST_F(RenderCommand, eyeAndTargetMakeACamera) {
+  const ProgramRun run = render({"-o", path("e.exr"), "--eye", "0,1.5,1.9", "--target", "0,1.5,0", "--samples", "2"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  const Image eye = picture("e.exr");
+  EXPECT_EQ(eye.width, 32);
+  EXPECT_TRUE(std::all_of(eye.pixels.begin(), eye.pixels.end(), [](Vec3 p) { return luminance(p) > 0; }));
+}
+
 TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   writeFile(path("broken.glb"), "glTF but not really");
   writeFile(path("unknown.json"), R"({"sampels": 3})");
@@ -147,7 +177,8 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"render", path("missing.glb"), "-o", a}, "missing.glb"},
       {{"render", path("broken.glb"), "-o", a}, "broken.glb"},
-      {{"render", scene_, "-o", path("a.jpg")}, ".exr or .png"},
+      {{"render", scene_, "-o", path("a.gif")}, ".exr, .png or .jpg"},
+      {{"render", scene_, "-o", path("a.jpg"), "--output-kind", "falsecolour"}, "use .png"},
       {{"render", scene_, "-o", path("nowhere/a.png")}, "nowhere/a.png"},
       {{"render", scene_, "-o", a, "--stats", path("nowhere/s.json")}, "nowhere/s.json"},
       {{"render", scene_, "-o", folder_.path().string() + "/.png/../"}, ""},
@@ -179,6 +210,21 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--settings", path("missing.json")}, "missing.json"},
       {{"render", scene_, "-o", a, "--lighting", path("rig.json")}, "rig.json: lamps[0].flux: has no unit; write \"800 lm\""},
       {{"render", scene_, "-o", a, "--lighting", path("missing.json")}, "missing.json: no such file"},
+      {{"render", scene_, "-o", a, "--view", "side"}, "camera, top, plan, panorama, stereo"},
+      {{"render", scene_, "-o", a, "--view", "panorama", "--cut", "2"}, "--cut: is of no use with --view panorama"},
+      {{"render", scene_, "-o", a, "--view", "panorama", "--size", "64x30"}, "twice as wide as high; write 64x32"},
+      {{"render", scene_, "-o", a, "--view", "plan", "--cut", "-1"}, "--cut -1"},
+      {{"render", scene_, "-o", a, "--view", "plan", "--level", "3"}, "--level 3: no such level; there are 0 at 0.00 m"},
+      {{"render", scene_, "-o", a, "--view", "plan", "--room", "Attic"}, "--room Attic: no such room"},
+      {{"render", scene_, "-o", a, "--view", "plan", "--camera", "Front"}, "--camera: is of no use with --view plan"},
+      {{"render", scene_, "-o", a, "--view", "plan", "--metres-per-pixel", "0"}, "--metres-per-pixel 0"},
+      {{"render", scene_, "-o", a, "--view", "top", "--metres-per-pixel", "0.01"}, "goes with plan"},
+      {{"render", scene_, "-o", a, "--eye", "1,1,1"}, "give --target as well"},
+      {{"render", scene_, "-o", a, "--eye", "1,1", "--target", "0,0,0"}, "--eye 1,1: write x,y,z in metres"},
+      {{"render", scene_, "-o", a, "--target", "1,1,1"}, "give --eye as well"},
+      {{"render", scene_, "-o", a, "--eye", "1,1,1", "--target", "0,0,0", "--camera", "Front"}, "give one of them"},
+      {{"render", scene_, "-o", a, "--fov", "180"}, "--fov 180"},
+      {{"render", scene_, "-o", a, "--backdrop", "white"}, "sky or none"},
       {{"render", scene_, "-o", a, "--no-such-option"}, "--no-such-option"},
       {{"paint", scene_}, ""},
       {{}, ""},

@@ -1,0 +1,119 @@
+#include "view_options.h"
+
+#include <fmt/format.h>
+
+#include "arguments.h"
+#include "measure/areas.h"
+
+namespace roomlight::cli {
+namespace {
+
+constexpr float kNoCeilingM = 2.5f, kEyeM = 1.6f;
+
+Result<Vec3> parsePlace(const std::string& option, const std::string& text) {
+  const Result<std::vector<float>> n = parseList(option, text, "x,y,z in metres", {3});
+  if (!n) return Error{n.error()};
+  return Vec3{n.value()[0], n.value()[1], n.value()[2]};
+}
+
+// As a room: the rectangle around its cells, up to what is over most of them.
+Room roomOf(const RayScene& rays, const Area& area) {
+  const Lattice& cells = area.map;
+  Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  std::vector<Vec3> places;
+  for (int row = 0; row < cells.rows; ++row) {
+    for (int column = 0; column < cells.columns; ++column) {
+      if (!cells.used[cells.index(column, row)]) continue;
+      const Vec3 c = cells.centre(column, row);
+      places.push_back(c);
+      low = {std::min(low.x, c.x - 0.5f * cells.stepUM), std::min(low.y, c.z - 0.5f * cells.stepVM)};
+      high = {std::max(high.x, c.x + 0.5f * cells.stepUM), std::max(high.y, c.z + 0.5f * cells.stepVM)};
+    }
+  }
+  Room room;
+  room.name = area.name;
+  room.floor = {{low.x, low.y}, {low.x, high.y}, {high.x, high.y}, {high.x, low.y}};
+  room.elevationM = area.elevationM;
+  // From the height of a standing eye: over furniture.
+  std::vector<float> heights;
+  for (const Vec3 p : places) {
+    const Hit ceiling = rays.intersect({{p.x, area.elevationM + kEyeM, p.z}, {0, 1, 0}, 0, kInfinity});
+    if (ceiling.valid()) heights.push_back(kEyeM + ceiling.t);
+  }
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  room.heightM = heights.empty() ? kNoCeilingM : *middle;
+  return room;
+}
+
+Status checkCombination(const ViewOptions& o, View view, bool cameraNamed) {
+  const bool above = view == View::Top || view == View::Plan, around = view == View::Panorama || view == View::Stereo, camera = view == View::Camera;
+  const auto useless = [&](const char* option, const char* where) { return Error{fmt::format("{}: is of no use with --view {}; it goes with {}", option, o.view, where)}; };
+  if (o.cutM && around) return useless("--cut", "camera, top and plan");
+  if (!o.level.empty() && (around || (camera && !o.cutM))) return useless("--level", "top and plan, and with camera where there is a --cut");
+  if (!o.room.empty() && camera) return useless("--room", "top, plan, panorama and stereo");
+  if (!o.room.empty() && !o.level.empty()) return Error{"--room and --level: a room is on its own level; give one of them"};
+  if (o.metresPerPixel && view != View::Plan) return useless("--metres-per-pixel", "plan");
+  if (o.fovDeg && view != View::Camera && view != View::Top) return useless("--fov", "camera and top");
+  if (!o.eye.empty() && above) return useless("--eye", "camera, panorama and stereo");
+  if (cameraNamed && above) return useless("--camera", "camera, panorama and stereo");
+  const int places = (o.eye.empty() ? 0 : 1) + (cameraNamed ? 1 : 0) + (around && !o.room.empty() ? 1 : 0);
+  if (places > 1) return Error{"--eye, --camera and --room: each says from where to look; give one of them"};
+  if (!o.target.empty() && o.eye.empty()) return Error{"--target: says where an eye looks; give --eye as well"};
+  if (camera && !o.eye.empty() && o.target.empty()) return Error{"--eye: looks nowhere; give --target as well"};
+  return Ok{};
+}
+
+}  // namespace
+
+void addViewOptions(CLI::App& app, ViewOptions& o) {
+  app.add_option("--view", o.view, "camera; top: from above, cut open; plan: the same without perspective; panorama: all around, 2:1; stereo: two of them for headsets, left eye on top")->capture_default_str();
+  app.add_option("--cut", o.cutM, "Metres above the level's floor above which nothing is seen, though it gives and takes light; top and plan: just under the ceiling");
+  app.add_option("--level", o.level, "Storey shown by top and plan: its number from 0, the lowest; default: at the ground");
+  app.add_option("--room", o.room, "top and plan: only this room; panorama and stereo: from its middle. Name, or number from 0");
+  app.add_option("--eye", o.eye, "x,y,z in metres: look from there instead of from a camera of the scene");
+  app.add_option("--target", o.target, "x,y,z in metres: what --eye looks at");
+  app.add_option("--fov", o.fovDeg, "Full vertical angle in degrees, of camera and top");
+  app.add_option("--metres-per-pixel", o.metresPerPixel, "Scale of a plan; without --size the picture is as large as the home needs");
+  app.add_option("--backdrop", o.backdrop, "What is seen beside the home: sky, or none (transparent in .png); default: none for top and plan, else sky");
+}
+
+Result<ViewWish> readViewWish(const ViewOptions& o, bool cameraNamed) {
+  const Result<View> view = viewFromName(o.view);
+  if (!view) return Error{view.error()};
+  if (const Status s = checkCombination(o, view.value(), cameraNamed); !s) return Error{s.error()};
+  ViewWish wish;
+  wish.view = view.value();
+  wish.level = o.level, wish.room = o.room;
+  if (o.cutM && !(*o.cutM > 0 && *o.cutM <= 1000)) return Error{fmt::format("--cut {}: write metres above the floor, above 0 and at most 1000", *o.cutM)};
+  wish.cutM = o.cutM;
+  if (o.metresPerPixel && !(*o.metresPerPixel >= 1e-4f && *o.metresPerPixel <= 10)) return Error{fmt::format("--metres-per-pixel {}: write 0.0001 to 10", *o.metresPerPixel)};
+  wish.metresPerPixel = o.metresPerPixel;
+  if (o.fovDeg && !(*o.fovDeg >= 1 && *o.fovDeg <= 170)) return Error{fmt::format("--fov {}: write degrees from 1 to 170", *o.fovDeg)};
+  if (o.fovDeg) wish.yFovRad = *o.fovDeg * kPi / 180;
+  if (!o.backdrop.empty() && o.backdrop != "sky" && o.backdrop != "none") return Error{fmt::format("--backdrop {}: write sky or none", o.backdrop)};
+  if (!o.backdrop.empty()) wish.emptyBackdrop = o.backdrop == "none";
+  if (!o.eye.empty()) {
+    const Result<Vec3> eye = parsePlace("--eye", o.eye);
+    if (!eye) return Error{eye.error()};
+    wish.eye = eye.value();
+  }
+  if (!o.target.empty()) {
+    const Result<Vec3> target = parsePlace("--target", o.target);
+    if (!target) return Error{target.error()};
+    wish.target = target.value();
+  }
+  return wish;
+}
+
+std::vector<Room> roomsFor(const Scene& scene, const ViewWish& wish) {
+  const bool around = wish.view == View::Panorama || wish.view == View::Stereo;
+  const bool needed = wish.cutM || (around ? !wish.eye : wish.view != View::Camera);
+  if (!scene.rooms.empty() || !needed) return scene.rooms;
+  const RayScene rays(scene);
+  std::vector<Room> rooms;
+  for (const Area& area : findAreas(rays, 0.75, {})) rooms.push_back(roomOf(rays, area));
+  return rooms;
+}
+
+}  // namespace roomlight::cli

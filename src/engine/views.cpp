@@ -1,0 +1,240 @@
+#include "engine/views.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <tuple>
+
+#include "scene/outline.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kLevelsApartM = 0.9f;   // split floors are less apart, storeys more
+constexpr float kStandM = 2.0f;         // ceilings lower than this are those of cupboards
+constexpr float kUnderCeilingM = 0.05f;
+constexpr float kBesideM = 0.6f;        // of a plan around the floors: walls and a margin
+constexpr float kEyeM = 1.6f;           // of who stands in a panorama
+constexpr float kTopFovRad = 0.9f;
+constexpr int kLongerSidePixels = 1200, kPanoramaPixels = 2048;
+constexpr std::pair<const char*, View> kViews[] = {{"camera", View::Camera}, {"top", View::Top}, {"plan", View::Plan}, {"panorama", View::Panorama}, {"stereo", View::Stereo}};
+
+// A name, else a number from 0; -1: none of these.
+int indexOf(const std::vector<std::string>& names, const std::string& wanted) {
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].empty() && names[i] == wanted) return static_cast<int>(i);
+  }
+  size_t index = 0;
+  const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+  return code == std::errc() && end == wanted.data() + wanted.size() && index < names.size() ? static_cast<int>(index) : -1;
+}
+
+std::string listOf(const std::vector<std::string>& names) {
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i) list += fmt::format("{}{} '{}'", i > 0 ? ", " : "", i, names[i]);
+  return list;
+}
+
+// A frame that looks along `forward`, upright; straight up or down the top of the picture is -z or +z.
+Affine looking(Vec3 from, Vec3 forward) {
+  const Vec3 back = -normalize(forward);
+  const Vec3 side = cross({0, 1, 0}, back);
+  const Vec3 right = length(side) > 1e-4f ? normalize(side) : Vec3{1, 0, 0};
+  return {right, cross(back, right), back, from};
+}
+
+// Panoramas stand upright: of where a camera looks only the compass direction is kept.
+Affine upright(const Affine& m) {
+  const Vec3 level{m.z.x, 0, m.z.z};
+  return looking(m.w, length(level) > 1e-4f ? -level : Vec3{0, 0, -1});
+}
+
+void widen(Level& level, const Room& room) {
+  for (const Vec2 c : room.floor) {
+    level.low = {std::min(level.low.x, c.x), std::min(level.low.y, c.y)};
+    level.high = {std::max(level.high.x, c.x), std::max(level.high.y, c.y)};
+  }
+}
+
+Level levelAt(float elevationM) { return {elevationM, kInfinity, {kInfinity, kInfinity}, {-kInfinity, -kInfinity}}; }
+
+Result<const Room*> pickRoom(std::span<const Room> rooms, const std::string& wanted) {
+  std::vector<std::string> names;
+  for (const Room& room : rooms) names.push_back(room.name);
+  const int index = indexOf(names, wanted);
+  if (index >= 0) return &rooms[static_cast<size_t>(index)];
+  if (rooms.empty()) return Error{fmt::format("--room {}: the scene knows no rooms and none were found", wanted)};
+  return Error{fmt::format("--room {}: no such room; there are {}", wanted, listOf(names))};
+}
+
+// The floor that is shown, and how much of it.
+Result<Level> pickLevel(const Scene& scene, std::span<const Room> rooms, const ViewWish& wish) {
+  const std::vector<Level> levels = levelsOf(rooms);
+  if (!wish.room.empty()) {
+    const Result<const Room*> room = pickRoom(rooms, wish.room);
+    if (!room) return Error{room.error()};
+    Level only = levelAt(room.value()->elevationM);
+    only.ceilingM = only.elevationM + room.value()->heightM;
+    widen(only, *room.value());
+    return only;
+  }
+  if (levels.empty()) {
+    if (!wish.level.empty()) return Error{fmt::format("--level {}: the scene knows no rooms and none were found, so that it has no levels", wish.level)};
+    const Bounds3 b = scene.bounds();
+    return Level{b.lo.y, b.hi.y, {b.lo.x, b.lo.z}, {b.hi.x, b.hi.z}};
+  }
+  if (wish.level.empty()) {
+    // The one at the ground.
+    return *std::min_element(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return std::abs(a.elevationM) < std::abs(b.elevationM); });
+  }
+  const int index = indexOf(std::vector<std::string>(levels.size()), wish.level);
+  std::string list;
+  for (size_t i = 0; i < levels.size(); ++i) list += fmt::format("{}{} at {:.2f} m", i > 0 ? ", " : "", i, levels[i].elevationM);
+  if (index < 0) return Error{fmt::format("--level {}: no such level; there are {}", wish.level, list)};
+  return levels[static_cast<size_t>(index)];
+}
+
+float cutHeight(const Level& level, const ViewWish& wish) { return wish.cutM ? level.elevationM + *wish.cutM : level.ceilingM - kUnderCeilingM; }
+
+Result<Viewed> fromAbove(const Scene& scene, std::span<const Room> rooms, const ViewWish& wish) {
+  const Result<Level> level = pickLevel(scene, rooms, wish);
+  if (!level) return Error{level.error()};
+  const Level& l = level.value();
+  const float acrossM = l.high.x - l.low.x + 2 * kBesideM, downM = l.high.y - l.low.y + 2 * kBesideM;
+  Viewed out;
+  if (wish.size) {
+    std::tie(out.width, out.height) = *wish.size;
+  } else {
+    const float mpp = wish.metresPerPixel.value_or(std::max(acrossM, downM) / static_cast<float>(kLongerSidePixels));
+    const float width = std::ceil(acrossM / mpp - 1e-3f), height = std::ceil(downM / mpp - 1e-3f);
+    if (!(std::max(width, height) <= 65536)) return Error{fmt::format("--metres-per-pixel {}: the picture would be {:.0f} x {:.0f} pixels; give more metres, or --size", mpp, width, height)};
+    out.width = std::max(1, static_cast<int>(width)), out.height = std::max(1, static_cast<int>(height));
+  }
+  Camera& c = out.camera;
+  c.cutHeightM = cutHeight(l, wish);
+  c.emptyBackdrop = true;
+  c.worldFromCamera = looking({0.5f * (l.low.x + l.high.x), c.cutHeightM + 1, 0.5f * (l.low.y + l.high.y)}, {0, -1, 0});
+  // Metres a pixel at the cut, that all of it fits.
+  const float fit = std::max(acrossM / static_cast<float>(out.width), downM / static_cast<float>(out.height));
+  const float halfHeightM = 0.5f * static_cast<float>(out.height) * (wish.view == View::Plan ? wish.metresPerPixel.value_or(fit) : fit);
+  if (wish.view == View::Plan) {
+    c.projection = Projection::Orthographic;
+    c.yMagM = halfHeightM;
+    c.name = "plan";
+  } else {
+    c.yFovRad = wish.yFovRad.value_or(kTopFovRad);
+    c.worldFromCamera.w.y = c.cutHeightM + halfHeightM / std::tan(0.5f * c.yFovRad);
+    c.name = "top";
+  }
+  return out;
+}
+
+Result<Viewed> around(std::span<const Room> rooms, const Camera& placed, bool isPlaced, const ViewWish& wish) {
+  const bool stereo = wish.view == View::Stereo;
+  Viewed out{placed, kPanoramaPixels, stereo ? kPanoramaPixels : kPanoramaPixels / 2};
+  if (wish.size) {
+    std::tie(out.width, out.height) = *wish.size;
+    if (out.width != out.height * (stereo ? 1 : 2)) {
+      return Error{fmt::format("--size {}x{}: {}; write {}x{}", out.width, out.height, stereo ? "two panoramas, one above the other, are as wide as high" : "a panorama is twice as wide as high", 2 * std::max(1, out.width / 2), stereo ? 2 * std::max(1, out.width / 2) : std::max(1, out.width / 2))};
+    }
+    if (stereo && out.height % 2 != 0) return Error{fmt::format("--size {}x{}: each eye needs as many rows; write an even height", out.width, out.height)};
+  }
+  Camera& c = out.camera;
+  c.projection = stereo ? Projection::StereoPanorama : Projection::Panorama;
+  c.aspect = 0;
+  if (!wish.eye && (!wish.room.empty() || (!isPlaced && !rooms.empty()))) {
+    const Room* room = &*std::max_element(rooms.begin(), rooms.end(), [](const Room& a, const Room& b) { return std::abs(signedAreaM2(a.floor)) < std::abs(signedAreaM2(b.floor)); });
+    if (!wish.room.empty()) {
+      const Result<const Room*> picked = pickRoom(rooms, wish.room);
+      if (!picked) return Error{picked.error()};
+      room = picked.value();
+    }
+    const Vec2 middle = middleOf(*room);
+    c.worldFromCamera = looking({middle.x, room->elevationM + std::min(kEyeM, 0.7f * room->heightM), middle.y}, {0, 0, -1});
+    c.name = room->name;
+  }
+  c.worldFromCamera = upright(c.worldFromCamera);
+  return out;
+}
+
+}  // namespace
+
+Result<View> viewFromName(const std::string& name) {
+  std::string names;
+  for (const auto& [n, view] : kViews) {
+    if (name == n) return view;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", n);
+  }
+  return Error{fmt::format("--view {}: no such view; there are {}", name, names)};
+}
+
+std::vector<Level> levelsOf(std::span<const Room> rooms) {
+  std::vector<const Room*> sorted;
+  for (const Room& room : rooms) sorted.push_back(&room);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Room* a, const Room* b) { return a->elevationM < b->elevationM; });
+  std::vector<Level> levels;
+  float last = -kInfinity;
+  std::vector<float> lowest;  // ceilings, also those that one cannot stand under
+  for (const Room* room : sorted) {
+    if (room->elevationM - last > kLevelsApartM) levels.push_back(levelAt(room->elevationM)), lowest.push_back(kInfinity);
+    Level& l = levels.back();
+    last = room->elevationM;
+    widen(l, *room);
+    const float ceiling = room->elevationM + room->heightM;
+    lowest.back() = std::min(lowest.back(), ceiling);
+    if (room->heightM >= kStandM) l.ceilingM = std::min(l.ceilingM, ceiling);
+  }
+  for (size_t i = 0; i < levels.size(); ++i) levels[i].ceilingM = levels[i].ceilingM < kInfinity ? levels[i].ceilingM : lowest[i];
+  return levels;
+}
+
+Vec2 middleOf(const Room& room) {
+  constexpr int kSteps = 20;
+  const Level box = levelsOf({&room, 1}).front();
+  // Ties go to the middle of the box, so that long rooms are not seen from one end.
+  const Vec2 centre = (box.low + box.high) * 0.5f;
+  Vec2 best = centre;
+  float bestScore = -kInfinity;
+  for (int j = 0; j <= kSteps; ++j) {
+    for (int i = 0; i <= kSteps; ++i) {
+      const Vec2 p{box.low.x + (box.high.x - box.low.x) * static_cast<float>(i) / kSteps, box.low.y + (box.high.y - box.low.y) * static_cast<float>(j) / kSteps};
+      if (!contains(room.floor, p)) continue;
+      const float score = static_cast<float>(distanceToEdgeM(room.floor, p)) - 1e-3f * std::hypot(p.x - centre.x, p.y - centre.y);
+      if (score > bestScore) bestScore = score, best = p;
+    }
+  }
+  return best;
+}
+
+Result<Viewed> makeView(const Scene& scene, std::span<const Room> rooms, const Camera& placed, bool isPlaced, std::pair<int, int> usual, const ViewWish& wish) {
+  Camera base = placed;
+  if (wish.eye) {
+    base = {};
+    base.name = "eye";
+    const Vec3 forward = wish.target ? *wish.target - *wish.eye : Vec3{0, 0, -1};
+    if (lengthSquared(forward) < 1e-12f) return Error{"--target: is where --eye is; name a place to look at"};
+    base.worldFromCamera = looking(*wish.eye, forward);
+  }
+  Result<Viewed> out = Viewed{base, usual.first, usual.second};
+  switch (wish.view) {
+    case View::Camera: {
+      if (wish.size) std::tie(out.value().width, out.value().height) = *wish.size;
+      Camera& c = out.value().camera;
+      if (wish.yFovRad) c.yFovRad = *wish.yFovRad, c.aspect = 0, c.projection = Projection::Perspective;
+      if (!wish.cutM) break;
+      const Result<Level> level = pickLevel(scene, rooms, wish);
+      if (!level) return Error{level.error()};
+      c.cutHeightM = cutHeight(level.value(), wish);
+      break;
+    }
+    case View::Top:
+    case View::Plan: out = fromAbove(scene, rooms, wish); break;
+    case View::Panorama:
+    case View::Stereo: out = around(rooms, base, isPlaced || wish.eye, wish); break;
+  }
+  if (out && wish.emptyBackdrop) out.value().camera.emptyBackdrop = *wish.emptyBackdrop;
+  return out;
+}
+
+}  // namespace roomlight
