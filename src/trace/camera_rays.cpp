@@ -5,27 +5,28 @@
 namespace roomlight {
 namespace {
 
+constexpr float kCornerM = 0.5f;   // thickest walls whose corners do
 constexpr float kThickestM = 1;    // of bodies that show a section: rooms whose faces are turned inside out must not
 constexpr int kMostFaces = 16;     // met on the way out of a body
 constexpr float kApartM = 1e-5f;   // between two faces that are met one after the other
 constexpr float kSkinM = 0.01f;    // thickness of what is set into a face of a body, or lies on it; of two faces in one place only one is met
 
-// Whether more bodies are left than entered, somewhere within reach: faces turned along the direction less those against it. To
-// enter a skin and leave it is to leave the body that it lies on.
-bool leavesBody(const RayScene& scene, Vec3 p, Vec3 direction) {
+// How far it is to where more bodies are left than entered, if that is within reach: faces turned along the direction less those
+// against it. To enter a skin and leave it is to leave the body that it lies on.
+float wayOut(const RayScene& scene, Vec3 p, Vec3 direction) {
   Ray ray{p, direction, 0, kThickestM};
   int left = 0;
   float entered = -kInfinity;  // where the last body was
   for (int i = 0; i < kMostFaces; ++i) {
     const Hit hit = scene.intersect(ray);
-    if (!hit.valid()) return false;
+    if (!hit.valid()) return kInfinity;
     const bool enters = placeAt(scene.scene(), hit, direction).front;
     left += enters ? -1 : 1;
-    if (left > 0 || (!enters && hit.t - entered <= kSkinM)) return true;
+    if (left > 0 || (!enters && hit.t - entered <= kSkinM)) return hit.t;
     if (enters) entered = hit.t;
     ray.tMin = hit.t + kApartM;
   }
-  return false;
+  return kInfinity;
 }
 
 // The part of the ray below the cut. A ray without one begins where nothing is.
@@ -108,8 +109,16 @@ Sight sightOf(const RayScene& scene, const Camera& camera, const Ray& ray) {
 }
 
 bool insideBody(const RayScene& scene, Vec3 p) {
-  const auto between = [&](Vec3 axis) { return leavesBody(scene, p, axis) && leavesBody(scene, p, -axis); };
-  return between({1, 0, 0}) || between({0, 0, 1});
+  const auto isOut = [](float way) { return way < kInfinity; };
+  const Vec3 x(1, 0, 0), z(0, 0, 1);
+  const float right = wayOut(scene, p, x), left = wayOut(scene, p, -x);
+  if (isOut(right) && isOut(left)) return true;
+  const float near = wayOut(scene, p, z), far = isOut(near) || isOut(right) || isOut(left) ? wayOut(scene, p, -z) : kInfinity;
+  if (isOut(near) && isOut(far)) return true;
+  // Where walls abut, of the end of one and the side of the other only one may be met: at a corner two ways out must do.
+  if (std::max(std::min(right, left), std::min(near, far)) > kCornerM) return false;
+  const auto meets = [&](Vec3 d) { return scene.intersect({p, d, 0, kInfinity}).valid(); };
+  return meets(x) && meets(-x) && meets(z) && meets(-z);
 }
 
 }  // namespace roomlight

@@ -43,7 +43,8 @@ enum class Sight : uint8_t {
 };
 Sight sightOf(const RayScene& scene, const Camera& camera, const Ray& ray);
 
-// Whether p lies in a wall, a board, a pane: something with faces turned away from p on both sides along x or z, within a metre.
+// Whether p lies in a wall, a board, a pane: something with faces turned away from p on both sides along x or z, within a metre, or in
+// a corner of walls, with such faces within half a metre along both.
 bool insideBody(const RayScene& scene, Vec3 p);
 
 }  // namespace roomlight

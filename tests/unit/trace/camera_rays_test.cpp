@@ -120,6 +120,24 @@ TEST(CameraRays, tellsWhatIsInsideOfBodies) {
   }
 }
 
+// Boxes that abut share the places of their ends: four walls around a room, and the corners between them.
+TEST(CameraRays, cornersOfAbuttingWallsAreInside) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.5f));
+  test::addBox(scene, {-0.3f, 0, -0.3f}, {4.3f, 2.5f, 0}, white);
+  test::addBox(scene, {-0.3f, 0, 3}, {4.3f, 2.5f, 3.3f}, white);
+  test::addBox(scene, {-0.3f, 0, 0}, {0, 2.5f, 3}, white);
+  test::addBox(scene, {4, 0, 0}, {4.3f, 2.5f, 3}, white);
+  const RayScene rays(scene);
+  for (const float x : {-0.15f, 0.1f, 2.0f, 3.9f, 4.15f}) {
+    for (const float z : {-0.15f, 0.1f, 1.5f, 2.9f, 3.15f}) {
+      const bool air = x > 0 && x < 4 && z > 0 && z < 3;
+      EXPECT_EQ(insideBody(rays, {x, 1.2f, z}), !air) << x << " " << z;
+    }
+  }
+  EXPECT_FALSE(insideBody(rays, {-0.5f, 1.2f, -0.15f}));
+}
+
 // The air of a room whose faces are turned the wrong way is no body.
 TEST(CameraRays, roomsInsideOutAreNotFilled) {
   Scene scene;
