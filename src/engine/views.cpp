@@ -14,7 +14,8 @@ namespace {
 constexpr float kLevelsApartM = 0.9f;   // split floors are less apart, storeys more
 constexpr float kStandM = 2.0f;         // ceilings lower than this are those of cupboards
 constexpr float kUnderCeilingM = 0.05f;
-constexpr float kBesideM = 0.6f;        // of a plan around the floors: walls and a margin
+constexpr float kBesideM = 1;           // of a plan around the floors: walls and a margin,
+constexpr float kBesideAllM = 0.3f;     // but no more than this around everything
 constexpr float kEyeM = 1.6f;           // of who stands in a panorama
 constexpr float kTopFovRad = 0.9f;
 constexpr int kLongerSidePixels = 1200, kPanoramaPixels = 2048;
@@ -101,7 +102,13 @@ Result<Viewed> fromAbove(const Scene& scene, std::span<const Room> rooms, const 
   const Result<Level> level = pickLevel(scene, rooms, wish);
   if (!level) return Error{level.error()};
   const Level& l = level.value();
-  const float acrossM = l.high.x - l.low.x + 2 * kBesideM, downM = l.high.y - l.low.y + 2 * kBesideM;
+  const Bounds3 all = scene.bounds();
+  Vec2 low{l.low.x - kBesideM, l.low.y - kBesideM}, high{l.high.x + kBesideM, l.high.y + kBesideM};
+  if (!all.empty()) {
+    low = {std::max(low.x, all.lo.x - kBesideAllM), std::max(low.y, all.lo.z - kBesideAllM)};
+    high = {std::min(high.x, all.hi.x + kBesideAllM), std::min(high.y, all.hi.z + kBesideAllM)};
+  }
+  const float acrossM = high.x - low.x, downM = high.y - low.y;
   Viewed out;
   if (wish.size) {
     std::tie(out.width, out.height) = *wish.size;
@@ -114,7 +121,7 @@ Result<Viewed> fromAbove(const Scene& scene, std::span<const Room> rooms, const 
   Camera& c = out.camera;
   c.cutHeightM = cutHeight(l, wish);
   c.emptyBackdrop = true;
-  c.worldFromCamera = looking({0.5f * (l.low.x + l.high.x), c.cutHeightM + 1, 0.5f * (l.low.y + l.high.y)}, {0, -1, 0});
+  c.worldFromCamera = looking({0.5f * (low.x + high.x), c.cutHeightM + 1, 0.5f * (low.y + high.y)}, {0, -1, 0});
   // Metres a pixel at the cut, that all of it fits.
   const float fit = std::max(acrossM / static_cast<float>(out.width), downM / static_cast<float>(out.height));
   const float halfHeightM = 0.5f * static_cast<float>(out.height) * (wish.view == View::Plan ? wish.metresPerPixel.value_or(fit) : fit);

@@ -44,14 +44,14 @@ TEST(Views, planIsAsLargeAsTheLevelAndCutsUnderItsCeiling) {
   wish.view = View::Plan;
   wish.metresPerPixel = 0.02f;
   const Viewed ground = view({}, rooms, wish);
-  EXPECT_EQ(ground.width, 510);  // 9 m and 0.6 m on both sides
-  EXPECT_EQ(ground.height, 360);
+  EXPECT_EQ(ground.width, 550);  // 9 m and a metre on both sides
+  EXPECT_EQ(ground.height, 400);
   EXPECT_FLOAT_EQ(CameraRays(ground.camera, ground.width, ground.height).metresPerPixel(), 0.02f);
   EXPECT_FLOAT_EQ(ground.camera.cutHeightM, 2.45f);
   EXPECT_TRUE(ground.camera.emptyBackdrop);
   // North west is top left.
   const Ray corner = CameraRays(ground.camera, ground.width, ground.height).ray(0, 0);
-  EXPECT_LT(length(corner.origin - Vec3{-0.6f, 2.45f, -0.6f}), 1e-4f);
+  EXPECT_LT(length(corner.origin - Vec3{-1, 2.45f, -1}), 1e-4f);
   EXPECT_LT(length(corner.direction - Vec3{0, -1, 0}), 1e-6f);
   wish.level = "1", wish.cutM = 1.2f;
   EXPECT_FLOAT_EQ(view({}, rooms, wish).camera.cutHeightM, 4);
@@ -59,7 +59,7 @@ TEST(Views, planIsAsLargeAsTheLevelAndCutsUnderItsCeiling) {
   wish = {};
   wish.view = View::Plan;
   wish.size = {100, 400};
-  EXPECT_NEAR(CameraRays(view({}, rooms, wish).camera, 100, 400).metresPerPixel(), 0.102f, 1e-6f);
+  EXPECT_NEAR(CameraRays(view({}, rooms, wish).camera, 100, 400).metresPerPixel(), 0.11f, 1e-6f);
 }
 
 TEST(Views, topFitsTheLevelAtTheCut) {
@@ -67,8 +67,8 @@ TEST(Views, topFitsTheLevelAtTheCut) {
   wish.view = View::Top;
   const Viewed top = view({}, house(), wish);
   const CameraRays rays(top.camera, top.width, top.height);
-  EXPECT_LT(length(rays.ray(0, 0).origin - Vec3{-0.6f, 2.45f, -0.6f}), 0.02f);
-  EXPECT_LT(length(rays.ray(static_cast<float>(top.width), static_cast<float>(top.height)).origin - Vec3{9.6f, 2.45f, 6.6f}), 0.02f);
+  EXPECT_LT(length(rays.ray(0, 0).origin - Vec3{-1, 2.45f, -1}), 0.02f);
+  EXPECT_LT(length(rays.ray(static_cast<float>(top.width), static_cast<float>(top.height)).origin - Vec3{10, 2.45f, 7}), 0.02f);
 }
 
 TEST(Views, panoramaStandsInTheMiddleOfARoom) {
