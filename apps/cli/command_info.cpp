@@ -8,6 +8,7 @@
 #include "console.h"
 #include "import/import.h"
 #include "import/photometric_file.h"
+#include "scene/object_measures.h"
 
 namespace roomlight::cli {
 namespace {
@@ -18,7 +19,7 @@ struct Options {
   std::string scene;
   float metresPerUnit = 1;
   double lumenAtFullPower = ImportOptions().lumenAtFullPower;
-  bool json = false;
+  bool json = false, objects = false;
 };
 
 Json vector(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
@@ -57,6 +58,22 @@ Json lampJson(const Lamp& lamp) {
   return j;
 }
 
+Json objectsJson(const Scene& scene) {
+  Json out = Json::array();
+  for (const ObjectMeasures& o : measureObjects(scene)) {
+    out.push_back({{"name", o.name},
+                   {"triangles", o.triangles},
+                   {"areaM2", o.areaM2()},
+                   {"areaUpM2", o.areaUpM2},
+                   {"areaDownM2", o.areaDownM2},
+                   {"areaUprightM2", o.areaUprightM2},
+                   {"netAreaM2", o.netAreaM2},
+                   {"volumeM3", o.volumeM3},
+                   {"boundsM", {{"low", vector(o.bounds.lo)}, {"high", vector(o.bounds.hi)}}}});
+  }
+  return out;
+}
+
 Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
   const Bounds3 bounds = scene.bounds();
   size_t emissive = 0;
@@ -89,6 +106,15 @@ std::string shown(const Json& name) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
   return "'" + s + "'";
+}
+
+void printObjects(const Json& objects) {
+  fmt::print("objects            {}\n  {:>9} {:>11} {:>11}  {:<24}  name\n", objects.size(), "triangles", "area m2", "volume m3", "size m");
+  for (const Json& o : objects) {
+    const auto low = o["boundsM"]["low"].get<std::vector<double>>(), high = o["boundsM"]["high"].get<std::vector<double>>();
+    fmt::print("  {:>9} {:>11.4f} {:>11.4f}  {:<24}  {}\n", o["triangles"].get<size_t>(), o["areaM2"].get<double>(), o["volumeM3"].get<double>(),
+               fmt::format("{:.3f} x {:.3f} x {:.3f}", high[0] - low[0], high[1] - low[1], high[2] - low[2]), shown(o["name"]));
+  }
 }
 
 void printTable(const Json& j) {
@@ -152,11 +178,13 @@ int runInfo(const Options& o) {
     printError(imported.error());
     return kBadInput;
   }
-  const Json j = describe(imported.value().scene, imported.value().warnings);
+  Json j = describe(imported.value().scene, imported.value().warnings);
+  if (o.objects) j["objects"] = objectsJson(imported.value().scene);
   if (o.json) {
     fmt::print("{}\n", j.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
     printTable(j);
+    if (o.objects) printObjects(j["objects"]);
     printWarnings(imported.value().warnings);
   }
   return kOk;
@@ -172,6 +200,7 @@ Registered addInfo(CLI::App& program) {
   app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e9));
+  app->add_flag("--objects", o->objects, "List every object with its triangles, area, volume and bounds");
   app->add_flag("--json", o->json, "Print JSON");
   app->footer("Example:\n  roomlight info flat.glb --json");
   return {app, [o] { return runInfo(*o); }};

@@ -60,7 +60,11 @@ void addSide(const Side& side, const std::vector<double>& topCm, std::span<const
       const Vec3 outwards = toWorld(ends[0], 0) - toWorld(backs[0], 0), forward = toWorld(ends[1], 0) - toWorld(ends[0], 0);
       const double f = side.floorCm;
       out.quad(side.material, {corner(ends[0], part.from, f), corner(ends[1], part.to, f), corner(ends[1], part.to, top), corner(ends[0], part.from, top)}, outwards);
-      out.quad(side.material, {corner(ends[0], part.from, top), corner(ends[1], part.to, top), corner(backs[1], part.to, top), corner(backs[0], part.from, top)}, {0, 1, 0});
+      out.quad(side.material, {corner(backs[0], part.from, f), corner(backs[1], part.to, f), corner(backs[1], part.to, top), corner(backs[0], part.from, top)}, -outwards);
+      for (const double height : {f, top}) {
+        const Vec3 up{0, height == f ? -1.0f : 1.0f, 0};
+        out.quad(side.material, {corner(ends[0], part.from, height), corner(ends[1], part.to, height), corner(backs[1], part.to, height), corner(backs[0], part.from, height)}, up);
+      }
       for (const size_t k : {size_t{0}, size_t{1}}) {
         out.quad(side.material, {corner(ends[k], 0, f), corner(backs[k], 1, f), corner(backs[k], 1, top), corner(ends[k], 0, top)}, k == 0 ? -forward : forward);
       }
@@ -87,10 +91,10 @@ void addBaseboards(const Wall& wall, const WallOutline& outline, const WallOutli
                    Paints& paints, Surfaces& out) {
   if (boards.left.size() != outline.left.size()) return;
   if (wall.leftBaseboard) {
-    addSide({outline.left, boards.left, *wall.leftBaseboard, materialOf(*wall.leftBaseboard, wall.left, paints), heights.floorCm}, heights.topCm, cuts, out);
+    addSide({outline.left, boards.left, *wall.leftBaseboard, materialOf(*wall.leftBaseboard, wall.left, paints), heights.floorCm}, heights.leftTopCm, cuts, out);
   }
   if (wall.rightBaseboard) {
-    addSide({outline.right, boards.right, *wall.rightBaseboard, materialOf(*wall.rightBaseboard, wall.right, paints), heights.floorCm}, heights.topCm, cuts, out);
+    addSide({outline.right, boards.right, *wall.rightBaseboard, materialOf(*wall.rightBaseboard, wall.right, paints), heights.floorCm}, heights.rightTopCm, cuts, out);
   }
 }
 

@@ -1,6 +1,7 @@
 // Baseboards along walls.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -12,8 +13,9 @@
 namespace roomlight::importers::sh3d {
 
 struct WallHeights {
-  double baseCm = 0, floorCm = 0;  // of the wall's body and of its level
-  std::vector<double> topCm;       // at every corner of a side
+  double baseCm = 0, floorCm = 0;             // of the wall's body and of its level
+  std::vector<double> leftTopCm, rightTopCm;  // at every corner of its sides
+  bool levelTop() const { return std::abs(leftTopCm.front() - leftTopCm.back()) < 1e-3; }
 };
 
 // The outlines' distances from the walls' axes with the baseboards on them.

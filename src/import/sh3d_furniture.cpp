@@ -189,7 +189,7 @@ Affine worldFromModel(const Home& home, const Piece& p, const std::vector<const 
     m = (p.pitchRad != 0 ? turnedX(-p.pitchRad) : turnedZ(-p.rollRad)) * m;
     const Bounds3 tilted = boundsThrough(m, meshes, posed);
     m = moved(-tilted.centre()) * m;
-    height = p.heightInPlanCm.value_or(static_cast<double>(tilted.size().y) * 100);
+    height = static_cast<double>(tilted.size().y) * 100;  // what the file says of it is for the plan
   }
   return moved(toWorld(p.centre, elevationOf(home, p.level) + p.elevationCm + height / 2)) * turnedY(-p.angleRad) * m;
 }

@@ -76,9 +76,8 @@ struct Transformation {
 };
 
 struct DoorOrWindow {
-  double wallWidth = 1, wallLeft = 0, wallHeight = 1, wallTop = 0;  // of the piece: the part that cuts the wall
-  bool cutOutOnBothSides = false, boundToWall = true;
-  std::string cutOutShape;                                          // SVG path in the unit square; empty: all of it
+  bool cutOutOnBothSides = false;
+  std::string cutOutShape;            // SVG path in the unit square; empty: all of it
 };
 
 enum class PieceKind : uint8_t {

@@ -7,16 +7,13 @@ namespace roomlight::importers::sh3d {
 std::vector<Opening> openingsOf(const Home& home, Warnings& warnings) {
   std::vector<Opening> out;
   for (const Piece& p : home.pieces) {
-    if (p.kind != PieceKind::DoorOrWindow || !p.door.boundToWall || !isShown(home, p.level)) continue;
+    if (p.kind != PieceKind::DoorOrWindow || !isShown(home, p.level)) continue;
     if (!(p.widthCm > 0) || !(p.heightCm > 0)) continue;
     Opening o;
     o.along = {std::cos(p.angleRad), std::sin(p.angleRad)};
     o.vLow = o.v(p.centre) - p.depthCm / 2, o.vHigh = o.v(p.centre) + p.depthCm / 2;
     o.bothSides = p.door.cutOutOnBothSides;
-    const double left = p.mirrored ? 1 - p.door.wallLeft - p.door.wallWidth : p.door.wallLeft;
-    const double uLow = o.u(p.centre) + (left - 0.5) * p.widthCm, width = p.door.wallWidth * p.widthCm;
-    const double height = p.door.wallHeight * p.heightCm;
-    const double top = elevationOf(home, p.level) + p.elevationCm + p.heightCm * (1 - p.door.wallTop);
+    const double uLow = o.u(p.centre) - p.widthCm / 2, top = elevationOf(home, p.level) + p.elevationCm + p.heightCm;
     PlanArea unit = p.door.cutOutShape.empty() ? PlanArea() : svgPath(p.door.cutOutShape);
     if (unit.empty()) {
       if (!p.door.cutOutShape.empty()) warnings.add("cut-out shapes that cannot be read are taken as rectangles");
@@ -25,13 +22,13 @@ std::vector<Opening> openingsOf(const Home& home, Warnings& warnings) {
     for (PlanRing& ring : unit) {
       for (PlanPoint& q : ring) {
         const double x = p.mirrored ? 1 - q.x : q.x;
-        q = {uLow + x * width, top - q.y * height};
+        q = {uLow + x * p.widthCm, top - q.y * p.heightCm};
       }
     }
     o.shape = united(unit, {});
     for (const PlanRing& ring : o.shape) o.points += ring.size();
     o.centre = p.centre;
-    o.radiusCm = std::hypot(p.depthCm / 2, p.widthCm * (std::abs(left - 0.5) + width / p.widthCm));
+    o.radiusCm = std::hypot(p.depthCm / 2, p.widthCm / 2);
     if (!o.shape.empty()) out.push_back(std::move(o));
   }
   return out;

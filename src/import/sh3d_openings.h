@@ -13,7 +13,8 @@ namespace roomlight::importers::sh3d {
 struct Opening {
   PlanPoint along{1, 0};           // unit: the axis u; v is a quarter turn clockwise on the plan
   double vLow = 0, vHigh = 0;      // how deep the piece reaches
-  bool bothSides = false;          // cuts both sides of a wall that it touches
+  bool bothSides = false;          // cuts both sides of a straight wall within a degree of its own direction, of any round one
+  double reachCm = 1;              // what ends this close to a wall's side cuts it
   PlanArea shape;                  // of (u, h)
   size_t points = 0;               // of the shape
   PlanPoint centre;                // on the plan, with all of the piece within
@@ -23,7 +24,8 @@ struct Opening {
   double v(PlanPoint p) const { return p.y * along.x - p.x * along.y; }
 };
 
-// Of all doors and windows that are bound to walls.
+// Of all doors and windows, whether they are bound to a wall or not, with their whole width and height: as Sweet Home 3D 7 draws them. What
+// the file says about the part in the wall is for its plan.
 std::vector<Opening> openingsOf(const Home& home, Warnings& warnings);
 
 // Rings of an SVG path in the unit square, x to the right and y down, curves as chords; empty where it cannot be read.

@@ -34,7 +34,7 @@ std::vector<WallCorner> wallCorners(const Home& home, int level, const std::vect
     const Wall& w = home.walls[i];
     if (w.level != level) continue;
     for (const PlanRing* side : {&outlines[i].left, &outlines[i].right}) {
-      for (size_t k = 0; k < side->size(); ++k) out.push_back({(*side)[k], elevationOf(home, level) + wallHeightCm(home, w, k, side->size())});
+      for (size_t k = 0; k < side->size(); ++k) out.push_back({(*side)[k], elevationOf(home, level) + wallHeightCm(home, w, (*side)[k])});
     }
   }
   return out;
@@ -93,6 +93,24 @@ void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int materia
   const std::vector<PlanTriangle> triangles = trianglesOf(area);
   effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + drawn.corners->size() / 8 : 1), drawn.room->place);
   for (const PlanTriangle& t : triangles) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
+}
+
+// What is seen of the slab under a floor of an upper level: its edges, in stairwells too, and its underside where no level's ceiling closes it.
+void addSlab(const Home& home, const PlanArea& area, const Drawn& drawn, int material, Surfaces& out) {
+  const double top = drawn.floorCm, bottom = top - slabBelowCm(home, drawn.room->level);
+  if (bottom > top - kSameHeightCm) return;
+  const auto corner = [](PlanPoint p, double s, double h) { return SurfaceCorner{toWorld(p, h), {static_cast<float>(s / 100), static_cast<float>(-h / 100)}}; };
+  for (const PlanRing& ring : area) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const PlanPoint p = ring[i], q = ring[(i + 1) % ring.size()];
+      const double length = std::hypot(q.x - p.x, q.y - p.y);
+      const Vec3 front{static_cast<float>(q.y - p.y), 0, static_cast<float>(p.x - q.x)};  // rings have their inside at the left
+      out.quad(material, {corner(p, 0, bottom), corner(q, length, bottom), corner(q, length, top), corner(p, 0, top)}, front);
+    }
+  }
+  const auto closes = [&](const Level& l) { return l.viewable && std::abs(l.elevationCm + l.heightCm - bottom) < kSameHeightCm; };
+  if (std::any_of(home.levels.begin(), home.levels.end(), closes)) return;
+  for (const PlanTriangle& t : trianglesOf(area)) out.triangle(material, corner(t[0], t[0].x, bottom), corner(t[1], t[1].x, bottom), corner(t[2], t[2].x, bottom), {0, -1, 0});
 }
 
 // The room without those of the same height that the file names later.
@@ -161,6 +179,7 @@ void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effor
     if (room.floorVisible) {
       const PlanArea area = subtracted(visibleArea(all, i, false, effort), stairwells(home, stairs, all[i].floorCm, room.place, effort));
       addFace(area, all[i], false, paints.material(room.floor, "floor"), effort, surfaces);
+      addSlab(home, area, all[i], paints.plain(room.floor, "floor"), surfaces);
     }
     if (room.ceilingVisible) {
       const PlanArea area = subtracted(visibleArea(all, i, true, effort), stairwells(home, stairs, all[i].ceilingCm, room.place, effort));

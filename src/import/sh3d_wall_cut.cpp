@@ -8,18 +8,21 @@ namespace roomlight::importers::sh3d {
 namespace {
 
 constexpr double kLeastAlong = 0.5;  // cosine between wall and opening
+constexpr double kParallel = 0.0175;  // sine: a degree
 constexpr double kSmallestCm2 = 0.01;
-constexpr double kReachCm = 1;        // windows that end this close to a wall's side cut it
+constexpr double kTouchCm = 1e-3;     // shapes this close are one hole
 constexpr double kThroughCm = 400;    // how far what cuts both sides reaches into the wall
 
 struct Share {
   double first = 0, last = 1;
 };
 
+bool isParallel(const Panel& p, const Opening& o) { return std::abs(o.v(p.b) - o.v(p.a)) < kParallel * p.lengthCm(); }
+bool runsAlong(const Panel& p, const Opening& o) { return std::abs(o.u(p.b) - o.u(p.a)) >= kLeastAlong * p.lengthCm(); }
+
 // The part of a panel, as shares of its length, that lies within the opening's depth.
 std::optional<Share> withinDepth(const Panel& p, const Opening& o) {
   const double length = p.lengthCm();
-  if (std::abs(o.u(p.b) - o.u(p.a)) < kLeastAlong * length) return {};
   const double va = o.v(p.a), slope = o.v(p.b) - va;
   if (std::abs(slope) < 1e-9 * length) return va >= o.vLow && va <= o.vHigh ? std::optional(Share{}) : std::nullopt;
   const double t0 = (o.vLow - va) / slope, t1 = (o.vHigh - va) / slope;
@@ -38,6 +41,7 @@ PlanRing inFrame(const Panel& p, const Opening& o, Share s) {
 PlanArea sideInFrame(const std::vector<Panel>& side, const Opening& o) {
   PlanArea out;
   for (const Panel& p : side) {
+    if (!runsAlong(p, o)) continue;
     if (const auto share = withinDepth(p, o)) out = out.empty() ? PlanArea{inFrame(p, o, *share)} : united(out, {inFrame(p, o, *share)});
   }
   return out;
@@ -47,6 +51,14 @@ struct Range {
   double low = 1e300, high = -1e300;
   void add(double v) { low = std::min(low, v), high = std::max(high, v); }
   bool overlaps(Range o) const { return high > o.low && low < o.high; }
+};
+
+auto longest(const std::vector<Panel>& side) {
+  return std::max_element(side.begin(), side.end(), [](const Panel& p, const Panel& q) { return p.lengthCm() < q.lengthCm(); });
+}
+
+struct Bounds {
+  Range u, h;
 };
 
 // Whether the piece itself touches the wall's body where both are side by side.
@@ -79,14 +91,56 @@ std::optional<Opening> inFrameOf(const Opening& frame, const Opening& o) {
   return turned;
 }
 
+Bounds boundsOf(const PlanArea& shape) {
+  Bounds b;
+  for (const PlanRing& ring : shape) {
+    for (const PlanPoint& q : ring) b.u.add(q.x), b.h.add(q.y);
+  }
+  return b;
+}
+
+bool touchEachOther(const PlanArea& a, const PlanArea& b) {
+  const Bounds x = boundsOf(a), y = boundsOf(b);
+  const auto near = [](Range r, Range s) { return r.high > s.low - kTouchCm && r.low < s.high + kTouchCm; };
+  return near(x.u, y.u) && near(x.h, y.h);
+}
+
+// A box-shaped opening as walls across it meet it: its depth is their width. Other shapes cut those walls nowhere.
+std::optional<Opening> across(const Opening& o) {
+  const Bounds b = boundsOf(o.shape);
+  const double box = (b.u.high - b.u.low) * (b.h.high - b.h.low);
+  if (areaOf(o.shape) < (1 - 1e-6) * box) return {};
+  Opening out = o;
+  out.along = {-o.along.y, o.along.x};
+  out.shape = {{{o.vLow, b.h.low}, {o.vHigh, b.h.low}, {o.vHigh, b.h.high}, {o.vLow, b.h.high}}};
+  out.vLow = kTouchCm - b.u.high, out.vHigh = -b.u.low - kTouchCm;  // walls that the piece only touches stay whole
+  out.bothSides = false, out.reachCm = 0;
+  return out;
+}
+
+// Where a shape lies at one u, as heights of lower and upper borders in turn.
+std::vector<double> heightsAt(const PlanArea& shape, double u) {
+  std::vector<double> out;
+  for (const PlanRing& ring : shape) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const PlanPoint p = ring[i], q = ring[(i + 1) % ring.size()];
+      if ((p.x > u) != (q.x > u)) out.push_back(p.y + (q.y - p.y) * (u - p.x) / (q.x - p.x));
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 // Its back is the end of the piece that lies deeper in the wall, without the reach that made it go through.
 void makeNiche(WallCut& cut) {
   Opening& o = cut.opening;
-  const Panel& open = (cut.throughLeft ? cut.sides->left : cut.sides->right).front();
-  const Panel& closed = (cut.throughLeft ? cut.sides->right : cut.sides->left).front();
+  const std::vector<Panel>& side = cut.throughLeft ? cut.sides->left : cut.sides->right;
+  const Panel &open = *longest(side), &closed = *longest(cut.throughLeft ? cut.sides->right : cut.sides->left);
   const double towards = o.v(closed.a) + o.v(closed.b) - o.v(open.a) - o.v(open.b);
-  cut.backV = towards > 0 ? o.vHigh - kReachCm : o.vLow + kReachCm;
-  if ((cut.backV - o.v(open.a)) * towards <= 0) o.shape.clear();  // the piece only touches the wall
+  double outside = o.v(open.a);
+  for (const Panel& p : side) outside = towards > 0 ? std::min({outside, o.v(p.a), o.v(p.b)}) : std::max({outside, o.v(p.a), o.v(p.b)});
+  cut.backV = towards > 0 ? o.vHigh - o.reachCm : o.vLow + o.reachCm;
+  if ((cut.backV - outside) * towards <= 0) o.shape.clear();  // the piece only touches the wall
 }
 
 }  // namespace
@@ -94,9 +148,26 @@ void makeNiche(WallCut& cut) {
 double Panel::lengthCm() const { return std::hypot(b.x - a.x, b.y - a.y); }
 PlanRing Panel::outline() const { return {{0, baseCm}, {lengthCm(), baseCm}, {lengthCm(), topBCm}, {0, topACm}}; }
 
-PlanArea WallCut::holeIn(const Panel& panel) const {
+PlanArea WallCut::holeInEnd(const Panel& panel) const {
+  const double ua = opening.u(panel.a), ub = opening.u(panel.b), length = panel.lengthCm();
+  if (std::abs(ub - ua) > 1e-3 * length) return holeIn(panel);
   const auto share = withinDepth(panel, opening);
   if (!share) return {};
+  std::vector<double> heights;
+  for (const double nudge : {-kTouchCm, kTouchCm}) {
+    if (heights.empty()) heights = heightsAt(opening.shape, (ua + ub) / 2 + nudge);
+  }
+  PlanArea hole;
+  for (size_t i = 0; i + 1 < heights.size(); i += 2) {
+    const double first = share->first * length, last = share->last * length, low = heights[i], high = heights[i + 1];
+    hole.push_back({{first, low}, {last, low}, {last, high}, {first, high}});
+  }
+  return hole.empty() ? hole : intersected(hole, {panel.outline()});
+}
+
+PlanArea WallCut::holeIn(const Panel& panel) const {
+  const auto share = withinDepth(panel, opening);
+  if (!share || !runsAlong(panel, opening)) return {};
   PlanArea hole = intersected(opening.shape, {inFrame(panel, opening, *share)});
   const double ua = opening.u(panel.a), scale = panel.lengthCm() / (opening.u(panel.b) - ua);
   for (PlanRing& ring : hole) {
@@ -110,7 +181,7 @@ PlanPoint WallCut::on(const std::vector<Panel>& side, double u) const {
   double nearest = 1e300;
   for (const Panel& p : side) {
     const auto share = withinDepth(p, opening);
-    if (!share) continue;
+    if (!share || !runsAlong(p, opening)) continue;
     const double ua = opening.u(p.a), t = (u - ua) / (opening.u(p.b) - ua), inside = std::clamp(t, share->first, share->last);
     if (std::abs(t - inside) * p.lengthCm() >= nearest) continue;
     nearest = std::abs(t - inside) * p.lengthCm();
@@ -123,14 +194,19 @@ PlanPoint WallCut::on(const std::vector<Panel>& side, double u) const {
 std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings) {
   std::vector<WallCut> cuts;
   for (const Opening& o : openings) {
-    if (!touches(sides, o)) continue;
     Opening merged = o;
-    const double reach = o.bothSides ? kThroughCm : kReachCm;
+    if (sides.straight && !runsAlong(*longest(sides.left), o)) {
+      const auto turned = across(o);
+      if (!turned) continue;
+      merged = *turned;
+    }
+    if (!touches(sides, merged)) continue;
+    const double reach = merged.bothSides && (!sides.straight || isParallel(*longest(sides.left), o)) ? kThroughCm : merged.reachCm;
     merged.vLow -= reach, merged.vHigh += reach;
     for (size_t i = 0; i < cuts.size();) {
       const Opening& known = cuts[i].opening;
       const auto same = inFrameOf(known, merged);
-      if (!same || same->vLow > known.vHigh || same->vHigh < known.vLow) {
+      if (!same || same->vLow > known.vHigh || same->vHigh < known.vLow || !touchEachOther(same->shape, known.shape)) {
         ++i;
         continue;
       }

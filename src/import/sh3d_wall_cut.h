@@ -14,10 +14,16 @@ struct Panel {
   double baseCm = 0, topACm = 0, topBCm = 0;
   double lengthCm() const;
   PlanRing outline() const;  // of (distance from a, height)
+  PlanPoint at(double distanceCm) const {
+    const double t = distanceCm / lengthCm();
+    return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t};
+  }
 };
 
+// As openings cut them: where one side of a mitred wall ends earlier, the slanted end goes on with it.
 struct WallSides {
   std::vector<Panel> left, right;
+  bool straight = true;
 };
 
 // Openings of one wall that run in the same direction and overlap in depth, as one.
@@ -29,6 +35,8 @@ struct WallCut {
 
   // What this cut takes from a panel, of (distance from a, height).
   PlanArea holeIn(const Panel& panel) const;
+  // The same of the wall's face at its start or end, which may stand at a right angle to the opening.
+  PlanArea holeInEnd(const Panel& panel) const;
   // Where the opening ends at u: on the side's surface, or at the niche's back.
   PlanPoint onLeft(double u) const { return throughLeft ? on(sides->left, u) : back(u); }
   PlanPoint onRight(double u) const { return throughRight ? on(sides->right, u) : back(u); }
@@ -38,8 +46,8 @@ struct WallCut {
   PlanPoint on(const std::vector<Panel>& side, double u) const;
 };
 
-// Cuts with something in them; `sides` must outlive them. Openings that end less than 1 cm inside a wall go through. Those that stand across
-// the wall (more than 60 degrees) cut nothing.
+// Cuts with something in them; `sides` must outlive them. Openings that end less than 1 cm inside a wall go through. Straight walls across
+// them (more than 60 degrees) lose what stands in the piece, if the opening is a rectangle; parts of round walls do not.
 std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings);
 
 }  // namespace roomlight::importers::sh3d

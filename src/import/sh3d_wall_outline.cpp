@@ -20,25 +20,25 @@ WallOutline straight(const Wall& w, WallOffsets o) {
   return {{moved(w.start, o.leftCm), moved(w.end, o.leftCm)}, {moved(w.start, -o.rightCm), moved(w.end, -o.rightCm)}};
 }
 
-// The arc's centre lies on the perpendicular bisector of its chord, chord / 2 / tan(extent / 2) to the left: a positive extent bulges to the
-// right, one beyond half a turn puts the centre on the other side.
+// The arc's centre lies on the perpendicular bisector of its chord, chord / 2 / tan(extent / 2) to the right: a positive extent bulges to the
+// left, one beyond half a turn puts the centre on the other side.
 WallOutline round(const Wall& w, WallOffsets o) {
   const double length = distance(w.start, w.end), extent = w.arcExtentRad;
   const double nx = (w.end.y - w.start.y) / length, ny = -(w.end.x - w.start.x) / length;
   const double toCentre = length / 2 / std::tan(extent / 2);
-  const PlanPoint centre{(w.start.x + w.end.x) / 2 + nx * toCentre, (w.start.y + w.end.y) / 2 + ny * toCentre};
+  const PlanPoint centre{(w.start.x + w.end.x) / 2 - nx * toCentre, (w.start.y + w.end.y) / 2 - ny * toCentre};
   const double radius = distance(centre, w.start), first = std::atan2(w.start.y - centre.y, w.start.x - centre.x);
-  // From start to end with the centre at the left means counter-clockwise on the plan: the angle falls, as y points down.
+  // From start to end with the centre at the right means clockwise on the plan: the angle grows, as y points down.
   const double outer = radius + std::max(o.leftCm, o.rightCm);
   const double step = 2 * std::acos(std::clamp(1 - kChordErrorCm / outer, -1.0, 1.0));
   const int chords = std::clamp(static_cast<int>(std::ceil(std::abs(extent) / std::max(step, 1e-3))), 2, kMostChords);
-  const double side = extent > 0 ? 1 : -1;  // left is inside
+  const double side = extent > 0 ? 1 : -1;  // left is outside
   WallOutline out;
   for (int i = 0; i <= chords; ++i) {
-    const double angle = first - extent * i / chords;
+    const double angle = first + extent * i / chords;
     const auto at = [&](double r) { return PlanPoint{centre.x + r * std::cos(angle), centre.y + r * std::sin(angle)}; };
-    out.left.push_back(at(std::max(radius - side * o.leftCm, 0.0)));
-    out.right.push_back(at(std::max(radius + side * o.rightCm, 0.0)));
+    out.left.push_back(at(std::max(radius + side * o.leftCm, 0.0)));
+    out.right.push_back(at(std::max(radius - side * o.rightCm, 0.0)));
   }
   return out;
 }
@@ -82,7 +82,7 @@ class Joiner {
     if (!byStart && !byEnd) return;
     // Two walls that run on into each other share their left side, two that start or end together do not.
     const bool crossed = atStart == byStart;
-    const double limit = 2 * std::max(own.thicknessCm, neighbour.thicknessCm);
+    const double limit = 2 * own.thicknessCm;
     const PlanPoint left = met(sideEnd(a.left, atStart), sideEnd(crossed ? b.right : b.left, byStart), limit);
     const PlanPoint right = met(sideEnd(a.right, atStart), sideEnd(crossed ? b.left : b.right, byStart), limit);
     (atStart ? out.left.front() : out.left.back()) = left;
@@ -124,9 +124,10 @@ std::vector<WallOutline> wallOutlines(const Home& home) {
   return wallOutlines(home, offsets);
 }
 
-double wallHeightCm(const Home& home, const Wall& wall, size_t corner, size_t corners) {
+double wallHeightCm(const Home& home, const Wall& wall, PlanPoint at) {
   const double start = wall.heightCm.value_or(home.wallHeightCm), end = wall.heightAtEndCm.value_or(start);
-  return start + (end - start) * static_cast<double>(corner) / static_cast<double>(std::max<size_t>(corners, 2) - 1);
+  const double x = wall.end.x - wall.start.x, y = wall.end.y - wall.start.y;
+  return std::max(0.0, start + (end - start) * ((at.x - wall.start.x) * x + (at.y - wall.start.y) * y) / (x * x + y * y));
 }
 
 }  // namespace roomlight::importers::sh3d

@@ -14,23 +14,53 @@ namespace {
 
 constexpr double kTinyCm = 1e-3;
 
-WallHeights heightsOf(const Home& home, const Wall& wall, size_t corners) {
+WallHeights heightsOf(const Home& home, const Wall& wall, const WallOutline& outline) {
   const double floor = elevationOf(home, wall.level);
-  WallHeights h{floor - slabBelowCm(home, wall.level), floor, {}};
-  for (size_t i = 0; i < corners; ++i) h.topCm.push_back(floor + wallHeightCm(home, wall, i, corners));
+  WallHeights h{floor - slabBelowCm(home, wall.level), floor, {}, {}};
+  for (const PlanPoint& p : outline.left) h.leftTopCm.push_back(floor + wallHeightCm(home, wall, p));
+  for (const PlanPoint& p : outline.right) h.rightTopCm.push_back(floor + wallHeightCm(home, wall, p));
   return h;
 }
 
-std::vector<Panel> panelsOf(const PlanRing& side, const WallHeights& h) {
+std::vector<Panel> panelsOf(const PlanRing& side, double baseCm, const std::vector<double>& topCm) {
   std::vector<Panel> out;
   for (size_t i = 0; i + 1 < side.size(); ++i) {
     if (std::hypot(side[i + 1].x - side[i].x, side[i + 1].y - side[i].y) < kTinyCm) continue;
-    out.push_back({side[i], side[i + 1], h.baseCm, h.topCm[i], h.topCm[i + 1]});
+    out.push_back({side[i], side[i + 1], baseCm, topCm[i], topCm[i + 1]});
   }
   return out;
 }
 
+// The sides as openings cut them.
+WallSides cutSides(const std::vector<Panel>& left, const std::vector<Panel>& right) {
+  WallSides out{left, right, left.size() == 1 && right.size() == 1};
+  if (left.empty() || right.empty()) return out;
+  const auto further = [](const Panel& p, PlanPoint a, PlanPoint b) { return (a.x - b.x) * (p.b.x - p.a.x) + (a.y - b.y) * (p.b.y - p.a.y) > kTinyCm * p.lengthCm(); };
+  const Panel l = left.back(), r = right.back();
+  if (further(l, l.b, r.b)) out.right.push_back({r.b, l.b, r.baseCm, r.topBCm, l.topBCm});
+  if (further(l, r.b, l.b)) out.left.push_back({l.b, r.b, l.baseCm, l.topBCm, r.topBCm});
+  const Panel m = left.front(), s = right.front();
+  if (further(m, m.a, s.a)) out.left.insert(out.left.begin(), {s.a, m.a, m.baseCm, s.topACm, m.topACm});
+  if (further(m, s.a, m.a)) out.right.insert(out.right.begin(), {m.a, s.a, s.baseCm, m.topACm, s.topACm});
+  return out;
+}
+
 Vec3 horizontal(double x, double y) { return {static_cast<float>(x), 0, static_cast<float>(y)}; }
+
+// What openings leave of one panel of a side or an end.
+template <class Corner>
+void addPanel(const Panel& p, const PlanArea& holes, int material, Vec3 front, const Corner& corner, Surfaces& out) {
+  const PlanRing outline = p.outline();
+  if (holes.empty()) {
+    out.quad(material, {corner(outline[0]), corner(outline[1]), corner(outline[2]), corner(outline[3])}, front);
+  } else {
+    for (const PlanTriangle& t : trianglesOf(subtracted({outline}, holes))) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), front);
+  }
+}
+
+void unite(PlanArea& holes, const PlanArea& hole) {
+  if (!hole.empty()) holes = holes.empty() ? hole : united(holes, hole);
+}
 
 // One side of a wall: its panels without the holes. Texture coordinates run to the right as seen from that side, from the wall's base up.
 void addSide(const std::vector<Panel>& panels, bool left, std::span<const WallCut> cuts, int material, Surfaces& out) {
@@ -40,50 +70,60 @@ void addSide(const std::vector<Panel>& panels, bool left, std::span<const WallCu
     const double length = p.lengthCm(), sign = left ? 1 : -1;
     const Vec3 front = horizontal(sign * (p.b.y - p.a.y), -sign * (p.b.x - p.a.x));
     const auto corner = [&](PlanPoint q) {
-      const double t = q.x / length, along = left ? whole - before - q.x : before + q.x;
-      return SurfaceCorner{toWorld({p.a.x + (p.b.x - p.a.x) * t, p.a.y + (p.b.y - p.a.y) * t}, q.y),
-                           {static_cast<float>(along / 100), static_cast<float>((p.baseCm - q.y) / 100)}};
+      const double along = left ? whole - before - q.x : before + q.x;
+      return SurfaceCorner{toWorld(p.at(q.x), q.y), {static_cast<float>(along / 100), static_cast<float>((p.baseCm - q.y) / 100)}};
     };
     PlanArea holes;
-    for (const WallCut& cut : cuts) {
-      const PlanArea hole = cut.holeIn(p);
-      if (!hole.empty()) holes = holes.empty() ? hole : united(holes, hole);
-    }
-    const PlanRing outline = p.outline();
-    if (holes.empty()) {
-      out.quad(material, {corner(outline[0]), corner(outline[1]), corner(outline[2]), corner(outline[3])}, front);
-    } else {
-      for (const PlanTriangle& t : trianglesOf(subtracted({outline}, holes))) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), front);
-    }
+    for (const WallCut& cut : cuts) unite(holes, cut.holeIn(p));
+    addPanel(p, holes, material, front, corner, out);
     before += length;
   }
 }
 
-// The inside of an opening: its outline between the two sides, in pieces where a round side has a corner. No faces where the opening ends at
-// the wall's base, as the floor goes on there, or at its top.
-void addReveals(const WallCut& cut, int material, Surfaces& out) {
-  const Opening& o = cut.opening;
-  const WallSides& sides = *cut.sides;
-  std::vector<double> corners;
-  for (const auto* side : {&sides.left, &sides.right}) {
-    for (const Panel& p : *side) corners.push_back(o.u(p.a)), corners.push_back(o.u(p.b));
+// Parameters from 0 to 1 at which the way from p to q passes a corner of the wall's sides.
+std::vector<double> stopsOn(const WallCut& cut, PlanPoint p, PlanPoint q) {
+  std::vector<double> stops{0, 1};
+  for (const auto* side : {&cut.sides->left, &cut.sides->right}) {
+    for (const Panel& panel : *side) {
+      for (const PlanPoint& corner : {panel.a, panel.b}) {
+        const double t = (cut.opening.u(corner) - p.x) / (q.x - p.x);
+        if (t > 1e-6 && t < 1 - 1e-6) stops.push_back(t);
+      }
+    }
   }
-  const double baseCm = sides.left.front().baseCm;
+  std::sort(stops.begin(), stops.end());
+  return stops;
+}
+
+bool isLevelAt(PlanPoint p, PlanPoint q, double heightCm) {
+  return std::abs(p.y - heightCm) < kTinyCm && std::abs(q.y - heightCm) < kTinyCm && std::abs(p.x - q.x) > kTinyCm;
+}
+
+PlanPoint between(PlanPoint p, PlanPoint q, double t) { return {p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t}; }
+
+// Where an upright border of the opening is the wall's own end.
+bool isWallsEnd(const WallCut& cut, double u) {
+  const PlanPoint l = cut.onLeft(u), r = cut.onRight(u);
+  const auto same = [](PlanPoint p, PlanPoint q) { return std::hypot(p.x - q.x, p.y - q.y) < kTinyCm; };
+  const WallSides& s = *cut.sides;
+  return (same(l, s.left.front().a) && same(r, s.right.front().a)) || (same(l, s.left.back().b) && same(r, s.right.back().b));
+}
+
+// The inside of an opening: its outline between the two sides, in pieces where a round side has a corner. No faces where the opening ends at
+// the wall's base, as the floor goes on there, at its level top, or at its end.
+void addReveals(const WallCut& cut, const WallHeights& heights, int material, Surfaces& out) {
+  const Opening& o = cut.opening;
   for (const PlanRing& ring : o.shape) {
     for (size_t i = 0; i < ring.size(); ++i) {
       const PlanPoint p = ring[i], q = ring[(i + 1) % ring.size()];
-      if (std::max(p.y, q.y) < baseCm + kTinyCm) continue;
-      std::vector<double> stops{0, 1};
-      for (const double u : corners) {
-        const double t = (u - p.x) / (q.x - p.x);
-        if (t > 1e-6 && t < 1 - 1e-6) stops.push_back(t);
-      }
-      std::sort(stops.begin(), stops.end());
+      if (isLevelAt(p, q, heights.baseCm) || (heights.levelTop() && isLevelAt(p, q, heights.leftTopCm[0]))) continue;
+      if (std::abs(p.x - q.x) < kTinyCm && isWallsEnd(cut, p.x)) continue;
+      const std::vector<double> stops = stopsOn(cut, p, q);
       // Into the opening, which lies to the left of its outline.
       const Vec3 front{static_cast<float>((p.y - q.y) * o.along.x), static_cast<float>(q.x - p.x), static_cast<float>((p.y - q.y) * o.along.y)};
       for (size_t k = 0; k + 1 < stops.size(); ++k) {
         const auto corner = [&](bool left, double t) {
-          const PlanPoint at{p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t}, on = left ? cut.onLeft(at.x) : cut.onRight(at.x);
+          const PlanPoint at = between(p, q, t), on = left ? cut.onLeft(at.x) : cut.onRight(at.x);
           return SurfaceCorner{toWorld(on, at.y), {static_cast<float>(o.v(on) / 100), static_cast<float>((at.x + at.y) / 100)}};
         };
         out.quad(material, {corner(true, stops[k]), corner(true, stops[k + 1]), corner(false, stops[k + 1]), corner(false, stops[k])}, front);
@@ -101,24 +141,58 @@ void addNicheBack(const WallCut& cut, int material, Surfaces& out) {
   }
 }
 
-// Top and bottom between the sides, and the two ends.
-void addRest(const WallOutline& outline, const WallHeights& h, int top, int rest, Surfaces& out) {
-  const auto corner = [&](const PlanRing& side, size_t i, double height) {
-    return SurfaceCorner{toWorld(side[i], height), {static_cast<float>(side[i].x / 100), static_cast<float>((side[i].y + height) / 100)}};
-  };
-  const size_t last = outline.left.size() - 1;
-  for (size_t i = 0; i < last; ++i) {
-    const auto cover = [&](double first, double second, int material, Vec3 front) {
-      out.quad(material, {corner(outline.left, i, first), corner(outline.left, i + 1, second), corner(outline.right, i + 1, second), corner(outline.right, i, first)}, front);
-    };
-    cover(h.topCm[i], h.topCm[i + 1], top, {0, 1, 0});
-    cover(h.baseCm, h.baseCm, rest, {0, -1, 0});
+// On the plan, what openings take from the wall's bottom, or from its top where that is level.
+PlanArea footprints(std::span<const WallCut> cuts, double heightCm) {
+  PlanArea out;
+  for (const WallCut& cut : cuts) {
+    for (const PlanRing& ring : cut.opening.shape) {
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const PlanPoint p = ring[i], q = ring[(i + 1) % ring.size()];
+        if (!isLevelAt(p, q, heightCm)) continue;
+        const std::vector<double> stops = stopsOn(cut, p, q);
+        PlanRing print;
+        for (const double t : stops) print.push_back(cut.onLeft(between(p, q, t).x));
+        for (size_t k = stops.size(); k-- > 0;) print.push_back(cut.onRight(between(p, q, stops[k]).x));
+        unite(out, united({print}, {}));
+      }
+    }
   }
+  return out;
+}
+
+// Top or bottom: between the sides, without what openings take; its heights are those of the corners, in a plane.
+void addCover(const WallOutline& outline, const std::vector<double>& leftCm, const std::vector<double>& rightCm, const PlanArea& holes, int material, Vec3 front, Surfaces& out) {
+  const auto corner = [&](PlanPoint p, double height) {
+    return SurfaceCorner{toWorld(p, height), {static_cast<float>(p.x / 100), static_cast<float>((p.y + height) / 100)}};
+  };
+  if (!holes.empty()) {  // a level one
+    for (const PlanTriangle& t : trianglesOf(subtracted({outline.ring()}, holes))) {
+      out.triangle(material, corner(t[0], leftCm[0]), corner(t[1], leftCm[0]), corner(t[2], leftCm[0]), front);
+    }
+    return;
+  }
+  for (size_t i = 0; i + 1 < outline.left.size(); ++i) {
+    out.quad(material, {corner(outline.left[i], leftCm[i]), corner(outline.left[i + 1], leftCm[i + 1]), corner(outline.right[i + 1], rightCm[i + 1]), corner(outline.right[i], rightCm[i])},
+             front);
+  }
+}
+
+// Top, bottom and the two ends.
+void addRest(const WallOutline& outline, const WallHeights& h, std::span<const WallCut> cuts, int top, int rest, Surfaces& out) {
+  const std::vector<double> base(outline.left.size(), h.baseCm);
+  addCover(outline, h.leftTopCm, h.rightTopCm, h.levelTop() ? footprints(cuts, h.leftTopCm[0]) : PlanArea(), top, {0, 1, 0}, out);
+  addCover(outline, base, base, footprints(cuts, h.baseCm), rest, {0, -1, 0}, out);
+  const size_t last = outline.left.size() - 1;
   for (const size_t i : {size_t{0}, last}) {
     const size_t inner = i == 0 ? 1 : last - 1;
+    const Panel end{outline.left[i], outline.right[i], h.baseCm, h.leftTopCm[i], h.rightTopCm[i]};
+    if (end.lengthCm() < kTinyCm) continue;
     const Vec3 front = horizontal(outline.left[i].x - outline.left[inner].x + outline.right[i].x - outline.right[inner].x,
                                   outline.left[i].y - outline.left[inner].y + outline.right[i].y - outline.right[inner].y);
-    out.quad(rest, {corner(outline.left, i, h.baseCm), corner(outline.right, i, h.baseCm), corner(outline.right, i, h.topCm[i]), corner(outline.left, i, h.topCm[i])}, front);
+    PlanArea holes;
+    for (const WallCut& cut : cuts) unite(holes, cut.holeInEnd(end));
+    addPanel(
+        end, holes, rest, front, [&](PlanPoint q) { return SurfaceCorner{toWorld(end.at(q.x), q.y), {static_cast<float>(q.x / 100), static_cast<float>(-q.y / 100)}}; }, out);
   }
 }
 
@@ -150,18 +224,19 @@ void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Effor
       warnings.add("walls without length are left out");
       continue;
     }
-    const WallHeights h = heightsOf(home, w, outlines[i].left.size());
-    const WallSides sides{panelsOf(outlines[i].left, h), panelsOf(outlines[i].right, h)};
+    const WallHeights h = heightsOf(home, w, outlines[i]);
+    const std::vector<Panel> leftSide = panelsOf(outlines[i].left, h.baseCm, h.leftTopCm), rightSide = panelsOf(outlines[i].right, h.baseCm, h.rightTopCm);
+    const WallSides sides = cutSides(leftSide, rightSide);
     std::vector<WallCut> cuts;
     if (!sides.left.empty() && !sides.right.empty()) cuts = cutsOf(sides, openingsAt(outlines[i], openings, w.place, effort));
     Paint top;
     top.colour = w.topColour ? w.topColour : w.left.colour;
     Surfaces surfaces;
     const int left = paints.material(w.left, "wall"), plain = paints.plain(w.left, "wall");
-    addSide(sides.left, true, cuts, left, surfaces);
-    addSide(sides.right, false, cuts, paints.material(w.right, "wall"), surfaces);
-    addRest(outlines[i], h, paints.plain(top, "wall top"), plain, surfaces);
-    for (const WallCut& cut : cuts) addReveals(cut, plain, surfaces), addNicheBack(cut, plain, surfaces);
+    addSide(leftSide, true, cuts, left, surfaces);
+    addSide(rightSide, false, cuts, paints.material(w.right, "wall"), surfaces);
+    addRest(outlines[i], h, cuts, paints.plain(top, "wall top"), plain, surfaces);
+    for (const WallCut& cut : cuts) addReveals(cut, h, plain, surfaces), addNicheBack(cut, plain, surfaces);
     addBaseboards(w, outlines[i], boards[i], h, cuts, paints, surfaces);
     surfaces.finish(scene, w.id.empty() ? "wall" : w.id, object++);
   }

@@ -227,10 +227,7 @@ class Reader {
 
   static void doorOrWindow(const Element& e, Piece& p) {
     DoorOrWindow& d = p.door;
-    d.wallWidth = e.number("wallWidth", 0, 100, 1), d.wallLeft = e.number("wallLeft", -100, 100, 0);
-    d.wallHeight = e.number("wallHeight", 0, 100, 1), d.wallTop = e.number("wallTop", -100, 100, 0);
     d.cutOutOnBothSides = e.flag("wallCutOutOnBothSides", false);
-    d.boundToWall = e.flag("boundToWall", true);
     d.cutOutShape = e.text("cutOutShape");
   }
 

@@ -36,6 +36,13 @@ TEST(Sh3dWalls, slopedWallsAreTrapezoids) {
   EXPECT_NEAR(volumeM3(scene, "w0"), 5 * 0.1 * 2.5, 1e-5);
 }
 
+// The top is a plane that rises along the axis: at a mitre the longer side goes on rising.
+TEST(Sh3dWalls, slopesGoOnInMitres) {
+  const Scene scene = homeScene(wallXml("w0", 0, 0, 300, 0, 20, "height='200' heightAtEnd='300' wallAtEnd='w1'") + wallXml("w1", 300, 0, 300, 300, 20, "height='300' wallAtStart='w0'"));
+  EXPECT_NEAR(boundsOf(scene, "w0").hi.y, 2 + 3.1 / 3, 1e-5);
+  EXPECT_NEAR(volumeM3(scene, "w0"), 3 * 0.2 * 2.5 + 0.2 * 0.1 * 0.1 / 3 / 6, 1e-5);
+}
+
 TEST(Sh3dWalls, joinedCornersAreMitred) {
   const Scene scene = homeScene(boxWalls(400, 300, 20));
   const double ring = (4.2 * 3.2 - 3.8 * 2.8) * 2.5;
@@ -76,15 +83,15 @@ TEST(Sh3dWalls, sharpCornersDoNotGrowSpikes) {
 }
 
 TEST(Sh3dWalls, roundWallsAreRingSectors) {
-  // A quarter ring around (2, 2) and a half one; positive extents bulge to the right, here towards +z.
+  // A quarter ring and a half one; positive extents bulge to the left, here towards -z.
   const double r = 2 * std::numbers::sqrt2, sector = std::numbers::pi / 2;
   const Scene scene = homeScene(wallXml("a", 0, 0, 400, 0, 20, "arcExtent='" + std::to_string(sector) + "'") +
                                 wallXml("b", 0, 900, 400, 900, 20, "arcExtent='-3.14159265'"));
   // Chords leave the arc by at most 1 mm.
   EXPECT_NEAR(volumeM3(scene, "a"), sector * r * 0.2 * 2.5, 1e-3 * sector * r * 0.2 * 2.5);
   EXPECT_NEAR(volumeM3(scene, "b"), std::numbers::pi * 2 * 0.2 * 2.5, 1e-3 * std::numbers::pi);
-  EXPECT_NEAR(boundsOf(scene, "a").hi.z, r - 2 + 0.1, 2e-3);
-  EXPECT_NEAR(boundsOf(scene, "b").lo.z, 9 - 2.1, 2e-3);
+  EXPECT_NEAR(boundsOf(scene, "a").lo.z, 2 - r - 0.1, 2e-3);
+  EXPECT_NEAR(boundsOf(scene, "b").hi.z, 9 + 2.1, 2e-3);
 }
 
 TEST(Sh3dWalls, levelsStandOnEachOtherAndReachThroughTheSlab) {
@@ -108,6 +115,20 @@ TEST(Sh3dRooms, floorsAndCeilingsHaveTheirAreas) {
   EXPECT_EQ(scene.rooms[0].name, "L");
   EXPECT_EQ(scene.rooms[0].floor.size(), 6u);
   EXPECT_FLOAT_EQ(scene.rooms[0].heightM, 2.5f);
+}
+
+// Sweet Home 3D draws a floor's slab where stairs and edges show it, and from below where no ceiling hides it.
+TEST(Sh3dRooms, slabsOfUpperLevelsHaveEdges) {
+  const std::string room = roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' level='l1' ceilingVisible='false'");
+  const std::string ground = "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>";
+  const Scene closed = homeScene(ground + "<level id='l1' name='1' elevation='262' floorThickness='12' height='250'/>" + room);
+  double edges = 0;
+  for (const Face& f : facesOf(closed, "R")) edges += std::abs(f.normal.y) < 0.5f ? static_cast<double>(f.areaM2) : 0.0;
+  EXPECT_NEAR(edges, 14 * 0.12, 1e-5);
+  EXPECT_NEAR(areaFacing(closed, "R", {0, -1, 0}), 0, 1e-9);
+  const Scene open = homeScene(ground + "<level id='l1' name='1' elevation='300' floorThickness='12' height='250'/>" + room);
+  EXPECT_NEAR(areaFacing(open, "R", {0, -1, 0}), 12, 1e-5);
+  EXPECT_NEAR(volumeM3(open, "R"), 12 * 0.12, 1e-5);  // looks outwards all around
 }
 
 TEST(Sh3dRooms, laterRoomsLieOnTop) {
