@@ -1,4 +1,5 @@
 // No gap at joints: rays from inside closed rooms never get out but through doors and windows.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -96,7 +97,7 @@ std::string ringWalls(const Corners& at, double first, double second, const std:
     const auto [x0, y0] = at[i];
     const auto [x1, y1] = at[(i + 1) % n];
     out += wallXml(prefix + std::to_string(i), x0, y0, x1, y1, i % 2 ? second : first,
-                   "wallAtStart='" + prefix + std::to_string((i + n - 1) % n) + "' wallAtEnd='" + prefix + std::to_string((i + 1) % n) + "' " + more);
+                   fmt::format("wallAtStart='{0}{1}' wallAtEnd='{0}{2}' {3}", prefix, (i + n - 1) % n, (i + 1) % n, more));
   }
   return out;
 }
@@ -119,9 +120,9 @@ TEST_F(Sh3dTightness, directionsOfDrawingChangeNothing) {
     std::string walls;
     for (size_t i = 0; i < 4; ++i) {
       const bool back = (turned >> i) & 1;
-      const std::string id = "w" + std::to_string(i), before = "w" + std::to_string((i + 3) % 4), after = "w" + std::to_string((i + 1) % 4);
+      const std::string id = fmt::format("w{}", i), before = fmt::format("w{}", (i + 3) % 4), after = fmt::format("w{}", (i + 1) % 4);
       const auto &p = at[i], &q = at[(i + 1) % 4], &a = back ? q : p, &b = back ? p : q;
-      walls += wallXml(id, a.first, a.second, b.first, b.second, 15, "wallAtStart='" + (back ? after : before) + "' wallAtEnd='" + (back ? before : after) + "'");
+      walls += wallXml(id, a.first, a.second, b.first, b.second, 15, fmt::format("wallAtStart='{}' wallAtEnd='{}'", back ? after : before, back ? before : after));
     }
     expectTight(walls + roomXml(at), {2, 1.2f, 1.5f});
   }
