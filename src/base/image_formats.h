@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/image_io.h"
+#include "base/image_layers.h"
 
 namespace roomlight::formats {
 
@@ -18,6 +19,9 @@ void checkSize(int64_t width, int64_t height, uint64_t fileBytes);
 void writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata);
 Image readExr(const std::filesystem::path& file);
 Metadata readExrMetadata(const std::filesystem::path& file);
+
+void writeLayers(const std::filesystem::path& file, const LayeredImage& image);
+LayeredImage readLayers(const std::filesystem::path& file);
 
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes);

@@ -116,6 +116,17 @@ Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t
   return writeAtomically(file, [&](const auto& temporary) { formats::writeJpeg(temporary, encoded, mostBytes); });
 }
 
+Status writeLayers(const std::filesystem::path& file, const LayeredImage& image) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeLayers(temporary, image); });
+}
+
+Result<LayeredImage> readLayers(const std::filesystem::path& file) {
+  return guarded<LayeredImage>(file, [&] {
+    if (formatOf(file) != Format::Exr) throw std::runtime_error("no OpenEXR file; layers are written by render --layers");
+    return formats::readLayers(file);
+  });
+}
+
 Result<Image> readImage(const std::filesystem::path& file) {
   return guarded<Image>(file, [&] {
     switch (formatOf(file)) {
