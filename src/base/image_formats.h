@@ -24,7 +24,10 @@ void writeLayers(const std::filesystem::path& file, const LayeredImage& image);
 LayeredImage readLayers(const std::filesystem::path& file);
 
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata);
+void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata);
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes);
+void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes);
+void writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black
 Metadata readPngMetadata(std::span<const uint8_t> bytes);
 

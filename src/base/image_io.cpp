@@ -127,6 +127,18 @@ Result<LayeredImage> readLayers(const std::filesystem::path& file) {
   });
 }
 
+Status writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writePng(temporary, image, metadata); });
+}
+
+Status writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeJpeg(temporary, image, mostBytes); });
+}
+
+Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeWebp(temporary, image, quality); });
+}
+
 Result<Image> readImage(const std::filesystem::path& file) {
   return guarded<Image>(file, [&] {
     switch (formatOf(file)) {
