@@ -7,9 +7,9 @@
 #include "arguments.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
-#include "base/tone.h"
 #include "commands.h"
 #include "console.h"
+#include "display_options.h"
 #include "engine/quality.h"
 #include "engine/render.h"
 #include "engine/stages.h"
@@ -19,16 +19,14 @@
 #include "interrupt.h"
 #include "measure/luminance_picture.h"
 #include "output_files.h"
-#include "photometry/white_balance.h"
 #include "view_options.h"
 
 namespace roomlight::cli {
 namespace {
 
-constexpr const char* kUsualTone = "neutral";
-
 struct Options {
-  std::string scene, lighting, camera, size, exposure = "auto", tone = kUsualTone, whiteBalance = "auto", kind = "picture", stats, settingsFile, quality;
+  std::string scene, lighting, camera, size, kind = "picture", stats, settingsFile, quality;
+  DisplayOptions display;
   std::vector<std::string> outputs;
   std::optional<std::string> technique;
   std::optional<int> samples, threads;
@@ -44,10 +42,7 @@ struct Options {
 // Everything that can be known to be wrong before any work is done.
 struct Plan {
   RenderSettings settings;
-  std::optional<float> ev100;  // none: automatic
-  ToneCurve tone = ToneCurve::PbrNeutral;
-  bool automaticWhite = true;
-  std::optional<double> whiteK;  // none, and not automatic: no white balance
+  Display display;
   ViewWish view;
 };
 
@@ -107,23 +102,12 @@ Result<Plan> makePlan(const Options& o) {
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
   if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
 
-  if (o.exposure != "auto") {
-    plan.ev100 = parseNumber<float>(o.exposure);
-    if (!plan.ev100 || !(std::abs(*plan.ev100) <= 64)) return Error{fmt::format("--exposure {}: write auto or an EV100 from -64 to 64", o.exposure)};
-  }
+  const Result<Display> display = readDisplay(o.display);
+  if (!display) return Error{display.error()};
+  plan.display = display.value();
   if (o.kind != "picture" && o.kind != "luminance" && o.kind != "falsecolour") return Error{fmt::format("--output-kind {}: write picture, luminance or falsecolour", o.kind)};
-  if (o.kind != "picture" && (o.exposure != "auto" || o.tone != kUsualTone)) {
+  if (o.kind != "picture" && (o.display.exposure != DisplayOptions().exposure || o.display.tone != DisplayOptions().tone)) {
     return Error{fmt::format("--output-kind {} has a scale of luminance instead of --exposure and --tone; leave them out", o.kind)};
-  }
-  const Result<ToneCurve> tone = toneCurveFromName(o.tone);
-  if (!tone) return Error{"--tone: " + tone.error()};
-  plan.tone = tone.value();
-  plan.automaticWhite = o.whiteBalance == "auto";
-  if (!plan.automaticWhite && o.whiteBalance != "none") {
-    plan.whiteK = parseNumber<double>(o.whiteBalance);
-    if (!plan.whiteK || !(*plan.whiteK >= kLowestWhiteK && *plan.whiteK <= kHighestWhiteK)) {
-      return Error{fmt::format("--white-balance {}: write auto, none or a temperature from {} to {} K", o.whiteBalance, kLowestWhiteK, kHighestWhiteK)};
-    }
   }
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
   const Result<ViewWish> view = readViewWish(o.view, !o.camera.empty());
@@ -158,24 +142,12 @@ std::string dump(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-// What display pictures are adapted by: a temperature taken for white, and how far the eye goes along.
-struct White {
-  double kelvin = 0, degree = 0;
-};
-
-White whiteOf(const Plan& plan, const Rendered& rendered, float ev100) {
-  if (plan.whiteK) return {*plan.whiteK, 1};
-  if (!plan.automaticWhite || isBlack(rendered.lightColour)) return {};
-  // The luminance that the exposure makes a middle grey.
-  return {nearestWhiteK(rendered.lightColour), degreeOfAdaptation(0.18 / static_cast<double>(exposureFromEv100(ev100)))};
-}
-
 Image displayPicture(const Plan& plan, const White& white, const Image& image, float ev100) {
-  if (white.degree == 0) return toneMap(image, ev100, plan.tone);
-  const Affine adapt = whiteBalance(white.kelvin, white.degree);
+  if (white.degree == 0) return toneMap(image, ev100, plan.display.tone);
+  const Affine adapt = matrixOf(white);
   Image adapted(image.width, image.height);
   parallelFor(image.pixels.size(), 16384, [&](size_t i) { adapted.pixels[i] = adapt.vector(image.pixels[i]); });
-  return toneMap(adapted, ev100, plan.tone);
+  return toneMap(adapted, ev100, plan.display.tone);
 }
 
 Metadata describe(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered, float ev100, const White& white) {
@@ -190,7 +162,7 @@ Metadata describe(const Options& o, const Plan& plan, const Camera& camera, cons
                        {"roomlight.camera", camera.name},
                        {"roomlight.view", o.view.view},
                        {"roomlight.exposureEv100", fmt::format("{}", ev100)},
-                       {"roomlight.tone", std::string(toneCurveName(plan.tone))},
+                       {"roomlight.tone", std::string(toneCurveName(plan.display.tone))},
                        {"roomlight.whiteK", fmt::format("{:.0f}", white.kelvin)},
                        {"roomlight.whiteAdaptation", fmt::format("{:.3f}", white.degree)},
                        {"roomlight.complete", rendered.complete ? "true" : "false"}};
@@ -240,8 +212,8 @@ Status writePicture(const std::string& out, const Plan& plan, const Camera& came
 }
 
 Status writePictures(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered) {
-  const float ev100 = plan.ev100 ? *plan.ev100 : automaticEv100(rendered.image);
-  const White white = whiteOf(plan, rendered, ev100);
+  const float ev100 = plan.display.ev100 ? *plan.display.ev100 : automaticEv100(rendered.image);
+  const White white = whiteOf(plan.display, rendered.lightColour, ev100);
   const Metadata metadata = describe(o, plan, camera, rendered, ev100, white);
   if (o.kind != "picture") return writeLuminance(o, rendered, metadata);
   for (const std::string& out : o.outputs) {
@@ -355,9 +327,7 @@ Registered addRender(CLI::App& program) {
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same picture");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_option("--voxel-size", o->voxelSizeM, "Edge of a voxel in metres; 0: chosen from the memory budget");
-  app->add_option("--exposure", o->exposure, "auto, or EV100 as on a light meter")->capture_default_str();
-  app->add_option("--tone", o->tone, "Tone curve of .png: neutral, agx, filmic or clip")->capture_default_str();
-  app->add_option("--white-balance", o->whiteBalance, "White of .png: auto, none, or the temperature in kelvin of light that shall look white")->capture_default_str();
+  addDisplayOptions(*app, o->display, ".png");
   app->add_option("--output-kind", o->kind, "picture; luminance: .exr in cd/m2 without colour, .png in grey; or falsecolour: .png in colours that tell luminance, with a legend")->capture_default_str();
   app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
   app->add_option("--stats", o->stats, "Write time and memory of each stage to this JSON file");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/image_io.h"
+#include "base/image_layers.h"
 
 namespace roomlight::formats {
 
@@ -19,8 +20,14 @@ void writeExr(const std::filesystem::path& file, const Image& image, const Metad
 Image readExr(const std::filesystem::path& file);
 Metadata readExrMetadata(const std::filesystem::path& file);
 
+void writeLayers(const std::filesystem::path& file, const LayeredImage& image);
+LayeredImage readLayers(const std::filesystem::path& file);
+
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha);
+void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata);
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp);
+void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp);
+void writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black
 Metadata readPngMetadata(std::span<const uint8_t> bytes);
 

@@ -116,6 +116,29 @@ Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t
   return writeAtomically(file, [&](const auto& temporary) { formats::writeJpeg(temporary, encoded, mostBytes, xmp); });
 }
 
+Status writeLayers(const std::filesystem::path& file, const LayeredImage& image) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeLayers(temporary, image); });
+}
+
+Result<LayeredImage> readLayers(const std::filesystem::path& file) {
+  return guarded<LayeredImage>(file, [&] {
+    if (formatOf(file) != Format::Exr) throw std::runtime_error("no OpenEXR file; layers are written by render --layers");
+    return formats::readLayers(file);
+  });
+}
+
+Status writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writePng(temporary, image, metadata); });
+}
+
+Status writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeJpeg(temporary, image, mostBytes, {}); });
+}
+
+Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality) {
+  return writeAtomically(file, [&](const auto& temporary) { formats::writeWebp(temporary, image, quality); });
+}
+
 Result<Image> readImage(const std::filesystem::path& file) {
   return guarded<Image>(file, [&] {
     switch (formatOf(file)) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "base/byte_image.h"
 #include "base/image.h"
 #include "base/result.h"
 
@@ -21,6 +22,13 @@ Status writeExr(const std::filesystem::path& file, const Image& image, const Met
 Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha = {});
 // The same as JPEG: as good as fits into so many bytes, or as bad as is still a picture. `xmp`: metadata as an XMP packet; may be empty.
 Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp = {});
+
+// Pictures of bytes as they are. JPEG takes three channels only. WebP: quality 0 to 100, of colour alone, alpha is always exact;
+// kLossless: every byte comes back, but for colours where alpha is 0.
+constexpr float kLossless = 101;
+Status writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata);
+Status writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes);
+Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 
 // EXR (linear), Radiance .hdr (linear) or PNG (decoded from sRGB to linear), by content.
 Result<Image> readImage(const std::filesystem::path& file);

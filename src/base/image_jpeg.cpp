@@ -12,11 +12,11 @@ namespace {
 
 constexpr int kBest = 92, kWorst = 20, kStep = 6;  // of JPEG's quality
 
-std::string compressed(const Image& image, const std::vector<unsigned char>& rgb, int quality) {
+std::string compressed(const ByteImage& image, int quality) {
   const std::unique_ptr<void, int (*)(tjhandle)> compressor(tjInitCompress(), tjDestroy);
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
-  const bool done = compressor && tjCompress2(compressor.get(), rgb.data(), image.width, 0, image.height, TJPF_RGB, &bytes, &size, TJSAMP_420, quality, TJFLAG_ACCURATEDCT) == 0;
+  const bool done = compressor && tjCompress2(compressor.get(), image.samples.data(), image.width, 0, image.height, TJPF_RGB, &bytes, &size, TJSAMP_420, quality, TJFLAG_ACCURATEDCT) == 0;
   const std::string out = done ? std::string(reinterpret_cast<const char*>(bytes), size) : std::string();
   tjFree(bytes);
   if (!done) throw std::runtime_error("too large for JPEG");
@@ -37,14 +37,18 @@ void insertXmp(std::string& jpeg, const std::string& xmp) {
 }  // namespace
 
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) {
-  std::vector<unsigned char> rgb;
-  rgb.reserve(3 * encoded.pixels.size());
+  ByteImage image(encoded.width, encoded.height, 3);
+  auto* next = image.samples.data();
   for (const Vec3& p : encoded.pixels) {
-    for (int c = 0; c < 3; ++c) rgb.push_back(static_cast<unsigned char>(std::clamp(p[c], 0.0f, 1.0f) * 255 + 0.5f));
+    for (int c = 0; c < 3; ++c) *next++ = static_cast<uint8_t>(std::clamp(p[c], 0.0f, 1.0f) * 255 + 0.5f);
   }
+  formats::writeJpeg(file, image, mostBytes, xmp);
+}
+
+void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp) {
   std::string bytes;
   for (int quality = kBest; quality >= kWorst; quality -= kStep) {
-    bytes = compressed(encoded, rgb, quality);
+    bytes = compressed(image, quality);
     if (bytes.size() <= mostBytes) break;
   }
   if (!xmp.empty()) insertXmp(bytes, xmp);

@@ -39,7 +39,7 @@ void readBytes(png_structp png, png_bytep out, size_t n) {
   bytes->left -= n;
 }
 
-bool writeTo(std::FILE* out, int width, int height, int kind, png_bytep* rows, png_textp texts, int textCount, Failure& failure) {
+bool writeTo(std::FILE* out, const ByteImage& image, png_bytep* rows, png_textp texts, int textCount, Failure& failure) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, onError, onWarning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   if (!info || setjmp(png_jmpbuf(png))) {
@@ -47,8 +47,8 @@ bool writeTo(std::FILE* out, int width, int height, int kind, png_bytep* rows, p
     return false;
   }
   png_init_io(png, out);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, kind,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+               image.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_text(png, info, texts, textCount);
   png_set_rows(png, info, rows);
@@ -114,19 +114,21 @@ bool readRgba(Bytes& bytes, png_uint_32 width, png_uint_32 height, uint8_t* rgba
 void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha) {
   if (encoded.width < 1 || encoded.height < 1) throw std::runtime_error("a picture without pixels cannot be written");
   const auto eightBits = [](float v) { return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f)); };
-  const size_t channels = alpha.empty() ? 3 : 4;
-  std::vector<uint8_t> bytes;
-  bytes.reserve(encoded.pixels.size() * channels);
+  ByteImage bytes(encoded.width, encoded.height, alpha.empty() ? 3 : 4);
+  auto* next = bytes.samples.data();
   for (size_t i = 0; i < encoded.pixels.size(); ++i) {
     const Vec3 p = encoded.pixels[i];
     if (!isFinite(p)) throw std::runtime_error("a pixel is not a finite number; no PNG can hold it");
-    for (int c = 0; c < 3; ++c) bytes.push_back(eightBits(p[c]));
-    if (channels == 4) bytes.push_back(eightBits(alpha[i]));
+    for (int c = 0; c < 3; ++c) *next++ = eightBits(p[c]);
+    if (!alpha.empty()) *next++ = eightBits(alpha[i]);
   }
+  formats::writePng(file, bytes, metadata);
+}
+
+void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata) {
+  if (image.width < 1 || image.height < 1) throw std::runtime_error("a picture without pixels cannot be written");
   std::vector<png_bytep> rows;
-  for (int y = 0; y < encoded.height; ++y) {
-    rows.push_back(bytes.data() + static_cast<size_t>(y) * static_cast<size_t>(encoded.width) * channels);
-  }
+  for (int y = 0; y < image.height; ++y) rows.push_back(const_cast<png_bytep>(image.row(y)));  // the library only reads
   std::vector<png_text> texts;
   for (const auto& [key, value] : metadata) {
     png_text text{};
@@ -139,8 +141,7 @@ void writePng(const std::filesystem::path& file, const Image& encoded, const Met
   Failure failure;
   std::FILE* out = std::fopen(file.c_str(), "wb");
   if (!out) throw std::runtime_error(std::string("cannot be written: ") + std::strerror(errno));
-  const bool written =
-      writeTo(out, encoded.width, encoded.height, channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, rows.data(), texts.data(), static_cast<int>(texts.size()), failure);
+  const bool written = writeTo(out, image, rows.data(), texts.data(), static_cast<int>(texts.size()), failure);
   if (std::fclose(out) != 0 || !written) {
     throw std::runtime_error(std::string("cannot be written: ") + (failure.message[0] ? failure.message : std::strerror(errno)));
   }

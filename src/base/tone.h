@@ -6,6 +6,7 @@
 
 #include "base/image.h"
 #include "base/result.h"
+#include "base/tone_curves.h"
 
 namespace roomlight {
 
@@ -27,8 +28,7 @@ float exposureFromEv100(float ev100);
 // exposure; deterministic, and the same for every technique up to the noise in the picture.
 float automaticEv100(const Image& luminanceImage);
 
-float srgbEncode(float linear);  // IEC 61966-2-1; input clipped to 0..1
-float srgbDecode(float encoded);
+float srgbDecode(float encoded);  // of srgbEncode (base/tone_curves.h)
 
 // Exposed, tone-mapped and encoded copy, every channel in 0..1.
 Image toneMap(const Image& image, float ev100, ToneCurve curve);

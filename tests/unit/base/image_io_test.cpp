@@ -1,6 +1,9 @@
 #include "base/image_io.h"
 
 #include <gtest/gtest.h>
+#include <webp/decode.h>
+
+#include <memory>
 
 #include "base/image_formats.h"
 #include "base/random.h"
@@ -177,6 +180,35 @@ TEST(ImageIo, unknownContentMissingFileAndFolderAreErrors) {
   EXPECT_FALSE(readImage(folder / "missing.exr").ok());
   EXPECT_FALSE(readImage(folder.path()).ok());
   EXPECT_NE(readImage(folder / "missing.exr").error().find("no such file"), std::string::npos);
+}
+
+ByteImage transparent() {
+  ByteImage image(5, 3, 4);
+  for (size_t i = 0; i < image.samples.size(); ++i) image.samples[i] = static_cast<uint8_t>(40 + 3 * i);
+  return image;
+}
+
+TEST(ImageIo, pngKeepsBytesAndAlpha) {
+  const TemporaryFolder folder;
+  const ByteImage image = transparent();
+  ASSERT_TRUE(writePng(folder / "a.png", image, kMetadata).ok());
+  const std::string bytes = readFile(folder / "a.png");
+  const std::vector<uint8_t> file(bytes.begin(), bytes.end());
+  EXPECT_EQ(formats::readPngTexels(file, formats::readPngSize(file)), image.samples);
+  EXPECT_EQ(readMetadata(folder / "a.png").value().at("roomlight.version"), kMetadata.at("roomlight.version"));
+}
+
+TEST(ImageIo, webpWithoutLossKeepsBytesAndAlpha) {
+  const TemporaryFolder folder;
+  const ByteImage image = transparent();
+  ASSERT_TRUE(writeWebp(folder / "a.webp", image, kLossless).ok());
+  const std::string bytes = readFile(folder / "a.webp");
+  int width = 0, height = 0;
+  const std::unique_ptr<uint8_t, void (*)(void*)> decoded(WebPDecodeRGBA(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &width, &height), WebPFree);
+  ASSERT_TRUE(decoded && width == 5 && height == 3);
+  EXPECT_TRUE(std::equal(image.samples.begin(), image.samples.end(), decoded.get()));
+  EXPECT_FALSE(writeWebp(folder / "b.webp", ByteImage(20000, 1, 3), 80).ok()) << "wider than WebP can be";
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.webp"));
 }
 
 }  // namespace

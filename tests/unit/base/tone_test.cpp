@@ -22,6 +22,19 @@ TEST(Tone, srgbRoundTripAndKnownValues) {
   EXPECT_FLOAT_EQ(srgbEncode(7), 1);
 }
 
+TEST(Tone, fastPowersAreAsGoodAsFloats) {
+  for (float x = 1e-6f; x < 1e6f; x *= 1.013f) {
+    EXPECT_NEAR(fastLog2(x), std::log2(x), 2e-7f + 1e-7f * std::abs(std::log2(x))) << x;
+    EXPECT_NEAR(fastPow(x, 1 / 2.4f) / std::pow(static_cast<double>(x), 1 / 2.4), 1, 2e-6) << x;
+  }
+  for (float y = -20; y < 20; y += 0.0137f) EXPECT_NEAR(static_cast<double>(fastExp2(y)) / std::exp2(static_cast<double>(y)), 1, 2e-7) << y;
+}
+
+TEST(Tone, whatIsNotANumberStaysSo) {
+  EXPECT_TRUE(std::isnan(srgbEncode(std::nanf(""))));
+  EXPECT_TRUE(std::isnan(toneMap(constant({1, std::nanf(""), 1}), 0, ToneCurve::Clip).pixels[0].y));
+}
+
 TEST(Tone, exposureMapsItsMaximumLuminanceToOne) {
   for (float ev : {-3.0f, 0.0f, 6.91f, 15.0f}) EXPECT_NEAR(exposureFromEv100(ev) * 1.2f * std::exp2(ev), 1, 1e-5f);
 }

@@ -1,0 +1,37 @@
+// How pictures in cd/m² are shown, as options of commands say it: --exposure, --tone, --white-balance (docs/conventions.md, exposure and display).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "base/tone.h"
+
+namespace roomlight::cli {
+
+struct DisplayOptions {
+  std::string exposure = "auto", tone = "neutral", whiteBalance = "auto";
+};
+
+struct Display {
+  std::optional<float> ev100;  // none: automatic
+  ToneCurve tone = ToneCurve::PbrNeutral;
+  bool automaticWhite = true;
+  std::optional<double> whiteK;  // none, and not automatic: no white balance
+};
+
+void addDisplayOptions(CLI::App& command, DisplayOptions& options, const std::string& ofWhat);
+Result<Display> readDisplay(const DisplayOptions& options);
+
+// What display pictures are adapted by: a temperature taken for white, and how far the eye goes along.
+struct White {
+  double kelvin = 0, degree = 0;
+};
+// `lightColour`: of the light in the picture, black where it is not known.
+White whiteOf(const Display& display, Vec3 lightColour, float ev100);
+
+// The matrix of a white; that of no white changes nothing.
+Affine matrixOf(const White& white);
+
+}  // namespace roomlight::cli

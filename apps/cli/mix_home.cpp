@@ -1,0 +1,134 @@
+#include "mix_home.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "arguments.h"
+#include "base/image_layers.h"
+#include "mix/layer_names.h"
+
+namespace roomlight::cli {
+namespace {
+
+// A layer's own dial, and what is laid over it: of either, the part that is said.
+void apply(const Dial& dial, Dial& onto) {
+  if (dial.level) onto.level = dial.level;
+  if (dial.tint) onto.tint = dial.tint;
+}
+
+Status applyToKind(const std::vector<LayerInfo>& layers, const std::string& kind, const std::optional<std::string>& text, std::vector<Dial>& dials) {
+  if (!text) return Ok{};
+  const Result<Dial> dial = parseDial(*text);
+  if (!dial) return Error{fmt::format("--{} {}", kind, dial.error())};
+  bool any = false;
+  for (size_t i = 0; i < layers.size(); ++i) {
+    if (layers[i].kind != kind) continue;
+    apply(dial.value(), dials[i]);
+    any = true;
+  }
+  if (!any) return Error{fmt::format("--{}: the picture has no layer of the {}", kind, kind)};
+  return Ok{};
+}
+
+Status applyToLamps(const std::vector<LayerInfo>& layers, const std::string& text, std::vector<Dial>& dials) {
+  const Result<Assignment> assignment = splitAssignment("--lamp", text);
+  if (!assignment) return Error{assignment.error()};
+  const Result<std::vector<size_t>> found = findLamps(layers, assignment.value().name);
+  if (!found) return Error{fmt::format("--lamp: {}", found.error())};
+  const Result<Dial> dial = parseDial(assignment.value().value);
+  if (!dial) return Error{fmt::format("--lamp {}: {}", text, dial.error())};
+  for (const size_t i : found.value()) apply(dial.value(), dials[i]);
+  return Ok{};
+}
+
+Vec3 lightColourOf(const MixHome& home, const Mixture& mixture) {
+  Vec3 sum;
+  for (size_t i = 0; i < home.layers.size(); ++i) sum += mixture.hues[i] * luminance(home.stack.meanRgb[i] * mixture.gains[i]);
+  return sum;
+}
+
+}  // namespace
+
+Result<MixHome> openLayers(const std::string& file) {
+  Result<LayeredImage> read = readLayers(file);
+  if (!read) return Error{read.error()};
+  LayeredImage& picture = read.value();
+  const auto text = picture.metadata.find(kLayersKey);
+  if (text == picture.metadata.end()) return Error{fmt::format("{}: does not say what its layers are ({}); make it by render --layers", file, kLayersKey)};
+  Result<std::vector<LayerInfo>> layers = layersFromJson(text->second, fmt::format("{}: {}", file, kLayersKey));
+  if (!layers) return Error{layers.error()};
+  MixHome home{std::move(layers).value(), makeLayerStack(picture.whole.width, picture.whole.height, picture.layers.size())};
+  picture.whole = {};
+  if (home.layers.size() != picture.layers.size()) return Error{fmt::format("{}: tells of {} layers and holds {}; render it again", file, home.layers.size(), picture.layers.size())};
+  for (size_t i = 0; i < home.layers.size(); ++i) {
+    const auto layer = std::find_if(picture.layers.begin(), picture.layers.end(), [&](const PictureLayer& l) { return l.channel == home.layers[i].channel; });
+    if (layer == picture.layers.end()) return Error{fmt::format("{}: has no channels {}.R, .G and .B; render it again", file, home.layers[i].channel)};
+    const bool sound = std::all_of(layer->image.pixels.begin(), layer->image.pixels.end(), [](Vec3 p) { return isFinite(p) && minComponent(p) >= 0; });
+    if (!sound) return Error{fmt::format("{}: layer '{}' has light that is negative or not a finite number", file, home.layers[i].name)};
+    setLayer(home.stack, i, layer->image);
+    layer->image = {};
+  }
+  return home;
+}
+
+Result<Mixture> mixtureOf(const std::vector<LayerInfo>& layers, const DialOptions& options) {
+  std::vector<Dial> dials(layers.size());
+  if (options.kelvin) {
+    const Result<Vec3> tint = tintOfKelvin(*options.kelvin);
+    if (!tint) return Error{"--kelvin " + tint.error()};
+    for (size_t i = 0; i < layers.size(); ++i) {
+      if (isLamp(layers[i])) dials[i].tint = tint.value();
+    }
+  }
+  for (const std::string& text : options.lamps) {
+    if (const Status s = applyToLamps(layers, text, dials); !s) return Error{s.error()};
+  }
+  if (const Status s = applyToKind(layers, "sun", options.sun, dials); !s) return Error{s.error()};
+  if (const Status s = applyToKind(layers, "sky", options.sky, dials); !s) return Error{s.error()};
+  Mixture mixture;
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const Result<Vec3> gain = gainOf(layers[i], dials[i]);
+    if (!gain) return Error{gain.error()};
+    mixture.gains.push_back(gain.value());
+    mixture.hues.push_back(dials[i].tint.value_or(layers[i].colour));
+  }
+  return mixture;
+}
+
+ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display) {
+  ShownMix shown;
+  shown.look.ev100 = display.ev100 ? *display.ev100 : automaticEv100(mixLinear(home.stack, mixture.gains));
+  shown.look.tone = display.tone;
+  shown.white = whiteOf(display, lightColourOf(home, mixture), shown.look.ev100);
+  shown.look.whiteBalance = matrixOf(shown.white);
+  return shown;
+}
+
+Result<Assignment> splitAssignment(const std::string& option, const std::string& text) {
+  const size_t equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0) return Error{fmt::format("{} {}: write NAME=VALUE, for example \"Sofa lamp\"=60%", option, text)};
+  return Assignment{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::string layerTable(const std::vector<LayerInfo>& layers) {
+  size_t widest = 4;
+  for (const LayerInfo& l : layers) widest = std::max(widest, l.name.size());
+  std::string table = fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", "name", widest, "kind", "colour", "flux", "linear RGB", "room");
+  for (const LayerInfo& l : layers) {
+    const std::string kelvin = l.kelvin ? fmt::format("{:.0f} K", *l.kelvin) : "-", flux = l.fluxLm ? fmt::format("{:.0f} lm", *l.fluxLm) : "-";
+    const std::string rgb = fmt::format("{:.3f} {:.3f} {:.3f}", l.colour.x, l.colour.y, l.colour.z);
+    table += fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", l.name, widest, l.kind, kelvin, flux, rgb, l.room.empty() ? "-" : l.room);
+  }
+  return table;
+}
+
+Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata, float webpQuality) {
+  const std::string e = lowerExtension(file);
+  if (e == ".webp") return writeWebp(file, image, webpQuality);
+  if (e == ".jpg") return writeJpeg(file, image, std::numeric_limits<size_t>::max());
+  return writePng(file, image, metadata);
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,52 @@
+// A layered picture opened for mixing, and how bright each layer shall be.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/image_io.h"
+#include "display_options.h"
+#include "mix/dial.h"
+#include "mix/layer_info.h"
+#include "mix/layer_stack.h"
+#include "mix/mixer.h"
+
+namespace roomlight::cli {
+
+struct MixHome {
+  std::vector<LayerInfo> layers;  // in the file's order, as those of the stack
+  LayerStack stack;
+};
+Result<MixHome> openLayers(const std::string& file);
+
+struct DialOptions {
+  std::vector<std::string> lamps;  // NAME=DIAL, the later ones go first
+  std::optional<double> kelvin;    // of all lamps
+  std::optional<std::string> sun, sky;
+};
+
+struct Mixture {
+  std::vector<Vec3> gains, hues;  // a layer; hues of luminance 1
+};
+Result<Mixture> mixtureOf(const std::vector<LayerInfo>& layers, const DialOptions& options);
+
+// How a mix is shown: exposure and white are those of `gains` where options do not fix them.
+struct ShownMix {
+  Look look;
+  White white;
+};
+ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display);
+
+// The name before the last '=', and what is behind it.
+struct Assignment {
+  std::string name, value;
+};
+Result<Assignment> splitAssignment(const std::string& option, const std::string& text);
+
+std::string layerTable(const std::vector<LayerInfo>& layers);
+
+// By the extension: .png, .webp or .jpg.
+Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata, float webpQuality);
+
+}  // namespace roomlight::cli

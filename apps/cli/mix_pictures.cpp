@@ -1,0 +1,112 @@
+#include "mix_pictures.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "base/parallel.h"
+#include "commands.h"
+#include "interrupt.h"
+#include "mix/floor_plan.h"
+#include "output_files.h"
+
+namespace roomlight::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr float kStateQuality = 90;  // of WebP; states are looked at, overlays are summed
+
+int failed(const std::string& message) {
+  printError(message);
+  return kFailed;
+}
+
+Status makeFolder(const std::filesystem::path& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (std::filesystem::is_directory(folder)) return Ok{};
+  return Error{fmt::format("{}: is not a folder and none can be made there", folder.string())};
+}
+
+std::string stateIndex(const MixHome& home, const Switches& switches, const Metadata& metadata, const std::string& extension) {
+  Json index = {{"version", 1}, {"width", home.stack.width}, {"height", home.stack.height}, {"made", metadata}, {"lamps", Json::array()}, {"states", Json::array()}};
+  for (const size_t lamp : switches.lamps) index["lamps"].push_back(home.layers[lamp].name);
+  for (const uint32_t mask : allStates(switches.lamps.size())) index["states"].push_back({{"mask", mask}, {"file", stateName(mask, switches.lamps.size()) + extension}});
+  return index.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string told(const OverlayTrial& trial) {
+  std::string text;
+  for (size_t i = 0; i < kBlends.size(); ++i) text += fmt::format("{}{} {:.1f}", i ? ", " : "", cssName(kBlends[i]), trial.errors[i].rms);
+  return text;
+}
+
+Status writePages(const FloorPlan& plan, const OverlayTrial& trial, const OverlaysJob& job) {
+  if (const Status s = writeTextFile(job.folder / "index.html", pageOf(plan)); !s) return s;
+  if (const Status s = writeTextFile(job.folder / "index.json", overlayIndexOf(plan, trial)); !s) return s;
+  if (job.cardFile.empty()) return Ok{};
+  if (const Status s = writeTextFile(job.cardFile, cardOf(plan, job.urlPrefix, job.dimmed)); !s) return s;
+  return job.dimmed ? writeTextFile(sensorsFileOf(job.cardFile), sensorsOf(plan)) : Status(Ok{});
+}
+
+}  // namespace
+
+std::filesystem::path sensorsFileOf(const std::filesystem::path& cardFile) { return cardFile.parent_path() / (cardFile.stem().string() + "_sensors.yaml"); }
+
+int writeStates(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const StatesJob& job, ProgressDisplay& display) {
+  if (const Status s = makeFolder(job.folder); !s) return failed(s.error());
+  if (const Status s = writeTextFile(job.folder / "index.json", stateIndex(home, switches, metadata, job.extension)); !s) return failed(s.error());
+  const std::vector<uint32_t> states = allStates(switches.lamps.size());
+  std::mutex oneAtATime;
+  std::string error;
+  size_t written = 0;
+  std::atomic<bool> stop = false;
+  display.report("states", 0);
+  // Every state is mixed anew: that is exact, and takes a fraction of the time that writing its picture takes.
+  parallelFor(states.size(), 1, [&](size_t i) {
+    if (stop || interrupted()) return;
+    const ByteImage image = mixDisplay(home.stack, gainsOfState(switches, states[i]), shown.look);
+    const Status s = writeBytes(job.folder / (stateName(states[i], switches.lamps.size()) + job.extension), image, metadata, kStateQuality);
+    const std::lock_guard lock(oneAtATime);
+    if (!s && !stop.exchange(true)) error = s.error();
+    if (s) display.report("states", static_cast<float>(++written) / static_cast<float>(states.size()));
+  });
+  if (stop) return failed(error);
+  if (written < states.size()) {
+    printError(fmt::format("interrupted: {} of {} states are written", written, states.size()));
+    return kInterrupted;
+  }
+  display.line(fmt::format("wrote {} states of {} lamps to {}, told by its index.json", states.size(), switches.lamps.size(), job.folder.string()));
+  return kOk;
+}
+
+int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const OverlaysJob& job, ProgressDisplay& display) {
+  if (const Status s = makeFolder(job.folder); !s) return failed(s.error());
+  const OverlayTrial trial = tryOverlays(home.stack, switches, shown.look);
+  FloorPlan plan = planOf(home.layers, switches, job.entities, job.extension);
+  plan.width = home.stack.width, plan.height = home.stack.height;
+  const auto least = std::min_element(trial.errors.begin(), trial.errors.end(), [](const BlendError& a, const BlendError& b) { return a.rms < b.rms; });
+  plan.blend = job.blend.value_or(kBlends[static_cast<size_t>(least - trial.errors.begin())]);
+  const ByteImage base = mixDisplay(home.stack, gainsOfState(switches, 0), shown.look);
+  if (const Status s = writeBytes(job.folder / plan.baseFile, base, metadata, kLossless); !s) return failed(s.error());
+  display.report("overlays", 0);
+  for (size_t i = 0; i < plan.lamps.size(); ++i) {
+    if (interrupted()) {
+      printError(fmt::format("interrupted: {} of {} overlays are written", i, plan.lamps.size()));
+      return kInterrupted;
+    }
+    plan.lamps[i].opacities = trial.opacities[i];
+    const ByteImage lit = mixDisplay(home.stack, gainsOfState(switches, uint64_t{1} << i), shown.look);
+    if (const Status s = writeBytes(job.folder / plan.lamps[i].file, overlayOf(base, lit, plan.blend), metadata, kLossless); !s) return failed(s.error());
+    display.report("overlays", static_cast<float>(i + 1) / static_cast<float>(plan.lamps.size()));
+  }
+  if (const Status s = writePages(plan, trial, job); !s) return failed(s.error());
+  display.line(fmt::format("wrote base and {} overlays to {}, for mix-blend-mode: {}; open its index.html", plan.lamps.size(), job.folder.string(), cssName(plan.blend)));
+  display.line(fmt::format("error of several lamps together, root mean square in steps of 1/255: {}", told(trial)));
+  if (!job.cardFile.empty()) display.line(fmt::format("wrote {}{}", job.cardFile, job.dimmed ? " and " + sensorsFileOf(job.cardFile).string() : ""));
+  return kOk;
+}
+
+}  // namespace roomlight::cli

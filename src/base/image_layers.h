@@ -1,0 +1,32 @@
+// Pictures that add up: one OpenEXR file with the light of every lamp apart. Channels R, G, B hold the whole picture, <channel>.R, .G and .B
+// a layer each; all 32-bit float, linear, in the picture's unit, ZIP compressed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/image_io.h"
+
+namespace roomlight {
+
+// The header's string attribute that tells what the layers are, as JSON (docs/formats/layers.md).
+constexpr const char* kLayersKey = "roomlight:layers";
+
+struct PictureLayer {
+  std::string channel;  // letters, digits and _ alone
+  Image image;
+};
+
+struct LayeredImage {
+  Image whole;
+  std::vector<PictureLayer> layers;  // sorted by channel once read
+  Metadata metadata;                 // kLayersKey among them
+};
+
+// On all threads allowed. An error names the file, as those of writeExr() and readImage() do.
+Status writeLayers(const std::filesystem::path& file, const LayeredImage& image);
+// Channels that are neither R, G, B nor complete layers are left out; a file without any layer is an error.
+Result<LayeredImage> readLayers(const std::filesystem::path& file);
+
+}  // namespace roomlight

@@ -1,0 +1,56 @@
+#include "mix/layer_names.h"
+
+#include <gtest/gtest.h>
+
+#include "unit/mix/layers.h"
+
+namespace roomlight {
+namespace {
+
+using Found = std::vector<size_t>;
+
+TEST(LayerNames, exactThenAnyCaseThenPatternThenTheOnlyBeginning) {
+  std::vector<LayerInfo> layers = testing::someLayers();
+  EXPECT_EQ(findLamps(layers, "Sofa lamp").value(), Found{0});
+  EXPECT_EQ(findLamps(layers, "lamp_02").value(), Found{1});
+  EXPECT_EQ(findLamps(layers, "SOFA LAMP").value(), Found{0});
+  EXPECT_EQ(findLamps(layers, "sof").value(), Found{0});
+  EXPECT_EQ(findLamps(layers, "kitchen*").value(), (Found{1, 2}));
+  EXPECT_EQ(findLamps(layers, "*").value(), (Found{0, 1, 2})) << "sun and sky are no lamps";
+  EXPECT_EQ(findLamps(layers, "?ofa*p").value(), Found{0});
+  layers[1].name = "Sofa";  // an exact name goes before the beginning of another
+  EXPECT_EQ(findLamps(layers, "sofa").value(), Found{1});
+}
+
+TEST(LayerNames, wrongNamesListThoseThereAre) {
+  const std::vector<LayerInfo> layers = testing::someLayers();
+  EXPECT_EQ(findLamps(layers, "Hall").error(), "no lamp 'Hall'; there are 'Sofa lamp', 'Kitchen ceiling', 'Kitchen sink'");
+  EXPECT_EQ(findLamps(layers, "kitchen").error(), "'kitchen' may be 'Kitchen ceiling', 'Kitchen sink'; write more of the name, or 'kitchen*' for all of them");
+  EXPECT_FALSE(findLamps(layers, "").ok());
+  EXPECT_FALSE(findLamps(layers, "Sky").ok());
+  EXPECT_FALSE(findLamps(layers, "x*").ok());
+}
+
+TEST(LayerInfo, readsTheHeadersJson) {
+  const std::vector<LayerInfo> layers = testing::someLayers();
+  ASSERT_EQ(layers.size(), 4u);
+  EXPECT_NEAR(luminance(layers[0].colour), 1, 1e-6f);
+  EXPECT_EQ(layers[0].kelvin.value(), 2700);
+  EXPECT_EQ(layers[0].room, "Living");
+  EXPECT_FLOAT_EQ(layers[1].pixel.value().x, 0.75f);
+  EXPECT_FALSE(layers[2].kelvin.has_value());
+  EXPECT_TRUE(layers[3].room.empty());
+  EXPECT_FALSE(isLamp(layers[3]));
+}
+
+TEST(LayerInfo, badJsonIsOneClearLine) {
+  const auto errorOf = [](const char* text) { return layersFromJson(text, "a.exr").error(); };
+  EXPECT_NE(errorOf("{").find("a.exr: "), std::string::npos);
+  EXPECT_EQ(errorOf(R"({"version": 2, "layers": []})"), "a.exr: is of version 2, this program reads 1");
+  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A"}]})").find("a.exr: layers[0]: key 'kind' not found"), std::string::npos);
+  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "moon"}]})").find("unknown kind 'moon'"), std::string::npos);
+  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "colour": [1, -1, 0]}]})").find("'colour'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace roomlight
