@@ -31,8 +31,8 @@ class Piece:
     stairs: str = ""           # SVG path of the hole that stairs need
     door: dict | None = None
     lights: list = field(default_factory=list)
-    files: dict = field(default_factory=dict)  # name: function that returns the bytes
-    icon: object = None
+    files: object = dict       # function that returns the model's files, {name: bytes}
+    icon: object = bytes       # function that returns a PNG
 
 
 def _numbers(text):
@@ -64,7 +64,7 @@ def _piece(library, p, archive, names):
     piece.drop_on_top = top / height if top >= 0 else -1
     piece.rotation, piece.stairs = p.get("modelRotation", ""), p.get("staircaseCutOutShape", "")
     piece.door, piece.lights = _door(p, width, depth), _lights(p, width, depth, height)
-    piece.files = {name[len(folder):]: (lambda n=name: archive.read(n)) for name in names if name.startswith(folder) and not name.endswith("/")}
+    piece.files = lambda: {name[len(folder):]: archive.read(name) for name in names if name.startswith(folder) and not name.endswith("/")}
     piece.icon = lambda: archive.read(p["icon"].lstrip("/"))
     return piece
 

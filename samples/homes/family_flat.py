@@ -1,4 +1,4 @@
-"""A flat for a family of four, 120 m2, its living side to the south; fourteen lamps."""
+"""A flat for a family of four, 111 m2, its living side to the south; fourteen lamps."""
 import arrangements as put
 from home import Home
 
@@ -23,8 +23,8 @@ def draw(pieces):
     children(h)
     study(h)
     h.view("Living room", (520, 425, 150), (120, 90, 80))
-    h.view("Kitchen", (330, 420, 150), (830, 120, 90))
-    h.view("Anna's room", (385, 650, 150), (90, 950, 75))
+    h.view("Kitchen", (440, 430, 150), (840, 150, 85))
+    h.view("Anna's room", (385, 640, 150), (100, 930, 75))
     return h
 
 

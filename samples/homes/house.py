@@ -1,4 +1,4 @@
-"""A house on two storeys, 130 m2: living, kitchen and office below, bedrooms above, a garden around it."""
+"""A house on two storeys, 124 m2: living, kitchen and office below, bedrooms above, a garden around it."""
 import arrangements as put
 from home import Home
 

@@ -1,4 +1,4 @@
-"""A large house of 300 m2 on two storeys in an old garden: more than one and a half million triangles."""
+"""A large house of 325 m2 on two storeys in an old garden: more than one and a half million triangles."""
 import arrangements as put
 from home import Home
 

@@ -1,4 +1,5 @@
 """Pieces of our own drawing that the catalogues lack: framed pictures and rugs, as OBJ with MTL and PNG."""
+import functools
 import zlib
 
 import numpy as np
@@ -47,8 +48,8 @@ def _piece(key, name, size, obj, colours, pixels):
     file = key.split(":")[1].replace(" ", "_")
     materials = "".join(f"newmtl {m}\nKd {r} {g} {b}\n" for m, (r, g, b) in colours.items())
     materials += f"newmtl painted\nKd 1 1 1\nmap_Kd {file}.png\n"
-    picture = lambda: png(pixels())
-    files = {f"{file}.obj": lambda: ("\n".join(obj.lines) + "\n").encode(), f"{file}.mtl": materials.encode, f"{file}.png": picture}
+    picture = functools.cache(lambda: png(pixels()))
+    files = lambda: {f"{file}.obj": ("\n".join(obj.lines) + "\n").encode(), f"{file}.mtl": materials.encode(), f"{file}.png": picture()}
     return Piece(key, "roomlight#" + file, name, "roomlight", "as roomlight", f"{file}.obj", *size, files=files, icon=picture)
 
 

@@ -12,20 +12,16 @@ def _surfaces_of(home):
     return sorted({v for v in looks if isinstance(v, str)})
 
 
-def write(home, path, painted):
-    """`painted` keeps the PNG of surfaces from one home to the next."""
+def write(home, path):
     entries, contents, number = {}, {}, 0
     for name in _surfaces_of(home):
-        if name not in painted:
-            painted[name] = surfaces.painted(name)
         entries[name] = str(number)
-        contents[str(number)] = painted[name]
+        contents[str(number)] = surfaces.painted(name)
         number += 1
     for key, piece in home.used_pieces().items():
         entries[key] = (f"{number}/{piece.model}", str(number + 1))
         contents[str(number + 1)] = piece.icon()
-        for file, read in piece.files.items():
-            contents[f"{number}/{file}"] = read()
+        contents |= {f"{number}/{file}": data for file, data in piece.files().items()}
         number += 2
     contents["Home.xml"] = Writer(home, entries).text().encode()
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:

@@ -1,4 +1,4 @@
-"""A studio: one room to live, cook and sleep in, and a bathroom; 36 m2, windows to the west."""
+"""A studio: one room to live, cook and sleep in, and a bathroom; 30 m2, windows to the west."""
 from home import Home
 
 
@@ -15,9 +15,9 @@ def draw(pieces):
     living(h)
     kitchen(h)
     bathroom(h)
-    h.view("Living", (60, 470, 150), (400, 80, 85))
-    h.view("Kitchen", (200, 300, 150), (600, 150, 95))
-    h.view("Bed", (560, 275, 150), (60, 250, 70))
+    h.view("Living", (395, 480, 150), (110, 80, 80))
+    h.view("Kitchen", (250, 215, 150), (620, 165, 95))
+    h.view("Bed", (395, 90, 150), (60, 390, 60))
     return h
 
 

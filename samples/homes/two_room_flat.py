@@ -1,4 +1,4 @@
-"""A two-room flat of 58 m2 on an upper floor: living room and bedroom to the south-east, kitchen, bathroom and hall."""
+"""A two-room flat of 53 m2 on an upper floor: living room and bedroom to the south-east, kitchen, bathroom and hall."""
 import arrangements as put
 from home import Home
 
@@ -17,7 +17,7 @@ def draw(pieces):
     kitchen(h)
     hall_and_bath(h)
     h.view("Living room", (460, 385, 150), (110, 110, 85))
-    h.view("Bedroom", (535, 385, 150), (780, 90, 70))
+    h.view("Bedroom", (530, 380, 150), (730, 90, 70))
     h.view("Kitchen", (265, 450, 150), (40, 660, 100))
     return h
 
