@@ -16,7 +16,7 @@ import zipfile
 ROOMLIGHT, SAMPLE = sys.argv[1], pathlib.Path(sys.argv[2])
 FURNITURE = pathlib.Path("/usr/share/sweethome3d/furniture")
 # Rooms and lamps of each.
-HOMES = {"room": (1, 3), "studio": (2, 5), "two_room_flat": (5, 10), "family_flat": (8, 14), "house": (9, 13), "large_house": (12, 20)}
+HOMES = {"room": (1, 3), "studio": (2, 5), "two_room_flat": (5, 10), "family_flat": (8, 14), "house": (9, 14), "large_house": (12, 22)}
 
 
 def run(*command):
