@@ -1,0 +1,30 @@
+"""The two lighting files beside a home: by day with its lamps off, and at night with its lamps on."""
+import json
+
+
+# Windows of the catalogue's makers call their panes so; each pane is a thin box, one surface towards either side.
+GLAZING = [{"material": "Glass", "panes": 1}]
+
+
+def day(home):
+    return {
+        "comment": f"{home.title} by day, its lamps off.",
+        "scene": {"lamps": "off", "suns": "off", "sky": "off", "emission": "off"},
+        "daylight": {"sky": "clear", "latitude": home.latitude, "longitude": home.longitude, "time": home.time_text, "north": home.north,
+                     "temperature": "9000 K", "sunTemperature": "5400 K"},
+        "glazing": GLAZING,
+    }
+
+
+def night(home):
+    return {
+        "comment": f"{home.title} after sunset: its lamps, as many lumen as the home says, and a last glow of the sky.",
+        "scene": {"suns": "off", "sky": "off"},
+        "sky": {"luminance": "0.1 cd/m2", "temperature": "9000 K"},
+        "glazing": GLAZING,
+    }
+
+
+def write(home, folder):
+    for name, light in (("day", day(home)), ("night", night(home))):
+        (folder / f"{home.name}_{name}.json").write_text(json.dumps(light, indent=2) + "\n")
