@@ -13,7 +13,7 @@ namespace {
 struct Technique {
   const char* name;
   const char* explanation;
-  Picture (*render)(const Scene&, const Camera&, const RenderSettings&, Stages&);
+  Result<Picture> (*render)(const Scene&, const Camera&, const RenderSettings&, Stages&);
 };
 
 // The default first.
@@ -47,11 +47,15 @@ Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSe
   Rendered result;
   Stages stages(progress, result.stats);
   stages.number("triangles", static_cast<double>(scene.triangleCount()));
+  std::string error;
   withThreads(settings.threads, [&] {
-    Picture picture = technique->render(scene, camera, settings, stages);
-    result.image = std::move(picture.image);
-    result.lightColour = picture.lightColour;
+    Result<Picture> picture = technique->render(scene, camera, settings, stages);
+    if (!picture) return static_cast<void>(error = picture.error());
+    result.image = std::move(picture.value().image);
+    result.lightColour = picture.value().lightColour;
+    result.layers = std::move(picture.value().layers);
   });
+  if (!error.empty()) return Error{error};
   result.complete = !stages.cancelled();
   const size_t broken = brokenPixels(result.image);
   assert(broken == 0);

@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "engine/settings.h"
 #include "scene/scene.h"
+#include "trace/light_layers.h"
 
 namespace roomlight {
 
@@ -24,9 +25,15 @@ struct RenderStats {
   std::vector<std::pair<std::string, double>> numbers;  // "triangles", "voxels", "voxelSizeM", "rays", "samples", "noise", ...
 };
 
+struct RenderedLayer {
+  LightLayer light;
+  Image image;  // linear, cd/m²
+};
+
 struct Rendered {
   Image image;        // linear, cd/m²
   Vec3 lightColour;   // of the light on what the picture shows, luminance 1; black where nothing tells
+  std::vector<RenderedLayer> layers;  // with settings.layers: their sum is `image`; lamps first, then emissive meshes, sun and sky
   RenderStats stats;
   bool complete = true;  // false: stopped early, the image is the best so far; empty if there was none yet
 };
