@@ -17,6 +17,7 @@
 #include "import/import.h"
 #include "import/lighting_file.h"
 #include "interrupt.h"
+#include "layers_file.h"
 #include "measure/luminance_picture.h"
 #include "output_files.h"
 #include "view_options.h"
@@ -35,6 +36,8 @@ struct Options {
   std::optional<float> voxelSizeM;
   float metresPerUnit = 1;
   double lumenAtFullPower = ImportOptions().lumenAtFullPower;
+  bool layers = false;
+  std::optional<std::string> layerGroups;
   bool quiet = false;
   ViewOptions view;
 };
@@ -72,6 +75,17 @@ Status checkOutputs(const Options& o) {
   return checkDistinct(files);
 }
 
+Status applyLayerGroups(const Options& o, RenderSettings& settings) {
+  if (o.layerGroups) {
+    if (*o.layerGroups != "name" && *o.layerGroups != "room") return Error{fmt::format("--layer-groups {}: write name or room", *o.layerGroups)};
+    settings.layersByRoom = *o.layerGroups == "room";
+  }
+  if (!settings.layers) return Ok{};
+  if (o.kind != "picture") return Error{fmt::format("--output-kind {}: is of one picture; leave out --layers", o.kind)};
+  const bool any = std::any_of(o.outputs.begin(), o.outputs.end(), [](const std::string& out) { return lowerExtension(out) == ".exr"; });
+  return any ? Status(Ok{}) : Error{"--layers: layers are written into .exr; add -o FILE.exr"};
+}
+
 Result<Plan> makePlan(const Options& o) {
   Plan plan;
   if (!o.quality.empty()) {
@@ -98,6 +112,8 @@ Result<Plan> makePlan(const Options& o) {
     if (!seed) return Error{fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", *o.seed)};
     s.seed = *seed;
   }
+  s.layers = s.layers || o.layers;
+  if (const Status status = applyLayerGroups(o, s); !status) return Error{status.error()};
   s.voxel.voxelSizeM = o.voxelSizeM.value_or(s.voxel.voxelSizeM);
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
   if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
@@ -211,13 +227,16 @@ Status writePicture(const std::string& out, const Plan& plan, const Camera& came
   return writePng(out, drawn(display, rendered.sights, kSection, std::nullopt), metadata, alpha);
 }
 
-Status writePictures(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered) {
+Status writePictures(const Options& o, const Plan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
   const float ev100 = plan.display.ev100 ? *plan.display.ev100 : automaticEv100(rendered.image);
   const White white = whiteOf(plan.display, rendered.lightColour, ev100);
   const Metadata metadata = describe(o, plan, camera, rendered, ev100, white);
   if (o.kind != "picture") return writeLuminance(o, rendered, metadata);
+  std::optional<LayeredImage> layered;
+  if (plan.settings.layers) layered = layeredImage(scene, camera, rendered, metadata);
   for (const std::string& out : o.outputs) {
-    if (const Status s = writePicture(out, plan, camera, rendered, white, ev100, metadata); !s) return s;
+    const Status s = layered && lowerExtension(out) == ".exr" ? writeLayers(out, *layered) : writePicture(out, plan, camera, rendered, white, ev100, metadata);
+    if (!s) return s;
   }
   return Ok{};
 }
@@ -283,7 +302,7 @@ int work(const Options& o, Plan plan) {
   RenderStats writeStage;
   RenderProgress silent;
   Stages writing(silent, writeStage);
-  const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, camera, rendered); });
+  const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, home.value().scene, camera, rendered); });
   if (!written) return bad(written.error(), kFailed);
   rendered.stats.stages.push_back(writeStage.stages.front());
   for (const auto& [name, value] : rendered.stats.numbers) {
@@ -324,6 +343,8 @@ Registered addRender(CLI::App& program) {
   app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");
   app->add_option("--time-limit", o->timeLimitS, "Be done this many seconds after loading, with the best picture for that; every pixel has light in any case");
   app->add_option("--noise-level", o->noiseLevel, "Stop when the mean relative error per pixel is below this (technique path), for example 0.02");
+  app->add_flag("--layers", o->layers, "The light of every lamp, emissive mesh, sun and sky apart: .exr with a layer for each, which add up to the picture (docs/formats/layers.md)");
+  app->add_option("--layer-groups", o->layerGroups, "name: lamps of one name, or of one group in the lighting file, are one layer (the default); room: those of one room are");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same picture");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_option("--voxel-size", o->voxelSizeM, "Edge of a voxel in metres; 0: chosen from the memory budget");

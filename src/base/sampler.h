@@ -58,6 +58,13 @@ class Sampler {
     part.rng_ = Rng(key_, part.reversedSample_, dimension_);
     return part;
   }
+  // Other numbers, as well distributed.
+  Sampler forked(uint64_t key) const {
+    Sampler other = *this;
+    other.key_ = static_cast<uint32_t>(mix64(key_ + key));
+    other.rng_ = Rng(other.key_, reversedSample_, key);
+    return other;
+  }
   // Without stratification, for what would use up the good dimensions.
   float fast1() { return rng_.uniform(); }
 

@@ -14,7 +14,7 @@ namespace {
 struct Technique {
   const char* name;
   const char* explanation;
-  Picture (*render)(const Scene&, const Camera&, const RenderSettings&, Stages&);
+  Result<Picture> (*render)(const Scene&, const Camera&, const RenderSettings&, Stages&);
 };
 
 // The default first.
@@ -35,10 +35,10 @@ size_t brokenPixels(const Image& image) {
 
 }  // namespace
 
-Picture finished(const RayScene& rays, const Camera& camera, Image image) {
+Picture finished(const RayScene& rays, const Camera& camera, Image image, std::vector<RenderedLayer> layers) {
   const Vec3 colour = lightColour(rays, camera, image);
   Sights sights = sightsOf(rays, camera, image.width, image.height);
-  return {std::move(image), colour, std::move(sights)};
+  return {std::move(image), colour, std::move(sights), std::move(layers)};
 }
 
 Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSettings& settings, const RenderProgress& progress) {
@@ -54,12 +54,16 @@ Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSe
   Rendered result;
   Stages stages(progress, result.stats);
   stages.number("triangles", static_cast<double>(scene.triangleCount()));
+  std::string error;
   withThreads(settings.threads, [&] {
-    Picture picture = technique->render(scene, camera, settings, stages);
-    result.image = std::move(picture.image);
-    result.lightColour = picture.lightColour;
-    result.sights = std::move(picture.sights);
+    Result<Picture> picture = technique->render(scene, camera, settings, stages);
+    if (!picture) return static_cast<void>(error = picture.error());
+    result.image = std::move(picture.value().image);
+    result.lightColour = picture.value().lightColour;
+    result.layers = std::move(picture.value().layers);
+    result.sights = std::move(picture.value().sights);
   });
+  if (!error.empty()) return Error{error};
   result.complete = !stages.cancelled();
   const size_t broken = brokenPixels(result.image);
   assert(broken == 0);

@@ -10,6 +10,7 @@
 #include "engine/settings.h"
 #include "engine/sights.h"
 #include "scene/scene.h"
+#include "trace/light_layers.h"
 
 namespace roomlight {
 
@@ -25,10 +26,16 @@ struct RenderStats {
   std::vector<std::pair<std::string, double>> numbers;  // "triangles", "voxels", "voxelSizeM", "rays", "samples", "noise", ...
 };
 
+struct RenderedLayer {
+  LightLayer light;
+  Image image;  // linear, cd/m²
+};
+
 struct Rendered {
   Image image;        // linear, cd/m²
   Vec3 lightColour;   // of the light on what the picture shows, luminance 1; black where nothing tells
   Sights sights;
+  std::vector<RenderedLayer> layers;  // with settings.layers: their sum is `image`; lamps first, then emissive meshes, sun and sky
   RenderStats stats;
   bool complete = true;  // false: stopped early, the image is the best so far; empty if there was none yet
 };

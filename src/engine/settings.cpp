@@ -37,6 +37,8 @@ void visitMembers(Visitor& v, Settings& s) {
   v.number("timeLimitS", s.timeLimitS, 0, 1e9);
   v.number("noiseLevel", s.noiseLevel, 0, 1);
   v.number("seed", s.seed, 0, std::numeric_limits<uint64_t>::max());
+  v.flag("layers", s.layers);
+  v.flag("layersByRoom", s.layersByRoom);
   v.number("threads", s.threads, 0, 1024);
   v.flag("blend", s.blend);
   v.number("blendUntilMse", s.blendUntilMse, 0, 1);

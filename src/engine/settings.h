@@ -23,6 +23,8 @@ struct RenderSettings {
   double timeLimitS = 0;   // be done after this long, but not before every pixel has light; 0: no limit
   double noiseLevel = 0;   // technique "path": stop when the mean relative standard error is below this; 0: never
   uint64_t seed = 0;
+  bool layers = false;      // techniques "hybrid" and "path": the light of every lamp, emissive mesh, sun and sky apart as well
+  bool layersByRoom = false;  // and lamps of a room together
   int threads = 0;         // 0: all cores
   bool blend = true;       // technique "hybrid": paths are traced and blended in while the time limit leaves time (refine.h)
   double blendUntilMse = 0;   // and, without a limit too, until the error estimated is below this; 0: time alone ends it

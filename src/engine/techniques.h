@@ -10,12 +10,13 @@ struct Picture {
   Image image;       // linear, cd/m²; empty if cancelled before there was one
   Vec3 lightColour;  // see light_colour.h
   Sights sights;
+  std::vector<RenderedLayer> layers;
 };
 // With what is seen in it.
-Picture finished(const RayScene& rays, const Camera& camera, Image image);
+Picture finished(const RayScene& rays, const Camera& camera, Image image, std::vector<RenderedLayer> layers);
 
-Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
-Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
-Picture renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+Result<Picture> renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+Result<Picture> renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+Result<Picture> renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 
 }  // namespace roomlight

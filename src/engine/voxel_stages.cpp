@@ -36,6 +36,10 @@ void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages
   stages.number("radianceMiB", static_cast<double>(light.field.bytes()) / 1048576);
   stages.number("bounces", light.field.bounces);
   stages.number("residual", light.field.residual);
+  if (!light.field.layers.empty()) {
+    stages.number("layers", static_cast<double>(picture.layers.size()));
+    stages.number("layersMiB", static_cast<double>(light.field.layers.bytes() + picture.layerBytes + picture.layers.size() * picture.image.pixels.size() * sizeof(Vec3)) / 1048576);
+  }
   stages.number("samples", picture.samples);
   stages.number("rays", static_cast<double>(light.field.rays + picture.rays));
 }

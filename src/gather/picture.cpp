@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
+#include "base/split.h"
 #include "filter/filter.h"
 #include "gather/noise_map.h"
 #include "gather/pixel_shader.h"
@@ -51,6 +52,23 @@ class PixelRays {
   std::vector<Vec2> places_;
 };
 
+// What the filter is told of one layer: what pixels see is that of the whole, light and noise its own.
+FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>& counts, const LayerSums& sums, size_t layer) {
+  FilterInput out(whole.width, whole.height);
+  parallelFor(counts.size(), 4096, [&](size_t i) {
+    FilterPixel& p = out.pixels[i];
+    p = whole.pixels[i];
+    const auto per = [](uint32_t n) { return 1 / static_cast<float>(std::max(1u, n)); };
+    const float inverse = per(counts[i].rays), diffuse = per(counts[i].gathered), specular = per(counts[i].glossy), albedo = std::max(luminance(p.albedo), 1e-3f);
+    p.diffuse = sums.get(i, LayerSums::kDiffuse, layer) * diffuse, p.sharp = sums.get(i, LayerSums::kSharp, layer) * inverse;
+    p.specular = sums.get(i, LayerSums::kSpecular, layer) * specular, p.rest = sums.get(i, LayerSums::kRest, layer) * inverse;
+    const Vec3 variance = sums.get(i, LayerSums::kVariance, layer);
+    p.diffuseVariance = variance.x * diffuse * diffuse / (albedo * albedo), p.sharpVariance = variance.y * inverse * inverse / (albedo * albedo);
+    p.specularVariance = variance.z * specular * specular;
+  });
+  return out;
+}
+
 }  // namespace
 
 GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings,
@@ -58,7 +76,10 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
   const int w = settings.width, h = settings.height;
   const PixelRays pixelRays(rays, camera, settings);
   const auto every = settings.filterPasses > 0 ? std::bit_floor(static_cast<uint32_t>(settings.gatherEvery)) : 1u;
-  const PixelShader pixelShader(rays, lights, settings);
+  const LightLayers* layers = shader.layers();
+  LayerSums byLayer(layers ? layers->size() : 0);
+  byLayer.resize(static_cast<size_t>(w) * static_cast<size_t>(h));
+  const PixelShader pixelShader(rays, lights, settings, layers, layers ? &byLayer : nullptr);
   GatheredPicture result;
   FilterInput sums(w, h);
   std::vector<PixelCount> counts(sums.pixels.size());
@@ -82,6 +103,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
       GatherCounters count;
       TileWork work;
       std::vector<SurfaceLight> light;
+      LayerSums layerLight(layers ? layers->size() : 0);
       std::array<Ray, kRaysAtOnce> some;
       for (size_t tile = begin; tile < end; ++tile) {
         if (progress.stop() && first > 0) return;
@@ -92,12 +114,18 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
             const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
             if (chosen && !noisy[pixel]) continue;
             const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings.seed, every);
-            pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, {&sums.pixels[pixel], &counts[pixel]}, work, count);
+            pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, {&sums.pixels[pixel], &counts[pixel], static_cast<uint32_t>(pixel)}, work, count);
           }
         }
         if (every > 1) gatherSparsely(work, r, every, settings.rayRoughness, static_cast<uint32_t>(n), sums);
         light.resize(work.shadings.size());
-        shader.shade(work.shadings, work.shadows, light, count);
+        if (layers) {
+          layerLight.resize(work.shadings.size());
+          shader.shadeInLayers(work.shadings, work.shadows, light, layerLight, count);
+          pixelShader.addLayers(work, light, layerLight);
+        } else {
+          shader.shade(work.shadings, work.shadows, light, count);
+        }
         PixelShader::add(work, light);
         const size_t done = ++tilesDone;
         if (done % 64 == 0 && reporting.try_lock()) {
@@ -118,6 +146,14 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     if (!result.occlusion.pixels.empty()) result.occlusion.pixels[i] = Vec3(counts[i].occlusion / static_cast<float>(std::max(1u, counts[i].rays)));
   });
   result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses, pixelRays.wrap()) : composed(sums);
+  if (layers) {
+    for (size_t l = 0; l < layers->size(); ++l) {
+      const FilterInput input = inputOfLayer(sums, counts, byLayer, l);
+      result.layers.push_back(settings.filterPasses > 0 ? filtered(input, settings.filterPasses, pixelRays.wrap()) : composed(input));
+    }
+    splitLike(result.image, result.layers);
+    result.layerBytes = byLayer.bytes();
+  }
   result.rays = rayCount;
   result.cones = coneCount;
   return result;

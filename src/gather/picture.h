@@ -25,8 +25,10 @@ struct PictureSettings {
 struct GatheredPicture {
   Image image;        // linear, cd/m²
   Image occlusion;    // mean ambient occlusion, 0 open to 1 closed, in every channel; empty where nothing is closed, or the technique does not ask
+  std::vector<Image> layers;  // where the shader keeps light apart: their sum is `image`
   int samples = 0;
   uint64_t rays = 0, cones = 0;
+  size_t layerBytes = 0;  // taken by sums of layers while they were added up
 };
 
 GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings,

@@ -156,7 +156,9 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   for (size_t j = 0; j < shadings; ++j) {
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
-    sum.rest += left * s.emitted() * weight;
+    const Vec3 emitted = left * s.emitted() * weight;
+    sum.rest += emitted;
+    if (const int32_t emitter = byLayer_ ? lights_.emitterOf(group.instance) : -1; emitter >= 0) byLayer_->add(pixel.index, LayerSums::kRest, layers_->ofEmitter[static_cast<size_t>(emitter)], emitted);
     if (solid && !mirror && !layer.seen[i]) {
       sum.normal += s.ns * weight;
       sum.position += s.p * weight;
@@ -182,6 +184,56 @@ void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light)
     }
     addVariance(shadings, part);
   }
+}
+
+// As addVariance() has it for all light, for each layer. Of one shading alone its parts are as uncertain as the whole.
+void PixelShader::addVarianceOfLayers(const TileWork::Part& part, std::span<const SurfaceLight> whole, const LayerSums& light) const {
+  const float n = static_cast<float>(part.count), between = n > 1 ? n / (n - 1) : 0;
+  const float ofDiffuse = part.weight * static_cast<float>(part.gathers), ofSpecular = part.weight * static_cast<float>(part.glossy);
+  float albedo = 0;
+  for (uint32_t s = part.first; s < part.first + part.count; ++s) albedo += luminance(part.left * whole[s].albedo);
+  for (size_t l = 0; l < layers_->size(); ++l) {
+    float diffuse = 0, specular = 0;
+    Vec3 variance;
+    for (uint32_t s = part.first; s < part.first + part.count && n > 1; ++s) {
+      diffuse += luminance(part.left * light.get(s, LayerSums::kDiffuse, l)), specular += luminance(part.left * light.get(s, LayerSums::kSpecular, l));
+    }
+    const float irradiance = diffuse / std::max(albedo, 1e-6f);
+    for (uint32_t s = part.first; s < part.first + part.count; ++s) {
+      const SurfaceLight& all = whole[s];
+      const float d = luminance(part.left * light.get(s, LayerSums::kDiffuse, l)), g = luminance(part.left * light.get(s, LayerSums::kSpecular, l));
+      const float sharp = luminance(light.get(s, LayerSums::kSharp, l)) / std::max(luminance(all.sharp), 1e-20f);
+      variance.y += lengthSquared(part.left) / 3 * all.sharpVariance * sharp * sharp * n * part.weight * part.weight;
+      if (n > 1) {
+        const float offDiffuse = d - luminance(part.left * all.albedo) * irradiance, offSpecular = g - specular / n;
+        variance.x += offDiffuse * offDiffuse * between * ofDiffuse * ofDiffuse, variance.z += offSpecular * offSpecular * between * ofSpecular * ofSpecular;
+      } else {
+        const float relDiffuse = d / std::max(luminance(all.diffuse), 1e-20f), relSpecular = g / std::max(luminance(all.specular), 1e-20f);
+        variance.x += all.diffuseVariance * relDiffuse * relDiffuse * ofDiffuse * ofDiffuse, variance.z += all.specularVariance * relSpecular * relSpecular * ofSpecular * ofSpecular;
+      }
+    }
+    byLayer_->add(part.pixel.index, LayerSums::kVariance, static_cast<int32_t>(l), variance);
+  }
+}
+
+void PixelShader::addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const {
+  for (const TileWork::Part& part : work.parts) {
+    const Vec3 sharp = part.left * part.weight, diffuse = sharp * static_cast<float>(part.gathers), specular = sharp * static_cast<float>(part.glossy);
+    for (size_t s = part.first; s < part.first + part.count; ++s) {
+      byLayer_->addFrom(part.pixel.index, LayerSums::kDiffuse, light, s, diffuse);
+      byLayer_->addFrom(part.pixel.index, LayerSums::kSharp, light, s, sharp);
+      byLayer_->addFrom(part.pixel.index, LayerSums::kSpecular, light, s, specular);
+    }
+    addVarianceOfLayers(part, whole, light);
+  }
+}
+
+void PixelShader::addBackground(Vec3 left, Vec3 direction, PixelSum pixel) const {
+  pixel.sum->rest += left * background(lights_, direction);
+  if (!byLayer_) return;
+  const Vec3 sky = skyAlong(lights_, direction);
+  byLayer_->add(pixel.index, LayerSums::kRest, layers_->sky, left * sky);
+  byLayer_->add(pixel.index, LayerSums::kRest, layers_->sun, left * (background(lights_, direction) - sky));
 }
 
 // From how the shadings of one surface differ. Shadows are the same for all of them, so there deviations add, not variances.
@@ -246,7 +298,7 @@ void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, 
     size_t used = 0;
     for (size_t i = 0; i < layer.count; ++i) {
       if (!layer.hit[i].valid()) {
-        pixel.sum->rest += layer.left[i] * background(lights_, layer.ray[i].direction);
+        addBackground(layer.left[i], layer.ray[i].direction, pixel);
         continue;
       }
       Group* g = groupOf(layer.ray[i], layer.hit[i], groups, used);

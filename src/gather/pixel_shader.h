@@ -41,6 +41,7 @@ struct PixelCount {
 struct PixelSum {  // variances are of the sums
   FilterPixel* sum;
   PixelCount* count;
+  uint32_t index;  // of the pixel, in sums by layers
 };
 FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count);
 
@@ -62,11 +63,15 @@ struct TileWork {
 
 class PixelShader {
  public:
-  PixelShader(const RayScene& rays, const Lights& lights, const PictureSettings& settings) : rays_(rays), lights_(lights), sharp_(rays, lights), settings_(settings) {}
+  // `byLayer`, where given: a sum for each pixel, of light by `layers`.
+  PixelShader(const RayScene& rays, const Lights& lights, const PictureSettings& settings, const LightLayers* layers = nullptr, LayerSums* byLayer = nullptr)
+      : rays_(rays), lights_(lights), sharp_(rays, lights), settings_(settings), layers_(layers), byLayer_(byLayer) {}
   // At most kRaysAtOnce rays. What shines by itself is added to `pixel` at once; what has to be lit, to `work`.
   void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work, GatherCounters& count) const;
   // Adds the light of everything in `work` to its pixels.
   static void add(const TileWork& work, std::span<const SurfaceLight> light);
+  // The same by layers, of which `light` has one thing for each shading.
+  void addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const;
 
  private:
   struct Layer;
@@ -77,12 +82,16 @@ class PixelShader {
   void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part);
   static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
+  void addVarianceOfLayers(const TileWork::Part& part, std::span<const SurfaceLight> whole, const LayerSums& light) const;
+  void addBackground(Vec3 left, Vec3 direction, PixelSum pixel) const;
   void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface, const PixelSequence& sequence, Layer& behind) const;
 
   const RayScene& rays_;
   const Lights& lights_;
   const SharpLights sharp_;
   const PictureSettings& settings_;
+  const LightLayers* layers_;
+  LayerSums* byLayer_;
 };
 
 }  // namespace roomlight

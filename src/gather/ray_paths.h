@@ -49,8 +49,9 @@ struct GatherVertex {
 struct GatherWork {
   struct Shadowed {
     uint32_t estimate;
-    bool sure;
+    bool sure, layersOnly;
     Lobes light;
+    LightOrigin origin;
   };
   struct Doubt {
     GatherPath path;
@@ -71,21 +72,33 @@ struct GatherWork {
   std::vector<Vec3> left;
   std::vector<Doubt> doubts;
   uint64_t rayCount = 0;
+  // Where light is kept in layers: sums of the shadings, the one of each estimate, and the part that the estimate has in it.
+  LayerSums* layers = nullptr;
+  const SlotLayers* slots = nullptr;
+  std::vector<uint32_t> shadingOf;
+  std::vector<float> part;
 
   void clear() {
-    samplers.clear(), found.clear(), most.clear(), paths.clear(), next.clear();
-    rayCount = 0;
+    samplers.clear(), found.clear(), most.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
+    rayCount = 0, layers = nullptr;
   }
   // `sure`: of a light that is sampled too, so that none of its samples stands for much.
-  void add(uint32_t estimate, const Lobes& factor, Vec3 radiance, bool sure = false) {
+  // Returns what was added.
+  Lobes add(uint32_t estimate, const Lobes& factor, Vec3 radiance, const LightOrigin& origin, bool sure = false) {
     const auto bounded = [&](Vec3 light, float limit) {
       const float l = luminance(light);
       return sure || l <= limit ? light : light * (limit / l);
     };
-    found[estimate].diffuse += bounded(factor.diffuse * radiance, most[estimate]);
-    found[estimate].specular += bounded(factor.specular * radiance, most[estimate]);
+    const Lobes light{bounded(factor.diffuse * radiance, most[estimate]), bounded(factor.specular * radiance, most[estimate])};
+    found[estimate].diffuse += light.diffuse;
+    found[estimate].specular += light.specular;
+    if (layers) addToLayers(estimate, light, origin);
+    return light;
   }
-  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light) { shadowRays.push_back(ray), shadowed.push_back({estimate, sure, light}); }
+  void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin);
+  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin, bool layersOnly = false) {
+    shadowRays.push_back(ray), shadowed.push_back({estimate, sure, layersOnly, light, origin});
+  }
 };
 
 }  // namespace roomlight

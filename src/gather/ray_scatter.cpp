@@ -8,11 +8,40 @@ namespace roomlight {
 namespace {
 
 constexpr float kNothing = 1e-4f;
+constexpr float kPictureShare = 1.0f / 64;  // of layers' light from lamps comes from the picture's own samples: where it has light they have, too
+constexpr float kDoubt = 0.125f;            // chance to ask a layer that seems not to reach a place
+constexpr float kNudge = 0.05f;             // voxels
+constexpr uint64_t kLayerKey = 0x1a7e25;    // other random numbers than the picture's
 
 }  // namespace
 
-RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, bool sampleLamps) : lights_(lights), field_(field), sampleLamps_(sampleLamps), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
+RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, bool sampleLamps) : lights_(lights), voxels_(voxels), field_(field), sampleLamps_(sampleLamps), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
   for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
+  if (field.layers.empty()) return;
+  const LightLayers& layers = *field.layers.lights;
+  members_.resize(layers.size());
+  for (uint32_t i = 0; i < lights.lampCount() && sampleLamps; ++i) members_[static_cast<size_t>(layers.ofLamp[i])].lamps.push_back(i);
+  for (uint32_t i = 0; i < lights.emitterCount(); ++i) members_[static_cast<size_t>(layers.ofEmitter[i])].emitters.push_back(i);
+}
+
+void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin) {
+  const float by = part[estimate] * origin.weight;
+  const size_t shading = shadingOf[estimate];
+  const bool isGlossy = !isBlack(light.specular);
+  if (origin.slot < 0) {
+    layers->add(shading, LayerSums::kDiffuse, origin.layer, light.diffuse * by);
+    if (isGlossy) layers->add(shading, LayerSums::kSpecular, origin.layer, light.specular * by);
+    return;
+  }
+  // Without glow the rest of the light is more; of that each layer has its share, less the glow of its own lamps.
+  const uint16_t* shares = slots->at(static_cast<size_t>(origin.slot));
+  const float whole = by / std::max(1 - origin.glow, 1e-3f), lost = -whole * origin.glow;
+  const int32_t glowOf = origin.glow > 0 ? slots->glowOf[static_cast<size_t>(origin.slot)] : -1;
+  layers->addShares(shading, LayerSums::kDiffuse, shares, light.diffuse * whole);
+  layers->add(shading, LayerSums::kDiffuse, glowOf, light.diffuse * lost);
+  if (!isGlossy) return;
+  layers->addShares(shading, LayerSums::kSpecular, shares, light.specular * whole);
+  layers->add(shading, LayerSums::kSpecular, glowOf, light.specular * lost);
 }
 
 // Sends rays from a surface: to lights, and on to other surfaces.
@@ -24,42 +53,97 @@ void RayScatter::from(const GatherVertex& v, GatherWork& w) const {
 
 float RayScatter::cosinePdf(const GatherVertex& v, Vec3 wi) { return std::max(0.0f, dot(wi, v.s.ns)) / kPi; }
 
+void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly, GatherWork& w) const {
+  if (!light.valid() || dot(light.wi, v.s.ng) <= 0) return;
+  Lobes f = v.value(light.wi);
+  if (light.pdf > 0) {
+    // Rays that gather find the same lights; the two share them by multiple importance sampling.
+    if (v.apart) {
+      f.diffuse *= misWeight(light.pdf, cosinePdf(v, light.wi));
+      f.specular *= misWeight(light.pdf, v.bsdf.pdfSpecular(light.wi));
+    } else {
+      const float weight = misWeight(light.pdf, v.followed ? cosinePdf(v, light.wi) : v.bsdf.pdf(light.wi));
+      f.diffuse *= weight, f.specular *= weight;
+    }
+  }
+  const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
+  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), sum, origin, layersOnly);
+}
+
 void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   Sampler& sampler = w.samplers[v.estimate];
-  const auto take = [&](const LightSample& light) {
-    if (!light.valid() || dot(light.wi, v.s.ng) <= 0) return;
-    Lobes f = v.value(light.wi);
-    if (light.pdf > 0) {
-      // Rays that gather find the same lights; the two share them by multiple importance sampling.
-      if (v.apart) {
-        f.diffuse *= misWeight(light.pdf, cosinePdf(v, light.wi));
-        f.specular *= misWeight(light.pdf, v.bsdf.pdfSpecular(light.wi));
-      } else {
-        const float weight = misWeight(light.pdf, v.followed ? cosinePdf(v, light.wi) : v.bsdf.pdf(light.wi));
-        f.diffuse *= weight, f.specular *= weight;
-      }
-    }
-    const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
-    if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), sum);
-  };
+  const LightLayers* layers = field_.layers.lights.get();
+  if (w.layers && v.first) layersAt(v, w);
+  const auto take = [&](const LightSample& light, int32_t layer, float weight = 1) { takeLight(v, light, LightOrigin::ofLayer(layer, weight), false, w); };
+  const auto takeLocal = [&](const LightSample& light) { take(light, layers ? layers->of(light) : -1, v.first ? kPictureShare : 1); };
   if (v.first) {
-    if (sampleLamps_) take(lights_.sampleLamps(v.s.p, sampler));
+    if (sampleLamps_) takeLocal(lights_.sampleLamps(v.s.p, sampler));
   } else {
     if (lights_.lampCount() > 0) {
       const LightSample lamp = lights_.sampleLamps(v.s.p, sampler);
-      if (!leavesToCache(v, lamp)) take(lamp);
+      if (!leavesToCache(v, lamp)) takeLocal(lamp);
     }
-    for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
+    for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()), layers ? layers->sun : -1);
   }
   if (lights_.hasEmitters()) {
     const Vec2 u = sampler.next2();
     const LightSample light = lights_.sampleEmitters(v.s.p, u, sampler.next1());
-    if (!leavesToCache(v, light)) take(light);
+    if (!leavesToCache(v, light)) takeLocal(light);
   }
   if (lights_.sky().present() && !v.skyKnown) {
     const Vec2 u = sampler.next2();
-    take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()));
+    take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()), layers ? layers->sky : -1);
   }
+}
+
+// A sample of each layer's lamps and emissive meshes for what the camera sees, where the picture itself has one of them all: else a
+// layer would have the noise of that choice. Layers that no slot near sees are asked now and then, so that nothing is lost.
+void RayScatter::layersAt(const GatherVertex& v, GatherWork& w) const {
+  Sampler sampler = w.samplers[v.estimate].forked(kLayerKey);
+  const Int3 at = voxels_.voxelOf(v.s.p + v.s.ng * (kNudge * voxels_.voxelSizeM));
+  const int32_t brick = at.x < 0 || at.y < 0 || at.z < 0 ? -1 : voxels_.brickAt({at.x / kBrickSize, at.y / kBrickSize, at.z / kBrickSize});
+  const uint64_t reach = brick < 0 ? ~uint64_t{0} : field_.layers.reach[static_cast<size_t>(brick)];
+  for (size_t l = 0; l < members_.size(); ++l) {
+    if (members_[l].lamps.empty() && members_[l].emitters.empty()) continue;
+    float weight = 1 - kPictureShare;
+    if (!((reach >> l) & 1)) {
+      if (sampler.fast1() >= kDoubt) continue;
+      weight /= kDoubt;
+    }
+    takeLight(v, sampleLayer(l, v.s.p, sampler), LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
+  }
+}
+
+// One of its lights, chosen by what each could give at p without shadows.
+LightSample RayScatter::sampleLayer(size_t layer, Vec3 p, Sampler& sampler) const {
+  const Members& m = members_[layer];
+  const auto weigh = [&](size_t i) { return i < m.lamps.size() ? lights_.lampImportance(m.lamps[i], p) : lights_.emitterImportance(m.emitters[i - m.lamps.size()], p); };
+  const size_t count = m.lamps.size() + m.emitters.size();
+  float total = 0;
+  for (size_t i = 0; i < count; ++i) total += weigh(i);
+  if (!(total > 0)) return {};
+  const Vec2 u = sampler.next2();
+  float choice = sampler.next1() * total;
+  size_t i = 0;
+  for (; i + 1 < count && choice >= weigh(i); ++i) choice -= weigh(i);
+  const float own = weigh(i), chance = own / total;
+  if (!(own > 0)) return {};
+  LightSample light = i < m.lamps.size() ? lights_.sampleLamp(m.lamps[i], p, u) : lights_.sampleEmitter(m.emitters[i - m.lamps.size()], p, u, std::clamp(choice / own, 0.0f, 1.0f));
+  light.radiance *= 1 / chance, light.pdf *= chance;
+  return light;
+}
+
+float RayScatter::weightInLayer(const GatherPath& path, const SurfacePoint& s) const {
+  const int32_t emitter = lights_.emitterOf(s.instance);
+  if (emitter < 0 || path.pdf <= 0 || path.depth > 1) return 1;
+  const Members& m = members_[static_cast<size_t>(field_.layers.lights->ofEmitter[static_cast<size_t>(emitter)])];
+  float total = 0;
+  for (const uint32_t i : m.lamps) total += lights_.lampImportance(i, path.from);
+  for (const uint32_t i : m.emitters) total += lights_.emitterImportance(i, path.from);
+  const auto index = static_cast<size_t>(emitter);
+  const float pdf = total > 0 ? lights_.emitterImportance(index, path.from) / total * lights_.pdfEmitter(index, path.from, s) : 0;
+  const float own = misWeight(path.pdf, pdf), inPicture = misWeight(path.pdf, lights_.pdfEmitters(path.from, s));
+  return kPictureShare + (1 - kPictureShare) * own / std::max(inPicture, 1e-20f);
 }
 
 // Whether it lies in the surroundings of the lamp or emissive mesh sampled from there: what surfaces reflect of its light is in the
@@ -85,7 +169,10 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   f.diffuse *= field_.glow.pointShare(g.point, v.s.p, {v.apart || v.followed ? cosine : mixed, 0});
   f.specular *= v.clear ? 0 : field_.glow.pointShare(g.point, v.s.p, {v.apart ? v.bsdf.pdfSpecular(wi) : mixed, 0});
   const Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, g.light), sum);
+  const GlowPoint& point = field_.glow.point(g.point);
+  const LightLayers* layers = field_.layers.lights.get();
+  const int32_t layer = !layers ? -1 : point.lamp >= 0 ? layers->ofLamp[static_cast<size_t>(point.lamp)] : layers->ofEmitter[static_cast<size_t>(point.emitter)];
+  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, g.light), sum, LightOrigin::ofLayer(layer));
 }
 
 void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {

@@ -16,17 +16,28 @@ class RayScatter {
   void from(const GatherVertex& v, GatherWork& w) const;
   // Whether light straight from the emissive mesh of an instance to where the path came from is in the cache.
   bool isCached(const GatherPath& path, uint32_t instance) const;
+  // What light of an emissive mesh, found where a path ends, weighs in its layer relative to the picture: layers sample each apart.
+  float weightInLayer(const GatherPath& path, const SurfacePoint& s) const;
 
  private:
   static float cosinePdf(const GatherVertex& v, Vec3 wi);
   void lightsAt(const GatherVertex& v, GatherWork& w) const;
+  void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly, GatherWork& w) const;
+  void layersAt(const GatherVertex& v, GatherWork& w) const;
+  LightSample sampleLayer(size_t layer, Vec3 p, Sampler& sampler) const;
   bool leavesToCache(const GatherVertex& v, const LightSample& light) const;
   void glowAt(const GatherVertex& v, GatherWork& w) const;
   void gatherAt(const GatherVertex& v, GatherWork& w) const;
 
   const Lights& lights_;
+  const Voxels& voxels_;
   const RadianceField& field_;
   const bool sampleLamps_;
+  // Lights of a layer that are sampled from there on: lamps, if they are at all, and emissive meshes.
+  struct Members {
+    std::vector<uint32_t> lamps, emitters;
+  };
+  std::vector<Members> members_;
   std::vector<LightSurroundings> besideLamps_;           // of each
   const std::vector<LightSurroundings> besideEmitters_;  // of each
 };

@@ -42,10 +42,11 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
   for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
 }
 
-void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const {
+void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, GatherCounters& count) const {
   thread_local GatherWork w;
   w.clear();
-  for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], shadows.subspan(work[i].firstShadow, sharp_.count()), w);
+  w.layers = layers, w.slots = &field_.layers;
+  for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), w);
   traceShadows(w);
   while (!w.next.empty()) {
     w.paths.swap(w.next);
@@ -90,7 +91,7 @@ void RayShader::follow(GatherWork& w) const {
 }
 
 // Sends out everything that lights a surface, and returns what is known at once.
-SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shadows, GatherWork& w) const {
+SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const {
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
   GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
@@ -103,8 +104,15 @@ SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shado
     if (!light.valid()) continue;
     Lobes f = v.value(light.wi);
     if (light.pdf > 0) f.specular *= misWeight(light.pdf, bsdf.pdfSpecular(light.wi));
-    out.sharp += f.diffuse * light.radiance * shadows[i].left;
-    out.specular += f.specular * light.radiance * shadows[i].left;
+    const Lobes arrives{f.diffuse * light.radiance * shadows[i].left, f.specular * light.radiance * shadows[i].left};
+    out.sharp += arrives.diffuse;
+    out.specular += arrives.specular;
+    if (w.layers) {
+      const LightLayers& layers = *field_.layers.lights;
+      const int32_t layer = light.lamp >= 0 ? layers.ofLamp[static_cast<size_t>(light.lamp)] : layers.sun;
+      w.layers->add(index, LayerSums::kSharp, layer, arrives.diffuse);
+      w.layers->add(index, LayerSums::kSpecular, layer, arrives.specular);
+    }
     const float l = luminance(f.diffuse * light.radiance);
     out.sharpVariance += l * l * shadows[i].variance;
   }
@@ -116,6 +124,7 @@ SurfaceLight RayShader::start(const Shading& work, std::span<const Shadow> shado
     w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(n)));
     w.found.push_back({});
     w.most.push_back(most);
+    if (w.layers) w.shadingOf.push_back(index), w.part.push_back(1 / static_cast<float>(n));
     scatter_.from(v, w);
   }
   return out;
@@ -128,22 +137,35 @@ float RayShader::expectedRadiance(const SurfacePoint& s) const {
   return place.slot < 0 ? kInfinity : std::max(meanRadiance_, luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi);
 }
 
-Vec3 RayShader::backgroundAlong(const GatherPath& path) const {
+Vec3 RayShader::skyAlong(const GatherPath& path) const {
+  if (!lights_.sky().present() || path.skyKnown) return {};
   const Vec3 d = path.ray.direction;
-  const auto weight = [&](float lightPdf) { return path.pdf > 0 ? misWeight(path.pdf, lightPdf) : 1; };
+  return lights_.sky().radiance(d) * (path.pdf > 0 ? misWeight(path.pdf, pdfSkyGuided(field_.guide, path.guide, lights_, d)) : 1);
+}
+
+Vec3 RayShader::sunsAlong(const GatherPath& path) const {
   Vec3 sum;
-  if (lights_.sky().present() && !path.skyKnown) sum += lights_.sky().radiance(d) * weight(pdfSkyGuided(field_.guide, path.guide, lights_, d));
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
     float pdf;
-    const Vec3 disc = lights_.sunDisc(i, d, pdf);
-    if (pdf > 0) sum += disc * weight(pdf);
+    const Vec3 disc = lights_.sunDisc(i, path.ray.direction, pdf);
+    if (pdf > 0) sum += disc * (path.pdf > 0 ? misWeight(path.pdf, pdf) : 1);
   }
   return sum;
 }
 
+// Of a path that leaves the scene.
+void RayShader::addBackground(const GatherPath& path, GatherWork& w) const {
+  const Vec3 sky = skyAlong(path), suns = sunsAlong(path), both = sky + suns;
+  const Lobes light = w.add(path.estimate, path.factor, both, {}, path.depth == 1);
+  if (!w.layers || isBlack(both)) return;
+  const Vec3 ofSky = sky / max(both, Vec3(1e-20f)), ofSuns = suns / max(both, Vec3(1e-20f));
+  w.addToLayers(path.estimate, {light.diffuse * ofSky, light.specular * ofSky}, LightOrigin::ofLayer(field_.layers.lights->sky));
+  w.addToLayers(path.estimate, {light.diffuse * ofSuns, light.specular * ofSuns}, LightOrigin::ofLayer(field_.layers.lights->sun));
+}
+
 // What a path finds where its ray ends, and how it goes on from there.
 void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) const {
-  if (!hit.valid()) return w.add(path.estimate, path.factor, backgroundAlong(path), path.depth == 1);
+  if (!hit.valid()) return addBackground(path, w);
   const uint8_t kind = kind_[hit.instance];
   if (kind == 0 && !path.clear) {
     const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
@@ -152,7 +174,9 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
   const SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   if (kind & kShines) {
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
-      w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, lights_.pdfEmitters(path.from, s)) : 1), path.depth == 1);
+      LightOrigin origin;
+      if (w.layers) origin = LightOrigin::ofLayer(layerOf(hit.instance), scatter_.weightInLayer(path, s));
+      w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, lights_.pdfEmitters(path.from, s)) : 1), origin, path.depth == 1);
     }
   }
   if (!(kind & kClearKind)) {
@@ -210,12 +234,21 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
   // The slot's albedo is that of what does not let light through, of the instance that has most of it.
   const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
   Vec3 light = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[static_cast<size_t>(slot)] / kPi;
+  const Vec3 even = light;
   if (!field_.sunLux.empty() && field_.sunLux[static_cast<size_t>(slot)] > 0) light = max(Vec3(0), light + sunward(path, hit, slot));
+  float left = 1;
   if (path.pdf > 0 && !field_.glow.empty()) {
     const float share = field_.glowShare[static_cast<size_t>(slot)];
-    if (share > 0) light *= 1 - share * (1 - field_.glow.coneShare(share * luminance(light), length(p - path.from), -dot(n, path.ray.direction), path.pdf));
+    if (share > 0) left = 1 - share * (1 - field_.glow.coneShare(share * luminance(light), length(p - path.from), -dot(n, path.ray.direction), path.pdf));
   }
-  w.add(path.estimate, path.factor, light);
+  const Vec3 bent = light;
+  light *= left;
+  const Lobes added = w.add(path.estimate, path.factor, light, {});
+  if (!w.layers || isBlack(added.diffuse + added.specular)) return;
+  // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
+  const Vec3 ofEven = even / max(bent, Vec3(1e-20f)), ofSun = Vec3(1) - ofEven;
+  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven}, LightOrigin::ofSlot(slot, 1 - left));
+  if (!isBlack(ofSun)) w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun}, LightOrigin::ofLayer(field_.layers.lights->sun));
 }
 
 // Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its
@@ -251,7 +284,11 @@ void RayShader::traceShadows(GatherWork& w) const {
   w.rayCount += w.shadowRays.size();
   for (size_t i = 0; i < w.shadowed.size(); ++i) {
     const GatherWork::Shadowed& s = w.shadowed[i];
-    w.add(s.estimate, s.light, w.left[i], s.sure);
+    if (s.layersOnly) {
+      w.addToLayers(s.estimate, {s.light.diffuse * w.left[i], s.light.specular * w.left[i]}, s.origin);
+    } else {
+      w.add(s.estimate, s.light, w.left[i], s.origin, s.sure);
+    }
   }
   w.shadowRays.clear(), w.shadowed.clear();
 }

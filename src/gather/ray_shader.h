@@ -11,13 +11,20 @@ namespace roomlight {
 class RayShader final : public SurfaceShader {
  public:
   RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings);
-  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const override;
+  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const override {
+    shade(work, shadows, light, nullptr, count);
+  }
+  void shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums& layers, GatherCounters& count) const override {
+    shade(work, shadows, light, &layers, count);
+  }
+  const LightLayers* layers() const override { return field_.layers.lights.get(); }
 
  private:
   bool apart(const Shading& work) const { return !work.followed && work.s.m.roughness < settings_.rayRoughness; }
   int estimates(const Shading& work) const { return settings_.estimates * (work.gathers > 0 ? work.gathers : apart(work) ? 1
                                                                                                                          : 0); }
-  SurfaceLight start(const Shading& work, std::span<const Shadow> shadows, GatherWork& w) const;
+  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, GatherCounters& count) const;
+  SurfaceLight start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const;
   static void sumUp(std::span<const Lobes> found, SurfaceLight& out);
   void follow(GatherWork& w) const;
   float expectedRadiance(const SurfacePoint& s) const;
@@ -26,9 +33,15 @@ class RayShader final : public SurfaceShader {
   void goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const;
   void read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const;
   Vec3 sunward(const GatherPath& path, const Hit& hit, int64_t slot) const;
+  void addBackground(const GatherPath& path, GatherWork& w) const;
   void traceShadows(GatherWork& w) const;
   void resolveUnsure(GatherWork& w) const;
-  Vec3 backgroundAlong(const GatherPath& path) const;
+  int32_t layerOf(uint32_t instance) const {
+    const int32_t emitter = lights_.emitterOf(instance);
+    return emitter < 0 ? -1 : field_.layers.lights->ofEmitter[static_cast<size_t>(emitter)];
+  }
+  Vec3 skyAlong(const GatherPath& path) const;
+  Vec3 sunsAlong(const GatherPath& path) const;
 
   const RayScene& rays_;
   const Lights& lights_;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/sampler.h"
+#include "gather/layer_light.h"
 #include "gather/sharp_lights.h"
 #include "trace/surface_point.h"
 
@@ -47,6 +48,11 @@ class SurfaceShader {
   virtual ~SurfaceShader() = default;
   // light[i] of work[i].
   virtual void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const = 0;
+  // The same, and by layers, for shaders that can: layers.at(i) of work[i], zero before.
+  virtual void shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums& /*layers*/, GatherCounters& count) const {
+    shade(work, shadows, light, count);
+  }
+  virtual const LightLayers* layers() const { return nullptr; }  // that it keeps light apart by
 };
 
 }  // namespace roomlight

@@ -9,8 +9,10 @@ constexpr size_t kAllLamps = 8;  // up to this many lamps each casts its own sha
 
 }  // namespace
 
+Vec3 skyAlong(const Lights& lights, Vec3 direction) { return lights.sky().present() ? lights.sky().radiance(direction) : Vec3(0); }
+
 Vec3 background(const Lights& lights, Vec3 direction) {
-  Vec3 sum = lights.sky().present() ? lights.sky().radiance(direction) : Vec3(0);
+  Vec3 sum = skyAlong(lights, direction);
   for (size_t i = 0; i < lights.sunCount(); ++i) {
     float pdf;
     sum += lights.sunDisc(i, direction, pdf);

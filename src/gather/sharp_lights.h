@@ -34,5 +34,6 @@ class SharpLights {
 
 // What a ray sees that meets no surface, cd/m².
 Vec3 background(const Lights& lights, Vec3 direction);
+Vec3 skyAlong(const Lights& lights, Vec3 direction);  // without suns
 
 }  // namespace roomlight

@@ -48,8 +48,9 @@ void readPhotometric(const JsonPlace& j, Vec3 c, double factor, const std::files
 
 Lamp readKind(const JsonPlace& j, size_t number, const std::filesystem::path& folder, PhotometricFiles& files) {
   Lamp lamp;
-  if (!j.isObject({"name", "type", "position", "direction", "up", "flux", "intensity", "luminance", "temperature", "color", "innerCone", "outerCone", "width", "height", "file", "as", "dimming", "lightLossFactor", "watts"})) return lamp;
+  if (!j.isObject({"name", "group", "type", "position", "direction", "up", "flux", "intensity", "luminance", "temperature", "color", "innerCone", "outerCone", "width", "height", "file", "as", "dimming", "lightLossFactor", "watts"})) return lamp;
   lamp.name = j.text("name", fmt::format("lamp {}", number + 1));
+  lamp.group = j.text("group", "");
   lamp.position = j["position"].vector(-kFarthestM, kFarthestM);
   const Vec3 c = readColour(j);
   const double factor = j.number("dimming", 0, 1, 1) * j.number("lightLossFactor", 1e-6, 1, 1);

@@ -6,7 +6,6 @@
 namespace roomlight {
 namespace {
 
-constexpr double kSlowest = 0.8;  // mode of light that Chebyshev's iteration is fastest for
 constexpr int kTrial = 12;        // steps
 constexpr double kRounding = 6e-4;  // of half floats: steps no larger than this go round in circles
 constexpr double kDark = 1e-4;
@@ -52,11 +51,12 @@ class Iteration {
 
   Bounces run(const RadianceSettings& settings, const Progress& progress) {
     Bounces out;
-    double slowest = kSlowest, omega = 1, delta = 0, before = 0, beforeThat = 0;
+    Momentum weights;
+    double slowest = Momentum::kSlowest, delta = 0, before = 0, beforeThat = 0;
     for (int k = 0; k < settings.maxBounces && !progress.stop(); ++k) {
-      if (k > 0) omega = 1 / (1 - slowest * slowest * omega / (k == 1 ? 2 : 4));
+      out.withMomentum += slowest > 0 ? 1 : 0;
       beforeThat = before, before = delta;
-      delta = step(static_cast<float>(omega));
+      delta = step(weights.next(slowest > 0));
       if (k > kTrial && delta > beforeThat) slowest = 0;  // modes that are not real: on without momentum
       // A mode l of G shrinks by m with l = (m + momentum / m) / (1 + momentum), those up to `slowest` by sqrt(momentum).
       const double momentum = 2 / (1 + std::sqrt(1 - slowest * slowest)) - 1;

@@ -186,4 +186,14 @@ bool DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::spa
   return true;
 }
 
+void DirectLight::emitter(size_t index, size_t brick, std::span<Vec3> lux) {
+  const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
+    if (besideEmitters_[index].contains(voxels_.slots[s].position)) return LightSample{};
+    Sampler sampler(paths_.key(s), k, settings_.seed + 3);
+    const Vec2 u = sampler.next2();
+    return lights_.sampleEmitter(index, p, u, sampler.next1());
+  };
+  trace(brick, {1, perDelta()}, lux, sample);
+}
+
 }  // namespace roomlight

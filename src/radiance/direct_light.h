@@ -22,6 +22,8 @@ class DirectLight {
   bool suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   bool sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   bool emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
+  // Of one emissive mesh alone.
+  void emitter(size_t index, size_t brick, std::span<Vec3> lux);
 
   uint64_t rayCount() const { return count_; }
 

@@ -16,6 +16,7 @@ struct GlowPoint {
   Vec3 fluxLm;         // reflected, Lambertian; all points have the same luminous flux
   int64_t slot;        // that stands for the surface, -1: none, and
   float radianceCdM2;  // the luminance that it shows cones
+  int32_t lamp = -1, emitter = -1;  // whose light it reflects, one of the two (see Lights)
 };
 
 // A cone that may find what a point stands for.
@@ -35,6 +36,7 @@ class LampGlow {
   LampGlow(std::vector<GlowPoint> points, float voxelSizeM);
 
   bool empty() const { return points_.empty(); }
+  const GlowPoint& point(size_t index) const { return points_[index]; }
 
   // One point, chosen by what it could give without shadows to a surface at p with normal n, of what diffuse cones leave to points.
   GlowSample sample(Vec3 p, Vec3 n, float diffuseCones, float tanHalf, Sampler& sampler) const;

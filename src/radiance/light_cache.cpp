@@ -135,10 +135,11 @@ void LightCache::matchEmitters(const Sources& from) {
   }
   std::vector<EmitterLight> next;
   for (const size_t i : small) {
-    const EmitterLight key{from.lights.emitterBounds(i), from.lights.emitterFluxLm(i), {}};
+    const EmitterLight key{from.lights.emitterBounds(i), from.lights.emitterFluxLm(i), i, {}};
     const auto known = std::find_if(nearEmitters_.begin(), nearEmitters_.end(), [&](const EmitterLight& e) { return e.isOf(key); });
     if (known != nearEmitters_.end()) {
       next.push_back(std::move(*known));
+      next.back().index = i;
       nearEmitters_.erase(known);
     } else {
       next.push_back(key);
@@ -192,10 +193,10 @@ void LightCache::solve(const Sources& from) {
     if (!isBlack(l.lamp.intensityCd)) l.direct.addTo(voxels, l.lamp.intensityCd, direct_);
   }
   std::vector<Vec3> near, far;
-  for (const auto& [particles, scale] : litParticles()) {
+  for (const LitParticles& p : litParticles()) {
     near.resize(voxels.slots.size()), far.resize(voxels.slots.size());
-    particles->near.addTo(voxels, scale, near);
-    particles->far.addTo(voxels, scale, far);
+    p.particles->near.addTo(voxels, p.scale, near);
+    p.particles->far.addTo(voxels, p.scale, far);
   }
   smooth(links_, far);
   for (size_t i = 0; i < far.size(); ++i) direct_[i] += far[i];
@@ -203,6 +204,8 @@ void LightCache::solve(const Sources& from) {
                                                              : bounce(voxels, links_, direct_, indirect_, settings_, from.progress);
   field_.bounces = done.done, field_.residual = done.residual;
   if (!from.progress.stop()) fillField(from, near);
+  if (settings_.layers && !from.progress.stop()) splitIntoLayers(from, done);
+  if (from.progress.stop()) field_.irradianceLux.clear();
 }
 
 void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
@@ -230,12 +233,12 @@ void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
   if (settings_.pyramid) buildPyramid(voxels, radiance, glow, field_);
 }
 
-// Of all that shines and has left any, with what makes them its light.
-std::vector<std::pair<const ParticleLight*, Vec3>> LightCache::litParticles() const {
-  std::vector<std::pair<const ParticleLight*, Vec3>> out;
-  for (const EmitterLight& e : nearEmitters_) out.emplace_back(&e.particles, Vec3(1));
-  for (const LampLight& l : lamps_) out.emplace_back(&l.particles, l.lamp.intensityCd);
-  std::erase_if(out, [](const auto& p) { return p.first->near.empty() || isBlack(p.second); });
+// Of all that shines and has left any.
+std::vector<LightCache::LitParticles> LightCache::litParticles() const {
+  std::vector<LitParticles> out;
+  for (const EmitterLight& e : nearEmitters_) out.push_back({&e.particles, Vec3(1), -1, static_cast<int32_t>(e.index)});
+  for (size_t i = 0; i < lamps_.size(); ++i) out.push_back({&lamps_[i].particles, lamps_[i].lamp.intensityCd, static_cast<int32_t>(i), -1});
+  std::erase_if(out, [](const LitParticles& p) { return p.particles->near.empty() || isBlack(p.scale); });
   return out;
 }
 
@@ -243,14 +246,15 @@ std::vector<std::pair<const ParticleLight*, Vec3>> LightCache::litParticles() co
 std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) const {
   const auto sources = litParticles();
   float fluxLm = 0;
-  for (const auto& [particles, scale] : sources) {
-    if (!particles->points.empty()) fluxLm += luminance(scale) * particles->fluxLm;
+  for (const LitParticles& p : sources) {
+    if (!p.particles->points.empty()) fluxLm += luminance(p.scale) * p.particles->fluxLm;
   }
   std::vector<GlowPoint> points;
   float carry = 0.5f;
-  for (const auto& [particles, scale] : sources) {
-    for (GlowPoint g : particles->points) {
-      g.fluxLm *= scale;
+  for (const LitParticles& p : sources) {
+    for (GlowPoint g : p.particles->points) {
+      g.lamp = p.lamp, g.emitter = p.emitter;
+      g.fluxLm *= p.scale;
       const float copies = luminance(g.fluxLm) * kGlowPoints / fluxLm;
       g.fluxLm = g.fluxLm / copies;
       g.radianceCdM2 = g.slot < 0 ? kUnseen : luminance(glow[static_cast<size_t>(g.slot)]);

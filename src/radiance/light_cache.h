@@ -50,8 +50,18 @@ class LightCache {
   struct EmitterLight {
     Bounds3 bounds;  // of the emissive mesh, and
     float fluxLm;    // luminous: what tells it from others
+    size_t index;    // of all emissive meshes
     ParticleLight particles;
     bool isOf(const EmitterLight& o) const { return bounds.lo == o.bounds.lo && bounds.hi == o.bounds.hi && fluxLm == o.fluxLm; }
+  };
+  struct LitParticles {
+    const ParticleLight* particles;
+    Vec3 scale;                  // that makes them its light
+    int32_t lamp, emitter;       // whose; -1: none
+  };
+  struct LayerDirect {
+    std::vector<Vec3> all, near;    // lx per slot, as in direct_; near: empty where there is none
+    std::vector<uint8_t> straight;  // per brick: whether any comes straight
   };
   // Traces a light in a brick, if a ray may cross one of the boxes or there are none; false otherwise (see DirectLight).
   using BrickTracer = std::function<bool(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux)>;
@@ -77,11 +87,14 @@ class LightCache {
   ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
   ParticleLight particlesFrom(const Sources& from, const ParticleSource& source);
   void carryParticles(const Sources& from, const Carried& carried, ParticleLight& particles) const;
-  std::vector<std::pair<const ParticleLight*, Vec3>> litParticles() const;
+  std::vector<LitParticles> litParticles() const;
   void forgetLampsBut(const Lights& lights);
   void matchEmitters(const Sources& from);
   void matchLamps(const Sources& from);
   void solve(const Sources& from);
+  void splitIntoLayers(const Sources& from, const Bounces& like);
+  void keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, std::vector<float>& mostGlow);
+  LayerDirect directOf(const Sources& from, const LightLayers& layers, int32_t layer);
   void fillField(const Sources& from, std::vector<Vec3>& near);
   std::vector<GlowPoint> glowPoints(const std::vector<Vec3>& glow) const;
 

@@ -112,7 +112,7 @@ class Particles {
   // As many points as the flux asks for on average, each of `pointLm_`.
   void reflectedAt(Vec3 p, Vec3 n, Vec3 flux, int64_t slot, Sampler& sampler, Trail& trail) const {
     const float luminous = luminance(flux), copies = std::floor(luminous / pointLm_ + sampler.fast1());
-    for (float k = 0; k < copies; ++k) trail.points.push_back({offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0});
+    for (float k = 0; k < copies; ++k) trail.points.push_back({offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0, -1, -1});
   }
 
   const RayScene& rays_;

@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "radiance/lamp_glow.h"
+#include "radiance/slot_layers.h"
 #include "trace/lights.h"
 #include "trace/ray_scene.h"
 #include "voxel/voxels.h"
@@ -34,6 +35,7 @@ struct RadianceSettings {
   int maxBounces = 100;
   bool pyramid = true;     // directional levels for cones; without them only what slots receive is known
   uint64_t seed = 0;
+  std::shared_ptr<const LightLayers> layers;  // lights that are told apart; none: they are not
 };
 
 // In voxel edges: no plane further from the middle than half a diagonal cuts the voxel.
@@ -112,6 +114,7 @@ struct RadianceField {
   SkyGuide guide;
   LampGlow glow;
   std::vector<float> glowShare;  // per slot: of the luminous irradiance whose reflection is glow; empty: none
+  SlotLayers layers;
   int bounces = 0;               // done
   double residual = 0;           // estimate of light still missing where it is missing, fraction of what is there
   uint64_t rays = 0;

@@ -61,7 +61,7 @@ void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t s
     if (LightVertices::connects(bsdf)) {
       const Vec3 scattered = flux * s.m.alpha;
       out.push_back({s.p, s.ng, s.smooth, wi, luminance(scattered * bsdf.diffuseAlbedo()), luminance(scattered * bsdf.specularAlbedo()), bsdf.alpha(),
-                     lights_.lampDensity(s.p, s.ng), scattered, s.m.baseColor * ((1 - s.m.metallic) * (1 - s.m.transmission)), s.m.f0, s.m.f90, s.m.roughness});
+                     lights_.lampDensity(s.p, s.ng), scattered, s.m.baseColor * ((1 - s.m.metallic) * (1 - s.m.transmission)), s.m.f0, s.m.f90, s.m.roughness, start.lamp});
     }
     // Thin glass and blended alpha, as for paths from the camera.
     if (s.m.alpha < 1 || s.m.transmission > 0) {

@@ -22,6 +22,7 @@ struct alignas(64) LightVertex {
   Vec3 flux;             // lm that arrive here and stand for this path's share of all paths
   Vec3 base, f0, f90;    // as in MaterialSample; of the base, what is neither metal nor glass
   float roughness = 1;
+  int32_t lamp = -1;     // whose light it is
 
   Bsdf bsdf(Vec3 wo) const;  // wo: unit, on the side of ng
 

@@ -1,10 +1,12 @@
 #include "reference/path_tracer.h"
 
 #include <mutex>
+#include <optional>
 
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
+#include "base/split.h"
 #include "reference/path_walk.h"
 #include "reference/pixel_sums.h"
 #include "trace/camera_rays.h"
@@ -25,7 +27,7 @@ constexpr int kFilterPasses = 5;
 
 struct PathTracer::State {
   State(const RayScene& r, const Lights& l, const Camera& c, const PathSettings& s, bool withFeatures)
-      : rays(r), lights(l), cameraRays(c, s.width, s.height), settings(s), vertices(r, l), sum(s.width, s.height), squares(s.width, s.height), pixels(withFeatures ? sum.pixels.size() : 0) {}
+      : rays(r), lights(l), cameraRays(c, s.width, s.height), settings(s), vertices(r, l), sum(s.width, s.height), squares(s.width, s.height), pixels(withFeatures ? sum.pixels.size() : 0), layerSums(s.layers ? sum.pixels.size() * s.layers->size() : 0) {}
 
   const RayScene& rays;
   const Lights& lights;
@@ -35,6 +37,7 @@ struct PathTracer::State {
   // Running sums per pixel.
   Image sum, squares;
   std::vector<PixelSums> pixels;
+  std::vector<Vec3> layerSums;  // per pixel, of each layer
   int samples = 0;
   std::atomic<uint64_t> rayCount = 0;
 
@@ -71,8 +74,12 @@ bool PathTracer::pass(const Progress& progress) {
         Sampler sampler(pixel, static_cast<uint32_t>(st.samples), st.settings.seed);
         const Vec2 jitter = sampler.next2();
         const Ray ray = st.cameraRays.seeing(st.rays, static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
-        if (ray.tMax <= 0) continue;  // sees no light
-        fresh.at(x, y) = seen.empty() ? walk.radiance(ray, sampler, count) : walk.radiance(ray, sampler, count, seen[pixel]);
+          if (ray.tMax <= 0) continue;  // sees no light
+        const size_t layerCount = st.settings.layers ? st.settings.layers->size() : 0;
+        std::optional<PathLayers> layers;
+        if (layerCount > 0) layers.emplace(PathLayers{*st.settings.layers, std::span(st.layerSums).subspan(pixel * layerCount, layerCount)});
+        PathLayers* apart = layers ? &*layers : nullptr;
+        fresh.at(x, y) = seen.empty() ? walk.radiance(ray, sampler, count, apart) : walk.radiance(ray, sampler, count, seen[pixel], apart);
       }
     }
     st.rayCount += count;
@@ -123,6 +130,18 @@ double PathTracer::noise() const {
   return mean > 0 ? error / mean : 0;
 }
 
+// A pass that was dropped has left some of its light here; what layers are to one another counts.
+std::vector<Image> PathTracer::layers() const {
+  const Image whole = mean();
+  const size_t count = state_->settings.layers ? state_->settings.layers->size() : 0;
+  std::vector<Image> out(count, Image(whole.width, whole.height));
+  parallelFor(whole.pixels.size(), 4096, [&](size_t i) {
+    for (size_t l = 0; l < count; ++l) out[l].pixels[i] = state_->layerSums[i * count + l];
+  });
+  splitLike(whole, out);
+  return out;
+}
+
 FilterInput PathTracer::features() const {
   FilterInput out(state_->settings.width, state_->settings.height);
   parallelFor(state_->pixels.size(), 16384, [&](size_t i) { out.pixels[i] = state_->pixels[i].mean(samples()); });
@@ -147,7 +166,7 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
     if (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS) break;
     if (settings.noiseLevel > 0 && tracer.samples() >= 16 && tracer.samples() % 8 == 0 && tracer.noise() <= settings.noiseLevel) break;
   }
-  return {settings.filter ? filtered(tracer.features(), kFilterPasses, CameraRays(camera, settings.width, settings.height).wraps()) : tracer.mean(), tracer.variance(), tracer.samples(), tracer.noise(), tracer.rays()};
+  return {settings.filter ? filtered(tracer.features(), kFilterPasses, CameraRays(camera, settings.width, settings.height).wraps()) : tracer.mean(), tracer.variance(), tracer.layers(), tracer.samples(), tracer.noise(), tracer.rays()};
 }
 
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,

@@ -8,6 +8,7 @@
 #include "base/image.h"
 #include "base/progress.h"
 #include "filter/filter.h"
+#include "trace/light_layers.h"
 #include "trace/lights.h"
 #include "trace/meter.h"
 #include "trace/ray_scene.h"
@@ -22,6 +23,7 @@ struct PathSettings {
   bool lightPaths = true;  // also follow light from point and spot lamps, and connect to where it arrives
   bool filter = false;     // the picture is filtered (filter/filter.h): for looking at; no reference then
   uint64_t seed = 0;
+  std::shared_ptr<const LightLayers> layers;  // lights whose light is kept apart; none: it is not
 };
 
 // Path tracing pass by pass: each adds one sample to every pixel. Refers to the rays and lights.
@@ -40,6 +42,7 @@ class PathTracer {
   double noise() const;    // mean relative standard error over pixels; infinite with one sample
   uint64_t rays() const;   // traced so far, of every kind
   FilterInput features() const;  // needs features
+  std::vector<Image> layers() const;  // of the mean, where the settings have layers: their sum is mean()
 
  private:
   struct State;
@@ -49,6 +52,7 @@ class PathTracer {
 struct PathResult {
   Image image;        // linear, cd/m²
   Image variance;     // of each pixel's mean before filtering, per channel
+  std::vector<Image> layers;  // where the settings have them: their sum is `image`
   int samples = 0;    // per pixel, done
   double noise = 0;   // mean relative standard error
   uint64_t rays = 0;  // traced, of every kind

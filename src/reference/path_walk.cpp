@@ -33,12 +33,31 @@ struct PathWalk::Candidates {
   }
 };
 
+// Of light at one surface, what arrives at the eye, by layers; nothing where these are not wanted.
+struct PathWalk::Apart {
+  PathLayers* layers;
+  Vec3 factor;
+  void add(const LightSample& light, Vec3 value) const {
+    if (layers) layers->add(layers->lights.of(light), value * factor);
+  }
+  void addLamp(int32_t lamp, Vec3 value) const {
+    if (layers) layers->add(layers->lights.ofLamp[static_cast<size_t>(lamp)], value * factor);
+  }
+  void addSun(Vec3 value) const {
+    if (layers) layers->add(layers->lights.sun, value * factor);
+  }
+  void addSky(Vec3 value) const {
+    if (layers) layers->add(layers->lights.sky, value * factor);
+  }
+};
+
 struct PathWalk::State {
   Ray ray;
   Vec3 throughput{1, 1, 1};
   Vec3 lastPoint;          // where the ray was scattered last, for the density of light sampling there
   float lastPdf = 0;       // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
   bool skyKnown = false;   // the sky, if the ray sees it, is counted already
+  PathLayers* layers = nullptr;
   float lampShare = 1;     // of light from lamps: what connections at earlier vertices have left to this path
 
   // Russian roulette by throughput from the third scattering on.
@@ -90,15 +109,17 @@ class PathWalk::FirstSurface {
   Vec3 diffuse_;  // of light that arrives after the first surface, what its diffuse lobe scattered
 };
 
-Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount) const {
+Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, PathLayers* layers) const {
   State path;
   path.ray = ray;
+  path.layers = layers;
   return follow(path, sampler, rayCount, NoRecord());
 }
 
-Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen) const {
+Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen, PathLayers* layers) const {
   State path;
   path.ray = ray;
+  path.layers = layers;
   return follow(path, sampler, rayCount, FirstSurface(seen));
 }
 
@@ -109,11 +130,11 @@ Vec3 PathWalk::illuminanceButSky(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& ray
   s.ng = s.ns = n;
   s.m.baseColor = Vec3(1);
   const Bsdf bsdf(s.m, n, n, n);
-  Vec3 sum = direct<false>(s, bsdf, 1, sampler, rayCount, nullptr, false);
+  Vec3 sum = direct<false>(s, bsdf, 1, sampler, rayCount, nullptr, {}, false);
   if (vertices_) {
     Candidates candidates;
     candidates.draw(vertices_->all(), sampler);
-    sum += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr);
+    sum += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr, {});
   }
   const BsdfSample next = bsdf.sample(sampler.next2(), sampler.next1());
   if (next.valid()) {
@@ -138,7 +159,9 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     const Hit hit = rays_.intersect(path.ray);
     ++rayCount;
     if (!hit.valid()) {
-      const Vec3 light = path.throughput * escaped(path);
+      const Vec3 sky = skyBehind(path), suns = sunsBehind(path), light = path.throughput * (sky + suns);
+      const Apart apart{path.layers, path.throughput};
+      apart.addSky(sky), apart.addSun(suns);
       sum += light;
       if constexpr (Record::kOn) record.add(light);
       break;
@@ -148,6 +171,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
       const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, lights_.pdfLocal(path.lastPoint, s)) : 1;
       const Vec3 light = path.throughput * emitted * w;
       sum += light;
+      if (const int32_t emitter = path.layers ? lights_.emitterOf(s.instance) : -1; emitter >= 0) path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
       if constexpr (Record::kOn) record.add(light);
     }
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
@@ -160,21 +184,22 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     bool first = false;
     if constexpr (Record::kOn) first = record.isHere(s, bsdf);
     Vec3 here;
+    const Apart apart{path.layers, path.throughput * s.m.alpha}, apartConnected{path.layers, apart.factor * lampShare};
     if (first) {
       if constexpr (Record::kOn) {
         record.see(s, bsdf, path.throughput);
         Parts parts;
-        here = direct<true>(s, bsdf, lampShare, sampler, rayCount, &parts);
+        here = direct<true>(s, bsdf, lampShare, sampler, rayCount, &parts, apart);
         if (vertices_) {
           Vec3 diffuse;
-          here += connected<true>(s, bsdf, candidates, sampler, rayCount, &diffuse) * lampShare;
+          here += connected<true>(s, bsdf, candidates, sampler, rayCount, &diffuse, apartConnected) * lampShare;
           parts.diffuse += diffuse * lampShare;
         }
         record.add(path.throughput * here, {path.throughput * parts.diffuse, path.throughput * parts.sharp});
       }
     } else {
-      here = direct<false>(s, bsdf, lampShare, sampler, rayCount, nullptr);
-      if (vertices_ && !bsdf.isMirrorOnly()) here += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr) * lampShare;
+      here = direct<false>(s, bsdf, lampShare, sampler, rayCount, nullptr, apart);
+      if (vertices_ && !bsdf.isMirrorOnly()) here += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr, apartConnected) * lampShare;
       if constexpr (Record::kOn) record.add(path.throughput * here * s.m.alpha);
     }
     sum += path.throughput * here * s.m.alpha;
@@ -198,13 +223,15 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
 }
 
 // Sky and sun discs along a ray that left the scene, weighted against having sampled them directly.
-Vec3 PathWalk::escaped(const State& path) const {
+Vec3 PathWalk::skyBehind(const State& path) const {
+  const Vec3 d = path.ray.direction;
+  if (!lights_.sky().present() || path.skyKnown) return {};
+  return lights_.sky().radiance(d) * (path.lastPdf > 0 && lights_.sky().sampled() ? misWeight(path.lastPdf, lights_.sky().pdf(d)) : 1);
+}
+
+Vec3 PathWalk::sunsBehind(const State& path) const {
   const Vec3 d = path.ray.direction;
   Vec3 sum;
-  if (lights_.sky().present() && !path.skyKnown) {
-    const float w = path.lastPdf > 0 && lights_.sky().sampled() ? misWeight(path.lastPdf, lights_.sky().pdf(d)) : 1;
-    sum += lights_.sky().radiance(d) * w;
-  }
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
     float pdf;
     const Vec3 disc = lights_.sunDisc(i, d, pdf);
@@ -243,20 +270,28 @@ Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const Light
 }
 
 template <bool kParts>
-Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, bool skyToo) const {
+Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo) const {
   Vec3 sum, local, sun, sky;
   if (lights_.hasLocal()) {
     const Vec2 u = sampler.next2();
     const LightSample light = lights_.sampleLocal(s.p, u, sampler.next1());
     const float left = light.pdf > 0 ? 1 : lampShare;
-    sum += contribution<kParts>(s, bsdf, light, rayCount, &local) * left;
+    const Vec3 value = contribution<kParts>(s, bsdf, light, rayCount, &local) * left;
+    sum += value;
+    apart.add(light, value);
     if constexpr (kParts) parts->diffuse += local * left;
   }
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
-    sum += contribution<kParts>(s, bsdf, lights_.sampleSun(i, sampler.next2()), rayCount, &sun);
+    const Vec3 value = contribution<kParts>(s, bsdf, lights_.sampleSun(i, sampler.next2()), rayCount, &sun);
+    sum += value;
+    apart.addSun(value);
     if constexpr (kParts) parts->sharp += sun, sun = {};
   }
-  if (skyToo && lights_.sky().sampled()) sum += contribution<kParts>(s, bsdf, lights_.sampleSky(sampler.next2()), rayCount, &sky);
+  if (skyToo && lights_.sky().sampled()) {
+    const Vec3 value = contribution<kParts>(s, bsdf, lights_.sampleSky(sampler.next2()), rayCount, &sky);
+    sum += value;
+    apart.addSky(value);
+  }
   if constexpr (kParts) parts->diffuse += sky;
   return sum;
 }
@@ -264,7 +299,7 @@ Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, 
 // Light that reaches s from one vertex of a light path, times the part of it that is had by connections. The vertex is one
 // of a few candidates, resampled in proportion to an estimate of its light (Talbot, Cline & Egbert 2005).
 template <bool kParts>
-Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse) const {
+Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const {
   const LightVertex* chosen = nullptr;
   float chosenWeight = 0, chosenShare = 0, total = 0;
   for (const LightVertex* candidate : candidates.vertex) {
@@ -296,6 +331,7 @@ Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidat
   const float toArea = -dot(chosen->ng, wi) / lengthSquared(exact);
   const float pick = static_cast<float>(vertices_->all().size()) * total / (chosenWeight * kCandidates);
   const Vec3 all = f * fz * chosen->flux * left * (toArea * chosenShare * pick);
+  apart.addLamp(chosen->lamp, all);
   if constexpr (kParts) *diffuse = all * diffuseShare(bsdf, wi);
   return all;
 }

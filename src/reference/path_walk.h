@@ -4,9 +4,19 @@
 #include "base/sampler.h"
 #include "filter/filter.h"
 #include "reference/light_vertices.h"
+#include "trace/light_layers.h"
 #include "trace/surfaces.h"
 
 namespace roomlight {
+
+// Where light of a path goes that is kept apart: a sum for each layer.
+struct PathLayers {
+  const LightLayers& lights;
+  std::span<Vec3> sums;
+  void add(int32_t layer, Vec3 light) {
+    if (layer >= 0) sums[static_cast<size_t>(layer)] += light;
+  }
+};
 
 class PathWalk {
  public:
@@ -14,11 +24,11 @@ class PathWalk {
   PathWalk(const RayScene& rays, const Lights& lights, const LightVertices* vertices = nullptr)
       : rays_(rays), lights_(lights), surfaces_(rays.surfaces()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr) {}
 
-  // Towards the ray's origin, cd/m².
-  Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount) const;
+  // Towards the ray's origin, cd/m²; added to `layers` as well, if there are.
+  Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, PathLayers* layers = nullptr) const;
   // The same, and for a filter: parts of the light, by how the first surface that is no mirror scatters it, and what is seen there,
   // looking through panes. Variances are left alone; of what was in `seen` nothing is kept.
-  Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen) const;
+  Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen, PathLayers* layers = nullptr) const;
   // On a surface element, lux. Without what comes straight from the sky, through panes too: who calls adds that.
   Vec3 illuminanceButSky(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const;
 
@@ -27,18 +37,20 @@ class PathWalk {
   struct Candidates;
   struct Parts;
   struct NoRecord;
+  struct Apart;
   class FirstSurface;
   template <class Record>
   Vec3 follow(State& path, Sampler& sampler, uint64_t& rayCount, Record record) const;
-  Vec3 escaped(const State& path) const;
+  Vec3 skyBehind(const State& path) const;
+  Vec3 sunsBehind(const State& path) const;
   bool passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler) const;
   // What goes to `parts` and `diffuse`, where that is asked for, is contained in the value.
   template <bool kParts>
   Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const;
   template <bool kParts>
-  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, bool skyToo = true) const;
+  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo = true) const;
   template <bool kParts>
-  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse) const;
+  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const;
 
   const RayScene& rays_;
   const Lights& lights_;

@@ -117,6 +117,7 @@ struct Lamp {
   float widthM = 0, heightM = 0;                   // Area
   Vec3 luminanceCdM2{0, 0, 0};                     // Area
   float wattsW = 0;                                // what it draws; 0: not stated
+  std::string group;                               // lamps of one are one layer of light; empty: those of one name are
 };
 
 // A source at infinity: the sun or a glTF directional light.

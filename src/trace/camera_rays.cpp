@@ -88,6 +88,24 @@ Ray CameraRays::seeing(const RayScene& scene, float x, float y) const {
   return out;
 }
 
+std::optional<Vec2> CameraRays::pixelOf(Vec3 place) const {
+  const Vec3 p = inverse(camera_.worldFromCamera).point(place);
+  const float w = static_cast<float>(width_), h = static_cast<float>(height_);
+  Vec2 at;
+  if (wraps()) {
+    const float distance = length(p);
+    if (!(distance > 0)) return {};
+    const float rows = camera_.projection == Projection::StereoPanorama ? 0.5f * h : h;
+    at = {(std::atan2(p.x, -p.z) / (2 * kPi) + 0.5f) * w, std::acos(std::clamp(p.y / distance, -1.0f, 1.0f)) / kPi * rows};
+  } else {
+    const float depth = camera_.projection == Projection::Orthographic ? 1 : -p.z;
+    if (!(depth > 0)) return {};
+    at = {(0.5f + 0.5f * p.x / (depth * halfWidth_)) * w, (0.5f - 0.5f * p.y / (depth * halfHeight_)) * h};
+  }
+  const bool inside = at.x >= 0 && at.y >= 0 && at.x <= w && at.y <= h;
+  return inside ? std::optional(at) : std::nullopt;
+}
+
 bool CameraRays::wraps() const { return camera_.projection == Projection::Panorama || camera_.projection == Projection::StereoPanorama; }
 
 double CameraRays::solidAngleSr(int x, int y) const {

@@ -1,6 +1,8 @@
 // Rays through the pixels of a camera: the one place that knows projections and cuts.
 #pragma once
 
+#include <optional>
+
 #include "scene/scene.h"
 #include "trace/ray_scene.h"
 
@@ -19,6 +21,10 @@ class CameraRays {
   // The same, or a ray of tMax 0 where the camera sees no light: in the section of a body that is cut, or past everything with an
   // empty backdrop. Costs rays for cameras that cut or have such a backdrop, else nothing.
   Ray seeing(const RayScene& scene, float x, float y) const;
+
+  // Where in the picture, in pixels, a place would be seen if nothing stood before it; of a stereo pair in the upper half, as from
+  // between the eyes. None outside.
+  std::optional<Vec2> pixelOf(Vec3 place) const;
 
   // Whether the picture's left and right edges are neighbours.
   bool wraps() const;

@@ -153,6 +153,7 @@ LightRay Lights::sampleLampRay(Sampler& sampler) const {
   ray.origin = lampPlace(lamp, lamp.extended ? sampler.next2() : Vec2{});
   ray.direction = lampDirections_[i].sample(u, pdf);
   ray.fluxLm = lampIntensity(lamp, ray.direction) / (pdf * lampShare_[i]);
+  ray.lamp = static_cast<int32_t>(i);
   return ray;
 }
 

@@ -15,6 +15,7 @@ namespace roomlight {
 struct LightRay {
   Vec3 origin, direction;
   Vec3 fluxLm;  // emission / density: all the light of what it was chosen from, if this were the only ray
+  int32_t lamp = -1;  // that it left, of all lamps
 };
 
 class MeanEmission;
@@ -45,9 +46,15 @@ class Lights {
   // One sample among emissive meshes only, and its density.
   LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
   float pdfEmitters(Vec3 p, const SurfacePoint& q) const;
+  // The same of one alone, as if there were no other, and what its light at p could be without shadows, for choosing.
+  LightSample sampleEmitter(size_t index, Vec3 p, Vec2 u, float choice) const { return sampleEmitter(emitters_[index], p, u, choice, 1); }
+  float pdfEmitter(size_t index, Vec3 p, const SurfacePoint& q) const { return pdfInEmitter(emitters_[index], p, q); }
+  float emitterImportance(size_t index, Vec3 p) const { return importance(emitters_[index], p); }
+  float lampImportance(size_t index, Vec3 p) const { return importance(lampTerms_[index], p); }
   // Emissive meshes one by one: each is all of one instance that emits.
   size_t emitterCount() const { return emitters_.size(); }
   int32_t emitterOf(uint32_t instance) const { return emitterOfInstance_[instance]; }  // -1: none
+  uint32_t emitterInstance(size_t index) const { return emitters_[index].instance; }
   const Bounds3& emitterBounds(size_t index) const { return emitters_[index].bounds; }
   float emitterAreaM2(size_t index) const { return emitters_[index].areaM2; }  // of one side
   float emitterFluxLm(size_t index) const { return emitters_[index].fluxLm; }  // luminous

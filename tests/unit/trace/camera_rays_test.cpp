@@ -89,6 +89,22 @@ TEST(CameraRays, orthographicPixelsAreAsLargeAsSaid) {
   expectNear(rays.ray(100, 50).origin, {1, 2, 3});
 }
 
+TEST(CameraRays, pixelOfAPlaceIsWhereItsRayStarted) {
+  for (const Projection projection : {Projection::Perspective, Projection::Orthographic, Projection::Panorama}) {
+    const CameraRays rays(cameraOf(projection), 400, 200);
+    for (const Vec2 at : {Vec2{200, 100}, Vec2{31, 45}, Vec2{399, 12}, Vec2{120, 188}}) {
+      const Ray ray = rays.ray(at.x, at.y);
+      const std::optional<Vec2> found = rays.pixelOf(ray.origin + ray.direction * 2.5f);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(found->x, at.x, 0.01f);
+      EXPECT_NEAR(found->y, at.y, 0.01f);
+    }
+  }
+  const CameraRays rays(cameraOf(Projection::Perspective), 400, 200);
+  EXPECT_FALSE(rays.pixelOf(rays.ray(200, 100).at(-1))) << "behind the eye";
+  EXPECT_FALSE(rays.pixelOf(rays.ray(500, 100).at(1))) << "beside the picture";
+}
+
 TEST(CameraRays, raysKeepBelowTheCut) {
   Camera camera = cameraOf(Projection::Panorama);
   camera.cutHeightM = 1;  // the eye is above

@@ -1,0 +1,81 @@
+#include "layers_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "photometry/white_balance.h"
+#include "trace/camera_rays.h"
+
+namespace roomlight::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNearlyWhite = 0.02;  // distance in CIE 1931 x, y from the white of a temperature that still counts as one
+
+const char* kindOf(LayerKind kind) {
+  switch (kind) {
+    case LayerKind::Lamp: return "lamp";
+    case LayerKind::Group: return "group";
+    case LayerKind::Mesh: return "mesh";
+    case LayerKind::Sun: return "sun";
+    case LayerKind::Sky: break;
+  }
+  return "sky";
+}
+
+bool isLocal(const LightLayer& light) { return light.kind != LayerKind::Sun && light.kind != LayerKind::Sky; }
+
+Json rgb(Vec3 v) { return {v.x, v.y, v.z}; }
+
+std::optional<double> kelvinOf(Vec3 colour) {
+  const double k = nearestWhiteK(colour);
+  // CIE 1931 XYZ of linear Rec.709 (IEC 61966-2-1).
+  const double x = 0.4124 * colour.x + 0.3576 * colour.y + 0.1805 * colour.z, y = 0.2126 * colour.x + 0.7152 * colour.y + 0.0722 * colour.z, z = 0.0193 * colour.x + 0.1192 * colour.y + 0.9505 * colour.z;
+  const double sum = x + y + z;
+  const Vec2 white = whiteChromaticity(k);
+  if (!(sum > 0) || std::hypot(x / sum - static_cast<double>(white.x), y / sum - static_cast<double>(white.y)) > kNearlyWhite) return {};
+  return std::round(k);
+}
+
+Json describe(const LightLayer& light, const std::string& channel, const Scene& scene, const CameraRays& camera, const Image& picture) {
+  const float flux = luminance(light.fluxLm);
+  const Vec3 colour = flux > 0 ? light.fluxLm / flux : Vec3(1);
+  const std::optional<double> kelvin = kelvinOf(colour);
+  Json j{{"channel", channel}, {"name", light.name}, {"kind", kindOf(light.kind)}, {"colour", rgb(colour)}};
+  j["kelvin"] = kelvin ? Json(*kelvin) : Json();
+  j["fluxLm"] = j["room"] = j["position"] = j["pixel"] = Json();
+  if (!isLocal(light)) return j;
+  j["fluxLm"] = flux;
+  const int room = roomAt(scene, light.position);
+  if (room >= 0 && !scene.rooms[static_cast<size_t>(room)].name.empty()) j["room"] = scene.rooms[static_cast<size_t>(room)].name;
+  j["position"] = rgb(light.position);
+  const std::optional<Vec2> at = camera.pixelOf(light.position);
+  if (at) j["pixel"] = {at->x / static_cast<float>(picture.width), at->y / static_cast<float>(picture.height)};
+  return j;
+}
+
+}  // namespace
+
+LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& rendered, Metadata metadata) {
+  const Image& whole = rendered.image;
+  const CameraRays cameraRays(camera, whole.width, whole.height);
+  LayeredImage out{whole, {}, std::move(metadata)};
+  Json list = Json::array();
+  int lamps = 0, meshes = 0;
+  for (RenderedLayer& layer : rendered.layers) {
+    const LayerKind kind = layer.light.kind;
+    const std::string channel = !isLocal(layer.light) ? kindOf(kind) : kind == LayerKind::Mesh ? fmt::format("mesh_{:02}", ++meshes)
+                                                                                               : fmt::format("lamp_{:02}", ++lamps);
+    list.push_back(describe(layer.light, channel, scene, cameraRays, whole));
+    out.layers.push_back({channel, std::move(layer.image)});
+  }
+  const Json all{{"version", 1}, {"camera", camera.name}, {"layers", list}};
+  out.metadata[kLayersKey] = all.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return out;
+}
+
+}  // namespace roomlight::cli

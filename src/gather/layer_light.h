@@ -1,0 +1,72 @@
+// Light kept apart by layers while a picture is gathered: beside every sum of light, what lamps, suns and sky have in it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.h"
+#include "radiance/half.h"
+#include "radiance/slot_layers.h"
+
+namespace roomlight {
+
+// Of what a sample of light comes from: a layer, a slot's shares, or nothing that is known.
+struct LightOrigin {
+  int32_t layer = -1;
+  int64_t slot = -1;
+  float weight = 1;   // of the light in its layer, where layers sample it otherwise than the picture
+  float glow = 0;     // of the slot's light in the picture, what lamps beside it have lost to LampGlow
+  static LightOrigin ofSlot(int64_t slot, float glow = 0) { return {-1, slot, 1, glow}; }
+  static LightOrigin ofLayer(int32_t layer, float weight = 1) { return {layer, -1, weight, 0}; }
+};
+
+// Sums for many things, each with kParts kinds of light (and variances), each of three channels of `stride` layers.
+class LayerSums {
+ public:
+  enum Part : size_t { kDiffuse,
+                       kSharp,
+                       kSpecular,
+                       kRest,
+                       kVariance,  // of the luminance of the first three
+                       kParts };
+  LayerSums() = default;
+  explicit LayerSums(size_t layers) : stride_(layerStride(layers)) {}
+
+  void resize(size_t things) { values_.assign(things * size(), 0); }
+  size_t stride() const { return stride_; }
+  size_t bytes() const { return values_.size() * sizeof(float); }
+  float* at(size_t thing, Part part) { return values_.data() + thing * size() + part * 3 * stride_; }
+  const float* at(size_t thing, Part part) const { return values_.data() + thing * size() + part * 3 * stride_; }
+  Vec3 get(size_t thing, Part part, size_t layer) const {
+    const float* v = at(thing, part) + layer;
+    return {v[0], v[stride_], v[2 * stride_]};
+  }
+  void add(size_t thing, Part part, int32_t layer, Vec3 light) {
+    if (layer < 0) return;
+    float* v = at(thing, part) + layer;
+    v[0] += light.x, v[stride_] += light.y, v[2 * stride_] += light.z;
+  }
+  void addShares(size_t thing, Part part, const uint16_t* shares, Vec3 light) {
+    float* v = at(thing, part);
+    for (int c = 0; c < 3; ++c, v += stride_, shares += stride_) {
+      const __m128 l = _mm_set1_ps(light[c]);
+      for (size_t i = 0; i < stride_; i += 4) _mm_storeu_ps(v + i, _mm_fmadd_ps(fromHalf4(shares + i), l, _mm_loadu_ps(v + i)));
+    }
+  }
+  // Adds `factor` times what another has of a thing.
+  void addFrom(size_t thing, Part part, const LayerSums& other, size_t otherThing, Vec3 factor) {
+    float* v = at(thing, part);
+    const float* o = other.at(otherThing, part);
+    for (int c = 0; c < 3; ++c, v += stride_, o += stride_) {
+      const __m128 f = _mm_set1_ps(factor[c]);
+      for (size_t i = 0; i < stride_; i += 4) _mm_storeu_ps(v + i, _mm_fmadd_ps(_mm_loadu_ps(o + i), f, _mm_loadu_ps(v + i)));
+    }
+  }
+
+ private:
+  size_t size() const { return kParts * 3 * stride_; }
+  size_t stride_ = 0;
+  std::vector<float> values_;
+};
+
+}  // namespace roomlight

@@ -1,0 +1,111 @@
+#include "radiance/bounces_together.h"
+
+#include <cassert>
+
+#include "base/parallel.h"
+#include "radiance/half.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kBrightest = 4096;  // of direct light in half floats, which end at 65504: light may grow by 16
+constexpr size_t kAhead = 16;       // links whose light is on its way from memory
+
+// Three channels of all lights.
+struct Floats {
+  __m256 c[3];
+};
+struct alignas(16) Halves {
+  uint16_t v[3][kTogether] = {};
+  Floats load() const {
+    Floats out;
+    for (int i = 0; i < 3; ++i) out.c[i] = _mm256_cvtph_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(v[i])));
+    return out;
+  }
+  void store(int channel, __m256 value) {
+    const __m256 limit = _mm256_set1_ps(65504);
+    const __m256 bounded = _mm256_max_ps(_mm256_min_ps(value, limit), _mm256_sub_ps(_mm256_setzero_ps(), limit));
+    _mm_store_si128(reinterpret_cast<__m128i*>(v[channel]), _mm256_cvtps_ph(bounded, 0));
+  }
+};
+
+class Iteration {
+ public:
+  Iteration(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct)
+      : voxels_(voxels), links_(links), direct_(voxels.slots.size()), indirect_(voxels.slots.size()), other_(voxels.slots.size()), reflected_(voxels.slots.size()), next_(voxels.slots.size()) {
+    for (size_t k = 0; k < direct.size(); ++k) {
+      float brightest = 0;
+      for (const Vec3& v : direct[k]) brightest = std::max(brightest, maxComponent(v));
+      perUnit_[k] = brightest > 0 ? kBrightest / brightest : 0;
+    }
+    parallelFor(direct_.size(), 8192, [&](size_t s) {
+      for (size_t k = 0; k < direct.size(); ++k) {
+        for (int c = 0; c < 3; ++c) direct_[s].v[c][k] = toHalf(direct[k][s][c] * perUnit_[k]);
+      }
+      reflect(s, direct_[s].load(), reflected_[s]);
+    });
+  }
+
+  void step(float omega) {
+    parallelFor(direct_.size(), 4096, [&](size_t s) {
+      const Floats gathered = gather(s), straight = direct_[s].load(), before = other_[s].load();
+      Floats all;
+      for (int c = 0; c < 3; ++c) {
+        const __m256 after = _mm256_fmadd_ps(_mm256_sub_ps(gathered.c[c], before.c[c]), _mm256_set1_ps(omega), before.c[c]);
+        other_[s].store(c, after);
+        all.c[c] = _mm256_add_ps(straight.c[c], after);
+      }
+      reflect(s, all, next_[s]);
+    });
+    reflected_.swap(next_);
+    indirect_.swap(other_);
+  }
+
+  void result(std::span<std::vector<Vec3>> indirect) const {
+    for (std::vector<Vec3>& light : indirect) light.resize(indirect_.size());
+    parallelFor(indirect_.size(), 8192, [&](size_t s) {
+      for (size_t k = 0; k < indirect.size(); ++k) {
+        const float unit = perUnit_[k] > 0 ? 1 / perUnit_[k] : 0;
+        for (int c = 0; c < 3; ++c) indirect[k][s][c] = std::max(0.0f, fromHalf(indirect_[s].v[c][k])) * unit;
+      }
+    });
+  }
+
+ private:
+  void reflect(size_t slot, const Floats& lux, Halves& out) const {
+    for (int c = 0; c < 3; ++c) out.store(c, _mm256_mul_ps(lux.c[c], _mm256_set1_ps(voxels_.slots[slot].albedo[c])));
+  }
+
+  Floats gather(size_t slot) const {
+    const size_t first = links_.first[slot], last = links_.first[slot + 1], end = links_.links.size();
+    Floats sum{{_mm256_setzero_ps(), _mm256_setzero_ps(), _mm256_setzero_ps()}};
+    for (size_t j = first; j < last; ++j) {
+      if (j + kAhead < end) __builtin_prefetch(&reflected_[links_.links[j + kAhead].slot()]);
+      const Link link = links_.links[j];
+      const __m256 left = _mm256_broadcastss_ps(link.left());
+      const Floats light = reflected_[link.slot()].load();
+      for (int c = 0; c < 3; ++c) sum.c[c] = _mm256_fmadd_ps(light.c[c], left, sum.c[c]);
+    }
+    const __m256 share = _mm256_set1_ps(Link::kUnit / static_cast<float>(std::max<size_t>(1, last - first)));
+    for (__m256& c : sum.c) c = _mm256_mul_ps(c, share);
+    return sum;
+  }
+
+  const Voxels& voxels_;
+  const Links& links_;
+  std::array<float, kTogether> perUnit_{};
+  std::vector<Halves> direct_, indirect_, other_;  // other: the step before, replaced by the step after
+  std::vector<Halves> reflected_, next_;
+};
+
+}  // namespace
+
+void bounceTogether(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct, std::span<std::vector<Vec3>> indirect, const Bounces& like, const Progress& progress) {
+  assert(direct.size() <= kTogether && indirect.size() == direct.size());
+  Iteration iteration(voxels, links, direct);
+  Momentum momentum;
+  for (int k = 0; k < like.done && !progress.stop(); ++k) iteration.step(momentum.next(k < like.withMomentum));
+  iteration.result(indirect);
+}
+
+}  // namespace roomlight
