@@ -228,7 +228,7 @@ struct Home {
 };
 
 Result<Home> loadHome(const Options& o) {
-  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
+  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower, .camera = o.camera});
   if (!imported) return Error{imported.error()};
   Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
   if (!o.lighting.empty()) {

@@ -13,6 +13,7 @@ namespace roomlight {
 struct ImportOptions {
   float metresPerUnit = 1;             // multiplies lengths; OBJ files carry no unit
   double lumenAtFullPower = 1600;      // what Sweet Home 3D's lights of power 1 send out; their power has no unit
+  std::string camera = {};             // of a Sweet Home 3D home, by name or number: whose time of day it is; empty: the one in use
   size_t maxTriangles = 200'000'000;   // of all instances; refuse absurd files before allocating
 };
 
