@@ -1,6 +1,8 @@
 // roomlight info: what a scene or a photometric file holds.
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -57,6 +59,19 @@ Json lampJson(const Lamp& lamp) {
   return j;
 }
 
+// What moves as a whole, by the name of its first part.
+Json objectsJson(const Scene& scene) {
+  std::map<int, std::pair<std::string, Bounds3>> objects;
+  for (const Instance& i : scene.instances) {
+    const auto [entry, isNew] = objects.try_emplace(i.object, i.name, Bounds3());
+    const Bounds3 b = instanceBounds(scene, i);
+    entry->second.second.add(b.lo), entry->second.second.add(b.hi);
+  }
+  Json list = Json::array();
+  for (const auto& [id, object] : objects) list.push_back({{"name", object.first}, {"sizeM", vector(object.second.size())}});
+  return list;
+}
+
 Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
   const Bounds3 bounds = scene.bounds();
   size_t emissive = 0;
@@ -78,6 +93,7 @@ Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
           {"suns", suns},
           {"sky", scene.sky.present()},
           {"cameras", cameras},
+          {"objects", objectsJson(scene)},
           {"boundsM", {{"low", vector(bounds.lo)}, {"high", vector(bounds.hi)}}},
           {"warnings", warnings}};
 }
@@ -119,6 +135,15 @@ void printTable(const Json& j) {
   for (const Json& c : j["cameras"]) fmt::print("  {} {}: {}\n", index++, shown(c["name"]), c["kind"].get<std::string>());
 }
 
+// Of a furniture library each piece.
+void printObjects(const Json& objects) {
+  fmt::print("{:<18} {}\n", "objects", objects.size());
+  for (const Json& o : objects) {
+    const auto size = o["sizeM"].get<std::vector<double>>();
+    fmt::print("  {}: {:.2f} x {:.2f} x {:.2f} m\n", shown(o["name"]), size[0], size[1], size[2]);
+  }
+}
+
 int showPhotometricFile(const Options& o) {
   importers::PhotometricFiles files;
   const auto web = files.read(o.scene);
@@ -157,6 +182,7 @@ int runInfo(const Options& o) {
     fmt::print("{}\n", j.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
     printTable(j);
+    if (std::filesystem::path(o.scene).extension() == ".sh3f") printObjects(j["objects"]);
     printWarnings(imported.value().warnings);
   }
   return kOk;
@@ -167,7 +193,7 @@ int runInfo(const Options& o) {
 Registered addInfo(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("info", "Say what a scene or a photometric file holds");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj or .sh3d; or one luminaire: .ies or .ldt")->required();
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f; or one luminaire: .ies or .ldt")->required();
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
   app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
       ->capture_default_str()

@@ -46,8 +46,9 @@ Result<Imported> importScene(const std::filesystem::path& file, const ImportOpti
   const auto import = extension == ".gltf" || extension == ".glb" ? importGltf
                       : extension == ".obj"                       ? importObj
                       : extension == ".sh3d"                      ? importSh3d
+                      : extension == ".sh3f"                      ? importSh3f
                                                                   : nullptr;
-  if (!import) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb, .obj or .sh3d", file.string(), extension)};
+  if (!import) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb, .obj, .sh3d or .sh3f", file.string(), extension)};
   Result<Imported> imported = import(file, options);
   if (imported && options.metresPerUnit != 1) scaleToMetres(imported.value().scene, options.metresPerUnit);
   if (imported) {

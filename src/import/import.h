@@ -22,12 +22,13 @@ struct Imported {
   std::vector<std::string> warnings;  // one per kind of thing that could not be honoured, with how often
 };
 
-// .gltf, .glb, .obj, .sh3d. The error is one line that names the file and the place in it.
+// .gltf, .glb, .obj, .sh3d, .sh3f. The error is one line that names the file and the place in it.
 Result<Imported> importScene(const std::filesystem::path& file, const ImportOptions& options = {});
 
 // Each format's own reader; same contract.
 Result<Imported> importGltf(const std::filesystem::path& file, const ImportOptions& options);
 Result<Imported> importObj(const std::filesystem::path& file, const ImportOptions& options);
 Result<Imported> importSh3d(const std::filesystem::path& file, const ImportOptions& options);
+Result<Imported> importSh3f(const std::filesystem::path& file, const ImportOptions& options);
 
 }  // namespace roomlight
