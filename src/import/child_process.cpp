@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <exception>
+#include <fstream>
 
 #include "import/failure.h"
 
@@ -23,12 +24,21 @@ namespace roomlight::importers {
 namespace {
 
 constexpr unsigned kSeconds = 60;
-[[maybe_unused]] constexpr rlim_t kAddressBytes = rlim_t{8} << 30;
+[[maybe_unused]] constexpr rlim_t kMemoryBytes = rlim_t{8} << 30;
 constexpr int kFailed = 3;  // exit status: the file holds why
 
 void limit(int resource, rlim_t most) {
   const rlimit both{most, most};
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
+}
+
+// What the child may take beside what the parent has. Sanitizers reserve far more at once.
+void limitMemory() {
+#ifndef ROOMLIGHT_SANITIZED
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  limit(RLIMIT_AS, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kMemoryBytes);
+#endif
 }
 
 void writeAll(int file, const uint8_t* bytes, size_t count) {
@@ -45,9 +55,7 @@ void writeAll(int file, const uint8_t* bytes, size_t count) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, kSeconds);
   alarm(2 * kSeconds);  // a busy machine may give it half of a core
-#ifndef ROOMLIGHT_SANITIZED
-  limit(RLIMIT_AS, kAddressBytes);  // the sanitizers' shadows are larger than that
-#endif
+  limitMemory();
   int status = 0;
   try {
     const Bytes bytes = work();
