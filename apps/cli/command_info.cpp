@@ -1,6 +1,7 @@
 // roomlight info: what a scene or a photometric file holds.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -179,12 +180,13 @@ int runInfo(const Options& o) {
     return kBadInput;
   }
   Json j = describe(imported.value().scene, imported.value().warnings);
-  if (o.objects) j["objects"] = objectsJson(imported.value().scene);
+  const bool objects = o.objects || std::filesystem::path(o.scene).extension() == ".sh3f";  // a library is its pieces
+  if (objects) j["objects"] = objectsJson(imported.value().scene);
   if (o.json) {
     fmt::print("{}\n", j.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
     printTable(j);
-    if (o.objects) printObjects(j["objects"]);
+    if (objects) printObjects(j["objects"]);
     printWarnings(imported.value().warnings);
   }
   return kOk;
@@ -195,7 +197,7 @@ int runInfo(const Options& o) {
 Registered addInfo(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("info", "Say what a scene or a photometric file holds");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj or .sh3d; or one luminaire: .ies or .ldt")->required();
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f; or one luminaire: .ies or .ldt")->required();
   app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
   app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
       ->capture_default_str()

@@ -219,7 +219,7 @@ int runMeasure(const Options& o) {
 Registered addMeasure(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("measure", "Light a scene and hold light meters into it");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj or .sh3d")->required();
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
   app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
   app->add_option("--meters", o->meters, "Meter file: rooms, grids, points, spot meters and eyes (docs/formats/meters.md); without it, every room");
   app->add_option("--point", o->points, "Incident meter at x,y,z, or x,y,z,nx,ny,nz for a receptor that does not face up; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -260,7 +260,7 @@ struct Home {
 };
 
 Result<Home> loadHome(const Options& o, Plan& plan) {
-  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
+  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower, .camera = o.camera});
   if (!imported) return Error{imported.error()};
   Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
   if (!o.lighting.empty()) {
@@ -332,7 +332,7 @@ int runRender(const Options& o) {
 Registered addRender(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj or .sh3d")->required();
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
   app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2), .png or .jpg (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
   app->add_option("--camera", o->camera, "Name of a camera in the scene, or its number from 0");

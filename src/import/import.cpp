@@ -43,10 +43,13 @@ Result<Imported> importScene(const std::filesystem::path& file, const ImportOpti
   if (!std::filesystem::is_regular_file(file, code)) return Error{fmt::format("{}: no such file", file.string())};
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const bool gltf = extension == ".gltf" || extension == ".glb", obj = extension == ".obj", sh3d = extension == ".sh3d";
-  if (!gltf && !obj && !sh3d) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb, .obj or .sh3d", file.string(), extension)};
-  Result<Imported> imported = gltf ? importGltf(file, options) : obj ? importObj(file, options)
-                                                                     : importSh3d(file, options);
+  const auto import = extension == ".gltf" || extension == ".glb" ? importGltf
+                      : extension == ".obj"                       ? importObj
+                      : extension == ".sh3d"                      ? importSh3d
+                      : extension == ".sh3f"                      ? importSh3f
+                                                                  : nullptr;
+  if (!import) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb, .obj, .sh3d or .sh3f", file.string(), extension)};
+  Result<Imported> imported = import(file, options);
   if (imported && options.metresPerUnit != 1) scaleToMetres(imported.value().scene, options.metresPerUnit);
   if (imported) {
     const Scene& scene = imported.value().scene;

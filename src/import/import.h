@@ -13,6 +13,7 @@ namespace roomlight {
 struct ImportOptions {
   float metresPerUnit = 1;             // multiplies lengths; OBJ files carry no unit
   double lumenAtFullPower = 1600;      // what Sweet Home 3D's lights of power 1 send out; their power has no unit
+  std::string camera = {};             // of a Sweet Home 3D home, by name or number: whose time of day it is; empty: the one in use
   size_t maxTriangles = 200'000'000;   // of all instances; refuse absurd files before allocating
 };
 
@@ -21,12 +22,13 @@ struct Imported {
   std::vector<std::string> warnings;  // one per kind of thing that could not be honoured, with how often
 };
 
-// .gltf, .glb, .obj, .sh3d. The error is one line that names the file and the place in it.
+// .gltf, .glb, .obj, .sh3d, .sh3f. The error is one line that names the file and the place in it.
 Result<Imported> importScene(const std::filesystem::path& file, const ImportOptions& options = {});
 
 // Each format's own reader; same contract.
 Result<Imported> importGltf(const std::filesystem::path& file, const ImportOptions& options);
 Result<Imported> importObj(const std::filesystem::path& file, const ImportOptions& options);
 Result<Imported> importSh3d(const std::filesystem::path& file, const ImportOptions& options);
+Result<Imported> importSh3f(const std::filesystem::path& file, const ImportOptions& options);
 
 }  // namespace roomlight

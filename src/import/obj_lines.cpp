@@ -50,6 +50,13 @@ void checkIndices(const std::string& place, std::string_view text) {
   }
 }
 
+// find_first_of would call a function for every character.
+size_t lineEnd(std::string_view text) {
+  size_t end = 0;
+  while (end < text.size() && text[end] != '\n' && text[end] != '\r') ++end;
+  return end;
+}
+
 }  // namespace
 
 // Trailing blanks and comments after a blank are cut; a backslash at the end joins the next line.
@@ -57,7 +64,7 @@ void ObjLines::takeLine() {
   line_.clear();
   number_ = next_;
   for (bool joined = true; joined && !rest_.empty();) {
-    const size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    const size_t end = lineEnd(rest_);
     std::string_view part = rest_.substr(0, end);
     const bool both = rest_.substr(end).starts_with("\r\n");
     rest_.remove_prefix(std::min(end + (both ? 2 : 1), rest_.size()));

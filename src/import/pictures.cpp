@@ -189,6 +189,14 @@ std::optional<std::string> undecodable(ByteView bytes) {
   return "unknown";
 }
 
+size_t claimedPixels(ByteView bytes) {
+  try {
+    return checkedPixels(readHeader(bytes), bytes.size());
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
 std::vector<Texture> decodePictures(const std::vector<PictureJob>& jobs, Warnings& warnings) {
   std::vector<Header> headers(jobs.size());
   size_t pixels = 0;

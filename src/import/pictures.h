@@ -25,6 +25,9 @@ struct PictureJob {
 // The kind of a picture file that cannot be decoded here ("KTX2 (Basis Universal)", "AVIF", ...); none where it can.
 std::optional<std::string> undecodable(std::span<const uint8_t> bytes);
 
+// Pixels that the picture's header claims; 0 where it is no picture, or damaged.
+size_t claimedPixels(std::span<const uint8_t> bytes);
+
 // Textures without names and wrap modes, in the order of the jobs. Throws Failure that names the place of the first job that
 // fails: damaged, or beyond a limit. Sizes are checked against the number of bytes before anything is allocated. What a
 // decoder complained about although it could go on is counted in `warnings`.

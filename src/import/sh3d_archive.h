@@ -10,6 +10,8 @@
 
 #include "import/file_access.h"
 
+struct zip;  // the library's
+
 namespace roomlight::importers {
 
 // Limits of one archive; what is unpacked counts against `totalBytes` as it is read.
@@ -35,13 +37,15 @@ class Archive {
   const std::vector<std::string>& names() const { return names_; }
   size_t refused() const { return refused_; }
   bool has(std::string_view name) const;
+  std::vector<std::string> namesIn(std::string_view folder) const;  // that begin with it ("3/"), sorted
 
   // The unpacked entry; none where there is no such entry. A name with percent escapes also means the entry of the name without them. Throws
-  // Failure: damaged, encrypted, or beyond a limit.
+  // Failure: damaged, encrypted, or beyond a limit. Several threads may read at a time.
   std::optional<Bytes> read(std::string_view name) const;
 
  private:
   struct State;
+  Bytes unpacked(zip* zip, uint64_t index, const std::string& place) const;
   std::optional<uint64_t> indexOf(std::string_view name) const;
   std::unique_ptr<State> state_;
   std::vector<std::string> names_;

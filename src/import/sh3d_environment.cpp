@@ -16,7 +16,7 @@
 namespace roomlight::importers::sh3d {
 namespace {
 
-constexpr int kClearSky = 12;
+constexpr int kClearSky = 12, kSkyWidth = 1024;
 constexpr double kSunDiameterDeg = 0.533, kDegrees = 180 / std::numbers::pi;
 constexpr double kGroundMarginCm = 500, kGroundDepthCm = 1;
 constexpr uint32_t kUsualGround = 0xa8a8a8;
@@ -35,10 +35,55 @@ Vec3 hue(uint32_t rgb) {
   return isBlack(c) ? Vec3(1) : c / luminance(c);
 }
 
+// A half sphere's picture by direction.
+class SkyPicture {
+ public:
+  SkyPicture(const Texture& t, double xOffset) : t_(t), xOffset_(xOffset) {}
+
+  Vec3 at(Vec3 d) const {
+    const double turn = std::atan2(static_cast<double>(d.z), static_cast<double>(d.x)) / (2 * std::numbers::pi) - xOffset_;
+    const double altitude = std::asin(std::clamp(static_cast<double>(d.y), 0.0, 1.0)) * 2 / std::numbers::pi;
+    const int x = std::min(static_cast<int>((turn - std::floor(turn)) * t_.width), t_.width - 1);
+    const int y = std::min(static_cast<int>((1 - altitude) * t_.height), t_.height - 1);
+    const uint8_t* texel = t_.rgba.data() + 4 * (static_cast<size_t>(y) * static_cast<size_t>(t_.width) + static_cast<size_t>(x));
+    return linearColour(static_cast<uint32_t>(texel[0]) << 16 | static_cast<uint32_t>(texel[1]) << 8 | texel[2]);
+  }
+
+ private:
+  const Texture& t_;
+  double xOffset_;
+};
+
 double angleRad(Vec3 a, Vec3 b) { return std::acos(std::clamp(static_cast<double>(dot(a, b)), -1.0, 1.0)); }
 
-void addDaylight(const Home& home, Vec3 groundReflectance, Scene& scene, Warnings& warnings) {
-  const Camera* camera = cameraInUse(home);
+// The sky's picture goes once around: its left edge stands towards +x, the columns to its right turn clockwise seen from above, its bottom row lies
+// at the horizon and its top row at the zenith, as the 3D view shows it. A level surface has `skyLux` from it. None where it is black.
+Image pictureSky(const Texture& picture, double xOffset, double skyLux, Vec3 tint) {
+  const SkyPicture sky(picture, xOffset);
+  const double now = horizontalIlluminance([&](Vec3 d) { return static_cast<double>(luminance(sky.at(d) * tint)); });
+  if (!(now > 0)) return {};
+  const float factor = static_cast<float>(skyLux / now);
+  Image image(kSkyWidth, kSkyWidth / 2);
+  for (int y = 0; 2 * y < image.height; ++y) {
+    const double altitude = std::numbers::pi * (0.5 - (y + 0.5) / image.height);
+    for (int x = 0; x < image.width; ++x) {
+      const double bearing = 2 * std::numbers::pi * ((x + 0.5) / image.width - 0.5);
+      const Vec3 d{static_cast<float>(std::sin(bearing) * std::cos(altitude)), static_cast<float>(std::sin(altitude)),
+                   static_cast<float>(-std::cos(bearing) * std::cos(altitude))};
+      image.at(x, y) = sky.at(d) * tint * factor;
+    }
+  }
+  return image;
+}
+
+void paintGround(Image& sky, Vec3 groundCdM2) {
+  for (int y = sky.height / 2; y < sky.height; ++y) {
+    for (int x = 0; x < sky.width; ++x) sky.at(x, y) = groundCdM2;
+  }
+}
+
+void addDaylight(const Home& home, const Paints& paints, const std::string& wantedCamera, Vec3 groundReflectance, Scene& scene, Warnings& warnings) {
+  const Camera* camera = cameraOfTime(home, wantedCamera);
   if (!home.compass || !home.compass->latitudeRad || !home.compass->longitudeRad || !camera || !camera->timeMs || std::abs(*camera->timeMs) > kLatestMs) {
     warnings.add("the home does not say where it stands, or when it is seen: there is no daylight; a lighting file can give it");
     return;
@@ -58,14 +103,23 @@ void addDaylight(const Home& home, Vec3 groundReflectance, Scene& scene, Warning
   // North stands at that angle clockwise from the plan's up, -z: so -z bears the opposite angle.
   sun.toLight = towardsSun(position, -compass.northRad * kDegrees);
   sun.halfAngleRad = static_cast<float>(kSunDiameterDeg / 2 / kDegrees);
-  sun.illuminanceLux = Vec3(static_cast<float>(sunLux(moment, position.altitudeRad, sunExtinction(skyCover(kClearSky)))));
-  const Vec3 colour = hue(home.environment.skyColour.value_or(0xffffff));
+  const Vec3 tint = hue(home.environment.lightColour.value_or(0xffffff));
+  sun.illuminanceLux = tint * (static_cast<float>(sunLux(moment, position.altitudeRad, sunExtinction(skyCover(kClearSky)))));
   const double skyLux = skyHorizontalLux(skyCover(kClearSky), position.altitudeRad);
-  const Vec3 groundLux = colour * static_cast<float>(skyLux) + sun.illuminanceLux * std::max(sun.toLight.y, 0.0f);
   const Vec3 toSun = sun.toLight;
-  const double zenithRad = angleRad(toSun, {0, 1, 0});
-  scene.sky.image = skyImage([=](Vec3 d) { return cieSkyLuminance(kClearSky, static_cast<double>(d.y), angleRad(d, toSun), zenithRad); }, skyLux, colour,
-                             groundLux * groundReflectance / kPi);
+  const auto ground = [&](Vec3 skyColour) {
+    return (skyColour * static_cast<float>(skyLux) + sun.illuminanceLux * std::max(toSun.y, 0.0f)) * groundReflectance / kPi;
+  };
+  const auto& use = home.environment.skyTexture;
+  const Texture* picture = use ? paints.picture(use->image) : nullptr;
+  if (picture) scene.sky.image = pictureSky(*picture, use->xOffset, skyLux, tint);
+  if (picture && scene.sky.image.width > 0) {
+    paintGround(scene.sky.image, ground(tint));
+  } else {
+    const Vec3 mixed = hue(home.environment.skyColour.value_or(0xffffff)) * tint, colour = mixed / luminance(mixed);
+    const double zenithRad = angleRad(toSun, {0, 1, 0});
+    scene.sky.image = skyImage([=](Vec3 d) { return cieSkyLuminance(kClearSky, static_cast<double>(d.y), angleRad(d, toSun), zenithRad); }, skyLux, colour, ground(colour));
+  }
   scene.sky.horizonEdge = true;
   scene.suns.push_back(std::move(sun));
 }
@@ -90,14 +144,13 @@ void addGround(const Home& home, int material, Scene& scene, int& object) {
 
 }  // namespace
 
-void addEnvironment(const Home& home, Paints& paints, Scene& scene, int& object, Warnings& warnings) {
+void addEnvironment(const Home& home, Paints& paints, const std::string& camera, Scene& scene, int& object, Warnings& warnings) {
   const Environment& env = home.environment;
   Paint ground;
   ground.colour = env.groundColour.value_or(kUsualGround);
   ground.texture = env.groundTexture;
   const int material = paints.material(ground, "ground");
-  if (env.skyTexture) warnings.add("the sky's picture is left out: the sky is a clear one of that time");
-  addDaylight(home, linearColour(*ground.colour) * kWhiteReflectance, scene, warnings);
+  addDaylight(home, paints, camera, linearColour(*ground.colour) * kWhiteReflectance, scene, warnings);
   addGround(home, material, scene, object);
 }
 

@@ -105,7 +105,7 @@ void addBox(const Home& home, const Piece& p, int material, Scene& scene, int ob
 
 class Placer {
  public:
-  Placer(const Home& home, Models& models, Paints& paints, size_t maxTriangles, Scene& scene, Warnings& warnings)
+  Placer(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, Scene& scene, Warnings& warnings)
       : home_(home), models_(models), looks_(paints, scene), paints_(paints), maxTriangles_(maxTriangles), scene_(scene), warnings_(warnings) {}
 
   void place(const Piece& p, int object) {
@@ -161,7 +161,7 @@ class Placer {
   }
 
   const Home& home_;
-  Models& models_;
+  const Models& models_;
   Looks looks_;
   Paints& paints_;
   size_t maxTriangles_, triangles_ = 0;
@@ -194,7 +194,7 @@ Affine worldFromModel(const Home& home, const Piece& p, const std::vector<const 
   return moved(toWorld(p.centre, elevationOf(home, p.level) + p.elevationCm + height / 2)) * turnedY(-p.angleRad) * m;
 }
 
-void addFurniture(const Home& home, Models& models, Paints& paints, size_t maxTriangles, double lumenAtFullPower, Scene& scene, int& object, Warnings& warnings) {
+void addFurniture(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, double lumenAtFullPower, Scene& scene, int& object, Warnings& warnings) {
   Placer placer(home, models, paints, maxTriangles, scene, warnings);
   for (const Piece& p : home.pieces) {
     if (!isShown(home, p.level)) continue;

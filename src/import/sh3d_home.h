@@ -17,7 +17,7 @@ struct TextureUse {
   double widthCm = 100, heightCm = 100;
   double xOffset = 0, yOffset = 0;     // of its width and height
   double angleRad = 0, scale = 1;
-  bool fittingArea = false;            // once over the whole surface instead of by size
+  bool fittingArea = false;            // once over the whole room instead of by size
 };
 
 struct Paint {
@@ -124,9 +124,19 @@ struct Compass {
 };
 
 struct Environment {
-  std::optional<uint32_t> groundColour, skyColour;
+  std::optional<uint32_t> groundColour, skyColour, lightColour;
   std::optional<TextureUse> groundTexture, skyTexture;
   double photoAspect = 4.0 / 3;
+};
+
+// A line drawn on the plan that is shown in 3D too.
+struct Polyline {
+  std::string place;
+  int level = -1;
+  std::vector<PlanPoint> points;
+  double thicknessCm = 1, elevationCm = 0;
+  uint32_t colour = 0;
+  bool closed = false;
 };
 
 struct Home {
@@ -139,6 +149,7 @@ struct Home {
   std::vector<Piece> pieces;
   std::vector<Wall> walls;
   std::vector<Room> rooms;
+  std::vector<Polyline> polylines;
 };
 
 inline double elevationOf(const Home& home, int level) { return level < 0 ? 0 : home.levels[static_cast<size_t>(level)].elevationCm; }

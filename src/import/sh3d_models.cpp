@@ -3,13 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 
+#include "import/assimp_model.h"
 #include "import/failure.h"
 #include "import/obj.h"
+#include "import/parallel_failures.h"
+#include "import/pictures.h"
 
 namespace roomlight::importers::sh3d {
 namespace {
+
+enum class Format {
+  Obj,
+  Collada,
+  Studio3D,
+  Zip,
+  LightWave,
+  Gltf,
+};
 
 std::string extensionOf(std::string_view name) {
   const size_t dot = name.rfind('.'), slash = name.rfind('/');
@@ -23,66 +36,143 @@ bool startsWith(const Bytes& bytes, std::string_view magic) {
   return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin(), [](char c, uint8_t b) { return static_cast<uint8_t>(c) == b; });
 }
 
-// Why a model is no OBJ; empty where it may be one. Entries of single files are named by a number without an extension.
-std::string otherFormat(const std::string& extension, const Bytes& bytes) {
-  if (extension == "dae" || extension == "kmz" || startsWith(bytes, "<?xml") || startsWith(bytes, "<COLLADA")) return "COLLADA (.dae, .kmz)";
-  if (extension == "3ds" || startsWith(bytes, "MM")) return "3D Studio (.3ds)";
-  if (extension == "lws" || startsWith(bytes, "LWSC")) return "LightWave (.lws)";
-  if (extension == "gltf" || extension == "glb" || startsWith(bytes, "glTF")) return "glTF";
-  return {};
+// Entries of single files are named by a number without an extension.
+Format formatOf(const std::string& extension, const Bytes& bytes) {
+  if (startsWith(bytes, "PK\x03\x04")) return Format::Zip;
+  if (extension == "dae" || startsWith(bytes, "<?xml") || startsWith(bytes, "\xef\xbb\xbf<?xml") || startsWith(bytes, "<COLLADA")) return Format::Collada;
+  if (extension == "3ds" || startsWith(bytes, "MM")) return Format::Studio3D;
+  if (extension == "lws" || startsWith(bytes, "LWSC")) return Format::LightWave;
+  if (extension == "gltf" || extension == "glb" || startsWith(bytes, "glTF")) return Format::Gltf;
+  return Format::Obj;
 }
 
-// Companions of an entry: entries beside and below it. Some models name pictures on their author's disk: those are missing, as no entry has
-// such a name.
-ReadCompanion companionsOf(const Archive& archive, const std::string& entry) {
+bool isModelName(const std::string& name) {
+  const std::string extension = extensionOf(name);
+  return extension == "obj" || extension == "dae" || extension == "3ds";
+}
+
+// What all models of a home may hold together.
+struct Budget {
+  size_t maxTriangles = 0;
+  std::atomic<size_t> triangles{0}, pixels{0};
+  bool exceeded() const { return triangles > maxTriangles || pixels > kMaxAllPixels; }
+};
+
+// "models/../images/oak.jpg" without the steps up; none where it climbs out of the archive.
+std::optional<std::string> withoutSteps(std::string path) {
+  std::replace(path.begin(), path.end(), '\\', '/');
+  std::string out;
+  for (size_t at = 0; at <= path.size();) {
+    const size_t end = std::min(path.find('/', at), path.size());
+    const std::string part = path.substr(at, end - at);
+    if (part == "..") {
+      if (out.empty()) return {};
+      out.erase(out.rfind('/') == std::string::npos ? 0 : out.rfind('/'));
+    } else if (!part.empty() && part != ".") {
+      out += (out.empty() ? "" : "/") + part;
+    }
+    at = end + 1;
+  }
+  return normalisedEntryName(out);
+}
+
+// Companions of an entry: entries beside, below or, inside its own archive, above it. Some models name pictures on their author's disk: of those
+// the file's name counts, beside the model.
+ReadCompanion companionsOf(Content& content, const std::string& entry, Budget& budget) {
   const size_t slash = entry.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : entry.substr(0, slash + 1);
-  return [&archive, folder](std::string_view reference, const std::string&) -> std::optional<Bytes> {
-    const auto name = normalisedEntryName(reference);
-    return name ? archive.read(folder + *name) : std::nullopt;
+  return [&content, &budget, folder](std::string_view reference, const std::string&) -> std::optional<Bytes> {
+    const std::string name(reference);
+    const auto path = name.starts_with('/') || name.starts_with('\\') ? std::nullopt : withoutSteps(folder + name);
+    const Bytes* bytes = path ? content.read(*path) : nullptr;
+    const size_t lastSlash = name.find_last_of("/\\");
+    if (!bytes && lastSlash != std::string::npos && lastSlash + 1 < name.size()) bytes = content.read(folder + name.substr(lastSlash + 1));
+    if (!bytes) return {};
+    if ((budget.pixels += claimedPixels(*bytes)) > kMaxAllPixels) fail("", "has too many pictures beside those of other models");
+    return *bytes;
   };
+}
+
+Scene readModel(const std::string& entry, Content& content, size_t maxTriangles, Budget& budget, Warnings& warnings) {
+  const Bytes* bytes = content.read(entry);
+  if (!bytes) fail("", "is missing");
+  const ReadCompanion companions = companionsOf(content, entry, budget);
+  switch (formatOf(extensionOf(entry), *bytes)) {
+    case Format::Obj: return readObj(*bytes, companions, maxTriangles, warnings);
+    case Format::Collada: return readByAssimp(*bytes, AssimpFormat::Collada, companions, maxTriangles, warnings);
+    case Format::Studio3D: return readByAssimp(*bytes, AssimpFormat::Studio3D, companions, maxTriangles, warnings);
+    case Format::LightWave: fail("", "is in the format LightWave (.lws), which is not read; export it as OBJ");
+    case Format::Gltf: fail("", "is in the format glTF, which is not read inside a home; export it as OBJ");
+    case Format::Zip: break;
+  }
+  // A zip file in the zip file (also .kmz): the first model in it.
+  const Archive inner(*bytes, fmt::format("entry '{}'", printable(entry)), {.entryBytes = size_t{256} << 20, .totalBytes = size_t{1} << 30});
+  Content innerContent(inner);
+  for (const std::string& name : inner.names()) {
+    if (isModelName(name)) return readModel(name, innerContent, maxTriangles, budget, warnings);
+  }
+  fail("", "is a zip file without a model in OBJ, COLLADA or 3D Studio format; export it as OBJ");
+}
+
+struct Read {
+  Scene scene;
+  Warnings warnings;
+};
+
+void readOne(const Archive& archive, const ContentDigests& digests, const std::string& entry, Budget& budget, Read& out) {
+  if (budget.exceeded()) return;
+  const std::string model = fmt::format("the model '{}' ", printable(entry));
+  try {
+    Content content(archive);
+    out.scene = readModel(entry, content, budget.maxTriangles, budget, out.warnings);
+    if (out.scene.instances.empty()) fail("", "holds no triangles");
+    budget.triangles += out.scene.triangleCount();
+    const auto digest = digests.of(entry);
+    if (digest && !content.has(*digest, entry)) out.warnings.add(model + "is not what was saved, its digest differs: it is damaged, or was exchanged");
+  } catch (const Failure& failure) {
+    out.scene = {};
+    out.warnings.add(model + printable(failure.what(), 200));
+  }
+}
+
+// Its materials and textures behind those of the home.
+Model merged(Scene& from, Scene& scene) {
+  Model model;
+  const int firstMaterial = static_cast<int>(scene.materials.size()), firstTexture = static_cast<int>(scene.textures.size());
+  for (Texture& t : from.textures) scene.textures.push_back(std::move(t));
+  for (Material& m : from.materials) {
+    for (TextureRef* ref : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture, &m.transmissionTexture}) {
+      if (ref->texture >= 0) ref->texture += firstTexture;
+    }
+    scene.materials.push_back(std::move(m));
+  }
+  for (const Instance& i : from.instances) {
+    model.meshes.push_back(std::move(from.meshes[static_cast<size_t>(i.mesh)]));
+    model.meshes.back().material += firstMaterial;
+    model.objects.push_back(i.object);
+  }
+  return model;
 }
 
 }  // namespace
 
-Scene Models::read(const std::string& entry) {
-  const auto bytes = archive_.read(entry);
-  if (!bytes) fail("", "is missing");
-  const std::string other = otherFormat(extensionOf(entry), *bytes);
-  if (!other.empty()) fail("", "is in the format " + other + ", which is not read; export it as OBJ");
-  if (!startsWith(*bytes, "PK\x03\x04")) return readObj(*bytes, companionsOf(archive_, entry), maxTriangles_, warnings_);
-  // A zip file in the zip file: the first model in it.
-  const Archive inner(*bytes, fmt::format("entry '{}'", printable(entry)), {.entryBytes = size_t{256} << 20, .totalBytes = size_t{1} << 30});
-  for (const std::string& name : inner.names()) {
-    if (extensionOf(name) == "obj") return readObj(*inner.read(name), companionsOf(inner, name), maxTriangles_, warnings_);
+Models::Models(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& entries, size_t maxTriangles, Scene& scene, Warnings& warnings) {
+  const std::vector<std::string> names(entries.begin(), entries.end());
+  std::vector<Read> read(names.size());
+  Budget budget;
+  budget.maxTriangles = maxTriangles;
+  parallelOrFail(names.size(), [&](size_t i) { readOne(archive, digests, names[i], budget, read[i]); });
+  if (budget.triangles > maxTriangles) fail("", fmt::format("the models together have more than {} triangles", maxTriangles));
+  if (budget.pixels > kMaxAllPixels) fail("", fmt::format("the pictures of all models together have more than {} pixels", kMaxAllPixels));
+  for (size_t i = 0; i < names.size(); ++i) {
+    warnings.add(read[i].warnings);
+    if (!read[i].scene.instances.empty()) models_.emplace(names[i], merged(read[i].scene, scene));
   }
-  fail("", "is a zip file without an OBJ file; export it as OBJ");
 }
 
-const Model* Models::find(const std::string& entry) {
-  const auto [it, isNew] = models_.try_emplace(entry);
-  Model& model = it->second;
-  if (isNew) {
-    try {
-      Scene scene = read(entry);
-      const int firstMaterial = static_cast<int>(scene_.materials.size()), firstTexture = static_cast<int>(scene_.textures.size());
-      for (Texture& t : scene.textures) scene_.textures.push_back(std::move(t));
-      for (Material& m : scene.materials) {
-        for (TextureRef* ref : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture, &m.transmissionTexture}) {
-          if (ref->texture >= 0) ref->texture += firstTexture;
-        }
-        scene_.materials.push_back(std::move(m));
-      }
-      for (const Instance& i : scene.instances) {
-        model.meshes.push_back(std::move(scene.meshes[static_cast<size_t>(i.mesh)]));
-        model.meshes.back().material += firstMaterial;
-        model.objects.push_back(i.object);
-      }
-    } catch (const Failure& failure) {
-      warnings_.add(fmt::format("the model '{}' {}", printable(entry), printable(failure.what(), 200)));
-    }
-  }
-  return model.meshes.empty() ? nullptr : &model;
+const Model* Models::find(const std::string& entry) const {
+  const auto it = models_.find(entry);
+  return it == models_.end() ? nullptr : &it->second;
 }
 
 }  // namespace roomlight::importers::sh3d

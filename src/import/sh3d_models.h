@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "import/sh3d_archive.h"
+#include "import/sh3d_content.h"
 #include "import/warnings.h"
 #include "scene/scene.h"
 
@@ -18,20 +20,14 @@ struct Model {
 
 class Models {
  public:
-  Models(const Archive& archive, size_t maxTriangles, Scene& scene, Warnings& warnings)
-      : archive_(archive), maxTriangles_(maxTriangles), scene_(scene), warnings_(warnings) {}
+  // Reads these entries, several at a time; their materials and textures are added to the scene. What is missing, damaged, not what was saved or of
+  // a format that is not read is a warning. Throws Failure where all together are beyond a limit.
+  Models(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& entries, size_t maxTriangles, Scene& scene, Warnings& warnings);
 
-  // The model of that entry, read once; its materials and textures are added to the scene. Null where it is missing, damaged or of a format
-  // that is not read: a warning says which.
-  const Model* find(const std::string& entry);
+  // Null where it could not be read.
+  const Model* find(const std::string& entry) const;
 
  private:
-  Scene read(const std::string& entry);
-
-  const Archive& archive_;
-  size_t maxTriangles_;
-  Scene& scene_;
-  Warnings& warnings_;
   std::map<std::string, Model> models_;
 };
 

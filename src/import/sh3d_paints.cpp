@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "base/tone.h"
+#include "import/failure.h"
+#include "import/parallel_failures.h"
 #include "import/pictures.h"
 #include "import/printable.h"
 
@@ -26,26 +29,39 @@ Material paintedMaterial(const std::string& name, Vec3 reflectance, double shini
   return m;
 }
 
-Paints::Paints(const Archive& archive, const std::set<std::string>& images, Scene& scene, Warnings& warnings) : scene_(scene), warnings_(warnings) {
-  std::vector<std::string> found;
-  std::vector<Bytes> files;
-  for (const std::string& image : images) {
-    auto bytes = archive.read(image);
-    if (!bytes) {
-      warnings.add("textures whose picture is not in the file are left out");
-    } else if (const auto kind = undecodable(*bytes)) {
-      warnings.add(fmt::format("pictures of kind {} cannot be decoded", *kind));
-    } else {
-      found.push_back(image), files.push_back(std::move(*bytes));
+Paints::Paints(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& images, Scene& scene, Warnings& warnings) : scene_(scene) {
+  struct Picture {
+    std::string name;
+    std::vector<Texture> decoded;
+    Warnings warnings;
+  };
+  std::vector<Picture> pictures;
+  for (const std::string& image : images) pictures.push_back({image, {}, {}});
+  std::atomic<size_t> pixels = 0;
+  parallelOrFail(pictures.size(), [&](size_t i) {
+    Picture& p = pictures[i];
+    try {
+      Content content(archive);
+      const Bytes* bytes = content.read(p.name);
+      if (!bytes) return p.warnings.add("textures whose picture is not in the file are left out");
+      if (const auto kind = undecodable(*bytes)) return p.warnings.add(fmt::format("pictures of kind {} cannot be decoded", *kind));
+      if ((pixels += claimedPixels(*bytes)) > kMaxAllPixels) return;
+      p.decoded = decodePictures({{"", *bytes}}, p.warnings);
+      const auto digest = digests.of(p.name);
+      if (digest && !content.has(*digest, p.name)) {
+        p.warnings.add(fmt::format("the picture '{}' is not what was saved, its digest differs: it is damaged, or was exchanged", printable(p.name)));
+      }
+    } catch (const Failure& failure) {
+      p.warnings.add(fmt::format("the picture '{}' is left out: {}", printable(p.name), printable(failure.what(), 200)));
     }
-  }
-  std::vector<PictureJob> jobs;
-  for (size_t i = 0; i < found.size(); ++i) jobs.push_back({fmt::format("picture '{}'", printable(found[i])), files[i]});
-  std::vector<Texture> decoded = decodePictures(jobs, warnings);
-  for (size_t i = 0; i < found.size(); ++i) {
-    decoded[i].name = found[i];
-    textures_.emplace(found[i], static_cast<int>(scene.textures.size()));
-    scene.textures.push_back(std::move(decoded[i]));
+  });
+  if (pixels > kMaxAllPixels) fail("", fmt::format("all pictures together have more than {} pixels", kMaxAllPixels));
+  for (Picture& p : pictures) {
+    warnings.add(p.warnings);
+    if (p.decoded.empty()) continue;
+    p.decoded[0].name = p.name;
+    textures_.emplace(p.name, static_cast<int>(scene.textures.size()));
+    scene.textures.push_back(std::move(p.decoded[0]));
   }
 }
 
@@ -58,7 +74,6 @@ TextureRef Paints::reference(const TextureUse& use) {
   TextureRef ref;
   const auto it = textures_.find(use.image);
   if (it == textures_.end()) return ref;
-  if (use.fittingArea) warnings_.add("textures that fit their area are laid by their size instead");
   ref.texture = it->second;
   // Metres to repeats of the picture: moved by its offset (right and up, of its size), turned, then scaled. v points down here.
   const double c = std::cos(use.angleRad), s = std::sin(use.angleRad);

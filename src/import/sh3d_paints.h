@@ -6,6 +6,7 @@
 #include <string>
 
 #include "import/sh3d_archive.h"
+#include "import/sh3d_content.h"
 #include "import/sh3d_home.h"
 #include "import/warnings.h"
 #include "scene/scene.h"
@@ -19,8 +20,9 @@ Vec3 linearColour(uint32_t rgb);  // sRGB 0xRRGGBB to linear Rec.709, 0 to 1
 
 class Paints {
  public:
-  // Decodes the pictures; one that is missing or of an unknown kind is a warning. Throws Failure where one is damaged.
-  Paints(const Archive& archive, const std::set<std::string>& images, Scene& scene, Warnings& warnings);
+  // Decodes the pictures; one that is missing, damaged, not what was saved or of an unknown kind is a warning. Throws Failure where all together
+  // are beyond a limit.
+  Paints(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& images, Scene& scene, Warnings& warnings);
 
   // Index of the material; white where the paint says nothing. Meshes give texture coordinates in metres, u to the right and v down.
   int material(const Paint& paint, const std::string& name);
@@ -32,7 +34,6 @@ class Paints {
 
  private:
   Scene& scene_;
-  Warnings& warnings_;
   std::map<std::string, int> textures_, made_;
 };
 

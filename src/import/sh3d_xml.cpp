@@ -41,6 +41,16 @@ Paint readPaint(const Element& e, const char* colourKey, const char* shininessKe
   return paint;
 }
 
+// A picture that fits its area, as one laid by size whose first repeat is just the box around these points.
+void fit(const std::vector<PlanPoint>& points, TextureUse& t) {
+  if (points.empty()) return;
+  PlanPoint lo = points[0], hi = points[0];
+  for (const PlanPoint& p : points) lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)}, hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+  if (!(hi.x - lo.x > 1e-3 && hi.y - lo.y > 1e-3)) return;
+  t.widthCm = hi.x - lo.x, t.heightCm = hi.y - lo.y, t.angleRad = 0, t.scale = 1;
+  t.xOffset = lo.x / t.widthCm, t.yOffset = -lo.y / t.heightCm;
+}
+
 class Reader {
  public:
   explicit Reader(Warnings& warnings) : warnings_(warnings) {}
@@ -63,17 +73,17 @@ class Reader {
     if (kind == "level") level(e);
     if (kind == "wall") wall(e);
     if (kind == "room") room(e);
-    if (kind == "polyline" && e.has("elevation")) warnings_.add("polylines shown in 3D are left out");
+    if (kind == "polyline" && e.has("elevation")) polyline(e);
     if (kind == "label" && e.has("pitch")) warnings_.add("labels shown in 3D are left out");
     furniture(e, 0, -1);
-    if (home_.walls.size() + home_.rooms.size() + home_.levels.size() + home_.cameras.size() + home_.pieces.size() > kMaxThings) {
+    if (home_.walls.size() + home_.rooms.size() + home_.levels.size() + home_.cameras.size() + home_.pieces.size() + home_.polylines.size() > kMaxThings) {
       fail("Home.xml", fmt::format("holds more than {} things", kMaxThings));
     }
   }
 
   void environment(const Element& e) {
     Environment& env = home_.environment;
-    env.groundColour = e.colour("groundColor"), env.skyColour = e.colour("skyColor");
+    env.groundColour = e.colour("groundColor"), env.skyColour = e.colour("skyColor"), env.lightColour = e.colour("lightColor");
     const double width = e.number("photoWidth", 1, 1e6, 400), height = e.number("photoHeight", 1, 1e6, 300);
     env.photoAspect = width / height;
     e.children([&](const Element& c) {
@@ -164,7 +174,25 @@ class Reader {
       if (c.kind() == "point") r.points.push_back({c.lengthCm("x"), c.lengthCm("y")});
     });
     if (r.points.size() > kMaxRoomPoints) fail(e.place(), fmt::format("has more than {} points", kMaxRoomPoints));
+    for (Paint* paint : {&r.floor, &r.ceiling}) {
+      if (paint->texture && paint->texture->fittingArea) fit(r.points, *paint->texture);
+    }
     home_.rooms.push_back(std::move(r));
+  }
+
+  void polyline(const Element& e) {
+    Polyline p;
+    p.place = e.place(), p.level = levelOf(e);
+    p.thicknessCm = e.number("thickness", 0, 1e4, 1), p.elevationCm = e.lengthCm("elevation");
+    p.colour = e.colour("color").value_or(0), p.closed = e.flag("closedPath", false);
+    e.children([&](const Element& c) {
+      if (c.kind() == "point") p.points.push_back({c.lengthCm("x"), c.lengthCm("y")});
+    });
+    if (p.points.size() > kMaxRoomPoints) fail(e.place(), fmt::format("has more than {} points", kMaxRoomPoints));
+    if (e.text("dashStyle", "SOLID") != "SOLID") warnings_.add("dashed lines shown in 3D are whole");
+    if (e.text("startArrowStyle", "NONE") != "NONE" || e.text("endArrowStyle", "NONE") != "NONE") warnings_.add("arrows of lines shown in 3D are left out");
+    if (e.text("joinStyle") == "CURVED") warnings_.add("curved lines shown in 3D are straight between their points");
+    home_.polylines.push_back(std::move(p));
   }
 
   // Pieces of a group stand on the group's level where they name none.

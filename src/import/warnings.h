@@ -19,6 +19,9 @@ class Warnings {
     }
     if (times > 0) kinds_.emplace_back(kind, times);
   }
+  void add(const Warnings& others) {
+    for (const auto& [kind, count] : others.kinds_) add(kind, count);
+  }
   std::vector<std::string> lines() const {
     std::vector<std::string> out;
     for (const auto& [kind, count] : kinds_) {

@@ -101,8 +101,8 @@ TEST(CameraRays, pixelOfAPlaceIsWhereItsRayStarted) {
     }
   }
   const CameraRays rays(cameraOf(Projection::Perspective), 400, 200);
-  EXPECT_FALSE(rays.pixelOf(rays.ray(200, 100).at(-1))) << "behind the eye";
-  EXPECT_FALSE(rays.pixelOf(rays.ray(500, 100).at(1))) << "beside the picture";
+  EXPECT_FALSE(rays.pixelOf(rays.ray(200, 100).origin - rays.ray(200, 100).direction)) << "behind the eye";
+  EXPECT_FALSE(rays.pixelOf(rays.ray(500, 100).origin + rays.ray(500, 100).direction)) << "beside the picture";
 }
 
 TEST(CameraRays, raysKeepBelowTheCut) {
