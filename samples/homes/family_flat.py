@@ -123,7 +123,7 @@ def children(h):
     h.put("scopia:kids_desk_chair", 215, 900, "S")
     h.lamp(h.on(desk, "scopia:desk_lamp2", 35, -5, facing=200), "Anna's desk lamp", 470, 3000)
     h.on(desk, "ccby:book", -20, 5)
-    h.stand("scopia:kids_shelves", 413, 930, "W")
+    h.stand("cc0:verticalShelves", 413, 930, "W")
     h.put("cc0:teddyBear", 75, 930, 150, elevation=45)
     h.put("cc0:caballito", 190, 770, 210)
     h.put("scopia:doll-house", 340, 800, "W", elevation=0)

@@ -65,7 +65,8 @@ class View:
 class Home:
     """One home; `north` is the compass bearing of the plan's upper side in degrees, `day` the clock of its day light."""
 
-    def __init__(self, name, title, pieces, north=0, latitude=48.14, longitude=11.58, zone="Europe/Berlin", day=(2026, 5, 20, 15, 30), offset="+02:00"):
+    def __init__(self, name, title, pieces, north=0, latitude=48.14, longitude=11.58, zone="Europe/Berlin",
+                 day=(2026, 5, 20, 15, 30), offset="+02:00"):
         self.name, self.title, self.pieces, self.north = name, title, pieces, north
         self.latitude, self.longitude, self.zone, self.day, self.offset = latitude, longitude, zone, day, offset
         self.facade, self.ground, self.wall_height = 0xE9E4DA, "grass", WALL_HEIGHT
@@ -118,8 +119,8 @@ class Home:
         angle = math.degrees(math.atan2(-front[0], front[1])) % 360
         if is_door:
             wall.doors.append((s, width))
-        return self._add(Placed(piece, name or piece.name, len(self.levels) - 1, *at, piece.elevation if elevation is None else elevation, angle, width,
-                                depth, height or piece.height, colour, mirrored=mirrored))
+        return self._add(Placed(piece, name or piece.name, len(self.levels) - 1, *at, piece.elevation if elevation is None else elevation,
+                                angle, width, depth, height or piece.height, colour, mirrored=mirrored))
 
     def door(self, key, x, y, into, **more):
         return self.opening(key, x, y, into, is_door=True, **more)
@@ -160,8 +161,8 @@ class Home:
         a = math.radians(angle)
         x, y = at[0] - back[1] * depth * math.sin(a), at[1] + back[1] * depth * math.cos(a)
         elevation = more.pop("elevation", None)
-        return self._add(Placed(piece, more.pop("name", piece.name), len(self.levels) - 1, x, y, piece.elevation if elevation is None else elevation, angle,
-                                width, depth, height, **more))
+        return self._add(Placed(piece, more.pop("name", piece.name), len(self.levels) - 1, x, y,
+                                piece.elevation if elevation is None else elevation, angle, width, depth, height, **more))
 
     def _add(self, placed):
         self.placed.append(placed)

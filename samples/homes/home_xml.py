@@ -91,8 +91,8 @@ class Writer:
         kind = "doorOrWindow" if p.piece.door else "light" if p.piece.lights else "pieceOfFurniture"
         model, icon = self.entries[p.piece.key]
         a = {"id": f"{kind}-{i}", "level": self.level_of(p.level), "catalogId": p.piece.catalogue_id, "name": p.name, "creator": p.piece.creator,
-             "model": model, "icon": icon, "x": p.x, "y": p.y, "elevation": float(p.elevation), "angle": math.radians(p.angle), "width": float(p.width),
-             "depth": float(p.depth), "height": float(p.height), "dropOnTopElevation": float(p.piece.drop_on_top),
+             "model": model, "icon": icon, "x": p.x, "y": p.y, "elevation": float(p.elevation), "angle": math.radians(p.angle),
+             "width": float(p.width), "depth": float(p.depth), "height": float(p.height), "dropOnTopElevation": float(p.piece.drop_on_top),
              "modelMirrored": "true" if p.mirrored else None, "modelRotation": p.piece.rotation or None,
              "color": None if p.colour is None else _colour(p.colour), "movable": "false" if p.piece.door else "true",
              "staircaseCutOutShape": p.piece.stairs or None}

@@ -2,7 +2,7 @@
 import json
 
 
-# Windows of the catalogue's makers call their panes so; each pane is a thin box, one surface towards either side.
+# Windows of the library Scopia call their panes so. Each is a thin box, so that light meets two surfaces of one pane: double glazing.
 GLAZING = [{"material": "Glass", "panes": 1}]
 
 

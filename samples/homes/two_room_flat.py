@@ -67,7 +67,8 @@ def bedroom(h):
 
 
 def kitchen(h):
-    fridge, sink, lower = put.row(h, 292, 685, "N", [("kator:fridge", {"height": 180}), ("ccby:kitchenSink", {}), ("ccby:kitchenLowerCabinet", {"width": 105})])
+    fridge, sink, lower = put.row(h, 292, 685, "N", [("kator:fridge", {"height": 180}), ("ccby:kitchenSink", {}),
+                                                     ("ccby:kitchenLowerCabinet", {"width": 105})])
     hob = h.on(lower, "scopia:induction-cooker-4-zones", 0, 2)
     h.on(hob, "ccby:boiler", -12, -6)
     h.on(lower, "scopia:toaster", 38, -12, facing=200)
