@@ -1,7 +1,9 @@
 """Small homes of Sweet Home 3D, each for one kind of geometry: homes() gives {name: bytes of the .sh3d file}. Lengths are centimetres."""
 import io
 import math
+import re
 import zipfile
+from xml.sax.saxutils import quoteattr
 
 
 def element(kind, children="", **attributes):
@@ -299,6 +301,38 @@ def furniture():
     del plan.furniture[-2:]
     plan.furniture.append(element("furnitureGroup", inner, name="group", x=260, y=610, width=200, depth=90, height=90))
     return plan
+
+
+def catalogue(jar):
+    """The furniture that Sweet Home 3D comes with, turned, mirrored and raised in turn; its doors and windows in a wall each."""
+    folder = "com/eteks/sweethome3d/io/"
+    plan = Plan()
+    with zipfile.ZipFile(jar) as archive:
+        properties = archive.read(folder + "DefaultFurnitureCatalog.properties").decode("latin-1")
+        listed = {}
+        for key, number, value in re.findall(r"^(\w+)#(\d+)=(.*)$", properties, re.MULTILINE):
+            listed.setdefault(int(number), {})[key] = value.strip()
+        for i, entry in sorted(listed.items()):
+            path = entry["model"].lstrip("/")
+            if entry.get("multiPartModel") == "true":
+                parts = [name for name in archive.namelist() if name.startswith(path.rsplit("/", 1)[0] + "/") and not name.endswith("/")]
+            else:
+                parts = [path]
+            for part in parts:
+                plan.models[f"{i}/{part.rsplit('/', 1)[1]}"] = archive.read(part)
+            x, y, angle = 500 * (i % 10), 500 * (i // 10), round(0.63 * (i % 10), 3)
+            more = {"elevation": entry.get("elevation", 0), "angle": angle, "modelMirrored": "true" if i % 3 == 0 else "false"}
+            if "modelRotation" in entry:
+                more["modelRotation"] = entry["modelRotation"]
+            size = [float(entry[key]) for key in ("width", "depth", "height")]
+            door = entry["doorOrWindow"] == "true"
+            if door:
+                more["wallCutOutOnBothSides"] = "true"
+                ends = turned([(-200, 0), (200, 0)], angle, (x, y))
+                plan.wall(*ends[0], *ends[1], 25, height=320)
+                more |= {"cutOutShape": entry["doorOrWindowCutOutShape"]} if "doorOrWindowCutOutShape" in entry else {}
+            plan.piece("doorOrWindow" if door else "pieceOfFurniture", quoteattr(entry["name"])[1:-1].replace("'", "&apos;"), x, y, *size, f"{i}/{path.rsplit('/', 1)[1]}", **more)
+    return plan.file()
 
 
 MAKERS = {"odd": odd, "joints": joints, "round": round_walls, "slopes": slopes, "openings": openings, "levels": levels, "rooms": rooms,
