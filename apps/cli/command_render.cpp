@@ -221,7 +221,8 @@ Status writePictures(const Options& o, const Plan& plan, const Scene& scene, con
   if (plan.settings.layers) layered = layeredImage(scene, camera, rendered, metadata);
   for (const std::string& out : o.outputs) {
     const bool exr = lowerExtension(out) == ".exr";
-    const Status s = exr && layered ? writeLayers(out, *layered) : exr ? writeExr(out, rendered.image, metadata) : writePng(out, displayPicture(plan, white, rendered.image, ev100), metadata);
+    const Status s = exr && layered ? writeLayers(out, *layered) : exr ? writeExr(out, rendered.image, metadata)
+                                                                       : writePng(out, displayPicture(plan, white, rendered.image, ev100), metadata);
     if (!s) return s;
   }
   return Ok{};
