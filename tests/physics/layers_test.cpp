@@ -159,7 +159,9 @@ TEST_P(Layers, eachIsThatLightAlone) {
     fmt::print("{} {}: mean {:.4f} of {:.4f}, block error {:.4f}, rendered alone {:.4f} (mean {:.4f})\n", GetParam(), name, mean(layer), mean(expected), error, errorAlone, mean(own));
     EXPECT_NEAR(mean(layer), mean(expected), likely(error) * mean(expected)) << name;
     // Technique path asks one lamp at a time: its layers are right, but a dim lamp's has more noise.
-    if (!isPath) EXPECT_LE(error, 1.3 * errorAlone + 0.03) << name;
+    if (!isPath) {
+      EXPECT_LE(error, 1.3 * errorAlone + 0.03) << name;
+    }
   }
 }
 
