@@ -171,7 +171,8 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   const Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
   const GlowPoint& point = field_.glow.point(g.point);
   const LightLayers* layers = field_.layers.lights.get();
-  const int32_t layer = !layers ? -1 : point.lamp >= 0 ? layers->ofLamp[static_cast<size_t>(point.lamp)] : layers->ofEmitter[static_cast<size_t>(point.emitter)];
+  const int32_t layer = !layers ? -1 : point.lamp >= 0 ? layers->ofLamp[static_cast<size_t>(point.lamp)]
+                                                       : layers->ofEmitter[static_cast<size_t>(point.emitter)];
   if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, g.light), sum, LightOrigin::ofLayer(layer));
 }
 

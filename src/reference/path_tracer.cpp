@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
-#include "base/split.h"
 #include "reference/path_walk.h"
 #include "reference/pixel_sums.h"
 #include "trace/camera_rays.h"
@@ -130,15 +129,18 @@ double PathTracer::noise() const {
   return mean > 0 ? error / mean : 0;
 }
 
-// A pass that was dropped has left some of its light here; what layers are to one another counts.
+// Scaled to the mean, for a pass that was dropped has left some of its light here.
 std::vector<Image> PathTracer::layers() const {
   const Image whole = mean();
   const size_t count = state_->settings.layers ? state_->settings.layers->size() : 0;
   std::vector<Image> out(count, Image(whole.width, whole.height));
   parallelFor(whole.pixels.size(), 4096, [&](size_t i) {
-    for (size_t l = 0; l < count; ++l) out[l].pixels[i] = state_->layerSums[i * count + l];
+    const std::span<const Vec3> parts = std::span(state_->layerSums).subspan(i * count, count);
+    Vec3 sum;
+    for (const Vec3& p : parts) sum += p;
+    const Vec3 scale = whole.pixels[i] / max(sum, Vec3(1e-30f));
+    for (size_t l = 0; l < count; ++l) out[l].pixels[i] = parts[l] * scale;
   });
-  splitLike(whole, out);
   return out;
 }
 

@@ -38,7 +38,8 @@ struct LightLayers {
   int32_t sun = -1, sky = -1;              // -1: there is none
   size_t size() const { return layers.size(); }
   // Of a sample of lights; -1: none.
-  int32_t of(const LightSample& light) const { return light.lamp >= 0 ? ofLamp[static_cast<size_t>(light.lamp)] : light.emitter >= 0 ? ofEmitter[static_cast<size_t>(light.emitter)] : -1; }
+  int32_t of(const LightSample& light) const { return light.lamp >= 0 ? ofLamp[static_cast<size_t>(light.lamp)] : light.emitter >= 0 ? ofEmitter[static_cast<size_t>(light.emitter)]
+                                                                                                                                     : -1; }
 };
 
 // Lamps first, in order of the scene. Error: more than kMostLayers.
