@@ -20,7 +20,7 @@ constexpr float kKernel[3] = {0.25f, 0.2f, 0.1f};   // of the pixel, of those be
 constexpr float kSigmas[kFilterLights] = {2, 1, 2.5f};  // differences within so many standard deviations count as noise; sharp shadows differ where they should
 constexpr float kOwnNoise = 0.5f;          // of a pixel's own variance counts at least, so that an outlier is taken for one
 constexpr float kPlaneTolerance = 0.02f;   // metres off the tangent plane, and
-constexpr float kSlope = 0.5f;             // of the distance between the two points
+constexpr float kSlope = 0.5f;             // of the distance between the two points along it
 constexpr float kLeastFacing = 0.3f;       // cosine between normals
 constexpr float kNoSamples = 1e-6f;        // instead of a weight of zero
 constexpr float kUnseen = -1;              // where no pixel has samples yet: like everything
@@ -49,11 +49,13 @@ struct Place {
 };
 Place placeAt(const float* pixel, ptrdiff_t pitch) { return {load3(pixel + FilterRows::kNormal * pitch, pitch), load3(pixel + FilterRows::kPosition * pitch, pitch)}; }
 
-// How far two places are off each other's tangent plane, in tolerances.
+// How far two places are off each other's tangent plane, in tolerances. These grow with the distance along the plane, so that what hangs before a
+// wall is far from it, however near in the picture.
 V offPlane(const Place& a, const Place& b) {
   const V3 between{hn::Sub(b.p.x, a.p.x), hn::Sub(b.p.y, a.p.y), hn::Sub(b.p.z, a.p.z)};
-  const V tolerance = hn::MulAdd(set(kSlope), hn::Sqrt(dot(between, between)), set(kPlaneTolerance));
-  return hn::Div(hn::Max(hn::Abs(dot(a.n, between)), hn::Abs(dot(b.n, between))), tolerance);
+  const V off = hn::Max(hn::Abs(dot(a.n, between)), hn::Abs(dot(b.n, between)));
+  const V along = hn::Sqrt(hn::Max(hn::Zero(D()), hn::NegMulAdd(off, off, dot(between, between))));
+  return hn::Div(off, hn::MulAdd(set(kSlope), along, set(kPlaneTolerance)));
 }
 
 // cosine^4 between normals, 0 where they differ too much: noise itself tells edges that light has.

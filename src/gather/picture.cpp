@@ -122,11 +122,12 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
         if (layers) {
           layerLight.resize(work.shadings.size());
           shader.shadeInLayers(work.shadings, work.shadows, light, layerLight, count);
-          pixelShader.addLayers(work, light, layerLight);
         } else {
           shader.shade(work.shadings, work.shadows, light, count);
         }
+        pixelShader.findOutshining(work, light);
         PixelShader::add(work, light);
+        if (layers) pixelShader.addLayers(work, light, layerLight);
         const size_t done = ++tilesDone;
         if (done % 64 == 0 && reporting.try_lock()) {
           progress.at((static_cast<float>(first) + static_cast<float>(n) * static_cast<float>(done) / static_cast<float>(tiles)) / static_cast<float>(settings.samples));

@@ -9,6 +9,10 @@ constexpr int kMostPanes = 16;
 constexpr float kSameNormal = 0.95f;  // cosine between normals of one surface
 constexpr float kSamePlane = 0.3f;    // of the distance between two points: how far off the tangent plane
 constexpr float kBehind = -0.35f;     // cosine
+// What a veil or pane itself reflects is filtered with the surface behind it. The filter compares planes: a surface seen through something
+// lies as if this far behind where it is, in proportion to what is held back, and so apart from what is seen of it beside the veil.
+constexpr float kVeilM = 2;
+constexpr float kOutshines = 16, kShadeM = 0.3f;  // times as bright as what fills most of a pixel, as far from a lamp as its shade may be
 constexpr float kPictureRoughness = 0.08f, kMirrorReflectance = 0.2f;  // smoother: reflects a picture, which has edges of its own; and brighter: a mirror
 
 bool isUniform(const Material& m, const Mesh& mesh) {
@@ -19,6 +23,17 @@ bool isUniform(const Material& m, const Mesh& mesh) {
 bool isMirror(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && !clear && luminance(m.f0) > kMirrorReflectance; }
 // What panes reflect is not filtered.
 bool isPane(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && clear; }
+
+bool isBesideLamp(const Lights& lights, Vec3 p) {
+  for (size_t i = 0; i < lights.lampCount(); ++i) {
+    if (length(lights.lamp(i).position - p) < kShadeM) return true;
+  }
+  for (size_t i = 0; i < lights.emitterCount(); ++i) {
+    const Bounds3& b = lights.emitterBounds(i);
+    if (length(max(max(b.lo - p, p - b.hi), Vec3(0))) < kShadeM) return true;
+  }
+  return false;
+}
 
 void accumulate(MaterialSample& sum, const MaterialSample& m, float weight) {
   sum.baseColor += m.baseColor * weight, sum.emission += m.emission * weight, sum.f0 += m.f0 * weight, sum.f90 += m.f90 * weight;
@@ -161,7 +176,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
     if (const int32_t emitter = byLayer_ ? lights_.emitterOf(group.instance) : -1; emitter >= 0) byLayer_->add(pixel.index, LayerSums::kRest, layers_->ofEmitter[static_cast<size_t>(emitter)], emitted);
     if (solid && !mirror && !layer.seen[i]) {
       sum.normal += s.ns * weight;
-      sum.position += s.p * weight;
+      sum.position += (s.p + s.ns * (kVeilM * (1 - std::min(1.0f, luminance(layer.left[i]))))) * weight;
       sum.roughness += m.roughness * weight;
       sum.surface += weight;
     }
@@ -171,10 +186,37 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   if (mirror) reflectOn(group, layer, m, surface, sequence, behind);
 }
 
+// A lamp's shade that fills a twentieth of a pixel of the wall would spread over the wall, as hot as it is; its light is kept where it is.
+// Elsewhere what outshines its pixel may be noise, which is to be filtered.
+void PixelShader::findOutshining(TileWork& work, std::span<const SurfaceLight> light) const {
+  const auto brightness = [&](const TileWork::Part& part) {
+    float sum = 0;
+    for (const SurfaceLight& l : light.subspan(part.first, part.count)) sum += luminance(l.diffuse + l.sharp + l.specular);
+    return sum / static_cast<float>(part.count);
+  };
+  const auto rays = [](const TileWork::Part& part) { return part.weight * static_cast<float>(part.count); };
+  for (size_t begin = 0, end = 0; begin < work.parts.size(); begin = end) {
+    size_t most = begin;
+    for (end = begin; end < work.parts.size() && work.parts[end].pixel.sum == work.parts[begin].pixel.sum; ++end) {
+      if (rays(work.parts[end]) > rays(work.parts[most])) most = end;
+    }
+    if (end - begin < 2) continue;
+    const float usual = brightness(work.parts[most]);
+    for (size_t i = begin; i < end; ++i) {
+      TileWork::Part& part = work.parts[i];
+      part.outshines = i != most && brightness(part) > kOutshines * usual && isBesideLamp(lights_, work.shadings[part.first].s.p);
+    }
+  }
+}
+
 void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light) {
   for (const TileWork::Part& part : work.parts) {
     FilterPixel& sum = *part.pixel.sum;
     const std::span<const SurfaceLight> shadings = light.subspan(part.first, part.count);
+    if (part.outshines) {
+      for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.sharp + l.specular) * part.weight, part.pixel.count->occlusion += l.occlusion * part.weight;
+      continue;
+    }
     for (const SurfaceLight& l : shadings) {
       sum.diffuse += part.left * l.diffuse * (part.weight * static_cast<float>(part.gathers));
       sum.sharp += part.left * l.sharp * part.weight;
@@ -219,6 +261,14 @@ void PixelShader::addVarianceOfLayers(const TileWork::Part& part, std::span<cons
 void PixelShader::addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const {
   for (const TileWork::Part& part : work.parts) {
     const Vec3 sharp = part.left * part.weight, diffuse = sharp * static_cast<float>(part.gathers), specular = sharp * static_cast<float>(part.glossy);
+    if (part.outshines) {
+      for (size_t s = part.first; s < part.first + part.count; ++s) {
+        for (const auto lobe : {LayerSums::kDiffuse, LayerSums::kSharp, LayerSums::kSpecular}) {
+          for (size_t l = 0; l < layers_->size(); ++l) byLayer_->add(part.pixel.index, LayerSums::kRest, static_cast<int32_t>(l), sharp * light.get(s, lobe, l));
+        }
+      }
+      continue;
+    }
     for (size_t s = part.first; s < part.first + part.count; ++s) {
       byLayer_->addFrom(part.pixel.index, LayerSums::kDiffuse, light, s, diffuse);
       byLayer_->addFrom(part.pixel.index, LayerSums::kSharp, light, s, sharp);

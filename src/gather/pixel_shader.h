@@ -54,6 +54,7 @@ struct TileWork {
     float weight;           // camera rays that each stands for
     bool turn;              // whether its pixel is one of those that gather for others
     uint32_t gathers = 1, glossy = 1;  // what its diffuse and specular light counts for
+    bool outshines = false;  // what else is seen in its pixel, which has more of it: not filtered with that
   };
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
@@ -68,6 +69,8 @@ class PixelShader {
       : rays_(rays), lights_(lights), sharp_(rays, lights), settings_(settings), layers_(layers), byLayer_(byLayer) {}
   // At most kRaysAtOnce rays. What shines by itself is added to `pixel` at once; what has to be lit, to `work`.
   void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work, GatherCounters& count) const;
+  // Marks parts that outshine their pixels.
+  void findOutshining(TileWork& work, std::span<const SurfaceLight> light) const;
   // Adds the light of everything in `work` to its pixels.
   static void add(const TileWork& work, std::span<const SurfaceLight> light);
   // The same by layers, of which `light` has one thing for each shading.

@@ -58,6 +58,25 @@ TEST(Filter, mixesNoLightOfWallsThatMeet) {
   EXPECT_LT(momentsOf(after, 32, 64).variance, 0.05);
 }
 
+// A lamp's shade a metre before the wall, facing the same way, hot and as noisy: nothing of it reaches the wall.
+TEST(Filter, mixesNoLightOfWhatHangsBeforeAWall) {
+  FilterInput in = noisyWall(64, 64, 10, 2);
+  const Image wall = filtered(in, 5);
+  for (int y = 28; y < 36; ++y) {
+    for (int x = 28; x < 36; ++x) {
+      FilterPixel& p = in.at(x, y);
+      p.diffuse = Vec3(1e4f), p.diffuseVariance = 1e9f, p.position += p.normal;
+    }
+  }
+  const Image after = filtered(in, 5);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      if (x >= 28 && x < 36 && y >= 28 && y < 36) continue;
+      EXPECT_NEAR(luminance(after.at(x, y)), luminance(wall.at(x, y)), 0.5f) << x << " " << y;
+    }
+  }
+}
+
 TEST(Filter, spreadsAnOutlierInsteadOfLosingIt) {
   FilterInput in = noisyWall(64, 64, 10, 1);
   FilterPixel& p = in.at(30, 31);
