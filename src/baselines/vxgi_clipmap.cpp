@@ -8,12 +8,14 @@ namespace roomlight {
 VxgiClipmap::VxgiClipmap(Vec3 centre, float voxelSizeM, int resolution, int levels) : n_(resolution) {
   const size_t perLevel = size_t{4} * 6 * static_cast<size_t>(n_) * static_cast<size_t>(n_) * static_cast<size_t>(n_);
   texels_.resize(perLevel * static_cast<size_t>(levels));
+  empty_.resize(texels_.size() / 24);
   for (int l = 0; l < levels; ++l) {
     Level level;
     level.voxelSizeM = voxelSizeM * static_cast<float>(1 << l);
     const auto snapped = [&](float c) { return 2 * static_cast<int>(std::floor(0.5f * (c / level.voxelSizeM - 0.5f * static_cast<float>(n_)) + 0.5f)); };
     level.corner = {snapped(centre.x), snapped(centre.y), snapped(centre.z)};
     level.firstCentre = Vec3{static_cast<float>(level.corner.x) + 0.5f, static_cast<float>(level.corner.y) + 0.5f, static_cast<float>(level.corner.z) + 0.5f} * level.voxelSizeM;
+    level.perM = 1 / level.voxelSizeM;
     level.first = perLevel * static_cast<size_t>(l);
     levels_.push_back(level);
   }
@@ -75,19 +77,34 @@ void VxgiClipmap::buildCoarser() {
   }
 }
 
-int VxgiClipmap::levelAt(Vec3 p) const {
-  const auto most = static_cast<float>(n_ - 1);
-  for (size_t l = 0; l < levels_.size(); ++l) {
-    const Vec3 q = (p - levels_[l].firstCentre) * (1 / levels_[l].voxelSizeM);
-    if (minComponent(q) >= 0 && maxComponent(q) < most) return static_cast<int>(l);
-  }
-  return levels();
+void VxgiClipmap::findEmpty() {
+  const auto rows = static_cast<size_t>(n_);
+  parallelFor(static_cast<size_t>(levels()) * rows, 4, [&](size_t i) {
+    const int level = static_cast<int>(i / rows), z = static_cast<int>(i % rows);
+    for (int y = 0; y < n_; ++y) {
+      for (int x = 0; x < n_; ++x) {
+        bool empty = true;
+        for (int k = 0; k < 8 && empty; ++k) {
+          const Int3 v{std::min(x + (k & 1), n_ - 1), std::min(y + (k >> 1 & 1), n_ - 1), std::min(z + (k >> 2), n_ - 1)};
+          for (int face = 0; face < 6; ++face) empty = empty && texels_[texel(levels_[static_cast<size_t>(level)], face, v) + 3] == 0;
+        }
+        empty_[place(static_cast<size_t>(level), {x, y, z})] = empty;
+      }
+    }
+  });
+}
+
+int VxgiClipmap::levelAt(Vec3 p, int near) const {
+  int level = near;
+  while (level < levels() && !reaches(levels_[static_cast<size_t>(level)], p)) ++level;
+  return level == near && level > 0 && reaches(levels_[static_cast<size_t>(level - 1)], p) ? level - 1 : level;
 }
 
 __m128 VxgiClipmap::sample(int level, Vec3 p, Vec3 d) const {
   const Level& l = levels_[static_cast<size_t>(level)];
-  const Vec3 q = (p - l.firstCentre) * (1 / l.voxelSizeM);
+  const Vec3 q = (p - l.firstCentre) * l.perM;
   const Int3 v{static_cast<int>(q.x), static_cast<int>(q.y), static_cast<int>(q.z)};
+  if (empty_[place(static_cast<size_t>(level), v)]) return _mm_setzero_ps();
   const float fx = q.x - static_cast<float>(v.x), fy = q.y - static_cast<float>(v.y), fz = q.z - static_cast<float>(v.z);
   const auto n = static_cast<size_t>(n_);
   const size_t alongY = 4 * n, alongZ = 4 * n * n;

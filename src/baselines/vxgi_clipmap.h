@@ -35,13 +35,17 @@ class VxgiClipmap {
   __m128 get(int level, Int3 v, int face) const;
   // Fills what is made of finer voxels, from the finest level on: front over back along each direction, the mean of the four columns.
   void buildCoarser();
+  // Notes where there is nothing, which later changes of light must leave so: sampling there is quicker.
+  void findEmpty();
 
   // Radiances are kept as half floats, in this unit.
   void setUnit(float cdM2) { unit_ = cdM2; }
   float unit() const { return unit_; }
 
   // The finest level that can be interpolated at p (world); levels() where none can.
-  int levelAt(Vec3 p) const;
+  int levelAt(Vec3 p) const { return levelAt(p, 0); }
+  // The same, known to be no finer than one below `near`, as for a place close by.
+  int levelAt(Vec3 p, int near) const;
   // Radiance times opacity in x, y, z, and opacity in w, as seen by who looks along unit d: between the eight voxels around p, and
   // of the three directions that face the looker by their cosines, which makes the opacity that of the area seen, at most 1. In
   // unit(). p must lie in the level.
@@ -53,7 +57,16 @@ class VxgiClipmap {
     Int3 corner;
     Vec3 firstCentre;  // world: middle of the voxel at the corner
     size_t first = 0;  // in texels_
+    float perM = 0;    // voxels
   };
+  bool reaches(const Level& level, Vec3 p) const {
+    const Vec3 q = (p - level.firstCentre) * level.perM;
+    return minComponent(q) >= 0 && maxComponent(q) < static_cast<float>(n_ - 1);
+  }
+  size_t place(size_t level, Int3 v) const {
+    const auto n = static_cast<size_t>(n_);
+    return ((level * n + static_cast<size_t>(v.z)) * n + static_cast<size_t>(v.y)) * n + static_cast<size_t>(v.x);
+  }
   size_t texel(const Level& level, int face, Int3 v) const {
     const auto n = static_cast<size_t>(n_);
     return level.first + 4 * (((static_cast<size_t>(face) * n + static_cast<size_t>(v.z)) * n + static_cast<size_t>(v.y)) * n + static_cast<size_t>(v.x));
@@ -64,6 +77,7 @@ class VxgiClipmap {
   int n_;
   std::vector<Level> levels_;
   std::vector<uint16_t> texels_;  // half floats; level by level, face by face, x fastest: radiance times opacity, opacity
+  std::vector<uint8_t> empty_;    // per voxel of each level: whether it and the seven beyond it, which are interpolated together, hold nothing
   float unit_ = 1;
 };
 

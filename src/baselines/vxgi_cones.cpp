@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "baselines/vxgi.h"
 
 namespace roomlight {
@@ -9,23 +11,23 @@ constexpr float kOpaque = 0.01f;  // what is left of a cone when it is given up
 
 Vec3 traceVxgiCone(const VxgiClipmap& map, Vec3 origin, Vec3 d, float tanHalf, const VxgiTracing& tracing) {
   const int coarsest = map.levels() - 1;
-  const float finestM = map.voxelSizeM(0), coarsestM = map.voxelSizeM(coarsest);
+  const float perFinest = 1 / map.voxelSizeM(0), coarsestM = map.voxelSizeM(coarsest);
   __m128 sum = _mm_setzero_ps();
   float left = 1, t = 0;
-  for (int i = 0; i < tracing.maxSamples && left > kOpaque; ++i) {
-    const int here = map.levelAt(origin + d * t);
-    if (here > coarsest) break;
-    // As wide as the cone in the middle of the step, on no finer level than there is.
-    const float wide = std::clamp(2 * tanHalf * t, map.voxelSizeM(here), coarsestM), stepM = tracing.step * wide;
+  int finest = map.levelAt(origin);
+  for (int i = 0; i < tracing.maxSamples && left > kOpaque && finest <= coarsest; ++i) {
+    // As wide as the cone, on no finer level than there is; sampled in the middle of the step.
+    const float wide = std::clamp(2 * tanHalf * t, map.voxelSizeM(finest), coarsestM), stepM = tracing.step * wide;
     const Vec3 p = origin + d * (t + 0.5f * stepM);
-    const int there = map.levelAt(p);
-    if (there > coarsest) break;
-    const float lod = std::max(static_cast<float>(there), std::log2(wide / finestM));
-    const int level = std::min(coarsest, static_cast<int>(lod));
+    t += stepM;
+    finest = map.levelAt(p, finest);
+    if (finest > coarsest) break;
+    // Between the two levels whose voxels are next to the width, in proportion to it.
+    int level;
+    float coarser = 2 * std::frexp(wide * perFinest, &level) - 1;
+    if (--level < finest) level = finest, coarser = 0;
     __m128 found = map.sample(level, p, d);
-    if (const float coarser = lod - static_cast<float>(level); coarser > 0 && level < coarsest) {
-      found = _mm_fmadd_ps(_mm_set1_ps(coarser), _mm_sub_ps(map.sample(level + 1, p, d), found), found);
-    }
+    if (coarser > 0 && level < coarsest) found = _mm_fmadd_ps(_mm_set1_ps(coarser), _mm_sub_ps(map.sample(level + 1, p, d), found), found);
     const float alpha = _mm_cvtss_f32(_mm_shuffle_ps(found, found, 0xff));
     if (alpha > 1e-4f) {
       // Opacity is that of a whole voxel: of a step through it, 1 - (1 - alpha)^step.
@@ -33,7 +35,6 @@ Vec3 traceVxgiCone(const VxgiClipmap& map, Vec3 origin, Vec3 d, float tanHalf, c
       sum = _mm_fmadd_ps(_mm_set1_ps(left * (1 - passes) / alpha), found, sum);
       left *= passes;
     }
-    t += stepM;
   }
   alignas(16) float rgba[4];
   _mm_store_ps(rgba, sum);

@@ -16,7 +16,9 @@ struct Side {
   Vec3 p, n, albedo;
   Vec3 directLux, indirectLux;
   float areaM2 = 0;
+  float open = 0;  // share of directions in which nothing is met
   int face = 0;
+  bool front = true;
   Vec3 radiance() const { return albedo * (directLux + indirectLux) / kPi; }
 };
 
@@ -33,19 +35,33 @@ struct Sources {
   std::vector<Side> sides;
 };
 
-// Whether a side is one that its material shows: both of double-sided ones, else the front.
-bool isShown(const RayScene& rays, const FaceSlot& slot, float voxelSizeM) {
-  const Scene& scene = rays.scene();
-  if (scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[slot.instance].mesh)].material)].doubleSided) return true;
+bool isDoubleSided(const Scene& scene, const FaceSlot& slot) {
+  return scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[slot.instance].mesh)].material)].doubleSided;
+}
+
+// Whether a side shows the front of its triangles.
+bool isFront(const RayScene& rays, const FaceSlot& slot, float voxelSizeM) {
   const Ray ray{slot.position + slot.normal * (0.05f * voxelSizeM), -slot.normal, 0, 0.5f * voxelSizeM};
   const Hit hit = rays.intersect(ray);
-  return !hit.valid() || placeAt(scene, hit, ray.direction).front;
+  return !hit.valid() || placeAt(rays.scene(), hit, ray.direction).front;
+}
+
+float openness(const RayScene& rays, Vec3 p, Vec3 n, uint64_t key) {
+  constexpr uint32_t kRays = 8;
+  const Frame frame(n);
+  std::array<Ray, kRays> tries;
+  std::array<Vec3, kRays> left;
+  for (uint32_t k = 0; k < kRays; ++k) tries[k] = {offsetOrigin(p, n), frame.toWorld(sampleCosineHemisphere(Sampler(key, k, 0).next2())), 0, kInfinity};
+  rays.transmittance(tries, left);
+  float open = 0;
+  for (const Vec3 l : left) open += luminance(l) / kRays;
+  return open;
 }
 
 // The voxels of one level that are its own.
 void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const Voxels& voxels, const std::vector<Vec3>& directLux, Sources& out) {
-  std::vector<uint8_t> shown(voxels.slots.size());
-  parallelFor(shown.size(), 1024, [&](size_t s) { shown[s] = isShown(rays, voxels.slots[s], voxels.voxelSizeM); });
+  std::vector<uint8_t> front(voxels.slots.size());
+  parallelFor(front.size(), 1024, [&](size_t s) { front[s] = isFront(rays, voxels.slots[s], voxels.voxelSizeM); });
   const Lattice lattice = latticeOf(voxels);
   const Int3 corner = map.corner(level);
   for (const Brick& brick : voxels.bricks) {
@@ -60,7 +76,7 @@ void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const V
         Source source{level, v, voxel.opacity, out.sides.size(), 0};
         for (size_t s = voxel.firstSlot, end = s + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces))); s < end; ++s) {
           const FaceSlot& slot = voxels.slots[s];
-          if (shown[s]) out.sides.push_back({slot.position, slot.normal, slot.albedo, directLux[s], {}, slot.areaM2, slot.face});
+          if (front[s] || isDoubleSided(rays.scene(), slot)) out.sides.push_back({slot.position, slot.normal, slot.albedo, directLux[s], {}, slot.areaM2, 0, slot.face, front[s] != 0});
         }
         source.count = out.sides.size() - source.first;
         out.voxels.push_back(source);
@@ -69,14 +85,21 @@ void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const V
   }
 }
 
-// One radiance for all directions: the mean of the voxel's surfaces. Of a sheet's two sides the brighter counts.
+// Of a sheet's two sides the one that counts: that which is indoors, where the other is not; else the front.
+bool countsMore(const Side& a, const Side& b) {
+  constexpr float kOutdoors = 0.25f;
+  if (std::abs(a.open - b.open) > kOutdoors) return a.open < b.open;
+  return a.front && !b.front;
+}
+
+// One radiance for all directions: the mean of the voxel's surfaces.
 Vec3 isotropicRadiance(std::span<const Side> sides) {
   Vec3 sum;
   float area = 0;
   for (size_t i = 0; i < sides.size(); ++i) {
     const Side *side = &sides[i], *next = i + 1 < sides.size() ? &sides[i + 1] : nullptr;
     if (next && next->face == (side->face ^ 1)) {
-      if (luminance(next->radiance()) > luminance(side->radiance())) side = next;
+      if (countsMore(*next, *side)) side = next;
       ++i;
     }
     sum += side->radiance() * side->areaM2;
@@ -162,11 +185,13 @@ VxgiLight lightVxgi(const RayScene& rays, const Lights& lights, const Bounds3& r
     if (level == 0) out.voxels = std::move(voxels), out.guide = std::move(field.guide);
     progress.at(0.5f * static_cast<float>(level + 1) / static_cast<float>(settings.levels));
   }
+  parallelFor(sources.sides.size(), 256, [&](size_t i) { sources.sides[i].open = openness(rays, sources.sides[i].p, sources.sides[i].n, i); });
   out.sources = sources.voxels.size();
   float brightest = 0;
   for (const Side& s : sources.sides) brightest = std::max(brightest, maxComponent(s.radiance()));
   if (brightest > 0) out.map.setUnit(brightest / 4096);  // bounces add to it, and half floats hold sixteen times as much
   inject(sources, out.map);
+  out.map.findEmpty();
   bounce(sources, settings, progress, out);
   return out;
 }

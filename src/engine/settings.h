@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/result.h"
-#include "baselines/vxgi.h"
+#include "baselines/vxgi_settings.h"
 #include "gather/cone_gather.h"
 #include "gather/ray_gather.h"
 #include "radiance/radiance_field.h"

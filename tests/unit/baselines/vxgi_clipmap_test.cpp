@@ -48,8 +48,22 @@ TEST(VxgiClipmap, sampleOfAnEvenFieldIsThatField) {
 TEST(VxgiClipmap, sampleIsLinearBetweenVoxels) {
   VxgiClipmap map({0, 0, 0}, 0.1f, 16, 1);
   fill(map, 0, [](Int3 v) { return 0.01f * static_cast<float>(v.x + 2 * v.y + 3 * v.z); });
+  map.findEmpty();
   const Vec3 p{0.033f, -0.087f, 0.211f}, q = p * 10 - Vec3(0.5f) + Vec3(8);
   EXPECT_NEAR(numbers(map.sample(0, p, {0, -1, 0}))[3], 0.01f * (q.x + 2 * q.y + 3 * q.z), 1e-3);
+}
+
+// What is noted as empty is empty, and nothing else: right up to the voxels beside a sheet.
+TEST(VxgiClipmap, onlyWhereNothingIsIsEmpty) {
+  VxgiClipmap map({0, 0, 0}, 0.1f, 16, 1);
+  for (int face = 0; face < 6; ++face) map.set(0, {8, 8, 8}, face, Vec3(1), 1);
+  map.findEmpty();
+  const auto opacity = [&](float x) { return numbers(map.sample(0, {x, 0.05f, 0.05f}, {1, 0, 0}))[3]; };
+  EXPECT_NEAR(opacity(0.05f), 1, 1e-3);
+  EXPECT_NEAR(opacity(-0.04f), 0.1, 1e-3);
+  EXPECT_NEAR(opacity(0.14f), 0.1, 1e-3);
+  EXPECT_EQ(opacity(-0.06f), 0);
+  EXPECT_EQ(opacity(0.16f), 0);
 }
 
 // Two sheets behind one another in one coarse voxel: each direction sees its own, and the other as far as that lets it.
