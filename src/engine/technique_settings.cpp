@@ -34,6 +34,12 @@ StageSettings<GatherSettings> coneStages(const RenderSettings& settings) {
   return out;
 }
 
+PhotonSettings photonStage(const RenderSettings& settings) {
+  PhotonSettings out = settings.photon;
+  applyPictureSettings(settings, out);
+  return out;
+}
+
 PathSettings pathStage(const RenderSettings& settings) {
   PathSettings path = settings.path;
   path.width = settings.width;

@@ -11,6 +11,7 @@ struct Picture {
 };
 Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+Picture renderPhoton(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 
 }  // namespace roomlight
