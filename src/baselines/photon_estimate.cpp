@@ -34,14 +34,16 @@ float kernelMean(PhotonKernel kernel) {
   return 1;
 }
 
+// Where rays along the surface start.
+Vec3 lifted(Vec3 p, Vec3 n, float radiusM) { return offsetOrigin(p, n) + n * std::min(kLiftOfRadius * radiusM, kLargestLiftM); }
+
 // Which part of the disc of radius r around p is the surface that p lies on. Rays along the surface find the walls that end it: what lies behind the
 // line between the ends of two of them is not seen. Rays down to it find where it just stops.
 class SurfaceDisc {
  public:
   SurfaceDisc(const RayScene& rays, Vec3 p, Vec3 n, float radiusM, const PhotonSettings& settings, uint64_t& rayCount)
       : frame_(n), count_(std::min(static_cast<size_t>(settings.edgeRays), kMostEdgeRays)) {
-    const float lift = std::min(kLiftOfRadius * radiusM, kLargestLiftM);
-    lifted_ = offsetOrigin(p, n) + n * lift;
+    lifted_ = lifted(p, n, radiusM);
     const float reach = radiusM / std::cos(kPi / static_cast<float>(count_)) * 1.001f;
     std::array<Ray, kMostEdgeRays> out;
     std::array<Hit, kMostEdgeRays> hits;
@@ -117,17 +119,19 @@ PhotonIrradiance PhotonEstimate::at(Vec3 p, Vec3 n, uint64_t& rayCount, int64_t 
   if (!(radius2 > 0)) return {};
   const float radiusM = std::sqrt(radius2);
   float share = 1;
+  bool walls = false;
   if (settings_.edgeRays > 0) {
     const SurfaceDisc disc(rays_, p, n, radiusM, settings_, rayCount);
     share = disc.share(rays_, p, radiusM, settings_, rayCount);
-    if (disc.walls()) std::erase_if(near, [&](NearPhoton photon) { return !disc.sees(map_.place(photon.index) - p); });
+    walls = disc.walls();
+    if (walls) std::erase_if(near, [&](NearPhoton photon) { return !disc.sees(map_.place(photon.index) - p); });
   }
   // The farthest only tells how far the others may lie: with it the mean would be too large by 1 / k.
   Vec3 flux;
   for (const NearPhoton photon : near) {
     if (!full || photon.distance2 < radius2) flux += map_.fluxLm(photon.index) * kernelAt(settings_.kernel, photon.distance2 / radius2);
   }
-  return {flux / (kPi * radius2 * kernelMean(settings_.kernel) * share), radiusM};
+  return {flux / (kPi * radius2 * kernelMean(settings_.kernel) * share), radiusM, walls};
 }
 
 IrradianceCache::IrradianceCache(const PhotonMap& map, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount, const Progress& progress) {
@@ -135,7 +139,7 @@ IrradianceCache::IrradianceCache(const PhotonMap& map, const PhotonEstimate& est
   const auto every = static_cast<size_t>(settings.irradianceEvery);
   const size_t count = (map.size() + every - 1) / every;
   std::vector<Photon> places(count);
-  std::vector<float> radius(count);
+  std::vector<Reach> reach(count);
   std::vector<uint64_t> rays((count + kAtOnce - 1) / kAtOnce);
   for (size_t first = 0; first < rays.size(); first += kBatch / kAtOnce) {
     if (progress.stop()) return;
@@ -146,7 +150,7 @@ IrradianceCache::IrradianceCache(const PhotonMap& map, const PhotonEstimate& est
         const Vec3 n = map.normal(photon);
         const PhotonIrradiance e = estimate.at(map.place(photon), n, rays[part], static_cast<int64_t>(photon));
         places[i] = {map.place(photon), e.lux, n, n};
-        radius[i] = e.radiusM;
+        reach[i] = {e.radiusM, e.walls};
       }
     });
     progress.at(static_cast<float>(first) / static_cast<float>(rays.size()));
@@ -154,14 +158,22 @@ IrradianceCache::IrradianceCache(const PhotonMap& map, const PhotonEstimate& est
   for (const uint64_t n : rays) rayCount += n;
   std::vector<uint32_t> order;
   places_ = PhotonMap(places, &order);
-  for (const uint32_t i : order) radiusM_.push_back(radius[i]);
+  for (const uint32_t i : order) reach_.push_back(reach[i]);
 }
 
-PhotonIrradiance IrradianceCache::at(Vec3 p, Vec3 n, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount) const {
+PhotonIrradiance IrradianceCache::at(Vec3 p, Vec3 n, const RayScene& rays, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount) const {
   thread_local std::vector<NearPhoton> near;
   places_.nearest({p, n, settings.flatness, 0.7f, settings.largestRadiusM}, 1, near);
-  if (near.empty() || near[0].distance2 > radiusM_[near[0].index] * radiusM_[near[0].index]) return estimate.at(p, n, rayCount);
-  return {places_.fluxLm(near[0].index), radiusM_[near[0].index]};
+  if (near.empty()) return estimate.at(p, n, rayCount);
+  const size_t i = near[0].index;
+  const Reach reach = reach_[i];
+  if (near[0].distance2 > reach.radiusM * reach.radiusM) return estimate.at(p, n, rayCount);
+  if (reach.walls) {
+    const Vec3 from = lifted(p, n, reach.radiusM), to = lifted(places_.place(i), n, reach.radiusM);
+    ++rayCount;
+    if (isBlack(rays.transmittance({from, to - from, 0, 1}))) return estimate.at(p, n, rayCount);
+  }
+  return {places_.fluxLm(i), reach.radiusM, reach.walls};
 }
 
 }  // namespace roomlight

@@ -9,7 +9,8 @@ namespace roomlight {
 
 struct PhotonIrradiance {
   Vec3 lux;
-  float radiusM = 0;  // within which photons were counted
+  float radiusM = 0;     // within which photons were counted
+  bool walls = false;    // end the surface within it
 };
 
 // The k nearest photons on the surface around a place, weighted by the kernel, over the part of their disc that is surface. `rayCount` counts rays.
@@ -32,14 +33,18 @@ class IrradianceCache {
  public:
   IrradianceCache() = default;
   IrradianceCache(const PhotonMap& map, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount, const Progress& progress);
-  // Where none is as near as the photons that it was made of, `estimate` works it out.
-  PhotonIrradiance at(Vec3 p, Vec3 n, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount) const;
-  size_t bytes() const { return places_.bytes() + radiusM_.size() * sizeof(float); }
+  // Where none is as near as the photons that it was made of, or a wall stands between, `estimate` works it out.
+  PhotonIrradiance at(Vec3 p, Vec3 n, const RayScene& rays, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount) const;
+  size_t bytes() const { return places_.bytes() + reach_.size() * sizeof(Reach); }
   size_t size() const { return places_.size(); }
 
  private:
+  struct Reach {
+    float radiusM = 0;
+    bool walls = false;
+  };
   PhotonMap places_;  // lux for flux
-  std::vector<float> radiusM_;
+  std::vector<Reach> reach_;
 };
 
 }  // namespace roomlight

@@ -1,5 +1,6 @@
 #include "baselines/photon_shader.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/sampling.h"
@@ -10,12 +11,12 @@ namespace {
 constexpr int kMostPanes = 16;
 constexpr int kMostRays = 64;      // traced at once
 constexpr int kMostGathers = 4;    // one after the other, where each is near the last
+constexpr float kLeastChance = 0.1f;
 
 }  // namespace
 
 PhotonShader::PhotonShader(const RayScene& rays, const Lights& lights, const PhotonLight& light, const PhotonSettings& settings)
-    : DirectShader(rays, lights, light.survey.voxels, light.survey.guide, settings.rayRoughness), light_(light), settings_(settings), global_(rays, light.global, settings.nearest, settings),
-      caustic_(rays, light.caustic, settings.causticNearest, settings) {}
+    : DirectShader(rays, lights, light.survey.voxels, light.survey.guide, settings.rayRoughness), light_(light), settings_(settings), global_(rays, light.global, settings.nearest, settings), caustic_(rays, light.caustic, settings.causticNearest, settings) {}
 
 // What other surfaces send: all but what comes straight from lights and sky.
 Vec3 PhotonShader::indirect(const SurfacePoint& s, Sampler& sampler, GatherCounters& count, float&) const {
@@ -24,16 +25,20 @@ Vec3 PhotonShader::indirect(const SurfacePoint& s, Sampler& sampler, GatherCount
   return global_.at(s.p, s.ng, count.rays).lux / kPi + caustics;
 }
 
+// Rough lobes reflect little beside the diffuse one: what maps say of them is asked for in proportion.
 Vec3 PhotonShader::glossy(const SurfacePoint& s, Vec3, const BsdfSample& r, Sampler& sampler, GatherCounters& count) const {
-  if (settings_.finalGather == 0) return global_.at(s.p, s.ng, count.rays).lux / kPi + causticsAt(s, count);
+  const float chance = std::clamp(luminance(r.weight), kLeastChance, 1.0f);
+  const bool asked = sampler.next1() < chance;
+  Vec3 sum = asked ? causticsAt(s, count) / chance : Vec3(0);
+  if (settings_.finalGather == 0) return asked ? sum + global_.at(s.p, s.ng, count.rays).lux / (kPi * chance) : sum;
   const Ray ray{offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity};
   ++count.rays;
-  return arriving(ray, rays_.intersect(ray), 0, sampler, count) + causticsAt(s, count);
+  return sum + arriving(ray, rays_.intersect(ray), 0, sampler, count);
 }
 
 Vec3 PhotonShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler, GatherCounters& count) const {
   if (settings_.finalGather == 0) return DirectShader::reflectedIrradiance(s, direction, from, sampler, count);
-  return light_.irradiance.at(s.p, s.ng, global_, settings_, count.rays).lux;
+  return light_.irradiance.at(s.p, s.ng, rays_, global_, settings_, count.rays).lux;
 }
 
 // Irradiance / pi.
@@ -99,8 +104,7 @@ Vec3 PhotonShader::arriving(Ray ray, Hit hit, int depth, Sampler& sampler, Gathe
 // Illuminance, lx, where a gathering ray arrives after so many metres. Next to where it started the map is too coarse: there light is worked out
 // once more.
 Vec3 PhotonShader::lit(const SurfacePoint& s, Vec3 direction, float distanceM, int depth, Sampler& sampler, GatherCounters& count) const {
-  if (settings_.finalGather == 0) return DirectShader::reflectedIrradiance(s, direction, {}, sampler, count);
-  const PhotonIrradiance known = light_.irradiance.at(s.p, s.ng, global_, settings_, count.rays);
+  const PhotonIrradiance known = light_.irradiance.at(s.p, s.ng, rays_, global_, settings_, count.rays);
   if (depth >= kMostGathers || distanceM >= settings_.nearRadii * known.radiusM) return known.lux;
   SurfacePoint white = s;
   white.m = {};

@@ -32,7 +32,7 @@ struct PhotonTracer::Wish {
   int count;
   uint64_t key;
   bool keeps(PhotonKind kind) const { return kind == PhotonKind::Direct ? direct : kind == PhotonKind::Caustic ? caustic
-                                                                                                              : indirect; }
+                                                                                                               : indirect; }
 };
 
 struct PhotonTracer::Source {

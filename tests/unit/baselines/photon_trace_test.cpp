@@ -28,8 +28,7 @@ ImportonStart lookAround(Vec3 from) {
 
 struct Traced {
   explicit Traced(const Scene& scene, const PhotonSettings& settings, Vec3 from = {2, 1.5f, 2.5f}, bool indirectOnly = false)
-      : rays(scene), lights(scene), importance(rays, lights, lookAround(from), settings.importons, settings.seed), survey(surveySky(rays, lights, {}, 4, 0)), tracer(rays, lights, importance, survey, settings),
-        global(tracer.global(indirectOnly, {})), caustic(tracer.caustics({})) {}
+      : rays(scene), lights(scene), importance(rays, lights, lookAround(from), settings.importons, settings.seed), survey(surveySky(rays, lights, {}, 4, 0)), tracer(rays, lights, importance, survey, settings), global(tracer.global(indirectOnly, {})), caustic(tracer.caustics({})) {}
   RayScene rays;
   Lights lights;
   PhotonImportance importance;
