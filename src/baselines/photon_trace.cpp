@@ -138,7 +138,8 @@ std::vector<PhotonTracer::Source> PhotonTracer::plan(const Wish& wish, uint64_t&
     s.score = sum > 0 ? (1 - static_cast<double>(kFloorShare)) * s.score / sum + static_cast<double>(kFloorShare) / n : 1 / n;
     kept += s.score * s.keptEach;
   }
-  const double most = static_cast<double>(settings_.mostEmitted) * wish.count, emitted = std::min(most, wish.count / std::max(kept, 1e-9));
+  // Where pilots found nothing there may be nothing.
+  const double most = (kept > 0 ? static_cast<double>(settings_.mostEmitted) : 1.0) * wish.count, emitted = std::min(most, wish.count / std::max(kept, 1e-9));
   for (Source& s : sources) s.count = static_cast<uint64_t>(std::ceil(emitted * s.score));
   return sources;
 }
