@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "baselines/photon.h"
+#include "baselines/photon_shader.h"
 #include "baselines/vxgi_shader.h"
 #include "engine/technique_settings.h"
 #include "engine/voxel_stages.h"
@@ -32,6 +34,24 @@ class TracedScene final : public LitScene {
 
  private:
   const RenderSettings settings_;
+};
+
+// By photon maps, made anew for what is asked.
+class PhotonScene final : public LitScene {
+ public:
+  PhotonScene(const Scene& scene, const RenderSettings& settings, Stages& stages) : LitScene(scene, true, stages), settings_(photonStage(settings)) {}
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+    const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(elements), settings_, {{}, progress.cancelled});
+    return measureIlluminance(rays(), lights(), PhotonShader(rays(), lights(), light, settings_), elements, settings, progress);
+  }
+  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+    const PhotonSettings use = sized(settings_, width, height);
+    const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(camera, width, height), use, {{}, progress.cancelled});
+    return gatherPhotons(rays(), lights(), light, camera, use, progress).image;
+  }
+
+ private:
+  const PhotonSettings settings_;
 };
 
 // By a shader that reads light from voxels.
@@ -91,6 +111,8 @@ Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSet
   std::unique_ptr<LitScene> out;
   if (settings.technique == "path") {
     out = std::make_unique<TracedScene>(scene, settings, stages);
+  } else if (settings.technique == "photon") {
+    out = std::make_unique<PhotonScene>(scene, settings, stages);
   } else if (settings.technique == "hybrid") {
     out = std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, hybridStages(settings), stages);
   } else if (settings.technique == "cone") {

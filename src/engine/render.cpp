@@ -21,6 +21,7 @@ struct Technique {
 constexpr Technique kTechniques[] = {
     {"hybrid", "exact rays that read light cached in voxels: fast, without leaks", renderHybrid},
     {"cone", "light cached in voxels, gathered by cones: fast", renderCone},
+    {"photon", "photon mapping with final gathering, for comparison", renderPhoton},
     {"path", "path tracing: the reference, slow and exact up to noise", renderPath},
     {"vxgi", "voxel cone tracing with clipmaps: a rival, to be measured against", renderVxgi},
 };

@@ -25,6 +25,7 @@ struct Choice {
 };
 constexpr Choice<Attenuation> kAttenuations[] = {{"plain", Attenuation::Plain}, {"normalWeighted", Attenuation::NormalWeighted}};
 constexpr Choice<BounceBy> kBounces[] = {{"rays", BounceBy::Rays}, {"cones", BounceBy::Cones}};
+constexpr Choice<PhotonKernel> kKernels[] = {{"disc", PhotonKernel::Disc}, {"cone", PhotonKernel::Cone}, {"epanechnikov", PhotonKernel::Epanechnikov}};
 
 // The one list of members: name, where it is, smallest and largest value. Reader, writer and range check all walk it.
 template <class Visitor, class Settings>
@@ -96,6 +97,25 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("raysPerShading", s.vxgi.raysPerShading, 1, 8);
     g.number("rayRoughness", s.vxgi.rayRoughness, 0, 1);
     g.number("filterPasses", s.vxgi.filterPasses, 0, 8);
+  });
+  v.group("photon", [&](auto& g) {
+    g.number("photons", s.photon.photons, 1000, 100000000);
+    g.number("causticPhotons", s.photon.causticPhotons, 0, 100000000);
+    g.number("nearest", s.photon.nearest, 2, 10000);
+    g.number("causticNearest", s.photon.causticNearest, 2, 10000);
+    g.choice("kernel", s.photon.kernel, kKernels);
+    g.number("flatness", s.photon.flatness, 1, 100);
+    g.number("largestRadiusM", s.photon.largestRadiusM, 1e-3, 1000);
+    g.number("edgeRays", s.photon.edgeRays, 0, 64);
+    g.number("finalGather", s.photon.finalGather, 0, 65536);
+    g.number("irradianceEvery", s.photon.irradianceEvery, 1, 1000);
+    g.number("nearRadii", s.photon.nearRadii, 0, 100);
+    g.number("rouletteDepth", s.photon.rouletteDepth, 0, 1000);
+    g.number("importons", s.photon.importons, 256, 1 << 24);
+    g.number("mostEmitted", s.photon.mostEmitted, 1, 1e6);
+    g.number("raysPerShading", s.photon.raysPerShading, 1, 8);
+    g.number("rayRoughness", s.photon.rayRoughness, 0, 1);
+    g.number("filterPasses", s.photon.filterPasses, 0, 8);
   });
 }
 

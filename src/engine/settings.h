@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "baselines/vxgi_settings.h"
+#include "baselines/photon_settings.h"
 #include "gather/cone_gather.h"
 #include "gather/ray_gather.h"
 #include "radiance/radiance_field.h"
@@ -35,6 +36,7 @@ struct RenderSettings {
   RayGatherSettings hybrid;   // technique "hybrid"; size, samples, time limit and seed are those above
   GatherSettings gather;      // technique "cone"; size, samples, time limit and seed are those above
   VxgiSettings vxgi;          // technique "vxgi"; size, samples, time limit and seed are those above
+  PhotonSettings photon;      // technique "photon"; size, samples, time limit and seed are those above
 };
 
 // One JSON object with every member, in the order above, less those that repeat one above.

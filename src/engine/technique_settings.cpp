@@ -40,6 +40,12 @@ VxgiSettings vxgiStage(const RenderSettings& settings) {
   return out;
 }
 
+PhotonSettings photonStage(const RenderSettings& settings) {
+  PhotonSettings out = settings.photon;
+  applyPictureSettings(settings, out);
+  return out;
+}
+
 PathSettings pathStage(const RenderSettings& settings) {
   PathSettings path = settings.path;
   path.width = settings.width;

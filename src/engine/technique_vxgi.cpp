@@ -5,6 +5,7 @@
 namespace roomlight {
 
 Result<Picture> renderVxgi(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages) {
+  if (settings.layers) return Error{"layers: technique vxgi does not keep lamps apart; use hybrid or path"};
   const Stopwatch watch;
   VxgiSettings use = vxgiStage(settings);
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
