@@ -73,7 +73,7 @@ bool PathTracer::pass(const Progress& progress) {
         Sampler sampler(pixel, static_cast<uint32_t>(st.samples), st.settings.seed);
         const Vec2 jitter = sampler.next2();
         const Ray ray = st.cameraRays.seeing(st.rays, static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
-          if (ray.tMax <= 0) continue;  // sees no light
+        if (ray.tMax <= 0) continue;  // sees no light
         const size_t layerCount = st.settings.layers ? st.settings.layers->size() : 0;
         std::optional<PathLayers> layers;
         if (layerCount > 0) layers.emplace(PathLayers{*st.settings.layers, std::span(st.layerSums).subspan(pixel * layerCount, layerCount)});
