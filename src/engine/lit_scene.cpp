@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "baselines/vxgi_shader.h"
 #include "engine/technique_settings.h"
 #include "engine/voxel_stages.h"
 #include "gather/cone_shader.h"
@@ -54,6 +55,32 @@ class VoxelScene final : public LitScene {
   std::optional<Shader> shader_;
 };
 
+// By a rival's method: `Light` is what its shader reads.
+template <class Shader, class Settings, class Light>
+class BaselineScene final : public LitScene {
+ public:
+  // light(rays, lights, settings, stages) -> Light.
+  template <class Work>
+  BaselineScene(const Scene& scene, const Settings& settings, Stages& stages, const Work& light)
+      : LitScene(scene, true, stages), settings_(settings), light_(light(rays(), lights(), settings_, stages)), shader_(rays(), lights(), light_, settings_) {}
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+    return measureIlluminance(rays(), lights(), shader_, elements, settings, progress);
+  }
+  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+    return gatherPicture(rays(), lights(), shader_, camera, sized(settings_, width, height), progress).image;
+  }
+
+ private:
+  const Settings settings_;
+  const Light light_;
+  const Shader shader_;
+};
+
+// Without a camera, the finest level holds the whole scene.
+VxgiLight wholeVxgi(const RayScene& rays, const Lights& lights, const VxgiSettings& settings, Stages& stages) {
+  return stages.run("illuminate", [&](const Progress& p) { return lightVxgi(rays, lights, rays.bounds(), settings, p); });
+}
+
 }  // namespace
 
 LitScene::LitScene(const Scene& scene, bool sunApart, Stages& stages)
@@ -68,6 +95,8 @@ Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSet
     out = std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, hybridStages(settings), stages);
   } else if (settings.technique == "cone") {
     out = std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, coneStages(settings), stages);
+  } else if (settings.technique == "vxgi") {
+    out = std::make_unique<BaselineScene<VxgiShader, VxgiSettings, VxgiLight>>(scene, vxgiStage(settings), stages, wholeVxgi);
   } else {
     return Error{fmt::format("technique: unknown name '{}'", settings.technique)};
   }

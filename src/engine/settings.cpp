@@ -79,6 +79,22 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("occlusionLambda", s.gather.occlusionLambda, 0, 1000);
     g.color("ambientCdM2", s.gather.ambientCdM2, 1e9);
   });
+  v.group("vxgi", [&](auto& g) {
+    g.number("resolution", s.vxgi.resolution, 8, 256);
+    g.number("levels", s.vxgi.levels, 1, 8);
+    g.number("voxelSizeM", s.vxgi.voxelSizeM, 0, 10);
+    g.number("cones", s.vxgi.cones, 1, 4096);
+    g.number("tracingStep", s.vxgi.tracingStep, 0.05, 4);
+    g.number("maxSamples", s.vxgi.maxSamples, 1, 65536);
+    g.number("startOffsetVoxels", s.vxgi.startOffsetVoxels, 0, 16);
+    g.flag("rotateCones", s.vxgi.rotateCones);
+    g.number("directSamples", s.vxgi.directSamples, 1, 4096);
+    g.number("residual", s.vxgi.residual, 1e-6, 1);
+    g.number("maxBounces", s.vxgi.maxBounces, 0, 100000);
+    g.number("raysPerShading", s.vxgi.raysPerShading, 1, 8);
+    g.number("rayRoughness", s.vxgi.rayRoughness, 0, 1);
+    g.number("filterPasses", s.vxgi.filterPasses, 0, 8);
+  });
 }
 
 template <class T>

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "baselines/vxgi.h"
 #include "gather/cone_gather.h"
 #include "gather/ray_gather.h"
 #include "radiance/radiance_field.h"
@@ -31,6 +32,7 @@ struct RenderSettings {
   RadianceSettings radiance;  // of the same; its seed is the one above
   RayGatherSettings hybrid;   // technique "hybrid"; size, samples, time limit and seed are those above
   GatherSettings gather;      // technique "cone"; size, samples, time limit and seed are those above
+  VxgiSettings vxgi;          // technique "vxgi"; size, samples, time limit and seed are those above
 };
 
 // One JSON object with every member, in the order above, less those that repeat one above.

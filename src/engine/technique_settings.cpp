@@ -34,6 +34,12 @@ StageSettings<GatherSettings> coneStages(const RenderSettings& settings) {
   return out;
 }
 
+VxgiSettings vxgiStage(const RenderSettings& settings) {
+  VxgiSettings out = settings.vxgi;
+  applyPictureSettings(settings, out);
+  return out;
+}
+
 PathSettings pathStage(const RenderSettings& settings) {
   PathSettings path = settings.path;
   path.width = settings.width;

@@ -1,0 +1,113 @@
+#include "baselines/vxgi_clipmap.h"
+
+#include "base/parallel.h"
+#include "radiance/half.h"
+
+namespace roomlight {
+
+VxgiClipmap::VxgiClipmap(Vec3 centre, float voxelSizeM, int resolution, int levels) : n_(resolution) {
+  const size_t perLevel = size_t{4} * 6 * static_cast<size_t>(n_) * static_cast<size_t>(n_) * static_cast<size_t>(n_);
+  texels_.resize(perLevel * static_cast<size_t>(levels));
+  for (int l = 0; l < levels; ++l) {
+    Level level;
+    level.voxelSizeM = voxelSizeM * static_cast<float>(1 << l);
+    const auto snapped = [&](float c) { return 2 * static_cast<int>(std::floor(0.5f * (c / level.voxelSizeM - 0.5f * static_cast<float>(n_)) + 0.5f)); };
+    level.corner = {snapped(centre.x), snapped(centre.y), snapped(centre.z)};
+    level.firstCentre = Vec3{static_cast<float>(level.corner.x) + 0.5f, static_cast<float>(level.corner.y) + 0.5f, static_cast<float>(level.corner.z) + 0.5f} * level.voxelSizeM;
+    level.first = perLevel * static_cast<size_t>(l);
+    levels_.push_back(level);
+  }
+}
+
+bool VxgiClipmap::contains(Int3 v) const {
+  const auto n = static_cast<unsigned>(n_);
+  return static_cast<unsigned>(v.x) < n && static_cast<unsigned>(v.y) < n && static_cast<unsigned>(v.z) < n;
+}
+
+bool VxgiClipmap::isMadeOfFiner(int level, Int3 v) const {
+  if (level == 0) return false;
+  const Int3 own = corner(level), finer = corner(level - 1);
+  return contains({2 * (own.x + v.x) - finer.x, 2 * (own.y + v.y) - finer.y, 2 * (own.z + v.z) - finer.z});
+}
+
+void VxgiClipmap::put(int level, Int3 v, int face, __m128 value) {
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(&texels_[texel(levels_[static_cast<size_t>(level)], face, v)]), _mm_cvtps_ph(value, 0));
+}
+
+void VxgiClipmap::set(int level, Int3 v, int face, Vec3 radiance, float opacity) {
+  const Vec3 shown = radiance * (opacity / unit_);
+  put(level, v, face, _mm_setr_ps(shown.x, shown.y, shown.z, opacity));
+}
+
+__m128 VxgiClipmap::get(int level, Int3 v, int face) const { return fromHalf4(&texels_[texel(levels_[static_cast<size_t>(level)], face, v)]); }
+
+// Of the eight voxels of the finer level from v on.
+__m128 VxgiClipmap::composed(int finer, Int3 v, int face) const {
+  const int axis = face / 2, front = face % 2 == 0 ? 1 : 0;
+  __m128 sum = _mm_setzero_ps();
+  for (int column = 0; column < 4; ++column) {
+    const int a = column & 1, b = column >> 1;
+    const auto at = [&](int along) {
+      const Int3 offset = axis == 0 ? Int3{along, a, b} : axis == 1 ? Int3{a, along, b}
+                                                                    : Int3{a, b, along};
+      return get(finer, {v.x + offset.x, v.y + offset.y, v.z + offset.z}, face);
+    };
+    const __m128 over = at(front);
+    const __m128 left = _mm_sub_ps(_mm_set1_ps(1), _mm_shuffle_ps(over, over, 0xff));
+    sum = _mm_add_ps(sum, _mm_fmadd_ps(left, at(1 - front), over));
+  }
+  return _mm_mul_ps(sum, _mm_set1_ps(0.25f));
+}
+
+void VxgiClipmap::buildCoarser() {
+  const auto rows = static_cast<size_t>(n_);
+  for (int level = 1; level < levels(); ++level) {
+    const Int3 own = corner(level), finer = corner(level - 1);
+    parallelFor(6 * rows, 4, [&](size_t i) {
+      const int face = static_cast<int>(i / rows), z = static_cast<int>(i % rows);
+      for (int y = 0; y < n_; ++y) {
+        for (int x = 0; x < n_; ++x) {
+          if (!isMadeOfFiner(level, {x, y, z})) continue;
+          put(level, {x, y, z}, face, composed(level - 1, {2 * (own.x + x) - finer.x, 2 * (own.y + y) - finer.y, 2 * (own.z + z) - finer.z}, face));
+        }
+      }
+    });
+  }
+}
+
+int VxgiClipmap::levelAt(Vec3 p) const {
+  const auto most = static_cast<float>(n_ - 1);
+  for (size_t l = 0; l < levels_.size(); ++l) {
+    const Vec3 q = (p - levels_[l].firstCentre) * (1 / levels_[l].voxelSizeM);
+    if (minComponent(q) >= 0 && maxComponent(q) < most) return static_cast<int>(l);
+  }
+  return levels();
+}
+
+__m128 VxgiClipmap::sample(int level, Vec3 p, Vec3 d) const {
+  const Level& l = levels_[static_cast<size_t>(level)];
+  const Vec3 q = (p - l.firstCentre) * (1 / l.voxelSizeM);
+  const Int3 v{static_cast<int>(q.x), static_cast<int>(q.y), static_cast<int>(q.z)};
+  const float fx = q.x - static_cast<float>(v.x), fy = q.y - static_cast<float>(v.y), fz = q.z - static_cast<float>(v.z);
+  const auto n = static_cast<size_t>(n_);
+  const size_t alongY = 4 * n, alongZ = 4 * n * n;
+  // Two voxels, neighbours in x, a load.
+  __m256 sum = _mm256_setzero_ps();
+  for (int axis = 0; axis < 3; ++axis) {
+    const float weight = std::abs(d[axis]);
+    const uint16_t* at = &texels_[texel(l, 2 * axis + (d[axis] > 0 ? 1 : 0), v)];
+    const auto add = [&](size_t offset, float w) {
+      sum = _mm256_fmadd_ps(_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at + offset))), _mm256_set1_ps(w * weight), sum);
+    };
+    add(0, (1 - fy) * (1 - fz));
+    add(alongY, fy * (1 - fz));
+    add(alongZ, (1 - fy) * fz);
+    add(alongY + alongZ, fy * fz);
+  }
+  const __m128 low = _mm256_castps256_ps128(sum), high = _mm256_extractf128_ps(sum, 1);
+  const __m128 seen = _mm_fmadd_ps(_mm_set1_ps(fx), _mm_sub_ps(high, low), low);
+  const __m128 opacity = _mm_shuffle_ps(seen, seen, 0xff);
+  return _mm_div_ps(seen, _mm_max_ps(opacity, _mm_set1_ps(1)));
+}
+
+}  // namespace roomlight

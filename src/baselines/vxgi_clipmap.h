@@ -1,0 +1,70 @@
+// Voxel cone tracing's store of light: nested cubes of voxels about one place, each level twice as large as the one before and of as
+// many voxels (Panteleev 2014, "Practical Real-Time Voxel-Based Global Illumination for Current GPUs"). A voxel shows each of the six
+// axis directions an opacity and a radiance. docs/methods/vxgi.md
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "voxel/voxels.h"
+
+namespace roomlight {
+
+class VxgiClipmap {
+ public:
+  // Level 0 has voxels of `voxelSizeM` and lies about `centre`, as close as the voxels of the coarser levels allow: theirs are made of
+  // whole ones. All is empty.
+  VxgiClipmap(Vec3 centre, float voxelSizeM, int resolution, int levels);
+
+  int resolution() const { return n_; }
+  int levels() const { return static_cast<int>(levels_.size()); }
+  float voxelSizeM(int level) const { return levels_[static_cast<size_t>(level)].voxelSizeM; }
+  // Of a level's lower corner, in its voxels from the world's origin: even.
+  Int3 corner(int level) const { return levels_[static_cast<size_t>(level)].corner; }
+  size_t bytes() const { return texels_.size() * sizeof(uint16_t); }
+
+  // Whether the voxel, counted from the level's corner, is made of those of the next finer level.
+  bool isMadeOfFiner(int level, Int3 v) const;
+  bool contains(Int3 v) const;  // counted from any level's corner
+
+  // What a voxel shows to direction `face`: radiance (of what is opaque; cd/m²) and opacity 0..1.
+  void set(int level, Int3 v, int face, Vec3 radiance, float opacity);
+  // The same, radiance times opacity and opacity.
+  __m128 get(int level, Int3 v, int face) const;
+  // Fills what is made of finer voxels, from the finest level on: front over back along each direction, the mean of the four columns.
+  void buildCoarser();
+
+  // Radiances are kept as half floats, in this unit.
+  void setUnit(float cdM2) { unit_ = cdM2; }
+  float unit() const { return unit_; }
+
+  // The finest level that can be interpolated at p (world); levels() where none can.
+  int levelAt(Vec3 p) const;
+  // Radiance times opacity in x, y, z, and opacity in w, as seen by who looks along unit d: between the eight voxels around p, and
+  // of the three directions that face the looker by their cosines, which makes the opacity that of the area seen, at most 1. In
+  // unit(). p must lie in the level.
+  __m128 sample(int level, Vec3 p, Vec3 d) const;
+
+ private:
+  struct Level {
+    float voxelSizeM = 0;
+    Int3 corner;
+    Vec3 firstCentre;  // world: middle of the voxel at the corner
+    size_t first = 0;  // in texels_
+  };
+  size_t texel(const Level& level, int face, Int3 v) const {
+    const auto n = static_cast<size_t>(n_);
+    return level.first + 4 * (((static_cast<size_t>(face) * n + static_cast<size_t>(v.z)) * n + static_cast<size_t>(v.y)) * n + static_cast<size_t>(v.x));
+  }
+  void put(int level, Int3 v, int face, __m128 value);
+  __m128 composed(int finer, Int3 v, int face) const;
+
+  int n_;
+  std::vector<Level> levels_;
+  std::vector<uint16_t> texels_;  // half floats; level by level, face by face, x fastest: radiance times opacity, opacity
+  float unit_ = 1;
+};
+
+}  // namespace roomlight
