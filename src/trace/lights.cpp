@@ -147,12 +147,21 @@ LightRay Lights::sampleLampRay(Sampler& sampler) const {
   const Vec2 u = sampler.next2();
   size_t i = 0;
   for (; i + 1 < lamps_.size() && choice >= lampShare_[i]; ++i) choice -= lampShare_[i];
-  const Lamp& lamp = lamps_[i];
+  return lampRay(i, u, lampShare_[i], sampler);
+}
+
+LightRay Lights::sampleLampRay(size_t index, Sampler& sampler) const {
+  const Vec2 u = sampler.next2();
+  return lampRay(index, u, 1, sampler);
+}
+
+LightRay Lights::lampRay(size_t index, Vec2 u, float chance, Sampler& sampler) const {
+  const Lamp& lamp = lamps_[index];
   LightRay ray;
   float pdf = 0;
   ray.origin = lampPlace(lamp, lamp.extended ? sampler.next2() : Vec2{});
-  ray.direction = lampDirections_[i].sample(u, pdf);
-  ray.fluxLm = lampIntensity(lamp, ray.direction) / (pdf * lampShare_[i]);
+  ray.direction = lampDirections_[index].sample(u, pdf);
+  ray.fluxLm = lampIntensity(lamp, ray.direction) / (pdf * chance);
   return ray;
 }
 

@@ -39,6 +39,8 @@ class Lights {
   LightSample sampleLamps(Vec3 p, Sampler& sampler) const;
   // Rays leave the lamps in proportion to their flux, in their LampDirections.
   LightRay sampleLampRay(Sampler& sampler) const;
+  // The same of one of them alone.
+  LightRay sampleLampRay(size_t index, Sampler& sampler) const;
   // Such rays per m² of a surface element at p with normal n, of all rays, if nothing stands between. Of an extended lamp as if all
   // came from its centre.
   float lampDensity(Vec3 p, Vec3 n) const;
@@ -103,6 +105,7 @@ class Lights {
   float importance(const LampTerms& lamp, Vec3 p) const;
   float webImportance(const LampTerms& lamp, Vec3 p) const;
   void addLamps();
+  LightRay lampRay(size_t index, Vec2 u, float chance, Sampler& sampler) const;
   LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;
   float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
   static const EmitterTriangle& chosenTriangle(const Emitter& e, float choice);
