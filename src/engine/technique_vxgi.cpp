@@ -1,5 +1,4 @@
 #include "baselines/vxgi_shader.h"
-#include "engine/light_colour.h"
 #include "engine/technique_settings.h"
 #include "engine/techniques.h"
 
@@ -24,8 +23,7 @@ Picture renderVxgi(const Scene& scene, const Camera& camera, const RenderSetting
   stages.number("samples", result.samples);
   stages.number("rays", static_cast<double>(light.rays + result.rays));
   stages.number("cones", static_cast<double>(result.cones));
-  const Vec3 colour = lightColour(rays, camera, result.image);
-  return {std::move(result.image), colour};
+  return finished(rays, camera, std::move(result.image));
 }
 
 }  // namespace roomlight
