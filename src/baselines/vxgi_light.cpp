@@ -1,8 +1,7 @@
 #include "base/parallel.h"
 #include "base/sampling.h"
+#include "baselines/shown_sides.h"
 #include "baselines/vxgi.h"
-#include "scene/surface.h"
-#include "trace/surface_point.h"
 #include "voxel/lattice.h"
 #include "voxel/voxelise.h"
 
@@ -33,19 +32,9 @@ struct Sources {
   std::vector<Side> sides;
 };
 
-// Whether a side is one that its material shows: both of double-sided ones, else the front.
-bool isShown(const RayScene& rays, const FaceSlot& slot, float voxelSizeM) {
-  const Scene& scene = rays.scene();
-  if (scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[slot.instance].mesh)].material)].doubleSided) return true;
-  const Ray ray{slot.position + slot.normal * (0.05f * voxelSizeM), -slot.normal, 0, 0.5f * voxelSizeM};
-  const Hit hit = rays.intersect(ray);
-  return !hit.valid() || placeAt(scene, hit, ray.direction).front;
-}
-
 // The voxels of one level that are its own.
 void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const Voxels& voxels, const std::vector<Vec3>& directLux, Sources& out) {
-  std::vector<uint8_t> shown(voxels.slots.size());
-  parallelFor(shown.size(), 1024, [&](size_t s) { shown[s] = isShown(rays, voxels.slots[s], voxels.voxelSizeM); });
+  const std::vector<uint8_t> shown = shownSides(rays, voxels);
   const Lattice lattice = latticeOf(voxels);
   const Int3 corner = map.corner(level);
   for (const Brick& brick : voxels.bricks) {
