@@ -23,6 +23,7 @@ constexpr Technique kTechniques[] = {
     {"cone", "light cached in voxels, gathered by cones: fast", renderCone},
     {"path", "path tracing: the reference, slow and exact up to noise", renderPath},
     {"vxgi", "voxel cone tracing with clipmaps: a rival, to be measured against", renderVxgi},
+    {"lpv", "light propagation volumes: a rival, to be measured against", renderLpv},
 };
 
 // Pixels that no light can explain. There must be none; a picture that has them says so instead of hiding them.

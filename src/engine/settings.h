@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "baselines/lpv.h"
 #include "baselines/vxgi.h"
 #include "gather/cone_gather.h"
 #include "gather/ray_gather.h"
@@ -33,6 +34,7 @@ struct RenderSettings {
   RayGatherSettings hybrid;   // technique "hybrid"; size, samples, time limit and seed are those above
   GatherSettings gather;      // technique "cone"; size, samples, time limit and seed are those above
   VxgiSettings vxgi;          // technique "vxgi"; size, samples, time limit and seed are those above
+  LpvSettings lpv;            // technique "lpv"; the same
 };
 
 // One JSON object with every member, in the order above, less those that repeat one above.

@@ -40,6 +40,12 @@ VxgiSettings vxgiStage(const RenderSettings& settings) {
   return out;
 }
 
+LpvSettings lpvStage(const RenderSettings& settings) {
+  LpvSettings out = settings.lpv;
+  applyPictureSettings(settings, out);
+  return out;
+}
+
 PathSettings pathStage(const RenderSettings& settings) {
   PathSettings path = settings.path;
   path.width = settings.width;

@@ -17,6 +17,7 @@ Picture finished(const RayScene& rays, const Camera& camera, Image image);
 Picture renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderVxgi(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+Picture renderLpv(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Picture renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 
 }  // namespace roomlight
