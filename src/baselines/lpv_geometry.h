@@ -40,8 +40,10 @@ struct Surfel {
   float areaM2;  // of what is opaque
 };
 
-// Blocking potential at the corners of cells, half a cell off their middles: the share of light along w that surfels stop, as the first four harmonics
-// of their clamped cosines. Surfels that look to different sides are kept apart, and the one that stops most counts: the two sides of a wall would else cancel
+// Blocking potential at the corners of cells, half a cell off their middles: the share of light along w that surfels stop, as the first four
+// harmonics
+// of their clamped cosines. Surfels that look to different sides are kept apart, and the one that stops most counts: the two sides of a wall would
+// else cancel
 // each other.
 class LpvGeometry {
  public:

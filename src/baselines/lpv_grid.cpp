@@ -5,7 +5,8 @@
 namespace roomlight {
 namespace {
 
-// The sphere around a cell's middle is shared out among the far walls of its six neighbours. Integrated by the midpoint rule over each wall; what that lacks of
+// The sphere around a cell's middle is shared out among the far walls of its six neighbours. Integrated by the midpoint rule over each wall; what
+// that lacks of
 // the whole sphere is put right in proportion.
 std::array<LpvWall, kLpvWalls> makeWalls() {
   constexpr int kAcross = 64;
@@ -42,7 +43,8 @@ struct Row {
   size_t first, count;
 };
 
-// Four harmonics go below zero where a clamped cosine does not. That part is left out, and the rest made smaller by as much: by what factor, so that a cell passes on just what
+// Four harmonics go below zero where a clamped cosine does not. That part is left out, and the rest made smaller by as much: by what factor, so that
+// a cell passes on just what
 // it holds.
 void findScales(const LpvGrid& light, int channel, Row row, float* scale) {
   const float *c0 = light.plane(channel, 0) + row.first, *cx = light.plane(channel, 1) + row.first, *cy = light.plane(channel, 2) + row.first, *cz = light.plane(channel, 3) + row.first;

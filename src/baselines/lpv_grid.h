@@ -17,7 +17,8 @@ using LpvIntensity = std::array<std::array<float, 4>, 3>;
 constexpr float kSh0 = 0.28209479f, kSh1 = 0.48860251f;
 constexpr float kCosine0 = 0.88622693f, kCosine1 = 1.02332671f;
 
-// Structure of arrays: coefficient by coefficient of channel by channel, cell after cell. One layer of cells around those of the lattice belongs to it:
+// Structure of arrays: coefficient by coefficient of channel by channel, cell after cell. One layer of cells around those of the lattice belongs to
+// it:
 // nothing is passed on to them, but what they hold is passed on.
 class LpvGrid {
  public:
@@ -41,7 +42,8 @@ class LpvGrid {
   std::vector<float> values_;
 };
 
-// What a cell passes on: through its side `side` (in the order of faceDirection()) to the wall `wall` of the cell behind. `weight` integrates the harmonics over the solid
+// What a cell passes on: through its side `side` (in the order of faceDirection()) to the wall `wall` of the cell behind. `weight` integrates the
+// harmonics over the solid
 // angle of that wall, seen from the cell's middle.
 struct LpvWall {
   int side, wall;
@@ -53,7 +55,8 @@ constexpr int kLpvWalls = 30;
 // Together they are the whole sphere.
 const std::array<LpvWall, kLpvWalls>& lpvWalls();
 
-// The sum of `light` and all that `steps` steps make of it. `reflect`: what geometry stops goes on from it, less what it absorbs; else all of it ends there.
+// The sum of `light` and all that `steps` steps make of it. `reflect`: what geometry stops goes on from it, less what it absorbs; else all of it ends
+// there.
 LpvGrid propagate(const LpvGrid& light, const LpvGeometry& geometry, int steps, bool reflect);
 
 }  // namespace roomlight

@@ -10,10 +10,12 @@ const LpvLevel* levelAt(const LpvLight& light, Vec3 p) {
   return nullptr;
 }
 
-// Of four harmonics of radiance: irradiance / pi on what faces n. The cosine lobe keeps the first as it is and two thirds of the others (Ramamoorthi & Hanrahan 2001).
+// Of four harmonics of radiance: irradiance / pi on what faces n. The cosine lobe keeps the first as it is and two thirds of the others (Ramamoorthi
+// & Hanrahan 2001).
 float facing(const std::array<float, 4>& c, Vec3 n) { return kSh0 * c[0] - (2.0f / 3) * kSh1 * (c[1] * n.x + c[2] * n.y + c[3] * n.z); }
 
-// Kaplanyan & Dachsbacher's remedy for light that leaked: where the intensity grows towards the surface and points another way than it grows, it counts for less.
+// Kaplanyan & Dachsbacher's remedy for light that leaked: where the intensity grows towards the surface and points another way than it grows, it
+// counts for less.
 float dampened(const std::array<float, 4>& here, const std::array<float, 4>& above, Vec3 n) {
   const std::array<float, 4> growth{here[0] - above[0], here[1] - above[1], here[2] - above[2], here[3] - above[3]};
   if (facing(growth, n) <= 0) return 1;
@@ -64,7 +66,8 @@ Vec3 lpvIrradiance(const LpvLight& light, Vec3 p, Vec3 ng, Vec3 ns, const LpvSet
   return out;
 }
 
-// A march from cell to cell: what geometry stops of the ray has the radiance of the light that goes the other way there; what is left in the end, that of the last place.
+// A march from cell to cell: what geometry stops of the ray has the radiance of the light that goes the other way there; what is left in the end,
+// that of the last place.
 Vec3 lpvRadiance(const LpvLight& light, Vec3 p, Vec3 ng, Vec3 d, const LpvSettings& settings) {
   const LpvLevel* level = levelAt(light, p);
   if (!level) return {};

@@ -19,7 +19,8 @@ TEST(LpvWalls, shareOutTheSphere) {
     sum += w.solidAngleSr;
     mean += w.direction * w.solidAngleSr;
     EXPECT_NE(w.wall, w.side ^ 1) << "light does not go back";
-    // Of a square of edge 1 at distance 1.5, and one from 0.5 to 1.5 at distance 0.5 along its own middle: 4 atan(ab / (h sqrt(a² + b² + h²))) for a quarter.
+    // Of a square of edge 1 at distance 1.5, and one from 0.5 to 1.5 at distance 0.5 along its own middle: 4 atan(ab / (h sqrt(a² + b² + h²))) for a
+    // quarter.
     EXPECT_NEAR(w.solidAngleSr, w.wall == w.side ? 0.40067f : 0.42343f, 2e-4);
     EXPECT_NEAR(w.weight[0], w.solidAngleSr * 0.282095f, 1e-6);
   }
@@ -96,7 +97,8 @@ TEST(LpvGeometry, aWhiteWallSendsBackWhatItStops) {
   EXPECT_GT(last(0.5f, true), last(0, true) + 10);
 }
 
-// Only a fifth of what enters a cell leaves it by the far wall, and what reaches a side wall goes on about that wall's normal: light wanders more than it flies. Once all of it
+// Only a fifth of what enters a cell leaves it by the far wall, and what reaches a side wall goes on about that wall's normal: light wanders more
+// than it flies. Once all of it
 // has left the grid, irradiance far from a small source is right but for a third as far as eight cells, and falls short further on.
 TEST(LpvGrid, farFromASmallSourceIrradianceFallsShortAsTheBeamWidens) {
   LpvGrid grid(cube(33));
