@@ -1,8 +1,7 @@
 #include "base/parallel.h"
 #include "base/sampling.h"
+#include "baselines/shown_sides.h"
 #include "baselines/vxgi.h"
-#include "scene/surface.h"
-#include "trace/surface_point.h"
 #include "voxel/lattice.h"
 #include "voxel/voxelise.h"
 
@@ -34,17 +33,6 @@ struct Sources {
   std::vector<Source> voxels;
   std::vector<Side> sides;
 };
-
-bool isDoubleSided(const Scene& scene, const FaceSlot& slot) {
-  return scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[slot.instance].mesh)].material)].doubleSided;
-}
-
-// Whether a side shows the front of its triangles.
-bool isFront(const RayScene& rays, const FaceSlot& slot, float voxelSizeM) {
-  const Ray ray{slot.position + slot.normal * (0.05f * voxelSizeM), -slot.normal, 0, 0.5f * voxelSizeM};
-  const Hit hit = rays.intersect(ray);
-  return !hit.valid() || placeAt(rays.scene(), hit, ray.direction).front;
-}
 
 float openness(const RayScene& rays, Vec3 p, Vec3 n, uint64_t key) {
   constexpr uint32_t kRays = 8;

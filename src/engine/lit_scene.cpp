@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "baselines/lpv_shader.h"
 #include "baselines/photon.h"
 #include "baselines/photon_shader.h"
 #include "baselines/vxgi_shader.h"
@@ -101,6 +102,10 @@ VxgiLight wholeVxgi(const RayScene& rays, const Lights& lights, const VxgiSettin
   return stages.run("illuminate", [&](const Progress& p) { return lightVxgi(rays, lights, rays.bounds(), settings, p); });
 }
 
+LpvLight wholeLpv(const RayScene& rays, const Lights& lights, const LpvSettings& settings, Stages& stages) {
+  return stages.run("illuminate", [&](const Progress& p) { return lightLpv(rays, lights, rays.bounds(), settings, p); });
+}
+
 }  // namespace
 
 LitScene::LitScene(const Scene& scene, bool sunApart, Stages& stages)
@@ -119,6 +124,8 @@ Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSet
     out = std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, coneStages(settings), stages);
   } else if (settings.technique == "vxgi") {
     out = std::make_unique<BaselineScene<VxgiShader, VxgiSettings, VxgiLight>>(scene, vxgiStage(settings), stages, wholeVxgi);
+  } else if (settings.technique == "lpv") {
+    out = std::make_unique<BaselineScene<LpvShader, LpvSettings, LpvLight>>(scene, lpvStage(settings), stages, wholeLpv);
   } else {
     return Error{fmt::format("technique: unknown name '{}'", settings.technique)};
   }

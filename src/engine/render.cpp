@@ -22,6 +22,7 @@ constexpr Technique kTechniques[] = {
     {"hybrid", "exact rays that read light cached in voxels: fast, without leaks", renderHybrid},
     {"cone", "light cached in voxels, gathered by cones: fast", renderCone},
     {"vxgi", "voxel cone tracing with clipmaps, for comparison", renderVxgi},
+    {"lpv", "light propagation volumes, for comparison", renderLpv},
     {"photon", "photon mapping with final gathering, for comparison", renderPhoton},
     {"path", "path tracing: the reference, slow and exact up to noise", renderPath},
 };

@@ -98,6 +98,23 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("rayRoughness", s.vxgi.rayRoughness, 0, 1);
     g.number("filterPasses", s.vxgi.filterPasses, 0, 8);
   });
+  v.group("lpv", [&](auto& g) {
+    g.number("cells", s.lpv.cells, 8, 256);
+    g.number("coarseCells", s.lpv.coarseCells, 0, 256);
+    g.number("coarseReach", s.lpv.coarseReach, 0, 100);
+    g.number("steps", s.lpv.steps, 0, 100000);
+    g.number("mapSize", s.lpv.mapSize, 8, 8192);
+    g.number("mostMaps", s.lpv.mostMaps, 1, 65536);
+    g.number("skySamples", s.lpv.skySamples, 1, 4096);
+    g.flag("geometry", s.lpv.geometry);
+    g.flag("bounces", s.lpv.bounces);
+    g.flag("dampening", s.lpv.dampening);
+    g.number("lookUpCells", s.lpv.lookUpCells, 0, 4);
+    g.number("glossySteps", s.lpv.glossySteps, 1, 1024);
+    g.number("raysPerShading", s.lpv.raysPerShading, 1, 8);
+    g.number("rayRoughness", s.lpv.rayRoughness, 0, 1);
+    g.number("filterPasses", s.lpv.filterPasses, 0, 8);
+  });
   v.group("photon", [&](auto& g) {
     g.number("photons", s.photon.photons, 1000, 100000000);
     g.number("causticPhotons", s.photon.causticPhotons, 0, 100000000);

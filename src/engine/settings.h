@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "baselines/lpv.h"
 #include "baselines/vxgi_settings.h"
 #include "baselines/photon_settings.h"
 #include "gather/cone_gather.h"
@@ -36,6 +37,7 @@ struct RenderSettings {
   RayGatherSettings hybrid;   // technique "hybrid"; size, samples, time limit and seed are those above
   GatherSettings gather;      // technique "cone"; size, samples, time limit and seed are those above
   VxgiSettings vxgi;          // technique "vxgi"; size, samples, time limit and seed are those above
+  LpvSettings lpv;            // technique "lpv"; the same
   PhotonSettings photon;      // technique "photon"; size, samples, time limit and seed are those above
 };
 

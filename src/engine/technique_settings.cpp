@@ -40,6 +40,12 @@ VxgiSettings vxgiStage(const RenderSettings& settings) {
   return out;
 }
 
+LpvSettings lpvStage(const RenderSettings& settings) {
+  LpvSettings out = settings.lpv;
+  applyPictureSettings(settings, out);
+  return out;
+}
+
 PhotonSettings photonStage(const RenderSettings& settings) {
   PhotonSettings out = settings.photon;
   applyPictureSettings(settings, out);

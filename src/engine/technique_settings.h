@@ -15,6 +15,7 @@ struct StageSettings {
 StageSettings<RayGatherSettings> hybridStages(const RenderSettings& settings);
 StageSettings<GatherSettings> coneStages(const RenderSettings& settings);
 VxgiSettings vxgiStage(const RenderSettings& settings);
+LpvSettings lpvStage(const RenderSettings& settings);
 PhotonSettings photonStage(const RenderSettings& settings);
 PathSettings pathStage(const RenderSettings& settings);
 

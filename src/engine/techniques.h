@@ -18,6 +18,7 @@ Picture finished(const RayScene& rays, const Camera& camera, Image image, std::v
 Result<Picture> renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Result<Picture> renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Result<Picture> renderVxgi(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+Result<Picture> renderLpv(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Result<Picture> renderPhoton(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Result<Picture> renderPath(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 

@@ -187,7 +187,7 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--size", "32"}, "--size"},
       {{"render", scene_, "-o", a, "--size", "0x10"}, "width"},
       {{"render", scene_, "-o", a, "--size", "65536x65536"}, "pixels"},
-      {{"render", scene_, "-o", a, "--technique", "magic"}, "hybrid, cone, vxgi, photon, path"},
+      {{"render", scene_, "-o", a, "--technique", "magic"}, "hybrid, cone, vxgi, lpv, photon, path"},
       {{"render", scene_, "-o", a, "--quality", "perfect"}, "draft, good, best"},
       {{"render", scene_, "-o", a, "--camera", "Side"}, "'Front', 'Back'"},
       {{"render", scene_, "-o", a, "--camera", "2"}, "'Front', 'Back'"},
