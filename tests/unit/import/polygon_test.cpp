@@ -32,6 +32,20 @@ TEST(Polygon, concavePolygonsAreCutInside) {
   }
 }
 
+// A comb of 1200 corners: teeth of half its width, as a shelf or the door of a fridge with its holes has them.
+TEST(Polygon, manyCornersAreCutInsideToo) {
+  constexpr int kTeeth = 300;
+  std::vector<Vec3> comb = {{2.0f * kTeeth, -1, 0}};
+  for (int i = kTeeth; i-- > 0;) {
+    const float x = 2.0f * static_cast<float>(i);
+    for (const Vec3 p : {Vec3(x + 2, 0, 0), Vec3(x + 1, 0, 0), Vec3(x + 1, 1, 0), Vec3(x, 1, 0)}) comb.push_back(p);
+  }
+  comb.push_back({0, -1, 0});
+  bool allAlongZ = false;
+  EXPECT_NEAR(areaOf(comb, &allAlongZ), 2 * kTeeth + kTeeth, 0.1f);
+  EXPECT_TRUE(allAlongZ);
+}
+
 TEST(Polygon, degenerateAndHugePolygonsStillGiveAllTriangles) {
   EXPECT_EQ(triangulate(std::vector<Vec3>(5)).size(), 3u);
   EXPECT_EQ(triangulate(std::vector<Vec3>(100'000)).size(), 99'998u);
