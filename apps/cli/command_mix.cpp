@@ -55,6 +55,7 @@ Status checkOutputs(const Options& o) {
   if (!o.only.empty() && o.statesFolder.empty() && o.overlaysFolder.empty()) return Error{"--only goes with --states or --overlays"};
   if (o.overlaysFolder.empty() && (!o.cardFile.empty() || o.blend != "auto")) return Error{"--home-assistant and --blend go with --overlays DIR"};
   if (o.cardFile.empty() && (!o.entities.empty() || o.dimmed)) return Error{"--entity and --dimmed go with --home-assistant FILE"};
+  if (!o.cardFile.empty() && lowerExtension(o.cardFile) != ".yaml" && lowerExtension(o.cardFile) != ".yml") return Error{fmt::format("--home-assistant {}: name a .yaml file", o.cardFile)};
   std::vector<std::string> files = {o.file, o.cardFile, o.dimmed ? sensorsFileOf(o.cardFile).string() : "", o.statesFolder, o.overlaysFolder};
   files.insert(files.end(), o.outputs.begin(), o.outputs.end());
   if (const Status s = checkDistinct(files); !s) return s;
@@ -96,7 +97,7 @@ Result<std::map<size_t, std::string>> entitiesOf(const MixHome& home, const std:
     const std::string& id = a.value().value;
     const bool plain = std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_' || c == '.'; });
     const size_t dot = id.find('.');
-    if (!plain || dot == 0 || dot + 1 >= id.size() || id.rfind('.') != dot) return Error{fmt::format("--entity {}: write an entity id of Home Assistant, for example light.sofa", text)};
+    if (!plain || dot == std::string::npos || dot == 0 || dot + 1 >= id.size() || id.rfind('.') != dot) return Error{fmt::format("--entity {}: write an entity id of Home Assistant, for example light.sofa", text)};
     const Result<std::vector<size_t>> found = findLamps(home.layers, a.value().name);
     if (!found) return Error{"--entity: " + found.error()};
     for (const size_t i : found.value()) entities[i] = id;

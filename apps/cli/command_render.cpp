@@ -77,6 +77,7 @@ Status checkOutputs(const Options& o) {
 
 Status applyLayerGroups(const Options& o, RenderSettings& settings) {
   if (o.layerGroups) {
+    if (!o.layers) return Error{"--layer-groups goes with --layers"};
     if (*o.layerGroups != "name" && *o.layerGroups != "room") return Error{fmt::format("--layer-groups {}: write name or room", *o.layerGroups)};
     settings.layersByRoom = *o.layerGroups == "room";
   }
@@ -228,7 +229,7 @@ Status writePicture(const std::string& out, const Plan& plan, const Camera& came
 }
 
 Status writePictures(const Options& o, const Plan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
-  const float ev100 = plan.display.ev100 ? *plan.display.ev100 : automaticEv100(rendered.image);
+  const float ev100 = plan.display.ev100 ? *plan.display.ev100 : automaticEv100(pixelsOfRooms(scene, camera, rendered.image));
   const White white = whiteOf(plan.display, rendered.lightColour, ev100);
   const Metadata metadata = describe(o, plan, camera, rendered, ev100, white);
   if (o.kind != "picture") return writeLuminance(o, rendered, metadata);

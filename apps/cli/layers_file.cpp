@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "engine/views.h"
 #include "photometry/white_balance.h"
 #include "trace/camera_rays.h"
 
@@ -41,7 +42,13 @@ std::optional<double> kelvinOf(Vec3 colour) {
   return std::round(k);
 }
 
-Json describe(const LightLayer& light, const std::string& channel, const Scene& scene, const CameraRays& camera, const Image& picture) {
+// Whether a lamp belongs to what is seen of a home that is cut open: of a plan, to the level it shows.
+bool isOfView(const Scene& scene, const Camera& camera, int room) {
+  const std::optional<float> floor = shownFloorM(scene, camera);
+  return !floor || (room >= 0 && std::abs(scene.rooms[static_cast<size_t>(room)].elevationM - *floor) < kLevelsApartM);
+}
+
+Json describe(const LightLayer& light, const std::string& channel, const Scene& scene, const Camera& camera, const Image& picture) {
   const float flux = luminance(light.fluxLm);
   const Vec3 colour = flux > 0 ? light.fluxLm / flux : Vec3(1);
   const std::optional<double> kelvin = kelvinOf(colour);
@@ -53,8 +60,8 @@ Json describe(const LightLayer& light, const std::string& channel, const Scene& 
   const int room = roomAt(scene, light.position);
   if (room >= 0 && !scene.rooms[static_cast<size_t>(room)].name.empty()) j["room"] = scene.rooms[static_cast<size_t>(room)].name;
   j["position"] = rgb(light.position);
-  const std::optional<Vec2> at = camera.pixelOf(light.position);
-  if (at) j["pixel"] = {at->x / static_cast<float>(picture.width), at->y / static_cast<float>(picture.height)};
+  const std::optional<Vec2> at = CameraRays(camera, picture.width, picture.height).pixelOf(light.position);
+  if (at && isOfView(scene, camera, room)) j["pixel"] = {at->x / static_cast<float>(picture.width), at->y / static_cast<float>(picture.height)};
   return j;
 }
 
@@ -62,7 +69,6 @@ Json describe(const LightLayer& light, const std::string& channel, const Scene& 
 
 LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& rendered, Metadata metadata) {
   const Image& whole = rendered.image;
-  const CameraRays cameraRays(camera, whole.width, whole.height);
   LayeredImage out{whole, {}, std::move(metadata)};
   Json list = Json::array();
   int lamps = 0, meshes = 0;
@@ -70,7 +76,7 @@ LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& re
     const LayerKind kind = layer.light.kind;
     const std::string channel = !isLocal(layer.light) ? kindOf(kind) : kind == LayerKind::Mesh ? fmt::format("mesh_{:02}", ++meshes)
                                                                                                : fmt::format("lamp_{:02}", ++lamps);
-    list.push_back(describe(layer.light, channel, scene, cameraRays, whole));
+    list.push_back(describe(layer.light, channel, scene, camera, whole));
     out.layers.push_back({channel, std::move(layer.image)});
   }
   const Json all{{"version", 1}, {"camera", camera.name}, {"layers", list}};

@@ -28,7 +28,8 @@ Status applyToKind(const std::vector<LayerInfo>& layers, const std::string& kind
     apply(dial.value(), dials[i]);
     any = true;
   }
-  if (!any) return Error{fmt::format("--{}: the picture has no layer of the {}", kind, kind)};
+  const bool off = dial.value().level && *dial.value().level == 0;  // of what is not there: it is off
+  if (!any && !off) return Error{fmt::format("--{}: the picture has no layer of the {}", kind, kind)};
   return Ok{};
 }
 

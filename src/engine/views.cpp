@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <tuple>
 
 #include "scene/outline.h"
+#include "trace/camera_rays.h"
 
 namespace roomlight {
 namespace {
 
-constexpr float kLevelsApartM = 0.9f;   // split floors are less apart, storeys more
 constexpr float kStandM = 2.0f;         // ceilings lower than this are those of cupboards
 constexpr float kUnderCeilingM = 0.05f;
 constexpr float kBesideM = 1;           // of a plan around the floors: walls and a margin,
@@ -241,6 +242,34 @@ Result<Viewed> makeView(const Scene& scene, std::span<const Room> rooms, const C
     case View::Stereo: out = around(rooms, base, isPlaced || wish.eye, wish); break;
   }
   if (out && wish.emptyBackdrop) out.value().camera.emptyBackdrop = *wish.emptyBackdrop;
+  return out;
+}
+
+std::optional<float> shownFloorM(const Scene& scene, const Camera& camera) {
+  std::optional<float> floor;
+  if (!(camera.cutHeightM < kInfinity)) return floor;
+  for (const Room& r : scene.rooms) {
+    if (r.elevationM < camera.cutHeightM && (!floor || r.elevationM > *floor)) floor = r.elevationM;
+  }
+  return floor;
+}
+
+Image pixelsOfRooms(const Scene& scene, const Camera& camera, const Image& image) {
+  const std::optional<float> floor = shownFloorM(scene, camera);
+  if (!floor) return image;
+  const CameraRays rays(camera, image.width, image.height);
+  Image out;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Ray ray = rays.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      if (!(ray.direction.y < 0)) continue;
+      const Vec3 p = ray.origin + ray.direction * ((*floor - ray.origin.y) / ray.direction.y);
+      const bool inside = std::any_of(scene.rooms.begin(), scene.rooms.end(), [&](const Room& r) { return std::abs(r.elevationM - *floor) < kLevelsApartM && contains(r.floor, {p.x, p.z}); });
+      if (inside) out.pixels.push_back(image.at(x, y));
+    }
+  }
+  if (out.pixels.empty()) return image;
+  out.width = static_cast<int>(out.pixels.size()), out.height = 1;
   return out;
 }
 

@@ -38,7 +38,9 @@ struct Viewed {
   int width = 0, height = 0;
 };
 
-// Rooms whose floors are less than 0.9 m apart in height, the lowest level first.
+constexpr float kLevelsApartM = 0.9f;  // split floors are less apart, storeys more
+
+// Rooms whose floors are less than that apart in height, the lowest level first.
 struct Level {
   float elevationM = 0;    // of the lowest floor
   float ceilingM = 0;      // of the lowest ceiling that one can stand under
@@ -53,5 +55,12 @@ Result<Viewed> makeView(const Scene& scene, std::span<const Room> rooms, const C
 
 // The point of a floor farthest from its edges, to 5 % of its size.
 Vec2 middleOf(const Room& room);
+
+// Elevation of the floor that a cut camera shows: the highest of the rooms' that lies below the cut. None without a cut or rooms.
+std::optional<float> shownFloorM(const Scene& scene, const Camera& camera);
+
+// The pixels that show rooms, one after the other, of a camera that cuts a scene with rooms: what a plan is exposed by, instead of the garden
+// around it. All pixels of other pictures.
+Image pixelsOfRooms(const Scene& scene, const Camera& camera, const Image& image);
 
 }  // namespace roomlight

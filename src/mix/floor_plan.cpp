@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -18,7 +19,12 @@ constexpr std::string_view kPlainLatin = "aaaaaaaceeeeiiiidnooooo?ouuuuy?saaaaaa
 // Double-quoted YAML takes JSON's strings as they are.
 std::string quoted(const std::string& text) { return dump(Json(text)); }
 
-std::string sensorOf(const PlanLamp& lamp) { return fmt::format("sensor.{}_level", lamp.entity.substr(lamp.entity.find('.') + 1)); }
+// light.sofa and switch.sofa are two things.
+std::string sensorOf(const PlanLamp& lamp) {
+  std::string id = lamp.entity;
+  std::replace(id.begin(), id.end(), '.', '_');
+  return fmt::format("sensor.{}_level", id);
+}
 
 std::string percent(float share) { return fmt::format("{:.2f}%", 100 * static_cast<double>(share)); }
 
@@ -91,7 +97,9 @@ std::string cardOf(const FloorPlan& plan, const std::string& urlPrefix, bool dim
 
 std::string sensorsOf(const FloorPlan& plan) {
   std::string yaml = "# For configuration.yaml of Home Assistant: how bright each lamp is, in steps of 10 %. Made by roomlight mix.\ntemplate:\n  - sensor:\n";
+  std::set<std::string> declared;  // lamps may share an entity
   for (const PlanLamp& lamp : plan.lamps) {
+    if (!declared.insert(lamp.entity).second) continue;
     const std::string id = sensorOf(lamp).substr(std::string_view("sensor.").size());
     yaml += fmt::format("      - name: {0}\n        unique_id: {0}\n", quoted(id));
     yaml += fmt::format("        state: \"{{{{ [10, (((state_attr('{0}', 'brightness') or 255) / 25.5) | round(0) * 10) | int] | max if is_state('{0}', 'on') else 0 }}}}\"\n", lamp.entity);

@@ -100,9 +100,9 @@ elements:
 TEST(FloorPlan, dimmedCardsFollowSensors) {
   const FloorPlan plan = somePlan();
   const std::string card = cardOf(plan, "/local/", true), sensors = sensorsOf(plan);
-  EXPECT_NE(card.find("entity: sensor.sofa_lamp_level\n"), std::string::npos);
+  EXPECT_NE(card.find("entity: sensor.light_sofa_lamp_level\n"), std::string::npos);
   EXPECT_NE(card.find("      \"50\": opacity(71%)\n"), std::string::npos);
-  EXPECT_NE(sensors.find("unique_id: \"sofa_lamp_level\""), std::string::npos);
+  EXPECT_NE(sensors.find("unique_id: \"light_sofa_lamp_level\""), std::string::npos);
   EXPECT_NE(sensors.find("is_state('switch.sink', 'on')"), std::string::npos);
 }
 
