@@ -58,7 +58,7 @@ TEST(MixCommand, dimsSwitchesAndColours) {
   const Image a = readImage(folder / "a.exr").value();
   EXPECT_NEAR(a.at(1, 1).x, 6.5f, 1e-3f);
   EXPECT_NEAR(a.at(14, 1).x, 0.5f, 1e-4f);
-  ASSERT_EQ(runProgram({"mix", layers, "--kelvin", "2700", "--lamp", "Desk=100%,#0000ff", "--sky", "off", "-o", folder / "b.exr"}).exitStatus, 0);
+  ASSERT_EQ(runProgram({"mix", layers, "--kelvin", "2700", "--lamp", "Desk=100%,#0000ff", "--sky", "off", "--sun", "off", "-o", folder / "b.exr"}).exitStatus, 0);
   const Image b = readImage(folder / "b.exr").value();
   EXPECT_NEAR(luminance(b.at(1, 1)), 10, 1e-3f) << "the flux stays";
   EXPECT_GT(b.at(1, 1).x, 2 * b.at(1, 1).z) << "and turns warm";
@@ -133,7 +133,9 @@ TEST(MixCommand, badInputIsOneLineAndExitStatusTwo) {
   refused({layers, "--lamp", "Desk", "-o", out}, "write NAME=VALUE");
   refused({layers, "--lamp", "Desk=bright", "-o", out}, "write on, off, a percentage");
   refused({layers, "--kelvin", "10", "-o", out}, "must be from 1000 to 40000 K");
-  refused({layers, "--sun", "off", "-o", out}, "has no layer of the sun");
+  refused({layers, "--sun", "50%", "-o", out}, "has no layer of the sun");
+  refused({layers, "--overlays", folder / "plan", "--home-assistant", out}, "name a .yaml file");
+  refused({layers, "--overlays", folder / "plan", "--home-assistant", folder / "card.yaml", "--entity", "Desk=sofa"}, "write an entity id");
   refused({layers, "-o", folder / "o.gif"}, "unknown kind of picture");
   refused({layers, "-o", out, "--tone", "sepia"}, "unknown tone curve");
   refused({layers, "--lamp", "*=off", "--states", folder / "s"}, "no lamp to switch");
