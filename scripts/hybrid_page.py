@@ -109,6 +109,7 @@ def page(rows, records, benches, pictures, args):
              f"Made by `scripts/measure_hybrid` on {os.cpu_count()} cores: errors and the times beside them at {args.size}, times and memory of stages at {args.time_size}.",
              "`mse` is against the mean of two references of `path`; `beyond noise` is mse without the noise that these still hold. `mean` is the",
              f"error of the mean luminance. `best` goes on until it estimates an mse of 0.0002, for {args.best_seconds:g} s at most; `estimated` is what it says of itself, – where no time was left for paths.", "",
+             *([] if args.only else ["The sample homes have a page of their own: [homes.md](homes.md).", ""]),
              "## Asked", "", "| asked | measured | |", "|---|---|---|"]
     lines += [f"| {text} | {measured} | {verdict(met)} |" for text, measured, met in asked(rows, records, benches)]
     lines += ["", "## Errors", "", *errors(rows)]
