@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "baselines/lpv_shader.h"
 #include "support/record.h"
+#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {
@@ -26,24 +27,11 @@ LpvSettings settled() {
   return s;
 }
 
-Camera cameraAt(Vec3 eye) {
-  Camera camera;
-  camera.worldFromCamera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, eye};
-  camera.yFovRad = 1.2f;
-  return camera;
-}
-
 GatheredPicture render(const Scene& scene, Vec3 eye, const LpvSettings& settings) {
   const RayScene rays(scene);
   const Lights lights(scene, true);
   const LpvLight light = lightLpv(rays, lights, rays.bounds(), settings);
-  return gatherPicture(rays, lights, LpvShader(rays, lights, light, settings), cameraAt(eye), settings, {});
-}
-
-double mean(const Image& image) {
-  double sum = 0;
-  for (const Vec3 p : image.pixels) sum += luminance(p);
-  return sum / static_cast<double>(image.pixels.size());
+  return gatherPicture(rays, lights, LpvShader(rays, lights, light, settings), test::cameraAt(eye), settings, {});
 }
 
 // Mean indirect illuminance on the floor of a cube of 4 m with a lamp of 1000 lm in the middle, and its truth rho / (1 - rho) 1000 / 96.
@@ -102,7 +90,7 @@ TEST_P(LpvFurnace, findsMoreThanHalfOfTheIndirectLight) {
   const float rho = GetParam();
   Scene scene;
   test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 3}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(rho, 10))));
-  const double measured = mean(render(scene, {1.7f, 1.4f, 2.6f}, settled()).image), direct = 10 * (1 + static_cast<double>(rho)), all = 10 / (1 - static_cast<double>(rho));
+  const double measured = test::meanLuminance(render(scene, {1.7f, 1.4f, 2.6f}, settled()).image), direct = 10 * (1 + static_cast<double>(rho)), all = 10 / (1 - static_cast<double>(rho));
   test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}", rho), "lpv", all, measured);
   EXPECT_GT(measured, rho > 0 ? direct + 0.55 * (all - direct) : 0.995 * all);
   EXPECT_LT(measured, 1.005 * all);

@@ -9,17 +9,11 @@
 #include "gather/meters.h"
 #include "reference/path_tracer.h"
 #include "support/record.h"
+#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {
 namespace {
-
-Camera cameraAt(Vec3 from) {
-  Camera camera;
-  camera.worldFromCamera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, from};
-  camera.yFovRad = 1.2f;
-  return camera;
-}
 
 PhotonSettings small() {
   PhotonSettings s;
@@ -33,15 +27,9 @@ PhotonSettings small() {
 Image render(const Scene& scene, Vec3 eye, const PhotonSettings& settings) {
   const RayScene rays(scene);
   const Lights lights(scene, true);
-  const Camera camera = cameraAt(eye);
+  const Camera camera = test::cameraAt(eye);
   const PhotonLight light = lightPhotons(rays, lights, importonsFrom(camera, settings.width, settings.height), settings);
   return gatherPhotons(rays, lights, light, camera, settings).image;
-}
-
-double mean(const Image& image) {
-  double sum = 0;
-  for (const Vec3 p : image.pixels) sum += static_cast<double>(luminance(p));
-  return sum / static_cast<double>(image.pixels.size());
 }
 
 Scene furnace(float rho) {
@@ -65,7 +53,7 @@ TEST_P(PhotonFurnace, RadianceIsEmissionOverOneMinusAlbedo) {
   PhotonSettings s = small();
   s.finalGather = GetParam().finalGather, s.kernel = GetParam().kernel;
   const float rho = GetParam().albedo;
-  const double expected = 10 / (1 - static_cast<double>(rho)), measured = mean(render(furnace(rho), {1.7f, 1.4f, 2.6f}, s));
+  const double expected = 10 / (1 - static_cast<double>(rho)), measured = test::meanLuminance(render(furnace(rho), {1.7f, 1.4f, 2.6f}, s));
   test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}, {}", rho, s.finalGather ? "final gathering" : "map seen directly"), "photon", expected, measured);
   EXPECT_NEAR(measured, expected, expected * GetParam().tolerance);
 }
@@ -78,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, PhotonFurnace,
 TEST(PhotonEstimate, LosesLightAtEdgesWithoutRaysAround) {
   PhotonSettings s = small();
   s.finalGather = 0, s.edgeRays = 0;
-  EXPECT_LT(mean(render(furnace(0.8f), {1.7f, 1.4f, 2.6f}, s)), 50 * 0.98);
+  EXPECT_LT(test::meanLuminance(render(furnace(0.8f), {1.7f, 1.4f, 2.6f}, s)), 50 * 0.98);
 }
 
 // Indirect light in a room against the path tracer's, at meters.
@@ -124,7 +112,7 @@ TEST(Photon, WallsWithoutThicknessAreTight) {
   for (const int finalGather : {4, 0}) {
     PhotonSettings s = small();
     s.finalGather = finalGather;
-    const double dark = mean(render(scene, {1.0f, 1.3f, 2.9f}, s)), bright = mean(render(scene, {3.0f, 1.3f, 2.9f}, s));
+    const double dark = test::meanLuminance(render(scene, {1.0f, 1.3f, 2.9f}, s)), bright = test::meanLuminance(render(scene, {3.0f, 1.3f, 2.9f}, s));
     EXPECT_GT(bright, 10);
     EXPECT_LT(dark, 2e-4 * bright) << finalGather << " gathering rays";
   }

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "baselines/vxgi_shader.h"
 #include "support/record.h"
+#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {
@@ -18,24 +19,11 @@ VxgiSettings small() {
   return s;
 }
 
-Camera cameraAt(Vec3 eye) {
-  Camera camera;
-  camera.worldFromCamera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, eye};
-  camera.yFovRad = 1.2f;
-  return camera;
-}
-
 GatheredPicture render(const Scene& scene, Vec3 eye, const VxgiSettings& settings) {
   const RayScene rays(scene);
   const Lights lights(scene, true);
   const VxgiLight light = lightVxgi(rays, lights, roomAround(rays, eye), settings);
-  return gatherPicture(rays, lights, VxgiShader(rays, lights, light, settings), cameraAt(eye), settings, {});
-}
-
-double mean(const Image& image) {
-  double sum = 0;
-  for (const Vec3 p : image.pixels) sum += luminance(p);
-  return sum / static_cast<double>(image.pixels.size());
+  return gatherPicture(rays, lights, VxgiShader(rays, lights, light, settings), test::cameraAt(eye), settings, {});
 }
 
 // A wall one voxel thick, read between voxels, is a tent of opacity: with the step-corrected opacity of short steps it leaves
@@ -55,7 +43,7 @@ class VxgiFurnace : public testing::TestWithParam<float> {};
 // Every wall emits 10 and reflects a share rho: L = 10 / (1 - rho). Light of emissive walls comes by shadow rays in full, of what walls
 // reflect of it cones find a share g: L = 10 + rho (10 + g (L - 10)).
 TEST_P(VxgiFurnace, losesNoMoreThanItsWallsLetThrough) {
-  const double rho = GetParam(), measured = mean(render(furnace(GetParam()), {1.7f, 1.4f, 2.6f}, small()).image);
+  const double rho = GetParam(), measured = test::meanLuminance(render(furnace(GetParam()), {1.7f, 1.4f, 2.6f}, small()).image);
   const auto expected = [&](double found) { return 10 * (1 + rho - rho * found) / (1 - rho * found); };
   test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}", GetParam()), "vxgi", expected(1), measured);
   EXPECT_GT(measured, 0.995 * expected(kLeastFound));
