@@ -9,6 +9,14 @@
 
 namespace roomlight::cli {
 
+Result<Size> parseSize(const std::string& option, const std::string& text) {
+  const size_t x = text.find('x');
+  const int width = parseNumber<int>(std::string_view(text).substr(0, x)).value_or(-1);
+  const int height = x == std::string::npos ? -1 : parseNumber<int>(std::string_view(text).substr(x + 1)).value_or(-1);
+  if (width < 0 || height < 0) return Error{fmt::format("{} {}: write WIDTHxHEIGHT, for example 960x540", option, text)};
+  return Size{width, height};
+}
+
 std::string lowerExtension(const std::filesystem::path& file) {
   std::string e = file.extension().string();
   std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -20,6 +20,7 @@
 #include "layers_file.h"
 #include "measure/luminance_picture.h"
 #include "output_files.h"
+#include "scene/find_camera.h"
 #include "view_options.h"
 
 namespace roomlight::cli {
@@ -48,16 +49,6 @@ struct Plan {
   Display display;
   ViewWish view;
 };
-
-Status applySize(const std::string& size, RenderSettings& settings) {
-  const size_t x = size.find('x');
-  const auto width = parseNumber<int>(std::string_view(size).substr(0, x));
-  const auto height = x == std::string::npos ? std::nullopt : parseNumber<int>(std::string_view(size).substr(x + 1));
-  if (!width || !height) return Error{fmt::format("--size {}: write WIDTHxHEIGHT, for example 960x540", size)};
-  settings.width = *width;
-  settings.height = *height;
-  return Ok{};
-}
 
 Status checkOutputs(const Options& o) {
   for (const std::string& out : o.outputs) {
@@ -101,7 +92,9 @@ Result<Plan> makePlan(const Options& o) {
   }
   RenderSettings& s = plan.settings;
   if (!o.size.empty()) {
-    if (const Status status = applySize(o.size, s); !status) return Error{status.error()};
+    const Result<Size> size = parseSize("--size", o.size);
+    if (!size) return Error{size.error()};
+    s.width = size.value().width, s.height = size.value().height;
   }
   s.technique = o.technique.value_or(s.technique);
   s.samples = o.samples.value_or(s.samples);
@@ -133,20 +126,6 @@ Result<Plan> makePlan(const Options& o) {
   const RenderSettings usual;
   if (!o.size.empty() || s.width != usual.width || s.height != usual.height) plan.view.size = {s.width, s.height};
   return plan;
-}
-
-// By name, else by its number in the file from 0.
-Result<Camera> pickCamera(const Scene& scene, const std::string& wanted) {
-  if (wanted.empty()) return defaultCamera(scene);
-  std::string names;
-  for (const Camera& c : scene.cameras) {
-    if (c.name == wanted) return c;
-    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", c.name);
-  }
-  const auto index = parseNumber<size_t>(wanted);
-  if (index && *index < scene.cameras.size()) return scene.cameras[*index];
-  if (scene.cameras.empty()) return Error{fmt::format("no camera '{}': the scene has none; leave --camera out for a view from a corner", wanted)};
-  return Error{fmt::format("no camera '{}'; there are {}", wanted, names)};
 }
 
 nlohmann::ordered_json stagesJson(const RenderStats& stats) {
@@ -267,7 +246,7 @@ Result<Home> loadHome(const Options& o, Plan& plan) {
   if (!o.lighting.empty()) {
     if (const Status s = applyLightingFile(o.lighting, home.scene, &home.warnings); !s) return Error{s.error()};
   }
-  const Result<Camera> camera = pickCamera(home.scene, o.camera);
+  const Result<Camera> camera = findCamera(home.scene, o.camera);
   if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
   const std::vector<Room> rooms = roomsFor(home.scene, plan.view);
   const Result<Viewed> viewed = makeView(home.scene, rooms, camera.value(), !o.camera.empty() || !home.scene.cameras.empty(), {plan.settings.width, plan.settings.height}, plan.view);

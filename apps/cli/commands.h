@@ -26,5 +26,6 @@ Registered addDevelop(CLI::App& program);
 Registered addInfo(CLI::App& program);
 Registered addMix(CLI::App& program);
 Registered addValidate(CLI::App& program);
+Registered addStudy(CLI::App& program);
 
 }  // namespace roomlight::cli

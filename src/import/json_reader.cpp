@@ -54,6 +54,8 @@ bool JsonPlace::isArray() const { return value_->is_array(); }
 bool JsonPlace::isNumber() const { return value_->is_number(); }
 bool JsonPlace::isText(std::string_view text) const { return value_->is_string() && value_->get_ref<const std::string&>() == text; }
 
+std::string JsonPlace::json() const { return value_->dump(); }
+
 size_t JsonPlace::arraySize() const {
   if (value_->is_array()) return value_->size();
   fail("must be a list");

@@ -29,6 +29,7 @@ class JsonPlace {
   const std::string& path() const { return path_; }
 
   std::string text() const;
+  std::string json() const;  // the value as it is, for another reader
   double number(double low, double high) const;
   Vec3 vector(double low, double high) const;             // [x, y, z]
   double quantity(Unit unit, double low, double high) const;  // "800 lm"

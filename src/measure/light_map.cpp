@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/html.h"
 #include "measure/contour.h"
 #include "measure/floor_plan.h"
 
@@ -40,7 +41,7 @@ class Drawing {
   std::string svg() const {
     const double width = static_cast<double>(size_.x + 2 * kMarginM) * 100, height = static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30;
     std::string s = fmt::format("<svg class=\"map\" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {:.0f} {:.0f}\" style=\"--px:{:.3f}px\" role=\"img\" aria-label=\"{}\">\n",
-                                width / static_cast<double>(px_), height / static_cast<double>(px_), -cm(kMarginM), -cm(kMarginM), width, height, px_, escaped(grid_.name));
+                                width / static_cast<double>(px_), height / static_cast<double>(px_), -cm(kMarginM), -cm(kMarginM), width, height, px_, htmlEscaped(grid_.name));
     s += fmt::format("<clipPath id=\"c{}\"><path clip-rule=\"evenodd\" d=\"{}\"/></clipPath>\n", number_, region());
     s += fmt::format("<g clip-path=\"url(#c{})\">\n{}</g>\n", number_, shades());
     s += plan();
@@ -167,7 +168,7 @@ class Drawing {
   std::string lamp(Vec3 at, const std::string& name) const {
     const Vec2 p = place(at);
     if (p.x < 0 || p.y < 0 || p.x > size_.x || p.y > size_.y || at.y < lattice().corner.y - 1 || at.y > lattice().corner.y + kLampHeightM) return {};
-    return fmt::format("<g class=\"lamp\" transform=\"translate({} {})\"><title>{}, {:.2f} m</title><circle r=\"9\"/><path d=\"M-6.4-6.4L6.4 6.4M-6.4 6.4L6.4-6.4\"/></g>\n", cm(p.x), cm(p.y), escaped(name), at.y);
+    return fmt::format("<g class=\"lamp\" transform=\"translate({} {})\"><title>{}, {:.2f} m</title><circle r=\"9\"/><path d=\"M-6.4-6.4L6.4 6.4M-6.4 6.4L6.4-6.4\"/></g>\n", cm(p.x), cm(p.y), htmlEscaped(name), at.y);
   }
 
   std::string lamps() const {
@@ -204,28 +205,11 @@ class Drawing {
 
 }  // namespace
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out;
-}
-
 std::string lightMapSvg(const GridReading& grid, const Scene& scene, const LightScale& scale, int number) { return Drawing(grid, scene, scale, number).svg(); }
 
 std::string legendSvg(const LightScale& scale, const std::string& unit) {
   constexpr int kHeight = 300, kPieces = 60;
-  std::string s = fmt::format("<svg class=\"legend\" xmlns=\"http://www.w3.org/2000/svg\" width=\"78\" height=\"{}\" viewBox=\"0 -26 78 {}\">\n<text x=\"0\" y=\"-12\">{}</text>\n", kHeight + 40, kHeight + 40, escaped(unit));
+  std::string s = fmt::format("<svg class=\"legend\" xmlns=\"http://www.w3.org/2000/svg\" width=\"78\" height=\"{}\" viewBox=\"0 -26 78 {}\">\n<text x=\"0\" y=\"-12\">{}</text>\n", kHeight + 40, kHeight + 40, htmlEscaped(unit));
   for (int i = 0; i < kPieces; ++i) {
     s += fmt::format("<rect x=\"0\" y=\"{}\" width=\"22\" height=\"{}\" fill=\"{}\"/>\n", kHeight - (i + 1) * kHeight / kPieces, kHeight / kPieces + 1, hexColour(falseColour((i + 0.5) / kPieces)));
   }

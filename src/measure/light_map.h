@@ -8,9 +8,6 @@
 
 namespace roomlight {
 
-// Text fit for HTML and SVG.
-std::string escaped(const std::string& text);
-
 // `number` tells the pictures of one page apart. Some ten to hundred kilobytes.
 std::string lightMapSvg(const GridReading& grid, const Scene& scene, const LightScale& scale, int number);
 // Colours and what they mean.

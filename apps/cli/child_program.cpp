@@ -1,0 +1,88 @@
+#include "child_program.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <thread>
+
+extern char** environ;
+
+namespace roomlight::cli {
+namespace {
+
+constexpr auto kAskEvery = std::chrono::milliseconds(20);
+constexpr size_t kMostKept = 4000;  // of what it says
+
+// The last line, without the program's name.
+std::string lastLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  const size_t from = text.rfind('\n');
+  std::string line = from == std::string::npos ? text : text.substr(from + 1);
+  constexpr std::string_view kName = "roomlight: ";
+  return line.starts_with(kName) ? line.substr(kName.size()) : line;
+}
+
+// Everything that is in the pipe now; false at its end.
+bool drain(int pipe, std::string& text) {
+  char block[1024];
+  while (true) {
+    const ssize_t n = read(pipe, block, sizeof block);
+    if (n == 0) return false;
+    if (n < 0) return errno == EAGAIN || errno == EINTR;
+    text.append(block, static_cast<size_t>(n));
+    if (text.size() > 2 * kMostKept) text.erase(0, text.size() - kMostKept);
+  }
+}
+
+}  // namespace
+
+std::filesystem::path thisProgram() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+}
+
+Status runThisProgram(const std::vector<std::string>& arguments, const std::atomic<bool>* cancelled) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) return Error{fmt::format("a process cannot be started: {}", std::strerror(errno))};
+  std::vector<std::string> words = {thisProgram().string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& w : words) argv.push_back(w.data());
+  argv.push_back(nullptr);
+
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, ends[1], STDERR_FILENO);
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, argv[0], &files, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  close(ends[1]);
+  if (failed) {
+    close(ends[0]);
+    return Error{fmt::format("a process cannot be started: {}", std::strerror(failed))};
+  }
+  std::string said;
+  int status = 0;
+  bool told = false;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    drain(ends[0], said);
+    if (cancelled && *cancelled && !told) kill(child, SIGTERM), told = true;
+    std::this_thread::sleep_for(kAskEvery);
+  }
+  drain(ends[0], said);
+  close(ends[0]);
+  if (told) return Error{"interrupted"};
+  if (WIFSIGNALED(status)) return Error{fmt::format("the process was killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
+  if (WEXITSTATUS(status) != 0) return Error{said.empty() ? fmt::format("the process ended with status {}", WEXITSTATUS(status)) : lastLine(said)};
+  return Ok{};
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,281 @@
+// roomlight study: every technique on every scene and light, judged by path.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "arguments.h"
+#include "child_program.h"
+#include "commands.h"
+#include "console.h"
+#include "engine/version.h"
+#include "interrupt.h"
+#include "output_files.h"
+#include "study/dim_lamp.h"
+#include "study/report.h"
+
+namespace roomlight::cli {
+namespace {
+
+struct Options {
+  std::string plan, folder, size = "640x360", walkSize = "960x540", only;
+  std::vector<std::string> techniques, externals;
+  int runs = 3;
+  double mostSeconds = 60, referenceSeconds = 240;
+  bool quick = false, quiet = false;
+};
+
+int bad(const std::string& message, int code = kBadInput) {
+  printError(message);
+  return code;
+}
+
+constexpr int kLeastPixels = 16, kMostPixels = 16384;
+
+Status readSize(const std::string& option, const std::string& text, int& width, int& height) {
+  const Result<Size> size = parseSize(option, text);
+  if (!size) return Error{size.error()};
+  width = size.value().width, height = size.value().height;
+  if (std::min(width, height) < kLeastPixels || std::max(width, height) > kMostPixels) return Error{fmt::format("{} {}: from {} to {} pixels either way", option, text, kLeastPixels, kMostPixels)};
+  return Ok{};
+}
+
+// NAME=picture.exr,SECONDS or NAME@SCENE/LIGHT=picture.exr,SECONDS.
+Result<ExternalPicture> readExternal(const std::string& text) {
+  const size_t equals = text.find('='), comma = text.rfind(',');
+  const auto seconds = comma == std::string::npos ? std::nullopt : parseNumber<double>(std::string_view(text).substr(comma + 1));
+  if (equals == std::string::npos || equals == 0 || comma == std::string::npos || comma < equals + 2 || !seconds || !(*seconds > 0)) {
+    return Error{fmt::format("--external {}: write NAME=picture.exr,SECONDS or NAME@SCENE/LIGHT=picture.exr,SECONDS", text)};
+  }
+  ExternalPicture e{text.substr(0, equals), {}, {}, text.substr(equals + 1, comma - equals - 1), *seconds};
+  if (const size_t at = e.name.find('@'); at != std::string::npos) {
+    const std::string where = e.name.substr(at + 1);
+    const size_t slash = where.rfind('/');
+    e.scene = where.substr(0, slash);
+    if (slash != std::string::npos) e.light = where.substr(slash + 1);
+    e.name.resize(at);
+  }
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(e.file, ignored)) return Error{fmt::format("--external {}: {}: no such file", e.name, e.file.string())};
+  return e;
+}
+
+// What is left of the plan after --technique, --only and --quick.
+Status narrow(const Options& o, StudyPlan& plan) {
+  if (!o.techniques.empty()) {
+    std::vector<StudyTechnique> kept;
+    for (const std::string& wanted : o.techniques) {
+      const auto found = std::find_if(plan.techniques.begin(), plan.techniques.end(), [&](const StudyTechnique& t) { return t.name == wanted; });
+      std::string names;
+      for (const StudyTechnique& t : plan.techniques) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", t.name);
+      if (found == plan.techniques.end()) return Error{fmt::format("--technique {}: there are {}", wanted, names)};
+      kept.push_back(*found);
+    }
+    plan.techniques = kept;
+  }
+  for (StudyScene& s : plan.scenes) {
+    std::erase_if(s.lights, [&](const StudyLight& light) { return (s.name + "/" + light.name).find(o.only) == std::string::npos; });
+  }
+  std::erase_if(plan.scenes, [](const StudyScene& s) { return s.lights.empty(); });
+  if (plan.scenes.empty()) return Error{fmt::format("--only {}: no SCENE/LIGHT holds this", o.only)};
+  if (!o.quick) return Ok{};
+  plan.scenes.resize(std::min<size_t>(plan.scenes.size(), 2));
+  for (StudyScene& s : plan.scenes) s.lights.resize(1);
+  for (size_t i = 1; i < plan.scenes.size(); ++i) plan.scenes[i].walk.clear();
+  return Ok{};
+}
+
+Result<StudySettings> settingsOf(const Options& o) {
+  StudySettings s;
+  s.runs = o.runs, s.mostSeconds = o.mostSeconds;
+  s.reference.mostS = o.referenceSeconds;
+  std::string size = o.size, walkSize = o.walkSize;
+  if (o.quick) size = "192x108", walkSize = "320x180", s.runs = 1, s.mostSeconds = 3, s.reference.mostS = 16, s.walkFrames = 4;
+  s.reference.roundS = std::clamp(s.reference.mostS / 8, 2.0, 30.0);
+  if (const Status status = readSize("--size", size, s.width, s.height); !status) return Error{status.error()};
+  if (const Status status = readSize("--walk-size", walkSize, s.walkWidth, s.walkHeight); !status) return Error{status.error()};
+  for (const std::string& text : o.externals) {
+    const Result<ExternalPicture> e = readExternal(text);
+    if (!e) return Error{e.error()};
+    s.externals.push_back(e.value());
+  }
+  s.program = fmt::format("roomlight {} {}", version(), contentHash(thisProgram()));
+  return s;
+}
+
+std::string firstValue(const char* file, const std::string& key) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    const size_t colon = line.find(':');
+    const size_t from = line.find_first_not_of(" \t", colon + 1);
+    return from == std::string::npos ? "" : line.substr(from);
+  }
+  return "unknown";
+}
+
+StudyHeader headerOf(const StudySettings& s, const StudyPlan& plan, double loadBefore) {
+  const double memoryMiB = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1048576;
+  StudyHeader h = {{"program", s.program},
+                   {"processor", firstValue("/proc/cpuinfo", "model name")},
+                   {"threads", fmt::format("{}", std::thread::hardware_concurrency())},
+                   {"memory", fmt::format("{:.1f} GiB", memoryMiB / 1024)},
+                   {"load of the machine at the start", fmt::format("{:.2f}", loadBefore)},
+                   {"pictures", fmt::format("{}x{}", s.width, s.height)},
+                   {"runs", fmt::format("{}", s.runs)},
+                   {"longest point", fmt::format("{:g} s", s.mostSeconds)},
+                   {"references", fmt::format("until a noise of {:g} or {:g} s", s.reference.noiseMse, s.reference.mostS)},
+                   {"frames", fmt::format("{}x{}, one sample a pixel", s.walkWidth, s.walkHeight)}};
+  for (const StudyTechnique& t : plan.techniques) h.emplace_back(t.name, fmt::format("technique {}, settings {}", t.technique, t.settings));
+  return h;
+}
+
+// Each render and walk in a process of its own.
+class Programs {
+ public:
+  Programs(std::filesystem::path folder, int walkFrames) : folder_(std::move(folder)), walkFrames_(walkFrames) {}
+
+  Result<RenderCost> render(const StudyRender& r) const {
+    std::vector<std::string> words = {"render", r.scene.string(), "--size", fmt::format("{}x{}", r.width, r.height), "--technique", r.technique, "--samples", fmt::format("{}", r.samples), "--seed", fmt::format("{}", r.seed), "-o", r.picture.string()};
+    if (r.timeLimitS > 0) words.insert(words.end(), {"--time-limit", fmt::format("{}", r.timeLimitS)});
+    if (!r.camera.empty()) words.insert(words.end(), {"--camera", r.camera});
+    const Result<nlohmann::json> stats = run(words, r.lighting, r.settings);
+    if (!stats) return Error{stats.error()};
+    RenderCost cost;
+    for (const nlohmann::json& s : stats.value()["stages"]) {
+      const std::string name = s["name"];
+      if (name == "write") continue;
+      cost.memoryMiB = std::max(cost.memoryMiB, s["peakMemoryMiB"].get<double>());
+      if (name == "load") continue;
+      cost.stages.emplace_back(name, s["timeMs"].get<double>() / 1e3);
+      cost.seconds += s["timeMs"].get<double>() / 1e3, cost.processorSeconds += s["cpuMs"].get<double>() / 1e3;
+    }
+    cost.samples = stats.value()["numbers"].value("samples", 0.0);
+    return cost;
+  }
+
+  Result<WalkCost> walk(const StudyWalk& w) const {
+    const std::vector<std::string> words = {"walk", w.scene.string(), "--walk", w.walk.string(), "--size", fmt::format("{}x{}", w.width, w.height), "--technique", w.technique, "--samples", "1", "--frames", fmt::format("{}", walkFrames_)};
+    const Result<nlohmann::json> stats = run(words, w.lighting, w.settings);
+    if (!stats) return Error{stats.error()};
+    const nlohmann::json& j = stats.value();
+    return WalkCost{j.value("frames", 0), j.value("framesPerSecond", 0.0), j.value("updateMs", 0.0), j.value("pictureMs", 0.0)};
+  }
+
+ private:
+  Result<nlohmann::json> run(std::vector<std::string> words, const std::filesystem::path& lighting, const std::string& settings) const {
+    const std::filesystem::path settingsFile = folder_ / "settings.json", stats = folder_ / "stats.json";
+    if (const Status s = writeTextFile(settingsFile, settings); !s) return Error{s.error()};
+    if (!lighting.empty()) words.insert(words.end(), {"--lighting", lighting.string()});
+    words.insert(words.end(), {"--settings", settingsFile.string(), "--stats", stats.string(), "--quiet"});
+    if (const Status s = runThisProgram(words, &interrupted()); !s) return Error{s.error()};
+    const Result<std::string> text = readTextFile(stats);
+    if (!text) return Error{text.error()};
+    nlohmann::json read = nlohmann::json::parse(text.value(), nullptr, false);
+    if (!read.is_object()) return Error{fmt::format("{}: is not what was expected", stats.string())};
+    return read;
+  }
+
+  std::filesystem::path folder_;
+  int walkFrames_;
+};
+
+// One line that says how far it is, on a terminal over the last one.
+class Line {
+ public:
+  explicit Line(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~Line() {
+    if (terminal_ && !quiet_ && !last_.empty()) fmt::print(stderr, "\n");
+  }
+  void show(const std::string& now, double done, double left) {
+    if (quiet_ || (now == last_ && !terminal_)) return;
+    last_ = now;
+    const std::string time = left < 0 ? "" : left < 90 ? fmt::format(", {:.0f} s left", left)
+                                                       : fmt::format(", {:.0f} min left", left / 60);
+    fmt::print(stderr, "{}{:3.0f} %{}  {}{}", terminal_ ? "\r\x1b[K" : "", 100 * done, time, now, terminal_ ? "" : "\n");
+    std::fflush(stderr);
+  }
+
+ private:
+  bool quiet_, terminal_;
+  std::string last_;
+};
+
+Status writeReports(const std::filesystem::path& folder, const StudyHeader& header, const StudyResults& results) {
+  const Result<std::string> html = studyHtml(header, results, folder / "runs");
+  if (!html) return Error{html.error()};
+  if (const Status s = writeTextFile(folder / "study.html", html.value()); !s) return s;
+  if (const Status s = writeTextFile(folder / "study.csv", studyCsv(results)); !s) return s;
+  if (const Status s = writeTextFile(folder / "study.md", studyMarkdown(header, results)); !s) return s;
+  return writeTextFile(folder / "study.json", studyJson(header, results));
+}
+
+int runStudyCommand(const Options& o) {
+  interrupted();
+  Result<StudyPlan> plan = readStudyFile(o.plan);
+  if (!plan) return bad(plan.error());
+  if (const Status s = narrow(o, plan.value()); !s) return bad(s.error());
+  const Result<StudySettings> settings = settingsOf(o);
+  if (!settings) return bad(settings.error());
+  double load = 0;
+  getloadavg(&load, 1);
+  if (load > 0.7 && !o.quiet) printWarnings({fmt::format("the machine is busy (load {:.1f}): times will be longer than they need be", load)});
+
+  const std::filesystem::path folder = o.folder;
+  const Result<RunStore> store = RunStore::open(folder / "runs");
+  if (!store) return bad(store.error(), kFailed);
+  if (const Status s = writeDimLamps(plan.value(), store.value()); !s) return bad(s.error());
+  const StudyHeader header = headerOf(settings.value(), plan.value(), load);
+  const Programs programs(folder, settings.value().walkFrames);
+  const StudyTools tools{[&](const StudyRender& r) { return programs.render(r); }, [&](const StudyWalk& w) { return programs.walk(w); }};
+  Status written = Ok{};
+  Result<StudyResults> results = Error{""};
+  {
+    Line line(o.quiet);
+    const StudyProgress progress{[&](const std::string& now, double done, double left) { line.show(now, done, left); }, &interrupted()};
+    results = runStudy(plan.value(), settings.value(), store.value(), tools, progress, [&](const StudyResults& soFar) {
+      if (written) written = writeReports(folder, header, soFar);
+    });
+  }
+  if (!results) return bad(results.error(), kFailed);
+  if (!written) return bad(written.error(), kFailed);
+  for (const StudyVerdict& v : studyVerdicts(results.value())) {
+    if (!o.quiet) fmt::print("{:<7} {}: {}\n", v.met ? "met" : "missed", v.asked, v.measured);
+  }
+  if (!o.quiet) fmt::print("wrote {}\n", (folder / "study.html").string());
+  if (!results.value().complete) return bad("interrupted; started again with the same folder, the study goes on", kInterrupted);
+  return kOk;
+}
+
+}  // namespace
+
+Registered addStudy(CLI::App& program) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("study", "Compare techniques: error, time, frames a second and memory, on scenes in several lights");
+  app->add_option("PLAN", o->plan, "Study file: scenes, lights, walks, techniques (docs/formats/study.md)")->required();
+  app->add_option("-o,--output", o->folder, "Folder for study.html, .json, .csv, .md and all pictures; what it holds of the same is not measured again")->required();
+  app->add_option("--technique", o->techniques, "Only this one of the plan's, by its name; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--only", o->only, "Only where SCENE/LIGHT holds this text");
+  app->add_option("--runs", o->runs, "Runs of every picture, in turn with the others; the median time counts")->capture_default_str()->check(CLI::Range(1, 100));
+  app->add_option("--size", o->size, "Of pictures")->capture_default_str();
+  app->add_option("--walk-size", o->walkSize, "Of frames")->capture_default_str();
+  app->add_option("--most-seconds", o->mostSeconds, "A picture that would take longer ends the curve")->capture_default_str()->check(CLI::Range(0.1, 1e6));
+  app->add_option("--reference-seconds", o->referenceSeconds, "For the references of one view, at most")->capture_default_str()->check(CLI::Range(1.0, 1e6));
+  app->add_option("--external", o->externals, "NAME=picture.exr,SECONDS of another renderer, linear and of the same view and size; NAME@SCENE/LIGHT=... where there are several; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_flag("--quick", o->quick, "Two scenes in their first light, small: whether all works, in minutes");
+  app->add_flag("--quiet", o->quiet, "Only errors");
+  app->footer(
+      "Ctrl-C stops; the same command goes on where it was.\n"
+      "Example:\n"
+      "  roomlight study homes.json -o out/study --runs 3");
+  return {app, [o] { return runStudyCommand(*o); }};
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,253 @@
+// A study for people: one page on its own.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "base/html.h"
+#include "base/image_io.h"
+#include "base/tone.h"
+#include "compare/compare.h"
+#include "study/plots.h"
+#include "study/published.h"
+#include "study/report.h"
+
+namespace roomlight {
+namespace {
+
+constexpr size_t kPictureBytes = 22'000, kDifferenceBytes = 12'000;
+constexpr int kWidestPicture = 480;
+
+constexpr const char* kStyle = R"(
+:root{--ink:#1d2530;--soft:#5d6876;--line:#dfe3e8;--good:#1a7f4b;--bad:#b3362b}
+*{box-sizing:border-box}
+body{margin:0;background:#f3f4f6;color:var(--ink);font:15px/1.5 "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif}
+main{max-width:1240px;margin:0 auto;background:#fff;padding:44px 56px 36px}
+h1{font-size:30px;font-weight:600;margin:0 0 4px}
+h2{font-size:21px;font-weight:600;margin:44px 0 8px;padding-top:18px;border-top:1px solid var(--line)}
+h3{font-size:16px;font-weight:600;margin:26px 0 4px}
+p{margin:4px 0 10px;max-width:76ch}p.soft,.soft{color:var(--soft);font-size:13.5px}
+table{border-collapse:collapse;margin:8px 0 4px;font-variant-numeric:tabular-nums;font-size:14px}
+th{font-weight:600;font-size:12px;color:var(--soft);text-align:right;border-bottom:1px solid var(--ink);padding:4px 9px;vertical-align:bottom}
+td{text-align:right;border-bottom:1px solid var(--line);padding:5px 9px}
+th:first-child,td:first-child,td.l,th.l{text-align:left}th:first-child,td:first-child{padding-left:0}
+.wide{overflow-x:auto}
+.met{color:var(--good);font-weight:600;white-space:nowrap}.missed{color:var(--bad);font-weight:600;white-space:nowrap}
+td.best{font-weight:700}
+.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:14px 30px}
+.plots h3{margin:12px 0 0}svg{width:100%;height:auto;display:block}
+svg text{font:12px "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif;fill:var(--ink)}
+svg .grid{stroke:#e4e7eb}svg .published{stroke:#111;stroke-width:2}
+.key{display:flex;gap:6px 18px;flex-wrap:wrap;margin:6px 0 10px;font-size:13.5px}.key i{display:inline-block;width:22px;height:0;border-top:3px solid;vertical-align:middle;margin-right:6px}
+.sheet{display:grid;grid-template-columns:repeat(auto-fill,minmax(210px,1fr));gap:12px;margin:8px 0 6px}
+.sheet figure{margin:0}.sheet img{width:100%;display:block}.sheet img+img{margin-top:2px}
+.sheet figcaption{font-size:12.5px;line-height:1.35;margin-top:3px}.sheet figcaption span{color:var(--soft)}
+details{margin:6px 0}summary{cursor:pointer}
+footer{margin-top:36px;padding-top:14px;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
+@media print{body{background:#fff}main{padding:0;max-width:none}}
+)";
+
+std::string seconds(double s) { return s < 9.95 ? fmt::format("{:.2f}", s) : fmt::format("{:.0f}", s); }
+
+// Half as wide as long as that is wide enough.
+Image smaller(Image image) {
+  while (image.width > kWidestPicture && image.width % 2 == 0 && image.height % 2 == 0) {
+    Image half(image.width / 2, image.height / 2);
+    for (int y = 0; y < half.height; ++y) {
+      for (int x = 0; x < half.width; ++x) half.at(x, y) = (image.at(2 * x, 2 * y) + image.at(2 * x + 1, 2 * y) + image.at(2 * x, 2 * y + 1) + image.at(2 * x + 1, 2 * y + 1)) * 0.25f;
+    }
+    image = std::move(half);
+  }
+  return image;
+}
+
+// Pictures of one case: read once, shown with the exposure of its reference.
+class Sheet {
+ public:
+  Sheet(const StudyCase& c, std::filesystem::path folder) : case_(c), folder_(std::move(folder)) {}
+
+  Result<std::string> html() {
+    const Result<Image> first = readImage(folder_ / case_.first), second = readImage(folder_ / case_.second);
+    if (!first) return Error{first.error()};
+    if (!second) return Error{second.error()};
+    reference_ = meanOf(first.value(), second.value());
+    ev100_ = automaticEv100(reference_);
+    std::string s = "<div class=\"sheet\">";
+    Result<std::string> one = figure("reference", fmt::format("{:.0f} samples a pixel", case_.referenceSamples), reference_, false);
+    if (!one) return one;
+    s += one.value();
+    for (const StudyCurve& c : case_.curves) {
+      if (c.points.empty()) continue;
+      const StudyPoint& p = settledPoint(c);
+      one = figureOf(c.technique, fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(p.seconds), errorOf(p), p.meanErrorPercent), p.picture);
+      if (!one) return one;
+      s += one.value();
+    }
+    for (const StudyExternal& e : case_.externals) {
+      one = figureOf(e.name, fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(e.seconds), e.mseBeyondNoise, e.meanErrorPercent), e.picture);
+      if (!one) return one;
+      s += one.value();
+    }
+    return s + "</div>\n";
+  }
+
+ private:
+  Result<std::string> embedded(const std::string& name, const Image& encoded, size_t bytes) const {
+    const std::filesystem::path file = folder_ / (fileNameOf(name) + ".jpg");
+    if (const Status s = writeJpeg(file, smaller(encoded), bytes); !s) return Error{s.error()};
+    std::ifstream in(file, std::ios::binary);
+    const std::vector<char> content{std::istreambuf_iterator<char>(in), {}};
+    return "data:image/jpeg;base64," + base64(content);
+  }
+  Result<std::string> figureOf(const std::string& title, const std::string& words, const std::string& picture) const {
+    const Result<Image> image = readImage(folder_ / picture);
+    if (!image) return Error{image.error()};
+    return figure(title, words, image.value(), true);
+  }
+  Result<std::string> figure(const std::string& title, const std::string& words, const Image& image, bool difference) const {
+    const std::string name = fmt::format("{} {} {} shown", case_.scene, case_.light, title);
+    const Result<std::string> shown = embedded(name, toneMap(image, ev100_, ToneCurve::Clip), kPictureBytes);
+    if (!shown) return shown;
+    std::string s = fmt::format("<figure><img alt=\"{0}\" src=\"{1}\">", htmlEscaped(title), shown.value());
+    if (difference) {
+      const Result<std::string> error = embedded(name + " difference", differencePicture(reference_, image), kDifferenceBytes);
+      if (!error) return error;
+      s += fmt::format("<img alt=\"where {} is off\" src=\"{}\">", htmlEscaped(title), error.value());
+    }
+    return s + fmt::format("<figcaption><b>{}</b><br><span>{}</span></figcaption></figure>", htmlEscaped(title), words);
+  }
+
+  const StudyCase& case_;
+  std::filesystem::path folder_;
+  Image reference_;
+  float ev100_ = 0;
+};
+
+std::string key(const std::vector<StudyCurve>& curves) {
+  std::string s = "<div class=\"key\">";
+  for (size_t i = 0; i < curves.size(); ++i) {
+    s += fmt::format("<span><i style=\"border-color:{}{}\"></i>{}</span>", colourOf(curves, i), curves[i].technique.find(',') != std::string::npos ? ";border-top-style:dashed" : "", htmlEscaped(curves[i].technique));
+  }
+  return s + "</div>\n";
+}
+
+std::string verdictTable(const StudyResults& r) {
+  std::string s = "<table><tr><th>asked</th><th class=l>measured</th><th></th></tr>";
+  for (const StudyVerdict& v : studyVerdicts(r)) s += fmt::format("<tr><td>{}</td><td class=l>{}</td><td class=\"{}\">{}</td></tr>\n", htmlEscaped(v.asked), htmlEscaped(v.measured), v.met ? "met" : "missed", v.met ? "✓ met" : "✗ missed");
+  return s + "</table>\n";
+}
+
+// A table of one number a technique and case, the least of a row in bold where `bold`.
+std::string matrix(const StudyResults& r, const std::function<std::string(const StudyCurve&, const StudyCase&)>& text, const std::function<double(const StudyCurve&)>& value) {
+  std::string s = "<div class=wide><table><tr><th>scene, light</th>";
+  for (const StudyCurve& c : r.cases.front().curves) s += fmt::format("<th>{}</th>", htmlEscaped(c.technique));
+  s += "</tr>\n";
+  for (const StudyCase& c : r.cases) {
+    double least = 1e30;
+    for (const StudyCurve& curve : c.curves) {
+      if (curve.kind != "judge" && !curve.points.empty()) least = std::min(least, value(curve));
+    }
+    s += fmt::format("<tr><td>{}</td>", htmlEscaped(c.scene + ", " + c.light));
+    for (const StudyCurve& curve : c.curves) {
+      if (curve.points.empty())
+        s += fmt::format("<td title=\"{}\">–</td>", htmlEscaped(curve.failed));
+      else
+        s += fmt::format("<td{}>{}</td>", value(curve) <= least && curve.kind != "judge" ? " class=best" : "", text(curve, c));
+    }
+    s += "</tr>\n";
+  }
+  return s + "</table></div>\n";
+}
+
+std::string tables(const StudyResults& r) {
+  std::string s = "<h2>Drawing time</h2><p>Seconds after loading until the error has settled: twice the samples a pixel take away less than a twentieth of it. &gt;: stopped by time while it still fell. Bold: the quickest, whatever its error.</p>";
+  s += matrix(
+      r, [](const StudyCurve& c, const StudyCase&) { return (hasSettled(c) ? "" : "&gt; ") + seconds(settledPoint(c).seconds); }, [](const StudyCurve& c) { return settledPoint(c).seconds; });
+  s += "<details><summary>Table 1 of the published study, seconds</summary><table><tr><th>scene</th>";
+  for (const auto& t : published::kTechniques) s += fmt::format("<th>{}</th>", t.name);
+  for (size_t i = 0; i < 6; ++i) {
+    s += fmt::format("</tr><tr><td>{}</td>", i + 1);
+    for (const auto& t : published::kTechniques) s += fmt::format("<td>{:.1f}</td>", t.drawingS[i]);
+  }
+  s += "</tr></table></details>\n<h2>Error where it settles</h2><p>Mean squared difference of the exposed, clipped and sRGB-encoded pictures, without what the reference's own noise adds. Published: cone .0034, vxgi .0051, lpv .0085, photon .0105. Bold: the least of all but the judge.</p>";
+  s += matrix(
+      r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.4f}", errorOf(settledPoint(c))); }, [](const StudyCurve& c) { return errorOf(settledPoint(c)); });
+  s += "<h2>Time to the error of <i>cone</i></h2><p>Seconds until a technique is as good as <i>cone</i> where that settles; between points of its curve along a straight line of logarithms. –: it never is.</p>";
+  const auto coneError = [](const StudyCase& c) {
+    for (const StudyCurve& curve : c.curves) {
+      if (curve.technique == "cone" && !curve.points.empty()) return errorOf(settledPoint(curve));
+    }
+    return 0.0;
+  };
+  s += matrix(
+      r,
+      [&](const StudyCurve& curve, const StudyCase& c) {
+        const auto t = secondsTo(curve, coneError(c));
+        return t ? seconds(*t) : std::string("–");
+      },
+      [](const StudyCurve&) { return 1e31; });
+  s += "<h2>Memory</h2><p>Peak of the process, MiB, the home included.</p>";
+  return s + matrix(
+                 r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.0f}", settledPoint(c).memoryMiB); }, [](const StudyCurve& c) { return settledPoint(c).memoryMiB; });
+}
+
+std::string errorOverTime(const StudyResults& r) {
+  std::string s = "<h2>Error over time</h2><p>Every point is a picture of its own with twice the samples of the one before. Large dots: where the error settles. Both axes are logarithmic; down and left is better.</p>" + key(r.cases.front().curves) + "<div class=plots>\n";
+  for (const StudyCase& c : r.cases) s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(c.scene + ", " + c.light), curvesSvg(c));
+  return s + "</div>\n";
+}
+
+std::string frames(const StudyResults& r) {
+  if (r.frames.empty()) return {};
+  std::string s = "<h2>Frames a second</h2><p>Along a recorded walk with moving objects, one sample a pixel a frame. Black ticks: the published frames (cone 36, vxgi 28, lpv 23, photon 7) in ratio to <i>cone</i>.</p><div class=plots>\n";
+  std::map<std::string, double> published;
+  for (const auto& t : published::kTechniques) published[t.name] = t.framesPerSecond;
+  std::vector<std::string> scenes;
+  for (const StudyFrames& f : r.frames) {
+    if (scenes.empty() || scenes.back() != f.scene) scenes.push_back(f.scene);
+  }
+  for (const std::string& scene : scenes) {
+    std::vector<Bar> bars;
+    for (const StudyFrames& f : r.frames) {
+      if (f.scene != scene || !f.failed.empty()) continue;
+      std::string colour = "#777777";
+      const auto& all = r.cases.front().curves;
+      for (size_t i = 0; i < all.size(); ++i) colour = all[i].technique == f.technique ? colourOf(all, i) : colour;
+      bars.push_back({f.technique, colour, f.cost.framesPerSecond, published.count(f.technique) ? published[f.technique] : 0});
+    }
+    s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(scene), barsSvg(bars, "/s"));
+  }
+  return s + "</div>\n";
+}
+
+Result<std::string> sheets(const StudyResults& r, const std::filesystem::path& folder) {
+  std::string s = "<h2>Pictures</h2><p>Each where it settles, all exposed like the reference and without a tone curve; below it where it is too bright (red) or too dark (blue): full colour is a difference of .25.</p>";
+  for (size_t i = 0; i < r.cases.size(); ++i) {
+    const StudyCase& c = r.cases[i];
+    const Result<std::string> sheet = Sheet(c, folder).html();
+    if (!sheet) return sheet;
+    s += fmt::format("<details{}><summary><b>{}</b> <span class=soft>reference: {:.0f} s, noise {:.5f}{}</span></summary>{}</details>\n", i < 3 ? " open" : "", htmlEscaped(c.scene + ", " + c.light), c.referenceS, c.noiseMse,
+                     c.referenceConverged ? "" : ", more than was asked", sheet.value());
+  }
+  return s;
+}
+
+}  // namespace
+
+Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, const std::filesystem::path& folder) {
+  std::string s = fmt::format("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>Study of techniques</title>\n<style>{}</style></head>\n<body><main>\n<h1>Study of techniques</h1>\n", kStyle);
+  if (!r.complete) s += "<p><b>Stopped early: this is a part.</b> Started again, the study goes on.</p>\n";
+  if (r.cases.empty()) return s + "<p>Nothing has been measured.</p></main></body></html>\n";
+  const Result<std::string> pictures = sheets(r, folder);
+  if (!pictures) return pictures;
+  s += verdictTable(r) + tables(r) + errorOverTime(r) + frames(r) + pictures.value();
+  s += "<h2>Machine and settings</h2><table>";
+  for (const auto& [name, value] : header) s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));
+  s += "</table>\n";
+  for (const std::string& remark : r.remarks) s += "<p class=soft>" + htmlEscaped(remark) + "</p>\n";
+  return s + "<footer>Times are medians of the runs; the runs of all techniques take turns.</footer>\n</main></body></html>\n";
+}
+
+}  // namespace roomlight

@@ -1,0 +1,283 @@
+#include "study/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/clock.h"
+#include "base/image_io.h"
+#include "compare/compare.h"
+
+namespace roomlight {
+namespace {
+
+nlohmann::json toJson(const RenderCost& c) {
+  auto stages = nlohmann::json::array();
+  for (const auto& [name, seconds] : c.stages) stages.push_back({name, seconds});
+  return {{"seconds", c.seconds}, {"processorSeconds", c.processorSeconds}, {"memoryMiB", c.memoryMiB}, {"samples", c.samples}, {"stages", stages}};
+}
+
+double number(const nlohmann::json& j, const char* key) { return j.contains(key) && j[key].is_number() ? j[key].get<double>() : 0; }
+
+nlohmann::json toJson(const Report& r) {
+  return {{"mse", r.mse}, {"mseBeyondNoise", r.mseBeyondNoise.value_or(r.mse)}, {"flip", r.flip}, {"meanErrorPercent", r.meanLuminanceErrorPercent}};
+}
+
+// Tells how much is done, by units of work that are known beforehand, and how long the rest will take by how long what was really measured took.
+class Pace {
+ public:
+  Pace(const StudyProgress& progress, size_t units) : progress_(progress), units_(std::max<size_t>(1, units)) {}
+  void now(const std::string& what, double partOfUnit = 0) {
+    const double done = (static_cast<double>(done_) + partOfUnit) / static_cast<double>(units_);
+    const double each = measured_ > 0 ? watch_.seconds() / measured_ : -1;
+    if (progress_.report) progress_.report(what, done, each < 0 ? -1 : each * (static_cast<double>(units_ - done_) - partOfUnit));
+  }
+  // `measured`: not found in the store.
+  void unit(bool measured) {
+    ++done_;
+    if (measured) ++measured_;
+  }
+
+ private:
+  const StudyProgress& progress_;
+  size_t units_, done_ = 0;
+  double measured_ = 0;
+  Stopwatch watch_;
+};
+
+// One scene in one light, measured or read from the store.
+class CaseStudy {
+ public:
+  CaseStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace)
+      : plan_(plan), settings_(settings), store_(store), tools_(tools), progress_(progress), pace_(pace) {}
+
+  Result<StudyCase> run(const StudyScene& scene, const StudyLight& light);
+
+ private:
+  StudyRender request(const StudyTechnique& t, int samples, const std::filesystem::path& picture) const {
+    StudyRender ask = view_;
+    ask.technique = t.technique, ask.settings = t.settings, ask.samples = samples, ask.picture = picture;
+    return ask;
+  }
+  std::string circumstances(const StudyTechnique& t, int samples) const {
+    return fmt::format("{} | {} | {} {} | {} samples", settings_.program, what_, t.technique, t.settings, samples);
+  }
+  std::string nameOf(const StudyTechnique& t, int samples) const { return fmt::format("{} {} {} {}", out_.scene, out_.light, t.name, samples); }
+
+  bool explore(const StudyTechnique& t, StudyCurve& curve);
+  Result<nlohmann::json> errorOfPicture(const std::string& name, const std::string& circumstances, const std::filesystem::path& picture) const;
+  Result<StudyPoint> point(const StudyTechnique& t, int samples, bool& measured);
+  bool timeAgain(const StudyTechnique& t, StudyCurve& curve, int run);
+  Status addExternals();
+  void sumUp();
+
+  const StudyPlan& plan_;
+  const StudySettings& settings_;
+  const RunStore& store_;
+  const StudyTools& tools_;
+  const StudyProgress& progress_;
+  Pace& pace_;
+  StudyCase out_;
+  StudyRender view_;
+  std::string what_;  // scene, light and size: what every result depends on
+  Reference reference_;
+};
+
+// Against the reference as it is now: it may have become better since.
+Result<nlohmann::json> CaseStudy::errorOfPicture(const std::string& name, const std::string& circumstances, const std::filesystem::path& picture) const {
+  const std::string now = circumstances + fmt::format(" | reference of {:.0f} samples", reference_.samples);
+  if (const auto kept = store_.find(name + " error", now)) return *kept;
+  const Result<Image> image = readImage(picture);
+  if (!image) return Error{image.error()};
+  const Result<Report> report = compare(reference_.first, reference_.second, image.value());
+  if (!report) return Error{fmt::format("{}: {}", picture.string(), report.error())};
+  const nlohmann::json error = toJson(report.value());
+  if (const Status s = store_.keep(name + " error", now, error); !s) return Error{s.error()};
+  return error;
+}
+
+// The picture with so many samples: its first run, and its error.
+Result<StudyPoint> CaseStudy::point(const StudyTechnique& t, int samples, bool& measured) {
+  const std::string name = nameOf(t, samples), circumstances = this->circumstances(t, samples);
+  const std::filesystem::path picture = store_.file(name, ".exr");
+  std::optional<nlohmann::json> cost = store_.find(name, circumstances);
+  if (!cost || !std::filesystem::exists(picture)) {
+    measured = true;
+    const Result<RenderCost> made = tools_.render(request(t, samples, picture));
+    if (!made) return Error{made.error()};
+    cost = toJson(made.value());
+    if (const Status s = store_.keep(name, circumstances, *cost); !s) return Error{s.error()};
+  }
+  const Result<nlohmann::json> error = errorOfPicture(name, circumstances, picture);
+  if (!error) return Error{error.error()};
+  StudyPoint p;
+  p.samples = samples;
+  p.runsS = {number(*cost, "seconds")};
+  p.seconds = p.runsS[0];
+  p.processorSeconds = number(*cost, "processorSeconds"), p.memoryMiB = number(*cost, "memoryMiB");
+  p.mse = number(error.value(), "mse"), p.mseBeyondNoise = number(error.value(), "mseBeyondNoise");
+  p.flip = number(error.value(), "flip"), p.meanErrorPercent = number(error.value(), "meanErrorPercent");
+  p.picture = picture.filename().string();
+  return p;
+}
+
+// Twice the samples each time until the error settles. Whether anything was measured.
+bool CaseStudy::explore(const StudyTechnique& t, StudyCurve& curve) {
+  bool measured = false;
+  for (int samples = 1; samples <= settings_.mostSamples && !progress_.stop(); samples *= 2) {
+    pace_.now(fmt::format("{}, {}: {}, {} samples", out_.scene, out_.light, t.name, samples));
+    Result<StudyPoint> p = point(t, samples, measured);
+    if (!p) {
+      if (!progress_.stop()) curve.failed = p.error();
+      break;
+    }
+    curve.points.push_back(std::move(p.value()));
+    const size_t n = curve.points.size();
+    const double grows = n < 2 ? 1 : curve.points[n - 1].seconds / curve.points[n - 2].seconds;
+    if (hasSettled(curve) || curve.points.back().seconds * std::clamp(grows, 1.0, 2.0) > settings_.mostSeconds) break;
+  }
+  return measured;
+}
+
+bool CaseStudy::timeAgain(const StudyTechnique& t, StudyCurve& curve, int run) {
+  bool measured = false;
+  for (StudyPoint& p : curve.points) {
+    if (progress_.stop()) break;
+    const std::string name = fmt::format("{} run {}", nameOf(t, p.samples), run + 1), circumstances = this->circumstances(t, p.samples);
+    std::optional<nlohmann::json> kept = store_.find(name, circumstances);
+    if (!kept) {
+      pace_.now(fmt::format("{}, {}: {}, {} samples, run {}", out_.scene, out_.light, t.name, p.samples, run + 1));
+      measured = true;
+      const std::filesystem::path picture = store_.file("again", ".exr");
+      const Result<RenderCost> cost = tools_.render(request(t, p.samples, picture));
+      std::error_code ignored;
+      std::filesystem::remove(picture, ignored);
+      if (!cost) {
+        if (!progress_.stop()) curve.failed = cost.error();
+        break;
+      }
+      kept = toJson(cost.value());
+      if (!store_.keep(name, circumstances, *kept)) break;
+    }
+    p.runsS.push_back(number(*kept, "seconds"));
+  }
+  return measured;
+}
+
+Status CaseStudy::addExternals() {
+  for (const ExternalPicture& e : settings_.externals) {
+    if ((!e.scene.empty() && e.scene != out_.scene) || (!e.light.empty() && e.light != out_.light)) continue;
+    const Result<Image> image = readImage(e.file);
+    if (!image) return Error{image.error()};
+    const Result<Report> r = compare(reference_.first, reference_.second, image.value());
+    if (!r) return Error{fmt::format("--external {}: {}", e.name, r.error())};
+    const std::filesystem::path copy = store_.file(fmt::format("{} {} external {}", out_.scene, out_.light, e.name), ".exr");
+    if (const Status s = writeExr(copy, image.value(), {}); !s) return s;
+    out_.externals.push_back({e.name, e.seconds, r.value().mse, r.value().mseBeyondNoise.value_or(r.value().mse), r.value().flip, r.value().meanLuminanceErrorPercent, copy.filename().string()});
+  }
+  return Ok{};
+}
+
+void CaseStudy::sumUp() {
+  for (StudyCurve& curve : out_.curves) {
+    for (StudyPoint& p : curve.points) p.seconds = medianOf(p.runsS);
+  }
+}
+
+Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& light) {
+  out_.scene = scene.name, out_.light = light.name, out_.lighting = light.lighting.filename().string();
+  view_.scene = scene.file, view_.lighting = light.lighting, view_.camera = scene.camera, view_.width = settings_.width, view_.height = settings_.height;
+  what_ = fmt::format("{} {} | {} | {}x{}", scene.file.filename().string(), contentHash(scene.file), light.lighting.empty() ? "own light" : contentHash(light.lighting), view_.width, view_.height) +
+          (scene.camera.empty() ? "" : " | camera " + scene.camera);
+  const std::string name = fmt::format("{} {} reference", scene.name, light.name), doing = fmt::format("{}, {}: reference", scene.name, light.name);
+  pace_.now(doing);
+  bool made = false;
+  Result<Reference> reference = makeReference(store_, name, what_, view_, settings_.reference, tools_, progress_, [&](double part) { made = true, pace_.now(doing, part); });
+  if (!reference) return Error{reference.error()};
+  pace_.unit(made);
+  reference_ = std::move(reference.value());
+  out_.first = reference_.firstFile.filename(), out_.second = reference_.secondFile.filename();
+  out_.noiseMse = reference_.noiseMse, out_.referenceS = reference_.seconds, out_.referenceSamples = reference_.samples, out_.referenceConverged = reference_.converged;
+
+  for (const StudyTechnique& t : plan_.techniques) {
+    out_.curves.push_back({t.name, t.kind, {}, {}});
+    pace_.unit(explore(t, out_.curves.back()));
+  }
+  // In turn: what else the machine does meanwhile meets all techniques alike.
+  for (int run = 1; run < settings_.runs; ++run) {
+    for (size_t i = 0; i < plan_.techniques.size(); ++i) pace_.unit(timeAgain(plan_.techniques[i], out_.curves[i], run));
+  }
+  sumUp();
+  if (const Status s = addExternals(); !s) return Error{s.error()};
+  return std::move(out_);
+}
+
+StudyFrames framesOf(const StudyScene& scene, const StudyTechnique& t, const StudySettings& settings, const RunStore& store, const StudyTools& tools, bool& measured) {
+  StudyFrames out{scene.name, t.name, t.kind, {}, {}};
+  const std::filesystem::path lighting = scene.lights.front().lighting;
+  const std::string name = fmt::format("{} walk {}", scene.name, t.name);
+  const std::string circumstances = fmt::format("{} | {} | {} | {} | {} {} | {}x{}, {} frames", settings.program, contentHash(scene.file), contentHash(lighting), contentHash(scene.walk), t.technique, t.settings,
+                                                settings.walkWidth, settings.walkHeight, settings.walkFrames);
+  std::optional<nlohmann::json> kept = store.find(name, circumstances);
+  if (!kept) {
+    measured = true;
+    const Result<WalkCost> cost = tools.walk({scene.file, lighting, scene.walk, settings.walkWidth, settings.walkHeight, t.technique, t.settings});
+    if (!cost) {
+      out.failed = cost.error();
+      return out;
+    }
+    kept = nlohmann::json{{"frames", cost.value().frames}, {"framesPerSecond", cost.value().framesPerSecond}, {"updateMs", cost.value().updateMs}, {"pictureMs", cost.value().pictureMs}};
+    if (const Status s = store.keep(name, circumstances, *kept); !s) out.failed = s.error();
+  }
+  out.cost = {static_cast<int>(number(*kept, "frames")), number(*kept, "framesPerSecond"), number(*kept, "updateMs"), number(*kept, "pictureMs")};
+  return out;
+}
+
+}  // namespace
+
+Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress,
+                              const std::function<void(const StudyResults&)>& soFar) {
+  size_t units = 0;
+  for (const StudyScene& s : plan.scenes) {
+    units += s.lights.size() * (1 + plan.techniques.size() * static_cast<size_t>(settings.runs));
+    if (!s.walk.empty() && tools.walk) units += plan.techniques.size();
+  }
+  Pace pace(progress, units);
+  StudyResults results;
+  for (const StudyScene& scene : plan.scenes) {
+    for (const StudyLight& light : scene.lights) {
+      if (progress.stop()) break;
+      Result<StudyCase> one = CaseStudy(plan, settings, store, tools, progress, pace).run(scene, light);
+      if (!one && progress.stop()) break;
+      if (!one) return Error{one.error()};
+      for (const StudyCurve& c : one.value().curves) {
+        if (!c.failed.empty()) results.remarks.push_back(fmt::format("{}, {}: {}: {}", scene.name, light.name, c.technique, c.failed));
+      }
+      results.cases.push_back(std::move(one.value()));
+      if (soFar) soFar(results);
+    }
+  }
+  for (const StudyScene& scene : plan.scenes) {
+    if (scene.walk.empty() || !tools.walk) continue;
+    for (const StudyTechnique& t : plan.techniques) {
+      if (progress.stop()) break;
+      pace.now(fmt::format("{}: frames a second, {}", scene.name, t.name));
+      bool measured = false;
+      results.frames.push_back(framesOf(scene, t, settings, store, tools, measured));
+      if (!results.frames.back().failed.empty()) {
+        if (progress.stop())
+          results.frames.pop_back();
+        else
+          results.remarks.push_back(fmt::format("{}: walk: {}: {}", scene.name, t.name, results.frames.back().failed));
+      }
+      pace.unit(measured);
+    }
+  }
+  results.complete = !progress.stop();
+  if (soFar) soFar(results);
+  return results;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,119 @@
+// { "version": 1, "comment",
+//   "scenes": [ { "name", "scene": "flat.sh3d", "camera": "Kitchen" | 2, "lights": [ { "name", "lighting": "day.json" | "dimLamp": "150 lm" } ], "walk": "walk.json" } ],
+//   "techniques": [ { "name", "technique", "settings": { .. }, "kind": "ours" | "rival" | "judge" } ] }
+#include "study/study_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/render.h"
+#include "engine/settings.h"
+#include "import/json_file.h"
+#include "import/json_reader.h"
+
+namespace roomlight {
+namespace {
+
+constexpr size_t kMostEntries = 1000;
+
+std::filesystem::path fileAt(const JsonPlace& j, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / j.text();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) j.fail(fmt::format("{}: no such file", file.string()));
+  return file;
+}
+
+template <class T>
+void refuseTwins(const JsonPlace& j, const std::vector<T>& list) {
+  std::set<std::string> names;
+  for (size_t i = 0; i < list.size(); ++i) {
+    if (list[i].name.empty()) j[i]["name"].fail("is empty");
+    if (!names.insert(list[i].name).second) j[i]["name"].fail(fmt::format("'{}' is there twice", list[i].name));
+  }
+}
+
+template <class Read>
+auto readList(const JsonPlace& j, Read read) {
+  std::vector<decltype(read(j))> list;
+  const size_t n = j.arraySize();
+  if (n < 1 || n > kMostEntries) {
+    j.fail(fmt::format("must have from 1 to {} entries", kMostEntries));
+    return list;
+  }
+  for (size_t i = 0; i < n; ++i) list.push_back(read(j[i]));
+  refuseTwins(j, list);
+  return list;
+}
+
+StudyLight readLight(const JsonPlace& j, const std::filesystem::path& folder) {
+  StudyLight light;
+  if (!j.isObject({"name", "lighting", "dimLamp"})) return light;
+  light.name = j["name"].text();
+  if (j.has("lighting") && j.has("dimLamp")) j.fail("give one of lighting, dimLamp");
+  if (j.has("lighting")) light.lighting = fileAt(j["lighting"], folder);
+  if (j.has("dimLamp")) light.dimLampLm = j["dimLamp"].quantity(Unit::Lumen, 0.01, 1e6);
+  return light;
+}
+
+StudyScene readScene(const JsonPlace& j, const std::filesystem::path& folder) {
+  StudyScene scene;
+  if (!j.isObject({"name", "scene", "camera", "lights", "walk"})) return scene;
+  scene.name = j["name"].text();
+  scene.file = fileAt(j["scene"], folder);
+  if (j.has("camera")) scene.camera = j["camera"].isNumber() ? fmt::format("{:.0f}", j["camera"].number(0, 1e6)) : j["camera"].text();
+  scene.lights = readList(j["lights"], [&](const JsonPlace& light) { return readLight(light, folder); });
+  if (j.has("walk")) scene.walk = fileAt(j["walk"], folder);
+  return scene;
+}
+
+StudyTechnique readTechnique(const JsonPlace& j) {
+  StudyTechnique t;
+  if (!j.isObject({"name", "technique", "settings", "kind"})) return t;
+  t.name = j["name"].text();
+  t.technique = j["technique"].text();
+  const auto known = techniques();
+  if (std::none_of(known.begin(), known.end(), [&](const auto& k) { return k.first == t.technique; })) j["technique"].fail(fmt::format("unknown technique '{}'", t.technique));
+  if (j.has("kind")) t.kind = j["kind"].oneOf({"ours", "rival", "judge"});
+  if (j.has("settings")) {
+    t.settings = j["settings"].json();
+    const Result<RenderSettings> read = settingsFromJson(t.settings, j["settings"].path());
+    if (!read) j["settings"].fail(read.error());
+  }
+  return t;
+}
+
+}  // namespace
+
+std::vector<StudyTechnique> usualTechniques() {
+  return {{"cone", "cone", "{}", "ours"},
+          {"hybrid", "hybrid", "{}", "ours"},
+          {"hybrid, draft", "hybrid", R"({"quality": "draft"})", "ours"},
+          {"vxgi", "vxgi"},
+          {"lpv", "lpv"},
+          {"lpv, 256 steps", "lpv", R"({"lpv": {"steps": 256}})"},
+          {"photon", "photon"},
+          {"photon, no gathering", "photon", R"({"photon": {"finalGather": 0}})"},
+          {"path", "path", "{}", "judge"},
+          {"path, filtered", "path", R"({"path": {"filter": true}})", "judge"}};
+}
+
+Result<StudyPlan> readStudyFile(const std::filesystem::path& file) {
+  const Result<nlohmann::json> document = readJsonFile(file);
+  if (!document) return Error{document.error()};
+  std::string error;
+  const JsonPlace j(document.value(), "", error);
+  const std::filesystem::path folder = file.parent_path();
+  StudyPlan plan;
+  if (j.isObject({"version", "comment", "scenes", "techniques"})) {
+    if (j.has("version") && j["version"].number(1, 1e6) != 1) j["version"].fail("must be 1");
+    if (j.has("comment")) j["comment"].text();
+    plan.scenes = readList(j["scenes"], [&](const JsonPlace& scene) { return readScene(scene, folder); });
+    plan.techniques = j.has("techniques") ? readList(j["techniques"], readTechnique) : usualTechniques();
+  }
+  if (!error.empty()) return Error{fmt::format("{}: {}", file.string(), error)};
+  return plan;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "study/published.h"
+#include "study/report.h"
+
+namespace roomlight {
+namespace {
+
+const StudyCurve* curveOf(const StudyCase& c, const std::string& technique) {
+  const auto found = std::find_if(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) { return curve.technique == technique && !curve.points.empty(); });
+  return found == c.curves.end() ? nullptr : &*found;
+}
+
+std::string place(const StudyCase& c) { return c.scene + ", " + c.light; }
+
+std::string listOf(const std::vector<std::string>& names) {
+  std::string s;
+  for (const std::string& n : names) s += (s.empty() ? "" : "; ") + n;
+  return s;
+}
+
+StudyVerdict settles(const StudyResults& r) {
+  const double wanted = published::kTechniques[0].settledMse;
+  int met = 0, cases = 0;
+  double worst = 0;
+  std::string where;
+  for (const StudyCase& c : r.cases) {
+    const StudyCurve* cone = curveOf(c, "cone");
+    if (!cone) continue;
+    const double e = errorOf(settledPoint(*cone));
+    ++cases, met += e <= wanted;
+    if (e >= worst) worst = e, where = place(c);
+  }
+  return {fmt::format("cone settles at an mse of at most {} everywhere", wanted), fmt::format("{} of {}; largest {:.4f}, {}", met, cases, worst, where), met == cases && cases > 0};
+}
+
+StudyVerdict below(const StudyResults& r) {
+  std::vector<std::string> lost;
+  int cases = 0;
+  for (const StudyCase& c : r.cases) {
+    const StudyCurve* cone = curveOf(c, "cone");
+    if (!cone) continue;
+    ++cases;
+    for (const StudyCurve& rival : c.curves) {
+      if (rival.kind != "rival" || rival.points.empty()) continue;
+      const double e = errorOf(settledPoint(rival)), own = errorOf(settledPoint(*cone));
+      if (e < own) lost.push_back(fmt::format("{} ({:.4f}, cone {:.4f}): {}", rival.technique, e, own, place(c)));
+    }
+  }
+  return {"cone settles below each rival everywhere", lost.empty() ? fmt::format("in all {}", cases) : "not below " + listOf(lost), lost.empty() && cases > 0};
+}
+
+// Of the scene that is named last: scenes grow.
+std::vector<StudyVerdict> ratios(const StudyResults& r) {
+  std::vector<StudyVerdict> out;
+  if (r.cases.empty()) return out;
+  for (size_t i = 1; i < published::kTechniques.size(); ++i) {
+    const auto& rival = published::kTechniques[i];
+    const double wanted = published::kTechniques[0].drawingS[5] / rival.drawingS[5];
+    std::string measured;
+    bool met = true, any = false;
+    for (const StudyCase& c : r.cases) {
+      const StudyCurve *cone = curveOf(c, "cone"), *other = curveOf(c, rival.name);
+      if (c.scene != r.cases.back().scene || !cone || !other) continue;
+      const double ratio = *timeRatioAtEqualError(*cone, *other);
+      measured += fmt::format("{}{} {:.2f}", measured.empty() ? "" : "; ", c.light, ratio);
+      met = met && ratio <= wanted, any = true;
+    }
+    if (any) out.push_back({fmt::format("time at equal error, {}: cone over {} at most {:.2f}", r.cases.back().scene, rival.name, wanted), measured, met});
+  }
+  return out;
+}
+
+// The quickest of hybrid's ways over the quickest of all others that are not the judge, each pair at the least error that both reach.
+StudyVerdict hybridFirst(const StudyResults& r) {
+  int met = 0, cases = 0;
+  double worst = 0;
+  std::string where;
+  for (const StudyCase& c : r.cases) {
+    double ratio = 0;
+    bool any = false;
+    for (const StudyCurve& other : c.curves) {
+      if (other.kind == "judge" || other.technique.starts_with("hybrid") || other.points.empty()) continue;
+      double best = std::numeric_limits<double>::infinity();
+      for (const StudyCurve& own : c.curves) {
+        if (own.technique.starts_with("hybrid") && !own.points.empty()) best = std::min(best, *timeRatioAtEqualError(own, other));
+      }
+      if (std::isfinite(best)) ratio = std::max(ratio, best), any = true;
+    }
+    if (!any) continue;
+    ++cases, met += ratio <= 0.5;
+    if (ratio >= worst) worst = ratio, where = place(c);
+  }
+  return {"time at equal error: hybrid at most half of the best of the others everywhere", fmt::format("{} of {}; largest {:.2f}, {}", met, cases, worst, where), met == cases && cases > 0};
+}
+
+std::vector<StudyVerdict> frames(const StudyResults& r) {
+  std::vector<StudyVerdict> out;
+  std::set<std::string> scenes;
+  for (const StudyFrames& f : r.frames) scenes.insert(f.scene);
+  for (size_t i = 1; i < published::kTechniques.size() && !scenes.empty(); ++i) {
+    const auto& rival = published::kTechniques[i];
+    const double wanted = published::kTechniques[0].framesPerSecond / rival.framesPerSecond;
+    double worst = std::numeric_limits<double>::infinity();
+    std::string where;
+    for (const std::string& scene : scenes) {
+      double own = 0, other = 0;
+      for (const StudyFrames& f : r.frames) {
+        if (f.scene != scene) continue;
+        if (f.kind == "ours") own = std::max(own, f.cost.framesPerSecond);
+        if (f.technique == rival.name) other = f.cost.framesPerSecond;
+      }
+      if (other > 0 && own / other < worst) worst = own / other, where = scene;
+    }
+    if (std::isfinite(worst)) out.push_back({fmt::format("frames a second: cone or hybrid at least {:.2f} times those of {}", wanted, rival.name), fmt::format("least {:.2f} times, {}", worst, where), worst >= wanted});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<StudyVerdict> studyVerdicts(const StudyResults& r) {
+  std::vector<StudyVerdict> out = {settles(r), below(r)};
+  for (const StudyVerdict& v : ratios(r)) out.push_back(v);
+  out.push_back(hybridFirst(r));
+  for (const StudyVerdict& v : frames(r)) out.push_back(v);
+  return out;
+}
+
+}  // namespace roomlight
