@@ -41,18 +41,18 @@ StudyVerdict settles(const StudyResults& r) {
 
 StudyVerdict below(const StudyResults& r) {
   std::vector<std::string> lost;
-  int cases = 0;
+  int pairs = 0;
   for (const StudyCase& c : r.cases) {
     const StudyCurve* cone = curveOf(c, "cone");
     if (!cone) continue;
-    ++cases;
     for (const StudyCurve& rival : c.curves) {
       if (rival.kind != "rival" || rival.points.empty()) continue;
+      ++pairs;
       const double e = errorOf(settledPoint(rival)), own = errorOf(settledPoint(*cone));
       if (e < own) lost.push_back(fmt::format("{} ({:.4f}, cone {:.4f}): {}", rival.technique, e, own, place(c)));
     }
   }
-  return {"cone settles below each rival everywhere", lost.empty() ? fmt::format("in all {}", cases) : "not below " + listOf(lost), lost.empty() && cases > 0};
+  return {"cone settles below each rival everywhere", lost.empty() ? fmt::format("below in all {} pairs", pairs) : fmt::format("{} of {} pairs; not below ", pairs - static_cast<int>(lost.size()), pairs) + listOf(lost), lost.empty() && pairs > 0};
 }
 
 // Of the scene that is named last: scenes grow.

@@ -1,0 +1,183 @@
+// The whole study with renders that are made up: what is asked for, kept, found again and written.
+#include "study/study.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/image_io.h"
+#include "base/random.h"
+#include "study/report.h"
+#include "unit/temporary_folder.h"
+
+namespace roomlight {
+namespace {
+
+constexpr int kWidth = 24, kHeight = 16;
+
+// A grey ramp of about 100 cd/m², off by `bias`, with noise whose variance falls with samples.
+Image picture(double bias, double noise, uint64_t seed) {
+  Image image(kWidth, kHeight);
+  Rng random(0, 0, seed);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const float value = 60 + 80 * static_cast<float>(i) / static_cast<float>(image.pixels.size());
+    const float off = static_cast<float>(bias + noise * 2 * (random.uniform() - 0.5));
+    image.pixels[i] = Vec3(value) * (1 + off);
+  }
+  return image;
+}
+
+class StudyTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"room.glb", "day.json", "walk.json"}) std::ofstream(folder_.path() / name) << name;
+    plan_.scenes = {{"Room", folder_.path() / "room.glb", "", {{"daylight", folder_.path() / "day.json"}}, folder_.path() / "walk.json"}};
+    plan_.techniques = {{"cone", "cone", "{}", "ours"}, {"vxgi", "vxgi", "{}", "rival"}, {"lpv", "lpv", "{}", "rival"}};
+    settings_.width = kWidth, settings_.height = kHeight, settings_.runs = 2, settings_.mostSeconds = 100, settings_.program = "test";
+    settings_.reference = {.roundS = 1, .mostS = 6, .noiseMse = 1e-9};
+    tools_.render = [this](const StudyRender& r) { return render(r); };
+    tools_.walk = [this](const StudyWalk& w) -> Result<WalkCost> {
+      ++walks_;
+      if (w.technique == "lpv") return Error{"cannot walk"};
+      return WalkCost{10, w.technique == "cone" ? 4.0 : 2.0, 5, 6};
+    };
+  }
+
+  Result<RenderCost> render(const StudyRender& r) {
+    ++renders_;
+    if (renders_ == cancelAt_) cancelled_ = true;
+    if (cancelled_) return Error{"interrupted"};
+    const double bias = r.technique == "vxgi" ? 0.2 : r.technique == "cone" ? 0.05
+                                                                            : 0;
+    if (r.technique == "lpv") return Error{"out of luck"};
+    const double samples = r.samples > 0 ? r.samples : 1000;
+    if (const Status s = writeExr(r.picture, picture(bias, 0.5 / std::sqrt(samples), r.seed * 77 + static_cast<uint64_t>(r.samples)), {}); !s) return Error{s.error()};
+    return RenderCost{0.5 + 0.1 * samples * (r.technique == "path" ? 0.01 : 1), 1, 100, samples, {}};
+  }
+
+  Result<StudyResults> run() {
+    const Result<RunStore> store = RunStore::open(folder_.path() / "runs");
+    StudyProgress progress;
+    progress.cancelled = &cancelled_;
+    return runStudy(plan_, settings_, store.value(), tools_, progress);
+  }
+
+  testing::TemporaryFolder folder_;
+  StudyPlan plan_;
+  StudySettings settings_;
+  StudyTools tools_;
+  std::atomic<bool> cancelled_{false};
+  int renders_ = 0, walks_ = 0, cancelAt_ = -1;
+};
+
+TEST_F(StudyTest, CurvesSettleAtTheBiasOfEachTechnique) {
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  ASSERT_EQ(r.value().cases.size(), 1u);
+  const StudyCase& c = r.value().cases[0];
+  EXPECT_GE(c.referenceSamples, 1000);
+  EXPECT_FALSE(c.referenceConverged) << "a noise of 1e-9 is out of reach";
+  ASSERT_EQ(c.curves.size(), 3u);
+  EXPECT_TRUE(hasSettled(c.curves[0]));
+  EXPECT_EQ(c.curves[0].points[0].runsS.size(), 2u);
+  EXPECT_LT(errorOf(settledPoint(c.curves[0])), errorOf(settledPoint(c.curves[1])) / 4);
+  EXPECT_NEAR(settledPoint(c.curves[1]).meanErrorPercent, 20, 2);
+  EXPECT_EQ(c.curves[2].failed, "out of luck");
+  EXPECT_TRUE(r.value().complete);
+  ASSERT_EQ(r.value().frames.size(), 3u);
+  EXPECT_EQ(r.value().frames[0].cost.framesPerSecond, 4);
+  EXPECT_EQ(r.value().frames[2].failed, "cannot walk");
+}
+
+TEST_F(StudyTest, WhatHasBeenMeasuredIsNotMeasuredAgain) {
+  plan_.techniques.pop_back();
+  ASSERT_TRUE(run());
+  const int renders = renders_, walks = walks_;
+  ASSERT_TRUE(run());
+  EXPECT_EQ(renders_, renders);
+  EXPECT_EQ(walks_, walks);
+  settings_.program = "another build";
+  ASSERT_TRUE(run());
+  EXPECT_GT(renders_, renders);
+}
+
+TEST_F(StudyTest, AReferenceIsNotMadeAgainByAnotherBuildButByAnotherLight) {
+  plan_.techniques.clear();
+  ASSERT_TRUE(run());
+  const int renders = renders_;
+  settings_.program = "another build";
+  ASSERT_TRUE(run());
+  EXPECT_EQ(renders_, renders);
+  std::ofstream(folder_.path() / "day.json") << "brighter";
+  ASSERT_TRUE(run());
+  EXPECT_GT(renders_, renders);
+}
+
+TEST_F(StudyTest, GoesOnWhereItWasStopped) {
+  plan_.techniques.pop_back();
+  ASSERT_TRUE(run());
+  const int all = renders_;
+  std::filesystem::remove_all(folder_.path() / "runs");
+  renders_ = 0, cancelAt_ = all / 2;
+  const Result<StudyResults> part = run();
+  ASSERT_TRUE(part) << part.error();
+  EXPECT_FALSE(part.value().complete);
+  cancelled_ = false, cancelAt_ = -1;
+  const int before = renders_;
+  const Result<StudyResults> rest = run();
+  ASSERT_TRUE(rest) << rest.error();
+  EXPECT_TRUE(rest.value().complete);
+  EXPECT_LT(renders_ - before, all) << "half was there";
+  EXPECT_EQ(rest.value().cases.at(0).curves.size(), 2u);
+}
+
+TEST_F(StudyTest, PicturesOfOthersStandInTheSameTable) {
+  const auto file = folder_.path() / "other.exr";
+  ASSERT_TRUE(writeExr(file, picture(0.1, 0, 1), {}));
+  settings_.externals = {{"offline", "", "", file, 412}, {"elsewhere", "Kitchen", "", file, 1}};
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  ASSERT_EQ(r.value().cases[0].externals.size(), 1u);
+  EXPECT_NEAR(r.value().cases[0].externals[0].meanErrorPercent, 10, 1);
+  EXPECT_NE(studyMarkdown({}, r.value()).find("offline (external)"), std::string::npos);
+}
+
+TEST_F(StudyTest, ReportsAreWholeAndAgree) {
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  const StudyHeader header = {{"processor", "<fast & cheap>"}};
+  const auto json = nlohmann::json::parse(studyJson(header, r.value()));
+  EXPECT_EQ(json["cases"][0]["curves"].size(), 3u);
+  EXPECT_EQ(json["published"].size(), 4u);
+  const std::string csv = studyCsv(r.value());
+  size_t points = 0;
+  for (const StudyCurve& c : r.value().cases[0].curves) points += c.points.size();
+  EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + points + 2) << "a head, points, two walks";
+  for (size_t from = 0, end; (end = csv.find('\n', from)) != std::string::npos; from = end + 1) {
+    EXPECT_EQ(std::count(csv.begin() + static_cast<long>(from), csv.begin() + static_cast<long>(end), ','), 12) << csv.substr(from, end - from);
+  }
+  const Result<std::string> html = studyHtml(header, r.value(), folder_.path() / "runs");
+  ASSERT_TRUE(html) << html.error();
+  EXPECT_NE(html.value().find("&lt;fast &amp; cheap&gt;"), std::string::npos);
+  EXPECT_NE(html.value().find("data:image/jpeg;base64,"), std::string::npos);
+  EXPECT_EQ(html.value().find("src=\"http"), std::string::npos) << "needs nothing from elsewhere";
+}
+
+TEST_F(StudyTest, VerdictsTellWhoWins) {
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r);
+  const auto verdicts = studyVerdicts(r.value());
+  const auto found = [&](const std::string& start) {
+    for (const StudyVerdict& v : verdicts) {
+      if (v.asked.starts_with(start)) return v;
+    }
+    ADD_FAILURE() << start;
+    return StudyVerdict{};
+  };
+  EXPECT_TRUE(found("cone settles below").met);
+  EXPECT_TRUE(found("frames a second").met);
+}
+
+}  // namespace
+}  // namespace roomlight
