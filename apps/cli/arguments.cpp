@@ -9,6 +9,14 @@
 
 namespace roomlight::cli {
 
+Result<std::pair<int, int>> parseSize(const std::string& text) {
+  const size_t x = text.find('x');
+  const auto width = parseNumber<int>(std::string_view(text).substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : parseNumber<int>(std::string_view(text).substr(x + 1));
+  if (!width || !height) return Error{fmt::format("--size {}: write WIDTHxHEIGHT, for example 960x540", text)};
+  return std::pair(*width, *height);
+}
+
 std::string lowerExtension(const std::filesystem::path& file) {
   std::string e = file.extension().string();
   std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -24,6 +24,9 @@ std::optional<T> parseNumber(std::string_view text) {
 // Numbers between commas, as many as one of `counts` says, none above a million. `shape`: what to write, for the error.
 Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape, std::initializer_list<size_t> counts);
 
+// --size: WIDTHxHEIGHT.
+Result<std::pair<int, int>> parseSize(const std::string& text);
+
 std::string lowerExtension(const std::filesystem::path& file);
 
 // Files that are written must differ from each other and from those that are read; empty names are none.

@@ -49,16 +49,6 @@ struct Plan {
   ViewWish view;
 };
 
-Status applySize(const std::string& size, RenderSettings& settings) {
-  const size_t x = size.find('x');
-  const auto width = parseNumber<int>(std::string_view(size).substr(0, x));
-  const auto height = x == std::string::npos ? std::nullopt : parseNumber<int>(std::string_view(size).substr(x + 1));
-  if (!width || !height) return Error{fmt::format("--size {}: write WIDTHxHEIGHT, for example 960x540", size)};
-  settings.width = *width;
-  settings.height = *height;
-  return Ok{};
-}
-
 Status checkOutputs(const Options& o) {
   for (const std::string& out : o.outputs) {
     const std::string e = lowerExtension(out);
@@ -101,7 +91,9 @@ Result<Plan> makePlan(const Options& o) {
   }
   RenderSettings& s = plan.settings;
   if (!o.size.empty()) {
-    if (const Status status = applySize(o.size, s); !status) return Error{status.error()};
+    const auto size = parseSize(o.size);
+    if (!size) return Error{size.error()};
+    std::tie(s.width, s.height) = size.value();
   }
   s.technique = o.technique.value_or(s.technique);
   s.samples = o.samples.value_or(s.samples);
@@ -159,14 +151,6 @@ std::string dump(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Image displayPicture(const Plan& plan, const White& white, const Image& image, float ev100) {
-  if (white.degree == 0) return toneMap(image, ev100, plan.display.tone);
-  const Affine adapt = matrixOf(white);
-  Image adapted(image.width, image.height);
-  parallelFor(image.pixels.size(), 16384, [&](size_t i) { adapted.pixels[i] = adapt.vector(image.pixels[i]); });
-  return toneMap(adapted, ev100, plan.display.tone);
-}
-
 Metadata describe(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered, float ev100, const White& white) {
   auto times = nlohmann::ordered_json::object();
   for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
@@ -217,7 +201,7 @@ Status writePicture(const std::string& out, const Plan& plan, const Camera& came
   constexpr Vec3 kSection(0.2f, 0.2f, 0.22f), kPaper(1, 1, 1);
   const std::string extension = lowerExtension(out);
   if (extension == ".exr") return writeExr(out, rendered.image, metadata);
-  const Image display = displayPicture(plan, white, unmixed(rendered.image, rendered.sights), ev100);
+  const Image display = displayed(unmixed(rendered.image, rendered.sights), plan.display, white, ev100);
   const std::string xmp = camera.projection == Projection::Panorama ? panoramaXmp(display.width, display.height) : "";
   if (extension == ".jpg") return writeJpeg(out, drawn(display, rendered.sights, kSection, kPaper), SIZE_MAX, xmp);
   if (!xmp.empty()) metadata["XML:com.adobe.xmp"] = xmp;
