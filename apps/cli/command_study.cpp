@@ -164,7 +164,9 @@ class Programs {
     const Result<nlohmann::json> stats = run(words, w.lighting, w.settings);
     if (!stats) return Error{stats.error()};
     const nlohmann::json& j = stats.value();
-    return WalkCost{j.value("frames", 0), j.value("framesPerSecond", 0.0), j.value("updateMs", 0.0), j.value("pictureMs", 0.0)};
+    std::vector<double> update, picture;
+    for (const nlohmann::json& frame : j["frames"]) update.push_back(frame["updateMs"].get<double>()), picture.push_back(frame["pictureMs"].get<double>());
+    return WalkCost{static_cast<int>(update.size()), j["framesPerSecond"].get<double>(), medianOf(update), medianOf(picture)};
   }
 
  private:

@@ -31,6 +31,9 @@ struct White {
 // `lightColour`: of the light in the picture, black where it is not known.
 White whiteOf(const Display& display, Vec3 lightColour, float ev100);
 
+// A picture in cd/m², exposed, white-balanced and tone-mapped.
+Image displayed(const Image& image, const Display& display, const White& white, float ev100);
+
 // The matrix of a white; that of no white changes nothing.
 Affine matrixOf(const White& white);
 

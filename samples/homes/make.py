@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the six sample homes: make.py FOLDER [NAME...]. Writes NAME.sh3d, NAME_day.json, NAME_night.json and CREDITS.md."""
+"""Draws the six sample homes: make.py FOLDER [NAME...]. Writes NAME.sh3d, NAME_day.json, NAME_night.json, NAME_walk.json and CREDITS.md."""
 import concurrent.futures
 import pathlib
 import sys
@@ -15,6 +15,7 @@ import large_house
 import one_room
 import studio
 import two_room_flat
+import walks
 
 HOMES = {"room": one_room, "studio": studio, "two_room_flat": two_room_flat, "family_flat": family_flat, "house": house, "large_house": large_house}
 
@@ -23,6 +24,7 @@ def _make(folder, name):
     home = HOMES[name].draw(catalogue.read() | own_pieces.read())
     pack.write(home, folder / f"{name}.sh3d")
     lighting.write(home, folder)
+    walks.write(home, folder)
 
 
 def main():

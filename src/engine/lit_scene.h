@@ -1,10 +1,19 @@
-// A scene made ready by one technique, to be asked as often as one likes: for meters and for pictures of any camera.
+// A scene made ready by one technique, to be asked as often as one likes: for meters and for pictures of any camera, also while things
+// in it move and lamps are dimmed. What each keeps when something changes:
+//   path    nothing: its rays follow the scene, and every picture is traced anew
+//   hybrid  bricks of voxels, links, rays to lights and particles that what moved has nothing to do with (radiance/light_cache.h)
+//   cone    the same; its pyramid is built anew
+//   vxgi    the same, direct light alone, on each level of its clipmap; bounces go on from the light there was
+//   lpv     the voxels its surfels come from; shadow maps, injection and propagation are done anew, as in every frame of that method
+//   photon  nothing: photons are sent anew for every picture, to where its camera looks
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "engine/stages.h"
+#include "scene/scene_change.h"
 #include "trace/lights.h"
 #include "trace/meter.h"
 #include "trace/ray_scene.h"
@@ -19,18 +28,27 @@ class LitScene {
   // Linear, cd/m², with the quality of the settings the scene was lit with.
   virtual Image picture(const Camera& camera, int width, int height, const Progress& progress = {}) const = 0;
 
+  // Follows the scene; suns and sky must be as before. The same light as of a scene lit anew, up to what bounces leave out (see
+  // RadianceSettings::residual). Stages "rays", "lights" and those of the technique. Cancelled, it is of no further use.
+  void update(const SceneChange& change, Stages& stages);
+  // What holds light about one place only (vxgi, lpv: finest there) has it where this camera is, if it has left that place.
+  virtual void lookFrom(const Camera&, Stages&) {}
+
   const RayScene& rays() const { return rays_; }
-  const Lights& lights() const { return lights_; }
+  const Lights& lights() const { return *lights_; }
 
  protected:
   LitScene(const Scene& scene, bool sunApart, Stages& stages);
+  // After rays and lights have followed. `emitters`: whether emissive meshes are among what changed.
+  virtual void relight(const SceneChange&, bool /*emitters*/, Stages&) {}
 
  private:
   RayScene rays_;
-  Lights lights_;
+  std::optional<Lights> lights_;
 };
 
-// Refers to the scene, which must be validated. Errors: an unknown technique, settings out of range. Null if cancelled.
-Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages);
+// Refers to the scene, which must be validated and stay where it is. `camera`, where given, is the first to be looked from; otherwise light
+// is found for the whole scene at once. Errors: an unknown technique, settings out of range. Null if cancelled.
+Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera = nullptr);
 
 }  // namespace roomlight

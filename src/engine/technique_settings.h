@@ -19,4 +19,11 @@ LpvSettings lpvStage(const RenderSettings& settings);
 PhotonSettings photonStage(const RenderSettings& settings);
 PathSettings pathStage(const RenderSettings& settings);
 
+// For a picture of another size.
+template <class Settings>
+Settings sized(Settings settings, int width, int height) {
+  settings.width = width, settings.height = height;
+  return settings;
+}
+
 }  // namespace roomlight

@@ -38,14 +38,6 @@ std::string listOf(const std::vector<std::string>& names) {
   return list;
 }
 
-// A frame that looks along `forward`, upright; straight up or down the top of the picture is -z or +z.
-Affine looking(Vec3 from, Vec3 forward) {
-  const Vec3 back = -normalize(forward);
-  const Vec3 side = cross({0, 1, 0}, back);
-  const Vec3 right = length(side) > 1e-4f ? normalize(side) : Vec3{1, 0, 0};
-  return {right, cross(back, right), back, from};
-}
-
 // Panoramas stand upright: of where a camera looks only the compass direction is kept.
 Affine upright(const Affine& m) {
   const Vec3 level{m.z.x, 0, m.z.z};

@@ -75,7 +75,7 @@ void addSource(const Home& home, const Piece& p, const LightSource& s, double fl
     return;
   }
   Mesh mesh = ball(static_cast<float>(radiusM));
-  mesh.name = p.name + " (light)";
+  mesh.name = p.name + kLightSuffix;
   mesh.material = static_cast<int>(scene.materials.size());
   Affine place;
   place.w = at;

@@ -19,6 +19,7 @@ namespace roomlight {
 struct MovedInstances {
   std::span<const uint32_t> instances;
   std::span<const Bounds3> places;  // where they were and where they are, m (see Voxelisation::instanceBounds); none empty
+  bool glow = false;  // some of the instances shine otherwise than before, or no longer
 };
 
 class LightCache {

@@ -48,10 +48,10 @@ void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels
   updateLinks(from, paths, change);
   paths_ = paths;
   progress.at(0.5f);
-  const bool emittersMoved = std::any_of(moved.instances.begin(), moved.instances.end(), [&](uint32_t i) {
-    const Scene& scene = rays.scene();
-    return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission);
-  });
+  const bool emittersMoved = moved.glow || std::any_of(moved.instances.begin(), moved.instances.end(), [&](uint32_t i) {
+                               const Scene& scene = rays.scene();
+                               return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission);
+                             });
   updateFixedLights(from, change, emittersMoved);
   forgetLampsBut(lights);
   updateLamps(from, change);

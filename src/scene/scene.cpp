@@ -49,6 +49,13 @@ void addAreaLampMeshes(Scene& scene, size_t firstLamp) {
   }
 }
 
+Affine looking(Vec3 from, Vec3 forward) {
+  const Vec3 back = -normalize(forward);
+  const Vec3 side = cross({0, 1, 0}, back);
+  const Vec3 right = length(side) > 1e-4f ? normalize(side) : Vec3{1, 0, 0};
+  return {right, cross(back, right), back, from};
+}
+
 Camera defaultCamera(const Scene& scene) {
   if (!scene.cameras.empty()) return scene.cameras.front();
   const Bounds3 bounds = scene.bounds();

@@ -86,6 +86,9 @@ struct Mesh {
   size_t triangleCount() const { return indices.size() / 3; }
 };
 
+// Importers give a lamp that shines by a mesh of its own this name after the lamp's.
+constexpr const char* kLightSuffix = " (light)";
+
 // A mesh placed in the world. Instances with the same `object` belong to one thing that moves as a whole.
 struct Instance {
   std::string name;  // of the node
@@ -189,6 +192,9 @@ Bounds3 instanceBounds(const Scene& scene, const Instance& instance);
 
 // Appends a one-sided emissive rectangle for each Area lamp from index `firstLamp` on. Object ids are new ones.
 void addAreaLampMeshes(Scene& scene, size_t firstLamp = 0);
+
+// The frame of a camera that looks along `forward`, upright; straight up or down the top of its picture is -z or +z.
+Affine looking(Vec3 from, Vec3 forward);
 
 // A camera that sees the scene: the first of the file, else one that looks into the bounds from a corner at eye height.
 Camera defaultCamera(const Scene& scene);

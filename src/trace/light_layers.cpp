@@ -9,7 +9,6 @@
 namespace roomlight {
 namespace {
 
-constexpr const char* kSourceSuffix = " (light)";  // of the glowing parts that importers give a lamp
 constexpr float kUnderFloorM = 0.05f;
 
 // Of light on its way into layers.
@@ -18,7 +17,7 @@ class Grouping {
   Grouping(const Scene& scene, LayerBy by) : scene_(scene), by_(by) {}
 
   int32_t add(std::string name, const std::string& group, LayerKind kind, Vec3 fluxLm, Vec3 position) {
-    if (name.ends_with(kSourceSuffix)) name.resize(name.size() - std::string(kSourceSuffix).size());
+    if (name.ends_with(kLightSuffix)) name.resize(name.size() - std::string(kLightSuffix).size());
     if (!group.empty()) name = group, kind = LayerKind::Group;
     if (by_ == LayerBy::Room) {
       const int room = roomAt(scene_, position);
@@ -75,7 +74,7 @@ Result<LightLayers> layersOf(const Scene& scene, const Lights& lights, LayerBy b
     const Instance& instance = scene.instances[lights.emitterInstance(i)];
     // What stands for an area lamp bears its name.
     const auto lamp = std::find_if(scene.lamps.begin(), scene.lamps.end(), [&](const Lamp& l) { return l.kind == LampKind::Area && l.name == instance.name; });
-    const bool isLamp = lamp != scene.lamps.end() || instance.name.ends_with(kSourceSuffix);
+    const bool isLamp = lamp != scene.lamps.end() || instance.name.ends_with(kLightSuffix);
     const Material& material = scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)];
     out.ofEmitter.push_back(grouping.add(instance.name.empty() ? fmt::format("object {}", instance.object) : instance.name, lamp != scene.lamps.end() ? lamp->group : "",
                                          isLamp ? LayerKind::Lamp : LayerKind::Mesh, hueOf(material) * lights.emitterFluxLm(i), lights.emitterBounds(i).centre()));

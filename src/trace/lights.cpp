@@ -30,14 +30,20 @@ Vec3 discRadiance(const Sun& sun) {
 }  // namespace
 
 Lights::Lights(const Scene& scene, bool sunApart) : scene_(scene), suns_(scene.suns), sky_(scene.sky, sunApart) {
-  for (const Lamp& lamp : scene.lamps) {
+  std::erase_if(suns_, [](const Sun& sun) { return isBlack(sun.illuminanceLux); });
+  addAllLocal();
+}
+
+Lights::Lights(const Scene& scene, Lights&& before) : scene_(scene), suns_(std::move(before.suns_)), sky_(std::move(before.sky_)) { addAllLocal(); }
+
+void Lights::addAllLocal() {
+  for (const Lamp& lamp : scene_.lamps) {
     if (lamp.kind != LampKind::Area && !isBlack(lamp.intensityCd)) lamps_.push_back(lamp);
   }
   addLamps();
-  std::erase_if(suns_, [](const Sun& sun) { return isBlack(sun.illuminanceLux); });
-  emitterOfInstance_.assign(scene.instances.size(), -1);
-  MeanEmission means(scene);
-  for (uint32_t i = 0; i < scene.instances.size(); ++i) addEmitter(i, means);
+  emitterOfInstance_.assign(scene_.instances.size(), -1);
+  MeanEmission means(scene_);
+  for (uint32_t i = 0; i < scene_.instances.size(); ++i) addEmitter(i, means);
 }
 
 void Lights::addLamps() {

@@ -24,6 +24,8 @@ class Lights {
  public:
   // `sunApart`: the sun in an image of the sky counts as one of the suns. The same light, for who takes care of sharp shadows.
   explicit Lights(const Scene& scene, bool sunApart = false);
+  // Of a scene that was edited where it stands; suns and sky are as before, and taken from there.
+  Lights(const Scene& scene, Lights&& before);
   Lights(Lights&&) = default;
   Lights(const Lights&) = delete;
 
@@ -107,6 +109,7 @@ class Lights {
     float radius2 = 0;           // m²; of an extended lamp
     bool shinesUp = true;        // of a web
   };
+  void addAllLocal();
   void addEmitter(uint32_t instance, MeanEmission& means);
   float importance(const Emitter& e, Vec3 p) const;
   float importance(const LampTerms& lamp, Vec3 p) const;

@@ -57,12 +57,7 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-// Embree leaves `ng` in the space of the geometry.
-Hit hitOf(const Scene& scene, unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t, Vec3 ng) {
-  if (geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  if (instID == RTC_INVALID_GEOMETRY_ID) return {geomID, primID, u, v, t, ng};
-  return {instID, primID, u, v, t, scene.instances[instID].worldFromObject.normal(ng)};
-}
+constexpr Affine kInPlace{};
 
 }  // namespace
 
@@ -71,22 +66,37 @@ struct RayScene::State {
   Bounds3 bounds;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
+  // Once anything has moved: what has not, and what has, which `top` holds then. Both in world space.
+  RTCScene still = nullptr, moving = nullptr;
+  std::vector<uint8_t> moves;        // per instance: it is in `moving`; empty before that
+  bool shares = false;               // meshes are Embree instances, below which there can be no more
   RayLog* log = nullptr;
   std::vector<RTCScene> meshScenes;  // of instanced meshes, else null
   std::vector<GeometryTag> tags;     // one per mesh
   std::once_flag surfacesMade;
-  std::unique_ptr<const Surfaces> surfaces;
+  std::unique_ptr<Surfaces> surfaces;
 
   ~State() {
-    if (top) rtcReleaseScene(top);
+    releaseScenes();
+    if (device) rtcReleaseDevice(device);
+  }
+  void releaseScenes() {
+    for (RTCScene* s : {&top, &still, &moving}) {
+      if (*s) rtcReleaseScene(*s);
+      *s = nullptr;
+    }
     for (RTCScene s : meshScenes) {
       if (s) rtcReleaseScene(s);
     }
-    if (device) rtcReleaseDevice(device);
+    meshScenes.clear();
   }
 
   RTCGeometry makeGeometry(int meshIndex, const Affine& transform);
   void build();
+  void commitTop();
+  void part();
+  void update(std::span<const uint32_t> changed);
+  Hit hit(unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t, Vec3 ng) const;
   void note(RayLog::Kind kind, std::span<const Ray> rays) const {
     if (!log) return;
     log->batches.push_back({kind, log->rays.size(), rays.size()});
@@ -112,10 +122,19 @@ RTCGeometry RayScene::State::makeGeometry(int meshIndex, const Affine& transform
   return geometry;
 }
 
+// Embree leaves `ng` in the space of the geometry.
+Hit RayScene::State::hit(unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t, Vec3 ng) const {
+  if (geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  if (!shares || instID == RTC_INVALID_GEOMETRY_ID) return {geomID, primID, u, v, t, ng};
+  return {instID, primID, u, v, t, scene->instances[instID].worldFromObject.normal(ng)};
+}
+
 void RayScene::State::build() {
-  device = rtcNewDevice(nullptr);
+  if (!device) device = rtcNewDevice(nullptr);
+  releaseScenes();
   top = rtcNewScene(device);
   rtcSetSceneBuildQuality(top, RTC_BUILD_QUALITY_MEDIUM);
+  tags.clear();
   tags.reserve(scene->meshes.size());
   for (const Mesh& mesh : scene->meshes) tags.push_back({scene, &mesh});
   meshScenes.assign(scene->meshes.size(), nullptr);
@@ -132,6 +151,7 @@ void RayScene::State::build() {
     if (flatten || uses[meshIndex] == 1) {
       geometry = makeGeometry(instance.mesh, instance.worldFromObject);
     } else {
+      shares = true;
       RTCScene& shared = meshScenes[meshIndex];
       if (!shared) {
         shared = rtcNewScene(device);
@@ -148,10 +168,54 @@ void RayScene::State::build() {
     rtcAttachGeometryByID(top, geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);
   }
+  commitTop();
+}
+
+void RayScene::State::commitTop() {
   rtcCommitScene(top);
   RTCBounds b;
   rtcGetSceneBounds(top, &b);
   bounds = {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
+
+// Nothing has moved yet: all stays in one hierarchy, below a top that has room for another.
+void RayScene::State::part() {
+  still = top;
+  moving = rtcNewScene(device), top = rtcNewScene(device);
+  moves.assign(scene->instances.size(), 0);
+  for (const RTCScene part : {still, moving}) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, part);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &kInPlace);
+    rtcAttachGeometryByID(top, geometry, part == still ? 0 : 1);
+    rtcReleaseGeometry(geometry);
+  }
+}
+
+void RayScene::State::update(std::span<const uint32_t> changed) {
+  if (changed.empty()) return;
+  if (surfaces) surfaces->update(changed);
+  if (shares) return build();
+  if (!still) part();
+  bool stillLess = false;
+  for (const uint32_t i : changed) {
+    RTCScene& holder = moves[i] ? moving : still;
+    if (rtcGetGeometry(holder, i)) {
+      rtcDetachGeometry(holder, i);
+      stillLess = stillLess || !moves[i];
+    }
+    moves[i] = 1;
+    const Instance& instance = scene->instances[i];
+    if (scene->meshes[static_cast<size_t>(instance.mesh)].triangleCount() == 0) continue;
+    // In world space, not placed by a transform: the same bits as a scene has in which nothing moved.
+    RTCGeometry geometry = makeGeometry(instance.mesh, instance.worldFromObject);
+    rtcAttachGeometryByID(moving, geometry, i);
+    rtcReleaseGeometry(geometry);
+  }
+  if (stillLess) rtcCommitScene(still);
+  rtcCommitScene(moving);
+  for (const unsigned part : {0u, 1u}) rtcCommitGeometry(rtcGetGeometry(top, part));
+  commitTop();
 }
 
 RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
@@ -162,11 +226,12 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
+void RayScene::update(std::span<const uint32_t> changedInstances) { state_->update(changedInstances); }
 void RayScene::record(RayLog* log) { state_->log = log; }
 const Scene& RayScene::scene() const { return *state_->scene; }
 const Bounds3& RayScene::bounds() const { return state_->bounds; }
 const Surfaces& RayScene::surfaces() const {
-  std::call_once(state_->surfacesMade, [&] { state_->surfaces = std::make_unique<const Surfaces>(*state_->scene); });
+  std::call_once(state_->surfacesMade, [&] { state_->surfaces = std::make_unique<Surfaces>(*state_->scene); });
   return *state_->surfaces;
 }
 
@@ -179,7 +244,7 @@ Hit RayScene::intersect(const Ray& ray) const {
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->top, &context, &r);
-  return hitOf(*state_->scene, r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
+  return state_->hit(r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
 }
 
 Vec3 RayScene::transmittance(const Ray& ray) const {
@@ -227,7 +292,7 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
     rtcIntersect8(valid, state_->top, &context, &r);
     for (unsigned i = 0; i < n; ++i) {
       const Vec3 ng{r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]};
-      hits[first + i] = hitOf(*state_->scene, r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i], ng);
+      hits[first + i] = state_->hit(r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i], ng);
     }
   }
 }

@@ -60,6 +60,11 @@ class RayScene {
   Vec3 transmittance(const Ray& ray) const;
   void transmittance(std::span<const Ray> rays, std::span<Vec3> left) const;
 
+  // Follows the scene, edited where it stands, after these instances moved or got another mesh (one without triangles hides them). What
+  // has moved once has a hierarchy of its own from then on: the first time costs a build of the whole, later ones that of what moves.
+  // The same hits, bit for bit, as of a RayScene made anew. No ray may be under way.
+  void update(std::span<const uint32_t> changedInstances);
+
   // From here on, what is traced many rays at a time is added to `log`, by one thread only; null ends that.
   void record(RayLog* log);
 

@@ -20,10 +20,9 @@ Affine worldFromNormal(const Affine& m) {
 }  // namespace
 
 Surfaces::Surfaces(const Scene& scene) : scene_(scene) {
-  std::vector<size_t> first;
   size_t count = 0;
   for (const Mesh& mesh : scene.meshes) {
-    first.push_back(count);
+    firstOfMesh_.push_back(count);
     count += mesh.triangleCount();
   }
   triangles_.reserve(count);
@@ -31,18 +30,24 @@ Surfaces::Surfaces(const Scene& scene) : scene_(scene) {
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
     for (uint32_t t = 0; t < mesh.triangleCount(); ++t) triangles_.push_back(record(mesh, material, t));
   }
-  for (const Instance& instance : scene.instances) {
-    const auto index = static_cast<size_t>(instance.mesh);
-    Placed p;
-    p.mesh = &scene.meshes[index];
-    p.material = &scene.materials[static_cast<size_t>(p.mesh->material)];
-    p.firstTriangle = first[index];
-    p.worldFromObject = instance.worldFromObject;
-    p.worldFromNormal = worldFromNormal(instance.worldFromObject);
-    p.plain = p.mesh->uv[1].empty() && p.mesh->colors.empty() && p.mesh->colorAlphas.empty();
-    p.bumped = hasNormalMap(*p.material, *p.mesh);
-    placed_.push_back(p);
-  }
+  for (const Instance& instance : scene.instances) placed_.push_back(placed(instance));
+}
+
+void Surfaces::update(std::span<const uint32_t> changedInstances) {
+  for (const uint32_t i : changedInstances) placed_[i] = placed(scene_.instances[i]);
+}
+
+Surfaces::Placed Surfaces::placed(const Instance& instance) const {
+  const auto index = static_cast<size_t>(instance.mesh);
+  Placed p;
+  p.mesh = &scene_.meshes[index];
+  p.material = &scene_.materials[static_cast<size_t>(p.mesh->material)];
+  p.firstTriangle = firstOfMesh_[index];
+  p.worldFromObject = instance.worldFromObject;
+  p.worldFromNormal = worldFromNormal(instance.worldFromObject);
+  p.plain = p.mesh->uv[1].empty() && p.mesh->colors.empty() && p.mesh->colorAlphas.empty();
+  p.bumped = hasNormalMap(*p.material, *p.mesh);
+  return p;
 }
 
 Surfaces::Triangle Surfaces::record(const Mesh& mesh, const Material& material, uint32_t triangle) const {

@@ -2,6 +2,7 @@
 // indices, positions, normals and coordinates. For who meets triangles all over the scene, as paths do.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "trace/surface_point.h"
@@ -12,6 +13,9 @@ class Surfaces {
  public:
   // Refers to the scene. 128 B a triangle of every mesh.
   explicit Surfaces(const Scene& scene);
+
+  // Follows the scene, edited where it stands, after these instances moved or got another mesh.
+  void update(std::span<const uint32_t> changedInstances);
 
   // The same as surfaceAt(scene, hit, direction).
   SurfacePoint at(const Hit& hit, Vec3 direction) const;
@@ -33,11 +37,13 @@ class Surfaces {
     bool plain = true;      // no vertex values but set 0 of the texture coordinates
     bool bumped = false;    // by a normal map
   };
+  Placed placed(const Instance& instance) const;
   Triangle record(const Mesh& mesh, const Material& material, uint32_t triangle) const;
   Vec3 shadingNormal(const Placed& placed, const Triangle& t, const Hit& hit, const VertexValues& values) const;
 
   const Scene& scene_;
   std::vector<Triangle> triangles_;  // of every mesh in turn
+  std::vector<size_t> firstOfMesh_;
   std::vector<Placed> placed_;
 };
 

@@ -1,0 +1,232 @@
+// roomlight walk: a recorded walk through a home in which things move, frame by frame.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "arguments.h"
+#include "base/image_io.h"
+#include "commands.h"
+#include "console.h"
+#include "display_options.h"
+#include "engine/light_colour.h"
+#include "engine/live_walk.h"
+#include "engine/quality.h"
+#include "import/import.h"
+#include "import/lighting_file.h"
+#include "interrupt.h"
+#include "output_files.h"
+
+namespace roomlight::cli {
+namespace {
+
+struct Options {
+  std::string scene, walk, lighting, size, output, stats, settingsFile, quality;
+  DisplayOptions display;
+  std::optional<std::string> technique, seed;
+  std::optional<int> samples, threads;
+  int frames = 0;
+  float metresPerUnit = 1;
+  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
+  bool quiet = false;
+};
+
+struct Plan {
+  RenderSettings settings;
+  Display display;
+};
+
+int bad(const std::string& message, int code = kBadInput) {
+  printError(message);
+  return code;
+}
+
+Result<RenderSettings> readSettings(const Options& o) {
+  RenderSettings s;
+  if (!o.quality.empty()) {
+    if (const Status status = applyQuality(o.quality, s); !status) return Error{"--" + status.error()};
+  }
+  if (!o.settingsFile.empty()) {
+    const Result<std::string> text = readTextFile(o.settingsFile);
+    if (!text) return Error{text.error()};
+    const Result<RenderSettings> read = settingsFromJson(text.value(), o.settingsFile, s, o.quality);
+    if (!read) return Error{read.error()};
+    s = read.value();
+  }
+  s = frameSettings(s);
+  if (!o.size.empty()) {
+    const Result<Size> size = parseSize("--size", o.size);
+    if (!size) return Error{size.error()};
+    s.width = size.value().width, s.height = size.value().height;
+  }
+  s.technique = o.technique.value_or(s.technique);
+  s.samples = o.samples.value_or(s.samples);
+  s.threads = o.threads.value_or(s.threads);
+  if (o.seed) {
+    const auto seed = parseNumber<uint64_t>(*o.seed);
+    if (!seed) return Error{fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", *o.seed)};
+    s.seed = *seed;
+  }
+  if (const Status status = checkSettings(s); !status) return Error{status.error()};
+  if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
+  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
+  return s;
+}
+
+// The frame's number stands where the name says %d, %03d or the like.
+Result<std::string> frameFile(const std::string& pattern, int number) {
+  const size_t percent = pattern.find('%'), d = percent == std::string::npos ? percent : pattern.find('d', percent);
+  const std::string digits = d == std::string::npos ? "" : pattern.substr(percent + 1, d - percent - 1);
+  const auto width = digits.empty() ? std::optional(0) : parseNumber<int>(digits);
+  if (d == std::string::npos || !width || *width < 0 || *width > 9 || pattern.find('%', d) != std::string::npos) return Error{fmt::format("{}: has no place for the frame's number; write it as in frame_%03d.png", pattern)};
+  return fmt::format("{}{:0{}}{}", pattern.substr(0, percent), number, *width, pattern.substr(d + 1));
+}
+
+Status checkFiles(const Options& o) {
+  if (!o.output.empty()) {
+    const Result<std::string> first = frameFile(o.output, 0);
+    if (!first) return Error{first.error()};
+    const std::string e = lowerExtension(first.value());
+    if (e != ".exr" && e != ".png" && e != ".jpg") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr, .png or .jpg", o.output, e)};
+    if (const Status s = checkWritable(first.value()); !s) return s;
+  }
+  if (!o.stats.empty()) {
+    if (const Status s = checkWritable(o.stats); !s) return s;
+  }
+  return checkDistinct({o.scene, o.walk, o.lighting, o.settingsFile, o.stats, o.output});
+}
+
+// Writes frames exposed and balanced alike, by the first.
+class FrameWriter {
+ public:
+  FrameWriter(const std::string& pattern, const Display& display) : pattern_(pattern), display_(display) {}
+  Status operator()(const ShownFrame& frame) {
+    const Result<std::string> file = frameFile(pattern_, frame.number);
+    if (!file) return Error{file.error()};
+    const std::string extension = lowerExtension(file.value());
+    if (extension == ".exr") return writeExr(file.value(), frame.image, {});
+    if (!ev100_) {
+      ev100_ = display_.ev100 ? *display_.ev100 : automaticEv100(frame.image);
+      white_ = whiteOf(display_, lightColour(frame.rays, frame.camera, frame.image), *ev100_);
+    }
+    const Image shown = displayed(frame.image, display_, white_, *ev100_);
+    return extension == ".jpg" ? writeJpeg(file.value(), shown) : writePng(file.value(), shown, {});
+  }
+
+ private:
+  const std::string pattern_;
+  const Display display_;
+  std::optional<float> ev100_;
+  White white_;
+};
+
+nlohmann::ordered_json stagesJson(const std::vector<StageStats>& stages) {
+  auto list = nlohmann::ordered_json::array();
+  for (const StageStats& s : stages) list.push_back({{"name", s.name}, {"timeMs", s.timeMs}, {"cpuMs", s.cpuMs}, {"peakMemoryMiB", s.peakMemoryMiB}});
+  return list;
+}
+
+std::string statsJson(const RenderSettings& settings, const WalkFrames& result) {
+  auto frames = nlohmann::ordered_json::array();
+  for (const WalkFrame& f : result.frames) frames.push_back({{"updateMs", f.updateMs}, {"updateCpuMs", f.updateCpuMs}, {"pictureMs", f.pictureMs}, {"pictureCpuMs", f.pictureCpuMs}});
+  const nlohmann::ordered_json json = {{"technique", settings.technique},
+                                       {"width", settings.width},
+                                       {"height", settings.height},
+                                       {"framesPerSecond", result.framesPerSecond()},
+                                       {"framesPerCpuSecond", result.framesPerCpuSecond()},
+                                       {"opening", stagesJson(result.opening)},
+                                       {"stages", stagesJson(result.stages)},
+                                       {"frames", frames}};
+  return json.dump(2) + "\n";
+}
+
+void printResult(const WalkFrames& result) {
+  const double n = std::max(1.0, static_cast<double>(result.frames.size()));
+  double update = 0, picture = 0;
+  for (const WalkFrame& f : result.frames) update += f.updateMs, picture += f.pictureMs;
+  fmt::print("frames              {}\n", result.frames.size());
+  fmt::print("framesPerSecond     {:.2f}\n", result.framesPerSecond());
+  fmt::print("framesPerCpuSecond  {:.2f}\n", result.framesPerCpuSecond());
+  fmt::print("updateMs            {:.1f}\n", update / n);
+  fmt::print("pictureMs           {:.1f}\n", picture / n);
+  for (const StageStats& s : result.stages) fmt::print("  {:<17} {:.1f} ms, {:.1f} ms of processor time a frame\n", s.name, s.timeMs / n, s.cpuMs / n);
+}
+
+int work(const Options& o, const Plan& plan) {
+  ProgressDisplay display(o.quiet);
+  RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
+  RenderStats loadStats;
+  Stages loading(progress, loadStats);
+  std::vector<std::string> warnings;
+  Result<Scene> scene = loading.run("load", [&](const Progress&) -> Result<Scene> {
+    Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
+    if (!imported) return Error{imported.error()};
+    warnings = std::move(imported.value().warnings);
+    if (!o.lighting.empty()) {
+      if (const Status s = applyLightingFile(o.lighting, imported.value().scene, &warnings); !s) return Error{s.error()};
+    }
+    return std::move(imported.value().scene);
+  });
+  if (!scene) return bad(scene.error());
+  Result<Walk> walk = readWalkFile(o.walk, scene.value());
+  if (!walk) return bad(walk.error());
+  if (o.frames > 0 && o.frames < walk.value().frameCount()) walk.value().framesPerSecond = o.frames / walk.value().seconds;
+  if (!o.quiet) printWarnings(warnings);
+  std::string failed;
+  TakeFrame take;
+  if (!o.output.empty()) {
+    take = [&, writer = FrameWriter(o.output, plan.display)](const ShownFrame& frame) mutable {
+      const Status s = writer(frame);
+      if (!s) failed = s.error();
+      return s;
+    };
+  }
+  const Result<WalkFrames> result = measureWalk(scene.value(), walk.value(), plan.settings, progress, take);
+  if (!result) return bad(result.error(), failed.empty() ? kBadInput : kFailed);
+  if (result.value().frames.empty()) return bad("interrupted before there was a picture", kInterrupted);
+  if (!o.stats.empty()) {
+    if (const Status s = writeTextFile(o.stats, statsJson(plan.settings, result.value())); !s) return bad(s.error(), kFailed);
+  }
+  printResult(result.value());
+  return result.value().complete ? kOk : kInterrupted;
+}
+
+int runWalk(const Options& o) {
+  interrupted();  // from here on Ctrl-C is ours
+  const Result<RenderSettings> settings = readSettings(o);
+  if (!settings) return bad(settings.error());
+  const Result<Display> display = readDisplay(o.display);
+  if (!display) return bad(display.error());
+  if (const Status s = checkFiles(o); !s) return bad(s.error());
+  return work(o, {settings.value(), display.value()});
+}
+
+}  // namespace
+
+Registered addWalk(CLI::App& program) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("walk", "Walk through a home in which things move, and tell how many frames a second that makes");
+  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
+  app->add_option("--walk", o->walk, "Walk file: the camera's way, what moves, which lamps are dimmed (docs/formats/walk.md)")->required();
+  app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
+  app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
+  app->add_option("--quality", o->quality, listed("How much is done, if nothing else says so:", qualities()));
+  app->add_option("--size", o->size, "Width and height of a frame in pixels, by default 960x540");
+  app->add_option("--samples", o->samples, "Samples per pixel of a frame, by default 1; 0: those of a picture");
+  app->add_option("--frames", o->frames, "Only so many frames, spread evenly; 0: all")->check(CLI::Range(0, 1000000));
+  app->add_option("-o,--output", o->output, "Writes the frames: FOLDER/frame_%03d.png, .jpg or .exr");
+  app->add_option("--stats", o->stats, "Write the times of every frame to this JSON file");
+  app->add_option("--seed", o->seed, "Random seed; the same seed gives the same frames");
+  app->add_option("--threads", o->threads, "Threads; 0: all cores");
+  addDisplayOptions(*app, o->display, ".png and .jpg");
+  app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
+  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
+  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")->capture_default_str()->check(CLI::Range(0.0, 1e9));
+  app->add_flag("--quiet", o->quiet, "Only results and errors");
+  app->footer(
+      "Ctrl-C ends the walk and tells of the frames so far (exit status 130).\n"
+      "Example: roomlight walk flat.sh3d --walk flat_walk.json --lighting flat_day.json --size 480x270 -o frames/frame_%03d.png");
+  return {app, [o] { return runWalk(*o); }};
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,70 @@
+// Techniques `hybrid` and `cone` as lit scenes: voxels and the light in them, kept up to date.
+#include "engine/lit_techniques.h"
+#include "engine/moved_places.h"
+#include "engine/technique_settings.h"
+#include "gather/cone_shader.h"
+#include "gather/meters.h"
+#include "gather/ray_shader.h"
+#include "radiance/light_cache.h"
+
+namespace roomlight {
+namespace {
+
+template <class Shader, class Settings>
+class VoxelScene final : public LitScene {
+ public:
+  VoxelScene(const Scene& scene, const StageSettings<Settings>& use, Stages& stages) : LitScene(scene, true, stages), gather_(use.gather) {
+    voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, use.voxel); });
+    stages.run("illuminate", [&](const Progress& p) {
+      light_.emplace(rays(), lights(), voxels_.voxels, use.radiance, p);
+      return true;
+    });
+    makeShader(stages);
+  }
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+    return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
+  }
+  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+    if (!shader_) return {};
+    return gatherPicture(rays(), lights(), *shader_, camera, sized(gather_, width, height), progress).image;
+  }
+
+ private:
+  void relight(const SceneChange& change, bool emitters, Stages& stages) override {
+    shader_.reset();
+    std::vector<uint32_t> changed = change.moved;
+    changed.insert(changed.end(), change.glow.begin(), change.glow.end());
+    std::vector<Bounds3> places;
+    if (!changed.empty()) places = stages.run("voxelise", [&](const Progress&) { return followMoves(voxels_, rays().scene(), change); });
+    stages.run("illuminate", [&](const Progress& p) {
+      if (changed.empty()) {
+        light_->relight(rays(), lights(), voxels_.voxels, p);
+      } else {
+        light_->update(rays(), lights(), voxels_.voxels, {changed, places, emitters}, p);
+      }
+      return true;
+    });
+    makeShader(stages);
+  }
+  void makeShader(Stages& stages) {
+    if (stages.cancelled()) return;
+    stages.run("shader", [&](const Progress&) {
+      shader_.emplace(rays(), lights(), voxels_.voxels, light_->field(), gather_);
+      return true;
+    });
+  }
+
+  const Settings gather_;
+  Voxelisation voxels_;
+  std::optional<LightCache> light_;
+  std::optional<Shader> shader_;
+};
+
+}  // namespace
+
+std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages) {
+  if (settings.technique == "cone") return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, coneStages(settings), stages);
+  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, hybridStages(settings), stages);
+}
+
+}  // namespace roomlight

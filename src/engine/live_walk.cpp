@@ -1,0 +1,93 @@
+#include "engine/live_walk.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "engine/lit_scene.h"
+
+namespace roomlight {
+namespace {
+
+void addUp(const std::vector<StageStats>& more, std::vector<StageStats>& sums) {
+  for (const StageStats& s : more) {
+    const auto known = std::find_if(sums.begin(), sums.end(), [&](const StageStats& k) { return k.name == s.name; });
+    if (known == sums.end()) {
+      sums.push_back(s);
+    } else {
+      known->timeMs += s.timeMs, known->cpuMs += s.cpuMs;
+      known->peakMemoryMiB = std::max(known->peakMemoryMiB, s.peakMemoryMiB);
+    }
+  }
+}
+
+Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, const RenderProgress& progress, const TakeFrame& take, WalkFrames& out) {
+  RenderStats openStats;
+  Stages opening(progress, openStats);
+  stage(walk, 0, scene);
+  const Camera first = cameraAt(walk, 0);
+  Result<std::unique_ptr<LitScene>> opened = lightScene(scene, settings, opening, &first);
+  if (!opened) return Error{opened.error()};
+  const std::unique_ptr<LitScene>& lit = opened.value();
+  if (lit) lit->update(everythingIn(walk), opening);
+  out.opening = openStats.stages;
+
+  const int count = walk.frameCount();
+  RenderProgress silent;
+  silent.cancelled = progress.cancelled;
+  for (int frame = 0; frame < count && !opening.cancelled(); ++frame) {
+    if (progress.report) progress.report("frames", static_cast<float>(frame) / static_cast<float>(count));
+    const double timeS = walk.timeOf(frame);
+    RenderStats stats;
+    Stages stages(silent, stats);
+    WalkFrame f;
+    const SceneChange change = stage(walk, timeS, scene);
+    const Camera camera = cameraAt(walk, timeS);
+    const Stopwatch updating;
+    const double cpuBefore = processCpuSeconds();
+    lit->update(change, stages);
+    lit->lookFrom(camera, stages);
+    f.updateMs = updating.seconds() * 1e3, f.updateCpuMs = (processCpuSeconds() - cpuBefore) * 1e3;
+    if (stages.cancelled()) break;
+    const Image image = stages.run("gather", [&](const Progress& p) { return lit->picture(camera, settings.width, settings.height, p); });
+    if (stages.cancelled()) break;
+    f.pictureMs = stats.stages.back().timeMs, f.pictureCpuMs = stats.stages.back().cpuMs;
+    out.frames.push_back(f);
+    addUp(stats.stages, out.stages);
+    if (!take) continue;
+    if (const Status s = take({frame, camera, image, lit->rays()}); !s) return s;
+  }
+  out.complete = !opening.cancelled();
+  if (progress.report && out.complete) progress.report("frames", 1);
+  return Ok{};
+}
+
+}  // namespace
+
+double WalkFrames::framesPerSecond() const {
+  double ms = 0;
+  for (const WalkFrame& f : frames) ms += f.updateMs + f.pictureMs;
+  return ms > 0 ? 1e3 * static_cast<double>(frames.size()) / ms : 0;
+}
+
+double WalkFrames::framesPerCpuSecond() const {
+  double ms = 0;
+  for (const WalkFrame& f : frames) ms += f.updateCpuMs + f.pictureCpuMs;
+  return ms > 0 ? 1e3 * static_cast<double>(frames.size()) / ms : 0;
+}
+
+Result<WalkFrames> measureWalk(Scene& scene, const Walk& walk, const RenderSettings& settings, const RenderProgress& progress, const TakeFrame& take) {
+  WalkFrames out;
+  Status status = Ok{};
+  withThreads(settings.threads, [&] { status = play(scene, walk, settings, progress, take, out); });
+  atRest(walk, scene);
+  if (!status) return Error{status.error()};
+  return out;
+}
+
+RenderSettings frameSettings(RenderSettings settings) {
+  settings.samples = 1;
+  settings.path.filter = true;
+  return settings;
+}
+
+}  // namespace roomlight

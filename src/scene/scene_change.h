@@ -1,0 +1,17 @@
+// What an edit of a scene concerns, so that what was worked out for it can follow.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace roomlight {
+
+// What is other than before in a scene that was edited where it stands. Meshes, materials and instances are as many as before.
+struct SceneChange {
+  std::vector<uint32_t> moved;  // instances in other places, or of another mesh: one without triangles hides them
+  std::vector<uint32_t> glow;   // instances whose material emits another light
+  bool lamps = false;           // scene.lamps: dimmed, switched, coloured, moved, more or fewer
+  bool any() const { return lamps || !moved.empty() || !glow.empty(); }
+};
+
+}  // namespace roomlight

@@ -1,0 +1,63 @@
+// Any bytes as a walk file: no crash, no hang. An error is one short line; what is accepted can be played and put back.
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "import/walk_file.h"
+
+namespace {
+
+using namespace roomlight;
+
+void require(bool fact) {
+  if (!fact) std::abort();
+}
+
+// One glowing triangle called Chair, and a lamp.
+Scene smallScene() {
+  Scene scene;
+  scene.materials.emplace_back();
+  scene.materials[0].emission = Vec3(100);
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.indices = {0, 1, 2};
+  scene.meshes.push_back(mesh);
+  scene.instances.emplace_back().name = "Chair";
+  scene.lamps.emplace_back().name = "Lamp";
+  return scene;
+}
+
+const std::filesystem::path& inputFile() {
+  static const std::filesystem::path file = [] {
+    std::atexit([] { std::filesystem::remove(inputFile()); });
+    return std::filesystem::temp_directory_path() / ("roomlight-fuzz-walk-" + std::to_string(getpid()) + ".json");
+  }();
+  return file;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::filesystem::path& file = inputFile();
+  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  Scene scene = smallScene();
+  const Result<Walk> walk = readWalkFile(file, scene);
+  if (!walk) {
+    require(walk.error().find('\n') == std::string::npos && walk.error().size() < 4000);
+    return 0;
+  }
+  for (int k = 0; k <= 4; ++k) {
+    const double timeS = walk.value().seconds * k / 4;
+    stage(walk.value(), timeS, scene);
+    const Affine camera = cameraAt(walk.value(), timeS).worldFromCamera;
+    require(isFinite(camera.w) && isFinite(camera.z) && isFinite(scene.instances[0].worldFromObject.w));
+  }
+  atRest(walk.value(), scene);
+  require(scene.materials[0].emission == Vec3(100) && scene.instances[0].worldFromObject.w == Vec3(0));
+  return 0;
+}

@@ -1,0 +1,145 @@
+// A lit scene brought up to date shows what one lit anew shows, by every technique.
+#include "engine/lit_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/live_walk.h"
+#include "support/pictures.h"
+#include "support/rooms.h"
+
+namespace roomlight {
+namespace {
+
+// A room with a table, a box of its own that moves, a shining panel and a lamp.
+struct Home {
+  Scene scene;
+  std::vector<uint32_t> box;
+  uint32_t panel = 0;
+
+  Home() {
+    const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+    const int shining = test::addMaterial(scene, test::lambertian(0, 900));
+    test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
+    test::addBox(scene, {2.5f, 0, 1}, {3.5f, 0.7f, 2.5f}, wood);
+    panel = static_cast<uint32_t>(scene.instances.size());
+    test::addRectangle(scene, {1.5f, 2.55f, 2}, {1, 0, 0}, {0, 0, 1}, shining);
+    const auto first = static_cast<uint32_t>(scene.instances.size());
+    test::addBox(scene, {0.52f, 0.01f, 0.53f}, {1.03f, 0.97f, 1.04f}, wood);
+    for (uint32_t i = first; i < scene.instances.size(); ++i) {
+      scene.instances[i].object = scene.instances[first].object;
+      box.push_back(i);
+    }
+    scene.lamps = {test::pointLamp({3.1f, 1.9f, 3.1f}, 80)};
+  }
+  SceneChange moveBox(Vec3 by) {
+    for (const uint32_t i : box) scene.instances[i].worldFromObject.w += by;
+    return {box, {}, false};
+  }
+  SceneChange dim(float lamp, float emission) {
+    scene.lamps[0].intensityCd = Vec3(80 * lamp);
+    scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[panel].mesh)].material)].emission = Vec3(900 * emission);
+    return {{}, {panel}, true};
+  }
+};
+
+constexpr int kWidth = 40, kHeight = 24;
+
+RenderSettings small(const std::string& technique) {
+  RenderSettings s;
+  s.technique = technique;
+  s.samples = 4;
+  s.voxel.voxelSizeM = 0.15f;
+  s.radiance.residual = 1e-5f;
+  s.hybrid.tolerance = 0;
+  s.vxgi.resolution = 32, s.vxgi.levels = 3, s.vxgi.residual = 1e-5f;
+  s.lpv.cells = 16, s.lpv.coarseCells = 0, s.lpv.mapSize = 64;
+  s.photon.photons = 20000, s.photon.causticPhotons = 0, s.photon.importons = 1000;
+  return s;
+}
+
+class LitSceneUpdate : public ::testing::TestWithParam<std::string> {
+ protected:
+  RenderStats stats_;
+  RenderProgress silent_;
+  Stages stages_{silent_, stats_};
+  Camera camera_ = test::cameraAt({2, 1.4f, 4.6f});
+
+  std::unique_ptr<LitScene> open(const Scene& scene) { return std::move(lightScene(scene, small(GetParam()), stages_, &camera_).value()); }
+  Image picture(const LitScene& lit) const { return lit.picture(camera_, kWidth, kHeight); }
+
+  // What bounces leave out is all that may differ.
+  static void expectSame(const Image& a, const Image& b) {
+    ASSERT_EQ(a.pixels.size(), b.pixels.size());
+    double squares = 0, mean = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i) {
+      const double d = luminance(a.pixels[i]) - luminance(b.pixels[i]);
+      squares += d * d, mean += luminance(b.pixels[i]);
+    }
+    const double n = static_cast<double>(a.pixels.size());
+    EXPECT_LT(std::sqrt(squares / n), 2e-3 * mean / n);
+  }
+};
+
+TEST_P(LitSceneUpdate, aMovedThingIsWhereItIs) {
+  Home home;
+  const auto lit = open(home.scene);
+  const Image before = picture(*lit);
+  lit->update(home.moveBox({1.1f, 0, 1.3f}), stages_);
+  const Image moved = picture(*lit);
+  expectSame(moved, picture(*open(home.scene)));
+  lit->update(home.moveBox({-1.1f, 0, -1.3f}), stages_);
+  expectSame(picture(*lit), before);
+  double differs = 0;
+  for (size_t i = 0; i < moved.pixels.size(); ++i) differs = std::max<double>(differs, std::abs(luminance(moved.pixels[i] - before.pixels[i])) / (luminance(before.pixels[i]) + 1));
+  EXPECT_GT(differs, 0.2);  // it was seen to move
+}
+
+TEST_P(LitSceneUpdate, dimmedLightsGiveLess) {
+  Home home;
+  const auto lit = open(home.scene);
+  const Image before = picture(*lit);
+  lit->update(home.dim(0.3f, 0.5f), stages_);
+  expectSame(picture(*lit), picture(*open(home.scene)));
+  lit->update(home.dim(1, 0), stages_);
+  expectSame(picture(*lit), picture(*open(home.scene)));
+  lit->update(home.dim(1, 1), stages_);
+  expectSame(picture(*lit), before);
+}
+
+TEST_P(LitSceneUpdate, aHiddenThingIsGone) {
+  Home home;
+  home.scene.meshes.emplace_back();
+  const auto lit = open(home.scene);
+  for (const uint32_t i : home.box) home.scene.instances[i].mesh = static_cast<int>(home.scene.meshes.size()) - 1;
+  lit->update({home.box, {}, false}, stages_);
+  expectSame(picture(*lit), picture(*open(home.scene)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon", "path"), [](const auto& info) { return info.param; });
+
+TEST(MeasureWalk, playsEveryFrameAndPutsAllBack) {
+  Home home;
+  Walk walk;
+  walk.seconds = 1, walk.framesPerSecond = 4;
+  walk.camera = {{0, 1}, {{2, 1}, {1.4f, 1.4f}, {4.6f, 4}, {2, 2}, {1, 1}, {1, 1}, {1, 1}}};
+  Walk::Thing thing{home.box, {1, 0.5f, 1}, {}, {{0, 1}, {{0, 1}, {0, 0}, {0, 1}, {0, 2}}}};
+  for (const uint32_t i : home.box) thing.atRest.push_back(home.scene.instances[i].worldFromObject);
+  walk.things.push_back(thing);
+  RenderSettings settings = frameSettings(small("hybrid"));
+  settings.width = kWidth, settings.height = kHeight;
+  std::vector<int> numbers;
+  const Result<WalkFrames> frames = measureWalk(home.scene, walk, settings, {}, [&](const ShownFrame& f) {
+    numbers.push_back(f.number);
+    EXPECT_GT(test::meanLuminance(f.image), 1);
+    return Status(Ok{});
+  });
+  ASSERT_TRUE(frames.ok());
+  EXPECT_TRUE(frames.value().complete);
+  EXPECT_EQ(numbers, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(frames.value().frames.size(), 4u);
+  EXPECT_GT(frames.value().framesPerSecond(), 0);
+  EXPECT_EQ(home.scene.instances[home.box[0]].worldFromObject.w, thing.atRest[0].w);
+}
+
+}  // namespace
+}  // namespace roomlight

@@ -1,0 +1,75 @@
+// Rays follow a scene in which things move.
+#include "trace/ray_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "base/sampling.h"
+#include "support/rooms.h"
+#include "trace/surfaces.h"
+
+namespace roomlight {
+namespace {
+
+// A room with two boxes.
+Scene home() {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.7f));
+  test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
+  test::addBox(scene, {0.5f, 0, 1}, {1.2f, 0.7f, 2.5f}, white);
+  test::addBox(scene, {2.5f, 0, 1}, {3.5f, 0.7f, 2.5f}, white);
+  return scene;
+}
+
+void expectSameHits(const RayScene& rays, const Scene& scene) {
+  const RayScene anew(scene);
+  std::vector<Ray> sent;
+  for (uint32_t i = 0; i < 4000; ++i) sent.push_back({{2, 1.3f, 3.5f}, sampleSphere(Sampler(0, i, 0).next2()), 0, kInfinity});
+  std::vector<Hit> hits(sent.size()), expected(sent.size());
+  rays.intersect(sent, hits), anew.intersect(sent, expected);
+  for (size_t i = 0; i < sent.size(); ++i) {
+    ASSERT_EQ(hits[i].instance, expected[i].instance) << i;
+    ASSERT_EQ(hits[i].triangle, expected[i].triangle) << i;
+    ASSERT_EQ(hits[i].t, expected[i].t) << i;
+    ASSERT_EQ(hits[i].ng, expected[i].ng) << i;
+    ASSERT_EQ(rays.surfaces().at(hits[i], sent[i].direction).p, anew.surfaces().at(expected[i], sent[i].direction).p) << i;
+  }
+  EXPECT_EQ(rays.bounds().lo, anew.bounds().lo);
+  EXPECT_EQ(rays.bounds().hi, anew.bounds().hi);
+}
+
+TEST(RaySceneUpdate, hitsAreThoseOfASceneMadeAnew) {
+  Scene scene = home();
+  RayScene rays(scene);
+  rays.surfaces();
+  std::vector<uint32_t> box;
+  for (uint32_t i = 12; i < 18; ++i) box.push_back(i);
+  for (const Vec3 by : {Vec3{0.3f, 0, 0.8f}, Vec3{-0.5f, 0.4f, 0}, Vec3{0, 9, 0}}) {
+    for (const uint32_t i : box) scene.instances[i].worldFromObject.w += by;
+    rays.update(box);
+    expectSameHits(rays, scene);
+  }
+  // Another one joins it.
+  scene.instances[6].worldFromObject.w.y += 1;
+  rays.update(std::vector<uint32_t>{6});
+  expectSameHits(rays, scene);
+}
+
+TEST(RaySceneUpdate, aMeshWithoutTrianglesHides) {
+  Scene scene = home();
+  scene.meshes.emplace_back();
+  RayScene rays(scene);
+  std::vector<uint32_t> box;
+  for (uint32_t i = 12; i < 18; ++i) box.push_back(i);
+  const Ray down{{3, 2, 2}, {0, -1, 0}, 0, kInfinity};
+  EXPECT_FLOAT_EQ(rays.intersect(down).t, 1.3f);
+  std::vector<int> meshes;
+  for (const uint32_t i : box) meshes.push_back(std::exchange(scene.instances[i].mesh, static_cast<int>(scene.meshes.size()) - 1));
+  rays.update(box);
+  EXPECT_FLOAT_EQ(rays.intersect(down).t, 2);
+  for (size_t k = 0; k < box.size(); ++k) scene.instances[box[k]].mesh = meshes[k];
+  rays.update(box);
+  expectSameHits(rays, scene);
+}
+
+}  // namespace
+}  // namespace roomlight
