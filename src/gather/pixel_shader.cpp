@@ -74,6 +74,11 @@ FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count) {
   const float albedo = std::max(luminance(p.albedo), 1e-3f);
   p.diffuseVariance *= diffuse * diffuse / (albedo * albedo), p.sharpVariance *= inverse * inverse / (albedo * albedo);
   p.specularVariance *= specular * specular;
+  // One sample does not tell how far it is off: it is taken to be as uncertain as it is bright, as for paths (pixel_sums.cpp).
+  if (count.rays == 1 && p.diffuseVariance <= 0) {
+    const float irradiance = luminance(p.diffuse) / albedo, glossy = luminance(p.specular);
+    p.diffuseVariance = irradiance * irradiance, p.specularVariance = std::max(p.specularVariance, glossy * glossy);
+  }
   if (p.surface > 0) {
     p.normal = length(p.normal) > 0 ? normalize(p.normal) : p.normal;
     p.position *= 1 / p.surface;
