@@ -53,11 +53,13 @@ class LightVertices {
 
   // Can light that z scatters be had by connecting to z? Not where a lobe is so narrow that connections miss it.
   static bool connects(const Bsdf& z) { return z.alpha() >= 0.05f; }
+  // Of so many vertices one is connected to, chosen by what it could give without shadows.
+  static constexpr int kCandidates = 4;
   // Light from z to x is shared between the path that scattered at x and found z, and connections from x: this is the
-  // connections' part, by the densities per area of z with which either finds it. Any function of x and z would do.
+  // connections' part, by the densities per area of z with which either finds it: candidates lie kCandidates times as densely as one path of light does. Any function of x and z would do.
   static float share(float pdfAtX, float cosZ, float inverseDistance2, float densityM2) {
     const float byPath = pdfAtX * cosZ * inverseDistance2;
-    const float l = densityM2 * densityM2, c = byPath * byPath;
+    const float byLight = kCandidates * densityM2, l = byLight * byLight, c = byPath * byPath;
     return l > 0 ? l / (l + c) : 0;
   }
 

@@ -8,8 +8,7 @@ namespace {
 
 // Paths longer than this are not physics but a loop between perfect mirrors; at albedo 0.95 the chance to get here is e-13.
 constexpr int kLongestPath = 4096;
-// Of so many vertices of light paths one is connected to, chosen by what it could give without shadows.
-constexpr int kCandidates = 4;
+constexpr int kCandidates = LightVertices::kCandidates;
 
 // The part of light from wi that the diffuse lobe scatters.
 Vec3 diffuseShare(const Bsdf& bsdf, Vec3 wi) { return min(bsdf.evaluateDiffuse(wi) / max(bsdf.evaluate(wi), Vec3(1e-20f)), Vec3(1)); }
