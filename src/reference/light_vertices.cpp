@@ -48,7 +48,7 @@ void LightVertices::trace(int paths, uint32_t pass, uint64_t seed) {
 
 void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t seed, std::vector<LightVertex>& out, uint64_t& rayCount) const {
   Sampler sampler(kFirstKey + path, pass, seed);
-  const LightRay start = lights_.sampleLampRay(sampler);
+  const LightRay start = lightRays_.sample(sampler);
   Ray ray{start.origin, start.direction, 0, kInfinity};
   Vec3 flux = start.fluxLm * share;
   for (int length = 0; length < kLongestPath && !isBlack(flux); ++length) {
@@ -61,7 +61,7 @@ void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t s
     if (LightVertices::connects(bsdf)) {
       const Vec3 scattered = flux * s.m.alpha;
       out.push_back({s.p, s.ng, s.smooth, wi, luminance(scattered * bsdf.diffuseAlbedo()), luminance(scattered * bsdf.specularAlbedo()), bsdf.alpha(),
-                     lights_.lampDensity(s.p, s.ng), scattered, s.m.baseColor * ((1 - s.m.metallic) * (1 - s.m.transmission)), s.m.f0, s.m.f90, s.m.roughness, start.lamp});
+                     lightRays_.densityM2(s.p, s.ng), scattered, s.m.baseColor * ((1 - s.m.metallic) * (1 - s.m.transmission)), s.m.f0, s.m.f90, s.m.roughness, start.lamp, start.emitter});
     }
     // Thin glass and blended alpha, as for paths from the camera.
     if (s.m.alpha < 1 || s.m.transmission > 0) {

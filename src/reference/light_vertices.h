@@ -1,4 +1,4 @@
-// Where light of point and spot lamps goes first: the vertices of paths that start in the lamps, for paths from the camera
+// Where light of lamps and small emissive meshes goes first: the vertices of paths that start in them, for paths from the camera
 // to connect to (Keller 1997; vertices pooled as by Davidovič et al. 2014). A lamp inside its shade lights a spot of a few
 // centimetres that rays from the room find by chance; paths from the lamp always do.
 #pragma once
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trace/bsdf.h"
-#include "trace/lights.h"
+#include "trace/light_rays.h"
 #include "trace/ray_scene.h"
 
 namespace roomlight {
@@ -18,11 +18,11 @@ struct alignas(64) LightVertex {
   Vec3 wi;               // unit, towards where the light came from
   float diffuseLm = 0, glossyLm = 0;  // of flux times albedo, by lobe: what is worth connecting to
   float alpha = 1;       // of the glossy lobe
-  float densityM2 = 0;   // lampDensity() here
+  float densityM2 = 0;   // LightRays::densityM2() here
   Vec3 flux;             // lm that arrive here and stand for this path's share of all paths
   Vec3 base, f0, f90;    // as in MaterialSample; of the base, what is neither metal nor glass
   float roughness = 1;
-  int32_t lamp = -1;     // whose light it is
+  int32_t lamp = -1, emitter = -1;  // whose light it is
 
   Bsdf bsdf(Vec3 wo) const;  // wo: unit, on the side of ng
 
@@ -41,22 +41,25 @@ struct alignas(64) LightVertex {
 
 class LightVertices {
  public:
-  LightVertices(const RayScene& rays, const Lights& lights) : rays_(rays), lights_(lights) {}
+  LightVertices(const RayScene& rays, const Lights& lights) : rays_(rays), lightRays_(lights) {}
 
   // Traces `paths` of them anew; the same for any number of threads.
   void trace(int paths, uint32_t pass, uint64_t seed);
 
+  const LightRays& lightRays() const { return lightRays_; }
   const std::vector<LightVertex>& all() const { return all_; }
   double perPath() const { return perPath_; }  // vertices, in the last pass
   uint64_t rayCount() const { return rayCount_; }  // traced so far
 
   // Can light that z scatters be had by connecting to z? Not where a lobe is so narrow that connections miss it.
   static bool connects(const Bsdf& z) { return z.alpha() >= 0.05f; }
+  // Of so many vertices one is connected to, chosen by what it could give without shadows.
+  static constexpr int kCandidates = 4;
   // Light from z to x is shared between the path that scattered at x and found z, and connections from x: this is the
-  // connections' part, by the densities per area of z with which either finds it. Any function of x and z would do.
+  // connections' part, by the densities per area of z with which either finds it: candidates lie kCandidates times as densely as one path of light does. Any function of x and z would do.
   static float share(float pdfAtX, float cosZ, float inverseDistance2, float densityM2) {
     const float byPath = pdfAtX * cosZ * inverseDistance2;
-    const float l = densityM2 * densityM2, c = byPath * byPath;
+    const float byLight = kCandidates * densityM2, l = byLight * byLight, c = byPath * byPath;
     return l > 0 ? l / (l + c) : 0;
   }
 
@@ -64,7 +67,7 @@ class LightVertices {
   void follow(uint64_t path, float share, uint32_t pass, uint64_t seed, std::vector<LightVertex>& out, uint64_t& rayCount) const;
 
   const RayScene& rays_;
-  const Lights& lights_;
+  const LightRays lightRays_;
   std::vector<LightVertex> all_;
   uint64_t rayCount_ = 0;
   double perPath_ = 0;

@@ -41,7 +41,7 @@ struct PathTracer::State {
   std::atomic<uint64_t> rayCount = 0;
 
   void traceLightPaths() {
-    if (!settings.lightPaths || lights.lampCount() == 0) return;
+    if (!settings.lightPaths || !vertices.lightRays().any()) return;
     const int paths = std::clamp(settings.width * settings.height / kPixelsPerLightPath, 1024, kMostLightPaths);
     const int most = samples == 0 ? kFirstLightPaths : static_cast<int>(kMostLightVertices / std::max(1.0, vertices.perPath()));
     vertices.trace(std::min(paths, std::max(1, most)), static_cast<uint32_t>(samples), settings.seed);
@@ -175,7 +175,7 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
                                              const Progress& progress) {
   LightVertices vertices(rays, lights);
   const auto prepare = [&](uint32_t round, size_t samples) {
-    if (lights.lampCount() > 0) vertices.trace(static_cast<int>(std::clamp<size_t>(samples / 4, kFewestLightPaths, kMostMeterLightPaths)), round, settings.seed);
+    if (vertices.lightRays().any()) vertices.trace(static_cast<int>(std::clamp<size_t>(samples / 4, kFewestLightPaths, kMostMeterLightPaths)), round, settings.seed);
   };
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     const PathWalk walk(rays, lights, &vertices);

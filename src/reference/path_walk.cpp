@@ -8,8 +8,7 @@ namespace {
 
 // Paths longer than this are not physics but a loop between perfect mirrors; at albedo 0.95 the chance to get here is e-13.
 constexpr int kLongestPath = 4096;
-// Of so many vertices of light paths one is connected to, chosen by what it could give without shadows.
-constexpr int kCandidates = 4;
+constexpr int kCandidates = LightVertices::kCandidates;
 
 // The part of light from wi that the diffuse lobe scatters.
 Vec3 diffuseShare(const Bsdf& bsdf, Vec3 wi) { return min(bsdf.evaluateDiffuse(wi) / max(bsdf.evaluate(wi), Vec3(1e-20f)), Vec3(1)); }
@@ -40,8 +39,10 @@ struct PathWalk::Apart {
   void add(const LightSample& light, Vec3 value) const {
     if (layers) layers->add(layers->lights.of(light), value * factor);
   }
-  void addLamp(int32_t lamp, Vec3 value) const {
-    if (layers) layers->add(layers->lights.ofLamp[static_cast<size_t>(lamp)], value * factor);
+  void add(const LightVertex& vertex, Vec3 value) const {
+    LightSample light;
+    light.lamp = vertex.lamp, light.emitter = vertex.emitter;
+    add(light, value);
   }
   void addSun(Vec3 value) const {
     if (layers) layers->add(layers->lights.sun, value * factor);
@@ -58,7 +59,7 @@ struct PathWalk::State {
   float lastPdf = 0;       // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
   bool skyKnown = false;   // the sky, if the ray sees it, is counted already
   PathLayers* layers = nullptr;
-  float lampShare = 1;     // of light from lamps: what connections at earlier vertices have left to this path
+  float lampShare = 1;     // of light that has light paths: what connections at earlier vertices have left to this path
 
   // Russian roulette by throughput from the third scattering on.
   bool survives(int scattered, float share, Sampler& sampler) {
@@ -168,17 +169,18 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     }
     const SurfacePoint s = surfaces_.at(hit, path.ray.direction);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
+      const int32_t emitter = lights_.emitterOf(s.instance);
       const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, lights_.pdfLocal(path.lastPoint, s)) : 1;
-      const Vec3 light = path.throughput * emitted * w;
+      const Vec3 light = path.throughput * emitted * (vertices_ && vertices_->lightRays().leaveEmitter(emitter) ? w * path.lampShare : w);
       sum += light;
-      if (const int32_t emitter = path.layers ? lights_.emitterOf(s.instance) : -1; emitter >= 0) path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
+      if (path.layers && emitter >= 0) path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
       if constexpr (Record::kOn) record.add(light);
     }
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
     float lampShare = path.lampShare;
     if (vertices_ && path.lastPdf > 0 && LightVertices::connects(bsdf)) {
       const float inverse2 = 1 / std::max(lengthSquared(s.p - path.lastPoint), 1e-12f);
-      lampShare *= 1 - LightVertices::share(path.lastPdf, -dot(s.ng, path.ray.direction), inverse2, lights_.lampDensity(s.p, s.ng));
+      lampShare *= 1 - LightVertices::share(path.lastPdf, -dot(s.ng, path.ray.direction), inverse2, vertices_->lightRays().densityM2(s.p, s.ng));
     }
     // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
     bool first = false;
@@ -217,7 +219,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     path.skyKnown = false;
     path.ray = {offsetOrigin(s.p, s.ng), next.wi, 0, kInfinity};
     path.lampShare = lampShare;
-    if (!path.survives(++scattered, lights_.lampsOnly() ? lampShare : 1, sampler)) break;
+    if (!path.survives(++scattered, vertices_ && vertices_->lightRays().hasAllLight() ? lampShare : 1, sampler)) break;
   }
   return sum;
 }
@@ -275,7 +277,7 @@ Vec3 PathWalk::direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, 
   if (lights_.hasLocal()) {
     const Vec2 u = sampler.next2();
     const LightSample light = lights_.sampleLocal(s.p, u, sampler.next1());
-    const float left = light.pdf > 0 ? 1 : lampShare;
+    const float left = vertices_ && vertices_->lightRays().leave(light) ? lampShare : 1;
     const Vec3 value = contribution<kParts>(s, bsdf, light, rayCount, &local) * left;
     sum += value;
     apart.add(light, value);
@@ -331,7 +333,7 @@ Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidat
   const float toArea = -dot(chosen->ng, wi) / lengthSquared(exact);
   const float pick = static_cast<float>(vertices_->all().size()) * total / (chosenWeight * kCandidates);
   const Vec3 all = f * fz * chosen->flux * left * (toArea * chosenShare * pick);
-  apart.addLamp(chosen->lamp, all);
+  apart.add(*chosen, all);
   if constexpr (kParts) *diffuse = all * diffuseShare(bsdf, wi);
   return all;
 }

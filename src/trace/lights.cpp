@@ -60,6 +60,7 @@ void Lights::addLamps() {
     flux += lampShare_.emplace_back(luminance(lamp.intensityCd) * directions.fluxPerCandela());
     extendedLamps_ = extendedLamps_ || lamp.extended;
   }
+  lampFluxLm_ = flux;
   for (size_t i = 0; i < lamps_.size(); ++i) {
     const Lamp& lamp = lamps_[i];
     const bool point = lamp.kind == LampKind::Point;
@@ -204,6 +205,7 @@ LightRay Lights::sampleEmitterRay(size_t index, Sampler& sampler) const {
   const Vec2 b = sampleTriangle(sampler.next2());
   const Vec3 local = sampleCosineHemisphere(sampler.next2()), n = e.doubleSided && sampler.next1() < 0.5f ? -t.normal : t.normal;
   LightRay ray;
+  ray.emitter = static_cast<int32_t>(index);
   ray.origin = offsetOrigin(v.a * (1 - b.x - b.y) + v.b * b.x + v.c * b.y, n);
   ray.direction = Frame(n).toWorld(local);
   ray.fluxLm = emissionAt(e, t, b) * (kPi * t.areaM2 * (e.doubleSided ? 2.0f : 1.0f) / t.share);

@@ -1,6 +1,7 @@
 // Every light of a scene, sampled directly: lamps, emissive meshes, suns and the sky.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/sampler.h"
@@ -15,13 +16,22 @@ namespace roomlight {
 struct LightRay {
   Vec3 origin, direction;
   Vec3 fluxLm;  // emission / density: all the light of what it was chosen from, if this were the only ray
-  int32_t lamp = -1;  // that it left, of all lamps
+  int32_t lamp = -1;     // that it left, of all lamps
+  int32_t emitter = -1;  // or emissive mesh
 };
 
 class MeanEmission;
 
 class Lights {
  public:
+  struct EmitterTriangle {
+    uint32_t triangle;
+    float share; // of the emitter's flux
+    float areaM2;
+    TriangleVertices v;
+    Vec3 normal; // unit, of the front
+  };
+
   // `sunApart`: the sun in an image of the sky counts as one of the suns. The same light, for who takes care of sharp shadows.
   explicit Lights(const Scene& scene, bool sunApart = false);
   // Of a scene that was edited where it stands; suns and sky are as before, and taken from there.
@@ -62,6 +72,8 @@ class Lights {
   const Bounds3& emitterBounds(size_t index) const { return emitters_[index].bounds; }
   float emitterAreaM2(size_t index) const { return emitters_[index].areaM2; }  // of one side
   float emitterFluxLm(size_t index) const { return emitters_[index].fluxLm; }  // luminous
+  bool emitterShinesTwice(size_t index) const { return emitters_[index].doubleSided; }  // to both sides
+  std::span<const EmitterTriangle> emitterTriangles(size_t index) const { return emitters_[index].triangles; }
   // From its surface: places by flux, directions by cosine.
   LightRay sampleEmitterRay(size_t index, Sampler& sampler) const;
 
@@ -74,18 +86,11 @@ class Lights {
   LightSample sampleSky(Vec2 u) const;
 
   bool hasLocal() const { return !lamps_.empty() || !emitters_.empty(); }
-  bool lampsOnly() const { return emitters_.empty() && suns_.empty() && !sky_.present(); }
   bool hasEmitters() const { return !emitters_.empty(); }
   double emittedFluxLm() const { return emitterFluxLm_; }  // of emissive meshes
+  double lampFluxLm() const { return lampFluxLm_; }        // by which lamps share rays: of a spot as if without falloff
 
  private:
-  struct EmitterTriangle {
-    uint32_t triangle;
-    float share; // of the emitter's flux
-    float areaM2;
-    TriangleVertices v;
-    Vec3 normal; // unit, of the front
-  };
   struct Emitter {
     uint32_t instance;
     Vec3 centre, normal;  // normal: of a flat one-sided emitter, else zero
@@ -130,7 +135,7 @@ class Lights {
   std::vector<Emitter> emitters_;
   std::vector<int32_t> emitterOfInstance_;
   SkyDistribution sky_;
-  double emitterFluxLm_ = 0;
+  double emitterFluxLm_ = 0, lampFluxLm_ = 0;
   bool extendedLamps_ = false;
 };
 

@@ -3,64 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "reference/path_tracer.h"
-#include "support/rooms.h"
+#include "unit/reference/shaded_lamp.h"
 
 namespace roomlight {
 namespace {
 
-// A room of 4 x 3 x 4 m.
-Scene room(const Material& walls) {
-  Scene scene;
-  test::addRoom(scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, test::addMaterial(scene, walls)));
-  return scene;
-}
-
-// A lamp in a shade of this size in metres, at this part of its width, with a pane of thin glass under it.
-Scene shadedLamp(const Material& shade, float place = 0.9f, float size = 0.3f) {
-  Scene scene = room(test::lambertian(0.6f));
-  const int s = test::addMaterial(scene, shade);
-  const Vec3 lo{1.6f, 1.8f, 1.2f}, x{size, 0, 0}, y{0, size, 0}, z{0, 0, size};
-  test::addRectangle(scene, lo, y, z, s);
-  test::addRectangle(scene, lo + x, z, y, s);
-  test::addRectangle(scene, lo, x, y, s);
-  test::addRectangle(scene, lo + z, y, x, s);
-  test::addRectangle(scene, lo + y, x, z, s);
-  Material glass;
-  glass.transmission = 1;
-  glass.metallic = 0;
-  glass.roughness = 0.4f;
-  test::addRectangle(scene, lo, x, z, test::addMaterial(scene, glass));
-  scene.lamps.push_back(test::pointLamp(lo + x * place + y * 0.5f + z * 0.5f, 100));
-  return scene;
-}
-
-PathResult render(const Scene& scene, int samples, bool lightPaths, uint64_t seed = 0) {
-  const RayScene rays(scene);
-  const Lights lights(scene);
-  Camera camera;
-  camera.worldFromCamera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 1.4f, 3.9f}};
-  camera.yFovRad = 1.2f;
-  PathSettings settings;
-  settings.width = settings.height = 20;
-  settings.samples = samples;
-  settings.lightPaths = lightPaths;
-  settings.seed = seed;
-  return pathTrace(rays, lights, camera, settings);
-}
-
-double meanLuminance(const Image& image) {
-  double sum = 0;
-  for (const Vec3 p : image.pixels) sum += luminance(p);
-  return sum / static_cast<double>(image.pixels.size());
-}
-
-// Of the mean luminance.
-double standardError(const PathResult& result) {
-  double sum = 0;
-  for (const Vec3 v : result.variance.pixels) sum += luminance(v);
-  return std::sqrt(sum) / static_cast<double>(result.variance.pixels.size());
-}
+using test::meanLuminance, test::render, test::room, test::shadedLamp, test::standardError;
 
 TEST(LightVertices, FirstVerticesHoldAllTheLampsLight) {
   Scene scene = room(test::lambertian(0));
