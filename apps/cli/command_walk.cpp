@@ -12,6 +12,7 @@
 #include "engine/light_colour.h"
 #include "engine/live_walk.h"
 #include "engine/quality.h"
+#include "engine/stages.h"
 #include "import/import.h"
 #include "import/lighting_file.h"
 #include "interrupt.h"
@@ -109,7 +110,7 @@ class FrameWriter {
       white_ = whiteOf(display_, lightColour(frame.rays, frame.camera, frame.image), *ev100_);
     }
     const Image shown = displayed(frame.image, display_, white_, *ev100_);
-    return extension == ".jpg" ? writeJpeg(file.value(), shown) : writePng(file.value(), shown, {});
+    return extension == ".jpg" ? writeJpeg(file.value(), shown, SIZE_MAX) : writePng(file.value(), shown, {});
   }
 
  private:
