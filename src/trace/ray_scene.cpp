@@ -69,6 +69,7 @@ struct RayScene::State {
   // Once anything has moved: what has not, and what has, which `top` holds then. Both in world space.
   RTCScene still = nullptr, moving = nullptr;
   std::vector<uint8_t> moves;        // per instance: it is in `moving`; empty before that
+  std::vector<uint8_t> attached;  // per instance: it has a geometry in one of them
   bool shares = false;               // meshes are Embree instances, below which there can be no more
   RayLog* log = nullptr;
   std::vector<RTCScene> meshScenes;  // of instanced meshes, else null
@@ -138,6 +139,7 @@ void RayScene::State::build() {
   tags.reserve(scene->meshes.size());
   for (const Mesh& mesh : scene->meshes) tags.push_back({scene, &mesh});
   meshScenes.assign(scene->meshes.size(), nullptr);
+  attached.assign(scene->instances.size(), 0);
 
   std::vector<int> uses(scene->meshes.size(), 0);
   for (const Instance& instance : scene->instances) ++uses[static_cast<size_t>(instance.mesh)];
@@ -166,6 +168,7 @@ void RayScene::State::build() {
       rtcCommitGeometry(geometry);
     }
     rtcAttachGeometryByID(top, geometry, static_cast<unsigned>(i));
+    attached[i] = 1;
     rtcReleaseGeometry(geometry);
   }
   commitTop();
@@ -199,17 +202,17 @@ void RayScene::State::update(std::span<const uint32_t> changed) {
   if (!still) part();
   bool stillLess = false;
   for (const uint32_t i : changed) {
-    RTCScene& holder = moves[i] ? moving : still;
-    if (rtcGetGeometry(holder, i)) {
-      rtcDetachGeometry(holder, i);
+    if (attached[i]) {
+      rtcDetachGeometry(moves[i] ? moving : still, i);
       stillLess = stillLess || !moves[i];
     }
-    moves[i] = 1;
+    moves[i] = 1, attached[i] = 0;
     const Instance& instance = scene->instances[i];
     if (scene->meshes[static_cast<size_t>(instance.mesh)].triangleCount() == 0) continue;
     // In world space, not placed by a transform: the same bits as a scene has in which nothing moved.
     RTCGeometry geometry = makeGeometry(instance.mesh, instance.worldFromObject);
     rtcAttachGeometryByID(moving, geometry, i);
+    attached[i] = 1;
     rtcReleaseGeometry(geometry);
   }
   if (stillLess) rtcCommitScene(still);

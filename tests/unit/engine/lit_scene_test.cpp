@@ -51,7 +51,7 @@ RenderSettings small(const std::string& technique) {
   s.voxel.voxelSizeM = 0.15f;
   s.radiance.residual = 1e-5f;
   s.hybrid.tolerance = 0;
-  s.vxgi.resolution = 32, s.vxgi.levels = 3, s.vxgi.residual = 1e-5f;
+  s.vxgi.resolution = 32, s.vxgi.levels = 2;
   s.lpv.cells = 16, s.lpv.coarseCells = 0, s.lpv.mapSize = 64;
   s.photon.photons = 20000, s.photon.causticPhotons = 0, s.photon.importons = 1000;
   return s;
@@ -64,7 +64,8 @@ class LitSceneUpdate : public ::testing::TestWithParam<std::string> {
   Stages stages_{silent_, stats_};
   Camera camera_ = test::cameraAt({2, 1.4f, 4.6f});
 
-  std::unique_ptr<LitScene> open(const Scene& scene) { return std::move(lightScene(scene, small(GetParam()), stages_, &camera_).value()); }
+  // For no camera: one that a thing has moved before would tell another room to vxgi and lpv.
+  std::unique_ptr<LitScene> open(const Scene& scene) { return std::move(lightScene(scene, small(GetParam()), stages_).value()); }
   Image picture(const LitScene& lit) const { return lit.picture(camera_, kWidth, kHeight); }
 
   // What bounces leave out is all that may differ.
@@ -115,7 +116,7 @@ TEST_P(LitSceneUpdate, aHiddenThingIsGone) {
   expectSame(picture(*lit), picture(*open(home.scene)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon", "path"), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon", "path"), [](const auto& test) { return test.param; });
 
 TEST(MeasureWalk, playsEveryFrameAndPutsAllBack) {
   Home home;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "base/sampler.h"
 #include "base/sampling.h"
 #include "support/rooms.h"
 #include "trace/surfaces.h"
