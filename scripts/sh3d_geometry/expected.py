@@ -3,7 +3,7 @@
 
     scripts/sh3d_geometry/expected.py HOME.sh3d
 
-Prints JSON: rooms with floorM2 and ceilingM2, walls with volumeM3 (its body without what openings take, and its baseboards), both in the
+Prints JSON: rooms with floorM2, ceilingM2 and undersideM2, walls with volumeM3 (its body without what openings take, and its baseboards), both in the
 file's order, without those on levels that are not viewable."""
 import cmath
 import json
@@ -225,6 +225,12 @@ def stairwell(piece):
             for ring in svg_path(e.get("staircaseCutOutShape"))]
 
 
+def top_of(home, room):
+    """Of a level ceiling."""
+    level = room.get("level")
+    return home.elevation(level) + number(home.levels[level], "height") if level is not None else home.wall_height
+
+
 def level_walls(home, level):
     """Whether all walls of a level are as high."""
     tops = {h for w in home.walls if w.get("level") == level for h in (number(w, "height", home.wall_height), number(w, "heightAtEnd", number(w, "height", home.wall_height)))}
@@ -239,7 +245,7 @@ def rooms(home):
     for i, room in enumerate(listed):
         level = room.get("level")
         floor = home.elevation(level)
-        ceiling = floor + number(home.levels[level], "height") if level is not None else home.wall_height
+        ceiling = top_of(home, room)
         # Under a slope a ceiling is larger than its plan: those of the highest level, unless they are flat.
         highest = all(home.elevation(l) <= floor + 1e-3 for l in home.levels if home.shown(l))
         entry = {"name": room.get("name") or "room", "flat": room.get("ceilingFlat") == "true" or not highest or level_walls(home, level)}
@@ -254,6 +260,11 @@ def rooms(home):
                     shapes.append(stairwell(piece))
             shown = room.get(key + "Visible", "true") == "true"
             entry[key + "M2"] = area(shapes, lambda inside: inside[0] and not any(inside[1:])) / 1e4 if shown else 0.0
+            if key == "floor":  # of its slab what no ceiling of a lower room hides
+                bottom = floor - home.slab(level)
+                low = [[ring_of(r)] for r in listed if r.get("ceilingVisible", "true") == "true" and abs(top_of(home, r) - bottom) < 1e-3]
+                seen = shown and home.slab(level) > 0
+                entry["undersideM2"] = area(shapes + low, lambda inside: inside[0] and not any(inside[1:])) / 1e4 if seen else 0.0
         out.append(entry)
     return out
 

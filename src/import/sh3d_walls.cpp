@@ -101,12 +101,15 @@ bool isLevelAt(PlanPoint p, PlanPoint q, double heightCm) {
 
 PlanPoint between(PlanPoint p, PlanPoint q, double t) { return {p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t}; }
 
-// Where an upright border of the opening is the wall's own end.
+bool liesBetween(PlanPoint p, PlanPoint a, PlanPoint b) {
+  return std::hypot(p.x - a.x, p.y - a.y) + std::hypot(p.x - b.x, p.y - b.y) < std::hypot(a.x - b.x, a.y - b.y) + kTinyCm;
+}
+
+// Where an upright border of the opening, or of a niche, lies in the wall's own end: that end has the hole.
 bool isWallsEnd(const WallCut& cut, double u) {
   const PlanPoint l = cut.onLeft(u), r = cut.onRight(u);
-  const auto same = [](PlanPoint p, PlanPoint q) { return std::hypot(p.x - q.x, p.y - q.y) < kTinyCm; };
-  const WallSides& s = *cut.sides;
-  return (same(l, s.left.front().a) && same(r, s.right.front().a)) || (same(l, s.left.back().b) && same(r, s.right.back().b));
+  const Panel &first = cut.sides->left.front(), &last = cut.sides->left.back(), &s = cut.sides->right.front(), &e = cut.sides->right.back();
+  return (liesBetween(l, first.a, s.a) && liesBetween(r, first.a, s.a)) || (liesBetween(l, last.b, e.b) && liesBetween(r, last.b, e.b));
 }
 
 // The inside of an opening: its outline between the two sides, in pieces where a round side has a corner. No faces where the opening ends at

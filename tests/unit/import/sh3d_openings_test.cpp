@@ -131,6 +131,21 @@ TEST(Sh3dOpenings, wallsAcrossLoseWhatStandsInThePiece) {
   EXPECT_FALSE(rays.intersect({{1.55f, 1, 0.05f}, {1, 0, 0}, 0, 0.94f}).valid());  // along the opening, from jamb to jamb
 }
 
+TEST(Sh3dOpenings, aNicheInACornerOfTheWallLeavesItClosed) {
+  // A wall of 12 cm runs up to another one, whose door stands 4 cm in its corner: to the left or the right, at its start or end.
+  for (const bool left : {false, true}) {
+    for (const bool atStart : {false, true}) {
+      const double x = left ? 50 : -50, inWall = 15.9;
+      const std::string wall = atStart ? wallXml("w", 0, 0, 0, -300, 12) : wallXml("w", 0, -300, 0, 0, 12);
+      const Scene scene = homeScene(wall + doorXml(x, -5.9, 96, 210, 0));
+      const double whole = 0.12 * 3 * 2.5, taken = 0.04 * inWall / 100 * 2.1;
+      EXPECT_NEAR(volumeM3(scene, "w"), whole - taken, 1e-4) << left << atStart;
+      // One jamb looks at the end, which is open there: no face plugs it.
+      for (const float z : {-1.0f, 1.0f}) EXPECT_NEAR(areaFacing(scene, "w", {0, 0, z}), 0.12 * 2.5, 1e-4) << left << atStart << z;
+    }
+  }
+}
+
 // A door that reaches into the mitre of a corner leaves no post of it.
 TEST(Sh3dOpenings, doorsInCornersCutTheMitre) {
   const Scene scene = indoors(boxWalls(400, 300, 20) + doorXml(355, 0, 90, 200, 0));
