@@ -86,12 +86,33 @@ PlanArea stairwells(const Home& home, const std::vector<const Piece*>& stairs, d
   return out;
 }
 
+// Heights of a ceiling: those of its outline's corners, straight lines in between. Triangles have all their corners on the outline.
+double ceilingOn(const PlanArea& area, const Drawn& drawn, PlanPoint p) {
+  if (drawn.flat) return drawn.ceilingCm;
+  double nearest = 1e300, height = drawn.ceilingCm;
+  for (const PlanRing& ring : area) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const PlanPoint a = ring[i], b = ring[(i + 1) % ring.size()];
+      const double x = b.x - a.x, y = b.y - a.y, squared = x * x + y * y;
+      const double t = squared > 0 ? std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / squared, 0.0, 1.0) : 0;
+      const double away = std::hypot(a.x + x * t - p.x, a.y + y * t - p.y);
+      if (away >= nearest) continue;
+      nearest = away;
+      height = t == 0 ? drawn.ceilingAt(a) : t == 1 ? drawn.ceilingAt(b)
+                                                    : drawn.ceilingAt(a) + (drawn.ceilingAt(b) - drawn.ceilingAt(a)) * t;
+    }
+  }
+  return height;
+}
+
 void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int material, Effort& effort, Surfaces& out) {
   const auto corner = [&](PlanPoint p) {
-    return SurfaceCorner{toWorld(p, ceiling ? drawn.ceilingAt(p) : drawn.floorCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
+    return SurfaceCorner{toWorld(p, ceiling ? ceilingOn(area, drawn, p) : drawn.floorCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
   };
   const std::vector<PlanTriangle> triangles = trianglesOf(area);
-  effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + drawn.corners->size() / 8 : 1), drawn.room->place);
+  size_t points = 0;
+  for (const PlanRing& ring : area) points += ring.size();
+  effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + (points * (1 + drawn.corners->size())) / 8 : 1), drawn.room->place);
   for (const PlanTriangle& t : triangles) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
 }
 

@@ -146,6 +146,24 @@ TEST(Sh3dOpenings, aNicheInACornerOfTheWallLeavesItClosed) {
   }
 }
 
+// Doors that reach beyond the end of a wall take it away, also where that end is slanted: by the wall's own turn or by a mitre of any angle.
+TEST(Sh3dOpenings, nothingIsLeftOfAWallsEndInADoor) {
+  for (const double turn : {0.0, 1e-4, 0.002, 0.045, 0.08}) {
+    // A wall of 12 cm of which the last 60 cm stand in a door of 2 m that is not turned with it.
+    const double c = std::cos(turn), s = std::sin(turn);
+    const Scene lone = homeScene(wallXml("w", 0, 0, -300 * c, -300 * s, 12) + doorXml(40, 0, 200, 200, 0, "wallCutOutOnBothSides='true'"));
+    // Up to the door's edge at x = -60, which cuts the wall askew.
+    EXPECT_NEAR(volumeM3(lone, "w"), 0.12 * (3 * 2.5 - 0.6 / c * 2), 1e-4) << turn;
+    EXPECT_NEAR(areaFacing(lone, "w", {1, 0, 0}), 0.12 * 0.5 + 0.12 / c * 2, 1e-4) << turn;  // the end above the door, and the jamb
+  }
+  for (const double degrees : {10.0, 45.0, 80.0, 100.0, 135.0}) {
+    // The next wall leaves by that angle: the mitre lies in the door.
+    const double a = degrees * std::numbers::pi / 180, x = 300 * std::cos(a), y = 300 * std::sin(a);
+    const Scene corner = homeScene(wallXml("w", -300, 0, 0, 0, 12, "wallAtEnd='v'") + wallXml("v", 0, 0, x, y, 12, "wallAtStart='w'") + doorXml(0, 0, 120, 200, 0));
+    EXPECT_NEAR(volumeM3(corner, "w"), 0.12 * (3 * 2.5 - 0.6 * 2), 1e-4) << degrees;  // a mitre takes on one side what it adds on the other
+  }
+}
+
 // A door that reaches into the mitre of a corner leaves no post of it.
 TEST(Sh3dOpenings, doorsInCornersCutTheMitre) {
   const Scene scene = indoors(boxWalls(400, 300, 20) + doorXml(355, 0, 90, 200, 0));

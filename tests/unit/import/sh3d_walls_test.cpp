@@ -154,6 +154,13 @@ TEST(Sh3dRooms, ceilingsFollowTheWallsOfTheHighestLevel) {
   EXPECT_EQ(boundsOf(flat, "R").lo.y, boundsOf(flat, "R").hi.y);
 }
 
+// As Sweet Home 3D has it: a ceiling is as high as walls are at the room's corners; what stands beside its edges in between pulls it nowhere.
+TEST(Sh3dRooms, lowScreensWithinARoomLeaveItsCeilingLevel) {
+  const std::string room = roomXml({{0, 0}, {400, 0}, {400, 300}, {200, 300}, {200, 250}, {0, 250}}, "name='R' floorVisible='false'");
+  const Scene scene = homeScene(boxWalls(400, 300, 10) + wallXml("screen", 200, 10, 200, 40, 1, "height='135'") + room);
+  EXPECT_NEAR(boundsOf(scene, "R").lo.y, 2.5, 1e-6);
+}
+
 TEST(Sh3dRooms, staircasesCutTheFloorThatTheyComeUpThrough) {
   const std::string levels =
       "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>"
