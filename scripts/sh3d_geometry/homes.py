@@ -201,7 +201,7 @@ def openings():
         at = (1350, 700 + 200 * row)
         plan.wall(*turned([(-300, 0)], math.radians(degrees), at)[0], *at, 12)
         plan.piece("doorOrWindow", "over the end", at[0] + 20, at[1], 160, 20, 100, "window.obj", elevation=80, cutOutShape=FULL, wallCutOutOnBothSides="true")
-    for column, degrees in enumerate((15, 80, 120)):
+    for column, degrees in enumerate((15, 80, 90)):
         at = (1800 + 500 * column, 700)
         mitre = [plan.wall(at[0] - 200, at[1], *at, 20), plan.wall(*at, *turned([(200, 0)], math.radians(degrees), at)[0], 20)]
         plan.join(mitre[0], False, mitre[1])
