@@ -3,7 +3,7 @@
 
     scripts/sh3d_geometry/expected.py HOME.sh3d
 
-Prints JSON: rooms with floorM2 and ceilingM2, walls with volumeM3 (its body without what openings take, and its baseboards), both in the
+Prints JSON: rooms with floorM2, ceilingM2 and undersideM2, walls with volumeM3 (its body without what openings take, and its baseboards), both in the
 file's order, without those on levels that are not viewable."""
 import cmath
 import json
@@ -61,6 +61,10 @@ def board_thickness(wall, side):
     return sum(number(b, "thickness") for b in wall.findall(f"baseboard[@attribute='{side}SideBaseboard']"))
 
 
+def has_length(wall):
+    return abs(plan(wall, "xEnd", "yEnd") - plan(wall, "xStart", "yStart")) >= 1e-3
+
+
 def sides(wall, with_boards):
     """The bare sides as polylines from start to end: left, right. y points down on the plan, so left is a turn by -90 degrees."""
     start, end, extent = plan(wall, "xStart", "yStart"), plan(wall, "xEnd", "yEnd"), number(wall, "arcExtent")
@@ -90,12 +94,12 @@ def meeting(a, b, limit):
 
 def outlines(home, with_boards=False):
     number_of = {w.get("id"): i for i, w in enumerate(home.walls)}
-    bare = [sides(w, with_boards) for w in home.walls]
-    joined = [[list(side) for side in pair] for pair in bare]
+    bare = [sides(w, with_boards) if has_length(w) else None for w in home.walls]
+    joined = [[list(side) for side in pair or ()] for pair in bare]
     for i, wall in enumerate(home.walls):
         for key, at in (("wallAtStart", 0), ("wallAtEnd", -1)):
             j = number_of.get(wall.get(key))
-            if j is None or j == i or home.walls[j].get("level") != wall.get("level"):
+            if j is None or j == i or not bare[i] or not bare[j] or home.walls[j].get("level") != wall.get("level"):
                 continue
             other = home.walls[j]
             starts, ends = other.get("wallAtStart") == wall.get("id"), other.get("wallAtEnd") == wall.get("id")
@@ -225,6 +229,12 @@ def stairwell(piece):
             for ring in svg_path(e.get("staircaseCutOutShape"))]
 
 
+def top_of(home, room):
+    """Of a level ceiling."""
+    level = room.get("level")
+    return home.elevation(level) + number(home.levels[level], "height") if level is not None else home.wall_height
+
+
 def level_walls(home, level):
     """Whether all walls of a level are as high."""
     tops = {h for w in home.walls if w.get("level") == level for h in (number(w, "height", home.wall_height), number(w, "heightAtEnd", number(w, "height", home.wall_height)))}
@@ -239,7 +249,7 @@ def rooms(home):
     for i, room in enumerate(listed):
         level = room.get("level")
         floor = home.elevation(level)
-        ceiling = floor + number(home.levels[level], "height") if level is not None else home.wall_height
+        ceiling = top_of(home, room)
         # Under a slope a ceiling is larger than its plan: those of the highest level, unless they are flat.
         highest = all(home.elevation(l) <= floor + 1e-3 for l in home.levels if home.shown(l))
         entry = {"name": room.get("name") or "room", "flat": room.get("ceilingFlat") == "true" or not highest or level_walls(home, level)}
@@ -254,6 +264,11 @@ def rooms(home):
                     shapes.append(stairwell(piece))
             shown = room.get(key + "Visible", "true") == "true"
             entry[key + "M2"] = area(shapes, lambda inside: inside[0] and not any(inside[1:])) / 1e4 if shown else 0.0
+            if key == "floor":  # of its slab what no ceiling of a lower room hides
+                bottom = floor - home.slab(level)
+                low = [[ring_of(r)] for r in listed if r.get("ceilingVisible", "true") == "true" and abs(top_of(home, r) - bottom) < 1e-3]
+                seen = shown and home.slab(level) > 0
+                entry["undersideM2"] = area(shapes + low, lambda inside: inside[0] and not any(inside[1:])) / 1e4 if seen else 0.0
         out.append(entry)
     return out
 
@@ -261,7 +276,7 @@ def rooms(home):
 def expected(path):
     home = Home(path)
     cuts = openings(home)
-    walls = [{"name": w.get("id"), "volumeM3": wall_volume(home, w, o, b, cuts)} for w, o, b in zip(home.walls, outlines(home), outlines(home, True)) if home.shown(w.get("level"))]
+    walls = [{"name": w.get("id"), "volumeM3": wall_volume(home, w, o, b, cuts) if o else 0.0} for w, o, b in zip(home.walls, outlines(home), outlines(home, True)) if home.shown(w.get("level"))]
     return {"rooms": rooms(home), "walls": walls}
 
 

@@ -196,6 +196,21 @@ def openings():
     slant = turned([(0, 0), (500, 0), (250, 0)], 0.5, (900, 200))
     plan.wall(*slant[1], *slant[0], 30)
     plan.piece("doorOrWindow", "slanted", *slant[2], 100, 30, 100, "window.obj", elevation=80, angle=0.5, cutOutShape=ROUND)
+    # Openings that reach over ends, which stand askew to them: walls a little turned, mitres of every angle.
+    for row, degrees in enumerate((0.1, 2.5)):
+        at = (1350, 700 + 200 * row)
+        plan.wall(*turned([(-300, 0)], math.radians(degrees), at)[0], *at, 12)
+        plan.piece("doorOrWindow", "over the end", at[0] + 20, at[1], 160, 20, 100, "window.obj", elevation=80, cutOutShape=FULL, wallCutOutOnBothSides="true")
+    for column, degrees in enumerate((15, 80, 90)):
+        at = (1800 + 500 * column, 700)
+        mitre = [plan.wall(at[0] - 200, at[1], *at, 20), plan.wall(*at, *turned([(200, 0)], math.radians(degrees), at)[0], 20)]
+        plan.join(mitre[0], False, mitre[1])
+        plan.join(mitre[1], True, mitre[0])
+        plan.piece("doorOrWindow", "over a mitre", at[0] - 65, at[1], 130, 20, 210, "door.obj", cutOutShape=FULL)
+    # A door that only just stands in the end of a wall which runs up to it.
+    plan.wall(1500, 1300, 2000, 1300, 12)
+    plan.wall(1700, 1000, 1700, 1300, 12)
+    plan.piece("doorOrWindow", "beside an end", 1650, 1300, 96, 28, 210, "door.obj", cutOutShape=FULL, wallCutOutOnBothSides="true")
     return plan
 
 
@@ -333,6 +348,32 @@ def catalogue(jar):
                 more |= {"cutOutShape": entry["doorOrWindowCutOutShape"]} if "doorOrWindowCutOutShape" in entry else {}
             plan.piece("doorOrWindow" if door else "pieceOfFurniture", quoteattr(entry["name"])[1:-1].replace("'", "&apos;"), x, y, *size, f"{i}/{path.rsplit('/', 1)[1]}", **more)
     return plan.file()
+
+
+def examples(jar):
+    """The homes that Sweet Home 3D comes with: {name: bytes of the .sh3d file}. Their models and pictures get folders of their own, as it saves them."""
+    folder, out = "com/eteks/sweethome3d/io/resources/", {}
+    with zipfile.ZipFile(jar) as archive:
+        names = archive.namelist()
+        for file in (n for n in names if n.startswith(folder + "examples/") and n.endswith(".xml")):
+            entries = {}
+
+            def moved(match):
+                place, name = match.group(2).lstrip("/").rsplit("/", 1)
+                number = entries.setdefault((place, name), len(entries))
+                return f"{match.group(1)}='{number}/{name}'"
+
+            xml = re.sub(r"\b(model|icon|planIcon|image)='([^']+/[^']+)'", moved, archive.read(file).decode())
+            packed = io.BytesIO()
+            with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as home:
+                home.writestr("Home.xml", xml)
+                for (place, name), number in entries.items():
+                    # A model in a folder of its own has parts beside it.
+                    parts = [name] if place + "/" == folder else [n.rsplit("/", 1)[1] for n in names if n.rsplit("/", 1)[0] == place and not n.endswith("/")]
+                    for part in parts:
+                        home.writestr(f"{number}/{part}", archive.read(f"{place}/{part}"))
+            out[file.rsplit("/", 1)[1][:-4]] = packed.getvalue()
+    return out
 
 
 MAKERS = {"odd": odd, "joints": joints, "round": round_walls, "slopes": slopes, "openings": openings, "levels": levels, "rooms": rooms,

@@ -86,19 +86,38 @@ PlanArea stairwells(const Home& home, const std::vector<const Piece*>& stairs, d
   return out;
 }
 
+// Heights of a ceiling: those of its outline's corners, straight lines in between. Triangles have all their corners on the outline.
+double ceilingOn(const PlanArea& area, const Drawn& drawn, PlanPoint p) {
+  if (drawn.flat) return drawn.ceilingCm;
+  double nearest = 1e300, height = drawn.ceilingCm;
+  for (const PlanRing& ring : area) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const PlanPoint a = ring[i], b = ring[(i + 1) % ring.size()];
+      const double x = b.x - a.x, y = b.y - a.y, squared = x * x + y * y;
+      const double t = squared > 0 ? std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / squared, 0.0, 1.0) : 0;
+      const double away = std::hypot(a.x + x * t - p.x, a.y + y * t - p.y);
+      if (away >= nearest) continue;
+      nearest = away;
+      height = t == 0 ? drawn.ceilingAt(a) : t == 1 ? drawn.ceilingAt(b)
+                                                    : drawn.ceilingAt(a) + (drawn.ceilingAt(b) - drawn.ceilingAt(a)) * t;
+    }
+  }
+  return height;
+}
+
 void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int material, Effort& effort, Surfaces& out) {
   const auto corner = [&](PlanPoint p) {
-    return SurfaceCorner{toWorld(p, ceiling ? drawn.ceilingAt(p) : drawn.floorCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
+    return SurfaceCorner{toWorld(p, ceiling ? ceilingOn(area, drawn, p) : drawn.floorCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
   };
   const std::vector<PlanTriangle> triangles = trianglesOf(area);
-  effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + drawn.corners->size() / 8 : 1), drawn.room->place);
+  size_t points = 0;
+  for (const PlanRing& ring : area) points += ring.size();
+  effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + (points * (1 + drawn.corners->size())) / 8 : 1), drawn.room->place);
   for (const PlanTriangle& t : triangles) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
 }
 
-// What is seen of the slab under a floor of an upper level: its edges, in stairwells too, and its underside where no level's ceiling closes it.
-void addSlab(const Home& home, const PlanArea& area, const Drawn& drawn, int material, Surfaces& out) {
-  const double top = drawn.floorCm, bottom = top - slabBelowCm(home, drawn.room->level);
-  if (bottom > top - kSameHeightCm) return;
+// What is seen of the slab under a floor of an upper level: its edges, in stairwells too, and its underside where no ceiling closes it.
+void addSlab(const PlanArea& area, const PlanArea& underside, double top, double bottom, int material, Surfaces& out) {
   const auto corner = [](PlanPoint p, double s, double h) { return SurfaceCorner{toWorld(p, h), {static_cast<float>(s / 100), static_cast<float>(-h / 100)}}; };
   for (const PlanRing& ring : area) {
     for (size_t i = 0; i < ring.size(); ++i) {
@@ -108,9 +127,9 @@ void addSlab(const Home& home, const PlanArea& area, const Drawn& drawn, int mat
       out.quad(material, {corner(p, 0, bottom), corner(q, length, bottom), corner(q, length, top), corner(p, 0, top)}, front);
     }
   }
-  const auto closes = [&](const Level& l) { return l.viewable && std::abs(l.elevationCm + l.heightCm - bottom) < kSameHeightCm; };
-  if (std::any_of(home.levels.begin(), home.levels.end(), closes)) return;
-  for (const PlanTriangle& t : trianglesOf(area)) out.triangle(material, corner(t[0], t[0].x, bottom), corner(t[1], t[1].x, bottom), corner(t[2], t[2].x, bottom), {0, -1, 0});
+  for (const PlanTriangle& t : trianglesOf(underside)) {
+    out.triangle(material, corner(t[0], t[0].x, bottom), corner(t[1], t[1].x, bottom), corner(t[2], t[2].x, bottom), {0, -1, 0});
+  }
 }
 
 // The room without those of the same height that the file names later.
@@ -125,6 +144,21 @@ PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling, Effo
     for (const PlanRing& ring : area) effort.spend(8 * ring.size(), all[i].room->place);
     effort.spend(8 * other.points.size(), all[i].room->place);
     area = subtracted(area, {other.points});
+  }
+  return area;
+}
+
+// Of a floor the part whose slab, `bottomCm` high from below, no ceiling of a lower room closes. Ceilings that stairs leave by are open there.
+PlanArea undersideOf(const PlanArea& floor, const std::vector<Drawn>& all, size_t i, double bottomCm, const PlanArea& stairwells, Effort& effort) {
+  PlanArea area = floor;
+  const std::string& place = all[i].room->place;
+  effort.spend(all.size() / 16, place);
+  for (const Drawn& lower : all) {
+    if (!lower.room->ceilingVisible || !lower.flat || std::abs(lower.ceilingCm - bottomCm) >= kSameHeightCm || !lower.overlaps(all[i])) continue;
+    for (const PlanRing& ring : area) effort.spend(8 * ring.size(), place);
+    effort.spend(8 * lower.room->points.size(), place);
+    const PlanArea ceiling = united({lower.room->points}, {});
+    area = subtracted(area, stairwells.empty() ? ceiling : subtracted(ceiling, stairwells));
   }
   return area;
 }
@@ -179,7 +213,11 @@ void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effor
     if (room.floorVisible) {
       const PlanArea area = subtracted(visibleArea(all, i, false, effort), stairwells(home, stairs, all[i].floorCm, room.place, effort));
       addFace(area, all[i], false, paints.material(room.floor, "floor"), effort, surfaces);
-      addSlab(home, area, all[i], paints.plain(room.floor, "floor"), surfaces);
+      const double top = all[i].floorCm, bottom = top - slabBelowCm(home, room.level);
+      if (bottom <= top - kSameHeightCm) {
+        const PlanArea underside = undersideOf(area, all, i, bottom, stairwells(home, stairs, bottom, room.place, effort), effort);
+        addSlab(area, underside, top, bottom, paints.plain(room.floor, "floor"), surfaces);
+      }
     }
     if (room.ceilingVisible) {
       const PlanArea area = subtracted(visibleArea(all, i, true, effort), stairwells(home, stairs, all[i].ceilingCm, room.place, effort));

@@ -11,6 +11,7 @@ constexpr double kLeastAlong = 0.5;  // cosine between wall and opening
 constexpr double kParallel = 0.0175;  // sine: a degree
 constexpr double kSmallestCm2 = 0.01;
 constexpr double kTouchCm = 1e-3;     // shapes this close are one hole
+constexpr double kSteepCm = 0.05;     // ends that run less along an opening stand at a right angle to it
 constexpr double kThroughCm = 400;    // how far what cuts both sides reaches into the wall
 
 struct Share {
@@ -18,7 +19,7 @@ struct Share {
 };
 
 bool isParallel(const Panel& p, const Opening& o) { return std::abs(o.v(p.b) - o.v(p.a)) < kParallel * p.lengthCm(); }
-bool runsAlong(const Panel& p, const Opening& o) { return std::abs(o.u(p.b) - o.u(p.a)) >= kLeastAlong * p.lengthCm(); }
+bool runsAlong(const Panel& p, const Opening& o) { return p.isEnd || std::abs(o.u(p.b) - o.u(p.a)) >= kLeastAlong * p.lengthCm(); }
 
 // The part of a panel, as shares of its length, that lies within the opening's depth.
 std::optional<Share> withinDepth(const Panel& p, const Opening& o) {
@@ -131,11 +132,26 @@ std::vector<double> heightsAt(const PlanArea& shape, double u) {
   return out;
 }
 
+// Ends are slanted to an opening by mitres, or as the wall is turned against it. Round walls are compared along their own ends.
+WallSides withEnds(const WallSides& sides, const Opening& o) {
+  WallSides out = sides;
+  const Panel l = sides.left.back(), r = sides.right.back(), m = sides.left.front(), s = sides.right.front();
+  const auto further = [&](const Panel& p, PlanPoint a, PlanPoint b) {
+    const double along = sides.straight ? (o.u(a) - o.u(b)) * (o.u(p.b) > o.u(p.a) ? 1 : -1) : ((a.x - b.x) * (p.b.x - p.a.x) + (a.y - b.y) * (p.b.y - p.a.y)) / p.lengthCm();
+    return along > kTouchCm;
+  };
+  if (further(l, l.b, r.b)) out.right.push_back({r.b, l.b, r.baseCm, r.topBCm, l.topBCm, true});
+  if (further(l, r.b, l.b)) out.left.push_back({l.b, r.b, l.baseCm, l.topBCm, r.topBCm, true});
+  if (further(m, s.a, m.a)) out.right.insert(out.right.begin(), {m.a, s.a, s.baseCm, m.topACm, s.topACm, true});
+  if (further(m, m.a, s.a)) out.left.insert(out.left.begin(), {s.a, m.a, m.baseCm, s.topACm, m.topACm, true});
+  return out;
+}
+
 // Its back is the end of the piece that lies deeper in the wall, without the reach that made it go through.
 void makeNiche(WallCut& cut) {
   Opening& o = cut.opening;
-  const std::vector<Panel>& side = cut.throughLeft ? cut.sides->left : cut.sides->right;
-  const Panel &open = *longest(side), &closed = *longest(cut.throughLeft ? cut.sides->right : cut.sides->left);
+  const std::vector<Panel>& side = cut.throughLeft ? cut.sides.left : cut.sides.right;
+  const Panel &open = *longest(side), &closed = *longest(cut.throughLeft ? cut.sides.right : cut.sides.left);
   const double towards = o.v(closed.a) + o.v(closed.b) - o.v(open.a) - o.v(open.b);
   double outside = o.v(open.a);
   for (const Panel& p : side) outside = towards > 0 ? std::min({outside, o.v(p.a), o.v(p.b)}) : std::max({outside, o.v(p.a), o.v(p.b)});
@@ -150,7 +166,7 @@ PlanRing Panel::outline() const { return {{0, baseCm}, {lengthCm(), baseCm}, {le
 
 PlanArea WallCut::holeInEnd(const Panel& panel) const {
   const double ua = opening.u(panel.a), ub = opening.u(panel.b), length = panel.lengthCm();
-  if (std::abs(ub - ua) > 1e-3 * length) return holeIn(panel);
+  if (std::abs(ub - ua) > kSteepCm) return holeIn(panel);
   const auto share = withinDepth(panel, opening);
   if (!share) return {};
   std::vector<double> heights;
@@ -169,9 +185,15 @@ PlanArea WallCut::holeIn(const Panel& panel) const {
   const auto share = withinDepth(panel, opening);
   if (!share || !runsAlong(panel, opening)) return {};
   PlanArea hole = intersected(opening.shape, {inFrame(panel, opening, *share)});
-  const double ua = opening.u(panel.a), scale = panel.lengthCm() / (opening.u(panel.b) - ua);
+  const double ua = opening.u(panel.a), length = panel.lengthCm(), scale = length / (opening.u(panel.b) - ua);
+  // The grid is coarse where little of the opening's width is much of the panel's: no slivers at the corners.
+  const double coarse = 2 * kPlanGrid * std::abs(scale);
   for (PlanRing& ring : hole) {
-    for (PlanPoint& q : ring) q.x = (q.x - ua) * scale;
+    for (PlanPoint& q : ring) {
+      q.x = (q.x - ua) * scale;
+      q.x = q.x < coarse ? 0 : q.x > length - coarse ? length
+                                                     : q.x;
+    }
   }
   return hole;
 }
@@ -200,7 +222,7 @@ std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> ope
       if (!turned) continue;
       merged = *turned;
     }
-    if (!touches(sides, merged)) continue;
+    if (!touches(withEnds(sides, merged), merged)) continue;
     const double reach = merged.bothSides && (!sides.straight || isParallel(*longest(sides.left), o)) ? kThroughCm : merged.reachCm;
     merged.vLow -= reach, merged.vHigh += reach;
     for (size_t i = 0; i < cuts.size();) {
@@ -216,11 +238,12 @@ std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> ope
       merged.shape = united(merged.shape, known.shape);
       cuts.erase(cuts.begin() + static_cast<ptrdiff_t>(i));
     }
-    cuts.push_back({std::move(merged), &sides});
+    cuts.push_back({std::move(merged), {}});
   }
   std::erase_if(cuts, [&](WallCut& cut) {
     Opening& o = cut.opening;
-    const PlanArea left = sideInFrame(sides.left, o), right = sideInFrame(sides.right, o);
+    cut.sides = withEnds(sides, o);
+    const PlanArea left = sideInFrame(cut.sides.left, o), right = sideInFrame(cut.sides.right, o);
     cut.throughLeft = !left.empty(), cut.throughRight = !right.empty();
     if (cut.throughLeft) o.shape = intersected(o.shape, left);
     if (cut.throughRight) o.shape = intersected(o.shape, right);

@@ -26,22 +26,8 @@ std::vector<Panel> panelsOf(const PlanRing& side, double baseCm, const std::vect
   std::vector<Panel> out;
   for (size_t i = 0; i + 1 < side.size(); ++i) {
     if (std::hypot(side[i + 1].x - side[i].x, side[i + 1].y - side[i].y) < kTinyCm) continue;
-    out.push_back({side[i], side[i + 1], baseCm, topCm[i], topCm[i + 1]});
+    out.push_back({side[i], side[i + 1], baseCm, topCm[i], topCm[i + 1], false});
   }
-  return out;
-}
-
-// The sides as openings cut them.
-WallSides cutSides(const std::vector<Panel>& left, const std::vector<Panel>& right) {
-  WallSides out{left, right, left.size() == 1 && right.size() == 1};
-  if (left.empty() || right.empty()) return out;
-  const auto further = [](const Panel& p, PlanPoint a, PlanPoint b) { return (a.x - b.x) * (p.b.x - p.a.x) + (a.y - b.y) * (p.b.y - p.a.y) > kTinyCm * p.lengthCm(); };
-  const Panel l = left.back(), r = right.back();
-  if (further(l, l.b, r.b)) out.right.push_back({r.b, l.b, r.baseCm, r.topBCm, l.topBCm});
-  if (further(l, r.b, l.b)) out.left.push_back({l.b, r.b, l.baseCm, l.topBCm, r.topBCm});
-  const Panel m = left.front(), s = right.front();
-  if (further(m, m.a, s.a)) out.left.insert(out.left.begin(), {s.a, m.a, m.baseCm, s.topACm, m.topACm});
-  if (further(m, s.a, m.a)) out.right.insert(out.right.begin(), {m.a, s.a, s.baseCm, m.topACm, s.topACm});
   return out;
 }
 
@@ -83,7 +69,7 @@ void addSide(const std::vector<Panel>& panels, bool left, std::span<const WallCu
 // Parameters from 0 to 1 at which the way from p to q passes a corner of the wall's sides.
 std::vector<double> stopsOn(const WallCut& cut, PlanPoint p, PlanPoint q) {
   std::vector<double> stops{0, 1};
-  for (const auto* side : {&cut.sides->left, &cut.sides->right}) {
+  for (const auto* side : {&cut.sides.left, &cut.sides.right}) {
     for (const Panel& panel : *side) {
       for (const PlanPoint& corner : {panel.a, panel.b}) {
         const double t = (cut.opening.u(corner) - p.x) / (q.x - p.x);
@@ -101,12 +87,15 @@ bool isLevelAt(PlanPoint p, PlanPoint q, double heightCm) {
 
 PlanPoint between(PlanPoint p, PlanPoint q, double t) { return {p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t}; }
 
-// Where an upright border of the opening is the wall's own end.
+bool liesBetween(PlanPoint p, PlanPoint a, PlanPoint b) {
+  return std::hypot(p.x - a.x, p.y - a.y) + std::hypot(p.x - b.x, p.y - b.y) < std::hypot(a.x - b.x, a.y - b.y) + kTinyCm;
+}
+
+// Where an upright border of the opening, or of a niche, lies in the wall's own end: that end has the hole.
 bool isWallsEnd(const WallCut& cut, double u) {
   const PlanPoint l = cut.onLeft(u), r = cut.onRight(u);
-  const auto same = [](PlanPoint p, PlanPoint q) { return std::hypot(p.x - q.x, p.y - q.y) < kTinyCm; };
-  const WallSides& s = *cut.sides;
-  return (same(l, s.left.front().a) && same(r, s.right.front().a)) || (same(l, s.left.back().b) && same(r, s.right.back().b));
+  const Panel &first = cut.sides.left.front(), &last = cut.sides.left.back(), &s = cut.sides.right.front(), &e = cut.sides.right.back();
+  return (liesBetween(l, first.a, s.a) && liesBetween(r, first.a, s.a)) || (liesBetween(l, last.b, e.b) && liesBetween(r, last.b, e.b));
 }
 
 // The inside of an opening: its outline between the two sides, in pieces where a round side has a corner. No faces where the opening ends at
@@ -185,7 +174,7 @@ void addRest(const WallOutline& outline, const WallHeights& h, std::span<const W
   const size_t last = outline.left.size() - 1;
   for (const size_t i : {size_t{0}, last}) {
     const size_t inner = i == 0 ? 1 : last - 1;
-    const Panel end{outline.left[i], outline.right[i], h.baseCm, h.leftTopCm[i], h.rightTopCm[i]};
+    const Panel end{outline.left[i], outline.right[i], h.baseCm, h.leftTopCm[i], h.rightTopCm[i], true};
     if (end.lengthCm() < kTinyCm) continue;
     const Vec3 front = horizontal(outline.left[i].x - outline.left[inner].x + outline.right[i].x - outline.right[inner].x,
                                   outline.left[i].y - outline.left[inner].y + outline.right[i].y - outline.right[inner].y);
@@ -226,7 +215,7 @@ void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Effor
     }
     const WallHeights h = heightsOf(home, w, outlines[i]);
     const std::vector<Panel> leftSide = panelsOf(outlines[i].left, h.baseCm, h.leftTopCm), rightSide = panelsOf(outlines[i].right, h.baseCm, h.rightTopCm);
-    const WallSides sides = cutSides(leftSide, rightSide);
+    const WallSides sides{leftSide, rightSide, leftSide.size() == 1 && rightSide.size() == 1};
     std::vector<WallCut> cuts;
     if (!sides.left.empty() && !sides.right.empty()) cuts = cutsOf(sides, openingsAt(outlines[i], openings, w.place, effort));
     Paint top;

@@ -131,6 +131,39 @@ TEST(Sh3dOpenings, wallsAcrossLoseWhatStandsInThePiece) {
   EXPECT_FALSE(rays.intersect({{1.55f, 1, 0.05f}, {1, 0, 0}, 0, 0.94f}).valid());  // along the opening, from jamb to jamb
 }
 
+TEST(Sh3dOpenings, aNicheInACornerOfTheWallLeavesItClosed) {
+  // A wall of 12 cm runs up to another one, whose door stands 4 cm in its corner: to the left or the right, at its start or end.
+  for (const bool left : {false, true}) {
+    for (const bool atStart : {false, true}) {
+      const double x = left ? 50 : -50, inWall = 15.9;
+      const std::string wall = atStart ? wallXml("w", 0, 0, 0, -300, 12) : wallXml("w", 0, -300, 0, 0, 12);
+      const Scene scene = homeScene(wall + doorXml(x, -5.9, 96, 210, 0));
+      const double whole = 0.12 * 3 * 2.5, taken = 0.04 * inWall / 100 * 2.1;
+      EXPECT_NEAR(volumeM3(scene, "w"), whole - taken, 1e-4) << left << atStart;
+      // One jamb looks at the end, which is open there: no face plugs it.
+      for (const float z : {-1.0f, 1.0f}) EXPECT_NEAR(areaFacing(scene, "w", {0, 0, z}), 0.12 * 2.5, 1e-4) << left << atStart << z;
+    }
+  }
+}
+
+// Doors that reach beyond the end of a wall take it away, also where that end is slanted: by the wall's own turn or by a mitre of any angle.
+TEST(Sh3dOpenings, nothingIsLeftOfAWallsEndInADoor) {
+  for (const double turn : {0.0, 1e-4, 0.002, 0.045, 0.08}) {
+    // A wall of 12 cm of which the last 60 cm stand in a door of 2 m that is not turned with it.
+    const double c = std::cos(turn), s = std::sin(turn);
+    const Scene lone = homeScene(wallXml("w", 0, 0, -300 * c, -300 * s, 12) + doorXml(40, 0, 200, 200, 0, "wallCutOutOnBothSides='true'"));
+    // Up to the door's edge at x = -60, which cuts the wall askew.
+    EXPECT_NEAR(volumeM3(lone, "w"), 0.12 * (3 * 2.5 - 0.6 / c * 2), 1e-4) << turn;
+    EXPECT_NEAR(areaFacing(lone, "w", {1, 0, 0}), 0.12 * 0.5 + 0.12 / c * 2, 1e-4) << turn;  // the end above the door, and the jamb
+  }
+  for (const double degrees : {10.0, 45.0, 80.0, 100.0, 135.0}) {
+    // The next wall leaves by that angle: the mitre lies in the door.
+    const double a = degrees * std::numbers::pi / 180, x = 300 * std::cos(a), y = 300 * std::sin(a);
+    const Scene corner = homeScene(wallXml("w", -300, 0, 0, 0, 12, "wallAtEnd='v'") + wallXml("v", 0, 0, x, y, 12, "wallAtStart='w'") + doorXml(0, 0, 120, 200, 0));
+    EXPECT_NEAR(volumeM3(corner, "w"), 0.12 * (3 * 2.5 - 0.6 * 2), 1e-4) << degrees;  // a mitre takes on one side what it adds on the other
+  }
+}
+
 // A door that reaches into the mitre of a corner leaves no post of it.
 TEST(Sh3dOpenings, doorsInCornersCutTheMitre) {
   const Scene scene = indoors(boxWalls(400, 300, 20) + doorXml(355, 0, 90, 200, 0));

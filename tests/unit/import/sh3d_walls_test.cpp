@@ -117,18 +117,23 @@ TEST(Sh3dRooms, floorsAndCeilingsHaveTheirAreas) {
   EXPECT_FLOAT_EQ(scene.rooms[0].heightM, 2.5f);
 }
 
-// Sweet Home 3D draws a floor's slab where stairs and edges show it, and from below where no ceiling hides it.
-TEST(Sh3dRooms, slabsOfUpperLevelsHaveEdges) {
-  const std::string room = roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' level='l1' ceilingVisible='false'");
-  const std::string ground = "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>";
-  const Scene closed = homeScene(ground + "<level id='l1' name='1' elevation='262' floorThickness='12' height='250'/>" + room);
+// Sweet Home 3D draws a floor's slab where stairs and edges show it, and from below where no room's ceiling hides it.
+TEST(Sh3dRooms, slabsOfUpperLevelsAreSeenWhereNoCeilingHidesThem) {
+  const auto room = [](double width, const std::string& more) { return roomXml({{0, 0}, {width, 0}, {width, 300}, {0, 300}}, more); };
+  const std::string levels =
+      "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>"
+      "<level id='l1' name='1' elevation='262' floorThickness='12' height='250'/>";
+  const std::string upper = room(400, "name='R' level='l1' ceilingVisible='false'");
+  const Scene open = homeScene(levels + upper);
   double edges = 0;
-  for (const Face& f : facesOf(closed, "R")) edges += std::abs(f.normal.y) < 0.5f ? static_cast<double>(f.areaM2) : 0.0;
+  for (const Face& f : facesOf(open, "R")) edges += std::abs(f.normal.y) < 0.5f ? static_cast<double>(f.areaM2) : 0.0;
   EXPECT_NEAR(edges, 14 * 0.12, 1e-5);
-  EXPECT_NEAR(areaFacing(closed, "R", {0, -1, 0}), 0, 1e-9);
-  const Scene open = homeScene(ground + "<level id='l1' name='1' elevation='300' floorThickness='12' height='250'/>" + room);
   EXPECT_NEAR(areaFacing(open, "R", {0, -1, 0}), 12, 1e-5);
   EXPECT_NEAR(volumeM3(open, "R"), 12 * 0.12, 1e-5);  // looks outwards all around
+  // A terrace over half a room: what juts out is seen from below, of the rest the room's ceiling.
+  EXPECT_NEAR(areaFacing(homeScene(levels + upper + room(300, "level='l0'")), "R", {0, -1, 0}), 3, 1e-5);
+  EXPECT_NEAR(areaFacing(homeScene(levels + upper + room(400, "level='l0'")), "R", {0, -1, 0}), 0, 1e-9);
+  EXPECT_NEAR(areaFacing(homeScene(levels + upper + room(400, "level='l0' ceilingVisible='false'")), "R", {0, -1, 0}), 12, 1e-5);
 }
 
 TEST(Sh3dRooms, laterRoomsLieOnTop) {
@@ -147,6 +152,13 @@ TEST(Sh3dRooms, ceilingsFollowTheWallsOfTheHighestLevel) {
   EXPECT_FLOAT_EQ(scene.rooms[0].heightM, 3.5f);
   const Scene flat = homeScene(walls + roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' floorVisible='false' ceilingFlat='true'"));
   EXPECT_EQ(boundsOf(flat, "R").lo.y, boundsOf(flat, "R").hi.y);
+}
+
+// As Sweet Home 3D has it: a ceiling is as high as walls are at the room's corners; what stands beside its edges in between pulls it nowhere.
+TEST(Sh3dRooms, lowScreensWithinARoomLeaveItsCeilingLevel) {
+  const std::string room = roomXml({{0, 0}, {400, 0}, {400, 300}, {200, 300}, {200, 250}, {0, 250}}, "name='R' floorVisible='false'");
+  const Scene scene = homeScene(boxWalls(400, 300, 10) + wallXml("screen", 200, 10, 200, 40, 1, "height='135'") + room);
+  EXPECT_NEAR(boundsOf(scene, "R").lo.y, 2.5, 1e-6);
 }
 
 TEST(Sh3dRooms, staircasesCutTheFloorThatTheyComeUpThrough) {
