@@ -3,8 +3,8 @@
 //   path    nothing: its rays follow the scene, and every picture is traced anew
 //   hybrid  bricks of voxels, links, rays to lights and particles that what moved has nothing to do with (radiance/light_cache.h)
 //   cone    the same; its pyramid is built anew
-//   vxgi    the same, direct light alone, on each level of its clipmap; bounces go on from the light there was
-//   lpv     the voxels its surfels come from; shadow maps, injection and propagation are done anew, as in every frame of that method
+//   vxgi    nothing: its clipmap is filled anew; it stays where it is while the camera stays in one room
+//   lpv     nothing: maps, injection and propagation are done anew, as in every frame of that method; its grids stay as vxgi's do
 //   photon  nothing: photons are sent anew for every picture, to where its camera looks
 #pragma once
 
