@@ -10,6 +10,7 @@
 #include "import/import.h"
 #include "import/photometric_file.h"
 #include "scene/object_measures.h"
+#include "trace/light_layers.h"
 
 namespace roomlight::cli {
 namespace {
@@ -75,6 +76,24 @@ Json objectsJson(const Scene& scene) {
   return out;
 }
 
+const char* kindName(LayerKind kind) { return kind == LayerKind::Lamp ? "lamp" : kind == LayerKind::Group ? "group"
+                                                                                                          : "mesh"; }
+
+// What people switch, as render --layers tells it apart: lamps, groups of lamps, shining meshes.
+Json lightsJson(const Scene& scene) {
+  Json out = Json::array();
+  const Lights lights(scene);
+  const Result<LightLayers> layers = layersOf(scene, lights);
+  if (!layers) return Json();  // too many to be told apart
+  for (const LightLayer& l : layers.value().layers) {
+    if (l.kind == LayerKind::Sun || l.kind == LayerKind::Sky) continue;
+    const int room = roomAt(scene, l.position);
+    out.push_back({{"name", l.name}, {"kind", kindName(l.kind)}, {"fluxLm", luminance(l.fluxLm)}, {"positionM", vector(l.position)}});
+    out.back()["room"] = room >= 0 ? Json(scene.rooms[static_cast<size_t>(room)].name) : Json();
+  }
+  return out;
+}
+
 Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
   const Bounds3 bounds = scene.bounds();
   size_t emissive = 0;
@@ -93,6 +112,7 @@ Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
           {"emissiveMaterials", emissive},
           {"textures", scene.textures.size()},
           {"lamps", lamps},
+          {"lights", lightsJson(scene)},
           {"suns", suns},
           {"sky", scene.sky.present()},
           {"cameras", cameras},
@@ -118,13 +138,7 @@ void printObjects(const Json& objects) {
   }
 }
 
-void printTable(const Json& j) {
-  for (const char* key : {"triangles", "meshes", "instances", "materials", "emissiveMaterials", "textures"}) {
-    fmt::print("{:<18} {}\n", key, j[key].get<size_t>());
-  }
-  const auto low = j["boundsM"]["low"].get<std::vector<double>>(), high = j["boundsM"]["high"].get<std::vector<double>>();
-  fmt::print("{:<18} {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f}) to ({:.2f}, {:.2f}, {:.2f})\n", "bounds", high[0] - low[0],
-             high[1] - low[1], high[2] - low[2], low[0], low[1], low[2], high[0], high[1], high[2]);
+void printLamps(const Json& j) {
   fmt::print("{:<18} {}\n", "lamps", j["lamps"].size());
   for (const Json& lamp : j["lamps"]) {
     if (lamp["kind"] == "photometric") {
@@ -138,6 +152,25 @@ void printTable(const Json& j) {
                area ? fmt::format("{:.6g} cd/m2, {:.6g} lm", lamp["luminanceCdM2"].get<double>(), lamp["fluxLm"].get<double>())
                     : fmt::format("{:.6g} cd", lamp["intensityCd"].get<double>()));
   }
+  // Lamps that are meshes, and what is switched together.
+  if (j["lights"].is_null()) {
+    fmt::print("{:<18} more than {}\n", "lights", kMostLayers);
+    return;
+  }
+  fmt::print("{:<18} {}\n", "lights", j["lights"].size());
+  for (const Json& light : j["lights"]) {
+    fmt::print("  {} {}: {:.6g} lm{}\n", light["kind"].get<std::string>(), shown(light["name"]), light["fluxLm"].get<double>(), light["room"].is_null() ? "" : fmt::format(", room {}", shown(light["room"])));
+  }
+}
+
+void printTable(const Json& j) {
+  for (const char* key : {"triangles", "meshes", "instances", "materials", "emissiveMaterials", "textures"}) {
+    fmt::print("{:<18} {}\n", key, j[key].get<size_t>());
+  }
+  const auto low = j["boundsM"]["low"].get<std::vector<double>>(), high = j["boundsM"]["high"].get<std::vector<double>>();
+  fmt::print("{:<18} {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f}) to ({:.2f}, {:.2f}, {:.2f})\n", "bounds", high[0] - low[0],
+             high[1] - low[1], high[2] - low[2], low[0], low[1], low[2], high[0], high[1], high[2]);
+  printLamps(j);
   fmt::print("{:<18} {}\n", "suns", j["suns"].size());
   for (const Json& sun : j["suns"]) fmt::print("  {}: {:.6g} lx\n", shown(sun["name"]), sun["illuminanceLux"].get<double>());
   fmt::print("{:<18} {}\n", "sky", j["sky"].get<bool>() ? "yes" : "no");

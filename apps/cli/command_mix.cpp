@@ -44,6 +44,18 @@ Status checkFormat(const Options& o) {
   return Error{"--format goes with --states or --overlays"};
 }
 
+// Served from there by pages and cards, which quote it.
+Status checkUrlPrefix(const std::string& prefix) {
+  const bool plain = std::none_of(prefix.begin(), prefix.end(), [](unsigned char c) { return c <= 0x20 || c == 0x7f || std::string_view("\"'<>`\\").find(static_cast<char>(c)) != std::string_view::npos; });
+  return plain ? Status(Ok{}) : Error{"--url-prefix: holds a space, a quote, a bracket, a backslash or a control character; write such letters as %20"};
+}
+
+Status checkFolder(const std::string& option, const std::string& folder) {
+  std::error_code ignored;
+  if (folder.empty() || !std::filesystem::exists(folder, ignored) || std::filesystem::is_directory(folder, ignored)) return Ok{};
+  return Error{fmt::format("{} {}: is a file; name a folder", option, folder)};
+}
+
 Status checkOutputs(const Options& o) {
   if (!o.list && o.outputs.empty() && o.statesFolder.empty() && o.overlaysFolder.empty()) return Error{"nothing to do; write -o OUT, --states DIR, --overlays DIR or --list"};
   for (const std::string& out : o.outputs) {
@@ -52,6 +64,9 @@ Status checkOutputs(const Options& o) {
     if (const Status s = checkWritable(out); !s) return s;
   }
   if (const Status s = checkFormat(o); !s) return s;
+  if (const Status s = checkFolder("--states", o.statesFolder); !s) return s;
+  if (const Status s = checkFolder("--overlays", o.overlaysFolder); !s) return s;
+  if (const Status s = checkUrlPrefix(o.urlPrefix); !s) return s;
   if (!o.only.empty() && o.statesFolder.empty() && o.overlaysFolder.empty()) return Error{"--only goes with --states or --overlays"};
   if (o.overlaysFolder.empty() && (!o.cardFile.empty() || o.blend != "auto")) return Error{"--home-assistant and --blend go with --overlays DIR"};
   if (o.cardFile.empty() && (!o.entities.empty() || o.dimmed)) return Error{"--entity and --dimmed go with --home-assistant FILE"};
@@ -70,11 +85,37 @@ Result<std::optional<Blend>> blendOf(const std::string& name) {
   return Error{fmt::format("--blend {}: write auto, screen, normal, plus-lighter or lighten", name)};
 }
 
+// At commas; \, stands for a comma within a name.
+std::vector<std::string> splitNames(const std::string& text) {
+  std::vector<std::string> names(1);
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\\' && i + 1 < text.size() && text[i + 1] == ',') {
+      names.back() += text[++i];
+    } else if (text[i] == ',') {
+      names.emplace_back();
+    } else {
+      names.back() += text[i];
+    }
+  }
+  return names;
+}
+
+// A whole text may be one name with commas in it.
+std::vector<std::string> namesOf(const MixHome& home, const std::vector<std::string>& texts) {
+  std::vector<std::string> names;
+  for (const std::string& text : texts) {
+    const bool isName = std::any_of(home.layers.begin(), home.layers.end(), [&](const LayerInfo& l) { return isLamp(l) && l.name == text; });
+    const std::vector<std::string> parts = isName ? std::vector{text} : splitNames(text);
+    names.insert(names.end(), parts.begin(), parts.end());
+  }
+  return names;
+}
+
 // Lamps named by --only, else all; without those that are off anyway.
 Result<Switches> switchesOf(const MixHome& home, const Mixture& mixture, const std::vector<std::string>& only) {
   Switches switches{mixture.gains, {}};
   std::vector<bool> wanted(home.layers.size());
-  for (const std::string& name : only) {
+  for (const std::string& name : namesOf(home, only)) {
     const Result<std::vector<size_t>> found = findLamps(home.layers, name);
     if (!found) return Error{"--only: " + found.error()};
     for (const size_t i : found.value()) {
@@ -127,11 +168,11 @@ Status writeOutputs(const Options& o, const MixHome& home, const Mixture& mixtur
     double mixMs = 0;
     Status s = Ok{};
     if (lowerExtension(out) == ".exr") {
-      const Image image = mixLinear(home.stack, mixture.gains);
+      const Image image = linearMix(home, mixture.gains);
       mixMs = mixing.seconds() * 1e3;
       s = writeExr(out, image, metadata);
     } else {
-      const ByteImage image = mixDisplay(home.stack, mixture.gains, shown.look);
+      const ByteImage image = displayMix(home, mixture.gains, shown.look, lowerExtension(out) != ".jpg");
       mixMs = mixing.seconds() * 1e3;
       s = writeBytes(out, image, metadata, kWebpQuality);
     }
@@ -204,7 +245,7 @@ Registered addMix(CLI::App& program) {
   app->add_flag("--list", o->list, "Print the layers: kind, colour, flux, room");
   app->add_option("--states", o->statesFolder, "Write a picture of every on/off state of the lamps to this folder");
   app->add_option("--overlays", o->overlaysFolder, "Write the picture without lamps, a transparent overlay a lamp and a page that shows them to this folder");
-  app->add_option("--only", o->only, "Lamps that are switched, with commas between; the others shine as --lamp says")->delimiter(',');
+  app->add_option("--only", o->only, "Lamps that are switched, with commas between (\\, is a comma within a name); may be repeated; the others shine as --lamp says");
   app->add_option("--format", o->format, "Of states (default webp, or png, jpg) and overlays (default png, or webp)");
   app->add_option("--blend", o->blend, "How overlays are laid: screen, normal, plus-lighter, lighten, or auto: what errs least")->capture_default_str();
   app->add_option("--home-assistant", o->cardFile, "Write the YAML of a picture-elements card that shows the overlays");

@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "console.h"
 #include "display_options.h"
+#include "drawing_colours.h"
 #include "engine/quality.h"
 #include "engine/render.h"
 #include "engine/stages.h"
@@ -120,6 +121,7 @@ Result<Plan> makePlan(const Options& o) {
     return Error{fmt::format("--output-kind {} has a scale of luminance instead of --exposure and --tone; leave them out", o.kind)};
   }
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
+  if (s.layers && s.technique != "hybrid" && s.technique != "path") return Error{fmt::format("--layers: technique {} does not keep lamps apart; use hybrid or path", s.technique)};
   const Result<ViewWish> view = readViewWish(o.view, !o.camera.empty());
   if (!view) return Error{view.error()};
   plan.view = view.value();
@@ -193,18 +195,17 @@ std::string panoramaXmp(int width, int height) {
 }
 
 Status writePicture(const std::string& out, const Plan& plan, const Camera& camera, const Rendered& rendered, const White& white, float ev100, Metadata metadata) {
-  constexpr Vec3 kSection(0.2f, 0.2f, 0.22f), kPaper(1, 1, 1);
   const std::string extension = lowerExtension(out);
   if (extension == ".exr") return writeExr(out, rendered.image, metadata);
   const Image display = displayPicture(plan, white, unmixed(rendered.image, rendered.sights), ev100);
   const std::string xmp = camera.projection == Projection::Panorama ? panoramaXmp(display.width, display.height) : "";
-  if (extension == ".jpg") return writeJpeg(out, drawn(display, rendered.sights, kSection, kPaper), SIZE_MAX, xmp);
+  if (extension == ".jpg") return writeJpeg(out, drawn(display, rendered.sights, kSectionColour, kPaperColour), SIZE_MAX, xmp);
   if (!xmp.empty()) metadata["XML:com.adobe.xmp"] = xmp;
   std::vector<float> alpha;
   if (camera.emptyBackdrop) {
     for (const float nothing : rendered.sights.backdrop) alpha.push_back(1 - nothing);
   }
-  return writePng(out, drawn(display, rendered.sights, kSection, std::nullopt), metadata, alpha);
+  return writePng(out, drawn(display, rendered.sights, kSectionColour, std::nullopt), metadata, alpha);
 }
 
 Status writePictures(const Options& o, const Plan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/views.h"
+#include "mix/layer_info.h"
 #include "photometry/white_balance.h"
 #include "trace/camera_rays.h"
 
@@ -79,7 +80,13 @@ LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& re
     list.push_back(describe(layer.light, channel, scene, camera, whole));
     out.layers.push_back({channel, std::move(layer.image)});
   }
-  const Json all{{"version", 1}, {"camera", camera.name}, {"layers", list}};
+  Json all{{"version", 1}, {"camera", camera.name}, {"layers", list}};
+  if (!rendered.sights.section.empty()) {
+    Image shares(whole.width, whole.height);
+    for (size_t i = 0; i < shares.pixels.size(); ++i) shares.pixels[i] = {rendered.sights.section[i], rendered.sights.backdrop[i], 0};
+    all["sights"] = kSightsChannel;
+    out.layers.push_back({kSightsChannel, std::move(shares)});
+  }
   out.metadata[kLayersKey] = all.dump(-1, ' ', false, Json::error_handler_t::replace);
   return out;
 }

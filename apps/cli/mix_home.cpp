@@ -7,6 +7,8 @@
 
 #include "arguments.h"
 #include "base/image_layers.h"
+#include "base/parallel.h"
+#include "drawing_colours.h"
 #include "mix/layer_names.h"
 
 namespace roomlight::cli {
@@ -52,6 +54,32 @@ Vec3 lightColourOf(const MixHome& home, const Mixture& mixture) {
 
 }  // namespace
 
+Image linearMix(const MixHome& home, std::span<const Vec3> gains) {
+  Image mixed = mixLinear(home.stack, gains);
+  for (size_t i = 0; i < home.sights.section.size(); ++i) mixed.pixels[i] *= 1 - home.sights.section[i] - home.sights.backdrop[i];
+  return mixed;
+}
+
+ByteImage displayMix(const MixHome& home, std::span<const Vec3> gains, const Look& look, bool transparent) {
+  ByteImage mixed = mixDisplay(home.stack, gains, look);
+  const Sights& sights = home.sights;
+  if (sights.section.empty()) return mixed;
+  const bool alpha = transparent && std::any_of(sights.backdrop.begin(), sights.backdrop.end(), [](float b) { return b > 0; });
+  ByteImage out(mixed.width, mixed.height, alpha ? 4 : 3);
+  const size_t channels = alpha ? 4 : 3;
+  parallelFor(mixed.pixelCount(), 16384, [&](size_t i) {
+    const float cut = sights.section[i], nothing = sights.backdrop[i], solid = 1 - nothing;
+    for (size_t c = 0; c < 3; ++c) {
+      const float inside = static_cast<float>(mixed.samples[3 * i + c]) * std::max(0.0f, solid - cut) + 255 * kSectionColour[static_cast<int>(c)] * cut;
+      const float shown = !alpha ? inside + 255 * kPaperColour[static_cast<int>(c)] * nothing : solid > 0 ? inside / solid
+                                                                                                          : 255;
+      out.samples[channels * i + c] = static_cast<uint8_t>(std::clamp(shown + 0.5f, 0.0f, 255.0f));
+    }
+    if (alpha) out.samples[channels * i + 3] = static_cast<uint8_t>(solid * 255 + 0.5f);
+  });
+  return out;
+}
+
 Result<MixHome> openLayers(const std::string& file) {
   Result<LayeredImage> read = readLayers(file);
   if (!read) return Error{read.error()};
@@ -60,7 +88,17 @@ Result<MixHome> openLayers(const std::string& file) {
   if (text == picture.metadata.end()) return Error{fmt::format("{}: does not say what its layers are ({}); make it by render --layers", file, kLayersKey)};
   Result<std::vector<LayerInfo>> layers = layersFromJson(text->second, fmt::format("{}: {}", file, kLayersKey));
   if (!layers) return Error{layers.error()};
-  MixHome home{std::move(layers).value(), makeLayerStack(picture.whole.width, picture.whole.height, picture.layers.size())};
+  const auto isSights = [](const PictureLayer& l) { return l.channel == kSightsChannel; };
+  MixHome home{std::move(layers).value(), {}, {}};
+  if (const auto found = std::find_if(picture.layers.begin(), picture.layers.end(), isSights); found != picture.layers.end()) {
+    for (const Vec3 p : found->image.pixels) {
+      const bool shares = p.x >= 0 && p.y >= 0 && p.x + p.y <= 1.001f;
+      if (!shares) return Error{fmt::format("{}: layer '{}' must hold shares of pixels from 0 to 1", file, kSightsChannel)};
+      home.sights.section.push_back(p.x), home.sights.backdrop.push_back(p.y);
+    }
+    picture.layers.erase(found);
+  }
+  home.stack = makeLayerStack(picture.whole.width, picture.whole.height, picture.layers.size());
   picture.whole = {};
   if (home.layers.size() != picture.layers.size()) return Error{fmt::format("{}: tells of {} layers and holds {}; render it again", file, home.layers.size(), picture.layers.size())};
   for (size_t i = 0; i < home.layers.size(); ++i) {
@@ -68,7 +106,7 @@ Result<MixHome> openLayers(const std::string& file) {
     if (layer == picture.layers.end()) return Error{fmt::format("{}: has no channels {}.R, .G and .B; render it again", file, home.layers[i].channel)};
     const bool sound = std::all_of(layer->image.pixels.begin(), layer->image.pixels.end(), [](Vec3 p) { return isFinite(p) && minComponent(p) >= 0; });
     if (!sound) return Error{fmt::format("{}: layer '{}' has light that is negative or not a finite number", file, home.layers[i].name)};
-    setLayer(home.stack, i, layer->image);
+    setLayer(home.stack, i, unmixed(layer->image, home.sights));
     layer->image = {};
   }
   return home;
@@ -100,7 +138,7 @@ Result<Mixture> mixtureOf(const std::vector<LayerInfo>& layers, const DialOption
 
 ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display) {
   ShownMix shown;
-  shown.look.ev100 = display.ev100 ? *display.ev100 : automaticEv100(mixLinear(home.stack, mixture.gains));
+  shown.look.ev100 = display.ev100 ? *display.ev100 : automaticEv100(linearMix(home, mixture.gains));
   shown.look.tone = display.tone;
   shown.white = whiteOf(display, lightColourOf(home, mixture), shown.look.ev100);
   shown.look.whiteBalance = matrixOf(shown.white);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/image_io.h"
 #include "display_options.h"
+#include "engine/sights.h"
 #include "mix/dial.h"
 #include "mix/layer_info.h"
 #include "mix/layer_stack.h"
@@ -16,8 +18,14 @@ namespace roomlight::cli {
 
 struct MixHome {
   std::vector<LayerInfo> layers;  // in the file's order, as those of the stack
-  LayerStack stack;
+  LayerStack stack;            // of what is left of each pixel beside sections and backdrop
+  Sights sights;
 };
+// The mix as the file has it: light of whole pixels.
+Image linearMix(const MixHome& home, std::span<const Vec3> gains);
+// As it is looked at: sections drawn in, over paper; with `transparent` an empty backdrop is the picture's fourth channel instead.
+ByteImage displayMix(const MixHome& home, std::span<const Vec3> gains, const Look& look, bool transparent);
+
 Result<MixHome> openLayers(const std::string& file);
 
 struct DialOptions {

@@ -16,6 +16,7 @@ namespace roomlight::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr const char *kStatesIndex = "states.json", *kOverlaysIndex = "overlays.json";  // both kinds may lie in one folder
 constexpr float kStateQuality = 90;  // of WebP; states are looked at, overlays are summed
 
 int failed(const std::string& message) {
@@ -28,6 +29,19 @@ Status makeFolder(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, code);
   if (std::filesystem::is_directory(folder)) return Ok{};
   return Error{fmt::format("{}: is not a folder and none can be made there", folder.string())};
+}
+
+// Pictures that an earlier run wrote into this folder, told by its index; what is written anew is among them.
+void removeFormer(const std::filesystem::path& folder, const char* index, const char* list) {
+  const Result<std::string> text = readTextFile(folder / index);
+  if (!text) return;
+  const Json json = Json::parse(text.value(), nullptr, false);
+  if (!json.is_object() || !json.contains(list) || !json[list].is_array()) return;
+  for (const Json& entry : json[list]) {
+    const std::filesystem::path name = entry.is_object() && entry.contains("file") && entry["file"].is_string() ? entry["file"].get<std::string>() : "";
+    std::error_code ignored;
+    if (!name.empty() && name == name.filename()) std::filesystem::remove(folder / name, ignored);  // folders with something in them stay
+  }
 }
 
 std::string stateIndex(const MixHome& home, const Switches& switches, const Metadata& metadata, const std::string& extension) {
@@ -45,7 +59,7 @@ std::string told(const OverlayTrial& trial) {
 
 Status writePages(const FloorPlan& plan, const OverlayTrial& trial, const OverlaysJob& job) {
   if (const Status s = writeTextFile(job.folder / "index.html", pageOf(plan)); !s) return s;
-  if (const Status s = writeTextFile(job.folder / "index.json", overlayIndexOf(plan, trial)); !s) return s;
+  if (const Status s = writeTextFile(job.folder / kOverlaysIndex, overlayIndexOf(plan, trial)); !s) return s;
   if (job.cardFile.empty()) return Ok{};
   if (const Status s = writeTextFile(job.cardFile, cardOf(plan, job.urlPrefix, job.dimmed)); !s) return s;
   return job.dimmed ? writeTextFile(sensorsFileOf(job.cardFile), sensorsOf(plan)) : Status(Ok{});
@@ -57,7 +71,8 @@ std::filesystem::path sensorsFileOf(const std::filesystem::path& cardFile) { ret
 
 int writeStates(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const StatesJob& job, ProgressDisplay& display) {
   if (const Status s = makeFolder(job.folder); !s) return failed(s.error());
-  if (const Status s = writeTextFile(job.folder / "index.json", stateIndex(home, switches, metadata, job.extension)); !s) return failed(s.error());
+  removeFormer(job.folder, kStatesIndex, "states");
+  if (const Status s = writeTextFile(job.folder / kStatesIndex, stateIndex(home, switches, metadata, job.extension)); !s) return failed(s.error());
   const std::vector<uint32_t> states = allStates(switches.lamps.size());
   std::mutex oneAtATime;
   std::string error;
@@ -67,7 +82,7 @@ int writeStates(const MixHome& home, const Switches& switches, const ShownMix& s
   // Every state is mixed anew: that is exact, and takes a fraction of the time that writing its picture takes.
   parallelFor(states.size(), 1, [&](size_t i) {
     if (stop || interrupted()) return;
-    const ByteImage image = mixDisplay(home.stack, gainsOfState(switches, states[i]), shown.look);
+    const ByteImage image = displayMix(home, gainsOfState(switches, states[i]), shown.look, job.extension != ".jpg");
     const Status s = writeBytes(job.folder / (stateName(states[i], switches.lamps.size()) + job.extension), image, metadata, kStateQuality);
     const std::lock_guard lock(oneAtATime);
     if (!s && !stop.exchange(true)) error = s.error();
@@ -78,19 +93,20 @@ int writeStates(const MixHome& home, const Switches& switches, const ShownMix& s
     printError(fmt::format("interrupted: {} of {} states are written", written, states.size()));
     return kInterrupted;
   }
-  display.line(fmt::format("wrote {} states of {} lamps to {}, told by its index.json", states.size(), switches.lamps.size(), job.folder.string()));
+  display.line(fmt::format("wrote {} states of {} lamps to {}, told by its {}", states.size(), switches.lamps.size(), job.folder.string(), kStatesIndex));
   return kOk;
 }
 
 int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const OverlaysJob& job, ProgressDisplay& display) {
   if (const Status s = makeFolder(job.folder); !s) return failed(s.error());
+  removeFormer(job.folder, kOverlaysIndex, "overlays");
   const OverlayTrial trial = tryOverlays(home.stack, switches, shown.look);
   FloorPlan plan = planOf(home.layers, switches, job.entities, job.extension);
   plan.width = home.stack.width, plan.height = home.stack.height;
   const auto least = std::min_element(trial.errors.begin(), trial.errors.end(), [](const BlendError& a, const BlendError& b) { return a.rms < b.rms; });
   plan.blend = job.blend.value_or(kBlends[static_cast<size_t>(least - trial.errors.begin())]);
-  const ByteImage base = mixDisplay(home.stack, gainsOfState(switches, 0), shown.look);
-  if (const Status s = writeBytes(job.folder / plan.baseFile, base, metadata, kLossless); !s) return failed(s.error());
+  const ByteImage base = displayMix(home, gainsOfState(switches, 0), shown.look, false);
+  if (const Status s = writeBytes(job.folder / plan.baseFile, displayMix(home, gainsOfState(switches, 0), shown.look, true), metadata, kLossless); !s) return failed(s.error());
   display.report("overlays", 0);
   for (size_t i = 0; i < plan.lamps.size(); ++i) {
     if (interrupted()) {
@@ -98,7 +114,7 @@ int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix&
       return kInterrupted;
     }
     plan.lamps[i].opacities = trial.opacities[i];
-    const ByteImage lit = mixDisplay(home.stack, gainsOfState(switches, uint64_t{1} << i), shown.look);
+    const ByteImage lit = displayMix(home, gainsOfState(switches, uint64_t{1} << i), shown.look, false);
     if (const Status s = writeBytes(job.folder / plan.lamps[i].file, overlayOf(base, lit, plan.blend), metadata, kLossless); !s) return failed(s.error());
     display.report("overlays", static_cast<float>(i + 1) / static_cast<float>(plan.lamps.size()));
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "unit/cli/program.h"
 
@@ -26,6 +27,19 @@ TEST(InfoCommand, jsonSaysWhatTheSceneHolds) {
   EXPECT_NEAR(json["lamps"][0]["intensityCd"].get<double>(), 200, 1e-3);
   EXPECT_EQ(json["cameras"].size(), 2u);
   EXPECT_NEAR(json["boundsM"]["high"][1].get<double>(), 3, 1e-5);
+}
+
+// Lamps of homes are often meshes: what people switch is told whatever it is made of.
+TEST(InfoCommand, lightsAreLampsAndShiningMeshes) {
+  const TemporaryFolder folder;
+  const auto json = nlohmann::json::parse(runProgram({"info", testing::writeRoom(folder), "--json"}).out);
+  ASSERT_EQ(json["lights"].size(), 1u);
+  EXPECT_EQ(json["lights"][0]["kind"], "lamp");
+  EXPECT_NEAR(json["lights"][0]["fluxLm"].get<double>(), 200 * 4 * std::numbers::pi, 1);
+  testing::writeFile(folder / "a.mtl", "newmtl bulb\nKd 0 0 0\nKe 100 100 100\n");
+  testing::writeFile(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no Globe\nusemtl bulb\nf 1 2 3\n");
+  const ProgramRun run = runProgram({"info", folder / "a.obj"});
+  EXPECT_NE(run.out.find("mesh 'Globe'"), std::string::npos) << run.out;
 }
 
 TEST(InfoCommand, tableNamesCamerasAndLamps) {

@@ -91,7 +91,7 @@ TEST(MixCommand, everyStateIsItsOwnMix) {
   const auto layers = writeHome(folder);
   const ProgramRun run = runProgram({"mix", layers, "--states", folder / "s", "--format", "png", "--exposure", "4", "--white-balance", "none", "--quiet"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  const auto index = nlohmann::json::parse(readFile(folder / "s/index.json"));
+  const auto index = nlohmann::json::parse(readFile(folder / "s/states.json"));
   ASSERT_EQ(index.at("states").size(), 4u);
   EXPECT_EQ(index.at("lamps"), (std::vector<std::string>{"Sofa lamp", "Desk"}));
   for (const auto& state : index.at("states")) {
@@ -109,11 +109,58 @@ TEST(MixCommand, overlaysComeWithPageIndexAndCard) {
   const TemporaryFolder folder;
   const ProgramRun run = runProgram({"mix", writeHome(folder), "--overlays", folder / "o", "--home-assistant", folder / "card.yaml", "--dimmed", "--entity", "Desk=switch.desk", "--url-prefix", "/local/home"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  for (const char* file : {"o/base.png", "o/sofa_lamp.png", "o/desk.png", "o/index.html", "o/index.json", "card.yaml", "card_sensors.yaml"}) EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+  for (const char* file : {"o/base.png", "o/sofa_lamp.png", "o/desk.png", "o/index.html", "o/overlays.json", "card.yaml", "card_sensors.yaml"}) EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
   const std::string card = readFile(folder / "card.yaml");
   EXPECT_NE(card.find("image: \"/local/home/base.png\""), std::string::npos);
   EXPECT_NE(card.find("entity: switch.desk"), std::string::npos);
   EXPECT_NE(run.err.find("root mean square"), std::string::npos);
+}
+
+TEST(MixCommand, statesAndOverlaysShareAFolderAndLeaveNothingOld) {
+  const TemporaryFolder folder;
+  const auto layers = writeHome(folder);
+  ASSERT_EQ(runProgram({"mix", layers, "--states", folder / "o", "--quiet"}).exitStatus, 0);
+  ASSERT_EQ(runProgram({"mix", layers, "--overlays", folder / "o", "--quiet"}).exitStatus, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "o/states.json") && std::filesystem::exists(folder / "o/11.webp"));
+  ASSERT_EQ(runProgram({"mix", layers, "--overlays", folder / "o", "--only", "Desk", "--quiet"}).exitStatus, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "o/desk.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "o/sofa_lamp.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "o/11.webp")) << "a state";
+}
+
+TEST(MixCommand, onlyNamesLampsWithCommas) {
+  const TemporaryFolder folder;
+  std::string json = kLayers;
+  json.replace(json.find("Desk"), 4, "Desk, left");
+  const auto layers = writeHome(folder, json);
+  for (const char* name : {"Desk, left", "desk\\, left", "Desk*"}) {
+    std::filesystem::remove_all(folder / "s");
+    const ProgramRun run = runProgram({"mix", layers, "--states", folder / "s", "--only", name, "--quiet"});
+    ASSERT_EQ(run.exitStatus, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps"), (std::vector<std::string>{"Desk, left"})) << name;
+  }
+  ASSERT_EQ(runProgram({"mix", layers, "--states", folder / "s", "--only", "Desk\\, left,sofa", "--quiet"}).exitStatus, 0);
+  EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps").size(), 2u);
+  ASSERT_EQ(runProgram({"mix", layers, "--states", folder / "s", "--only", "sofa", "--only", "Desk, left", "--quiet"}).exitStatus, 0);
+  EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps").size(), 2u);
+}
+
+TEST(MixCommand, plansShowSectionsAndBackdropAsTheirRenderDoes) {
+  const TemporaryFolder folder;
+  const auto room = testing::writeRoom(folder);
+  const ProgramRun rendered = runProgram({"render", room, "--view", "plan", "--cut", "1.2", "--size", "60x60", "--samples", "4", "--layers", "--exposure", "6", "--white-balance", "none", "-o", folder / "l.exr", "-o", folder / "l.png", "--quiet"});
+  ASSERT_EQ(rendered.exitStatus, 0) << rendered.err;
+  const ProgramRun mixed = runProgram({"mix", folder / "l.exr", "--exposure", "6", "--white-balance", "none", "-o", folder / "m.png", "-o", folder / "m.exr", "--quiet"});
+  ASSERT_EQ(mixed.exitStatus, 0) << mixed.err;
+  const Image wanted = readImage(folder / "l.png").value(), got = readImage(folder / "m.png").value();
+  const Image light = readImage(folder / "l.exr").value(), same = readImage(folder / "m.exr").value();
+  int sections = 0;
+  for (size_t i = 0; i < wanted.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(srgbEncode(got.pixels[i][c]), srgbEncode(wanted.pixels[i][c]), 1.6f / 255) << i;
+    EXPECT_NEAR(same.pixels[i].y, light.pixels[i].y, 1e-4f * light.pixels[i].y + 1e-6f);
+    sections += std::abs(srgbEncode(wanted.pixels[i].x) - 0.2f) < 0.01f && std::abs(srgbEncode(wanted.pixels[i].z) - 0.22f) < 0.01f;
+  }
+  EXPECT_GT(sections, 10) << "the pillar is cut";
 }
 
 TEST(MixCommand, badInputIsOneLineAndExitStatusTwo) {
@@ -144,7 +191,12 @@ TEST(MixCommand, badInputIsOneLineAndExitStatusTwo) {
   refused({layers, "-o", out, "--home-assistant", folder / "c.yaml"}, "go with --overlays");
   refused({layers, "--overlays", folder / "s", "--home-assistant", folder / "c.yaml", "--entity", "Desk=Light Desk"}, "write an entity id");
   refused({layers, "--overlays", folder / "s", "--blend", "multiply"}, "write auto, screen");
+  refused({layers, "--overlays", folder / "s", "--url-prefix", "/local/a\"b"}, "--url-prefix");
+  refused({layers, "--overlays", folder / "s", "--url-prefix", "/a\nb/"}, "--url-prefix");
   EXPECT_FALSE(std::filesystem::exists(folder / "s"));
+  testing::writeFile(folder / "file", "text");
+  refused({layers, "--states", folder / "file"}, "is a file; name a folder");
+  refused({layers, "--overlays", folder / "file"}, "is a file; name a folder");
   refused({writeHome(folder, R"({"version": 1, "layers": []})"), "-o", out}, "tells of 0 layers and holds 3");
 }
 

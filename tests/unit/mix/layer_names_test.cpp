@@ -22,6 +22,26 @@ TEST(LayerNames, exactThenAnyCaseThenPatternThenTheOnlyBeginning) {
   EXPECT_EQ(findLamps(layers, "sofa").value(), Found{1});
 }
 
+TEST(LayerNames, lettersAreLettersInEveryCase) {
+  std::vector<LayerInfo> layers = testing::someLayers();
+  layers[0].name = "Küche Décor", layers[1].name = "ЛАМПА Ω";
+  EXPECT_EQ(findLamps(layers, "KÜCHE DÉCOR").value(), Found{0});
+  EXPECT_EQ(findLamps(layers, "лампа ω").value(), Found{1});
+  EXPECT_EQ(findLamps(layers, "k?che d?cor").value(), Found{0}) << "? is a letter, not a byte";
+  EXPECT_EQ(findLamps(layers, "KÜ").value(), Found{0});
+  EXPECT_FALSE(findLamps(layers, "k??che d*").ok());
+  layers[0].name = "\xfc";  // no UTF-8: only itself
+  EXPECT_EQ(findLamps(layers, "\xfc").value(), Found{0});
+  EXPECT_FALSE(findLamps(layers, "\xdc").ok());
+}
+
+TEST(LayerNames, severalNamesInAnotherCaseAreTold) {
+  std::vector<LayerInfo> layers = testing::someLayers();
+  layers[0].name = "Sofa", layers[1].name = "SOFA";
+  EXPECT_EQ(findLamps(layers, "SOFA").value(), Found{1});
+  EXPECT_EQ(findLamps(layers, "sofa").error(), "'sofa' may be 'Sofa', 'SOFA'; write capital and small letters as there");
+}
+
 TEST(LayerNames, wrongNamesListThoseThereAre) {
   const std::vector<LayerInfo> layers = testing::someLayers();
   EXPECT_EQ(findLamps(layers, "Hall").error(), "no lamp 'Hall'; there are 'Sofa lamp', 'Kitchen ceiling', 'Kitchen sink'");
