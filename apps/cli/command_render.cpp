@@ -240,6 +240,19 @@ struct Home {
   std::vector<std::string> warnings;
 };
 
+// What a Sweet Home 3D home says of its photo, where neither options nor settings say how large and how well: its first two qualities are
+// without ray tracing, the last is for keeping.
+void applyPhoto(const Options& o, const PhotoWish& photo, Plan& plan) {
+  RenderSettings& s = plan.settings;
+  if (!plan.view.size) s.width = photo.widthPx, s.height = photo.heightPx;
+  if (!o.quality.empty() || !o.settingsFile.empty()) return;
+  const float voxelSizeM = s.voxel.voxelSizeM;
+  applyQuality(photo.quality < 2 ? "draft" : photo.quality == 2 ? "good"
+                                                                : "best",
+               s);
+  s.voxel.voxelSizeM = voxelSizeM;
+}
+
 Result<Home> loadHome(const Options& o, Plan& plan) {
   Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower, .camera = o.camera});
   if (!imported) return Error{imported.error()};
@@ -249,6 +262,7 @@ Result<Home> loadHome(const Options& o, Plan& plan) {
   }
   const Result<Camera> camera = findCamera(home.scene, o.camera);
   if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
+  if (imported.value().photo) applyPhoto(o, *imported.value().photo, plan);
   const std::vector<Room> rooms = roomsFor(home.scene, plan.view);
   const Result<Viewed> viewed = makeView(home.scene, rooms, camera.value(), !o.camera.empty() || !home.scene.cameras.empty(), {plan.settings.width, plan.settings.height}, plan.view);
   if (!viewed) return Error{fmt::format("{}: {}", o.scene, viewed.error())};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,16 @@ struct ImportOptions {
   size_t maxTriangles = 200'000'000;   // of all instances; refuse absurd files before allocating
 };
 
+// The photo that a home was last set to be taken as.
+struct PhotoWish {
+  int widthPx = 0, heightPx = 0;
+  int quality = 0;  // Sweet Home 3D's: 0 and 1 without ray tracing, 2 and 3 with it
+};
+
 struct Imported {
   Scene scene;
   std::vector<std::string> warnings;  // one per kind of thing that could not be honoured, with how often
+  std::optional<PhotoWish> photo = {};  // of a Sweet Home 3D home where somebody chose one
 };
 
 // .gltf, .glb, .obj, .sh3d, .sh3f. The error is one line that names the file and the place in it.

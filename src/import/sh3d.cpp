@@ -27,7 +27,7 @@ Imported readSh3d(const std::filesystem::path& file, const ImportOptions& option
   const Home home = readHomeXml(*xml, warnings);
   const ContentDigests digests(archive, warnings);
   Scene scene = sceneOfHome(home, archive, digests, options, warnings);
-  return {std::move(scene), warnings.lines()};
+  return {std::move(scene), warnings.lines(), home.environment.photo};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "import/import.h"
 #include "import/plan_area.h"
 
 namespace roomlight::importers::sh3d {
@@ -127,6 +128,7 @@ struct Environment {
   std::optional<uint32_t> groundColour, skyColour, lightColour;
   std::optional<TextureUse> groundTexture, skyTexture;
   double photoAspect = 4.0 / 3;
+  std::optional<PhotoWish> photo;     // none: as a new home has it
 };
 
 // A line drawn on the plan that is shown in 3D too.

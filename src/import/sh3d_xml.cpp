@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 
 #include "import/failure.h"
@@ -11,6 +13,9 @@
 
 namespace roomlight::importers::sh3d {
 namespace {
+
+constexpr double kNewPhotoWidth = 400, kNewPhotoHeight = 300;  // by the DTD, with quality 0: nobody chose them
+constexpr int kLargestPhoto = 65536;
 
 constexpr size_t kMaxXmlBytes = size_t{64} << 20;
 constexpr size_t kMaxThings = 200'000;
@@ -84,12 +89,24 @@ class Reader {
   void environment(const Element& e) {
     Environment& env = home_.environment;
     env.groundColour = e.colour("groundColor"), env.skyColour = e.colour("skyColor"), env.lightColour = e.colour("lightColor");
-    const double width = e.number("photoWidth", 1, 1e6, 400), height = e.number("photoHeight", 1, 1e6, 300);
-    env.photoAspect = width / height;
+    readPhoto(e, env);
     e.children([&](const Element& c) {
       if (c.kind() == "texture" && c.text("attribute") == "groundTexture") env.groundTexture = readTexture(c);
       if (c.kind() == "texture" && c.text("attribute") == "skyTexture") env.skyTexture = readTexture(c);
     });
+  }
+
+  // A fixed ratio rules over the height; that of the 3D view is not known, so that the last height stands for it.
+  static void readPhoto(const Element& e, Environment& env) {
+    static constexpr std::array<std::pair<std::string_view, double>, 6> kRatios = {
+        {{"RATIO_4_3", 4.0 / 3}, {"RATIO_3_2", 1.5}, {"RATIO_16_9", 16.0 / 9}, {"RATIO_2_1", 2}, {"RATIO_24_10", 2.4}, {"SQUARE_RATIO", 1}}};
+    const double width = e.number("photoWidth", 1, 1e6, kNewPhotoWidth), height = e.number("photoHeight", 1, 1e6, kNewPhotoHeight);
+    const std::string ratio = e.text("photoAspectRatio", "VIEW_3D_RATIO");
+    const auto fixed = std::find_if(kRatios.begin(), kRatios.end(), [&](const auto& r) { return r.first == ratio; });
+    env.photoAspect = fixed == kRatios.end() ? width / height : fixed->second;
+    const PhotoWish photo{static_cast<int>(width), std::max(1, static_cast<int>(std::lround(width / env.photoAspect))), static_cast<int>(e.number("photoQuality", 0, 3, 0))};
+    const bool isNew = width == kNewPhotoWidth && height == kNewPhotoHeight && photo.quality == 0;
+    if (!isNew && std::max(photo.widthPx, photo.heightPx) <= kLargestPhoto) env.photo = photo;
   }
 
   void compass(const Element& e) {

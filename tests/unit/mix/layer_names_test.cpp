@@ -30,7 +30,7 @@ TEST(LayerNames, lettersAreLettersInEveryCase) {
   EXPECT_EQ(findLamps(layers, "k?che d?cor").value(), Found{0}) << "? is a letter, not a byte";
   EXPECT_EQ(findLamps(layers, "KÜ").value(), Found{0});
   EXPECT_FALSE(findLamps(layers, "k??che d*").ok());
-  layers[0].name = "\xfc";  // no UTF-8: only itself
+  layers[0].name = std::string(1, '\xfc');  // no UTF-8: only itself
   EXPECT_EQ(findLamps(layers, "\xfc").value(), Found{0});
   EXPECT_FALSE(findLamps(layers, "\xdc").ok());
 }
