@@ -25,7 +25,7 @@ namespace {
 struct Options {
   std::string plan, folder, size = "640x360", walkSize = "960x540", only;
   std::vector<std::string> techniques, externals;
-  int runs = 3;
+  int runs = 3, walkFrames = StudySettings().walkFrames;
   double mostSeconds = 60, referenceSeconds = 240;
   bool quick = false, quiet = false;
 };
@@ -92,7 +92,7 @@ Status narrow(const Options& o, StudyPlan& plan) {
 
 Result<StudySettings> settingsOf(const Options& o) {
   StudySettings s;
-  s.runs = o.runs, s.mostSeconds = o.mostSeconds;
+  s.runs = o.runs, s.mostSeconds = o.mostSeconds, s.walkFrames = o.walkFrames;
   s.reference.mostS = o.referenceSeconds;
   std::string size = o.size, walkSize = o.walkSize;
   if (o.quick) size = "192x108", walkSize = "320x180", s.runs = 1, s.mostSeconds = 3, s.reference.mostS = 16, s.walkFrames = 4;
@@ -130,7 +130,7 @@ StudyHeader headerOf(const StudySettings& s, const StudyPlan& plan, double loadB
                    {"runs", fmt::format("{}", s.runs)},
                    {"longest point", fmt::format("{:g} s", s.mostSeconds)},
                    {"references", fmt::format("until a noise of {:g} or {:g} s", s.reference.noiseMse, s.reference.mostS)},
-                   {"frames", fmt::format("{}x{}, one sample a pixel", s.walkWidth, s.walkHeight)}};
+                   {"frames", fmt::format("{} of {}x{}, one sample a pixel", s.walkFrames, s.walkWidth, s.walkHeight)}};
   for (const StudyTechnique& t : plan.techniques) h.emplace_back(t.name, fmt::format("technique {}, settings {}", t.technique, t.settings));
   return h;
 }
@@ -266,6 +266,7 @@ Registered addStudy(CLI::App& program) {
   app->add_option("--runs", o->runs, "Runs of every picture, in turn with the others; the median time counts")->capture_default_str()->check(CLI::Range(1, 100));
   app->add_option("--size", o->size, "Of pictures")->capture_default_str();
   app->add_option("--walk-size", o->walkSize, "Of frames")->capture_default_str();
+  app->add_option("--walk-frames", o->walkFrames, "Of every walk, spread evenly")->capture_default_str()->check(CLI::Range(1, 1000000));
   app->add_option("--most-seconds", o->mostSeconds, "A picture that would take longer ends the curve")->capture_default_str()->check(CLI::Range(0.1, 1e6));
   app->add_option("--reference-seconds", o->referenceSeconds, "For the references of one view, at most")->capture_default_str()->check(CLI::Range(1.0, 1e6));
   app->add_option("--external", o->externals, "NAME=picture.exr,SECONDS of another renderer, linear and of the same view and size; NAME@SCENE/LIGHT=... where there are several; may be repeated")
