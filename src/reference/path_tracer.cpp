@@ -18,7 +18,9 @@ constexpr int kTile = 16;
 // many a path has, the first pass tells.
 constexpr int kMostLightPaths = 1 << 18, kFirstLightPaths = 1 << 14, kPixelsPerLightPath = 16;
 constexpr double kMostLightVertices = 1 << 20;
-constexpr size_t kFewestLightPaths = 1024, kMostMeterLightPaths = 1 << 16;  // of meters; each round of samples has its own
+// Of meters; each round of samples has its own. All meters of a round share them, so what they are off by shows in no spread of samples: as many as
+// samples, that it stays below theirs.
+constexpr size_t kFewestLightPaths = 1024, kMostMeterLightPaths = 1 << 17;
 
 constexpr int kFilterPasses = 5;
 
@@ -175,7 +177,7 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
                                              const Progress& progress) {
   LightVertices vertices(rays, lights);
   const auto prepare = [&](uint32_t round, size_t samples) {
-    if (vertices.lightRays().any()) vertices.trace(static_cast<int>(std::clamp<size_t>(samples / 4, kFewestLightPaths, kMostMeterLightPaths)), round, settings.seed);
+    if (vertices.lightRays().any()) vertices.trace(static_cast<int>(std::clamp<size_t>(samples, kFewestLightPaths, kMostMeterLightPaths)), round, settings.seed);
   };
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     const PathWalk walk(rays, lights, &vertices);
