@@ -43,8 +43,7 @@ bool drain(int pipe, std::string& text) {
 }  // namespace
 
 std::filesystem::path thisProgram() {
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error);
+  return "/proc/self/exe";  // the very one that runs, even where another has been built meanwhile
 }
 
 Status runThisProgram(const std::vector<std::string>& arguments, const std::atomic<bool>* cancelled) {
@@ -72,7 +71,8 @@ Status runThisProgram(const std::vector<std::string>& arguments, const std::atom
   std::string said;
   int status = 0;
   bool told = false;
-  while (waitpid(child, &status, WNOHANG) == 0) {
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
     drain(ends[0], said);
     if (cancelled && *cancelled && !told) kill(child, SIGTERM), told = true;
     std::this_thread::sleep_for(kAskEvery);
@@ -80,6 +80,7 @@ Status runThisProgram(const std::vector<std::string>& arguments, const std::atom
   drain(ends[0], said);
   close(ends[0]);
   if (told) return Error{"interrupted"};
+  if (ended < 0) return Error{fmt::format("a process was lost: {}", std::strerror(errno))};
   if (WIFSIGNALED(status)) return Error{fmt::format("the process was killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
   if (WEXITSTATUS(status) != 0) return Error{said.empty() ? fmt::format("the process ended with status {}", WEXITSTATUS(status)) : lastLine(said)};
   return Ok{};

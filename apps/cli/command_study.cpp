@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <thread>
 
 #include "arguments.h"
+#include "base/image_io.h"
 #include "child_program.h"
 #include "commands.h"
 #include "console.h"
@@ -49,7 +51,7 @@ Status readSize(const std::string& option, const std::string& text, int& width, 
 Result<ExternalPicture> readExternal(const std::string& text) {
   const size_t equals = text.find('='), comma = text.rfind(',');
   const auto seconds = comma == std::string::npos ? std::nullopt : parseNumber<double>(std::string_view(text).substr(comma + 1));
-  if (equals == std::string::npos || equals == 0 || comma == std::string::npos || comma < equals + 2 || !seconds || !(*seconds > 0)) {
+  if (equals == std::string::npos || equals == 0 || comma == std::string::npos || comma < equals + 2 || !seconds || !(*seconds > 0) || !std::isfinite(*seconds)) {
     return Error{fmt::format("--external {}: write NAME=picture.exr,SECONDS or NAME@SCENE/LIGHT=picture.exr,SECONDS", text)};
   }
   ExternalPicture e{text.substr(0, equals), {}, {}, text.substr(equals + 1, comma - equals - 1), *seconds};
@@ -90,24 +92,6 @@ Status narrow(const Options& o, StudyPlan& plan) {
   return Ok{};
 }
 
-Result<StudySettings> settingsOf(const Options& o) {
-  StudySettings s;
-  s.runs = o.runs, s.mostSeconds = o.mostSeconds, s.walkFrames = o.walkFrames;
-  s.reference.mostS = o.referenceSeconds;
-  std::string size = o.size, walkSize = o.walkSize;
-  if (o.quick) size = "192x108", walkSize = "320x180", s.runs = 1, s.mostSeconds = 3, s.reference.mostS = 16, s.walkFrames = 4;
-  s.reference.roundS = std::clamp(s.reference.mostS / 8, 2.0, 30.0);
-  if (const Status status = readSize("--size", size, s.width, s.height); !status) return Error{status.error()};
-  if (const Status status = readSize("--walk-size", walkSize, s.walkWidth, s.walkHeight); !status) return Error{status.error()};
-  for (const std::string& text : o.externals) {
-    const Result<ExternalPicture> e = readExternal(text);
-    if (!e) return Error{e.error()};
-    s.externals.push_back(e.value());
-  }
-  s.program = fmt::format("roomlight {} {}", version(), contentHash(thisProgram()));
-  return s;
-}
-
 std::string firstValue(const char* file, const std::string& key) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
@@ -119,11 +103,25 @@ std::string firstValue(const char* file, const std::string& key) {
   return "unknown";
 }
 
+Result<StudySettings> settingsOf(const Options& o) {
+  StudySettings s;
+  s.runs = o.runs, s.mostSeconds = o.mostSeconds, s.walkFrames = o.walkFrames;
+  s.reference.mostS = o.referenceSeconds;
+  s.reference.roundS = std::clamp(s.reference.mostS / 8, 0.5, 30.0);
+  if (const Status status = readSize("--size", o.size, s.width, s.height); !status) return Error{status.error()};
+  if (const Status status = readSize("--walk-size", o.walkSize, s.walkWidth, s.walkHeight); !status) return Error{status.error()};
+  for (const std::string& text : o.externals) {
+    const Result<ExternalPicture> e = readExternal(text);
+    if (!e) return Error{e.error()};
+    s.externals.push_back(e.value());
+  }
+  s.program = fmt::format("roomlight {} {}, {} threads of {}", version(), contentHash(thisProgram()), std::thread::hardware_concurrency(), firstValue("/proc/cpuinfo", "model name"));
+  return s;
+}
+
 StudyHeader headerOf(const StudySettings& s, const StudyPlan& plan, double loadBefore) {
   const double memoryMiB = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1048576;
   StudyHeader h = {{"program", s.program},
-                   {"processor", firstValue("/proc/cpuinfo", "model name")},
-                   {"threads", fmt::format("{}", std::thread::hardware_concurrency())},
                    {"memory", fmt::format("{:.1f} GiB", memoryMiB / 1024)},
                    {"load of the machine at the start", fmt::format("{:.2f}", loadBefore)},
                    {"pictures", fmt::format("{}x{}", s.width, s.height)},
@@ -172,6 +170,8 @@ class Programs {
  private:
   Result<nlohmann::json> run(std::vector<std::string> words, const std::filesystem::path& lighting, const std::string& settings) const {
     const std::filesystem::path settingsFile = folder_ / "settings.json", stats = folder_ / "stats.json";
+    std::error_code ignored;
+    std::filesystem::remove(stats, ignored);
     if (const Status s = writeTextFile(settingsFile, settings); !s) return Error{s.error()};
     if (!lighting.empty()) words.insert(words.end(), {"--lighting", lighting.string()});
     words.insert(words.end(), {"--settings", settingsFile.string(), "--stats", stats.string(), "--quiet"});
@@ -217,13 +217,47 @@ Status writeReports(const std::filesystem::path& folder, const StudyHeader& head
   return writeTextFile(folder / "study.json", studyJson(header, results));
 }
 
-int runStudyCommand(const Options& o) {
+// What --quick stands for, where nothing else is asked for.
+void makeQuick(Options& o, const CLI::App& app) {
+  const auto otherwise = [&](const char* option, auto& value, auto quick) {
+    if (app.count(option) == 0) value = quick;
+  };
+  otherwise("--size", o.size, "192x108"), otherwise("--walk-size", o.walkSize, "320x180");
+  otherwise("--runs", o.runs, 1), otherwise("--walk-frames", o.walkFrames, 3);
+  otherwise("--most-seconds", o.mostSeconds, 2.0), otherwise("--reference-seconds", o.referenceSeconds, 16.0);
+}
+
+// Each must be of one of the plan's views, and of the study's size, before hours are spent.
+Status checkExternals(const StudyPlan& plan, const StudySettings& settings) {
+  size_t views = 0;
+  for (const StudyScene& s : plan.scenes) views += s.lights.size();
+  for (const ExternalPicture& e : settings.externals) {
+    size_t meant = 0;
+    for (const StudyScene& s : plan.scenes) {
+      for (const StudyLight& light : s.lights) meant += (e.scene.empty() || e.scene == s.name) && (e.light.empty() || e.light == light.name);
+    }
+    if (meant != 1) return Error{fmt::format("--external {}: is of {} of the study's {} views; write NAME@SCENE/LIGHT=...", e.name, meant, views)};
+    const Result<Image> image = readImage(e.file);
+    if (!image) return Error{image.error()};
+    if (image.value().width != settings.width || image.value().height != settings.height) {
+      return Error{fmt::format("--external {}: is {}x{}, the study {}x{}; give --size", e.name, image.value().width, image.value().height, settings.width, settings.height)};
+    }
+  }
+  return Ok{};
+}
+
+int runStudyCommand(Options o, const CLI::App& app) {
   interrupted();
+  if (o.quick) makeQuick(o, app);
   Result<StudyPlan> plan = readStudyFile(o.plan);
   if (!plan) return bad(plan.error());
+  for (const char* out : {"study.html", "study.json", "study.csv", "study.md"}) {
+    if (const Status s = checkDistinct({o.plan, (std::filesystem::path(o.folder) / out).string()}); !s) return bad(s.error());
+  }
   if (const Status s = narrow(o, plan.value()); !s) return bad(s.error());
   const Result<StudySettings> settings = settingsOf(o);
   if (!settings) return bad(settings.error());
+  if (const Status s = checkExternals(plan.value(), settings.value()); !s) return bad(s.error());
   double load = 0;
   getloadavg(&load, 1);
   if (load > 0.7 && !o.quiet) printWarnings({fmt::format("the machine is busy (load {:.1f}): times will be longer than they need be", load)});
@@ -233,7 +267,7 @@ int runStudyCommand(const Options& o) {
   if (!store) return bad(store.error(), kFailed);
   if (const Status s = writeDimLamps(plan.value(), store.value()); !s) return bad(s.error());
   const StudyHeader header = headerOf(settings.value(), plan.value(), load);
-  const Programs programs(folder, settings.value().walkFrames);
+  const Programs programs(store.value().folder(), settings.value().walkFrames);
   const StudyTools tools{[&](const StudyRender& r) { return programs.render(r); }, [&](const StudyWalk& w) { return programs.walk(w); }};
   Status written = Ok{};
   Result<StudyResults> results = Error{""};
@@ -278,7 +312,7 @@ Registered addStudy(CLI::App& program) {
       "Ctrl-C stops; the same command goes on where it was.\n"
       "Example:\n"
       "  roomlight study homes.json -o out/study --runs 3");
-  return {app, [o] { return runStudyCommand(*o); }};
+  return {app, [o, app] { return runStudyCommand(*o, *app); }};
 }
 
 }  // namespace roomlight::cli

@@ -43,7 +43,7 @@ int bad(const std::string& message, int code = kBadInput) {
 }
 
 Result<RenderSettings> readSettings(const Options& o) {
-  RenderSettings s;
+  RenderSettings s = frameSettings({});
   if (!o.quality.empty()) {
     if (const Status status = applyQuality(o.quality, s); !status) return Error{"--" + status.error()};
   }
@@ -54,7 +54,6 @@ Result<RenderSettings> readSettings(const Options& o) {
     if (!read) return Error{read.error()};
     s = read.value();
   }
-  s = frameSettings(s);
   if (!o.size.empty()) {
     const Result<Size> size = parseSize("--size", o.size);
     if (!size) return Error{size.error()};

@@ -157,12 +157,14 @@ Walk::Dimmed readDimmed(const JsonPlace& j, double secondsS, const Scene& scene)
 template <class Entry>
 void refuseTwins(const JsonPlace& entries, const std::vector<Entry>& read) {
   std::set<uint32_t> taken;
+  std::set<size_t> lamps;
   for (size_t i = 0; i < read.size(); ++i) {
-    for (const uint32_t instance : read[i].instances) {
-      if (taken.insert(instance).second) continue;
-      entries[i].fail("is named a second time");
-      break;
+    bool twice = false;
+    for (const uint32_t instance : read[i].instances) twice = !taken.insert(instance).second || twice;
+    if constexpr (requires { read[i].lamps; }) {
+      for (const size_t lamp : read[i].lamps) twice = !lamps.insert(lamp).second || twice;
     }
+    if (twice) entries[i].fail("is named a second time");
   }
 }
 

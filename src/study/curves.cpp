@@ -15,8 +15,9 @@ double medianOf(std::vector<double> values) {
 double errorOf(const StudyPoint& point) { return std::max(point.mseBeyondNoise, kLeastMse); }
 
 bool hasSettled(const StudyCurve& curve) {
+  const auto flat = [&](size_t i) { return errorOf(curve.points[i]) > (1 - kSettledChange) * errorOf(curve.points[i - 1]); };
   const size_t n = curve.points.size();
-  return n >= 2 && errorOf(curve.points[n - 1]) > (1 - kSettledChange) * errorOf(curve.points[n - 2]);
+  return n >= 3 && flat(n - 1) && flat(n - 2);
 }
 
 const StudyPoint& settledPoint(const StudyCurve& curve) {

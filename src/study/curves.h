@@ -33,7 +33,7 @@ double medianOf(std::vector<double> values);  // 0 of none
 // Error by which pictures are ranked: mse beyond the reference's noise, not below kLeastMse.
 double errorOf(const StudyPoint& point);
 
-// Whether the last doubling changed next to nothing. False with fewer than two points.
+// Whether the last two doublings changed next to nothing: one alone may be chance, or two samples that share what they see.
 bool hasSettled(const StudyCurve& curve);
 
 // The point from which on it does not get better by more than kSettledChange a doubling; the last one where the error still falls. The curve has points.

@@ -37,8 +37,8 @@ Status writeDimLamps(StudyPlan& plan, const RunStore& store) {
   for (StudyScene& s : plan.scenes) {
     for (StudyLight& light : s.lights) {
       if (light.dimLampLm <= 0) continue;
-      const std::string name = fmt::format("{} {} light {} {}", s.name, light.name, contentHash(s.file), light.dimLampLm);
-      light.lighting = store.file(name, ".json");
+      const RunStore::Key key{{"light", s.name, light.name}, fmt::format("{} | camera {} | {} lm", contentHash(s.file), s.camera, light.dimLampLm)};
+      light.lighting = store.file(key, ".lighting.json");
       if (std::filesystem::exists(light.lighting)) continue;
       const Result<Vec3> p = positionIn(s);
       if (!p) return Error{p.error()};
@@ -46,9 +46,13 @@ Status writeDimLamps(StudyPlan& plan, const RunStore& store) {
       nlohmann::ordered_json file = {{"comment", "One weak lamp; every other light is off."}};
       for (const char* what : off) file["scene"][what] = "off";
       file["lamps"] = {{{"name", "dim lamp"}, {"type", "point"}, {"position", {p.value().x, p.value().y, p.value().z}}, {"flux", fmt::format("{:g} lm", light.dimLampLm)}, {"temperature", kColour}}};
-      std::ofstream out(light.lighting);
+      const std::filesystem::path half = store.file(key, ".part");
+      std::ofstream out(half);
       out << file.dump(2) << "\n";
-      if (!out.flush()) return Error{fmt::format("{}: cannot be written", light.lighting.string())};
+      out.close();
+      std::error_code error;
+      if (out) std::filesystem::rename(half, light.lighting, error);
+      if (!out || error) return Error{fmt::format("{}: cannot be written", light.lighting.string())};
     }
   }
   return Ok{};

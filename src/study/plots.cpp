@@ -11,8 +11,8 @@
 namespace roomlight {
 namespace {
 
-// Okabe & Ito 2008, told apart by people with any colour vision.
-constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#882255"};
+// Okabe & Ito 2008 and Tol 2021, told apart by people with any colour vision.
+constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#882255", "#999933"};
 constexpr double kWidth = 560, kHeight = 300, kLeft = 54, kRight = 12, kTop = 10, kBottom = 34;
 
 struct Axis {

@@ -13,7 +13,6 @@ namespace {
 
 // One of the two, with what has gone into it.
 struct Half {
-  std::filesystem::path file;
   Image sum;  // the mean so far
   double samples = 0;
 };
@@ -36,28 +35,30 @@ Result<double> noiseOfMean(const Image& a, const Image& b) {
   return r.value().mse / 4;
 }
 
+// Halves of every other round have files of their own, so that those of the last one are whole whenever the work ends.
+std::filesystem::path fileOfHalf(const RunStore& store, const RunStore::Key& key, int round, size_t half) { return store.file(key, fmt::format("_{}{}.exr", half + 1, round % 2 ? "b" : "a")); }
+
 }  // namespace
 
-Result<Reference> makeReference(const RunStore& store, const std::string& name, const std::string& circumstances, const StudyRender& view, const ReferenceSettings& settings,
-                                const StudyTools& tools, const StudyProgress& progress, const std::function<void(double)>& heard) {
+Result<Reference> makeReference(const RunStore& store, const RunStore::Key& key, const StudyRender& view, const ReferenceSettings& settings, const StudyTools& tools, const StudyProgress& progress,
+                                const std::function<void(double)>& heard) {
   Half halves[2];
-  for (size_t i = 0; i < 2; ++i) halves[i].file = store.file(fmt::format("{}_{}", name, i + 1), ".exr");
   int rounds = 0;
   double seconds = 0;
   Reference reference;
-  reference.firstFile = halves[0].file, reference.secondFile = halves[1].file;
-  if (const auto kept = store.find(name, circumstances)) {
-    for (Half& half : halves) {
-      Result<Image> read = readImage(half.file);
+  if (const auto kept = store.find(key)) {
+    const int last = kept->value("rounds", 0);
+    for (size_t i = 0; i < 2; ++i) {
+      Result<Image> read = readImage(fileOfHalf(store, key, last, i));
       if (!read || read.value().width != view.width || read.value().height != view.height) break;
-      half.sum = std::move(read.value());
-      half.samples = kept->value("samples", 0.0) / 2;
+      halves[i].sum = std::move(read.value());
+      halves[i].samples = kept->value("samples", 0.0) / 2;
     }
     if (halves[1].samples > 0) {
-      rounds = kept->value("rounds", 0), seconds = kept->value("seconds", 0.0);
+      rounds = last, seconds = kept->value("seconds", 0.0);
       reference.noiseMse = kept->value("noiseMse", 1.0);
     } else {
-      halves[0].sum = {}, halves[0].samples = 0;
+      halves[0] = {};
     }
   }
   const auto enough = [&] { return rounds > 0 && (reference.noiseMse <= settings.noiseMse || seconds >= settings.mostS); };
@@ -69,7 +70,7 @@ Result<Reference> makeReference(const RunStore& store, const std::string& name, 
       StudyRender ask = view;
       ask.technique = "path", ask.settings = "{}", ask.samples = 0, ask.timeLimitS = settings.roundS;
       ask.seed = 1000 + 2 * static_cast<uint64_t>(rounds) + i;
-      ask.picture = store.file(name + "_round", ".exr");
+      ask.picture = store.file(key, "_round.exr");
       const Result<RenderCost> cost = tools.render(ask);
       if (!cost) return Error{cost.error()};
       Result<Image> read = readImage(ask.picture);
@@ -84,16 +85,17 @@ Result<Reference> makeReference(const RunStore& store, const std::string& name, 
     const double each = (samples[0] + samples[1]) / 2;
     for (size_t i = 0; i < 2; ++i) add(halves[i], pictures[i], each);
     const Result<double> noise = noiseOfMean(halves[0].sum, halves[1].sum);
-    if (!noise) return Error{fmt::format("reference of {}: {}", name, noise.error())};
+    if (!noise) return Error{fmt::format("reference: {}", noise.error())};
     reference.noiseMse = noise.value();
     ++rounds;
-    for (const Half& half : halves) {
-      if (const Status s = writeExr(half.file, half.sum, {}); !s) return Error{s.error()};
+    for (size_t i = 0; i < 2; ++i) {
+      if (const Status s = writeExr(fileOfHalf(store, key, rounds, i), halves[i].sum, {}); !s) return Error{s.error()};
     }
     const nlohmann::json kept = {{"rounds", rounds}, {"seconds", seconds}, {"samples", halves[0].samples + halves[1].samples}, {"noiseMse", reference.noiseMse}};
-    if (const Status s = store.keep(name, circumstances, kept); !s) return Error{s.error()};
+    if (const Status s = store.keep(key, kept); !s) return Error{s.error()};
   }
   if (rounds == 0) return Error{"stopped before there was a reference"};
+  reference.firstFile = fileOfHalf(store, key, rounds, 0), reference.secondFile = fileOfHalf(store, key, rounds, 1);
   reference.first = std::move(halves[0].sum), reference.second = std::move(halves[1].sum);
   reference.seconds = seconds;
   reference.samples = halves[0].samples + halves[1].samples;

@@ -102,7 +102,7 @@ std::string studyJson(const StudyHeader& header, const StudyResults& r) {
   for (const StudyVerdict& v : studyVerdicts(r)) j["verdicts"].push_back({{"asked", v.asked}, {"measured", v.measured}, {"met", v.met}});
   for (const StudyCase& c : r.cases) j["cases"].push_back(caseJson(c));
   for (const StudyFrames& f : r.frames) {
-    j["frames"].push_back({{"scene", f.scene}, {"technique", f.technique}, {"framesPerSecond", f.cost.framesPerSecond}, {"frames", f.cost.frames}, {"updateMs", f.cost.updateMs}, {"pictureMs", f.cost.pictureMs}, {"failed", f.failed}});
+    j["frames"].push_back({{"scene", f.scene}, {"technique", f.technique}, {"framesPerSecond", f.cost.framesPerSecond}, {"frames", f.cost.frames}, {"updateMs", f.cost.updateMs}, {"pictureMs", f.cost.pictureMs}, {"runs", f.runs.size()}, {"failed", f.failed}});
   }
   for (const auto& t : published::kTechniques) j["published"].push_back({{"technique", t.name}, {"drawingSeconds", t.drawingS}, {"settledMse", t.settledMse}, {"framesPerSecond", t.framesPerSecond}});
   j["remarks"] = r.remarks;

@@ -161,8 +161,18 @@ std::string matrix(const StudyResults& r, const std::function<std::string(const 
   return s + "</table></div>\n";
 }
 
+std::string externals(const StudyResults& r) {
+  std::string rows;
+  for (const StudyCase& c : r.cases) {
+    for (const StudyExternal& e : c.externals) {
+      rows += fmt::format("<tr><td>{}</td><td class=l>{}</td><td>{}</td><td>{:.4f}</td><td>{:.3f}</td><td>{:+.1f} %</td></tr>\n", htmlEscaped(e.name), htmlEscaped(c.scene + ", " + c.light), seconds(e.seconds), e.mseBeyondNoise, e.flip, e.meanErrorPercent);
+    }
+  }
+  return rows.empty() ? "" : "<h2>Other renderers</h2><table><tr><th>name</th><th class=l>scene, light</th><th>seconds</th><th>mse</th><th>flip</th><th>mean</th></tr>\n" + rows + "</table>\n";
+}
+
 std::string tables(const StudyResults& r) {
-  std::string s = "<h2>Drawing time</h2><p>Seconds after loading until the error has settled: twice the samples a pixel take away less than a twentieth of it. &gt;: stopped by time while it still fell. Bold: the quickest, whatever its error.</p>";
+  std::string s = "<h2>Drawing time</h2><p>Seconds after loading until the error has settled: twice the samples a pixel take away less than a twentieth of it, two times in a row. &gt;: stopped by time while it still fell. Bold: the quickest, whatever its error.</p>";
   s += matrix(
       r, [](const StudyCurve& c, const StudyCase&) { return (hasSettled(c) ? "" : "&gt; ") + seconds(settledPoint(c).seconds); }, [](const StudyCurve& c) { return settledPoint(c).seconds; });
   s += "<details><summary>Table 1 of the published study, seconds</summary><table><tr><th>scene</th>";
@@ -189,8 +199,9 @@ std::string tables(const StudyResults& r) {
       },
       [](const StudyCurve&) { return 1e31; });
   s += "<h2>Memory</h2><p>Peak of the process, MiB, the home included.</p>";
-  return s + matrix(
-                 r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.0f}", settledPoint(c).memoryMiB); }, [](const StudyCurve& c) { return settledPoint(c).memoryMiB; });
+  s += matrix(
+      r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.0f}", settledPoint(c).memoryMiB); }, [](const StudyCurve& c) { return settledPoint(c).memoryMiB; });
+  return s + externals(r);
 }
 
 std::string errorOverTime(const StudyResults& r) {
@@ -247,7 +258,7 @@ Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, 
   for (const auto& [name, value] : header) s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));
   s += "</table>\n";
   for (const std::string& remark : r.remarks) s += "<p class=soft>" + htmlEscaped(remark) + "</p>\n";
-  return s + "<footer>Times are medians of the runs; the runs of all techniques take turns.</footer>\n</main></body></html>\n";
+  return s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take turns.</footer>\n</main></body></html>\n";
 }
 
 }  // namespace roomlight

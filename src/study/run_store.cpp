@@ -20,14 +20,25 @@ std::string fileNameOf(const std::string& name) {
   return out;
 }
 
+namespace {
+
+constexpr uint64_t kFnvStart = 0xcbf29ce484222325ull;
+
+uint64_t fnv(uint64_t hash, std::string_view bytes) {
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+  return hash;
+}
+
+}  // namespace
+
+std::string textHash(const std::string& text) { return fmt::format("{:016x}", fnv(kFnvStart, text)); }
+
 std::string contentHash(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return "-";
-  uint64_t hash = 0xcbf29ce484222325ull;
+  uint64_t hash = kFnvStart;
   char block[1 << 16];
-  while (in.read(block, sizeof block), in.gcount() > 0) {
-    for (std::streamsize i = 0; i < in.gcount(); ++i) hash = (hash ^ static_cast<unsigned char>(block[i])) * 0x100000001b3ull;
-  }
+  while (in.read(block, sizeof block), in.gcount() > 0) hash = fnv(hash, {block, static_cast<size_t>(in.gcount())});
   return fmt::format("{:016x}", hash);
 }
 
@@ -38,23 +49,34 @@ Result<RunStore> RunStore::open(const std::filesystem::path& folder) {
   return RunStore(folder);
 }
 
-std::filesystem::path RunStore::file(const std::string& name, const std::string& extension) const { return folder_ / (fileNameOf(name) + extension); }
+std::filesystem::path RunStore::file(const Key& key, const std::string& extension) const {
+  std::string readable, all;
+  for (const std::string& name : key.names) readable += (readable.empty() ? "" : " ") + name, all += name + '\0';
+  return folder_ / (fileNameOf(readable) + "-" + textHash(all + key.circumstances).substr(0, 10) + extension);
+}
 
-std::optional<nlohmann::json> RunStore::find(const std::string& name, const std::string& circumstances) const {
-  std::ifstream in(file(name, ".json"));
+std::optional<nlohmann::json> RunStore::find(const Key& key) const {
+  std::ifstream in(file(key, ".json"));
   if (!in) return std::nullopt;
   const nlohmann::json read = nlohmann::json::parse(in, nullptr, false);
-  if (!read.is_object() || read.value("circumstances", "") != circumstances || !read.contains("result")) return std::nullopt;
+  if (!read.is_object() || !read.contains("circumstances") || read["circumstances"] != key.circumstances || !read.contains("result") || !read["result"].is_object()) return std::nullopt;
   return read["result"];
 }
 
-Status RunStore::keep(const std::string& name, const std::string& circumstances, const nlohmann::json& result) const {
-  const std::filesystem::path to = file(name, ".json"), half = file(name, ".json.part");
-  std::ofstream(half) << nlohmann::json{{"circumstances", circumstances}, {"result", result}}.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+Status RunStore::keep(const Key& key, const nlohmann::json& result) const {
+  const std::filesystem::path to = file(key, ".json"), half = file(key, ".json.part");
+  std::ofstream out(half);
+  out << nlohmann::json{{"circumstances", key.circumstances}, {"result", result}}.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+  out.close();
   std::error_code error;
-  std::filesystem::rename(half, to, error);
-  if (error) return Error{fmt::format("{}: cannot be written: {}", to.string(), error.message())};
+  if (out) std::filesystem::rename(half, to, error);
+  if (!out || error) return Error{fmt::format("{}: cannot be written{}", to.string(), error ? ": " + error.message() : "")};
   return Ok{};
+}
+
+void RunStore::forget(const Key& key) const {
+  std::error_code ignored;
+  std::filesystem::remove(file(key, ".json"), ignored);
 }
 
 }  // namespace roomlight

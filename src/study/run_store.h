@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 
@@ -15,12 +16,17 @@ class RunStore {
   // `folder` is made where it is not there.
   static Result<RunStore> open(const std::filesystem::path& folder);
 
-  // A result is known by a readable name and by everything that it depends on. None where there is none, or one of other circumstances.
-  std::optional<nlohmann::json> find(const std::string& name, const std::string& circumstances) const;
-  Status keep(const std::string& name, const std::string& circumstances, const nlohmann::json& result) const;
+  // A result is known by what it is (a kind, a scene, a light, ..) and by everything that it depends on.
+  struct Key {
+    std::vector<std::string> names;
+    std::string circumstances;
+  };
+  std::optional<nlohmann::json> find(const Key& key) const;
+  Status keep(const Key& key, const nlohmann::json& result) const;  // whole or not at all
+  void forget(const Key& key) const;
 
-  // A file beside the results, such as a picture.
-  std::filesystem::path file(const std::string& name, const std::string& extension) const;
+  // A file that goes with a result, such as a picture: readable, and another for every key.
+  std::filesystem::path file(const Key& key, const std::string& extension) const;
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
@@ -31,7 +37,8 @@ class RunStore {
 // Letters, digits and - of a name, lower case, others as _: fit for a file.
 std::string fileNameOf(const std::string& name);
 
-// 64 bits of a file's content in hexadecimal (FNV-1a); "-" where there is no file to read.
+// 64 bits of a text or of a file's content in hexadecimal (FNV-1a); "-" where there is no file to read.
 std::string contentHash(const std::filesystem::path& file);
+std::string textHash(const std::string& text);
 
 }  // namespace roomlight

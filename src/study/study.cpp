@@ -61,13 +61,14 @@ class CaseStudy {
     ask.technique = t.technique, ask.settings = t.settings, ask.samples = samples, ask.picture = picture;
     return ask;
   }
-  std::string circumstances(const StudyTechnique& t, int samples) const {
-    return fmt::format("{} | {} | {} {} | {} samples", settings_.program, what_, t.technique, t.settings, samples);
+  // Of a kind of result: "point", "error", "run 2".
+  RunStore::Key keyOf(const std::string& kind, const StudyTechnique& t, int samples) const {
+    return {{kind, out_.scene, out_.light, t.name, fmt::format("{}", samples)},
+            fmt::format("{} | {} | {} {} | {} samples", settings_.program, what_, t.technique, t.settings, samples)};
   }
-  std::string nameOf(const StudyTechnique& t, int samples) const { return fmt::format("{} {} {} {}", out_.scene, out_.light, t.name, samples); }
 
   bool explore(const StudyTechnique& t, StudyCurve& curve);
-  Result<nlohmann::json> errorOfPicture(const std::string& name, const std::string& circumstances, const std::filesystem::path& picture) const;
+  Result<nlohmann::json> errorOfPicture(RunStore::Key key, const std::filesystem::path& picture) const;
   Result<StudyPoint> point(const StudyTechnique& t, int samples, bool& measured);
   bool timeAgain(const StudyTechnique& t, StudyCurve& curve, int run);
   Status addExternals();
@@ -86,31 +87,32 @@ class CaseStudy {
 };
 
 // Against the reference as it is now: it may have become better since.
-Result<nlohmann::json> CaseStudy::errorOfPicture(const std::string& name, const std::string& circumstances, const std::filesystem::path& picture) const {
-  const std::string now = circumstances + fmt::format(" | reference of {:.0f} samples", reference_.samples);
-  if (const auto kept = store_.find(name + " error", now)) return *kept;
+Result<nlohmann::json> CaseStudy::errorOfPicture(RunStore::Key key, const std::filesystem::path& picture) const {
+  key.circumstances += fmt::format(" | reference of {:.0f} samples", reference_.samples);
+  if (const auto kept = store_.find(key)) return *kept;
   const Result<Image> image = readImage(picture);
   if (!image) return Error{image.error()};
   const Result<Report> report = compare(reference_.first, reference_.second, image.value());
   if (!report) return Error{fmt::format("{}: {}", picture.string(), report.error())};
   const nlohmann::json error = toJson(report.value());
-  if (const Status s = store_.keep(name + " error", now, error); !s) return Error{s.error()};
+  if (const Status s = store_.keep(key, error); !s) return Error{s.error()};
   return error;
 }
 
 // The picture with so many samples: its first run, and its error.
 Result<StudyPoint> CaseStudy::point(const StudyTechnique& t, int samples, bool& measured) {
-  const std::string name = nameOf(t, samples), circumstances = this->circumstances(t, samples);
-  const std::filesystem::path picture = store_.file(name, ".exr");
-  std::optional<nlohmann::json> cost = store_.find(name, circumstances);
+  const RunStore::Key key = keyOf("point", t, samples);
+  const std::filesystem::path picture = store_.file(key, ".exr");
+  std::optional<nlohmann::json> cost = store_.find(key);
   if (!cost || !std::filesystem::exists(picture)) {
     measured = true;
+    store_.forget(key);  // until the picture is whole
     const Result<RenderCost> made = tools_.render(request(t, samples, picture));
     if (!made) return Error{made.error()};
     cost = toJson(made.value());
-    if (const Status s = store_.keep(name, circumstances, *cost); !s) return Error{s.error()};
+    if (const Status s = store_.keep(key, *cost); !s) return Error{s.error()};
   }
-  const Result<nlohmann::json> error = errorOfPicture(name, circumstances, picture);
+  const Result<nlohmann::json> error = errorOfPicture(keyOf("error", t, samples), picture);
   if (!error) return Error{error.error()};
   StudyPoint p;
   p.samples = samples;
@@ -145,12 +147,12 @@ bool CaseStudy::timeAgain(const StudyTechnique& t, StudyCurve& curve, int run) {
   bool measured = false;
   for (StudyPoint& p : curve.points) {
     if (progress_.stop()) break;
-    const std::string name = fmt::format("{} run {}", nameOf(t, p.samples), run + 1), circumstances = this->circumstances(t, p.samples);
-    std::optional<nlohmann::json> kept = store_.find(name, circumstances);
+    const RunStore::Key key = keyOf(fmt::format("run {}", run + 1), t, p.samples);
+    std::optional<nlohmann::json> kept = store_.find(key);
     if (!kept) {
       pace_.now(fmt::format("{}, {}: {}, {} samples, run {}", out_.scene, out_.light, t.name, p.samples, run + 1));
       measured = true;
-      const std::filesystem::path picture = store_.file("again", ".exr");
+      const std::filesystem::path picture = store_.file(key, ".exr");
       const Result<RenderCost> cost = tools_.render(request(t, p.samples, picture));
       std::error_code ignored;
       std::filesystem::remove(picture, ignored);
@@ -159,7 +161,7 @@ bool CaseStudy::timeAgain(const StudyTechnique& t, StudyCurve& curve, int run) {
         break;
       }
       kept = toJson(cost.value());
-      if (!store_.keep(name, circumstances, *kept)) break;
+      if (!store_.keep(key, *kept)) break;
     }
     p.runsS.push_back(number(*kept, "seconds"));
   }
@@ -173,7 +175,7 @@ Status CaseStudy::addExternals() {
     if (!image) return Error{image.error()};
     const Result<Report> r = compare(reference_.first, reference_.second, image.value());
     if (!r) return Error{fmt::format("--external {}: {}", e.name, r.error())};
-    const std::filesystem::path copy = store_.file(fmt::format("{} {} external {}", out_.scene, out_.light, e.name), ".exr");
+    const std::filesystem::path copy = store_.file({{"external", out_.scene, out_.light, e.name}, what_}, ".exr");
     if (const Status s = writeExr(copy, image.value(), {}); !s) return s;
     out_.externals.push_back({e.name, e.seconds, r.value().mse, r.value().mseBeyondNoise.value_or(r.value().mse), r.value().flip, r.value().meanLuminanceErrorPercent, copy.filename().string()});
   }
@@ -191,10 +193,10 @@ Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& ligh
   view_.scene = scene.file, view_.lighting = light.lighting, view_.camera = scene.camera, view_.width = settings_.width, view_.height = settings_.height;
   what_ = fmt::format("{} {} | {} | {}x{}", scene.file.filename().string(), contentHash(scene.file), light.lighting.empty() ? "own light" : contentHash(light.lighting), view_.width, view_.height) +
           (scene.camera.empty() ? "" : " | camera " + scene.camera);
-  const std::string name = fmt::format("{} {} reference", scene.name, light.name), doing = fmt::format("{}, {}: reference", scene.name, light.name);
+  const std::string doing = fmt::format("{}, {}: reference", scene.name, light.name);
   pace_.now(doing);
   bool made = false;
-  Result<Reference> reference = makeReference(store_, name, what_, view_, settings_.reference, tools_, progress_, [&](double part) { made = true, pace_.now(doing, part); });
+  Result<Reference> reference = makeReference(store_, {{"reference", scene.name, light.name}, what_}, view_, settings_.reference, tools_, progress_, [&](double part) { made = true, pace_.now(doing, part); });
   if (!reference) return Error{reference.error()};
   pace_.unit(made);
   reference_ = std::move(reference.value());
@@ -214,25 +216,57 @@ Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& ligh
   return std::move(out_);
 }
 
-StudyFrames framesOf(const StudyScene& scene, const StudyTechnique& t, const StudySettings& settings, const RunStore& store, const StudyTools& tools, bool& measured) {
-  StudyFrames out{scene.name, t.name, t.kind, {}, {}};
+// Adds a run of the walk to those there are.
+void walkOnce(const StudyScene& scene, const StudyTechnique& t, const StudySettings& settings, const RunStore& store, const StudyTools& tools, int run, StudyFrames& out, bool& measured) {
   const std::filesystem::path lighting = scene.lights.front().lighting;
-  const std::string name = fmt::format("{} walk {}", scene.name, t.name);
   const std::string circumstances = fmt::format("{} | {} | {} | {} | {} {} | {}x{}, {} frames", settings.program, contentHash(scene.file), contentHash(lighting), contentHash(scene.walk), t.technique, t.settings,
                                                 settings.walkWidth, settings.walkHeight, settings.walkFrames);
-  std::optional<nlohmann::json> kept = store.find(name, circumstances);
+  const RunStore::Key key{{fmt::format("walk {}", run + 1), scene.name, t.name}, circumstances};
+  std::optional<nlohmann::json> kept = store.find(key);
   if (!kept) {
     measured = true;
     const Result<WalkCost> cost = tools.walk({scene.file, lighting, scene.walk, settings.walkWidth, settings.walkHeight, t.technique, t.settings});
     if (!cost) {
       out.failed = cost.error();
-      return out;
+      return;
     }
     kept = nlohmann::json{{"frames", cost.value().frames}, {"framesPerSecond", cost.value().framesPerSecond}, {"updateMs", cost.value().updateMs}, {"pictureMs", cost.value().pictureMs}};
-    if (const Status s = store.keep(name, circumstances, *kept); !s) out.failed = s.error();
+    if (const Status s = store.keep(key, *kept); !s) out.failed = s.error();
   }
-  out.cost = {static_cast<int>(number(*kept, "frames")), number(*kept, "framesPerSecond"), number(*kept, "updateMs"), number(*kept, "pictureMs")};
-  return out;
+  out.runs.push_back({static_cast<int>(number(*kept, "frames")), number(*kept, "framesPerSecond"), number(*kept, "updateMs"), number(*kept, "pictureMs")});
+}
+
+// The median run of each.
+WalkCost medianCost(const std::vector<WalkCost>& runs) {
+  const auto of = [&](double WalkCost::*member) {
+    std::vector<double> values;
+    for (const WalkCost& w : runs) values.push_back(w.*member);
+    return medianOf(std::move(values));
+  };
+  return {runs.empty() ? 0 : runs.front().frames, of(&WalkCost::framesPerSecond), of(&WalkCost::updateMs), of(&WalkCost::pictureMs)};
+}
+
+// Techniques in turn, run after run.
+void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace, StudyResults& results) {
+  for (const StudyScene& scene : plan.scenes) {
+    if (scene.walk.empty() || !tools.walk) continue;
+    std::vector<StudyFrames> found;
+    for (const StudyTechnique& t : plan.techniques) found.push_back({scene.name, t.name, t.kind, {}, {}, {}});
+    for (int run = 0; run < settings.runs; ++run) {
+      for (size_t i = 0; i < found.size() && !progress.stop(); ++i) {
+        pace.now(fmt::format("{}: frames a second, {}, run {}", scene.name, found[i].technique, run + 1));
+        bool measured = false;
+        if (found[i].failed.empty()) walkOnce(scene, plan.techniques[i], settings, store, tools, run, found[i], measured);
+        pace.unit(measured);
+      }
+    }
+    for (StudyFrames& f : found) {
+      if (progress.stop() && f.runs.empty()) continue;
+      f.cost = medianCost(f.runs);
+      if (!f.failed.empty()) results.remarks.push_back(fmt::format("{}: walk: {}: {}", scene.name, f.technique, f.failed));
+      results.frames.push_back(std::move(f));
+    }
+  }
 }
 
 }  // namespace
@@ -242,7 +276,7 @@ Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settin
   size_t units = 0;
   for (const StudyScene& s : plan.scenes) {
     units += s.lights.size() * (1 + plan.techniques.size() * static_cast<size_t>(settings.runs));
-    if (!s.walk.empty() && tools.walk) units += plan.techniques.size();
+    if (!s.walk.empty() && tools.walk) units += plan.techniques.size() * static_cast<size_t>(settings.runs);
   }
   Pace pace(progress, units);
   StudyResults results;
@@ -251,7 +285,10 @@ Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settin
       if (progress.stop()) break;
       Result<StudyCase> one = CaseStudy(plan, settings, store, tools, progress, pace).run(scene, light);
       if (!one && progress.stop()) break;
-      if (!one) return Error{one.error()};
+      if (!one) {
+        results.remarks.push_back(fmt::format("{}, {}: left out: {}", scene.name, light.name, one.error()));
+        continue;
+      }
       for (const StudyCurve& c : one.value().curves) {
         if (!c.failed.empty()) results.remarks.push_back(fmt::format("{}, {}: {}: {}", scene.name, light.name, c.technique, c.failed));
       }
@@ -259,22 +296,7 @@ Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settin
       if (soFar) soFar(results);
     }
   }
-  for (const StudyScene& scene : plan.scenes) {
-    if (scene.walk.empty() || !tools.walk) continue;
-    for (const StudyTechnique& t : plan.techniques) {
-      if (progress.stop()) break;
-      pace.now(fmt::format("{}: frames a second, {}", scene.name, t.name));
-      bool measured = false;
-      results.frames.push_back(framesOf(scene, t, settings, store, tools, measured));
-      if (!results.frames.back().failed.empty()) {
-        if (progress.stop())
-          results.frames.pop_back();
-        else
-          results.remarks.push_back(fmt::format("{}: walk: {}: {}", scene.name, t.name, results.frames.back().failed));
-      }
-      pace.unit(measured);
-    }
-  }
+  walkAll(plan, settings, store, tools, progress, pace, results);
   results.complete = !progress.stop();
   if (soFar) soFar(results);
   return results;

@@ -11,7 +11,7 @@ namespace roomlight {
 
 // A picture of some other program, with the seconds it took.
 struct ExternalPicture {
-  std::string name, scene, light;  // scene and light: of which picture; empty: any of that size
+  std::string name, scene, light;  // scene and light: of which picture; empty: of every one
   std::filesystem::path file;
   double seconds = 0;
 };
@@ -46,7 +46,8 @@ struct StudyCase {
 
 struct StudyFrames {
   std::string scene, technique, kind;
-  WalkCost cost;
+  std::vector<WalkCost> runs;
+  WalkCost cost;  // their median
   std::string failed;
 };
 
@@ -58,7 +59,7 @@ struct StudyResults {
 };
 
 // Pictures and what was measured lie in `store`; what it already holds is not measured again. `soFar` is called after every case.
-// Errors: a reference cannot be rendered, the store cannot be written. A technique that fails has its reason in its curve.
+// A technique that fails has its reason in its curve; a scene and light without a reference is left out, with a remark.
 Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress = {},
                               const std::function<void(const StudyResults&)>& soFar = {});
 

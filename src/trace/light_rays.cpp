@@ -8,6 +8,7 @@ namespace {
 // Meshes are taken apart until pieces are no longer than this, or so many: a chandelier's bulbs, a strip of light.
 constexpr float kPieceM = 0.2f;
 constexpr int kMostHalvings = 3;
+constexpr double kLeastShare = 1e-5;  // of all flux: a mesh with less would hardly start a ray; paths find it as ever
 
 using Triangle = Lights::EmitterTriangle;
 
@@ -41,9 +42,11 @@ void takeApart(std::span<const Triangle*> triangles, int halvings, const Add& ad
 }  // namespace
 
 LightRays::LightRays(const Lights& lights) : lights_(lights), leaves_(lights.emitterCount()) {
-  double flux = 0;
+  const auto isSmall = [&](size_t i) { return lights.emitterAreaM2(i) * (lights.emitterShinesTwice(i) ? 2 : 1) <= kWidestM2; };
+  double most = lights.lampFluxLm(), flux = 0;
+  for (size_t i = 0; i < lights.emitterCount(); ++i) most += isSmall(i) ? lights.emitterFluxLm(i) : 0;
   for (size_t i = 0; i < lights.emitterCount(); ++i) {
-    if (lights.emitterAreaM2(i) * (lights.emitterShinesTwice(i) ? 2 : 1) > kWidestM2) continue;
+    if (!isSmall(i) || lights.emitterFluxLm(i) < kLeastShare * most) continue;
     flux += lights.emitterFluxLm(i);
     leaves_[i] = true;
     emitters_.push_back(i);

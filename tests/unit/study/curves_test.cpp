@@ -25,14 +25,16 @@ TEST(StudyCurves, SettlesWhereTwiceTheSamplesChangeNextToNothing) {
   const StudyCurve falling = curve({point(1, 1, 0.01), point(2, 2, 0.005), point(4, 4, 0.0025)});
   EXPECT_FALSE(hasSettled(falling));
   EXPECT_EQ(settledPoint(falling).samples, 4);
-  const StudyCurve flat = curve({point(1, 1, 0.01), point(2, 2, 0.005), point(4, 4, 0.0049)});
+  const StudyCurve pausing = curve({point(1, 1, 0.01), point(2, 2, 0.005), point(4, 4, 0.0049)});
+  EXPECT_FALSE(hasSettled(pausing)) << "once may be chance";
+  const StudyCurve flat = curve({point(1, 1, 0.01), point(2, 2, 0.005), point(4, 4, 0.0049), point(8, 8, 0.0048)});
   EXPECT_TRUE(hasSettled(flat));
   EXPECT_EQ(settledPoint(flat).samples, 2);
   EXPECT_FALSE(hasSettled(curve({point(1, 1, 0.01)})));
 }
 
 TEST(StudyCurves, ErrorThatRisesAgainHasSettledBefore) {
-  const StudyCurve c = curve({point(1, 1, 0.01), point(2, 2, 0.004), point(4, 4, 0.0042)});
+  const StudyCurve c = curve({point(1, 1, 0.01), point(2, 2, 0.004), point(4, 4, 0.0042), point(8, 8, 0.0041)});
   EXPECT_TRUE(hasSettled(c));
   EXPECT_EQ(settledPoint(c).samples, 2);
 }

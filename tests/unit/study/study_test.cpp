@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/image_io.h"
 #include "base/random.h"
@@ -34,7 +35,7 @@ class StudyTest : public ::testing::Test {
     for (const char* name : {"room.glb", "day.json", "walk.json"}) std::ofstream(folder_.path() / name) << name;
     plan_.scenes = {{"Room", folder_.path() / "room.glb", "", {{"daylight", folder_.path() / "day.json"}}, folder_.path() / "walk.json"}};
     plan_.techniques = {{"cone", "cone", "{}", "ours"}, {"vxgi", "vxgi", "{}", "rival"}, {"lpv", "lpv", "{}", "rival"}};
-    settings_.width = kWidth, settings_.height = kHeight, settings_.runs = 2, settings_.mostSeconds = 100, settings_.program = "test";
+    settings_.width = kWidth, settings_.height = kHeight, settings_.runs = 2, settings_.mostSeconds = 1000, settings_.program = "test";
     settings_.reference = {.roundS = 1, .mostS = 6, .noiseMse = 1e-9};
     tools_.render = [this](const StudyRender& r) { return render(r); };
     tools_.walk = [this](const StudyWalk& w) -> Result<WalkCost> {
@@ -162,6 +163,54 @@ TEST_F(StudyTest, ReportsAreWholeAndAgree) {
   EXPECT_NE(html.value().find("&lt;fast &amp; cheap&gt;"), std::string::npos);
   EXPECT_NE(html.value().find("data:image/jpeg;base64,"), std::string::npos);
   EXPECT_EQ(html.value().find("src=\"http"), std::string::npos) << "needs nothing from elsewhere";
+}
+
+TEST_F(StudyTest, NamesThatLookAlikeInFilesDoNotMeet) {
+  plan_.techniques = {{"lpv, 256", "cone", "{}", "ours"}, {"lpv 256", "vxgi", "{}", "rival"}, {"reference", "cone", "{}", "ours"}};
+  plan_.scenes = {{"居間", folder_.path() / "room.glb", "", {{"day", folder_.path() / "day.json"}}, {}}, {"寝室", folder_.path() / "room.glb", "2", {{"day", folder_.path() / "day.json"}}, {}}};
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  std::set<std::string> pictures;
+  size_t points = 0;
+  for (const StudyCase& c : r.value().cases) {
+    pictures.insert(c.first.string());
+    ++points;
+    for (const StudyCurve& curve : c.curves) {
+      for (const StudyPoint& p : curve.points) pictures.insert(p.picture), ++points;
+    }
+  }
+  EXPECT_EQ(pictures.size(), points);
+  const int renders = renders_;
+  ASSERT_TRUE(run());
+  EXPECT_EQ(renders_, renders);
+}
+
+TEST_F(StudyTest, ResultsOfAnotherBuildStandBesideTheFirst) {
+  plan_.techniques.pop_back();
+  ASSERT_TRUE(run());
+  settings_.program = "another build";
+  ASSERT_TRUE(run());
+  const int renders = renders_;
+  settings_.program = "test";
+  ASSERT_TRUE(run());
+  EXPECT_EQ(renders_, renders);
+}
+
+TEST_F(StudyTest, AViewWithoutLightIsLeftOutWithARemark) {
+  plan_.scenes.push_back(plan_.scenes[0]);
+  plan_.scenes[1].name = "Cellar", plan_.scenes[1].walk.clear();
+  tools_.render = [this](const StudyRender& r) -> Result<RenderCost> {
+    if (r.camera != "dark") return render(r);
+    if (const Status s = writeExr(r.picture, Image(kWidth, kHeight), {}); !s) return Error{s.error()};
+    return RenderCost{1, 1, 1, 1, {}};
+  };
+  plan_.scenes[0].camera = "dark";
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  ASSERT_EQ(r.value().cases.size(), 1u);
+  EXPECT_EQ(r.value().cases[0].scene, "Cellar");
+  ASSERT_FALSE(r.value().remarks.empty());
+  EXPECT_NE(r.value().remarks[0].find("Room, daylight: left out"), std::string::npos) << r.value().remarks[0];
 }
 
 TEST_F(StudyTest, VerdictsTellWhoWins) {
