@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/quality.h"
 #include "engine/render.h"
+#include "output_files.h"
 
 namespace roomlight::cli {
 
@@ -15,6 +17,33 @@ Result<Size> parseSize(const std::string& option, const std::string& text) {
   const int height = x == std::string::npos ? -1 : parseNumber<int>(std::string_view(text).substr(x + 1)).value_or(-1);
   if (width < 0 || height < 0) return Error{fmt::format("{} {}: write WIDTHxHEIGHT, for example 960x540", option, text)};
   return Size{width, height};
+}
+
+Result<RenderSettings> readSettings(const SettingsOptions& o, RenderSettings s) {
+  if (!o.quality.empty()) {
+    if (const Status status = applyQuality(o.quality, s); !status) return Error{"--" + status.error()};
+  }
+  if (!o.settingsFile.empty()) {
+    const Result<std::string> text = readTextFile(o.settingsFile);
+    if (!text) return Error{text.error()};
+    const Result<RenderSettings> read = settingsFromJson(text.value(), o.settingsFile, s, o.quality);
+    if (!read) return Error{read.error()};
+    s = read.value();
+  }
+  if (!o.size.empty()) {
+    const Result<Size> size = parseSize("--size", o.size);
+    if (!size) return Error{size.error()};
+    s.width = size.value().width, s.height = size.value().height;
+  }
+  s.technique = o.technique.value_or(s.technique);
+  s.samples = o.samples.value_or(s.samples);
+  s.threads = o.threads.value_or(s.threads);
+  if (o.seed) {
+    const auto seed = parseNumber<uint64_t>(*o.seed);
+    if (!seed) return Error{fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", *o.seed)};
+    s.seed = *seed;
+  }
+  return s;
 }
 
 std::string lowerExtension(const std::filesystem::path& file) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "engine/settings.h"
 
 namespace roomlight::cli {
 
@@ -29,6 +30,15 @@ struct Size {
   int width = 0, height = 0;
 };
 Result<Size> parseSize(const std::string& option, const std::string& text);
+
+// Options that decide how a picture or a frame is made; they go before what a settings file says.
+struct SettingsOptions {
+  std::string settingsFile, quality, size;
+  std::optional<std::string> technique, seed;
+  std::optional<int> samples, threads;
+};
+// `settings`: what holds where neither options nor the file say otherwise. Values in range are left to checkSettings().
+Result<RenderSettings> readSettings(const SettingsOptions& o, RenderSettings settings);
 
 std::string lowerExtension(const std::filesystem::path& file);
 

@@ -27,14 +27,11 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options {
-  std::string scene, lighting, camera, size, kind = "picture", stats, settingsFile, quality;
+struct Options : SettingsOptions {
+  std::string scene, lighting, camera, kind = "picture", stats;
   DisplayOptions display;
   std::vector<std::string> outputs;
-  std::optional<std::string> technique;
-  std::optional<int> samples, threads;
   std::optional<double> timeLimitS, noiseLevel;
-  std::optional<std::string> seed;
   std::optional<float> voxelSizeM;
   float metresPerUnit = 1;
   double lumenAtFullPower = ImportOptions().lumenAtFullPower;
@@ -81,32 +78,12 @@ Status applyLayerGroups(const Options& o, RenderSettings& settings) {
 
 Result<Plan> makePlan(const Options& o) {
   Plan plan;
-  if (!o.quality.empty()) {
-    if (const Status status = applyQuality(o.quality, plan.settings); !status) return Error{"--" + status.error()};
-  }
-  if (!o.settingsFile.empty()) {
-    const Result<std::string> text = readTextFile(o.settingsFile);
-    if (!text) return Error{text.error()};
-    const Result<RenderSettings> read = settingsFromJson(text.value(), o.settingsFile, plan.settings, o.quality);
-    if (!read) return Error{read.error()};
-    plan.settings = read.value();
-  }
+  Result<RenderSettings> settings = readSettings(o, plan.settings);
+  if (!settings) return Error{settings.error()};
+  plan.settings = std::move(settings.value());
   RenderSettings& s = plan.settings;
-  if (!o.size.empty()) {
-    const Result<Size> size = parseSize("--size", o.size);
-    if (!size) return Error{size.error()};
-    s.width = size.value().width, s.height = size.value().height;
-  }
-  s.technique = o.technique.value_or(s.technique);
-  s.samples = o.samples.value_or(s.samples);
-  s.threads = o.threads.value_or(s.threads);
   s.timeLimitS = o.timeLimitS.value_or(s.timeLimitS);
   s.noiseLevel = o.noiseLevel.value_or(s.noiseLevel);
-  if (o.seed) {
-    const auto seed = parseNumber<uint64_t>(*o.seed);
-    if (!seed) return Error{fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", *o.seed)};
-    s.seed = *seed;
-  }
   s.layers = s.layers || o.layers;
   if (const Status status = applyLayerGroups(o, s); !status) return Error{status.error()};
   s.voxel.voxelSizeM = o.voxelSizeM.value_or(s.voxel.voxelSizeM);

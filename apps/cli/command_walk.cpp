@@ -21,11 +21,9 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options {
-  std::string scene, walk, lighting, size, output, stats, settingsFile, quality;
+struct Options : SettingsOptions {
+  std::string scene, walk, lighting, output, stats;
   DisplayOptions display;
-  std::optional<std::string> technique, seed;
-  std::optional<int> samples, threads;
   int frames = 0;
   float metresPerUnit = 1;
   double lumenAtFullPower = ImportOptions().lumenAtFullPower;
@@ -42,31 +40,10 @@ int bad(const std::string& message, int code = kBadInput) {
   return code;
 }
 
-Result<RenderSettings> readSettings(const Options& o) {
-  RenderSettings s = frameSettings({});
-  if (!o.quality.empty()) {
-    if (const Status status = applyQuality(o.quality, s); !status) return Error{"--" + status.error()};
-  }
-  if (!o.settingsFile.empty()) {
-    const Result<std::string> text = readTextFile(o.settingsFile);
-    if (!text) return Error{text.error()};
-    const Result<RenderSettings> read = settingsFromJson(text.value(), o.settingsFile, s, o.quality);
-    if (!read) return Error{read.error()};
-    s = read.value();
-  }
-  if (!o.size.empty()) {
-    const Result<Size> size = parseSize("--size", o.size);
-    if (!size) return Error{size.error()};
-    s.width = size.value().width, s.height = size.value().height;
-  }
-  s.technique = o.technique.value_or(s.technique);
-  s.samples = o.samples.value_or(s.samples);
-  s.threads = o.threads.value_or(s.threads);
-  if (o.seed) {
-    const auto seed = parseNumber<uint64_t>(*o.seed);
-    if (!seed) return Error{fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", *o.seed)};
-    s.seed = *seed;
-  }
+Result<RenderSettings> frameSettingsOf(const Options& o) {
+  Result<RenderSettings> settings = readSettings(o, frameSettings({}));
+  if (!settings) return Error{settings.error()};
+  const RenderSettings& s = settings.value();
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
   if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
@@ -193,7 +170,7 @@ int work(const Options& o, const Plan& plan) {
 
 int runWalk(const Options& o) {
   interrupted();  // from here on Ctrl-C is ours
-  const Result<RenderSettings> settings = readSettings(o);
+  const Result<RenderSettings> settings = frameSettingsOf(o);
   if (!settings) return bad(settings.error());
   const Result<Display> display = readDisplay(o.display);
   if (!display) return bad(display.error());
