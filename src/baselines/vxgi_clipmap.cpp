@@ -1,5 +1,7 @@
 #include "baselines/vxgi_clipmap.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
 #include "radiance/half.h"
 
@@ -59,6 +61,11 @@ __m128 VxgiClipmap::composed(int finer, Int3 v, int face) const {
     sum = _mm_add_ps(sum, _mm_fmadd_ps(left, at(1 - front), over));
   }
   return _mm_mul_ps(sum, _mm_set1_ps(0.25f));
+}
+
+void VxgiClipmap::clear() {
+  const size_t part = 1 << 20;
+  parallelFor((texels_.size() + part - 1) / part, 1, [&](size_t i) { std::fill(texels_.begin() + static_cast<std::ptrdiff_t>(i * part), texels_.begin() + static_cast<std::ptrdiff_t>(std::min(texels_.size(), (i + 1) * part)), uint16_t{0}); });
 }
 
 void VxgiClipmap::buildCoarser() {

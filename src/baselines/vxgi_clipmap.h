@@ -35,6 +35,7 @@ class VxgiClipmap {
   __m128 get(int level, Int3 v, int face) const;
   // Fills what is made of finer voxels, from the finest level on: front over back along each direction, the mean of the four columns.
   void buildCoarser();
+  void clear();  // all is empty again
   // Notes where there is nothing, which later changes of light must leave so: sampling there is quicker.
   void findEmpty();
 

@@ -18,6 +18,7 @@ struct VxgiSettings : PictureSettings {
   int directSamples = 8;        // light samples a voxel side, as in RadianceSettings
   float residual = 0.002f;      // bounces end when one changes all light by less than this share
   int maxBounces = 32;
+  int bouncesAtOnce = 0;        // of an update: what is missing then follows with the next; 0: no limit
 };
 
 }  // namespace roomlight

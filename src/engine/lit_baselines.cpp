@@ -1,5 +1,6 @@
 // Techniques `vxgi` and `lpv` as lit scenes: finest about one place, which follows the camera from room to room.
 #include "baselines/lpv_shader.h"
+#include "baselines/vxgi_cache.h"
 #include "baselines/vxgi_shader.h"
 #include "engine/lit_techniques.h"
 #include "engine/technique_settings.h"
@@ -31,34 +32,58 @@ class BaselineScene final : public LitScene {
   }
 
  private:
-  void relight(const SceneChange&, bool, Stages& stages) override { light(stages); }
+  bool settled() const override { return cache_->settled(); }
+  void relight(const SceneChange& change, bool emitters, Stages& stages) override {
+    shader_.reset();
+    stages.run("illuminate", [&](const Progress& p) {
+      cache_->update(rays(), lights(), change, emitters, p);
+      return true;
+    });
+    makeShader(stages);
+  }
   void light(Stages& stages) {
     shader_.reset();
     stages.run("illuminate", [&](const Progress& p) {
-      light_.emplace(Method::light(rays(), lights(), room_.value_or(rays().bounds()), settings_, p));
+      cache_.emplace(rays(), lights(), room_.value_or(rays().bounds()), settings_, p);
       return true;
     });
-    if (!stages.cancelled()) shader_.emplace(rays(), lights(), *light_, settings_);
+    makeShader(stages);
+  }
+  void makeShader(Stages& stages) {
+    if (!stages.cancelled()) shader_.emplace(rays(), lights(), cache_->light(), settings_);
   }
 
   const typename Method::Settings settings_;
   std::optional<Bounds3> room_;  // none: the finest level holds the whole scene
-  std::optional<typename Method::Light> light_;
+  std::optional<typename Method::Cache> cache_;
   std::optional<typename Method::Shader> shader_;
 };
 
 struct Vxgi {
   using Settings = VxgiSettings;
-  using Light = VxgiLight;
+  using Cache = VxgiCache;
   using Shader = VxgiShader;
-  static constexpr auto light = lightVxgi;
+};
+
+// Keeps nothing: maps, injection and propagation are done anew, as in every frame of that method.
+class LpvCache {
+ public:
+  LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings, const Progress& progress)
+      : room_(room), settings_(settings), light_(lightLpv(rays, lights, room, settings, progress)) {}
+  void update(const RayScene& rays, const Lights& lights, const SceneChange&, bool, const Progress& progress) { light_ = lightLpv(rays, lights, room_, settings_, progress); }
+  bool settled() const { return true; }
+  const LpvLight& light() const { return light_; }
+
+ private:
+  Bounds3 room_;
+  LpvSettings settings_;
+  LpvLight light_;
 };
 
 struct Lpv {
   using Settings = LpvSettings;
-  using Light = LpvLight;
+  using Cache = LpvCache;
   using Shader = LpvShader;
-  static constexpr auto light = lightLpv;
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ LitScene::LitScene(const Scene& scene, bool sunApart, Stages& stages)
     : rays_(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })), lights_(stages.run("lights", [&](const Progress&) { return Lights(scene, sunApart); })) {}
 
 void LitScene::update(const SceneChange& change, Stages& stages) {
-  if (!change.any()) return;
+  if (!change.any() && settled()) return;
   const Scene& scene = rays_.scene();
   const bool emitters = !change.glow.empty() || std::any_of(change.moved.begin(), change.moved.end(), [&](uint32_t i) {
     return lights_->emitterOf(i) >= 0 || !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission);

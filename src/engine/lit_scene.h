@@ -3,7 +3,7 @@
 //   path    nothing: its rays follow the scene, and every picture is traced anew
 //   hybrid  bricks of voxels, links, rays to lights and particles that what moved has nothing to do with (radiance/light_cache.h)
 //   cone    the same; its pyramid is built anew
-//   vxgi    nothing: its clipmap is filled anew; it stays where it is while the camera stays in one room
+//   vxgi    as hybrid in every level's voxels, and openness of surfaces; its clipmap is filled anew, and stays where it is while the camera stays in one room
 //   lpv     nothing: maps, injection and propagation are done anew, as in every frame of that method; its grids stay as vxgi's do
 //   photon  nothing: photons are sent anew for every picture, to where its camera looks
 #pragma once
@@ -29,7 +29,7 @@ class LitScene {
   virtual Image picture(const Camera& camera, int width, int height, const Progress& progress = {}) const = 0;
 
   // Follows the scene; suns and sky must be as before. The same light as of a scene lit anew, up to what bounces leave out (see
-  // RadianceSettings::residual). Stages "rays", "lights" and those of the technique. Cancelled, it is of no further use.
+  // RadianceSettings::residual, and bouncesAtOnce: what those leave out follows with later calls, also where nothing has changed). Stages "rays", "lights" and those of the technique. Cancelled, it is of no further use.
   void update(const SceneChange& change, Stages& stages);
   // What holds light about one place only (vxgi, lpv: finest there) has it where this camera is, if it has left that place.
   virtual void lookFrom(const Camera&, Stages&) {}
@@ -41,6 +41,8 @@ class LitScene {
   LitScene(const Scene& scene, bool sunApart, Stages& stages);
   // After rays and lights have followed. `emitters`: whether emissive meshes are among what changed.
   virtual void relight(const SceneChange&, bool /*emitters*/, Stages&) {}
+  // Whether light still changes by itself.
+  virtual bool settled() const { return true; }
 
  private:
   RayScene rays_;

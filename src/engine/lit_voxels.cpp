@@ -1,11 +1,11 @@
 // Techniques `hybrid` and `cone` as lit scenes: voxels and the light in them, kept up to date.
 #include "engine/lit_techniques.h"
-#include "engine/moved_places.h"
 #include "engine/technique_settings.h"
 #include "gather/cone_shader.h"
 #include "gather/meters.h"
 #include "gather/ray_shader.h"
 #include "radiance/light_cache.h"
+#include "voxel/moved_places.h"
 
 namespace roomlight {
 namespace {
@@ -46,6 +46,7 @@ class VoxelScene final : public LitScene {
     });
     makeShader(stages);
   }
+  bool settled() const override { return light_->settled(); }
   void makeShader(Stages& stages) {
     if (stages.cancelled()) return;
     stages.run("shader", [&](const Progress&) {

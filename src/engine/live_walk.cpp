@@ -8,6 +8,8 @@
 namespace roomlight {
 namespace {
 
+constexpr int kBouncesAFrame = 6;  // light goes on from that of the frame before
+
 void addUp(const std::vector<StageStats>& more, std::vector<StageStats>& sums) {
   for (const StageStats& s : more) {
     const auto known = std::find_if(sums.begin(), sums.end(), [&](const StageStats& k) { return k.name == s.name; });
@@ -87,6 +89,8 @@ Result<WalkFrames> measureWalk(Scene& scene, const Walk& walk, const RenderSetti
 RenderSettings frameSettings(RenderSettings settings) {
   settings.samples = 1;
   settings.path.filter = true;
+  settings.radiance.bouncesAtOnce = kBouncesAFrame;
+  settings.vxgi.bouncesAtOnce = 1;  // as the SDK's frames have it
   return settings;
 }
 

@@ -61,6 +61,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.choice("bounceBy", s.radiance.bounceBy, kBounces);
     g.number("residual", s.radiance.residual, 1e-6, 1);
     g.number("maxBounces", s.radiance.maxBounces, 0, 100000);
+    g.number("bouncesAtOnce", s.radiance.bouncesAtOnce, 0, 100000);
   });
   v.group("hybrid", [&](auto& g) {
     g.number("firstSamples", s.hybrid.firstSamples, 1, 8);
@@ -94,6 +95,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("directSamples", s.vxgi.directSamples, 1, 4096);
     g.number("residual", s.vxgi.residual, 1e-6, 1);
     g.number("maxBounces", s.vxgi.maxBounces, 0, 100000);
+    g.number("bouncesAtOnce", s.vxgi.bouncesAtOnce, 0, 100000);
     g.number("raysPerShading", s.vxgi.raysPerShading, 1, 8);
     g.number("rayRoughness", s.vxgi.rayRoughness, 0, 1);
     g.number("filterPasses", s.vxgi.filterPasses, 0, 8);

@@ -57,6 +57,37 @@ bool overlap(const Bounds3& a, const Bounds3& b, float margin) {
   return true;
 }
 
+void inFront(const FaceSlot& slot, std::span<const Bounds3> boxes, float voxelSizeM, std::vector<Bounds3>& out) {
+  constexpr float kWithin = 4;  // voxels: from the slot's place to its points, and a voxel's width off a tilted box
+  out.clear();
+  for (const Bounds3& box : boxes) {
+    const Vec3 n = slot.normal, farthest{n.x > 0 ? box.hi.x : box.lo.x, n.y > 0 ? box.hi.y : box.lo.y, n.z > 0 ? box.hi.z : box.lo.z};
+    if (dot(farthest - slot.position, n) > -kWithin * voxelSizeM) out.push_back(box);
+  }
+}
+
+bool mayMeetBetween(const Bounds3& from, const Bounds3& to, std::span<const Bounds3> boxes) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Bounds3& box) {
+    float t0 = 0, t1 = 1;
+    // The first value, at t = 0, goes by `step` to that at 1; it must not be above `most`.
+    const auto clip = [&](float first, float step, float most) {
+      const float left = most - first;
+      if (step > 0) {
+        t1 = std::min(t1, left / step);
+      } else if (step < 0) {
+        t0 = std::max(t0, left / step);
+      } else if (left < 0) {
+        t1 = -1;
+      }
+    };
+    for (int k = 0; k < 3; ++k) {
+      clip(from.lo[k], to.lo[k] - from.lo[k], box.hi[k]);
+      clip(-from.hi[k], from.hi[k] - to.hi[k], -box.lo[k]);
+    }
+    return t0 <= t1;
+  });
+}
+
 std::vector<BrickMark> marksOf(const Voxels& voxels) {
   std::vector<BrickMark> marks(voxels.bricks.size());
   const Lattice lattice = latticeOf(voxels);

@@ -10,8 +10,6 @@
 namespace roomlight {
 namespace {
 
-constexpr uint32_t kSkySamples = 8;
-
 // Of each voxel of a brick and each face: 1 where a slot has rays that arrive, 2 where it has some that do not.
 class Shadows {
  public:
@@ -56,6 +54,23 @@ std::vector<int> voxelsOfSlots(const Voxels& voxels, size_t b) {
   return out;
 }
 
+// Per voxel of a brick one bit a face.
+using FaceBits = std::array<uint8_t, kBrickVoxels>;
+
+// Each voxel gets those of its neighbours inside the brick too.
+FaceBits spread(const FaceBits& bits) {
+  FaceBits out = bits;
+  for (const size_t step : {size_t{1}, size_t{kBrickSize}, size_t{kBrickSize * kBrickSize}}) {
+    const FaceBits before = out;
+    for (size_t v = 0; v < bits.size(); ++v) {
+      const size_t place = v / step % kBrickSize;
+      if (place > 0) out[v] |= before[v - step];
+      if (place + 1 < kBrickSize) out[v] |= before[v + step];
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 bool crosses(const Ray& ray, std::span<const Bounds3> boxes, float margin) {
@@ -71,23 +86,79 @@ bool crosses(const Ray& ray, std::span<const Bounds3> boxes, float margin) {
   return false;
 }
 
-// `sample(slot, k, p)` gives the k-th light sample of a slot at p, alone: it stands for the whole light.
-template <class Sample>
-bool DirectLight::anyCrosses(size_t brick, uint32_t samples, std::span<const Bounds3> near, const Sample& sample) const {
-  const auto [first, last] = slotsOfBrick(voxels_, brick);
-  for (size_t s = first; s < last; ++s) {
-    for (uint32_t k = 0; k < samples; ++k) {
-      const Vec3 p = point(s, k);
-      const LightSample light = sample(s, k, p);
-      if (light.valid() && dot(light.wi, voxels_.slots[s].normal) > 0 && crosses({p, light.wi, 0, light.distance}, near, 0)) return true;
-    }
-  }
-  return false;
+// Where a light's ray goes from a slot.
+struct DirectLight::Way {
+  Vec3 direction;  // unit; zero: nowhere
+  float distance = kInfinity;
+};
+
+// Whether light from somewhere in `source` might on its straight way to slots of a brick. Much quicker than the rays themselves.
+bool DirectLight::mayCross(size_t brick, const Bounds3& source, std::span<const Bounds3> near) const {
+  return mayMeetBetween(whereSlotsLie(brick), source, near);
 }
 
-template <class Sample>
-void DirectLight::trace(size_t brick, Samples samples, std::span<Vec3> lux, const Sample& sample) {
+// Of parallel light, from within a box of unit directions.
+bool DirectLight::mayCrossFromAfar(size_t brick, const Bounds3& directions, std::span<const Bounds3> near) const {
+  const Bounds3 from = whereSlotsLie(brick);
+  Bounds3 all = from;
+  for (const Bounds3& box : near) all.add(box);
+  const float far = 2 * length(all.size());
+  return mayMeetBetween(from, {from.lo + directions.lo * far, from.hi + directions.hi * far}, near);
+}
+
+Bounds3 DirectLight::whereSlotsLie(size_t brick) const {
+  const Bounds3 bounds = boundsOfBrick(voxels_, brick);
+  const Vec3 lifted(voxels_.voxelSizeM);
+  return {bounds.lo - lifted, bounds.hi + lifted};
+}
+
+// Slots of a brick some of whose rays may cross one of the boxes; `wayOf(slot, k, p)` is that of the k-th, from p, known to `off` times its
+// length. Added to `out`, which is empty as long as there is none.
+template <class WayOf>
+void DirectLight::findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off, const WayOf& wayOf, Marks& out) const {
   const auto [first, last] = slotsOfBrick(voxels_, brick);
+  float margin = 0;
+  for (const Bounds3& box : near) {
+    Bounds3 both = box;
+    both.add(boundsOfBrick(voxels_, brick));
+    margin = std::max(margin, off * length(both.size()));
+  }
+  std::vector<Bounds3> ahead;
+  for (size_t s = first; s < last; ++s) {
+    inFront(voxels_.slots[s], near, voxels_.voxelSizeM, ahead);
+    for (uint32_t k = 0; k < samples && !ahead.empty(); ++k) {
+      const Vec3 p = point(s, k);
+      const Way way = wayOf(s, k, p);
+      if (!(dot(way.direction, voxels_.slots[s].normal) > -off) || isBlack(way.direction) || !crosses({p, way.direction, 0, way.distance}, ahead, margin)) continue;
+      out.resize(last - first);
+      out[s - first] = kAnew;
+      break;
+    }
+  }
+}
+
+// To slots marked, those beside them, which may now want more or fewer rays, and those beside these, whose shadows decide on that.
+void DirectLight::markAround(size_t brick, Marks& marks) const {
+  const size_t first = slotsOfBrick(voxels_, brick).first;
+  const std::vector<int> voxelOf = voxelsOfSlots(voxels_, brick);
+  const auto bit = [&](size_t i) { return static_cast<uint8_t>(1u << voxels_.slots[first + i].face); };
+  FaceBits crossed{};
+  for (size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i]) crossed[static_cast<size_t>(voxelOf[i])] |= bit(i);
+  }
+  const FaceBits beside = spread(crossed), beyond = spread(beside);
+  for (size_t i = 0; i < marks.size(); ++i) {
+    const auto v = static_cast<size_t>(voxelOf[i]);
+    marks[i] = beside[v] & bit(i) ? kAnew : beyond[v] & bit(i) ? kShadowOnly
+                                                               : kAsItIs;
+  }
+}
+
+// Adds to what slots have. `marks`: which; empty: all.
+template <class Sample>
+void DirectLight::trace(size_t brick, Samples samples, const Marks& marks, std::span<Vec3> lux, const Sample& sample) {
+  const auto [first, last] = slotsOfBrick(voxels_, brick);
+  const auto markOf = [&, start = first](size_t s) { return marks.empty() ? kAnew : marks[s - start]; };
   std::vector<Ray> rays;
   std::vector<Shadow> shadows;
   std::vector<Vec3> left, sum(last - first);
@@ -101,34 +172,66 @@ void DirectLight::trace(size_t brick, Samples samples, std::span<Vec3> lux, cons
     rays.push_back(shadowRay(p, p, light));
     shadows.push_back({s, light.radiance * a});
   };
-  const auto arrive = [&](const auto& see) {
+  const auto arrive = [&, start = first](const auto& see) {
     left.resize(rays.size());
     rays_.transmittance(rays, left);
     count_ += rays.size();
     for (size_t i = 0; i < rays.size(); ++i) {
-      sum[shadows[i].slot - first] += shadows[i].lux * left[i];
+      sum[shadows[i].slot - start] += shadows[i].lux * left[i];
       see(shadows[i].slot, left[i]);
     }
     rays.clear(), shadows.clear();
   };
   for (size_t s = first; s < last; ++s) {
-    for (uint32_t k = 0; k < samples.first; ++k) collect(s, k);
+    for (uint32_t k = 0; k < samples.first && markOf(s) != kAsItIs; ++k) collect(s, k);
   }
   if (rays.empty()) return;
   const std::vector<int> voxelOf = voxelsOfSlots(voxels_, brick);
   std::vector<uint32_t> tried(last - first, samples.first);
   Shadows seen;
-  arrive([&](size_t s, Vec3 part) { seen.add(voxelOf[s - first], voxels_.slots[s].face, isBlack(part) ? 2 : 1); });
+  arrive([&, start = first](size_t s, Vec3 part) { seen.add(voxelOf[s - start], voxels_.slots[s].face, isBlack(part) ? 2 : 1); });
   for (size_t s = first; s < last; ++s) {
-    if (!seen.differAround(voxelOf[s - first], voxels_.slots[s].face)) continue;
+    if (markOf(s) != kAnew || !seen.differAround(voxelOf[s - first], voxels_.slots[s].face)) continue;
     tried[s - first] = samples.most;
     for (uint32_t k = samples.first; k < samples.most; ++k) collect(s, k);
   }
   arrive([](size_t, Vec3) {});
-  for (size_t s = first; s < last; ++s) lux[s] += sum[s - first] / static_cast<float>(tried[s - first]);
+  for (size_t s = first; s < last; ++s) {
+    if (markOf(s) == kAnew) lux[s] += sum[s - first] / static_cast<float>(tried[s - first]);
+  }
 }
 
-bool DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
+// Slots to be traced have nothing before.
+void DirectLight::clear(size_t brick, const Marks& marks, std::span<Vec3> lux) const {
+  const auto [first, last] = slotsOfBrick(voxels_, brick);
+  for (size_t s = first; s < last; ++s) {
+    if (marks.empty() || marks[s - first] == kAnew) lux[s] = {};
+  }
+}
+
+// One light anew: all of it, or what `findMarks(Marks&)` finds.
+template <class FindMarks, class Sample>
+void DirectLight::renew(size_t brick, Samples samples, std::span<const Bounds3> near, std::span<Vec3> lux, const FindMarks& findMarks, const Sample& sample) {
+  Marks marks;
+  if (!near.empty()) {
+    findMarks(marks);
+    if (marks.empty()) return;
+    markAround(brick, marks);
+  }
+  clear(brick, marks, lux);
+  trace(brick, samples, marks, lux, sample);
+}
+
+// The ways that light samples go.
+template <class Sample>
+auto DirectLight::ways(const Sample& sample) {
+  return [&sample](size_t s, uint32_t k, Vec3 p) {
+    const LightSample light = sample(s, k, p);
+    return light.valid() ? Way{light.wi, light.distance} : Way{};
+  };
+}
+
+void DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
   Lamp unit = lamp;
   unit.intensityCd = Vec3(1);
   const LightSurroundings around(lamp, voxels_.voxelSizeM);
@@ -140,26 +243,34 @@ bool DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> 
   };
   const auto soft = static_cast<uint32_t>(settings_.directSamples);
   const Samples samples = lamp.extended ? Samples{(soft + 1) / 2, soft} : Samples{1, perDelta()};
-  if (!near.empty() && !anyCrosses(brick, samples.most, near, sample)) return false;
-  trace(brick, samples, lux, sample);
-  return true;
+  const Vec3 half(lamp.extended ? 0.5f * std::hypot(lamp.web->sizeC0M, lamp.web->sizeC90M) : 0);
+  const auto findMarks = [&](Marks& marks) {
+    if (mayCross(brick, {lamp.position - half, lamp.position + half}, near)) findCrossed(brick, samples.most, near, 0, ways(sample), marks);
+  };
+  renew(brick, samples, near, lux, findMarks, sample);
 }
 
-bool DirectLight::suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
+void DirectLight::suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
   const auto sampleOf = [&](size_t i) {
     return [this, i](size_t s, uint32_t k, Vec3) {
       Sampler sampler(paths_.key(s), k, settings_.seed + 2 + 16 * i);
       return lights_.sampleSun(i, sampler.next2());
     };
   };
-  bool wanted = near.empty();
-  for (size_t i = 0; i < lights_.sunCount() && !wanted; ++i) wanted = anyCrosses(brick, perDelta(), near, sampleOf(i));
-  for (size_t i = 0; i < lights_.sunCount() && wanted; ++i) trace(brick, {1, perDelta()}, lux, sampleOf(i));
-  return wanted;
+  Marks marks;
+  if (!near.empty()) {
+    for (size_t i = 0; i < lights_.sunCount(); ++i) {
+      if (mayCrossFromAfar(brick, lights_.sunDirections(i), near)) findCrossed(brick, perDelta(), near, 0, ways(sampleOf(i)), marks);
+    }
+    if (marks.empty()) return;
+    markAround(brick, marks);
+  }
+  clear(brick, marks, lux);
+  for (size_t i = 0; i < lights_.sunCount(); ++i) trace(brick, {1, perDelta()}, marks, lux, sampleOf(i));
 }
 
-bool DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
-  if (guide.guideOfBrick.empty()) return near.empty();
+void DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyWays& ways, std::span<Vec3> lux) {
+  if (guide.guideOfBrick.empty()) return;
   const auto& guides = guide.guideOfBrick[brick];
   const auto sample = [&](size_t s, uint32_t k, Vec3) {
     const int32_t which = guides[voxels_.slots[s].face];
@@ -168,12 +279,23 @@ bool DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bound
     const Vec2 u = sampler.next2();
     return sampleSkyGuided(guide, which, lights_, u, sampler.next1());
   };
-  if (!near.empty() && !anyCrosses(brick, kSkySamples, near, sample)) return false;
-  trace(brick, {kSkySamples / 2, kSkySamples}, lux, sample);
-  return true;
+  if (near.empty()) {
+    const auto [first, last] = slotsOfBrick(voxels_, brick);
+    for (size_t s = first; s < last; ++s) {
+      for (uint32_t k = 0; k < kSkySamples; ++k) {
+        const LightSample light = sample(s, k, {});
+        ways[s][k] = light.valid() ? SkyWay(light.wi) : SkyWay();
+      }
+    }
+  }
+  const auto findMarks = [&](Marks& marks) {
+    findCrossed(
+        brick, kSkySamples, near, SkyWay::kOff, [&](size_t s, uint32_t k, Vec3) { return Way{ways[s][k].direction()}; }, marks);
+  };
+  renew(brick, {kSkySamples / 2, kSkySamples}, near, lux, findMarks, sample);
 }
 
-bool DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
+void DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
   const auto most = static_cast<uint32_t>(settings_.directSamples);
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     Sampler sampler(paths_.key(s), k, settings_.seed + 3);
@@ -181,9 +303,12 @@ bool DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::spa
     const LightSample light = lights_.sampleEmitters(p, u, sampler.next1());
     return light.valid() && besideEmitters_[static_cast<size_t>(light.emitter)].contains(voxels_.slots[s].position) ? LightSample{} : light;
   };
-  if (!near.empty() && !anyCrosses(brick, most, near, sample)) return false;
-  trace(brick, {(most + 1) / 2, most}, lux, sample);
-  return true;
+  const auto findMarks = [&](Marks& marks) {
+    bool may = false;
+    for (size_t i = 0; i < lights_.emitterCount() && !may; ++i) may = mayCross(brick, lights_.emitterBounds(i), near);
+    if (may) findCrossed(brick, most, near, 0, ways(sample), marks);
+  };
+  renew(brick, {(most + 1) / 2, most}, near, lux, findMarks, sample);
 }
 
 void DirectLight::emitter(size_t index, size_t brick, std::span<Vec3> lux) {
@@ -193,7 +318,7 @@ void DirectLight::emitter(size_t index, size_t brick, std::span<Vec3> lux) {
     const Vec2 u = sampler.next2();
     return lights_.sampleEmitter(index, p, u, sampler.next1());
   };
-  trace(brick, {1, perDelta()}, lux, sample);
+  trace(brick, {1, perDelta()}, {}, lux, sample);
 }
 
 }  // namespace roomlight

@@ -6,6 +6,7 @@
 
 #include "radiance/surroundings.h"
 #include "radiance/radiance_field.h"
+#include "radiance/sky_ways.h"
 #include "radiance/slot_paths.h"
 
 namespace roomlight {
@@ -16,13 +17,15 @@ class DirectLight {
   DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings)
       : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), settings_(settings), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {}
 
-  // Illuminance in lx per channel of the slots of one brick, added to one value per slot of the scene. Of a lamp for 1 cd. Of lamps
-  // and emissive meshes less what their particles carry. Where `near` boxes are given and no ray could cross one of them nothing is done: false.
-  bool lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
-  bool suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
-  bool sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
-  bool emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
-  // Of one emissive mesh alone.
+  // Illuminance in lx per channel of the slots of one brick, in one value per slot of the scene. Of a lamp for 1 cd. Of lamps and emissive
+  // meshes less what their particles carry. Where `near` boxes are given only slots some of whose rays may cross one of them, and those beside
+  // them whose rays depend on that, get another value: the same as if all were traced.
+  void lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
+  void suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
+  // `ways`: of its slots, written where all is traced and read where only what boxes concern is.
+  void sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyWays& ways, std::span<Vec3> lux);
+  void emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
+  // Of one emissive mesh alone: added.
   void emitter(size_t index, size_t brick, std::span<Vec3> lux);
 
   uint64_t rayCount() const { return count_; }
@@ -31,10 +34,24 @@ class DirectLight {
   struct Samples {
     uint32_t first, most;  // per slot: to begin with, and where the first and those of its neighbours do not agree on shadows
   };
+  struct Way;
+  enum Mark : uint8_t { kAsItIs,
+                        kShadowOnly,
+                        kAnew };
+  using Marks = std::vector<Mark>;  // per slot of a brick
+  template <class WayOf>
+  void findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off, const WayOf& wayOf, Marks& out) const;
+  void markAround(size_t brick, Marks& marks) const;
   template <class Sample>
-  bool anyCrosses(size_t brick, uint32_t samples, std::span<const Bounds3> near, const Sample& sample) const;
+  static auto ways(const Sample& sample);
+  bool mayCross(size_t brick, const Bounds3& source, std::span<const Bounds3> near) const;
+  bool mayCrossFromAfar(size_t brick, const Bounds3& directions, std::span<const Bounds3> near) const;
+  Bounds3 whereSlotsLie(size_t brick) const;
+  void clear(size_t brick, const Marks& marks, std::span<Vec3> lux) const;
   template <class Sample>
-  void trace(size_t brick, Samples samples, std::span<Vec3> lux, const Sample& sample);
+  void trace(size_t brick, Samples samples, const Marks& marks, std::span<Vec3> lux, const Sample& sample);
+  template <class FindMarks, class Sample>
+  void renew(size_t brick, Samples samples, std::span<const Bounds3> near, std::span<Vec3> lux, const FindMarks& findMarks, const Sample& sample);
   uint32_t perDelta() const { return static_cast<uint32_t>(std::clamp(settings_.directSamples / 2, 1, 4)); }  // of a lamp or sun
   Vec3 point(size_t slot, uint32_t k) const { return paths_.point(slot, k + paths_.key(slot)); }
 

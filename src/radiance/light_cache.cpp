@@ -52,7 +52,7 @@ LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels&
   progress.at(0.8f);
   indirect_.assign(voxels.slots.size(), {});
   marks_ = marksOf(voxels);
-  solve(from);
+  solve(from, settings.maxBounces);
 }
 
 void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
@@ -61,7 +61,7 @@ void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxel
   paths_.refer(rays, voxels);
   matchLamps(from);
   progress.at(0.5f);
-  solve(from);
+  solve(from, bouncesOfUpdate());
 }
 
 void LightCache::traceAllLinks(const Sources& from) {
@@ -91,7 +91,10 @@ void LightCache::traceFixedLights(const Sources& from) {
     return SlotLight(from.voxels, lux);
   };
   if (from.lights.sunCount() > 0) suns_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
-  if (from.lights.sky().present()) sky_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.sky(field_.guide, b, {}, lux); });
+  if (from.lights.sky().present()) {
+    skyWays_.resize(from.voxels.slots.size());
+    sky_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.sky(field_.guide, b, {}, skyWays_, lux); });
+  }
   if (from.lights.hasEmitters()) emitters_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.emitters(b, {}, lux); });
   field_.rays += direct.rayCount();
 }
@@ -184,7 +187,9 @@ void LightCache::forgetLampsBut(const Lights& lights) {
   });
 }
 
-void LightCache::solve(const Sources& from) {
+int LightCache::bouncesOfUpdate() const { return settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces) : settings_.maxBounces; }
+
+void LightCache::solve(const Sources& from, int mostBounces) {
   if (from.progress.stop()) return;
   const Voxels& voxels = from.voxels;
   direct_.assign(voxels.slots.size(), {});
@@ -200,8 +205,10 @@ void LightCache::solve(const Sources& from) {
   }
   smooth(links_, far);
   for (size_t i = 0; i < far.size(); ++i) direct_[i] += far[i];
-  const Bounces done = settings_.bounceBy == BounceBy::Cones ? bounceByCones(voxels, paths_, direct_, indirect_, settings_, from.progress)
-                                                             : bounce(voxels, links_, direct_, indirect_, settings_, from.progress);
+  RadianceSettings once = settings_;
+  once.maxBounces = mostBounces;
+  const Bounces done = once.bounceBy == BounceBy::Cones ? bounceByCones(voxels, paths_, direct_, indirect_, once, from.progress) : bounce(voxels, links_, direct_, indirect_, once, from.progress);
+  settled_ = done.done < mostBounces || mostBounces >= settings_.maxBounces;
   field_.bounces = done.done, field_.residual = done.residual;
   if (!from.progress.stop()) fillField(from, near);
   if (settings_.layers && !from.progress.stop()) splitIntoLayers(from, done);
@@ -265,7 +272,7 @@ std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) con
 }
 
 size_t LightCache::bytes() const {
-  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + emitters_.bytes() + (direct_.size() + indirect_.size()) * sizeof(Vec3);
+  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + emitters_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) + (direct_.size() + indirect_.size()) * sizeof(Vec3);
   for (const LampLight& l : lamps_) sum += l.direct.bytes() + l.particles.bytes();
   for (const EmitterLight& e : nearEmitters_) sum += e.particles.bytes();
   return sum;

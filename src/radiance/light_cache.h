@@ -11,6 +11,7 @@
 #include "radiance/links.h"
 #include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
+#include "radiance/sky_ways.h"
 #include "radiance/slot_light.h"
 #include "radiance/slot_paths.h"
 
@@ -36,6 +37,9 @@ class LightCache {
   // are of the scene as it is now. What changed bricks, or ways that cross the changed places, have to do with is traced again; the
   // rest comes out as if all were lit anew with the same seed.
   void update(const RayScene& rays, const Lights& lights, const Voxels& voxels, const MovedInstances& moved, const Progress& progress = {});
+
+  // Whether bounces have come to their end; if not (see RadianceSettings::bouncesAtOnce), relight() goes on with them.
+  bool settled() const { return settled_; }
 
   const RadianceField& field() const { return field_; }
   RadianceField take() { return std::move(field_); }
@@ -64,8 +68,8 @@ class LightCache {
     std::vector<Vec3> all, near;    // lx per slot, as in direct_; near: empty where there is none
     std::vector<uint8_t> straight;  // per brick: whether any comes straight
   };
-  // Traces a light in a brick, if a ray may cross one of the boxes or there are none; false otherwise (see DirectLight).
-  using BrickTracer = std::function<bool(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux)>;
+  // Traces a light in a brick: all of it, or what boxes have to do with (see DirectLight).
+  using BrickTracer = std::function<void(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux)>;
   struct Sources {
     const RayScene& rays;
     const Lights& lights;
@@ -92,7 +96,8 @@ class LightCache {
   void forgetLampsBut(const Lights& lights);
   void matchEmitters(const Sources& from);
   void matchLamps(const Sources& from);
-  void solve(const Sources& from);
+  void solve(const Sources& from, int mostBounces);
+  int bouncesOfUpdate() const;
   void splitIntoLayers(const Sources& from, const Bounces& like);
   void keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, std::vector<float>& mostGlow);
   LayerDirect directOf(const Sources& from, const LightLayers& layers, int32_t layer);
@@ -104,9 +109,11 @@ class LightCache {
   Links links_;
   std::vector<BrickMark> marks_;
   SlotLight suns_, sky_, emitters_;
+  SkyWays skyWays_;  // empty: no sky
   std::vector<EmitterLight> nearEmitters_;
   std::vector<LampLight> lamps_;
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
+  bool settled_ = true;
   RadianceField field_;
 };
 

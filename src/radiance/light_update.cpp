@@ -6,30 +6,49 @@
 namespace roomlight {
 namespace {
 
-// What is left of the old links of a carried brick; returns those to trace again. A straight link is known to end at its slot; what
-// is reflected on its way may go anywhere.
+constexpr float kWithin = 2;  // voxels: so far at most from a slot's place lie points and hits on the surface it stands for
+
+bool touched(const Detour& detour, std::span<const Bounds3> places, float h) {
+  return std::any_of(places.begin(), places.end(), [&](const Bounds3& place) { return overlap(detour.within, place, kWithin * h); });
+}
+
+// What is left of the old links of a carried brick; returns those to trace again. A straight link is known to end at its slot, what
+// is reflected on its way to keep within a box.
 std::vector<LinkOf> carryLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& before, const Carried& carried,
                                std::span<const Bounds3> places, Links& links) {
   std::vector<LinkOf> wanted;
+  std::vector<Bounds3> ahead;
   const auto [first, last] = slotsOfBrick(voxels, brick);
   const float h = voxels.voxelSizeM;
+  const Vec3 within(kWithin * h);
+  // A voxel's width off a box counts as crossing it: once roughly, by where slots are, and only then with the ray itself.
+  const auto crossed = [&](uint32_t s, uint32_t i, const Link& link, uint32_t end) {
+    const Vec3 from = voxels.slots[s].position, to = voxels.slots[end].position;
+    const Vec3 wide = within + Vec3(h);
+    if (!link.isDark() && !mayMeetBetween({from - wide, from + wide}, {to - wide, to + wide}, ahead)) return false;
+    Ray ray = linkRay(voxels, paths, {s, i}, seed);
+    if (!link.isDark()) ray.tMax = length(to - ray.origin) + kWithin * h;
+    return crosses(ray, ahead, h);
+  };
+  // In the order of the old links, of which a slot may have had more.
+  const std::vector<Detour>& detours = before.detours[static_cast<size_t>(carried.oldBrick[brick])];
+  size_t next = 0;
   for (auto s = static_cast<uint32_t>(first); s < last; ++s) {
+    while (next < detours.size() && detours[next].slot < s - first) ++next;
+    inFront(voxels.slots[s], places, h, ahead);
     const size_t old = carried.firstOld[brick] + (s - first);
     for (uint32_t i = 0; i < links.count(s); ++i) {
       const bool known = i < before.count(old);
       const Link link = known ? before.links[before.first[old] + i] : Link();
       const uint32_t end = known ? carried.newSlot[link.slot()] : Carried::kGone;
-      bool stays = known && end != Carried::kGone && !link.isBent();
-      if (stays) {
-        Ray ray = linkRay(voxels, paths, {s, i}, seed);
-        if (!link.isDark()) ray.tMax = length(voxels.slots[end].position - ray.origin) + 2 * h;
-        stays = !crosses(ray, places, h);
-      }
-      if (stays) {
-        links.links[links.first[s] + i] = link.withSlot(end);
-      } else {
+      const bool changed = end == Carried::kGone || (link.isBent() ? touched(detours[next], places, h) : !ahead.empty() && crossed(s, i, link, end));
+      if (changed) {
         wanted.push_back({s, i});
+      } else {
+        links.links[links.first[s] + i] = link.withSlot(end);
+        if (link.isBent()) links.detours[brick].push_back({s - static_cast<uint32_t>(first), i, detours[next].within});
       }
+      next += known && link.isBent() ? 1 : 0;
     }
   }
   return wanted;
@@ -65,13 +84,13 @@ void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels
   }
   indirect_ = std::move(indirect);
   marks_ = std::move(marks);
-  solve(from);
+  solve(from, bouncesOfUpdate());
 }
 
 void LightCache::updateLinks(const Sources& from, const SlotPaths& paths, const Change& change) {
   const bool hasSky = from.lights.sky().present();
   SkyGuideBuilder guide(from.voxels, from.lights.sky());
-  Links links = planLinks(from.voxels, paths, settings_.links);
+  Links links = planLinks(from.voxels, paths, settings_.links, &links_, &change.carried);
   std::atomic<uint64_t> traced = 0;
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
@@ -89,31 +108,36 @@ SlotLight LightCache::updated(const Sources& from, const SlotLight& before, cons
   std::vector<Vec3> lux(from.voxels.slots.size());
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
-    if (!change.carried.keeps(b)) {
-      trace(b, {}, lux);
-    } else if (!trace(b, change.places, lux)) {
+    const bool keeps = change.carried.keeps(b);
+    if (keeps) {
       const auto [first, last] = slotsOfBrick(from.voxels, b);
       before.copyBrick(static_cast<size_t>(change.carried.oldBrick[b]), last - first, std::span(lux).subspan(first));
     }
+    trace(b, keeps ? change.places : std::span<const Bounds3>(), lux);
   });
   return SlotLight(from.voxels, lux);
 }
 
 SlotLight LightCache::carriedLight(const Sources& from, const SlotLight& before, const Carried& carried) const {
-  return updated(from, before, {carried, {}}, [](size_t, std::span<const Bounds3>, std::span<Vec3>) { return false; });
+  return updated(from, before, {carried, {}}, [](size_t, std::span<const Bounds3>, std::span<Vec3>) {});
 }
 
 void LightCache::updateFixedLights(const Sources& from, const Change& change, bool emittersMoved) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
   if (from.lights.sunCount() > 0) {
-    suns_ = updated(from, suns_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { return direct.suns(b, near, lux); });
+    suns_ = updated(from, suns_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.suns(b, near, lux); });
   }
   if (from.lights.sky().present()) {
-    sky_ = updated(from, sky_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { return direct.sky(field_.guide, b, near, lux); });
+    SkyWays ways(from.voxels.slots.size());
+    for (size_t o = 0; o < skyWays_.size(); ++o) {
+      if (change.carried.newSlot[o] != Carried::kGone) ways[change.carried.newSlot[o]] = skyWays_[o];
+    }
+    skyWays_ = std::move(ways);
+    sky_ = updated(from, sky_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.sky(field_.guide, b, near, skyWays_, lux); });
   }
   if (from.lights.hasEmitters()) {
     emitters_ = updated(from, emitters_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) {
-      return direct.emitters(b, emittersMoved ? std::span<const Bounds3>() : near, lux);
+      direct.emitters(b, emittersMoved ? std::span<const Bounds3>() : near, lux);
     });
   } else {
     emitters_ = {};
@@ -124,7 +148,7 @@ void LightCache::updateFixedLights(const Sources& from, const Change& change, bo
 void LightCache::updateLamps(const Sources& from, const Change& change) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
   for (LampLight& light : lamps_) {
-    light.direct = updated(from, light.direct, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { return direct.lamp(light.lamp, b, near, lux); });
+    light.direct = updated(from, light.direct, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.lamp(light.lamp, b, near, lux); });
   }
   field_.rays += direct.rayCount();
 }

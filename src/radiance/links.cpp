@@ -1,6 +1,7 @@
 #include "radiance/links.h"
 
 #include <numeric>
+#include <tuple>
 
 #include "base/parallel.h"
 #include "base/sampling.h"
@@ -37,6 +38,24 @@ Kin kinOf(const Voxels& voxels, const SlotPaths& paths, size_t s, Int3 v) {
   return kin;
 }
 
+// What a brick's slots had for kin, where nothing around it is other than before; false where something is.
+bool carriesKin(const Voxels& voxels, const Links& before, const Carried& carried, size_t b, Links& out) {
+  const Int3 c = voxels.bricks[b].coord;
+  for (int k = 0; k < 27; ++k) {
+    const int32_t n = voxels.brickAt({c.x + k % 3 - 1, c.y + k / 3 % 3 - 1, c.z + k / 9 - 1});
+    if (n >= 0 && !carried.keeps(static_cast<size_t>(n))) return false;
+  }
+  const auto [first, last] = slotsOfBrick(voxels, b);
+  for (size_t s = first; s < last; ++s) {
+    const Kin& old = before.kin[carried.firstOld[b] + (s - first)];
+    for (size_t i = 0; i < kKin; ++i) {
+      out.kin[s][i] = carried.newSlot[old[i]];
+      if (out.kin[s][i] == Carried::kGone) return false;
+    }
+  }
+  return true;
+}
+
 // Like directions have near numbers: cells of an octahedron unfolded.
 uint32_t binOf(Vec3 d) {
   const float scale = 1 / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
@@ -45,12 +64,41 @@ uint32_t binOf(Vec3 d) {
   return (d.z < 0 ? kBins * kBins : 0) + y * kBins + (y & 1 ? kBins - 1 - x : x);
 }
 
+// Of what arrived or escaped in the end: rays[k] is that of wanted[order[k]].
+void noteDetours(const Voxels& voxels, size_t brick, std::span<const LinkOf> wanted, std::span<const uint32_t> order, std::span<const Ray> rays, std::span<const Arrival> ends,
+                 std::span<const HiddenReflection> hidden, std::vector<Detour>& out) {
+  if (hidden.empty()) return;
+  const auto firstSlot = static_cast<uint32_t>(slotsOfBrick(voxels, brick).first);
+  constexpr float kAway = 1e6f;  // m: out of any scene
+  std::vector<Bounds3> within(rays.size());
+  for (const HiddenReflection& h : hidden) within[h.ray].add(h.p);
+  for (size_t k = 0; k < rays.size(); ++k) {
+    if (!ends[k].reflected) continue;
+    const Ray& last = ends[k].ray;
+    within[k].add(rays[k].origin), within[k].add(last.origin);
+    if (ends[k].slot >= 0) {
+      within[k].add(last.origin + last.direction * ends[k].hit.t);
+    } else if (ends[k].escaped) {
+      within[k].add(last.origin + last.direction * kAway);
+    }
+    out.push_back({wanted[order[k]].slot - firstSlot, wanted[order[k]].i, within[k]});
+  }
+  std::sort(out.begin(), out.end(), [](const Detour& a, const Detour& b) { return std::tie(a.slot, a.i) < std::tie(b.slot, b.i); });
+}
+
 }  // namespace
 
-Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most) {
+size_t Links::bytes() const {
+  size_t sum = (first.size() + links.size()) * sizeof(uint32_t) + kin.size() * sizeof(Kin) + detours.size() * sizeof(detours[0]);
+  for (const auto& d : detours) sum += d.capacity() * sizeof(Detour);
+  return sum;
+}
+
+Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most, const Links* before, const Carried* carried) {
   Links out;
   out.kin.resize(voxels.slots.size());
   parallelFor(voxels.bricks.size(), 16, [&](size_t b) {
+    if (before && carriesKin(voxels, *before, *carried, b, out)) return;
     const Brick& brick = voxels.bricks[b];
     size_t record = brick.firstVoxel;
     for (int z = 0; z < kBrickSize; ++z) {
@@ -72,6 +120,7 @@ Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most) {
   }
   out.first.back() = next;
   out.links.resize(next);
+  out.detours.resize(voxels.bricks.size());
   return out;
 }
 
@@ -106,7 +155,9 @@ void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std:
     samplers.emplace_back(paths.key(wanted[j].slot), wanted[j].i, seed + 5);
   }
   std::vector<Arrival> ends;
-  paths.follow(rays, samplers, ends);
+  std::vector<HiddenReflection> hidden;
+  paths.follow(rays, samplers, ends, &hidden);
+  noteDetours(voxels, brick, wanted, order, rays, ends, hidden, links.detours[brick]);
   for (size_t k = 0; k < ends.size(); ++k) {
     const Arrival& end = ends[k];
     const LinkOf& of = wanted[order[k]];

@@ -41,16 +41,24 @@ class Link {
 constexpr size_t kKin = 8;
 using Kin = std::array<uint32_t, kKin>;
 
+// Where the way of a bent link is known to keep within: world, m.
+struct Detour {
+  uint32_t slot, i;  // counted from the brick's first; of its links
+  Bounds3 within;
+};
+
 struct Links {
   std::vector<uint32_t> first;  // per slot, and the end: where its links begin
   std::vector<Link> links;
   std::vector<Kin> kin;         // per slot
-  size_t bytes() const { return (first.size() + links.size()) * sizeof(uint32_t) + kin.size() * sizeof(Kin); }
+  std::vector<std::vector<Detour>> detours;  // per brick, in order of slots and links
+  size_t bytes() const;
   size_t count(size_t slot) const { return first[slot + 1] - first[slot]; }
 };
 
-// Kin of all slots, and room for as many links as each gets: `links`, half as many where neighbours on the sheet have theirs.
-Links planLinks(const Voxels& voxels, const SlotPaths& paths, int links);
+// Kin of all slots, and room for as many links as each gets: `links`, half as many where neighbours on the sheet have theirs. Where bricks
+// and all around them are carried from `before`, so are their kin.
+Links planLinks(const Voxels& voxels, const SlotPaths& paths, int links, const Links* before = nullptr, const Carried* carried = nullptr);
 
 struct LinkOf {
   uint32_t slot, i;

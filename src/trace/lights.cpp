@@ -337,6 +337,12 @@ float Lights::pdfEmitters(Vec3 p, const SurfacePoint& q) const {
   return total > 0 ? importance(e, p) / total * pdfInEmitter(e, p, q) : 0;
 }
 
+Bounds3 Lights::sunDirections(size_t index) const {
+  if (index >= suns_.size()) return sky_.spotDirections();
+  const Vec3 wide(suns_[index].halfAngleRad + 1e-4f);
+  return {suns_[index].toLight - wide, suns_[index].toLight + wide};
+}
+
 LightSample Lights::sampleSun(size_t index, Vec2 u) const {
   if (index >= suns_.size()) {
     const SkyDistribution::Sample d = sky_.sampleSpot(u);

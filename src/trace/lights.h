@@ -79,6 +79,7 @@ class Lights {
 
   size_t sunCount() const { return suns_.size() + (sky_.hasSpot() ? 1 : 0); }
   LightSample sampleSun(size_t index, Vec2 u) const;
+  Bounds3 sunDirections(size_t index) const;  // a box that holds all unit directions of it
   // Radiance of sun discs along d with the density sampleSun has there (0 outside and for delta suns).
   Vec3 sunDisc(size_t index, Vec3 d, float& pdf) const;
 

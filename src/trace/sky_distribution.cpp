@@ -128,6 +128,17 @@ SkyDistribution::Sample SkyDistribution::sampleSpot(Vec2 u) const {
   return {directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_), within, u.y), spotPdf(c), {}};
 }
 
+Bounds3 SkyDistribution::spotDirections() const {
+  Bounds3 out;
+  for (const SpotCell& c : spot_) {
+    for (int corner = 0; corner < 4; ++corner) {
+      out.add(directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_), static_cast<float>(corner & 1), static_cast<float>(corner >> 1)));
+    }
+  }
+  const Vec3 bulge(0.01f);  // of the sphere within a cell
+  return {out.lo - bulge, out.hi + bulge};
+}
+
 const SkyDistribution::SpotCell* SkyDistribution::spotAt(Vec2 uv) const {
   if (spot_.empty()) return nullptr;
   const int64_t cell = cellAt(uv);

@@ -34,6 +34,7 @@ class SkyDistribution {
   // except for what cells differ in colour.
   bool hasSpot() const { return !spot_.empty(); }
   Sample sampleSpot(Vec2 u) const;
+  Bounds3 spotDirections() const;  // a box that holds all unit directions of it
   Vec3 spotRadiance(Vec3 d, float& pdf) const;  // cd/m² and density of sampleSpot() there; 0 outside
 
   // The sphere in kBlocks parts of the map, for callers that know which of them are worth while. `pdf` of a sample is the

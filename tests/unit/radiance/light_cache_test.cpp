@@ -165,6 +165,24 @@ TEST(Update, underASkyEqualsASceneLitAnewButForNoise) {
   EXPECT_NEAR(a, b, 0.01 * b);
 }
 
+// Bounces spread over updates come to the same end.
+TEST(Update, bouncesFewAtOnceGoOnUntilTheyAreSettled) {
+  Home home;
+  RadianceSettings few = exact();
+  few.bouncesAtOnce = 3;
+  LightCache cache = lit(home, few);
+  EXPECT_TRUE(cache.settled());
+  const std::vector<Bounds3> places = home.moveBox({0.43f, 0, 0.71f});
+  const RayScene rays(home.scene);
+  cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+  EXPECT_FALSE(cache.settled());
+  EXPECT_EQ(cache.field().bounces, 3);
+  int updates = 0;
+  for (; !cache.settled() && updates < 30; ++updates) cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_GT(updates, 1);
+  expectSame(cache, lit(home), 3e-3f);
+}
+
 TEST(LightCache, sameBitsWithAnyNumberOfThreads) {
   std::vector<std::vector<Vec3>> results;
   for (const int threads : {1, 2}) {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/lit_scene.h"
+#include "scene/scene_change.h"
 #include "voxel/voxelise.h"
 
 namespace roomlight {

@@ -1,4 +1,4 @@
-#include "engine/moved_places.h"
+#include "voxel/moved_places.h"
 
 #include <map>
 
