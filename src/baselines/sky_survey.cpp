@@ -7,18 +7,15 @@
 
 namespace roomlight {
 
-SkySurvey surveySky(const RayScene& rays, const Lights& lights, const VoxelSettings& settings, int raysPerSlot, uint64_t seed, const Progress& progress) {
-  SkySurvey out;
-  if (!lights.sky().present()) return out;
-  out.voxels = voxelise(rays.scene(), settings).voxels;
-  SkyGuideBuilder guide(out.voxels, lights.sky());
+SkyGuide surveySky(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Carried* carried, int raysPerSlot, uint64_t seed, uint64_t& rayCount, const Progress& progress) {
+  SkyGuideBuilder guide(voxels, lights.sky());
   std::atomic<uint64_t> count = 0;
-  parallelFor(out.voxels.bricks.size(), 4, [&](size_t b) {
-    if (progress.stop()) return;
-    const auto [first, last] = slotsOfBrick(out.voxels, b);
+  parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
+    if (progress.stop() || (carried && carried->keeps(b))) return;
+    const auto [first, last] = slotsOfBrick(voxels, b);
     std::vector<Ray> tries;
     for (size_t s = first; s < last; ++s) {
-      const FaceSlot& slot = out.voxels.slots[s];
+      const FaceSlot& slot = voxels.slots[s];
       const Frame frame(slot.normal);
       for (int k = 0; k < raysPerSlot; ++k) {
         const Vec3 d = frame.toWorld(sampleCosineHemisphere(Sampler(s, static_cast<uint32_t>(k), seed).next2()));
@@ -28,12 +25,19 @@ SkySurvey surveySky(const RayScene& rays, const Lights& lights, const VoxelSetti
     std::vector<Vec3> left(tries.size());
     rays.transmittance(tries, left);
     for (size_t i = 0; i < tries.size(); ++i) {
-      guide.add(b, out.voxels.slots[first + i / static_cast<size_t>(raysPerSlot)].face, tries[i].direction, luminance(left[i]));
+      guide.add(b, voxels.slots[first + i / static_cast<size_t>(raysPerSlot)].face, tries[i].direction, luminance(left[i]));
     }
     count += tries.size();
   });
-  out.guide = guide.finish(progress);
-  out.rays = count;
+  rayCount += count;
+  return guide.finish(progress);
+}
+
+SkySurvey surveySky(const RayScene& rays, const Lights& lights, const VoxelSettings& settings, int raysPerSlot, uint64_t seed, const Progress& progress) {
+  SkySurvey out;
+  if (!lights.sky().present()) return out;
+  out.voxels = voxelise(rays.scene(), settings).voxels;
+  out.guide = surveySky(rays, lights, out.voxels, nullptr, raysPerSlot, seed, out.rays, progress);
   return out;
 }
 

@@ -1,4 +1,5 @@
 // Techniques `vxgi` and `lpv` as lit scenes: finest about one place, which follows the camera from room to room.
+#include "baselines/lpv_cache.h"
 #include "baselines/lpv_shader.h"
 #include "baselines/vxgi_cache.h"
 #include "baselines/vxgi_shader.h"
@@ -63,21 +64,6 @@ struct Vxgi {
   using Settings = VxgiSettings;
   using Cache = VxgiCache;
   using Shader = VxgiShader;
-};
-
-// Keeps nothing: maps, injection and propagation are done anew, as in every frame of that method.
-class LpvCache {
- public:
-  LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings, const Progress& progress)
-      : room_(room), settings_(settings), light_(lightLpv(rays, lights, room, settings, progress)) {}
-  void update(const RayScene& rays, const Lights& lights, const SceneChange&, bool, const Progress& progress) { light_ = lightLpv(rays, lights, room_, settings_, progress); }
-  bool settled() const { return true; }
-  const LpvLight& light() const { return light_; }
-
- private:
-  Bounds3 room_;
-  LpvSettings settings_;
-  LpvLight light_;
 };
 
 struct Lpv {

@@ -4,7 +4,8 @@
 //   hybrid  bricks of voxels, links, rays to lights and particles that what moved has nothing to do with (radiance/light_cache.h)
 //   cone    the same; its pyramid is built anew
 //   vxgi    as hybrid in every level's voxels, and openness of surfaces; its clipmap is filled anew, and stays where it is while the camera stays in one room
-//   lpv     nothing: maps, injection and propagation are done anew, as in every frame of that method; its grids stay as vxgi's do
+//   lpv     surfels and the sky's light on them; maps, injection and propagation are done anew, as in every frame of that method; its grids
+//           stay as vxgi's do
 //   photon  nothing: photons are sent anew for every picture, to where its camera looks
 #pragma once
 
