@@ -8,27 +8,18 @@
 #include <fstream>
 #include <string>
 
+#include "fuzz/fuzz_support.h"
 #include "import/lighting_file.h"
 #include "scene/validate.h"
 
 namespace {
 
 using namespace roomlight;
+using fuzz::require;
 
-void require(bool fact) {
-  if (!fact) std::abort();
-}
-
-// One glowing triangle with a light of each kind.
+// With a light of each kind.
 Scene smallScene() {
-  Scene scene;
-  scene.materials.emplace_back();
-  scene.materials[0].emission = Vec3(100);
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.indices = {0, 1, 2};
-  scene.meshes.push_back(mesh);
-  scene.instances.emplace_back();
+  Scene scene = fuzz::glowingTriangle();
   scene.lamps.emplace_back();
   scene.suns.emplace_back();
   scene.sky.luminanceCdM2 = Vec3(9);

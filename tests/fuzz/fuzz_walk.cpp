@@ -8,26 +8,18 @@
 #include <fstream>
 #include <string>
 
+#include "fuzz/fuzz_support.h"
 #include "import/walk_file.h"
 
 namespace {
 
 using namespace roomlight;
+using fuzz::require;
 
-void require(bool fact) {
-  if (!fact) std::abort();
-}
-
-// One glowing triangle called Chair, and a lamp.
+// A triangle called Chair, and a lamp.
 Scene smallScene() {
-  Scene scene;
-  scene.materials.emplace_back();
-  scene.materials[0].emission = Vec3(100);
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.indices = {0, 1, 2};
-  scene.meshes.push_back(mesh);
-  scene.instances.emplace_back().name = "Chair";
+  Scene scene = fuzz::glowingTriangle();
+  scene.instances[0].name = "Chair";
   scene.lamps.emplace_back().name = "Lamp";
   return scene;
 }

@@ -6,14 +6,11 @@
 #include <cstdlib>
 #include <string>
 
+#include "fuzz/fuzz_support.h"
 #include "photometry/ies.h"
 #include "photometry/web_sampler.h"
 
 namespace roomlight::fuzz {
-
-inline void require(bool fact) {
-  if (!fact) std::abort();
-}
 
 inline bool isOneLine(const std::string& s) { return !s.empty() && s.size() < 1000 && s.find('\n') == std::string::npos; }
 

@@ -70,24 +70,6 @@ std::vector<MeterReading> readings(const Scene& scene, const char* technique, co
   return lightScene(scene, settings, stages).value()->illuminance(elements, meter);
 }
 
-// A lamp on a table in a grey room, its shade open above and below: a bulb, or a point as bright. The bulb is white, so that it takes none of
-// the light in the shade either: but at the edges of shadows both give the same.
-Scene tableLamp(bool bulb) {
-  constexpr float kRadiusM = 0.03f, kLuminance = 30000;
-  Scene scene;
-  const int grey = test::addMaterial(scene, test::lambertian(0.6f)), paper = test::addMaterial(scene, test::lambertian(0.7f));
-  test::addRoom(scene, {0, 0, 0}, {4.03f, 2.53f, 3.53f}, std::vector<int>(6, grey));
-  test::addBox(scene, {0.3f, 0.7f, 0.3f}, {1.5f, 0.74f, 1.1f}, grey);
-  test::addTube(scene, {0.8f, 1.0f, 0.7f}, 0.12f, 0.22f, paper);
-  const Vec3 place{0.8f, 1.12f, 0.7f};
-  if (bulb) {
-    test::addSphere(scene, place, kRadiusM, test::addMaterial(scene, test::lambertian(1, kLuminance)));
-  } else {
-    scene.lamps.push_back(test::pointLamp(place, kPi * kRadiusM * kRadiusM * kLuminance));
-  }
-  return scene;
-}
-
 void expectSame(const char* reference, const std::vector<SurfaceElement>& elements, const std::vector<MeterReading>& expected, const std::vector<MeterReading>& measured) {
   for (size_t i = 0; i < elements.size(); ++i) {
     const double e = static_cast<double>(luminance(expected[i].illuminanceLux)), m = static_cast<double>(luminance(measured[i].illuminanceLux));
@@ -99,13 +81,13 @@ void expectSame(const char* reference, const std::vector<SurfaceElement>& elemen
 
 TEST(TableLamp, hybridReadsWhatPathReads) {
   const std::vector<SurfaceElement> elements{{{0.85f, 0.75f, 0.75f}, {0, 1, 0}}, {{0.9f, 2.52f, 0.8f}, {0, -1, 0}}};
-  expectSame("path", elements, readings(tableLamp(true), "path", elements), readings(tableLamp(true), "hybrid", elements));
+  expectSame("path", elements, readings(test::tableLamp(true), "path", elements), readings(test::tableLamp(true), "hybrid", elements));
 }
 
 // Where none of the bulb is seen paths hardly find the lit inside of the shade: a point they find from both ends.
 TEST(TableLamp, hybridReadsOfABulbWhatPathReadsOfAPoint) {
   const std::vector<SurfaceElement> elements{{{1.3f, 0.75f, 0.9f}, {0, 1, 0}}, {{3, 0.85f, 2}, {0, 1, 0}}, {{2, 2.52f, 3}, {0, -1, 0}}, {{2, 1.2f, 3.5f}, {0, 0, -1}}, {{0.001f, 1.1f, 0.7f}, {1, 0, 0}}};
-  expectSame("path with a point", elements, readings(tableLamp(false), "path", elements), readings(tableLamp(true), "hybrid", elements));
+  expectSame("path with a point", elements, readings(test::tableLamp(false), "path", elements), readings(test::tableLamp(true), "hybrid", elements));
 }
 
 }  // namespace

@@ -47,27 +47,10 @@ TEST_P(IntegratingSphere, illuminanceIsTheClosedForm) {
 }
 INSTANTIATE_TEST_SUITE_P(Albedos, IntegratingSphere, testing::Values(0.3f, 0.9f));
 
-// A lamp on a table in a grey room, its shade open above and below: a white bulb, which takes none of the light, or a point as bright.
-Scene tableLamp(bool bulb) {
-  constexpr float kRadiusM = 0.03f, kLuminance = 30000;
-  Scene scene;
-  const int grey = test::addMaterial(scene, test::lambertian(0.6f)), paper = test::addMaterial(scene, test::lambertian(0.7f));
-  test::addRoom(scene, {0, 0, 0}, {4, 2.5f, 3.5f}, std::vector<int>(6, grey));
-  test::addBox(scene, {0.3f, 0.7f, 0.3f}, {1.5f, 0.74f, 1.1f}, grey);
-  test::addTube(scene, {0.8f, 1.0f, 0.7f}, 0.12f, 0.22f, paper);
-  const Vec3 place{0.8f, 1.12f, 0.7f};
-  if (bulb) {
-    test::addSphere(scene, place, kRadiusM, test::addMaterial(scene, test::lambertian(1, kLuminance)));
-  } else {
-    scene.lamps.push_back(test::pointLamp(place, kPi * kRadiusM * kRadiusM * kLuminance));
-  }
-  return scene;
-}
-
 // Where none of the bulb is seen, so that all light comes from the shade's inside, ceiling and table.
 TEST(TableLamp, metersReadOfABulbWhatTheyReadOfAPoint) {
   const std::vector<SurfaceElement> elements{{{1.3f, 0.74f, 0.9f}, {0, 1, 0}}, {{3, 0.8f, 2}, {0, 1, 0}}, {{2, 1.2f, 3.5f}, {0, 0, -1}}, {{0, 1.1f, 0.7f}, {1, 0, 0}}};
-  const std::vector<MeterReading> point = readings(tableLamp(false), elements, 0.01, 1 << 16), bulb = readings(tableLamp(true), elements, 0.01, 1 << 16);
+  const std::vector<MeterReading> point = readings(test::tableLamp(false), elements, 0.01, 1 << 16), bulb = readings(test::tableLamp(true), elements, 0.01, 1 << 16);
   for (size_t i = 0; i < elements.size(); ++i) {
     const double expected = static_cast<double>(luminance(point[i].illuminanceLux)), measured = static_cast<double>(luminance(bulb[i].illuminanceLux));
     EXPECT_LT(bulb[i].standardErrorLux, 0.01 * measured) << i;
