@@ -5,6 +5,7 @@
 #include "baselines/vxgi_shader.h"
 #include "engine/lit_techniques.h"
 #include "engine/technique_settings.h"
+#include "gather/frame.h"
 #include "gather/meters.h"
 
 namespace roomlight {
@@ -21,9 +22,9 @@ class BaselineScene final : public LitScene {
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
   }
-  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+  Image picture(const Camera& camera, int width, int height, const Progress& progress, FrameHistory* history) const override {
     if (!shader_) return {};
-    return gatherPicture(rays(), lights(), *shader_, camera, sized(settings_, width, height), progress).image;
+    return gatherView(rays(), lights(), *shader_, camera, sized(settings_, width, height), history, progress);
   }
   void lookFrom(const Camera& camera, Stages& stages) override {
     const Vec3 eye = camera.worldFromCamera.w;

@@ -8,6 +8,7 @@
 #include "baselines/photon_shader.h"
 #include "engine/lit_techniques.h"
 #include "engine/technique_settings.h"
+#include "gather/frame.h"
 #include "gather/meters.h"
 #include "reference/path_tracer.h"
 
@@ -21,7 +22,7 @@ class TracedScene final : public LitScene {
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), elements, settings, progress);
   }
-  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+  Image picture(const Camera& camera, int width, int height, const Progress& progress, FrameHistory*) const override {
     return pathTrace(rays(), lights(), camera, sized(pathStage(settings_), width, height), progress).image;
   }
 
@@ -37,10 +38,10 @@ class PhotonScene final : public LitScene {
     const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(elements), settings_, {{}, progress.cancelled});
     return measureIlluminance(rays(), lights(), PhotonShader(rays(), lights(), light, settings_), elements, settings, progress);
   }
-  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+  Image picture(const Camera& camera, int width, int height, const Progress& progress, FrameHistory* history) const override {
     const PhotonSettings use = sized(settings_, width, height);
     const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(camera, width, height), use, {{}, progress.cancelled});
-    return gatherPhotons(rays(), lights(), light, camera, use, progress).image;
+    return gatherView(rays(), lights(), PhotonShader(rays(), lights(), light, use), camera, use, history, progress);
   }
 
  private:

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "engine/stages.h"
+#include "gather/frame_history.h"
 #include "scene/scene_change.h"
 #include "trace/lights.h"
 #include "trace/meter.h"
@@ -27,7 +28,8 @@ class LitScene {
   // What falls on each element.
   virtual std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress = {}) const = 0;
   // Linear, cd/m², with the quality of the settings the scene was lit with.
-  virtual Image picture(const Camera& camera, int width, int height, const Progress& progress = {}) const = 0;
+  // `history`: of frames before, of this scene alone, which is told of what changes; frames of one sample a pixel reuse their light. `path` does not.
+  virtual Image picture(const Camera& camera, int width, int height, const Progress& progress = {}, FrameHistory* history = nullptr) const = 0;
 
   // Follows the scene; suns and sky must be as before. The same light as of a scene lit anew, up to what bounces leave out (see
   // RadianceSettings::residual, and bouncesAtOnce: what those leave out follows with later calls, also where nothing has changed). Stages "rays", "lights" and those of the technique. Cancelled, it is of no further use.

@@ -2,6 +2,7 @@
 #include "engine/lit_techniques.h"
 #include "engine/technique_settings.h"
 #include "gather/cone_shader.h"
+#include "gather/frame.h"
 #include "gather/meters.h"
 #include "gather/ray_shader.h"
 #include "radiance/light_cache.h"
@@ -24,9 +25,9 @@ class VoxelScene final : public LitScene {
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
   }
-  Image picture(const Camera& camera, int width, int height, const Progress& progress) const override {
+  Image picture(const Camera& camera, int width, int height, const Progress& progress, FrameHistory* history) const override {
     if (!shader_) return {};
-    return gatherPicture(rays(), lights(), *shader_, camera, sized(gather_, width, height), progress).image;
+    return gatherView(rays(), lights(), *shader_, camera, sized(gather_, width, height), history, progress);
   }
 
  private:

@@ -34,6 +34,7 @@ Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, cons
   out.opening = openStats.stages;
 
   const int count = walk.frameCount();
+  FrameHistory history(settings.frames);
   RenderProgress silent;
   silent.cancelled = progress.cancelled;
   for (int frame = 0; frame < count && !opening.cancelled(); ++frame) {
@@ -47,10 +48,11 @@ Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, cons
     const Stopwatch updating;
     const double cpuBefore = processCpuSeconds();
     lit->update(change, stages);
+    history.sceneChanged(change, scene);
     lit->lookFrom(camera, stages);
     f.updateMs = updating.seconds() * 1e3, f.updateCpuMs = (processCpuSeconds() - cpuBefore) * 1e3;
     if (stages.cancelled()) break;
-    const Image image = stages.run("gather", [&](const Progress& p) { return lit->picture(camera, settings.width, settings.height, p); });
+    const Image image = stages.run("gather", [&](const Progress& p) { return lit->picture(camera, settings.width, settings.height, p, &history); });
     if (stages.cancelled()) break;
     f.pictureMs = stats.stages.back().timeMs, f.pictureCpuMs = stats.stages.back().cpuMs;
     out.frames.push_back(f);

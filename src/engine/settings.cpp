@@ -136,6 +136,15 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("rayRoughness", s.photon.rayRoughness, 0, 1);
     g.number("filterPasses", s.photon.filterPasses, 0, 8);
   });
+  v.group("frames", [&](auto& g) {
+    g.flag("reuse", s.frames.reuse);
+    g.number("every", s.frames.every, 1, 256);
+    g.number("everyStale", s.frames.everyStale, 1, 256);
+    g.number("mostEstimates", s.frames.mostEstimates, 1, 1e6);
+    g.number("staleEstimates", s.frames.staleEstimates, 1e-6, 1e6);
+    g.number("mostWhileMoving", s.frames.mostWhileMoving, 1, 1e6);
+    g.number("nearM", s.frames.nearM, 0, 1000);
+  });
 }
 
 template <class T>

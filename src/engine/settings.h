@@ -11,6 +11,7 @@
 #include "baselines/vxgi_settings.h"
 #include "baselines/photon_settings.h"
 #include "gather/cone_gather.h"
+#include "gather/frame_history.h"
 #include "gather/ray_gather.h"
 #include "radiance/radiance_field.h"
 #include "reference/path_tracer.h"
@@ -39,6 +40,7 @@ struct RenderSettings {
   VxgiSettings vxgi;          // technique "vxgi"; size, samples, time limit and seed are those above
   LpvSettings lpv;            // technique "lpv"; the same
   PhotonSettings photon;      // technique "photon"; size, samples, time limit and seed are those above
+  FrameSettings frames;       // of walks, all techniques but "path"
 };
 
 // One JSON object with every member, in the order above, less those that repeat one above.

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <mutex>
 
 #include "base/clock.h"
 #include "base/parallel.h"
-#include "base/sampler.h"
 #include "base/split.h"
 #include "filter/filter.h"
 #include "gather/noise_map.h"
-#include "gather/pixel_shader.h"
+#include "gather/pixel_rays.h"
 #include "gather/sparse_gather.h"
-#include "trace/camera_rays.h"
 
 namespace roomlight {
 namespace {
@@ -25,32 +22,6 @@ Rectangle tileAt(size_t index, int width, int height) {
   const int tilesX = (width + kTile - 1) / kTile, x = static_cast<int>(index) % tilesX * kTile, y = static_cast<int>(index) / tilesX * kTile;
   return {x, y, std::min(width, x + kTile), std::min(height, y + kTile)};
 }
-
-// Where the camera rays of all pixels lie: one well-distributed set, shifted at random from pixel to pixel.
-class PixelRays {
- public:
-  PixelRays(const RayScene& scene, const Camera& camera, const PictureSettings& settings) : scene_(scene), rays_(camera, settings.width, settings.height), seed_(settings.seed), width_(settings.width) {
-    for (int s = 0; s < settings.samples; ++s) places_.push_back(Sampler(0, static_cast<uint32_t>(s), seed_).next2());
-  }
-  // Rays first, first + 1, .. of a pixel.
-  std::span<const Ray> at(int x, int y, size_t first, size_t count, std::array<Ray, kRaysAtOnce>& out) const {
-    const uint64_t bits = mix64((static_cast<uint64_t>(y) * static_cast<uint64_t>(width_) + static_cast<uint64_t>(x)) * 0x9e3779b97f4a7c15ull + seed_);
-    const Vec2 shift{static_cast<float>(bits >> 40) * 0x1p-24f, static_cast<float>(bits & 0xffffffu) * 0x1p-24f};
-    for (size_t i = 0; i < count; ++i) {
-      const Vec2 u = places_[first + i] + shift;
-      out[i] = rays_.seeing(scene_, static_cast<float>(x) + u.x - std::floor(u.x), static_cast<float>(y) + u.y - std::floor(u.y));
-    }
-    return std::span(out).first(count);
-  }
-  bool wrap() const { return rays_.wraps(); }
-
- private:
-  const RayScene& scene_;
-  CameraRays rays_;
-  uint64_t seed_;
-  int width_;
-  std::vector<Vec2> places_;
-};
 
 // What the filter is told of one layer: what pixels see is that of the whole, light and noise its own.
 FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>& counts, const LayerSums& sums, size_t layer) {
@@ -146,11 +117,11 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     sums.pixels[i] = meanOf(sums.pixels[i], counts[i]);
     if (!result.occlusion.pixels.empty()) result.occlusion.pixels[i] = Vec3(counts[i].occlusion / static_cast<float>(std::max(1u, counts[i].rays)));
   });
-  result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses, pixelRays.wrap()) : composed(sums);
+  result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses, pixelRays.camera().wraps()) : composed(sums);
   if (layers) {
     for (size_t l = 0; l < layers->size(); ++l) {
       const FilterInput input = inputOfLayer(sums, counts, byLayer, l);
-      result.layers.push_back(settings.filterPasses > 0 ? filtered(input, settings.filterPasses, pixelRays.wrap()) : composed(input));
+      result.layers.push_back(settings.filterPasses > 0 ? filtered(input, settings.filterPasses, pixelRays.camera().wraps()) : composed(input));
     }
     splitLike(result.image, result.layers);
     result.layerBytes = byLayer.bytes();

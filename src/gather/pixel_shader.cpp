@@ -20,7 +20,6 @@ bool isUniform(const Material& m, const Mesh& mesh) {
          m.emissionTexture.texture < 0 && mesh.colors.empty() && mesh.colorAlphas.empty();
 }
 
-bool isMirror(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && !clear && luminance(m.f0) > kMirrorReflectance; }
 // What panes reflect is not filtered.
 bool isPane(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && clear; }
 
@@ -49,6 +48,8 @@ uint32_t turn(uint32_t pass, uint32_t every) {
 }
 
 }  // namespace
+
+bool isMirror(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && !clear && luminance(m.f0) > kMirrorReflectance; }
 
 PixelSequence::PixelSequence(int x, int y, uint32_t pass, uint64_t seed, uint32_t every) : seed_(seed) {
   const auto spread = [](uint32_t v) {  // a zero after every bit

@@ -45,6 +45,9 @@ struct PixelSum {  // variances are of the sums
 };
 FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count);
 
+// Whether what it reflects is seen as a picture, by rays sent on; `clear`: light passes through too.
+bool isMirror(const MaterialSample& m, bool clear);
+
 // What the pixels of a tile have seen and want lit.
 struct TileWork {
   struct Part {  // one surface in one pixel

@@ -45,7 +45,7 @@ Ray cutBelow(Ray ray, float heightM) {
 
 }  // namespace
 
-CameraRays::CameraRays(const Camera& camera, int width, int height) : camera_(camera), width_(width), height_(height) {
+CameraRays::CameraRays(const Camera& camera, int width, int height) : camera_(camera), cameraFromWorld_(inverse(camera.worldFromCamera)), width_(width), height_(height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   halfHeight_ = camera.projection == Projection::Orthographic ? camera.yMagM : std::tan(0.5f * camera.yFovRad);
   if (camera.aspect > 0 && aspect < camera.aspect) halfHeight_ *= camera.aspect / aspect;
@@ -89,7 +89,7 @@ Ray CameraRays::seeing(const RayScene& scene, float x, float y) const {
 }
 
 std::optional<Vec2> CameraRays::pixelOf(Vec3 place) const {
-  const Vec3 p = inverse(camera_.worldFromCamera).point(place);
+  const Vec3 p = cameraFromWorld_.point(place);
   const float w = static_cast<float>(width_), h = static_cast<float>(height_);
   Vec2 at;
   if (wraps()) {

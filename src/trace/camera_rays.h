@@ -37,6 +37,7 @@ class CameraRays {
   Ray panoramaRay(float x, float y, float height) const;
 
   Camera camera_;
+  Affine cameraFromWorld_;
   int width_, height_;
   float halfWidth_ = 1, halfHeight_ = 1;
 };

@@ -1,0 +1,158 @@
+#include "gather/frame_history.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomlight {
+namespace {
+
+constexpr float kFacing = 0.9f;      // cosine between normals of one place
+constexpr float kFootprints = 1.5f;  // how far off it may be, in pixels; and
+constexpr float kOffPlane = 0.25f;    // of that off the tangent plane
+constexpr float kLeastCosine = 0.1f;  // of pixels' footprints on slanted surfaces
+constexpr float kLobe = 2, kSlackRad = 0.02f;  // how far a view may turn until nothing is left of a reflection: times GGX's alpha, and besides
+
+bool same(const Affine& a, const Affine& b) { return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w; }
+
+bool same(const Camera& a, const Camera& b) {
+  return same(a.worldFromCamera, b.worldFromCamera) && a.yFovRad == b.yFovRad && a.aspect == b.aspect && a.nearM == b.nearM && a.projection == b.projection &&
+         a.emptyBackdrop == b.emptyBackdrop && a.yMagM == b.yMagM && a.cutHeightM == b.cutHeightM;
+}
+
+Bounds3 boundsOf(const Scene& scene, uint32_t instance) {
+  const Instance& i = scene.instances[instance];
+  Bounds3 out;
+  for (const Vec3 p : scene.meshes[static_cast<size_t>(i.mesh)].positions) out.add(i.worldFromObject.point(p));
+  return out;
+}
+
+bool isWithin(const Bounds3& b, Vec3 p, float m) { return minComponent(min(p - b.lo, b.hi - p)) >= -m; }
+
+// Few estimates that differ tell little of how far their mean is off: what the first was thought to be off counts with the others.
+float varianceOf(float before, float n, float now, float m, float apart) {
+  return (before * n * n + now * m * m * std::max(0.0f, 1 - n) + apart * apart * n * m / (n + m)) / ((n + m) * (n + m));
+}
+
+}  // namespace
+
+PastLight together(const PastLight& before, const PastLight& now) {
+  if (!(before.estimates > 0)) return now;
+  PastLight out = now;
+  const float n = before.estimates, m = now.estimates, share = m / (n + m);
+  const auto mean = [](Vec3 a, Vec3 b, float s) { return a + (b - a) * s; };
+  out.position = mean(before.position, now.position, share);
+  out.irradiance = mean(before.irradiance, now.irradiance, share), out.sharp = mean(before.sharp, now.sharp, share);
+  out.variance.x = varianceOf(before.variance.x, n, now.variance.x, m, luminance(now.irradiance - before.irradiance));
+  out.variance.y = varianceOf(before.variance.y, n, now.variance.y, m, luminance(now.sharp - before.sharp));
+  out.estimates = n + m;
+  const float g = before.glossy, k = now.glossy;
+  out.specular = mean(before.specular, now.specular, k / (g + k));
+  out.variance.z = varianceOf(before.variance.z, g, now.variance.z, k, luminance(now.specular - before.specular));
+  out.glossy = g + k;
+  return out;
+}
+
+void FrameHistory::sceneChanged(const SceneChange& change, const Scene& scene) {
+  dimmed_ |= change.lamps || !change.glow.empty();
+  moved_.resize(scene.instances.size());
+  places_.resize(scene.instances.size());
+  for (const uint32_t i : change.moved) {
+    moved_[i] = 1, anyMoved_ = true;
+  }
+  // Where what moves for the first time was before, as far as it was seen.
+  std::vector<Bounds3> seen(moved_.size());
+  if (std::any_of(change.moved.begin(), change.moved.end(), [&](uint32_t i) { return places_[i].empty(); })) {
+    for (const PastLight& l : past_) {
+      if (l.instance < seen.size() && moved_[l.instance]) seen[l.instance].add(l.position);
+    }
+  }
+  for (const uint32_t i : change.moved) {
+    const Bounds3 before = places_[i].empty() ? seen[i] : places_[i];
+    places_[i] = boundsOf(scene, i);
+    for (const Bounds3& b : {before, places_[i]}) {
+      if (!b.empty()) nearPlaces_.push_back(b);
+    }
+  }
+}
+
+void FrameHistory::forget() { camera_.reset(); }
+
+void FrameHistory::begin(const Camera& camera, int width, int height) {
+  const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
+  if (!camera_ || width != width_ || height != height_) {
+    width_ = width, height_ = height;
+    past_.assign(pixels, {}), now_.assign(pixels, {});
+    pixels_.emplace(width, height);
+    camera_.reset();
+  }
+  still_ = camera_ && same(*camera_, camera);
+  before_.reset();
+  if (camera_) before_.emplace(*camera_, width, height), beforeEye_ = camera_->worldFromCamera.w;
+  camera_ = camera;
+  const CameraRays rays(camera, width, height);
+  const Ray a = rays.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)), b = rays.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height) + 1);
+  pixelSlope_ = length(b.direction - a.direction), pixelM_ = camera.projection == Projection::Orthographic ? length(b.origin - a.origin) : 0;
+  eye_ = camera.worldFromCamera.w;
+}
+
+bool FrameHistory::isStale(const PastLight& light) const {
+  if (dimmed_) return true;
+  return std::any_of(nearPlaces_.begin(), nearPlaces_.end(), [&](const Bounds3& b) { return isWithin(b, light.position, settings_.nearM); });
+}
+
+PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
+  if (!before_ || (anyMoved_ && moved_[seen.instance])) return {};
+  const float cosine = std::max(kLeastCosine, std::abs(dot(seen.normal, seen.wo)));
+  const float footprint = kFootprints * (pixelM_ + pixelSlope_ * length(seen.position - eye_));
+  const PastLight* best = nullptr;
+  float nearest = footprint * footprint / (cosine * cosine);
+  const auto look = [&](int i, int j) {
+    if (i < 0 || j < 0 || i >= width_ || j >= height_) return;
+    const PastLight& l = past_[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)];
+    if (l.instance != seen.instance || !(l.estimates > 0) || dot(l.normal, seen.normal) < kFacing) return;
+    const Vec3 between = l.position - seen.position;
+    const float d2 = lengthSquared(between);
+    if (d2 >= nearest || std::abs(dot(between, seen.normal)) > kOffPlane * footprint) return;
+    nearest = d2, best = &l;
+  };
+  if (still_) {
+    look(x, y);
+  } else {
+    const std::optional<Vec2> at = before_->pixelOf(seen.position);
+    if (!at) return {};
+    const int i = static_cast<int>(std::floor(at->x - 0.5f)), j = static_cast<int>(std::floor(at->y - 0.5f));
+    for (int dy = 0; dy < 2; ++dy) {
+      for (int dx = 0; dx < 2; ++dx) look(i + dx, j + dy);
+    }
+  }
+  if (!best) return {};
+  PastLight out = *best;
+  if (!still_) {
+    const float turned = length(normalize(beforeEye_ - seen.position) - seen.wo);
+    out.glossy *= std::max(0.0f, 1 - turned / (kLobe * seen.roughness * seen.roughness + kSlackRad));
+  }
+  float most = anyMoved_ ? settings_.mostWhileMoving : settings_.mostEstimates;
+  if (isStale(out)) {
+    most = settings_.staleEstimates;
+    // What is out of date must not look different from what is not, or the filter would keep them apart.
+    const float l = luminance(out.irradiance), s = luminance(out.sharp), r = luminance(out.specular);
+    out.variance = max(out.variance, {l * l, s * s, r * r});
+  }
+  out.estimates = std::min(out.estimates, most), out.glossy = std::min(out.glossy, most);
+  return out;
+}
+
+PastLight FrameHistory::findWhole(size_t pixel) const {
+  if (!still_ || dimmed_ || !nearPlaces_.empty() || past_[pixel].instance != kNoHit) return {};
+  return past_[pixel];
+}
+
+void FrameHistory::end() {
+  past_.swap(now_);
+  nearPlaces_.clear();
+  std::fill(moved_.begin(), moved_.end(), uint8_t{0});
+  dimmed_ = anyMoved_ = false;
+  ++frame_;
+}
+
+}  // namespace roomlight

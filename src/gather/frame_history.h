@@ -1,0 +1,82 @@
+// What the pixels of a frame have learned about light, for the next frame of a camera that moves on: where the geometry allows it counts as
+// estimates that a pixel already has (reprojection: Nehab et al. 2007, Scherzer et al. 2007; with variances: Schied et al. 2017).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "filter/filter.h"
+#include "scene/scene_change.h"
+#include "trace/camera_rays.h"
+
+namespace roomlight {
+
+struct FrameSettings {
+  bool reuse = true;        // of light of frames before
+  int every = 16;           // of so many pixels with a history one is lit anew in a frame; the next lower power of two counts
+  int everyStale = 4;       // the same of those whose history is out of date
+  float mostEstimates = 32;  // that a history counts for: it forgets what is older
+  float staleEstimates = 0.1f;  // that it counts for where light has changed
+  float mostWhileMoving = 8;  // where something moves, but elsewhere
+  float nearM = 0.5f;       // of what moved: light has changed there
+};
+
+// Light that a pixel found, without the colour of what reflects it.
+struct PastLight {
+  Vec3 position, normal;  // of the surface, where its light was found
+  uint32_t instance = kNoHit;  // kNoHit: a pixel of several surfaces, or of none, whose light is in its FilterPixel
+  float estimates = 0, glossy = 0;  // how many are in its means; 0: none
+  Vec3 irradiance, sharp;  // diffuse and sharp light over albedo, cd/m²
+  Vec3 specular;
+  Vec3 variance;           // of the means' luminance: irradiance, sharp, specular
+};
+
+// A surface that a camera ray meets.
+struct SeenSurface {
+  Vec3 position, normal, wo;
+  uint32_t instance;
+  float roughness;
+};
+
+// Mean of two of one surface, each by as many estimates as it has.
+PastLight together(const PastLight& before, const PastLight& now);
+
+class FrameHistory {
+ public:
+  explicit FrameHistory(const FrameSettings& settings = {}) : settings_(settings) {}
+  const FrameSettings& settings() const { return settings_; }
+  // The scene is other than in the frame before.
+  void sceneChanged(const SceneChange& change, const Scene& scene);
+  void forget();
+
+  // From here on the frame before is what was made last, and pixels are to be made. `filled` says what they are once they are.
+  void begin(const Camera& camera, int width, int height);
+  uint32_t frame() const { return frame_; }
+  bool still() const { return still_; }  // the camera is where it was
+  // What was known of a surface, at the place where pixel (x, y) sees it now; estimates 0: nothing.
+  PastLight find(int x, int y, const SeenSurface& seen) const;
+  // Of a pixel that sees several surfaces, or none; estimates 0: nothing.
+  PastLight findWhole(size_t pixel) const;
+  PastLight& light(size_t pixel) { return now_[pixel]; }
+  FilterInput& pixels() { return *pixels_; }  // those of whole pixels are of the frame before until they are made anew
+  void end();
+
+ private:
+  bool isStale(const PastLight& light) const;
+
+  const FrameSettings settings_;
+  uint32_t frame_ = 0;
+  int width_ = 0, height_ = 0;
+  bool still_ = false;
+  std::optional<Camera> camera_;
+  std::optional<CameraRays> before_;  // of the frame before
+  Vec3 eye_, beforeEye_;
+  float pixelSlope_ = 0, pixelM_ = 0;  // of a pixel: how far its edges part, per metre of distance, and besides
+  std::vector<PastLight> past_, now_;
+  std::optional<FilterInput> pixels_;
+  std::vector<Bounds3> places_, nearPlaces_;  // of instances that moved, when they last did; where light has changed
+  std::vector<uint8_t> moved_;     // a flag an instance
+  bool dimmed_ = false, anyMoved_ = false;
+};
+
+}  // namespace roomlight
