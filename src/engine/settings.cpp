@@ -141,6 +141,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("every", s.frames.every, 1, 256);
     g.number("everyStale", s.frames.everyStale, 1, 256);
     g.number("mostEstimates", s.frames.mostEstimates, 1, 1e6);
+    g.number("smoothEstimates", s.frames.smoothEstimates, 0, 1e6);
     g.number("staleEstimates", s.frames.staleEstimates, 1e-6, 1e6);
     g.number("mostWhileMoving", s.frames.mostWhileMoving, 1, 1e6);
     g.number("nearM", s.frames.nearM, 0, 1000);

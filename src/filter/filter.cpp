@@ -78,7 +78,7 @@ Image composed(const FilterInput& input) {
   return out;
 }
 
-Image filtered(const FilterInput& input, int passes, bool wrap) {
+Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3>* once) {
   if (wrap) return filteredRound(input, passes);
   const int w = input.width, h = input.height, farthest = 1 << std::max(0, passes - 1);
   const auto pixelsOfRow = [&](int y) { return std::span(input.pixels).subspan(static_cast<size_t>(y) * static_cast<size_t>(w), static_cast<size_t>(w)); };
@@ -90,6 +90,7 @@ Image filtered(const FilterInput& input, int passes, bool wrap) {
   // take far more memory than all else.
   const int reach = reachOf(passes);
   Image out(w, h);
+  if (once) once->resize(out.pixels.size());
   for (int first = 0; first < h; first += kBand) {
     const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
     const auto rowCount = static_cast<size_t>(end - begin);
@@ -105,6 +106,12 @@ Image filtered(const FilterInput& input, int passes, bool wrap) {
       parallelFor(rowCount, 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
       parallelFor(rowCount, 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });
       for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
+      if (k > 0 || !once) continue;
+      parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
+        const int y = first + static_cast<int>(i);
+        const float* at = rows.line(FilterRows::light(0, pass.place[0]), y - begin);
+        for (int x = 0; x < w; ++x) (*once)[static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
+      });
     }
     parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
       const int y = first + static_cast<int>(i);

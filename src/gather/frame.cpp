@@ -14,6 +14,10 @@ constexpr int kTile = 16;
 constexpr size_t kTilesAtOnce = 2;
 constexpr float kFewGlossy = 0.25f, kGlossyShare = 0.04f;  // estimates of reflected light that are too few, where it is so much of the whole
 
+constexpr float kSmooth = 0.08f, kPane = 0.5f, kVeilAlbedo = 0.01f;  // of panes: roughness and own diffuse albedo at most, light that passes at least
+constexpr int kMostPanes = 16;
+constexpr float kLeastLeft = 1e-3f;
+
 // Kept from zero so that light can be divided by it, as the filter has it.
 Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
 
@@ -23,9 +27,22 @@ struct Asked {
   PastLight past;
 };
 
-PastLight lightOf(const FilterPixel& p, uint32_t instance) {
+// A camera ray on its way through panes.
+struct Sight {
+  uint32_t pixel = 0;
+  Ray ray;
+  Hit hit;
+  Vec3 eye;         // where it began
+  Vec3 left{1, 1, 1};  // of what it comes to
+  int panes = 0;
+  Ray reflected;    // by the first pane,
+  float paneM = 0;  // which is so far away
+};
+
+// As found now, of the surface that `seen` tells of.
+PastLight lightOf(const FilterPixel& p, const PastLight& seen) {
   PastLight out;
-  out.position = p.position, out.normal = p.normal, out.instance = instance;
+  out.position = seen.position, out.normal = seen.normal, out.instance = seen.instance;
   out.estimates = p.weight * p.diffuseShare, out.glossy = p.weight * p.specularShare;
   out.irradiance = p.diffuse / divisor(p.albedo), out.sharp = p.sharp / divisor(p.albedo), out.specular = p.specular;
   out.variance = {p.diffuseVariance, p.sharpVariance, p.specularVariance};
@@ -62,7 +79,11 @@ class FrameMaker {
   bool wraps() const { return pixelRays_.camera().wraps(); }
 
  private:
-  void see(int x, int y, const Ray& ray, const Hit& hit, std::vector<Asked>& asked) const;
+  bool passPane(Sight& sight) const;
+  void see(const Sight& sight, std::vector<Sight>& on, std::vector<Asked>& asked) const;
+  void seePane(const Sight& sight, std::vector<Asked>& asked) const;
+  void seeWhole(const Sight& sight, std::vector<Asked>& asked) const;
+  void keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next, std::vector<Asked>& asked) const;
   void light(std::span<const Asked> asked, GatherCounters& count) const;
   bool isTurn(uint32_t pixel, int every) const;
 
@@ -81,38 +102,88 @@ bool FrameMaker::isTurn(uint32_t pixel, int every) const {
   return PixelSequence(static_cast<int>(pixel % w), static_cast<int>(pixel / w), 4 * history_.frame(), settings_.seed, std::bit_floor(static_cast<uint32_t>(every))).gathers();
 }
 
-// Keeps what is known of a pixel, or asks for light.
-void FrameMaker::see(int x, int y, const Ray& ray, const Hit& hit, std::vector<Asked>& asked) const {
-  const auto pixel = static_cast<uint32_t>(y * settings_.width + x);
-  const FrameSettings& use = history_.settings();
-  FilterPixel& p = history_.pixels().pixels[pixel];
-  PastLight& now = history_.light(pixel);
-  now = {};
+// The ray goes on through a pane. False where more than that must be known: of mirrors, and of veils, which have light of their own.
+bool FrameMaker::passPane(Sight& sight) const {
+  const MaterialSample m = materialAt(rays_.scene(), sight.hit);
+  const SurfacePoint s = surfaceAt(rays_.scene(), sight.hit, sight.ray.direction, m);
+  const Vec3 through = passing(m, *s.material, std::abs(dot(s.ng, sight.ray.direction)));
+  if (luminance(through) < kPane || s.m.roughness >= kSmooth || !isBlack(m.emission)) return false;
+  if (maxComponent(Bsdf(m, s.ns, s.ng, -sight.ray.direction).diffuseAlbedo()) > kVeilAlbedo) return false;
+  if (sight.panes++ == 0) {
+    const Vec3 d = sight.ray.direction - s.ns * (2 * dot(sight.ray.direction, s.ns));
+    sight.reflected = {offsetOrigin(s.p, s.ng), d, 0, kInfinity};
+    sight.paneM = sight.hit.t;
+  }
+  sight.left *= through;
+  sight.ray.origin = offsetOrigin(sight.ray.origin + sight.ray.direction * sight.hit.t, -s.ng);
+  sight.ray.tMin = 0;
+  return sight.panes < kMostPanes && luminance(sight.left) > kLeastLeft;
+}
+
+// Keeps what is known of a pixel, or asks for light. Rays that have to go on are left in `on`.
+void FrameMaker::see(const Sight& sight, std::vector<Sight>& on, std::vector<Asked>& asked) const {
+  FilterPixel& p = history_.pixels().pixels[sight.pixel];
+  PastLight& now = history_.light(sight.pixel);
+  const Hit& hit = sight.hit;
   if (!hit.valid()) {
-    p = {};
-    p.rest = ray.tMax > 0 ? background(lights_, ray.direction) : Vec3(0);
+    if (sight.panes > 0) return seePane(sight, asked);
+    now = {}, p = {};
+    p.rest = sight.ray.tMax > 0 ? background(lights_, sight.ray.direction) : Vec3(0);
     return;
   }
-  const auto ask = [&](const PastLight& past) { asked.push_back({pixel, past}); };
-  const auto whole = [&] {
-    now = history_.findWhole(pixel);
-    if (!(now.estimates > 0) || isTurn(pixel, use.every)) ask(now);
-  };
-  if (!opaque_[hit.instance]) return whole();
+  if (!opaque_[hit.instance]) {
+    Sight next = sight;
+    if (passPane(next)) {
+      on.push_back(next);
+    } else {
+      seeWhole(sight, asked);
+    }
+    return;
+  }
   const MaterialSample m = materialAt(rays_.scene(), hit);
-  if (isMirror(m, false)) return whole();
-  const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction, m);
-  const PastLight past = history_.find(x, y, {s.p, s.ns, -ray.direction, hit.instance, m.roughness});
-  const float specular = luminance(past.specular);
-  now.instance = hit.instance;
-  if (!(past.estimates > 0) || isTurn(pixel, past.estimates < 1 ? use.everyStale : use.every)) return ask(past);
-  const Bsdf bsdf(m, s.ns, s.ng, -ray.direction);
-  p = {};
-  p.albedo = bsdf.diffuseAlbedo();
-  if (past.glossy < kFewGlossy && specular > kGlossyShare * (luminance((past.irradiance + past.sharp) * p.albedo) + specular)) return ask(past);
-  p.rest = s.emitted();
-  p.normal = s.ns, p.position = s.p, p.roughness = m.roughness, p.surface = 1;
+  if (isMirror(m, false)) return seeWhole(sight, asked);
+  const SurfacePoint s = surfaceAt(rays_.scene(), hit, sight.ray.direction, m);
+  const Bsdf bsdf(m, s.ns, s.ng, -sight.ray.direction);
+  FilterPixel next;
+  next.albedo = sight.left * bsdf.diffuseAlbedo();
+  next.rest = sight.left * s.emitted();
+  next.normal = s.ns, next.position = veiledPlace(s, sight.left), next.roughness = m.roughness, next.surface = 1;
+  keep(sight, {s.p, s.ns, -sight.ray.direction, hit.instance, sight.panes > 0 ? 0 : m.roughness, s.p}, next, asked);
+}
+
+// A pane before the sky: what it reflects is seen behind it, as far as it is before it.
+void FrameMaker::seePane(const Sight& sight, std::vector<Asked>& asked) const {
+  const Hit hit = rays_.intersect(sight.reflected);
+  if (!hit.valid()) return seeWhole(sight, asked);
+  const SurfacePoint s = surfaceAt(rays_.scene(), hit, sight.reflected.direction);
+  FilterPixel next;
+  next.rest = sight.left * background(lights_, sight.ray.direction);
+  keep(sight, {s.p, s.ns, -sight.reflected.direction, hit.instance, -1, sight.eye + sight.ray.direction * (sight.paneM + hit.t)}, next, asked);
+}
+
+// Of mirrors and veils, and panes that show several things: only what a camera that stands still saw.
+void FrameMaker::seeWhole(const Sight& sight, std::vector<Asked>& asked) const {
+  PastLight& now = history_.light(sight.pixel);
+  now = history_.findWhole(sight.pixel);
+  if (!(now.estimates > 0) || isTurn(sight.pixel, history_.settings().every)) asked.push_back({sight.pixel, now});
+}
+
+// `next`: the pixel without its light.
+void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next, std::vector<Asked>& asked) const {
+  const FrameSettings& use = history_.settings();
+  PastLight& now = history_.light(sight.pixel);
+  const PastLight past = history_.find(static_cast<int>(sight.pixel) % settings_.width, static_cast<int>(sight.pixel) / settings_.width, seen);
+  const float specular = luminance(past.specular), diffuse = luminance((past.irradiance + past.sharp) * next.albedo + next.rest);
+  const bool askForGloss = past.glossy < kFewGlossy && specular > kGlossyShare * (diffuse + specular);
   now = past;
+  now.instance = seen.instance, now.position = seen.position, now.normal = seen.normal;
+  if (!(past.estimates > 0) || askForGloss || isTurn(sight.pixel, past.estimates < 1 ? use.everyStale : use.every)) {
+    asked.push_back({sight.pixel, past});
+    return;
+  }
+  now.position = past.position;
+  FilterPixel& p = history_.pixels().pixels[sight.pixel];
+  p = next;
   setLight(now, p);
 }
 
@@ -143,7 +214,7 @@ void FrameMaker::light(std::span<const Asked> asked, GatherCounters& count) cons
       now.estimates = p.weight;
       continue;
     }
-    now = together(asked[i].past, lightOf(fresh, now.instance));
+    now = together(asked[i].past, lightOf(fresh, now));
     p = fresh;
     setLight(now, p);
   }
@@ -153,17 +224,27 @@ void FrameMaker::make(int x0, int y0, GatherCounters& count) const {
   const int x1 = std::min(settings_.width, x0 + kTile), y1 = std::min(settings_.height, y0 + kTile);
   thread_local std::vector<Ray> rays;
   thread_local std::vector<Hit> hits;
+  thread_local std::vector<Sight> sights, on;
   thread_local std::vector<Asked> asked;
-  rays.clear(), asked.clear();
+  sights.clear(), asked.clear();
   for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) rays.push_back(pixelRays_.ray(x, y, 0));
+    for (int x = x0; x < x1; ++x) {
+      const Ray ray = pixelRays_.ray(x, y, 0);
+      Sight& s = sights.emplace_back();
+      s.pixel = static_cast<uint32_t>(y * settings_.width + x), s.ray = ray, s.eye = ray.origin;
+    }
   }
-  hits.resize(rays.size());
-  rays_.intersectClose(rays, hits);
-  count.rays += rays.size();
-  size_t i = 0;
-  for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x, ++i) see(x, y, rays[i], hits[i], asked);
+  while (!sights.empty()) {
+    rays.clear(), on.clear();
+    for (const Sight& s : sights) rays.push_back(s.ray);
+    hits.resize(rays.size());
+    rays_.intersectClose(rays, hits);
+    count.rays += rays.size();
+    for (size_t i = 0; i < sights.size(); ++i) {
+      sights[i].hit = hits[i];
+      see(sights[i], on, asked);
+    }
+    sights.swap(on);
   }
   light(asked, count);
 }
@@ -192,8 +273,9 @@ Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShade
     history.forget();
     return {};
   }
-  Image out = use.filterPasses > 0 ? filtered(history.pixels(), use.filterPasses, maker.wraps()) : composed(history.pixels());
-  history.end();
+  std::vector<Vec3> smooth;
+  Image out = use.filterPasses > 0 ? filtered(history.pixels(), use.filterPasses, maker.wraps(), &smooth) : composed(history.pixels());
+  history.end(smooth);
   return out;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace roomlight {
 namespace {
 
@@ -103,7 +105,7 @@ bool FrameHistory::isStale(const PastLight& light) const {
 PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
   if (!before_ || (anyMoved_ && moved_[seen.instance])) return {};
   const float cosine = std::max(kLeastCosine, std::abs(dot(seen.normal, seen.wo)));
-  const float footprint = kFootprints * (pixelM_ + pixelSlope_ * length(seen.position - eye_));
+  const float footprint = kFootprints * (pixelM_ + pixelSlope_ * length(seen.place - eye_));
   const PastLight* best = nullptr;
   float nearest = footprint * footprint / (cosine * cosine);
   const auto look = [&](int i, int j) {
@@ -118,7 +120,7 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
   if (still_) {
     look(x, y);
   } else {
-    const std::optional<Vec2> at = before_->pixelOf(seen.position);
+    const std::optional<Vec2> at = before_->pixelOf(seen.place);
     if (!at) return {};
     const int i = static_cast<int>(std::floor(at->x - 0.5f)), j = static_cast<int>(std::floor(at->y - 0.5f));
     for (int dy = 0; dy < 2; ++dy) {
@@ -127,8 +129,8 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
   }
   if (!best) return {};
   PastLight out = *best;
-  if (!still_) {
-    const float turned = length(normalize(beforeEye_ - seen.position) - seen.wo);
+  if (!still_ && seen.roughness >= 0) {
+    const float turned = length(normalize(beforeEye_ - seen.place) - normalize(eye_ - seen.place));
     out.glossy *= std::max(0.0f, 1 - turned / (kLobe * seen.roughness * seen.roughness + kSlackRad));
   }
   float most = anyMoved_ ? settings_.mostWhileMoving : settings_.mostEstimates;
@@ -147,7 +149,10 @@ PastLight FrameHistory::findWhole(size_t pixel) const {
   return past_[pixel];
 }
 
-void FrameHistory::end() {
+void FrameHistory::end(const std::vector<Vec3>& smooth) {
+  parallelFor(smooth.size(), 4096, [&](size_t i) {
+    if (now_[i].instance != kNoHit && now_[i].estimates < settings_.smoothEstimates && pixels_->pixels[i].surface > 0) now_[i].irradiance = smooth[i];
+  });
   past_.swap(now_);
   nearPlaces_.clear();
   std::fill(moved_.begin(), moved_.end(), uint8_t{0});

@@ -16,6 +16,7 @@ struct FrameSettings {
   int every = 16;           // of so many pixels with a history one is lit anew in a frame; the next lower power of two counts
   int everyStale = 4;       // the same of those whose history is out of date
   float mostEstimates = 32;  // that a history counts for: it forgets what is older
+  float smoothEstimates = 8;  // below, pixels keep light that was filtered once with their neighbours'; 0: none do
   float staleEstimates = 0.1f;  // that it counts for where light has changed
   float mostWhileMoving = 8;  // where something moves, but elsewhere
   float nearM = 0.5f;       // of what moved: light has changed there
@@ -31,11 +32,12 @@ struct PastLight {
   Vec3 variance;           // of the means' luminance: irradiance, sharp, specular
 };
 
-// A surface that a camera ray meets.
+// A surface that a camera ray comes to, perhaps through panes or reflected by one.
 struct SeenSurface {
-  Vec3 position, normal, wo;
+  Vec3 position, normal, wo;  // wo: unit, towards where the ray came from last
   uint32_t instance;
-  float roughness;
+  float roughness;            // of what reflects towards the eye, itself or a pane before it; below 0: what it reflects stays where it is, an image in a pane
+  Vec3 place;                 // where it seems to be: `position`, or its image in a pane
 };
 
 // Mean of two of one surface, each by as many estimates as it has.
@@ -59,7 +61,8 @@ class FrameHistory {
   PastLight findWhole(size_t pixel) const;
   PastLight& light(size_t pixel) { return now_[pixel]; }
   FilterInput& pixels() { return *pixels_; }  // those of whole pixels are of the frame before until they are made anew
-  void end();
+  // `smooth`: irradiance after a first pass of the filter, which pixels of few estimates keep for theirs; may be empty.
+  void end(const std::vector<Vec3>& smooth);
 
  private:
   bool isStale(const PastLight& light) const;

@@ -50,6 +50,7 @@ uint32_t turn(uint32_t pass, uint32_t every) {
 }  // namespace
 
 bool isMirror(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && !clear && luminance(m.f0) > kMirrorReflectance; }
+Vec3 veiledPlace(const SurfacePoint& s, Vec3 left) { return s.p + s.ns * (kVeilM * (1 - std::min(1.0f, luminance(left)))); }
 
 PixelSequence::PixelSequence(int x, int y, uint32_t pass, uint64_t seed, uint32_t every) : seed_(seed) {
   const auto spread = [](uint32_t v) {  // a zero after every bit
@@ -182,7 +183,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
     if (const int32_t emitter = byLayer_ ? lights_.emitterOf(group.instance) : -1; emitter >= 0) byLayer_->add(pixel.index, LayerSums::kRest, layers_->ofEmitter[static_cast<size_t>(emitter)], emitted);
     if (solid && !mirror && !layer.seen[i]) {
       sum.normal += s.ns * weight;
-      sum.position += (s.p + s.ns * (kVeilM * (1 - std::min(1.0f, luminance(layer.left[i]))))) * weight;
+      sum.position += veiledPlace(s, layer.left[i]) * weight;
       sum.roughness += m.roughness * weight;
       sum.surface += weight;
     }

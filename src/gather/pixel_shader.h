@@ -48,6 +48,9 @@ FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count);
 // Whether what it reflects is seen as a picture, by rays sent on; `clear`: light passes through too.
 bool isMirror(const MaterialSample& m, bool clear);
 
+// The place of a surface for the filter, seen through panes and veils that leave so much of it.
+Vec3 veiledPlace(const SurfacePoint& s, Vec3 left);
+
 // What the pixels of a tile have seen and want lit.
 struct TileWork {
   struct Part {  // one surface in one pixel
