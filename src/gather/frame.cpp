@@ -35,6 +35,7 @@ struct Sight {
   Vec3 eye;         // where it began
   Vec3 left{1, 1, 1};  // of what it comes to
   int panes = 0;
+  std::span<const Hit> tile;  // what all rays of the tile met first
   Ray reflected;    // by the first pane,
   float paneM = 0;  // which is so far away
 };
@@ -71,7 +72,7 @@ FilterPixel meanOfWholes(const FilterPixel& a, float n, const FilterPixel& b) {
 class FrameMaker {
  public:
   FrameMaker(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history)
-      : rays_(rays), lights_(lights), shader_(shader), settings_(settings), history_(history), pixelRays_(rays, camera, settings), pixelShader_(rays, lights, settings) {
+      : rays_(rays), lights_(lights), shader_(shader), settings_(settings), history_(history), pixelRays_(rays, camera, settings), pixelShader_(rays, lights, settings), sharp_(rays, lights) {
     const Scene& scene = rays.scene();
     for (const Instance& i : scene.instances) opaque_.push_back(!letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
   }
@@ -86,6 +87,8 @@ class FrameMaker {
   void keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next, std::vector<Asked>& asked) const;
   void light(std::span<const Asked> asked, GatherCounters& count) const;
   bool isTurn(uint32_t pixel, int every) const;
+  bool isAlone(const Sight& sight) const;
+  float unshadowed(Vec3 p, Vec3 n) const;
 
   const RayScene& rays_;
   const Lights& lights_;
@@ -94,12 +97,38 @@ class FrameMaker {
   FrameHistory& history_;
   const PixelRays pixelRays_;
   const PixelShader pixelShader_;
+  const SharpLights sharp_;
   std::vector<uint8_t> opaque_;  // a flag an instance
 };
 
 bool FrameMaker::isTurn(uint32_t pixel, int every) const {
   const auto w = static_cast<uint32_t>(settings_.width);
   return PixelSequence(static_cast<int>(pixel % w), static_cast<int>(pixel / w), 4 * history_.frame(), settings_.seed, std::bit_floor(static_cast<uint32_t>(every))).gathers();
+}
+
+// Whether no pixel near it that sees the same is lit anew in this frame.
+bool FrameMaker::isAlone(const Sight& sight) const {
+  if (sight.panes > 0) return true;
+  constexpr int kNear = 4;
+  const int w = settings_.width, x = static_cast<int>(sight.pixel) % w, y = static_cast<int>(sight.pixel) / w, x0 = x / kTile * kTile, y0 = y / kTile * kTile;
+  const int x1 = std::min(w, x0 + kTile), bx = x / kNear * kNear, by = y / kNear * kNear;
+  for (int j = by; j < std::min(settings_.height, by + kNear); ++j) {
+    for (int i = bx; i < std::min(w, bx + kNear); ++i) {
+      const Hit& hit = sight.tile[static_cast<size_t>((j - y0) * (x1 - x0) + i - x0)];
+      if (hit.instance == sight.hit.instance && hit.triangle == sight.hit.triangle && isTurn(static_cast<uint32_t>(j * w + i), history_.settings().everyStale)) return false;
+    }
+  }
+  return true;
+}
+
+// Light of suns and lamps there, if nothing stood in its way: how it differs between two places of one surface. Of any unit.
+float FrameMaker::unshadowed(Vec3 p, Vec3 n) const {
+  float sum = 0;
+  for (size_t i = 0; i < sharp_.count(); ++i) {
+    const LightSample l = sharp_.sample(i, p, {0.5f, 0.5f});
+    if (l.valid()) sum += luminance(l.radiance) * std::max(0.0f, dot(l.wi, n));
+  }
+  return sum;
 }
 
 // The ray goes on through a pane. False where more than that must be known: of mirrors, and of veils, which have light of their own.
@@ -172,12 +201,17 @@ void FrameMaker::seeWhole(const Sight& sight, std::vector<Asked>& asked) const {
 void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next, std::vector<Asked>& asked) const {
   const FrameSettings& use = history_.settings();
   PastLight& now = history_.light(sight.pixel);
-  const PastLight past = history_.find(static_cast<int>(sight.pixel) % settings_.width, static_cast<int>(sight.pixel) / settings_.width, seen);
+  PastLight past = history_.find(static_cast<int>(sight.pixel) % settings_.width, static_cast<int>(sight.pixel) / settings_.width, seen);
+  if (!history_.still() && !isBlack(past.sharp)) {
+    const float before = unshadowed(past.position, past.normal), after = unshadowed(seen.position, seen.normal), change = before > 0 ? std::clamp(after / before, 0.5f, 2.0f) : 1;
+    past.sharp *= change, past.variance.y *= change * change;
+  }
   const float specular = luminance(past.specular), diffuse = luminance((past.irradiance + past.sharp) * next.albedo + next.rest);
   const bool askForGloss = past.glossy < kFewGlossy && specular > kGlossyShare * (diffuse + specular);
   now = past;
   now.instance = seen.instance, now.position = seen.position, now.normal = seen.normal;
-  if (!(past.estimates > 0) || askForGloss || isTurn(sight.pixel, past.estimates < 1 ? use.everyStale : use.every)) {
+  const bool stale = past.estimates < 1;
+  if (!(past.estimates > 0) || askForGloss || isTurn(sight.pixel, stale ? use.everyStale : use.every) || (stale && isAlone(sight))) {
     asked.push_back({sight.pixel, past});
     return;
   }
@@ -185,6 +219,7 @@ void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterP
   FilterPixel& p = history_.pixels().pixels[sight.pixel];
   p = next;
   setLight(now, p);
+  if (stale) p.weight = 0;  // its neighbours tell
 }
 
 void FrameMaker::light(std::span<const Asked> asked, GatherCounters& count) const {
@@ -234,14 +269,17 @@ void FrameMaker::make(int x0, int y0, GatherCounters& count) const {
       s.pixel = static_cast<uint32_t>(y * settings_.width + x), s.ray = ray, s.eye = ray.origin;
     }
   }
+  thread_local std::vector<Hit> first;
+  first.clear();
   while (!sights.empty()) {
     rays.clear(), on.clear();
     for (const Sight& s : sights) rays.push_back(s.ray);
     hits.resize(rays.size());
     rays_.intersectClose(rays, hits);
     count.rays += rays.size();
+    if (first.empty()) first = hits;
     for (size_t i = 0; i < sights.size(); ++i) {
-      sights[i].hit = hits[i];
+      sights[i].hit = hits[i], sights[i].tile = first;
       see(sights[i], on, asked);
     }
     sights.swap(on);
@@ -259,7 +297,10 @@ Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader
 Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history, const Progress& progress) {
   PictureSettings use = settings;
   use.samples = 1;
-  history.begin(camera, use.width, use.height);
+  std::vector<FrameHistory::Caster> casters;
+  for (size_t i = 0; i < lights.lampCount(); ++i) casters.push_back({lights.lamp(i).position, false});
+  for (size_t i = 0; i < lights.sunCount(); ++i) casters.push_back({lights.sampleSun(i, {0.5f, 0.5f}).wi, true});
+  history.begin(camera, use.width, use.height, std::move(casters));
   const FrameMaker maker(rays, lights, shader, camera, use, history);
   const size_t across = static_cast<size_t>((use.width + kTile - 1) / kTile), tiles = across * static_cast<size_t>((use.height + kTile - 1) / kTile);
   parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {

@@ -1,7 +1,9 @@
 #include "gather/frame_history.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "base/parallel.h"
 
@@ -29,6 +31,16 @@ Bounds3 boundsOf(const Scene& scene, uint32_t instance) {
 }
 
 bool isWithin(const Bounds3& b, Vec3 p, float m) { return minComponent(min(p - b.lo, b.hi - p)) >= -m; }
+
+// Whether the way from p along d, as far as `most` times its length, goes through a box.
+bool isMet(const Bounds3& b, Vec3 p, Vec3 d, float most) {
+  float first = 0, last = most;
+  for (int c = 0; c < 3; ++c) {
+    const float inverse = 1 / (std::abs(d[c]) > 1e-12f ? d[c] : 1e-12f), t0 = (b.lo[c] - p[c]) * inverse, t1 = (b.hi[c] - p[c]) * inverse;
+    first = std::max(first, std::min(t0, t1)), last = std::min(last, std::max(t0, t1));
+  }
+  return first <= last;
+}
 
 // Few estimates that differ tell little of how far their mean is off: what the first was thought to be off counts with the others.
 float varianceOf(float before, float n, float now, float m, float apart) {
@@ -68,10 +80,15 @@ void FrameHistory::sceneChanged(const SceneChange& change, const Scene& scene) {
       if (l.instance < seen.size() && moved_[l.instance]) seen[l.instance].add(l.position);
     }
   }
+  std::map<int, std::array<Bounds3, 2>> things;  // before and now
   for (const uint32_t i : change.moved) {
-    const Bounds3 before = places_[i].empty() ? seen[i] : places_[i];
+    auto& thing = things[scene.instances[i].object];
+    thing[0].add(places_[i].empty() ? seen[i] : places_[i]);
     places_[i] = boundsOf(scene, i);
-    for (const Bounds3& b : {before, places_[i]}) {
+    thing[1].add(places_[i]);
+  }
+  for (const auto& [object, both] : things) {
+    for (const Bounds3& b : both) {
       if (!b.empty()) nearPlaces_.push_back(b);
     }
   }
@@ -79,7 +96,8 @@ void FrameHistory::sceneChanged(const SceneChange& change, const Scene& scene) {
 
 void FrameHistory::forget() { camera_.reset(); }
 
-void FrameHistory::begin(const Camera& camera, int width, int height) {
+void FrameHistory::begin(const Camera& camera, int width, int height, std::vector<Caster> casters) {
+  casters_ = std::move(casters);
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
   if (!camera_ || width != width_ || height != height_) {
     width_ = width, height_ = height;
@@ -97,9 +115,12 @@ void FrameHistory::begin(const Camera& camera, int width, int height) {
   eye_ = camera.worldFromCamera.w;
 }
 
-bool FrameHistory::isStale(const PastLight& light) const {
+bool FrameHistory::isStale(Vec3 p) const {
   if (dimmed_) return true;
-  return std::any_of(nearPlaces_.begin(), nearPlaces_.end(), [&](const Bounds3& b) { return isWithin(b, light.position, settings_.nearM); });
+  return std::any_of(nearPlaces_.begin(), nearPlaces_.end(), [&](const Bounds3& b) {
+    if (isWithin(b, p, settings_.nearM)) return true;
+    return std::any_of(casters_.begin(), casters_.end(), [&](const Caster& c) { return isMet(b, p, c.far ? c.place : c.place - p, c.far ? kInfinity : 1); });
+  });
 }
 
 PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
@@ -134,7 +155,7 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
     out.glossy *= std::max(0.0f, 1 - turned / (kLobe * seen.roughness * seen.roughness + kSlackRad));
   }
   float most = anyMoved_ ? settings_.mostWhileMoving : settings_.mostEstimates;
-  if (isStale(out)) {
+  if (isStale(out.position)) {
     most = settings_.staleEstimates;
     // What is out of date must not look different from what is not, or the filter would keep them apart.
     const float l = luminance(out.irradiance), s = luminance(out.sharp), r = luminance(out.specular);

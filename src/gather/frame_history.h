@@ -17,7 +17,7 @@ struct FrameSettings {
   int everyStale = 4;       // the same of those whose history is out of date
   float mostEstimates = 32;  // that a history counts for: it forgets what is older
   float smoothEstimates = 8;  // below, pixels keep light that was filtered once with their neighbours'; 0: none do
-  float staleEstimates = 0.1f;  // that it counts for where light has changed
+  float staleEstimates = 0.02f;  // that it counts for where light has changed
   float mostWhileMoving = 8;  // where something moves, but elsewhere
   float nearM = 0.5f;       // of what moved: light has changed there
 };
@@ -51,8 +51,13 @@ class FrameHistory {
   void sceneChanged(const SceneChange& change, const Scene& scene);
   void forget();
 
+  // Lamps' places and, `far`, suns' directions: where things that moved threw shadows on, or do now, light has changed.
+  struct Caster {
+    Vec3 place;
+    bool far;
+  };
   // From here on the frame before is what was made last, and pixels are to be made. `filled` says what they are once they are.
-  void begin(const Camera& camera, int width, int height);
+  void begin(const Camera& camera, int width, int height, std::vector<Caster> casters);
   uint32_t frame() const { return frame_; }
   bool still() const { return still_; }  // the camera is where it was
   // What was known of a surface, at the place where pixel (x, y) sees it now; estimates 0: nothing.
@@ -65,7 +70,7 @@ class FrameHistory {
   void end(const std::vector<Vec3>& smooth);
 
  private:
-  bool isStale(const PastLight& light) const;
+  bool isStale(Vec3 p) const;
 
   const FrameSettings settings_;
   uint32_t frame_ = 0;
@@ -78,6 +83,7 @@ class FrameHistory {
   std::vector<PastLight> past_, now_;
   std::optional<FilterInput> pixels_;
   std::vector<Bounds3> places_, nearPlaces_;  // of instances that moved, when they last did; where light has changed
+  std::vector<Caster> casters_;
   std::vector<uint8_t> moved_;     // a flag an instance
   bool dimmed_ = false, anyMoved_ = false;
 };
