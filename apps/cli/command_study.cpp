@@ -158,7 +158,7 @@ class Programs {
   }
 
   Result<WalkCost> walk(const StudyWalk& w) const {
-    const std::vector<std::string> words = {"walk", w.scene.string(), "--walk", w.walk.string(), "--size", fmt::format("{}x{}", w.width, w.height), "--technique", w.technique, "--samples", "1", "--frames", fmt::format("{}", walkFrames_)};
+    const std::vector<std::string> words = {"walk", w.scene.string(), "--walk", w.walk.string(), "--size", fmt::format("{}x{}", w.width, w.height), "--technique", w.technique, "--samples", "1", "--frames", fmt::format("{}", walkFrames_), "--in-a-row"};
     const Result<nlohmann::json> stats = run(words, w.lighting, w.settings);
     if (!stats) return Error{stats.error()};
     const nlohmann::json& j = stats.value();
@@ -300,7 +300,7 @@ Registered addStudy(CLI::App& program) {
   app->add_option("--runs", o->runs, "Runs of every picture, in turn with the others; the median time counts")->capture_default_str()->check(CLI::Range(1, 100));
   app->add_option("--size", o->size, "Of pictures")->capture_default_str();
   app->add_option("--walk-size", o->walkSize, "Of frames")->capture_default_str();
-  app->add_option("--walk-frames", o->walkFrames, "Of every walk, spread evenly")->capture_default_str()->check(CLI::Range(1, 1000000));
+  app->add_option("--walk-frames", o->walkFrames, "Of every walk: the first of them")->capture_default_str()->check(CLI::Range(1, 1000000));
   app->add_option("--most-seconds", o->mostSeconds, "A picture that would take longer ends the curve")->capture_default_str()->check(CLI::Range(0.1, 1e6));
   app->add_option("--reference-seconds", o->referenceSeconds, "For the references of one view, at most")->capture_default_str()->check(CLI::Range(1.0, 1e6));
   app->add_option("--external", o->externals, "NAME=picture.exr,SECONDS of another renderer, linear and of the same view and size; NAME@SCENE/LIGHT=... where there are several; may be repeated")

@@ -25,6 +25,7 @@ struct Options : SettingsOptions {
   std::string scene, walk, lighting, output, stats;
   DisplayOptions display;
   int frames = 0;
+  bool inARow = false;
   float metresPerUnit = 1;
   double lumenAtFullPower = ImportOptions().lumenAtFullPower;
   bool quiet = false;
@@ -147,7 +148,13 @@ int work(const Options& o, const Plan& plan) {
   if (!scene) return bad(scene.error());
   Result<Walk> walk = readWalkFile(o.walk, scene.value());
   if (!walk) return bad(walk.error());
-  if (o.frames > 0 && o.frames < walk.value().frameCount()) walk.value().framesPerSecond = o.frames / walk.value().seconds;
+  if (o.frames > 0 && o.frames < walk.value().frameCount()) {
+    if (o.inARow) {
+      walk.value().seconds = o.frames / walk.value().framesPerSecond;
+    } else {
+      walk.value().framesPerSecond = o.frames / walk.value().seconds;
+    }
+  }
   if (!o.quiet) printWarnings(warnings);
   std::string failed;
   TakeFrame take;
@@ -191,6 +198,7 @@ Registered addWalk(CLI::App& program) {
   app->add_option("--size", o->size, "Width and height of a frame in pixels, by default 960x540");
   app->add_option("--samples", o->samples, "Samples per pixel of a frame, by default 1; 0: those of a picture");
   app->add_option("--frames", o->frames, "Only so many frames, spread evenly; 0: all")->check(CLI::Range(0, 1000000));
+  app->add_flag("--in-a-row", o->inARow, "Not spread: the first --frames of them");
   app->add_option("-o,--output", o->output, "Writes the frames: FOLDER/frame_%03d.png, .jpg or .exr");
   app->add_option("--stats", o->stats, "Write the times of every frame to this JSON file");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same frames");

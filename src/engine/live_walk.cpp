@@ -67,16 +67,25 @@ Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, cons
 
 }  // namespace
 
-double WalkFrames::framesPerSecond() const {
+namespace {
+
+// The first frame has none before it to take light from: it is the start of a walk and counts where it is all there is.
+template <class Cost>
+double rate(const std::vector<WalkFrame>& frames, const Cost& costMs) {
   double ms = 0;
-  for (const WalkFrame& f : frames) ms += f.updateMs + f.pictureMs;
-  return ms > 0 ? 1e3 * static_cast<double>(frames.size()) / ms : 0;
+  const size_t first = frames.size() > 1 ? 1 : 0;
+  for (size_t i = first; i < frames.size(); ++i) ms += costMs(frames[i]);
+  return ms > 0 ? 1e3 * static_cast<double>(frames.size() - first) / ms : 0;
+}
+
+}  // namespace
+
+double WalkFrames::framesPerSecond() const {
+  return rate(frames, [](const WalkFrame& f) { return f.updateMs + f.pictureMs; });
 }
 
 double WalkFrames::framesPerCpuSecond() const {
-  double ms = 0;
-  for (const WalkFrame& f : frames) ms += f.updateCpuMs + f.pictureCpuMs;
-  return ms > 0 ? 1e3 * static_cast<double>(frames.size()) / ms : 0;
+  return rate(frames, [](const WalkFrame& f) { return f.updateCpuMs + f.pictureCpuMs; });
 }
 
 Result<WalkFrames> measureWalk(Scene& scene, const Walk& walk, const RenderSettings& settings, const RenderProgress& progress, const TakeFrame& take) {

@@ -19,7 +19,7 @@ struct WalkFrames {
   std::vector<StageStats> opening;  // what came before the first
   std::vector<StageStats> stages;   // of all frames together: "rays", "voxelise", "illuminate", ..., "gather"
   bool complete = true;
-  double framesPerSecond() const;     // frames over the time of all of them; 0 without any
+  double framesPerSecond() const;     // frames over the time of all of them but the first, if there are more; 0 without any
   double framesPerCpuSecond() const;  // over processor time: as many cores would do it in
 };
 
