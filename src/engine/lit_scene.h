@@ -14,13 +14,14 @@
 #include <span>
 
 #include "engine/stages.h"
-#include "gather/frame_history.h"
 #include "scene/scene_change.h"
 #include "trace/lights.h"
 #include "trace/meter.h"
 #include "trace/ray_scene.h"
 
 namespace roomlight {
+
+class FrameHistory;
 
 class LitScene {
  public:

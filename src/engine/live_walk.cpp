@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "engine/lit_scene.h"
+#include "gather/frame_history.h"
 
 namespace roomlight {
 namespace {

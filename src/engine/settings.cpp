@@ -139,7 +139,10 @@ void visitMembers(Visitor& v, Settings& s) {
   v.group("frames", [&](auto& g) {
     g.flag("reuse", s.frames.reuse);
     g.number("every", s.frames.every, 1, 256);
+    g.number("everyStill", s.frames.everyStill, 1, 256);
     g.number("everyStale", s.frames.everyStale, 1, 256);
+    g.number("everyVeil", s.frames.everyVeil, 1, 256);
+    g.number("mostOfVeil", s.frames.mostOfVeil, 1, 1e6);
     g.number("mostEstimates", s.frames.mostEstimates, 1, 1e6);
     g.number("smoothEstimates", s.frames.smoothEstimates, 0, 1e6);
     g.number("staleEstimates", s.frames.staleEstimates, 1e-6, 1e6);

@@ -11,7 +11,7 @@
 #include "baselines/vxgi_settings.h"
 #include "baselines/photon_settings.h"
 #include "gather/cone_gather.h"
-#include "gather/frame_history.h"
+#include "gather/frame_settings.h"
 #include "gather/ray_gather.h"
 #include "radiance/radiance_field.h"
 #include "reference/path_tracer.h"

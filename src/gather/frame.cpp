@@ -1,6 +1,7 @@
 #include "gather/frame.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 
 #include "base/parallel.h"
@@ -12,11 +13,13 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr size_t kTilesAtOnce = 2;
+constexpr int kPlaces = 64;  // of a pixel's camera rays
 constexpr float kFewGlossy = 0.25f, kGlossyShare = 0.04f;  // estimates of reflected light that are too few, where it is so much of the whole
 
 constexpr float kSmooth = 0.08f, kPane = 0.5f, kVeilAlbedo = 0.01f;  // of panes: roughness and own diffuse albedo at most, light that passes at least
 constexpr int kMostPanes = 16;
 constexpr float kLeastLeft = 1e-3f;
+constexpr float kGradientM = 0.01f;  // farther apart than this, places may differ in how near their lamps are
 
 // Kept from zero so that light can be divided by it, as the filter has it.
 Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
@@ -24,6 +27,7 @@ Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
 // A pixel that is to be lit anew.
 struct Asked {
   uint32_t pixel;
+  int every;  // of so many pixels it is the one whose turn it is
   PastLight past;
 };
 
@@ -43,7 +47,7 @@ struct Sight {
 // As found now, of the surface that `seen` tells of.
 PastLight lightOf(const FilterPixel& p, const PastLight& seen) {
   PastLight out;
-  out.position = seen.position, out.normal = seen.normal, out.instance = seen.instance;
+  out.position = seen.position, out.normal = seen.normal, out.instance = seen.instance, out.whole = seen.whole;
   out.estimates = p.weight * p.diffuseShare, out.glossy = p.weight * p.specularShare;
   out.irradiance = p.diffuse / divisor(p.albedo), out.sharp = p.sharp / divisor(p.albedo), out.specular = p.specular;
   out.variance = {p.diffuseVariance, p.sharpVariance, p.specularVariance};
@@ -56,36 +60,53 @@ void setLight(const PastLight& l, FilterPixel& p) {
   p.weight = l.estimates, p.diffuseShare = 1, p.specularShare = l.glossy / l.estimates;
 }
 
+// Mean of a pixel over camera rays, n before and those of b.
 FilterPixel meanOfWholes(const FilterPixel& a, float n, const FilterPixel& b) {
   const float m = b.weight, s = m / (n + m);
-  const auto mean = [s](auto x, auto y) { return x + (y - x) * s; };
+  const auto mean = [](auto x, auto y, float share) { return x + (y - x) * share; };
   const auto variance = [&](float x, float y) { return (x * n * n + y * m * m) / ((n + m) * (n + m)); };
-  FilterPixel out = b;
-  out.diffuse = mean(a.diffuse, b.diffuse), out.sharp = mean(a.sharp, b.sharp), out.specular = mean(a.specular, b.specular), out.rest = mean(a.rest, b.rest);
-  out.albedo = mean(a.albedo, b.albedo);
+  FilterPixel out;
+  out.diffuse = mean(a.diffuse, b.diffuse, s), out.sharp = mean(a.sharp, b.sharp, s), out.specular = mean(a.specular, b.specular, s), out.rest = mean(a.rest, b.rest, s);
+  out.albedo = mean(a.albedo, b.albedo, s);
   out.diffuseVariance = variance(a.diffuseVariance, b.diffuseVariance), out.sharpVariance = variance(a.sharpVariance, b.sharpVariance);
   out.specularVariance = variance(a.specularVariance, b.specularVariance);
+  out.surface = mean(a.surface, b.surface, s);
+  if (out.surface > 0) {
+    const float ofB = b.surface * s / out.surface;
+    const Vec3 normal = mean(a.normal, b.normal, ofB);
+    out.normal = length(normal) > 0 ? normalize(normal) : b.normal;
+    out.position = mean(a.position, b.position, ofB), out.roughness = mean(a.roughness, b.roughness, ofB);
+  }
   out.weight = n + m;
   return out;
+}
+
+// Which of its camera rays a pixel sends: the first, unless all stands still; then in each turn the next.
+size_t placeOf(const FrameHistory& history) {
+  const uint32_t every = std::bit_floor(static_cast<uint32_t>(history.settings().everyStill));
+  return history.settled() ? (history.framesStill() + every - 1) / every % kPlaces : 0;
 }
 
 class FrameMaker {
  public:
   FrameMaker(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history)
-      : rays_(rays), lights_(lights), shader_(shader), settings_(settings), history_(history), pixelRays_(rays, camera, settings), pixelShader_(rays, lights, settings), sharp_(rays, lights) {
+      : rays_(rays), lights_(lights), shader_(shader), settings_(settings), history_(history), pixelRays_(rays, camera, settings), pixelShader_(rays, lights, settings), sharp_(rays, lights), place_(placeOf(history)) {
     const Scene& scene = rays.scene();
     for (const Instance& i : scene.instances) opaque_.push_back(!letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
   }
   void make(int x0, int y0, GatherCounters& count) const;
+  bool leftStale() const { return stale_; }  // pixels
   bool wraps() const { return pixelRays_.camera().wraps(); }
 
  private:
   bool passPane(Sight& sight) const;
   void see(const Sight& sight, std::vector<Sight>& on, std::vector<Asked>& asked) const;
   void seePane(const Sight& sight, std::vector<Asked>& asked) const;
-  void seeWhole(const Sight& sight, std::vector<Asked>& asked) const;
+  void seeWhole(const Sight& sight, bool mirror, std::vector<Asked>& asked) const;
   void keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next, std::vector<Asked>& asked) const;
   void light(std::span<const Asked> asked, GatherCounters& count) const;
+  PastLight find(const Sight& sight, const SeenSurface& seen) const;
+  bool isReflection(const PastLight& past) const;
   bool isTurn(uint32_t pixel, int every) const;
   bool isAlone(const Sight& sight) const;
   float unshadowed(Vec3 p, Vec3 n) const;
@@ -99,6 +120,8 @@ class FrameMaker {
   const PixelShader pixelShader_;
   const SharpLights sharp_;
   std::vector<uint8_t> opaque_;  // a flag an instance
+  const size_t place_;           // of each pixel's camera ray
+  mutable std::atomic<bool> stale_ = false;
 };
 
 bool FrameMaker::isTurn(uint32_t pixel, int every) const {
@@ -151,13 +174,14 @@ bool FrameMaker::passPane(Sight& sight) const {
 
 // Keeps what is known of a pixel, or asks for light. Rays that have to go on are left in `on`.
 void FrameMaker::see(const Sight& sight, std::vector<Sight>& on, std::vector<Asked>& asked) const {
-  FilterPixel& p = history_.pixels().pixels[sight.pixel];
-  PastLight& now = history_.light(sight.pixel);
+  FilterPixel& p = history_.pixel(sight.pixel);
   const Hit& hit = sight.hit;
   if (!hit.valid()) {
     if (sight.panes > 0) return seePane(sight, asked);
-    now = {}, p = {};
-    p.rest = sight.ray.tMax > 0 ? background(lights_, sight.ray.direction) : Vec3(0);
+    FilterPixel sky;
+    sky.rest = sight.ray.tMax > 0 ? background(lights_, sight.ray.direction) : Vec3(0);
+    history_.light(sight.pixel) = {};
+    p = history_.settled() ? meanOfWholes(p, p.weight, sky) : sky;
     return;
   }
   if (!opaque_[hit.instance]) {
@@ -165,44 +189,74 @@ void FrameMaker::see(const Sight& sight, std::vector<Sight>& on, std::vector<Ask
     if (passPane(next)) {
       on.push_back(next);
     } else {
-      seeWhole(sight, asked);
+      seeWhole(sight, false, asked);
     }
     return;
   }
   const MaterialSample m = materialAt(rays_.scene(), hit);
-  if (isMirror(m, false)) return seeWhole(sight, asked);
+  if (isMirror(m, false)) return seeWhole(sight, true, asked);
   const SurfacePoint s = surfaceAt(rays_.scene(), hit, sight.ray.direction, m);
   const Bsdf bsdf(m, s.ns, s.ng, -sight.ray.direction);
   FilterPixel next;
   next.albedo = sight.left * bsdf.diffuseAlbedo();
   next.rest = sight.left * s.emitted();
   next.normal = s.ns, next.position = veiledPlace(s, sight.left), next.roughness = m.roughness, next.surface = 1;
-  keep(sight, {s.p, s.ns, -sight.ray.direction, hit.instance, sight.panes > 0 ? 0 : m.roughness, s.p}, next, asked);
+  keep(sight, {s.p, s.ns, -sight.ray.direction, hit.instance, false, sight.panes > 0 ? 0 : m.roughness, s.p}, next, asked);
 }
 
 // A pane before the sky: what it reflects is seen behind it, as far as it is before it.
 void FrameMaker::seePane(const Sight& sight, std::vector<Asked>& asked) const {
   const Hit hit = rays_.intersect(sight.reflected);
-  if (!hit.valid()) return seeWhole(sight, asked);
+  if (!hit.valid()) {
+    history_.light(sight.pixel) = {};
+    asked.push_back({sight.pixel, 1, {}});
+    return;
+  }
   const SurfacePoint s = surfaceAt(rays_.scene(), hit, sight.reflected.direction);
   FilterPixel next;
   next.rest = sight.left * background(lights_, sight.ray.direction);
-  keep(sight, {s.p, s.ns, -sight.reflected.direction, hit.instance, -1, sight.eye + sight.ray.direction * (sight.paneM + hit.t)}, next, asked);
+  keep(sight, {s.p, s.ns, -sight.reflected.direction, hit.instance, false, -1, sight.eye + sight.ray.direction * (sight.paneM + hit.t)}, next, asked);
 }
 
-// Of mirrors and veils, and panes that show several things: only what a camera that stands still saw.
-void FrameMaker::seeWhole(const Sight& sight, std::vector<Asked>& asked) const {
+// Of mirrors and veils, whose parts are not told apart: all that the pixel showed is found again where it was. What mirrors show is not, once the camera moves.
+void FrameMaker::seeWhole(const Sight& sight, bool mirror, std::vector<Asked>& asked) const {
+  const FrameSettings& use = history_.settings();
+  const SurfacePlace s = placeAt(rays_.scene(), sight.hit, sight.ray.direction);
+  const SeenSurface seen{s.p, s.ng, -sight.ray.direction, sight.hit.instance, true, 0, s.p};
   PastLight& now = history_.light(sight.pixel);
-  now = history_.findWhole(sight.pixel);
-  if (!(now.estimates > 0) || isTurn(sight.pixel, history_.settings().every)) asked.push_back({sight.pixel, now});
+  PastLight past = find(sight, seen);
+  if ((mirror && !history_.still()) || isReflection(past)) past = {};
+  now = past;
+  now.instance = seen.instance, now.whole = true, now.position = seen.position, now.normal = seen.normal;
+  const int every = history_.settled() ? use.everyStill : history_.still() ? use.every : use.everyVeil;
+  if (past.estimates < 1 || isTurn(sight.pixel, every)) {
+    asked.push_back({sight.pixel, past.estimates < 1 ? 1 : every, past});
+    return;
+  }
+  now.position = past.position;
+  FilterPixel& p = history_.pixel(sight.pixel);
+  p = history_.pixelBefore(past.pixel);
+  p.weight = past.estimates;
+}
+
+// Whether what mirrors show is much of a pixel of several surfaces, and is not where it was.
+bool FrameMaker::isReflection(const PastLight& past) const {
+  if (history_.still() || !(past.estimates > 0) || past.glossy >= kFewGlossy) return false;
+  const FilterPixel& p = history_.pixelBefore(past.pixel);
+  return luminance(p.specular) > kGlossyShare * luminance(p.diffuse + p.sharp + p.specular + p.rest);
+}
+
+PastLight FrameMaker::find(const Sight& sight, const SeenSurface& seen) const {
+  const int pixel = static_cast<int>(sight.pixel);
+  return history_.find(pixel % settings_.width, pixel / settings_.width, seen);
 }
 
 // `next`: the pixel without its light.
 void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next, std::vector<Asked>& asked) const {
   const FrameSettings& use = history_.settings();
   PastLight& now = history_.light(sight.pixel);
-  PastLight past = history_.find(static_cast<int>(sight.pixel) % settings_.width, static_cast<int>(sight.pixel) / settings_.width, seen);
-  if (!history_.still() && !isBlack(past.sharp)) {
+  PastLight past = find(sight, seen);
+  if (!isBlack(past.sharp) && lengthSquared(past.position - seen.position) > kGradientM * kGradientM) {
     const float before = unshadowed(past.position, past.normal), after = unshadowed(seen.position, seen.normal), change = before > 0 ? std::clamp(after / before, 0.5f, 2.0f) : 1;
     past.sharp *= change, past.variance.y *= change * change;
   }
@@ -210,16 +264,18 @@ void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterP
   const bool askForGloss = past.glossy < kFewGlossy && specular > kGlossyShare * (diffuse + specular);
   now = past;
   now.instance = seen.instance, now.position = seen.position, now.normal = seen.normal;
-  const bool stale = past.estimates < 1;
-  if (!(past.estimates > 0) || askForGloss || isTurn(sight.pixel, stale ? use.everyStale : use.every) || (stale && isAlone(sight))) {
-    asked.push_back({sight.pixel, past});
+  const bool none = !(past.estimates > 0), stale = past.estimates < 1;
+  const int every = history_.settled() ? use.everyStill : stale ? use.everyStale : use.every;
+  const bool turn = !none && isTurn(sight.pixel, every);
+  if (turn || none || history_.settled() || askForGloss || (stale && isAlone(sight))) {
+    asked.push_back({sight.pixel, turn ? every : 1, past});
     return;
   }
   now.position = past.position;
-  FilterPixel& p = history_.pixels().pixels[sight.pixel];
+  FilterPixel& p = history_.pixel(sight.pixel);
   p = next;
   setLight(now, p);
-  if (stale) p.weight = 0;  // its neighbours tell
+  if (stale) p.weight = 0, stale_ = true;  // its neighbours tell
 }
 
 void FrameMaker::light(std::span<const Asked> asked, GatherCounters& count) const {
@@ -233,25 +289,33 @@ void FrameMaker::light(std::span<const Asked> asked, GatherCounters& count) cons
   for (size_t i = 0; i < asked.size(); ++i) {
     const int x = static_cast<int>(asked[i].pixel) % w, y = static_cast<int>(asked[i].pixel) / w;
     sums[i] = {}, counts[i] = {};
-    const PixelSequence sequence(x, y, 4 * history_.frame(), settings_.seed, std::bit_floor(static_cast<uint32_t>(asked[i].past.estimates >= 1 ? history_.settings().every : 1)));
-    pixelShader_.see(pixelRays_.at(x, y, 0, 1, some), sequence, {&sums[i], &counts[i], asked[i].pixel}, work, count);
+    const PixelSequence sequence(x, y, 4 * history_.frame(), settings_.seed, std::bit_floor(static_cast<uint32_t>(asked[i].every)));
+    pixelShader_.see(pixelRays_.at(x, y, place_, 1, some), sequence, {&sums[i], &counts[i], asked[i].pixel}, work, count);
   }
   found.resize(work.shadings.size());
   shader_.shade(work.shadings, work.shadows, found, count);
   pixelShader_.findOutshining(work, found);
   PixelShader::add(work, found);
   for (size_t i = 0; i < asked.size(); ++i) {
-    FilterPixel& p = history_.pixels().pixels[asked[i].pixel];
+    FilterPixel& p = history_.pixel(asked[i].pixel);
     PastLight& now = history_.light(asked[i].pixel);
     const FilterPixel fresh = meanOf(sums[i], counts[i]);
-    if (now.instance == kNoHit) {
-      p = asked[i].past.estimates > 0 ? meanOfWholes(p, asked[i].past.estimates, fresh) : fresh;
-      now.estimates = p.weight;
-      continue;
+    const PastLight& past = asked[i].past;
+    const bool whole = now.whole || now.instance == kNoHit;
+    const FilterPixel before = history_.pixelBefore(history_.settled() ? asked[i].pixel : past.pixel);
+    if (whole) {
+      now.estimates = past.estimates + fresh.weight, now.glossy = past.glossy + fresh.weight;
+    } else {
+      now = together(past, lightOf(fresh, now));
     }
-    now = together(asked[i].past, lightOf(fresh, now));
-    p = fresh;
-    setLight(now, p);
+    if (history_.settled()) {
+      p = meanOfWholes(before, before.weight, fresh);
+    } else if (whole && past.estimates > 0) {
+      p = meanOfWholes(before, past.estimates, fresh);
+    } else {
+      p = fresh;
+      if (!whole) setLight(now, p);
+    }
   }
 }
 
@@ -264,9 +328,10 @@ void FrameMaker::make(int x0, int y0, GatherCounters& count) const {
   sights.clear(), asked.clear();
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
-      const Ray ray = pixelRays_.ray(x, y, 0);
+      const auto pixel = static_cast<uint32_t>(y * settings_.width + x);
+      if (history_.settled() && !isTurn(pixel, history_.settings().everyStill)) continue;
       Sight& s = sights.emplace_back();
-      s.pixel = static_cast<uint32_t>(y * settings_.width + x), s.ray = ray, s.eye = ray.origin;
+      s.pixel = pixel, s.ray = pixelRays_.ray(x, y, place_), s.eye = s.ray.origin;
     }
   }
   thread_local std::vector<Hit> first;
@@ -296,7 +361,7 @@ Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader
 
 Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history, const Progress& progress) {
   PictureSettings use = settings;
-  use.samples = 1;
+  use.samples = kPlaces;
   std::vector<FrameHistory::Caster> casters;
   for (size_t i = 0; i < lights.lampCount(); ++i) casters.push_back({lights.lamp(i).position, false});
   for (size_t i = 0; i < lights.sunCount(); ++i) casters.push_back({lights.sampleSun(i, {0.5f, 0.5f}).wi, true});
@@ -316,7 +381,7 @@ Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShade
   }
   std::vector<Vec3> smooth;
   Image out = use.filterPasses > 0 ? filtered(history.pixels(), use.filterPasses, maker.wraps(), &smooth) : composed(history.pixels());
-  history.end(smooth);
+  history.end(smooth, maker.leftStale());
   return out;
 }
 

@@ -67,7 +67,8 @@ PastLight together(const PastLight& before, const PastLight& now) {
 }
 
 void FrameHistory::sceneChanged(const SceneChange& change, const Scene& scene) {
-  dimmed_ |= change.lamps || !change.glow.empty();
+  const auto shines = [&](uint32_t i) { return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission); };
+  dimmed_ |= change.lamps || !change.glow.empty() || std::any_of(change.moved.begin(), change.moved.end(), shines);
   moved_.resize(scene.instances.size());
   places_.resize(scene.instances.size());
   for (const uint32_t i : change.moved) {
@@ -76,7 +77,7 @@ void FrameHistory::sceneChanged(const SceneChange& change, const Scene& scene) {
   // Where what moves for the first time was before, as far as it was seen.
   std::vector<Bounds3> seen(moved_.size());
   if (std::any_of(change.moved.begin(), change.moved.end(), [&](uint32_t i) { return places_[i].empty(); })) {
-    for (const PastLight& l : past_) {
+    for (const PastLight& l : now_) {
       if (l.instance < seen.size() && moved_[l.instance]) seen[l.instance].add(l.position);
     }
   }
@@ -102,10 +103,16 @@ void FrameHistory::begin(const Camera& camera, int width, int height, std::vecto
   if (!camera_ || width != width_ || height != height_) {
     width_ = width, height_ = height;
     past_.assign(pixels, {}), now_.assign(pixels, {});
-    pixels_.emplace(width, height);
+    pixels_.emplace(width, height), pixelsBefore_.emplace(width, height);
     camera_.reset();
   }
   still_ = camera_ && same(*camera_, camera);
+  settled_ = still_ && !dimmed_ && !anyMoved_ && !stale_;
+  framesStill_ = settled_ ? framesStill_ + 1 : 0;
+  if (!settled_) {
+    past_.swap(now_);
+    std::swap(pixels_, pixelsBefore_);
+  }
   before_.reset();
   if (camera_) before_.emplace(*camera_, width, height), beforeEye_ = camera_->worldFromCamera.w;
   camera_ = camera;
@@ -127,12 +134,13 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
   if (!before_ || (anyMoved_ && moved_[seen.instance])) return {};
   const float cosine = std::max(kLeastCosine, std::abs(dot(seen.normal, seen.wo)));
   const float footprint = kFootprints * (pixelM_ + pixelSlope_ * length(seen.place - eye_));
+  const std::vector<PastLight>& known = settled_ ? now_ : past_;
   const PastLight* best = nullptr;
   float nearest = footprint * footprint / (cosine * cosine);
   const auto look = [&](int i, int j) {
     if (i < 0 || j < 0 || i >= width_ || j >= height_) return;
-    const PastLight& l = past_[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)];
-    if (l.instance != seen.instance || !(l.estimates > 0) || dot(l.normal, seen.normal) < kFacing) return;
+    const PastLight& l = known[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)];
+    if (l.instance != seen.instance || l.whole != seen.whole || !(l.estimates > 0) || dot(l.normal, seen.normal) < kFacing) return;
     const Vec3 between = l.position - seen.position;
     const float d2 = lengthSquared(between);
     if (d2 >= nearest || std::abs(dot(between, seen.normal)) > kOffPlane * footprint) return;
@@ -150,11 +158,13 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
   }
   if (!best) return {};
   PastLight out = *best;
+  out.pixel = static_cast<uint32_t>(best - known.data());
   if (!still_ && seen.roughness >= 0) {
     const float turned = length(normalize(beforeEye_ - seen.place) - normalize(eye_ - seen.place));
     out.glossy *= std::max(0.0f, 1 - turned / (kLobe * seen.roughness * seen.roughness + kSlackRad));
   }
   float most = anyMoved_ ? settings_.mostWhileMoving : settings_.mostEstimates;
+  if (seen.whole && !still_) most = std::min(most, settings_.mostOfVeil);
   if (isStale(out.position)) {
     most = settings_.staleEstimates;
     // What is out of date must not look different from what is not, or the filter would keep them apart.
@@ -165,16 +175,12 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
   return out;
 }
 
-PastLight FrameHistory::findWhole(size_t pixel) const {
-  if (!still_ || dimmed_ || !nearPlaces_.empty() || past_[pixel].instance != kNoHit) return {};
-  return past_[pixel];
-}
+void FrameHistory::end(const std::vector<Vec3>& smooth, bool stale) {
+  stale_ = stale;
 
-void FrameHistory::end(const std::vector<Vec3>& smooth) {
-  parallelFor(smooth.size(), 4096, [&](size_t i) {
-    if (now_[i].instance != kNoHit && now_[i].estimates < settings_.smoothEstimates && pixels_->pixels[i].surface > 0) now_[i].irradiance = smooth[i];
+  if (!settled_) parallelFor(smooth.size(), 4096, [&](size_t i) {
+    if (now_[i].instance != kNoHit && !now_[i].whole && now_[i].estimates < settings_.smoothEstimates && pixels_->pixels[i].surface > 0) now_[i].irradiance = smooth[i];
   });
-  past_.swap(now_);
   nearPlaces_.clear();
   std::fill(moved_.begin(), moved_.end(), uint8_t{0});
   dimmed_ = anyMoved_ = false;

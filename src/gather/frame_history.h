@@ -6,26 +6,18 @@
 #include <vector>
 
 #include "filter/filter.h"
+#include "gather/frame_settings.h"
 #include "scene/scene_change.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight {
 
-struct FrameSettings {
-  bool reuse = true;        // of light of frames before
-  int every = 16;           // of so many pixels with a history one is lit anew in a frame; the next lower power of two counts
-  int everyStale = 4;       // the same of those whose history is out of date
-  float mostEstimates = 32;  // that a history counts for: it forgets what is older
-  float smoothEstimates = 8;  // below, pixels keep light that was filtered once with their neighbours'; 0: none do
-  float staleEstimates = 0.02f;  // that it counts for where light has changed
-  float mostWhileMoving = 8;  // where something moves, but elsewhere
-  float nearM = 0.5f;       // of what moved: light has changed there
-};
-
 // Light that a pixel found, without the colour of what reflects it.
 struct PastLight {
   Vec3 position, normal;  // of the surface, where its light was found
-  uint32_t instance = kNoHit;  // kNoHit: a pixel of several surfaces, or of none, whose light is in its FilterPixel
+  uint32_t instance = kNoHit;  // kNoHit: none
+  bool whole = false;          // of several surfaces, of which this is the first: their light is in the pixel's FilterPixel
+  uint32_t pixel = 0;          // that found it
   float estimates = 0, glossy = 0;  // how many are in its means; 0: none
   Vec3 irradiance, sharp;  // diffuse and sharp light over albedo, cd/m²
   Vec3 specular;
@@ -36,6 +28,7 @@ struct PastLight {
 struct SeenSurface {
   Vec3 position, normal, wo;  // wo: unit, towards where the ray came from last
   uint32_t instance;
+  bool whole;
   float roughness;            // of what reflects towards the eye, itself or a pane before it; below 0: what it reflects stays where it is, an image in a pane
   Vec3 place;                 // where it seems to be: `position`, or its image in a pane
 };
@@ -59,29 +52,33 @@ class FrameHistory {
   // From here on the frame before is what was made last, and pixels are to be made. `filled` says what they are once they are.
   void begin(const Camera& camera, int width, int height, std::vector<Caster> casters);
   uint32_t frame() const { return frame_; }
+  uint32_t framesStill() const { return framesStill_; }
   bool still() const { return still_; }  // the camera is where it was
+  // Nothing else has changed either: all pixels are what they were, may stay so, and are means over camera rays.
+  bool settled() const { return settled_; }
   // What was known of a surface, at the place where pixel (x, y) sees it now; estimates 0: nothing.
   PastLight find(int x, int y, const SeenSurface& seen) const;
-  // Of a pixel that sees several surfaces, or none; estimates 0: nothing.
-  PastLight findWhole(size_t pixel) const;
   PastLight& light(size_t pixel) { return now_[pixel]; }
-  FilterInput& pixels() { return *pixels_; }  // those of whole pixels are of the frame before until they are made anew
-  // `smooth`: irradiance after a first pass of the filter, which pixels of few estimates keep for theirs; may be empty.
-  void end(const std::vector<Vec3>& smooth);
+  const PastLight& light(size_t pixel) const { return now_[pixel]; }
+  FilterPixel& pixel(size_t i) { return pixels_->pixels[i]; }
+  const FilterPixel& pixelBefore(size_t i) const { return settled_ ? pixels_->pixels[i] : pixelsBefore_->pixels[i]; }
+  const FilterInput& pixels() const { return *pixels_; }
+  // `smooth`: irradiance after a first pass of the filter, which pixels of few estimates keep for theirs; may be empty. `stale`: whether pixels are left whose light is out of date.
+  void end(const std::vector<Vec3>& smooth, bool stale);
 
  private:
   bool isStale(Vec3 p) const;
 
   const FrameSettings settings_;
-  uint32_t frame_ = 0;
+  uint32_t frame_ = 0, framesStill_ = 0;
   int width_ = 0, height_ = 0;
-  bool still_ = false;
+  bool still_ = false, settled_ = false, stale_ = false;
   std::optional<Camera> camera_;
   std::optional<CameraRays> before_;  // of the frame before
   Vec3 eye_, beforeEye_;
   float pixelSlope_ = 0, pixelM_ = 0;  // of a pixel: how far its edges part, per metre of distance, and besides
   std::vector<PastLight> past_, now_;
-  std::optional<FilterInput> pixels_;
+  std::optional<FilterInput> pixels_, pixelsBefore_;
   std::vector<Bounds3> places_, nearPlaces_;  // of instances that moved, when they last did; where light has changed
   std::vector<Caster> casters_;
   std::vector<uint8_t> moved_;     // a flag an instance
