@@ -109,6 +109,7 @@ class FrameMaker {
   bool isReflection(const PastLight& past) const;
   bool isTurn(uint32_t pixel, int every) const;
   bool isAlone(const Sight& sight) const;
+  PastLight as(PastLight past, const SeenSurface& seen) const;
   float unshadowed(Vec3 p, Vec3 n) const;
 
   const RayScene& rays_;
@@ -228,7 +229,8 @@ void FrameMaker::seeWhole(const Sight& sight, bool mirror, std::vector<Asked>& a
   if ((mirror && !history_.still()) || isReflection(past)) past = {};
   now = past;
   now.instance = seen.instance, now.whole = true, now.position = seen.position, now.normal = seen.normal;
-  const int every = history_.settled() ? use.everyStill : history_.still() ? use.every : use.everyVeil;
+  const int every = history_.settled() ? use.everyStill : history_.still() ? use.every
+                                                                           : use.everyVeil;
   if (past.estimates < 1 || isTurn(sight.pixel, every)) {
     asked.push_back({sight.pixel, past.estimates < 1 ? 1 : every, past});
     return;
@@ -251,21 +253,26 @@ PastLight FrameMaker::find(const Sight& sight, const SeenSurface& seen) const {
   return history_.find(pixel % settings_.width, pixel / settings_.width, seen);
 }
 
+// Light that was found at one place of a surface, at another: nearer to a lamp, or turned to it. What is kept is not scaled, else factors would pile up.
+PastLight FrameMaker::as(PastLight past, const SeenSurface& seen) const {
+  if (isBlack(past.sharp) || lengthSquared(past.position - seen.position) < kGradientM * kGradientM) return past;
+  const float before = unshadowed(past.position, past.normal), after = unshadowed(seen.position, seen.normal), change = before > 0 ? std::clamp(after / before, 0.5f, 2.0f) : 1;
+  past.sharp *= change, past.variance.y *= change * change;
+  return past;
+}
+
 // `next`: the pixel without its light.
 void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next, std::vector<Asked>& asked) const {
   const FrameSettings& use = history_.settings();
   PastLight& now = history_.light(sight.pixel);
-  PastLight past = find(sight, seen);
-  if (!isBlack(past.sharp) && lengthSquared(past.position - seen.position) > kGradientM * kGradientM) {
-    const float before = unshadowed(past.position, past.normal), after = unshadowed(seen.position, seen.normal), change = before > 0 ? std::clamp(after / before, 0.5f, 2.0f) : 1;
-    past.sharp *= change, past.variance.y *= change * change;
-  }
+  const PastLight past = find(sight, seen);
   const float specular = luminance(past.specular), diffuse = luminance((past.irradiance + past.sharp) * next.albedo + next.rest);
   const bool askForGloss = past.glossy < kFewGlossy && specular > kGlossyShare * (diffuse + specular);
   now = past;
   now.instance = seen.instance, now.position = seen.position, now.normal = seen.normal;
   const bool none = !(past.estimates > 0), stale = past.estimates < 1;
-  const int every = history_.settled() ? use.everyStill : stale ? use.everyStale : use.every;
+  const int every = history_.settled() ? use.everyStill : stale ? use.everyStale
+                                                                : use.every;
   const bool turn = !none && isTurn(sight.pixel, every);
   if (turn || none || history_.settled() || askForGloss || (stale && isAlone(sight))) {
     asked.push_back({sight.pixel, turn ? every : 1, past});
@@ -274,7 +281,7 @@ void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterP
   now.position = past.position;
   FilterPixel& p = history_.pixel(sight.pixel);
   p = next;
-  setLight(now, p);
+  setLight(as(past, seen), p);
   if (stale) p.weight = 0, stale_ = true;  // its neighbours tell
 }
 

@@ -5,7 +5,7 @@ namespace roomlight {
 
 struct FrameSettings {
   bool reuse = true;        // of light of frames before
-  int every = 16;           // of so many pixels with a history one is lit anew in a frame; the next lower power of two counts
+  int every = 4;            // of so many pixels with a history one is lit anew in a frame; the next lower power of two counts
   int everyStill = 4;        // the same once camera and scene stand still; with a new camera ray each
   int everyStale = 4;       // the same of those whose history is out of date
   float mostEstimates = 32;  // that a history counts for: it forgets what is older

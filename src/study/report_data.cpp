@@ -1,6 +1,8 @@
 // A study for programs (JSON, CSV) and for documents (Markdown).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "study/published.h"
@@ -83,6 +85,24 @@ std::string drawingTimes(const StudyResults& r) {
   return head + "\n" + rule + "\n" + s;
 }
 
+// Of one technique over each rival, at the least error that both reach.
+std::string timeRatios(const StudyResults& r, const std::string& technique) {
+  std::string head, s;
+  for (const StudyCase& c : r.cases) {
+    const auto own = std::find_if(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) { return curve.technique == technique && !curve.points.empty(); });
+    if (own == c.curves.end()) continue;
+    std::string names = fmt::format("| `{}` over |", cell(technique)), line = "|---|", row = fmt::format("| {}, {} |", cell(c.scene), cell(c.light));
+    for (const StudyCurve& other : c.curves) {
+      if (other.kind != "rival") continue;
+      const auto ratio = timeRatioAtEqualError(*own, other);
+      names += fmt::format(" {} |", cell(other.technique)), line += "---|", row += ratio ? fmt::format(" {:.2f} |", *ratio) : " – |";
+    }
+    if (head.empty()) head = names + "\n" + line + "\n";
+    s += row + "\n";
+  }
+  return head + s;
+}
+
 std::string framesTable(const StudyResults& r) {
   std::string s = "| scene | technique | frames a second | update ms | picture ms | frames |\n|---|---|---|---|---|---|\n";
   for (const StudyFrames& f : r.frames) {
@@ -137,6 +157,9 @@ std::string studyMarkdown(const StudyHeader& header, const StudyResults& r) {
     s += fmt::format("| {} |", i + 1);
     for (const auto& t : published::kTechniques) s += fmt::format(" {:.1f} |", t.drawingS[i]);
     s += "\n";
+  }
+  for (const char* own : {"cone", "hybrid"}) {
+    if (const std::string ratios = timeRatios(r, own); !ratios.empty()) s += fmt::format("\n## Time at equal error, {}\n\nSeconds over those of the other, at the least error that both reach.\n\n", own) + ratios;
   }
   if (!r.frames.empty()) s += "\n## Frames a second along a walk (Fig. 3)\n\n" + framesTable(r) + "\nPublished: cone 36, vxgi 28, lpv 23, photon 7.\n";
   s += "\n## Where each settles (Fig. 2 and memory)\n\nPublished: cone .0034, vxgi .0051, lpv .0085, photon .0105.\n";

@@ -142,6 +142,7 @@ TEST_F(StudyTest, PicturesOfOthersStandInTheSameTable) {
   ASSERT_EQ(r.value().cases[0].externals.size(), 1u);
   EXPECT_NEAR(r.value().cases[0].externals[0].meanErrorPercent, 10, 1);
   EXPECT_NE(studyMarkdown({}, r.value()).find("offline (external)"), std::string::npos);
+  EXPECT_NE(studyMarkdown({}, r.value()).find("| `cone` over | vxgi"), std::string::npos);
 }
 
 TEST_F(StudyTest, ReportsAreWholeAndAgree) {
