@@ -2,11 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 
 #include "base/result.h"
-#include "base/tone.h"
+#include "engine/display.h"
 
 namespace roomlight::cli {
 
@@ -14,27 +13,7 @@ struct DisplayOptions {
   std::string exposure = "auto", tone = "neutral", whiteBalance = "auto";
 };
 
-struct Display {
-  std::optional<float> ev100;  // none: automatic
-  ToneCurve tone = ToneCurve::PbrNeutral;
-  bool automaticWhite = true;
-  std::optional<double> whiteK;  // none, and not automatic: no white balance
-};
-
 void addDisplayOptions(CLI::App& command, DisplayOptions& options, const std::string& ofWhat);
 Result<Display> readDisplay(const DisplayOptions& options);
-
-// What display pictures are adapted by: a temperature taken for white, and how far the eye goes along.
-struct White {
-  double kelvin = 0, degree = 0;
-};
-// `lightColour`: of the light in the picture, black where it is not known.
-White whiteOf(const Display& display, Vec3 lightColour, float ev100);
-
-// A picture in cd/m², exposed, white-balanced and tone-mapped.
-Image displayed(const Image& image, const Display& display, const White& white, float ev100);
-
-// The matrix of a white; that of no white changes nothing.
-Affine matrixOf(const White& white);
 
 }  // namespace roomlight::cli

@@ -27,6 +27,7 @@ void writePng(const std::filesystem::path& file, const Image& encoded, const Met
 void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata);
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp);
 void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp);
+std::string encodeJpeg(const ByteImage& image, int quality);
 void writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black
 Metadata readPngMetadata(std::span<const uint8_t> bytes);

@@ -135,6 +135,10 @@ Status writeJpeg(const std::filesystem::path& file, const ByteImage& image, size
   return writeAtomically(file, [&](const auto& temporary) { formats::writeJpeg(temporary, image, mostBytes, {}); });
 }
 
+Result<std::string> encodeJpeg(const ByteImage& image, int quality) {
+  return guarded<std::string>("JPEG", [&] { return formats::encodeJpeg(image, quality); });
+}
+
 Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality) {
   return writeAtomically(file, [&](const auto& temporary) { formats::writeWebp(temporary, image, quality); });
 }

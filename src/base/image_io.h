@@ -28,6 +28,8 @@ Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t
 constexpr float kLossless = 101;
 Status writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata);
 Status writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes);
+// JPEG of three channels as bytes, `quality` 1 to 100, for showing at once.
+Result<std::string> encodeJpeg(const ByteImage& image, int quality);
 Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 
 // EXR (linear), Radiance .hdr (linear) or PNG (decoded from sRGB to linear), by content.

@@ -36,6 +36,8 @@ void insertXmp(std::string& jpeg, const std::string& xmp) {
 
 }  // namespace
 
+std::string encodeJpeg(const ByteImage& image, int quality) { return compressed(image, quality); }
+
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) {
   ByteImage image(encoded.width, encoded.height, 3);
   auto* next = image.samples.data();

@@ -22,9 +22,9 @@ class BaselineScene final : public LitScene {
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
   }
-  Image picture(const Camera& camera, int width, int height, const Progress& progress, FrameHistory* history) const override {
+  Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
     if (!shader_) return {};
-    return gatherView(rays(), lights(), *shader_, camera, sized(settings_, width, height), history, progress);
+    return gatherView(rays(), lights(), *shader_, camera, asked(settings_, wish), wish.history, progress);
   }
   void lookFrom(const Camera& camera, Stages& stages) override {
     const Vec3 eye = camera.worldFromCamera.w;

@@ -22,8 +22,8 @@ class TracedScene final : public LitScene {
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), elements, settings, progress);
   }
-  Image picture(const Camera& camera, int width, int height, const Progress& progress, FrameHistory*) const override {
-    return pathTrace(rays(), lights(), camera, sized(pathStage(settings_), width, height), progress).image;
+  Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
+    return pathTrace(rays(), lights(), camera, asked(pathStage(settings_), wish), progress).image;
   }
 
  private:
@@ -38,10 +38,10 @@ class PhotonScene final : public LitScene {
     const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(elements), settings_, {{}, progress.cancelled});
     return measureIlluminance(rays(), lights(), PhotonShader(rays(), lights(), light, settings_), elements, settings, progress);
   }
-  Image picture(const Camera& camera, int width, int height, const Progress& progress, FrameHistory* history) const override {
-    const PhotonSettings use = sized(settings_, width, height);
-    const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(camera, width, height), use, {{}, progress.cancelled});
-    return gatherView(rays(), lights(), PhotonShader(rays(), lights(), light, use), camera, use, history, progress);
+  Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
+    const PhotonSettings use = asked(settings_, wish);
+    const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(camera, wish.width, wish.height), use, {{}, progress.cancelled});
+    return gatherView(rays(), lights(), PhotonShader(rays(), lights(), light, use), camera, use, wish.history, progress);
   }
 
  private:

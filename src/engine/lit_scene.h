@@ -23,18 +23,31 @@ namespace roomlight {
 
 class FrameHistory;
 
+// One of many pictures of a lit scene, such as frames, or those that are averaged.
+struct PictureWish {
+  int width = 960, height = 540;
+  int samples = 0;                  // per pixel; 0: those of the settings the scene was lit with
+  std::optional<uint64_t> seed;     // none: that of the settings
+  // Of frames before, of this scene alone, which is told of what changes; frames of one sample a pixel reuse their light. `path` does not.
+  FrameHistory* history = nullptr;
+};
+
 class LitScene {
  public:
   virtual ~LitScene() = default;
   // What falls on each element.
   virtual std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress = {}) const = 0;
   // Linear, cd/m², with the quality of the settings the scene was lit with.
-  // `history`: of frames before, of this scene alone, which is told of what changes; frames of one sample a pixel reuse their light. `path` does not.
-  virtual Image picture(const Camera& camera, int width, int height, const Progress& progress = {}, FrameHistory* history = nullptr) const = 0;
+  Image picture(const Camera& camera, int width, int height, const Progress& progress = {}, FrameHistory* history = nullptr) const {
+    return pictureOf(camera, {width, height, 0, {}, history}, progress);
+  }
+  virtual Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress = {}) const = 0;
 
   // Follows the scene; suns and sky must be as before. The same light as of a scene lit anew, up to what bounces leave out (see
   // RadianceSettings::residual, and bouncesAtOnce: what those leave out follows with later calls, also where nothing has changed). Stages "rays", "lights" and those of the technique. Cancelled, it is of no further use.
   void update(const SceneChange& change, Stages& stages);
+  // Whether update() has no more to do (see bouncesAtOnce).
+  virtual bool settled() const { return true; }
   // What holds light about one place only (vxgi, lpv: finest there) has it where this camera is, if it has left that place.
   virtual void lookFrom(const Camera&, Stages&) {}
 
@@ -45,8 +58,6 @@ class LitScene {
   LitScene(const Scene& scene, bool sunApart, Stages& stages);
   // After rays and lights have followed. `emitters`: whether emissive meshes are among what changed.
   virtual void relight(const SceneChange&, bool /*emitters*/, Stages&) {}
-  // Whether light still changes by itself.
-  virtual bool settled() const { return true; }
 
  private:
   RayScene rays_;

@@ -1,6 +1,7 @@
 // What the settings of a picture mean for the stages of each technique.
 #pragma once
 
+#include "engine/lit_scene.h"
 #include "engine/settings.h"
 
 namespace roomlight {
@@ -24,6 +25,15 @@ template <class Settings>
 Settings sized(Settings settings, int width, int height) {
   settings.width = width, settings.height = height;
   return settings;
+}
+
+// For one picture of a lit scene.
+template <class Settings>
+Settings asked(const Settings& settings, const PictureWish& wish) {
+  Settings out = sized(settings, wish.width, wish.height);
+  if (wish.samples > 0) out.samples = wish.samples;
+  if (wish.seed) out.seed = *wish.seed;
+  return out;
 }
 
 }  // namespace roomlight
