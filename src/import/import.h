@@ -28,6 +28,9 @@ struct Imported {
   Scene scene;
   std::vector<std::string> warnings;  // one per kind of thing that could not be honoured, with how often
   std::optional<PhotoWish> photo = {};  // of a Sweet Home 3D home where somebody chose one
+  // Of a Sweet Home 3D home that says where and when: a `daylight` as lighting files have it, much like the scene's own sun and sky, for
+  // other times. JSON; empty: none.
+  std::string daylight = {};
 };
 
 // .gltf, .glb, .obj, .sh3d, .sh3f. The error is one line that names the file and the place in it.

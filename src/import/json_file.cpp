@@ -39,7 +39,21 @@ class Guard {
   std::vector<std::set<std::string>> keysOfOpenObjects_;
 };
 
+Result<nlohmann::json> parsed(std::string_view text, bool comments) {
+  try {
+    Guard guard;
+    return nlohmann::json::parse(text, std::ref(guard), true, comments);
+  } catch (const std::exception& e) {
+    // nlohmann's own: "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
+    const std::string_view what = e.what();
+    const size_t close = what.starts_with("[json") ? what.find("] ") : std::string_view::npos;
+    return Error{printable(close == std::string_view::npos ? what : what.substr(close + 2), kLongestMessage)};
+  }
+}
+
 }  // namespace
+
+Result<nlohmann::json> parseJson(std::string_view text) { return parsed(text, false); }
 
 Result<nlohmann::json> readJsonFile(const std::filesystem::path& file) {
   const auto error = [&](std::string_view what) { return Error{fmt::format("{}: {}", file.string(), printable(what, kLongestMessage))}; };
@@ -50,15 +64,9 @@ Result<nlohmann::json> readJsonFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   if (!in.good() && !in.eof()) return error("cannot be read");
-  try {
-    Guard guard;
-    return nlohmann::json::parse(text, std::ref(guard), true, true);
-  } catch (const std::exception& e) {
-    // nlohmann's own: "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
-    const std::string_view what = e.what();
-    const size_t close = what.starts_with("[json") ? what.find("] ") : std::string_view::npos;
-    return error(close == std::string_view::npos ? what : what.substr(close + 2));
-  }
+  Result<nlohmann::json> document = parsed(text, true);
+  if (!document) return error(document.error());
+  return document;
 }
 
 }  // namespace roomlight

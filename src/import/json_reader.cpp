@@ -52,6 +52,7 @@ JsonPlace JsonPlace::operator[](size_t index) const { return {(*value_)[index], 
 
 bool JsonPlace::isArray() const { return value_->is_array(); }
 bool JsonPlace::isNumber() const { return value_->is_number(); }
+bool JsonPlace::isNull() const { return value_->is_null(); }
 bool JsonPlace::isText(std::string_view text) const { return value_->is_string() && value_->get_ref<const std::string&>() == text; }
 
 std::string JsonPlace::json() const { return value_->dump(); }
@@ -66,6 +67,12 @@ std::string JsonPlace::text() const {
   if (value_->is_string()) return value_->get<std::string>();
   fail("must be a text in quotes");
   return {};
+}
+
+bool JsonPlace::flag() const {
+  if (value_->is_boolean()) return value_->get<bool>();
+  fail("must be true or false");
+  return false;
 }
 
 double JsonPlace::number(double low, double high) const {

@@ -25,11 +25,13 @@ class JsonPlace {
   size_t arraySize() const;  // fails where it is none
   bool isArray() const;
   bool isNumber() const;
+  bool isNull() const;
   bool isText(std::string_view text) const;  // this one
   const std::string& path() const { return path_; }
 
   std::string text() const;
   std::string json() const;  // the value as it is, for another reader
+  bool flag() const;  // true or false
   double number(double low, double high) const;
   Vec3 vector(double low, double high) const;             // [x, y, z]
   double quantity(Unit unit, double low, double high) const;  // "800 lm"

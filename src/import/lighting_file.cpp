@@ -4,6 +4,7 @@
 //     "sun": { "direction": [x,y,z], "illuminance": "75000 lx" } or { "latitude", "longitude", "time" } or a list of them,
 //     "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" | "horizontalIlluminance": "10 klx" },
 //     "daylight": { "sky": "clear"|"intermediate"|"overcast"|1..16|"perez", "latitude", "longitude", "time", .. },
+//     "own": [ { "name", "number", "dimming": 0..1, "factor", .. } ],
 //     "glazing": [ { "material": "Glass", "panes": 2, "internalTransmittance": 0.96, "ior": 1.52 } ] }
 #include "import/lighting_file.h"
 
@@ -16,6 +17,7 @@
 #include "import/lighting_daylight.h"
 #include "import/lighting_glazing.h"
 #include "import/lighting_lamps.h"
+#include "import/lighting_own.h"
 #include "import/lighting_sky.h"
 #include "import/lighting_values.h"
 
@@ -56,12 +58,13 @@ struct Lighting {
   std::vector<Sun> suns;
   std::optional<Sky> sky;
   std::vector<GlazedMaterial> glazing;
+  std::vector<OwnLamp> own;
   std::vector<std::string> warnings;
 };
 
 Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder, PhotometricFiles& files) {
   Lighting out;
-  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight", "glazing"})) return out;
+  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight", "glazing", "own"})) return out;
   if (root.has("version") && root["version"].number(1, 1e6) != 1) root["version"].fail("must be 1");
   if (root.has("comment")) root["comment"].text();
   if (root.has("scene")) out.kept = readKept(root["scene"]);
@@ -86,6 +89,7 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
     out.sky = std::move(daylight.sky);
   }
   if (root.has("glazing")) out.glazing = readGlazing(root["glazing"]);
+  if (root.has("own")) out.own = readOwnLamps(root["own"]);
   return out;
 }
 
@@ -98,6 +102,7 @@ bool emissionStaysInRange(const Scene& scene, float factor) {
 
 void apply(Lighting& lighting, Scene& scene) {
   const Kept& kept = lighting.kept;
+  applyOwnLamps(lighting.own, scene);  // while they are all there
   if (!kept.lamps) std::erase_if(scene.lamps, [](const Lamp& l) { return l.kind != LampKind::Area; });
   if (!kept.suns) scene.suns.clear();
   if (!kept.sky) scene.sky = {};
@@ -117,13 +122,18 @@ void apply(Lighting& lighting, Scene& scene) {
 Status applyLightingFile(const std::filesystem::path& file, Scene& scene, std::vector<std::string>* warnings) {
   const Result<nlohmann::json> json = readJsonFile(file);
   if (!json) return Error{json.error()};
+  return applyLighting(json.value(), file, scene, warnings);
+}
+
+Status applyLighting(const nlohmann::json& document, const std::filesystem::path& file, Scene& scene, std::vector<std::string>* warnings) {
   std::string error;
   PhotometricFiles files;
-  Lighting lighting = readLighting(JsonPlace(json.value(), "", error), file.parent_path(), files);
+  Lighting lighting = readLighting(JsonPlace(document, "", error), file.parent_path(), files);
   if (!error.empty()) return Error{fmt::format("{}: {}", file.string(), error)};
   if (!emissionStaysInRange(scene, lighting.kept.emission)) {
     return Error{fmt::format("{}: scene.emission: would make a material brighter than 1e12 cd/m2", file.string())};
   }
+  if (const std::string wrong = missingLamp(lighting.own, scene); !wrong.empty()) return Error{fmt::format("{}: {}", file.string(), wrong)};
   if (const std::string wrong = missingMaterial(lighting.glazing, scene); !wrong.empty()) return Error{fmt::format("{}: {}", file.string(), wrong)};
   apply(lighting, scene);
   if (warnings) {

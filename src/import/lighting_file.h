@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,8 @@ namespace roomlight {
 // missing units and values out of range are errors that name the file and the JSON path. The scene is untouched then. What was odd in
 // photometric files goes to `warnings`, one line each.
 Status applyLightingFile(const std::filesystem::path& file, Scene& scene, std::vector<std::string>* warnings = nullptr);
+
+// The same of a document that was read, as that file.
+Status applyLighting(const nlohmann::json& document, const std::filesystem::path& file, Scene& scene, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace roomlight

@@ -26,8 +26,9 @@ Imported readSh3d(const std::filesystem::path& file, const ImportOptions& option
   }
   const Home home = readHomeXml(*xml, warnings);
   const ContentDigests digests(archive, warnings);
-  Scene scene = sceneOfHome(home, archive, digests, options, warnings);
-  return {std::move(scene), warnings.lines(), home.environment.photo};
+  std::string daylight;
+  Scene scene = sceneOfHome(home, archive, digests, options, warnings, daylight);
+  return {std::move(scene), warnings.lines(), home.environment.photo, std::move(daylight)};
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "import/sh3d_environment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -82,11 +84,25 @@ void paintGround(Image& sky, Vec3 groundCdM2) {
   }
 }
 
-void addDaylight(const Home& home, const Paints& paints, const std::string& wantedCamera, Vec3 groundReflectance, Scene& scene, Warnings& warnings) {
+// For other times than the home's: like its own, but for its sky's picture and the hue of its sun.
+std::string daylightJson(const Home& home, int64_t wallSeconds, int offsetSeconds, Vec3 groundReflectance) {
+  const Compass& compass = *home.compass;
+  const std::chrono::sys_seconds wall{std::chrono::seconds(wallSeconds)};
+  const auto day = std::chrono::floor<std::chrono::days>(wall);
+  const std::chrono::year_month_day date(day);
+  const auto second = static_cast<int>((wall - day).count());
+  const int offset = std::abs(offsetSeconds) / 60;
+  const Vec3 sky = hue(home.environment.skyColour.value_or(0xffffff)) * hue(home.environment.lightColour.value_or(0xffffff));
+  return fmt::format(R"({{"sky": "clear", "latitude": {:.6f}, "longitude": {:.6f}, "north": {:.4f}, "ground": {:.4f}, "color": [{:.5f}, {:.5f}, {:.5f}], "time": "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}"}})",
+                     *compass.latitudeRad * kDegrees, *compass.longitudeRad * kDegrees, std::remainder(-compass.northRad * kDegrees, 360.0), std::clamp(luminance(groundReflectance), 0.0f, 1.0f), sky.x, sky.y, sky.z,
+                     static_cast<int>(date.year()), static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), second / 3600, second / 60 % 60, second % 60, offsetSeconds < 0 ? '-' : '+', offset / 60, offset % 60);
+}
+
+std::string addDaylight(const Home& home, const Paints& paints, const std::string& wantedCamera, Vec3 groundReflectance, Scene& scene, Warnings& warnings) {
   const Camera* camera = cameraOfTime(home, wantedCamera);
   if (!home.compass || !home.compass->latitudeRad || !home.compass->longitudeRad || !camera || !camera->timeMs || std::abs(*camera->timeMs) > kLatestMs) {
     warnings.add("the home does not say where it stands, or when it is seen: there is no daylight; a lighting file can give it");
-    return;
+    return {};
   }
   const Compass& compass = *home.compass;
   const int64_t wallSeconds = *camera->timeMs / 1000;
@@ -97,7 +113,8 @@ void addDaylight(const Home& home, const Paints& paints, const std::string& want
   }
   const Moment moment = momentOf(wallSeconds, *offset);
   const SunPosition position = sunPosition(moment, *compass.latitudeRad * kDegrees, *compass.longitudeRad * kDegrees);
-  if (position.altitudeRad <= 0) return;
+  std::string otherTimes = daylightJson(home, wallSeconds, *offset, groundReflectance);
+  if (position.altitudeRad <= 0) return otherTimes;
   Sun sun;
   sun.name = "sun";
   // North stands at that angle clockwise from the plan's up, -z: so -z bears the opposite angle.
@@ -122,6 +139,7 @@ void addDaylight(const Home& home, const Paints& paints, const std::string& want
   }
   scene.sky.horizonEdge = true;
   scene.suns.push_back(std::move(sun));
+  return otherTimes;
 }
 
 // A rectangle around the home without the rooms that lie below it.
@@ -144,14 +162,15 @@ void addGround(const Home& home, int material, Scene& scene, int& object) {
 
 }  // namespace
 
-void addEnvironment(const Home& home, Paints& paints, const std::string& camera, Scene& scene, int& object, Warnings& warnings) {
+std::string addEnvironment(const Home& home, Paints& paints, const std::string& camera, Scene& scene, int& object, Warnings& warnings) {
   const Environment& env = home.environment;
   Paint ground;
   ground.colour = env.groundColour.value_or(kUsualGround);
   ground.texture = env.groundTexture;
   const int material = paints.material(ground, "ground");
-  addDaylight(home, paints, camera, linearColour(*ground.colour) * kWhiteReflectance, scene, warnings);
+  std::string daylight = addDaylight(home, paints, camera, linearColour(*ground.colour) * kWhiteReflectance, scene, warnings);
   addGround(home, material, scene, object);
+  return daylight;
 }
 
 }  // namespace roomlight::importers::sh3d

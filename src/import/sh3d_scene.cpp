@@ -46,7 +46,7 @@ std::set<std::string> modelsOf(const Home& home) {
 
 }  // namespace
 
-Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests, const ImportOptions& options, Warnings& warnings) {
+Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests, const ImportOptions& options, Warnings& warnings, std::string& daylight) {
   Scene scene;
   Paints paints(archive, digests, imagesOf(home), scene, warnings);
   int object = 0;
@@ -57,7 +57,7 @@ Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests
   addFurniture(home, models, paints, options.maxTriangles, options.lumenAtFullPower, scene, object, warnings);
   addPolylines(home, paints, scene, object);
   addCameras(home, scene, warnings);
-  addEnvironment(home, paints, options.camera, scene, object, warnings);
+  daylight = addEnvironment(home, paints, options.camera, scene, object, warnings);
   return scene;
 }
 

@@ -178,7 +178,8 @@ Imported readSh3f(const std::filesystem::path& file, const ImportOptions& option
   if (!catalogue) fail("", fmt::format("holds no {}, so it is no furniture library of Sweet Home 3D", kCatalogue));
   if (catalogue->size() > kMaxCatalogueBytes) fail(kCatalogue, fmt::format("is larger than {} MiB", kMaxCatalogueBytes >> 20));
   const Home home = showroom(javaProperties(*catalogue), warnings);
-  Scene scene = sceneOfHome(home, archive, ContentDigests(), options, warnings);
+  std::string daylight;  // of a piece of furniture there is none
+  Scene scene = sceneOfHome(home, archive, ContentDigests(), options, warnings, daylight);
   return {std::move(scene), warnings.lines()};
 }
 
