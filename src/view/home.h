@@ -1,0 +1,54 @@
+// A home as a session has it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "view/editable.h"
+
+namespace roomlight::view {
+
+// Sun and sky of one moment; no sky: it stays as it is.
+struct SunLight {
+  std::vector<Sun> suns;
+  std::optional<Sky> sky;
+};
+
+// A sun that follows date and hour.
+struct SunByDate {
+  SunState atStart;
+  double latitudeDeg = 0, longitudeDeg = 0, utcOffsetH = 0;
+  std::string sky;  // in words
+  nlohmann::json source;                // of a lighting file: its `daylight` or `sun`
+  bool isDaylight = true;               // `source` is a `daylight`
+  std::function<Result<SunLight>(const SunState&)> at;
+};
+
+// What a home opened with: to save its lighting as a file like the one it came from.
+struct LightingSource {
+  nlohmann::json document;  // of the lighting file, without comments; null: none was given
+  size_t lamps = 0;         // the scene's last so many are the file's, in its order
+  std::filesystem::path folder;  // that its paths are relative to
+};
+
+struct ViewHome {
+  ViewHome(std::string homeName, Scene homeScene) : name(std::move(homeName)), scene(std::move(homeScene)), editable(makeEditable(scene)) {}
+
+  std::string name;
+  Scene scene;
+  EditableHome editable;
+  HomeState atStart() const;
+  std::optional<HomeState> opened;  // the lamps as the lighting file has them, where it dims some; `scene` has them undimmed
+  std::optional<SunByDate> sun;
+  LightingSource lighting;
+};
+
+// The scene in that state, with its sun.
+Result<Scene> sceneIn(const ViewHome& home, const HomeState& state);
+
+}  // namespace roomlight::view

@@ -1,0 +1,80 @@
+#include "view/point.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/spot_meter.h"
+#include "trace/camera_rays.h"
+#include "trace/surface_point.h"
+
+namespace roomlight::view {
+namespace {
+
+constexpr float kLampPixels = 12;
+constexpr double kTolerance = 0.01;
+constexpr int kFewest = 256, kMost = 4096;
+constexpr int kSpotPixels = 8, kSpotSamples = 4;
+constexpr float kSpotRad = kPi / 540;
+
+template <class List, class Holds>
+int numberOf(const List& list, Holds&& holds) {
+  const auto found = std::find_if(list.begin(), list.end(), holds);
+  return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+}
+
+bool isSeen(const RayScene& rays, Vec3 eye, Vec3 place) {
+  const Vec3 way = place - eye;
+  return !isBlack(rays.transmittance({eye, way, 0, 0.999f}));
+}
+
+int bodilessLampAt(const EditableHome& home, const LitHome& lit, const Camera& camera, std::pair<int, int> size, float px, float py, float reach) {
+  const CameraRays view(camera, size.first, size.second);
+  int best = -1;
+  float nearest = reach;
+  for (size_t k = 0; k < home.lamps.size(); ++k) {
+    if (!home.lamps[k].instances.empty()) continue;
+    const Vec3 place = positionOf(home, k, lit.state);
+    const std::optional<Vec2> at = view.pixelOf(place);
+    if (!at) continue;
+    const float distance = std::hypot(at->x - px, at->y - py);
+    if (distance < nearest && isSeen(lit.lit->rays(), camera.worldFromCamera.w, place)) best = static_cast<int>(k), nearest = distance;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<PickedPoint> pickAt(const EditableHome& home, const LitHome& lit, const Camera& camera, std::pair<int, int> size, float x, float y, float pixels) {
+  const float px = x * static_cast<float>(size.first), py = y * static_cast<float>(size.second);
+  const Ray ray = CameraRays(camera, size.first, size.second).ray(px, py);
+  const Hit hit = lit.lit->rays().intersect(ray);
+  const float reach = kLampPixels * static_cast<float>(size.second) / std::max(1.0f, pixels);
+  const int lamp = bodilessLampAt(home, lit, camera, size, px, py, reach);
+  PickedPoint out;
+  if (!hit.valid()) {
+    if (lamp < 0) return {};
+    out.point = positionOf(home, static_cast<size_t>(lamp), lit.state), out.normal = -ray.direction;
+    out.distanceM = length(out.point - camera.worldFromCamera.w), out.lamp = lamp;
+    return out;
+  }
+  const SurfacePoint p = surfaceAt(lit.scene, hit, ray.direction);
+  out.point = p.p, out.normal = p.ng, out.distanceM = length(p.p - camera.worldFromCamera.w), out.material = p.material->name;
+  out.object = numberOf(home.objects, [&](const EditableObject& o) { return !o.lampBody && std::any_of(o.parts.begin(), o.parts.end(), [&](const auto& part) { return part.instance == hit.instance; }); });
+  out.lamp = lamp >= 0 ? lamp : numberOf(home.lamps, [&](const EditableLamp& l) { return std::find(l.instances.begin(), l.instances.end(), hit.instance) != l.instances.end(); });
+  return out;
+}
+
+std::optional<Metered> meterAt(const LitHome& lit, const PickedPoint& at, Vec3 eye, const std::atomic<bool>& stop) {
+  const SurfaceElement element{at.point, at.normal};
+  MeterSettings settings;
+  settings.tolerance = kTolerance, settings.fewestSamples = kFewest, settings.mostSamples = kMost;
+  const std::vector<MeterReading> readings = lit.lit->illuminance({&element, 1}, settings, {{}, &stop});
+  const Image spot = lit.lit->pictureOf(cameraAt(eye, normalize(at.point - eye), kSpotRad), {kSpotPixels, kSpotPixels, kSpotSamples, {}}, {{}, &stop});
+  if (stop || readings.empty() || spot.pixels.empty()) return {};
+  Metered out;
+  out.illuminanceLux = static_cast<double>(luminance(readings[0].illuminanceLux)), out.standardErrorLux = readings[0].standardErrorLux;
+  for (const Vec3& p : spot.pixels) out.luminanceCdM2 += static_cast<double>(luminance(p)) / static_cast<double>(spot.pixels.size());
+  return out;
+}
+
+}  // namespace roomlight::view

@@ -1,0 +1,28 @@
+// What is under the pointer, and what a light meter shows there.
+#pragma once
+
+#include <atomic>
+#include <optional>
+
+#include "view/lit_home.h"
+
+namespace roomlight::view {
+
+struct PickedPoint {
+  Vec3 point, normal;  // of the side that is seen
+  float distanceM = 0;
+  int object = -1, lamp = -1;  // in the lists of EditableHome
+  std::string material;
+};
+
+// `x`, `y`: fractions of the picture of `size`. A lamp without a body is found within 12 of the viewport's `pixels` of height where nothing stands before it.
+std::optional<PickedPoint> pickAt(const EditableHome& home, const LitHome& lit, const Camera& camera, std::pair<int, int> size, float x, float y, float pixels);
+
+struct Metered {
+  double illuminanceLux = 0, standardErrorLux = 0;  // on the side that is seen
+  double luminanceCdM2 = 0;                         // towards the camera, mean over a third of a degree
+};
+// Empty if stopped.
+std::optional<Metered> meterAt(const LitHome& lit, const PickedPoint& point, Vec3 eye, const std::atomic<bool>& stop);
+
+}  // namespace roomlight::view

@@ -1,0 +1,76 @@
+#include "view/refiner.h"
+
+#include "base/parallel.h"
+#include "filter/blend.h"
+#include "reference/path_tracer.h"
+
+namespace roomlight::view {
+namespace {
+
+constexpr int kFewestSamples = 4;      // before the first blend
+constexpr double kLookAgain = 1.5;     // times the samples of the last
+constexpr int kMostSamples = 1 << 14;
+constexpr float kGoodEnough = 0.002f;  // relative error: less cannot be seen
+
+}  // namespace
+
+void Refiner::begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first) {
+  stop();
+  cancelled_ = false;
+  home_ = &home;
+  thread_ = std::thread([this, &home, camera, settings, threads, first = std::move(first)] { withThreads(threads, [&] { run(home, camera, settings, first); }); });
+}
+
+// False: given up.
+bool Refiner::tracePasses(PathTracer& tracer, int until) {
+  Progress progress;
+  progress.cancelled = &cancelled_;
+  const std::lock_guard lock(usesHome_);
+  while (tracer.samples() < until) {
+    if (cancelled_ || !tracer.pass(progress)) return false;
+  }
+  return !cancelled_;
+}
+
+void Refiner::run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first) {
+  std::optional<PathTracer> made;
+  {
+    const std::lock_guard lock(usesHome_);
+    if (cancelled_) return;
+    made.emplace(home.lit->rays(), home.lit->lights(), camera, settings, true);
+  }
+  PathTracer& tracer = *made;
+  for (int samples = kFewestSamples; tracePasses(tracer, samples); samples = std::min(kMostSamples, static_cast<int>(kLookAgain * samples))) {
+    Blend best = blend(first, tracer.mean(), tracer.variance(), tracer.features());
+    const auto error = static_cast<float>(best.relativeError);
+    const bool last = samples >= kMostSamples || error < kGoodEnough;
+    {
+      const std::lock_guard lock(mutex_);
+      picture_ = RefinedPicture{std::move(best.image), static_cast<uint32_t>(samples), error, last};
+    }
+    ready_();
+    if (last) return;
+  }
+}
+
+std::optional<RefinedPicture> Refiner::take() {
+  const std::lock_guard lock(mutex_);
+  std::optional<RefinedPicture> out = std::move(picture_);
+  picture_.reset();
+  return out;
+}
+
+void Refiner::letGo() {
+  cancelled_ = true;
+  const std::lock_guard lock(usesHome_);
+  home_ = nullptr;
+}
+
+void Refiner::stop() {
+  cancelled_ = true;
+  if (thread_.joinable()) thread_.join();
+  home_ = nullptr;
+  picture_.reset();
+}
+
+}  // namespace roomlight::view

@@ -1,0 +1,58 @@
+// Puts a picture right by path tracing, in the background, so that the session can answer meanwhile.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "engine/settings.h"
+#include "view/lit_home.h"
+
+namespace roomlight {
+
+class PathTracer;
+
+namespace view {
+
+struct RefinedPicture {
+  Image image;  // cd/m²
+  uint32_t samples = 0;
+  float relativeError = 0;  // estimate: root mean square
+  bool last = false;        // as good as it gets
+};
+
+class Refiner {
+ public:
+  // `ready` is called from its thread when there is another picture to take.
+  explicit Refiner(std::function<void()> ready) : ready_(std::move(ready)) {}
+  ~Refiner() { stop(); }
+
+  // Begins anew with a picture that has little noise; `home` must stay as it is until letGo() or stop() has returned.
+  void begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first);
+  const LitHome* home() const { return home_; }  // null: none
+  std::optional<RefinedPicture> take();
+  // Asks it to end, and does not wait.
+  void giveUp() { cancelled_ = true; }
+  // Ends its use of the home, which may change from then on. Waits for a pass to be given up; the first goes on to its end.
+  void letGo();
+  // Waits for all of it: a blend takes about a second for a large picture.
+  void stop();
+
+ private:
+  void run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first);
+  bool tracePasses(PathTracer& tracer, int until);
+
+  const std::function<void()> ready_;
+  const LitHome* home_ = nullptr;
+  std::atomic<bool> cancelled_{false};
+  std::mutex usesHome_;  // held while the home is looked at
+  std::mutex mutex_;     // of the picture
+  std::optional<RefinedPicture> picture_;
+  std::thread thread_;
+};
+
+}  // namespace view
+}  // namespace roomlight

@@ -1,0 +1,175 @@
+#include "view/render_jobs.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <random>
+
+#include "base/clock.h"
+#include "base/image_io.h"
+#include "base/parallel.h"
+#include "engine/display.h"
+
+namespace roomlight::view {
+namespace {
+
+constexpr size_t kMostWaiting = 8, kMostFinished = 16;
+constexpr double kTellEveryS = 0.25;
+
+std::string newId() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
+}
+
+// Tells now and then how far a job is.
+class Teller {
+ public:
+  Teller(const RenderWork& work, const std::function<void(const JobNews&)>& tell) : tell_(tell) { news_.job = work.job, news_.window = work.window; }
+  void report(const std::string& stage, float fraction) {
+    if (stage != news_.stage) stageWatch_ = Stopwatch();
+    const bool isNew = stage != news_.stage;
+    news_.stage = stage, news_.fraction = static_cast<double>(fraction);
+    const double seconds = stageWatch_.seconds();
+    news_.secondsLeft = fraction > 0.02f && seconds > 1 ? seconds * (1 / static_cast<double>(fraction) - 1) : -1;
+    if (!isNew && watch_.seconds() < kTellEveryS) return;
+    watch_ = Stopwatch();
+    tell_(news_);
+  }
+  void estimate(double relativeError) { news_.estimatedError = relativeError; }
+  JobNews& news() { return news_; }
+
+ private:
+  const std::function<void(const JobNews&)>& tell_;
+  JobNews news_;
+  Stopwatch watch_, stageWatch_;
+};
+
+}  // namespace
+
+RenderJobs::RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell) : home_(home), tell_(std::move(tell)) {
+  std::error_code code;
+  std::string pattern = (std::filesystem::temp_directory_path(code) / "roomlight-renders-XXXXXX").string();
+  if (!code && mkdtemp(pattern.data())) folder_ = pattern;
+  thread_ = std::thread([this] { run(); });
+}
+
+RenderJobs::~RenderJobs() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true, cancelled_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+  std::error_code ignored;
+  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+}
+
+bool RenderJobs::add(RenderWork work) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.size() >= kMostWaiting) return false;
+    waiting_.push_back(std::move(work));
+  }
+  wake_.notify_all();
+  return true;
+}
+
+bool RenderJobs::cancel(const std::string& job) {
+  JobNews news;
+  {
+    const std::lock_guard lock(mutex_);
+    if (running_ == job) {
+      cancelled_ = true;
+      return true;
+    }
+    const auto waits = std::find_if(waiting_.begin(), waiting_.end(), [&](const RenderWork& w) { return w.job == job; });
+    if (waits == waiting_.end()) return false;
+    news.job = job, news.window = waits->window, news.state = "cancelled";
+    waiting_.erase(waits);
+  }
+  tell_(news);
+  return true;
+}
+
+std::optional<FinishedFile> RenderJobs::take(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto file = finished_.find(id);
+  if (file == finished_.end()) return {};
+  FinishedFile out = std::move(file->second);
+  finished_.erase(file);
+  return out;
+}
+
+void RenderJobs::run() {
+  while (true) {
+    RenderWork next;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return stop_ || !waiting_.empty(); });
+      if (stop_) return;
+      next = std::move(waiting_.front());
+      waiting_.pop_front();
+      running_ = next.job, cancelled_ = false;
+    }
+    withThreads(next.settings.threads, [&] { work(next); });
+    const std::lock_guard lock(mutex_);
+    running_.clear();
+  }
+}
+
+void RenderJobs::work(const RenderWork& work) {
+  Teller teller(work, tell_);
+  RenderProgress progress;
+  progress.report = [&](const std::string& stage, float fraction) { teller.report(stage, fraction); };
+  progress.estimate = [&](double relativeError, double) { teller.estimate(relativeError); };
+  progress.cancelled = &cancelled_;
+  JobNews& news = teller.news();
+  const auto failed = [&](const std::string& message) {
+    news.state = "failed", news.message = message;
+    tell_(news);
+  };
+  try {
+    Result<Scene> scene = sceneIn(home_, work.state);
+    if (!scene) return failed(scene.error());
+    const Result<Rendered> rendered = render(scene.value(), work.camera, work.settings, progress);
+    if (!rendered) return failed(rendered.error());
+    news.state = rendered.value().complete ? "done" : "cancelled";
+    news.secondsLeft = 0;
+    if (rendered.value().image.width > 0) {
+      Result<FinishedFile> file = write(work, rendered.value());
+      if (!file) return failed(file.error());
+      std::error_code ignored;
+      news.fileId = newId(), news.fileName = file.value().name, news.bytes = std::filesystem::file_size(file.value().path, ignored);
+      const std::lock_guard lock(mutex_);
+      if (finished_.size() >= kMostFinished) {  // nobody came for them
+        std::filesystem::remove(finished_.begin()->second.path, ignored);
+        finished_.erase(finished_.begin());
+      }
+      finished_[news.fileId] = std::move(file).value();
+    }
+    tell_(news);
+  } catch (const std::bad_alloc&) {
+    failed("not enough memory for this picture");
+  }
+}
+
+Result<FinishedFile> RenderJobs::write(const RenderWork& work, const Rendered& rendered) const {
+  if (folder_.empty()) return Error{"no folder for temporary files; set TMPDIR to one that can be written"};
+  FinishedFile out;
+  out.name = work.fileName;
+  out.path = folder_ / (newId() + "." + work.format);
+  const Metadata metadata = {{"roomlight.settings", settingsToJson(work.settings)}};
+  Status status = Ok{};
+  if (work.format == "exr") {
+    status = writeExr(out.path, rendered.image, metadata);
+  } else {
+    const Display& display = work.display.display;
+    const float ev100 = (display.ev100 ? *display.ev100 : automaticEv100(rendered.image)) - work.display.compensationEv;
+    const Image shown = displayed(rendered.image, display, whiteOf(display, rendered.lightColour, ev100), ev100);
+    status = work.format == "jpg" ? writeJpeg(out.path, shown, SIZE_MAX) : writePng(out.path, shown, metadata);
+  }
+  if (!status) return Error{status.error()};
+  return out;
+}
+
+}  // namespace roomlight::view

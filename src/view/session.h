@@ -1,0 +1,141 @@
+// One home looked at through several windows. Knows messages and frames, no network: who owns it hands in what browsers say and carries
+// away what they are told. One thread does all the work on light; another lights afresh in the background.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <list>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "view/apply_edit.h"
+#include "view/describe.h"
+#include "view/history.h"
+#include "view/refiner.h"
+#include "view/render_jobs.h"
+#include "view/window.h"
+
+namespace roomlight::view {
+
+// Called from the session's threads, until its destructor has returned.
+struct Outbox {
+  std::function<void(Connection, std::string text)> text;
+  std::function<void(Connection, std::string bytes)> frame;
+  std::function<void(const std::string& line)> failed;  // the home could not be lit; for whoever started the session
+};
+
+class Session {
+ public:
+  // `settings`: technique, quality and threads count.
+  Session(ViewHome home, const RenderSettings& settings, Outbox outbox);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // All from any thread. `window`: that of an earlier connection, or empty.
+  void open(Connection connection, const std::string& window);
+  void receive(Connection connection, const std::string& text);
+  void close(Connection connection);
+  // A finished picture, once.
+  std::optional<FinishedFile> takeFile(const std::string& id) { return jobs_.take(id); }
+
+ private:
+  struct Opened {
+    std::string window;
+  };
+  struct Closed {};
+  struct Event {
+    Connection connection;
+    TimePoint at;
+    std::variant<Opened, Closed, Message> what;
+  };
+
+  // session.cpp: the loop
+  void push(Connection connection, std::variant<Opened, Closed, Message> what);
+  void run();
+  bool handleEvents();
+  bool work();
+  void adoptBuilt();
+  void beginBuilding();
+
+  // session_messages.cpp: what each message does
+  void handle(const Event& event);
+  void openWindow(const Event& event, const std::string& wanted);
+  void on(Window& window, const Event& event, const Viewport& m);
+  void on(Window& window, const Event& event, const ViewCamera& m);
+  void on(Window& window, const Event& event, const DisplayChange& m);
+  void on(Window& window, const Event& event, const ChooseTechnique& m);
+  void on(Window& window, const Event& event, const ChooseSplit& m);
+  void on(Window& window, const Event& event, const Edit& m);
+  void on(Window& window, const Event& event, const StepHistory& m);
+  void on(Window& window, const Event& event, const EditPlan& m);
+  void on(Window& window, const Event& event, const Point& m);
+  void on(Window& window, const Event& event, const Ack& m);
+  void on(Window& window, const Event& event, const RenderWish& m);
+  void on(Window& window, const Event& event, const CancelJob& m);
+  void on(Window& window, const Event& event, const SaveLighting& m);
+  void on(Window& window, const Event& event, const Ping& m);
+  void on(Window& window, const Event& event, const ViewError& m);
+  void setState(HomeState next, const Window& by);
+  Json stateJson(const std::vector<size_t>& lamps, const std::vector<size_t>& objects, bool sun) const;
+  void addHistory(Json& json) const;
+  void forgetLostWindows();
+  void tellJobs(const std::vector<JobNews>& news);  // session_jobs.cpp
+
+  // session_frames.cpp
+  Window* windowOf(Connection connection);
+  void chooseSides(Window& window);
+  void newInput(Window& window, TimePoint at);
+  LitHome* litFor(const LightKey& key);
+  void bringUpToDate(LitHome& home, const Camera& camera);
+  HomeState stateOf(const LightKey& key) const;
+  bool makeFrame(Window& window);
+  bool answerPoints(Window& window);  // session_points.cpp
+  bool stepSide(Window& window, size_t index);
+  bool refines(const Side& side) const;
+  void beginRefining();  // session_refine.cpp
+  bool takeRefined();
+  void sendFrame(Window& window, size_t index, LitHome& home);
+
+  void tell(const Window& window, std::string text) const;
+  void tellAll(const std::string& text) const;
+  void takeNews(const JobNews& news);
+  void tellRefined();
+  void tellProgress(const std::string& stage, float fraction);
+
+  ViewHome home_;
+  RenderSettings settings_;
+  const Outbox outbox_;
+  HomeState state_;
+  uint32_t revision_ = 1;
+  History history_;
+  std::map<std::string, HomeState> plans_;
+  std::list<Window> windows_;
+  std::list<std::unique_ptr<LitHome>> lit_;
+  LightBuilder builder_;
+  std::string failedBuild_;  // technique that could not be lit: not tried again until something changes
+  Json homeJson_;
+  struct Refining {  // whose picture it is; of an older serial it is of no more use
+    std::string window;
+    size_t side = 0;
+    uint32_t serial = 0;
+  };
+  std::optional<Refining> refining_;
+  int nextJob_ = 1;
+
+  std::mutex mutex_;  // of what follows
+  std::optional<std::pair<std::string, float>> progress_;  // not told yet
+  std::condition_variable wake_;
+  std::vector<Event> events_;
+  std::vector<JobNews> jobNews_;  // not told yet
+  bool built_ = false, refinedReady_ = false;
+  std::atomic<bool> stop_{false}, newer_{false};
+  Refiner refiner_;
+  RenderJobs jobs_;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+bool isTechnique(const std::string& name);
+
+}  // namespace roomlight::view

@@ -1,0 +1,206 @@
+// What each message of a browser does.
+#include <fmt/format.h>
+
+#include <random>
+
+#include "engine/render.h"
+#include "import/printable.h"
+#include "view/session.h"
+
+namespace roomlight::view {
+namespace {
+
+constexpr size_t kMostWindows = 64, kMostPlans = 20;
+constexpr std::chrono::minutes kKept{10};
+
+std::string newName() {
+  static std::random_device random;
+  return fmt::format("{:08x}", random());
+}
+
+ViewError noTechnique(uint32_t id, const char* field, const std::string& name) { return {id, "unknownThing", field, fmt::format("no technique '{}'", printable(name))}; }
+
+}  // namespace
+
+bool isTechnique(const std::string& name) {
+  const auto all = techniques();
+  return std::any_of(all.begin(), all.end(), [&](const auto& t) { return t.first == name; });
+}
+
+void Session::handle(const Event& event) {
+  if (const auto* opened = std::get_if<Opened>(&event.what)) return openWindow(event, opened->window);
+  Window* window = windowOf(event.connection);
+  if (!window) return;
+  if (std::holds_alternative<Closed>(event.what)) {
+    window->connection.reset();
+    window->leftAt = event.at;
+    if (refining_ && refining_->window == window->name) refiner_.giveUp(), refining_.reset();
+    return;
+  }
+  std::visit([&](const auto& m) { on(*window, event, m); }, std::get<Message>(event.what));
+}
+
+void Session::openWindow(const Event& event, const std::string& wanted) {
+  const auto known = std::find_if(windows_.begin(), windows_.end(), [&](const Window& w) { return !wanted.empty() && w.name == wanted; });
+  if (known == windows_.end()) {
+    Window& w = windows_.emplace_back();
+    w.name = newName();
+    w.technique = settings_.technique;
+    w.camera = viewOf(defaultCamera(home_.scene));
+    chooseSides(w);
+  }
+  Window& window = known == windows_.end() ? windows_.back() : *known;
+  window.connection = event.connection;
+  window.underWay.clear();
+  newInput(window, event.at);
+  Json welcome = homeJson_;
+  addWindow(window, welcome);
+  std::vector<size_t> lamps(home_.editable.lamps.size()), objects(home_.editable.objects.size());
+  for (size_t i = 0; i < lamps.size(); ++i) lamps[i] = i;
+  for (size_t i = 0; i < objects.size(); ++i) objects[i] = i;
+  welcome.update(stateJson(lamps, objects, true));
+  welcome["type"] = "welcome";
+  tell(window, textOf(welcome));
+}
+
+void Session::forgetLostWindows() {
+  const TimePoint now = std::chrono::steady_clock::now();
+  windows_.remove_if([&](const Window& w) { return !w.connection && (now - w.leftAt > kKept || windows_.size() > kMostWindows); });
+}
+
+void Session::on(Window& window, const Event& event, const Viewport& m) {
+  window.viewport = m;
+  newInput(window, event.at);
+}
+
+void Session::on(Window& window, const Event& event, const ViewCamera& m) {
+  window.camera = m;
+  newInput(window, event.at);
+}
+
+void Session::on(Window& window, const Event& event, const DisplayChange& m) {
+  apply(m, window.display);
+  window.inputAt = event.at, window.inputShown = false;
+  for (Side& s : window.sides) s.again = true;
+}
+
+void Session::on(Window& window, const Event& event, const ChooseTechnique& m) {
+  if (!isTechnique(m.technique)) return tell(window, errorText(noTechnique(m.id, "technique", m.technique)));
+  window.technique = m.technique;
+  failedBuild_.clear();
+  chooseSides(window);
+  newInput(window, event.at);
+  tell(window, okText(m.id));
+}
+
+void Session::on(Window& window, const Event& event, const ChooseSplit& m) {
+  if (m.split) {
+    const std::pair<const char*, const SplitSide*> sides[] = {{"left", &m.split->left}, {"right", &m.split->right}};
+    for (const auto& [name, side] : sides) {
+      const std::string field = fmt::format("split.{}", name);
+      if (!side->technique.empty() && !isTechnique(side->technique)) return tell(window, errorText(noTechnique(m.id, (field + ".technique").c_str(), side->technique)));
+      if (!side->plan.empty() && !plans_.contains(side->plan)) return tell(window, errorText({m.id, "unknownThing", field + ".plan", fmt::format("no plan '{}'", printable(side->plan))}));
+    }
+  }
+  window.split = m.split;
+  failedBuild_.clear();
+  chooseSides(window);
+  newInput(window, event.at);
+  tell(window, okText(m.id));
+}
+
+void Session::on(Window& window, const Event&, const Edit& m) {
+  Edited edited;
+  if (const auto error = applyEdit(home_.editable, home_.scene, m, state_, edited)) return tell(window, errorText(*error));
+  tell(window, okText(m.id));
+  if (edited.state == state_) return;
+  history_.step(state_, edited.label, m.gesture.empty() ? "" : window.name + m.gesture);
+  setState(std::move(edited.state), window);
+}
+
+void Session::on(Window& window, const Event&, const StepHistory& m) {
+  if (m.back ? !history_.canUndo() : !history_.canRedo()) return tell(window, errorText({m.id, "notPossible", "", m.back ? "there is nothing to undo" : "there is nothing to redo"}));
+  tell(window, okText(m.id));
+  setState(m.back ? history_.undo(state_) : history_.redo(state_), window);
+}
+
+void Session::on(Window& window, const Event&, const EditPlan& m) {
+  const auto known = plans_.find(m.name);
+  if (m.what != EditPlan::Do::Keep && known == plans_.end()) return tell(window, errorText({m.id, "unknownThing", "name", fmt::format("no plan '{}'", printable(m.name))}));
+  if (m.what == EditPlan::Do::Apply) {
+    HomeState next = state_;
+    next.lamps = known->second.lamps, next.sun = known->second.sun;
+    tell(window, okText(m.id));
+    if (next == state_) return;
+    history_.step(state_, fmt::format("Plan {}", m.name), "");
+    return setState(std::move(next), window);
+  }
+  if (m.name == "start") return tell(window, errorText({m.id, "notPossible", "name", "the plan 'start' stays as it is"}));
+  if (m.what == EditPlan::Do::Keep && known == plans_.end() && plans_.size() >= kMostPlans) return tell(window, errorText({m.id, "notPossible", "name", fmt::format("there are {} plans already; drop one", kMostPlans)}));
+  if (m.what == EditPlan::Do::Keep) {
+    plans_[m.name] = state_;
+  } else {
+    plans_.erase(known);
+    for (Window& w : windows_) {  // windows that show it show what is edited
+      if (!w.split) continue;
+      for (SplitSide* s : {&w.split->left, &w.split->right}) {
+        if (s->plan == m.name) s->plan.clear();
+      }
+      chooseSides(w);
+    }
+  }
+  tell(window, okText(m.id));
+  ++revision_;
+  Json json = stateJson({}, {}, false);
+  json["by"] = window.name;
+  tellAll(textOf(json));
+}
+
+void Session::on(Window& window, const Event& event, const Ack& m) {
+  auto& sent = window.underWay;
+  const auto frame = std::find_if(sent.begin(), sent.end(), [&](const SentFrame& f) { return f.number == m.frame; });
+  if (frame == sent.end()) return tell(window, errorText({{}, "badField", "frame", fmt::format("no frame {} is under way", m.frame)}));
+  window.line.sent(frame->bytes, std::chrono::duration<double, std::milli>(event.at - frame->at).count());
+  sent.erase(sent.begin(), std::next(frame));
+}
+
+void Session::on(Window& window, const Event&, const ViewError& m) { tell(window, errorText(m)); }
+void Session::on(Window&, const Event&, const Ping&) {}  // answered when it came
+
+void Session::setState(HomeState next, const Window& by) {
+  std::vector<size_t> lamps, objects;
+  for (size_t i = 0; i < next.objects.size(); ++i) {
+    if (!(next.objects[i] == state_.objects[i])) objects.push_back(i);
+  }
+  for (size_t i = 0; i < next.lamps.size(); ++i) {
+    const int object = home_.editable.lamps[i].object;
+    const bool carried = object >= 0 && std::binary_search(objects.begin(), objects.end(), static_cast<size_t>(object));
+    if (carried || !(next.lamps[i] == state_.lamps[i])) lamps.push_back(i);
+  }
+  const bool sun = !(next.sun == state_.sun);
+  state_ = std::move(next);
+  ++revision_;
+  failedBuild_.clear();
+  Json json = stateJson(lamps, objects, sun);
+  json["by"] = by.name;
+  tellAll(textOf(json));
+  const TimePoint now = std::chrono::steady_clock::now();
+  for (Window& w : windows_) newInput(w, now);
+}
+
+Json Session::stateJson(const std::vector<size_t>& lamps, const std::vector<size_t>& objects, bool sun) const {
+  Json json{{"type", "state"}, {"revision", revision_}};
+  Json lampList = Json::array(), objectList = Json::array(), planList = Json::array();
+  for (const size_t i : lamps) lampList.push_back(lampJson(home_.editable, i, state_));
+  for (const size_t i : objects) {
+    if (!home_.editable.objects[i].lampBody) objectList.push_back(objectJson(home_.editable, home_.scene, i, state_));
+  }
+  for (const auto& [name, state] : plans_) planList.push_back(name);
+  json["lamps"] = lampList, json["objects"] = objectList, json["plans"] = planList;
+  if (sun) json["sun"] = sunJson(home_, state_);
+  json["undo"] = history_.canUndo() ? Json(history_.undoLabel()) : Json(nullptr);
+  json["redo"] = history_.canRedo() ? Json(history_.redoLabel()) : Json(nullptr);
+  return json;
+}
+
+}  // namespace roomlight::view

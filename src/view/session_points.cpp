@@ -1,0 +1,67 @@
+// Picking and metering.
+#include <cmath>
+
+#include "measure/exposure.h"
+#include "view/point.h"
+#include "view/session.h"
+
+namespace roomlight::view {
+namespace {
+
+Json orNothing(int number, std::string (*id)(size_t)) { return number < 0 ? Json(nullptr) : Json(id(static_cast<size_t>(number))); }
+
+Json ev(double value) { return std::isfinite(value) ? Json(std::round(value * 100) / 100) : Json(nullptr); }
+
+Json pickedJson(const PickedPoint& p) {
+  return {{"point", vectorJson(p.point)},
+          {"normal", vectorJson(p.normal)},
+          {"distanceM", p.distanceM},
+          {"object", orNothing(p.object, objectId)},
+          {"lamp", orNothing(p.lamp, lampId)},
+          {"material", p.material}};
+}
+
+Json meteredJson(const PickedPoint& p, const Metered& m) {
+  return {{"point", vectorJson(p.point)},
+          {"normal", vectorJson(p.normal)},
+          {"object", orNothing(p.object, objectId)},
+          {"illuminanceLux", m.illuminanceLux},
+          {"standardErrorLux", m.standardErrorLux},
+          {"luminanceCdM2", m.luminanceCdM2},
+          {"incidentEv100", ev(incidentEv100(m.illuminanceLux))},
+          {"reflectedEv100", ev(reflectedEv100(m.luminanceCdM2))}};
+}
+
+std::string answer(const char* type, uint32_t id, Json hit) { return textOf({{"type", type}, {"id", id}, {"hit", std::move(hit)}}); }
+
+}  // namespace
+
+void Session::on(Window& window, const Event&, const Point& m) {
+  std::optional<Point>& waiting = m.meter ? window.meter : window.pick;
+  if (waiting) tell(window, answer(m.meter ? "metered" : "picked", waiting->id, nullptr));
+  waiting = m;
+}
+
+// Answers what waits, where there is light to answer by. False: nothing does.
+bool Session::answerPoints(Window& window) {
+  if ((!window.pick && !window.meter) || window.viewport.width == 0) return false;
+  LitHome* home = litFor(window.sides.front().key);
+  if (!home) return false;
+  const Camera camera = cameraOf(window.camera);
+  bringUpToDate(*home, camera);
+  const auto find = [&](const Point& p) { return pickAt(home_.editable, *home, camera, frameSize(window.viewport, 1), p.x, p.y, static_cast<float>(window.viewport.height)); };
+  if (window.pick) {
+    const std::optional<PickedPoint> picked = find(*window.pick);
+    tell(window, answer("picked", window.pick->id, picked ? pickedJson(*picked) : Json(nullptr)));
+    window.pick.reset();
+  }
+  if (!window.meter) return true;
+  const Point asked = *window.meter;
+  const std::optional<PickedPoint> picked = find(asked);
+  const std::optional<Metered> metered = picked ? meterAt(*home, *picked, camera.worldFromCamera.w, stop_) : std::nullopt;
+  tell(window, answer("metered", asked.id, metered ? meteredJson(*picked, *metered) : Json(nullptr)));
+  window.meter.reset();
+  return true;
+}
+
+}  // namespace roomlight::view

@@ -1,0 +1,105 @@
+#include "view/shown.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "photometry/white_balance.h"
+
+namespace roomlight::view {
+namespace {
+
+constexpr double kAdaptsInS = 0.2;
+constexpr int kColours = 1024;
+
+ByteImage bytesOf(const Image& encoded) {
+  ByteImage out(encoded.width, encoded.height, 3);
+  parallelFor(encoded.pixels.size(), 16384, [&](size_t i) {
+    for (int c = 0; c < 3; ++c) out.samples[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(std::clamp(encoded.pixels[i][c], 0.0f, 1.0f) * 255 + 0.5f);
+  });
+  return out;
+}
+
+using Colour = std::array<uint8_t, 3>;
+const std::array<Colour, kColours>& colours() {
+  static const std::array<Colour, kColours> table = [] {
+    std::array<Colour, kColours> t;
+    for (int i = 0; i < kColours; ++i) {
+      const Vec3 c = falseColour(static_cast<double>(i) / (kColours - 1));
+      for (int k = 0; k < 3; ++k) t[static_cast<size_t>(i)][static_cast<size_t>(k)] = static_cast<uint8_t>(std::clamp(c[k], 0.0f, 1.0f) * 255 + 0.5f);
+    }
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace
+
+void apply(const DisplayChange& change, ViewDisplay& d) {
+  if (change.ev100) d.display.ev100 = *change.ev100;
+  if (change.compensationEv) d.compensationEv = *change.compensationEv;
+  if (change.curve) d.display.tone = *change.curve;
+  if (change.automaticWhite) d.display.automaticWhite = *change.automaticWhite;
+  if (change.whiteK) d.display.whiteK = *change.whiteK;
+  if (change.falseColour) d.falseColour = *change.falseColour;
+  if (change.low) d.low = *change.low;
+  if (change.high) d.high = *change.high;
+}
+
+void Adaptation::follow(float wantedEv100, std::optional<float> wantedWhiteK, double seconds) {
+  const auto share = static_cast<float>(1 - std::exp(-seconds / kAdaptsInS));
+  ev100 = ev100 ? *ev100 + share * (wantedEv100 - *ev100) : wantedEv100;
+  // Even steps of 1/K are even steps of colour.
+  if (!wantedWhiteK || !whiteK) {
+    whiteK = wantedWhiteK;
+  } else {
+    whiteK = 1 / (1 / *whiteK + share * (1 / *wantedWhiteK - 1 / *whiteK));
+  }
+}
+
+ByteImage showPicture(const Image& light, Vec3 lightColour, const ViewDisplay& d, double seconds, Adaptation& eye, FrameInfo& info) {
+  const float wanted = d.display.ev100 ? *d.display.ev100 : automaticEv100(light);
+  const bool findsWhite = d.display.automaticWhite && !isBlack(lightColour);
+  const std::optional<float> wantedK = findsWhite ? std::optional(static_cast<float>(nearestWhiteK(lightColour))) : std::nullopt;
+  // What is set by hand holds at once.
+  eye.follow(wanted, wantedK, d.display.ev100 ? kInfinity : seconds);
+  Display display = d.display;
+  const float ev100 = *eye.ev100 - d.compensationEv;
+  White white;
+  if (display.whiteK) {
+    white = {*display.whiteK, 1};
+  } else if (eye.whiteK) {
+    white = {static_cast<double>(*eye.whiteK), degreeOfAdaptation(0.18 / static_cast<double>(exposureFromEv100(ev100)))};
+  }
+  info.ev100 = ev100;
+  info.whiteK = white.degree > 0 ? static_cast<float>(white.kelvin) : FrameInfo::kNone;
+  return bytesOf(displayed(light, display, white, ev100));
+}
+
+ByteImage showAmounts(const Image& amounts, const ViewDisplay& d, FrameInfo& info) {
+  std::vector<float> values;
+  for (const Vec3& p : amounts.pixels) {
+    if (p.x > 0) values.push_back(p.x);
+  }
+  LightScale scale = values.empty() ? LightScale() : scaleOf(values);
+  if (d.low) scale.low = *d.low;
+  if (d.high) scale.high = *d.high;
+  if (!(scale.high > scale.low * 1.01)) {  // what was set by hand stays
+    if (d.high && !d.low) {
+      scale.low = scale.high / 10;
+    } else {
+      scale.high = scale.low * 10;
+    }
+  }
+  info.scaleLow = static_cast<float>(scale.low), info.scaleHigh = static_cast<float>(scale.high);
+  ByteImage out(amounts.width, amounts.height, 3);
+  parallelFor(amounts.pixels.size(), 4096, [&](size_t i) {
+    if (amounts.pixels[i].x < 0) return;  // black
+    const auto place = static_cast<size_t>(std::lround(scale.position(static_cast<double>(amounts.pixels[i].x)) * (kColours - 1)));
+    std::copy(colours()[place].begin(), colours()[place].end(), out.samples.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  });
+  return out;
+}
+
+}  // namespace roomlight::view

@@ -1,0 +1,135 @@
+// How a state of lamps and things is put into a scene.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "photometry/colour_temperature.h"
+#include "view/editable.h"
+
+namespace roomlight::view {
+namespace {
+
+Affine placeOf(const EditableObject& object, const ObjectState& state) {
+  const float turnRad = state.turnDeg * kPi / 180, c = std::cos(turnRad), s = std::sin(turnRad);
+  const Vec3 about = object.bounds.centre();
+  Affine place{{c, 0, -s}, {0, 1, 0}, {s, 0, c}, {}};
+  place.w = about - place.vector(about) + state.move;
+  return place;
+}
+
+bool isAtRest(const ObjectState& state) { return isBlack(state.move) && state.turnDeg == 0; }
+
+// The shortest turn from one unit direction to another.
+Affine turnBetween(Vec3 from, Vec3 to, Vec3 up) {
+  const float c = dot(from, to);
+  if (c < -0.9999f) {  // half a turn about `up`
+    return {up * (2 * up.x) - Vec3{1, 0, 0}, up * (2 * up.y) - Vec3{0, 1, 0}, up * (2 * up.z) - Vec3{0, 0, 1}, {}};
+  }
+  const Vec3 v = cross(from, to);
+  const auto turned = [&](Vec3 p) { return p + cross(v, p) + cross(v, cross(v, p)) / (1 + c); };
+  return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1}), {}};
+}
+
+// From where the file has the lamp to where it is.
+Affine lampPlace(const EditableHome& home, size_t index, const HomeState& state) {
+  const EditableLamp& lamp = home.lamps[index];
+  if (lamp.object >= 0) {
+    const ObjectState& thing = state.objects[static_cast<size_t>(lamp.object)];
+    return isAtRest(thing) ? Affine() : placeOf(home.objects[static_cast<size_t>(lamp.object)], thing);
+  }
+  if (lamp.sources.empty()) return {};
+  const LampState& now = state.lamps[index];
+  const Lamp& file = lamp.sources[0].full;
+  Affine place;
+  if (lamp.aimed && !(now.direction == lamp.direction)) place = turnBetween(lamp.direction, now.direction, file.up);
+  place.w = now.position - place.vector(lamp.position);
+  return place;
+}
+
+// What the light of a source or a material is in that state, of which the file says it is `full`.
+Vec3 lightIn(const EditableLamp& lamp, const LampState& state, bool hidden, Vec3 full) {
+  if (!state.on || hidden) return {};
+  const double flux = lamp.fluxLm > 0 ? state.fluxLm / lamp.fluxLm : 1;
+  const auto factor = static_cast<float>(flux * static_cast<double>(state.dim));
+  if (state.temperatureK) return blackBodyColour(static_cast<double>(*state.temperatureK)) * (luminance(full) * factor);
+  return (state.color ? *state.color * luminance(full) : full) * factor;
+}
+
+void stageLamp(const EditableHome& home, size_t index, const HomeState& to, Scene& scene, SceneChange& change) {
+  const EditableLamp& lamp = home.lamps[index];
+  const LampState& state = to.lamps[index];
+  const bool hidden = lamp.object >= 0 && to.objects[static_cast<size_t>(lamp.object)].hidden;
+  const Affine place = lampPlace(home, index, to);
+  for (const EditableLamp::Source& s : lamp.sources) {
+    Lamp& out = scene.lamps[s.lamp];
+    out.position = place.point(s.full.position);
+    out.direction = place.vector(s.full.direction), out.up = place.vector(s.full.up);
+    out.intensityCd = lightIn(lamp, state, hidden, s.full.intensityCd);
+    out.luminanceCdM2 = lightIn(lamp, state, hidden, s.full.luminanceCdM2);
+    change.lamps = change.lamps || lamp.glows.empty() || out.kind != LampKind::Area;
+  }
+  for (const EditableLamp::Glow& g : lamp.glows) {
+    Vec3& emission = scene.materials[g.material].emission;
+    const Vec3 next = lightIn(lamp, state, hidden, g.emission);
+    if (!(emission == next)) change.glow.insert(change.glow.end(), lamp.instances.begin(), lamp.instances.end());
+    emission = next;
+  }
+  if (lamp.object >= 0 || lamp.sources.empty()) return;
+  for (const uint32_t i : lamp.instances) {  // rectangles, which stand in the world's own frame
+    Affine& now = scene.instances[i].worldFromObject;
+    if (now.x == place.x && now.y == place.y && now.z == place.z && now.w == place.w) continue;
+    now = place;
+    change.moved.push_back(i);
+  }
+}
+
+void stageObject(const EditableHome& home, size_t index, const HomeState& to, Scene& scene, SceneChange& change) {
+  const EditableObject& object = home.objects[index];
+  const ObjectState& state = to.objects[index];
+  const Affine place = placeOf(object, state);
+  for (const EditableObject::Part& part : object.parts) {
+    Instance& instance = scene.instances[part.instance];
+    instance.worldFromObject = isAtRest(state) ? part.atRest : place * part.atRest;
+    instance.mesh = state.hidden ? home.hiddenMesh : part.mesh;
+    change.moved.push_back(part.instance);
+  }
+  for (size_t k = 0; k < object.paints.size(); ++k) scene.materials[object.paints[k].material].baseColor = state.colors[k];
+}
+
+void sortOnce(std::vector<uint32_t>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+}  // namespace
+
+SceneChange stage(const EditableHome& home, const HomeState& from, const HomeState& to, Scene& scene) {
+  SceneChange change;
+  for (size_t i = 0; i < home.objects.size(); ++i) {
+    if (!(from.objects[i] == to.objects[i])) stageObject(home, i, to, scene, change);
+  }
+  for (size_t i = 0; i < home.lamps.size(); ++i) {
+    const int object = home.lamps[i].object;
+    const bool carried = object >= 0 && !(from.objects[static_cast<size_t>(object)] == to.objects[static_cast<size_t>(object)]);
+    if (carried || !(from.lamps[i] == to.lamps[i])) stageLamp(home, i, to, scene, change);
+  }
+  sortOnce(change.moved), sortOnce(change.glow);
+  return change;
+}
+
+Bounds3 boundsOf(const EditableObject& object, const ObjectState& state) {
+  if (isAtRest(state)) return object.bounds;
+  const Affine place = placeOf(object, state);
+  Bounds3 bounds;
+  for (const EditableObject::Part& part : object.parts) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Bounds3& b = part.bounds;
+      bounds.add(place.point({corner & 1 ? b.hi.x : b.lo.x, corner & 2 ? b.hi.y : b.lo.y, corner & 4 ? b.hi.z : b.lo.z}));
+    }
+  }
+  return bounds;
+}
+
+Vec3 positionOf(const EditableHome& home, size_t lamp, const HomeState& state) { return lampPlace(home, lamp, state).point(home.lamps[lamp].position); }
+
+}  // namespace roomlight::view

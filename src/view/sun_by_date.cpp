@@ -1,0 +1,116 @@
+#include "view/sun_by_date.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "import/lighting_daylight.h"
+#include "import/lighting_sky.h"
+#include "photometry/epw.h"
+#include "photometry/sun.h"
+
+namespace roomlight::view {
+namespace {
+
+using nlohmann::json;
+
+// Of "..T17:00+02:00" or "..Z", which parseMoment() has taken already.
+double utcOffsetOf(const std::string& text) {
+  const size_t sign = text.find_last_of("+-");
+  if (text.ends_with('Z') || sign == std::string::npos || sign + 6 != text.size()) return 0;
+  int hours = 0, minutes = 0;
+  std::from_chars(text.data() + sign + 1, text.data() + sign + 3, hours);
+  std::from_chars(text.data() + sign + 4, text.data() + sign + 6, minutes);
+  return (text[sign] == '-' ? -1 : 1) * (hours + minutes / 60.0);
+}
+
+std::optional<double> number(const json& j, const char* key) { return j.contains(key) && j[key].is_number() ? std::optional(j[key].get<double>()) : std::nullopt; }
+
+// Where the weather was measured.
+std::optional<std::pair<double, double>> placeOfWeather(const json& j, const std::filesystem::path& folder) {
+  if (!j.contains("weather") || !j["weather"].is_string()) return {};
+  std::ifstream in(folder / j["weather"].get<std::string>(), std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  const Result<Epw> weather = parseEpw(text);
+  if (!weather) return {};
+  return std::pair(weather.value().latitudeDeg, weather.value().longitudeDeg);
+}
+
+// By place and time; none where the source knows no time or goes by a direction.
+std::optional<SunByDate> byDate(const json& source, const std::filesystem::path& folder) {
+  if (!source.is_object() || !source.contains("time") || !source["time"].is_string()) return {};
+  const std::string text = source["time"].get<std::string>();
+  const Result<Moment> moment = parseMoment(text);
+  const auto latitude = number(source, "latitude"), longitude = number(source, "longitude");
+  const auto weather = placeOfWeather(source, folder);
+  if (!moment || ((!latitude || !longitude) && !weather)) return {};
+  SunByDate out;
+  out.latitudeDeg = latitude ? *latitude : weather->first, out.longitudeDeg = longitude ? *longitude : weather->second;
+  out.utcOffsetH = utcOffsetOf(text);
+  out.source = source;
+  const Moment& m = moment.value();  // its date is the local one, its hour that of UTC
+  out.atStart = {m.year, m.month, m.day, m.hour + out.utcOffsetH};
+  return out;
+}
+
+json atTime(const SunByDate& sun, const SunState& state) {
+  json source = sun.source;
+  source["time"] = timeText(state, sun.utcOffsetH);
+  return source;
+}
+
+std::string skyInWords(const json& sky) {
+  if (sky.is_string()) return sky.get<std::string>();
+  return sky.is_number() ? fmt::format("CIE type {}", sky.get<double>()) : "perez";
+}
+
+}  // namespace
+
+std::string timeText(const SunState& s, double utcOffsetH) {
+  const int seconds = std::min(86399, static_cast<int>(std::lround(s.hour * 3600)));
+  const int offset = static_cast<int>(std::lround(std::abs(utcOffsetH) * 60));
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}", s.year, s.month, s.day, seconds / 3600, seconds / 60 % 60, seconds % 60, utcOffsetH < 0 ? '-' : '+', offset / 60, offset % 60);
+}
+
+std::optional<SunByDate> sunOfDaylight(const json& daylight, const std::filesystem::path& folder) {
+  std::optional<SunByDate> out = byDate(daylight, folder);
+  if (!out) return {};
+  out->sky = daylight.contains("weather") ? "weather" : skyInWords(daylight.value("sky", json()));
+  out->at = [sun = *out, folder](const SunState& state) -> Result<SunLight> {
+    std::string error;
+    const json source = atTime(sun, state);
+    Daylight light = readDaylight(JsonPlace(source, "daylight", error), folder);
+    if (!error.empty()) return Error{error};
+    SunLight lit;
+    if (!isBlack(light.sun.illuminanceLux)) lit.suns.push_back(light.sun);
+    lit.sky = std::move(light.sky);
+    return lit;
+  };
+  return out;
+}
+
+std::optional<SunByDate> sunOfLighting(const json& document, const std::filesystem::path& folder) {
+  if (!document.is_object()) return {};
+  if (document.contains("daylight")) return sunOfDaylight(document["daylight"], folder);
+  if (!document.contains("sun")) return {};
+  std::optional<SunByDate> out = byDate(document["sun"], folder);
+  if (!out) return {};
+  out->isDaylight = false;
+  out->sky = "as it is";
+  out->at = [sun = *out](const SunState& state) -> Result<SunLight> {
+    std::string error;
+    const json source = atTime(sun, state);
+    const Sun light = readSun(JsonPlace(source, "sun", error));
+    if (!error.empty()) return Error{error};
+    SunLight lit;
+    if (!isBlack(light.illuminanceLux)) lit.suns.push_back(light);
+    return lit;
+  };
+  return out;
+}
+
+}  // namespace roomlight::view

@@ -1,0 +1,16 @@
+// The sun of a home that follows date and hour, if its lighting knows a place and a time.
+#pragma once
+
+#include "view/home.h"
+
+namespace roomlight::view {
+
+// Of a lighting file: its `daylight`, or its one `sun`. Paths in it are relative to `folder`.
+std::optional<SunByDate> sunOfLighting(const nlohmann::json& document, const std::filesystem::path& folder);
+// Of a `daylight` that was found elsewhere.
+std::optional<SunByDate> sunOfDaylight(const nlohmann::json& daylight, const std::filesystem::path& folder);
+
+// "2026-06-21T17:30:00+02:00"
+std::string timeText(const SunState& state, double utcOffsetH);
+
+}  // namespace roomlight::view

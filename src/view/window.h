@@ -1,0 +1,62 @@
+// A browser's window: where it looks from, how it shows it, and the pictures it is being sent.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/growing_picture.h"
+#include "view/message.h"
+#include "view/shown.h"
+
+namespace roomlight::view {
+
+using Connection = uint64_t;
+using TimePoint = std::chrono::steady_clock::time_point;
+
+struct SentFrame {
+  uint32_t number;
+  size_t bytes;
+  TimePoint at;
+};
+
+// One picture of the window: the whole, or a half of a split.
+struct Side {
+  LightKey key;
+  GrowingPicture picture;
+  uint32_t shownSerial = 0;    // input that the picture shows
+  uint32_t shownRevision = 0;  // state of the light that it shows
+  bool again = false;          // to be shown once more: only the display is another
+};
+
+struct Window {
+  std::string name;
+  std::optional<Connection> connection;  // none: lost, perhaps taken up again
+  TimePoint leftAt;
+  Viewport viewport;  // of no size: not told yet
+  ViewCamera camera;
+  ViewDisplay display;
+  std::string technique;
+  std::optional<Split> split;
+  std::vector<Side> sides;
+  uint32_t serial = 1;        // counts inputs that need other pictures
+  TimePoint inputAt;          // the newest of them
+  bool inputShown = true;
+  std::deque<SentFrame> underWay;
+  uint32_t nextFrame = 1;
+  Line line;
+  Adaptation eye[2];
+  TimePoint lastFrameAt;
+  std::optional<Point> pick, meter;  // wait to be answered
+};
+
+// Size of a frame in that window, in pixels of the display, within limits.
+std::pair<int, int> frameSize(const Viewport& viewport, float scale);
+Camera cameraOf(const ViewCamera& camera);
+ViewCamera viewOf(const Camera& camera);
+
+constexpr int kMostFrameWidth = 1920, kMostFrameHeight = 1080;
+
+}  // namespace roomlight::view
