@@ -28,5 +28,6 @@ Registered addMix(CLI::App& program);
 Registered addWalk(CLI::App& program);
 Registered addValidate(CLI::App& program);
 Registered addStudy(CLI::App& program);
+Registered addView(CLI::App& program);
 
 }  // namespace roomlight::cli

@@ -1,0 +1,113 @@
+// roomlight view: walk through a home in a browser.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "arguments.h"
+#include "browser.h"
+#include "commands.h"
+#include "console.h"
+#include "engine/quality.h"
+#include "engine/stages.h"
+#include "import/import.h"
+#include "interrupt.h"
+#include "server/view_server.h"
+#include "view/open_home.h"
+
+namespace roomlight::cli {
+namespace {
+
+struct Options {
+  std::string scene, lighting, viewer, quality, address = "127.0.0.1";
+  std::optional<std::string> technique;
+  std::optional<int> threads;
+  int port = 0;
+  float metresPerUnit = 1;
+  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
+  bool noOpen = false, quiet = false;
+};
+
+int bad(const std::string& message, int code = kBadInput) {
+  printError(message);
+  return code;
+}
+
+Result<RenderSettings> readSettings(const Options& o) {
+  RenderSettings s;
+  if (!o.quality.empty()) {
+    if (const Status status = applyQuality(o.quality, s); !status) return Error{"--" + status.error()};
+  }
+  s.technique = o.technique.value_or(s.technique);
+  s.threads = o.threads.value_or(s.threads);
+  if (const Status status = checkSettings(s); !status) return Error{status.error()};
+  if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
+  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
+  return s;
+}
+
+// Where the page lies: beside an installed program, or in the tree that it was built in.
+std::filesystem::path viewerFolder() {
+  std::error_code code;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
+  const std::filesystem::path places[] = {program / "../share/roomlight/viewer", program / "../../viewer/dist"};
+  for (const auto& place : places) {
+    if (std::filesystem::exists(place / "index.html", code)) return std::filesystem::weakly_canonical(place, code);
+  }
+  return places[0].lexically_normal();
+}
+
+int runView(const Options& o) {
+  const std::atomic<bool>& stop = interrupted();  // from here on Ctrl-C is ours
+  const Result<RenderSettings> settings = readSettings(o);
+  if (!settings) return bad(settings.error());
+  Result<server::StaticFiles> page = server::readStaticFiles(o.viewer.empty() ? viewerFolder() : std::filesystem::path(o.viewer));
+  if (!page) return bad(page.error());
+  ProgressDisplay display(o.quiet);
+  RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &stop, {}};
+  RenderStats stats;
+  Stages loading(progress, stats);
+  std::vector<std::string> warnings;
+  Result<view::ViewHome> home = loading.run("load", [&](const Progress&) { return view::openHome(o.scene, o.lighting, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower}, warnings); });
+  if (!home) return bad(home.error());
+  if (!o.quiet) printWarnings(warnings);
+  server::Options options;
+  options.address = o.address;
+  options.port = static_cast<uint16_t>(o.port);
+  std::optional<BrowserPage> shown;
+  server::Served tell;
+  tell.listening = [&](const std::string& link) {
+    if (o.address != "127.0.0.1" && o.address != "::1") printWarnings({fmt::format("--address {}: everybody who can reach it and has the link may look and change; nothing is encrypted", o.address)});
+    fmt::print("{}\n", link);
+    std::fflush(stdout);
+    if (!o.noOpen) shown.emplace(link);
+  };
+  tell.failed = [](const std::string& line) { printError(line); };
+  const Status served = server::serveHome(std::move(home).value(), settings.value(), options, std::move(page).value(), tell, stop);
+  return served ? kOk : bad(served.error());
+}
+
+}  // namespace
+
+Registered addView(CLI::App& program) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("view", "Walk through a home in a browser, move things, dim lamps, read lux");
+  app->add_option("HOME", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
+  app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
+  app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
+  app->add_option("--quality", o->quality, listed("How fine the light is kept:", qualities()));
+  app->add_option("--port", o->port, "Port to listen on; 0: any that is free")->capture_default_str()->check(CLI::Range(0, 65535));
+  app->add_option("--address", o->address, "Address to listen on; anything but this machine's own lets others in")->capture_default_str();
+  app->add_option("--viewer", o->viewer, "Folder of the built page");
+  app->add_flag("--no-open", o->noOpen, "Print the link only, open no browser");
+  app->add_option("--threads", o->threads, "Threads; 0: all cores");
+  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
+  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")->capture_default_str()->check(CLI::Range(0.0, 1e9));
+  app->add_flag("--quiet", o->quiet, "Only the link and errors");
+  app->footer(
+      "Prints the link of the page and opens it. The link holds a secret: whoever has it may look and change while the program runs.\n"
+      "Ctrl-C ends it.\n"
+      "Example: roomlight view flat.glb --lighting evening.json");
+  return {app, [o] { return runView(*o); }};
+}
+
+}  // namespace roomlight::cli

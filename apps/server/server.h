@@ -1,0 +1,62 @@
+// HTTP and WebSockets for the page of `roomlight view` (docs/formats/view.md): who may connect, what is served, how fast anybody may talk.
+// Knows nothing of homes.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "static_files.h"
+
+namespace roomlight::server {
+
+using Connection = uint64_t;
+
+struct Options {
+  std::string address = "127.0.0.1";
+  uint16_t port = 0;  // 0: any that is free
+  std::string token;  // asked of WebSockets and of finished files
+  size_t mostWindows = 8, mostConnections = 64;
+  size_t mostMessageBytes = 64 << 10;
+  double messagesPerSecond = 240, messagesAtOnce = 480;
+};
+
+// A finished file; it is removed once it was sent.
+struct TakenFile {
+  std::filesystem::path path;
+  std::string name;  // under which the browser saves it
+};
+
+// Called from the thread that runs the server.
+struct Handlers {
+  std::function<void(Connection, const std::string& window)> opened;
+  std::function<void(Connection, const std::string& text)> said;
+  std::function<void(Connection)> closed;
+  std::function<std::optional<TakenFile>(const std::string& id)> takeFile;
+};
+
+class Server {
+ public:
+  // Listens from now on. Errors: the address is none, or the port is taken.
+  static Result<std::unique_ptr<Server>> listen(const Options& options, StaticFiles page, Handlers handlers);
+  ~Server();
+
+  uint16_t port() const;
+  // Until stop() is called; all connections are closed then.
+  void run();
+  // From any thread, also from a handler.
+  void stop();
+  void send(Connection to, std::string message, bool binary);
+
+ private:
+  struct State;
+  explicit Server(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace roomlight::server

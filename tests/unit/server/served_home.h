@@ -1,0 +1,71 @@
+// A small home behind a server, for as long as a test lasts.
+#pragma once
+
+#include <future>
+#include <thread>
+
+#include "client.h"
+#include "server/view_server.h"
+#include "support/rooms.h"
+
+namespace roomlight::testing {
+
+// A room with a lamp, a shining panel, a box and a camera that looks at the box.
+inline Scene servedScene() {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+  const int shining = test::addMaterial(scene, test::lambertian(0, 300));
+  scene.materials[static_cast<size_t>(wood)].name = "Wood";
+  test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
+  const auto first = static_cast<uint32_t>(scene.instances.size());
+  test::addBox(scene, {1.5f, 0, 1}, {2.5f, 0.7f, 2}, wood);
+  for (uint32_t i = first; i < scene.instances.size(); ++i) scene.instances[i].object = scene.instances[first].object, scene.instances[i].name = "Box";
+  test::addRectangle(scene, {0.5f, 2.55f, 2}, {0.5f, 0, 0}, {0, 0, 0.5f}, shining);
+  scene.instances.back().name = "Panel";
+  scene.lamps = {test::pointLamp({2, 2.2f, 2.5f}, 200)};
+  scene.lamps[0].name = "Pendant";
+  Camera camera;
+  camera.name = "Door";
+  camera.worldFromCamera = looking({2, 1.6f, 4.6f}, {0, -0.45f, -1});
+  scene.cameras.push_back(camera);
+  return scene;
+}
+
+inline RenderSettings servedSettings() {
+  RenderSettings s;
+  s.voxel.voxelSizeM = 0.25f;
+  s.radiance.links = 4, s.radiance.directSamples = 4;
+  return s;
+}
+
+class ServedHome {
+ public:
+  static constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
+
+  explicit ServedHome(view::ViewHome home = view::ViewHome("test", servedScene()), server::Options options = {}) {
+    options.token = kToken;
+    server::StaticFiles page = {{"/", {"<!doctype html>page", "text/html"}}, {"/index.html", {"<!doctype html>page", "text/html"}}};
+    std::promise<std::string> link;
+    server::Served tell;
+    tell.listening = [&](const std::string& l) { link.set_value(l); };
+    thread_ = std::thread([this, home = std::move(home), options, page = std::move(page), tell]() mutable {
+      const Status s = server::serveHome(std::move(home), servedSettings(), options, std::move(page), tell, stop_);
+      static_cast<void>(s);
+    });
+    link_ = link.get_future().get();
+  }
+  ~ServedHome() {
+    stop_ = true;
+    thread_.join();
+  }
+  const std::string& link() const { return link_; }
+  uint16_t port() const { return static_cast<uint16_t>(std::stoi(link_.substr(link_.rfind(':') + 1))); }
+  std::string live(const std::string& window = "") const { return std::string("/live?token=") + kToken + (window.empty() ? "" : "&window=" + window); }
+
+ private:
+  std::string link_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace roomlight::testing
