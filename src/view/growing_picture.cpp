@@ -1,6 +1,5 @@
 #include "view/growing_picture.h"
 
-#include "base/clock.h"
 #include "base/parallel.h"
 
 namespace roomlight::view {
@@ -8,23 +7,31 @@ namespace {
 
 constexpr uint32_t kMostAverages = 64, kBeforePaths = 24;
 constexpr double kShowAgain = 1.4;  // times the samples of what was shown last
+// The first average is shown with so many, or after so long: with fewer it would be noisier than the frame that reused light.
+constexpr uint32_t kFirstShown = 4;
+constexpr double kFirstShownS = 0.3;
 
 }  // namespace
 
-bool GrowingPicture::step(LitHome& home, const Camera& camera, std::pair<int, int> whole, double quickMs, bool refines, const std::atomic<bool>& newer, const std::atomic<bool>& stop) {
-  const std::pair<int, int> small = home.pace.sizeFor(quickMs, whole);
-  const bool first = quickNext(), quick = first && small != whole;
-  const auto [width, height] = quick ? small : whole;
+bool GrowingPicture::quickStep(const LitHome& home, const Camera& camera, std::pair<int, int> whole, const QuickFrame& quick, const std::atomic<bool>& stop) {
+  const std::pair<int, int> size = quick.pace.sizeFor(quick.ms, whole);
   const Stopwatch watch;
-  const Image next = home.lit->pictureOf(camera, {width, height, 1, samples_}, {{}, first ? &stop : &newer});
-  if ((first ? stop : newer).load() || next.width == 0) return false;
+  Image next = home.lit->pictureOf(camera, {size.first, size.second, 1, {}, quick.history}, {{}, &stop});
+  if (stop || next.width == 0) return false;
   pictureMs_ = watch.seconds() * 1e3;
-  home.pace.took({width, height}, pictureMs_);
-  quick_ = quick;
-  if (quick) {
-    image_ = next;
-    return true;
-  }
+  quick.pace.took(size, pictureMs_);
+  quick_ = size != whole;
+  image_ = std::move(next);
+  sinceQuick_ = Stopwatch();
+  return true;
+}
+
+bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, const QuickFrame& quick, bool refines, const std::atomic<bool>& newer, const std::atomic<bool>& stop) {
+  if (!begun()) return quickStep(home, camera, whole, quick, stop);
+  const Stopwatch watch;
+  const Image next = home.lit->pictureOf(camera, {whole.first, whole.second, 1, samples_, nullptr}, {{}, &newer});
+  if (newer || next.width == 0) return false;
+  pictureMs_ = watch.seconds() * 1e3;
   if (samples_ == 0) {
     sum_ = next;
   } else {
@@ -33,8 +40,10 @@ bool GrowingPicture::step(LitHome& home, const Camera& camera, std::pair<int, in
   ++samples_;
   averaged_ = samples_ >= (refines ? kBeforePaths : kMostAverages);
   settled_ = averaged_ && !refines;
-  if (!averaged_ && samples_ > 1 && samples_ < kShowAgain * shownAt_) return false;
+  const bool worth = shownAt_ == 0 ? samples_ >= kFirstShown || sinceQuick_.seconds() > kFirstShownS : samples_ >= kShowAgain * shownAt_;
+  if (!averaged_ && !worth) return false;
   shownAt_ = samples_;
+  quick_ = false;
   image_ = sum_;
   const float share = 1 / static_cast<float>(samples_);
   parallelFor(image_.pixels.size(), 16384, [&](size_t i) { image_.pixels[i] *= share; });

@@ -10,7 +10,6 @@
 
 #include "engine/lit_scene.h"
 #include "view/home.h"
-#include "view/pacing.h"
 
 namespace roomlight::view {
 
@@ -25,7 +24,6 @@ struct LitHome {
   Scene scene;
   HomeState state;  // that the scene and its light are in
   std::unique_ptr<LitScene> lit;
-  Pace pace;
 };
 
 class LightBuilder {

@@ -8,16 +8,23 @@ namespace {
 
 constexpr double kNewest = 0.4;       // weight of the newest measurement
 constexpr int kNarrowest = 96;        // pixels: below that there is nothing to see
+constexpr double kMostPixels = 960 * 540;
+constexpr double kRoom = 0.8;         // of the time asked for: sizes grow below it, and shrink above its inverse
 constexpr double kLineMs = 60;        // that a frame may be on its way
 constexpr int kWorst = 50, kBest = 90;
 
 }  // namespace
 
-std::pair<int, int> Pace::sizeFor(double ms, std::pair<int, int> whole) const {
+std::pair<int, int> Pace::sizeFor(double ms, std::pair<int, int> whole) {
   const double pixels = static_cast<double>(whole.first) * whole.second;
-  double scale = std::sqrt(std::min(1.0, ms / msPerMegapixel_ * 1e6 / pixels));
-  scale = std::max(scale, std::min(1.0, static_cast<double>(kNarrowest) / std::min(whole.first, whole.second)));
-  const auto scaled = [&](int edge) { return std::clamp(static_cast<int>(std::lround(edge * scale)), 1, edge); };
+  const auto scaleOf = [](int step) { return std::exp2(-0.25 * step); };
+  const auto pixelsAt = [&](int step) { return pixels * scaleOf(step) * scaleOf(step); };
+  const auto cost = [&](int step) { return msPerMegapixel_ * pixelsAt(step) / 1e6; };
+  const auto mayShrink = [&](int step) { return std::min(whole.first, whole.second) * scaleOf(step + 1) >= kNarrowest; };
+  while (step_ > 0 && cost(step_ - 1) < kRoom * ms) --step_;
+  while ((cost(step_) > ms / kRoom || pixelsAt(step_) > kMostPixels) && mayShrink(step_)) ++step_;
+  while (step_ > 0 && !mayShrink(step_ - 1)) --step_;
+  const auto scaled = [&](int edge) { return std::clamp(static_cast<int>(std::lround(edge * scaleOf(step_))), 1, edge); };
   return {scaled(whole.first), scaled(whole.second)};
 }
 

@@ -6,15 +6,17 @@
 
 namespace roomlight::view {
 
-// Of one technique: what a picture costs.
+// Of one window's frames: what they cost.
 class Pace {
  public:
-  // Pixels along both edges for a picture of the aspect of `whole` that takes `ms`, or whole where that is quick enough.
-  std::pair<int, int> sizeFor(double ms, std::pair<int, int> whole) const;
+  // Pixels along both edges for a frame of the aspect of `whole` that takes about `ms`; at most whole, and at most 960x540 of them. In steps, and not to and
+  // fro: frames of another size cannot reuse the light of those before.
+  std::pair<int, int> sizeFor(double ms, std::pair<int, int> whole);
   void took(std::pair<int, int> size, double ms);
 
  private:
   double msPerMegapixel_ = 400;  // before anything was measured
+  int step_ = 0;                 // down from the whole; four of them halve the edges
 };
 
 // Of one browser.

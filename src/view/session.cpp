@@ -8,11 +8,12 @@ namespace {
 
 using std::chrono::milliseconds;
 constexpr milliseconds kLookAgain{250};  // at lines that may have become free, windows that were lost
+constexpr milliseconds kSoon{20};
 constexpr size_t kMostLit = 3;           // kept, so that going back to a technique or plan is quick
 
 }  // namespace
 
-Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox) : home_(std::move(home)), settings_(frameSettings(settings)), outbox_(std::move(outbox)), homeJson_(homeJson(home_)), refiner_([this] { tellRefined(); }), jobs_(home_, [this](const JobNews& news) { takeNews(news); }) {
+Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox) : home_(std::move(home)), settings_(settings), frames_(frameSettings(settings)), outbox_(std::move(outbox)), homeJson_(homeJson(home_)), refiner_([this] { tellRefined(); }), jobs_(home_, [this](const JobNews& news) { takeNews(news); }) {
   state_ = home_.atStart();
   plans_["start"] = state_;
   thread_ = std::thread([this] { withThreads(settings_.threads, [this] { run(); }); });
@@ -55,10 +56,11 @@ void Session::run() {
     adoptBuilt();
     beginBuilding();
     forgetLostWindows();
+    soon_ = false;
     if (takeRefined() || work()) continue;
     beginRefining();
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, kLookAgain, [&] { return stop_ || built_ || refinedReady_ || progress_ || !jobNews_.empty() || !events_.empty(); });
+    wake_.wait_for(lock, soon_ ? kSoon : kLookAgain, [&] { return stop_ || built_ || refinedReady_ || progress_ || !jobNews_.empty() || !events_.empty(); });
   }
 }
 
@@ -132,7 +134,9 @@ void Session::adoptBuilt() {
   }
   for (Window& w : windows_) {
     for (Side& s : w.sides) {
-      if (s.key == key) s.picture.restart();
+      if (!(s.key == key)) continue;
+      s.picture.restart();
+      s.history.reset();
     }
   }
 }
@@ -144,7 +148,7 @@ void Session::beginBuilding() {
     for (const Side& s : w.sides) {
       const auto lit = std::find_if(lit_.begin(), lit_.end(), [&](const auto& l) { return l->key == s.key; });
       if (s.key.technique == failedBuild_ || (lit != lit_.end() && (*lit)->state.sun == stateOf(s.key).sun)) continue;
-      RenderSettings settings = settings_;
+      RenderSettings settings = frames_;
       settings.technique = s.key.technique;
       RenderProgress progress;
       progress.report = [this](const std::string& stage, float fraction) { tellProgress(stage, fraction); };

@@ -89,6 +89,8 @@ class Session {
   void newInput(Window& window, TimePoint at);
   LitHome* litFor(const LightKey& key);
   void bringUpToDate(LitHome& home, const Camera& camera);
+  void goOnWithLight(LitHome& home);
+  FrameHistory* historyOf(Side& side, Window& window);
   HomeState stateOf(const LightKey& key) const;
   bool makeFrame(Window& window);
   bool answerPoints(Window& window);  // session_points.cpp
@@ -105,7 +107,8 @@ class Session {
   void tellProgress(const std::string& stage, float fraction);
 
   ViewHome home_;
-  RenderSettings settings_;
+  const RenderSettings settings_;  // of renders
+  const RenderSettings frames_;    // of what is shown meanwhile
   const Outbox outbox_;
   HomeState state_;
   uint32_t revision_ = 1;
@@ -116,6 +119,7 @@ class Session {
   LightBuilder builder_;
   std::string failedBuild_;  // technique that could not be lit: not tried again until something changes
   Json homeJson_;
+  bool soon_ = false;  // a window rests in a moment
   struct Refining {  // whose picture it is; of an older serial it is of no more use
     std::string window;
     size_t side = 0;

@@ -8,7 +8,8 @@ namespace roomlight::view {
 namespace {
 
 constexpr double kQuickMs = 38;  // of 50: the rest is for light that follows, showing and packing
-constexpr size_t kMostUnderWay = 2;
+constexpr double kRestMs = 80;  // without an input: before that a better picture is not begun, since the next input would end it
+constexpr size_t kMostUnderWay = 2, kMostHistories = 4;
 
 double millisecondsSince(TimePoint at) { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - at).count(); }
 
@@ -70,8 +71,45 @@ void Session::bringUpToDate(LitHome& home, const Camera& camera) {
     const SceneChange change = stage(home_.editable, home.state, wanted, home.scene);
     home.state = std::move(wanted);
     home.lit->update(change, stages);
+    for (Window& w : windows_) {
+      for (Side& s : w.sides) {
+        if (s.key == home.key && s.history) s.history->sceneChanged(change, home.scene);
+      }
+    }
   }
   home.lit->lookFrom(camera, stages);
+}
+
+// Bounces that the last change still owes: a frame shows them as far as they have come.
+void Session::goOnWithLight(LitHome& home) {
+  if (refiner_.home() == &home) refiner_.letGo();
+  RenderStats stats;
+  RenderProgress silent;
+  Stages stages(silent, stats);
+  home.lit->update({}, stages);
+  for (Window& w : windows_) {
+    for (Side& s : w.sides) {
+      if (s.key == home.key) s.picture.restart();
+    }
+  }
+}
+
+// Of the few that moved last: a history takes some hundred bytes a pixel.
+FrameHistory* Session::historyOf(Side& side, Window& window) {
+  if (!frames_.frames.reuse) return nullptr;
+  if (side.history) return &*side.history;
+  size_t count = 0;
+  Window* oldest = nullptr;
+  for (Window& w : windows_) {
+    const auto kept = static_cast<size_t>(std::count_if(w.sides.begin(), w.sides.end(), [](const Side& s) { return s.history.has_value(); }));
+    count += kept;
+    if (kept > 0 && &w != &window && (!oldest || w.lastFrameAt < oldest->lastFrameAt)) oldest = &w;
+  }
+  if (count >= kMostHistories && oldest) {
+    for (Side& s : oldest->sides) s.history.reset();
+  }
+  side.history.emplace(frames_.frames);
+  return &*side.history;
 }
 
 bool Session::makeFrame(Window& window) {
@@ -85,7 +123,13 @@ bool Session::makeFrame(Window& window) {
   for (size_t k = 0; k < window.sides.size(); ++k) {
     const Side& s = window.sides[k];
     const bool idle = s.shownSerial == window.serial && s.picture.averaged() && !s.again;
-    if (idle || !litFor(s.key)) continue;
+    LitHome* home = idle ? nullptr : litFor(s.key);
+    if (!home) continue;
+    const bool onlyBetter = s.shownSerial == window.serial && s.picture.begun() && !s.again && home->lit->settled();
+    if (onlyBetter && millisecondsSince(window.inputAt) < kRestMs) {
+      soon_ = true;
+      continue;
+    }
     if (best == window.sides.size() || isBefore(s, window.sides[best])) best = k;
   }
   return best < window.sides.size() && stepSide(window, best);
@@ -108,7 +152,8 @@ bool Session::stepSide(Window& window, size_t index) {
     return true;
   }
   if (side.picture.averaged()) return false;
-  const bool shows = side.picture.step(home, camera, frameSize(window.viewport, window.line.scale()), kQuickMs, refines(side), newer_, stop_);
+  if (side.picture.begun() && !home.lit->settled()) goOnWithLight(home);
+  const bool shows = side.picture.step(home, camera, frameSize(window.viewport, window.line.scale()), {kQuickMs, side.pace, historyOf(side, window)}, refines(side), newer_, stop_);
   if (shows) sendFrame(window, index, home);
   return true;
 }

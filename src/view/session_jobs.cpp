@@ -53,7 +53,6 @@ void Session::on(Window& window, const Event&, const RenderWish& m) {
   work.settings.width = m.width > 0 ? m.width : m.panorama ? kPanoramaWidth
                                                            : kUsualWidth;
   work.settings.height = m.height > 0 ? m.height : std::max(16, static_cast<int>(std::lround(work.settings.width / aspect)));
-  work.settings.samples = 0, work.settings.path.filter = false;
   work.settings.timeLimitS = m.seconds;
   work.camera = m.panorama ? panoramaAt(window.camera) : cameraOf(window.camera);
   work.state = state_, work.display = window.display;

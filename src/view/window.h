@@ -26,6 +26,8 @@ struct SentFrame {
 struct Side {
   LightKey key;
   GrowingPicture picture;
+  Pace pace;
+  std::optional<FrameHistory> history;  // of its quick frames
   uint32_t shownSerial = 0;    // input that the picture shows
   uint32_t shownRevision = 0;  // state of the light that it shows
   bool again = false;          // to be shown once more: only the display is another

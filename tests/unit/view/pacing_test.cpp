@@ -14,10 +14,16 @@ TEST(Pacing, sizesFollowWhatPicturesTake) {
   const auto [width, height] = pace.sizeFor(50, whole);
   EXPECT_NEAR(width, 480, 2);
   EXPECT_NEAR(height, 270, 2);
+  pace.took(whole, 180);
+  pace.took(whole, 230);
+  EXPECT_EQ(pace.sizeFor(50, whole), std::pair(width, height));  // not to and fro
   for (int i = 0; i < 30; ++i) pace.took(whole, 20);
   EXPECT_EQ(pace.sizeFor(50, whole), whole);
   for (int i = 0; i < 30; ++i) pace.took(whole, 1e5);
-  EXPECT_EQ(pace.sizeFor(50, whole).second, 96);
+  EXPECT_NEAR(pace.sizeFor(50, whole).second, 100, 15);
+  for (int i = 0; i < 60; ++i) pace.took(whole, 1);
+  const auto [w, h] = pace.sizeFor(50, {1920, 1080});
+  EXPECT_LE(w * h, 960 * 540);
 }
 
 TEST(Pacing, slowLinesGetWorseJpeg) {
