@@ -1,0 +1,377 @@
+// All that this window knows and does: the line to the server, the model of the home, the eye, and what the controls show. Components read
+// its fields, call its methods, and listen to topics.
+import { poseFrom, type Pose, type Viewport } from "./camera.js";
+import { Connection, Refused, type Link, type Listener } from "./connection.js";
+import { ConnectionLost, EditQueue } from "./edits.js";
+import { Eye } from "./eye.js";
+import type { FrameHeader } from "./frame.js";
+import { middle, poseForRoom, poseForThing } from "./framing.js";
+import { changed, edited, modelFrom, type Model } from "./model.js";
+import type {
+  Box,
+  Display,
+  EditFields,
+  Job,
+  MeterHit,
+  PickHit,
+  Progress,
+  RenderRequest,
+  Request,
+  ServerMessage,
+  Split,
+  Target,
+  Welcome,
+} from "./protocol.js";
+import type { Vec3 } from "./vector.js";
+
+export type Topic = "link" | "model" | "ui" | "camera" | "frame" | "meter" | "jobs";
+export type Tab = "home" | "light" | "view" | "compare" | "render";
+export type Navigation = "walk" | "orbit";
+
+export interface Selection {
+  readonly kind: "room" | "camera" | "lamp" | "object";
+  readonly id: string; // of rooms and cameras the number in their list
+}
+
+export interface MeterReading {
+  readonly at: readonly [number, number]; // CSS pixels of the stage
+  readonly hit: MeterHit | null;
+}
+
+const kLampBoxM = 0.15; // half of the side of the box that stands for a lamp without a body
+
+export class Session implements Listener {
+  link: Link = { state: "opening" };
+  model: Model | null = null;
+  display: Display | null = null;
+  technique = "";
+  split: Split | null = null;
+  dividerAt = 0.5; // of the stage's width
+  selection: Selection | null = null;
+  pivot: Vec3 | null = null; // what orbiting goes around
+  tab: Tab = "home";
+  sheetOpen = true; // the panel on narrow screens
+  navigation: Navigation = "walk";
+  meterOn = false;
+  meter: MeterReading | null = null;
+  notice: { readonly text: string; readonly bad: boolean } | null = null;
+  progress: Progress | null = null;
+  jobs: readonly Job[] = [];
+  lastFrame: FrameHeader | null = null;
+  readonly eye: Eye;
+  onFrame: ((header: FrameHeader, picture: Uint8Array) => void) | null = null;
+  onNewLine: (() => void) | null = null; // frames are counted afresh from here on
+
+  private readonly connection: Connection;
+  private readonly edits: EditQueue;
+  private server: Model | null = null; // what the server has said, without edits under way
+  private readonly listeners = new Map<Topic, Set<() => void>>();
+  private frameTimesMs: number[] = [];
+  private noticeTimer = 0;
+  private meterBusy = false;
+  private meterNext: readonly [number, number] | null = null;
+
+  constructor(
+    origin: URL,
+    readonly token: string,
+  ) {
+    this.connection = new Connection(origin, token, this);
+    this.eye = new Eye(
+      (notice) => this.connection.notify(notice),
+      () => this.emit("camera"),
+    );
+    this.edits = new EditQueue(
+      ({ target, gesture, fields }) => this.connection.request({ type: "edit", target, gesture, ...fields }),
+      (edit, failure) => {
+        if (failure) this.fail(failure);
+        else if (this.server) this.server = edited(this.server, edit.target, edit.fields);
+        this.publishModel();
+      },
+    );
+  }
+
+  start(): void {
+    this.connection.open();
+  }
+
+  on(topic: Topic, listener: () => void): () => void {
+    const set = this.listeners.get(topic) ?? new Set();
+    this.listeners.set(topic, set);
+    set.add(listener);
+    return () => set.delete(listener);
+  }
+
+  // Listener of the connection.
+
+  linked(link: Link): void {
+    this.link = link;
+    this.emit("link");
+  }
+
+  welcome(welcome: Welcome): void {
+    const again = this.server !== null;
+    this.onNewLine?.();
+    this.server = modelFrom(welcome);
+    if (again) {
+      // The server may have been started afresh: it is told what this window shows.
+      if (this.display) this.connection.notify({ type: "display", ...this.display });
+      if (this.technique !== welcome.technique) this.ask({ type: "technique", technique: this.technique });
+      if (JSON.stringify(this.split) !== JSON.stringify(welcome.split)) this.ask({ type: "split", split: this.split });
+      this.jobs = this.jobs.filter((job) => job.state !== "running");
+    } else {
+      document.title = `${welcome.home} – roomlight`;
+      this.eye.pose = poseFrom(welcome.camera);
+      this.display = welcome.display;
+      this.technique = welcome.technique;
+      this.split = welcome.split;
+    }
+    this.progress = null;
+    this.sendViewport();
+    this.eye.touch();
+    this.edits.resume();
+    this.publishModel();
+    this.emit("ui");
+    this.emit("jobs");
+  }
+
+  message(message: ServerMessage): void {
+    if (message.type === "state" && this.server) {
+      this.server = changed(this.server, message);
+      this.publishModel();
+    } else if (message.type === "progress") {
+      this.progress = message.fraction >= 1 ? null : message;
+      this.emit("ui");
+    } else if (message.type === "job") {
+      this.jobs = [message, ...this.jobs.filter((job) => job.job !== message.job)];
+      this.emit("jobs");
+    } else if (message.type === "error") {
+      this.tell(message.message, true);
+    }
+  }
+
+  frame(header: FrameHeader, picture: Uint8Array): void {
+    const now = performance.now();
+    this.frameTimesMs = [...this.frameTimesMs.filter((time) => now - time < 1000), now];
+    this.lastFrame = header;
+    this.onFrame?.(header, picture);
+    this.emit("frame");
+  }
+
+  // Of the last second.
+  framesPerSecond(): number {
+    const now = performance.now();
+    return this.frameTimesMs.filter((time) => now - time < 1000).length;
+  }
+
+  trouble(message: string): void {
+    this.tell(message, true);
+  }
+
+  reconnect(): void {
+    this.connection.open();
+  }
+
+  // The picture.
+
+  setViewport(viewport: Viewport): void {
+    this.eye.viewport = viewport;
+    this.sendViewport();
+    this.eye.touch();
+  }
+
+  acknowledge(frame: number): void {
+    this.connection.notify({ type: "ack", frame });
+  }
+
+  setDisplay(change: Partial<Display>): void {
+    if (!this.display) return;
+    this.display = { ...this.display, ...change };
+    this.connection.notify({ type: "display", ...change });
+    this.emit("ui");
+  }
+
+  setTechnique(technique: string): void {
+    this.technique = technique;
+    this.ask({ type: "technique", technique });
+    this.emit("ui");
+  }
+
+  setSplit(split: Split | null): void {
+    this.split = split;
+    this.ask({ type: "split", split });
+    this.emit("ui");
+  }
+
+  // Things.
+
+  // Values are shown at once and sent; one gesture is one step of undo.
+  edit(target: Target, fields: EditFields, gesture: string): void {
+    this.edits.push({ target, fields, gesture });
+    this.publishModel();
+  }
+
+  undo(): void {
+    void this.edits.empty().then(() => this.ask({ type: "undo" }));
+  }
+
+  redo(): void {
+    void this.edits.empty().then(() => this.ask({ type: "redo" }));
+  }
+
+  plan(action: "keep" | "apply" | "drop", name: string): void {
+    void this.edits.empty().then(() => this.ask({ type: "plan", do: action, name }));
+  }
+
+  select(selection: Selection | null, frameIt: boolean): void {
+    this.selection = selection;
+    if (selection && frameIt) {
+      const pose = this.poseFor(selection);
+      if (pose) this.eye.goTo(pose);
+    }
+    const box = selection && this.boxOf(selection);
+    if (box) this.pivot = middle(box);
+    this.emit("ui");
+  }
+
+  boxOf(selection: Selection): Box | null {
+    const { kind, id } = selection;
+    if (kind === "object") return this.model?.things.get(id) ?? null;
+    if (kind === "room") return this.model?.welcome.rooms[Number(id)] ?? null;
+    const lamp = kind === "lamp" ? this.model?.lamps.get(id) : undefined;
+    if (!lamp) return null;
+    const [x, y, z] = lamp.position;
+    return { low: [x - kLampBoxM, y - kLampBoxM, z - kLampBoxM], high: [x + kLampBoxM, y + kLampBoxM, z + kLampBoxM] };
+  }
+
+  poseFor(selection: Selection): Pose | null {
+    const welcome = this.model?.welcome;
+    if (!welcome) return null;
+    if (selection.kind === "camera") {
+      const camera = welcome.cameras[Number(selection.id)];
+      return camera ? poseFrom(camera) : null;
+    }
+    if (selection.kind === "room") {
+      const room = welcome.rooms[Number(selection.id)];
+      return room ? poseForRoom(room, this.eye.pose) : null;
+    }
+    const box = this.boxOf(selection);
+    return box && poseForThing(box, welcome.rooms, this.eye.pose);
+  }
+
+  // What is seen at a place of the stage, fractions from its top left corner.
+  async pick(x: number, y: number): Promise<PickHit | null> {
+    this.eye.flush();
+    const answer = await this.ask({ type: "pick", x, y });
+    return answer?.type === "picked" ? answer.hit : null;
+  }
+
+  // The light at a place of the stage, CSS pixels. One request at a time; the newest place wins.
+  measure(xPx: number, yPx: number): void {
+    this.meterNext = [xPx, yPx];
+    if (!this.meterBusy) void this.measureNext();
+  }
+
+  setMeter(on: boolean): void {
+    this.meterOn = on;
+    this.meter = null;
+    this.meterNext = null;
+    this.emit("ui");
+    this.emit("meter");
+  }
+
+  // Pictures and files.
+
+  async render(request: RenderRequest): Promise<void> {
+    await this.edits.empty();
+    const { width = 16, height = 9 } = request;
+    this.eye.sendFor({ width, height });
+    const asked = this.ask({ type: "render", ...request });
+    this.eye.touch();
+    await asked;
+  }
+
+  cancel(job: Job["job"]): void {
+    void this.ask({ type: "cancel", job });
+  }
+
+  fileAddress(path: string): string {
+    return `${path}?token=${encodeURIComponent(this.token)}`;
+  }
+
+  async save(): Promise<void> {
+    await this.edits.empty();
+    const answer = await this.ask({ type: "save" });
+    if (answer?.type !== "saved") return;
+    const address = URL.createObjectURL(new Blob([answer.text], { type: "application/json" }));
+    const link = document.createElement("a");
+    link.href = address;
+    link.download = answer.name;
+    link.click();
+    window.setTimeout(() => URL.revokeObjectURL(address), 10000);
+    this.tell(`Saved ${answer.name}: lamps and sun as they are now. Moved things are not in it.`, false);
+  }
+
+  // A line for the user; it stays for some seconds.
+  tell(text: string, bad: boolean): void {
+    this.notice = { text, bad };
+    window.clearTimeout(this.noticeTimer);
+    this.noticeTimer = window.setTimeout(() => {
+      this.notice = null;
+      this.emit("ui");
+    }, bad ? 9000 : 5000);
+    this.emit("ui");
+  }
+
+  // Shows something else in the controls: sets fields of this session and tells who listens.
+  show(change: Partial<Pick<Session, "tab" | "sheetOpen" | "navigation" | "dividerAt" | "pivot">>): void {
+    Object.assign(this, change);
+    this.emit("ui");
+  }
+
+  private async measureNext(): Promise<void> {
+    this.meterBusy = true;
+    while (this.meterOn && this.meterNext) {
+      const [x, y] = this.meterNext;
+      this.meterNext = null;
+      const { width, height } = this.eye.viewport;
+      this.eye.flush();
+      const answer = await this.ask({ type: "meter", x: x / width, y: y / height });
+      if (answer?.type !== "metered") break;
+      if (!this.meterOn) break;
+      this.meter = { at: [x, y], hit: answer.hit };
+      this.emit("meter");
+    }
+    this.meterBusy = false;
+  }
+
+  private sendViewport(): void {
+    const { width, height } = this.eye.viewport;
+    const pixelRatio = Math.min(2, Math.max(0.5, window.devicePixelRatio || 1));
+    this.connection.notify({ type: "viewport", width: Math.max(16, width), height: Math.max(16, height), pixelRatio });
+  }
+
+  // Null where the server refused or the line was lost; the user has been told.
+  private async ask(request: Request): Promise<ServerMessage | null> {
+    try {
+      return await this.connection.request(request);
+    } catch (error) {
+      this.fail(error);
+      return null;
+    }
+  }
+
+  private fail(error: unknown): void {
+    // The state line tells of lost connections already.
+    if (error instanceof Refused) this.tell(error.message, true);
+    else if (!(error instanceof ConnectionLost)) throw error;
+  }
+
+  private publishModel(): void {
+    this.model = this.server && this.edits.overlay(this.server);
+    this.emit("model");
+  }
+
+  private emit(topic: Topic): void {
+    this.listeners.get(topic)?.forEach((listener) => listener());
+  }
+}
