@@ -6,7 +6,7 @@ export type Check<T> = (value: unknown, at: string) => T;
 export type Checked<C> = C extends Check<infer T> ? T : never;
 
 function refuse(at: string, wanted: string, value: unknown): never {
-  const seen = value === null ? "null" : Array.isArray(value) ? "a list" : typeof value;
+  const seen = value === null ? "null" : Array.isArray(value) ? "a list" : value === undefined ? "nothing" : `a ${typeof value}`;
   throw new BadMessage(`${at || "message"}: expected ${wanted}, got ${seen}`);
 }
 

@@ -26,7 +26,7 @@ export class LightTab extends SessionElement {
         display: block;
       }
       .time {
-        width: 110px !important;
+        width: 132px !important;
         min-height: 28px !important;
       }
       .day {

@@ -6,7 +6,7 @@ import { SessionElement } from "./element.js";
 import { controls } from "./styles.js";
 
 const kGapPx = 18;
-const kWidthPx = 186;
+const kWidthPx = 206;
 const kHeightPx = 94;
 
 @customElement("rl-meter")
@@ -65,12 +65,12 @@ export class Meter extends SessionElement {
   private reading() {
     const hit = this.session.meter?.hit;
     if (!hit) return html`<span class="muted">Only sky there</span>`;
-    const spread = hit.standardErrorLux ? `± ${withUnit(hit.standardErrorLux, "lx")}` : "";
+    const spread = hit.standardErrorLux ? `± ${withUnit(hit.standardErrorLux, "lx")} · ` : "";
     return html`<dl>
       <dt>Incident</dt>
       <dd class="lux" id="lux">${withUnit(hit.illuminanceLux, "lx")}</dd>
       <dt></dt>
-      <dd class="muted">${spread} · EV ${exposureValue(hit.incidentEv100)}</dd>
+      <dd class="muted">${spread}EV ${exposureValue(hit.incidentEv100)}</dd>
       <dt>Reflected</dt>
       <dd class="lux" id="luminance">${withUnit(hit.luminanceCdM2, "cd/m²")}</dd>
       <dt></dt>

@@ -263,6 +263,8 @@ export class Stage extends SessionElement {
   private frameDrawn(header: FrameHeader): void {
     const first = this.shown === null;
     this.shown = header;
+    // For tests and the curious: which frame this is.
+    Object.assign(this.dataset, { frame: header.number, camera: header.camera, revision: header.revision, settled: header.settled });
     if (first) this.requestUpdate();
     this.drawOverlay();
   }

@@ -8,7 +8,8 @@ import { extname, join } from "node:path";
 import { WebSocketServer } from "ws";
 import { Desk } from "./desk.js";
 import { encodePng } from "./png.js";
-import { Window } from "./window.js";
+import type { Display } from "../../src/protocol.js";
+import { Window, type Camera } from "./window.js";
 
 const kTypes: Readonly<Record<string, string>> = {
   ".html": "text/html; charset=utf-8",
@@ -25,6 +26,9 @@ export interface Double {
   readonly token: string;
   readonly desk: Desk;
   dropAll(): void; // cuts every connection
+  sendAll(data: string | Buffer): void; // whatever it is
+  lastCamera(): Camera | null; // that the window which was opened last has told
+  lastDisplay(): Display | null;
   close(): Promise<void>;
 }
 
@@ -84,6 +88,9 @@ export async function startDouble(folder: string, port = 0, token = randomBytes(
     token,
     desk,
     dropAll,
+    sendAll: (data) => windows.forEach((window) => window.sendRaw(data)),
+    lastCamera: () => [...windows].at(-1)?.eye ?? null,
+    lastDisplay: () => [...windows].at(-1)?.display ?? null,
     close: async () => {
       dropAll();
       live.close();

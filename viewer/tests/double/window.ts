@@ -17,12 +17,14 @@ interface Incoming {
   [key: string]: unknown;
 }
 
+export type Camera = Parameters<typeof poseOf>[0];
+
 export class Window {
   private readonly name = Math.random().toString(16).slice(2, 10);
-  private display: Display;
+  display: Display;
   private split: Split | null = null;
   private viewport = { width: 960, height: 540 };
-  private eye: Parameters<typeof poseOf>[0];
+  eye: Camera;
   private camera = 0;
   private frames = 0;
   private unacknowledged = 0;
@@ -48,6 +50,10 @@ export class Window {
   tell(change: object): void {
     this.send(change);
     this.show();
+  }
+
+  sendRaw(data: string | Buffer): void {
+    this.line.send(data);
   }
 
   close(): void {
@@ -80,7 +86,7 @@ export class Window {
         return this.show();
       case "camera":
         this.camera = message.number as number;
-        this.eye = message as unknown as Parameters<typeof poseOf>[0];
+        this.eye = message as unknown as Camera;
         return this.show();
       case "display":
         this.display = { ...this.display, ...(message as unknown as Display) };

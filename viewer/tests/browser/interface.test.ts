@@ -1,0 +1,380 @@
+// The page against a double of the server: everything that a user can do, in a real browser.
+import assert from "node:assert/strict";
+import { after, before, beforeEach, test } from "node:test";
+import type { Browser } from "playwright-core";
+import { Desk } from "../double/desk.js";
+import { startDouble, type Double } from "../double/server.js";
+import { choose, frameWith, kPhone, launch, meanColor, noBrowser, settled, stageBox, tab, until, visit } from "./support.js";
+
+const skip = noBrowser();
+let browser: Browser;
+let double: Double;
+
+const desk = (): Desk => double.desk;
+const lamp = (id: string) => desk().home.lamps.find((l) => l.id === id)!;
+
+if (!skip) {
+  before(async () => {
+    browser = await launch();
+    double = await startDouble("dist");
+  });
+  beforeEach(() => Object.assign(desk(), new Desk()));
+  after(async () => {
+    await browser.close();
+    await double.close();
+  });
+}
+
+test("the page opens and shows the home", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  assert.equal(await visited.page.title(), "Box home – roomlight");
+  const [red, green, blue] = await meanColor(visited, 0.2, 0.2, 0.8, 0.8);
+  assert.ok(red + green + blue > 60, "the picture is dark");
+  await visited.page.getByText("Connected").waitFor();
+  await visited.shot("interface_start");
+  await visited.end();
+});
+
+test("keys walk on the level, and what is seen changes", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  const before = await meanColor(visited, 0.4, 0.55, 0.6, 0.75);
+  await visited.page.keyboard.down("w");
+  await visited.page.waitForTimeout(700);
+  await visited.page.keyboard.up("w");
+  await frameWith(visited, ({ camera }) => Number(camera) > 5);
+  const eye = double.lastCamera()!;
+  assert.ok(Math.hypot(eye.position[0] - 5.6, eye.position[2] - 4.7) > 0.5, JSON.stringify(eye));
+  assert.ok(Math.abs(eye.position[1] - 1.6) < 1e-9, "the height of the eye");
+  const after = await meanColor(visited, 0.4, 0.55, 0.6, 0.75);
+  assert.ok(Math.hypot(...after.map((v, i) => v - before[i]!)) > 5, `${before} and ${after}`);
+  await visited.end();
+});
+
+test("dragging looks around, with Alt goes around, the wheel walks", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  const { x, y, width, height } = await stageBox(visited);
+  const drag = async () => {
+    await visited.page.mouse.move(x + width / 2, y + height / 2);
+    await visited.page.mouse.down();
+    await visited.page.mouse.move(x + width / 2 + 120, y + height / 2, { steps: 4 });
+    await visited.page.mouse.up();
+    await visited.page.waitForTimeout(100);
+  };
+  const start = double.lastCamera()!;
+  await drag();
+  const looked = double.lastCamera()!;
+  assert.deepEqual(looked.position, start.position);
+  assert.notDeepEqual(looked.direction, start.direction);
+  await visited.page.keyboard.down("Alt");
+  await drag();
+  await visited.page.keyboard.up("Alt");
+  const circled = double.lastCamera()!;
+  assert.notDeepEqual(circled.position, looked.position);
+  await visited.page.mouse.wheel(0, -200);
+  await until("the wheel walks", () => double.lastCamera()!.position[0] !== circled.position[0]);
+  await visited.end();
+});
+
+test("search, choose and dim a lamp by keyboard alone; undo and redo", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  const { keyboard } = visited.page;
+  await keyboard.press("/");
+  await keyboard.type("floor l");
+  await keyboard.press("ArrowDown");
+  await keyboard.press("Enter");
+  await visited.page.getByRole("heading", { name: "Floor lamp" }).waitFor();
+  const slider = visited.page.getByRole("slider", { name: "Dimming" });
+  await slider.focus();
+  for (let i = 0; i < 5; ++i) await keyboard.press("ArrowLeft");
+  await until("the lamp is dimmed", () => Math.abs(lamp("lamp:1").dim - 0.95) < 1e-9);
+  assert.equal(desk().done.length, 1, "steps in quick succession are one step of undo");
+  await keyboard.press("Control+z");
+  await until("undone", () => lamp("lamp:1").dim === 1);
+  await until("the slider shows it", async () => (await slider.inputValue()) === "100");
+  await keyboard.press("Control+Shift+z");
+  await until("done again", () => Math.abs(lamp("lamp:1").dim - 0.95) < 1e-9);
+  await visited.end();
+});
+
+test("a lamp is moved by its handle, and the picture follows", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await choose(visited, "Lamps", "Floor lamp");
+  await settled(visited);
+  await visited.page.waitForTimeout(400);
+  const { x, y, width, height } = await stageBox(visited);
+  const before = await meanColor(visited, 0.3, 0.3, 0.7, 0.7);
+  // The chosen lamp is in the middle; its disc moves it on the level.
+  await visited.page.mouse.move(x + width / 2, y + height / 2);
+  await visited.page.mouse.down();
+  await visited.page.mouse.move(x + width / 2 + 90, y + height / 2 + 1, { steps: 5 });
+  await visited.shot("interface_move");
+  await visited.page.mouse.up();
+  await until("the lamp has moved", () => Math.hypot(lamp("lamp:1").position[0] - 0.6, lamp("lamp:1").position[2] - 0.6) > 0.1);
+  assert.ok(Math.abs(lamp("lamp:1").position[1] - 1.5) < 1e-6, "its height stays");
+  assert.equal(desk().done.length, 1, "one pull is one step of undo");
+  const revision = desk().revision;
+  await frameWith(visited, (data) => Number(data.revision) >= revision);
+  const after = await meanColor(visited, 0.3, 0.3, 0.7, 0.7);
+  assert.ok(Math.hypot(...after.map((v, i) => v - before[i]!)) > 2, `${before} and ${after}`);
+  await visited.page.getByRole("button", { name: "Undo" }).click();
+  await until("it is back", () => lamp("lamp:1").position[0] === 0.6);
+  await visited.end();
+});
+
+test("a click selects a thing, which can be moved, turned, hidden and coloured", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  const { x, y, width, height } = await stageBox(visited);
+  await visited.page.mouse.click(x + 0.45 * width, y + 0.6 * height);
+  await visited.page.getByRole("heading", { name: "Table" }).waitFor();
+  const table = () => desk().home.objects[0]!;
+  await visited.page.getByRole("spinbutton", { name: "Moved by, m, x" }).fill("0.5");
+  await visited.page.keyboard.press("Enter");
+  await until("moved", () => table().move[0] === 0.5 && Math.abs(table().low[0] - 2.7) < 1e-9);
+  await visited.page.getByRole("spinbutton", { name: "Turned by, °" }).fill("30");
+  await visited.page.keyboard.press("Enter");
+  await until("turned", () => table().turn === 30);
+  await visited.page.getByLabel("Table wood").fill("#ff0000");
+  await until("coloured", () => table().colors[0]!.color[0] === 1 && table().colors[0]!.color[1] === 0);
+  await visited.page.getByRole("button", { name: "Hide" }).click();
+  await until("hidden", () => table().hidden);
+  await visited.page.keyboard.press("Escape");
+  assert.equal(await visited.page.getByRole("heading", { name: "Table" }).count(), 0);
+  await visited.end();
+});
+
+test("the light meter follows the pointer", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  const { x, y, width, height } = await stageBox(visited);
+  await visited.page.keyboard.press("m");
+  const lux = visited.page.locator("rl-meter #lux");
+  const readings = new Set<string>();
+  for (const at of [0.3, 0.45, 0.8]) {
+    await visited.page.mouse.move(x + at * width, y + 0.6 * height);
+    await visited.page.waitForTimeout(250);
+    readings.add((await lux.textContent()) ?? "");
+  }
+  assert.equal(readings.size, 3, [...readings].join(", "));
+  assert.match([...readings][0]!, /^[\d.]+\u202flx$/);
+  await visited.shot("interface_meter");
+  await visited.page.keyboard.press("m");
+  assert.equal(await lux.count(), 0);
+  await visited.end();
+});
+
+test("daylight: date and time of day are set, one drag is one step of undo", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await tab(visited, "Daylight");
+  await visited.page.getByRole("button", { name: "Winter" }).click();
+  await until("winter", () => desk().home.sun.date === "2026-12-21");
+  const slider = await visited.page.getByRole("slider", { name: "Time of day" }).boundingBox();
+  assert.ok(slider);
+  await visited.page.mouse.move(slider.x + slider.width / 2, slider.y + slider.height / 2);
+  await visited.page.mouse.down();
+  await visited.page.mouse.move(slider.x + 0.8 * slider.width, slider.y + slider.height / 2, { steps: 8 });
+  await visited.page.mouse.up();
+  await until("evening", () => desk().home.sun.hour > 17);
+  await visited.page.waitForTimeout(200);
+  assert.equal(desk().done.length, 2);
+  await visited.end();
+});
+
+test("false colours come with a scale, whose ends can be set", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await tab(visited, "Display");
+  await visited.page.getByRole("radio", { name: "Illuminance" }).click();
+  await visited.page.getByRole("img", { name: /False colours from 1 to 1000 lx/ }).waitFor();
+  await visited.page.getByLabel("Scale from the picture").uncheck();
+  await visited.page.getByLabel("To, lx").fill("500");
+  await visited.page.keyboard.press("Enter");
+  await visited.page.getByRole("img", { name: /False colours from 1 to 500 lx/ }).waitFor();
+  await visited.shot("interface_false_colour");
+  await visited.end();
+});
+
+test("exposure, tone curve and white balance are told to the server", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await tab(visited, "Display");
+  const before = await meanColor(visited, 0.3, 0.3, 0.7, 0.7);
+  await visited.page.getByRole("spinbutton", { name: /Exposure/ }).fill("2");
+  await visited.page.keyboard.press("Enter");
+  await until("a brighter picture", async () => (await meanColor(visited, 0.3, 0.3, 0.7, 0.7))[0] > before[0] + 20);
+  await visited.page.getByLabel("Tone curve").selectOption("agx");
+  await visited.page.getByLabel("White balance").selectOption("kelvin");
+  await until("told", () => double.lastDisplay()?.curve === "agx" && typeof double.lastDisplay()?.whiteBalance === "number");
+  await visited.end();
+});
+
+test("a plan is kept, and compared with by a split view with a divider", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await tab(visited, "Compare");
+  await visited.page.getByLabel("Name of the plan").fill("Evening");
+  await visited.page.getByRole("button", { name: "Keep" }).click();
+  await visited.page.getByRole("button", { name: "Apply Evening" }).waitFor();
+  await choose(visited, "Lamps", "Pendant");
+  await visited.page.getByRole("switch").click();
+  await until("off", () => !lamp("lamp:0").on);
+  await choose(visited, "Cameras", "From the door");
+  await tab(visited, "Compare");
+  await visited.page.getByLabel("Split view", { exact: true }).last().check();
+  await visited.page.getByText("hybrid · Evening").waitFor();
+  const brightness = async (left: number, right: number) => (await meanColor(visited, left, 0.3, right, 0.9))[0];
+  await until("the kept plan is brighter", async () => (await brightness(0.1, 0.45)) > (await brightness(0.55, 0.9)) + 8);
+  await visited.shot("interface_split");
+  const divider = visited.page.getByRole("separator");
+  await divider.focus();
+  for (let i = 0; i < 3; ++i) await visited.page.keyboard.press("ArrowLeft");
+  assert.equal(await divider.getAttribute("aria-valuenow"), "44");
+  await visited.end();
+});
+
+test("a final picture is rendered, watched and offered to download", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await tab(visited, "Render");
+  await visited.page.getByRole("radio", { name: "Panorama" }).click();
+  await visited.page.getByRole("button", { name: "Render", exact: true }).click();
+  await visited.page.getByRole("progressbar").waitFor();
+  const link = visited.page.getByRole("link", { name: "Download box_home.png" });
+  await link.waitFor();
+  const downloading = visited.page.waitForEvent("download");
+  await link.click();
+  assert.equal((await downloading).suggestedFilename(), "box_home.png");
+  await visited.page.getByRole("button", { name: "Render", exact: true }).click();
+  await visited.page.getByRole("button", { name: "Cancel" }).click();
+  await visited.page.getByText("Cancelled.").waitFor();
+  await visited.end();
+});
+
+test("the lighting is saved as a file", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  const downloading = visited.page.waitForEvent("download");
+  await visited.page.keyboard.press("Control+s");
+  assert.equal((await downloading).suggestedFilename(), "box_home.json");
+  await visited.page.getByText("Moved things are not in it").waitFor();
+  await visited.end();
+});
+
+test("a lost connection is taken up again, with what the window showed", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await tab(visited, "Display");
+  await visited.page.getByRole("radio", { name: "Luminance" }).click();
+  await frameWith(visited, ({ frame }) => Number(frame) > 1);
+  double.dropAll();
+  await visited.page.getByText("Trying again").waitFor();
+  await visited.shot("interface_lost");
+  await visited.page.getByText("Connected", { exact: true }).waitFor();
+  await until("told again", () => double.lastDisplay()?.falseColor === "luminance");
+  await settled(visited);
+  await choose(visited, "Lamps", "Spot");
+  await visited.page.getByRole("switch").click();
+  await until("edits go on", () => !lamp("lamp:2").on);
+  await visited.end();
+});
+
+test("a wrong token is refused, in words", { skip }, async () => {
+  const visited = await visit(browser, double.link.replace(/#.*/, "#wrong"));
+  await visited.page.getByText("its token is not that of the running program").first().waitFor();
+  // Refused requests are all that the browser may complain of.
+  assert.ok(visited.complaints.length > 0 && visited.complaints.every((line) => /403/.test(line)), visited.complaints.join("\n"));
+  visited.complaints.length = 0;
+  await visited.shot("interface_refused");
+  await visited.end();
+});
+
+test("messages that make no sense are told and do no harm", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  double.sendAll('{"type": "state", "revision": "new"}');
+  await visited.page.getByText("revision: expected a whole number").waitFor();
+  double.sendAll(Buffer.alloc(80));
+  await visited.page.getByText("unknown kind 0").waitFor();
+  await choose(visited, "Lamps", "Spot");
+  await visited.page.getByRole("switch").click();
+  await until("edits go on", () => !lamp("lamp:2").on);
+  await visited.end();
+});
+
+test("two windows show each other's edits", { skip }, async () => {
+  const first = await visit(browser, double.link);
+  const second = await visit(browser, double.link);
+  await settled(first);
+  await settled(second);
+  await choose(first, "Lamps", "Pendant");
+  await first.page.getByRole("spinbutton", { name: "Dimming, %" }).fill("40");
+  await first.page.keyboard.press("Enter");
+  await tab(second, "Home");
+  await second.page.getByRole("option", { name: "Pendant 320" }).waitFor();
+  await first.end();
+  await second.end();
+});
+
+test("the page fits a phone, and fingers look, walk and select", { skip }, async () => {
+  const visited = await visit(browser, double.link, kPhone);
+  await settled(visited);
+  const width = await visited.page.evaluate(() => document.documentElement.scrollWidth);
+  assert.equal(width, 390);
+  const { x, y, width: w, height: h } = await stageBox(visited);
+  assert.ok(w === 390 && h > 300, `${w} x ${h}`);
+  await visited.page.touchscreen.tap(x + 0.4 * w, y + 0.6 * h);
+  await visited.page.getByRole("heading", { name: "Table" }).waitFor();
+  await visited.shot("interface_phone");
+  await visited.page.getByRole("button", { name: "Fold the panel" }).click();
+  await until("the picture grows", async () => (await stageBox(visited)).height > h + 200);
+  const before = double.lastCamera()!;
+  await fingers(visited.page, [[x + 100, y + 200], [x + 200, y + 200]], [[x + 60, y + 200], [x + 240, y + 200]]);
+  await until("spread fingers walk", () => double.lastCamera()!.position[0] !== before.position[0]);
+  await settled(visited);
+  await visited.shot("interface_phone_folded");
+  await visited.end();
+});
+
+// Puts fingers on the screen and moves them.
+async function fingers(page: import("playwright-core").Page, from: number[][], to: number[][]): Promise<void> {
+  const session = await page.context().newCDPSession(page);
+  const points = (t: number) => from.map(([x, y], i) => ({ x: x! + t * (to[i]![0]! - x!), y: y! + t * (to[i]![1]! - y!), id: i }));
+  await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: points(0) });
+  for (let step = 1; step <= 5; ++step) await session.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: points(step / 5) });
+  await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+}
+
+test("everything that can be worked has a name and can be reached by keys", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await choose(visited, "Lamps", "Pendant");
+  for (const name of ["Home", "Daylight", "Display", "Compare", "Render"]) {
+    await tab(visited, name);
+    const nameless = await visited.page.evaluate(() => {
+      const found: string[] = [];
+      const walk = (root: Document | ShadowRoot) => {
+        for (const element of root.querySelectorAll<HTMLElement>("*")) {
+          if (element.shadowRoot) walk(element.shadowRoot);
+          if (!element.matches("button, input, select, a, [tabindex]") || element.closest("[hidden]")) continue;
+          const labels = (element as HTMLInputElement).labels;
+          const said = element.getAttribute("aria-label") || element.textContent?.trim() || labels?.[0]?.textContent?.trim();
+          if (!said) found.push(element.outerHTML);
+        }
+      };
+      walk(document);
+      return found;
+    });
+    assert.deepEqual(nameless, [], name);
+  }
+  await visited.page.keyboard.press("?");
+  await visited.page.getByRole("dialog", { name: "Keys and gestures" }).waitFor();
+  await visited.page.keyboard.press("Escape");
+  assert.equal(await visited.page.getByRole("dialog").count(), 0);
+  await visited.end();
+});
