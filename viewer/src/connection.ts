@@ -54,6 +54,7 @@ export class Connection {
   private nextId = 1;
   private attempt = 0;
   private retryTimer = 0;
+  private greetingTimer = 0;
   private windowName = "";
   private greeted = false;
 
@@ -79,10 +80,10 @@ export class Connection {
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     this.greeted = false;
-    const greeting = window.setTimeout(() => socket.close(), kGreetingMs);
+    this.greetingTimer = window.setTimeout(() => socket.close(), kGreetingMs);
     socket.onmessage = (event: MessageEvent<unknown>) => this.receive(event.data);
     socket.onclose = (event) => {
-      window.clearTimeout(greeting);
+      window.clearTimeout(this.greetingTimer);
       this.closed(event);
     };
   }
@@ -124,6 +125,7 @@ export class Connection {
     if (message.type === "welcome") {
       this.windowName = message.window;
       this.attempt = 0;
+      window.clearTimeout(this.greetingTimer);
       this.greeted = true;
       this.listener.linked({ state: "open" });
       this.listener.welcome(message);

@@ -115,7 +115,7 @@ export class HomeTab extends SessionElement {
 
   override render() {
     const { model } = this.session;
-    if (!model) return html`<p class="section muted">The home is on its way.</p>`;
+    if (!model) return nothing;
     const wanted = this.search.trim().toLocaleLowerCase();
     const kinds = wanted ? kKinds : kKinds.filter(([kind]) => kind === this.kind);
     const groups = kinds

@@ -164,7 +164,7 @@ export class Stage extends SessionElement {
   override render() {
     const { split, dividerAt, meterOn, progress } = this.session;
     return html`
-      <canvas id="picture"></canvas>
+      <canvas id="picture" ?hidden=${this.shown === null}></canvas>
       <canvas id="overlay"></canvas>
       <div
         id="hands"

@@ -270,7 +270,7 @@ test("a lost connection is taken up again, with what the window showed", { skip 
   const visited = await visit(browser, double.link);
   await settled(visited);
   await tab(visited, "Display");
-  await visited.page.getByRole("radio", { name: "Luminance" }).click();
+  await visited.page.getByRole("radio", { name: "Luminance", exact: true }).click();
   await frameWith(visited, ({ frame }) => Number(frame) > 1);
   double.dropAll();
   await visited.page.getByText("Trying again").waitFor();

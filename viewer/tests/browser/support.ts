@@ -81,7 +81,9 @@ export function meanColor(visited: Visit, left: number, top: number, right: numb
       const y = Math.floor(t! * height);
       const w = Math.max(1, Math.floor(r! * width) - x);
       const h = Math.max(1, Math.floor(b! * height) - y);
-      const data = (canvas as HTMLCanvasElement).getContext("2d")!.getImageData(x, y, w, h).data;
+      const copy = new OffscreenCanvas(w, h).getContext("2d", { willReadFrequently: true })!;
+      copy.drawImage(canvas as HTMLCanvasElement, x, y, w, h, 0, 0, w, h);
+      const { data } = copy.getImageData(0, 0, w, h);
       const sum = [0, 0, 0];
       for (let i = 0; i < data.length; i += 4) for (let c = 0; c < 3; ++c) sum[c]! += data[i + c]!;
       return sum.map((s) => s / (w * h)) as [number, number, number];
