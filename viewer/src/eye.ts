@@ -69,6 +69,11 @@ export class Eye {
     });
   }
 
+  // Number of the camera message that was sent last.
+  get newest(): number {
+    return this.lastNumber;
+  }
+
   // The pose that a frame shows.
   poseOf(number: number): Pose {
     return this.sent.get(number) ?? this.pose;

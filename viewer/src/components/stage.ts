@@ -264,7 +264,8 @@ export class Stage extends SessionElement {
     const first = this.shown === null;
     this.shown = header;
     // For tests and the curious: which frame this is.
-    Object.assign(this.dataset, { frame: header.number, camera: header.camera, revision: header.revision, settled: header.settled });
+    const { number, camera, revision, settled, quick, lightBehind } = header;
+    Object.assign(this.dataset, { frame: number, camera, revision, settled, whole: !quick && !lightBehind });
     if (first) this.requestUpdate();
     this.drawOverlay();
   }

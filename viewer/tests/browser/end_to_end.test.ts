@@ -1,0 +1,234 @@
+// The page and the real program together: a home is opened, walked through, changed and measured.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { after, before, test } from "node:test";
+import type { Browser } from "playwright-core";
+import type { Session } from "../../src/session.js";
+import { lineTo, noProgram, startProgram, type Program } from "./program.js";
+import { choose, frameWith, kPhone, launch, meanColor, noBrowser, stageBox, tab, until, visit, type Visit } from "./support.js";
+
+const skip = noBrowser() || noProgram();
+let browser: Browser;
+let program: Program;
+
+if (!skip) {
+  before(async () => {
+    browser = await launch();
+    program = await startProgram();
+  });
+  after(async () => {
+    await browser.close();
+    assert.equal(await program.end(), 0, "the program ends well with Ctrl-C");
+  });
+}
+
+const kSlowMs = 180000;
+
+// A frame of full size that shows the newest state and camera.
+async function upToDate(visited: Visit): Promise<void> {
+  const newest = await visited.page.evaluate(() => {
+    const { session } = document.querySelector("rl-app") as unknown as { session: Session };
+    session.eye.flush();
+    return { revision: session.model?.revision ?? 0, camera: session.eye.newest };
+  });
+  await frameWith(
+    visited,
+    ({ revision, camera, whole }) => whole === "true" && Number(revision) >= newest.revision && Number(camera) >= newest.camera,
+    kSlowMs,
+  );
+}
+
+const position = (page: Visit["page"], axis: string) => page.getByRole("spinbutton", { name: `Position, m, ${axis}` });
+
+// The name of a lamp that can be moved.
+function movableLamp(visited: Visit): Promise<string> {
+  return visited.page.evaluate(() => {
+    const { session } = document.querySelector("rl-app") as unknown as { session: Session };
+    const lamp = [...(session.model?.lamps.values() ?? [])].find(({ movable }) => movable);
+    if (!lamp) throw new Error("no lamp of this home can be moved");
+    return lamp.name;
+  });
+}
+
+// The reading of the meter there, lx; places as fractions of the stage.
+async function luxAt(visited: Visit, x: number, y: number): Promise<number> {
+  const box = await stageBox(visited);
+  const metered = (): Promise<number | null> =>
+    visited.page.evaluate(
+      ([px, py]) => {
+        const { session } = document.querySelector("rl-app") as unknown as { session: Session };
+        const { meter } = session;
+        const here = meter && Math.hypot(meter.at[0] - px!, meter.at[1] - py!) < 2;
+        return here ? (meter.hit?.illuminanceLux ?? null) : null;
+      },
+      [x * box.width, y * box.height],
+    );
+  let lux: number | null = null;
+  await visited.page.mouse.move(box.x + 1, box.y + 1);
+  await visited.page.waitForTimeout(300);
+  await visited.page.mouse.move(box.x + x * box.width, box.y + y * box.height);
+  await until("the meter reads", async () => (lux = await metered()) !== null, kSlowMs);
+  assert.ok(lux !== null);
+  return lux;
+}
+
+test("the home opens with a picture", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  await upToDate(visited);
+  const [red, green, blue] = await meanColor(visited, 0, 0, 1, 1);
+  assert.ok(red > 20 && green > 20 && blue > 10, `${red}, ${green}, ${blue}`);
+  await visited.page.getByText("Connected", { exact: true }).waitFor();
+  await visited.shot("view_desktop");
+  await visited.end();
+});
+
+test("keys walk, and what is seen changes", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  await upToDate(visited);
+  const before = await meanColor(visited, 0.4, 0.4, 0.6, 0.6);
+  await visited.page.keyboard.down("q");
+  await visited.page.keyboard.down("w");
+  await visited.page.waitForTimeout(900);
+  await visited.page.keyboard.up("w");
+  await visited.page.keyboard.up("q");
+  await upToDate(visited);
+  const after = await meanColor(visited, 0.4, 0.4, 0.6, 0.6);
+  assert.ok(Math.hypot(...after.map((v, i) => v - before[i]!)) > 3, `${before} and ${after}`);
+  await visited.end();
+});
+
+test("a lamp that is moved changes the measured light, and undo brings it back", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  await choose(visited, "Lamps", await movableLamp(visited));
+  await upToDate(visited);
+  await visited.page.keyboard.press("m");
+  const place = [0.5, 0.72] as const;
+  const before = await luxAt(visited, ...place);
+  const picture = await meanColor(visited, 0, 0, 1, 1);
+  const start = Number(await position(visited.page, "y").inputValue());
+  await position(visited.page, "y").fill(String(start - 0.5));
+  await visited.page.keyboard.press("Enter");
+  await until("the move is done", () => visited.page.getByRole("button", { name: "Undo" }).isEnabled(), kSlowMs);
+  await upToDate(visited);
+  const moved = await luxAt(visited, ...place);
+  assert.ok(Math.abs(moved / before - 1) > 0.05, `${before} lx and ${moved} lx`);
+  const after = await meanColor(visited, 0, 0, 1, 1);
+  assert.ok(Math.hypot(...after.map((v, i) => v - picture[i]!)) > 0.5, `${picture} and ${after}`);
+  await visited.shot("view_moved");
+  await visited.page.getByRole("button", { name: "Undo" }).click();
+  await until("the number is back", async () => Number(await position(visited.page, "y").inputValue()) === start, kSlowMs);
+  await upToDate(visited);
+  const back = await luxAt(visited, ...place);
+  assert.ok(Math.abs(back / before - 1) < 0.05, `${before} lx and then ${back} lx`);
+  await visited.end();
+});
+
+test("a lamp that is switched off darkens the picture", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  await tab(visited, "Display");
+  await upToDate(visited);
+  await visited.page.getByLabel("Automatic exposure").uncheck();
+  await choose(visited, "Lamps", await movableLamp(visited));
+  await upToDate(visited);
+  const before = await meanColor(visited, 0, 0, 1, 1);
+  await visited.page.getByRole("switch", { name: "On" }).click();
+  await visited.page.getByRole("switch", { name: "Off" }).waitFor();
+  await until("darker", async () => (await meanColor(visited, 0, 0, 1, 1))[1] < 0.97 * before[1], kSlowMs);
+  await visited.page.keyboard.press("Control+z");
+  await visited.page.getByRole("switch", { name: "On" }).waitFor();
+  await until("as before", async () => (await meanColor(visited, 0, 0, 1, 1))[1] > 0.98 * before[1], kSlowMs);
+  await visited.end();
+});
+
+test("false colours and a split view are shown", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  await tab(visited, "Display");
+  await visited.page.getByRole("radio", { name: "Illuminance" }).click();
+  await visited.page.getByRole("img", { name: /False colours from .* lx/ }).waitFor({ timeout: kSlowMs });
+  await upToDate(visited);
+  await visited.shot("view_false_colour");
+  await visited.page.getByRole("radio", { name: "Picture" }).click();
+  await tab(visited, "Compare");
+  await visited.page.getByLabel("Split view", { exact: true }).last().check();
+  await visited.page.getByRole("separator").waitFor();
+  await upToDate(visited);
+  await visited.end();
+});
+
+test("a final picture is rendered and downloaded", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  await tab(visited, "Render");
+  await visited.page.getByLabel("Size").selectOption({ label: "1280 × 720" });
+  await visited.page.getByLabel("Quality").selectOption("draft");
+  await visited.page.getByRole("button", { name: "Render", exact: true }).click();
+  await visited.page.getByRole("progressbar", { name: "How far the picture is" }).waitFor();
+  const link = visited.page.getByRole("link", { name: /Download .*\.png/ });
+  await link.waitFor({ timeout: kSlowMs });
+  const downloading = visited.page.waitForEvent("download");
+  await link.click();
+  const file = await readFile(await (await downloading).path());
+  assert.equal(file.subarray(1, 4).toString("latin1"), "PNG");
+  assert.deepEqual([file.readUInt32BE(16), file.readUInt32BE(20)], [1280, 720]);
+  await visited.end();
+});
+
+test("the lighting is saved as a file", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  const downloading = visited.page.waitForEvent("download");
+  await visited.page.keyboard.press("Control+s");
+  const saved = JSON.parse(await readFile(await (await downloading).path(), "utf8")) as { lamps?: unknown[] };
+  assert.ok(Array.isArray(saved.lamps) && saved.lamps.length > 0);
+  await visited.end();
+});
+
+test("a connection that was cut is taken up again, the eye where it was", { skip }, async () => {
+  const line = await lineTo(program);
+  try {
+    const visited = await visit(browser, line.link);
+    await frameWith(visited, () => true, kSlowMs);
+    await visited.page.keyboard.down("q");
+    await visited.page.waitForTimeout(500);
+    await visited.page.keyboard.up("q");
+    await upToDate(visited);
+    const before = await meanColor(visited, 0.2, 0.2, 0.8, 0.8);
+    line.drop();
+    await visited.page.getByText("Trying again").waitFor();
+    await visited.page.getByText("Connected", { exact: true }).waitFor({ timeout: kSlowMs });
+    await upToDate(visited);
+    const after = await meanColor(visited, 0.2, 0.2, 0.8, 0.8);
+    assert.ok(Math.hypot(...after.map((v, i) => v - before[i]!)) < 8, `${before} and ${after}`);
+    await visited.end();
+  } finally {
+    await line.close();
+  }
+});
+
+test("a wrong token is refused", { skip }, async () => {
+  const visited = await visit(browser, program.link.replace(/#.*/, "#00000000000000000000000000000000"));
+  await visited.page.getByText("its token is not that of the running program").first().waitFor();
+  assert.equal(await visited.stage.getAttribute("data-frame"), null);
+  // The browser may complain of refused requests, and of nothing else.
+  assert.deepEqual(visited.complaints.filter((line) => !line.includes("403")), []);
+  visited.complaints.length = 0;
+  await visited.end();
+});
+
+test("it works on a phone", { skip }, async () => {
+  const visited = await visit(browser, program.link, kPhone);
+  await frameWith(visited, () => true, kSlowMs);
+  await upToDate(visited);
+  assert.equal(await visited.page.evaluate(() => document.documentElement.scrollWidth), 390);
+  const { x, y, width, height } = await stageBox(visited);
+  await visited.page.touchscreen.tap(x + width / 2, y + 0.7 * height);
+  await visited.page.getByRole("button", { name: "Select nothing" }).waitFor();
+  await upToDate(visited);
+  await visited.shot("view_phone");
+  await visited.end();
+});
