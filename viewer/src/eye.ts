@@ -38,13 +38,14 @@ export class Eye {
     this.touch();
   }
 
-  // Marks the camera as new: it is sent with the next animation frame, the newest pose only.
+  // Marks the camera as new: it is sent at once, or where one has just been sent with an animation frame after it, the newest pose only.
   touch(): void {
     this.dirty = true;
     this.changed();
     if (this.ticking) return;
-    this.ticking = true;
-    requestAnimationFrame((now) => this.tick(now));
+    if (!this.move) this.flushIfDue();
+    this.ticking = this.dirty || this.move !== null;
+    if (this.ticking) requestAnimationFrame((now) => this.tick(now));
   }
 
   // What is asked about the picture next must be asked of the newest camera.
@@ -79,6 +80,10 @@ export class Eye {
     return this.sent.get(number) ?? this.pose;
   }
 
+  private flushIfDue(): void {
+    if (performance.now() - this.lastSentMs >= kShortestIntervalMs) this.flush();
+  }
+
   private tick(nowMs: number): void {
     if (this.move) {
       const t = Math.min(1, Math.max(0, (nowMs - this.move.beginMs) / kMoveMs));
@@ -87,7 +92,7 @@ export class Eye {
       this.changed();
       if (t >= 1) this.move = null;
     }
-    if (nowMs - this.lastSentMs >= kShortestIntervalMs || !this.move) this.flush();
+    this.flushIfDue();
     this.ticking = this.dirty || this.move !== null;
     if (this.ticking) requestAnimationFrame((now) => this.tick(now));
   }

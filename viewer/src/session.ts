@@ -69,6 +69,7 @@ export class Session implements Listener {
   private frameTimesMs: number[] = [];
   private noticeTimer = 0;
   private meterBusy = false;
+  private measured = { camera: 0, revision: 0 }; // of the last frame that the meter was read anew for
   private meterNext: readonly [number, number] | null = null;
 
   constructor(
@@ -151,6 +152,7 @@ export class Session implements Listener {
 
   frame(header: FrameHeader, picture: Uint8Array): void {
     const now = performance.now();
+    this.measureAgain(header);
     this.frameTimesMs = [...this.frameTimesMs.filter((time) => now - time < 1000), now];
     this.lastFrame = header;
     this.onFrame?.(header, picture);
@@ -326,6 +328,14 @@ export class Session implements Listener {
   show(change: Partial<Pick<Session, "tab" | "sheetOpen" | "navigation" | "dividerAt" | "pivot">>): void {
     Object.assign(this, change);
     this.emit("ui");
+  }
+
+  // What the meter reads changes with the eye and with the home.
+  private measureAgain({ camera, revision, quick }: FrameHeader): void {
+    const { meter, measured } = this;
+    if (!this.meterOn || !meter || quick || (measured.camera === camera && measured.revision === revision)) return;
+    this.measured = { camera, revision };
+    this.measure(meter.at[0], meter.at[1]);
   }
 
   private async measureNext(): Promise<void> {

@@ -48,7 +48,23 @@ export class HomeTab extends SessionElement {
     controls,
     css`
       :host {
-        display: block;
+        display: flex;
+        flex-direction: column;
+        height: 100%;
+      }
+      .editor {
+        flex: 0 1 auto;
+        max-height: 66%;
+        overflow: auto;
+        scrollbar-width: thin;
+        scrollbar-color: #565656 transparent;
+      }
+      .list {
+        flex: 1;
+        min-height: 0;
+        overflow: auto;
+        scrollbar-width: thin;
+        scrollbar-color: #565656 transparent;
       }
       .editor h2 {
         overflow: hidden;
@@ -95,6 +111,14 @@ export class HomeTab extends SessionElement {
       .none {
         padding: 16px 8px;
       }
+      @media (max-width: 760px) {
+        .editor {
+          max-height: none;
+        }
+        .editor ~ .list {
+          display: none; /* the sheet is too low for both: the cross leads back to the list */
+        }
+      }
       @media (pointer: coarse) {
         [role="option"] {
           min-height: 44px;
@@ -123,30 +147,32 @@ export class HomeTab extends SessionElement {
       .filter(({ entries }) => entries.length > 0);
     return html`
       ${this.editor()}
-      <div class="section head">
-        <input
-          id="search"
-          type="search"
-          placeholder="Search the home"
-          aria-label="Search rooms, cameras, lamps and objects"
-          .value=${this.search}
-          @input=${(event: Event) => (this.search = (event.target as HTMLInputElement).value)}
-          @keydown=${this.searchKey}
-        />
-        <div class="segments" role="radiogroup" aria-label="What the list shows" ?hidden=${wanted !== ""}>
-          ${kKinds.map(
-            ([kind, title]) => html`<button role="radio" aria-checked=${kind === this.kind} @click=${() => (this.kind = kind)}>${title}</button>`,
-          )}
+      <div class="list">
+        <div class="section head">
+          <input
+            id="search"
+            type="search"
+            placeholder="Search the home"
+            aria-label="Search rooms, cameras, lamps and objects"
+            .value=${this.search}
+            @input=${(event: Event) => (this.search = (event.target as HTMLInputElement).value)}
+            @keydown=${this.searchKey}
+          />
+          <div class="segments" role="radiogroup" aria-label="What the list shows" ?hidden=${wanted !== ""}>
+            ${kKinds.map(
+              ([kind, title]) => html`<button role="radio" aria-checked=${kind === this.kind} @click=${() => (this.kind = kind)}>${title}</button>`,
+            )}
+          </div>
         </div>
-      </div>
-      <div role="listbox" aria-label=${wanted ? "What was found" : (kinds[0]?.[1] ?? "")} @keydown=${this.listKey}>
-        ${groups.map(
-          ({ title, entries }) => html`
-            ${wanted ? html`<h3 role="presentation">${title}</h3>` : nothing}
-            ${repeat(entries, (entry) => entry.kind + entry.id, (entry) => this.option(entry, entry === groups[0]?.entries[0]))}
-          `,
-        )}
-        ${groups.length ? nothing : html`<p class="muted none">${wanted ? "Nothing has that name." : "The home has none."}</p>`}
+        <div role="listbox" aria-label=${wanted ? "What was found" : (kinds[0]?.[1] ?? "")} @keydown=${this.listKey}>
+          ${groups.map(
+            ({ title, entries }) => html`
+              ${wanted ? html`<h3 role="presentation">${title}</h3>` : nothing}
+              ${repeat(entries, (entry) => entry.kind + entry.id, (entry) => this.option(entry, entry === groups[0]?.entries[0]))}
+            `,
+          )}
+          ${groups.length ? nothing : html`<p class="muted none">${wanted ? "Nothing has that name." : "The home has none."}</p>`}
+        </div>
       </div>
     `;
   }
@@ -259,6 +285,11 @@ export class HomeTab extends SessionElement {
     // The list shows the kind of what was picked in the picture.
     const { selection } = this.session;
     if (selection && selection !== this.followed) this.kind = selection.kind;
+  }
+
+  protected override updated(): void {
+    const { selection } = this.session;
+    if (selection !== this.followed) this.renderRoot.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
     this.followed = selection;
   }
 }

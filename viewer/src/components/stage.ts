@@ -16,7 +16,7 @@ const kDividerStep = 0.02; // of the width, by arrow keys
 
 @customElement("rl-stage")
 export class Stage extends SessionElement {
-  protected override readonly topics = ["model", "ui", "meter"] as const;
+  protected override readonly topics = ["model", "ui", "meter", "link"] as const;
   static override styles = [
     controls,
     css`
@@ -226,7 +226,6 @@ export class Stage extends SessionElement {
     session.onFrame = (header, bytes) => void this.picture?.accept(header, bytes);
     session.onNewLine = () => this.picture?.forget();
     this.input = new Input(this.hands, session, () => this.scheduleOverlay());
-    session.on("link", () => this.requestUpdate());
     this.sizes.observe(this);
   }
 

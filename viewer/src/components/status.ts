@@ -76,7 +76,15 @@ export class Status extends SessionElement {
 
   override render() {
     this.dataset.link = this.session.link.state;
-    return html`<span class="link" role="status">${this.link()}</span><span class="picture number">${this.picture()}</span>`;
+    const { link } = this.session;
+    const seconds = link.state === "lost" ? Math.max(0, Math.ceil((link.retryAtMs - Date.now()) / 1000)) : 0;
+    return html`
+      <span class="link">
+        <span role="status">${this.link()}</span>
+        ${link.state === "lost" ? html`Trying again in ${seconds} s.<button @click=${() => this.session.reconnect()}>Now</button>` : nothing}
+      </span>
+      <span class="picture number">${this.picture()}</span>
+    `;
   }
 
   private link() {
@@ -86,12 +94,9 @@ export class Status extends SessionElement {
         return html`<span class="dot wait"></span>Connecting…`;
       case "open":
         return html`<span class="dot"></span>Connected`;
+      case "lost":
       case "refused":
         return html`<span class="dot bad"></span>${link.reason}`;
-      case "lost": {
-        const seconds = Math.max(0, Math.ceil((link.retryAtMs - Date.now()) / 1000));
-        return html`<span class="dot bad"></span>${link.reason} Trying again in ${seconds} s.<button @click=${() => this.session.reconnect()}>Now</button>`;
-      }
     }
   }
 

@@ -163,6 +163,9 @@ test("the light meter follows the pointer", { skip }, async () => {
   assert.equal(readings.size, 3, [...readings].join(", "));
   assert.match([...readings][0]!, /^[\d.]+\u202flx$/);
   await visited.shot("interface_meter");
+  const still = await lux.textContent();
+  await visited.page.keyboard.press("PageDown", { delay: 300 });
+  await until("the reading follows the eye", async () => (await lux.textContent()) !== still);
   await visited.page.keyboard.press("m");
   assert.equal(await lux.count(), 0);
   await visited.end();

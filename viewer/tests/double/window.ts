@@ -198,9 +198,10 @@ export class Window {
 
   private pump(): void {
     if (!this.dirty || this.unacknowledged >= 2 || this.line.readyState !== this.line.OPEN) return;
+    // Both sides in turn, the left one first.
     const side = this.split ? this.side : 0;
-    this.dirty = this.split !== null && this.side === 1;
-    this.side = this.side === 1 ? 2 : 1;
+    this.side = side === 1 ? 2 : 1;
+    this.dirty = side === 1;
     this.frame(side);
     if (this.dirty) this.pump();
   }
