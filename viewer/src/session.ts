@@ -57,6 +57,7 @@ export class Session implements Listener {
   notice: { readonly text: string; readonly bad: boolean } | null = null;
   progress: Progress | null = null;
   jobs: readonly Job[] = [];
+  readonly files = new Map<Job["job"], string>(); // addresses of finished pictures
   lastFrame: FrameHeader | null = null;
   readonly eye: Eye;
   onFrame: ((header: FrameHeader, picture: Uint8Array) => void) | null = null;
@@ -144,6 +145,7 @@ export class Session implements Listener {
       this.emit("ui");
     } else if (message.type === "job") {
       this.jobs = [message, ...this.jobs.filter((job) => job.job !== message.job)];
+      if (message.file) void this.fetchFile(message.job, message.file.path);
       this.emit("jobs");
     } else if (message.type === "error") {
       this.tell(message.message, true);
@@ -296,8 +298,16 @@ export class Session implements Listener {
     void this.ask({ type: "cancel", job });
   }
 
-  fileAddress(path: string): string {
-    return `${path}?token=${encodeURIComponent(this.token)}`;
+  // The server gives a finished picture away once: it is kept here to be looked at and downloaded.
+  private async fetchFile(job: Job["job"], path: string): Promise<void> {
+    try {
+      const response = await fetch(`${path}?token=${encodeURIComponent(this.token)}`);
+      if (!response.ok) throw new Error(`the server answered ${response.status}`);
+      this.files.set(job, URL.createObjectURL(await response.blob()));
+    } catch (error) {
+      this.tell(`The picture could not be fetched: ${error instanceof Error ? error.message : "unknown"}. Render it again.`, true);
+    }
+    this.emit("jobs");
   }
 
   async save(): Promise<void> {

@@ -5,6 +5,7 @@ import type { Side, Split } from "../protocol.js";
 import { SessionElement } from "./element.js";
 import { controls } from "./styles.js";
 
+const kFirstPlan = "start"; // the home as it was opened; it stays
 const kEdited = ""; // stands for the plan that is edited
 
 @customElement("rl-compare-tab")
@@ -85,7 +86,7 @@ export class CompareTab extends SessionElement {
             (plan) => html`<li class="row">
               <span class="grow name">${plan}</span>
               <button aria-label=${`Apply ${plan}`} @click=${() => this.session.plan("apply", plan)}>Apply</button>
-              <button class="plain" aria-label=${`Drop ${plan}`} title="Drop" @click=${() => this.session.plan("drop", plan)}>✕</button>
+              <button class="plain" ?hidden=${plan === kFirstPlan} aria-label=${`Drop ${plan}`} title="Drop" @click=${() => this.session.plan("drop", plan)}>✕</button>
             </li>`,
           )}
         </ul>

@@ -151,12 +151,12 @@ export class RenderTab extends SessionElement {
     return html`<section class="section" aria-label="A finished picture">
       ${job.state === "failed" ? html`<p class="bad">${job.message ?? "The picture could not be made."}</p>` : nothing}
       ${job.state === "cancelled" ? html`<p class="muted">Cancelled${file ? ": this is the best picture so far." : "."}</p>` : nothing}
-      ${file ? this.file(file.path, file.name, `${bytes(file.bytes)}${error}`) : nothing}
+      ${file ? this.file(this.session.files.get(job.job), file.name, `${bytes(file.bytes)}${error}`) : nothing}
     </section>`;
   }
 
-  private file(path: string, name: string, detail: string) {
-    const address = this.session.fileAddress(path);
+  private file(address: string | undefined, name: string, detail: string) {
+    if (address === undefined) return html`<p class="muted">${name} is on its way.</p>`;
     return html`
       ${name.endsWith(".exr") ? nothing : html`<img src=${address} alt=${`The rendered picture ${name}`} />`}
       <div class="row"><a class="grow" href=${address} download=${name}>Download ${name}</a><span class="muted number">${detail}</span></div>

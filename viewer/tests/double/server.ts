@@ -18,7 +18,7 @@ const kTypes: Readonly<Record<string, string>> = {
   ".svg": "image/svg+xml",
 };
 export const kPolicy =
-  "default-src 'self'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+  "default-src 'self'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 export interface Double {
   readonly link: string;
@@ -50,13 +50,15 @@ async function page(folder: string, path: string, response: ServerResponse): Pro
 export async function startDouble(folder: string, port = 0, token = randomBytes(16).toString("hex")): Promise<Double> {
   const desk = new Desk();
   const windows = new Set<Window>();
+  const given = new Set<string>(); // files are given away once
   const sockets = new Set<Socket>();
   const allowed = (request: IncomingMessage) => new URL(request.url ?? "/", "http://here").searchParams.get("token") === token;
   const server: Server = createServer((request, response) => {
     const { pathname } = new URL(request.url ?? "/", "http://here");
     if (pathname === "/live") response.writeHead(allowed(request) ? 426 : 403).end();
     else if (pathname.startsWith("/files/")) {
-      if (allowed(request)) response.writeHead(200, { "content-type": "image/png" }).end(encodePng(new Uint8Array(12).fill(160), 2, 2));
+      if (allowed(request) && given.has(pathname)) response.writeHead(404).end();
+      else if (allowed(request) && given.add(pathname)) response.writeHead(200, { "content-type": "image/png" }).end(encodePng(new Uint8Array(12).fill(160), 2, 2));
       else response.writeHead(403).end();
     } else void page(folder, pathname, response);
   });

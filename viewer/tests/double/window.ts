@@ -11,6 +11,8 @@ const kFrameHeight = 180;
 const kJobSteps = 5;
 const kJobStepMs = 120;
 
+let files = 0;
+
 interface Incoming {
   type: string;
   id?: number;
@@ -184,7 +186,7 @@ export class Window {
   }
 
   private jobState(state: string, fraction: number): void {
-    const file = state === "done" ? { path: "/files/1", name: "box_home.png", bytes: 81234 } : null;
+    const file = state === "done" ? { path: `/files/${this.name}${++files}`, name: "box_home.png", bytes: 81234 } : null;
     this.send({ type: "job", job: "job:1", stage: "light", fraction, secondsLeft: 1, estimatedError: 0.02, state, file, message: null });
   }
 
