@@ -191,7 +191,7 @@ export class Input {
   }
 
   private hover(x: number, y: number): void {
-    if (this.session.meterOn) this.session.measure(x, y);
+    if (this.session.meter.on) this.session.meter.hold(x, y);
     const gizmo = this.gizmo(this.session.eye.pose);
     const active = gizmo && handleAt(gizmo, x, y, kMouseReachPx);
     if (active !== this.active) {
@@ -249,7 +249,7 @@ export class Input {
     this.pull = null;
     if (wasPull) this.redraw();
     if (!pointer || !done || pointer.moved || wasPull || event.button > 0 || this.pointers.size > 0) return;
-    if (this.session.meterOn && event.pointerType !== "mouse") this.session.measure(pointer.x, pointer.y);
+    if (this.session.meter.on && event.pointerType !== "mouse") this.session.meter.hold(pointer.x, pointer.y);
     else void this.pick(pointer.x, pointer.y);
   }
 

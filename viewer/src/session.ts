@@ -4,8 +4,10 @@ import { poseFrom, type Pose, type Viewport } from "./camera.js";
 import { Connection, Refused, type Link, type Listener } from "./connection.js";
 import { ConnectionLost, EditQueue } from "./edits.js";
 import { Eye } from "./eye.js";
+import { FinalPictures } from "./final_pictures.js";
 import type { FrameHeader } from "./frame.js";
 import { middle, poseForRoom, poseForThing } from "./framing.js";
+import { LightMeter } from "./light_meter.js";
 import { changed, edited, modelFrom, type Model } from "./model.js";
 import type {
   Box,
@@ -33,11 +35,6 @@ export interface Selection {
   readonly id: string; // of rooms and cameras the number in their list
 }
 
-export interface MeterReading {
-  readonly at: readonly [number, number]; // CSS pixels of the stage
-  readonly hit: MeterHit | null;
-}
-
 const kLampBoxM = 0.15; // half of the side of the box that stands for a lamp without a body
 
 export class Session implements Listener {
@@ -52,14 +49,12 @@ export class Session implements Listener {
   tab: Tab = "home";
   sheetOpen = true; // the panel on narrow screens
   navigation: Navigation = "walk";
-  meterOn = false;
-  meter: MeterReading | null = null;
   notice: { readonly text: string; readonly bad: boolean } | null = null;
   progress: Progress | null = null;
-  jobs: readonly Job[] = [];
-  readonly files = new Map<Job["job"], string>(); // addresses of finished pictures
   lastFrame: FrameHeader | null = null;
   readonly eye: Eye;
+  readonly meter: LightMeter;
+  readonly pictures: FinalPictures;
   onFrame: ((header: FrameHeader, picture: Uint8Array) => void) | null = null;
   onNewLine: (() => void) | null = null; // frames are counted afresh from here on
 
@@ -69,18 +64,24 @@ export class Session implements Listener {
   private readonly listeners = new Map<Topic, Set<() => void>>();
   private frameTimesMs: number[] = [];
   private noticeTimer = 0;
-  private meterBusy = false;
-  private measured = { camera: 0, revision: 0 }; // of the last frame that the meter was read anew for
-  private meterNext: readonly [number, number] | null = null;
 
   constructor(
     origin: URL,
-    readonly token: string,
+    token: string,
   ) {
     this.connection = new Connection(origin, token, this);
     this.eye = new Eye(
       (notice) => this.connection.notify(notice),
       () => this.emit("camera"),
+    );
+    this.meter = new LightMeter(
+      (xPx, yPx) => this.measure(xPx, yPx),
+      () => this.emit("meter"),
+    );
+    this.pictures = new FinalPictures(
+      token,
+      () => this.emit("jobs"),
+      (message) => this.tell(message, true),
     );
     this.edits = new EditQueue(
       ({ target, gesture, fields }) => this.connection.request({ type: "edit", target, gesture, ...fields }),
@@ -119,7 +120,7 @@ export class Session implements Listener {
       if (this.display) this.connection.notify({ type: "display", ...this.display });
       if (this.technique !== welcome.technique) this.ask({ type: "technique", technique: this.technique });
       if (JSON.stringify(this.split) !== JSON.stringify(welcome.split)) this.ask({ type: "split", split: this.split });
-      this.jobs = this.jobs.filter((job) => job.state !== "running");
+      this.pictures.forgetRunning();
     } else {
       document.title = `${welcome.home} – roomlight`;
       this.eye.pose = poseFrom(welcome.camera);
@@ -133,7 +134,6 @@ export class Session implements Listener {
     this.edits.resume();
     this.publishModel();
     this.emit("ui");
-    this.emit("jobs");
   }
 
   message(message: ServerMessage): void {
@@ -144,9 +144,7 @@ export class Session implements Listener {
       this.progress = message.fraction >= 1 ? null : message;
       this.emit("ui");
     } else if (message.type === "job") {
-      this.jobs = [message, ...this.jobs.filter((job) => job.job !== message.job)];
-      if (message.file) void this.fetchFile(message.job, message.file.path);
-      this.emit("jobs");
+      this.pictures.update(message);
     } else if (message.type === "error") {
       this.tell(message.message, true);
     }
@@ -154,7 +152,7 @@ export class Session implements Listener {
 
   frame(header: FrameHeader, picture: Uint8Array): void {
     const now = performance.now();
-    this.measureAgain(header);
+    this.meter.shown(header);
     this.frameTimesMs = [...this.frameTimesMs.filter((time) => now - time < 1000), now];
     this.lastFrame = header;
     this.onFrame?.(header, picture);
@@ -269,20 +267,6 @@ export class Session implements Listener {
     return answer?.type === "picked" ? answer.hit : null;
   }
 
-  // The light at a place of the stage, CSS pixels. One request at a time; the newest place wins.
-  measure(xPx: number, yPx: number): void {
-    this.meterNext = [xPx, yPx];
-    if (!this.meterBusy) void this.measureNext();
-  }
-
-  setMeter(on: boolean): void {
-    this.meterOn = on;
-    this.meter = null;
-    this.meterNext = null;
-    this.emit("ui");
-    this.emit("meter");
-  }
-
   // Pictures and files.
 
   async render(request: RenderRequest): Promise<void> {
@@ -296,18 +280,6 @@ export class Session implements Listener {
 
   cancel(job: Job["job"]): void {
     void this.ask({ type: "cancel", job });
-  }
-
-  // The server gives a finished picture away once: it is kept here to be looked at and downloaded.
-  private async fetchFile(job: Job["job"], path: string): Promise<void> {
-    try {
-      const response = await fetch(`${path}?token=${encodeURIComponent(this.token)}`);
-      if (!response.ok) throw new Error(`the server answered ${response.status}`);
-      this.files.set(job, URL.createObjectURL(await response.blob()));
-    } catch (error) {
-      this.tell(`The picture could not be fetched: ${error instanceof Error ? error.message : "unknown"}. Render it again.`, true);
-    }
-    this.emit("jobs");
   }
 
   async save(): Promise<void> {
@@ -340,28 +312,11 @@ export class Session implements Listener {
     this.emit("ui");
   }
 
-  // What the meter reads changes with the eye and with the home.
-  private measureAgain({ camera, revision, quick }: FrameHeader): void {
-    const { meter, measured } = this;
-    if (!this.meterOn || !meter || quick || (measured.camera === camera && measured.revision === revision)) return;
-    this.measured = { camera, revision };
-    this.measure(meter.at[0], meter.at[1]);
-  }
-
-  private async measureNext(): Promise<void> {
-    this.meterBusy = true;
-    while (this.meterOn && this.meterNext) {
-      const [x, y] = this.meterNext;
-      this.meterNext = null;
-      const { width, height } = this.eye.viewport;
-      this.eye.flush();
-      const answer = await this.ask({ type: "meter", x: x / width, y: y / height });
-      if (answer?.type !== "metered") break;
-      if (!this.meterOn) break;
-      this.meter = { at: [x, y], hit: answer.hit };
-      this.emit("meter");
-    }
-    this.meterBusy = false;
+  private async measure(xPx: number, yPx: number): Promise<MeterHit | null | undefined> {
+    const { width, height } = this.eye.viewport;
+    this.eye.flush();
+    const answer = await this.ask({ type: "meter", x: xPx / width, y: yPx / height });
+    return answer?.type === "metered" ? answer.hit : undefined;
   }
 
   private sendViewport(): void {

@@ -27,6 +27,7 @@ const kTabs: readonly (readonly [Tab, string])[] = [
 
 @customElement("rl-app")
 export class App extends SessionElement {
+  protected override readonly topics = ["model", "ui", "meter"] as const;
   static override styles = [
     controls,
     css`
@@ -252,7 +253,7 @@ export class App extends SessionElement {
 
   private bar() {
     const { session } = this;
-    const { model, navigation, meterOn } = session;
+    const { model, navigation, meter } = session;
     const undo = model?.undo ?? null;
     const redo = model?.redo ?? null;
     const walking = navigation === "walk";
@@ -272,7 +273,7 @@ export class App extends SessionElement {
       >
         ${walking ? walkIcon : orbitIcon}<span class="word">${walking ? "Walk" : "Orbit"}</span>
       </button>
-      <button aria-label="Light meter" title="Light meter (M)" aria-pressed=${meterOn} @click=${() => this.toggleMeter()}>
+      <button aria-label="Light meter" title="Light meter (M)" aria-pressed=${meter.on} @click=${() => this.toggleMeter()}>
         ${meterIcon}<span class="word">Meter</span>
       </button>
       <span class="gap"></span>
@@ -304,8 +305,9 @@ export class App extends SessionElement {
   }
 
   private toggleMeter(): void {
-    this.session.setMeter(!this.session.meterOn);
-    if (this.session.meterOn) this.stage.measureMiddle();
+    const { meter } = this.session;
+    meter.turn(!meter.on);
+    if (meter.on) this.stage.measureMiddle();
   }
 
   private tabKey(event: KeyboardEvent): void {

@@ -13,14 +13,6 @@ export class CompareTab extends SessionElement {
   static override styles = [
     controls,
     css`
-      :host {
-        display: block;
-      }
-      .two {
-        display: grid;
-        grid-template-columns: 1fr 1fr;
-        gap: 8px;
-      }
       fieldset {
         margin: 0;
         padding: 0;

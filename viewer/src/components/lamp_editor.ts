@@ -37,9 +37,6 @@ export class LampEditor extends SessionElement {
   static override styles = [
     controls,
     css`
-      :host {
-        display: block;
-      }
       .kelvin {
         --track: linear-gradient(90deg, #ff8512, #ffb46b 25%, #ffd9b3 50%, #fff1e6 75%, #f3f2ff);
       }

@@ -22,9 +22,6 @@ export class LightTab extends SessionElement {
   static override styles = [
     controls,
     css`
-      :host {
-        display: block;
-      }
       .time {
         width: 132px !important;
         min-height: 28px !important;

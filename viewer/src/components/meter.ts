@@ -1,6 +1,7 @@
 // What the light meter reads, beside the place where it was held.
 import { css, html, nothing } from "lit";
 import { customElement } from "lit/decorators.js";
+import type { Reading } from "../light_meter.js";
 import { exposureValue, withUnit } from "../numbers.js";
 import { SessionElement } from "./element.js";
 import { controls } from "./styles.js";
@@ -53,17 +54,16 @@ export class Meter extends SessionElement {
   ];
 
   override render() {
-    const { meter, meterOn, eye } = this.session;
-    if (!meterOn || !meter) return nothing;
-    const [x, y] = meter.at;
+    const { meter, eye } = this.session;
+    if (!meter.reading) return nothing;
+    const [x, y] = meter.reading.at;
     const { width, height } = eye.viewport;
     const left = x + kGapPx + kWidthPx > width ? Math.max(0, x - kGapPx - kWidthPx) : x + kGapPx;
     const top = Math.max(0, y + kGapPx + kHeightPx > height ? y - kGapPx - kHeightPx : y + kGapPx);
-    return html`<div class="chip number" role="status" .style=${`transform:translate(${Math.round(left)}px,${Math.round(top)}px)`}>${this.reading()}</div>`;
+    return html`<div class="chip number" role="status" .style=${`transform:translate(${Math.round(left)}px,${Math.round(top)}px)`}>${this.reading(meter.reading)}</div>`;
   }
 
-  private reading() {
-    const hit = this.session.meter?.hit;
+  private reading({ hit }: Reading) {
     if (!hit) return html`<span class="muted">Only sky there</span>`;
     const spread = hit.standardErrorLux ? `± ${withUnit(hit.standardErrorLux, "lx")} · ` : "";
     return html`<dl>

@@ -18,9 +18,6 @@ export class ObjectEditor extends SessionElement {
   static override styles = [
     controls,
     css`
-      :host {
-        display: block;
-      }
       .paints {
         display: grid;
         gap: 6px;

@@ -35,14 +35,6 @@ export class RenderTab extends SessionElement {
   static override styles = [
     controls,
     css`
-      :host {
-        display: block;
-      }
-      .two {
-        display: grid;
-        grid-template-columns: 1fr 1fr;
-        gap: 10px;
-      }
       progress {
         width: 100%;
         height: 8px;
@@ -70,7 +62,7 @@ export class RenderTab extends SessionElement {
   @state() private seconds = 0;
 
   override render() {
-    const { model, jobs } = this.session;
+    const { model, pictures } = this.session;
     if (!model) return nothing;
     const { qualities } = model.welcome;
     const quality = this.chosenQuality();
@@ -90,9 +82,9 @@ export class RenderTab extends SessionElement {
           ${this.select("Time", kTimes.map(([s, name]) => [String(s), name]), String(this.seconds), (v) => (this.seconds = Number(v)))}
         </div>
         <p class="muted">${qualities.find(({ name }) => name === quality)?.about ?? ""}</p>
-        <button class="main" ?disabled=${jobs.some((job) => job.state === "running")} @click=${this.start}>Render</button>
+        <button class="main" ?disabled=${pictures.busy} @click=${this.start}>Render</button>
       </section>
-      <div aria-live="polite">${jobs.map((job) => this.job(job))}</div>
+      <div aria-live="polite">${pictures.jobs.map((job) => this.job(job))}</div>
     `;
   }
 
@@ -151,7 +143,7 @@ export class RenderTab extends SessionElement {
     return html`<section class="section" aria-label="A finished picture">
       ${job.state === "failed" ? html`<p class="bad">${job.message ?? "The picture could not be made."}</p>` : nothing}
       ${job.state === "cancelled" ? html`<p class="muted">Cancelled${file ? ": this is the best picture so far." : "."}</p>` : nothing}
-      ${file ? this.file(this.session.files.get(job.job), file.name, `${bytes(file.bytes)}${error}`) : nothing}
+      ${file ? this.file(this.session.pictures.addresses.get(job.job), file.name, `${bytes(file.bytes)}${error}`) : nothing}
     </section>`;
   }
 

@@ -20,9 +20,6 @@ export class Slider extends LitElement {
   static override styles = [
     controls,
     css`
-      :host {
-        display: block;
-      }
       .head {
         display: flex;
         align-items: center;

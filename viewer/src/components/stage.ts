@@ -162,14 +162,14 @@ export class Stage extends SessionElement {
   private readonly sizes = new ResizeObserver(() => this.resized());
 
   override render() {
-    const { split, dividerAt, meterOn, progress } = this.session;
+    const { split, dividerAt, meter, progress } = this.session;
     return html`
       <canvas id="picture" ?hidden=${this.shown === null}></canvas>
       <canvas id="overlay"></canvas>
       <div
         id="hands"
         tabindex="0"
-        class=${classMap({ meter: meterOn })}
+        class=${classMap({ meter: meter.on })}
         @pointerdown=${() => this.hands.classList.add("pointed")}
         @blur=${() => this.hands.classList.remove("pointed")}
         role="application"
@@ -212,7 +212,7 @@ export class Stage extends SessionElement {
   // Reads the light in the middle of the picture, for whoever has no pointer.
   measureMiddle(): void {
     const { width, height } = this.session.eye.viewport;
-    this.session.measure(width / 2, height / 2);
+    this.session.meter.hold(width / 2, height / 2);
   }
 
   protected override firstUpdated(): void {
@@ -293,7 +293,7 @@ export class Stage extends SessionElement {
       room,
       gizmo: input.gizmo(pose),
       active: input.active,
-      cross: session.meterOn && session.meter ? session.meter.at : null,
+      cross: session.meter.reading?.at ?? null,
     });
   }
 

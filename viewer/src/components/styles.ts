@@ -3,6 +3,7 @@ import { css } from "lit";
 
 export const controls = css`
   :host {
+    display: block;
     box-sizing: border-box;
   }
   *,
@@ -46,6 +47,11 @@ export const controls = css`
   .field {
     display: grid;
     gap: 4px;
+  }
+  .two {
+    display: grid;
+    grid-template-columns: 1fr 1fr;
+    gap: 10px;
   }
   .number {
     font-variant-numeric: tabular-nums;

@@ -10,9 +10,6 @@ export class VectorField extends LitElement {
   static override styles = [
     controls,
     css`
-      :host {
-        display: block;
-      }
       .three {
         display: grid;
         grid-template-columns: repeat(3, 1fr);

@@ -1,5 +1,5 @@
 // How the picture is shown: exposure, white balance, tone curve, false colours.
-import { css, html, nothing } from "lit";
+import { html, nothing } from "lit";
 import { customElement } from "lit/decorators.js";
 import type { Display } from "../protocol.js";
 import { SessionElement } from "./element.js";
@@ -18,19 +18,7 @@ const kDaylightK = 6500;
 
 @customElement("rl-view-tab")
 export class ViewTab extends SessionElement {
-  static override styles = [
-    controls,
-    css`
-      :host {
-        display: block;
-      }
-      .two {
-        display: grid;
-        grid-template-columns: 1fr 1fr;
-        gap: 8px;
-      }
-    `,
-  ];
+  static override styles = controls;
 
   override render() {
     const { display } = this.session;

@@ -57,9 +57,9 @@ async function luxAt(visited: Visit, x: number, y: number): Promise<number> {
     visited.page.evaluate(
       ([px, py]) => {
         const { session } = document.querySelector("rl-app") as unknown as { session: Session };
-        const { meter } = session;
-        const here = meter && Math.hypot(meter.at[0] - px!, meter.at[1] - py!) < 2;
-        return here ? (meter.hit?.illuminanceLux ?? null) : null;
+        const { reading } = session.meter;
+        const here = reading && Math.hypot(reading.at[0] - px!, reading.at[1] - py!) < 2;
+        return here ? (reading.hit?.illuminanceLux ?? null) : null;
       },
       [x * box.width, y * box.height],
     );
