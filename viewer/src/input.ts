@@ -3,7 +3,7 @@ import { dolly, look, orbit, pixelsPerTangent, rayThrough, turned, walk, type Po
 import { dragBy, gizmoAt, handleAt, type Gizmo, type Handle } from "./gizmo.js";
 import { heldBy, type Held } from "./held.js";
 import { middle } from "./framing.js";
-import type { Session } from "./session.js";
+import type { Selection, Session } from "./session.js";
 import { add, kRadPerDegree, scale, type Vec3 } from "./vector.js";
 
 const kClickPx = 5; // a pointer that moved less was a click
@@ -116,8 +116,8 @@ export class Input {
   }
 
   private tick(nowMs: number): void {
-    // A first step at once, and never more than a tenth of a second's worth.
-    const seconds = Math.min(0.1, Math.max(0.016, (nowMs - this.lastTickMs) / 1000));
+    // Never more than a tenth of a second's worth, after a pause of the browser.
+    const seconds = Math.min(0.1, Math.max(0, (nowMs - this.lastTickMs) / 1000));
     this.lastTickMs = nowMs;
     let [ahead, aside, above, turn] = [0, 0, 0, 0];
     for (const key of this.keys) {
@@ -256,14 +256,19 @@ export class Input {
   private async pick(x: number, y: number): Promise<void> {
     const { width, height } = this.session.eye.viewport;
     const hit = await this.session.pick(x / width, y / height);
-    const id = hit?.lamp ?? hit?.object ?? null;
-    this.session.select(id === null ? null : { kind: hit?.lamp ? "lamp" : "object", id }, false);
-    this.session.show({ pivot: hit?.point ?? null, ...(id === null ? {} : { tab: "home" as const }) });
+    const { model } = this.session;
+    const selection: Selection | null =
+      hit?.lamp && model?.lamps.has(hit.lamp)
+        ? { kind: "lamp", id: hit.lamp }
+        : hit?.object && model?.things.has(hit.object)
+          ? { kind: "object", id: hit.object }
+          : null;
+    this.session.select(selection, false);
+    this.session.show({ pivot: hit?.point ?? null, ...(selection ? { tab: "home" as const } : {}) });
   }
 
   private wheel(event: WheelEvent): void {
     event.preventDefault();
-    if (event.ctrlKey && event.deltaY === 0) return;
     const px = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? event.deltaY * 16 : event.deltaY;
     const { eye } = this.session;
     if (this.session.navigation === "orbit") eye.set(dolly(eye.pose, this.pivot(), Math.exp(px * 0.0012)));

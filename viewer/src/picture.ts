@@ -8,7 +8,9 @@ interface Shown {
 
 export class Picture {
   private shown = new Map<FrameSide, Shown>();
-  private toAcknowledge: number[] = [];
+  private line = 0; // counts connections
+  private decoded = 0; // the newest frame that was
+  private acknowledged = 0; // and with it all before it
   private scheduled = false;
   private divider = 0.5;
 
@@ -20,13 +22,16 @@ export class Picture {
   ) {}
 
   async accept(header: FrameHeader, bytes: Uint8Array): Promise<void> {
+    const { line } = this;
     try {
       const bitmap = await createImageBitmap(new Blob([bytes as Uint8Array<ArrayBuffer>], { type: "image/jpeg" }));
-      this.keep(header, bitmap);
+      if (line === this.line) this.keep(header, bitmap);
+      else bitmap.close();
     } catch {
       this.broken(`Frame ${header.number} could not be decoded.`);
     }
-    this.toAcknowledge.push(header.number);
+    if (line !== this.line) return;
+    this.decoded = Math.max(this.decoded, header.number);
     this.schedule();
   }
 
@@ -55,7 +60,7 @@ export class Picture {
     // Decoding may overtake: an older frame of this side, or of a split that is over, is not shown.
     const sameKind = newest && (newest.side === "whole") === (header.side === "whole");
     const before = sameKind ? this.shown.get(header.side)?.header : newest;
-    if (before && before.number > header.number && before.number - header.number < 2 ** 31) {
+    if (before && before.number > header.number) {
       bitmap.close();
       return;
     }
@@ -64,11 +69,12 @@ export class Picture {
     this.shown.set(header.side, { header, bitmap });
   }
 
-  // The server starts to count afresh with a new connection.
+  // The server may count afresh with a new connection, and waits for none of the frames before it.
   forget(): void {
-    const newest = [...this.shown.entries()];
-    for (const [side, { header, bitmap }] of newest) this.shown.set(side, { header: { ...header, number: 0 }, bitmap });
-    this.toAcknowledge = [];
+    const shown = [...this.shown.entries()];
+    for (const [side, { header, bitmap }] of shown) this.shown.set(side, { header: { ...header, number: 0 }, bitmap });
+    ++this.line;
+    this.decoded = this.acknowledged = 0;
   }
 
   private clear(): void {
@@ -82,7 +88,7 @@ export class Picture {
     requestAnimationFrame(() => {
       this.scheduled = false;
       this.draw();
-      for (const frame of this.toAcknowledge.splice(0)) this.acknowledge(frame);
+      if (this.decoded > this.acknowledged) this.acknowledge((this.acknowledged = this.decoded));
     });
   }
 

@@ -213,15 +213,15 @@ export class Session implements Listener {
   }
 
   undo(): void {
-    void this.edits.empty().then(() => this.ask({ type: "undo" }));
+    void this.afterEdits({ type: "undo" });
   }
 
   redo(): void {
-    void this.edits.empty().then(() => this.ask({ type: "redo" }));
+    void this.afterEdits({ type: "redo" });
   }
 
   plan(action: "keep" | "apply" | "drop", name: string): void {
-    void this.edits.empty().then(() => this.ask({ type: "plan", do: action, name }));
+    void this.afterEdits({ type: "plan", do: action, name });
   }
 
   select(selection: Selection | null, frameIt: boolean): void {
@@ -283,8 +283,7 @@ export class Session implements Listener {
   }
 
   async save(): Promise<void> {
-    await this.edits.empty();
-    const answer = await this.ask({ type: "save" });
+    const answer = await this.afterEdits({ type: "save" });
     if (answer?.type !== "saved") return;
     const address = URL.createObjectURL(new Blob([answer.text], { type: "application/json" }));
     const link = document.createElement("a");
@@ -323,6 +322,13 @@ export class Session implements Listener {
     const { width, height } = this.eye.viewport;
     const pixelRatio = Math.min(2, Math.max(0.5, window.devicePixelRatio || 1));
     this.connection.notify({ type: "viewport", width: Math.max(16, width), height: Math.max(16, height), pixelRatio });
+  }
+
+  // What counts on the edits made so far is asked once they are done; not at all without a connection, for who knows when that would be.
+  private async afterEdits(request: Request): Promise<ServerMessage | null> {
+    if (!this.connection.isOpen) return null;
+    await this.edits.empty();
+    return this.ask(request);
   }
 
   // Null where the server refused or the line was lost; the user has been told.

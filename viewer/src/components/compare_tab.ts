@@ -62,7 +62,7 @@ export class CompareTab extends SessionElement {
       </section>
       <section class="section" aria-label="Light plans">
         <h2>Light plans</h2>
-        <p class="muted">A plan keeps the home as it is now, to compare with or to come back to.</p>
+        <p class="muted">A plan keeps the lamps and the sun as they are now, to compare with or to come back to.</p>
         <form
           class="row"
           @submit=${(event: Event) => {

@@ -86,6 +86,8 @@ export class LampEditor extends SessionElement {
               unit="lm"
               min="10"
               max="20000"
+              least="0"
+              most="1000000"
               step="1"
               logarithmic
               .value=${fluxLm}
@@ -113,7 +115,10 @@ export class LampEditor extends SessionElement {
             unit="K"
             min=${kWarmestK}
             max=${kCoolestK}
+            least="1000"
+            most="40000"
             step="50"
+            precision="1"
             .value=${lamp.temperatureK ?? 6500}
             @slide=${(event: CustomEvent<Slide>) => this.slide(lamp, event, (value) => ({ temperatureK: value }))}
           ></rl-slider>`

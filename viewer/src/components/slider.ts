@@ -50,6 +50,9 @@ export class Slider extends LitElement {
   @property({ type: Number }) min = 0;
   @property({ type: Number }) max = 1;
   @property({ type: Number }) step = 0.01;
+  @property({ type: Number }) least?: number; // that may be typed, where it is not min
+  @property({ type: Number }) most?: number; // and not max
+  @property({ type: Number }) precision?: number; // of the number that is shown, where it is not step
   @property({ type: Boolean }) logarithmic = false;
   @property({ type: Boolean }) disabled = false;
   @property({ type: Boolean }) bare = false; // without the field; the slot may hold another one
@@ -70,10 +73,10 @@ export class Slider extends LitElement {
             class="number"
             type="number"
             aria-label=${this.label + (this.unit ? `, ${this.unit}` : "")}
-            min=${this.min}
-            max=${this.max}
+            min=${this.least ?? this.min}
+            max=${this.most ?? this.max}
             step="any"
-            .value=${String(roundTo(this.value, this.step))}
+            .value=${this.shown()}
             ?disabled=${this.disabled}
             @change=${this.typed}
           />
@@ -87,12 +90,16 @@ export class Slider extends LitElement {
         max=${max}
         step=${step}
         .value=${String(this.positionOf(this.value))}
-        aria-valuetext=${this.valueText || `${roundTo(this.value, this.step)} ${this.unit}`}
+        aria-valuetext=${this.valueText || `${this.shown()} ${this.unit}`}
         ?disabled=${this.disabled}
         @input=${this.slid}
         @change=${this.released}
       />
     `;
+  }
+
+  private shown(): string {
+    return String(roundTo(this.value, this.precision ?? this.step));
   }
 
   private sliderRange(): { min: number; max: number; step: number } {
@@ -113,10 +120,10 @@ export class Slider extends LitElement {
   private typed(event: Event): void {
     const field = event.target as HTMLInputElement;
     const value = field.valueAsNumber;
-    if (Number.isFinite(value)) this.tell(clamp(value, this.min, this.max));
+    if (Number.isFinite(value)) this.tell(clamp(value, this.least ?? this.min, this.most ?? this.max));
     this.gesture = "";
     // Shows what holds, where it was out of range or no number.
-    field.value = String(roundTo(this.value, this.step));
+    field.value = this.shown();
   }
 
   private released(): void {

@@ -100,6 +100,8 @@ export class ViewTab extends SessionElement {
               unit="EV"
               min="-4"
               max="4"
+              least="-10"
+              most="10"
               step="0.1"
               .value=${display.compensation}
               @slide=${(event: CustomEvent<Slide>) => this.set({ compensation: event.detail.value })}
@@ -109,6 +111,8 @@ export class ViewTab extends SessionElement {
               unit="EV"
               min="-4"
               max="16"
+              least="-10"
+              most="25"
               step="0.1"
               .value=${display.exposure as number}
               @slide=${(event: CustomEvent<Slide>) => this.set({ exposure: event.detail.value })}
@@ -148,7 +152,10 @@ export class ViewTab extends SessionElement {
             unit="K"
             min="1700"
             max="12000"
+            least="1667"
+            most="25000"
             step="50"
+            precision="1"
             logarithmic
             .value=${whiteBalance}
             @slide=${(event: CustomEvent<Slide>) => this.set({ whiteBalance: event.detail.value })}

@@ -4,7 +4,7 @@ import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import type { Browser } from "playwright-core";
 import type { Session } from "../../src/session.js";
-import { lineTo, noProgram, startProgram, type Program } from "./program.js";
+import { kLampName, lineTo, noProgram, startProgram, type Program } from "./program.js";
 import { choose, frameWith, kPhone, launch, meanColor, noBrowser, stageBox, tab, until, visit, type Visit } from "./support.js";
 
 const skip = noBrowser() || noProgram();
@@ -39,16 +39,6 @@ async function upToDate(visited: Visit): Promise<void> {
 }
 
 const position = (page: Visit["page"], axis: string) => page.getByRole("spinbutton", { name: `Position, m, ${axis}` });
-
-// The name of a lamp that can be moved.
-function movableLamp(visited: Visit): Promise<string> {
-  return visited.page.evaluate(() => {
-    const { session } = document.querySelector("rl-app") as unknown as { session: Session };
-    const lamp = [...(session.model?.lamps.values() ?? [])].find(({ movable }) => movable);
-    if (!lamp) throw new Error("no lamp of this home can be moved");
-    return lamp.name;
-  });
-}
 
 // The reading of the meter there, lx; places as fractions of the stage.
 async function luxAt(visited: Visit, x: number, y: number): Promise<number> {
@@ -102,7 +92,7 @@ test("keys walk, and what is seen changes", { skip }, async () => {
 test("a lamp that is moved changes the measured light, and undo brings it back", { skip }, async () => {
   const visited = await visit(browser, program.link);
   await frameWith(visited, () => true, kSlowMs);
-  await choose(visited, "Lamps", await movableLamp(visited));
+  await choose(visited, "Lamps", kLampName);
   await upToDate(visited);
   await visited.page.keyboard.press("m");
   const place = [0.5, 0.72] as const;
@@ -132,7 +122,7 @@ test("a lamp that is switched off darkens the picture", { skip }, async () => {
   await tab(visited, "Display");
   await upToDate(visited);
   await visited.page.getByLabel("Automatic exposure").uncheck();
-  await choose(visited, "Lamps", await movableLamp(visited));
+  await choose(visited, "Lamps", kLampName);
   await upToDate(visited);
   const before = await meanColor(visited, 0, 0, 1, 1);
   await visited.page.getByRole("switch", { name: "On" }).click();
@@ -141,6 +131,28 @@ test("a lamp that is switched off darkens the picture", { skip }, async () => {
   await visited.page.keyboard.press("Control+z");
   await visited.page.getByRole("switch", { name: "On" }).waitFor();
   await until("as before", async () => (await meanColor(visited, 0, 0, 1, 1))[1] > 0.98 * before[1], kSlowMs);
+  await visited.end();
+});
+
+test("a thing that is moved leaves its place in the picture", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  const name = await visited.page.evaluate(() => {
+    const { session } = document.querySelector("rl-app") as unknown as { session: Session };
+    const sizes = [...(session.model?.things.values() ?? [])].filter(({ movable }) => movable);
+    const largest = sizes.sort((a, b) => b.high[0] - b.low[0] - (a.high[0] - a.low[0]))[0];
+    if (!largest) throw new Error("no thing of this home can be moved");
+    return largest.name;
+  });
+  await choose(visited, "Objects", name);
+  await upToDate(visited);
+  const before = await meanColor(visited, 0.4, 0.4, 0.6, 0.6);
+  await visited.page.getByRole("spinbutton", { name: "Moved by, m, y" }).fill("1");
+  await visited.page.keyboard.press("Enter");
+  const moved = async () => Math.hypot(...(await meanColor(visited, 0.4, 0.4, 0.6, 0.6)).map((v, i) => v - before[i]!));
+  await until("another picture", async () => (await moved()) > 3, kSlowMs);
+  await visited.page.getByRole("button", { name: "Put back" }).click();
+  await until("the first picture", async () => (await moved()) < 2, kSlowMs);
   await visited.end();
 });
 
@@ -181,10 +193,15 @@ test("a final picture is rendered and downloaded", { skip }, async () => {
 test("the lighting is saved as a file", { skip }, async () => {
   const visited = await visit(browser, program.link);
   await frameWith(visited, () => true, kSlowMs);
+  await choose(visited, "Lamps", kLampName);
+  await visited.page.getByRole("spinbutton", { name: "Dimming, %" }).fill("40");
+  await visited.page.keyboard.press("Enter");
+  await until("the lamp is dimmed", () => visited.page.getByRole("button", { name: "Undo" }).isEnabled(), kSlowMs);
   const downloading = visited.page.waitForEvent("download");
   await visited.page.keyboard.press("Control+s");
-  const saved = JSON.parse(await readFile(await (await downloading).path(), "utf8")) as { lamps?: unknown[] };
-  assert.ok(Array.isArray(saved.lamps) && saved.lamps.length > 0);
+  const saved = JSON.parse(await readFile(await (await downloading).path(), "utf8")) as Record<string, unknown>;
+  assert.ok("daylight" in saved, "what the file had");
+  assert.ok(JSON.stringify(saved).includes('"dimming":0.4'), "what was changed");
   await visited.end();
 });
 

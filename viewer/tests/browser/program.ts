@@ -7,19 +7,22 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 
 const kProgram = resolve(process.env.ROOMLIGHT_PROGRAM ?? "../build/release/roomlight");
-const kHome = resolve(process.env.ROOMLIGHT_HOME ?? "../build/samples/room.sh3d");
+const kHome = resolve("../build/samples/room.sh3d");
 const kStartMs = 180000;
 
-// An evening in winter: lamps and the last daylight.
+export const kLampName = "Lamp of the test";
+
+// An evening in winter: the lamps of the home, one more in the middle of the room, and the last daylight.
 const kLighting = {
   scene: { suns: "off", sky: "off" },
+  lamps: [{ name: kLampName, type: "point", position: [2.5, 1.7, 1.9], flux: "900 lm", temperature: "3000 K" }],
   daylight: { sky: "clear", latitude: 48.14, longitude: 11.58, time: "2026-11-20T16:00+01:00" },
   glazing: [{ material: "Glass", panes: 1 }],
 };
 
 export function noProgram(): string | false {
   if (!existsSync(kProgram)) return `${kProgram} is missing: run scripts/build, or name the program by ROOMLIGHT_PROGRAM`;
-  if (!existsSync(kHome)) return `${kHome} is missing: run scripts/make-samples, or name a home by ROOMLIGHT_HOME`;
+  if (!existsSync(kHome)) return `${kHome} is missing: run scripts/make-samples`;
   return false;
 }
 
