@@ -118,8 +118,8 @@ export class Session implements Listener {
     if (again) {
       // The server may have been started afresh: it is told what this window shows.
       if (this.display) this.connection.notify({ type: "display", ...this.display });
-      if (this.technique !== welcome.technique) this.ask({ type: "technique", technique: this.technique });
-      if (JSON.stringify(this.split) !== JSON.stringify(welcome.split)) this.ask({ type: "split", split: this.split });
+      if (this.technique !== welcome.technique) void this.ask({ type: "technique", technique: this.technique });
+      if (JSON.stringify(this.split) !== JSON.stringify(welcome.split)) void this.ask({ type: "split", split: this.split });
       this.pictures.forgetRunning();
     } else {
       document.title = `${welcome.home} – roomlight`;
@@ -141,7 +141,7 @@ export class Session implements Listener {
       this.server = changed(this.server, message);
       this.publishModel();
     } else if (message.type === "progress") {
-      this.progress = message.fraction >= 1 ? null : message;
+      this.progress = message.stage === "done" ? null : message;
       this.emit("ui");
     } else if (message.type === "job") {
       this.pictures.update(message);
@@ -193,15 +193,15 @@ export class Session implements Listener {
   }
 
   setTechnique(technique: string): void {
+    const before = this.technique;
     this.technique = technique;
-    this.ask({ type: "technique", technique });
-    this.emit("ui");
+    void this.orBack({ type: "technique", technique }, () => (this.technique = before));
   }
 
   setSplit(split: Split | null): void {
+    const before = this.split;
     this.split = split;
-    this.ask({ type: "split", split });
-    this.emit("ui");
+    void this.orBack({ type: "split", split }, () => (this.split = before));
   }
 
   // Things.
@@ -329,6 +329,14 @@ export class Session implements Listener {
     if (!this.connection.isOpen) return null;
     await this.edits.empty();
     return this.ask(request);
+  }
+
+  // Shown at once, and taken back where the server refuses.
+  private async orBack(request: Request, back: () => void): Promise<void> {
+    this.emit("ui");
+    if ((await this.ask(request)) !== null) return;
+    back();
+    this.emit("ui");
   }
 
   // Null where the server refused or the line was lost; the user has been told.
