@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gather/frame_history.h"
 #include "view/growing_picture.h"
 #include "view/message.h"
 #include "view/shown.h"
