@@ -95,7 +95,9 @@ TEST(Soak, fourVisitorsAtOnce) {
   for (auto& v : visits) EXPECT_NO_THROW(v.get());
   const double late = residentMiB();
   std::printf("resident: %.0f MiB early, %.0f MiB at the end\n", early, late);
-  if (seconds >= 60) EXPECT_LT(late, 1.2 * early + 64);
+  if (seconds >= 60) {
+    EXPECT_LT(late, 1.2 * early + 64);
+  }
   Client last(home.port(), home.live());
   EXPECT_EQ(last.hear("welcome")["home"], "test");
 }
