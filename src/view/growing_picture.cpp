@@ -6,6 +6,7 @@ namespace roomlight::view {
 namespace {
 
 constexpr uint32_t kMostAverages = 64, kBeforePaths = 24;
+constexpr uint32_t kOneByOne = 4, kTogether = 4;
 constexpr double kShowAgain = 1.4;  // times the samples of what was shown last
 // The first average is shown with so many, or after so long: with fewer it would be noisier than the frame that reused light.
 constexpr uint32_t kFirstShown = 4;
@@ -29,15 +30,14 @@ bool GrowingPicture::quickStep(const LitHome& home, const Camera& camera, std::p
 bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, const QuickFrame& quick, bool refines, const std::atomic<bool>& newer, const std::atomic<bool>& stop) {
   if (!begun()) return quickStep(home, camera, whole, quick, stop);
   const Stopwatch watch;
-  const Image next = home.lit->pictureOf(camera, {whole.first, whole.second, 1, samples_, nullptr}, {{}, &newer});
+  // A few together cost less than one by one, but at first somebody waits.
+  const uint32_t count = samples_ < kOneByOne ? 1 : kTogether;
+  const Image next = home.lit->pictureOf(camera, {whole.first, whole.second, static_cast<int>(count), samples_, nullptr}, {{}, &newer});
   if (newer || next.width == 0) return false;
   pictureMs_ = watch.seconds() * 1e3;
-  if (samples_ == 0) {
-    sum_ = next;
-  } else {
-    parallelFor(sum_.pixels.size(), 16384, [&](size_t i) { sum_.pixels[i] += next.pixels[i]; });
-  }
-  ++samples_;
+  if (samples_ == 0) sum_ = Image(next.width, next.height);
+  parallelFor(sum_.pixels.size(), 16384, [&](size_t i) { sum_.pixels[i] += next.pixels[i] * static_cast<float>(count); });
+  samples_ += count;
   averaged_ = samples_ >= (refines ? kBeforePaths : kMostAverages);
   settled_ = averaged_ && !refines;
   const bool worth = shownAt_ == 0 ? samples_ >= kFirstShown || sinceQuick_.seconds() > kFirstShownS : samples_ >= kShowAgain * shownAt_;

@@ -8,7 +8,7 @@ namespace {
 
 using std::chrono::milliseconds;
 constexpr milliseconds kLookAgain{250};  // at lines that may have become free, windows that were lost
-constexpr milliseconds kSoon{20};
+constexpr milliseconds kSoon{20}, kTellEvery{100};
 constexpr size_t kMostLit = 3;           // kept, so that going back to a technique or plan is quick
 
 }  // namespace
@@ -76,8 +76,10 @@ void Session::takeNews(const JobNews& news) {
 void Session::tellProgress(const std::string& stage, float fraction) {
   {
     const std::lock_guard lock(mutex_);
-    if (progress_ && progress_->first == stage && fraction < 1) return;  // the older is still to be told
-    progress_ = {stage, fraction};
+    const TimePoint now = std::chrono::steady_clock::now();
+    if (now - progressAt_ < kTellEvery) return;
+    progressAt_ = now;
+    progress_ = {stage, std::min(fraction, 0.99f)};  // the stage may be done, but not the whole
   }
   wake_.notify_all();
 }
@@ -116,6 +118,7 @@ void Session::adoptBuilt() {
     if (!built_) return;
     built_ = false;
   }
+  tellAll(textOf({{"type", "progress"}, {"stage", "done"}, {"fraction", 1}}));
   const LightKey key = builder_.work().key;
   auto result = builder_.take();
   if (!result) return;
@@ -128,10 +131,7 @@ void Session::adoptBuilt() {
   if (refiner_.home() && refiner_.home()->key == key) refiner_.stop(), refining_.reset();
   lit_.remove_if([&](const auto& l) { return l->key == key; });
   lit_.push_front(std::move(*result).value());
-  while (lit_.size() > kMostLit) {
-    if (refiner_.home() == lit_.back().get()) refiner_.stop(), refining_.reset();
-    lit_.pop_back();
-  }
+  dropLights();
   for (Window& w : windows_) {
     for (Side& s : w.sides) {
       if (!(s.key == key)) continue;
@@ -141,11 +141,26 @@ void Session::adoptBuilt() {
   }
 }
 
+bool Session::needs(const LightKey& key) const {
+  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return w.connection && std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; }); });
+}
+
+// The ones that nobody looks at and were not used for longest, beyond a few.
+void Session::dropLights() {
+  for (auto l = lit_.end(); l != lit_.begin() && lit_.size() > kMostLit;) {
+    --l;
+    if (needs((*l)->key)) continue;
+    if (refiner_.home() == l->get()) refiner_.stop(), refining_.reset();
+    l = lit_.erase(l);
+  }
+}
+
 // Of all that windows look at, the first that has no light, or light of another sun.
 void Session::beginBuilding() {
   if (builder_.busy()) return;
   for (const Window& w : windows_) {
-    for (const Side& s : w.sides) {
+    for (size_t k = 0; k < w.sides.size() && w.connection; ++k) {
+      const Side& s = w.sides[k];
       const auto lit = std::find_if(lit_.begin(), lit_.end(), [&](const auto& l) { return l->key == s.key; });
       if (s.key.technique == failedBuild_ || (lit != lit_.end() && (*lit)->state.sun == stateOf(s.key).sun)) continue;
       RenderSettings settings = frames_;

@@ -86,6 +86,9 @@ class Session {
   // session_frames.cpp
   Window* windowOf(Connection connection);
   void chooseSides(Window& window);
+  bool needs(const LightKey& key) const;
+  size_t lightsNeeded() const;
+  void dropLights();
   void newInput(Window& window, TimePoint at);
   LitHome* litFor(const LightKey& key);
   void bringUpToDate(LitHome& home, const Camera& camera);
@@ -106,7 +109,7 @@ class Session {
   void tellRefined();
   void tellProgress(const std::string& stage, float fraction);
 
-  ViewHome home_;
+  const ViewHome home_;
   const RenderSettings settings_;  // of renders
   const RenderSettings frames_;    // of what is shown meanwhile
   const Outbox outbox_;
@@ -130,6 +133,7 @@ class Session {
 
   std::mutex mutex_;  // of what follows
   std::optional<std::pair<std::string, float>> progress_;  // not told yet
+  TimePoint progressAt_;
   std::condition_variable wake_;
   std::vector<Event> events_;
   std::vector<JobNews> jobNews_;  // not told yet

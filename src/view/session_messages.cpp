@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <random>
+#include <set>
+#include <utility>
 
 #include "engine/render.h"
 #include "import/printable.h"
@@ -12,11 +14,14 @@ namespace {
 
 constexpr size_t kMostWindows = 64, kMostPlans = 20;
 constexpr std::chrono::minutes kKept{10};
+constexpr size_t kMostAtOnce = 6;  // techniques and plans: each is a whole lit home in memory
 
 std::string newName() {
   static std::random_device random;
   return fmt::format("{:08x}", random());
 }
+
+std::string tooMany() { return fmt::format("windows show {} techniques and plans already; end a split", kMostAtOnce); }
 
 ViewError noTechnique(uint32_t id, const char* field, const std::string& name) { return {id, "unknownThing", field, fmt::format("no technique '{}'", printable(name))}; }
 
@@ -84,11 +89,26 @@ void Session::on(Window& window, const Event& event, const DisplayChange& m) {
   for (Side& s : window.sides) s.again = true;
 }
 
+size_t Session::lightsNeeded() const {
+  std::set<std::pair<std::string, std::string>> keys;
+  for (const Window& w : windows_) {
+    for (const Side& s : w.sides) {
+      if (w.connection) keys.emplace(s.key.technique, s.key.plan);
+    }
+  }
+  return keys.size();
+}
+
 void Session::on(Window& window, const Event& event, const ChooseTechnique& m) {
   if (!isTechnique(m.technique)) return tell(window, errorText(noTechnique(m.id, "technique", m.technique)));
-  window.technique = m.technique;
-  failedBuild_.clear();
+  const std::string before = std::exchange(window.technique, m.technique);
   chooseSides(window);
+  if (lightsNeeded() > kMostAtOnce) {
+    window.technique = before;
+    chooseSides(window);
+    return tell(window, errorText({m.id, "notPossible", "technique", tooMany()}));
+  }
+  failedBuild_.clear();
   newInput(window, event.at);
   tell(window, okText(m.id));
 }
@@ -102,9 +122,14 @@ void Session::on(Window& window, const Event& event, const ChooseSplit& m) {
       if (!side->plan.empty() && !plans_.contains(side->plan)) return tell(window, errorText({m.id, "unknownThing", field + ".plan", fmt::format("no plan '{}'", printable(side->plan))}));
     }
   }
-  window.split = m.split;
-  failedBuild_.clear();
+  const std::optional<Split> before = std::exchange(window.split, m.split);
   chooseSides(window);
+  if (lightsNeeded() > kMostAtOnce) {
+    window.split = before;
+    chooseSides(window);
+    return tell(window, errorText({m.id, "notPossible", "split", tooMany()}));
+  }
+  failedBuild_.clear();
   newInput(window, event.at);
   tell(window, okText(m.id));
 }
@@ -124,7 +149,7 @@ void Session::on(Window& window, const Event&, const StepHistory& m) {
   setState(m.back ? history_.undo(state_) : history_.redo(state_), window);
 }
 
-void Session::on(Window& window, const Event&, const EditPlan& m) {
+void Session::on(Window& window, const Event& event, const EditPlan& m) {
   const auto known = plans_.find(m.name);
   if (m.what != EditPlan::Do::Keep && known == plans_.end()) return tell(window, errorText({m.id, "unknownThing", "name", fmt::format("no plan '{}'", printable(m.name))}));
   if (m.what == EditPlan::Do::Apply) {
@@ -139,6 +164,9 @@ void Session::on(Window& window, const Event&, const EditPlan& m) {
   if (m.what == EditPlan::Do::Keep && known == plans_.end() && plans_.size() >= kMostPlans) return tell(window, errorText({m.id, "notPossible", "name", fmt::format("there are {} plans already; drop one", kMostPlans)}));
   if (m.what == EditPlan::Do::Keep) {
     plans_[m.name] = state_;
+    for (Window& w : windows_) {
+      if (w.split) newInput(w, event.at);  // it may show what the plan was
+    }
   } else {
     plans_.erase(known);
     for (Window& w : windows_) {  // windows that show it show what is edited

@@ -36,7 +36,7 @@ ReceivedFrame frameOf(const std::string& b) {
   f.width = static_cast<int>(number(b, 8, 2)), f.height = static_cast<int>(number(b, 10, 2));
   f.side = static_cast<int>(number(b, 12, 1)), f.flags = static_cast<int>(number(b, 13, 1));
   f.camera = number(b, 16, 4), f.revision = number(b, 20, 4), f.samples = number(b, 24, 4);
-  f.ev100 = std::bit_cast<float>(number(b, 32, 4)), f.latencyMs = std::bit_cast<float>(number(b, 44, 4));
+  f.ev100 = std::bit_cast<float>(number(b, 32, 4)), f.scaleLow = std::bit_cast<float>(number(b, 36, 4)), f.scaleHigh = std::bit_cast<float>(number(b, 40, 4)), f.latencyMs = std::bit_cast<float>(number(b, 44, 4));
   f.jpeg = b.substr(64);
   return f;
 }

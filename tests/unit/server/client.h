@@ -27,7 +27,7 @@ Reply get(uint16_t port, const std::string& target, const Headers& headers = {})
 struct ReceivedFrame {
   uint32_t number = 0, camera = 0, revision = 0, samples = 0;
   int width = 0, height = 0, side = 0, flags = 0;
-  float ev100 = 0, latencyMs = 0;
+  float ev100 = 0, scaleLow = 0, scaleHigh = 0, latencyMs = 0;
   std::string jpeg;
 };
 

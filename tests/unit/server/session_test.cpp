@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
 
-#include "served_home.h"
+#include "seen.h"
 
 namespace roomlight {
 namespace {
@@ -10,30 +10,11 @@ namespace {
 using namespace roomlight::testing;
 using nlohmann::json;
 
-const json kViewport = {{"type", "viewport"}, {"width", 96}, {"height", 54}};
-
-bool isWhole(const ReceivedFrame& f) { return f.width == 96 && f.height == 54; }
-
 std::pair<int, int> jpegSize(const std::string& jpeg) {
   const std::unique_ptr<void, int (*)(tjhandle)> reader(tjInitDecompress(), tjDestroy);
   int width = 0, height = 0, sub = 0, space = 0;
   tjDecompressHeader3(reader.get(), reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size(), &width, &height, &sub, &space);
   return {width, height};
-}
-
-json named(const json& list, const std::string& name) {
-  for (const json& j : list) {
-    if (j["name"] == name) return j;
-  }
-  ADD_FAILURE() << name << " is missing";
-  return {};
-}
-
-// What falls on the floor in front of the box.
-double lux(Client& client, uint32_t id) {
-  client.say({{"type", "meter"}, {"id", id}, {"x", 0.5}, {"y", 0.9}});
-  const json hit = client.hear("metered", id)["hit"];
-  return hit.is_null() ? -1 : hit["illuminanceLux"].get<double>();
 }
 
 TEST(Session, welcomesWithTheHome) {

@@ -1,0 +1,29 @@
+// What tests of a served home say and look for again and again.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "served_home.h"
+
+namespace roomlight::testing {
+
+inline const nlohmann::json kViewport = {{"type", "viewport"}, {"width", 96}, {"height", 54}};
+
+inline bool isWhole(const ReceivedFrame& f) { return f.width == 96 && f.height == 54; }
+
+inline nlohmann::json named(const nlohmann::json& list, const std::string& name) {
+  for (const nlohmann::json& j : list) {
+    if (j["name"] == name) return j;
+  }
+  ADD_FAILURE() << name << " is missing";
+  return {};
+}
+
+// What falls on what is seen near the lower edge: the floor.
+inline double lux(Client& client, uint32_t id) {
+  client.say({{"type", "meter"}, {"id", id}, {"x", 0.5}, {"y", 0.9}});
+  const nlohmann::json hit = client.hear("metered", id)["hit"];
+  return hit.is_null() ? -1 : hit["illuminanceLux"].get<double>();
+}
+
+}  // namespace roomlight::testing
