@@ -6,19 +6,18 @@
 namespace roomlight {
 namespace {
 
-constexpr int kRaysASide = 64;
 constexpr float kDarkest = 0.03f;    // albedos below this say little of the light
 constexpr float kBrightest = 4.0f;   // of the mean; a patch of sun counts as much as this
 
 }  // namespace
 
-Vec3 lightColour(const RayScene& rays, const Camera& camera, const Image& image) {
+Vec3 lightColour(const RayScene& rays, const Camera& camera, const Image& image, int raysASide) {
   const CameraRays cameraRays(camera, image.width, image.height);
   std::vector<Vec3> colours;
   double mean = 0;
-  for (int j = 0; j < kRaysASide; ++j) {
-    for (int i = 0; i < kRaysASide; ++i) {
-      const int x = (2 * i + 1) * image.width / (2 * kRaysASide), y = (2 * j + 1) * image.height / (2 * kRaysASide);
+  for (int j = 0; j < raysASide; ++j) {
+    for (int i = 0; i < raysASide; ++i) {
+      const int x = (2 * i + 1) * image.width / (2 * raysASide), y = (2 * j + 1) * image.height / (2 * raysASide);
       const Ray ray = cameraRays.seeing(rays, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       if (ray.tMax <= 0) continue;
       const Hit hit = rays.intersect(ray);

@@ -22,14 +22,31 @@
 namespace roomlight {
 
 class FrameHistory;
+class SlotSnapshot;
 
 // One of many pictures of a lit scene, such as frames, or those that are averaged.
 struct PictureWish {
   int width = 960, height = 540;
   int samples = 0;                  // per pixel; 0: those of the settings the scene was lit with
   std::optional<uint64_t> seed;     // none: that of the settings
+  bool orNothing = false;           // once cancelled no picture; else one of few samples. `path` makes its first pass all the same
   // Of frames before, of this scene alone, which is told of what changes; frames of one sample a pixel reuse their light. `path` does not.
   FrameHistory* history = nullptr;
+};
+
+// Rays and lights of a scene that is edited where it stands.
+class SceneRays {
+ public:
+  // Refers to the scene. `sunApart`: see Lights. Stages "bvh" and "lights".
+  SceneRays(const Scene& scene, bool sunApart, Stages& stages);
+  // Stages "rays" and "lights". Returns whether emissive meshes are among what changed. No ray may be under way.
+  bool follow(const SceneChange& change, Stages& stages);
+  const RayScene& rays() const { return rays_; }
+  const Lights& lights() const { return *lights_; }
+
+ private:
+  RayScene rays_;
+  std::optional<Lights> lights_;
 };
 
 class LitScene {
@@ -39,7 +56,7 @@ class LitScene {
   virtual std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress = {}) const = 0;
   // Linear, cd/m², with the quality of the settings the scene was lit with.
   Image picture(const Camera& camera, int width, int height, const Progress& progress = {}, FrameHistory* history = nullptr) const {
-    return pictureOf(camera, {width, height, 0, {}, history}, progress);
+    return pictureOf(camera, {width, height, 0, {}, false, history}, progress);
   }
   virtual Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress = {}) const = 0;
 
@@ -51,17 +68,19 @@ class LitScene {
   // What holds light about one place only (vxgi, lpv: finest there) has it where this camera is, if it has left that place.
   virtual void lookFrom(const Camera&, Stages&) {}
 
-  const RayScene& rays() const { return rays_; }
-  const Lights& lights() const { return *lights_; }
+  // The light of its slots as it is now, where it has slots, for frames in a few milliseconds (gather/quick_frames.h) while it goes on.
+  virtual std::shared_ptr<const SlotSnapshot> snapshot() const { return {}; }
+
+  const RayScene& rays() const { return base_.rays(); }
+  const Lights& lights() const { return base_.lights(); }
 
  protected:
-  LitScene(const Scene& scene, bool sunApart, Stages& stages);
+  LitScene(const Scene& scene, bool sunApart, Stages& stages) : base_(scene, sunApart, stages) {}
   // After rays and lights have followed. `emitters`: whether emissive meshes are among what changed.
   virtual void relight(const SceneChange&, bool /*emitters*/, Stages&) {}
 
  private:
-  RayScene rays_;
-  std::optional<Lights> lights_;
+  SceneRays base_;
 };
 
 // Refers to the scene, which must be validated and stay where it is. `camera`, where given, is the first to be looked from; otherwise light

@@ -6,6 +6,7 @@
 #include "gather/meters.h"
 #include "gather/ray_shader.h"
 #include "radiance/light_cache.h"
+#include "radiance/slot_snapshot.h"
 #include "voxel/moved_places.h"
 
 namespace roomlight {
@@ -29,6 +30,7 @@ class VoxelScene final : public LitScene {
     if (!shader_) return {};
     return gatherView(rays(), lights(), *shader_, camera, asked(gather_, wish), wish.history, progress);
   }
+  std::shared_ptr<const SlotSnapshot> snapshot() const override { return std::make_shared<const SlotSnapshot>(voxels_.voxels, light_->field().irradianceLux, light_->sharpLux(voxels_.voxels)); }
 
  private:
   void relight(const SceneChange& change, bool emitters, Stages& stages) override {

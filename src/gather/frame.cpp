@@ -369,10 +369,7 @@ Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader
 Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history, const Progress& progress) {
   PictureSettings use = settings;
   use.samples = kPlaces;
-  std::vector<FrameHistory::Caster> casters;
-  for (size_t i = 0; i < lights.lampCount(); ++i) casters.push_back({lights.lamp(i).position, false});
-  for (size_t i = 0; i < lights.sunCount(); ++i) casters.push_back({lights.sampleSun(i, {0.5f, 0.5f}).wi, true});
-  history.begin(camera, use.width, use.height, std::move(casters));
+  history.begin(camera, use.width, use.height, lights);
   const FrameMaker maker(rays, lights, shader, camera, use, history);
   const size_t across = static_cast<size_t>((use.width + kTile - 1) / kTile), tiles = across * static_cast<size_t>((use.height + kTile - 1) / kTile);
   parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {

@@ -1,9 +1,7 @@
 #include "gather/frame_history.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include "base/parallel.h"
 
@@ -21,25 +19,6 @@ bool same(const Affine& a, const Affine& b) { return a.x == b.x && a.y == b.y &&
 bool same(const Camera& a, const Camera& b) {
   return same(a.worldFromCamera, b.worldFromCamera) && a.yFovRad == b.yFovRad && a.aspect == b.aspect && a.nearM == b.nearM && a.projection == b.projection &&
          a.emptyBackdrop == b.emptyBackdrop && a.yMagM == b.yMagM && a.cutHeightM == b.cutHeightM;
-}
-
-Bounds3 boundsOf(const Scene& scene, uint32_t instance) {
-  const Instance& i = scene.instances[instance];
-  Bounds3 out;
-  for (const Vec3 p : scene.meshes[static_cast<size_t>(i.mesh)].positions) out.add(i.worldFromObject.point(p));
-  return out;
-}
-
-bool isWithin(const Bounds3& b, Vec3 p, float m) { return minComponent(min(p - b.lo, b.hi - p)) >= -m; }
-
-// Whether the way from p along d, as far as `most` times its length, goes through a box.
-bool isMet(const Bounds3& b, Vec3 p, Vec3 d, float most) {
-  float first = 0, last = most;
-  for (int c = 0; c < 3; ++c) {
-    const float inverse = 1 / (std::abs(d[c]) > 1e-12f ? d[c] : 1e-12f), t0 = (b.lo[c] - p[c]) * inverse, t1 = (b.hi[c] - p[c]) * inverse;
-    first = std::max(first, std::min(t0, t1)), last = std::min(last, std::max(t0, t1));
-  }
-  return first <= last;
 }
 
 // Few estimates that differ tell little of how far their mean is off: what the first was thought to be off counts with the others.
@@ -67,38 +46,17 @@ PastLight together(const PastLight& before, const PastLight& now) {
 }
 
 void FrameHistory::sceneChanged(const SceneChange& change, const Scene& scene) {
-  const auto shines = [&](uint32_t i) { return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission); };
-  dimmed_ |= change.lamps || !change.glow.empty() || std::any_of(change.moved.begin(), change.moved.end(), shines);
-  moved_.resize(scene.instances.size());
-  places_.resize(scene.instances.size());
-  for (const uint32_t i : change.moved) {
-    moved_[i] = 1, anyMoved_ = true;
-  }
-  // Where what moves for the first time was before, as far as it was seen.
-  std::vector<Bounds3> seen(moved_.size());
-  if (std::any_of(change.moved.begin(), change.moved.end(), [&](uint32_t i) { return places_[i].empty(); })) {
+  changed_.add(change, scene, [&](std::vector<Bounds3>& seen) {
     for (const PastLight& l : now_) {
-      if (l.instance < seen.size() && moved_[l.instance]) seen[l.instance].add(l.position);
+      if (l.instance < seen.size()) seen[l.instance].add(l.position);
     }
-  }
-  std::map<int, std::array<Bounds3, 2>> things;  // before and now
-  for (const uint32_t i : change.moved) {
-    auto& thing = things[scene.instances[i].object];
-    thing[0].add(places_[i].empty() ? seen[i] : places_[i]);
-    places_[i] = boundsOf(scene, i);
-    thing[1].add(places_[i]);
-  }
-  for (const auto& [object, both] : things) {
-    for (const Bounds3& b : both) {
-      if (!b.empty()) nearPlaces_.push_back(b);
-    }
-  }
+  });
 }
 
 void FrameHistory::forget() { camera_.reset(); }
 
-void FrameHistory::begin(const Camera& camera, int width, int height, std::vector<Caster> casters) {
-  casters_ = std::move(casters);
+void FrameHistory::begin(const Camera& camera, int width, int height, const Lights& lights) {
+  changed_.lightBy(lights);
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
   if (!camera_ || width != width_ || height != height_) {
     width_ = width, height_ = height;
@@ -107,7 +65,7 @@ void FrameHistory::begin(const Camera& camera, int width, int height, std::vecto
     camera_.reset();
   }
   still_ = camera_ && same(*camera_, camera);
-  settled_ = still_ && !dimmed_ && !anyMoved_ && !stale_;
+  settled_ = still_ && !changed_.lightsChanged() && !changed_.anyMoved() && !stale_;
   framesStill_ = settled_ ? framesStill_ + 1 : 0;
   if (!settled_) {
     past_.swap(now_);
@@ -122,16 +80,8 @@ void FrameHistory::begin(const Camera& camera, int width, int height, std::vecto
   eye_ = camera.worldFromCamera.w;
 }
 
-bool FrameHistory::isStale(Vec3 p) const {
-  if (dimmed_) return true;
-  return std::any_of(nearPlaces_.begin(), nearPlaces_.end(), [&](const Bounds3& b) {
-    if (isWithin(b, p, settings_.nearM)) return true;
-    return std::any_of(casters_.begin(), casters_.end(), [&](const Caster& c) { return isMet(b, p, c.far ? c.place : c.place - p, c.far ? kInfinity : 1); });
-  });
-}
-
 PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
-  if (!before_ || (anyMoved_ && moved_[seen.instance])) return {};
+  if (!before_ || changed_.hasMoved(seen.instance)) return {};
   const float cosine = std::max(kLeastCosine, std::abs(dot(seen.normal, seen.wo)));
   const float footprint = kFootprints * (pixelM_ + pixelSlope_ * length(seen.place - eye_));
   const std::vector<PastLight>& known = settled_ ? now_ : past_;
@@ -163,9 +113,9 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
     const float turned = length(normalize(beforeEye_ - seen.place) - normalize(eye_ - seen.place));
     out.glossy *= std::max(0.0f, 1 - turned / (kLobe * seen.roughness * seen.roughness + kSlackRad));
   }
-  float most = anyMoved_ ? settings_.mostWhileMoving : settings_.mostEstimates;
+  float most = changed_.anyMoved() ? settings_.mostWhileMoving : settings_.mostEstimates;
   if (seen.whole && !still_) most = std::min(most, settings_.mostOfVeil);
-  if (isStale(out.position)) {
+  if (changed_.concern(out.position, settings_.nearM)) {
     most = settings_.staleEstimates;
     // What is out of date must not look different from what is not, or the filter would keep them apart.
     const float l = luminance(out.irradiance), s = luminance(out.sharp), r = luminance(out.specular);
@@ -181,9 +131,7 @@ void FrameHistory::end(const std::vector<Vec3>& smooth, bool stale) {
   if (!settled_) parallelFor(smooth.size(), 4096, [&](size_t i) {
     if (now_[i].instance != kNoHit && !now_[i].whole && now_[i].estimates < settings_.smoothEstimates && pixels_->pixels[i].surface > 0) now_[i].irradiance = smooth[i];
   });
-  nearPlaces_.clear();
-  std::fill(moved_.begin(), moved_.end(), uint8_t{0});
-  dimmed_ = anyMoved_ = false;
+  changed_.forget();
   ++frame_;
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "filter/filter.h"
+#include "gather/changed_places.h"
 #include "gather/frame_settings.h"
-#include "scene/scene_change.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight {
@@ -44,13 +44,8 @@ class FrameHistory {
   void sceneChanged(const SceneChange& change, const Scene& scene);
   void forget();
 
-  // Lamps' places and, `far`, suns' directions: where things that moved threw shadows on, or do now, light has changed.
-  struct Caster {
-    Vec3 place;
-    bool far;
-  };
   // From here on the frame before is what was made last, and pixels are to be made. `filled` says what they are once they are.
-  void begin(const Camera& camera, int width, int height, std::vector<Caster> casters);
+  void begin(const Camera& camera, int width, int height, const Lights& lights);
   uint32_t frame() const { return frame_; }
   uint32_t framesStill() const { return framesStill_; }
   bool still() const { return still_; }  // the camera is where it was
@@ -67,8 +62,6 @@ class FrameHistory {
   void end(const std::vector<Vec3>& smooth, bool stale);
 
  private:
-  bool isStale(Vec3 p) const;
-
   const FrameSettings settings_;
   uint32_t frame_ = 0, framesStill_ = 0;
   int width_ = 0, height_ = 0;
@@ -79,10 +72,7 @@ class FrameHistory {
   float pixelSlope_ = 0, pixelM_ = 0;  // of a pixel: how far its edges part, per metre of distance, and besides
   std::vector<PastLight> past_, now_;
   std::optional<FilterInput> pixels_, pixelsBefore_;
-  std::vector<Bounds3> places_, nearPlaces_;  // of instances that moved, when they last did; where light has changed
-  std::vector<Caster> casters_;
-  std::vector<uint8_t> moved_;     // a flag an instance
-  bool dimmed_ = false, anyMoved_ = false;
+  ChangedPlaces changed_;
 };
 
 }  // namespace roomlight

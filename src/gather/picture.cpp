@@ -77,7 +77,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
       LayerSums layerLight(layers ? layers->size() : 0);
       std::array<Ray, kRaysAtOnce> some;
       for (size_t tile = begin; tile < end; ++tile) {
-        if (progress.stop() && first > 0) return;
+        if (progress.stop() && (first > 0 || settings.orNothing)) return;
         work.clear();
         const Rectangle r = tileAt(tile, w, h);
         for (int y = r.y0; y < r.y1; ++y) {
@@ -112,6 +112,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     passSeconds = watch.seconds() - started, passRays = chosenRays;
     if (progress.stop()) break;
   }
+  if (settings.orNothing && progress.stop()) return {};
   if (std::any_of(counts.begin(), counts.end(), [](const PixelCount& c) { return c.occlusion > 0; })) result.occlusion = Image(w, h);
   parallelFor(counts.size(), 4096, [&](size_t i) {
     sums.pixels[i] = meanOf(sums.pixels[i], counts[i]);

@@ -7,6 +7,7 @@
 #include "radiance/cone_bounces.h"
 #include "radiance/direct_light.h"
 #include "radiance/pyramid.h"
+#include "trace/lamp_light.h"
 
 namespace roomlight {
 namespace {
@@ -238,6 +239,15 @@ void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
   }
   field_.glow = LampGlow(glowPoints(glow), voxels.voxelSizeM);
   if (settings_.pyramid) buildPyramid(voxels, radiance, glow, field_);
+}
+
+std::vector<Vec3> LightCache::sharpLux(const Voxels& voxels) const {
+  std::vector<Vec3> out(voxels.slots.size());
+  suns_.addTo(voxels, Vec3(1), out);
+  for (const LampLight& l : lamps_) {
+    if (!isBlack(l.lamp.intensityCd) && isSharp(l.lamp)) l.direct.addTo(voxels, l.lamp.intensityCd, out);
+  }
+  return out;
 }
 
 // Of all that shines and has left any.

@@ -42,6 +42,8 @@ class LightCache {
   bool settled() const { return settled_; }
 
   const RadianceField& field() const { return field_; }
+  // Of the field's irradiance what comes straight from suns and from lamps that have sharp shadows (trace/lamp_light.h), lx per slot.
+  std::vector<Vec3> sharpLux(const Voxels& voxels) const;
   RadianceField take() { return std::move(field_); }
   size_t bytes() const;  // beside the field
 

@@ -12,6 +12,9 @@ namespace roomlight {
 // Intensity of a lamp towards a unit direction away from it; the spot's falloff is KHR_lights_punctual's.
 Vec3 lampIntensity(const Lamp& lamp, Vec3 direction);
 
+// Whether all its light leaves it in one place.
+inline bool isSharp(const Lamp& lamp) { return lamp.kind != LampKind::Area && !lamp.extended; }
+
 // Where light leaves it: its position, or a place of its opening, even over the area.
 Vec3 lampPlace(const Lamp& lamp, Vec2 u);
 

@@ -14,25 +14,17 @@ constexpr double kFirstShownS = 0.3;
 
 }  // namespace
 
-bool GrowingPicture::quickStep(const LitHome& home, const Camera& camera, std::pair<int, int> whole, const QuickFrame& quick, const std::atomic<bool>& stop) {
-  const std::pair<int, int> size = quick.pace.sizeFor(quick.ms, whole);
-  const Stopwatch watch;
-  Image next = home.lit->pictureOf(camera, {size.first, size.second, 1, {}, quick.history}, {{}, &stop});
-  if (stop || next.width == 0) return false;
-  pictureMs_ = watch.seconds() * 1e3;
-  quick.pace.took(size, pictureMs_);
-  quick_ = size != whole;
-  image_ = std::move(next);
+void GrowingPicture::showQuick(Image image, double pictureMs, bool reduced) {
+  image_ = std::make_shared<const Image>(std::move(image));
+  pictureMs_ = pictureMs, quick_ = reduced;
   sinceQuick_ = Stopwatch();
-  return true;
 }
 
-bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, const QuickFrame& quick, bool refines, const std::atomic<bool>& newer, const std::atomic<bool>& stop) {
-  if (!begun()) return quickStep(home, camera, whole, quick, stop);
+bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, bool refines, const std::atomic<bool>& newer) {
   const Stopwatch watch;
   // A few together cost less than one by one, but at first somebody waits.
   const uint32_t count = samples_ < kOneByOne ? 1 : kTogether;
-  const Image next = home.lit->pictureOf(camera, {whole.first, whole.second, static_cast<int>(count), samples_, nullptr}, {{}, &newer});
+  const Image next = home.lit->pictureOf(camera, {whole.first, whole.second, static_cast<int>(count), samples_, true, nullptr}, {{}, &newer});
   if (newer || next.width == 0) return false;
   pictureMs_ = watch.seconds() * 1e3;
   if (samples_ == 0) sum_ = Image(next.width, next.height);
@@ -44,14 +36,15 @@ bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<i
   if (!averaged_ && !worth) return false;
   shownAt_ = samples_;
   quick_ = false;
-  image_ = sum_;
+  Image mean(sum_.width, sum_.height);
   const float share = 1 / static_cast<float>(samples_);
-  parallelFor(image_.pixels.size(), 16384, [&](size_t i) { image_.pixels[i] *= share; });
+  parallelFor(mean.pixels.size(), 16384, [&](size_t i) { mean.pixels[i] = sum_.pixels[i] * share; });
+  image_ = std::make_shared<const Image>(std::move(mean));
   return true;
 }
 
 void GrowingPicture::refine(Image image, uint32_t samples, float relativeError, bool last) {
-  image_ = std::move(image);
+  image_ = std::make_shared<const Image>(std::move(image));
   samples_ = samples, relativeError_ = relativeError;
   refined_ = true, settled_ = last;
 }

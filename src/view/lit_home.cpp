@@ -17,10 +17,41 @@ Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder:
   if (!lit) return Error{lit.error()};
   if (!lit.value() || stages.cancelled()) return Error{"cancelled"};
   out->lit = std::move(lit.value());
+  if (std::shared_ptr<const SlotSnapshot> light = out->lit->snapshot()) {
+    out->front = std::make_unique<FrontHome>(out->scene, out->state, stages);
+    out->front->take(std::move(light), out->scene);
+  }
   return out;
 }
 
 }  // namespace
+
+SceneChange FrontHome::follow(const EditableHome& editable, HomeState wanted) {
+  wanted.sun = state_.sun;
+  const SceneChange change = stage(editable, state_, wanted, scene_);
+  state_ = std::move(wanted);
+  RenderStats stats;
+  RenderProgress silent;
+  Stages stages(silent, stats);
+  base_.follow(change, stages);
+  findMoved();
+  return change;
+}
+
+void FrontHome::take(std::shared_ptr<const SlotSnapshot> light, const Scene& lit) {
+  light_ = std::move(light);
+  litPlaces_.clear();
+  for (const Instance& i : lit.instances) litPlaces_.push_back(i.worldFromObject);
+  findMoved();
+}
+
+void FrontHome::findMoved() {
+  moved_.clear();
+  for (uint32_t i = 0; i < litPlaces_.size(); ++i) {
+    const Affine &now = scene_.instances[i].worldFromObject, &then = litPlaces_[i];
+    if (!(now.x == then.x && now.y == then.y && now.z == then.z && now.w == then.w)) moved_.emplace(i, then * inverse(now));
+  }
+}
 
 void LightBuilder::begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready) {
   cancel();

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "engine/lit_scene.h"
+#include "gather/quick_frames.h"
 #include "view/home.h"
 
 namespace roomlight::view {
@@ -19,11 +20,38 @@ struct LightKey {
   bool operator==(const LightKey&) const = default;
 };
 
+// What frames in a few milliseconds are made of: the home as it is now, and the light of a moment ago.
+class FrontHome {
+ public:
+  // Of a copy of the scene.
+  FrontHome(Scene scene, HomeState state, Stages& stages) : scene_(std::move(scene)), state_(std::move(state)), base_(scene_, true, stages) {}
+  // Brings the home to a state, but for the sun, and says what that changed.
+  SceneChange follow(const EditableHome& editable, HomeState wanted);
+  // Light of the state that `lit` is in.
+  void take(std::shared_ptr<const SlotSnapshot> light, const Scene& lit);
+
+  const Scene& scene() const { return scene_; }
+  const HomeState& state() const { return state_; }
+  QuickScene quick() const { return {base_.rays(), base_.lights(), *light_, moved_}; }
+  const RayScene& rays() const { return base_.rays(); }
+
+ private:
+  void findMoved();
+
+  Scene scene_;
+  HomeState state_;
+  SceneRays base_;
+  std::shared_ptr<const SlotSnapshot> light_;
+  std::vector<Affine> litPlaces_;  // of all instances, where that light was found
+  std::unordered_map<uint32_t, Affine> moved_;
+};
+
 struct LitHome {
   LightKey key;
   Scene scene;
   HomeState state;  // that the scene and its light are in
   std::unique_ptr<LitScene> lit;
+  std::unique_ptr<FrontHome> front;  // of techniques that have light in slots
 };
 
 class LightBuilder {

@@ -27,37 +27,37 @@ bool isSeen(const RayScene& rays, Vec3 eye, Vec3 place) {
   return !isBlack(rays.transmittance({eye, way, 0, 0.999f}));
 }
 
-int bodilessLampAt(const EditableHome& home, const LitHome& lit, const Camera& camera, std::pair<int, int> size, float px, float py, float reach) {
+int bodilessLampAt(const EditableHome& home, const HomeState& state, const RayScene& rays, const Camera& camera, std::pair<int, int> size, float px, float py, float reach) {
   const CameraRays view(camera, size.first, size.second);
   int best = -1;
   float nearest = reach;
   for (size_t k = 0; k < home.lamps.size(); ++k) {
     if (!home.lamps[k].instances.empty()) continue;
-    const Vec3 place = positionOf(home, k, lit.state);
+    const Vec3 place = positionOf(home, k, state);
     const std::optional<Vec2> at = view.pixelOf(place);
     if (!at) continue;
     const float distance = std::hypot(at->x - px, at->y - py);
-    if (distance < nearest && isSeen(lit.lit->rays(), camera.worldFromCamera.w, place)) best = static_cast<int>(k), nearest = distance;
+    if (distance < nearest && isSeen(rays, camera.worldFromCamera.w, place)) best = static_cast<int>(k), nearest = distance;
   }
   return best;
 }
 
 }  // namespace
 
-std::optional<PickedPoint> pickAt(const EditableHome& home, const LitHome& lit, const Camera& camera, std::pair<int, int> size, float x, float y, float pixels) {
+std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& state, const RayScene& rays, const Camera& camera, std::pair<int, int> size, float x, float y, float pixels) {
   const float px = x * static_cast<float>(size.first), py = y * static_cast<float>(size.second);
   const Ray ray = CameraRays(camera, size.first, size.second).ray(px, py);
-  const Hit hit = lit.lit->rays().intersect(ray);
+  const Hit hit = rays.intersect(ray);
   const float reach = kLampPixels * static_cast<float>(size.second) / std::max(1.0f, pixels);
-  const int lamp = bodilessLampAt(home, lit, camera, size, px, py, reach);
+  const int lamp = bodilessLampAt(home, state, rays, camera, size, px, py, reach);
   PickedPoint out;
   if (!hit.valid()) {
     if (lamp < 0) return {};
-    out.point = positionOf(home, static_cast<size_t>(lamp), lit.state), out.normal = -ray.direction;
+    out.point = positionOf(home, static_cast<size_t>(lamp), state), out.normal = -ray.direction;
     out.distanceM = length(out.point - camera.worldFromCamera.w), out.lamp = lamp;
     return out;
   }
-  const SurfacePoint p = surfaceAt(lit.scene, hit, ray.direction);
+  const SurfacePoint p = surfaceAt(rays.scene(), hit, ray.direction);
   out.point = p.p, out.normal = p.ng, out.distanceM = length(p.p - camera.worldFromCamera.w), out.material = p.material->name;
   out.object = numberOf(home.objects, [&](const EditableObject& o) { return !o.lampBody && std::any_of(o.parts.begin(), o.parts.end(), [&](const auto& part) { return part.instance == hit.instance; }); });
   out.lamp = lamp >= 0 ? lamp : numberOf(home.lamps, [&](const EditableLamp& l) { return std::find(l.instances.begin(), l.instances.end(), hit.instance) != l.instances.end(); });

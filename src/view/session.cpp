@@ -28,6 +28,7 @@ Session::~Session() {
   thread_.join();
   builder_.cancel();
   refiner_.stop();
+  follower_.finish();
 }
 
 void Session::open(Connection connection, const std::string& window) { push(connection, Opened{window}); }
@@ -39,9 +40,9 @@ void Session::receive(Connection connection, const std::string& text) {
   push(connection, std::move(message));
 }
 
-void Session::push(Connection connection, std::variant<Opened, Closed, Message> what) {
+void Session::push(Connection connection, std::variant<Opened, Closed, Packed, Message> what) {
   const auto* message = std::get_if<Message>(&what);
-  const bool waits = message && std::holds_alternative<Ack>(*message);
+  const bool waits = std::holds_alternative<Packed>(what) || (message && std::holds_alternative<Ack>(*message));
   {
     const std::lock_guard lock(mutex_);
     events_.push_back({connection, std::chrono::steady_clock::now(), std::move(what)});
@@ -57,10 +58,12 @@ void Session::run() {
     beginBuilding();
     forgetLostWindows();
     soon_ = false;
-    if (takeRefined() || work()) continue;
+    const bool took = takeLight();
+    followLight();
+    if (takeRefined() || work() || took) continue;
     beginRefining();
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, soon_ ? kSoon : kLookAgain, [&] { return stop_ || built_ || refinedReady_ || progress_ || !jobNews_.empty() || !events_.empty(); });
+    wake_.wait_for(lock, soon_ ? kSoon : kLookAgain, [&] { return stop_ || built_ || refinedReady_ || lightReady_ || progress_ || !jobNews_.empty() || !events_.empty(); });
   }
 }
 
@@ -129,6 +132,7 @@ void Session::adoptBuilt() {
     return;
   }
   if (refiner_.home() && refiner_.home()->key == key) refiner_.stop(), refining_.reset();
+  if (follower_.home() && follower_.home()->key == key) follower_.finish();
   lit_.remove_if([&](const auto& l) { return l->key == key; });
   lit_.push_front(std::move(*result).value());
   dropLights();
@@ -137,6 +141,8 @@ void Session::adoptBuilt() {
       if (!(s.key == key)) continue;
       s.picture.restart();
       s.history.reset();
+      s.quick.forget();
+      s.shownSerial = 0;
     }
   }
 }
@@ -151,6 +157,7 @@ void Session::dropLights() {
     --l;
     if (needs((*l)->key)) continue;
     if (refiner_.home() == l->get()) refiner_.stop(), refining_.reset();
+    if (follower_.home() == l->get()) follower_.finish();
     l = lit_.erase(l);
   }
 }

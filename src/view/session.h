@@ -11,7 +11,9 @@
 
 #include "view/apply_edit.h"
 #include "view/describe.h"
+#include "view/frame_sender.h"
 #include "view/history.h"
+#include "view/light_follower.h"
 #include "view/refiner.h"
 #include "view/render_jobs.h"
 #include "view/window.h"
@@ -45,14 +47,18 @@ class Session {
     std::string window;
   };
   struct Closed {};
+  struct Packed {  // a frame that goes out now; of no bytes: it could not be packed
+    uint32_t number;
+    size_t bytes;
+  };
   struct Event {
     Connection connection;
     TimePoint at;
-    std::variant<Opened, Closed, Message> what;
+    std::variant<Opened, Closed, Packed, Message> what;
   };
 
   // session.cpp: the loop
-  void push(Connection connection, std::variant<Opened, Closed, Message> what);
+  void push(Connection connection, std::variant<Opened, Closed, Packed, Message> what);
   void run();
   bool handleEvents();
   bool work();
@@ -94,6 +100,17 @@ class Session {
   void bringUpToDate(LitHome& home, const Camera& camera);
   void goOnWithLight(LitHome& home);
   FrameHistory* historyOf(Side& side, Window& window);
+  bool isUpToDate(const LitHome& home) const;
+  void followFront(LitHome& home);
+  void followLight();
+  bool takeLight();
+  bool showQuick(Window& window, Side& side, LitHome& home, const Camera& camera);
+  enum class Next { Nothing,
+                    Wait,   // for rest, or for light
+                    Again,  // the same picture is shown otherwise
+                    Quick,
+                    Better };
+  Next nextOf(const Window& window, const Side& side, const LitHome& home) const;
   HomeState stateOf(const LightKey& key) const;
   bool makeFrame(Window& window);
   bool answerPoints(Window& window);  // session_points.cpp
@@ -102,6 +119,7 @@ class Session {
   void beginRefining();  // session_refine.cpp
   bool takeRefined();
   void sendFrame(Window& window, size_t index, LitHome& home);
+  void packed(Window& window, const Packed& p, TimePoint at);
 
   void tell(const Window& window, std::string text) const;
   void tellAll(const std::string& text) const;
@@ -122,6 +140,7 @@ class Session {
   LightBuilder builder_;
   std::string failedBuild_;  // technique that could not be lit: not tried again until something changes
   Json homeJson_;
+  LightFollower follower_;
   bool soon_ = false;  // a window rests in a moment
   struct Refining {  // whose picture it is; of an older serial it is of no more use
     std::string window;
@@ -137,10 +156,11 @@ class Session {
   std::condition_variable wake_;
   std::vector<Event> events_;
   std::vector<JobNews> jobNews_;  // not told yet
-  bool built_ = false, refinedReady_ = false;
+  bool built_ = false, refinedReady_ = false, lightReady_ = false;
   std::atomic<bool> stop_{false}, newer_{false};
   Refiner refiner_;
   RenderJobs jobs_;
+  FrameSender sender_;
   std::thread thread_;  // last: it uses all of the above
 };
 

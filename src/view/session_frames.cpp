@@ -1,4 +1,8 @@
 // Which picture of which window is made next, and how it is sent.
+#include <utility>
+
+#include "base/clock.h"
+#include "base/parallel.h"
 #include "engine/light_colour.h"
 #include "measure/luminance_picture.h"
 #include "view/illuminance_picture.h"
@@ -9,6 +13,8 @@ namespace {
 
 constexpr double kQuickMs = 38;  // of 50: the rest is for light that follows, showing and packing
 constexpr double kRestMs = 80;  // without an input: before that a better picture is not begun, since the next input would end it
+constexpr double kLookAtColourMs = 250;
+constexpr int kColourRays = 32;  // along both edges
 constexpr size_t kMostUnderWay = 2, kMostHistories = 4;
 
 double millisecondsSince(TimePoint at) { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - at).count(); }
@@ -80,6 +86,62 @@ void Session::bringUpToDate(LitHome& home, const Camera& camera) {
   home.lit->lookFrom(camera, stages);
 }
 
+// Whether light has come to where the home is; else nobody but the follower may use it.
+bool Session::isUpToDate(const LitHome& home) const {
+  if (follower_.home() == &home) return false;
+  HomeState wanted = stateOf(home.key);
+  wanted.sun = home.state.sun;
+  return wanted == home.state && home.lit->settled();
+}
+
+// The scene of quick frames at once, its light later.
+void Session::followFront(LitHome& home) {
+  HomeState wanted = stateOf(home.key);
+  wanted.sun = home.front->state().sun;
+  if (wanted == home.front->state()) return;
+  const SceneChange change = home.front->follow(home_.editable, std::move(wanted));
+  for (Window& w : windows_) {
+    for (Side& s : w.sides) {
+      if (s.key == home.key) s.quick.sceneChanged(change, home.front->scene());
+    }
+  }
+}
+
+// Begins to find the light of a home that windows look at and that has changed.
+void Session::followLight() {
+  if (follower_.home()) return;
+  for (const auto& home : lit_) {
+    if (!home->front || !needs(home->key) || isUpToDate(*home)) continue;
+    if (refiner_.home() == home.get()) refiner_.letGo();
+    return follower_.begin(home_.editable, *home, stateOf(home->key), settings_.threads, [this] {
+      {
+        const std::lock_guard lock(mutex_);
+        lightReady_ = true;
+      }
+      wake_.notify_all();
+    });
+  }
+}
+
+// Whether there was light to take.
+bool Session::takeLight() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!lightReady_) return false;
+    lightReady_ = false;
+  }
+  if (!follower_.done()) return false;  // of one that is no longer there
+  auto [home, light] = follower_.finish();
+  if (!home || !light) return false;
+  home->front->take(std::move(light), home->scene);
+  for (Window& w : windows_) {
+    for (Side& s : w.sides) {
+      if (s.key == home->key) s.quick.lightChanged(), s.lightCame = true;
+    }
+  }
+  return true;
+}
+
 // Bounces that the last change still owes: a frame shows them as far as they have come.
 void Session::goOnWithLight(LitHome& home) {
   if (refiner_.home() == &home) refiner_.letGo();
@@ -87,11 +149,6 @@ void Session::goOnWithLight(LitHome& home) {
   RenderProgress silent;
   Stages stages(silent, stats);
   home.lit->update({}, stages);
-  for (Window& w : windows_) {
-    for (Side& s : w.sides) {
-      if (s.key == home.key) s.picture.restart();
-    }
-  }
 }
 
 // Of the few that moved last: a history takes some hundred bytes a pixel.
@@ -112,6 +169,18 @@ FrameHistory* Session::historyOf(Side& side, Window& window) {
   return &*side.history;
 }
 
+// What a side of a window needs next.
+Session::Next Session::nextOf(const Window& window, const Side& side, const LitHome& home) const {
+  const bool current = side.shownSerial == window.serial && side.picture.begun();
+  if (!current || side.lightCame) return Next::Quick;
+  if (side.again) return Next::Again;
+  if (home.front && !isUpToDate(home)) return side.picture.samples() == 0 && !side.quick.settled() ? Next::Quick : Next::Wait;
+  if (!home.lit->settled()) return home.front ? Next::Wait : Next::Quick;
+  if (side.picture.averaged()) return Next::Nothing;
+  if (millisecondsSince(window.inputAt) >= kRestMs) return Next::Better;
+  return home.front && side.picture.samples() == 0 && !side.quick.settled() ? Next::Quick : Next::Wait;
+}
+
 bool Session::makeFrame(Window& window) {
   if (window.viewport.width == 0 || window.underWay.size() >= kMostUnderWay) return false;
   // The side that is behind, else the one with fewer samples.
@@ -122,17 +191,33 @@ bool Session::makeFrame(Window& window) {
   };
   for (size_t k = 0; k < window.sides.size(); ++k) {
     const Side& s = window.sides[k];
-    const bool idle = s.shownSerial == window.serial && s.picture.averaged() && !s.again;
-    LitHome* home = idle ? nullptr : litFor(s.key);
-    if (!home) continue;
-    const bool onlyBetter = s.shownSerial == window.serial && s.picture.begun() && !s.again && home->lit->settled();
-    if (onlyBetter && millisecondsSince(window.inputAt) < kRestMs) {
-      soon_ = true;
-      continue;
-    }
+    const LitHome* home = litFor(s.key);
+    const Next next = home ? nextOf(window, s, *home) : Next::Nothing;
+    soon_ |= next == Next::Wait;
+    if (next == Next::Nothing || next == Next::Wait) continue;
     if (best == window.sides.size() || isBefore(s, window.sides[best])) best = k;
   }
   return best < window.sides.size() && stepSide(window, best);
+}
+
+// A frame in a few tens of milliseconds. False: ended.
+bool Session::showQuick(Window& window, Side& side, LitHome& home, const Camera& camera) {
+  const std::pair<int, int> whole = frameSize(window.viewport, window.line.scale()), size = side.pace.sizeFor(kQuickMs, whole);
+  const Stopwatch watch;
+  Image image;
+  double costMs = 0;
+  if (home.front) {
+    image = side.quick.make(home.front->quick(), camera, size.first, size.second, kQuickMs, {{}, &stop_});
+    // What cannot be put off: rays, and a little light.
+    costMs = std::min(watch.seconds() * 1e3, side.quick.count().otherMs / std::max(1, threadCount()) + kQuickMs / 4);
+  } else {
+    image = home.lit->pictureOf(camera, {size.first, size.second, 1, {}, true, historyOf(side, window)}, {{}, &stop_});
+    costMs = watch.seconds() * 1e3;
+  }
+  if (stop_ || image.width == 0) return false;
+  side.pace.took(size, costMs);
+  side.picture.showQuick(std::move(image), watch.seconds() * 1e3, size != whole);
+  return true;
 }
 
 // False where nothing was done that is worth doing again at once.
@@ -140,54 +225,87 @@ bool Session::stepSide(Window& window, size_t index) {
   Side& side = window.sides[index];
   LitHome& home = *litFor(side.key);
   const Camera camera = cameraOf(window.camera);
-  if (side.shownSerial != window.serial) {
-    side.picture.restart();
-    side.shownSerial = window.serial;
-    bringUpToDate(home, camera);
-    side.shownRevision = revision_;
-  }
-  if (side.again && side.picture.begun()) {
+  const Next next = nextOf(window, side, home);
+  if (next == Next::Again) {
     side.again = false;
     sendFrame(window, index, home);
     return true;
   }
-  if (side.picture.averaged()) return false;
-  if (side.picture.begun() && !home.lit->settled()) goOnWithLight(home);
-  const bool shows = side.picture.step(home, camera, frameSize(window.viewport, window.line.scale()), {kQuickMs, side.pace, historyOf(side, window)}, refines(side), newer_, stop_);
-  if (shows) sendFrame(window, index, home);
+  if (next == Next::Better) {
+    const bool shows = side.picture.step(home, camera, frameSize(window.viewport, window.line.scale()), refines(side), newer_);
+    if (shows) sendFrame(window, index, home);
+    return true;
+  }
+  if (side.shownSerial != window.serial) {
+    if (home.front && side.picture.samples() > 0 && side.picture.begun()) side.quick.adopt(side.picture.image());
+    side.picture.restart();
+    side.shownSerial = window.serial;
+    if (home.front) {
+      followFront(home);
+    } else {
+      bringUpToDate(home, camera);
+    }
+    side.shownRevision = revision_;
+  } else if (!home.front && !home.lit->settled()) {
+    goOnWithLight(home);
+  }
+  if (std::exchange(side.lightCame, false)) side.picture.restart();
+  if (!showQuick(window, side, home, camera)) return false;
+  sendFrame(window, index, home);
   return true;
 }
 
 void Session::sendFrame(Window& window, size_t index, LitHome& home) {
   Side& side = window.sides[index];
   const GrowingPicture& picture = side.picture;
+  const RayScene& rays = home.front ? home.front->rays() : home.lit->rays();
   FrameInfo info;
   info.number = window.nextFrame++;
   info.side = window.sides.size() > 1 ? static_cast<uint8_t>(index + 1) : uint8_t{0};
-  const bool sunBehind = !(home.state.sun == stateOf(side.key).sun);
+  const bool sunBehind = !(home.state.sun == stateOf(side.key).sun), lightBehind = home.front && !isUpToDate(home);
   const auto flag = [](bool on, uint8_t bit) { return on ? bit : uint8_t{0}; };
-  info.flags = static_cast<uint8_t>(flag(picture.quick(), kQuick) | flag(picture.settled(), kSettled) | flag(picture.refined(), kRefined) | flag(sunBehind || side.shownRevision != revision_, kLightIsBehind));
+  info.flags = static_cast<uint8_t>(flag(picture.quick(), kQuick) | flag(picture.settled(), kSettled) | flag(picture.refined(), kRefined) | flag(sunBehind || lightBehind || side.shownRevision != revision_, kLightIsBehind));
   info.jpegQuality = static_cast<uint16_t>(window.line.quality());
   info.camera = window.camera.number, info.revision = side.shownRevision, info.samples = picture.samples();
   info.relativeError = picture.relativeError();
   info.pictureMs = static_cast<float>(picture.pictureMs());
   const double sinceLast = millisecondsSince(window.lastFrameAt) / 1e3;
-  ByteImage shown;
-  if (window.display.falseColour == FalseColour::Off) {
-    const Vec3 white = window.display.display.automaticWhite ? lightColour(home.lit->rays(), cameraOf(window.camera), picture.image()) : Vec3();
-    shown = showPicture(picture.image(), white, window.display, sinceLast, window.eye[index], info);
-  } else {
-    info.flags |= kFalseColour;
-    const bool lux = window.display.falseColour == FalseColour::Illuminance;
-    shown = showAmounts(lux ? illuminancePicture(home.lit->rays(), cameraOf(window.camera), picture.image()) : luminanceOnly(picture.image()), window.display, info);
-  }
   if (!window.inputShown) info.latencyMs = static_cast<float>(millisecondsSince(window.inputAt));
   window.inputShown = true;
   window.lastFrameAt = std::chrono::steady_clock::now();
-  Result<std::string> bytes = packFrame(info, shown);
-  if (!bytes) return tell(window, errorText({{}, "failed", "", bytes.error()}));
-  window.underWay.push_back({info.number, bytes.value().size(), window.lastFrameAt});
-  outbox_.frame(*window.connection, std::move(bytes).value());
+  FrameSender::Make make;
+  if (window.display.falseColour == FalseColour::Off) {
+    if (window.display.display.automaticWhite && (isBlack(side.lightColour) || millisecondsSince(side.lightColourAt) > kLookAtColourMs)) {
+      side.lightColour = lightColour(rays, cameraOf(window.camera), picture.image(), kColourRays), side.lightColourAt = window.lastFrameAt;
+    }
+    const Vec3 colour = window.display.display.automaticWhite ? side.lightColour : Vec3();
+    make = [light = picture.shared(), colour, display = window.display, sinceLast, eye = window.eye[index], info]() mutable {
+      const ByteImage shown = showPicture(*light, colour, display, sinceLast, *eye, info);
+      return packFrame(info, shown);
+    };
+  } else {
+    info.flags |= kFalseColour;
+    const bool lux = window.display.falseColour == FalseColour::Illuminance;
+    auto amounts = std::make_shared<const Image>(lux ? illuminancePicture(rays, cameraOf(window.camera), picture.image()) : luminanceOnly(picture.image()));
+    make = [amounts = std::move(amounts), display = window.display, info]() mutable {
+      const ByteImage shown = showAmounts(*amounts, display, info);
+      return packFrame(info, shown);
+    };
+  }
+  window.underWay.push_back({info.number, 0, window.lastFrameAt});
+  sender_.push(std::move(make), [this, connection = *window.connection, number = info.number](Result<std::string> bytes) {
+    push(connection, Packed{number, bytes ? bytes.value().size() : 0});
+    if (bytes) return outbox_.frame(connection, std::move(bytes).value());
+    outbox_.text(connection, errorText({{}, "failed", "", bytes.error()}));
+  });
+}
+
+// How long frames are on their way counts from here.
+void Session::packed(Window& window, const Packed& p, TimePoint at) {
+  const auto frame = std::find_if(window.underWay.begin(), window.underWay.end(), [&](const SentFrame& f) { return f.number == p.number; });
+  if (frame == window.underWay.end()) return;
+  frame->bytes = p.bytes, frame->at = at;
+  if (p.bytes == 0) window.underWay.erase(frame);
 }
 
 }  // namespace roomlight::view

@@ -42,6 +42,7 @@ void Session::handle(const Event& event) {
     if (refining_ && refining_->window == window->name) refiner_.giveUp(), refining_.reset();
     return;
   }
+  if (const auto* p = std::get_if<Packed>(&event.what)) return packed(*window, *p, event.at);
   std::visit([&](const auto& m) { on(*window, event, m); }, std::get<Message>(event.what));
 }
 

@@ -42,20 +42,28 @@ void Session::on(Window& window, const Event&, const Point& m) {
   waiting = m;
 }
 
-// Answers what waits, where there is light to answer by. False: nothing does.
+// Answers what waits, where there is light to answer by. False: nothing does, or nothing can yet.
 bool Session::answerPoints(Window& window) {
   if ((!window.pick && !window.meter) || window.viewport.width == 0) return false;
   LitHome* home = litFor(window.sides.front().key);
   if (!home) return false;
   const Camera camera = cameraOf(window.camera);
-  bringUpToDate(*home, camera);
-  const auto find = [&](const Point& p) { return pickAt(home_.editable, *home, camera, frameSize(window.viewport, 1), p.x, p.y, static_cast<float>(window.viewport.height)); };
+  if (home->front) {
+    followFront(*home);
+  } else {
+    bringUpToDate(*home, camera);
+  }
+  const RayScene& rays = home->front ? home->front->rays() : home->lit->rays();
+  const auto find = [&](const Point& p) { return pickAt(home_.editable, home->front ? home->front->state() : home->state, rays, camera, frameSize(window.viewport, 1), p.x, p.y, static_cast<float>(window.viewport.height)); };
+  bool answered = false;
   if (window.pick) {
     const std::optional<PickedPoint> picked = find(*window.pick);
     tell(window, answer("picked", window.pick->id, picked ? pickedJson(*picked) : Json(nullptr)));
     window.pick.reset();
+    answered = true;
   }
-  if (!window.meter) return true;
+  // A meter waits for the light.
+  if (!window.meter || (home->front && !isUpToDate(*home))) return answered;
   const Point asked = *window.meter;
   const std::optional<PickedPoint> picked = find(asked);
   const std::optional<Metered> metered = picked ? meterAt(*home, *picked, camera.worldFromCamera.w, stop_) : std::nullopt;

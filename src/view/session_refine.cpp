@@ -21,7 +21,7 @@ void Session::beginRefining() {
       const Side& s = w.sides[k];
       const bool waits = s.shownSerial == w.serial && s.picture.averaged() && !s.picture.settled() && !s.picture.refined();
       LitHome* home = waits ? litFor(s.key) : nullptr;
-      if (!home) continue;
+      if (!home || follower_.home() == home) continue;
       PathSettings settings = settings_.path;
       settings.width = s.picture.image().width, settings.height = s.picture.image().height;
       settings.seed = settings_.seed + 1;  // other random numbers than those of the picture

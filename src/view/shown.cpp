@@ -12,12 +12,23 @@ namespace {
 
 constexpr double kAdaptsInS = 0.2;
 constexpr int kColours = 1024;
+constexpr double kExposurePixels = 16384;
 
 ByteImage bytesOf(const Image& encoded) {
   ByteImage out(encoded.width, encoded.height, 3);
   parallelFor(encoded.pixels.size(), 16384, [&](size_t i) {
     for (int c = 0; c < 3; ++c) out.samples[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(std::clamp(encoded.pixels[i][c], 0.0f, 1.0f) * 255 + 0.5f);
   });
+  return out;
+}
+
+// Enough pixels to tell the exposure by.
+Image sparse(const Image& image) {
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(image.pixels.size()) / kExposurePixels)));
+  Image out((image.width + step - 1) / step, (image.height + step - 1) / step);
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) out.at(x, y) = image.at(x * step, y * step);
+  }
   return out;
 }
 
@@ -59,7 +70,7 @@ void Adaptation::follow(float wantedEv100, std::optional<float> wantedWhiteK, do
 }
 
 ByteImage showPicture(const Image& light, Vec3 lightColour, const ViewDisplay& d, double seconds, Adaptation& eye, FrameInfo& info) {
-  const float wanted = d.display.ev100 ? *d.display.ev100 : automaticEv100(light);
+  const float wanted = d.display.ev100 ? *d.display.ev100 : automaticEv100(sparse(light));
   const bool findsWhite = d.display.automaticWhite && !isBlack(lightColour);
   const std::optional<float> wantedK = findsWhite ? std::optional(static_cast<float>(nearestWhiteK(lightColour))) : std::nullopt;
   // What is set by hand holds at once.

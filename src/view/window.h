@@ -3,13 +3,16 @@
 
 #include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gather/frame_history.h"
+#include "gather/quick_frames.h"
 #include "view/growing_picture.h"
 #include "view/message.h"
+#include "view/pacing.h"
 #include "view/shown.h"
 
 namespace roomlight::view {
@@ -28,7 +31,11 @@ struct Side {
   LightKey key;
   GrowingPicture picture;
   Pace pace;
-  std::optional<FrameHistory> history;  // of its quick frames
+  std::optional<FrameHistory> history;  // of its quick frames, where the home has no front;
+  QuickFrames quick;                    // and where it has one
+  bool lightCame = false;               // since its last frame
+  Vec3 lightColour;                     // for the automatic white, of
+  TimePoint lightColourAt;
   uint32_t shownSerial = 0;    // input that the picture shows
   uint32_t shownRevision = 0;  // state of the light that it shows
   bool again = false;          // to be shown once more: only the display is another
@@ -50,7 +57,8 @@ struct Window {
   std::deque<SentFrame> underWay;
   uint32_t nextFrame = 1;
   Line line;
-  Adaptation eye[2];
+  // Of its sides; used by who sends its frames alone.
+  std::shared_ptr<Adaptation> eye[2] = {std::make_shared<Adaptation>(), std::make_shared<Adaptation>()};
   TimePoint lastFrameAt;
   std::optional<Point> pick, meter;  // wait to be answered
 };

@@ -1,0 +1,40 @@
+// What has changed in a scene since the frame before, as far as frames that reuse light must know: what moved, and where light is another.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scene/scene.h"
+#include "scene/scene_change.h"
+#include "trace/lights.h"
+
+namespace roomlight {
+
+class ChangedPlaces {
+ public:
+  // `addSeen` adds to the box of each instance what was seen of it: only then is it known where things were that move for the first time.
+  void add(const SceneChange& change, const Scene& scene, const std::function<void(std::vector<Bounds3>&)>& addSeen);
+  // Light of the scene as it is now: where things that moved throw shadows, or did, light has changed.
+  void lightBy(const Lights& lights);
+
+  bool lightsChanged() const { return lightsChanged_; }  // everywhere
+  bool anyMoved() const { return anyMoved_; }
+  bool hasMoved(uint32_t instance) const { return anyMoved_ && moved_[instance]; }
+  bool any() const { return lightsChanged_ || anyMoved_ || !near_.empty(); }
+  // Whether light may be another there: beside what moved, or where a line to a lamp or a sun meets its box.
+  bool concern(Vec3 p, float nearM) const;
+
+  void forget();  // the frame has been made
+
+ private:
+  struct Caster {
+    Vec3 place;
+    bool far;  // a direction
+  };
+  std::vector<Bounds3> places_, near_;  // of instances that moved, when they last did; where light has changed
+  std::vector<uint8_t> moved_;          // a flag an instance
+  std::vector<Caster> casters_;
+  bool lightsChanged_ = false, anyMoved_ = false;
+};
+
+}  // namespace roomlight

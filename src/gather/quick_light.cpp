@@ -1,0 +1,153 @@
+#include "gather/quick_maker.h"
+
+#include "trace/bsdf.h"
+#include "trace/lamp_light.h"
+#include "trace/shadow_ray.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kPictureRoughness = 0.3f;  // smoother: what it reflects is looked for by a ray
+constexpr float kFaint = 0.01f;        // of a place's light: lamps that could give less are left out
+
+}  // namespace
+
+SlotIrradiance QuickFrames::Maker::receivedAt(uint32_t instance, Vec3 p, Vec3 n) const {
+  const auto moved = scene_.moved.find(instance);
+  if (moved == scene_.moved.end()) return scene_.light.at(p, n);
+  return scene_.light.at(moved->second.point(p), normalize(moved->second.vector(n)));
+}
+
+// By slots alone, for reflections and what is seen through veils: `left` of all surfaces and the sky behind one another.
+Vec3 QuickFrames::Maker::radianceAlong(Ray ray, Vec3 left) const {
+  Vec3 sum;
+  for (int k = 0; k < Rules::kMostPanes && luminance(left) > Rules::kLeastLeft; ++k) {
+    const Hit hit = scene_.rays.intersect(ray);
+    if (!hit.valid()) return sum + left * skyAlong(scene_.lights, ray.direction);
+    const SurfacePlace place = placeAt(scene_.rays.scene(), hit, ray.direction);
+    const MaterialSample m = materialAt(scene_.rays.scene(), hit);
+    const SlotIrradiance e = receivedAt(hit.instance, place.p, place.ng);
+    const Vec3 emitted = place.front || place.material->doubleSided ? m.emission : Vec3(0);
+    sum += left * (emitted + bihemisphericalAlbedo(m) * (e.soft + e.sharp) / kPi) * m.alpha;
+    const Vec3 through = clear_[hit.instance] ? passing(m, *place.material, std::abs(dot(place.ng, ray.direction))) : Vec3(0);
+    if (isBlack(through)) break;
+    left *= through;
+    ray = {offsetOrigin(place.p, -place.ng), ray.direction, 0, kInfinity};
+  }
+  return sum;
+}
+
+// Light of one pixel but for that of suns and lamps, whose shadow rays are left in the work.
+void QuickFrames::Maker::shade(uint32_t index, Work& w) const {
+  Asked& a = w.asked[index];
+  const Scene& scene = scene_.rays.scene();
+  const Sight& sight = a.sight;
+  if (sight.panes > 0 && luminance(sight.reflectance) > Rules::kLeastReflected) {
+    const Vec3 d = sight.ray.direction - sight.paneNormal * (2 * dot(sight.ray.direction, sight.paneNormal));
+    a.rest += radianceAlong({offsetOrigin(sight.panePlace, sight.paneNormal), d, 0, kInfinity}, sight.reflectance);
+  }
+  if (!a.hit.valid()) return;
+  const SurfacePoint s = surfaceAt(scene, a.hit, sight.ray.direction);
+  const Vec3 wo = -sight.ray.direction;
+  const Bsdf bsdf(s.m, s.ns, s.ng, wo);
+  const SlotIrradiance e = receivedAt(s.instance, s.p, s.ng);
+  const Vec3 left = sight.left * s.m.alpha;
+  a.albedo = left * bsdf.diffuseAlbedo();
+  a.diffuse = e.soft / kPi;
+  a.rest += sight.left * s.emitted();
+  if (s.m.roughness < kPictureRoughness) {
+    const Vec3 d = sight.ray.direction - s.ns * (2 * dot(sight.ray.direction, s.ns));
+    if (dot(d, s.ng) > 0) a.rest += radianceAlong({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, left * bsdf.specularAlbedo());
+  } else {
+    a.rest += left * bsdf.specularAlbedo() * e.soft / kPi;
+  }
+  if (clear_[s.instance]) {
+    const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ng, sight.ray.direction)));
+    if (!isBlack(through)) a.rest += radianceAlong({offsetOrigin(s.p, -s.ng), sight.ray.direction, 0, kInfinity}, sight.left * through);
+  }
+  const size_t lamps = scene_.lights.lampCount(), lights = lamps + scene_.lights.sunCount();
+  const float faint = kFaint * luminance(e.soft + e.sharp) / kPi;
+  for (size_t i = 0; i < lights; ++i) {
+    if (i < lamps && !isSharp(scene_.lights.lamp(i))) continue;
+    const LightSample l = i < lamps ? scene_.lights.sampleLamp(i, s.p, {0.5f, 0.5f}) : scene_.lights.sampleSun(i - lamps, {0.5f, 0.5f});
+    const float cosine = dot(l.wi, s.ns);
+    if (!l.valid() || cosine <= 0 || dot(l.wi, s.ng) <= 0 || luminance(l.radiance) * cosine < kPi * faint) continue;
+    w.shadows.push_back({index, l.radiance * (cosine / kPi), left * bsdf.evaluateSpecular(l.wi) * l.radiance});
+    w.shadowRays.push_back(shadowRay(offsetOrigin(s.p, s.ng), s.p, l));
+  }
+}
+
+// Pixels that are not lit take the light of the nearest in their block, or in one beside it, that is and sees the same.
+void QuickFrames::Maker::lend(Work& w, Count& count) const {
+  const Scene& scene = scene_.rays.scene();
+  const auto width = static_cast<uint32_t>(f_.width_);
+  constexpr int kBlocks = Rules::kTile / Rules::kLendWithin;
+  std::array<std::vector<uint32_t>, kBlocks* kBlocks>& lit = w.litOf;
+  for (auto& l : lit) l.clear();
+  const auto xOf = [&](const Asked& a) { return static_cast<int>(a.pixel % width); };
+  const auto yOf = [&](const Asked& a) { return static_cast<int>(a.pixel / width); };
+  const auto blockOf = [&](int v) { return v % Rules::kTile / Rules::kLendWithin; };
+  for (uint32_t i = 0; i < w.asked.size(); ++i) {
+    if (w.asked[i].lit) lit[static_cast<size_t>(blockOf(yOf(w.asked[i])) * kBlocks + blockOf(xOf(w.asked[i])))].push_back(i);
+  }
+  for (Asked& a : w.asked) {
+    if (a.lit) continue;
+    const Asked* from = nullptr;
+    int nearest = 1 << 20;
+    const int x = xOf(a), y = yOf(a), bx = blockOf(x), by = blockOf(y);
+    for (int j = std::max(0, by - 1); j <= std::min(kBlocks - 1, by + 1); ++j) {
+      for (int i = std::max(0, bx - 1); i <= std::min(kBlocks - 1, bx + 1); ++i) {
+        for (const uint32_t k : lit[static_cast<size_t>(j * kBlocks + i)]) {
+          const Asked& b = w.asked[k];
+          const int dx = xOf(b) - x, dy = yOf(b) - y, d2 = dx * dx + dy * dy;
+          if (d2 >= nearest || b.hit.instance != a.hit.instance || b.sight.panes != a.sight.panes || dot(a.n, b.n) < Rules::kFacing) continue;
+          nearest = d2, from = &b;
+        }
+      }
+    }
+    if (!from) continue;
+    ++count.lent;
+    if (a.hit.valid()) {
+      const MaterialSample m = materialAt(scene, a.hit);
+      a.albedo = a.sight.left * m.alpha * Bsdf(m, a.n, a.n, -a.sight.ray.direction).diffuseAlbedo();
+    }
+    a.diffuse = from->diffuse, a.rest = from->rest, a.lent = true;
+  }
+}
+
+void QuickFrames::Maker::lightAll(Work& w, size_t first) const {
+  w.left.resize(w.shadows.size());
+  scene_.rays.transmittance(std::span(w.shadowRays).subspan(first), std::span(w.left).subspan(first));
+  for (size_t i = first; i < w.shadows.size(); ++i) {
+    Asked& a = w.asked[w.shadows[i].asked];
+    a.diffuse += w.shadows[i].diffuse * w.left[i], a.rest += w.shadows[i].specular * w.left[i];
+  }
+}
+
+void QuickFrames::Maker::light(Work& w, Count& count, Image& out) const {
+  w.shadows.clear(), w.shadowRays.clear();
+  for (uint32_t i = 0; i < w.asked.size(); ++i) {
+    if (w.asked[i].lit) shade(i, w), ++count.lit;
+  }
+  lightAll(w, 0);
+  lend(w, count);
+  // What has no light, and nobody near to lend it, is lit after all.
+  const size_t first = w.shadows.size();
+  for (uint32_t i = 0; i < w.asked.size(); ++i) {
+    Asked& a = w.asked[i];
+    if (a.lit || a.lent || a.old) continue;
+    a.lit = true;
+    shade(i, w), ++count.lit;
+  }
+  lightAll(w, first);
+  for (const Asked& a : w.asked) {
+    if (a.lit || a.lent) {
+      store(a, a.albedo * a.diffuse + a.rest, a.lit ? kLit : kLent, out);
+    } else {
+      store(a, *a.old, kLent, out);
+      ++count.lent;
+    }
+  }
+}
+
+}  // namespace roomlight

@@ -1,0 +1,132 @@
+// How pixels of one quick frame get what they show (quick_frames.h): what of the frame before comes to them, what their rays meet, and light.
+#pragma once
+
+#include <bit>
+#include <cmath>
+
+#include "gather/quick_frames.h"
+
+namespace roomlight {
+
+struct QuickFrames::Rules {
+  static constexpr int kTile = 16;
+  static constexpr int kMostPanes = 8;
+  static constexpr float kLeastLeft = 1e-2f;    // of light behind panes that is still looked for
+  static constexpr float kLeastReflected = 0.02f;
+  static constexpr float kFacing = 0.9f;        // cosine between normals of one place
+  static constexpr float kLeastCosine = 0.1f;
+  static constexpr int kLendWithin = 4;         // pixels: blocks in which light is lent
+  static constexpr uint64_t kNothing = ~uint64_t{0};
+  static constexpr uint32_t kSky = 0x7fffffffu; // in place of an instance
+  // Whose turn it is among `every` pixels: all of a block of 4x4 come on within 16 frames, of 8x8 within 64, far ones after one another.
+  static bool isTurn(int x, int y, uint32_t frame, uint32_t every);
+};
+
+// A camera ray on its way through panes.
+struct QuickFrames::Sight {
+  uint32_t pixel = 0;
+  Ray ray;
+  Vec3 left{1, 1, 1};  // of what it comes to
+  int panes = 0;
+  Vec3 panePlace, paneNormal;  // of the first pane, for what it reflects,
+  Vec3 reflectance;            // and how much that is
+  uint32_t pane = kNoHit;
+};
+
+// A pixel that is to be lit, with what it sees.
+struct QuickFrames::Asked {
+  uint32_t pixel;
+  Sight sight;
+  Hit hit;
+  Vec3 p, n;       // n: geometric, towards the eye
+  bool lit = true;            // else it is lent light
+  std::optional<Vec3> old;    // colour it had, and keeps where nobody lends
+  bool lent = false;
+  Vec3 albedo, rest;          // once it has light: of its Lambertian lobe; all other light of the pixel
+  Vec3 diffuse;               // light over albedo
+};
+
+class QuickFrames::Maker {
+ public:
+  Maker(QuickFrames& frames, const QuickScene& scene, const Camera& camera, int width, int height) : f_(frames), scene_(scene), rays_(camera, width, height), eye_(camera.worldFromCamera.w) {
+    const Scene& s = scene.rays.scene();
+    for (const Instance& i : s.instances) clear_.push_back(letsLightThrough(s.materials[static_cast<size_t>(s.meshes[static_cast<size_t>(i.mesh)].material)]));
+    const Ray a = rays_.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)), b = rays_.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height) + 1);
+    slope_ = length(b.direction - a.direction);
+    // Directions are those of the corner and two steps, before they are unit.
+    const Ray corner = rays_.ray(0, 0), right = rays_.ray(static_cast<float>(width), 0), down = rays_.ray(0, static_cast<float>(height));
+    const Vec3 ahead = -camera.worldFromCamera.z;
+    const auto onPlane = [&](const Ray& r) { return r.direction / dot(r.direction, ahead); };
+    corner_ = onPlane(corner), stepX_ = (onPlane(right) - corner_) / static_cast<float>(width), stepY_ = (onPlane(down) - corner_) / static_cast<float>(height);
+    nearM_ = camera.nearM;
+    anyStale_ = frames.changed_.any();
+  }
+  void make(int x0, int y0, Count& count, Image& out);
+
+ private:
+  // What a pane lets through and reflects under an angle.
+  struct Pane {
+    const Material* material = nullptr;
+    float cosine = 0;
+    bool clear = false;
+    Vec3 through, reflected;
+  };
+  struct Spot {  // what a pixel's ray meets first
+    Hit hit;
+    Vec3 n;
+    bool traced = false;  // else it follows from its neighbours
+  };
+  struct Work {
+    std::array<Spot, Rules::kTile * Rules::kTile> spots;
+    std::vector<uint32_t> places;
+    Pane pane, varied;
+    std::vector<Sight> sights, on;
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<Asked> asked;
+    struct Shadow {
+      uint32_t asked;
+      Vec3 diffuse, specular;  // what arrives if nothing is in the way
+    };
+    std::vector<Shadow> shadows;
+    std::vector<Ray> shadowRays;
+    std::vector<Vec3> left;
+    std::array<std::vector<uint32_t>, (Rules::kTile / Rules::kLendWithin) * (Rules::kTile / Rules::kLendWithin)> litOf;
+  };
+  void trace(int x0, int y0, int x1, int y1, Work& w) const;
+  void see(const Sight& sight, const Hit& hit, bool traced, Vec3 n, Work& w, Image& out) const;
+  void meet(const Sight& sight, const Hit& hit, bool traced, Vec3 p, Vec3 n, Work& w, Image& out) const;
+  const Pane& paneAt(const Hit& hit, Vec3 n, Vec3 direction, Work& w) const;
+  const Pixel* find(uint32_t key, Vec3 p, Vec3 n) const;
+  void light(Work& w, Count& count, Image& out) const;
+  void shade(uint32_t index, Work& w) const;
+  void lightAll(Work& w, size_t first) const;
+  void lend(Work& w, Count& count) const;
+  void store(const Asked& a, Vec3 colour, State state, Image& out) const;
+  void storeSky(const Sight& sight, Vec3 reflected, Image& out) const;
+  bool isTurnOf(uint32_t pixel, uint32_t every) const { return Rules::isTurn(static_cast<int>(pixel % static_cast<uint32_t>(f_.width_)), static_cast<int>(pixel / static_cast<uint32_t>(f_.width_)), f_.frame_, every); }
+  bool keep(int x, int y, Image& out) const;
+  const Pixel* landedAt(size_t pixel) const {
+    const uint64_t from = f_.landed_[pixel].load(std::memory_order_relaxed);
+    return from == Rules::kNothing ? nullptr : &f_.past_[static_cast<uint32_t>(from)];
+  }
+  bool between(int x, int y, const Pixel* a, const Pixel* b, Image& out) const;
+  SlotIrradiance receivedAt(uint32_t instance, Vec3 p, Vec3 n) const;
+  Vec3 radianceAlong(Ray ray, Vec3 left) const;
+
+  QuickFrames& f_;
+  const QuickScene& scene_;
+  const CameraRays rays_;
+  const Vec3 eye_;
+  Ray rayOf(int x, int y) const {
+    const Vec3 d = corner_ + stepX_ * (static_cast<float>(x) + 0.5f) + stepY_ * (static_cast<float>(y) + 0.5f);
+    return {eye_, d * (1 / std::sqrt(lengthSquared(d))), nearM_, kInfinity};
+  }
+  Vec3 corner_, stepX_, stepY_;
+  float nearM_ = 0;
+  bool anyStale_ = false;
+  float slope_ = 0;             // of a pixel: how far its edges part, per metre of distance
+  std::vector<uint8_t> clear_;  // a flag an instance: light may pass through
+};
+
+}  // namespace roomlight

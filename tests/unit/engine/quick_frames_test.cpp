@@ -1,0 +1,180 @@
+// Frames for walking: what they keep is what they would find anew, nothing is left where it no longer is, and their light is that of meters.
+#include "gather/quick_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/lit_scene.h"
+#include "support/pictures.h"
+#include "support/rooms.h"
+
+namespace roomlight {
+namespace {
+
+constexpr int kWidth = 192, kHeight = 108;
+constexpr double kPlenty = 1e5;  // ms: everything is lit at once
+
+class QuickFramesTest : public ::testing::Test {
+ protected:
+  Scene scene_;
+  uint32_t firstOfBox_ = 0;
+  std::unique_ptr<LitScene> lit_;
+  std::shared_ptr<const SlotSnapshot> light_;
+  std::unordered_map<uint32_t, Affine> moved_;
+  RenderStats stats_;
+  RenderProgress silent_;
+  Stages stages_{silent_, stats_};
+
+  void SetUp() override {
+    const auto coloured = [&](Vec3 colour) {
+      Material m = test::lambertian(0.5f);
+      m.baseColor = colour;
+      return test::addMaterial(scene_, m);
+    };
+    const int white = coloured(Vec3(0.7f)), green = coloured({0.1f, 0.6f, 0.1f}), red = coloured({0.7f, 0.05f, 0.05f});
+    std::vector<int> walls(6, white);
+    walls[4] = walls[5] = green;
+    test::addRoom(scene_, {0, 0, 0}, {4, 2.6f, 5}, walls);
+    firstOfBox_ = static_cast<uint32_t>(scene_.instances.size());
+    test::addBox(scene_, {1.52f, 0.41f, 1.53f}, {2.43f, 1.17f, 2.04f}, red);
+    scene_.lamps = {test::pointLamp({3.1f, 2.2f, 3.9f}, 80), test::pointLamp({0.6f, 2.2f, 4.1f}, 20)};
+    RenderSettings s;
+    s.voxel.voxelSizeM = 0.15f;
+    s.radiance.links = 64;
+    lit_ = lightScene(scene_, s, stages_).value();
+    light_ = lit_->snapshot();
+  }
+  Camera camera(float x) const {
+    Camera c;
+    c.worldFromCamera = looking({x, 1.5f, 4.6f}, {0.1f, -0.2f, -1});
+    return c;
+  }
+  Image frame(QuickFrames& frames, const Camera& c, double ms = kPlenty, int width = kWidth, int height = kHeight) { return frames.make({lit_->rays(), lit_->lights(), *light_, moved_}, c, width, height, ms); }
+  Image fresh(const Camera& c) {
+    QuickFrames frames;
+    for (int i = 0; i < 20; ++i) frame(frames, c);
+    return frame(frames, c);
+  }
+  // Share of pixels that are off by more than a tenth, those beside edges included.
+  static double off(const Image& a, const Image& b) {
+    double wrong = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i) wrong += std::abs(luminance(a.pixels[i]) - luminance(b.pixels[i])) > 0.1f * luminance(b.pixels[i]);
+    return wrong / static_cast<double>(a.pixels.size());
+  }
+  static double meanOf(const Image& a) {
+    double sum = 0;
+    for (const Vec3& p : a.pixels) sum += static_cast<double>(luminance(p));
+    return sum / static_cast<double>(a.pixels.size());
+  }
+};
+
+TEST_F(QuickFramesTest, theSnapshotTellsWhatMetersRead) {
+  std::vector<SurfaceElement> places;
+  for (int i = 0; i < 12; ++i) places.push_back({{0.5f + 0.25f * static_cast<float>(i), 0, 3.4f}, {0, 1, 0}});
+  const std::vector<MeterReading> read = lit_->illuminance(places, {});
+  double sum = 0;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const SlotIrradiance e = light_->at(places[i].position, places[i].normal);
+    ASSERT_TRUE(e.found);
+    EXPECT_NEAR(luminance(e.soft + e.sharp) / luminance(read[i].illuminanceLux), 1, 0.12) << i;
+    // No lamp is hidden there: the inverse square law.
+    float direct = 0;
+    for (const Lamp& lamp : scene_.lamps) {
+      const Vec3 way = lamp.position - places[i].position;
+      direct += luminance(lamp.intensityCd) * way.y / std::pow(length(way), 3.0f);
+    }
+    EXPECT_NEAR(luminance(e.sharp) / direct, 1, 0.05) << i;
+    sum += static_cast<double>(luminance(e.soft + e.sharp) / luminance(read[i].illuminanceLux)) / 12;
+  }
+  EXPECT_NEAR(sum, 1, 0.03);
+}
+
+TEST_F(QuickFramesTest, theSnapshotKeepsTheSidesOfAWallApart) {
+  EXPECT_FALSE(light_->at({2, 1.3f, -0.5f}, {0, 0, 1}).found);
+  EXPECT_EQ(luminance(light_->at({2, 1.3f, 0}, {0, 0, -1}).sharp), 0);  // behind the wall nothing shines
+}
+
+TEST_F(QuickFramesTest, framesAreAsBrightAsPictures) {
+  const Image picture = lit_->picture(camera(2), kWidth, kHeight);
+  EXPECT_NEAR(meanOf(fresh(camera(2))) / meanOf(picture), 1, 0.03);
+}
+
+TEST_F(QuickFramesTest, aWalkEndsAtWhatIsFoundAnew) {
+  QuickFrames frames;
+  Image last;
+  for (int i = 0; i <= 30; ++i) last = frame(frames, camera(1.4f + 0.02f * static_cast<float>(i)));
+  EXPECT_LT(frames.count().traced, size_t{kWidth * kHeight / 4});  // most are kept
+  const Image anew = fresh(camera(2));
+  EXPECT_LT(off(last, anew), 0.04);
+  EXPECT_NEAR(meanOf(last) / meanOf(anew), 1, 0.02);
+}
+
+TEST_F(QuickFramesTest, standingStillTheyComeToAnEnd) {
+  QuickFrames frames;
+  for (int i = 0; i < 200 && !frames.settled(); ++i) frame(frames, camera(2), 5);
+  EXPECT_TRUE(frames.settled());
+  EXPECT_LT(off(frame(frames, camera(2)), fresh(camera(2))), 0.03);
+}
+
+TEST_F(QuickFramesTest, whatMovedIsNotLeftBehind) {
+  QuickFrames frames;
+  for (int i = 0; i < 20; ++i) frame(frames, camera(2));
+  const Image before = frame(frames, camera(2));
+  SceneChange change;
+  const float away = 1.0f;
+  for (uint32_t i = firstOfBox_; i < scene_.instances.size(); ++i) {
+    const Affine was = scene_.instances[i].worldFromObject;
+    scene_.instances[i].worldFromObject.w += Vec3(away, 0, 0);
+    change.moved.push_back(i);
+    moved_[i] = was * inverse(scene_.instances[i].worldFromObject);
+  }
+  // As a session does: rays at once, slots not yet.
+  SceneRays now(scene_, true, stages_);
+  frames.sceneChanged(change, scene_);
+  const QuickScene scene{now.rays(), now.lights(), *light_, moved_};
+  Image after = frames.make(scene, camera(2), kWidth, kHeight, kPlenty);
+  QuickFrames others;
+  Image anew = others.make(scene, camera(2), kWidth, kHeight, kPlenty);
+  EXPECT_GT(off(before, anew), 0.05);
+  EXPECT_LT(off(after, anew), 0.02);
+}
+
+TEST_F(QuickFramesTest, aDimmedLampShowsInTheNextFrame) {
+  QuickFrames frames;
+  for (int i = 0; i < 20; ++i) frame(frames, camera(2));
+  const double before = meanOf(frame(frames, camera(2)));
+  scene_.lamps[0].intensityCd = {}, scene_.lamps[1].intensityCd = {};
+  SceneChange change;
+  change.lamps = true;
+  lit_->update(change, stages_);
+  light_ = lit_->snapshot();
+  frames.sceneChanged(change, scene_);
+  frames.lightChanged();
+  EXPECT_LT(meanOf(frame(frames, camera(2))), 1e-3 * before);
+}
+
+TEST_F(QuickFramesTest, framesOfAnotherSizeGoOnFromThoseBefore) {
+  QuickFrames frames;
+  for (int i = 0; i < 20; ++i) frame(frames, camera(2), kPlenty, kWidth / 2, kHeight / 2);
+  const Image larger = frame(frames, camera(2));
+  EXPECT_EQ(larger.width, kWidth);
+  EXPECT_LT(frames.count().traced, size_t{kWidth * kHeight * 3 / 4});
+  EXPECT_LT(off(larger, fresh(camera(2))), 0.1);
+}
+
+TEST_F(QuickFramesTest, coloursOfABetterPictureStay) {
+  QuickFrames frames;
+  frame(frames, camera(2));
+  Image blue(kWidth, kHeight);
+  std::fill(blue.pixels.begin(), blue.pixels.end(), Vec3(0, 0, 50));
+  frames.adopt(blue);
+  Image last;
+  for (int i = 1; i <= 5; ++i) last = frame(frames, camera(2 + 0.01f * static_cast<float>(i)));
+  size_t kept = 0;
+  for (const Vec3& p : last.pixels) kept += p.z == 50 && p.x == 0;
+  EXPECT_GT(kept, last.pixels.size() * 9 / 10);
+}
+
+}  // namespace
+}  // namespace roomlight
