@@ -1,0 +1,31 @@
+// All nondominated designs seen so far, at most `limit`: where there are more, those in the densest places go.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "search/problem.h"
+
+namespace roomlight::search {
+
+// a is no worse in any objective and better in one.
+bool dominates(std::span<const double> a, std::span<const double> b);
+
+struct Archive {
+  size_t limit = 500;
+  size_t objectivesEach = 2;
+  Genomes designs;
+  std::vector<double> objectives;  // designs.count × objectivesEach
+
+  size_t size() const { return designs.count; }
+  std::span<const double> objectivesOf(size_t i) const { return std::span(objectives).subspan(i * objectivesEach, objectivesEach); }
+};
+
+// Adds what is nondominated and new in its objectives; then thins out to the limit. The best of each objective always stays.
+// Costs new × size × objectives, and size² × objectives when thinned.
+void add(Archive& archive, const Genomes& designs, std::span<const double> objectives);
+
+// Order of the designs: by the first objective, then the second, and so on; for tables and equal files.
+std::vector<size_t> sorted(const Archive& archive);
+
+}  // namespace roomlight::search
