@@ -34,9 +34,17 @@ struct LinearSolution {
   double cost = 0;
 };
 
-// Exact (simplex, Clp). Errors: infeasible (names the row that is missed most, by how much, when all misses together are least), unbounded,
-// sizes that do not match. 60 columns and 2000 rows take 5 to 50 ms, 20 and 100 under 1 ms. Several threads may call it at once.
+// Exact (simplex, Clp). Errors: infeasible (names the row that is missed most when all misses together are least), unbounded,
+// sizes that do not match. Several threads may call it at once.
 Result<LinearSolution> minimise(const LinearProgram& program);
+
+// The nearest to feasible: least sum of misses over all rows, whatever it costs. Errors: sizes that do not match.
+struct LeastMiss {
+  std::vector<double> x;
+  std::vector<double> miss;  // one a row: how far below atLeast (positive) or above atMost (negative)
+  double sum = 0;            // of their sizes
+};
+Result<LeastMiss> leastMiss(const LinearProgram& program);
 
 // The least-squares problem min |W^½ (A x − b)|² as its normal equations: what is needed for many bounds and starts.
 struct NormalEquations {
@@ -53,8 +61,8 @@ NormalEquations normalEquations(const DenseMatrix& a, std::span<const double> b,
 double missOf(const NormalEquations& equations, std::span<const double> x);
 
 // Minimises xᵀGx − 2 hᵀx over 0 <= x <= upper (empty: 1 everywhere), from x (clamped) to x; G may be singular.
-// Coordinate descent finds which bounds hold, Cholesky on the free ones makes it exact. Returns the largest violation of the optimality conditions, relative
-// to the largest |h|: 1e-9 or less unless G is not positive semidefinite. 20 columns take some 5 µs, 60 some 100 µs. No allocation above 64 columns only.
+// Coordinate descent finds which bounds hold, Cholesky on the free ones makes it exact. Returns the largest violation of the optimality
+// conditions, relative to the largest |h|: 1e-9 or less unless G is not positive semidefinite.
 double minimiseSquares(const NormalEquations& equations, std::span<const double> upper, std::span<double> x);
 
 }  // namespace roomlight::search

@@ -72,7 +72,7 @@ struct Problem {
   std::function<void(Genome)> repair;
 
   // Optional. Improves the reals of a repaired genome, in place. Returns what it cost, counted in evaluations of one design: how many it
-  // made, or how many the same time would have bought, whichever is more. The search adds one for evaluating the outcome.
+  // made, or how many the same time would buy, whichever is more (a fixed figure, not a clock's). The search adds one for evaluating the outcome.
   // Called from several threads at once; the same input gives the same output.
   std::function<size_t(Genome, const Wish&)> polish;
 

@@ -21,7 +21,8 @@ struct State {
   Settings settings;
   size_t generation = 0;
   size_t evaluations = 0;  // of designs, polishing included
-  size_t polished = 0;     // designs
+  size_t polished = 0;           // designs
+  size_t polishEvaluations = 0;  // what polishing took of `evaluations`
   double seconds = 0;      // wall time, over all stops
   Genomes population;
   std::vector<double> objectives;  // of the population
