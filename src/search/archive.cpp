@@ -122,26 +122,25 @@ void thin(Archive& archive, size_t most) {
 
 void add(Archive& archive, const Genomes& designs, std::span<const double> objectives) {
   const size_t m = archive.objectivesEach;
-  std::vector<char> keep;
+  std::vector<char> keep(archive.size(), 1);
   for (size_t c = 0; c < designs.count; ++c) {
     const std::span<const double> f = objectives.subspan(c * m, m);
-    keep.assign(archive.size(), 1);
-    bool beaten = false, beats = false;
-    for (size_t i = 0; i < archive.size() && !beaten; ++i) {
+    bool beaten = false;
+    for (size_t i = 0; i < keep.size() && !beaten; ++i) {
+      if (!keep[i]) continue;
       // One pass tells how the two stand to one another.
       bool better = false, worse = false;
       const double* g = &archive.objectives[i * m];
       for (size_t k = 0; k < m; ++k) better |= f[k]<g[k], worse |= f[k]> g[k];
-      if (!better)
-        beaten = true;  // dominated, or equal to one that was there before
-      else if (!worse)
-        keep[i] = 0, beats = true;
+      beaten = !better;  // dominated, or equal to one that was there before
+      keep[i] = !better || worse;
     }
     if (beaten) continue;
-    if (beats) compact(archive, keep);
     archive.designs.append(designs[c]);
     archive.objectives.insert(archive.objectives.end(), f.begin(), f.end());
+    keep.push_back(1);
   }
+  compact(archive, keep);
   if (archive.size() > archive.limit + archive.limit / 5) thin(archive, archive.limit);
 }
 
