@@ -28,6 +28,7 @@ Registered addMix(CLI::App& program);
 Registered addWalk(CLI::App& program);
 Registered addValidate(CLI::App& program);
 Registered addStudy(CLI::App& program);
+Registered addOptimise(CLI::App& program);
 Registered addView(CLI::App& program);
 
 }  // namespace roomlight::cli

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "engine/stages.h"
+#include "gather/meters.h"
 #include "scene/scene_change.h"
 #include "trace/lights.h"
 #include "trace/meter.h"
@@ -54,6 +55,10 @@ class LitScene {
   virtual ~LitScene() = default;
   // What falls on each element.
   virtual std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress = {}) const = 0;
+  // The same by layers, for scenes that were lit with RenderSettings::layers by technique `hybrid` and have neither sun nor sky; layers() says which is
+  // which, and is null for others and for more than kMostLayers.
+  virtual LayeredReadings illuminanceInLayers(std::span<const SurfaceElement>, const MeterSettings&, const Progress& = {}) const { return {}; }
+  virtual const LightLayers* layers() const { return nullptr; }
   // Linear, cd/m², with the quality of the settings the scene was lit with.
   Image picture(const Camera& camera, int width, int height, const Progress& progress = {}, FrameHistory* history = nullptr) const {
     return pictureOf(camera, {width, height, 0, {}, false, history}, progress);

@@ -1,4 +1,5 @@
 // Techniques `hybrid` and `cone` as lit scenes: voxels and the light in them, kept up to date.
+#include "engine/layers.h"
 #include "engine/lit_techniques.h"
 #include "engine/technique_settings.h"
 #include "gather/cone_shader.h"
@@ -15,7 +16,8 @@ namespace {
 template <class Shader, class Settings>
 class VoxelScene final : public LitScene {
  public:
-  VoxelScene(const Scene& scene, const StageSettings<Settings>& use, Stages& stages) : LitScene(scene, true, stages), gather_(use.gather) {
+  VoxelScene(const Scene& scene, const RenderSettings& settings, StageSettings<Settings> use, Stages& stages) : LitScene(scene, true, stages), gather_(use.gather) {
+    if (const auto layers = wantedLayers(scene, lights(), settings)) use.radiance.layers = layers.value();
     voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, use.voxel); });
     stages.run("illuminate", [&](const Progress& p) {
       light_.emplace(rays(), lights(), voxels_.voxels, use.radiance, p);
@@ -26,6 +28,11 @@ class VoxelScene final : public LitScene {
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
   }
+  LayeredReadings illuminanceInLayers(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+    if (!shader_ || !shader_->layers()) return {};
+    return measureInLayers(rays(), lights(), *shader_, elements, settings, progress);
+  }
+  const LightLayers* layers() const override { return shader_ ? shader_->layers() : nullptr; }
   Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
     if (!shader_) return {};
     return gatherView(rays(), lights(), *shader_, camera, asked(gather_, wish), wish.history, progress);
@@ -67,8 +74,8 @@ class VoxelScene final : public LitScene {
 }  // namespace
 
 std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages) {
-  if (settings.technique == "cone") return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, coneStages(settings), stages);
-  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, hybridStages(settings), stages);
+  if (settings.technique == "cone") return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, settings, coneStages(settings), stages);
+  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, settings, hybridStages(settings), stages);
 }
 
 }  // namespace roomlight

@@ -1,9 +1,16 @@
 #include "gather/meters.h"
 
+#include <atomic>
+#include <mutex>
+
+#include "base/parallel.h"
+
 namespace roomlight {
 namespace {
 
 constexpr uint64_t kMeterKey = 0x3e7e12;  // other random numbers than pixels have
+constexpr int kBatch = 64;                // samples of a meter in layers at once; what their errors are judged by
+constexpr float kOfStrongest = 0.1f;      // of light on a meter: layers weaker than that need not be surer than it
 
 // An ideal white Lambertian surface reflects 1 / pi of what falls on it.
 SurfacePoint whitePatch(const SurfaceElement& element) {
@@ -14,20 +21,16 @@ SurfacePoint whitePatch(const SurfaceElement& element) {
   return s;
 }
 
-}  // namespace
-
-std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
-                                             const MeterSettings& settings, const Progress& progress) {
-  const SharpLights sharp(rays, lights);
-  const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
-    thread_local std::vector<Shading> shadings;
-    thread_local std::vector<Shadow> shadows;
-    thread_local std::vector<SurfaceLight> light;
+// Samples of one element, ready to be shaded.
+struct MeterSamples {
+  std::vector<Shading> shadings;
+  std::vector<Shadow> shadows;
+  void take(const SharpLights& sharp, const SurfaceElement& element, size_t meter, int first, int count, uint64_t seed) {
     shadings.clear(), shadows.clear();
-    const SurfacePoint s = whitePatch(elements[meter]);
+    const SurfacePoint s = whitePatch(element);
     const Vec3 origin = offsetOrigin(s.p, s.ng);
     for (int k = 0; k < count; ++k) {
-      Sampler sampler(mix64(meter + kMeterKey), static_cast<uint32_t>(first + k), settings.seed);
+      Sampler sampler(mix64(meter + kMeterKey), static_cast<uint32_t>(first + k), seed);
       const auto firstShadow = static_cast<uint32_t>(shadows.size());
       for (size_t i = 0; i < sharp.count(); ++i) {
         const Vec2 u = sampler.next2();
@@ -35,12 +38,107 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
       }
       shadings.push_back({s, s.ng, sampler, firstShadow, false, 1, true});
     }
-    light.assign(shadings.size(), {});
+  }
+};
+
+// What all layers give one element: means over batches of samples, and how batches differ.
+class LayerMeter {
+ public:
+  explicit LayerMeter(size_t layers) : sum_(layers), squares_(layers) {}
+  void add(const std::vector<Vec3>& batchMeans) {
+    for (size_t l = 0; l < sum_.size(); ++l) {
+      sum_[l] += batchMeans[l];
+      const double y = static_cast<double>(luminance(batchMeans[l]));
+      squares_[l] += y * y;
+    }
+    ++batches_;
+  }
+  Vec3 lux(size_t l) const { return sum_[l] / static_cast<float>(batches_); }
+  double error(size_t l) const {
+    if (batches_ < 2) return std::numeric_limits<double>::infinity();
+    const double n = batches_, mean = static_cast<double>(luminance(lux(l)));
+    return std::sqrt(std::max(0.0, squares_[l] / n - mean * mean) / (n - 1));
+  }
+  bool sureTo(double tolerance) const {
+    float strongest = 0;
+    for (size_t l = 0; l < sum_.size(); ++l) strongest = std::max(strongest, luminance(lux(l)));
+    for (size_t l = 0; l < sum_.size(); ++l) {
+      if (error(l) > tolerance * static_cast<double>(std::max(luminance(lux(l)), kOfStrongest * strongest))) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::vector<Vec3> sum_;
+  std::vector<double> squares_;
+  int batches_ = 0;
+};
+
+// Means of one batch.
+void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const SurfaceElement& element, size_t meter, int first, uint64_t seed, std::vector<Vec3>& means) {
+  thread_local MeterSamples samples;
+  thread_local std::vector<SurfaceLight> light;
+  thread_local LayerSums sums;
+  samples.take(sharp, element, meter, first, kBatch, seed);
+  light.assign(samples.shadings.size(), {});
+  sums = LayerSums(means.size());
+  sums.resize(samples.shadings.size());
+  GatherCounters counters;
+  shader.shadeInLayers(samples.shadings, samples.shadows, light, sums, counters);
+  for (size_t l = 0; l < means.size(); ++l) {
+    Vec3 sum;
+    for (size_t k = 0; k < light.size(); ++k) sum += sums.get(k, LayerSums::kDiffuse, l) + sums.get(k, LayerSums::kSharp, l);
+    means[l] = sum * (kPi / kBatch);
+  }
+}
+
+}  // namespace
+
+std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
+                                             const MeterSettings& settings, const Progress& progress) {
+  const SharpLights sharp(rays, lights);
+  const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
+    thread_local MeterSamples samples;
+    thread_local std::vector<SurfaceLight> light;
+    samples.take(sharp, elements[meter], meter, first, count, settings.seed);
+    light.assign(samples.shadings.size(), {});
     GatherCounters counters;
-    shader.shade(shadings, shadows, light, counters);
+    shader.shade(samples.shadings, samples.shadows, light, counters);
     for (size_t k = 0; k < light.size(); ++k) lux[k] += (light[k].diffuse + light[k].sharp) * kPi;
   };
   return readMeters(rays, lights, elements, settings, sample, progress);
+}
+
+LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
+                                const MeterSettings& settings, const Progress& progress) {
+  const SharpLights sharp(rays, lights);
+  LayeredReadings out;
+  out.layers = shader.layers()->size();
+  out.lux.resize(elements.size() * out.layers), out.standardErrorLux.resize(out.lux.size());
+  std::atomic<size_t> done = 0;
+  std::mutex reporting;
+  parallelFor(elements.size(), 1, [&](size_t i) {
+    LayerMeter meter(out.layers);
+    std::vector<Vec3> means(out.layers);
+    for (int first = 0, count = std::max(settings.fewestSamples, 2 * kBatch); count <= std::max(settings.mostSamples, 2 * kBatch) && !progress.stop(); count *= 2) {
+      for (; first < count && !progress.stop(); first += kBatch) {
+        sampleLayers(sharp, shader, elements[i], i, first, settings.seed, means);
+        meter.add(means);
+      }
+      if (meter.sureTo(settings.tolerance)) break;
+    }
+    for (size_t l = 0; l < out.layers; ++l) {
+      if (progress.stop()) break;
+      out.lux[i * out.layers + l] = meter.lux(l);
+      out.standardErrorLux[i * out.layers + l] = static_cast<float>(meter.error(l));
+    }
+    const size_t d = ++done;
+    if (reporting.try_lock()) {
+      progress.at(static_cast<float>(d) / static_cast<float>(elements.size()));
+      reporting.unlock();
+    }
+  });
+  return out;
 }
 
 }  // namespace roomlight

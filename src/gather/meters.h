@@ -12,4 +12,18 @@ namespace roomlight {
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
                                              const MeterSettings& settings, const Progress& progress = {});
 
+// Light on elements kept apart by layers.
+struct LayeredReadings {
+  size_t layers = 0;
+  std::vector<Vec3> lux;               // of element i from layer l: lux[i * layers + l], per channel
+  std::vector<float> standardErrorLux; // of their luminance, as `lux`
+  Vec3 at(size_t element, size_t layer) const { return lux[element * layers + layer]; }
+};
+
+// By a shader that keeps light apart (layers() is not null), in a scene lit by lamps and emissive meshes alone: suns and sky are left out. Every element
+// takes fewestSamples and goes on to twice as many, up to mostSamples, until every layer is as certain as the tolerance asks, or as it asks of a tenth of the
+// strongest layer there. Does not depend on the number of threads.
+LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
+                                const MeterSettings& settings, const Progress& progress = {});
+
 }  // namespace roomlight

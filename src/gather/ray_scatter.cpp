@@ -102,7 +102,8 @@ void RayScatter::layersAt(const GatherVertex& v, GatherWork& w) const {
   Sampler sampler = w.samplers[v.estimate].forked(kLayerKey);
   const Int3 at = voxels_.voxelOf(v.s.p + v.s.ng * (kNudge * voxels_.voxelSizeM));
   const int32_t brick = at.x < 0 || at.y < 0 || at.z < 0 ? -1 : voxels_.brickAt({at.x / kBrickSize, at.y / kBrickSize, at.z / kBrickSize});
-  const uint64_t reach = brick < 0 ? ~uint64_t{0} : field_.layers.reach[static_cast<size_t>(brick)];
+  // A meter in the air is no surface of the scene: what slots near it see says little of it.
+  const uint64_t reach = brick < 0 || !v.s.material ? ~uint64_t{0} : field_.layers.reach[static_cast<size_t>(brick)];
   for (size_t l = 0; l < members_.size(); ++l) {
     if (members_[l].lamps.empty() && members_[l].emitters.empty()) continue;
     float weight = 1 - kPictureShare;

@@ -269,6 +269,17 @@ bool insideThing(const RayScene& rays, Vec3 p) {
   return true;
 }
 
+size_t leaveOutThings(const RayScene& rays, Lattice& lattice) {
+  size_t out = 0;
+  for (int row = 0; row < lattice.rows; ++row) {
+    for (int column = 0; column < lattice.columns; ++column) {
+      uint8_t& used = lattice.used[lattice.index(column, row)];
+      if (used && insideThing(rays, lattice.centre(column, row))) used = 0, ++out;
+    }
+  }
+  return out;
+}
+
 std::vector<Area> findAreas(const RayScene& rays, double workPlaneM, const GridSettings& settings) {
   std::vector<std::vector<float>> floors;
   const Search search = searchIndoors(rays, floors);

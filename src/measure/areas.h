@@ -13,6 +13,9 @@ namespace roomlight {
 // thing stands on.
 bool insideThing(const RayScene& rays, Vec3 p);
 
+// Cells whose middle is in a wardrobe say nothing of the room: they are no longer used. Returns how many.
+size_t leaveOutThings(const RayScene& rays, Lattice& lattice);
+
 struct Area {
   std::string name;      // "Area 1", the largest first
   float elevationM = 0;  // of the floor

@@ -96,31 +96,28 @@ double openingTowards(const Lamp& lamp, Vec3 away) {
   return area * (lamp.web->round ? static_cast<double>(kPi) / 4 : 1) * static_cast<double>(std::abs(dot(away, lamp.direction)));
 }
 
-// A lamp without a mesh: a small source, or as large as its opening. What is visible of that is sampled.
-void addLamp(const RayScene& rays, const Lamp& lamp, Vec3 eye, Vec3 view, SeenLamps& out) {
+}  // namespace
+
+// A small source, or as large as its opening. What is visible of that is sampled.
+SeenLamp seenLamp(const RayScene& rays, const Lamp& lamp, Vec3 eye, Vec3 view) {
   const Vec3 to = lamp.position - eye;
   const float distance = length(to);
   const Vec3 direction = to / std::max(distance, 1e-6f);
   const uint32_t samples = lamp.extended ? kRaysALamp : 1;
-  double lux = 0, cd = 0;  // on the plane that faces the view; towards the eye
+  SeenLamp out;
+  double cd = 0;  // towards the eye
   for (uint32_t k = 0; k < samples; ++k) {
     const LightSample light = sampleLamp(lamp, eye, Sampler(0, k, 0).next2());
     if (!light.valid()) continue;
     const double l = static_cast<double>(luminance(light.radiance * rays.transmittance(shadowRay(eye, eye, light)))) / samples;
-    lux += l * static_cast<double>(std::max(0.0f, dot(light.wi, view))), cd += l * static_cast<double>(light.distance * light.distance);
+    out.directLux += l * static_cast<double>(std::max(0.0f, dot(light.wi, view))), cd += l * static_cast<double>(light.distance * light.distance);
   }
-  out.directLux += lux;
-  if (cd <= 0 || dot(direction, view) <= 0) return;
-  const double area = openingTowards(lamp, -direction), distance2 = static_cast<double>(distance * distance);
-  if (area > kLargeSourceM2) ++out.large;
-  if (area < kSmallSourceM2) {
-    out.sources.push_back(smallSource(direction, cd, static_cast<double>(distance)));
-  } else {
-    out.sources.push_back({direction, cd / area, area / distance2});
-  }
+  if (cd <= 0 || dot(direction, view) <= 0) return out;
+  out.areaM2 = openingTowards(lamp, -direction);
+  const double distance2 = static_cast<double>(distance * distance);
+  out.source = out.areaM2 < kSmallSourceM2 ? smallSource(direction, cd, static_cast<double>(distance)) : GlareSource{direction, cd / out.areaM2, out.areaM2 / distance2};
+  return out;
 }
-
-}  // namespace
 
 SeenLamps seenLamps(const RayScene& rays, Vec3 eye, Vec3 view) {
   const Scene& scene = rays.scene();
@@ -145,7 +142,10 @@ SeenLamps seenLamps(const RayScene& rays, Vec3 eye, Vec3 view) {
   }
   for (const Lamp& lamp : scene.lamps) {
     if (lamp.kind == LampKind::Area) continue;  // they are meshes too
-    addLamp(rays, lamp, eye, view, out);
+    const SeenLamp one = seenLamp(rays, lamp, eye, view);
+    out.directLux += one.directLux;
+    if (one.source) out.sources.push_back(*one.source);
+    if (one.areaM2 > kLargeSourceM2) ++out.large;
   }
   return out;
 }

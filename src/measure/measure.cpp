@@ -15,18 +15,6 @@ namespace {
 constexpr double kMapCells = 48;       // along the longer side of a room
 constexpr double kMapTolerance = 3;    // times that of the readings
 
-// Cells whose middle is in a wardrobe say nothing of the room.
-size_t leaveOutThings(const RayScene& rays, Lattice& lattice) {
-  size_t out = 0;
-  for (int row = 0; row < lattice.rows; ++row) {
-    for (int column = 0; column < lattice.columns; ++column) {
-      uint8_t& used = lattice.used[lattice.index(column, row)];
-      if (used && insideThing(rays, lattice.centre(column, row))) used = 0, ++out;
-    }
-  }
-  return out;
-}
-
 void addHorizontal(const RayScene& rays, const RoomPlan& plan, const GridSettings& grid, SurfaceKind kind, float aboveM, bool maps, Measurements& m) {
   GridReading g;
   g.name = fmt::format("{}, {}", plan.room.name, kind == SurfaceKind::Floor ? "floor" : "work plane");

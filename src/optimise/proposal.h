@@ -1,0 +1,56 @@
+// Designs that are proposed: a spread of the front, each as a lighting file and certified by the full solution.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "measure/measurements.h"
+#include "optimise/evaluate.h"
+#include "search/archive.h"
+
+namespace roomlight::optimise {
+
+// One lamp of a design, for people.
+struct BillLine {
+  std::string name, place;  // "Downlight 60", "Living ceiling 3"
+  Vec3 position;
+  std::string aim;
+  double kelvin = 0, wattsW = 0, price = 0;
+  std::vector<double> dimming;  // per condition
+};
+std::vector<BillLine> billOf(const StudyFile& study, const Candidates& candidates, const Model& model, search::ConstGenome design);
+
+// Lamps of a design in a condition as a lighting file's `lamps`: each at its level, in its colour.
+nlohmann::json lampsOf(const StudyFile& study, const Candidates& candidates, const Model& model, search::ConstGenome design, size_t condition);
+
+// A whole lighting file: the study's fixed lighting, the condition's daylight, the design's lamps. Photometric files by absolute path.
+Result<std::string> lightingFileOf(const StudyFile& study, const nlohmann::json& lamps, const nlohmann::json& daylight);
+
+// Letters and digits of a name, lower case, others as _: fit for a file.
+std::string fileNameOf(const std::string& name);
+
+// How far the prediction is from the full solution, over the points of all zones.
+struct Certificate {
+  struct OfCondition {
+    std::vector<float> fullLux, predictedLux;  // per point of the meters
+    double maxPercent = 0, meanPercent = 0;    // of points with at least kJudgedLux in the full solution
+    size_t judged = 0;
+    std::vector<double> fullUgr;               // per eye; below 0: cannot be judged
+  };
+  std::vector<OfCondition> conditions;
+  std::vector<Image> pictures;  // of the cameras, in the first condition; linear, cd/m²
+  double seconds = 0;
+  double maxPercent() const;
+};
+constexpr double kJudgedLux = 1;
+constexpr int kPictureWidth = 640, kPictureHeight = 360;
+
+// Solved by technique hybrid, with the design's lamps alone beside what is fixed. Empty where cancelled.
+Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& study, const Candidates& candidates, const Meters& meters, const Model& model, search::ConstGenome design,
+                                           std::span<const Camera> cameras, const RenderSettings& render, Stages& stages);
+
+// About `count` designs of a front, spread over it: among those that miss targets by at most kProposedMissPercent more than the best, first the best of each objective, then
+// each that is farthest from those chosen. Indices, in the order of the first objective.
+constexpr double kProposedMissPercent = 10;
+std::vector<size_t> spreadOf(const Model& model, const search::Archive& front, size_t count);
+
+}  // namespace roomlight::optimise

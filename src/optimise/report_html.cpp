@@ -1,0 +1,257 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/html.h"
+#include "base/image_io.h"
+#include "base/tone.h"
+#include "measure/floor_plan.h"
+#include "measure/light_map.h"
+#include "optimise/report.h"
+#include "search/hypervolume.h"
+
+namespace roomlight::optimise {
+namespace {
+
+constexpr int kJpegQuality = 82;
+constexpr float kPlanMarginM = 0.4f;
+
+constexpr const char* kStyle = R"(
+:root{--ink:#1d2530;--soft:#5d6876;--line:#dfe3e8;--good:#1a7f4b;--bad:#b3362b}
+*{box-sizing:border-box}
+body{margin:0;background:#f3f4f6;color:var(--ink);font:15px/1.5 "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif}
+main{max-width:1180px;margin:0 auto;background:#fff;padding:44px 56px 36px}
+h1{font-size:30px;font-weight:600;margin:0 0 4px}
+h2{font-size:21px;font-weight:600;margin:44px 0 8px;padding-top:18px;border-top:1px solid var(--line)}
+h3{font-size:16px;font-weight:600;margin:22px 0 4px}
+p{margin:4px 0 10px;max-width:80ch}p.soft{color:var(--soft);font-size:13.5px}
+table{border-collapse:collapse;margin:8px 0 4px;font-variant-numeric:tabular-nums;font-size:14px}
+th{font-weight:600;font-size:12px;color:var(--soft);text-align:right;border-bottom:1px solid var(--ink);padding:4px 9px;vertical-align:bottom}
+td{text-align:right;border-bottom:1px solid var(--line);padding:5px 9px}
+th:first-child,td:first-child,td.l,th.l{text-align:left}th:first-child,td:first-child{padding-left:0}
+.met{color:var(--good);font-weight:600}.missed{color:var(--bad);font-weight:600}
+.wide{overflow-x:auto}.controls{margin:10px 0 4px;font-size:13.5px;color:var(--soft)}.controls>*{margin-right:8px}
+svg{max-width:100%;height:auto}svg text{font:12px "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif;fill:var(--ink)}
+#front{width:100%;display:block;touch-action:none;border:1px solid var(--line)}#front .grid{stroke:#e4e7eb}#front .point{fill:#7b8da6}#front .proposed{fill:#d9792b;stroke:#fff;stroke-width:1.5;cursor:pointer}
+#front .number{font-weight:700}#front .axis{fill:var(--soft)}
+#tip{display:none;position:absolute;background:#1d2530;color:#fff;font-size:12.5px;padding:5px 9px;border-radius:4px;max-width:360px;pointer-events:none}
+.row{display:flex;flex-wrap:wrap;gap:14px 22px;align-items:flex-start;margin:8px 0}.row figure{margin:0;max-width:520px}.row img{width:100%;display:block}
+figcaption{font-size:12.5px;color:var(--soft)}
+.plan .wall,.map .wall{fill:none;stroke:#111820;stroke-width:calc(1.3*var(--px));stroke-linejoin:round;stroke-linecap:round}
+.plan .lamp circle{stroke:#111820;stroke-width:calc(1.2*var(--px))}
+.map{max-width:360px}
+.map .contour{fill:none;stroke:#fff;stroke-opacity:.8;stroke-width:calc(1.1*var(--px))}
+.map .point{stroke:#111820;stroke-opacity:.55;stroke-width:calc(2.6*var(--px));stroke-linecap:round}
+.map text.level{font-size:calc(11.5*var(--px));text-anchor:middle;dominant-baseline:central;paint-order:stroke;stroke:#fff;stroke-opacity:.85;stroke-width:calc(3*var(--px));stroke-linejoin:round}
+.map .lamp circle{fill:#fff;stroke:#111820;stroke-width:calc(1.2*var(--px))}.map .lamp path{stroke:#111820;stroke-width:calc(1.2*var(--px))}
+.map .bar path{fill:none;stroke:var(--ink);stroke-width:calc(1.4*var(--px))}.map .bar text{font-size:calc(12*var(--px))}
+footer{margin-top:36px;padding-top:14px;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
+@media print{body{background:#fff}main{padding:0;max-width:none}}
+)";
+
+std::string cell(const std::string& text, const char* kind = "") { return fmt::format("<td{}>{}</td>", *kind ? fmt::format(" class=\"{}\"", kind) : "", text); }
+
+// Plans and maps of designs: the home's walls are cut once.
+class Drawer {
+ public:
+  Drawer(const Report& r, const Scene& home) : r_(r), scene_(home) {
+    scene_.lamps.clear();
+    low_ = {kInfinity, kInfinity}, high_ = {-kInfinity, -kInfinity};
+    float y = kInfinity;
+    const auto take = [&](const Room& room) {
+      for (const Vec2 p : room.floor) low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)}, high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+      if (!room.floor.empty()) y = std::min(y, room.elevationM);
+    };
+    for (const Zone& z : r.study.zones) take(z.room);
+    for (const PlaceRule& p : r.study.places) take(p.room);
+    const PlanFrame frame{{0, y + 1.1f, 0}, {1, 0, 0}, {0, 0, 1}, low_ - Vec2{kPlanMarginM, kPlanMarginM}, high_ + Vec2{kPlanMarginM, kPlanMarginM}};
+    for (const PlanLine& line : cutPlan(scene_, frame)) {
+      for (size_t i = 0; i < line.size(); ++i) walls_ += fmt::format("{}{:.0f} {:.0f}", i ? "L" : "M", 100 * line[i].x, 100 * line[i].y);
+    }
+  }
+
+  std::string walls() const { return fmt::format("<svg width=\"0\" height=\"0\" style=\"position:absolute\"><defs><path id=\"walls\" d=\"{}\"/></defs></svg>\n", walls_); }
+
+  // Lamps over the walls: the fuller a disc, the brighter the lamp in the first condition.
+  std::string plan(const Proposed& d) const {
+    const float x = 100 * (low_.x - kPlanMarginM), y = 100 * (low_.y - kPlanMarginM), w = 100 * (high_.x - low_.x + 2 * kPlanMarginM), h = 100 * (high_.y - low_.y + 2 * kPlanMarginM);
+    std::string s = fmt::format("<svg class=\"plan\" width=\"500\" viewBox=\"{:.0f} {:.0f} {:.0f} {:.0f}\" style=\"--px:{:.2f}px\" role=\"img\" aria-label=\"Plan\"><use href=\"#walls\" class=\"wall\"/>\n", x, y, w, h, w / 500);
+    for (const BillLine& l : d.bill) {
+      s += fmt::format("<g class=\"lamp\"><title>{}, {}: {:.0f} %</title><circle cx=\"{:.0f}\" cy=\"{:.0f}\" r=\"{:.1f}\" fill=\"#ffb830\" fill-opacity=\"{:.2f}\"/></g>\n", htmlEscaped(l.name), htmlEscaped(l.place), 100 * l.dimming[0],
+                       100 * l.position.x, 100 * l.position.z, 7 * w / 500, 0.1 + 0.9 * l.dimming[0]);
+    }
+    return s + "</svg>";
+  }
+
+  std::string maps(const Proposed& d) {
+    const std::vector<float>& lux = d.certificate->conditions[0].fullLux;
+    const LightScale scale = scaleOf(lux);
+    scene_.lamps.clear();
+    for (const BillLine& l : d.bill) {
+      Lamp lamp;
+      lamp.name = l.name, lamp.position = l.position;
+      scene_.lamps.push_back(lamp);
+    }
+    std::string s = "<div class=\"row\">";
+    for (size_t z = 0; z < r_.study.zones.size(); ++z) {
+      const ZonePoints& points = r_.meters.zones[z];
+      GridReading g;
+      g.name = r_.study.zones[z].name, g.floor = r_.study.zones[z].room.floor;
+      g.points.lattice = points.lattice, g.points.lux = points.lattice.spread(std::span(lux).subspan(points.first, points.count));
+      s += fmt::format("<figure>{}<figcaption>{}, lx</figcaption></figure>\n", lightMapSvg(g, scene_, scale, ++number_), htmlEscaped(g.name));
+    }
+    return s + legendSvg(scale, "lx") + "</div>\n";
+  }
+
+ private:
+  const Report& r_;
+  Scene scene_;
+  Vec2 low_, high_;
+  std::string walls_;
+  int number_ = 0;
+};
+
+std::string objectivesTable(const Report& r) {
+  std::string s = "<div class=wide><table><tr><th>design</th>";
+  for (const Objective o : r.model.objectives) s += fmt::format("<th>{}<br>{}</th>", infoOf(o).title, o == Objective::Cost ? htmlEscaped(r.study.catalogue.currency) : infoOf(o).unit);
+  s += "<th>lamps</th><th>installed<br>W</th><th>LENI<br>kWh/(m² a)</th><th>prediction off<br>at most</th></tr>\n";
+  for (size_t d = 0; d < r.designs.size(); ++d) {
+    const Proposed& p = r.designs[d];
+    s += fmt::format("<tr><td><a href=\"#design{0}\">{0}</a></td>", d + 1);
+    for (const Objective o : r.model.objectives) s += cell(threeDigits(p.result.of(o)));
+    s += cell(fmt::format("{}", p.result.fittings)) + cell(threeDigits(p.result.installedW)) + cell(r.model.areaM2 > 0 ? threeDigits(p.result.kWhPerYear / r.model.areaM2) : "–") + cell(p.certificate ? fmt::format("{:.1f} %", p.certificate->maxPercent()) : "not solved") + "</tr>\n";
+  }
+  return s + "</table></div>\n";
+}
+
+std::string goalRow(const std::string& what, const std::string& goal, const std::string& predicted, const std::string& full, bool met) {
+  return "<tr>" + cell(htmlEscaped(what)) + cell(goal) + cell(predicted) + cell(full) + cell(met ? "✓ met" : "✗ missed", met ? "met" : "missed") + "</tr>\n";
+}
+
+std::string goals(const Report& r, const Proposed& d) {
+  std::string s = "<div class=wide><table><tr><th>goal</th><th>wanted</th><th>predicted</th><th>full solution</th><th></th></tr>\n";
+  for (size_t c = 0; c < r.model.conditions.size(); ++c) {
+    const ConditionResult& got = d.result.conditions[c];
+    const std::string in = r.model.conditions.size() > 1 ? ", " + r.study.conditions[c].name : "";
+    const auto fullOf = [&](size_t z) { return statisticsOf(std::span(d.certificate->conditions[c].fullLux).subspan(r.meters.zones[z].first, r.meters.zones[z].count)); };
+    for (const uint32_t z : r.model.conditions[c].zones) {
+      const ModelZone& goal = r.model.zones[z];
+      const std::string name = r.study.zones[z].name + in;
+      if (goal.meanLux > 0) s += goalRow(name + ": mean", "≥ " + threeDigits(goal.meanLux) + " lx", threeDigits(got.zones[z].meanLux) + " lx", d.certificate ? threeDigits(fullOf(z).mean) + " lx" : "–", got.zones[z].meanLux >= goal.meanLux * 0.9995);
+      if (goal.u0 > 0) s += goalRow(name + ": U0", fmt::format("≥ {:.2f}", goal.u0), fmt::format("{:.2f}", got.zones[z].u0()), d.certificate ? fmt::format("{:.2f}", fullOf(z).u0()) : "–", got.zones[z].u0() >= goal.u0 * 0.9995);
+    }
+    for (const uint32_t e : r.model.conditions[c].eyes) {
+      const double full = d.certificate ? d.certificate->conditions[c].fullUgr[e] : -1;
+      s += goalRow(r.study.eyes[e].name + in + ": UGR", fmt::format("≤ {:g}", r.model.eyes[e].ugr), fmt::format("{:.1f}", got.ugr[e]), full >= 0 ? fmt::format("{:.1f}", full) : "–", got.ugr[e] <= r.model.eyes[e].ugr + 0.005);
+    }
+    for (const uint32_t q : r.model.conditions[c].ratios) s += goalRow(r.study.ratios[q].name + in + ": luminance ratio", fmt::format("≤ {:g}", r.model.ratios[q].most), threeDigits(got.ratios[q]), "–", got.ratios[q] <= r.model.ratios[q].most);
+  }
+  return s + "</table></div>\n";
+}
+
+std::string bill(const Report& r, const Proposed& d) {
+  std::string s = "<div class=wide><table><tr><th>lamp</th><th class=l>place</th><th>x, y, z in m</th><th class=l>aim</th><th>K</th><th>W</th>";
+  for (const Condition& c : r.study.conditions) s += fmt::format("<th>{}</th>", htmlEscaped(c.name));
+  s += fmt::format("<th>{}</th></tr>\n", htmlEscaped(r.study.catalogue.currency));
+  for (const BillLine& l : d.bill) {
+    s += "<tr>" + cell(htmlEscaped(l.name)) + cell(htmlEscaped(l.place), "l") + cell(fmt::format("{:.2f}, {:.2f}, {:.2f}", l.position.x, l.position.y, l.position.z)) + cell(l.aim, "l") + cell(fmt::format("{:g}", l.kelvin)) + cell(fmt::format("{:g}", l.wattsW));
+    for (const double level : l.dimming) s += cell(fmt::format("{:.0f} %", 100 * level));
+    s += cell(fmt::format("{:.2f}", l.price)) + "</tr>\n";
+  }
+  s += fmt::format("<tr><td><b>together</b></td><td></td><td></td><td></td><td></td><td>{:g}</td>", d.result.installedW);
+  for (const ConditionResult& c : d.result.conditions) s += cell(fmt::format("{:.1f} W", c.wattsW));
+  return s + fmt::format("<td><b>{:.2f}</b></td></tr></table></div>\n", d.result.cost);
+}
+
+Result<std::string> pictures(const Proposed& d) {
+  std::string s;
+  for (const Image& image : d.certificate->pictures) {
+    if (image.width == 0) continue;
+    const Image shown = toneMap(image, automaticEv100(image), ToneCurve::PbrNeutral);
+    ByteImage bytes(shown.width, shown.height, 3);
+    for (size_t i = 0; i < shown.pixels.size(); ++i) {
+      for (int c = 0; c < 3; ++c) bytes.samples[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(std::lround(255 * std::clamp(shown.pixels[i][c], 0.0f, 1.0f)));
+    }
+    const Result<std::string> jpeg = encodeJpeg(bytes, kJpegQuality);
+    if (!jpeg) return jpeg;
+    s += fmt::format("<figure><img alt=\"{}\" src=\"data:image/jpeg;base64,{}\"></figure>", htmlEscaped(d.name), base64(jpeg.value()));
+  }
+  return s;
+}
+
+std::string certificateTable(const Report& r, const Certificate& c) {
+  std::string s = "<table><tr><th>prediction against full solution</th><th>points</th><th>mean difference</th><th>largest</th></tr>\n";
+  for (size_t k = 0; k < c.conditions.size(); ++k) {
+    s += "<tr>" + cell(htmlEscaped(r.study.conditions[k].name)) + cell(fmt::format("{}", c.conditions[k].judged)) + cell(fmt::format("{:.2f} %", c.conditions[k].meanPercent)) + cell(fmt::format("{:.2f} %", c.conditions[k].maxPercent)) + "</tr>\n";
+  }
+  return s + "</table>\n";
+}
+
+std::string methods(const Report& r) {
+  std::string s = "<h2>How it was found</h2><table><tr><th>method</th><th>evaluations</th><th>seconds</th><th>hypervolume</th></tr>\n";
+  for (const MethodResult& m : r.methods) s += "<tr>" + cell(htmlEscaped(m.name)) + cell(fmt::format("{}", m.evaluations)) + cell(fmt::format("{:.1f}", m.seconds)) + cell(fmt::format("{:.4f}", m.hypervolume)) + "</tr>\n";
+  s += "</table>\n<table>";
+  for (const auto& [name, value] : r.facts) s += "<tr>" + cell(htmlEscaped(name)) + cell(htmlEscaped(value), "l") + "</tr>\n";
+  return s + "</table>\n";
+}
+
+}  // namespace
+
+ObjectiveBox boxOf(const Model& m) {
+  double watts = 0, cost = 0, kWh = 0;
+  size_t places = 0;
+  for (size_t p = 0; p < m.places(); ++p) {
+    double w = 0, c = 0;
+    for (size_t o = m.firstOption[p]; o < m.firstOption[p + 1]; ++o) w = std::max(w, m.options[o].wattsW), c = std::max(c, m.options[o].price);
+    watts += w, cost += c, ++places;
+  }
+  if (m.mostWatts > 0) watts = std::min(watts, m.mostWatts);
+  if (m.mostCost > 0) cost = std::min(cost, m.mostCost);
+  for (const ModelCondition& c : m.conditions) kWh += c.hours * watts / 1000;
+  ObjectiveBox box;
+  for (const Objective o : m.objectives) {
+    box.ideal.push_back(0);
+    switch (o) {
+      case Objective::TargetMiss: box.reference.push_back(100); break;
+      case Objective::Uniformity: box.reference.push_back(1); break;
+      case Objective::Glare: box.reference.push_back(20); break;
+      case Objective::Energy: box.reference.push_back(std::max(kWh, 1e-9)); break;
+      case Objective::Cost: box.reference.push_back(std::max(cost, 1e-9)); break;
+      case Objective::Fittings: box.reference.push_back(m.mostFittings > 0 ? m.mostFittings : static_cast<double>(places)); break;
+    }
+  }
+  return box;
+}
+
+double hypervolumeOf(const Model& m, const search::Archive& front) {
+  const ObjectiveBox box = boxOf(m);
+  return search::hypervolumeShare(front.objectives, box.ideal, box.reference);
+}
+
+Result<std::string> reportHtml(const Report& r, const Scene& home) {
+  Drawer drawer(r, home);
+  std::string s = fmt::format("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title>\n<style>{1}</style></head>\n<body><main>\n<h1>{0}</h1>\n", htmlEscaped(r.study.title), kStyle);
+  s += drawer.walls();
+  s += fmt::format("<p>{} designs that no other betters in every goal, of {} places for lamps and {} candidates. Orange: proposed below. Wheel or buttons zoom, dragging moves.</p>\n", r.front.size(), r.candidates.places.size(), r.candidates.candidates.size());
+  s += frontPlot(r) + objectivesTable(r);
+  for (size_t i = 0; i < r.designs.size(); ++i) {
+    const Proposed& d = r.designs[i];
+    s += fmt::format("<h2 id=\"design{0}\">Design {0}</h2>\n<p class=soft>Open it:", i + 1);
+    for (const std::string& file : d.lightingFiles) s += fmt::format(" <a href=\"{0}\">{0}</a>", htmlEscaped(file));
+    s += "</p>\n<div class=\"row\">";
+    if (d.certificate) {
+      const Result<std::string> shown = pictures(d);
+      if (!shown) return shown;
+      s += shown.value();
+    }
+    s += fmt::format("<figure>{}<figcaption>Lamps; the fuller, the brighter in {}.</figcaption></figure></div>\n", drawer.plan(d), htmlEscaped(r.study.conditions[0].name));
+    s += goals(r, d);
+    if (d.certificate) s += drawer.maps(d);
+    s += bill(r, d);
+    if (d.certificate) s += certificateTable(r, *d.certificate);
+  }
+  return s + methods(r) + "<footer>Lux and UGR are predicted by adding up lamps' light; designs that were solved in full show both.</footer>\n</main></body></html>\n";
+}
+
+}  // namespace roomlight::optimise

@@ -1,0 +1,53 @@
+// What every candidate lamp gives every meter, found once: light is linear, so any design is a sum of these (docs/methods/optimise.md).
+#pragma once
+
+#include "engine/settings.h"
+#include "engine/stages.h"
+#include "measure/glare.h"
+#include "optimise/candidates.h"
+#include "optimise/meters.h"
+
+namespace roomlight::optimise {
+
+// Of all sources of one kind that an eye sees: Σ L² ω / p².
+struct EyeGlare {
+  double directLux = 0;  // straight from them, on the plane that faces the view
+  double term = 0;
+};
+
+struct Base {                   // of one condition: daylight and lamps that stay
+  std::vector<Vec3> lux;        // per element
+  std::vector<EyeGlare> glare;  // per eye
+};
+
+struct Response {
+  size_t elements = 0, eyes = 0;
+  std::vector<Vec3> lux;             // of candidate c, white and undimmed, on element i: lux[c * elements + i], per channel
+  std::vector<EyeGlare> glare;       // of candidate c at eye e: glare[c * eyes + e]
+  std::vector<Base> base;            // per condition
+  double seconds = 0, baseSeconds = 0;  // that finding it took: candidates; conditions without them
+  float worstErrorPercent = 0;       // standard error of the strongest candidate at a point, the worst point
+  const Vec3* of(size_t candidate) const { return lux.data() + candidate * elements; }
+  const EyeGlare* glareOf(size_t candidate) const { return glare.data() + candidate * eyes; }
+};
+
+struct ResponseSettings {
+  RenderSettings render;
+  double tolerance = 0.01;   // of candidates at points
+  int mostSamples = 8192;    // a point; few need as many
+  size_t atOnce = 48;        // candidates that are told apart in one solution; at most kMostLayers
+};
+
+// A lighting file: with `fixedToo` the study's own and the home's lamps where they stay; `lamps`, and the daylight of a condition, if not null. The
+// home's own suns and sky are off.
+Result<nlohmann::json> lightingDocument(const StudyFile& study, const nlohmann::json& daylight, const nlohmann::json& lamps, bool fixedToo);
+// The home in that light.
+Result<Scene> litBy(const Scene& home, const StudyFile& study, const nlohmann::json& daylight, const nlohmann::json& lamps, bool fixedToo);
+
+// `home` as imported. Errors: of daylight and lighting files. Empty where cancelled.
+Result<std::optional<Response>> findResponse(const Scene& home, const StudyFile& study, const Candidates& candidates, const Meters& meters, const ResponseSettings& settings, Stages& stages);
+
+// Σ L² ω / p² of what an eye sees.
+double glareTerm(std::span<const GlareSource> sources, Vec3 view);
+
+}  // namespace roomlight::optimise

@@ -1,0 +1,27 @@
+// What a run keeps in its folder, so that it can go on: the response and the state of the search, each with a hash of all it depends on.
+#pragma once
+
+#include <filesystem>
+
+#include "optimise/response.h"
+#include "search/search.h"
+
+namespace roomlight::optimise {
+
+// 64 bits (FNV-1a) in hexadecimal.
+std::string hashOf(std::string_view text);
+std::string hashOfFile(const std::filesystem::path& file);  // "-" where there is none to read
+// Of home, study, catalogue with its photometric files, lighting, version and settings.
+std::string inputHash(const std::filesystem::path& home, const StudyFile& study, const std::string& settings);
+
+// Whole or not at all.
+Status keepResponse(const std::filesystem::path& file, const std::string& hash, const Response& response);
+// None where there is none, or one of other inputs.
+std::optional<Response> findResponse(const std::filesystem::path& file, const std::string& hash);
+
+Status keepSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state);
+std::optional<search::State> findSearch(const std::filesystem::path& file, const std::string& hash, const search::Problem& problem);
+
+Status writeWhole(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace roomlight::optimise
