@@ -34,7 +34,7 @@ struct Response {
 struct ResponseSettings {
   RenderSettings render;
   double tolerance = 0.01;   // of candidates at points
-  int mostSamples = 8192;    // a point; few need as many
+  int mostSamples = 2048;    // a point
   size_t atOnce = 48;        // candidates that are told apart in one solution; at most kMostLayers
 };
 
