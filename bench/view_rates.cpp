@@ -26,7 +26,7 @@ constexpr double kTellEveryS = 1.0 / 60;  // as browsers draw
 
 struct Frame {
   Clock::time_point at;
-  int width = 0;
+  int width = 0, height = 0;
   uint8_t flags = 0;
   uint32_t number = 0, samples = 0, revision = 0;
   float ev100 = 0, latencyMs = 0, pictureMs = 0;
@@ -86,7 +86,7 @@ class Browser {
   void see(const std::string& bytes) {
     Frame f;
     f.at = Clock::now();
-    f.number = valueAt<uint32_t>(bytes, 4), f.width = valueAt<uint16_t>(bytes, 8), f.flags = valueAt<uint8_t>(bytes, 13);
+    f.number = valueAt<uint32_t>(bytes, 4), f.width = valueAt<uint16_t>(bytes, 8), f.height = valueAt<uint16_t>(bytes, 10), f.flags = valueAt<uint8_t>(bytes, 13);
     f.revision = valueAt<uint32_t>(bytes, 20), f.samples = valueAt<uint32_t>(bytes, 24);
     f.ev100 = valueAt<float>(bytes, 32), f.latencyMs = valueAt<float>(bytes, 44), f.pictureMs = valueAt<float>(bytes, 48);
     f.jpeg = bytes.substr(view::kFrameHeaderBytes);
@@ -150,9 +150,12 @@ json ratesOf(const std::vector<Frame>& frames) {
     picture += static_cast<double>(frames[i].pictureMs) / static_cast<double>(frames.size());
   }
   if (apart.size() < 5) return {{"frames", frames.size()}};
+  std::vector<std::pair<int, int>> sizes;
+  for (const Frame& f : frames) sizes.emplace_back(f.width, f.height);
+  std::sort(sizes.begin(), sizes.end());
   std::sort(apart.begin(), apart.end()), std::sort(latency.begin(), latency.end());
   const auto at = [](const std::vector<double>& v, double share) { return v.empty() ? 0 : v[std::min(v.size() - 1, static_cast<size_t>(share * static_cast<double>(v.size())))]; };
-  return {{"frames", frames.size()}, {"medianFps", 1e3 / at(apart, 0.5)}, {"worstFps", 1e3 / at(apart, 0.99)}, {"width", frames.back().width}, {"whole", static_cast<double>(whole) / static_cast<double>(frames.size())}, {"pictureMs", picture}, {"latencyMs", at(latency, 0.5)}};
+  return {{"frames", frames.size()}, {"medianFps", 1e3 / at(apart, 0.5)}, {"worstFps", 1e3 / at(apart, 0.99)}, {"size", fmt::format("{}x{}", sizes[sizes.size() / 2].first, sizes[sizes.size() / 2].second)}, {"whole", static_cast<double>(whole) / static_cast<double>(frames.size())}, {"pictureMs", picture}, {"latencyMs", at(latency, 0.5)}};
 }
 
 void sleepUntil(Clock::time_point at) { std::this_thread::sleep_until(at); }

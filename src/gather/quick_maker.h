@@ -58,6 +58,7 @@ class QuickFrames::Maker {
     const Vec3 ahead = -camera.worldFromCamera.z;
     const auto onPlane = [&](const Ray& r) { return r.direction / dot(r.direction, ahead); };
     corner_ = onPlane(corner), stepX_ = (onPlane(right) - corner_) / static_cast<float>(width), stepY_ = (onPlane(down) - corner_) / static_cast<float>(height);
+    coarser_ = slope_ * std::max(1.0f, frames.pastHeight_ > 0 ? static_cast<float>(height) / static_cast<float>(frames.pastHeight_) : 1.0f);
     nearM_ = camera.nearM;
     anyStale_ = frames.changed_.any();
   }
@@ -125,6 +126,7 @@ class QuickFrames::Maker {
   Vec3 corner_, stepX_, stepY_;
   float nearM_ = 0;
   bool anyStale_ = false;
+  float coarser_ = 0;  // the same, or that of the frame before where its pixels were larger
   float slope_ = 0;             // of a pixel: how far its edges part, per metre of distance
   std::vector<uint8_t> clear_;  // a flag an instance: light may pass through
 };

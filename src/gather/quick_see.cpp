@@ -25,7 +25,7 @@ const QuickFrames::Pixel* QuickFrames::Maker::find(uint32_t key, Vec3 p, Vec3 n)
   if (!(u >= 0 && v >= 0 && u < static_cast<float>(f_.pastWidth_) && v < static_cast<float>(f_.pastHeight_))) return nullptr;
   const Vec3 toEye = eye_ - p;
   const float distance2 = lengthSquared(toEye), facing = dot(toEye, n), cosine2 = std::max(Rules::kLeastCosine * Rules::kLeastCosine * distance2, facing * facing);
-  const float footprint2 = kFootprints * kFootprints * slope_ * slope_ * distance2, offPlane2 = kOffPlane * kOffPlane * footprint2;
+  const float footprint2 = kFootprints * kFootprints * coarser_ * coarser_ * distance2, offPlane2 = kOffPlane * kOffPlane * footprint2;
   float nearest = footprint2 * distance2 / cosine2;
   const Pixel* best = nullptr;
   const auto look = [&](int i, int j) {

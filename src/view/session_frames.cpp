@@ -12,6 +12,7 @@ namespace roomlight::view {
 namespace {
 
 constexpr double kQuickMs = 38;  // of 50: the rest is for light that follows, showing and packing
+constexpr double kEditMs = 65;  // where the scene changes: ten frames a second, and light that follows meanwhile
 constexpr double kRestMs = 80;  // without an input: before that a better picture is not begun, since the next input would end it
 constexpr double kLookAtColourMs = 250;
 constexpr int kColourRays = 32;  // along both edges
@@ -202,20 +203,23 @@ bool Session::makeFrame(Window& window) {
 
 // A frame in a few tens of milliseconds. False: ended.
 bool Session::showQuick(Window& window, Side& side, LitHome& home, const Camera& camera) {
-  const std::pair<int, int> whole = frameSize(window.viewport, window.line.scale()), size = side.pace.sizeFor(kQuickMs, whole);
+  const bool edits = home.front && !isUpToDate(home);
+  const double ms = edits ? kEditMs : kQuickMs;
+  Pace& pace = edits ? side.editPace : side.pace;
+  const std::pair<int, int> whole = frameSize(window.viewport, window.line.scale()), size = pace.sizeFor(ms, whole);
   const Stopwatch watch;
   Image image;
   double costMs = 0;
   if (home.front) {
-    image = side.quick.make(home.front->quick(), camera, size.first, size.second, kQuickMs, {{}, &stop_});
+    image = side.quick.make(home.front->quick(), camera, size.first, size.second, ms, {{}, &stop_});
     // What cannot be put off: rays, and a little light.
-    costMs = std::min(watch.seconds() * 1e3, side.quick.count().otherMs / std::max(1, threadCount()) + kQuickMs / 4);
+    costMs = std::min(watch.seconds() * 1e3, side.quick.count().otherMs / std::max(1, threadCount()) + ms / 4);
   } else {
     image = home.lit->pictureOf(camera, {size.first, size.second, 1, {}, true, historyOf(side, window)}, {{}, &stop_});
     costMs = watch.seconds() * 1e3;
   }
   if (stop_ || image.width == 0) return false;
-  side.pace.took(size, costMs);
+  pace.took(size, costMs);
   side.picture.showQuick(std::move(image), watch.seconds() * 1e3, size != whole);
   return true;
 }

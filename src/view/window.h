@@ -30,7 +30,7 @@ struct SentFrame {
 struct Side {
   LightKey key;
   GrowingPicture picture;
-  Pace pace;
+  Pace pace, editPace;  // of frames while only the camera moves, and while things do
   std::optional<FrameHistory> history;  // of its quick frames, where the home has no front;
   QuickFrames quick;                    // and where it has one
   bool lightCame = false;               // since its last frame
