@@ -213,7 +213,7 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
     if (!read) return fmt::print(stderr, "{}\n", read.error()), 1;
     walk = std::move(read).value();
   }
-  const RenderSettings settings;
+  const RenderSettings settings = settingsFromJson(R"({"quality": "draft"})", "settings").value();  // for shorter waits: quick frames are the same
   const Stopwatch opening;
   Browser browser(std::move(home).value(), settings);
   const json welcome = browser.welcome();
