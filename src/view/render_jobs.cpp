@@ -111,13 +111,17 @@ void RenderJobs::run() {
       waiting_.pop_front();
       running_ = next.job, cancelled_ = false;
     }
-    withThreads(next.settings.threads, [&] { work(next); });
-    const std::lock_guard lock(mutex_);
-    running_.clear();
+    JobNews last;
+    withThreads(next.settings.threads, [&] { last = work(next); });
+    {
+      const std::lock_guard lock(mutex_);
+      running_.clear();
+    }
+    tell_(last);  // who hears of the end can no longer cancel it
   }
 }
 
-void RenderJobs::work(const RenderWork& work) {
+JobNews RenderJobs::work(const RenderWork& work) {
   Teller teller(work, tell_);
   RenderProgress progress;
   progress.report = [&](const std::string& stage, float fraction) { teller.report(stage, fraction); };
@@ -126,7 +130,7 @@ void RenderJobs::work(const RenderWork& work) {
   JobNews& news = teller.news();
   const auto failed = [&](const std::string& message) {
     news.state = "failed", news.message = message;
-    tell_(news);
+    return news;
   };
   try {
     Result<Scene> scene = sceneIn(home_, work.state);
@@ -147,9 +151,9 @@ void RenderJobs::work(const RenderWork& work) {
       }
       finished_[news.fileId] = std::move(file).value();
     }
-    tell_(news);
+    return news;
   } catch (const std::bad_alloc&) {
-    failed("not enough memory for this picture");
+    return failed("not enough memory for this picture");
   }
 }
 

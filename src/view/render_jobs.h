@@ -56,7 +56,7 @@ class RenderJobs {
 
  private:
   void run();
-  void work(const RenderWork& work);
+  JobNews work(const RenderWork& work);  // its last news
   Result<FinishedFile> write(const RenderWork& work, const Rendered& rendered) const;
 
   const ViewHome& home_;
