@@ -14,6 +14,7 @@ set(CMAKE_CXX_FLAGS_DEV "-O2 -g1")
 
 set(ROOMLIGHT_SANITIZE "" CACHE STRING "Sanitizers, comma separated: address,undefined or thread")
 if(ROOMLIGHT_SANITIZE)
+  set(CMAKE_CXX_FLAGS_DEV "-O1 -g1")
   add_compile_options(-fsanitize=${ROOMLIGHT_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ROOMLIGHT_SANITIZE})
   if(ROOMLIGHT_SANITIZE MATCHES "undefined")

@@ -1,0 +1,1 @@
+// Precompiled headers of the tests need a file to belong to.
