@@ -4,12 +4,15 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "trace/shadow_ray.h"
 
 namespace roomlight {
 namespace {
 
-constexpr uint64_t kMeterKey = 0x3e7e12;  // other random numbers than pixels have
+constexpr uint64_t kMeterKey = 0x3e7e12;  // other random numbers than pixels have,
+constexpr uint64_t kLampKey = 0x3e7e13;   // and for places on lamps
 constexpr int kBatch = 64;                // samples of a meter in layers at once; what their errors are judged by
+constexpr int kPlaces = 8;                // on extended lamps, a batch
 constexpr float kOfStrongest = 0.1f;      // of light on a meter: layers weaker than that need not be surer than it
 
 // An ideal white Lambertian surface reflects 1 / pi of what falls on it.
@@ -25,7 +28,7 @@ SurfacePoint whitePatch(const SurfaceElement& element) {
 struct MeterSamples {
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
-  void take(const SharpLights& sharp, const SurfaceElement& element, size_t meter, int first, int count, uint64_t seed) {
+  void take(const SharpLights& sharp, const SurfaceElement& element, size_t meter, int first, int count, uint64_t seed, bool lampsKnown = false) {
     shadings.clear(), shadows.clear();
     const SurfacePoint s = whitePatch(element);
     const Vec3 origin = offsetOrigin(s.p, s.ng);
@@ -36,7 +39,7 @@ struct MeterSamples {
         const Vec2 u = sampler.next2();
         shadows.push_back(sharp.shadow(i, {&origin, 1}, {&u, 1}));
       }
-      shadings.push_back({s, s.ng, sampler, firstShadow, false, 1, true});
+      shadings.push_back({s, s.ng, sampler, firstShadow, false, 1, true, lampsKnown});
     }
   }
 };
@@ -74,12 +77,34 @@ class LayerMeter {
   int batches_ = 0;
 };
 
-// Means of one batch.
+// Straight from all lamps that are extended, by so many places on each, or from all that are points: each is asked, so that no layer has the noise of a choice among them.
+void addLamps(const RayScene& rays, const Lights& lights, const LightLayers& layers, const SurfaceElement& element, bool extended, std::span<const Sampler> places, std::vector<Vec3>& lux) {
+  thread_local std::vector<Ray> shadowRays;
+  thread_local std::vector<std::pair<size_t, Vec3>> arrives;
+  thread_local std::vector<Vec3> left;
+  shadowRays.clear(), arrives.clear();
+  const Vec3 origin = offsetOrigin(element.position, element.normal);
+  for (const Sampler& place : places) {
+    for (size_t i = 0; i < lights.lampCount(); ++i) {
+      if (lights.lamp(i).extended != extended) continue;
+      const LightSample light = lights.sampleLamp(i, element.position, place.forked(i).next2());
+      const float cosine = light.valid() ? dot(light.wi, element.normal) : 0;
+      if (cosine <= 0) continue;
+      shadowRays.push_back(shadowRay(origin, element.position, light));
+      arrives.emplace_back(static_cast<size_t>(layers.ofLamp[i]), light.radiance * (cosine / static_cast<float>(places.size())));
+    }
+  }
+  left.resize(shadowRays.size());
+  rays.transmittance(shadowRays, left);
+  for (size_t k = 0; k < arrives.size(); ++k) lux[arrives[k].first] += arrives[k].second * left[k];
+}
+
+// Adds the means of one batch of all but lamps' direct light.
 void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const SurfaceElement& element, size_t meter, int first, uint64_t seed, std::vector<Vec3>& means) {
   thread_local MeterSamples samples;
   thread_local std::vector<SurfaceLight> light;
   thread_local LayerSums sums;
-  samples.take(sharp, element, meter, first, kBatch, seed);
+  samples.take(sharp, element, meter, first, kBatch, seed, true);
   light.assign(samples.shadings.size(), {});
   sums = LayerSums(means.size());
   sums.resize(samples.shadings.size());
@@ -88,7 +113,7 @@ void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const S
   for (size_t l = 0; l < means.size(); ++l) {
     Vec3 sum;
     for (size_t k = 0; k < light.size(); ++k) sum += sums.get(k, LayerSums::kDiffuse, l) + sums.get(k, LayerSums::kSharp, l);
-    means[l] = sum * (kPi / kBatch);
+    means[l] += sum * (kPi / kBatch);
   }
 }
 
@@ -119,9 +144,17 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
   std::mutex reporting;
   parallelFor(elements.size(), 1, [&](size_t i) {
     LayerMeter meter(out.layers);
-    std::vector<Vec3> means(out.layers);
+    std::vector<Vec3> steady(out.layers), means;
+    const auto lamps = [&](bool extended, int firstPlace, int count, std::vector<Vec3>& lux) {
+      std::vector<Sampler> places;
+      for (int k = 0; k < count; ++k) places.emplace_back(mix64(i + kLampKey), static_cast<uint32_t>(firstPlace + k), settings.seed);
+      addLamps(rays, lights, *shader.layers(), elements[i], extended, places, lux);
+    };
+    lamps(false, 0, 1, steady);
     for (int first = 0, count = std::max(settings.fewestSamples, 2 * kBatch); count <= std::max(settings.mostSamples, 2 * kBatch) && !progress.stop(); count *= 2) {
       for (; first < count && !progress.stop(); first += kBatch) {
+        means = steady;
+        if (lights.hasExtendedLamps()) lamps(true, first / kBatch * kPlaces, kPlaces, means);
         sampleLayers(sharp, shader, elements[i], i, first, settings.seed, means);
         meter.add(means);
       }

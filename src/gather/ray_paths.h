@@ -23,6 +23,7 @@ struct GatherPath {
   bool clear;     // what it meets is seen clearly
   bool skyKnown;  // the sky, if the ray sees it, is counted elsewhere
   bool leavesNear;  // what reaches `from` straight from a light that this lies near is in the cache
+  bool lampsKnown;  // straight from lamps to `from`, too, is counted elsewhere
   float spread;   // roughness that surfaces have for it at least
 };
 
@@ -36,7 +37,7 @@ struct GatherVertex {
   uint8_t depth;
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
   bool leavesNear = false;  // light straight from lights it lies near is in the cache
-  bool skyKnown = false;
+  bool skyKnown = false, lampsKnown = false;
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
 
   Lobes value(Vec3 wi) const {

@@ -77,7 +77,7 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   const auto take = [&](const LightSample& light, int32_t layer, float weight = 1) { takeLight(v, light, LightOrigin::ofLayer(layer, weight), false, w); };
   const auto takeLocal = [&](const LightSample& light) { take(light, layers ? layers->of(light) : -1, v.first ? kPictureShare : 1); };
   if (v.first) {
-    if (sampleLamps_) takeLocal(lights_.sampleLamps(v.s.p, sampler));
+    if (sampleLamps_ && !v.lampsKnown) takeLocal(lights_.sampleLamps(v.s.p, sampler));
   } else {
     if (lights_.lampCount() > 0) {
       const LightSample lamp = lights_.sampleLamps(v.s.p, sampler);
@@ -105,20 +105,20 @@ void RayScatter::layersAt(const GatherVertex& v, GatherWork& w) const {
   // A meter in the air is no surface of the scene: what slots near it see says little of it.
   const uint64_t reach = brick < 0 || !v.s.material ? ~uint64_t{0} : field_.layers.reach[static_cast<size_t>(brick)];
   for (size_t l = 0; l < members_.size(); ++l) {
-    if (members_[l].lamps.empty() && members_[l].emitters.empty()) continue;
+    if ((members_[l].lamps.empty() || v.lampsKnown) && members_[l].emitters.empty()) continue;
     float weight = 1 - kPictureShare;
     if (!((reach >> l) & 1)) {
       if (sampler.fast1() >= kDoubt) continue;
       weight /= kDoubt;
     }
-    takeLight(v, sampleLayer(l, v.s.p, sampler), LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
+    takeLight(v, sampleLayer(l, v.s.p, !v.lampsKnown, sampler), LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
   }
 }
 
 // One of its lights, chosen by what each could give at p without shadows.
-LightSample RayScatter::sampleLayer(size_t layer, Vec3 p, Sampler& sampler) const {
+LightSample RayScatter::sampleLayer(size_t layer, Vec3 p, bool withLamps, Sampler& sampler) const {
   const Members& m = members_[layer];
-  const auto weigh = [&](size_t i) { return i < m.lamps.size() ? lights_.lampImportance(m.lamps[i], p) : lights_.emitterImportance(m.emitters[i - m.lamps.size()], p); };
+  const auto weigh = [&](size_t i) { return i >= m.lamps.size() ? lights_.emitterImportance(m.emitters[i - m.lamps.size()], p) : withLamps ? lights_.lampImportance(m.lamps[i], p) : 0; };
   const size_t count = m.lamps.size() + m.emitters.size();
   float total = 0;
   for (size_t i = 0; i < count; ++i) total += weigh(i);
@@ -139,7 +139,7 @@ float RayScatter::weightInLayer(const GatherPath& path, const SurfacePoint& s) c
   if (emitter < 0 || path.pdf <= 0 || path.depth > 1) return 1;
   const Members& m = members_[static_cast<size_t>(field_.layers.lights->ofEmitter[static_cast<size_t>(emitter)])];
   float total = 0;
-  for (const uint32_t i : m.lamps) total += lights_.lampImportance(i, path.from);
+  for (const uint32_t i : m.lamps) total += path.lampsKnown ? 0 : lights_.lampImportance(i, path.from);
   for (const uint32_t i : m.emitters) total += lights_.emitterImportance(i, path.from);
   const auto index = static_cast<size_t>(emitter);
   const float pdf = total > 0 ? lights_.emitterImportance(index, path.from) / total * lights_.pdfEmitter(index, path.from, s) : 0;
@@ -182,7 +182,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.leavesNear && !isPolishedMetal(*v.s.material), spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -24,7 +24,7 @@ class RayScatter {
   void lightsAt(const GatherVertex& v, GatherWork& w) const;
   void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly, GatherWork& w) const;
   void layersAt(const GatherVertex& v, GatherWork& w) const;
-  LightSample sampleLayer(size_t layer, Vec3 p, Sampler& sampler) const;
+  LightSample sampleLayer(size_t layer, Vec3 p, bool withLamps, Sampler& sampler) const;
   bool leavesToCache(const GatherVertex& v, const LightSample& light) const;
   void glowAt(const GatherVertex& v, GatherWork& w) const;
   void gatherAt(const GatherVertex& v, GatherWork& w) const;

@@ -95,13 +95,13 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
   GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
-  v.skyKnown = work.skyKnown;
+  v.skyKnown = work.skyKnown, v.lampsKnown = work.lampsKnown;
   SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
   Sampler sampler = work.sampler;
   for (size_t i = 0; i < sharp_.count(); ++i) {
     const LightSample light = sharp_.sample(i, s.p, sampler.next2());
-    if (!light.valid()) continue;
+    if (!light.valid() || (work.lampsKnown && light.lamp >= 0)) continue;
     Lobes f = v.value(light.wi);
     if (light.pdf > 0) f.specular *= misWeight(light.pdf, bsdf.pdfSpecular(light.wi));
     const Lobes arrives{f.diffuse * light.radiance * shadows[i].left, f.specular * light.radiance * shadows[i].left};

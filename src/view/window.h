@@ -14,6 +14,7 @@
 #include "view/message.h"
 #include "view/pacing.h"
 #include "view/shown.h"
+#include "view/view_camera.h"
 
 namespace roomlight::view {
 
@@ -62,12 +63,5 @@ struct Window {
   TimePoint lastFrameAt;
   std::optional<Point> pick, meter;  // wait to be answered
 };
-
-// Size of a frame in that window, in pixels of the display, within limits.
-std::pair<int, int> frameSize(const Viewport& viewport, float scale);
-Camera cameraOf(const ViewCamera& camera);
-ViewCamera viewOf(const Camera& camera);
-
-constexpr int kMostFrameWidth = 1920, kMostFrameHeight = 1080;
 
 }  // namespace roomlight::view

@@ -6,7 +6,7 @@
 #include "scene/primitives.h"
 #include "view/apply_edit.h"
 #include "view/shown.h"
-#include "view/window.h"
+#include "view/view_camera.h"
 
 namespace {
 

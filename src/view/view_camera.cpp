@@ -1,4 +1,4 @@
-#include "view/window.h"
+#include "view/view_camera.h"
 
 #include <algorithm>
 #include <cmath>
