@@ -158,6 +158,16 @@ json ratesOf(const std::vector<Frame>& frames) {
   return {{"frames", frames.size()}, {"medianFps", 1e3 / at(apart, 0.5)}, {"worstFps", 1e3 / at(apart, 0.99)}, {"size", fmt::format("{}x{}", sizes[sizes.size() / 2].first, sizes[sizes.size() / 2].second)}, {"whole", static_cast<double>(whole) / static_cast<double>(frames.size())}, {"pictureMs", picture}, {"latencyMs", at(latency, 0.5)}};
 }
 
+// One line a frame: when it came, its size, what it took.
+void keepFrames(const std::string& file, const std::vector<Frame>& frames) {
+  std::ofstream out(file);
+  out << "ms,width,height,flags,pictureMs,latencyMs,bytes\n";
+  for (const Frame& f : frames) {
+    const double ms = std::chrono::duration<double, std::milli>(f.at - frames.front().at).count();
+    out << fmt::format("{:.1f},{},{},{},{:.1f},{:.1f},{}\n", ms, f.width, f.height, f.flags, f.pictureMs, f.latencyMs, f.jpeg.size());
+  }
+}
+
 void sleepUntil(Clock::time_point at) { std::this_thread::sleep_until(at); }
 
 // Tells something sixty times a second and returns the frames that came meanwhile, without those of the first half second.
@@ -229,7 +239,9 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
     const double period = 2 * walk->seconds, t = std::fmod(s, period);
     return cameraMessage(cameraAt(*walk, t < walk->seconds ? t : period - t));
   };
-  out["walk"] = ratesOf(during(browser, seconds, [&](double s) { browser.say(walkAt(s)); }));
+  const std::vector<Frame> walked = during(browser, seconds, [&](double s) { browser.say(walkAt(s)); });
+  out["walk"] = ratesOf(walked);
+  if (!keep.empty()) keepFrames(keep + "_walk.csv", walked);
   browser.say(cameraMessage(first));
   const Frame rested = browser.wait([](const Frame& f) { return f.samples >= 4; });
 
@@ -272,7 +284,9 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
     };
     const auto circle = [&](double s) { return Vec3(0.3f * static_cast<float>(std::sin(2 * s)), 0, 0.3f * static_cast<float>(1 - std::cos(2 * s))); };
     json& of = out[name];
-    of = ratesOf(during(browser, seconds, [&](double s) { browser.say(edit(circle(s))); }));
+    const std::vector<Frame> moved = during(browser, seconds, [&](double s) { browser.say(edit(circle(s))); });
+    of = ratesOf(moved);
+    if (!keep.empty()) keepFrames(fmt::format("{}_{}.csv", keep, name), moved);
     of["name"] = what["name"];
     browser.say(edit({}));
     browser.wait([](const Frame& f) { return f.samples >= 4 && !f.behind(); });

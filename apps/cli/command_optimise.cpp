@@ -13,8 +13,10 @@
 #include "engine/version.h"
 #include "import/import.h"
 #include "interrupt.h"
+#include "optimise/relaxation.h"
 #include "optimise/report.h"
 #include "optimise/store.h"
+#include "optimise/timing.h"
 #include "output_files.h"
 #include "scene/find_camera.h"
 #include "search/search.h"
@@ -34,31 +36,55 @@ struct Options {
 
 constexpr double kKeepEveryS = 10;    // the state of the search
 constexpr size_t kTracePoints = 200;  // of the hypervolume over a search
-constexpr size_t kTimedDesigns = 20000;
+constexpr double kTraceS = 2, kTraceShare = 0.05;  // what the trace may take: so long, and so much of the search's time
+constexpr size_t kRelaxedShare = 5;   // hybrid: of the first generation, one in so many
+constexpr double kPolishShare = 0.1;  // hybrid: of all evaluations; linear programs are dear beside evaluations of designs
 
 int bad(const std::string& message, int code = kBadInput) {
   printError(message);
   return code;
 }
 
+// The hypervolume over a search, now and then.
+class Trace {
+ public:
+  explicit Trace(const Model& model) : model_(model) {}
+  // `last`: in any case.
+  void see(const search::State& s, bool last) {
+    if (!points_.empty() && s.evaluations == points_.back().evaluations) return;
+    const bool due = points_.empty() || search::fractionDone(s) >= done_ + 1.0 / kTracePoints;
+    if (!last && (!due || takenS_ > kTraceS + kTraceShare * s.seconds)) return;
+    const Stopwatch watch;
+    done_ = search::fractionDone(s);
+    points_.push_back({s.evaluations, s.seconds, hypervolumeOf(model_, s.archive)});
+    takenS_ += watch.seconds();
+  }
+  double hypervolume() const { return points_.empty() ? 0 : points_.back().hypervolume; }
+  const std::vector<TracePoint>& points() const { return points_; }
+
+ private:
+  const Model& model_;
+  std::vector<TracePoint> points_;
+  double done_ = 0, takenS_ = 0;
+};
+
 // One line that says how far the search is, on a terminal over the last one; elsewhere now and then.
 class SearchLine {
  public:
-  SearchLine(bool quiet, const Model& model) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), model_(model) {}
+  explicit SearchLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
   ~SearchLine() {
     if (terminal_ && shown_) fmt::print(stderr, "\n");
   }
-  void show(const std::string& method, const search::State& s, bool last) {
+  void show(const std::string& method, const search::State& s, double hypervolume, bool last) {
     if (quiet_ || (!last && watch_.seconds() - at_ < (terminal_ ? 0.3 : 10) && shown_)) return;
     at_ = watch_.seconds(), shown_ = true;
     fmt::print(stderr, "{}{}: {:3.0f} %  {} evaluations, {} designs on the front, hypervolume {:.4f}{}{}", terminal_ ? "\r\x1b[K" : "", method, 100 * search::fractionDone(s), s.evaluations, s.archive.size(),
-               hypervolumeOf(model_, s.archive), last ? "" : fmt::format(", {:.0f} s left", search::secondsLeft(s)), terminal_ ? "" : "\n");
+               hypervolume, last ? "" : fmt::format(", {:.0f} s left", search::secondsLeft(s)), terminal_ ? "" : "\n");
     std::fflush(stderr);
   }
 
  private:
   bool quiet_, terminal_, shown_ = false;
-  const Model& model_;
   Stopwatch watch_;
   double at_ = 0;
 };
@@ -90,8 +116,10 @@ Status readInputs(Work& w) {
     w.cameras.push_back(camera.value());
   }
   if (w.cameras.empty()) w.cameras.push_back(defaultCamera(w.home));
-  w.hash = inputHash(w.options.home, w.study, std::string(version()) + settingsToJson(w.render));
-  return Ok{};
+  const ResponseSettings response{};
+  const std::string settings = fmt::format("{} {} {} {} {} {}", version(), settingsToJson(w.render), response.tolerance, response.fewestSamples, response.mostSamples, response.atOnce);
+  w.hash = inputHash(w.options.home, w.study, settings + hashOfScene(w.home));
+  return checkConditions(w.home, w.study);
 }
 
 // From the folder, where it is of the same inputs.
@@ -107,7 +135,7 @@ Status respond(Work& w, Stages& stages, ProgressDisplay& display) {
   }
   display.line(fmt::format("{} places, {} candidate lamps, {} points, {} eyes", w.candidates.places.size(), w.candidates.candidates.size(), w.meters.points(), w.study.eyes.size()));
   const std::filesystem::path file = w.folder / "response.bin";
-  if (auto known = optimise::findResponse(file, w.hash)) {
+  if (auto known = optimise::findResponse(file, w.hash, {w.candidates.candidates.size(), w.meters.elements.size(), w.study.eyes.size(), w.study.conditions.size()})) {
     display.line("the response of all candidates is known from before");
     w.response = std::move(*known);
   } else {
@@ -118,7 +146,7 @@ Status respond(Work& w, Stages& stages, ProgressDisplay& display) {
     if (!found.value()) return Ok{};
     w.response = std::move(*found.value());
     display.line(fmt::format("response of {} candidates at {} points in {:.1f} s, conditions without them in {:.1f} s", w.candidates.candidates.size(), w.meters.points(), w.response.seconds, w.response.baseSeconds));
-    if (const Status s = keepResponse(file, w.hash, w.response); !s) return s;
+    if (const Status s = keepResponse(file, w.hash, w.response); !s) printWarnings({s.error()});
   }
   w.model = makeModel(w.study, w.candidates, w.meters, w.response);
   return Ok{};
@@ -127,45 +155,85 @@ Status respond(Work& w, Stages& stages, ProgressDisplay& display) {
 search::Settings settingsOf(const Work& w, search::Method method) {
   search::Settings s;
   s.method = method, s.seed = w.study.seed, s.evaluations = w.study.evaluations, s.population = w.study.population, s.seconds = w.options.seconds;
+  s.polishShare = kPolishShare;
   return s;
 }
 
-// Goes on where a run of the same inputs and settings was stopped.
-Result<search::State> searchBy(const Work& w, const search::Problem& problem, search::Method method, std::vector<TracePoint>& trace) {
+// The hybrid begins with what linear programs over all lamps at once say, and pays for it.
+search::State startSearch(const Work& w, const search::Problem& problem, const search::Settings& settings) {
+  if (settings.method != search::Method::hybrid) return search::start(problem, settings);
+  const Stopwatch watch;
+  const RelaxedDesigns relaxed = relaxedDesigns(w.model, settings.population / kRelaxedShare);
+  const double seconds = watch.seconds();
+  search::State state = search::start(problem, settings, relaxed.designs);
+  state.evaluations += relaxed.evaluations, state.seconds += seconds;
+  return state;
+}
+
+// One that was kept is no use where it has gone beyond a smaller budget: the same seed gives the same front.
+bool isWithin(const search::State& known, const search::Settings& settings) { return known.evaluations <= settings.evaluations || known.settings.evaluations == settings.evaluations; }
+
+// Goes on where a run of the same inputs and settings was stopped. What cannot be kept is a warning.
+Result<search::State> searchBy(const Work& w, const search::Problem& problem, search::Method method, Trace& trace) {
   const search::Settings settings = settingsOf(w, method);
   if (const Status s = search::check(problem, settings); !s) return Error{s.error()};
   const std::filesystem::path file = w.folder / fmt::format("search_{}.json", search::nameOf(method));
   const std::string hash = hashOf(w.hash + fmt::format(" {} {} {}", search::nameOf(method), settings.seed, settings.population));
   search::State state;
-  if (auto known = findSearch(file, hash, problem)) {
+  if (auto known = findSearch(file, hash, problem); known && isWithin(*known, settings)) {
     state = std::move(*known);
     state.settings.evaluations = settings.evaluations, state.settings.seconds = settings.seconds;
   } else {
-    state = search::start(problem, settings, sparseDesigns(w.model, settings.population, settings.seed));
+    state = startSearch(w, problem, settings);
   }
-  SearchLine line(w.options.quiet, w.model);
-  Stopwatch watch;
+  SearchLine line(w.options.quiet);
+  const Stopwatch watch;
   double kept = 0;
   Status written = Ok{};
   search::run(problem, state, {{}, &interrupted()}, [&](const search::State& s) {
-    line.show(search::nameOf(method), s, false);
-    if (trace.empty() || s.evaluations >= trace.back().evaluations + settings.evaluations / kTracePoints) trace.push_back({s.evaluations, s.seconds, hypervolumeOf(w.model, s.archive)});
+    trace.see(s, false);
+    line.show(search::nameOf(method), s, trace.hypervolume(), false);
     if (watch.seconds() - kept < kKeepEveryS || !written) return;
     kept = watch.seconds();
     written = keepSearch(file, hash, s);
   });
-  line.show(search::nameOf(method), state, true);
+  trace.see(state, true);
+  line.show(search::nameOf(method), state, trace.hypervolume(), true);
   if (written) written = keepSearch(file, hash, state);
-  if (!written) return Error{written.error()};
+  if (!written) printWarnings({written.error()});
   return state;
 }
 
+// Lighting files of an earlier run would look like designs of this one: "design_" and a number.
+void removeOldDesigns(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> old;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string(), begin = "design_";
+    if (name.starts_with(begin) && name.ends_with(".json") && name.find_first_of("0123456789") == begin.size()) old.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : old) std::filesystem::remove(file, ignored);
+}
+
 Status writeDesign(const Work& w, search::ConstGenome design, size_t number, Proposed& out) {
-  for (size_t c = 0; c < w.study.conditions.size(); ++c) {
+  const std::vector<std::string> names = fileNamesOf(w.study.conditions);
+  for (size_t c = 0; c < names.size(); ++c) {
     const Result<std::string> text = lightingFileOf(w.study, lampsOf(w.study, w.candidates, w.model, design, c), w.study.conditions[c].daylight);
     if (!text) return Error{text.error()};
-    out.lightingFiles.push_back(w.study.conditions.size() == 1 ? fmt::format("design_{}.json", number) : fmt::format("design_{}_{}.json", number, fileNameOf(w.study.conditions[c].name)));
+    out.lightingFiles.push_back(names.size() == 1 ? fmt::format("design_{}.json", number) : fmt::format("design_{}_{}.json", number, names[c]));
     if (const Status s = writeTextFile(w.folder / out.lightingFiles.back(), text.value()); !s) return s;
+  }
+  return Ok{};
+}
+
+Status writeDesigns(const Work& w, Report& report) {
+  removeOldDesigns(w.folder);
+  for (const size_t index : spreadOf(w.model, report.front, static_cast<size_t>(std::max(w.study.certified, 8)))) {
+    const size_t number = report.designs.size() + 1;
+    const search::ConstGenome design = std::as_const(report.front.designs)[index];
+    Proposed d{index, fmt::format("design {}", number), billOf(w.study, w.candidates, w.model, design), resultOf(w.model, design), {}, {}};
+    if (const Status s = writeDesign(w, design, number, d); !s) return s;
+    report.designs.push_back(std::move(d));
   }
   return Ok{};
 }
@@ -181,20 +249,11 @@ Status certifyAll(const Work& w, const search::Archive& front, Report& report, S
     std::string differences;
     for (size_t k = 0; k < w.study.conditions.size(); ++k) {
       const Certificate::OfCondition& r = d.certificate->conditions[k];
-      differences += fmt::format("{}{}: mean {:.2f} %, largest {:.2f} % of {} points", k ? "; " : "", w.study.conditions[k].name, r.meanPercent, r.maxPercent, r.judged);
+      differences += fmt::format("{}{}: {} points, mean {:.2f} %, {}", k ? "; " : "", w.study.conditions[k].name, r.judged, r.meanPercent, largestDifference(r));
     }
     display.line(fmt::format("{} certified in {:.1f} s: prediction against full solution {}", d.name, d.certificate->seconds, differences));
   }
   return Ok{};
-}
-
-// Evaluated, of designs as the search makes them at first.
-double designsASecond(const Model& model) {
-  const search::Genomes designs = sparseDesigns(model, kTimedDesigns, 1);
-  std::vector<double> objectives(designs.count * model.objectives.size());
-  const Stopwatch watch;
-  evaluateAll(model, designs, objectives);
-  return static_cast<double>(designs.count) / watch.seconds();
 }
 
 Status writeReports(const Work& w, const Report& report) {
@@ -217,6 +276,33 @@ void printFront(const Work& w, const Report& report) {
   }
 }
 
+// What the command line says instead of the study.
+Status applyOptions(Work& w) {
+  if (w.options.evaluations) w.study.evaluations = static_cast<size_t>(*w.options.evaluations);
+  if (w.options.certify) w.study.certified = *w.options.certify;
+  if (w.options.seed.empty()) return Ok{};
+  const auto seed = parseNumber<uint64_t>(w.options.seed);
+  if (!seed) return Error{fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", w.options.seed)};
+  w.study.seed = *seed;
+  return Ok{};
+}
+
+// The method asked for, then baselines; stopped, those so far. The front is the first's.
+Status searchAll(const Work& w, const search::Problem& problem, Report& report) {
+  std::vector<std::string> names = {w.options.method};
+  names.insert(names.end(), w.options.baselines.begin(), w.options.baselines.end());
+  for (size_t i = 0; i < names.size() && !interrupted(); ++i) {
+    const Result<search::Method> method = search::methodNamed(names[i]);
+    if (!method) return Error{method.error()};
+    Trace trace(w.model);
+    Result<search::State> state = searchBy(w, problem, method.value(), trace);
+    if (!state) return Error{state.error()};
+    report.methods.push_back({names[i], state.value().evaluations, state.value().polished, state.value().seconds, trace.hypervolume(), trace.points()});
+    if (i == 0) report.front = std::move(state.value().archive);
+  }
+  return Ok{};
+}
+
 int work(Work& w) {
   ProgressDisplay display(w.options.quiet);
   const RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
@@ -225,13 +311,7 @@ int work(Work& w) {
   const auto stopped = [] { return bad("interrupted; started again with the same folder, it goes on", kInterrupted); };
   const Status read = stages.run("load", [&](const Progress&) { return readInputs(w); });
   if (!read) return bad(read.error());
-  if (w.options.evaluations) w.study.evaluations = static_cast<size_t>(*w.options.evaluations);
-  if (w.options.certify) w.study.certified = *w.options.certify;
-  if (!w.options.seed.empty()) {
-    const auto seed = parseNumber<uint64_t>(w.options.seed);
-    if (!seed) return bad(fmt::format("--seed {}: write a whole number from 0 to 18446744073709551615", w.options.seed));
-    w.study.seed = *seed;
-  }
+  if (const Status s = applyOptions(w); !s) return bad(s.error());
   if (interrupted()) return stopped();
   if (const Status s = respond(w, stages, display); !s) return bad(s.error());
   if (interrupted()) return stopped();
@@ -240,28 +320,15 @@ int work(Work& w) {
   Report report{w.study, w.candidates, w.meters, w.model, {}, {}, {}, {}};
   report.responseSeconds = w.response.seconds, report.baseSeconds = w.response.baseSeconds, report.designsASecond = designsASecond(w.model);
   display.line(fmt::format("{:.0f} designs are evaluated a second", report.designsASecond));
-  search::State best;
-  std::vector<std::string> names = {w.options.method};
-  names.insert(names.end(), w.options.baselines.begin(), w.options.baselines.end());
-  for (size_t i = 0; i < names.size() && !interrupted(); ++i) {
-    const Result<search::Method> method = search::methodNamed(names[i]);
-    if (!method) return bad(method.error());
-    std::vector<TracePoint> trace;
-    Result<search::State> state = searchBy(w, problem, method.value(), trace);
-    if (!state) return bad(state.error(), kFailed);
-    report.methods.push_back({names[i], state.value().evaluations, state.value().polished, state.value().seconds, hypervolumeOf(w.model, state.value().archive), trace});
-    if (i == 0) best = std::move(state.value());
-  }
-  if (interrupted()) return stopped();
-  report.front = best.archive;
-  report.facts = {{"program", "roomlight " + std::string(version())}, {"home", w.options.home}, {"seed", fmt::format("{}", w.study.seed)}, {"technique", w.render.technique + ", quality " + w.render.quality}, {"candidates' standard error", fmt::format("{:.2f} % at the worst point", w.response.worstErrorPercent)}};
-  for (const size_t index : spreadOf(w.model, report.front, static_cast<size_t>(std::max(w.study.certified, 8)))) {
-    Proposed d{index, fmt::format("design {}", report.designs.size() + 1), billOf(w.study, w.candidates, w.model, report.front.designs[index]), resultOf(w.model, report.front.designs[index]), {}, {}};
-    if (const Status s = writeDesign(w, report.front.designs[index], report.designs.size() + 1, d); !s) return bad(s.error(), kFailed);
-    report.designs.push_back(std::move(d));
-  }
-  if (const Status s = certifyAll(w, report.front, report, stages, display); !s) return bad(s.error(), kFailed);
+  if (const Status s = searchAll(w, problem, report); !s) return bad(s.error());
+  // Stopped amid the search there is a front all the same: it is written, without certificates.
+  if (report.front.size() == 0) return stopped();
+  report.lookUpsASecond = lookUpsASecond(w.model, report.front);
+  report.facts = {{"program", "roomlight " + std::string(version())}, {"home", w.options.home}, {"seed", fmt::format("{}", w.study.seed)}, {"technique", w.render.technique + ", quality " + w.render.quality}, {"candidates' standard error", fmt::format("{:.2f} % at the worst point", w.response.worstErrorPercent)}, {"a second", fmt::format("{:.0f} designs evaluated; {:.0f} looked up among those of the front, as a surrogate would", report.designsASecond, report.lookUpsASecond)}};
+  if (const Status s = writeDesigns(w, report); !s) return bad(s.error(), kFailed);
+  const Status certified = certifyAll(w, report.front, report, stages, display);
   if (const Status s = writeReports(w, report); !s) return bad(s.error(), kFailed);
+  if (!certified) return bad(certified.error(), kFailed);
   printFront(w, report);
   display.line(fmt::format("wrote {}", (w.folder / "index.html").string()));
   return interrupted() ? stopped() : kOk;

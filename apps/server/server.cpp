@@ -15,6 +15,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
+#include <exception>
 #include <map>
 
 #include "admission.h"
@@ -198,7 +199,7 @@ asio::awaitable<bool> Server::State::answer(beast::tcp_stream& stream, const Req
 
 asio::awaitable<bool> Server::State::sendFile(beast::tcp_stream& stream, const Request& request, const Target& target, const std::string& host) {
   const std::string id = target.path.substr(std::string_view("/files/").size());
-  const std::optional<TakenFile> file = handlers.takeFile && request.method() == http::verb::get ? handlers.takeFile(id) : std::nullopt;
+  const std::optional<HeldFile> file = handlers.findFile && request.method() == http::verb::get ? handlers.findFile(id) : std::nullopt;
   error_code code;
   if (!file) {
     auto response = textResponse(request, http::status::not_found, "no such file, or it was fetched already", host);
@@ -215,9 +216,8 @@ asio::awaitable<bool> Server::State::sendFile(beast::tcp_stream& stream, const R
     response.prepare_payload();
     stream.expires_after(kFileTime);
     co_await http::async_write(stream, response, into(code));
+    if (!code) handlers.fileSent(id);  // else who asked may come again
   }
-  std::error_code ignored;
-  std::filesystem::remove(file->path, ignored);
   co_return false;
 }
 
@@ -236,9 +236,13 @@ asio::awaitable<void> Server::State::talk(tcp::socket socket, Request request) {
     co_return;
   }
   beast::get_lowest_layer(stream).socket().set_option(tcp::no_delay(true), code);
-  handlers.opened(number, std::string(queryValue(targetOf(request).query, "window")));
-  asio::co_spawn(context, writeAll(peer), asio::detached);
-  co_await readAll(number, peer);
+  try {
+    handlers.opened(number, std::string(queryValue(targetOf(request).query, "window")));
+    asio::co_spawn(context, writeAll(peer), asio::detached);
+    co_await readAll(number, peer);
+  } catch (const std::exception&) {  // of a handler: this window is lost, the others go on
+    peer->closing = websocket::close_reason(websocket::close_code::internal_error, "roomlight has failed");
+  }
   peers.erase(number);
   peer->wake.cancel();
   handlers.closed(number);

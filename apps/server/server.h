@@ -26,8 +26,8 @@ struct Options {
   double messagesPerSecond = 240, messagesAtOnce = 480;
 };
 
-// A finished file; it is removed once it was sent.
-struct TakenFile {
+// A finished file, which stays until it was sent.
+struct HeldFile {
   std::filesystem::path path;
   std::string name;  // under which the browser saves it
 };
@@ -37,7 +37,8 @@ struct Handlers {
   std::function<void(Connection, const std::string& window)> opened;
   std::function<void(Connection, const std::string& text)> said;
   std::function<void(Connection)> closed;
-  std::function<std::optional<TakenFile>(const std::string& id)> takeFile;
+  std::function<std::optional<HeldFile>(const std::string& id)> findFile;
+  std::function<void(const std::string& id)> fileSent;  // the whole of it: it may go
 };
 
 class Server {

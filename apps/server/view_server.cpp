@@ -29,11 +29,12 @@ Status serveHome(view::ViewHome home, const RenderSettings& settings, Options op
   handlers.opened = [&](Connection c, const std::string& window) { session->open(c, window); };
   handlers.said = [&](Connection c, const std::string& text) { session->receive(c, text); };
   handlers.closed = [&](Connection c) { session->close(c); };
-  handlers.takeFile = [&](const std::string& id) -> std::optional<TakenFile> {
-    std::optional<view::FinishedFile> file = session->takeFile(id);
+  handlers.findFile = [&](const std::string& id) -> std::optional<HeldFile> {
+    const std::optional<view::FinishedFile> file = session->findFile(id);
     if (!file) return {};
-    return TakenFile{file->path, file->name};
+    return HeldFile{file->path, file->name};
   };
+  handlers.fileSent = [&](const std::string& id) { session->fileSent(id); };
   Result<std::unique_ptr<Server>> listening = Server::listen(options, std::move(page), std::move(handlers));
   if (!listening) return Error{listening.error()};
   Server& server = *listening.value();
@@ -44,14 +45,12 @@ Status serveHome(view::ViewHome home, const RenderSettings& settings, Options op
   view::Session running(std::move(home), settings, std::move(outbox));
   session = &running;
   tell.listening(linkTo(options, server.port()));
-  std::atomic<bool> ended{false};
-  std::thread watch([&] {
-    while (!stop && !ended) std::this_thread::sleep_for(kLookAgain);
+  // Ends with this function, also where that throws.
+  const std::jthread watch([&](const std::stop_token& ended) {
+    while (!stop && !ended.stop_requested()) std::this_thread::sleep_for(kLookAgain);
     server.stop();
   });
   server.run();
-  ended = true;
-  watch.join();
   return Ok{};
 }
 

@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "base/give_way.h"
+
 namespace roomlight {
 
 void parallelRanges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
@@ -20,6 +22,12 @@ void parallelRanges(size_t count, size_t grain, const std::function<void(size_t,
 
 void withThreads(int threads, const std::function<void()>& work) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute(work);
+}
+
+void inBackground(int threads, const std::function<void()>& work) {
+  giveWay();
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic, 1, tbb::task_arena::priority::low);
   arena.execute(work);
 }
 

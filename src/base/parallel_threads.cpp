@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/give_way.h"
 #include "base/parallel.h"
 
 namespace roomlight {
@@ -51,6 +52,11 @@ void withThreads(int threads, const std::function<void()>& work) {
   const int outer = std::exchange(gMostThreads, threads);
   work();
   gMostThreads = outer;
+}
+
+void inBackground(int threads, const std::function<void()>& work) {
+  giveWay();
+  withThreads(threads, work);
 }
 
 int threadCount() { return gMostThreads > 0 ? gMostThreads : std::max(2, static_cast<int>(std::thread::hardware_concurrency())); }

@@ -87,6 +87,7 @@ struct Affine {
   // up to the sign of the determinant).
   Vec3 normal(Vec3 v) const { return cross(y, z) * v.x + cross(z, x) * v.y + cross(x, y) * v.z; }
   float determinant() const { return dot(x, cross(y, z)); }
+  bool operator==(const Affine&) const = default;
 };
 
 inline Affine operator*(const Affine& a, const Affine& b) {

@@ -7,6 +7,10 @@
 namespace roomlight {
 namespace {
 
+// Boxes that light may have changed beside: looking through more of them for every pixel costs more than new light does, and while no frame is made
+// there is no end to them.
+constexpr size_t kMostNear = 32;
+
 Bounds3 boundsOf(const Scene& scene, uint32_t instance) {
   const Instance& i = scene.instances[instance];
   Bounds3 out;
@@ -48,6 +52,7 @@ void ChangedPlaces::add(const SceneChange& change, const Scene& scene, const std
       if (!b.empty()) near_.push_back(b);
     }
   }
+  if (near_.size() > kMostNear) near_.clear(), lightsChanged_ = true;
 }
 
 void ChangedPlaces::lightBy(const Lights& lights) {

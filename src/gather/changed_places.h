@@ -13,6 +13,7 @@ namespace roomlight {
 class ChangedPlaces {
  public:
   // `addSeen` adds to the box of each instance what was seen of it: only then is it known where things were that move for the first time.
+  // After many changes without a frame light counts as changed everywhere.
   void add(const SceneChange& change, const Scene& scene, const std::function<void(std::vector<Bounds3>&)>& addSeen);
   // Light of the scene as it is now: where things that moved throw shadows, or did, light has changed.
   void lightBy(const Lights& lights);

@@ -14,13 +14,6 @@ constexpr float kOffPlane = 0.25f;    // of that off the tangent plane
 constexpr float kLeastCosine = 0.1f;  // of pixels' footprints on slanted surfaces
 constexpr float kLobe = 2, kSlackRad = 0.02f;  // how far a view may turn until nothing is left of a reflection: times GGX's alpha, and besides
 
-bool same(const Affine& a, const Affine& b) { return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w; }
-
-bool same(const Camera& a, const Camera& b) {
-  return same(a.worldFromCamera, b.worldFromCamera) && a.yFovRad == b.yFovRad && a.aspect == b.aspect && a.nearM == b.nearM && a.projection == b.projection &&
-         a.emptyBackdrop == b.emptyBackdrop && a.yMagM == b.yMagM && a.cutHeightM == b.cutHeightM;
-}
-
 // Few estimates that differ tell little of how far their mean is off: what the first was thought to be off counts with the others.
 float varianceOf(float before, float n, float now, float m, float apart) {
   return (before * n * n + now * m * m * std::max(0.0f, 1 - n) + apart * apart * n * m / (n + m)) / ((n + m) * (n + m));
@@ -64,7 +57,7 @@ void FrameHistory::begin(const Camera& camera, int width, int height, const Ligh
     pixels_.emplace(width, height), pixelsBefore_.emplace(width, height);
     camera_.reset();
   }
-  still_ = camera_ && same(*camera_, camera);
+  still_ = camera_ && seeTheSame(*camera_, camera);
   settled_ = still_ && !changed_.lightsChanged() && !changed_.anyMoved() && !stale_;
   framesStill_ = settled_ ? framesStill_ + 1 : 0;
   if (!settled_) {

@@ -21,8 +21,8 @@ struct LayeredReadings {
 };
 
 // By a shader that keeps light apart (layers() is not null), in a scene lit by lamps and emissive meshes alone: suns and sky are left out. Every element
-// takes fewestSamples and goes on to twice as many, up to mostSamples, until every layer is as certain as the tolerance asks, or as it asks of a tenth of the
-// strongest layer there. Does not depend on the number of threads.
+// takes fewestSamples and goes on to twice as many, up to mostSamples, until every layer is as certain as the tolerance asks, or as it asks of 3 % of the
+// strongest layer there; what comes straight from lamps that are points is exact. Does not depend on the number of threads.
 LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
                                 const MeterSettings& settings, const Progress& progress = {});
 

@@ -15,9 +15,6 @@ constexpr size_t kTilesAtOnce = 4;
 constexpr uint32_t kMostEvery = 16, kMostEveryOld = 64;
 constexpr double kNewest = 0.3;        // weight of the newest measurement
 
-bool same(const Affine& a, const Affine& b) { return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w; }
-bool same(const Camera& a, const Camera& b) { return same(a.worldFromCamera, b.worldFromCamera) && a.yFovRad == b.yFovRad && a.aspect == b.aspect && a.nearM == b.nearM; }
-
 // Of places at unit depth: pixels a unit of x and of y.
 Vec2 pixelScaleOf(const Camera& camera, int width, int height) {
   const Vec3 d = inverse(camera.worldFromCamera).vector(CameraRays(camera, width, height).ray(0, 0).direction);
@@ -59,12 +56,14 @@ void QuickFrames::land(const Camera& camera) {
 }
 
 // From what the frames before cost: as many are lit as there is time for.
-void QuickFrames::planShares(size_t pixels, double ms) {
-  const double threads = std::max(1, threadCount()), budget = std::max(0.1 * ms, ms - otherMs_ / threads) * threads / msALight_;  // pixels
+void QuickFrames::planShares(double ms) {
+  const size_t pixels = now_.size();
+  const double threads = std::max(1, threadCount()), other = otherMs_[lands_] * static_cast<double>(pixels) / threads;
+  const double budget = std::max(0.1 * ms, ms - other) * threads / msALight_;  // pixels
   const bool all = !hasPast_ || stale_ || changed_.lightsChanged();
   const size_t expected = all ? pixels : std::max<size_t>(count_.lit, pixels / 50);
   everyNew_ = 1;
-  while (everyNew_<kMostEvery&& static_cast<double>(expected) / everyNew_> budget) everyNew_ *= 2;
+  while (everyNew_ < kMostEvery && budget * everyNew_ < static_cast<double>(expected)) everyNew_ *= 2;
   // Once all else is done.
   const double rest = all ? budget : budget - static_cast<double>(hasPast_ && expected > pixels / 50 ? expected : 0);
   everyOld_ = all ? kMostEvery : kMostEveryOld;
@@ -74,7 +73,7 @@ void QuickFrames::planShares(size_t pixels, double ms) {
 
 Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width, int height, double ms, const Progress& progress) {
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
-  const bool still = camera_ && width == width_ && height == height_ && same(*camera_, camera);
+  const bool still = camera_ && width == width_ && height == height_ && seeTheSame(*camera_, camera);
   hasPast_ = camera_.has_value();
   if (camera_) {
     fromWorld_ = inverse(camera_->worldFromCamera);
@@ -86,10 +85,10 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
   now_.resize(pixels);
   if (!hasPast_) past_.clear();
   changed_.lightBy(scene.lights);
-  planShares(pixels, ms);
-  camera_ = camera;
   // Where the scene has changed every pixel looks for itself.
   lands_ = hasPast_ && !stale_ && !changed_.any();
+  planShares(ms);
+  camera_ = camera;
   const Stopwatch landing;
   if (lands_) land(camera);
   const double landedMs = landing.seconds() * 1e3 * std::max(1, threadCount());
@@ -111,7 +110,9 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
   }
   sum.otherMs += landedMs;
   count_ = sum;
-  otherMs_ = otherMs_ > 0 ? otherMs_ + kNewest * (sum.otherMs - otherMs_) : sum.otherMs;
+  double& other = otherMs_[lands_];
+  const double otherNow = sum.otherMs / static_cast<double>(pixels);
+  other = other > 0 ? other + kNewest * (otherNow - other) : otherNow;
   if (sum.lit > 1000) msALight_ += kNewest * (sum.litMs / static_cast<double>(sum.lit) - msALight_);
   settled_ = still && sum.lent == 0 && sum.lit == 0;
   stale_ = false;

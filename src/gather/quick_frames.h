@@ -3,6 +3,7 @@
 // Where there is no time for all of them, some are lit and lend their light to those beside them, until a later frame comes to these too.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <optional>
 #include <unordered_map>
@@ -63,7 +64,7 @@ class QuickFrames {
   struct Sight;
   class Maker;
   struct Rules;
-  void planShares(size_t pixels, double ms);
+  void planShares(double ms);
   void land(const Camera& camera);
 
   int width_ = 0, height_ = 0;
@@ -81,7 +82,8 @@ class QuickFrames {
   ChangedPlaces changed_;
   // Of so many pixels one is lit: of those without light, and of those that have lent or old light (0: none). Powers of two up to 16, and 64.
   uint32_t everyNew_ = 16, everyOld_ = 0;
-  double otherMs_ = 0, msALight_ = 1e-3;  // per frame; per pixel lit: what it costs, all threads together
+  std::array<double, 2> otherMs_{};  // per pixel: what all but light costs, all threads together, where pixels look for themselves and where those of the frame before land
+  double msALight_ = 1e-3;           // per pixel that is lit
   Count count_;
 };
 

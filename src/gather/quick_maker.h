@@ -30,7 +30,6 @@ struct QuickFrames::Sight {
   int panes = 0;
   Vec3 panePlace, paneNormal;  // of the first pane, for what it reflects,
   Vec3 reflectance;            // and how much that is
-  uint32_t pane = kNoHit;
 };
 
 // A pixel that is to be lit, with what it sees.
@@ -126,8 +125,8 @@ class QuickFrames::Maker {
   Vec3 corner_, stepX_, stepY_;
   float nearM_ = 0;
   bool anyStale_ = false;
-  float coarser_ = 0;  // the same, or that of the frame before where its pixels were larger
   float slope_ = 0;             // of a pixel: how far its edges part, per metre of distance
+  float coarser_ = 0;           // the same, or that of the frame before where its pixels were larger
   std::vector<uint8_t> clear_;  // a flag an instance: light may pass through
 };
 

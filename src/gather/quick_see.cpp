@@ -11,7 +11,7 @@ namespace {
 constexpr float kNearM = 0.5f;         // of what moved: light has changed there
 constexpr float kFootprints = 1.5f;    // how far off it may be, in pixels, and
 constexpr float kOffPlane = 0.25f;     // of that off the tangent plane
-constexpr uint32_t kLookAgain = 16;    // of so many pixels one is traced, whatever the frame before says
+constexpr uint32_t kLookAgain = 64;    // of so many pixels one is traced, whatever the frame before says
 constexpr float kFar = 0.6f;          // pixels
 constexpr float kNearer = 0.96f;       // of a pixel's distance: what is before it
 
@@ -84,7 +84,7 @@ void QuickFrames::Maker::see(const Sight& sight, const Hit& hit, bool traced, Ve
     const Pane& pane = paneAt(hit, n, sight.ray.direction, w);
     if (pane.clear) {
       Sight& next = w.on.emplace_back(sight);
-      if (next.panes++ == 0) next.pane = hit.instance, next.panePlace = p, next.paneNormal = n, next.reflectance = pane.reflected;
+      if (next.panes++ == 0) next.panePlace = p, next.paneNormal = n, next.reflectance = pane.reflected;
       next.left *= pane.through;
       next.ray = {offsetOrigin(p, -n), sight.ray.direction, 0, kInfinity};
       return;

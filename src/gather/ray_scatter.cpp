@@ -20,7 +20,7 @@ RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const Radianc
   if (field.layers.empty()) return;
   const LightLayers& layers = *field.layers.lights;
   members_.resize(layers.size());
-  for (uint32_t i = 0; i < lights.lampCount() && sampleLamps; ++i) members_[static_cast<size_t>(layers.ofLamp[i])].lamps.push_back(i);
+  for (uint32_t i = 0; i < lights.lampCount(); ++i) members_[static_cast<size_t>(layers.ofLamp[i])].lamps.push_back(i);
   for (uint32_t i = 0; i < lights.emitterCount(); ++i) members_[static_cast<size_t>(layers.ofEmitter[i])].emitters.push_back(i);
 }
 
@@ -73,9 +73,10 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
 void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   Sampler& sampler = w.samplers[v.estimate];
   const LightLayers* layers = field_.layers.lights.get();
-  if (w.layers && v.first) layersAt(v, w);
+  const bool asksLayers = w.layers && v.depth <= 1;
+  if (asksLayers) layersAt(v, w);
   const auto take = [&](const LightSample& light, int32_t layer, float weight = 1) { takeLight(v, light, LightOrigin::ofLayer(layer, weight), false, w); };
-  const auto takeLocal = [&](const LightSample& light) { take(light, layers ? layers->of(light) : -1, v.first ? kPictureShare : 1); };
+  const auto takeLocal = [&](const LightSample& light) { take(light, layers ? layers->of(light) : -1, asksLayers && (v.first || light.lamp >= 0) ? kPictureShare : 1); };
   if (v.first) {
     if (sampleLamps_ && !v.lampsKnown) takeLocal(lights_.sampleLamps(v.s.p, sampler));
   } else {
@@ -96,29 +97,34 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   }
 }
 
-// A sample of each layer's lamps and emissive meshes for what the camera sees, where the picture itself has one of them all: else a
-// layer would have the noise of that choice. Layers that no slot near sees are asked now and then, so that nothing is lost.
+// A sample of each layer's lamps and emissive meshes for what the camera sees, and of its lamps for what is lit afresh right behind that, where the picture itself
+// has one of them all: else a layer would have the noise of that choice. Layers that no slot near sees are asked now and then, so that nothing is lost.
 void RayScatter::layersAt(const GatherVertex& v, GatherWork& w) const {
   Sampler sampler = w.samplers[v.estimate].forked(kLayerKey);
   const Int3 at = voxels_.voxelOf(v.s.p + v.s.ng * (kNudge * voxels_.voxelSizeM));
   const int32_t brick = at.x < 0 || at.y < 0 || at.z < 0 ? -1 : voxels_.brickAt({at.x / kBrickSize, at.y / kBrickSize, at.z / kBrickSize});
   // A meter in the air is no surface of the scene: what slots near it see says little of it.
   const uint64_t reach = brick < 0 || !v.s.material ? ~uint64_t{0} : field_.layers.reach[static_cast<size_t>(brick)];
+  const bool lamps = !v.first || asksLamps(v.lampsKnown);
   for (size_t l = 0; l < members_.size(); ++l) {
-    if ((members_[l].lamps.empty() || v.lampsKnown) && members_[l].emitters.empty()) continue;
+    if ((members_[l].lamps.empty() || !lamps) && (members_[l].emitters.empty() || !v.first)) continue;
     float weight = 1 - kPictureShare;
     if (!((reach >> l) & 1)) {
       if (sampler.fast1() >= kDoubt) continue;
       weight /= kDoubt;
     }
-    takeLight(v, sampleLayer(l, v.s.p, !v.lampsKnown, sampler), LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
+    const LightSample light = sampleLayer(l, v.s.p, lamps, v.first, sampler);
+    if (v.first || !leavesToCache(v, light)) takeLight(v, light, LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
   }
 }
 
 // One of its lights, chosen by what each could give at p without shadows.
-LightSample RayScatter::sampleLayer(size_t layer, Vec3 p, bool withLamps, Sampler& sampler) const {
+LightSample RayScatter::sampleLayer(size_t layer, Vec3 p, bool withLamps, bool withEmitters, Sampler& sampler) const {
   const Members& m = members_[layer];
-  const auto weigh = [&](size_t i) { return i >= m.lamps.size() ? lights_.emitterImportance(m.emitters[i - m.lamps.size()], p) : withLamps ? lights_.lampImportance(m.lamps[i], p) : 0; };
+  const auto weigh = [&](size_t i) {
+    if (i >= m.lamps.size()) return withEmitters ? lights_.emitterImportance(m.emitters[i - m.lamps.size()], p) : 0;
+    return withLamps ? lights_.lampImportance(m.lamps[i], p) : 0;
+  };
   const size_t count = m.lamps.size() + m.emitters.size();
   float total = 0;
   for (size_t i = 0; i < count; ++i) total += weigh(i);
@@ -139,7 +145,7 @@ float RayScatter::weightInLayer(const GatherPath& path, const SurfacePoint& s) c
   if (emitter < 0 || path.pdf <= 0 || path.depth > 1) return 1;
   const Members& m = members_[static_cast<size_t>(field_.layers.lights->ofEmitter[static_cast<size_t>(emitter)])];
   float total = 0;
-  for (const uint32_t i : m.lamps) total += path.lampsKnown ? 0 : lights_.lampImportance(i, path.from);
+  for (const uint32_t i : m.lamps) total += asksLamps(path.lampsKnown) ? lights_.lampImportance(i, path.from) : 0;
   for (const uint32_t i : m.emitters) total += lights_.emitterImportance(i, path.from);
   const auto index = static_cast<size_t>(emitter);
   const float pdf = total > 0 ? lights_.emitterImportance(index, path.from) / total * lights_.pdfEmitter(index, path.from, s) : 0;

@@ -23,8 +23,10 @@ class RayScatter {
   static float cosinePdf(const GatherVertex& v, Vec3 wi);
   void lightsAt(const GatherVertex& v, GatherWork& w) const;
   void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly, GatherWork& w) const;
+  // Whether layers' lamps are sampled for what the camera sees: else each of them is asked by whoever wants its light.
+  bool asksLamps(bool lampsKnown) const { return sampleLamps_ && !lampsKnown; }
   void layersAt(const GatherVertex& v, GatherWork& w) const;
-  LightSample sampleLayer(size_t layer, Vec3 p, bool withLamps, Sampler& sampler) const;
+  LightSample sampleLayer(size_t layer, Vec3 p, bool withLamps, bool withEmitters, Sampler& sampler) const;
   bool leavesToCache(const GatherVertex& v, const LightSample& light) const;
   void glowAt(const GatherVertex& v, GatherWork& w) const;
   void gatherAt(const GatherVertex& v, GatherWork& w) const;

@@ -16,6 +16,7 @@ void scaleToMetres(Scene& scene, float s) {
     Affine& m = instance.worldFromObject;
     m = {m.x * s, m.y * s, m.z * s, m.w * s};
   }
+  for (Leaf& leaf : scene.leaves) leaf.hinge *= s, leaf.slideM *= s;
   for (Camera& camera : scene.cameras) {
     camera.worldFromCamera.w *= s;
     camera.nearM *= s;

@@ -72,10 +72,14 @@ class Builder {
   }
 
   void material(const std::string& name) { materialName_ = name, part_ = nullptr; }
-  void object(const std::string& name) { startObject(name), hasObjects_ = true; }
-  // Groups are parts of objects, except in files that have no objects.
+  void object(const std::string& name) { startObject(name), hasObjects_ = true, fileObjectName_ = name; }
+  // Groups are parts of objects, except in files that have no objects, and those that Sweet Home 3D knows by their names: they may move apart.
   void group(const std::string& name) {
-    if (!hasObjects_) startObject(name);
+    if (!hasObjects_ || name.starts_with("sweethome3d_")) {
+      startObject(name);
+    } else if (objectName_ != fileObjectName_) {
+      startObject(fileObjectName_);
+    }
   }
 
   std::vector<std::string> finish(Scene& scene, Warnings& warnings) {
@@ -148,6 +152,7 @@ class Builder {
   std::map<std::pair<int, int>, Part> parts_;  // of object and material
   std::vector<Part*> order_;
   std::string materialName_, objectName_;
+  std::string fileObjectName_;  // of the last `o`
   int object_ = 0;
   bool hasObjects_ = false;
   Part* part_ = nullptr;

@@ -7,6 +7,7 @@
 
 #include "import/failure.h"
 #include "import/grey_material.h"
+#include "import/sh3d_leaves.h"
 #include "import/sh3d_lights.h"
 #include "import/sh3d_looks.h"
 #include "import/sh3d_surfaces.h"
@@ -52,31 +53,12 @@ Bounds3 boundsThrough(const Affine& m, const std::vector<const Mesh*>& meshes, c
   return b;
 }
 
-// Whether a group's name begins with that, and not with a longer number.
-bool isOf(const std::string& group, const std::string& prefix) {
-  return group.starts_with(prefix) && (group.size() == prefix.size() || std::isdigit(static_cast<unsigned char>(group[prefix.size()])) == 0);
-}
-
-// "sweethome3d_hinge_1" moves what is "opening_on_hinge_1", with the panes and mirrors in it; so do rails, and balls move arms. Any other
-// transformation moves the groups of its name.
-bool moves(const Transformation& t, const std::string& group) {
-  const std::string head = "sweethome3d_", tail = "_transformation";
-  const std::string name = t.name.ends_with(tail) ? t.name.substr(0, t.name.size() - tail.size()) : t.name;
-  if (name.empty()) return false;
-  if (name.starts_with(head)) {
-    for (const char* what : {"opening_on_", "window_pane_on_", "window_mirror_on_", "mirror_on_", "arm_on_"}) {
-      if (isOf(group, head + what + name.substr(head.size()))) return true;
-    }
-  }
-  return isOf(group, name);
-}
-
 std::vector<Affine> poses(const Piece& piece, const std::vector<const Mesh*>& meshes, Warnings& warnings) {
   std::vector<Affine> out(meshes.size());
   for (const Transformation& t : piece.transformations) {
     bool moved = false;
     for (size_t i = 0; i < meshes.size(); ++i) {
-      if (moves(t, meshes[i]->name)) out[i] = fromRows(t.rows) * out[i], moved = true;
+      if (moves(t.name, meshes[i]->name)) out[i] = fromRows(t.rows) * out[i], moved = true;
     }
     if (!moved) warnings.add("transformations of parts that the model does not name are left out");
   }
@@ -119,17 +101,24 @@ class Placer {
       warnings_.add("pieces without height, width or depth are left out");
       return;
     }
+    const std::vector<int> leaves = leavesOf(p, meshes, posed, worldFrom);
     for (size_t i = 0; i < model->meshes.size(); ++i) {
       if ((p.modelFlags & kHideEdges) && isEdge(model->meshes[i])) continue;
       triangles_ += model->meshes[i].triangleCount();
       if (triangles_ > maxTriangles_) fail(p.place, fmt::format("the home has more than {} triangles", maxTriangles_));
       const Affine m = worldFrom * posed[i];
       if (!(std::abs(m.determinant()) > 0)) continue;
-      scene_.instances.push_back({p.name, meshWithLook(p, p.model, i, model->meshes[i], m), object, m});
+      scene_.instances.push_back({p.name, meshWithLook(p, p.model, i, model->meshes[i], m), object, m, leaves[i]});
     }
   }
 
  private:
+  // Lights hang on rails to be set higher or lower: that would part their bodies from their sources.
+  std::vector<int> leavesOf(const Piece& p, const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed, const Affine& worldFrom) {
+    if (p.kind == PieceKind::Light) return std::vector<int>(meshes.size(), -1);
+    return findLeaves(meshes, posed, worldFrom, worldFromPiece(home_, p).z, scene_);
+  }
+
   bool isEdge(const Mesh& mesh) const { return scene_.materials[static_cast<size_t>(mesh.material)].name.starts_with("edge_color"); }
 
   void standIn(const Piece& p, int object) {

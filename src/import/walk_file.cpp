@@ -190,8 +190,6 @@ Affine placed(const Walk::Thing& thing, const Affine& rest, double timeS) {
   return turn * rest;
 }
 
-bool same(const Affine& a, const Affine& b) { return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w; }
-
 bool dim(Vec3& light, Vec3 full, float dimming) {
   const Vec3 before = light;
   light = full * dimming;
@@ -260,7 +258,7 @@ SceneChange stage(const Walk& walk, double timeS, Scene& scene) {
     for (size_t k = 0; k < thing.instances.size(); ++k) {
       Affine& now = scene.instances[thing.instances[k]].worldFromObject;
       const Affine next = placed(thing, thing.atRest[k], timeS);
-      if (!same(now, next)) change.moved.push_back(thing.instances[k]);
+      if (now != next) change.moved.push_back(thing.instances[k]);
       now = next;
     }
   }

@@ -12,7 +12,10 @@
 namespace roomlight::optimise {
 namespace {
 
-constexpr float kBelowCeilingM = 0.3f;           // where the search for a ceiling starts
+constexpr float kLookUpFrom = 0.6f;              // of the room's height: where the search for a ceiling starts, so that lower ones are met
+constexpr float kAboveCeilingM = 0.7f;           // and how far above the room it ends
+constexpr float kAroundM = 0.3f, kHangsM = 0.02f;  // what is lower than most of what is so far around it hangs from the ceiling
+constexpr size_t kMostPlaces = 100'000;          // of a rule's grid
 constexpr float kBeforeWallM = 0.5f, kBehindWallM = 0.15f;
 constexpr float kTableLowM = 0.3f, kTableHighM = 1.3f;  // tops above the floor
 constexpr float kFlatM = 0.01f;
@@ -21,33 +24,75 @@ constexpr int kRound = 8;                        // directions in which a lumina
 
 Vec3 at(Vec2 p, float y) { return {p.x, y, p.y}; }
 
+// How many points evenly() makes.
+double countOf(float length, double spacing) { return length < 0 ? 0 : std::floor(static_cast<double>(length) / spacing + 1e-6) + 1; }
+
 // Even points from `low` to `high`, as far as `spacing` apart at least, in the middle.
 std::vector<float> evenly(float low, float high, double spacing) {
-  const float length = high - low;
-  if (length < 0) return {};
-  const int n = static_cast<int>(std::floor(static_cast<double>(length) / spacing + 1e-6)) + 1;
+  const int n = static_cast<int>(countOf(high - low, spacing));
   std::vector<float> out;
   for (int i = 0; i < n; ++i) out.push_back((low + high) / 2 + (static_cast<float>(i) - static_cast<float>(n - 1) / 2) * static_cast<float>(spacing));
   return out;
 }
 
-// Over the floor, along its longest side; at least `fromWalls` from every wall.
-std::vector<Vec2> gridOver(const std::vector<Vec2>& floor, double spacing, double fromWalls) {
-  const Vec2 u = longestSide(floor), v{-u.y, u.x};
-  Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
-  for (const Vec2 p : floor) {
-    const float a = p.x * u.x + p.y * u.y, b = p.x * v.x + p.y * v.y;
-    low = {std::min(low.x, a), std::min(low.y, b)}, high = {std::max(high.x, a), std::max(high.y, b)};
+// The rectangle around a floor, along its longest side.
+struct Around {
+  Vec2 u, v, low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  explicit Around(const std::vector<Vec2>& floor) : u(longestSide(floor)), v{-u.y, u.x} {
+    for (const Vec2 p : floor) {
+      const float a = p.x * u.x + p.y * u.y, b = p.x * v.x + p.y * v.y;
+      low = {std::min(low.x, a), std::min(low.y, b)}, high = {std::max(high.x, a), std::max(high.y, b)};
+    }
   }
+};
+
+// Over the floor, at least `fromWalls` from every wall.
+std::vector<Vec2> gridOver(const std::vector<Vec2>& floor, double spacing, double fromWalls) {
+  const Around r(floor);
   const auto in = static_cast<float>(fromWalls);
   std::vector<Vec2> out;
-  for (const float b : evenly(low.y + in, high.y - in, spacing)) {
-    for (const float a : evenly(low.x + in, high.x - in, spacing)) {
-      const Vec2 p = u * a + v * b;
+  for (const float b : evenly(r.low.y + in, r.high.y - in, spacing)) {
+    for (const float a : evenly(r.low.x + in, r.high.x - in, spacing)) {
+      const Vec2 p = r.u * a + r.v * b;
       if (contains(floor, p) && distanceToEdgeM(floor, p) >= in - 1e-4f) out.push_back(p);
     }
   }
   return out;
+}
+
+// A wall of a room from inside.
+struct Side {
+  Vec2 from, along;  // unit
+  Vec3 away;         // unit, into the room
+  float lengthM = 0;
+  float distanceM(Vec2 p) const {
+    const Vec2 d = p - from;
+    const float t = std::clamp(d.x * along.x + d.y * along.y, 0.0f, lengthM);
+    return std::hypot(d.x - t * along.x, d.y - t * along.y);
+  }
+};
+
+std::vector<Side> sidesOf(const std::vector<Vec2>& floor) {
+  std::vector<Side> out;
+  const float turn = signedAreaM2(floor) > 0 ? 1.0f : -1.0f;
+  for (size_t i = 0; i < floor.size(); ++i) {
+    const Vec2 side = floor[(i + 1) % floor.size()] - floor[i];
+    const float l = std::hypot(side.x, side.y);
+    if (l >= 1e-3f) out.push_back({floor[i], side * (1 / l), Vec3{side.y, 0, -side.x} * (turn / l), l});
+  }
+  return out;
+}
+
+// Of a rule's grid, before any is looked at.
+double gridSizeOf(const PlaceRule& rule) {
+  const auto in = static_cast<float>(rule.fromWallsM);
+  if (rule.on == Mounting::Wall) {
+    double sum = 0;
+    for (const Side& s : sidesOf(rule.room.floor)) sum += countOf(s.lengthM - 2 * in, rule.spacingM);
+    return sum;
+  }
+  const Around r(rule.room.floor);
+  return countOf(r.high.x - r.low.x - 2 * in, rule.spacingM) * countOf(r.high.y - r.low.y - 2 * in, rule.spacingM);
 }
 
 class Search {
@@ -59,6 +104,7 @@ class Search {
       const PlaceRule& rule = study_.places[r];
       const size_t before = out_.places.size();
       number_ = 0;
+      if (rule.at.empty() && gridSizeOf(rule) > kMostPlaces) return Error{fmt::format("{}:{}: place '{}': its grid has more than {} places; set 'spacing' larger", study_.file.string(), rule.line, rule.name, kMostPlaces)};
       for (const Mount& m : mountsOf(rule)) add(r, m);
       if (out_.places.size() == before) {
         return Error{fmt::format("{}:{}: place '{}': there is no free place for any of its luminaires; set 'spacing' or 'fromWalls' smaller, or say where with 'at'", study_.file.string(), rule.line, rule.name)};
@@ -91,9 +137,20 @@ class Search {
   }
 
   std::optional<Mount> ceilingAt(const PlaceRule& rule, Vec2 p) const {
-    const float top = rule.room.elevationM + rule.room.heightM, from = top - kBelowCeilingM;
-    const Hit hit = look(at(p, from), {0, 1, 0}, 1);
-    return Mount{at(p, hit.valid() ? from + hit.t : top), {0, -1, 0}};
+    const float from = rule.room.elevationM + kLookUpFrom * rule.room.heightM, most = (1 - kLookUpFrom) * rule.room.heightM + kAboveCeilingM;
+    const auto heightAt = [&](Vec2 q) {
+      const Hit hit = look(at(q, from), {0, 1, 0}, most);
+      return hit.valid() ? from + hit.t : kInfinity;
+    };
+    const float y = heightAt(p);
+    if (y == kInfinity) return std::nullopt;
+    int around = 0, higher = 0;
+    for (const Vec2 d : {Vec2{kAroundM, 0}, Vec2{-kAroundM, 0}, Vec2{0, kAroundM}, Vec2{0, -kAroundM}}) {
+      if (!contains(rule.room.floor, p + d)) continue;
+      ++around, higher += heightAt(p + d) > y + kHangsM;
+    }
+    if (2 * higher > around) return std::nullopt;  // a lamp of the home, a shelf
+    return Mount{at(p, y), {0, -1, 0}};
   }
 
   // The top of a table, or the floor.
@@ -126,25 +183,21 @@ class Search {
 
   std::vector<Mount> wallMounts(const PlaceRule& rule) const {
     std::vector<Mount> out;
-    const std::vector<Vec2>& floor = rule.room.floor;
-    const float y = rule.room.elevationM + static_cast<float>(rule.heightM), turn = signedAreaM2(floor) > 0 ? 1.0f : -1.0f;
-    for (size_t i = 0; i < floor.size(); ++i) {
-      const Vec2 a = floor[i], side = floor[(i + 1) % floor.size()] - a;
-      const float l = std::hypot(side.x, side.y);
-      if (l < 1e-3f) continue;
-      const Vec2 along = side * (1 / l);
-      const Vec3 away = Vec3{side.y, 0, -side.x} * (turn / l);
-      std::vector<float> places;
-      if (rule.at.empty()) places = evenly(static_cast<float>(rule.fromWallsM), l - static_cast<float>(rule.fromWallsM), rule.spacingM);
-      for (const Vec3 p : rule.at) {
-        // The nearest wall is theirs.
-        const Vec2 d = Vec2{p.x, p.z} - a;
-        const float t = d.x * along.x + d.y * along.y, off = std::abs(d.x * away.x + d.y * away.z);
-        if (t >= 0 && t <= l && off < 0.3f) places.push_back(t);
-      }
-      for (size_t k = 0; k < places.size(); ++k) {
-        if (const auto m = wallAt(at(a + along * places[k], y), away)) out.push_back(*m);
-      }
+    const std::vector<Side> sides = sidesOf(rule.room.floor);
+    const auto hang = [&](const Side& s, float along, float y) {
+      if (const auto m = wallAt(at(s.from + s.along * along, y), s.away)) out.push_back(*m);
+    };
+    for (const Side& s : sides) {
+      if (!rule.at.empty()) break;
+      for (const float along : evenly(static_cast<float>(rule.fromWallsM), s.lengthM - static_cast<float>(rule.fromWallsM), rule.spacingM)) hang(s, along, rule.room.elevationM + static_cast<float>(rule.heightM));
+    }
+    for (const Vec3 p : rule.at) {
+      // The nearest wall is theirs.
+      const Vec2 q{p.x, p.z};
+      const auto s = std::min_element(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return a.distanceM(q) < b.distanceM(q); });
+      if (s == sides.end()) continue;
+      const Vec2 d = q - s->from;
+      hang(*s, std::clamp(d.x * s->along.x + d.y * s->along.y, 0.0f, s->lengthM), p.y);
     }
     return out;
   }

@@ -12,18 +12,24 @@
 namespace roomlight::optimise {
 namespace {
 
-constexpr double kHoursAYear = 8760;
+// What judging a design needs, kept from one to the next.
+struct Workspace {
+  std::vector<ChosenLamp> lamps;
+  std::vector<double> levels;  // of the lamps in a condition
+  std::vector<float> rows;     // the light in it
+};
 
 void addColumn(const float* column, float by, size_t rows, float* sum) {
   for (size_t r = 0; r < rows; ++r) sum[r] += by * column[r];
 }
 
-// Light on all rows in a condition.
-void sumUp(const Model& m, std::span<const ChosenLamp> lamps, search::ConstGenome design, size_t condition, float* rows) {
-  std::copy_n(m.baseOf(condition), m.rows, rows);
-  for (const ChosenLamp& lamp : lamps) {
-    const auto d = static_cast<float>(dimmingOf(m, design, lamp, condition));
-    if (d > 0) addColumn(m.column(lamp.option), d, m.rows, rows);
+// Levels of the lamps and light on all rows in a condition.
+void sumUp(const Model& m, search::ConstGenome design, size_t condition, Workspace& w) {
+  levelsOf(m, w.lamps, design, condition, w.levels);
+  w.rows.resize(m.rows);
+  std::copy_n(m.baseOf(condition), m.rows, w.rows.data());
+  for (size_t i = 0; i < w.lamps.size(); ++i) {
+    if (w.levels[i] > 0) addColumn(m.column(w.lamps[i].option), static_cast<float>(w.levels[i]), m.rows, w.rows.data());
   }
 }
 
@@ -53,15 +59,7 @@ ZoneResult statistics(const ModelZone& z, const float* rows) {
   return out;
 }
 
-double ugrOf(const Model& m, std::span<const ChosenLamp> lamps, search::ConstGenome design, size_t condition, size_t eye, double backgroundCdM2) {
-  double sum = m.baseGlare[condition * m.eyes.size() + eye];
-  for (const ChosenLamp& lamp : lamps) {
-    const double d = dimmingOf(m, design, lamp, condition);
-    sum += d * d * m.glare[lamp.option * m.eyes.size() + eye];
-  }
-  if (!(sum > 0)) return 0;
-  return std::max(0.0, 8 * std::log10(0.25 * sum / std::max(backgroundCdM2, 1e-6)));
-}
+double ugrAt(const Model& m, const Workspace& w, size_t condition, size_t eye) { return ugrOf(glareAt(m, w.lamps, w.levels, condition, eye), static_cast<double>(w.rows[m.firstEye + eye])); }
 
 // Sums of what is judged, over conditions.
 class Judge {
@@ -115,23 +113,36 @@ void addCosts(const Model& m, std::span<const ChosenLamp> lamps, search::ConstGe
   out.fittings = lamps.size();
 }
 
-// The same as resultOf() without what objectives do not ask for.
-void objectivesOf(const Model& m, search::ConstGenome design, std::vector<float>& rows, std::span<double> out) {
-  const std::vector<ChosenLamp> lamps = chosenLamps(m, design);
-  DesignResult r;
+// Everything that can be said of the condition that was summed up.
+ConditionResult allOf(const Model& m, const Workspace& w, size_t c) {
+  ConditionResult r;
+  for (const ModelZone& z : m.zones) r.zones.push_back(statistics(z, w.rows.data()));
+  for (size_t e = 0; e < m.eyes.size(); ++e) r.ugr.push_back(ugrAt(m, w, c, e));
+  for (size_t q = 0; q < m.ratios.size(); ++q) r.ratios.push_back(ratioOf(m, w.rows.data(), q));
+  for (size_t i = 0; i < w.lamps.size(); ++i) r.wattsW += w.levels[i] * m.options[w.lamps[i].option].wattsW;
+  return r;
+}
+
+// With `whole` also what objectives do not ask for.
+DesignResult judged(const Model& m, search::ConstGenome design, Workspace& w, bool whole) {
+  w.lamps = chosenLamps(m, design);
+  DesignResult out;
   Judge judge(m);
   for (size_t c = 0; c < m.conditions.size(); ++c) {
     const ModelCondition& condition = m.conditions[c];
-    if (condition.zones.empty() && condition.eyes.empty() && condition.ratios.empty()) continue;
-    sumUp(m, lamps, design, c, rows.data());
-    for (const uint32_t z : condition.zones) judge.zone(z, statistics(m.zones[z], rows.data()), condition.weight);
-    for (const uint32_t e : condition.eyes) judge.eye(e, ugrOf(m, lamps, design, c, e, static_cast<double>(rows[m.firstEye + e])), condition.weight);
-    for (const uint32_t q : condition.ratios) judge.ratio(q, ratioOf(m, rows.data(), q), condition.weight);
+    const bool asked = !condition.zones.empty() || !condition.eyes.empty() || !condition.ratios.empty();
+    if (!asked && !whole) continue;
+    sumUp(m, design, c, w);
+    if (whole) out.conditions.push_back(allOf(m, w, c));
+    if (!asked) continue;
+    for (const uint32_t z : condition.zones) judge.zone(z, statistics(m.zones[z], w.rows.data()), condition.weight);
+    for (const uint32_t e : condition.eyes) judge.eye(e, ugrAt(m, w, c, e), condition.weight);
+    for (const uint32_t q : condition.ratios) judge.ratio(q, ratioOf(m, w.rows.data(), q), condition.weight);
     judge.endCondition(condition.weight);
   }
-  addCosts(m, lamps, design, r);
-  r.missPercent = judge.missPercent(), r.unevenness = judge.unevenness(), r.glare = judge.glare();
-  for (size_t k = 0; k < m.objectives.size(); ++k) out[k] = r.of(m.objectives[k]);
+  addCosts(m, w.lamps, design, out);
+  out.missPercent = judge.missPercent(), out.unevenness = judge.unevenness(), out.glare = judge.glare();
+  return out;
 }
 
 }  // namespace
@@ -149,41 +160,25 @@ double DesignResult::of(Objective objective) const {
 }
 
 std::vector<float> rowsOf(const Model& m, search::ConstGenome design, size_t condition) {
-  std::vector<float> rows(m.rows);
-  sumUp(m, chosenLamps(m, design), design, condition, rows.data());
-  return rows;
+  Workspace w;
+  w.lamps = chosenLamps(m, design);
+  sumUp(m, design, condition, w);
+  return w.rows;
 }
 
 DesignResult resultOf(const Model& m, search::ConstGenome design) {
-  const std::vector<ChosenLamp> lamps = chosenLamps(m, design);
-  DesignResult out;
-  Judge judge(m);
-  for (size_t c = 0; c < m.conditions.size(); ++c) {
-    const ModelCondition& condition = m.conditions[c];
-    const std::vector<float> rows = rowsOf(m, design, c);
-    ConditionResult r;
-    for (const ModelZone& z : m.zones) r.zones.push_back(statistics(z, rows.data()));
-    for (size_t e = 0; e < m.eyes.size(); ++e) r.ugr.push_back(ugrOf(m, lamps, design, c, e, static_cast<double>(rows[m.firstEye + e])));
-    for (size_t q = 0; q < m.ratios.size(); ++q) r.ratios.push_back(ratioOf(m, rows.data(), q));
-    for (const ChosenLamp& lamp : lamps) r.wattsW += dimmingOf(m, design, lamp, c) * m.options[lamp.option].wattsW;
-    if (!condition.zones.empty() || !condition.eyes.empty() || !condition.ratios.empty()) {
-      for (const uint32_t z : condition.zones) judge.zone(z, r.zones[z], condition.weight);
-      for (const uint32_t e : condition.eyes) judge.eye(e, r.ugr[e], condition.weight);
-      for (const uint32_t q : condition.ratios) judge.ratio(q, r.ratios[q], condition.weight);
-      judge.endCondition(condition.weight);
-    }
-    out.conditions.push_back(std::move(r));
-  }
-  addCosts(m, lamps, design, out);
-  out.missPercent = judge.missPercent(), out.unevenness = judge.unevenness(), out.glare = judge.glare();
-  return out;
+  Workspace w;
+  return judged(m, design, w, true);
 }
 
 void evaluateAll(const Model& m, const search::Genomes& designs, std::span<double> objectives) {
   const size_t each = m.objectives.size();
   parallelRanges(designs.count, 16, [&](size_t begin, size_t end) {
-    std::vector<float> rows(m.rows);
-    for (size_t i = begin; i < end; ++i) objectivesOf(m, designs[i], rows, objectives.subspan(i * each, each));
+    Workspace w;
+    for (size_t i = begin; i < end; ++i) {
+      const DesignResult r = judged(m, designs[i], w, false);
+      for (size_t k = 0; k < each; ++k) objectives[i * each + k] = r.of(m.objectives[k]);
+    }
   });
 }
 
@@ -197,16 +192,19 @@ search::Problem problemOf(const Model& m) {
   problem.objectives = m.objectives.size();
   problem.evaluate = [&m](const search::Genomes& designs, std::span<double> objectives) { evaluateAll(m, designs, objectives); };
   problem.repair = [&m](search::Genome design) { repair(m, design); };
-  if (m.levels() > 0) problem.polish = [&m](search::Genome design, const search::Wish& wish) { return polish(m, design, wish); };
+  problem.draw = [&m](size_t count, uint64_t seed, size_t generation) { return sparseDesigns(m, count, seed, generation); };
+  // Dimming helps targets only.
+  const bool targets = std::find(m.objectives.begin(), m.objectives.end(), Objective::TargetMiss) != m.objectives.end();
+  if (m.levels() > 0 && targets) problem.polish = [&m](search::Genome design, const search::Wish& wish) { return polish(m, design, wish); };
   return problem;
 }
 
-search::Genomes sparseDesigns(const Model& m, size_t count, uint64_t seed) {
+search::Genomes sparseDesigns(const Model& m, size_t count, uint64_t seed, size_t generation) {
   search::Genomes out;
   out.integersEach = m.places(), out.realsEach = m.places() * m.levels();
   out.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    Rng random(i, 0, seed);
+    Rng random(i, generation, seed);
     const double share = (static_cast<double>(i) + 1) / static_cast<double>(count);
     for (size_t p = 0; p < m.places(); ++p) {
       const uint32_t options = m.firstOption[p + 1] - m.firstOption[p];

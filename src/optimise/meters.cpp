@@ -33,6 +33,7 @@ Result<Meters> placeMeters(const StudyFile& study, const RayScene& rays) {
   for (const Zone& z : study.zones) {
     ZonePoints points;
     points.lattice = latticeOf(z);
+    if (out.elements.size() + points.lattice.count() > kMostPoints) return Error{fmt::format("{}:{}: zone '{}': there are more than {} points; set 'spacing' larger", study.file.string(), z.line, z.name, kMostPoints)};
     points.leftOut = leaveOutThings(rays, points.lattice);
     points.first = out.elements.size();
     for (const SurfaceElement& e : points.lattice.elements()) out.elements.push_back(e);

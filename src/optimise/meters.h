@@ -27,6 +27,8 @@ struct Meters {
   size_t points() const { return firstEye; }
 };
 
+constexpr size_t kMostPoints = 20'000;  // of all zones
+
 // The error names the file's line.
 Result<Meters> placeMeters(const StudyFile& study, const RayScene& rays);
 

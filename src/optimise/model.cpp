@@ -9,6 +9,8 @@
 namespace roomlight::optimise {
 namespace {
 
+constexpr double kLeastBackgroundCdM2 = 1e-6;
+
 size_t padded(size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
 
 // Rows of light on all elements, in the layout of columns.
@@ -138,5 +140,26 @@ double dimmingOf(const Model& model, search::ConstGenome design, ChosenLamp lamp
   if (!model.options[lamp.option].dimmable) return d >= 0.5 ? 1 : 0;
   return d < kOff ? 0 : d;
 }
+
+void levelsOf(const Model& model, std::span<const ChosenLamp> lamps, search::ConstGenome design, size_t condition, std::vector<double>& levels) {
+  levels.clear();
+  for (const ChosenLamp& lamp : lamps) levels.push_back(dimmingOf(model, design, lamp, condition));
+}
+
+double glareAt(const Model& model, std::span<const ChosenLamp> lamps, std::span<const double> levels, size_t condition, size_t eye) {
+  double sum = model.baseGlare[condition * model.eyes.size() + eye];
+  for (size_t i = 0; i < lamps.size(); ++i) sum += levels[i] * levels[i] * model.glare[lamps[i].option * model.eyes.size() + eye];
+  return sum;
+}
+
+double backgroundAt(const Model& model, std::span<const ChosenLamp> lamps, std::span<const double> levels, size_t condition, size_t eye) {
+  double sum = static_cast<double>(model.baseOf(condition)[model.firstEye + eye]);
+  for (size_t i = 0; i < lamps.size(); ++i) sum += levels[i] * static_cast<double>(model.column(lamps[i].option)[model.firstEye + eye]);
+  return sum;
+}
+
+double ugrOf(double glare, double backgroundCdM2) { return glare > 0 ? std::max(0.0, 8 * std::log10(0.25 * glare / std::max(backgroundCdM2, kLeastBackgroundCdM2))) : 0; }
+
+double glareOfUgr(double ugr) { return 4 * std::pow(10, ugr / 8); }
 
 }  // namespace roomlight::optimise

@@ -10,6 +10,7 @@
 
 namespace roomlight::optimise {
 
+constexpr double kHoursAYear = 8760;
 constexpr size_t kLanes = 8;  // floats that are summed side by side; columns are padded to them
 
 struct ModelOption {
@@ -82,5 +83,14 @@ struct ChosenLamp {
 std::vector<ChosenLamp> chosenLamps(const Model& model, search::ConstGenome design);
 // Share of full light of a chosen lamp in a condition, 0 to 1.
 double dimmingOf(const Model& model, search::ConstGenome design, ChosenLamp lamp, size_t condition);
+// The same of all lamps, into `levels`.
+void levelsOf(const Model& model, std::span<const ChosenLamp> lamps, search::ConstGenome design, size_t condition, std::vector<double>& levels);
+
+// What an eye sees in a condition with lamps at these levels: Σ L² ω / p², and the background in cd/m².
+double glareAt(const Model& model, std::span<const ChosenLamp> lamps, std::span<const double> levels, size_t condition, size_t eye);
+double backgroundAt(const Model& model, std::span<const ChosenLamp> lamps, std::span<const double> levels, size_t condition, size_t eye);
+// UGR of the two, at least 0; and what of the first there may be for a cd/m² of the second.
+double ugrOf(double glare, double backgroundCdM2);
+double glareOfUgr(double ugr);
 
 }  // namespace roomlight::optimise

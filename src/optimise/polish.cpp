@@ -1,146 +1,152 @@
 #include "optimise/polish.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "search/dimming.h"
+#include "optimise/dimming_program.h"
+#include "optimise/evaluate.h"
 
 namespace roomlight::optimise {
 namespace {
 
-constexpr size_t kDarkPoints = 6;       // of a zone, whose uniformity is asked for
-constexpr double kLeastWeight = 1e-6;   // of objectives that were not asked for: among equals, less energy is better
-constexpr double kSame = 1e-12;
+constexpr int kMostCuts = 4;        // programs that one climb may solve
+constexpr int kHalvings = 30;       // of the way to a limit of glare
+constexpr double kRounding = 1e-9;  // relative
 
-// One linear program: dimming of lamps in some conditions at once, and how far goals are missed.
-class Program {
+// Common dimming is one program, else each condition has its own.
+size_t programsOf(const Model& m) { return m.dimming == Dimming::Common ? 1 : m.conditions.size(); }
+
+std::vector<double> between(const std::vector<double>& a, const std::vector<double>& b, double t) {
+  std::vector<double> out(a.size());
+  for (size_t i = 0; i < a.size(); ++i) out[i] = a[i] + t * (b[i] - a[i]);
+  return out;
+}
+
+// The levels that one program is for. UGR keeps its limit where f(d) = Σ L² ω / p² - k · background <= 0, which is convex: the best without it is
+// found first; where that glares, the way there from levels that do not ends on the limit, and the tangent there cuts the program's corner off (supporting
+// hyperplanes: Veinott 1967).
+class Polisher {
  public:
-  Program(const Model& m, search::ConstGenome design, std::vector<ChosenLamp> lamps) : m_(m), design_(design), lamps_(std::move(lamps)) {}
+  Polisher(const Model& m, search::Genome design, const search::Wish& wish, const std::vector<ChosenLamp>& lamps, size_t k)
+      : m_(m), design_(design), wish_(wish), lamps_(lamps), k_(k), first_(programsOf(m) == 1 ? 0 : k), end_(programsOf(m) == 1 ? m.conditions.size() : k + 1), program_(m, lamps, {first_, end_, true}) {
+    const LinearWeights weights = linearWeights(m, wish);
+    program_.addCosts(weights, 1 / static_cast<double>(programsOf(m)));
+    program_.addGoals(weights);
+    program_.addRatios();
+    levelsOf(m, lamps, design, first_, now_);
+  }
 
-  // Lamps' columns come first.
-  void begin(std::span<const double> costs) {
-    p_.cost.assign(costs.begin(), costs.end());
-    p_.upper.assign(costs.size(), 1);
-  }
-  // What is missing of each goal of a condition, as a share, costs this much.
-  void addGoals(size_t c, double costOfMiss) {
-    const ModelCondition& condition = m_.conditions[c];
-    for (const uint32_t z : condition.zones) {
-      const ModelZone& zone = m_.zones[z];
-      if (zone.meanLux > 0) {
-        Row row = lampsRow([&](uint32_t o) { return m_.means[o * m_.zones.size() + z]; });
-        row.least = zone.meanLux - m_.baseMeans[c * m_.zones.size() + z];
-        addSlack(row, zone.meanLux, costOfMiss * zone.weight);
-      }
-      if (zone.meanLux > 0 && zone.u0 > 0) addDarkPoints(c, zone, costOfMiss * zone.weight);
-    }
-  }
-  // Glare and ratios stay where they are or below their limits. d² <= d makes this linear, on the safe side.
-  void addBounds(size_t c, std::span<const double> ugrNow) {
-    const ModelCondition& condition = m_.conditions[c];
-    for (const uint32_t e : condition.eyes) {
-      const double k = 4 * std::pow(10, std::max(m_.eyes[e].ugr, ugrNow[e]) / 8);
-      Row row = lampsRow([&](uint32_t o) { return m_.glare[o * m_.eyes.size() + e] - k * static_cast<double>(m_.column(o)[m_.firstEye + e]); });
-      row.most = k * static_cast<double>(m_.baseOf(c)[m_.firstEye + e]) - m_.baseGlare[c * m_.eyes.size() + e];
-      if (row.most >= 0) rows_.push_back(std::move(row));
-    }
-    for (const uint32_t q : condition.ratios) {
-      const size_t task = m_.firstSeen + 2 * q, surround = task + 1;
-      const double k = m_.ratios[q].most;
-      Row row = lampsRow([&](uint32_t o) { return static_cast<double>(m_.column(o)[task]) - k * static_cast<double>(m_.column(o)[surround]); });
-      row.most = k * static_cast<double>(m_.baseOf(c)[surround]) - static_cast<double>(m_.baseOf(c)[task]);
-      if (row.most >= 0) rows_.push_back(std::move(row));
-    }
-  }
-  Result<search::LinearSolution> solve() {
-    p_.a.rows = rows_.size(), p_.a.columns = p_.cost.size();
-    p_.a.values.assign(p_.a.rows * p_.a.columns, 0);
-    for (size_t r = 0; r < rows_.size(); ++r) {
-      std::copy(rows_[r].lamps.begin(), rows_[r].lamps.end(), p_.a.row(r).begin());
-      if (rows_[r].slack > 0) p_.a.row(r)[rows_[r].slackColumn] = rows_[r].slack;
-      p_.atLeast.push_back(rows_[r].least), p_.atMost.push_back(rows_[r].most);
-    }
-    return search::minimise(p_);
+  // Leaves the best in the design. Returns the cost in evaluations.
+  size_t run() {
+    const std::vector<double> limits = limitsOfGlare(), now = limitsOrNow(limits);
+    switchLamps();
+    climb(now);
+    if (now != limits) climb(limits);
+    if (!best_.empty()) put(best_);
+    return cost_;
   }
 
  private:
-  struct Row {
-    std::vector<double> lamps;
-    double slack = 0, least = -search::kUnbounded, most = search::kUnbounded;
-    size_t slackColumn = 0;
-  };
+  // Calls see(condition, eye, number) for eyes that are judged.
+  template <class See>
+  void eachEye(const See& see) const {
+    size_t number = 0;
+    for (size_t c = first_; c < end_; ++c) {
+      for (const uint32_t e : m_.conditions[c].eyes) see(c, e, number++);
+    }
+  }
+  // Σ L² ω / p² for a cd/m² of background at most, of every judged eye.
+  std::vector<double> limitsOfGlare() const {
+    std::vector<double> out;
+    eachEye([&](size_t, uint32_t e, size_t) { out.push_back(glareOfUgr(m_.eyes[e].ugr)); });
+    return out;
+  }
+  // As it is now where that is more.
+  std::vector<double> limitsOrNow(std::vector<double> limits) const {
+    eachEye([&](size_t c, uint32_t e, size_t i) {
+      const double background = backgroundAt(m_, lamps_, now_, c, e);
+      if (background > 0) limits[i] = std::max(limits[i], glareAt(m_, lamps_, now_, c, e) / background * (1 + kRounding));
+    });
+    return limits;
+  }
+  bool within(const std::vector<double>& levels, const std::vector<double>& limits) const {
+    bool all = true;
+    eachEye([&](size_t c, uint32_t e, size_t i) { all = all && glareAt(m_, lamps_, levels, c, e) <= limits[i] * backgroundAt(m_, lamps_, levels, c, e) * (1 + kRounding); });
+    return all;
+  }
+  // How far from `inside` towards `to` the limits hold.
+  double reach(const std::vector<double>& inside, const std::vector<double>& to, const std::vector<double>& limits) const {
+    if (within(to, limits)) return 1;
+    double low = 0, high = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = (low + high) / 2;
+      (within(between(inside, to, middle), limits) ? low : high) = middle;
+    }
+    return low;
+  }
+  // The levels now, those that can be dimmed so far that the limits hold; empty where that is not enough.
+  std::vector<double> dimmedWithin(const std::vector<double>& limits) const {
+    std::vector<double> dark = now_;
+    for (size_t i = 0; i < lamps_.size(); ++i) dark[i] = canBeDimmed(i) ? 0 : now_[i];
+    if (!within(dark, limits) && !within(now_, limits)) return {};
+    return within(now_, limits) ? now_ : between(dark, now_, reach(dark, now_, limits));
+  }
 
-  template <class Value>
-  Row lampsRow(const Value& value) const {
-    Row row;
-    for (const ChosenLamp& l : lamps_) row.lamps.push_back(value(l.option));
-    return row;
-  }
-  void addSlack(Row row, double whole, double cost) {
-    if (row.least <= 0) return;  // met without any lamp
-    row.slack = whole, row.slackColumn = p_.cost.size();
-    p_.cost.push_back(cost), p_.upper.push_back(1);
-    rows_.push_back(std::move(row));
-  }
-  // The points that are darkest with all lamps full share one slack.
-  void addDarkPoints(size_t c, const ModelZone& zone, double cost) {
-    std::vector<std::pair<float, size_t>> points;
-    for (size_t r = zone.first; r < zone.first + zone.count; ++r) {
-      float lux = m_.baseOf(c)[r];
-      for (const ChosenLamp& l : lamps_) lux += m_.column(l.option)[r];
-      points.emplace_back(lux, r);
-    }
-    const size_t n = std::min(kDarkPoints, points.size());
-    std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(n), points.end());
-    const size_t column = p_.cost.size();
+  bool canBeDimmed(size_t lamp) const { return m_.options[lamps_[lamp].option].dimmable; }
+  // Lamps that are either on or off are rounded once, then the others follow.
+  void switchLamps() {
     bool any = false;
-    for (size_t k = 0; k < n; ++k) {
-      const size_t r = points[k].second;
-      Row row = lampsRow([&](uint32_t o) { return static_cast<double>(m_.column(o)[r]); });
-      row.least = zone.u0 * zone.meanLux - static_cast<double>(m_.baseOf(c)[r]);
-      if (row.least <= 0) continue;
-      row.slack = zone.u0 * zone.meanLux, row.slackColumn = column, any = true;
-      rows_.push_back(std::move(row));
+    for (size_t i = 0; i < lamps_.size(); ++i) any = any || !canBeDimmed(i);
+    if (!any) return;
+    const std::vector<double> x = solve(program_);
+    for (size_t i = 0; i < x.size(); ++i) {
+      if (canBeDimmed(i)) continue;
+      now_[i] = x[i] >= 0.5 ? 1 : 0;
+      program_.fix(i, x[i] >= 0.5);
     }
-    if (any) p_.cost.push_back(cost), p_.upper.push_back(1);
+  }
+  // Empty where there is no solution.
+  std::vector<double> solve(const DimmingProgram& program) {
+    cost_ += program.costOfSolving();
+    Result<std::vector<double>> x = program.solve();
+    return x ? std::move(x.value()) : std::vector<double>();
+  }
+  void climb(const std::vector<double>& limits) {
+    const std::vector<double> inside = dimmedWithin(limits);
+    DimmingProgram program = program_;
+    for (int i = 0; i < kMostCuts && !inside.empty(); ++i) {
+      const std::vector<double> best = solve(program);
+      if (best.empty()) return;
+      const double far = reach(inside, best, limits);
+      const std::vector<double> levels = between(inside, best, far);
+      offer(levels);
+      if (far >= 1) return;
+      eachEye([&](size_t c, uint32_t e, size_t number) { program.addGlareCut(c, e, limits[number], levels); });
+    }
+  }
+
+  void put(const std::vector<double>& levels) {
+    for (size_t i = 0; i < lamps_.size(); ++i) design_.reals[lamps_[i].place * m_.levels() + k_] = std::clamp(levels[i], 0.0, 1.0);
+  }
+  // Of all that were offered the one stays that is best by the objectives themselves.
+  void offer(const std::vector<double>& levels) {
+    put(levels);
+    const DesignResult result = resultOf(m_, design_);
+    double sum = 0;
+    for (size_t o = 0; o < m_.objectives.size(); ++o) sum += wish_.weights[o] * result.of(m_.objectives[o]);
+    ++cost_;
+    if (best_.empty() || sum < least_) best_ = levels, least_ = sum;
   }
 
   const Model& m_;
-  search::ConstGenome design_;
-  std::vector<ChosenLamp> lamps_;
-  search::LinearProgram p_;
-  std::vector<Row> rows_;
+  search::Genome design_;
+  const search::Wish& wish_;
+  const std::vector<ChosenLamp>& lamps_;
+  size_t k_, first_, end_;  // the level of each lamp that is polished; its conditions
+  DimmingProgram program_;
+  std::vector<double> now_, best_;
+  double least_ = 0;
+  size_t cost_ = 0;
 };
-
-// All that is asked weighs together, as in Judge of evaluate.cpp.
-double weightOfGoals(const Model& m) {
-  double sum = 0;
-  for (const ModelCondition& c : m.conditions) {
-    for (const uint32_t z : c.zones) sum += c.weight * m.zones[z].weight * ((m.zones[z].meanLux > 0) + (m.zones[z].u0 > 0));
-    sum += c.weight * static_cast<double>(c.eyes.size() + c.ratios.size());
-  }
-  return sum;
-}
-
-double weightOf(const Model& m, const search::Wish& wish, Objective objective) {
-  for (size_t k = 0; k < m.objectives.size(); ++k) {
-    if (m.objectives[k] == objective) return wish.weights[k];
-  }
-  return 0;
-}
-
-std::vector<double> ugrNow(const Model& m, std::span<const ChosenLamp> lamps, search::ConstGenome design, size_t c) {
-  std::vector<double> out;
-  for (size_t e = 0; e < m.eyes.size(); ++e) {
-    double glare = m.baseGlare[c * m.eyes.size() + e], background = static_cast<double>(m.baseOf(c)[m.firstEye + e]);
-    for (const ChosenLamp& l : lamps) {
-      const double d = dimmingOf(m, design, l, c);
-      glare += d * d * m.glare[l.option * m.eyes.size() + e], background += d * static_cast<double>(m.column(l.option)[m.firstEye + e]);
-    }
-    out.push_back(glare > 0 && background > 0 ? std::max(0.0, 8 * std::log10(0.25 * glare / background)) : 0);
-  }
-  return out;
-}
 
 // Lamps of the design, with those that are off: dimming may light them.
 std::vector<ChosenLamp> hungLamps(const Model& m, search::ConstGenome design) {
@@ -154,37 +160,11 @@ std::vector<ChosenLamp> hungLamps(const Model& m, search::ConstGenome design) {
 }  // namespace
 
 size_t polish(const Model& m, search::Genome design, const search::Wish& wish) {
-  const double ofMiss = weightOf(m, wish, Objective::TargetMiss), ofEnergy = weightOf(m, wish, Objective::Energy), goals = weightOfGoals(m);
-  const double ofCost = weightOf(m, wish, Objective::Cost), ofFittings = weightOf(m, wish, Objective::Fittings);
   const std::vector<ChosenLamp> lamps = chosenLamps(m, design);
-  if (lamps.empty() || !(ofMiss > 0) || !(goals > 0)) return 0;
-  const double least = kLeastWeight * ofMiss;
-  const size_t levels = m.levels(), programs = m.dimming == Dimming::Common ? 1 : m.conditions.size();
-  size_t work = 0;
-  std::vector<double> reals(design.reals.begin(), design.reals.end());
-  for (size_t k = 0; k < programs; ++k) {
-    const size_t first = programs == 1 ? 0 : k, end = programs == 1 ? m.conditions.size() : k + 1;
-    Program program(m, design, lamps);
-    std::vector<double> costs;
-    for (const ChosenLamp& l : lamps) {
-      double kWh = 0;
-      for (size_t c = first; c < end; ++c) kWh += m.conditions[c].hours * m.options[l.option].wattsW / 1000;
-      // A lamp costs its price once it is lit at all; the linear relaxation of that is a price in proportion to its light.
-      const double bought = (ofCost * m.options[l.option].price + ofFittings) / static_cast<double>(programs);
-      costs.push_back(std::max(ofEnergy, least) * std::max(kWh, kSame) + bought);
-    }
-    program.begin(costs);
-    for (size_t c = first; c < end; ++c) {
-      program.addGoals(c, ofMiss * 100 * m.conditions[c].weight / goals);
-      program.addBounds(c, ugrNow(m, lamps, design, c));
-    }
-    const auto solution = program.solve();
-    ++work;
-    if (!solution) continue;
-    for (size_t i = 0; i < lamps.size(); ++i) reals[lamps[i].place * levels + (levels == 1 ? 0 : k)] = std::clamp(solution.value().x[i], 0.0, 1.0);
-  }
-  std::copy(reals.begin(), reals.end(), design.reals.begin());
-  return work * kEvaluationsAProgram;
+  if (m.levels() == 0 || lamps.empty() || !(linearWeights(m, wish).miss > 0) || !(weightOfGoals(m) > 0)) return 0;
+  size_t cost = 0;
+  for (size_t k = 0; k < programsOf(m); ++k) cost += Polisher(m, design, wish, lamps, k).run();
+  return cost;
 }
 
 Result<LeastWatts> leastWatts(const Model& m, search::ConstGenome design, size_t condition) {

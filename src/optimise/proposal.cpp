@@ -16,8 +16,59 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kTolerance = 0.003;  // of the full solution's meters
-constexpr int kMostSamples = 1 << 13;
+std::string fileNameOf(const std::string& name) {
+  std::string out;
+  for (const char c : name) out += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
+  return out;
+}
+
+// Of base light and what lamps as new add to it, the sum with the maintenance factor.
+float maintained(float base, float all, double maintenance) { return base + (all - base) * static_cast<float>(maintenance); }
+
+// UGR of the full solution with lamps' light times the maintenance factor; below 0: there is none.
+double maintainedUgr(const StudyFile& study, const Model& m, const GlareReading& g, size_t condition, size_t eye) {
+  if (!g.ugr) return -1;
+  if (study.maintenance >= 1 || *g.ugr <= 0) return *g.ugr;
+  const double f = study.maintenance, glare = glareOfUgr(*g.ugr) * g.backgroundCdM2, base = m.baseGlare[condition * m.eyes.size() + eye];
+  const double background = static_cast<double>(maintained(m.baseOf(condition)[m.firstEye + eye], static_cast<float>(g.backgroundCdM2), f));
+  return ugrOf(base + (glare - base) * f * f, background);
+}
+
+std::vector<double> ugrsOf(const LitScene& lit, const StudyFile& study, const Model& model, size_t condition) {
+  std::vector<GlarePlan> eyes;
+  for (const Eye& e : study.eyes) {
+    GlarePlan plan;
+    plan.name = e.name, plan.position = e.position, plan.direction = e.direction;
+    eyes.push_back(plan);
+  }
+  std::vector<std::string> ignored;
+  std::vector<double> out;
+  for (const GlareReading& g : readGlares(lit, eyes, MeterSettings(), {}, ignored)) out.push_back(maintainedUgr(study, model, g, condition, out.size()));
+  return out;
+}
+
+// Lamps as new: the maintenance factor is of targets.
+std::vector<float> predictedLux(const StudyFile& study, const Model& model, search::ConstGenome design, size_t condition) {
+  std::vector<float> out;
+  const std::vector<float> rows = rowsOf(model, design, condition);
+  for (const ModelZone& z : model.zones) {
+    const auto lamplit = pointsOf(z, rows), base = pointsOf(z, {model.baseOf(condition), model.rows});
+    for (size_t i = 0; i < lamplit.size(); ++i) out.push_back(maintained(base[i], lamplit[i], 1 / study.maintenance));
+  }
+  return out;
+}
+
+void compare(Certificate::OfCondition& r) {
+  double sum = 0;
+  for (size_t i = 0; i < r.fullLux.size(); ++i) {
+    const auto full = static_cast<double>(r.fullLux[i]);
+    if (full < kJudgedLux) continue;
+    const double off = 100 * std::abs(static_cast<double>(r.predictedLux[i]) / full - 1);
+    if (off >= r.maxPercent) r.maxPercent = off, r.uncertainPercent = 100 * static_cast<double>(r.fullErrorLux[i]) / full;
+    sum += off, ++r.judged;
+  }
+  r.meanPercent = r.judged ? sum / static_cast<double>(r.judged) : 0;
+}
 
 }  // namespace
 
@@ -56,24 +107,35 @@ Result<std::string> lightingFileOf(const StudyFile& study, const json& lamps, co
   return document.value().dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-std::string fileNameOf(const std::string& name) {
-  std::string out;
-  for (const char c : name) out += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
+std::vector<std::string> fileNamesOf(const std::vector<Condition>& conditions) {
+  std::vector<std::string> out;
+  for (const Condition& c : conditions) {
+    const std::string plain = fileNameOf(c.name);
+    std::string name = plain;
+    for (int number = 2; std::find(out.begin(), out.end(), name) != out.end(); ++number) name = fmt::format("{}_{}", plain, number);
+    out.push_back(name);
+  }
   return out;
 }
 
-double Certificate::maxPercent() const {
-  double most = 0;
-  for (const OfCondition& c : conditions) most = std::max(most, c.maxPercent);
-  return most;
+const Certificate::OfCondition& Certificate::worst() const {
+  return *std::max_element(conditions.begin(), conditions.end(), [](const OfCondition& a, const OfCondition& b) { return a.maxPercent < b.maxPercent; });
+}
+
+std::string largestDifference(const Certificate::OfCondition& c) { return fmt::format("largest {:.2f} % (full solution uncertain by {:.2f} % there)", c.maxPercent, c.uncertainPercent); }
+
+std::vector<float> maintainedLux(const StudyFile& study, const Model& model, const Certificate::OfCondition& c, size_t condition) {
+  std::vector<float> out;
+  for (const ModelZone& z : model.zones) {
+    for (const float base : pointsOf(z, {model.baseOf(condition), model.rows})) out.push_back(maintained(base, c.fullLux[out.size()], study.maintenance));
+  }
+  return out;
 }
 
 Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& study, const Candidates& candidates, const Meters& meters, const Model& model, search::ConstGenome design,
                                            std::span<const Camera> cameras, const RenderSettings& render, Stages& stages) {
   const Stopwatch watch;
   Certificate out;
-  MeterSettings tight;
-  tight.tolerance = kTolerance, tight.mostSamples = kMostSamples, tight.seed = render.seed + 1;
   const std::span<const SurfaceElement> points = std::span(meters.elements).first(meters.points());
   for (size_t c = 0; c < study.conditions.size(); ++c) {
     const Result<Scene> scene = litBy(home, study, study.conditions[c].daylight, lampsOf(study, candidates, model, design, c), true);
@@ -82,33 +144,16 @@ Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& s
     if (!lit) return Error{lit.error()};
     if (!lit.value()) return std::optional<Certificate>();
     Certificate::OfCondition r;
-    const auto readings = stages.run("certify: " + study.conditions[c].name, [&](const Progress& p) { return lit.value()->illuminance(points, tight, p); });
-    for (const MeterReading& m : readings) r.fullLux.push_back(luminance(m.illuminanceLux));
-    std::vector<GlarePlan> eyes;
-    for (const Eye& e : study.eyes) {
-      GlarePlan plan;
-      plan.name = e.name, plan.position = e.position, plan.direction = e.direction;
-      eyes.push_back(plan);
-    }
-    std::vector<std::string> ignored;
-    for (const GlareReading& g : readGlares(*lit.value(), eyes, MeterSettings(), {}, ignored)) r.fullUgr.push_back(g.ugr.value_or(-1));
+    // Other random numbers than those the response was found with.
+    const auto readings = stages.run("certify: " + study.conditions[c].name, [&](const Progress& p) { return lit.value()->illuminance(points, fullMeters(render.seed + 1), p); });
+    for (const MeterReading& m : readings) r.fullLux.push_back(luminance(m.illuminanceLux)), r.fullErrorLux.push_back(static_cast<float>(m.standardErrorLux));
+    r.fullUgr = ugrsOf(*lit.value(), study, model, c);
     if (stages.cancelled()) return std::optional<Certificate>();
     for (const Camera& camera : c == 0 ? cameras : std::span<const Camera>()) {
       out.pictures.push_back(stages.run("picture", [&](const Progress& p) { return lit.value()->picture(camera, kPictureWidth, kPictureHeight, p); }));
     }
-    const std::vector<float> rows = rowsOf(model, design, c);
-    for (size_t z = 0; z < model.zones.size(); ++z) {
-      const auto lamplit = pointsOf(model.zones[z], rows), base = pointsOf(model.zones[z], {model.baseOf(c), model.rows});
-      // Lamps as new: the maintenance factor is of targets.
-      for (size_t i = 0; i < lamplit.size(); ++i) r.predictedLux.push_back(base[i] + (lamplit[i] - base[i]) / static_cast<float>(study.maintenance));
-    }
-    double sum = 0;
-    for (size_t i = 0; i < r.fullLux.size(); ++i) {
-      if (static_cast<double>(r.fullLux[i]) < kJudgedLux) continue;
-      const double off = 100 * std::abs(static_cast<double>(r.predictedLux[i]) / static_cast<double>(r.fullLux[i]) - 1);
-      sum += off, r.maxPercent = std::max(r.maxPercent, off), ++r.judged;
-    }
-    r.meanPercent = r.judged ? sum / static_cast<double>(r.judged) : 0;
+    r.predictedLux = predictedLux(study, model, design, c);
+    compare(r);
     out.conditions.push_back(std::move(r));
   }
   out.seconds = watch.seconds();

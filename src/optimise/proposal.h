@@ -25,22 +25,29 @@ nlohmann::json lampsOf(const StudyFile& study, const Candidates& candidates, con
 // A whole lighting file: the study's fixed lighting, the condition's daylight, the design's lamps. Photometric files by absolute path.
 Result<std::string> lightingFileOf(const StudyFile& study, const nlohmann::json& lamps, const nlohmann::json& daylight);
 
-// Letters and digits of a name, lower case, others as _: fit for a file.
-std::string fileNameOf(const std::string& name);
+// Of each condition: letters and digits of its name, lower case, others as _, and a number where that is taken.
+std::vector<std::string> fileNamesOf(const std::vector<Condition>& conditions);
 
 // How far the prediction is from the full solution, over the points of all zones.
 struct Certificate {
   struct OfCondition {
-    std::vector<float> fullLux, predictedLux;  // per point of the meters
+    std::vector<float> fullLux, predictedLux;  // per point of the meters, lamps as new
+    std::vector<float> fullErrorLux;           // standard errors of fullLux
     double maxPercent = 0, meanPercent = 0;    // of points with at least kJudgedLux in the full solution
+    double uncertainPercent = 0;               // standard error of the full solution at the point of maxPercent
     size_t judged = 0;
-    std::vector<double> fullUgr;               // per eye; below 0: cannot be judged
+    std::vector<double> fullUgr;               // per eye, with the maintenance factor; below 0: cannot be judged
   };
   std::vector<OfCondition> conditions;
   std::vector<Image> pictures;  // of the cameras, in the first condition; linear, cd/m²
   double seconds = 0;
-  double maxPercent() const;
+  const OfCondition& worst() const;  // with the largest difference
 };
+// "largest 4.1 % (full solution uncertain by 1.2 % there)"
+std::string largestDifference(const Certificate::OfCondition& c);
+// What goals are judged by at every point: the full solution with the maintenance factor.
+std::vector<float> maintainedLux(const StudyFile& study, const Model& model, const Certificate::OfCondition& c, size_t condition);
+
 constexpr double kJudgedLux = 1;
 constexpr int kPictureWidth = 640, kPictureHeight = 360;
 

@@ -1,6 +1,7 @@
 // What a run found, for people and programs.
 #pragma once
 
+#include "optimise/objective_box.h"
 #include "optimise/proposal.h"
 #include "search/methods.h"
 
@@ -37,20 +38,14 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> facts;
   double responseSeconds = 0, baseSeconds = 0;  // 0: known from before
   double designsASecond = 0;                    // evaluated
+  double lookUpsASecond = 0;                    // of a design's neighbours on the front, as a surrogate would (timing.h)
 };
-
-// The corner of objective space beyond which nothing counts, and the best that could be.
-struct ObjectiveBox {
-  std::vector<double> ideal, reference;
-};
-ObjectiveBox boxOf(const Model& model);
-double hypervolumeOf(const Model& model, const search::Archive& front);
 
 // One page on its own; `home` is drawn.
 Result<std::string> reportHtml(const Report& report, const Scene& home);
 // Every design of the front: objectives, watts, each place's luminaire and dimming.
 std::string frontCsv(const Report& report);
-// Every point of every design that was solved in full: predicted and full lux.
+// Every point of every design that was solved in full: predicted and full lux, and how certain that is.
 std::string pointsCsv(const Report& report);
 // How it went, for scripts: times, methods with their traces, certificates, and the exact least watts where that can be asked.
 std::string runJson(const Report& report);

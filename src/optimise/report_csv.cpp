@@ -35,7 +35,7 @@ std::string frontCsv(const Report& r) {
 }
 
 std::string pointsCsv(const Report& r) {
-  std::string s = "design,condition,zone,x,y,z,predicted lx,full lx,difference %\n";
+  std::string s = "design,condition,zone,x,y,z,predicted lx,full lx,difference %,standard error of full lx\n";
   for (size_t d = 0; d < r.designs.size(); ++d) {
     if (!r.designs[d].certificate) continue;
     for (size_t c = 0; c < r.study.conditions.size(); ++c) {
@@ -43,7 +43,7 @@ std::string pointsCsv(const Report& r) {
       for (size_t z = 0; z < r.study.zones.size(); ++z) {
         for (size_t i = r.meters.zones[z].first; i < r.meters.zones[z].first + r.meters.zones[z].count; ++i) {
           const Vec3 p = r.meters.elements[i].position;
-          s += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{:.5g},{:.5g},{:.2f}\n", d + 1, csvText(r.study.conditions[c].name), csvText(r.study.zones[z].name), p.x, p.y, p.z, k.predictedLux[i], k.fullLux[i], k.fullLux[i] > 0 ? 100 * (k.predictedLux[i] / k.fullLux[i] - 1) : 0);
+          s += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{:.5g},{:.5g},{:.2f},{:.3g}\n", d + 1, csvText(r.study.conditions[c].name), csvText(r.study.zones[z].name), p.x, p.y, p.z, k.predictedLux[i], k.fullLux[i], k.fullLux[i] > 0 ? 100 * (k.predictedLux[i] / k.fullLux[i] - 1) : 0, k.fullErrorLux[i]);
         }
       }
     }

@@ -9,7 +9,6 @@
 #include "measure/floor_plan.h"
 #include "measure/light_map.h"
 #include "optimise/report.h"
-#include "search/hypervolume.h"
 
 namespace roomlight::optimise {
 namespace {
@@ -84,8 +83,9 @@ class Drawer {
     return s + "</svg>";
   }
 
-  std::string maps(const Proposed& d) {
-    const std::vector<float>& lux = d.certificate->conditions[0].fullLux;
+  // The light on every zone in a condition: by the full solution where there is one, else as predicted.
+  std::string maps(const Proposed& d, search::ConstGenome design, size_t condition) {
+    const std::vector<float> lux = luxOf(d, design, condition);
     const LightScale scale = scaleOf(lux);
     scene_.lamps.clear();
     for (const BillLine& l : d.bill) {
@@ -93,18 +93,30 @@ class Drawer {
       lamp.name = l.name, lamp.position = l.position;
       scene_.lamps.push_back(lamp);
     }
-    std::string s = "<div class=\"row\">";
+    std::string s = fmt::format("<h3>{}: lx, {}{}</h3>\n<div class=\"row\">", htmlEscaped(r_.study.conditions[condition].name), d.certificate ? "full solution" : "predicted", r_.study.maintenance < 1 ? fmt::format(", lamps at {:g} %", 100 * r_.study.maintenance) : "");
     for (size_t z = 0; z < r_.study.zones.size(); ++z) {
       const ZonePoints& points = r_.meters.zones[z];
       GridReading g;
       g.name = r_.study.zones[z].name, g.floor = r_.study.zones[z].room.floor;
       g.points.lattice = points.lattice, g.points.lux = points.lattice.spread(std::span(lux).subspan(points.first, points.count));
-      s += fmt::format("<figure>{}<figcaption>{}, lx</figcaption></figure>\n", lightMapSvg(g, scene_, scale, ++number_), htmlEscaped(g.name));
+      s += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", lightMapSvg(g, scene_, scale, ++number_), htmlEscaped(g.name));
     }
     return s + legendSvg(scale, "lx") + "</div>\n";
   }
 
  private:
+  // As goals are judged, per point of the meters.
+  std::vector<float> luxOf(const Proposed& d, search::ConstGenome design, size_t condition) const {
+    if (d.certificate) return maintainedLux(r_.study, r_.model, d.certificate->conditions[condition], condition);
+    const std::vector<float> rows = rowsOf(r_.model, design, condition);
+    std::vector<float> lux;
+    for (const ModelZone& z : r_.model.zones) {
+      const auto points = pointsOf(z, rows);
+      lux.insert(lux.end(), points.begin(), points.end());
+    }
+    return lux;
+  }
+
   const Report& r_;
   Scene scene_;
   Vec2 low_, high_;
@@ -120,13 +132,40 @@ std::string objectivesTable(const Report& r) {
     const Proposed& p = r.designs[d];
     s += fmt::format("<tr><td><a href=\"#design{0}\">{0}</a></td>", d + 1);
     for (const Objective o : r.model.objectives) s += cell(threeDigits(p.result.of(o)));
-    s += cell(fmt::format("{}", p.result.fittings)) + cell(threeDigits(p.result.installedW)) + cell(r.model.areaM2 > 0 ? threeDigits(p.result.kWhPerYear / r.model.areaM2) : "–") + cell(p.certificate ? fmt::format("{:.1f} %", p.certificate->maxPercent()) : "not solved") + "</tr>\n";
+    s += cell(fmt::format("{}", p.result.fittings)) + cell(threeDigits(p.result.installedW)) + cell(r.model.areaM2 > 0 ? threeDigits(p.result.kWhPerYear / r.model.areaM2) : "–") + cell(p.certificate ? fmt::format("{:.1f} % (± {:.1f} %)", p.certificate->worst().maxPercent, p.certificate->worst().uncertainPercent) : "not solved") + "</tr>\n";
   }
   return s + "</table></div>\n";
 }
 
-std::string goalRow(const std::string& what, const std::string& goal, const std::string& predicted, const std::string& full, bool met) {
-  return "<tr>" + cell(htmlEscaped(what)) + cell(goal) + cell(predicted) + cell(full) + cell(met ? "✓ met" : "✗ missed", met ? "met" : "missed") + "</tr>\n";
+// A goal, what is predicted of it, and what the full solution says where there is one: then that decides.
+struct GoalRow {
+  std::string what, wanted;
+  double predicted = 0;
+  std::optional<double> full;
+  bool atLeast = true;
+  double limit = 0, slack = 0;  // how much less or more still counts as met
+};
+
+template <class Text>
+std::string rowOf(const GoalRow& g, const Text& text) {
+  const double judged = g.full.value_or(g.predicted);
+  const bool met = g.atLeast ? judged >= g.limit - g.slack : judged <= g.limit + g.slack;
+  return "<tr>" + cell(htmlEscaped(g.what)) + cell(g.wanted) + cell(text(g.predicted)) + cell(g.full ? text(*g.full) : "–") + cell(met ? "✓ met" : "✗ missed", met ? "met" : "missed") + "</tr>\n";
+}
+
+constexpr double kRounded = 5e-4;  // of a goal: what is shown as met counts as met
+
+std::string zoneGoals(const Report& r, size_t z, const std::string& name, const ZoneResult& predicted, std::span<const float> fullLux) {
+  const ModelZone& goal = r.model.zones[z];
+  std::optional<double> mean, u0;
+  if (!fullLux.empty()) {
+    const Statistics full = statisticsOf(fullLux.subspan(r.meters.zones[z].first, r.meters.zones[z].count));
+    mean = full.mean, u0 = full.u0();
+  }
+  std::string s;
+  if (goal.meanLux > 0) s += rowOf({name + ": mean", "≥ " + threeDigits(goal.meanLux) + " lx", predicted.meanLux, mean, true, goal.meanLux, kRounded * goal.meanLux}, [](double v) { return threeDigits(v) + " lx"; });
+  if (goal.u0 > 0) s += rowOf({name + ": U0", fmt::format("≥ {:.2f}", goal.u0), predicted.u0(), u0, true, goal.u0, kRounded * goal.u0}, [](double v) { return fmt::format("{:.2f}", v); });
+  return s;
 }
 
 std::string goals(const Report& r, const Proposed& d) {
@@ -134,18 +173,17 @@ std::string goals(const Report& r, const Proposed& d) {
   for (size_t c = 0; c < r.model.conditions.size(); ++c) {
     const ConditionResult& got = d.result.conditions[c];
     const std::string in = r.model.conditions.size() > 1 ? ", " + r.study.conditions[c].name : "";
-    const auto fullOf = [&](size_t z) { return statisticsOf(std::span(d.certificate->conditions[c].fullLux).subspan(r.meters.zones[z].first, r.meters.zones[z].count)); };
-    for (const uint32_t z : r.model.conditions[c].zones) {
-      const ModelZone& goal = r.model.zones[z];
-      const std::string name = r.study.zones[z].name + in;
-      if (goal.meanLux > 0) s += goalRow(name + ": mean", "≥ " + threeDigits(goal.meanLux) + " lx", threeDigits(got.zones[z].meanLux) + " lx", d.certificate ? threeDigits(fullOf(z).mean) + " lx" : "–", got.zones[z].meanLux >= goal.meanLux * 0.9995);
-      if (goal.u0 > 0) s += goalRow(name + ": U0", fmt::format("≥ {:.2f}", goal.u0), fmt::format("{:.2f}", got.zones[z].u0()), d.certificate ? fmt::format("{:.2f}", fullOf(z).u0()) : "–", got.zones[z].u0() >= goal.u0 * 0.9995);
-    }
+    const std::vector<float> full = d.certificate ? maintainedLux(r.study, r.model, d.certificate->conditions[c], c) : std::vector<float>();
+    for (const uint32_t z : r.model.conditions[c].zones) s += zoneGoals(r, z, r.study.zones[z].name + in, got.zones[z], full);
     for (const uint32_t e : r.model.conditions[c].eyes) {
-      const double full = d.certificate ? d.certificate->conditions[c].fullUgr[e] : -1;
-      s += goalRow(r.study.eyes[e].name + in + ": UGR", fmt::format("≤ {:g}", r.model.eyes[e].ugr), fmt::format("{:.1f}", got.ugr[e]), full >= 0 ? fmt::format("{:.1f}", full) : "–", got.ugr[e] <= r.model.eyes[e].ugr + 0.005);
+      std::optional<double> ugr;
+      if (d.certificate && d.certificate->conditions[c].fullUgr[e] >= 0) ugr = d.certificate->conditions[c].fullUgr[e];
+      s += rowOf({r.study.eyes[e].name + in + ": UGR", fmt::format("≤ {:g}", r.model.eyes[e].ugr), got.ugr[e], ugr, false, r.model.eyes[e].ugr, 0.005}, [](double v) { return fmt::format("{:.1f}", v); });
     }
-    for (const uint32_t q : r.model.conditions[c].ratios) s += goalRow(r.study.ratios[q].name + in + ": luminance ratio", fmt::format("≤ {:g}", r.model.ratios[q].most), threeDigits(got.ratios[q]), "–", got.ratios[q] <= r.model.ratios[q].most);
+    for (const uint32_t q : r.model.conditions[c].ratios) {
+      const double most = r.model.ratios[q].most;
+      s += rowOf({r.study.ratios[q].name + in + ": luminance ratio", fmt::format("≤ {:g}", most), got.ratios[q], {}, false, most, kRounded * most}, [](double v) { return threeDigits(v); });
+    }
   }
   return s + "</table></div>\n";
 }
@@ -181,9 +219,9 @@ Result<std::string> pictures(const Proposed& d) {
 }
 
 std::string certificateTable(const Report& r, const Certificate& c) {
-  std::string s = "<table><tr><th>prediction against full solution</th><th>points</th><th>mean difference</th><th>largest</th></tr>\n";
+  std::string s = "<table><tr><th>prediction against full solution</th><th>points</th><th>mean difference</th><th>largest</th><th>full solution<br>uncertain there by</th></tr>\n";
   for (size_t k = 0; k < c.conditions.size(); ++k) {
-    s += "<tr>" + cell(htmlEscaped(r.study.conditions[k].name)) + cell(fmt::format("{}", c.conditions[k].judged)) + cell(fmt::format("{:.2f} %", c.conditions[k].meanPercent)) + cell(fmt::format("{:.2f} %", c.conditions[k].maxPercent)) + "</tr>\n";
+    s += "<tr>" + cell(htmlEscaped(r.study.conditions[k].name)) + cell(fmt::format("{}", c.conditions[k].judged)) + cell(fmt::format("{:.2f} %", c.conditions[k].meanPercent)) + cell(fmt::format("{:.2f} %", c.conditions[k].maxPercent)) + cell(fmt::format("{:.2f} %", c.conditions[k].uncertainPercent)) + "</tr>\n";
   }
   return s + "</table>\n";
 }
@@ -197,37 +235,6 @@ std::string methods(const Report& r) {
 }
 
 }  // namespace
-
-ObjectiveBox boxOf(const Model& m) {
-  double watts = 0, cost = 0, kWh = 0;
-  size_t places = 0;
-  for (size_t p = 0; p < m.places(); ++p) {
-    double w = 0, c = 0;
-    for (size_t o = m.firstOption[p]; o < m.firstOption[p + 1]; ++o) w = std::max(w, m.options[o].wattsW), c = std::max(c, m.options[o].price);
-    watts += w, cost += c, ++places;
-  }
-  if (m.mostWatts > 0) watts = std::min(watts, m.mostWatts);
-  if (m.mostCost > 0) cost = std::min(cost, m.mostCost);
-  for (const ModelCondition& c : m.conditions) kWh += c.hours * watts / 1000;
-  ObjectiveBox box;
-  for (const Objective o : m.objectives) {
-    box.ideal.push_back(0);
-    switch (o) {
-      case Objective::TargetMiss: box.reference.push_back(100); break;
-      case Objective::Uniformity: box.reference.push_back(1); break;
-      case Objective::Glare: box.reference.push_back(20); break;
-      case Objective::Energy: box.reference.push_back(std::max(kWh, 1e-9)); break;
-      case Objective::Cost: box.reference.push_back(std::max(cost, 1e-9)); break;
-      case Objective::Fittings: box.reference.push_back(m.mostFittings > 0 ? m.mostFittings : static_cast<double>(places)); break;
-    }
-  }
-  return box;
-}
-
-double hypervolumeOf(const Model& m, const search::Archive& front) {
-  const ObjectiveBox box = boxOf(m);
-  return search::hypervolumeShare(front.objectives, box.ideal, box.reference);
-}
 
 Result<std::string> reportHtml(const Report& r, const Scene& home) {
   Drawer drawer(r, home);
@@ -247,11 +254,11 @@ Result<std::string> reportHtml(const Report& r, const Scene& home) {
     }
     s += fmt::format("<figure>{}<figcaption>Lamps; the fuller, the brighter in {}.</figcaption></figure></div>\n", drawer.plan(d), htmlEscaped(r.study.conditions[0].name));
     s += goals(r, d);
-    if (d.certificate) s += drawer.maps(d);
+    for (size_t c = 0; c < r.study.conditions.size(); ++c) s += drawer.maps(d, r.front.designs[d.index], c);
     s += bill(r, d);
     if (d.certificate) s += certificateTable(r, *d.certificate);
   }
-  return s + methods(r) + "<footer>Lux and UGR are predicted by adding up lamps' light; designs that were solved in full show both.</footer>\n</main></body></html>\n";
+  return s + methods(r) + "<footer>Lux and UGR are predicted by adding up lamps' light; designs that were solved in full show both, and are judged by the full solution.</footer>\n</main></body></html>\n";
 }
 
 }  // namespace roomlight::optimise

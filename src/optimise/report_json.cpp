@@ -30,7 +30,7 @@ json leastWattsOf(const Report& r) {
 }  // namespace
 
 std::string runJson(const Report& r) {
-  json j = {{"candidates", r.candidates.candidates.size()}, {"places", r.candidates.places.size()}, {"points", r.meters.points()}, {"eyes", r.study.eyes.size()}, {"responseSeconds", r.responseSeconds}, {"baseSeconds", r.baseSeconds}, {"designsASecond", r.designsASecond}, {"leastWatts", leastWattsOf(r)}};
+  json j = {{"candidates", r.candidates.candidates.size()}, {"places", r.candidates.places.size()}, {"points", r.meters.points()}, {"eyes", r.study.eyes.size()}, {"responseSeconds", r.responseSeconds}, {"baseSeconds", r.baseSeconds}, {"designsASecond", r.designsASecond}, {"lookUpsASecond", r.lookUpsASecond}, {"leastWatts", leastWattsOf(r)}};
   for (const MethodResult& m : r.methods) {
     json trace = json::array();
     for (const TracePoint& t : m.trace) trace.push_back({t.evaluations, t.seconds, t.hypervolume});
@@ -43,7 +43,7 @@ std::string runJson(const Report& r) {
       entry["certifySeconds"] = d.certificate->seconds;
       for (size_t c = 0; c < d.certificate->conditions.size(); ++c) {
         const Certificate::OfCondition& k = d.certificate->conditions[c];
-        entry["certificates"].push_back({{"condition", r.study.conditions[c].name}, {"points", k.judged}, {"meanPercent", k.meanPercent}, {"maxPercent", k.maxPercent}});
+        entry["certificates"].push_back({{"condition", r.study.conditions[c].name}, {"points", k.judged}, {"meanPercent", k.meanPercent}, {"maxPercent", k.maxPercent}, {"uncertainPercent", k.uncertainPercent}});
       }
     }
     j["designs"].push_back(std::move(entry));

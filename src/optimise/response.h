@@ -26,23 +26,30 @@ struct Response {
   std::vector<EyeGlare> glare;       // of candidate c at eye e: glare[c * eyes + e]
   std::vector<Base> base;            // per condition
   double seconds = 0, baseSeconds = 0;  // that finding it took: candidates; conditions without them
-  float worstErrorPercent = 0;       // standard error of the strongest candidate at a point, the worst point
+  float worstErrorPercent = 0;       // the largest standard error of candidates that give a point at least a tenth of what the strongest gives it
   const Vec3* of(size_t candidate) const { return lux.data() + candidate * elements; }
   const EyeGlare* glareOf(size_t candidate) const { return glare.data() + candidate * eyes; }
 };
 
 struct ResponseSettings {
   RenderSettings render;
-  double tolerance = 0.01;   // of candidates at points
-  int mostSamples = 2048;    // a point
+  double tolerance = 0.004;  // of candidates at points; light that comes straight from lamps is exact
+  int fewestSamples = 512;   // a point; a power of two
+  int mostSamples = 8192;
   size_t atOnce = 48;        // candidates that are told apart in one solution; at most kMostLayers
 };
+
+// Meters of whole solutions: of conditions without candidates, and of the certificates that judge predictions by the same measure.
+inline MeterSettings fullMeters(uint64_t seed) { return {0.003, 512, 1 << 13, seed}; }
 
 // A lighting file: with `fixedToo` the study's own and the home's lamps where they stay; `lamps`, and the daylight of a condition, if not null. The
 // home's own suns and sky are off.
 Result<nlohmann::json> lightingDocument(const StudyFile& study, const nlohmann::json& daylight, const nlohmann::json& lamps, bool fixedToo);
 // The home in that light.
 Result<Scene> litBy(const Scene& home, const StudyFile& study, const nlohmann::json& daylight, const nlohmann::json& lamps, bool fixedToo);
+
+// What is wrong with the lighting file or with a condition's daylight, before long work: they are applied to the home. The error names the file, of a condition its line.
+Status checkConditions(const Scene& home, const StudyFile& study);
 
 // `home` as imported. Errors: of daylight and lighting files. Empty where cancelled.
 Result<std::optional<Response>> findResponse(const Scene& home, const StudyFile& study, const Candidates& candidates, const Meters& meters, const ResponseSettings& settings, Stages& stages);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -11,7 +13,7 @@
 namespace roomlight::optimise {
 namespace {
 
-constexpr std::string_view kMagic = "roomlight response 1\n";
+constexpr std::string_view kMagic = "roomlight response 2\n";
 
 std::optional<std::string> contentOf(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -24,6 +26,33 @@ void put(std::string& out, const std::vector<T>& values) {
   const uint64_t n = values.size();
   out.append(reinterpret_cast<const char*>(&n), sizeof(n));
   out.append(reinterpret_cast<const char*>(values.data()), n * sizeof(T));
+}
+
+class Fnv1a {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) h_ = (h_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+  }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)));
+  }
+  std::string text() const { return fmt::format("{:016x}", h_); }
+
+ private:
+  uint64_t h_ = 0xcbf29ce484222325ull;
+};
+
+void add(Fnv1a& hash, const Material& m) {
+  hash.add(m.name);
+  hash.add(fmt::format("{} {} {} {} {} {} {} {}", m.baseColor.x, m.baseColor.y, m.baseColor.z, m.alpha, m.metallic, m.roughness, m.transmission, m.ior));
+  hash.add(fmt::format("{} {} {} {}", m.emission.x, m.emission.y, m.emission.z, m.doubleSided));
+}
+
+// Whether a response has as many numbers of each kind as its sizes say.
+bool isWhole(const Response& r, const ResponseSizes& sizes) {
+  const bool candidates = r.elements == sizes.elements && r.eyes == sizes.eyes && r.lux.size() == sizes.candidates * sizes.elements && r.glare.size() == sizes.candidates * sizes.eyes;
+  return candidates && r.base.size() == sizes.conditions && std::all_of(r.base.begin(), r.base.end(), [&](const Base& b) { return b.lux.size() == sizes.elements && b.glare.size() == sizes.eyes; });
 }
 
 // Reads what put() wrote; once something does not fit, nothing more.
@@ -53,9 +82,9 @@ class Reader {
 }  // namespace
 
 std::string hashOf(std::string_view text) {
-  uint64_t h = 0xcbf29ce484222325ull;
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  return fmt::format("{:016x}", h);
+  Fnv1a hash;
+  hash.add(text);
+  return hash.text();
 }
 
 std::string hashOfFile(const std::filesystem::path& file) {
@@ -64,11 +93,20 @@ std::string hashOfFile(const std::filesystem::path& file) {
 }
 
 std::string inputHash(const std::filesystem::path& home, const StudyFile& study, const std::string& settings) {
-  std::string all = hashOfFile(home) + hashOfFile(study.file) + hashOfFile(study.catalogueFile) + (study.lightingFile.empty() ? "" : hashOfFile(study.lightingFile)) + settings;
+  std::string all = std::string(kMagic) + hashOfFile(home) + hashOfFile(study.file) + hashOfFile(study.catalogueFile) + (study.lightingFile.empty() ? "" : hashOfFile(study.lightingFile)) + settings;
   for (const Luminaire& l : study.catalogue.luminaires) {
     if (!l.file.empty()) all += hashOfFile(l.file);
   }
   return hashOf(all);
+}
+
+std::string hashOfScene(const Scene& scene) {
+  static_assert(sizeof(Vec2) == 2 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float), "no bytes between numbers");
+  Fnv1a hash;
+  for (const Mesh& m : scene.meshes) hash.add(m.positions), hash.add(m.normals), hash.add(m.uv[0]), hash.add(m.indices);
+  for (const Texture& t : scene.textures) hash.add(t.rgba);
+  for (const Material& m : scene.materials) add(hash, m);
+  return hash.text();
 }
 
 Status writeWhole(const std::filesystem::path& file, std::string_view bytes) {
@@ -94,7 +132,7 @@ Status keepResponse(const std::filesystem::path& file, const std::string& hash, 
   return writeWhole(file, bytes);
 }
 
-std::optional<Response> findResponse(const std::filesystem::path& file, const std::string& hash) {
+std::optional<Response> findResponse(const std::filesystem::path& file, const std::string& hash, const ResponseSizes& wanted) {
   const auto bytes = contentOf(file);
   const std::string head = std::string(kMagic) + hash;
   if (!bytes || !bytes->starts_with(head)) return std::nullopt;
@@ -111,7 +149,7 @@ std::optional<Response> findResponse(const std::filesystem::path& file, const st
     in.get(b.lux), in.get(b.glare);
     r.base.push_back(std::move(b));
   }
-  if (!in.done() || error.size() != 1) return std::nullopt;
+  if (!in.done() || error.size() != 1 || !isWhole(r, wanted)) return std::nullopt;
   r.worstErrorPercent = error[0];
   return r;
 }

@@ -14,6 +14,7 @@ namespace {
 // Of a year, in homes (docs/methods/optimise.md says where these are from).
 constexpr double kDarkHours = 1680, kDayHours = 1820;
 constexpr size_t kMostObjectives = 4;
+constexpr double kBehindWallM = 0.3;
 
 struct Reading {
   const std::vector<Room>& rooms;
@@ -98,6 +99,8 @@ void each(const TomlPlace& root, const char* key, Read&& read) {
   for (size_t i = 0, n = list.size(); i < n; ++i) read(list.at(i));
 }
 
+std::filesystem::path beside(const StudyFile& out, const std::string& name) { return std::filesystem::absolute(out.file.parent_path() / name).lexically_normal(); }
+
 void readCondition(const TomlPlace& j, StudyFile& out) {
   if (!j.isTable({"name", "daylight", "weight", "hours", "comment"})) return;
   Condition c;
@@ -108,6 +111,8 @@ void readCondition(const TomlPlace& j, StudyFile& out) {
     daylight.oneOf({"none"});
   } else {
     c.daylight = jsonOf(daylight.node());
+    // Lighting files that are made of it lie elsewhere.
+    if (c.daylight.is_object() && c.daylight.contains("weather") && c.daylight["weather"].is_string()) c.daylight["weather"] = beside(out, c.daylight["weather"].get<std::string>()).string();
   }
   c.weight = j.number("weight", 0, 1e6, 1);
   c.hoursPerYear = j.number("hours", 0, 8784, -1);
@@ -211,6 +216,23 @@ void readAims(const TomlPlace& j, PlaceRule& p) {
   if (aims.size() == 0) aims.fail("must not be empty");
 }
 
+// Places one by one, inside the room; those for walls may be given a little behind the wall.
+void readAt(const TomlPlace& j, PlaceRule& p) {
+  if (!j.has("at")) return;
+  const TomlPlace at = j["at"];
+  for (size_t i = 0, n = at.size(); i < n; ++i) {
+    const Vec3 place = at.at(i).vector();
+    const Vec2 onFloor{place.x, place.z};
+    const bool wall = p.on == Mounting::Wall;
+    const bool inside = !p.room.floor.empty() && (contains(p.room.floor, onFloor) || (wall && distanceToEdgeM(p.room.floor, onFloor) < kBehindWallM));
+    const float above = place.y - p.room.elevationM;
+    if (!inside) at.at(i).fail(fmt::format("lies outside of '{}'", printable(p.room.name)));
+    if (wall && (above < 0 || above > p.room.heightM)) at.at(i).fail(fmt::format("its height must be between floor and ceiling of '{}', {:g} to {:g}", printable(p.room.name), p.room.elevationM, p.room.elevationM + p.room.heightM));
+    p.at.push_back(place);
+  }
+  if (p.at.empty()) at.fail("must not be empty");
+}
+
 void readPlace(const TomlPlace& j, const Reading& r) {
   if (!j.isTable({"name", "on", "room", "floor", "elevation", "ceiling", "luminaires", "aims", "spacing", "fromWalls", "height", "apart", "most", "at", "comment"})) return;
   PlaceRule p;
@@ -232,11 +254,7 @@ void readPlace(const TomlPlace& j, const Reading& r) {
   if (j.has("height") && p.on != Mounting::Wall) j["height"].fail("is for walls");
   p.heightM = j.number("height", 0.1, 20, p.heightM), p.apartM = j.number("apart", 0, 20, p.apartM);
   p.most = j.whole("most", 1, 1000, p.most);
-  if (j.has("at")) {
-    const TomlPlace at = j["at"];
-    for (size_t i = 0, n = at.size(); i < n; ++i) p.at.push_back(at.at(i).vector());
-    if (p.at.empty()) at.fail("must not be empty");
-  }
+  readAt(j, p);
   r.out.places.push_back(p);
 }
 
@@ -285,8 +303,7 @@ void readAll(const TomlPlace& root, const Reading& r) {
   if (!root.isTable({"version", "title", "comment", "catalogue", "lighting", "ownLamps", "condition", "zone", "eye", "ratio", "place", "limits", "dimming", "objectives", "search", "maintenance", "area", "cameras"})) return;
   if (root.has("version")) root["version"].number(1, 1);
   out.title = root.text("title", out.file.stem().string());
-  const auto beside = [&](const TomlPlace& j) { return std::filesystem::absolute(out.file.parent_path() / j.text()).lexically_normal(); };
-  out.catalogueFile = beside(root["catalogue"]);
+  out.catalogueFile = beside(out, root["catalogue"].text());
   Result<Catalogue> catalogue = readCatalogue(out.catalogueFile);
   if (!catalogue) {
     // What is wrong in the catalogue's lines is said with those.
@@ -296,16 +313,20 @@ void readAll(const TomlPlace& root, const Reading& r) {
   }
   out.catalogue = std::move(catalogue.value());
   if (root.has("lighting")) {
-    out.lightingFile = beside(root["lighting"]);
+    out.lightingFile = beside(out, root["lighting"].text());
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(out.lightingFile, ignored)) root["lighting"].fail(fmt::format("{}: no such file", out.lightingFile.string()));
   }
   out.ownLamps = root.flag("ownLamps", false);
   each(root, "condition", [&](const TomlPlace& j) { readCondition(j, out); });
   if (out.conditions.empty()) out.conditions.push_back({"night", nullptr, 1, -1, 0});
+  if (std::none_of(out.conditions.begin(), out.conditions.end(), [](const Condition& c) { return c.weight > 0; })) root["condition"].at(0).fail("all have weight 0: nothing would be judged");
   shareHours(out);
   each(root, "zone", [&](const TomlPlace& j) { readZone(j, r); });
-  if (out.zones.empty()) root.fail("has no [[zone]] to be lit");
+  if (out.zones.empty())
+    root.fail("has no [[zone]] to be lit");
+  else if (std::none_of(out.zones.begin(), out.zones.end(), [](const Zone& z) { return z.weight > 0; }))
+    root["zone"].at(0).fail("all have weight 0: nothing would be lit");
   each(root, "eye", [&](const TomlPlace& j) { readEye(j, out); });
   each(root, "ratio", [&](const TomlPlace& j) { readRatio(j, out); });
   each(root, "place", [&](const TomlPlace& j) { readPlace(j, r); });

@@ -37,8 +37,7 @@ int8_t packedUnit(float v) { return static_cast<int8_t>(std::lround(127 * v)); }
 }  // namespace
 
 SlotSnapshot::SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux)
-    : perMetre_(1 / voxels.voxelSizeM), origin_(voxels.origin), brickDims_(voxels.brickDims), brickIndex_(voxels.brickIndex), bricks_(voxels.bricks.size()), cells_(voxels.voxels.size()), records_(voxels.slots.size()) {
-  for (size_t b = 0; b < bricks_.size(); ++b) bricks_[b] = {voxels.bricks[b].occupied, voxels.bricks[b].before, voxels.bricks[b].firstVoxel};
+    : perMetre_(1 / voxels.voxelSizeM), grid_(voxels), cells_(voxels.voxels.size()), records_(voxels.slots.size()) {
   parallelFor(cells_.size(), 16384, [&](size_t v) { cells_[v] = {voxels.voxels[v].firstSlot, voxels.voxels[v].faces}; });
   std::vector<Vec3> soft(records_.size());
   parallelFor(records_.size(), 16384, [&](size_t i) {
@@ -107,27 +106,10 @@ void SlotSnapshot::findBeside(Int3 v, const Record& r, int face, std::array<int3
   }
 }
 
-size_t SlotSnapshot::bytes() const { return brickIndex_.size() * sizeof(int32_t) + bricks_.size() * sizeof(CoarseBrick) + cells_.size() * sizeof(Cell) + records_.size() * sizeof(Record); }
-
-const SlotSnapshot::Cell* SlotSnapshot::cellAt(Int3 v) const {
-  const Int3 b{v.x >> 3, v.y >> 3, v.z >> 3};
-  if (static_cast<unsigned>(b.x) >= static_cast<unsigned>(brickDims_.x) || static_cast<unsigned>(b.y) >= static_cast<unsigned>(brickDims_.y) || static_cast<unsigned>(b.z) >= static_cast<unsigned>(brickDims_.z)) return nullptr;
-  const int32_t i = brickIndex_[(static_cast<size_t>(b.z) * static_cast<size_t>(brickDims_.y) + static_cast<size_t>(b.y)) * static_cast<size_t>(brickDims_.x) + static_cast<size_t>(b.x)];
-  if (i < 0) return nullptr;
-  const CoarseBrick& brick = bricks_[static_cast<size_t>(i)];
-  const auto word = static_cast<size_t>(v.z & 7);
-  const int bit = (v.x & 7) + 8 * (v.y & 7);
-  if (!((brick.occupied[word] >> bit) & 1)) return nullptr;
-  return &cells_[brick.firstVoxel + brick.before[word] + static_cast<size_t>(std::popcount(brick.occupied[word] & ((uint64_t{1} << bit) - 1)))];
-}
-
-const SlotSnapshot::Record* SlotSnapshot::recordOf(const Cell& cell, int face) const {
-  if (!((cell.faces >> face) & 1)) return nullptr;
-  return &records_[cell.firstSlot + static_cast<size_t>(std::popcount(static_cast<unsigned>(cell.faces & ((1u << face) - 1))))];
-}
+size_t SlotSnapshot::bytes() const { return grid_.brickIndex.size() * sizeof(int32_t) + grid_.bricks.size() * sizeof(Brick) + cells_.size() * sizeof(Cell) + records_.size() * sizeof(Record); }
 
 SlotIrradiance SlotSnapshot::at(Vec3 p, Vec3 n) const {
-  const Vec3 q = (p - origin_) * perMetre_, corner = q - Vec3(0.5f);
+  const Vec3 q = (p - grid_.origin) * perMetre_, corner = q - Vec3(0.5f);
   const Int3 v{static_cast<int>(std::floor(corner.x)), static_cast<int>(std::floor(corner.y)), static_cast<int>(std::floor(corner.z))};
   const Vec3 t = corner - Vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
   const int face = dominantFace(n);

@@ -37,21 +37,19 @@ class SlotSnapshot {
     uint32_t firstSlot;
     uint8_t faces;  // as SurfaceVoxel's
   };
-  struct CoarseBrick {
-    std::array<uint64_t, 8> occupied;
-    std::array<uint16_t, 8> before;
-    uint32_t firstVoxel;
-  };
   void smooth(const Voxels& voxels, std::vector<Vec3>& soft) const;
   void findBeside(Int3 v, const Record& r, int face, std::array<int32_t, 8>& beside) const;
-  const Cell* cellAt(Int3 v) const;
-  const Record* recordOf(const Cell& cell, int face) const;
+  const Cell* cellAt(Int3 v) const {
+    const int64_t i = grid_.voxelAt(v);
+    return i < 0 ? nullptr : &cells_[static_cast<size_t>(i)];
+  }
+  const Record* recordOf(const Cell& cell, int face) const {
+    const int64_t i = slotOf(cell, face);
+    return i < 0 ? nullptr : &records_[static_cast<size_t>(i)];
+  }
 
   float perMetre_;  // voxels
-  Vec3 origin_;
-  Int3 brickDims_;
-  std::vector<int32_t> brickIndex_;
-  std::vector<CoarseBrick> bricks_;
+  BrickGrid grid_;
   std::vector<Cell> cells_;
   std::vector<Record> records_;
 };

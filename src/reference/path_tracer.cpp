@@ -54,8 +54,10 @@ PathTracer::PathTracer(const RayScene& rays, const Lights& lights, const Camera&
     : state_(std::make_unique<State>(rays, lights, camera, settings, features)) {}
 PathTracer::~PathTracer() = default;
 
-bool PathTracer::pass(const Progress& progress) {
+bool PathTracer::pass(const Progress& progress, bool firstToo) {
   State& st = *state_;
+  const auto stopped = [&] { return progress.stop() && (firstToo || st.samples > 0); };
+  if (stopped()) return false;
   const int w = st.settings.width, h = st.settings.height;
   // Whole passes only are kept.
   Image fresh(w, h);
@@ -66,7 +68,7 @@ bool PathTracer::pass(const Progress& progress) {
   std::atomic<int> tilesDone = 0;
   std::mutex reporting;
   parallelFor(static_cast<size_t>(tilesX) * tilesY, 1, [&](size_t tile) {
-    if (progress.stop() && st.samples > 0) return;
+    if (stopped()) return;
     const int x0 = static_cast<int>(tile % tilesX) * kTile, y0 = static_cast<int>(tile / tilesX) * kTile;
     uint64_t count = 0;
     for (int y = y0; y < std::min(h, y0 + kTile); ++y) {
@@ -90,7 +92,7 @@ bool PathTracer::pass(const Progress& progress) {
       reporting.unlock();
     }
   });
-  if (progress.stop() && st.samples > 0) return false;
+  if (stopped()) return false;
   parallelFor(fresh.pixels.size(), 65536, [&](size_t i) {
     st.sum.pixels[i] += fresh.pixels[i];
     st.squares.pixels[i] += fresh.pixels[i] * fresh.pixels[i];

@@ -33,8 +33,8 @@ class PathTracer {
   PathTracer(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings, bool features = false);
   ~PathTracer();
 
-  // Reports the fraction of this pass. False: stopped half way, and dropped. The first is never stopped.
-  bool pass(const Progress& progress = {});
+  // Reports the fraction of this pass. False: stopped half way, and dropped. The first is stopped only with `firstToo`: there is no picture then.
+  bool pass(const Progress& progress = {}, bool firstToo = false);
 
   int samples() const;     // passes so far
   Image mean() const;      // linear, cd/m²

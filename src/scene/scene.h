@@ -89,12 +89,21 @@ struct Mesh {
 // Importers give a lamp that shines by a mesh of its own this name after the lamp's.
 constexpr const char* kLightSuffix = " (light)";
 
+// What of a thing opens, in the world: it turns about a hinge or slides, from shut (0) to wide open (1).
+struct Leaf {
+  Vec3 hinge, axis{0, 1, 0};  // a point of the line that it turns about, and that line's direction, unit
+  float turnRad = 0;          // from shut to wide open, right-handed about the axis
+  Vec3 slideM;                // from shut to wide open
+  float atRest = 0;           // how far open the scene has it
+};
+
 // A mesh placed in the world. Instances with the same `object` belong to one thing that moves as a whole.
 struct Instance {
   std::string name;  // of the node
   int mesh = 0;
   int object = 0;
   Affine worldFromObject;
+  int leaf = -1;  // index into Scene::leaves, -1: nothing that opens
 };
 
 enum class LampKind : uint8_t {
@@ -175,6 +184,7 @@ struct Room {
 struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
+  std::vector<Leaf> leaves;  // where the file knows them
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Lamp> lamps;

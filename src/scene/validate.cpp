@@ -72,6 +72,15 @@ std::string checkMaterial(const Scene& scene, const Material& m) {
   return {};
 }
 
+std::string checkLeaves(const Scene& scene) {
+  for (size_t i = 0; i < scene.leaves.size(); ++i) {
+    const Leaf& l = scene.leaves[i];
+    const bool sane = isFinite(l.hinge) && isFinite(l.axis) && isFinite(l.slideM) && std::isfinite(l.turnRad) && l.atRest >= 0 && l.atRest <= 1;
+    if (!sane) return fmt::format("leaf {}: the way that it opens is not finite or out of range", i);
+  }
+  return {};
+}
+
 std::string checkLights(const Scene& scene) {
   for (size_t i = 0; i < scene.lamps.size(); ++i) {
     const Lamp& lamp = scene.lamps[i];
@@ -120,6 +129,7 @@ Status validate(const Scene& scene) {
     const Instance& instance = scene.instances[i];
     const auto where = [&] { return fmt::format("instance {} '{}': ", i, instance.name); };
     if (instance.mesh < 0 || static_cast<size_t>(instance.mesh) >= scene.meshes.size()) return Error{where() + "its mesh does not exist"};
+    if (instance.leaf < -1 || instance.leaf >= static_cast<int>(scene.leaves.size())) return Error{where() + "its leaf does not exist"};
     if (!isFinite(instance.worldFromObject)) return Error{where() + "its transform is not finite"};
     if (instance.worldFromObject.determinant() == 0) return Error{where() + "its transform flattens it, so it cannot be placed"};
     const Bounds3& bounds = meshBounds[static_cast<size_t>(instance.mesh)];
@@ -127,8 +137,10 @@ Status validate(const Scene& scene) {
       return Error{where() + "its bounds in the world are not finite; its transform times its vertices is too large"};
     }
   }
-  const std::string what = checkLights(scene);
-  if (!what.empty()) return Error{what};
+  for (const auto check : {checkLeaves, checkLights}) {
+    const std::string what = check(scene);
+    if (!what.empty()) return Error{what};
+  }
   if (scene.triangleCount() == 0) return Error{"there is no triangle to light"};
   return Ok{};
 }

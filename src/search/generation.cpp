@@ -9,7 +9,10 @@
 
 namespace roomlight::search {
 
-Genomes randomDesigns(const Problem& problem, const State& state, size_t count) {
+namespace {
+
+// Every value of every variable is as likely as any other.
+Genomes anyDesigns(const Problem& problem, const State& state, size_t count) {
   Genomes designs = problem.none();
   designs.resize(count);
   for (size_t d = 0; d < count; ++d) {
@@ -19,6 +22,13 @@ Genomes randomDesigns(const Problem& problem, const State& state, size_t count) 
       genome.integers[i] = static_cast<int32_t>(draws.index(static_cast<size_t>(problem.integers[i].cardinality)));
     for (double& x : genome.reals) x = draws.uniform();
   }
+  return designs;
+}
+
+}  // namespace
+
+Genomes randomDesigns(const Problem& problem, const State& state, size_t count) {
+  Genomes designs = problem.draw ? problem.draw(count, state.settings.seed, state.generation) : anyDesigns(problem, state, count);
   repairAll(problem, designs);
   return designs;
 }

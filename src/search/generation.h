@@ -7,7 +7,7 @@
 
 namespace roomlight::search {
 
-// Random designs, repaired. Each method draws its first generation from it.
+// Random designs (Problem::draw), repaired. Each method draws its first generation from it.
 Genomes randomDesigns(const Problem& problem, const State& state, size_t count);
 
 // In parallel; nothing without Problem::repair.

@@ -38,24 +38,30 @@ size_t polishesNow(const State& state) {
   return allowed < each ? 0 : std::min(static_cast<size_t>(allowed / each), state.settings.population);
 }
 
-// Polishes designs[which], evaluates the outcomes and appends them.
+// Polishes designs[which], evaluates the outcomes and appends them. Where there was nothing to polish, nothing is evaluated.
 void polish(const Problem& problem, State& state, const std::vector<size_t>& which, Genomes& designs, std::vector<double>& objectives) {
   const size_t m = problem.objectives;
-  Genomes better = pick(designs, which);
+  Genomes tried = pick(designs, which);
   const Range range = rangeOf(state.archive);
   std::vector<size_t> costs(which.size());
   parallelFor(which.size(), 1, [&](size_t i) {
     const std::span<const double> f = std::span(objectives).subspan(which[i] * m, m);
     Draws draws(state.settings.seed, state.generation, Purpose::polish, i);
     const std::vector<double> weights = draws.chance(kAnyDirection) ? randomWeights(range, draws) : weightsFor(f, range);
-    costs[i] = problem.polish(better[i], Wish{weights, f});
+    costs[i] = problem.polish(tried[i], Wish{weights, f});
   });
+  std::vector<size_t> polished;
+  for (size_t i = 0; i < which.size(); ++i) {
+    if (costs[i] > 0) polished.push_back(i);
+  }
+  const Genomes better = pick(tried, polished);
+  if (better.count == 0) return;
   assert(fits(problem, better));
   const size_t cost = std::accumulate(costs.begin(), costs.end(), size_t{0});
   const std::vector<double> found = evaluate(problem, state, better);
   state.evaluations += cost;
-  state.polished += which.size();
-  state.polishEvaluations += cost + which.size();
+  state.polished += better.count;
+  state.polishEvaluations += cost + better.count;
   designs.append(better);
   objectives.insert(objectives.end(), found.begin(), found.end());
 }

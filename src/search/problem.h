@@ -71,8 +71,13 @@ struct Problem {
   // threads at once. evaluate and polish see repaired genomes only.
   std::function<void(Genome)> repair;
 
+  // Optional. `count` designs by chance, of a generation; they are repaired afterwards. The same arguments give the same designs. Without it every
+  // value of every variable is as likely as any other.
+  std::function<Genomes(size_t count, uint64_t seed, size_t generation)> draw;
+
   // Optional. Improves the reals of a repaired genome, in place. Returns what it cost, counted in evaluations of one design: how many it
-  // made, or how many the same time would buy, whichever is more (a fixed figure, not a clock's). The search adds one for evaluating the outcome.
+  // made, or how many the same time would buy, whichever is more (a fixed figure, not a clock's). The search adds one for evaluating the outcome. 0: there
+  // was nothing to improve; the genome is as it was and is not evaluated again.
   // Called from several threads at once; the same input gives the same output.
   std::function<size_t(Genome, const Wish&)> polish;
 

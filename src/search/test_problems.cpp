@@ -30,6 +30,20 @@ double zdtG(std::span<const double> x) {
   return 1 + 9 * sum / static_cast<double>(x.size() - 1);
 }
 
+// What the second objective is of g, with x the first.
+double convex(double x, double g) { return 1 - std::sqrt(x / g); }
+double concave(double x, double g) { return 1 - x / g * (x / g); }
+double broken(double x, double g) { return convex(x, g) - x / g * std::sin(10 * kPi * x); }
+
+template <double (*shape)(double x, double g)>
+TestProblem zdt(const char* name, double bestHypervolume, double askedHypervolume) {
+  Problem problem = realProblem(30, 2, [](ConstGenome d, std::span<double> f) {
+    const double g = zdtG(d.reals);
+    f[0] = d.reals[0], f[1] = g * shape(d.reals[0], g);
+  });
+  return {name, std::move(problem), {1.1, 1.1}, bestHypervolume, askedHypervolume};
+}
+
 constexpr int32_t kCategories = 10, kValues = 6;
 
 int32_t rightValue(size_t category) { return static_cast<int32_t>((category * 7 + 3) % kValues); }
@@ -44,35 +58,9 @@ double mixedG(ConstGenome d) {
 
 }  // namespace
 
-TestProblem zdt1() {
-  return {"ZDT1", realProblem(30, 2, [](ConstGenome d, std::span<double> f) {
-            const double g = zdtG(d.reals);
-            f[0] = d.reals[0], f[1] = g * (1 - std::sqrt(d.reals[0] / g));
-          }),
-          {1.1, 1.1},
-          0.8767,
-          0.870};  // 1.21 - 1/3
-}
-
-TestProblem zdt2() {
-  return {"ZDT2", realProblem(30, 2, [](ConstGenome d, std::span<double> f) {
-            const double g = zdtG(d.reals), share = d.reals[0] / g;
-            f[0] = d.reals[0], f[1] = g * (1 - share * share);
-          }),
-          {1.1, 1.1},
-          0.5433,
-          0.536};  // 1.21 - 2/3
-}
-
-TestProblem zdt3() {
-  return {"ZDT3", realProblem(30, 2, [](ConstGenome d, std::span<double> f) {
-            const double g = zdtG(d.reals), share = d.reals[0] / g;
-            f[0] = d.reals[0], f[1] = g * (1 - std::sqrt(share) - share * std::sin(10 * kPi * d.reals[0]));
-          }),
-          {1.1, 1.1},
-          1.3318,
-          0};
-}
+TestProblem zdt1() { return zdt<convex>("ZDT1", 0.8767, 0.870); }   // 1.21 - 1/3
+TestProblem zdt2() { return zdt<concave>("ZDT2", 0.5433, 0.536); }  // 1.21 - 2/3
+TestProblem zdt3() { return zdt<broken>("ZDT3", 1.3318, 0); }
 
 TestProblem dtlz2() {
   return {"DTLZ2", realProblem(12, 3, [](ConstGenome d, std::span<double> f) {
@@ -89,7 +77,7 @@ TestProblem dtlz2() {
 TestProblem mixedZdt1() {
   Problem problem = realProblem(kCategories, 2, [](ConstGenome d, std::span<double> f) {
     const double g = mixedG(d);
-    f[0] = d.reals[0], f[1] = g * (1 - std::sqrt(d.reals[0] / g));
+    f[0] = d.reals[0], f[1] = g * convex(d.reals[0], g);
   });
   for (int32_t i = 0; i < kCategories; ++i) {
     problem.integers.push_back({.cardinality = kValues, .ordered = false, .group = i});

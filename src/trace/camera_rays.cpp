@@ -45,6 +45,11 @@ Ray cutBelow(Ray ray, float heightM) {
 
 }  // namespace
 
+bool seeTheSame(const Camera& a, const Camera& b) {
+  return a.worldFromCamera == b.worldFromCamera && a.yFovRad == b.yFovRad && a.aspect == b.aspect && a.nearM == b.nearM && a.projection == b.projection &&
+         a.emptyBackdrop == b.emptyBackdrop && a.yMagM == b.yMagM && a.cutHeightM == b.cutHeightM;
+}
+
 CameraRays::CameraRays(const Camera& camera, int width, int height) : camera_(camera), cameraFromWorld_(inverse(camera.worldFromCamera)), width_(width), height_(height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   halfHeight_ = camera.projection == Projection::Orthographic ? camera.yMagM : std::tan(0.5f * camera.yFovRad);

@@ -10,6 +10,9 @@ namespace roomlight {
 
 constexpr float kEyeDistanceM = 0.064f;  // of stereo panoramas: the mean of grown-ups is 63 mm
 
+// Whether two cameras take the same picture, whatever they are called.
+bool seeTheSame(const Camera& a, const Camera& b);
+
 // The angle or height that a camera states holds when the picture is at least as wide as the author's aspect; a narrower picture
 // keeps the width instead, so that nothing the author framed is lost. Panoramas fill any picture.
 class CameraRays {

@@ -91,13 +91,14 @@ std::optional<ViewError> editObject(const EditableHome& home, const Scene& scene
   const EditFields& set = edit.set;
   const char* verb = "Change";
   if ((set.move || set.turnDeg) && !object.movable) return refused(edit, "notPossible", set.move ? "move" : "turn", "it stands still");
-  if (set.open) return refused(edit, "notPossible", "open", "it is no door that can be opened");
+  if (set.open && !object.opens) return refused(edit, "notPossible", "open", "nothing of it opens");
   if (set.move) s.move = *set.move, verb = "Move";
   if (set.turnDeg) s.turnDeg = *set.turnDeg, verb = set.move ? "Move" : "Turn";
   if (set.color) {
     if (auto e = paint(object, scene, edit, s)) return e;
     verb = "Colour";
   }
+  if (set.open) s.open = *set.open, verb = *set.open > 0 ? "Open" : "Shut";
   if (set.hidden) s.hidden = *set.hidden, verb = *set.hidden ? "Hide" : "Show";
   out.label = fmt::format("{} {}", verb, object.name);
   return {};

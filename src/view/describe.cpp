@@ -113,7 +113,7 @@ Json objectJson(const EditableHome& home, const Scene& scene, size_t index, cons
     const Material& m = scene.materials[object.paints[k].material];
     colors.push_back({{"material", m.name}, {"color", vectorJson(s.colors[k])}, {"textured", m.baseColorTexture.texture >= 0}});
   }
-  return {{"id", objectId(index)}, {"name", object.name}, {"low", vectorJson(b.lo)}, {"high", vectorJson(b.hi)}, {"movable", object.movable}, {"move", vectorJson(s.move)}, {"turn", rounded(s.turnDeg)}, {"hidden", s.hidden}, {"colors", colors}, {"open", nullptr}};
+  return {{"id", objectId(index)}, {"name", object.name}, {"low", vectorJson(b.lo)}, {"high", vectorJson(b.hi)}, {"movable", object.movable}, {"move", vectorJson(s.move)}, {"turn", rounded(s.turnDeg)}, {"hidden", s.hidden}, {"colors", colors}, {"open", object.opens ? Json(rounded(s.open)) : Json(nullptr)}};
 }
 
 Json sunJson(const ViewHome& home, const HomeState& state) {

@@ -30,6 +30,21 @@ bool standsStill(const Scene& scene, const EditableObject& o) {
   return longest > kLongM || (size.y > kHighM && thin < kThinM) || isRoom(scene, o.name) || o.name == "ground";
 }
 
+std::optional<Leaf> leafOf(const Scene& scene, const Instance& instance) {
+  if (instance.leaf < 0) return {};
+  return scene.leaves[static_cast<size_t>(instance.leaf)];
+}
+
+// The mean is strictly between shut and wide open where the leaves differ, so that from there all of them can go either way.
+void findOpening(EditableObject& o) {
+  float sum = 0, count = 0;
+  for (const EditableObject::Part& part : o.parts) {
+    if (part.leaf) sum += part.leaf->atRest, ++count;
+  }
+  o.opens = count > 0;
+  if (o.opens) o.openAtRest = sum / count;
+}
+
 // Numbers of the scene's objects -> those of the list.
 std::map<int, int> findObjects(const Scene& scene, bool parted, EditableHome& home) {
   std::map<int, int> numbers;
@@ -42,12 +57,12 @@ std::map<int, int> findObjects(const Scene& scene, bool parted, EditableHome& ho
     if (isNew) home.objects.emplace_back().name = instance.name, materials.emplace_back();
     const auto k = static_cast<size_t>(number->second);
     EditableObject& object = home.objects[k];
-    object.parts.push_back({i, instance.worldFromObject, instance.mesh, bounds});
+    object.parts.push_back({i, instance.worldFromObject, instance.mesh, bounds, leafOf(scene, instance)});
     object.bounds.add(bounds);
     const auto material = static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material);
     if (parted && !shines(scene, instance) && materials[k].insert(material).second) object.paints.push_back({material, scene.materials[material].baseColor});
   }
-  for (EditableObject& o : home.objects) o.movable = !standsStill(scene, o);
+  for (EditableObject& o : home.objects) o.movable = !standsStill(scene, o), findOpening(o);
   return numbers;
 }
 
@@ -151,6 +166,7 @@ EditableHome makeEditable(Scene& scene) {
   }
   for (const EditableObject& o : home.objects) {
     ObjectState& s = home.atStart.objects.emplace_back();
+    s.open = o.openAtRest;
     for (const EditableObject::Paint& p : o.paints) s.colors.push_back(p.color);
   }
   return home;

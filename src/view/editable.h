@@ -39,6 +39,7 @@ struct EditableObject {
     Affine atRest;
     int mesh;
     Bounds3 bounds;  // at rest, world
+    std::optional<Leaf> leaf;  // that it is of
   };
   struct Paint {
     size_t material;  // that nothing else uses
@@ -46,6 +47,8 @@ struct EditableObject {
   };
   std::string name;
   bool movable = false;
+  bool opens = false;    // has leaves
+  float openAtRest = 0;  // how far the file has them open, on the average
   bool lampBody = false;  // the shining rectangle of a lamp that is edited as one, no thing
   std::vector<Part> parts;
   std::vector<Paint> paints;
@@ -66,6 +69,7 @@ struct ObjectState {
   Vec3 move;
   float turnDeg = 0;  // counter-clockwise seen from above, about the middle of the box
   bool hidden = false;
+  float open = 0;  // 0 shut, 1 wide open: all leaves together
   std::vector<Vec3> colors;  // of its paints
   bool operator==(const ObjectState&) const = default;
 };

@@ -1,10 +1,25 @@
 #include "view/frame_sender.h"
 
+#include <fmt/format.h>
+
+#include <exception>
 #include <utility>
 
 #include "base/parallel.h"
 
 namespace roomlight::view {
+namespace {
+
+// One that fails does not end the others.
+Result<std::string> made(const FrameSender::Make& make) {
+  try {
+    return make();
+  } catch (const std::exception& e) {
+    return Error{fmt::format("a frame could not be made: {}", e.what())};
+  }
+}
+
+}  // namespace
 
 FrameSender::FrameSender() {
   thread_ = std::thread([this] { withThreads(1, [this] { run(); }); });
@@ -37,7 +52,7 @@ void FrameSender::run() {
       next = std::move(waiting_.front());
       waiting_.pop_front();
     }
-    next.second(next.first());
+    next.second(made(next.first));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "view/light_follower.h"
 
+#include <exception>
 #include <utility>
 
 #include "base/parallel.h"
@@ -9,26 +10,32 @@ namespace roomlight::view {
 void LightFollower::begin(const EditableHome& editable, LitHome& home, HomeState wanted, int threads, std::function<void()> ready) {
   finish();
   home_ = &home, done_ = false;
-  wanted.sun = home.state.sun;
+  wanted.sun = home.sun;
   thread_ = std::thread([this, &editable, &home, wanted = std::move(wanted), threads, ready = std::move(ready)] {
-    withThreads(threads, [&] {
-      RenderStats stats;
-      RenderProgress silent;
-      Stages stages(silent, stats);
-      const SceneChange change = stage(editable, home.state, wanted, home.scene);
-      home.state = wanted;
-      home.lit->update(change, stages);
-      light_ = home.lit->snapshot();
-    });
+    try {
+      inBackground(threads, [&] { follow(editable, home, wanted); });
+    } catch (const std::exception& e) {
+      light_ = nullptr, error_ = e.what();
+    }
     done_ = true;
     ready();
   });
 }
 
-std::pair<LitHome*, std::shared_ptr<const SlotSnapshot>> LightFollower::finish() {
+void LightFollower::follow(const EditableHome& editable, LitHome& home, const HomeState& wanted) {
+  RenderStats stats;
+  RenderProgress silent;
+  Stages stages(silent, stats);
+  const SceneChange change = stage(editable, home.state, wanted, home.scene);
+  home.state = wanted;
+  home.lit->update(change, stages);
+  light_ = home.lit->snapshot();
+}
+
+FollowedLight LightFollower::finish() {
   if (!thread_.joinable()) return {};
   thread_.join();
-  return {std::exchange(home_, nullptr), std::move(light_)};
+  return {std::exchange(home_, nullptr), std::exchange(light_, nullptr), std::exchange(error_, {})};
 }
 
 }  // namespace roomlight::view

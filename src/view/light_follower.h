@@ -3,11 +3,19 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
+#include <string>
 #include <thread>
 
 #include "view/lit_home.h"
 
 namespace roomlight::view {
+
+struct FollowedLight {
+  LitHome* home = nullptr;                    // null: there was nothing to follow
+  std::shared_ptr<const SlotSnapshot> light;  // null: that failed, and the home is somewhere between two states
+  std::string error;                          // then: why
+};
 
 class LightFollower {
  public:
@@ -17,12 +25,15 @@ class LightFollower {
   void begin(const EditableHome& editable, LitHome& home, HomeState wanted, int threads, std::function<void()> ready);
   const LitHome* home() const { return home_; }  // null: none
   bool done() const { return done_; }
-  // Waits for the end. Returns the home and its new light; null if there was none.
-  std::pair<LitHome*, std::shared_ptr<const SlotSnapshot>> finish();
+  // Waits for the end.
+  FollowedLight finish();
 
  private:
+  void follow(const EditableHome& editable, LitHome& home, const HomeState& wanted);
+
   LitHome* home_ = nullptr;
   std::shared_ptr<const SlotSnapshot> light_;
+  std::string error_;
   std::atomic<bool> done_{false};
   std::thread thread_;
 };

@@ -1,13 +1,14 @@
 #include "view/lit_home.h"
 
+#include <fmt/format.h>
+
 #include "base/parallel.h"
 
 namespace roomlight::view {
 namespace {
 
 Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder::Work& work, const RenderProgress& progress) {
-  auto out = std::make_unique<LitHome>();
-  out->key = work.key, out->state = work.state;
+  auto out = std::make_unique<LitHome>(work.key, work.state);
   Result<Scene> scene = sceneIn(home, work.state);
   if (!scene) return Error{scene.error()};
   out->scene = std::move(scene).value();
@@ -49,7 +50,7 @@ void FrontHome::findMoved() {
   moved_.clear();
   for (uint32_t i = 0; i < litPlaces_.size(); ++i) {
     const Affine &now = scene_.instances[i].worldFromObject, &then = litPlaces_[i];
-    if (!(now.x == then.x && now.y == then.y && now.z == then.z && now.w == then.w)) moved_.emplace(i, then * inverse(now));
+    if (now != then) moved_.emplace(i, then * inverse(now));
   }
 }
 
@@ -59,11 +60,13 @@ void LightBuilder::begin(const ViewHome& home, Work work, RenderProgress progres
   cancelled_ = false, done_ = false;
   progress.cancelled = &cancelled_;
   thread_ = std::thread([this, &home, progress = std::move(progress), ready = std::move(ready)] {
-    withThreads(work_.settings.threads, [&] {
+    inBackground(work_.settings.threads, [&] {
       try {
         result_ = build(home, work_, progress);
       } catch (const std::bad_alloc&) {
         result_ = Result<std::unique_ptr<LitHome>>(Error{"not enough memory to light the home"});
+      } catch (const std::exception& e) {
+        result_ = Result<std::unique_ptr<LitHome>>(Error{fmt::format("the home could not be lit: {}", e.what())});
       }
     });
     done_ = true;

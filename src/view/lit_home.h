@@ -7,6 +7,9 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "engine/lit_scene.h"
 #include "gather/quick_frames.h"
@@ -47,9 +50,12 @@ class FrontHome {
 };
 
 struct LitHome {
+  LitHome(LightKey lightKey, HomeState at) : key(std::move(lightKey)), state(std::move(at)), sun(state.sun) {}
+
   LightKey key;
   Scene scene;
-  HomeState state;  // that the scene and its light are in
+  HomeState state;  // that the scene and its light are in; while light follows, the follower's alone
+  const std::optional<SunState> sun;  // of that state: another needs another home
   std::unique_ptr<LitScene> lit;
   std::unique_ptr<FrontHome> front;  // of techniques that have light in slots
 };

@@ -1,5 +1,7 @@
 #include "view/refiner.h"
 
+#include <exception>
+
 #include "base/parallel.h"
 #include "filter/blend.h"
 #include "reference/path_tracer.h"
@@ -7,18 +9,25 @@
 namespace roomlight::view {
 namespace {
 
-constexpr int kFewestSamples = 4;      // before the first blend
 constexpr double kLookAgain = 1.5;     // times the samples of the last
 constexpr int kMostSamples = 1 << 14;
 constexpr float kGoodEnough = 0.002f;  // relative error: less cannot be seen
 
 }  // namespace
 
-void Refiner::begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first) {
+void Refiner::begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first, int firstLook) {
   stop();
-  cancelled_ = false;
+  cancelled_ = false, failed_ = false, working_ = true;
   home_ = &home;
-  thread_ = std::thread([this, &home, camera, settings, threads, first = std::move(first)] { withThreads(threads, [&] { run(home, camera, settings, first); }); });
+  thread_ = std::thread([this, &home, camera, settings, threads, first = std::move(first), firstLook] {
+    try {
+      withThreads(threads, [&] { run(home, camera, settings, first, firstLook); });
+    } catch (const std::exception&) {  // out of memory: the picture stays as it is
+      failed_ = true;
+    }
+    working_ = false;
+    if (failed_) ready_();
+  });
 }
 
 // False: given up.
@@ -27,12 +36,12 @@ bool Refiner::tracePasses(PathTracer& tracer, int until) {
   progress.cancelled = &cancelled_;
   const std::lock_guard lock(usesHome_);
   while (tracer.samples() < until) {
-    if (cancelled_ || !tracer.pass(progress)) return false;
+    if (!tracer.pass(progress, true)) return false;
   }
   return !cancelled_;
 }
 
-void Refiner::run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first) {
+void Refiner::run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first, int firstLook) {
   std::optional<PathTracer> made;
   {
     const std::lock_guard lock(usesHome_);
@@ -40,7 +49,7 @@ void Refiner::run(const LitHome& home, const Camera& camera, const PathSettings&
     made.emplace(home.lit->rays(), home.lit->lights(), camera, settings, true);
   }
   PathTracer& tracer = *made;
-  for (int samples = kFewestSamples; tracePasses(tracer, samples); samples = std::min(kMostSamples, static_cast<int>(kLookAgain * samples))) {
+  for (int samples = firstLook; tracePasses(tracer, samples); samples = std::min(kMostSamples, static_cast<int>(kLookAgain * samples))) {
     Blend best = blend(first, tracer.mean(), tracer.variance(), tracer.features());
     const auto error = static_cast<float>(best.relativeError);
     const bool last = samples >= kMostSamples || error < kGoodEnough;
@@ -64,6 +73,13 @@ void Refiner::letGo() {
   cancelled_ = true;
   const std::lock_guard lock(usesHome_);
   home_ = nullptr;
+}
+
+bool Refiner::tryLetGo() {
+  cancelled_ = true;
+  const std::unique_lock lock(usesHome_, std::try_to_lock);
+  if (lock) home_ = nullptr;
+  return lock.owns_lock();
 }
 
 void Refiner::stop() {

@@ -26,28 +26,35 @@ struct RefinedPicture {
 
 class Refiner {
  public:
-  // `ready` is called from its thread when there is another picture to take.
+  static constexpr int kFewestSamples = 4;  // before the first blend of a picture that was not refined yet
+
+  // `ready` is called from its thread when there is another picture to take, or it failed.
   explicit Refiner(std::function<void()> ready) : ready_(std::move(ready)) {}
   ~Refiner() { stop(); }
 
-  // Begins anew with a picture that has little noise; `home` must stay as it is until letGo() or stop() has returned.
-  void begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first);
+  // Begins anew with a picture that has little noise; `home` must stay as it is until it was let go. Tells of the first picture after so many samples.
+  // Waits for what is still working.
+  void begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first, int firstLook);
   const LitHome* home() const { return home_; }  // null: none
+  bool working() const { return working_; }
+  bool failed() const { return failed_; }  // no further picture comes of what was begun last
   std::optional<RefinedPicture> take();
   // Asks it to end, and does not wait.
   void giveUp() { cancelled_ = true; }
-  // Ends its use of the home, which may change from then on. Waits for a pass to be given up; the first goes on to its end.
+  // Ends its use of the home, which may change from then on. Waits for a pass to be given up.
   void letGo();
+  // The same without waiting. False: not yet; it was asked to end.
+  bool tryLetGo();
   // Waits for all of it: a blend takes about a second for a large picture.
   void stop();
 
  private:
-  void run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first);
+  void run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first, int firstLook);
   bool tracePasses(PathTracer& tracer, int until);
 
   const std::function<void()> ready_;
   const LitHome* home_ = nullptr;
-  std::atomic<bool> cancelled_{false};
+  std::atomic<bool> cancelled_{false}, working_{false}, failed_{false};
   std::mutex usesHome_;  // held while the home is looked at
   std::mutex mutex_;     // of the picture
   std::optional<RefinedPicture> picture_;

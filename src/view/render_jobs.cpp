@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <algorithm>
+#include <exception>
 #include <random>
 
 #include "base/clock.h"
@@ -15,6 +17,11 @@ namespace {
 
 constexpr size_t kMostWaiting = 8, kMostFinished = 16;
 constexpr double kTellEveryS = 0.25;
+
+template <class Files>
+auto fileOf(Files& files, const std::string& id) {
+  return std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.first == id; });
+}
 
 std::string newId() {
   std::random_device random;
@@ -91,13 +98,30 @@ bool RenderJobs::cancel(const std::string& job) {
   return true;
 }
 
-std::optional<FinishedFile> RenderJobs::take(const std::string& id) {
+std::optional<FinishedFile> RenderJobs::find(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  const auto file = finished_.find(id);
+  const auto file = fileOf(finished_, id);
   if (file == finished_.end()) return {};
-  FinishedFile out = std::move(file->second);
+  return file->second;
+}
+
+void RenderJobs::drop(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto file = fileOf(finished_, id);
+  if (file != finished_.end()) remove(file);
+}
+
+void RenderJobs::keep(const std::string& id, FinishedFile file) {
+  const std::lock_guard lock(mutex_);
+  if (finished_.size() >= kMostFinished) remove(finished_.begin());  // nobody came for it
+  finished_.emplace_back(id, std::move(file));
+}
+
+// From disk too; with the lock held.
+void RenderJobs::remove(Finished::iterator file) {
+  std::error_code ignored;
+  std::filesystem::remove(file->second.path, ignored);
   finished_.erase(file);
-  return out;
 }
 
 void RenderJobs::run() {
@@ -112,7 +136,7 @@ void RenderJobs::run() {
       running_ = next.job, cancelled_ = false;
     }
     JobNews last;
-    withThreads(next.settings.threads, [&] { last = work(next); });
+    inBackground(next.settings.threads, [&] { last = work(next); });
     {
       const std::lock_guard lock(mutex_);
       running_.clear();
@@ -144,16 +168,13 @@ JobNews RenderJobs::work(const RenderWork& work) {
       if (!file) return failed(file.error());
       std::error_code ignored;
       news.fileId = newId(), news.fileName = file.value().name, news.bytes = std::filesystem::file_size(file.value().path, ignored);
-      const std::lock_guard lock(mutex_);
-      if (finished_.size() >= kMostFinished) {  // nobody came for them
-        std::filesystem::remove(finished_.begin()->second.path, ignored);
-        finished_.erase(finished_.begin());
-      }
-      finished_[news.fileId] = std::move(file).value();
+      keep(news.fileId, std::move(file).value());
     }
     return news;
   } catch (const std::bad_alloc&) {
     return failed("not enough memory for this picture");
+  } catch (const std::exception& e) {
+    return failed(fmt::format("the picture could not be made: {}", e.what()));
   }
 }
 

@@ -1,13 +1,15 @@
-// Final pictures and panoramas, made one after the other in the background while the home is looked at; each is fetched once.
+// Final pictures and panoramas, made one after the other in the background while the home is looked at; each is kept until it was fetched.
 #pragma once
 
 #include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
-#include <map>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "engine/render.h"
 #include "view/home.h"
@@ -51,11 +53,15 @@ class RenderJobs {
   bool add(RenderWork work);
   // False: there is no such job. What there is of its picture is kept.
   bool cancel(const std::string& job);
-  // From any thread; once.
-  std::optional<FinishedFile> take(const std::string& id);
+  // From any thread: a finished picture, until drop() removes it or many newer ones have come.
+  std::optional<FinishedFile> find(const std::string& id);
+  void drop(const std::string& id);
 
  private:
+  using Finished = std::deque<std::pair<std::string, FinishedFile>>;
   void run();
+  void keep(const std::string& id, FinishedFile file);
+  void remove(Finished::iterator file);
   JobNews work(const RenderWork& work);  // its last news
   Result<FinishedFile> write(const RenderWork& work, const Rendered& rendered) const;
 
@@ -66,7 +72,7 @@ class RenderJobs {
   std::condition_variable wake_;
   std::deque<RenderWork> waiting_;
   std::string running_;
-  std::map<std::string, FinishedFile> finished_;
+  Finished finished_;  // with their ids, the oldest first
   std::atomic<bool> cancelled_{false};
   bool stop_ = false;
   std::thread thread_;  // last: it uses all of the above

@@ -1,5 +1,10 @@
 #include "view/session.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+
 #include "base/parallel.h"
 #include "engine/live_walk.h"
 
@@ -9,11 +14,21 @@ namespace {
 using std::chrono::milliseconds;
 constexpr milliseconds kLookAgain{250};  // at lines that may have become free, windows that were lost
 constexpr milliseconds kSoon{20}, kTellEvery{100};
+constexpr milliseconds kAfterFailure{2000};
 constexpr size_t kMostLit = 3;           // kept, so that going back to a technique or plan is quick
+// Around the home. The light of everything is found in one box: a thing that is carried out of sight would make that absurdly large.
+constexpr float kFarthestOutM = 100;
+
+Bounds3 reachOf(const ViewHome& home) {
+  Bounds3 reach = home.scene.bounds();
+  for (const EditableLamp& l : home.editable.lamps) reach.add(l.position);
+  reach.lo -= Vec3(kFarthestOutM), reach.hi += Vec3(kFarthestOutM);
+  return reach;
+}
 
 }  // namespace
 
-Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox) : home_(std::move(home)), settings_(settings), frames_(frameSettings(settings)), outbox_(std::move(outbox)), homeJson_(homeJson(home_)), refiner_([this] { tellRefined(); }), jobs_(home_, [this](const JobNews& news) { takeNews(news); }) {
+Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox) : home_(std::move(home)), reach_(reachOf(home_)), settings_(settings), frames_(frameSettings(settings)), outbox_(std::move(outbox)), homeJson_(homeJson(home_)), refiner_([this] { tellRefined(); }), jobs_(home_, [this](const JobNews& news) { takeNews(news); }) {
   state_ = home_.atStart();
   plans_["start"] = state_;
   thread_ = std::thread([this] { withThreads(settings_.threads, [this] { run(); }); });
@@ -40,31 +55,68 @@ void Session::receive(Connection connection, const std::string& text) {
   push(connection, std::move(message));
 }
 
-void Session::push(Connection connection, std::variant<Opened, Closed, Packed, Message> what) {
-  const auto* message = std::get_if<Message>(&what);
-  const bool waits = std::holds_alternative<Packed>(what) || (message && std::holds_alternative<Ack>(*message));
+void Session::push(Connection connection, What what) {
   {
     const std::lock_guard lock(mutex_);
-    events_.push_back({connection, std::chrono::steady_clock::now(), std::move(what)});
-    if (!waits) newer_ = true;
+    Event event{connection, std::chrono::steady_clock::now(), std::move(what)};
+    if (!isOfFrames(event.what)) newer_ = true;
+    if (Event* before = outdatedBy(event)) {
+      *before = std::move(event);
+    } else {
+      events_.push_back(std::move(event));
+    }
   }
   wake_.notify_all();
 }
 
+// Frames that go out and arrive: nothing that another picture is needed for.
+bool Session::isOfFrames(const What& what) {
+  const auto* message = std::get_if<Message>(&what);
+  return std::holds_alternative<Packed>(what) || (message && std::holds_alternative<Ack>(*message));
+}
+
+// Of places and sizes of a window only the newest counts. The one before it, if nothing that could depend on it came between; with the lock held.
+Session::Event* Session::outdatedBy(const Event& event) {
+  const auto* message = std::get_if<Message>(&event.what);
+  if (!message || !(std::holds_alternative<ViewCamera>(*message) || std::holds_alternative<Viewport>(*message))) return nullptr;
+  const auto before = std::find_if(events_.rbegin(), events_.rend(), [&](const Event& e) { return e.connection == event.connection && !isOfFrames(e.what); });
+  const auto* said = before == events_.rend() ? nullptr : std::get_if<Message>(&before->what);
+  return said && said->index() == message->index() ? &*before : nullptr;
+}
+
 void Session::run() {
   while (!stop_) {
-    handleEvents();
-    adoptBuilt();
-    beginBuilding();
-    forgetLostWindows();
-    soon_ = false;
-    const bool took = takeLight();
-    followLight();
-    if (takeRefined() || work() || took) continue;
-    beginRefining();
+    milliseconds pause = kAfterFailure;
+    try {
+      if (workOn()) continue;
+      pause = soon_ ? kSoon : kLookAgain;
+    } catch (const std::exception& e) {
+      tellFailure(fmt::format("something went wrong: {}", e.what()));
+    }
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, soon_ ? kSoon : kLookAgain, [&] { return stop_ || built_ || refinedReady_ || lightReady_ || progress_ || !jobNews_.empty() || !events_.empty(); });
+    wake_.wait_for(lock, pause, [&] { return stop_ || built_ || refinedReady_ || lightReady_ || progress_ || !jobNews_.empty() || !events_.empty(); });
   }
+}
+
+// What there is to do now. False: nothing.
+bool Session::workOn() {
+  handleEvents();
+  adoptBuilt();
+  beginBuilding();
+  forgetLostWindows();
+  dropLights();
+  soon_ = false;
+  const bool took = takeLight();
+  followLight();
+  if (takeRefined() || work() || took) return true;
+  beginRefining();
+  return false;
+}
+
+// The session goes on: memory, say, may be there again in a moment.
+void Session::tellFailure(const std::string& what) {
+  if (outbox_.failed) outbox_.failed(what);
+  tellAll(errorText({{}, "failed", "", what}));
 }
 
 void Session::takeNews(const JobNews& news) {
@@ -99,7 +151,13 @@ bool Session::handleEvents() {
   }
   tellJobs(news);
   if (progress) tellAll(textOf({{"type", "progress"}, {"stage", progress->first}, {"fraction", progress->second}}));
-  for (const Event& event : events) handle(event);
+  for (const Event& event : events) {
+    try {
+      handle(event);
+    } catch (const std::exception& e) {  // the others still count
+      tellFailure(fmt::format("something went wrong: {}", e.what()));
+    }
+  }
   return !events.empty();
 }
 
@@ -120,6 +178,7 @@ void Session::adoptBuilt() {
     const std::lock_guard lock(mutex_);
     if (!built_) return;
     built_ = false;
+    progress_.reset();  // told after the end it would stay
   }
   tellAll(textOf({{"type", "progress"}, {"stage", "done"}, {"fraction", 1}}));
   const LightKey key = builder_.work().key;
@@ -127,22 +186,13 @@ void Session::adoptBuilt() {
   if (!result) return;
   if (!*result) {
     failedBuild_ = key.technique;
-    if (outbox_.failed) outbox_.failed(result->error());
-    tellAll(errorText({{}, "failed", "", result->error()}));
-    return;
+    return tellFailure(result->error());
   }
-  if (refiner_.home() && refiner_.home()->key == key) refiner_.stop(), refining_.reset();
-  if (follower_.home() && follower_.home()->key == key) follower_.finish();
-  lit_.remove_if([&](const auto& l) { return l->key == key; });
+  if (const LitHome* before = litFor(key)) dropLight(*before);
   lit_.push_front(std::move(*result).value());
-  dropLights();
   for (Window& w : windows_) {
     for (Side& s : w.sides) {
-      if (!(s.key == key)) continue;
-      s.picture.restart();
-      s.history.reset();
-      s.quick.forget();
-      s.shownSerial = 0;
+      if (s.key == key) s.restart();
     }
   }
 }
@@ -151,15 +201,27 @@ bool Session::needs(const LightKey& key) const {
   return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return w.connection && std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; }); });
 }
 
-// The ones that nobody looks at and were not used for longest, beyond a few.
+// The ones that nobody looks at and were not used for longest, beyond a few; those that a thread still works on another time.
 void Session::dropLights() {
   for (auto l = lit_.end(); l != lit_.begin() && lit_.size() > kMostLit;) {
     --l;
-    if (needs((*l)->key)) continue;
-    if (refiner_.home() == l->get()) refiner_.stop(), refining_.reset();
-    if (follower_.home() == l->get()) follower_.finish();
+    if (needs((*l)->key) || follower_.home() == l->get() || !refinerLeaves(**l)) continue;
     l = lit_.erase(l);
   }
+}
+
+// Waits for the threads that work on it.
+void Session::dropLight(const LitHome& home) {
+  if (refiner_.home() == &home) refiner_.letGo(), refining_.reset();
+  if (follower_.home() == &home) follower_.finish();
+  lit_.remove_if([&](const auto& l) { return l.get() == &home; });
+}
+
+// Whether the refiner has nothing to do with a home; where it has, it is asked to leave, and nobody waits.
+bool Session::refinerLeaves(const LitHome& home) {
+  if (refiner_.home() != &home) return true;
+  refining_.reset();
+  return refiner_.tryLetGo();
 }
 
 // Of all that windows look at, the first that has no light, or light of another sun.
@@ -169,7 +231,7 @@ void Session::beginBuilding() {
     for (size_t k = 0; k < w.sides.size() && w.connection; ++k) {
       const Side& s = w.sides[k];
       const auto lit = std::find_if(lit_.begin(), lit_.end(), [&](const auto& l) { return l->key == s.key; });
-      if (s.key.technique == failedBuild_ || (lit != lit_.end() && (*lit)->state.sun == stateOf(s.key).sun)) continue;
+      if (s.key.technique == failedBuild_ || (lit != lit_.end() && (*lit)->sun == stateOf(s.key).sun)) continue;
       RenderSettings settings = frames_;
       settings.technique = s.key.technique;
       RenderProgress progress;

@@ -39,8 +39,9 @@ class Session {
   void open(Connection connection, const std::string& window);
   void receive(Connection connection, const std::string& text);
   void close(Connection connection);
-  // A finished picture, once.
-  std::optional<FinishedFile> takeFile(const std::string& id) { return jobs_.take(id); }
+  // A finished picture, which is kept until it was sent.
+  std::optional<FinishedFile> findFile(const std::string& id) { return jobs_.find(id); }
+  void fileSent(const std::string& id) { jobs_.drop(id); }
 
  private:
   struct Opened {
@@ -51,23 +52,30 @@ class Session {
     uint32_t number;
     size_t bytes;
   };
+  using What = std::variant<Opened, Closed, Packed, Message>;
   struct Event {
     Connection connection;
     TimePoint at;
-    std::variant<Opened, Closed, Packed, Message> what;
+    What what;
   };
 
   // session.cpp: the loop
-  void push(Connection connection, std::variant<Opened, Closed, Packed, Message> what);
+  void push(Connection connection, What what);
+  static bool isOfFrames(const What& what);
+  Event* outdatedBy(const Event& event);
   void run();
+  bool workOn();
   bool handleEvents();
   bool work();
+  void tellFailure(const std::string& what);
   void adoptBuilt();
   void beginBuilding();
 
   // session_messages.cpp: what each message does
   void handle(const Event& event);
   void openWindow(const Event& event, const std::string& wanted);
+  void closeWindow(Window& window, TimePoint at);
+  std::optional<ViewError> tooFar(const Edit& edit, const HomeState& next) const;
   void on(Window& window, const Event& event, const Viewport& m);
   void on(Window& window, const Event& event, const ViewCamera& m);
   void on(Window& window, const Event& event, const DisplayChange& m);
@@ -85,16 +93,22 @@ class Session {
   void on(Window& window, const Event& event, const ViewError& m);
   void setState(HomeState next, const Window& by);
   Json stateJson(const std::vector<size_t>& lamps, const std::vector<size_t>& objects, bool sun) const;
-  void addHistory(Json& json) const;
   void forgetLostWindows();
-  void tellJobs(const std::vector<JobNews>& news);  // session_jobs.cpp
+
+  // session_jobs.cpp
+  void tellJobs(const std::vector<JobNews>& news);
+  void tellJobsAgain(Window& window);
+  void forgetJobs(Window& window, bool told);
 
   // session_frames.cpp
   Window* windowOf(Connection connection);
+  Window* windowNamed(const std::string& name);
   void chooseSides(Window& window);
   bool needs(const LightKey& key) const;
   size_t lightsNeeded() const;
   void dropLights();
+  void dropLight(const LitHome& home);
+  bool refinerLeaves(const LitHome& home);
   void newInput(Window& window, TimePoint at);
   LitHome* litFor(const LightKey& key);
   void bringUpToDate(LitHome& home, const Camera& camera);
@@ -111,15 +125,20 @@ class Session {
                     Quick,
                     Better };
   Next nextOf(const Window& window, const Side& side, const LitHome& home) const;
+  bool somebodyMoves() const;
   HomeState stateOf(const LightKey& key) const;
   bool makeFrame(Window& window);
   bool answerPoints(Window& window);  // session_points.cpp
   bool stepSide(Window& window, size_t index);
-  bool refines(const Side& side) const;
-  void beginRefining();  // session_refine.cpp
-  bool takeRefined();
   void sendFrame(Window& window, size_t index, LitHome& home);
   void packed(Window& window, const Packed& p, TimePoint at);
+
+  // session_refine.cpp
+  bool refines(const Side& side) const;
+  std::pair<Window*, size_t> nextToRefine();
+  bool isTurnOver(const Side& next);
+  void beginRefining();
+  bool takeRefined();
 
   void tell(const Window& window, std::string text) const;
   void tellAll(const std::string& text) const;
@@ -128,6 +147,7 @@ class Session {
   void tellProgress(const std::string& stage, float fraction);
 
   const ViewHome home_;
+  const Bounds3 reach_;            // how far things may be moved
   const RenderSettings settings_;  // of renders
   const RenderSettings frames_;    // of what is shown meanwhile
   const Outbox outbox_;
@@ -146,6 +166,7 @@ class Session {
     std::string window;
     size_t side = 0;
     uint32_t serial = 0;
+    uint32_t turn = 0, samples = 0;  // how many it has before another picture's turn may come, and so far
   };
   std::optional<Refining> refining_;
   int nextJob_ = 1;

@@ -1,4 +1,7 @@
 // Which picture of which window is made next, and how it is sent.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 #include "base/clock.h"
@@ -11,12 +14,13 @@
 namespace roomlight::view {
 namespace {
 
-constexpr double kQuickMs = 38;  // of 50: the rest is for light that follows, showing and packing
+constexpr double kQuickMs = 32;  // of 50: the rest is for light that follows, and showing and packing, which take a part of the same cores
 constexpr double kEditMs = 65;  // where the scene changes: ten frames a second, and light that follows meanwhile
+constexpr double kForRays = 0.7;  // of that, at most: the rest is for light
 constexpr double kRestMs = 80;  // without an input: before that a better picture is not begun, since the next input would end it
 constexpr double kLookAtColourMs = 250;
 constexpr int kColourRays = 32;  // along both edges
-constexpr size_t kMostUnderWay = 2, kMostHistories = 4;
+constexpr size_t kMostHistories = 4;
 
 double millisecondsSince(TimePoint at) { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - at).count(); }
 
@@ -24,6 +28,12 @@ double millisecondsSince(TimePoint at) { return std::chrono::duration<double, st
 
 Window* Session::windowOf(Connection connection) {
   const auto w = std::find_if(windows_.begin(), windows_.end(), [&](const Window& x) { return x.connection == connection; });
+  return w == windows_.end() ? nullptr : &*w;
+}
+
+// Null for an empty name.
+Window* Session::windowNamed(const std::string& name) {
+  const auto w = std::find_if(windows_.begin(), windows_.end(), [&](const Window& x) { return !name.empty() && x.name == name; });
   return w == windows_.end() ? nullptr : &*w;
 }
 
@@ -113,7 +123,10 @@ void Session::followLight() {
   if (follower_.home()) return;
   for (const auto& home : lit_) {
     if (!home->front || !needs(home->key) || isUpToDate(*home)) continue;
-    if (refiner_.home() == home.get()) refiner_.letGo();
+    if (!refinerLeaves(*home)) {
+      soon_ = true;
+      return;
+    }
     return follower_.begin(home_.editable, *home, stateOf(home->key), settings_.threads, [this] {
       {
         const std::lock_guard lock(mutex_);
@@ -132,12 +145,18 @@ bool Session::takeLight() {
     lightReady_ = false;
   }
   if (!follower_.done()) return false;  // of one that is no longer there
-  auto [home, light] = follower_.finish();
-  if (!home || !light) return false;
-  home->front->take(std::move(light), home->scene);
+  FollowedLight followed = follower_.finish();
+  if (!followed.home) return false;
+  LitHome& home = *followed.home;
+  if (!followed.light) {  // found afresh, then
+    dropLight(home);
+    tellFailure(fmt::format("light could not follow the change: {}", followed.error));
+    return true;
+  }
+  home.front->take(std::move(followed.light), home.scene);
   for (Window& w : windows_) {
     for (Side& s : w.sides) {
-      if (s.key == home->key) s.quick.lightChanged(), s.lightCame = true;
+      if (s.key == home.key) s.quick.lightChanged(), s.lightCame = true;
     }
   }
   return true;
@@ -170,6 +189,11 @@ FrameHistory* Session::historyOf(Side& side, Window& window) {
   return &*side.history;
 }
 
+// An input of any window ends what better pictures of others have begun, so that these would only take time from it.
+bool Session::somebodyMoves() const {
+  return std::any_of(windows_.begin(), windows_.end(), [](const Window& w) { return w.connection && millisecondsSince(w.inputAt) < kRestMs; });
+}
+
 // What a side of a window needs next.
 Session::Next Session::nextOf(const Window& window, const Side& side, const LitHome& home) const {
   const bool current = side.shownSerial == window.serial && side.picture.begun();
@@ -178,7 +202,7 @@ Session::Next Session::nextOf(const Window& window, const Side& side, const LitH
   if (home.front && !isUpToDate(home)) return side.picture.samples() == 0 && !side.quick.settled() ? Next::Quick : Next::Wait;
   if (!home.lit->settled()) return home.front ? Next::Wait : Next::Quick;
   if (side.picture.averaged()) return Next::Nothing;
-  if (millisecondsSince(window.inputAt) >= kRestMs) return Next::Better;
+  if (millisecondsSince(window.inputAt) >= kRestMs) return somebodyMoves() ? Next::Wait : Next::Better;
   return home.front && side.picture.samples() == 0 && !side.quick.settled() ? Next::Quick : Next::Wait;
 }
 
@@ -206,14 +230,13 @@ bool Session::showQuick(Window& window, Side& side, LitHome& home, const Camera&
   const bool edits = home.front && !isUpToDate(home);
   const double ms = edits ? kEditMs : kQuickMs;
   Pace& pace = edits ? side.editPace : side.pace;
-  const std::pair<int, int> whole = frameSize(window.viewport, window.line.scale()), size = pace.sizeFor(ms, whole);
+  const std::pair<int, int> whole = frameSize(window.viewport, window.line.scale()), size = pace.sizeFor(home.front ? kForRays * ms : ms, whole);
   const Stopwatch watch;
   Image image;
   double costMs = 0;
   if (home.front) {
     image = side.quick.make(home.front->quick(), camera, size.first, size.second, ms, {{}, &stop_});
-    // What cannot be put off: rays, and a little light.
-    costMs = std::min(watch.seconds() * 1e3, side.quick.count().otherMs / std::max(1, threadCount()) + ms / 4);
+    costMs = side.quick.count().otherMs / std::max(1, threadCount());  // light takes what time is left
   } else {
     image = home.lit->pictureOf(camera, {size.first, size.second, 1, {}, true, historyOf(side, window)}, {{}, &stop_});
     costMs = watch.seconds() * 1e3;
@@ -266,7 +289,7 @@ void Session::sendFrame(Window& window, size_t index, LitHome& home) {
   FrameInfo info;
   info.number = window.nextFrame++;
   info.side = window.sides.size() > 1 ? static_cast<uint8_t>(index + 1) : uint8_t{0};
-  const bool sunBehind = !(home.state.sun == stateOf(side.key).sun), lightBehind = home.front && !isUpToDate(home);
+  const bool sunBehind = !(home.sun == stateOf(side.key).sun), lightBehind = home.front && !isUpToDate(home);
   const auto flag = [](bool on, uint8_t bit) { return on ? bit : uint8_t{0}; };
   info.flags = static_cast<uint8_t>(flag(picture.quick(), kQuick) | flag(picture.settled(), kSettled) | flag(picture.refined(), kRefined) | flag(sunBehind || lightBehind || side.shownRevision != revision_, kLightIsBehind));
   info.jpegQuality = static_cast<uint16_t>(window.line.quality());

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
+#include <limits>
 
 #include "engine/quality.h"
 #include "import/printable.h"
@@ -12,6 +14,18 @@ namespace roomlight::view {
 namespace {
 
 constexpr int kUsualWidth = 1920, kPanoramaWidth = 4096;
+constexpr double kBytesAPixel = 450;   // of a render: pictures, what the filter needs, paths' sums
+constexpr double kMostOfMemory = 0.6;  // of what is free: the kernel ends programs without a word where there is none left
+
+// Of memory, as Linux tells; elsewhere there is no end to it.
+double availableBytes() {
+  std::ifstream in("/proc/meminfo");
+  std::string key;
+  for (double kib = 0; in >> key >> kib; in.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
+    if (key == "MemAvailable:") return kib * 1024;
+  }
+  return std::numeric_limits<double>::infinity();
+}
 
 Json positive(double value) { return value < 0 ? Json(nullptr) : Json(value); }
 
@@ -53,6 +67,8 @@ void Session::on(Window& window, const Event&, const RenderWish& m) {
   work.settings.width = m.width > 0 ? m.width : m.panorama ? kPanoramaWidth
                                                            : kUsualWidth;
   work.settings.height = m.height > 0 ? m.height : std::max(16, static_cast<int>(std::lround(work.settings.width / aspect)));
+  const double bytes = kBytesAPixel * work.settings.width * work.settings.height;
+  if (bytes > kMostOfMemory * availableBytes()) return tell(window, errorText({m.id, "notPossible", "width", fmt::format("a picture of {} x {} takes about {:.1f} GB of memory, more than there is to spare; make it smaller", work.settings.width, work.settings.height, bytes / 1e9)}));
   work.settings.timeLimitS = m.seconds;
   work.camera = m.panorama ? panoramaAt(window.camera) : cameraOf(window.camera);
   work.state = state_, work.display = window.display;
@@ -74,9 +90,27 @@ void Session::on(Window& window, const Event&, const SaveLighting& m) {
 
 void Session::tellJobs(const std::vector<JobNews>& news) {
   for (const JobNews& n : news) {
-    const auto window = std::find_if(windows_.begin(), windows_.end(), [&](const Window& w) { return w.name == n.window; });
-    if (window != windows_.end()) tell(*window, textOf(jobJson(n)));
+    Window* window = windowNamed(n.window);
+    if (!window) continue;
+    window->jobs[n.job] = n;
+    tell(*window, textOf(jobJson(n)));
+    forgetJobs(*window, window->connection.has_value());
   }
+}
+
+// To a window that comes back.
+void Session::tellJobsAgain(Window& window) {
+  forgetJobs(window, false);
+  for (const auto& [job, news] : window.jobs) tell(window, textOf(jobJson(news)));
+  forgetJobs(window, true);
+}
+
+// Pictures that were fetched or removed since and, where the window was told, jobs that have ended without one.
+void Session::forgetJobs(Window& window, bool told) {
+  std::erase_if(window.jobs, [&](const auto& entry) {
+    const JobNews& n = entry.second;
+    return n.fileId.empty() ? told && n.state != "running" : !jobs_.find(n.fileId);
+  });
 }
 
 }  // namespace roomlight::view

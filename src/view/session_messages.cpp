@@ -21,6 +21,8 @@ std::string newName() {
   return fmt::format("{:08x}", random());
 }
 
+bool isWithin(const Bounds3& b, Vec3 p) { return minComponent(min(p - b.lo, b.hi - p)) >= 0; }
+
 std::string tooMany() { return fmt::format("windows show {} techniques and plans already; end a split", kMostAtOnce); }
 
 ViewError noTechnique(uint32_t id, const char* field, const std::string& name) { return {id, "unknownThing", field, fmt::format("no technique '{}'", printable(name))}; }
@@ -36,26 +38,22 @@ void Session::handle(const Event& event) {
   if (const auto* opened = std::get_if<Opened>(&event.what)) return openWindow(event, opened->window);
   Window* window = windowOf(event.connection);
   if (!window) return;
-  if (std::holds_alternative<Closed>(event.what)) {
-    window->connection.reset();
-    window->leftAt = event.at;
-    if (refining_ && refining_->window == window->name) refiner_.giveUp(), refining_.reset();
-    return;
-  }
+  if (std::holds_alternative<Closed>(event.what)) return closeWindow(*window, event.at);
   if (const auto* p = std::get_if<Packed>(&event.what)) return packed(*window, *p, event.at);
   std::visit([&](const auto& m) { on(*window, event, m); }, std::get<Message>(event.what));
 }
 
+// A window that somebody looks through is not taken from them: a page that was duplicated knows its name too.
 void Session::openWindow(const Event& event, const std::string& wanted) {
-  const auto known = std::find_if(windows_.begin(), windows_.end(), [&](const Window& w) { return !wanted.empty() && w.name == wanted; });
-  if (known == windows_.end()) {
-    Window& w = windows_.emplace_back();
-    w.name = newName();
-    w.technique = settings_.technique;
-    w.camera = viewOf(defaultCamera(home_.scene));
-    chooseSides(w);
+  Window* known = windowNamed(wanted);
+  if (!known || known->connection) {
+    known = &windows_.emplace_back();
+    known->name = newName();
+    known->technique = settings_.technique;
+    known->camera = viewOf(defaultCamera(home_.scene));
+    chooseSides(*known);
   }
-  Window& window = known == windows_.end() ? windows_.back() : *known;
+  Window& window = *known;
   window.connection = event.connection;
   window.underWay.clear();
   newInput(window, event.at);
@@ -67,6 +65,17 @@ void Session::openWindow(const Event& event, const std::string& wanted) {
   welcome.update(stateJson(lamps, objects, true));
   welcome["type"] = "welcome";
   tell(window, textOf(welcome));
+  tellJobsAgain(window);
+}
+
+// Kept for a while, but for what takes tens of megabytes and is made again in a moment.
+void Session::closeWindow(Window& window, TimePoint at) {
+  window.connection.reset();
+  window.leftAt = at;
+  window.underWay.clear();
+  window.pick.reset(), window.meter.reset();
+  if (refining_ && refining_->window == window.name) refiner_.giveUp(), refining_.reset();
+  for (Side& s : window.sides) s.restart();
 }
 
 void Session::forgetLostWindows() {
@@ -135,12 +144,23 @@ void Session::on(Window& window, const Event& event, const ChooseSplit& m) {
   tell(window, okText(m.id));
 }
 
+std::optional<ViewError> Session::tooFar(const Edit& edit, const HomeState& next) const {
+  const auto refused = [&](const char* field) { return ViewError{edit.id, "badField", field, "is too far from the home"}; };
+  if (edit.set.position && !isWithin(reach_, *edit.set.position)) return refused("position");
+  for (size_t i = 0; edit.set.move && i < next.objects.size(); ++i) {
+    if (!(next.objects[i] == state_.objects[i]) && !isWithin(reach_, boundsOf(home_.editable.objects[i], next.objects[i]).centre())) return refused("move");
+  }
+  return {};
+}
+
 void Session::on(Window& window, const Event&, const Edit& m) {
   Edited edited;
   if (const auto error = applyEdit(home_.editable, home_.scene, m, state_, edited)) return tell(window, errorText(*error));
+  if (const auto error = tooFar(m, edited.state)) return tell(window, errorText(*error));
   tell(window, okText(m.id));
   if (edited.state == state_) return;
-  history_.step(state_, edited.label, m.gesture.empty() ? "" : window.name + m.gesture);
+  // A page that was loaded again counts its gestures from one, so that those of other things have the same names.
+  history_.step(state_, edited.label, m.gesture.empty() ? "" : window.name + '\n' + m.target + '\n' + m.gesture);
   setState(std::move(edited.state), window);
 }
 
@@ -171,11 +191,12 @@ void Session::on(Window& window, const Event& event, const EditPlan& m) {
   } else {
     plans_.erase(known);
     for (Window& w : windows_) {  // windows that show it show what is edited
-      if (!w.split) continue;
+      if (!w.split || (w.split->left.plan != m.name && w.split->right.plan != m.name)) continue;
       for (SplitSide* s : {&w.split->left, &w.split->right}) {
         if (s->plan == m.name) s->plan.clear();
       }
       chooseSides(w);
+      newInput(w, event.at);
     }
   }
   tell(window, okText(m.id));
@@ -188,7 +209,8 @@ void Session::on(Window& window, const Event& event, const EditPlan& m) {
 void Session::on(Window& window, const Event& event, const Ack& m) {
   auto& sent = window.underWay;
   const auto frame = std::find_if(sent.begin(), sent.end(), [&](const SentFrame& f) { return f.number == m.frame; });
-  if (frame == sent.end()) return tell(window, errorText({{}, "badField", "frame", fmt::format("no frame {} is under way", m.frame)}));
+  // Before it goes out nobody can have seen it: who says so only wants more frames than the line takes.
+  if (frame == sent.end() || frame->bytes == 0) return tell(window, errorText({{}, "badField", "frame", fmt::format("no frame {} is under way", m.frame)}));
   window.line.sent(frame->bytes, std::chrono::duration<double, std::milli>(event.at - frame->at).count());
   sent.erase(sent.begin(), std::next(frame));
 }

@@ -1,7 +1,21 @@
-// On to the reference: one picture at a time is refined by paths while nothing else is to be done.
+// On to the reference: one picture at a time is refined by paths while nothing else is to be done. Where several could be, they take turns.
+#include <algorithm>
+
 #include "view/session.h"
 
 namespace roomlight::view {
+namespace {
+
+constexpr uint32_t kFirstTurn = 60, kMostDoublings = 8;  // samples of a turn; each is twice as long as the one before, for only then errors go on falling
+
+uint32_t turnAfter(uint32_t turns) { return kFirstTurn << std::min(turns, kMostDoublings); }
+
+// As good as averages make it, and to be seen: the window takes frames.
+bool couldBeRefined(const Window& w, const Side& s) {
+  return w.connection && w.underWay.size() < kMostUnderWay && s.shownSerial == w.serial && s.failedSerial != w.serial && s.picture.averaged() && !s.picture.settled();
+}
+
+}  // namespace
 
 // Other techniques show what they find, not what is true.
 bool Session::refines(const Side& side) const { return side.key.technique == "hybrid" || side.key.technique == "path"; }
@@ -14,21 +28,44 @@ void Session::tellRefined() {
   wake_.notify_all();
 }
 
-void Session::beginRefining() {
-  if (refining_) return;
+// The picture with the fewest samples of those that wait; no window if there is none.
+std::pair<Window*, size_t> Session::nextToRefine() {
+  std::pair<Window*, size_t> next{nullptr, 0};
   for (Window& w : windows_) {
-    for (size_t k = 0; k < w.sides.size() && w.connection; ++k) {
-      const Side& s = w.sides[k];
-      const bool waits = s.shownSerial == w.serial && s.picture.averaged() && !s.picture.settled() && !s.picture.refined();
-      LitHome* home = waits ? litFor(s.key) : nullptr;
+    for (size_t k = 0; k < w.sides.size(); ++k) {
+      const bool isUnderWay = refining_ && refining_->window == w.name && refining_->side == k;
+      if (isUnderWay || !couldBeRefined(w, w.sides[k])) continue;
+      const LitHome* home = litFor(w.sides[k].key);
       if (!home || follower_.home() == home) continue;
-      PathSettings settings = settings_.path;
-      settings.width = s.picture.image().width, settings.height = s.picture.image().height;
-      settings.seed = settings_.seed + 1;  // other random numbers than those of the picture
-      refining_ = Refining{w.name, k, w.serial};
-      return refiner_.begin(*home, cameraOf(w.camera), settings, settings_.threads, s.picture.image());
+      if (!next.first || w.sides[k].picture.samples() < next.first->sides[next.second].picture.samples()) next = {&w, k};
     }
   }
+  return next;
+}
+
+bool Session::isTurnOver(const Side& next) {
+  const Window* window = windowNamed(refining_->window);
+  if (!window || refining_->side >= window->sides.size()) return true;
+  return refining_->samples >= refining_->turn && next.picture.samples() < window->sides[refining_->side].picture.samples();
+}
+
+void Session::beginRefining() {
+  const auto [window, k] = nextToRefine();
+  if (!window || (refining_ && !isTurnOver(window->sides[k]))) return;
+  if (refining_) refiner_.giveUp(), refining_.reset();
+  if (refiner_.working()) return;  // on a last blend, which takes about a second
+  Side& s = window->sides[k];
+  if (!s.picture.refined()) s.turns = 0;
+  s.samplesBefore = s.turns > 0 ? s.picture.samples() : 0;
+  const uint32_t length = turnAfter(s.turns);
+  PathSettings settings = settings_.path;
+  settings.width = s.picture.image().width, settings.height = s.picture.image().height;
+  settings.seed = settings_.seed + 1 + s.turns;  // other random numbers than those of the picture so far
+  refining_ = Refining{window->name, k, window->serial, length, 0};
+  // The picture of an earlier turn is better than the first looks of this one could make it.
+  const int firstLook = s.turns > 0 ? static_cast<int>(length) : Refiner::kFewestSamples;
+  ++s.turns;
+  refiner_.begin(*litFor(s.key), cameraOf(window->camera), settings, settings_.threads, s.picture.image(), firstLook);
 }
 
 // Whether there was a picture to take.
@@ -39,19 +76,23 @@ bool Session::takeRefined() {
     refinedReady_ = false;
   }
   std::optional<RefinedPicture> picture = refiner_.take();
-  if (!picture || !refining_) return false;
-  const auto window = std::find_if(windows_.begin(), windows_.end(), [&](const Window& w) { return w.name == refining_->window; });
+  if (!refining_) return false;
+  Window* window = windowNamed(refining_->window);
   const size_t k = refining_->side;
-  if (window == windows_.end() || window->serial != refining_->serial || k >= window->sides.size()) {
+  if (!window || window->serial != refining_->serial || k >= window->sides.size()) {
     refiner_.giveUp();
     refining_.reset();
     return false;
   }
   Side& side = window->sides[k];
-  side.picture.refine(std::move(picture->image), picture->samples, picture->relativeError, picture->last);
-  side.again = true;
-  if (picture->last) refining_.reset();
-  return true;
+  if (picture) {
+    side.picture.refine(std::move(picture->image), side.samplesBefore + picture->samples, picture->relativeError, picture->last);
+    side.again = true;
+    refining_->samples = picture->samples;
+  }
+  if (refiner_.failed()) side.failedSerial = window->serial;
+  if (refiner_.failed() || (picture && picture->last)) refining_.reset();
+  return picture.has_value();
 }
 
 }  // namespace roomlight::view

@@ -19,6 +19,31 @@ Affine placeOf(const EditableObject& object, const ObjectState& state) {
 
 bool isAtRest(const ObjectState& state) { return isBlack(state.move) && state.turnDeg == 0; }
 
+// How far open a leaf is: at rest where its thing is, and from there straight to shut and to wide open.
+float openingOf(const EditableObject& object, const Leaf& leaf, float open) {
+  const float start = object.openAtRest;
+  if (open < start) return leaf.atRest * (open / start);
+  return leaf.atRest + (1 - leaf.atRest) * ((open - start) / (1 - start));
+}
+
+// Of a leaf that is opened by that much more (Rodrigues' formula).
+Affine swing(const Leaf& leaf, float by) {
+  const float turnRad = by * leaf.turnRad, c = std::cos(turnRad), s = std::sin(turnRad);
+  const auto turned = [&](Vec3 p) { return p * c + cross(leaf.axis, p) * s + leaf.axis * (dot(leaf.axis, p) * (1 - c)); };
+  Affine place{turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1}), {}};
+  place.w = leaf.hinge - place.vector(leaf.hinge) + leaf.slideM * by;
+  return place;
+}
+
+bool isSwung(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state) { return part.leaf && state.open != object.openAtRest; }
+
+// From where the file has a part to where it is.
+Affine motionOf(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state) {
+  const Affine place = isAtRest(state) ? Affine() : placeOf(object, state);
+  if (!isSwung(object, part, state)) return place;
+  return place * swing(*part.leaf, openingOf(object, *part.leaf, state.open) - part.leaf->atRest);
+}
+
 // The shortest turn from one unit direction to another.
 Affine turnBetween(Vec3 from, Vec3 to, Vec3 up) {
   const float c = dot(from, to);
@@ -77,7 +102,7 @@ void stageLamp(const EditableHome& home, size_t index, const HomeState& to, Scen
   if (lamp.object >= 0 || lamp.sources.empty()) return;
   for (const uint32_t i : lamp.instances) {  // rectangles, which stand in the world's own frame
     Affine& now = scene.instances[i].worldFromObject;
-    if (now.x == place.x && now.y == place.y && now.z == place.z && now.w == place.w) continue;
+    if (now == place) continue;
     now = place;
     change.moved.push_back(i);
   }
@@ -86,14 +111,21 @@ void stageLamp(const EditableHome& home, size_t index, const HomeState& to, Scen
 void stageObject(const EditableHome& home, size_t index, const HomeState& to, Scene& scene, SceneChange& change) {
   const EditableObject& object = home.objects[index];
   const ObjectState& state = to.objects[index];
-  const Affine place = placeOf(object, state);
+  bool painted = false;
+  for (size_t k = 0; k < object.paints.size(); ++k) {
+    Vec3& color = scene.materials[object.paints[k].material].baseColor;
+    painted = painted || !(color == state.colors[k]);
+    color = state.colors[k];
+  }
   for (const EditableObject::Part& part : object.parts) {
     Instance& instance = scene.instances[part.instance];
-    instance.worldFromObject = isAtRest(state) ? part.atRest : place * part.atRest;
-    instance.mesh = state.hidden ? home.hiddenMesh : part.mesh;
+    const bool rests = isAtRest(state) && !isSwung(object, part, state);
+    const Affine place = rests ? part.atRest : motionOf(object, part, state) * part.atRest;
+    const int mesh = state.hidden ? home.hiddenMesh : part.mesh;
+    if (!painted && instance.mesh == mesh && instance.worldFromObject == place) continue;  // the frame of a door that opens
+    instance.worldFromObject = place, instance.mesh = mesh;
     change.moved.push_back(part.instance);
   }
-  for (size_t k = 0; k < object.paints.size(); ++k) scene.materials[object.paints[k].material].baseColor = state.colors[k];
 }
 
 void sortOnce(std::vector<uint32_t>& list) {
@@ -118,13 +150,13 @@ SceneChange stage(const EditableHome& home, const HomeState& from, const HomeSta
 }
 
 Bounds3 boundsOf(const EditableObject& object, const ObjectState& state) {
-  if (isAtRest(state)) return object.bounds;
-  const Affine place = placeOf(object, state);
+  if (isAtRest(state) && state.open == object.openAtRest) return object.bounds;
   Bounds3 bounds;
   for (const EditableObject::Part& part : object.parts) {
+    const Affine motion = motionOf(object, part, state);
     for (int corner = 0; corner < 8; ++corner) {
       const Bounds3& b = part.bounds;
-      bounds.add(place.point({corner & 1 ? b.hi.x : b.lo.x, corner & 2 ? b.hi.y : b.lo.y, corner & 4 ? b.hi.z : b.lo.z}));
+      bounds.add(motion.point({corner & 1 ? b.hi.x : b.lo.x, corner & 2 ? b.hi.y : b.lo.y, corner & 4 ? b.hi.z : b.lo.z}));
     }
   }
   return bounds;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "view/growing_picture.h"
 #include "view/message.h"
 #include "view/pacing.h"
+#include "view/render_jobs.h"
 #include "view/shown.h"
 #include "view/view_camera.h"
 
@@ -21,9 +23,11 @@ namespace roomlight::view {
 using Connection = uint64_t;
 using TimePoint = std::chrono::steady_clock::time_point;
 
+constexpr size_t kMostUnderWay = 2;  // frames of a window that were not acknowledged; before one of them is, no other is made
+
 struct SentFrame {
   uint32_t number;
-  size_t bytes;
+  size_t bytes;  // 0: not packed yet
   TimePoint at;
 };
 
@@ -40,6 +44,11 @@ struct Side {
   uint32_t shownSerial = 0;    // input that the picture shows
   uint32_t shownRevision = 0;  // state of the light that it shows
   bool again = false;          // to be shown once more: only the display is another
+  // Of its refinement: turns so far, samples of those before the one it has, and the input whose picture could not be refined.
+  uint32_t turns = 0, samplesBefore = 0, failedSerial = 0;
+
+  // The next picture is made from nothing, and until then there is none that takes memory.
+  void restart() { picture.restart(), history.reset(), quick = QuickFrames(), lightCame = again = false, shownSerial = 0; }
 };
 
 struct Window {
@@ -62,6 +71,7 @@ struct Window {
   std::shared_ptr<Adaptation> eye[2] = {std::make_shared<Adaptation>(), std::make_shared<Adaptation>()};
   TimePoint lastFrameAt;
   std::optional<Point> pick, meter;  // wait to be answered
+  std::map<std::string, JobNews> jobs;  // the last of each, as far as it may have to be told again
 };
 
 }  // namespace roomlight::view

@@ -130,7 +130,7 @@ size_t Voxels::bytes() const {
 Voxelisation voxelise(const Scene& scene, const VoxelSettings& settings, std::span<const uint8_t> hidden) {
   // An update of nothing after which every instance is new.
   Voxelisation v;
-  v.voxels.voxelSizeM = chooseVoxelSize(scene, settings);
+  v.voxels.voxelSizeM = v.wantedM = chooseVoxelSize(scene, settings);
   std::vector<uint32_t> all(scene.instances.size());
   std::iota(all.begin(), all.end(), 0u);
   update(v, scene, all, hidden);
@@ -141,14 +141,16 @@ void update(Voxelisation& v, const Scene& scene, std::span<const uint32_t> chang
   assert(v.instanceBounds.size() <= scene.instances.size());
   refreshBounds(v, scene, changedInstances, hidden);
   const Bounds3 bounds = unionOf(v.instanceBounds);
-  const float size = feasibleVoxelSizeM(bounds, v.voxels.voxelSizeM);
-  if (size != v.voxels.voxelSizeM) {  // the grid grew out of all proportion: start again with larger voxels
-    VoxelSettings larger;
-    larger.voxelSizeM = size;
-    v = voxelise(scene, larger, hidden);
+  const float wanted = v.wantedM, size = feasibleVoxelSizeM(bounds, wanted);
+  if (size != v.voxels.voxelSizeM) {  // the grid grew out of all proportion, or no longer is: start again
+    VoxelSettings settings;
+    settings.voxelSizeM = size;
+    v = voxelise(scene, settings, hidden);
+    v.wantedM = wanted;
     return;
   }
   Voxelisation next = rebuilt(v, scene, fitLattice(bounds, size), changedInstances);
+  next.wantedM = wanted;
   next.instanceBounds = std::move(v.instanceBounds);
   v = std::move(next);
 }

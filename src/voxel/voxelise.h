@@ -24,6 +24,7 @@ float chooseVoxelSize(const Scene& scene, const VoxelSettings& settings);
 // A voxelised scene that can be kept up to date.
 struct Voxelisation {
   Voxels voxels;
+  float wantedM = 0;  // size of voxels, but where the scene's extent is absurd for it
   // Which triangles touch which brick: per brick (same order as voxels.bricks) a range of references, in order of
   // (instance, triangle), so that a brick done again gives bit-identical records.
   struct Reference {
@@ -41,7 +42,7 @@ Voxelisation voxelise(const Scene& scene, const VoxelSettings& settings, std::sp
 
 // Brings `v` up to date after the listed instances of `scene` changed (transform, or hidden: `hidden[i]` true removes
 // instance i; empty means none is hidden); new instances at the end of `scene` count as changed. Same result, bit for bit,
-// as voxelise() of the scene as it is now with v's voxel size, also where the grid grows or shrinks. Cost: the bricks that
+// as voxelise() of the scene as it is now with the voxel size that v had at first, also where the grid grows or shrinks. Cost: the bricks that
 // changed instances left and entered, plus a copy of the rest.
 void update(Voxelisation& v, const Scene& scene, std::span<const uint32_t> changedInstances,
             std::span<const uint8_t> hidden = {});

@@ -63,16 +63,13 @@ struct Brick {
   std::array<uint16_t, 8> before{};    // records of this brick in words before this one
 };
 
-struct Voxels {
+// Where there are voxels.
+struct BrickGrid {
   float voxelSizeM = 0;
   Vec3 origin;       // world position of the lower corner of brick (0,0,0); a multiple of the brick's edge
   Int3 brickDims;
   std::vector<int32_t> brickIndex;  // x fastest
   std::vector<Brick> bricks;        // in order of their position in brickIndex
-  std::vector<SurfaceVoxel> voxels; // grouped by brick, x fastest
-  std::vector<FaceSlot> slots;      // grouped by voxel
-
-  size_t bytes() const;
 
   int32_t brickAt(Int3 b) const {
     if (b.x < 0 || b.y < 0 || b.z < 0 || b.x >= brickDims.x || b.y >= brickDims.y || b.z >= brickDims.z) return -1;
@@ -89,15 +86,25 @@ struct Voxels {
     const uint64_t below = brick.occupied[word] & ((uint64_t{1} << bit) - 1);
     return brick.firstVoxel + brick.before[word] + std::popcount(below);
   }
-  // Index of the slot of a face of a voxel record, or -1.
-  int64_t slotAt(const SurfaceVoxel& voxel, int face) const {
-    if (!((voxel.faces >> face) & 1)) return -1;
-    return voxel.firstSlot + std::popcount(static_cast<unsigned>(voxel.faces & ((1u << face) - 1)));
-  }
   Int3 voxelOf(Vec3 p) const {
     const Vec3 q = (p - origin) / voxelSizeM;
     return {static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)), static_cast<int>(std::floor(q.z))};
   }
+};
+
+// Index of the slot of a face of a voxel, or -1. The voxel has `faces` and `firstSlot` as SurfaceVoxel does.
+template <class Voxel>
+int64_t slotOf(const Voxel& voxel, int face) {
+  if (!((voxel.faces >> face) & 1)) return -1;
+  return voxel.firstSlot + std::popcount(static_cast<unsigned>(voxel.faces & ((1u << face) - 1)));
+}
+
+struct Voxels : BrickGrid {
+  std::vector<SurfaceVoxel> voxels; // grouped by brick, x fastest
+  std::vector<FaceSlot> slots;      // grouped by voxel
+
+  size_t bytes() const;
+  int64_t slotAt(const SurfaceVoxel& voxel, int face) const { return slotOf(voxel, face); }
 };
 
 }  // namespace roomlight

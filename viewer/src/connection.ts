@@ -29,6 +29,24 @@ const kFirstDelayMs = 500;
 const kLongestDelayMs = 15000;
 const kGreetingMs = 15000; // a connection without a welcome after so long is given up
 const kMaxPending = 256;
+const kNameKey = "roomlight window"; // in the storage of this tab
+
+// The name that this tab's window had before the page was loaded again; "" where the browser keeps none.
+function keptName(): string {
+  try {
+    return window.sessionStorage.getItem(kNameKey) ?? "";
+  } catch {
+    return "";
+  }
+}
+
+function keepName(name: string): void {
+  try {
+    window.sessionStorage.setItem(kNameKey, name);
+  } catch {
+    // A page that is loaded again gets a new window, then.
+  }
+}
 
 // From the fragment of the link, or its query.
 export function tokenOf(place: { hash: string; search: string }): string {
@@ -55,7 +73,7 @@ export class Connection {
   private attempt = 0;
   private retryTimer = 0;
   private greetingTimer = 0;
-  private windowName = "";
+  private windowName = keptName();
   private greeted = false;
 
   constructor(
@@ -124,6 +142,7 @@ export class Connection {
   private dispatch(message: ServerMessage): void {
     if (message.type === "welcome") {
       this.windowName = message.window;
+      keepName(message.window);
       this.attempt = 0;
       window.clearTimeout(this.greetingTimer);
       this.greeted = true;

@@ -1,9 +1,12 @@
 // Renders that were asked for, and the finished pictures: the server gives each away once, so they are kept here to look at and download.
 import type { Job } from "./protocol.js";
 
+const kMostKept = 16; // each may hold a file of many megabytes
+
 export class FinalPictures {
   jobs: readonly Job[] = []; // the newest first
   readonly addresses = new Map<Job["job"], string>(); // of finished pictures, within this page
+  private readonly fetched = new Set<string>(); // paths: after a break the server tells again of what it still has
 
   constructor(
     private readonly token: string,
@@ -16,8 +19,10 @@ export class FinalPictures {
   }
 
   update(job: Job): void {
-    this.jobs = [job, ...this.jobs.filter((other) => other.job !== job.job)];
-    if (job.file) void this.fetch(job.job, job.file.path);
+    const jobs = [job, ...this.jobs.filter((other) => other.job !== job.job)];
+    this.jobs = jobs.slice(0, kMostKept);
+    for (const old of jobs.slice(kMostKept)) this.release(old.job);
+    if (job.file && !this.fetched.has(job.file.path)) void this.fetch(job.job, job.file.path);
     this.changed();
   }
 
@@ -28,13 +33,23 @@ export class FinalPictures {
   }
 
   private async fetch(job: Job["job"], path: string): Promise<void> {
+    this.fetched.add(path);
     try {
       const response = await fetch(`${path}?token=${encodeURIComponent(this.token)}`);
       if (!response.ok) throw new Error(`the server answered ${response.status}`);
-      this.addresses.set(job, URL.createObjectURL(await response.blob()));
+      const picture = await response.blob();
+      this.release(job);
+      if (this.jobs.some((other) => other.job === job)) this.addresses.set(job, URL.createObjectURL(picture));
     } catch (error) {
-      this.failed(`The picture could not be fetched: ${error instanceof Error ? error.message : "unknown"}. Render it again.`);
+      this.fetched.delete(path);
+      this.failed(`The picture could not be fetched: ${error instanceof Error ? error.message : "unknown"}. Reload the page to try again, or render it again.`);
     }
     this.changed();
+  }
+
+  private release(job: Job["job"]): void {
+    const address = this.addresses.get(job);
+    if (address !== undefined) URL.revokeObjectURL(address);
+    this.addresses.delete(job);
   }
 }

@@ -115,6 +115,67 @@ TEST(Sh3dFurniture, transformationsMoveTheirGroups) {
   EXPECT_NEAR(deepest, 2, 1e-5);
 }
 
+// A door of 1 x 0.8 x 0.5 of its unit that fills its piece: a frame, a leaf with a handle in its middle plane, a pin before the leaf's left edge. The
+// groups that move stand inside objects, and the frame goes on behind the pin.
+const std::string kDoor =
+    "v 0 0 0\nv 1 0 0\nv 1 0.8 0.5\nv 0 0.8 0.5\n"
+    "v 0.1 0.1 0.25\nv 0.3 0.1 0.25\nv 0.3 0.7 0.25\nv 0.1 0.7 0.25\n"
+    "v 0.28 0.4 0.25\nv 0.28 0.4 0.3\nv 0.28 0.42 0.3\n"
+    "v 0.1 0.1 0.28\nv 0.1 0.1 0.29\nv 0.1 0.7 0.29\nv 0.1 0.7 0.28\n"
+    "o door\ng sweethome3d_opening_on_hinge_1_wood\nf 5 6 7 8\ng sweethome3d_opening_on_hinge_1_brass\nf 9 10 11\n"
+    "o frame\ng frame_wood\nf 1 2 3\ng sweethome3d_hinge_1_brass\nf 12 13 14 15\ng frame_paint\nf 1 3 4\n";
+
+// Turned by that much about its pin, right-handed about +y.
+std::string turnedAboutPin(double turnRad) {
+  const double c = std::cos(turnRad), s = std::sin(turnRad), x = 0.1, z = 0.285;
+  std::string matrix;
+  for (const double v : {c, 0.0, s, x - c * x - s * z, 0.0, 1.0, 0.0, 0.0, -s, 0.0, c, z + s * x - c * z}) matrix += std::to_string(v) + " ";
+  return "<transformation name='sweethome3d_hinge_1' matrix='" + matrix.substr(0, matrix.size() - 1) + "'/>";
+}
+
+Scene doorScene(const std::string& more, const std::string& inside = "", const std::string& kind = "doorOrWindow") {
+  return pieceScene(more, inside, {{"1/wedge.obj", kDoor}}, kind);
+}
+
+void expectLeaf(const Scene& scene, Vec3 hinge, float turnRad, float atRest) {
+  ASSERT_EQ(scene.leaves.size(), 1u);
+  const Leaf& leaf = scene.leaves[0];
+  EXPECT_NEAR(length(leaf.hinge - hinge), 0, 1e-4);
+  EXPECT_NEAR(length(leaf.axis - Vec3(0, 1, 0)), 0, 1e-5);
+  EXPECT_NEAR(leaf.turnRad, turnRad, 1e-3);
+  EXPECT_NEAR(leaf.atRest, atRest, 1e-3);
+  EXPECT_TRUE(isBlack(leaf.slideM));
+}
+
+TEST(Sh3dLeaves, turnAboutTheirPinsToItsSide) {
+  const Scene scene = doorScene("");
+  expectLeaf(scene, {2.6f, 0.4f, 2.035f}, -kPi / 2, 0);
+  std::vector<int> leaves;
+  for (const Instance& i : scene.instances) {
+    if (i.name == "piece") leaves.push_back(i.leaf);
+  }
+  EXPECT_EQ(leaves, (std::vector<int>{0, 0, -1, -1}));  // wood, brass, all of the frame, pin
+  expectLeaf(doorScene("modelMirrored='true'"), {3.4f, 0.4f, 2.035f}, kPi / 2, 0);
+  expectLeaf(doorScene("angle='3.1415927'"), {3.4f, 0.4f, 1.965f}, -kPi / 2, 0);
+}
+
+TEST(Sh3dLeaves, areAtRestAsTheHomeHasThem) {
+  const Vec3 hinge{2.6f, 0.4f, 2.035f};
+  expectLeaf(doorScene("", turnedAboutPin(-kPi / 4)), hinge, -kPi / 2, 0.5f);
+  expectLeaf(doorScene("", turnedAboutPin(kPi / 8)), hinge, kPi / 8, 1);  // to the other side
+  EXPECT_TRUE(doorScene("", "", "light").leaves.empty());
+}
+
+TEST(Sh3dLeaves, slideToTheFarEndOfTheirRail) {
+  const std::string slider =
+      "v 0 0 0\nv 1 0 0\nv 1 0.8 0.5\nv 0 0.8 0.5\nv 0.5 0.1 0.25\nv 1 0.1 0.25\nv 1 0.7 0.25\nv 0 0.1 0.3\nv 0.5 0.1 0.3\nv 0.5 0.7 0.3\n"
+      "g sweethome3d_unique_rail_frame\nf 1 2 3 4\ng sweethome3d_opening_on_rail_1\nf 5 6 7\ng sweethome3d_opening_on_rail_2\nf 8 9 10\n";
+  const Scene scene = pieceScene("", "", {{"1/wedge.obj", slider}});
+  ASSERT_EQ(scene.leaves.size(), 1u);
+  EXPECT_NEAR(length(scene.leaves[0].slideM - Vec3(-0.5f, 0, 0)), 0, 1e-5);
+  EXPECT_EQ(scene.leaves[0].turnRad, 0);
+}
+
 TEST(Sh3dFurniture, edgesAreHiddenWhereTheModelSaysSo) {
   const std::string edged = "v 0 0 0\nv 1 0 0\nv 0 1 1\nv 1 1 0\nusemtl a\nf 1 2 3\nusemtl edge_color_1\nf 2 3 4\n";
   EXPECT_EQ(facesOf(pieceScene("", "", {{"1/wedge.obj", edged}}), "piece").size(), 2u);

@@ -90,6 +90,53 @@ TEST(Candidates, TooNearPlacesAreInConflict) {
   EXPECT_GT(pairs, 0u);
 }
 
+TEST(Candidates, HangFromALoweredCeilingButNotFromWhatHangsThere) {
+  SmallStudy s(replaced(kStudy, "spacing = 1.5", "at = [[1, 0, 1], [2.5, 0, 2]]"));
+  ASSERT_TRUE(s.read) << s.read.error();
+  addBox(s.home, {0, 2.2f, 0}, {2, 2.59f, 2}, 0);          // a lowered part, 40 cm
+  addBox(s.home, {2.4f, 2.2f, 1.9f}, {2.6f, 2.59f, 2.1f}, 0);  // a lamp of the home
+  const RayScene rays(s.home);
+  const auto c = findCandidates(s.study(), rays);
+  ASSERT_TRUE(c) << c.error();
+  size_t ceiling = 0;
+  for (const Place& place : c.value().places) {
+    if (s.study().places[place.rule].on != Mounting::Ceiling) continue;
+    ++ceiling;
+    EXPECT_NEAR(place.mount.x, 1, 1e-4);
+    EXPECT_NEAR(place.mount.y, 2.2, 1e-3);
+  }
+  EXPECT_EQ(ceiling, 1u);
+}
+
+TEST(Candidates, HangOnWallsAsHighAsTheyWereAskedFor) {
+  const SmallProblem p(replaced(kStudy, "height = 1.8", "at = [[0.1, 1.4, 1.5], [2, 2, 3.9]]"));
+  std::vector<Vec3> mounts;
+  for (const Place& place : p.candidates.places) {
+    if (p.file.study().places[place.rule].on == Mounting::Wall) mounts.push_back(place.mount);
+  }
+  ASSERT_EQ(mounts.size(), 2u);
+  EXPECT_NEAR(length(mounts[0] - Vec3{0, 1.4f, 1.5f}), 0, 1e-3);
+  EXPECT_NEAR(length(mounts[1] - Vec3{2, 2, 4}), 0, 1e-3);
+}
+
+TEST(Candidates, AnEndlessGridIsRefusedWithItsLine) {
+  const SmallStudy s(replaced(kStudy, "room = \"Room\"\nluminaires = [\"Bulb\", \"Spot\"]\nspacing = 1.5", "room = \"Hall\"\nfloor = [[0, 0], [900, 0], [900, 900], [0, 900]]\nluminaires = [\"Bulb\", \"Spot\"]\nspacing = 0.1"));
+  ASSERT_TRUE(s.read) << s.read.error();
+  const RayScene rays(s.home);
+  const auto c = findCandidates(s.study(), rays);
+  ASSERT_FALSE(c);
+  EXPECT_NE(c.error().find("study.toml:19: place 'Ceiling': its grid has more than 100000 places"), std::string::npos) << c.error();
+}
+
+TEST(Meters, TooManyPointsAreRefusedWithTheirLine) {
+  const SmallStudy s(replaced(kStudy, "room = \"Room\"\nmean", "room = \"Hall\"\nfloor = [[0, 0], [900, 0], [900, 900], [0, 900]]\nmean"));
+  ASSERT_TRUE(s.read) << s.read.error();
+  const RayScene rays(s.home);
+  const auto m = placeMeters(s.study(), rays);
+  ASSERT_FALSE(m);
+  EXPECT_NE(m.error().find("study.toml:8: zone 'Room': there are more than 20000 points"), std::string::npos) << m.error();
+}
+
 TEST(Candidates, AnErrorNamesTheRuleThatHasNoPlace) {
   const SmallStudy s(replaced(kStudy, "fromWalls = 0.8", "fromWalls = 3"));
   ASSERT_TRUE(s.read) << s.read.error();

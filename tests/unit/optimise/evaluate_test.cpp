@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "optimise/objective_box.h"
 #include "optimise/repair.h"
 #include "photometry/colour_temperature.h"
 #include "search/search.h"
@@ -18,9 +19,7 @@ using testing::SmallProblem;
 
 // Any designs at all, most of which break something.
 search::Genomes anyDesigns(const Model& m, size_t count) {
-  search::Genomes out;
-  out.integersEach = m.places(), out.realsEach = m.places() * m.levels();
-  out.resize(count);
+  search::Genomes out = testing::darkDesigns(m, count);
   Rng random(1, 2, 3);
   for (size_t i = 0; i < count; ++i) {
     for (size_t p = 0; p < m.places(); ++p) out[i].integers[p] = static_cast<int32_t>(random.uniform() * static_cast<float>(m.firstOption[p + 1] - m.firstOption[p] + 1));
@@ -115,6 +114,52 @@ TEST(Repair, LeavesNothingBrokenAndGoodDesignsAlone) {
     EXPECT_FALSE(chosenLamps(p.model, designs[i]).empty());
   }
   EXPECT_GT(broken, 250u);
+}
+
+// Dimming helps targets alone: without them there is nothing to polish, and no evaluation is spent on it.
+TEST(Search, WithoutTargetsNothingIsPolished) {
+  const SmallProblem p(replaced(kStudy, "\"targetMiss\", \"energy\"", "\"uniformity\", \"energy\""));
+  const search::Problem problem = problemOf(p.model);
+  EXPECT_FALSE(problem.polish);
+  search::State state = search::start(problem, {.evaluations = 400, .population = 40});
+  search::run(problem, state);
+  EXPECT_EQ(state.polished, 0u);
+}
+
+TEST(Search, DesignsByChanceHaveFewLampsTooAndAreOthersInEachGeneration) {
+  const SmallProblem p;
+  const search::Problem problem = problemOf(p.model);
+  const search::Genomes one = problem.draw(40, 1, 0), again = problem.draw(40, 1, 0), next = problem.draw(40, 1, 1);
+  EXPECT_EQ(one.integers, again.integers);
+  EXPECT_NE(one.integers, next.integers);
+  const auto lamps = [&](size_t i) { return chosenLamps(p.model, one[i]).size(); };
+  EXPECT_LE(lamps(0), 2u);
+  EXPECT_EQ(lamps(39), p.model.places());
+}
+
+// Designs on a limit still count.
+TEST(Box, ReachesBeyondLimitsAndHoldsStandby) {
+  const SmallProblem p(std::string(kStudy) + "[limits]\nwatts = 30\ncost = 200\n");
+  Model m = p.model;
+  const ObjectiveBox without = boxOf(m);
+  EXPECT_NEAR(without.reference[1], 1.1 * 30 * 1000 / 1000, 1e-9);
+  EXPECT_NEAR(without.reference[2], 1.1 * 200, 1e-9);
+  for (ModelOption& o : m.options) o.standbyW = 1;
+  EXPECT_NEAR(boxOf(m).reference[1], without.reference[1] + 1.1 * 8.76 * static_cast<double>(m.places()), 1e-9);
+}
+
+TEST(Box, OfFourObjectivesManyPointsAreThinned) {
+  SmallProblem p;
+  p.model.objectives = {Objective::TargetMiss, Objective::Energy, Objective::Cost, Objective::Fittings};
+  const ObjectiveBox box = boxOf(p.model);
+  search::Archive front;
+  front.objectivesEach = 4, front.designs.count = kHypervolumePoints + 50;
+  for (size_t i = 0; i < front.size(); ++i) {
+    const double x = static_cast<double>(i) / static_cast<double>(front.size());
+    for (const double share : {x, 1 - x, 0.5, 0.5}) front.objectives.push_back(share * box.reference[front.objectives.size() % 4]);
+  }
+  // Steps below the line x + y = 1: a half of two objectives, a half of each other.
+  EXPECT_NEAR(hypervolumeOf(p.model, front), 0.125, 0.005);
 }
 
 TEST(Search, TheSameSeedGivesTheSameFrontAndAnotherAnother) {

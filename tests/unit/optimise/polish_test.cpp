@@ -1,8 +1,11 @@
 #include "optimise/polish.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "optimise/evaluate.h"
+#include "optimise/relaxation.h"
+#include "optimise/repair.h"
 #include "unit/optimise/small_study.h"
 
 namespace roomlight::optimise {
@@ -13,9 +16,7 @@ using testing::replaced;
 using testing::SmallProblem;
 
 search::Genomes allLamps(const Model& m, double dimming) {
-  search::Genomes out;
-  out.integersEach = m.places(), out.realsEach = m.places() * m.levels();
-  out.resize(1);
+  search::Genomes out = testing::darkDesigns(m, 1);
   for (size_t p = 0; p < m.places(); ++p) out[0].integers[p] = 1;
   for (double& d : out[0].reals) d = dimming;
   return out;
@@ -81,6 +82,85 @@ TEST(Polish, KeepsGlareWhereItIsOrBelowItsLimit) {
   const std::vector<double> weights = {1, 1e-6, 0}, objectives = {0, 0, 0};
   polish(m, design[0], {weights, objectives});
   EXPECT_LE(resultOf(m, design[0]).conditions[0].ugr[0], std::max(before, 19.0) + 1e-6);
+}
+
+// A single lamp that would be over the limit at full light, alone at night.
+class GlaringLamp : public ::testing::Test {
+ protected:
+  GlaringLamp() : problem_(replaced(kStudy, "uniformity = 0.4\n", "")), model_(problem_.model) {
+    for (double& g : model_.glare) g *= 300;
+  }
+  double ugrAt(double dimming) const { return resultOf(model_, oneLamp(dimming)[0]).conditions[0].ugr[0]; }
+  search::Genomes oneLamp(double dimming) const {
+    search::Genomes out = testing::darkDesigns(model_, 1);
+    out[0].integers[0] = 1, out[0].reals[0] = dimming;
+    return out;
+  }
+  double polished(double dimming) const {
+    search::Genomes design = oneLamp(dimming);
+    const std::vector<double> weights = {1, 1e-6, 1e-6}, objectives = {0, 0, 0};
+    polish(model_, design[0], {weights, objectives});
+    return design[0].reals[0];
+  }
+  SmallProblem problem_;
+  Model model_;
+};
+
+TEST_F(GlaringLamp, IsLitUpToItsLimitAndNotTurnedOff) {
+  ASSERT_GT(ugrAt(1), 20);
+  ASSERT_LT(ugrAt(0.02), 19);
+  const double d = polished(0.02);
+  EXPECT_GT(d, 0.02);
+  EXPECT_NEAR(ugrAt(d), 19, 0.01);
+}
+
+TEST_F(GlaringLamp, IsDimmedToItsLimitWhereThatMissesLess) {
+  const double d = polished(1);
+  EXPECT_GT(d, kOff);
+  EXPECT_LE(resultOf(model_, oneLamp(d)[0]).missPercent, resultOf(model_, oneLamp(1)[0]).missPercent + 1e-9);
+}
+
+TEST(Polish, LampsThatCannotBeDimmedAreOnOrOffAndTheOthersMakeUpForIt) {
+  const SmallProblem p(replaced(kStudy, "mean = \"100 lx\"\nuniformity = 0.4", "mean = \"40 lx\""));
+  Model m = p.model;
+  for (uint32_t o = m.firstOption[0]; o < m.firstOption[1]; ++o) m.options[o].dimmable = false;
+  search::Genomes design = allLamps(m, 0.7);
+  const std::vector<double> weights = {1, 1e-4, 0}, objectives = {0, 0, 0};
+  EXPECT_GT(polish(m, design[0], {weights, objectives}), 0u);
+  EXPECT_TRUE(design[0].reals[0] < 1e-6 || design[0].reals[0] > 1 - 1e-6) << design[0].reals[0];
+  EXPECT_GE(resultOf(m, design[0]).conditions[0].zones[0].meanLux, 40 * 0.999);
+}
+
+// Of as many designs by chance, repaired.
+double leastMissByChance(const Model& m, size_t count) {
+  search::Genomes chance = sparseDesigns(m, count, 1);
+  double least = 100;
+  for (size_t i = 0; i < count; ++i) repair(m, chance[i]), least = std::min(least, resultOf(m, chance[i]).missPercent);
+  return least;
+}
+
+void expectGoodFirstDesigns(const Model& m) {
+  constexpr size_t kDesigns = 16;
+  const RelaxedDesigns relaxed = relaxedDesigns(m, kDesigns);
+  ASSERT_EQ(relaxed.designs.count, kDesigns);
+  EXPECT_GT(relaxed.evaluations, kDesigns);
+  double least = 100;
+  for (size_t i = 0; i < kDesigns; ++i) {
+    EXPECT_EQ(brokenBy(m, relaxed.designs[i]), "") << i;
+    least = std::min(least, resultOf(m, relaxed.designs[i]).missPercent);
+  }
+  EXPECT_LE(least, leastMissByChance(m, kDesigns));
+}
+
+TEST(Relaxation, GivesDesignsThatHoldAllLimitsAndMissLessThanChanceDoes) {
+  const SmallProblem p(replaced(kStudy, "spacing = 1.5", "spacing = 0.6\nmost = 4") + "[limits]\ncost = 200\nwatts = 50\nfittings = 5\n");
+  expectGoodFirstDesigns(p.model);
+}
+
+TEST(Relaxation, BuysALampOnceForAllConditions) {
+  const SmallProblem p(replaced(kStudy, "hours = 1000\n", "hours = 1000\n[[condition]]\nname = \"dusk\"\ndaylight = \"none\"\nhours = 500\n") + "[limits]\ncost = 200\nfittings = 5\n");
+  ASSERT_EQ(p.model.levels(), 2u);
+  expectGoodFirstDesigns(p.model);
 }
 
 }  // namespace

@@ -37,9 +37,7 @@ TEST_F(ResponseTest, EveryCandidateLightsTheRoom) {
 
 TEST_F(ResponseTest, SumOfResponsesIsTheFullSolution) {
   const Model& m = problem_->model;
-  search::Genomes designs;
-  designs.integersEach = m.places(), designs.realsEach = m.places() * m.levels();
-  designs.resize(1);
+  search::Genomes designs = testing::darkDesigns(m, 1);
   for (size_t p = 0; p < m.places(); ++p) {
     designs[0].integers[p] = p % 2 ? 1 + static_cast<int32_t>(p % (m.firstOption[p + 1] - m.firstOption[p])) : 0;
     designs[0].reals[p] = 0.3 + 0.1 * static_cast<double>(p % 7);
@@ -53,6 +51,8 @@ TEST_F(ResponseTest, SumOfResponsesIsTheFullSolution) {
   EXPECT_EQ(night.judged, problem_->meters.points());
   EXPECT_LT(night.maxPercent, 3);
   EXPECT_LT(night.meanPercent, 1);
+  EXPECT_GT(night.uncertainPercent, 0);
+  EXPECT_LT(night.uncertainPercent, 1.5);
   // UGR by terms and backgrounds that add up, against the glare meter.
   const DesignResult result = resultOf(m, designs[0]);
   EXPECT_NEAR(result.conditions[0].ugr[0], night.fullUgr[0], 0.3);

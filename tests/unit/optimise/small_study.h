@@ -159,6 +159,14 @@ struct SmallProblem {
   optimise::Model model;
 };
 
+// Designs of a model, without lamps and dark.
+inline search::Genomes darkDesigns(const optimise::Model& m, size_t count) {
+  search::Genomes out;
+  out.integersEach = m.places(), out.realsEach = m.places() * m.levels();
+  out.resize(count);
+  return out;
+}
+
 inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const size_t at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;

@@ -3,6 +3,7 @@
 #include "optimise/evaluate.h"
 #include "optimise/proposal.h"
 #include "optimise/report.h"
+#include "photometry/colour_temperature.h"
 #include "unit/optimise/small_study.h"
 
 namespace roomlight::optimise {
@@ -14,16 +15,23 @@ TEST(Store, AResponseComesBackBitByBitAndOnlyForItsInputs) {
   const SmallProblem p;
   const testing::TemporaryFolder folder;
   ASSERT_TRUE(keepResponse(folder / "response.bin", "abc", p.response));
-  const auto back = findResponse(folder / "response.bin", "abc");
+  const ResponseSizes sizes{p.candidates.candidates.size(), p.meters.elements.size(), 1, 1};
+  const auto back = findResponse(folder / "response.bin", "abc", sizes);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->elements, p.response.elements);
   EXPECT_TRUE(std::equal(back->lux.begin(), back->lux.end(), p.response.lux.begin(), p.response.lux.end()));
   EXPECT_EQ(back->base.size(), p.response.base.size());
-  EXPECT_FALSE(findResponse(folder / "response.bin", "abd"));
+  EXPECT_FALSE(findResponse(folder / "response.bin", "abd", sizes));
+  // Nor is one that has other sizes than the study.
+  for (const ResponseSizes& other : {ResponseSizes{sizes.candidates + 1, sizes.elements, 1, 1}, {sizes.candidates, sizes.elements + 1, 1, 1}, {sizes.candidates, sizes.elements, 2, 1}, {sizes.candidates, sizes.elements, 1, 2}}) EXPECT_FALSE(findResponse(folder / "response.bin", "abc", other));
+  Response broken = p.response;
+  broken.base[0].lux.pop_back();
+  ASSERT_TRUE(keepResponse(folder / "broken.bin", "abc", broken));
+  EXPECT_FALSE(findResponse(folder / "broken.bin", "abc", sizes));
   // Half a file is none.
   const std::string bytes = testing::readFile(folder / "response.bin");
   testing::writeFile(folder / "half.bin", bytes.substr(0, bytes.size() / 2));
-  EXPECT_FALSE(findResponse(folder / "half.bin", "abc"));
+  EXPECT_FALSE(findResponse(folder / "half.bin", "abc", sizes));
 }
 
 TEST(Store, ASearchThatWasStoppedGoesOnToTheSameFront) {
@@ -54,6 +62,35 @@ TEST(Store, TheHashOfInputsFollowsEveryFile) {
   EXPECT_NE(inputHash(s.folder() / "study.toml", s.study(), "x"), before);
 }
 
+TEST(Store, TheHashOfAHomeFollowsWhatCameFromOtherFiles) {
+  Scene home = testing::smallRoom();
+  const std::string before = hashOfScene(home);
+  EXPECT_EQ(hashOfScene(testing::smallRoom()), before);
+  home.materials[0].baseColor.x *= 0.9f;
+  EXPECT_NE(hashOfScene(home), before);
+  home = testing::smallRoom();
+  home.meshes[0].positions[0].y += 0.1f;
+  EXPECT_NE(hashOfScene(home), before);
+}
+
+TEST(Proposal, FilesOfConditionsHaveNamesOfTheirOwn) {
+  const std::vector<Condition> conditions = {{"Late night", nullptr, 1, 0, 0}, {"late-night", nullptr, 1, 0, 0}, {"late_night_2", nullptr, 1, 0, 0}, {"day", nullptr, 1, 0, 0}};
+  EXPECT_EQ(fileNamesOf(conditions), (std::vector<std::string>{"late_night", "late_night_2", "late_night_2_2", "day"}));
+}
+
+// Goals are judged with the maintenance factor, by the full solution as by the prediction.
+TEST(Proposal, TheFullSolutionIsMaintainedAsThePredictionIs) {
+  const SmallProblem p(testing::replaced(testing::kStudy, "catalogue =", "maintenance = 0.8\ncatalogue ="));
+  search::Genomes designs = testing::darkDesigns(p.model, 1);
+  designs[0].integers[0] = 1, designs[0].reals[0] = 1;
+  Certificate::OfCondition c;
+  const Vec3* lamp = p.response.of(p.candidates.options[0].candidate);
+  for (size_t i = 0; i < p.meters.points(); ++i) c.fullLux.push_back(luminance(p.response.base[0].lux[i]) + luminance(lamp[i] * blackBodyColour(p.candidates.options[0].kelvin)));
+  const std::vector<float> lux = maintainedLux(p.file.study(), p.model, c, 0), rows = rowsOf(p.model, designs[0], 0);
+  ASSERT_EQ(lux.size(), p.meters.points());
+  for (size_t i = 0; i < lux.size(); ++i) EXPECT_NEAR(lux[i], rows[i], 1e-4f * rows[i]);
+}
+
 TEST(Proposal, IsASpreadOfTheFrontWithTheBestOfEachObjective) {
   const SmallProblem p;
   const search::Problem problem = problemOf(p.model);
@@ -69,8 +106,7 @@ TEST(Proposal, IsASpreadOfTheFrontWithTheBestOfEachObjective) {
 
 TEST(Proposal, LightingFilesNameLampsWithTheirDimmingAndColour) {
   const SmallProblem p;
-  search::Genomes designs = sparseDesigns(p.model, 1, 1);
-  for (int32_t& i : designs.integers) i = 0;
+  search::Genomes designs = testing::darkDesigns(p.model, 1);
   designs[0].integers[0] = 2, designs[0].reals[0] = 0.25;
   const auto lamps = lampsOf(p.file.study(), p.candidates, p.model, designs[0], 0);
   ASSERT_EQ(lamps.size(), 1u);

@@ -41,6 +41,12 @@ TEST(StudyFile, ATunableLuminaireHasStepsBetweenItsEnds) {
   EXPECT_EQ(s.study().catalogue.luminaires[0].kelvin, (std::vector<double>{2500, 2700, 3000, 3500, 3600}));
 }
 
+TEST(StudyFile, AWeatherFileIsFoundFromAnywhere) {
+  const SmallStudy s(replaced(kStudy, "daylight = \"none\"", "daylight = { weather = \"year.epw\", time = \"2026-01-20T12:00+01:00\" }"));
+  ASSERT_TRUE(s.read) << s.read.error();
+  EXPECT_EQ(s.study().conditions[0].daylight["weather"], (s.folder() / "year.epw").string());
+}
+
 struct Wrong {
   const char* what;
   const char* by;
@@ -63,6 +69,9 @@ TEST(StudyFile, SaysInWhichLineWhatIsWrong) {
       {"spacing = 1.5", "spacing = -1.5", 24, "must be from"},
       {"spacing = 1.5", "spacing = ", 24, "is no TOML"},
       {"hours = 1000", "hours = 10000", 7, "must be from 0 to 8784"},
+      {"hours = 1000", "weight = 0", 4, "all have weight 0"},
+      {"spacing = 1.5", "at = [[1, 0, 1], [7, 0, 1]]", 24, "at[1]: lies outside of 'Room'"},
+      {"height = 1.8", "at = [[0.1, 3, 1]]", 34, "its height must be between floor and ceiling"},
   };
   for (const Wrong& w : wrong) {
     const SmallStudy s(replaced(kStudy, w.what, w.by));

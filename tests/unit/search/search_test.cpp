@@ -127,6 +127,31 @@ TEST(Search, hybridWithoutPolishIsNsga2) {
   EXPECT_EQ(hybrid.archive.objectives, plain.archive.objectives);
 }
 
+TEST(Search, spendsNothingWhereThereIsNothingToPolish) {
+  Counted c = counted(lampRow().problem);
+  c.problem.polish = [](Genome, const Wish&) { return size_t{0}; };
+  State state = start(c.problem, {.method = Method::hybrid, .evaluations = 1000});
+  run(c.problem, state);
+  EXPECT_EQ(state.polished, 0u);
+  EXPECT_EQ(state.polishEvaluations, 0u);
+  EXPECT_EQ(state.evaluations, *c.evaluated);
+}
+
+TEST(Search, drawsChanceFromTheProblemInEveryGeneration) {
+  Problem problem = zdt1().problem;
+  std::vector<size_t> generations;
+  problem.draw = [&, none = problem.none()](size_t count, uint64_t seed, size_t generation) {
+    EXPECT_EQ(seed, 9u);
+    generations.push_back(generation);
+    Genomes designs = none;
+    designs.resize(count);
+    return designs;
+  };
+  State state = start(problem, {.method = Method::random, .seed = 9, .evaluations = 300});
+  run(problem, state);
+  EXPECT_EQ(generations, (std::vector<size_t>{0, 1, 2}));
+}
+
 TEST(Search, weightingsFillTheSimplex) {
   EXPECT_EQ(weightings(2, 10).size(), 10u);
   EXPECT_EQ(weightings(3, 10).size(), 10u);

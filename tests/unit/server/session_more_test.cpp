@@ -102,6 +102,26 @@ TEST(Session, finalPicturesAreFetchedOnce) {
   EXPECT_EQ(get(home.port(), target).status, 404);
 }
 
+TEST(Session, picturesThatNobodyFetchedAreToldOfAgain) {
+  const ServedHome home;
+  std::string window, job;
+  {
+    Client client(home.port(), home.live());
+    window = client.hear("welcome")["window"];
+    client.say({{"type", "render"}, {"id", 1}, {"kind", "picture"}, {"width", 48}, {"height", 27}, {"quality", "draft"}});
+    job = client.hear("ok", 1)["job"];
+    while (client.hear("job")["state"] == "running") {
+    }
+    client.drop();
+  }
+  Client again(home.port(), home.live(window));
+  EXPECT_EQ(again.hear("welcome")["window"], window);
+  const json news = again.hear("job");
+  EXPECT_EQ(news["job"], job);
+  EXPECT_EQ(news["state"], "done");
+  EXPECT_EQ(get(home.port(), news["file"]["path"].get<std::string>() + "?token=" + ServedHome::kToken).status, 200);
+}
+
 TEST(Session, rendersCanBeCancelled) {
   const ServedHome home;
   Client client(home.port(), home.live());

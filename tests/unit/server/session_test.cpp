@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
 
+#include <condition_variable>
+#include <mutex>
+
 #include "seen.h"
+#include "view/session.h"
 
 namespace roomlight {
 namespace {
@@ -111,6 +115,33 @@ TEST(Session, windowsSeeEachOthersEdits) {
   EXPECT_EQ(one.hear("state")["objects"][0]["turn"], 0);
 }
 
+TEST(Session, aGestureOnAnotherThingIsAnotherStep) {
+  const ServedHome home;
+  Client client(home.port(), home.live());
+  const json welcome = client.hear("welcome");
+  client.say({{"type", "edit"}, {"id", 1}, {"target", named(welcome["lamps"], "Pendant")["id"]}, {"dim", 0.5}, {"gesture", "slide 1"}});
+  EXPECT_EQ(client.hear("state")["undo"], "Dim Pendant");
+  client.say({{"type", "edit"}, {"id", 2}, {"target", named(welcome["objects"], "Box")["id"]}, {"turn", 45}, {"gesture", "slide 1"}});
+  EXPECT_EQ(client.hear("state")["undo"], "Turn Box");
+  client.say({{"type", "undo"}, {"id", 3}});
+  const json state = client.hear("state");
+  EXPECT_EQ(state["undo"], "Dim Pendant");
+  EXPECT_TRUE(state["lamps"].empty());
+}
+
+TEST(Session, thingsStayNearTheHome) {
+  const ServedHome home;
+  Client client(home.port(), home.live());
+  const json welcome = client.hear("welcome");
+  const json box = named(welcome["objects"], "Box")["id"], lamp = named(welcome["lamps"], "Pendant")["id"];
+  client.say({{"type", "edit"}, {"id", 1}, {"target", box}, {"move", {1000, 0, 0}}});
+  EXPECT_EQ(client.hear("error", 1)["field"], "move");
+  client.say({{"type", "edit"}, {"id", 2}, {"target", lamp}, {"position", {2, -200, 2}}});
+  EXPECT_EQ(client.hear("error", 2)["field"], "position");
+  client.say({{"type", "edit"}, {"id", 3}, {"target", box}, {"move", {50, 0, 0}}});
+  client.hear("ok", 3);
+}
+
 TEST(Session, pickingFindsThings) {
   const ServedHome home;
   Client client(home.port(), home.live());
@@ -147,6 +178,55 @@ TEST(Session, aLostConnectionIsTakenUpAgain) {
   EXPECT_EQ(again.see(isWhole).ev100, 5);
   Client stranger(home.port(), home.live("nobody"));
   EXPECT_NE(stranger.hear("welcome")["window"], window);
+}
+
+TEST(Session, aWindowIsNotTakenFromWhoLooksThroughIt) {
+  const ServedHome home;
+  Client client(home.port(), home.live());
+  const std::string window = client.hear("welcome")["window"];
+  Client copy(home.port(), home.live(window));
+  EXPECT_NE(copy.hear("welcome")["window"], window);
+  client.say(kViewport);
+  EXPECT_TRUE(isWhole(client.see(isWhole)));
+}
+
+// The line takes the first frame and no other until it is let, so that the second is still to be packed.
+TEST(Session, framesCannotBeAcknowledgedBeforeTheyAreSent) {
+  constexpr int kAcks = 50;
+  std::mutex mutex;
+  std::condition_variable wake;
+  bool open = false;
+  int frames = 0, refused = 0;
+  view::Outbox outbox;
+  outbox.text = [&](view::Connection, const std::string& text) {
+    const std::lock_guard lock(mutex);
+    if (json::parse(text)["type"] == "error") ++refused;
+    wake.notify_all();
+  };
+  outbox.frame = [&](view::Connection, const std::string&) {
+    std::unique_lock lock(mutex);
+    ++frames;
+    wake.notify_all();
+    wake.wait(lock, [&] { return open; });
+  };
+  view::Session session(view::ViewHome("test", servedScene()), servedSettings(), outbox);
+  const auto comes = [&](const auto& condition) {
+    std::unique_lock lock(mutex);
+    return wake.wait_for(lock, std::chrono::seconds(20), condition);
+  };
+  session.open(1, "");
+  session.receive(1, kViewport.dump());
+  EXPECT_TRUE(comes([&] { return frames == 1; }));
+  for (int i = 0; i < kAcks; ++i) {
+    session.receive(1, R"({"type": "ack", "frame": 2})");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_TRUE(comes([&] { return refused == kAcks; }));
+  {
+    const std::lock_guard lock(mutex);
+    open = true;
+  }
+  wake.notify_all();
 }
 
 }  // namespace

@@ -35,6 +35,22 @@ ViewHome smallHome() {
   return ViewHome("small", std::move(scene));
 }
 
+// A door that shuts the wall at z = 2: its frame, a leaf at its left half that turns by a right angle to +z, one at its right half that slides to the right.
+ViewHome homeWithDoor(float firstAtRest = 0) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+  test::addRoom(scene, {0, 0, 0}, {6, 2.6f, 5}, std::vector<int>(6, white));
+  scene.leaves.resize(2);
+  scene.leaves[0].hinge = {2, 0, 2}, scene.leaves[0].turnRad = -kPi / 2, scene.leaves[0].atRest = firstAtRest;
+  scene.leaves[1].slideM = {0.5f, 0, 0};
+  for (const int leaf : {-1, 0, 1}) {
+    test::addRectangle(scene, {leaf == 1 ? 2.5f : 2, 0, 2}, {leaf < 0 ? 1.0f : 0.5f, 0, 0}, {0, 2, 0}, wood);
+    Instance& i = scene.instances.back();
+    i.name = "Door", i.object = 1000, i.leaf = leaf;
+  }
+  return ViewHome("door", std::move(scene));
+}
+
 size_t lampNamed(const ViewHome& home, const std::string& name, size_t number = 0) {
   for (size_t i = 0; i < home.editable.lamps.size(); ++i) {
     if (home.editable.lamps[i].name == name && number-- == 0) return i;
@@ -53,8 +69,7 @@ size_t objectNamed(const ViewHome& home, const std::string& name) {
 void expectSame(const Scene& a, const Scene& b) {
   for (size_t i = 0; i < a.instances.size(); ++i) {
     EXPECT_EQ(a.instances[i].mesh, b.instances[i].mesh);
-    EXPECT_EQ(a.instances[i].worldFromObject.w, b.instances[i].worldFromObject.w);
-    EXPECT_EQ(a.instances[i].worldFromObject.x, b.instances[i].worldFromObject.x);
+    EXPECT_TRUE(a.instances[i].worldFromObject == b.instances[i].worldFromObject) << i;
   }
   for (size_t i = 0; i < a.materials.size(); ++i) {
     EXPECT_EQ(a.materials[i].emission, b.materials[i].emission);
@@ -141,6 +156,72 @@ TEST(Editable, hiddenThingsGiveNoLight) {
   EXPECT_TRUE(isBlack(scene.materials[home.editable.lamps[lamp].glows[0].material].emission));
 }
 
+TEST(Editable, leavesOpenAndTheirFrameStays) {
+  const ViewHome home = homeWithDoor();
+  ASSERT_TRUE(validate(home.scene).ok());
+  const size_t door = objectNamed(home, "Door");
+  const EditableObject& object = home.editable.objects[door];
+  ASSERT_TRUE(object.opens);
+  HomeState next = home.atStart();
+  EXPECT_EQ(next.objects[door].open, 0);
+  next.objects[door].open = 1;
+  Scene scene = home.scene;
+  const SceneChange change = stage(home.editable, home.atStart(), next, scene);
+  EXPECT_EQ(change.moved, (std::vector<uint32_t>{object.parts[1].instance, object.parts[2].instance}));
+  EXPECT_FALSE(change.lamps);
+  const Bounds3 turned = instanceBounds(scene, scene.instances[object.parts[1].instance]), slid = instanceBounds(scene, scene.instances[object.parts[2].instance]);
+  EXPECT_NEAR(length(turned.lo - Vec3{2, 0, 2}), 0, 1e-5f);
+  EXPECT_NEAR(length(turned.hi - Vec3{2, 2, 2.5f}), 0, 1e-5f);
+  EXPECT_NEAR(length(slid.hi - Vec3{3.5f, 2, 2}), 0, 1e-5f);
+  const Bounds3 all = boundsOf(object, next.objects[door]);
+  EXPECT_NEAR(length(all.lo - Vec3{2, 0, 2}), 0, 1e-5f);
+  EXPECT_NEAR(length(all.hi - Vec3{3.5f, 2, 2.5f}), 0, 1e-5f);
+  stage(home.editable, next, home.atStart(), scene);
+  expectSame(scene, home.scene);
+}
+
+TEST(Editable, leavesTurnWithTheirThing) {
+  const ViewHome home = homeWithDoor();
+  const size_t door = objectNamed(home, "Door");
+  HomeState next = home.atStart();
+  next.objects[door].open = 1, next.objects[door].turnDeg = 180, next.objects[door].move = {0, 0, 1};
+  Scene scene = home.scene;
+  stage(home.editable, home.atStart(), next, scene);
+  const Bounds3 turned = instanceBounds(scene, scene.instances[home.editable.objects[door].parts[1].instance]);
+  EXPECT_NEAR(length(turned.lo - Vec3{3, 0, 2.5f}), 0, 1e-5f);  // to the other side of the other end
+  EXPECT_NEAR(length(turned.hi - Vec3{3, 2, 3}), 0, 1e-5f);
+}
+
+// One leaf is wide open, the other shut: that stays when the door is painted, and from there both can be shut and both opened.
+TEST(Editable, leavesThatTheFileHasOpen) {
+  const ViewHome home = homeWithDoor(1);
+  const size_t door = objectNamed(home, "Door");
+  const EditableObject& object = home.editable.objects[door];
+  HomeState next = home.atStart();
+  EXPECT_EQ(next.objects[door].open, 0.5f);
+  next.objects[door].colors[0] = {0.9f, 0, 0};
+  Scene scene = home.scene;
+  EXPECT_EQ(stage(home.editable, home.atStart(), next, scene).moved.size(), 3u);
+  for (const EditableObject::Part& part : object.parts) EXPECT_TRUE(scene.instances[part.instance].worldFromObject == part.atRest);
+  HomeState shut = next, wide = next;
+  shut.objects[door].open = 0, wide.objects[door].open = 1;
+  EXPECT_EQ(stage(home.editable, next, shut, scene).moved, std::vector<uint32_t>{object.parts[1].instance});
+  EXPECT_EQ(stage(home.editable, shut, wide, scene).moved.size(), 2u);
+  EXPECT_TRUE(scene.instances[object.parts[1].instance].worldFromObject == object.parts[1].atRest);
+  EXPECT_NEAR(scene.instances[object.parts[2].instance].worldFromObject.w.x - object.parts[2].atRest.w.x, 0.5f, 1e-6f);
+}
+
+TEST(ApplyEdit, opensWhatHasLeaves) {
+  const ViewHome home = homeWithDoor();
+  const size_t door = objectNamed(home, "Door");
+  Edited out;
+  Edit edit;
+  edit.id = 7, edit.target = "object:" + std::to_string(door), edit.set.open = 0.25f;
+  EXPECT_FALSE(applyEdit(home.editable, home.scene, edit, home.atStart(), out));
+  EXPECT_EQ(out.state.objects[door].open, 0.25f);
+  EXPECT_EQ(out.label, "Open Door");
+}
+
 TEST(ApplyEdit, refusesAsAWhole) {
   const ViewHome home = smallHome();
   const HomeState now = home.atStart();
@@ -160,6 +241,7 @@ TEST(ApplyEdit, refusesAsAWhole) {
   EXPECT_EQ(refused(panel, [](EditFields& s) { s.color = Vec3(0); }), "color");
   EXPECT_EQ(refused(box, [](EditFields& s) { s.color = Vec3(2); }), "color");
   EXPECT_EQ(refused(box, [](EditFields& s) { s.dim = 0; }), "dim");
+  EXPECT_EQ(refused(box, [](EditFields& s) { s.open = 1; }), "open");
   EXPECT_EQ(refused(box, [](EditFields&) {}), "target");
   EXPECT_EQ(refused("object:0", [](EditFields& s) { s.move = Vec3(1); }), "move");  // a wall
   EXPECT_EQ(refused("object:" + std::to_string(objectNamed(home, "Area")), [](EditFields& s) { s.hidden = true; }), "target");

@@ -156,6 +156,33 @@ test("a thing that is moved leaves its place in the picture", { skip }, async ()
   await visited.end();
 });
 
+test("a door opens into the room, and undo shuts it", { skip }, async () => {
+  const visited = await visit(browser, program.link);
+  await frameWith(visited, () => true, kSlowMs);
+  const door = () =>
+    visited.page.evaluate(() => {
+      const { session } = document.querySelector("rl-app") as unknown as { session: Session };
+      const thing = [...(session.model?.things.values() ?? [])].find(({ name, open }) => name === "Door" && open !== null);
+      if (!thing) throw new Error("no door of this home opens");
+      return { open: thing.open, width: thing.high[0] - thing.low[0] };
+    });
+  const shut = await door();
+  await choose(visited, "Objects", "Door");
+  await upToDate(visited);
+  const before = await meanColor(visited, 0.3, 0.3, 0.7, 0.7);
+  await visited.page.getByRole("spinbutton", { name: "Open, %" }).fill("100");
+  await visited.page.keyboard.press("Enter");
+  const changed = async () => Math.hypot(...(await meanColor(visited, 0.3, 0.3, 0.7, 0.7)).map((v, i) => v - before[i]!));
+  await until("another picture", async () => (await changed()) > 2, kSlowMs);
+  const wide = await door();
+  assert.equal(wide.open, 1);
+  assert.ok(wide.width > shut.width + 0.3, `${shut.width} m and ${wide.width} m`);
+  await visited.page.getByRole("button", { name: "Undo" }).click();
+  await until("the first picture", async () => (await changed()) < 1.5, kSlowMs);
+  assert.deepEqual(await door(), shut);
+  await visited.end();
+});
+
 test("false colours and a split view are shown", { skip }, async () => {
   const visited = await visit(browser, program.link);
   await frameWith(visited, () => true, kSlowMs);
