@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kMeterKey = 0x3e7e12;  // other random numbers than pixels have,
 constexpr uint64_t kLampKey = 0x3e7e13;   // and for places on lamps
 constexpr int kBatch = 64;                // samples of a meter in layers at once; what their errors are judged by
-constexpr int kPlaces = 8;                // on extended lamps, a batch
+constexpr int kPlaces = 2;                // on extended lamps, a batch
 constexpr float kOfStrongest = 0.03f;      // of light on a meter: layers weaker than that need not be surer than it
 
 // An ideal white Lambertian surface reflects 1 / pi of what falls on it.

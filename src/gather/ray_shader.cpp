@@ -131,8 +131,9 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
 }
 
 // Of light that falls on a surface, by the cache. A path that finds far more than all paths together should is a rare one: what it
-// finds is noise rather than picture, and is bounded.
+// finds is noise rather than picture, and is bounded. Meters are read as they are: beside a thing the nearest slot may lie in the dark within it.
 float RayShader::expectedRadiance(const SurfacePoint& s) const {
+  if (!s.material) return kInfinity;
   const SlotCache::Place place = cache_.find(s.p, s.ng);
   return place.slot < 0 ? kInfinity : std::max(meanRadiance_, luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi);
 }

@@ -8,6 +8,8 @@
 #include <fstream>
 
 #include "base/clock.h"
+#include "engine/display.h"
+#include "engine/light_colour.h"
 #include "engine/lit_scene.h"
 #include "measure/glare_meter.h"
 
@@ -68,6 +70,13 @@ void compare(Certificate::OfCondition& r) {
     sum += off, ++r.judged;
   }
   r.meanPercent = r.judged ? sum / static_cast<double>(r.judged) : 0;
+}
+
+// As `roomlight render` shows it.
+Image shown(const Image& light, const Camera& camera, const RayScene& rays) {
+  const Display display;
+  const float ev100 = automaticEv100(light);
+  return displayed(light, display, whiteOf(display, lightColour(rays, camera, light), ev100), ev100);
 }
 
 }  // namespace
@@ -150,7 +159,8 @@ Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& s
     r.fullUgr = ugrsOf(*lit.value(), study, model, c);
     if (stages.cancelled()) return std::optional<Certificate>();
     for (const Camera& camera : c == 0 ? cameras : std::span<const Camera>()) {
-      out.pictures.push_back(stages.run("picture", [&](const Progress& p) { return lit.value()->picture(camera, kPictureWidth, kPictureHeight, p); }));
+      const Image light = stages.run("picture", [&](const Progress& p) { return lit.value()->picture(camera, kPictureWidth, kPictureHeight, p); });
+      if (light.width > 0) out.pictures.push_back(shown(light, camera, lit.value()->rays()));
     }
     r.predictedLux = predictedLux(study, model, design, c);
     compare(r);

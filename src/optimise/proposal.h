@@ -39,7 +39,7 @@ struct Certificate {
     std::vector<double> fullUgr;               // per eye, with the maintenance factor; below 0: cannot be judged
   };
   std::vector<OfCondition> conditions;
-  std::vector<Image> pictures;  // of the cameras, in the first condition; linear, cd/m²
+  std::vector<Image> pictures;  // of the cameras, in the first condition; exposed, white-balanced and tone-mapped
   double seconds = 0;
   const OfCondition& worst() const;  // with the largest difference
 };

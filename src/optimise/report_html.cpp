@@ -204,9 +204,7 @@ std::string bill(const Report& r, const Proposed& d) {
 
 Result<std::string> pictures(const Proposed& d) {
   std::string s;
-  for (const Image& image : d.certificate->pictures) {
-    if (image.width == 0) continue;
-    const Image shown = toneMap(image, automaticEv100(image), ToneCurve::PbrNeutral);
+  for (const Image& shown : d.certificate->pictures) {
     ByteImage bytes(shown.width, shown.height, 3);
     for (size_t i = 0; i < shown.pixels.size(); ++i) {
       for (int c = 0; c < 3; ++c) bytes.samples[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(std::lround(255 * std::clamp(shown.pixels[i][c], 0.0f, 1.0f)));

@@ -33,8 +33,8 @@ struct Response {
 
 struct ResponseSettings {
   RenderSettings render;
-  double tolerance = 0.004;  // of candidates at points; light that comes straight from lamps is exact
-  int fewestSamples = 512;   // a point; a power of two
+  double tolerance = 0.005;  // of candidates at points; light that comes straight from lamps is exact
+  int fewestSamples = 256;   // a point; a power of two
   int mostSamples = 8192;
   size_t atOnce = 48;        // candidates that are told apart in one solution; at most kMostLayers
 };
