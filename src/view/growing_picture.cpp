@@ -27,7 +27,7 @@ bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<i
   const Image next = home.lit->pictureOf(camera, {whole.first, whole.second, static_cast<int>(count), samples_, true, nullptr}, {{}, &newer});
   if (newer || next.width == 0) return false;
   pictureMs_ = watch.seconds() * 1e3;
-  if (samples_ == 0) sum_ = Image(next.width, next.height);
+  if (samples_ == 0 || std::pair(sum_.width, sum_.height) != std::pair(next.width, next.height)) sum_ = Image(next.width, next.height), samples_ = shownAt_ = 0;
   parallelFor(sum_.pixels.size(), 16384, [&](size_t i) { sum_.pixels[i] += next.pixels[i] * static_cast<float>(count); });
   samples_ += count;
   averaged_ = samples_ >= (refines ? kBeforePaths : kMostAverages);

@@ -26,7 +26,7 @@ class GrowingPicture {
   // Of refine.h's kind: by paths, of which so many were traced.
   void refine(Image image, uint32_t samples, float relativeError, bool last);
 
-  // Adds to the average of whole pictures; `refines`: after it is averaged somebody refines it. True: there is something new to show. Given up, without a trace, when `newer`
+  // Adds to the average of whole pictures; `refines`: after it is averaged somebody refines it; one of another size begins anew. True: there is something new to show. Given up, without a trace, when `newer`
   // becomes true.
   bool step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, bool refines, const std::atomic<bool>& newer);
 

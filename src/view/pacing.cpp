@@ -13,12 +13,15 @@ constexpr double kRoom = 0.8;         // of the time asked for: sizes grow below
 constexpr int kBeforeGrowing = 8;     // frames
 constexpr double kLineMs = 60;        // that a frame may be on its way
 constexpr int kWorst = 50, kBest = 90;
+constexpr double kStepOctaves = 0.25;  // between sizes, of the edges
+constexpr int kMostLineSteps = 8;
+
+double scaleOf(int step) { return std::exp2(-kStepOctaves * step); }
 
 }  // namespace
 
 std::pair<int, int> Pace::sizeFor(double ms, std::pair<int, int> whole) {
   const double pixels = static_cast<double>(whole.first) * whole.second;
-  const auto scaleOf = [](int step) { return std::exp2(-0.25 * step); };
   const auto pixelsAt = [&](int step) { return pixels * scaleOf(step) * scaleOf(step); };
   const auto cost = [&](int step) { return msPerMegapixel_ * pixelsAt(step) / 1e6; };
   const auto mayShrink = [&](int step) { return std::min(whole.first, whole.second) * scaleOf(step + 1) >= kNarrowest; };
@@ -52,7 +55,8 @@ int Line::quality() const {
 
 float Line::scale() const {
   if (bytesAFrame_ <= 0 || quality() > kWorst) return 1;
-  return static_cast<float>(std::clamp(std::sqrt(bytesPerMs_ * 2 * kLineMs / bytesAFrame_), 0.25, 1.0));
+  const double fits = std::sqrt(bytesPerMs_ * 2 * kLineMs / bytesAFrame_);
+  return static_cast<float>(scaleOf(std::clamp(static_cast<int>(std::ceil(-std::log2(fits) / kStepOctaves)), 0, kMostLineSteps)));
 }
 
 }  // namespace roomlight::view

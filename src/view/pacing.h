@@ -25,7 +25,7 @@ class Line {
  public:
   void sent(size_t bytes, double ms);  // until it was acknowledged
   int quality() const;                 // of JPEG: 50 to 90
-  // Of the picture's edges, 1 on a line that is quick enough.
+  // Of the edges of quick pictures: 1 on a line that is quick enough, else in steps, since frames take over points only from those of about their size.
   float scale() const;
 
  private:

@@ -259,7 +259,8 @@ bool Session::stepSide(Window& window, size_t index) {
     return true;
   }
   if (next == Next::Better) {
-    const bool shows = side.picture.step(home, camera, frameSize(window.viewport, window.line.scale()), refines(side), newer_);
+    // Of the whole size on slow lines too: nobody waits for the next.
+    const bool shows = side.picture.step(home, camera, frameSize(window.viewport, 1), refines(side), newer_);
     if (shows) sendFrame(window, index, home);
     return true;
   }

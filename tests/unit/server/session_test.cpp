@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <thread>
 
 #include "seen.h"
 #include "view/session.h"
@@ -57,6 +58,28 @@ TEST(Session, atMostTwoFramesAreUnderWay) {
   client.see(isWhole);
   client.see(isWhole);
   EXPECT_THROW(client.see(isWhole, 1), std::runtime_error);
+}
+
+TEST(Session, slowLinesGetSmallFramesWhileTheyMoveAndWholeOnesAtRest) {
+  const ServedHome home;
+  Client client(home.port(), home.live());
+  client.acknowledges = false;
+  client.say(kViewport);
+  bool small = false, whole = false;
+  for (int i = 0; i < 40 && !(small && whole); ++i) {
+    if (i % 8 == 0) client.say({{"type", "camera"}, {"number", i + 1}, {"position", {2 + 0.05 * i, 1.5, 4}}, {"target", {2, 1, 0}}});
+    const ReceivedFrame frame = client.see([](const ReceivedFrame&) { return true; });
+    small |= frame.width < 96;
+    if (frame.samples > 0) {
+      EXPECT_EQ(frame.width, 96);
+      whole = true;
+    }
+    // Now quicker, now slower.
+    std::this_thread::sleep_for(std::chrono::milliseconds(i % 2 == 0 ? 150 : 350));
+    client.say({{"type", "ack"}, {"frame", frame.number}});
+  }
+  EXPECT_TRUE(small);
+  EXPECT_TRUE(whole);
 }
 
 TEST(Session, badMessagesAreAnswered) {
