@@ -28,6 +28,17 @@ inline float fastExp2(float y) {
   return e * std::bit_cast<float>((static_cast<int32_t>(whole) + 127) << 23);
 }
 
+// atan2(y, x), absolute error below 3e-7; 0 for 0, 0. By a polynomial (Abramowitz and Stegun 1964, 4.4.50).
+inline float fastAtan2(float y, float x) {
+  constexpr float kHalfTurn = 3.14159265f;
+  const float ax = std::abs(x), ay = std::abs(y), most = ax > ay ? ax : ay;
+  if (!(most > 0)) return 0;
+  const float t = (ax > ay ? ay : ax) / most, t2 = t * t;
+  const float a = t * (1 + t2 * (-0.3333314528f + t2 * (0.1999355085f + t2 * (-0.1420889944f + t2 * (0.1065626393f + t2 * (-0.0752896400f + t2 * (0.0429096138f + t2 * (-0.0161657367f + t2 * 0.0028662257f))))))));
+  const float steep = ay > ax ? kHalfTurn / 2 - a : a, turned = x < 0 ? kHalfTurn - steep : steep;
+  return y < 0 ? -turned : turned;
+}
+
 // x^exponent of a positive normal number.
 inline float fastPow(float x, float exponent) { return fastExp2(exponent * fastLog2(x)); }
 

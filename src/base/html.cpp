@@ -4,6 +4,29 @@
 #include <cstdint>
 
 namespace roomlight {
+namespace {
+
+constexpr const char* kStyle = R"(
+:root{--ink:#1d2530;--soft:#5d6876;--line:#dfe3e8;--paper:#fff;--good:#1a7f4b;--bad:#b3362b}
+*{box-sizing:border-box}
+body{margin:0;background:#f3f4f6;color:var(--ink);font:15px/1.5 "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif}
+main{max-width:1180px;margin:0 auto;background:var(--paper);padding:44px 56px 36px}
+h1{font-size:30px;font-weight:600;margin:0 0 4px}
+h2{font-size:21px;font-weight:600;margin:44px 0 8px;padding-top:18px;border-top:1px solid var(--line)}
+table{border-collapse:collapse;margin:8px 0 4px;font-variant-numeric:tabular-nums;font-size:14px}
+th{font-weight:600;font-size:12px;color:var(--soft);text-align:right;border-bottom:1px solid var(--ink);padding:4px 9px;vertical-align:bottom}
+td{text-align:right;border-bottom:1px solid var(--line);padding:5px 9px}
+th:first-child,td:first-child,td.l,th.l{text-align:left}th:first-child,td:first-child{padding-left:0}
+h3{font-size:16px;font-weight:600;margin:24px 0 4px}
+p{margin:4px 0 10px;max-width:78ch}p.soft,.soft{color:var(--soft);font-size:13.5px}
+.wide{overflow-x:auto}
+.met{color:var(--good);font-weight:600;white-space:nowrap}.missed{color:var(--bad);font-weight:600;white-space:nowrap}
+svg text{font:12px "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif;fill:var(--ink)}
+footer{margin-top:36px;padding-top:14px;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
+@media print{body{background:#fff}main{padding:0;max-width:none}}
+)";
+
+}  // namespace
 
 std::string htmlEscaped(const std::string& text) {
   std::string out;
@@ -22,6 +45,10 @@ std::string htmlEscaped(const std::string& text) {
       out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return out;
+}
+
+std::string htmlPage(const std::string& title, const std::string& style, const std::string& body) {
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" + htmlEscaped(title) + "</title>\n<style>" + kStyle + style + "</style></head>\n<body><main>\n" + body + "</main></body></html>\n";
 }
 
 std::string base64(std::span<const char> bytes) {

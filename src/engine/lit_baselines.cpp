@@ -26,6 +26,7 @@ class BaselineScene final : public LitScene {
     if (!shader_) return {};
     return gatherView(rays(), lights(), *shader_, camera, asked(settings_, wish), wish.history, progress);
   }
+  bool followsDaylight() const override { return false; }
   void lookFrom(const Camera& camera, Stages& stages) override {
     const Vec3 eye = camera.worldFromCamera.w;
     if (room_ && minComponent(min(eye - room_->lo, room_->hi - eye)) >= 0) return;

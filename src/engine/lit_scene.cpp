@@ -51,7 +51,7 @@ class PhotonScene final : public LitScene {
 }  // namespace
 
 SceneRays::SceneRays(const Scene& scene, bool sunApart, Stages& stages)
-    : rays_(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })), lights_(stages.run("lights", [&](const Progress&) { return Lights(scene, sunApart); })) {}
+    : sunApart_(sunApart), rays_(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })), lights_(stages.run("lights", [&](const Progress&) { return Lights(scene, sunApart); })) {}
 
 bool SceneRays::follow(const SceneChange& change, Stages& stages) {
   const Scene& scene = rays_.scene();
@@ -64,7 +64,12 @@ bool SceneRays::follow(const SceneChange& change, Stages& stages) {
       return true;
     });
   }
-  if (change.lamps || emitters) {
+  if (change.daylight) {
+    stages.run("lights", [&](const Progress&) {
+      lights_.emplace(scene, sunApart_);
+      return true;
+    });
+  } else if (change.lamps || emitters) {
     Lights next = stages.run("lights", [&](const Progress&) { return Lights(scene, std::move(*lights_)); });
     lights_.emplace(std::move(next));
   }

@@ -46,6 +46,7 @@ class SceneRays {
   const Lights& lights() const { return *lights_; }
 
  private:
+  const bool sunApart_;
   RayScene rays_;
   std::optional<Lights> lights_;
 };
@@ -65,9 +66,10 @@ class LitScene {
   }
   virtual Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress = {}) const = 0;
 
-  // Follows the scene; suns and sky must be as before. The same light as of a scene lit anew, up to what bounces leave out (see
+  // Follows the scene; suns and sky must be as before unless followsDaylight(). The same light as of a scene lit anew, up to what bounces leave out (see
   // RadianceSettings::residual, and bouncesAtOnce: what those leave out follows with later calls, also where nothing has changed). Stages "rays", "lights" and those of the technique. Cancelled, it is of no further use.
   void update(const SceneChange& change, Stages& stages);
+  virtual bool followsDaylight() const { return true; }
   // Whether update() has no more to do (see bouncesAtOnce).
   virtual bool settled() const { return true; }
   // What holds light about one place only (vxgi, lpv: finest there) has it where this camera is, if it has left that place.

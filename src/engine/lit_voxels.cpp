@@ -16,11 +16,11 @@ namespace {
 template <class Shader, class Settings>
 class VoxelScene final : public LitScene {
  public:
-  VoxelScene(const Scene& scene, const RenderSettings& settings, StageSettings<Settings> use, Stages& stages) : LitScene(scene, true, stages), gather_(use.gather) {
-    if (const auto layers = wantedLayers(scene, lights(), settings)) use.radiance.layers = layers.value();
+  VoxelScene(const Scene& scene, const RenderSettings& settings, const StageSettings<Settings>& use, Stages& stages) : LitScene(scene, true, stages), radiance_(use.radiance), gather_(use.gather) {
+    if (const auto layers = wantedLayers(scene, lights(), settings)) radiance_.layers = layers.value();
     voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, use.voxel); });
     stages.run("illuminate", [&](const Progress& p) {
-      light_.emplace(rays(), lights(), voxels_.voxels, use.radiance, p);
+      light_.emplace(rays(), lights(), voxels_.voxels, radiance_, p);
       return true;
     });
     makeShader(stages);
@@ -47,7 +47,13 @@ class VoxelScene final : public LitScene {
     std::vector<Bounds3> places;
     if (!changed.empty()) places = stages.run("voxelise", [&](const Progress&) { return followMoves(voxels_, rays().scene(), change); });
     stages.run("illuminate", [&](const Progress& p) {
-      if (changed.empty()) {
+      if (change.daylight && !changed.empty()) {
+        light_.emplace(rays(), lights(), voxels_.voxels, radiance_, p);
+      } else if (change.daylight) {
+        light_->followDaylight(rays(), lights(), voxels_.voxels, p);
+      } else if (!change.any()) {
+        light_->goOn(rays(), lights(), voxels_.voxels, p);
+      } else if (changed.empty()) {
         light_->relight(rays(), lights(), voxels_.voxels, p);
       } else {
         light_->update(rays(), lights(), voxels_.voxels, {changed, places, emitters}, p);
@@ -65,6 +71,7 @@ class VoxelScene final : public LitScene {
     });
   }
 
+  RadianceSettings radiance_;
   const Settings gather_;
   Voxelisation voxels_;
   std::optional<LightCache> light_;

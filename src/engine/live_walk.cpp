@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "engine/lit_scene.h"
 #include "gather/frame_history.h"
+#include "gather/quick_frames.h"
 
 namespace roomlight {
 namespace {
@@ -23,6 +24,38 @@ void addUp(const std::vector<StageStats>& more, std::vector<StageStats>& sums) {
   }
 }
 
+// Pictures of the frames, each from those before it.
+class FrameMaker {
+ public:
+  FrameMaker(const LitScene& lit, const RenderSettings& settings) : lit_(lit), settings_(settings), history_(settings.frames) {}
+  static Status check(const LitScene& lit, const RenderSettings& settings) {
+    if (settings.frames.quickMs <= 0 || lit.snapshot()) return Ok{};
+    return Error{"frames.quickMs: technique '" + settings.technique + "' keeps no light in slots; 'hybrid' and 'cone' do"};
+  }
+
+  // After light has followed.
+  void follow(const SceneChange& change, const Scene& scene) {
+    if (settings_.frames.quickMs <= 0) return history_.sceneChanged(change, scene);
+    quick_.sceneChanged(change, scene);
+    if (light_ && !change.any() && settled_) return;
+    settled_ = lit_.settled();
+    light_ = lit_.snapshot();
+    quick_.lightChanged();
+  }
+  Image make(const Camera& camera, const Progress& progress) {
+    if (settings_.frames.quickMs <= 0) return lit_.picture(camera, settings_.width, settings_.height, progress, &history_);
+    return quick_.make({lit_.rays(), lit_.lights(), *light_, {}}, camera, settings_.width, settings_.height, settings_.frames.quickMs, progress);
+  }
+
+ private:
+  const LitScene& lit_;
+  const RenderSettings& settings_;
+  FrameHistory history_;
+  QuickFrames quick_;
+  std::shared_ptr<const SlotSnapshot> light_;
+  bool settled_ = false;
+};
+
 Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, const RenderProgress& progress, const TakeFrame& take, WalkFrames& out) {
   RenderStats openStats;
   Stages opening(progress, openStats);
@@ -35,10 +68,12 @@ Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, cons
   out.opening = openStats.stages;
 
   const int count = walk.frameCount();
-  FrameHistory history(settings.frames);
+  if (opening.cancelled()) return out.complete = false, Ok{};
+  if (const Status can = FrameMaker::check(*lit, settings); !can) return can;
+  FrameMaker maker(*lit, settings);
   RenderProgress silent;
   silent.cancelled = progress.cancelled;
-  for (int frame = 0; frame < count && !opening.cancelled(); ++frame) {
+  for (int frame = 0; frame < count; ++frame) {
     if (progress.report) progress.report("frames", static_cast<float>(frame) / static_cast<float>(count));
     const double timeS = walk.timeOf(frame);
     RenderStats stats;
@@ -49,11 +84,11 @@ Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, cons
     const Stopwatch updating;
     const double cpuBefore = processCpuSeconds();
     lit->update(change, stages);
-    history.sceneChanged(change, scene);
     lit->lookFrom(camera, stages);
+    maker.follow(change, scene);
     f.updateMs = updating.seconds() * 1e3, f.updateCpuMs = (processCpuSeconds() - cpuBefore) * 1e3;
     if (stages.cancelled()) break;
-    const Image image = stages.run("gather", [&](const Progress& p) { return lit->picture(camera, settings.width, settings.height, p, &history); });
+    const Image image = stages.run("gather", [&](const Progress& p) { return maker.make(camera, p); });
     if (stages.cancelled()) break;
     f.pictureMs = stats.stages.back().timeMs, f.pictureCpuMs = stats.stages.back().cpuMs;
     out.frames.push_back(f);

@@ -143,6 +143,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("everyStale", s.frames.everyStale, 1, 256);
     g.number("everyVeil", s.frames.everyVeil, 1, 256);
     g.number("mostOfVeil", s.frames.mostOfVeil, 1, 1e6);
+    g.number("quickMs", s.frames.quickMs, 0, 1e6);
     g.number("mostEstimates", s.frames.mostEstimates, 1, 1e6);
     g.number("smoothEstimates", s.frames.smoothEstimates, 0, 1e6);
     g.number("staleEstimates", s.frames.staleEstimates, 1e-6, 1e6);

@@ -34,12 +34,13 @@ bool isMet(const Bounds3& b, Vec3 p, Vec3 d, float most) {
 
 void ChangedPlaces::add(const SceneChange& change, const Scene& scene, const std::function<void(std::vector<Bounds3>&)>& addSeen) {
   const auto shines = [&](uint32_t i) { return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission); };
-  lightsChanged_ |= change.lamps || !change.glow.empty() || std::any_of(change.moved.begin(), change.moved.end(), shines);
+  lightsChanged_ |= change.lamps || change.daylight || !change.glow.empty() || std::any_of(change.moved.begin(), change.moved.end(), shines);
   moved_.resize(scene.instances.size());
   places_.resize(scene.instances.size());
   for (const uint32_t i : change.moved) moved_[i] = 1, anyMoved_ = true;
   std::vector<Bounds3> seen(moved_.size());
-  if (std::any_of(change.moved.begin(), change.moved.end(), [&](uint32_t i) { return places_[i].empty(); })) addSeen(seen);
+  for (const auto& [i, place] : change.before) seen[i] = place;
+  if (std::any_of(change.moved.begin(), change.moved.end(), [&](uint32_t i) { return places_[i].empty() && seen[i].empty(); })) addSeen(seen);
   std::map<int, std::array<Bounds3, 2>> things;  // before and now
   for (const uint32_t i : change.moved) {
     auto& thing = things[scene.instances[i].object];

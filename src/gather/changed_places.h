@@ -12,7 +12,7 @@ namespace roomlight {
 
 class ChangedPlaces {
  public:
-  // `addSeen` adds to the box of each instance what was seen of it: only then is it known where things were that move for the first time.
+  // `addSeen` adds to the box of each instance what was seen of it: where things were that move for the first time, unless the change tells.
   // After many changes without a frame light counts as changed everywhere.
   void add(const SceneChange& change, const Scene& scene, const std::function<void(std::vector<Bounds3>&)>& addSeen);
   // Light of the scene as it is now: where things that moved throw shadows, or did, light has changed.

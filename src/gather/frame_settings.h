@@ -14,6 +14,7 @@ struct FrameSettings {
   int everyVeil = 4;         // of pixels of veils and mirrors, whose parts are not told apart; and
   float mostOfVeil = 4;     // estimates that their histories count for while the camera moves
   float mostWhileMoving = 8;  // where something moves, but elsewhere
+  double quickMs = 0;       // 0: none of this; else frames of a walk are those of quick_frames.h, in about so many milliseconds, of techniques with light in slots
   float nearM = 0.5f;       // of what moved: light has changed there
 };
 

@@ -205,6 +205,17 @@ class Drawing {
 
 }  // namespace
 
+const char* const kLightMapStyle = R"(
+.map .wall{fill:none;stroke:#111820;stroke-width:calc(1.3*var(--px));stroke-linejoin:round;stroke-linecap:round}
+.map .contour{fill:none;stroke:#fff;stroke-opacity:.8;stroke-width:calc(1.1*var(--px))}
+.map .point{stroke:#111820;stroke-opacity:.55;stroke-width:calc(2.6*var(--px));stroke-linecap:round}
+.map text.level{font-size:calc(11.5*var(--px));text-anchor:middle;dominant-baseline:central;paint-order:stroke;stroke:#fff;stroke-opacity:.85;stroke-width:calc(3*var(--px));stroke-linejoin:round}
+.map .lamp circle{fill:#fff;stroke:#111820;stroke-width:calc(1.2*var(--px))}
+.map .lamp path{stroke:#111820;stroke-width:calc(1.2*var(--px))}
+.map .bar path{fill:none;stroke:var(--ink);stroke-width:calc(1.4*var(--px))}
+.map .bar text{font-size:calc(12*var(--px))}
+)";
+
 std::string lightMapSvg(const GridReading& grid, const Scene& scene, const LightScale& scale, int number) { return Drawing(grid, scene, scale, number).svg(); }
 
 std::string legendSvg(const LightScale& scale, const std::string& unit) {

@@ -10,6 +10,8 @@ namespace roomlight {
 
 // `number` tells the pictures of one page apart. Some ten to hundred kilobytes.
 std::string lightMapSvg(const GridReading& grid, const Scene& scene, const LightScale& scale, int number);
+// How a page shows them.
+extern const char* const kLightMapStyle;
 // Colours and what they mean.
 std::string legendSvg(const LightScale& scale, const std::string& unit);
 

@@ -13,38 +13,17 @@ namespace roomlight {
 namespace {
 
 constexpr const char* kStyle = R"(
-:root{--ink:#1d2530;--soft:#5d6876;--line:#dfe3e8;--paper:#fff;--good:#1a7f4b;--bad:#b3362b}
-*{box-sizing:border-box}
-body{margin:0;background:#f3f4f6;color:var(--ink);font:15px/1.5 "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif}
-main{max-width:980px;margin:0 auto;background:var(--paper);padding:44px 56px 36px}
-h1{font-size:30px;font-weight:600;margin:0 0 4px;letter-spacing:-.01em}
-h2{font-size:20px;font-weight:600;margin:40px 0 10px;padding-top:18px;border-top:1px solid var(--line)}
+main{max-width:980px}
 p.about{color:var(--soft);margin:0 0 8px}
-table{border-collapse:collapse;width:100%;margin:8px 0 4px;font-variant-numeric:tabular-nums}
-th{font-weight:600;font-size:12px;color:var(--soft);text-align:right;border-bottom:1px solid var(--ink);padding:4px 10px}
-td{text-align:right;border-bottom:1px solid var(--line);padding:6px 10px}
-th:first-child,td:first-child,th.l,td.l{text-align:left}
-th:first-child,td:first-child{padding-left:0}
-.met,.missed{font-weight:600;white-space:nowrap}
-.met{color:var(--good)}.missed{color:var(--bad)}
+table{width:100%}
 .summary{display:flex;gap:36px;flex-wrap:wrap;margin:22px 0 6px}
 .summary div b{color:var(--ink);display:block;font-size:26px;font-weight:600;line-height:1.2}
 .summary div{color:var(--soft);font-size:13px}
 .figure{display:flex;gap:26px;align-items:flex-start;margin:12px 0 6px}
-svg text{font:12px "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif;fill:var(--ink)}
 .map{flex:none}
-.map .wall{fill:none;stroke:#111820;stroke-width:calc(1.3*var(--px));stroke-linejoin:round;stroke-linecap:round}
-.map .contour{fill:none;stroke:#fff;stroke-opacity:.8;stroke-width:calc(1.1*var(--px))}
-.map .point{stroke:#111820;stroke-opacity:.55;stroke-width:calc(2.6*var(--px));stroke-linecap:round}
-.map text.level{font-size:calc(11.5*var(--px));text-anchor:middle;dominant-baseline:central;paint-order:stroke;stroke:#fff;stroke-opacity:.85;stroke-width:calc(3*var(--px));stroke-linejoin:round}
-.map .lamp circle{fill:#fff;stroke:#111820;stroke-width:calc(1.2*var(--px))}
-.map .lamp path{stroke:#111820;stroke-width:calc(1.2*var(--px))}
-.map .bar path{fill:none;stroke:var(--ink);stroke-width:calc(1.4*var(--px))}
-.map .bar text{font-size:calc(12*var(--px))}
 .legend .tick{stroke:var(--ink)}
 .notes{color:var(--soft);font-size:13px;padding-left:18px}
-footer{margin-top:36px;padding-top:14px;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
-@media print{body{background:#fff}main{padding:0;max-width:none}section{break-inside:avoid}}
+@media print{section{break-inside:avoid}}
 )";
 
 std::string fileName(const std::string& path) { return htmlEscaped(std::filesystem::path(path).filename().string()); }
@@ -175,11 +154,10 @@ std::string notes(const ReportHeader& h, const Measurements& m) {
 
 std::string reportHtml(const ReportHeader& h, const Measurements& m, const Scene& scene) {
   const std::vector<Verdict> verdicts = verdictsOf(m);
-  std::string s = fmt::format("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>Lighting report: {}</title>\n<style>{}</style></head>\n<body><main>\n", fileName(h.scene), kStyle);
-  s += fmt::format("<h1>Lighting report</h1>\n<p class=\"about\">{}{}{}</p>\n", fileName(h.scene), h.lighting.empty() ? "" : ", lit by " + fileName(h.lighting), h.meters.empty() ? "" : ", measured after " + fileName(h.meters));
+  std::string s = fmt::format("<h1>Lighting report</h1>\n<p class=\"about\">{}{}{}</p>\n", fileName(h.scene), h.lighting.empty() ? "" : ", lit by " + fileName(h.lighting), h.meters.empty() ? "" : ", measured after " + fileName(h.meters));
   s += summary(m, verdicts) + targets(verdicts) + overview(m) + figures(m, scene) + meters(m) + power(m) + notes(h, m);
-  s += fmt::format("<footer>roomlight {}</footer>\n</main></body></html>\n", htmlEscaped(h.version));
-  return s;
+  s += fmt::format("<footer>roomlight {}</footer>\n", htmlEscaped(h.version));
+  return htmlPage("Lighting report: " + std::filesystem::path(h.scene).filename().string(), kLightMapStyle + std::string(kStyle), s);
 }
 
 }  // namespace roomlight

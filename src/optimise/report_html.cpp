@@ -17,36 +17,16 @@ constexpr int kJpegQuality = 82;
 constexpr float kPlanMarginM = 0.4f;
 
 constexpr const char* kStyle = R"(
-:root{--ink:#1d2530;--soft:#5d6876;--line:#dfe3e8;--good:#1a7f4b;--bad:#b3362b}
-*{box-sizing:border-box}
-body{margin:0;background:#f3f4f6;color:var(--ink);font:15px/1.5 "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif}
-main{max-width:1180px;margin:0 auto;background:#fff;padding:44px 56px 36px}
-h1{font-size:30px;font-weight:600;margin:0 0 4px}
-h2{font-size:21px;font-weight:600;margin:44px 0 8px;padding-top:18px;border-top:1px solid var(--line)}
-h3{font-size:16px;font-weight:600;margin:22px 0 4px}
-p{margin:4px 0 10px;max-width:80ch}p.soft{color:var(--soft);font-size:13.5px}
-table{border-collapse:collapse;margin:8px 0 4px;font-variant-numeric:tabular-nums;font-size:14px}
-th{font-weight:600;font-size:12px;color:var(--soft);text-align:right;border-bottom:1px solid var(--ink);padding:4px 9px;vertical-align:bottom}
-td{text-align:right;border-bottom:1px solid var(--line);padding:5px 9px}
-th:first-child,td:first-child,td.l,th.l{text-align:left}th:first-child,td:first-child{padding-left:0}
-.met{color:var(--good);font-weight:600}.missed{color:var(--bad);font-weight:600}
-.wide{overflow-x:auto}.controls{margin:10px 0 4px;font-size:13.5px;color:var(--soft)}.controls>*{margin-right:8px}
-svg{max-width:100%;height:auto}svg text{font:12px "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif;fill:var(--ink)}
+.controls{margin:10px 0 4px;font-size:13.5px;color:var(--soft)}.controls>*{margin-right:8px}
+svg{max-width:100%;height:auto}
 #front{width:100%;display:block;touch-action:none;border:1px solid var(--line)}#front .grid{stroke:#e4e7eb}#front .point{fill:#7b8da6}#front .proposed{fill:#d9792b;stroke:#fff;stroke-width:1.5;cursor:pointer}
 #front .number{font-weight:700}#front .axis{fill:var(--soft)}
 #tip{display:none;position:absolute;background:#1d2530;color:#fff;font-size:12.5px;padding:5px 9px;border-radius:4px;max-width:360px;pointer-events:none}
 .row{display:flex;flex-wrap:wrap;gap:14px 22px;align-items:flex-start;margin:8px 0}.row figure{margin:0;max-width:520px}.row img{width:100%;display:block}
 figcaption{font-size:12.5px;color:var(--soft)}
-.plan .wall,.map .wall{fill:none;stroke:#111820;stroke-width:calc(1.3*var(--px));stroke-linejoin:round;stroke-linecap:round}
+.plan .wall{fill:none;stroke:#111820;stroke-width:calc(1.3*var(--px));stroke-linejoin:round;stroke-linecap:round}
 .plan .lamp circle{stroke:#111820;stroke-width:calc(1.2*var(--px))}
 .map{max-width:360px}
-.map .contour{fill:none;stroke:#fff;stroke-opacity:.8;stroke-width:calc(1.1*var(--px))}
-.map .point{stroke:#111820;stroke-opacity:.55;stroke-width:calc(2.6*var(--px));stroke-linecap:round}
-.map text.level{font-size:calc(11.5*var(--px));text-anchor:middle;dominant-baseline:central;paint-order:stroke;stroke:#fff;stroke-opacity:.85;stroke-width:calc(3*var(--px));stroke-linejoin:round}
-.map .lamp circle{fill:#fff;stroke:#111820;stroke-width:calc(1.2*var(--px))}.map .lamp path{stroke:#111820;stroke-width:calc(1.2*var(--px))}
-.map .bar path{fill:none;stroke:var(--ink);stroke-width:calc(1.4*var(--px))}.map .bar text{font-size:calc(12*var(--px))}
-footer{margin-top:36px;padding-top:14px;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
-@media print{body{background:#fff}main{padding:0;max-width:none}}
 )";
 
 std::string cell(const std::string& text, const char* kind = "") { return fmt::format("<td{}>{}</td>", *kind ? fmt::format(" class=\"{}\"", kind) : "", text); }
@@ -236,7 +216,7 @@ std::string methods(const Report& r) {
 
 Result<std::string> reportHtml(const Report& r, const Scene& home) {
   Drawer drawer(r, home);
-  std::string s = fmt::format("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title>\n<style>{1}</style></head>\n<body><main>\n<h1>{0}</h1>\n", htmlEscaped(r.study.title), kStyle);
+  std::string s = fmt::format("<h1>{}</h1>\n", htmlEscaped(r.study.title));
   s += drawer.walls();
   s += fmt::format("<p>{} designs that no other betters in every goal, of {} places for lamps and {} candidates. Orange: proposed below. Wheel or buttons zoom, dragging moves.</p>\n", r.front.size(), r.candidates.places.size(), r.candidates.candidates.size());
   s += frontPlot(r) + objectivesTable(r);
@@ -256,7 +236,8 @@ Result<std::string> reportHtml(const Report& r, const Scene& home) {
     s += bill(r, d);
     if (d.certificate) s += certificateTable(r, *d.certificate);
   }
-  return s + methods(r) + "<footer>Lux and UGR are predicted by adding up lamps' light; designs that were solved in full show both, and are judged by the full solution.</footer>\n</main></body></html>\n";
+  s += methods(r) + "<footer>Lux and UGR are predicted by adding up lamps' light; designs that were solved in full show both, and are judged by the full solution.</footer>\n";
+  return htmlPage(r.study.title, kLightMapStyle + std::string(kStyle), s);
 }
 
 }  // namespace roomlight::optimise

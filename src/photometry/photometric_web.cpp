@@ -2,15 +2,19 @@
 
 #include <algorithm>
 
+#include "base/fast_math.h"
+
 namespace roomlight {
 namespace {
 
 constexpr float kTwoPi = 2 * kPi;
 
-// The interval of ascending edges that holds v, and how far into it.
+// The interval of ascending edges that holds v, and how far into it. Most files have even steps: there the first guess is right.
 std::pair<size_t, float> interval(const std::vector<float>& edges, float v) {
-  const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, v);
-  const auto i = static_cast<size_t>(above - edges.begin()) - 1;
+  const size_t last = edges.size() - 2;
+  const float steps = (v - edges.front()) / (edges.back() - edges.front()) * static_cast<float>(edges.size() - 1);
+  size_t i = std::min(static_cast<size_t>(std::max(0.0f, steps)), last);
+  if ((i > 0 && v < edges[i]) || (i < last && v >= edges[i + 1])) i = static_cast<size_t>(std::upper_bound(edges.begin() + 1, edges.end() - 1, v) - edges.begin()) - 1;
   return {i, std::clamp((v - edges[i]) / (edges[i + 1] - edges[i]), 0.0f, 1.0f)};
 }
 
@@ -18,13 +22,15 @@ std::pair<size_t, float> interval(const std::vector<float>& edges, float v) {
 
 WebPlace placeInWeb(const PhotometricWeb& web, Vec3 d) {
   // By the sine as well: the cosine alone loses directions close to the nadir.
-  const float across = std::sqrt(d.x * d.x + d.y * d.y), gamma = std::atan2(across, -d.z);
-  float c = across > 0 ? std::atan2(d.y, d.x) : 0;
-  if (c < 0) c += kTwoPi;
-  const auto [plane, inPlane] = interval(web.cRad, c);
+  const float gamma = fastAtan2(std::sqrt(d.x * d.x + d.y * d.y), -d.z);
   const auto [row, inRow] = interval(web.gammaRad, gamma);
   constexpr float kRounding = 1e-6f;
-  return {plane, row, inPlane, inRow, gamma < web.gammaRad.front() - kRounding || gamma > web.gammaRad.back() + kRounding};
+  const bool dark = gamma < web.gammaRad.front() - kRounding || gamma > web.gammaRad.back() + kRounding;
+  if (dark || web.cRad.size() == 2) return {0, row, 0, inRow, dark};  // one plane stands for all
+  float c = fastAtan2(d.y, d.x);
+  if (c < 0) c += kTwoPi;
+  const auto [plane, inPlane] = interval(web.cRad, c);
+  return {plane, row, inPlane, inRow, dark};
 }
 
 float intensityCd(const PhotometricWeb& web, Vec3 direction) {

@@ -20,6 +20,15 @@ bool sameLight(const Lamp& a, const Lamp& b) {
          a.web == b.web && (!a.web || (a.up == b.up && a.extended == b.extended));
 }
 
+// lm, of the slots together.
+Vec3 fluxOf(const Voxels& voxels, const std::vector<Vec3>& lux) {
+  double sum[3] = {};
+  for (size_t i = 0; i < lux.size(); ++i) {
+    for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(lux[i][c]) * static_cast<double>(voxels.slots[i].areaM2);
+  }
+  return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
+}
+
 // Reports from one thread at a time.
 class Steps {
  public:
@@ -47,7 +56,8 @@ LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels&
   const Sources from{rays, lights, voxels, progress};
   traceAllLinks(from);
   progress.at(0.5f);
-  traceFixedLights(from);
+  traceDaylight(from);
+  traceEmitters(from);
   matchEmitters(from);
   matchLamps(from);
   progress.at(0.8f);
@@ -63,6 +73,32 @@ void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxel
   matchLamps(from);
   progress.at(0.5f);
   solve(from, bouncesOfUpdate());
+}
+
+void LightCache::goOn(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
+  if (settled_) return;
+  field_.rays = 0;
+  paths_.refer(rays, voxels);
+  mostAtOnce_ = std::min(2 * mostAtOnce_, settings_.maxBounces);
+  solve({rays, lights, voxels, progress}, mostAtOnce_);
+}
+
+void LightCache::followDaylight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
+  const Sources from{rays, lights, voxels, progress};
+  field_.rays = 0;
+  paths_.refer(rays, voxels);
+  findGuide(from);
+  traceDaylight(from);
+  matchLamps(from);
+  progress.at(0.5f);
+  if (progress.stop()) return field_.irradianceLux.clear();
+  const Vec3 before = fluxOf(voxels, direct_);
+  std::vector<Vec3> near = sumDirect(from);
+  const Vec3 now = fluxOf(voxels, direct_);
+  const auto darker = [](float to, float of) { return to < of ? to / of : 1; };
+  const Vec3 scale{darker(now.x, before.x), darker(now.y, before.y), darker(now.z, before.z)};
+  for (Vec3& v : indirect_) v *= scale;
+  bounceOn(from, bouncesOfUpdate(), near);
 }
 
 void LightCache::traceAllLinks(const Sources& from) {
@@ -81,32 +117,50 @@ void LightCache::traceAllLinks(const Sources& from) {
   if (hasSky) field_.guide = guide.finish(from.progress);
 }
 
-// Suns, sky and emissive meshes.
-void LightCache::traceFixedLights(const Sources& from) {
+// Of links traced before.
+void LightCache::findGuide(const Sources& from) {
+  field_.guide = {};
+  if (!from.lights.sky().present()) return;
+  SkyGuideBuilder guide(from.voxels, from.lights.sky());
+  std::atomic<uint64_t> followed = 0;
+  parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
+    if (!from.progress.stop()) followed += lookAtSky(from.voxels, paths_, b, settings_.seed, links_, guide);
+  });
+  field_.rays += followed;
+  field_.guide = guide.finish(from.progress);
+}
+
+// Suns and sky.
+void LightCache::traceDaylight(const Sources& from) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
-  const auto all = [&](const auto& ofBrick) {
-    std::vector<Vec3> lux(from.voxels.slots.size());
-    parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
-      if (!from.progress.stop()) ofBrick(b, lux);
-    });
-    return SlotLight(from.voxels, lux);
-  };
-  if (from.lights.sunCount() > 0) suns_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
+  suns_ = sky_ = {};
+  skyWays_.clear();
+  if (from.lights.sunCount() > 0) suns_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
   if (from.lights.sky().present()) {
     skyWays_.resize(from.voxels.slots.size());
-    sky_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.sky(field_.guide, b, {}, skyWays_, lux); });
+    sky_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.sky(field_.guide, b, {}, skyWays_, lux); });
   }
-  if (from.lights.hasEmitters()) emitters_ = all([&](size_t b, std::vector<Vec3>& lux) { direct.emitters(b, {}, lux); });
   field_.rays += direct.rayCount();
+}
+
+void LightCache::traceEmitters(const Sources& from) {
+  if (!from.lights.hasEmitters()) return;
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  emitters_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.emitters(b, {}, lux); });
+  field_.rays += direct.rayCount();
+}
+
+SlotLight LightCache::lightOfAll(const Sources& from, const std::function<void(size_t, std::vector<Vec3>&)>& ofBrick) {
+  std::vector<Vec3> lux(from.voxels.slots.size());
+  parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
+    if (!from.progress.stop()) ofBrick(b, lux);
+  });
+  return SlotLight(from.voxels, lux);
 }
 
 void LightCache::traceLamp(const Sources& from, LampLight& light) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
-  std::vector<Vec3> lux(from.voxels.slots.size());
-  parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
-    if (!from.progress.stop()) direct.lamp(light.lamp, b, {}, lux);
-  });
-  light.direct = SlotLight(from.voxels, lux);
+  light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamp(light.lamp, b, {}, lux); });
   light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
   field_.rays += direct.rayCount();
 }
@@ -188,10 +242,16 @@ void LightCache::forgetLampsBut(const Lights& lights) {
   });
 }
 
-int LightCache::bouncesOfUpdate() const { return settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces) : settings_.maxBounces; }
+int LightCache::bouncesOfUpdate() { return mostAtOnce_ = settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces) : settings_.maxBounces; }
 
 void LightCache::solve(const Sources& from, int mostBounces) {
   if (from.progress.stop()) return;
+  std::vector<Vec3> near = sumDirect(from);
+  bounceOn(from, mostBounces, near);
+}
+
+// All that comes straight, to direct_, but what lamps leave near them.
+std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   const Voxels& voxels = from.voxels;
   direct_.assign(voxels.slots.size(), {});
   for (const SlotLight* light : {&suns_, &sky_, &emitters_}) light->addTo(voxels, Vec3(1), direct_);
@@ -206,6 +266,11 @@ void LightCache::solve(const Sources& from, int mostBounces) {
   }
   smooth(links_, far);
   for (size_t i = 0; i < far.size(); ++i) direct_[i] += far[i];
+  return near;
+}
+
+void LightCache::bounceOn(const Sources& from, int mostBounces, std::vector<Vec3>& near) {
+  const Voxels& voxels = from.voxels;
   RadianceSettings once = settings_;
   once.maxBounces = mostBounces;
   const Bounces done = once.bounceBy == BounceBy::Cones ? bounceByCones(voxels, paths_, direct_, indirect_, once, from.progress) : bounce(voxels, links_, direct_, indirect_, once, from.progress);
@@ -231,6 +296,7 @@ void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
     field_.glowShare[i] = luminance(near[i]) / std::max(luminance(field_.irradianceLux[i]), 1e-30f);
     glow[i] = voxels.slots[i].albedo * near[i] / kPi;
   });
+  field_.sunLux.clear();
   if (from.lights.sunCount() == 1 && !suns_.empty()) {
     std::vector<Vec3> sun(voxels.slots.size());
     suns_.addTo(voxels, Vec3(1), sun);

@@ -33,12 +33,18 @@ class LightCache {
   // lamps in new places are traced, those dimmed or coloured are scaled, and bounces go on from the light there was.
   void relight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
 
+  // After the suns or the sky changed; lamps may have changed too, emissive meshes and geometry are as before. Bounces go on from the light there was, darkened
+  // as what they come from.
+  void followDaylight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
+
   // After instances moved, appeared or vanished; suns and sky are as before, lamps may have changed too. `rays`, `lights` and `voxels`
   // are of the scene as it is now. What changed bricks, or ways that cross the changed places, have to do with is traced again; the
   // rest comes out as if all were lit anew with the same seed.
   void update(const RayScene& rays, const Lights& lights, const Voxels& voxels, const MovedInstances& moved, const Progress& progress = {});
 
-  // Whether bounces have come to their end; if not (see RadianceSettings::bouncesAtOnce), relight() goes on with them.
+  // Goes on with bounces that an update left over (see RadianceSettings::bouncesAtOnce): with twice as many as the call before made.
+  void goOn(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
+  // Whether bounces have come to their end.
   bool settled() const { return settled_; }
 
   const RadianceField& field() const { return field_; }
@@ -89,7 +95,10 @@ class LightCache {
   void updateFixedLights(const Sources& from, const Change& change, bool emittersMoved);
   void updateParticles(const Sources& from, const Change& change);
   void updateLamps(const Sources& from, const Change& change);
-  void traceFixedLights(const Sources& from);
+  void findGuide(const Sources& from);
+  void traceDaylight(const Sources& from);
+  void traceEmitters(const Sources& from);
+  static SlotLight lightOfAll(const Sources& from, const std::function<void(size_t brick, std::vector<Vec3>& lux)>& ofBrick);
   void traceLamp(const Sources& from, LampLight& light);
   ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
   ParticleLight particlesFrom(const Sources& from, const ParticleSource& source);
@@ -99,7 +108,9 @@ class LightCache {
   void matchEmitters(const Sources& from);
   void matchLamps(const Sources& from);
   void solve(const Sources& from, int mostBounces);
-  int bouncesOfUpdate() const;
+  std::vector<Vec3> sumDirect(const Sources& from);
+  void bounceOn(const Sources& from, int mostBounces, std::vector<Vec3>& near);
+  int bouncesOfUpdate();
   void splitIntoLayers(const Sources& from, const Bounces& like);
   void keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, std::vector<float>& mostGlow);
   LayerDirect directOf(const Sources& from, const LightLayers& layers, int32_t layer);
@@ -115,6 +126,7 @@ class LightCache {
   std::vector<EmitterLight> nearEmitters_;
   std::vector<LampLight> lamps_;
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
+  int mostAtOnce_ = 0;  // bounces, the last time
   bool settled_ = true;
   RadianceField field_;
 };

@@ -86,6 +86,8 @@ void noteDetours(const Voxels& voxels, size_t brick, std::span<const LinkOf> wan
   std::sort(out.begin(), out.end(), [](const Detour& a, const Detour& b) { return std::tie(a.slot, a.i) < std::tie(b.slot, b.i); });
 }
 
+Sampler wayOf(const SlotPaths& paths, LinkOf link, uint64_t seed) { return {paths.key(link.slot), link.i, seed + 5}; }
+
 }  // namespace
 
 size_t Links::bytes() const {
@@ -138,6 +140,27 @@ Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t 
   return {paths.point(link.slot, link.i), Frame(voxels.slots[link.slot].normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
 }
 
+size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& links, SkyGuideBuilder& guide) {
+  const std::vector<LinkOf> all = linksOfBrick(voxels, links, brick);
+  std::vector<Ray> rays;
+  std::vector<Sampler> samplers;
+  for (const LinkOf& l : all) {
+    if (!links.links[links.first[l.slot] + l.i].isDark()) continue;
+    rays.push_back(linkRay(voxels, paths, l, seed));
+    samplers.push_back(wayOf(paths, l, seed));
+  }
+  std::vector<Arrival> ends;
+  paths.follow(rays, samplers, ends);
+  size_t next = 0;
+  for (const LinkOf& l : all) {
+    const bool followed = links.links[links.first[l.slot] + l.i].isDark();
+    const float open = followed && ends[next].escaped ? luminance(ends[next].left) : 0.0f;
+    next += followed;
+    guide.add(brick, voxels.slots[l.slot].face, linkRay(voxels, paths, l, seed).direction, open);
+  }
+  return rays.size();
+}
+
 void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide) {
   // In order of direction: rays traced together then meet the same things.
   std::vector<Ray> unsorted, rays;
@@ -152,7 +175,7 @@ void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std:
   std::vector<Sampler> samplers;
   for (const uint32_t j : order) {
     rays.push_back(unsorted[j]);
-    samplers.emplace_back(paths.key(wanted[j].slot), wanted[j].i, seed + 5);
+    samplers.push_back(wayOf(paths, wanted[j], seed));
   }
   std::vector<Arrival> ends;
   std::vector<HiddenReflection> hidden;

@@ -70,6 +70,9 @@ std::vector<LinkOf> linksOfBrick(const Voxels& voxels, const Links& links, size_
 // The ray of a link.
 Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed);
 
+// Tells `guide` what all links of a brick see of the sky: of those traced already only the ones that arrive nowhere are followed again. Returns how many.
+size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& links, SkyGuideBuilder& guide);
+
 // Traces the wanted links of one brick, and tells `guide` (null: no sky) what they saw of the sky.
 void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide);
 

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
+
+#include "base/vec.h"
 
 namespace roomlight {
 
@@ -11,7 +14,9 @@ struct SceneChange {
   std::vector<uint32_t> moved;  // instances in other places, or of another mesh: one without triangles hides them
   std::vector<uint32_t> glow;   // instances whose material emits another light
   bool lamps = false;           // scene.lamps: dimmed, switched, coloured, moved, more or fewer
-  bool any() const { return lamps || !moved.empty() || !glow.empty(); }
+  bool daylight = false;        // scene.suns, scene.sky
+  std::map<uint32_t, Bounds3> before{};  // boxes around where instances of `moved` were, m; those that are not here are not known
+  bool any() const { return lamps || daylight || !moved.empty() || !glow.empty(); }
 };
 
 }  // namespace roomlight

@@ -21,32 +21,15 @@ constexpr size_t kPictureBytes = 22'000, kDifferenceBytes = 12'000;
 constexpr int kWidestPicture = 480;
 
 constexpr const char* kStyle = R"(
-:root{--ink:#1d2530;--soft:#5d6876;--line:#dfe3e8;--good:#1a7f4b;--bad:#b3362b}
-*{box-sizing:border-box}
-body{margin:0;background:#f3f4f6;color:var(--ink);font:15px/1.5 "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif}
-main{max-width:1240px;margin:0 auto;background:#fff;padding:44px 56px 36px}
-h1{font-size:30px;font-weight:600;margin:0 0 4px}
-h2{font-size:21px;font-weight:600;margin:44px 0 8px;padding-top:18px;border-top:1px solid var(--line)}
-h3{font-size:16px;font-weight:600;margin:26px 0 4px}
-p{margin:4px 0 10px;max-width:76ch}p.soft,.soft{color:var(--soft);font-size:13.5px}
-table{border-collapse:collapse;margin:8px 0 4px;font-variant-numeric:tabular-nums;font-size:14px}
-th{font-weight:600;font-size:12px;color:var(--soft);text-align:right;border-bottom:1px solid var(--ink);padding:4px 9px;vertical-align:bottom}
-td{text-align:right;border-bottom:1px solid var(--line);padding:5px 9px}
-th:first-child,td:first-child,td.l,th.l{text-align:left}th:first-child,td:first-child{padding-left:0}
-.wide{overflow-x:auto}
-.met{color:var(--good);font-weight:600;white-space:nowrap}.missed{color:var(--bad);font-weight:600;white-space:nowrap}
 td.best{font-weight:700}
 .plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:14px 30px}
 .plots h3{margin:12px 0 0}svg{width:100%;height:auto;display:block}
-svg text{font:12px "Helvetica Neue",Helvetica,Arial,"Liberation Sans",sans-serif;fill:var(--ink)}
 svg .grid{stroke:#e4e7eb}svg .published{stroke:#111;stroke-width:2}
 .key{display:flex;gap:6px 18px;flex-wrap:wrap;margin:6px 0 10px;font-size:13.5px}.key i{display:inline-block;width:22px;height:0;border-top:3px solid;vertical-align:middle;margin-right:6px}
 .sheet{display:grid;grid-template-columns:repeat(auto-fill,minmax(210px,1fr));gap:12px;margin:8px 0 6px}
 .sheet figure{margin:0}.sheet img{width:100%;display:block}.sheet img+img{margin-top:2px}
 .sheet figcaption{font-size:12.5px;line-height:1.35;margin-top:3px}.sheet figcaption span{color:var(--soft)}
 details{margin:6px 0}summary{cursor:pointer}
-footer{margin-top:36px;padding-top:14px;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
-@media print{body{background:#fff}main{padding:0;max-width:none}}
 )";
 
 std::string seconds(double s) { return s < 9.95 ? fmt::format("{:.2f}", s) : fmt::format("{:.0f}", s); }
@@ -248,9 +231,10 @@ Result<std::string> sheets(const StudyResults& r, const std::filesystem::path& f
 }  // namespace
 
 Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, const std::filesystem::path& folder) {
-  std::string s = fmt::format("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>Study of techniques</title>\n<style>{}</style></head>\n<body><main>\n<h1>Study of techniques</h1>\n", kStyle);
+  const auto page = [](const std::string& body) { return htmlPage("Study of techniques", kStyle, body); };
+  std::string s = "<h1>Study of techniques</h1>\n";
   if (!r.complete) s += "<p><b>Stopped early: this is a part.</b> Started again, the study goes on.</p>\n";
-  if (r.cases.empty()) return s + "<p>Nothing has been measured.</p></main></body></html>\n";
+  if (r.cases.empty()) return page(s + "<p>Nothing has been measured.</p>\n");
   const Result<std::string> pictures = sheets(r, folder);
   if (!pictures) return pictures;
   s += verdictTable(r) + tables(r) + errorOverTime(r) + frames(r) + pictures.value();
@@ -258,7 +242,7 @@ Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, 
   for (const auto& [name, value] : header) s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));
   s += "</table>\n";
   for (const std::string& remark : r.remarks) s += "<p class=soft>" + htmlEscaped(remark) + "</p>\n";
-  return s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take turns.</footer>\n</main></body></html>\n";
+  return page(s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take turns.</footer>\n");
 }
 
 }  // namespace roomlight

@@ -203,13 +203,14 @@ Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& ligh
   out_.first = reference_.firstFile.filename(), out_.second = reference_.secondFile.filename();
   out_.noiseMse = reference_.noiseMse, out_.referenceS = reference_.seconds, out_.referenceSamples = reference_.samples, out_.referenceConverged = reference_.converged;
 
-  for (const StudyTechnique& t : plan_.techniques) {
+  const std::vector<StudyTechnique> techniques = plan_.techniquesIn("pictures");
+  for (const StudyTechnique& t : techniques) {
     out_.curves.push_back({t.name, t.kind, {}, {}});
     pace_.unit(explore(t, out_.curves.back()));
   }
   // In turn: what else the machine does meanwhile meets all techniques alike.
   for (int run = 1; run < settings_.runs; ++run) {
-    for (size_t i = 0; i < plan_.techniques.size(); ++i) pace_.unit(timeAgain(plan_.techniques[i], out_.curves[i], run));
+    for (size_t i = 0; i < techniques.size(); ++i) pace_.unit(timeAgain(techniques[i], out_.curves[i], run));
   }
   sumUp();
   if (const Status s = addExternals(); !s) return Error{s.error()};
@@ -248,15 +249,16 @@ WalkCost medianCost(const std::vector<WalkCost>& runs) {
 
 // Techniques in turn, run after run.
 void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace, StudyResults& results) {
+  const std::vector<StudyTechnique> techniques = plan.techniquesIn("walks");
   for (const StudyScene& scene : plan.scenes) {
     if (scene.walk.empty() || !tools.walk) continue;
     std::vector<StudyFrames> found;
-    for (const StudyTechnique& t : plan.techniques) found.push_back({scene.name, t.name, t.kind, {}, {}, {}});
+    for (const StudyTechnique& t : techniques) found.push_back({scene.name, t.name, t.kind, {}, {}, {}});
     for (int run = 0; run < settings.runs; ++run) {
       for (size_t i = 0; i < found.size() && !progress.stop(); ++i) {
         pace.now(fmt::format("{}: frames a second, {}, run {}", scene.name, found[i].technique, run + 1));
         bool measured = false;
-        if (found[i].failed.empty()) walkOnce(scene, plan.techniques[i], settings, store, tools, run, found[i], measured);
+        if (found[i].failed.empty()) walkOnce(scene, techniques[i], settings, store, tools, run, found[i], measured);
         pace.unit(measured);
       }
     }
@@ -273,10 +275,11 @@ void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStor
 
 Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress,
                               const std::function<void(const StudyResults&)>& soFar) {
+  const size_t inPictures = plan.techniquesIn("pictures").size(), inWalks = plan.techniquesIn("walks").size();
   size_t units = 0;
   for (const StudyScene& s : plan.scenes) {
-    units += s.lights.size() * (1 + plan.techniques.size() * static_cast<size_t>(settings.runs));
-    if (!s.walk.empty() && tools.walk) units += plan.techniques.size() * static_cast<size_t>(settings.runs);
+    units += s.lights.size() * (1 + inPictures * static_cast<size_t>(settings.runs));
+    if (!s.walk.empty() && tools.walk) units += inWalks * static_cast<size_t>(settings.runs);
   }
   Pace pace(progress, units);
   StudyResults results;

@@ -1,11 +1,12 @@
 // { "version": 1, "comment",
 //   "scenes": [ { "name", "scene": "flat.sh3d", "camera": "Kitchen" | 2, "lights": [ { "name", "lighting": "day.json" | "dimLamp": "150 lm" } ], "walk": "walk.json" } ],
-//   "techniques": [ { "name", "technique", "settings": { .. }, "kind": "ours" | "rival" | "judge" } ] }
+//   "techniques": [ { "name", "technique", "settings": { .. }, "kind": "ours" | "rival" | "judge", "only": "pictures" | "walks" } ] }
 #include "study/study_plan.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "engine/render.h"
@@ -70,12 +71,13 @@ StudyScene readScene(const JsonPlace& j, const std::filesystem::path& folder) {
 
 StudyTechnique readTechnique(const JsonPlace& j) {
   StudyTechnique t;
-  if (!j.isObject({"name", "technique", "settings", "kind"})) return t;
+  if (!j.isObject({"name", "technique", "settings", "kind", "only"})) return t;
   t.name = j["name"].text();
   t.technique = j["technique"].text();
   const auto known = techniques();
   if (std::none_of(known.begin(), known.end(), [&](const auto& k) { return k.first == t.technique; })) j["technique"].fail(fmt::format("unknown technique '{}'", t.technique));
   if (j.has("kind")) t.kind = j["kind"].oneOf({"ours", "rival", "judge"});
+  if (j.has("only")) t.only = j["only"].oneOf({"pictures", "walks"});
   if (j.has("settings")) {
     t.settings = j["settings"].json();
     const Result<RenderSettings> read = settingsFromJson(t.settings, j["settings"].path());
@@ -86,10 +88,17 @@ StudyTechnique readTechnique(const JsonPlace& j) {
 
 }  // namespace
 
+std::vector<StudyTechnique> StudyPlan::techniquesIn(const std::string& what) const {
+  std::vector<StudyTechnique> out;
+  std::copy_if(techniques.begin(), techniques.end(), std::back_inserter(out), [&](const StudyTechnique& t) { return t.only.empty() || t.only == what; });
+  return out;
+}
+
 std::vector<StudyTechnique> usualTechniques() {
   return {{"cone", "cone", "{}", "ours"},
           {"hybrid", "hybrid", "{}", "ours"},
           {"hybrid, draft", "hybrid", R"({"quality": "draft"})", "ours"},
+          {"hybrid, walking", "hybrid", R"({"quality": "draft", "frames": {"quickMs": 33}})", "ours", "walks"},
           {"vxgi", "vxgi"},
           {"lpv", "lpv"},
           {"lpv, 256 steps", "lpv", R"({"lpv": {"steps": 256}})"},

@@ -29,11 +29,14 @@ struct StudyTechnique {
   std::string technique;  // of techniques()
   std::string settings = "{}";  // JSON as --settings takes it
   std::string kind = "rival";   // "ours", "rival" or "judge"
+  std::string only{};           // "pictures" or "walks"; empty: both
 };
 
 struct StudyPlan {
   std::vector<StudyScene> scenes;
   std::vector<StudyTechnique> techniques;
+  // Those that are tried so: "pictures" or "walks".
+  std::vector<StudyTechnique> techniquesIn(const std::string& what) const;
 };
 
 // cone and hybrid, the three rivals with what the study's parameters leave open (docs/formats/study.md), and path.

@@ -2,6 +2,23 @@
 
 namespace roomlight::view {
 
+namespace {
+
+// Nothing changes where there is no light for that moment.
+Status putSun(const ViewHome& home, const SunState& sun, Scene& scene) {
+  if (sun == home.sun->atStart) {
+    scene.suns = home.scene.suns, scene.sky = home.scene.sky;
+    return Ok{};
+  }
+  Result<SunLight> light = home.sun->at(sun);
+  if (!light) return Error{light.error()};
+  scene.suns = std::move(light.value().suns);
+  scene.sky = light.value().sky ? std::move(*light.value().sky) : home.scene.sky;
+  return Ok{};
+}
+
+}  // namespace
+
 HomeState ViewHome::atStart() const {
   HomeState state = opened.value_or(editable.atStart);
   if (sun) state.sun = sun->atStart;
@@ -11,12 +28,15 @@ HomeState ViewHome::atStart() const {
 Result<Scene> sceneIn(const ViewHome& home, const HomeState& state) {
   Scene scene = home.scene;
   stage(home.editable, home.editable.atStart, state, scene);
-  if (!home.sun || state.sun == home.sun->atStart) return scene;
-  Result<SunLight> light = home.sun->at(*state.sun);
-  if (!light) return Error{light.error()};
-  scene.suns = std::move(light.value().suns);
-  if (light.value().sky) scene.sky = std::move(*light.value().sky);
+  if (!home.sun) return scene;
+  if (const Status put = putSun(home, *state.sun, scene); !put) return Error{put.error()};
   return scene;
+}
+
+SceneChange bring(const ViewHome& home, const HomeState& from, const HomeState& to, Scene& scene) {
+  SceneChange change = stage(home.editable, from, to, scene);
+  if (home.sun && !(from.sun == to.sun)) change.daylight = putSun(home, *to.sun, scene).ok();
+  return change;
 }
 
 }  // namespace roomlight::view

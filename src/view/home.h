@@ -51,4 +51,8 @@ struct ViewHome {
 // The scene in that state, with its sun.
 Result<Scene> sceneIn(const ViewHome& home, const HomeState& state);
 
+// Brings a scene of the home from one state to another, its sun and sky too, and says what that changed. Where SunByDate::at has no light for the moment, suns and sky
+// stay as they are.
+SceneChange bring(const ViewHome& home, const HomeState& from, const HomeState& to, Scene& scene);
+
 }  // namespace roomlight::view

@@ -7,13 +7,12 @@
 
 namespace roomlight::view {
 
-void LightFollower::begin(const EditableHome& editable, LitHome& home, HomeState wanted, int threads, std::function<void()> ready) {
+void LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready) {
   finish();
   home_ = &home, done_ = false;
-  wanted.sun = home.sun;
-  thread_ = std::thread([this, &editable, &home, wanted = std::move(wanted), threads, ready = std::move(ready)] {
+  thread_ = std::thread([this, &all, &home, wanted = std::move(wanted), threads, ready = std::move(ready)] {
     try {
-      inBackground(threads, [&] { follow(editable, home, wanted); });
+      inBackground(threads, [&] { follow(all, home, wanted); });
     } catch (const std::exception& e) {
       light_ = nullptr, error_ = e.what();
     }
@@ -22,11 +21,11 @@ void LightFollower::begin(const EditableHome& editable, LitHome& home, HomeState
   });
 }
 
-void LightFollower::follow(const EditableHome& editable, LitHome& home, const HomeState& wanted) {
+void LightFollower::follow(const ViewHome& all, LitHome& home, const HomeState& wanted) {
   RenderStats stats;
   RenderProgress silent;
   Stages stages(silent, stats);
-  const SceneChange change = stage(editable, home.state, wanted, home.scene);
+  const SceneChange change = bring(all, home.state, wanted, home.scene);
   home.state = wanted;
   home.lit->update(change, stages);
   light_ = home.lit->snapshot();

@@ -20,16 +20,16 @@ struct FollowedLight {
 class LightFollower {
  public:
   ~LightFollower() { finish(); }
-  // Brings the home to a state, but for the sun, or goes on with bounces that it still owes; one at a time. Nobody else may touch `home`, but for its front, until
+  // Brings the home to a state that it can follow to, or goes on with bounces that it still owes; one at a time. Nobody else may touch `home`, but for its front, until
   // finish() has returned. `ready` is called from the follower's thread.
-  void begin(const EditableHome& editable, LitHome& home, HomeState wanted, int threads, std::function<void()> ready);
+  void begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready);
   const LitHome* home() const { return home_; }  // null: none
   bool done() const { return done_; }
   // Waits for the end.
   FollowedLight finish();
 
  private:
-  void follow(const EditableHome& editable, LitHome& home, const HomeState& wanted);
+  void follow(const ViewHome& all, LitHome& home, const HomeState& wanted);
 
   LitHome* home_ = nullptr;
   std::shared_ptr<const SlotSnapshot> light_;

@@ -27,9 +27,8 @@ Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder:
 
 }  // namespace
 
-SceneChange FrontHome::follow(const EditableHome& editable, HomeState wanted) {
-  wanted.sun = state_.sun;
-  const SceneChange change = stage(editable, state_, wanted, scene_);
+SceneChange FrontHome::follow(const ViewHome& home, HomeState wanted) {
+  const SceneChange change = bring(home, state_, wanted, scene_);
   state_ = std::move(wanted);
   RenderStats stats;
   RenderProgress silent;

@@ -28,8 +28,8 @@ class FrontHome {
  public:
   // Of a copy of the scene.
   FrontHome(Scene scene, HomeState state, Stages& stages) : scene_(std::move(scene)), state_(std::move(state)), base_(scene_, true, stages) {}
-  // Brings the home to a state, but for the sun, and says what that changed.
-  SceneChange follow(const EditableHome& editable, HomeState wanted);
+  // Brings the home to a state and says what that changed.
+  SceneChange follow(const ViewHome& home, HomeState wanted);
   // Light of the state that `lit` is in.
   void take(std::shared_ptr<const SlotSnapshot> light, const Scene& lit);
 
@@ -50,12 +50,14 @@ class FrontHome {
 };
 
 struct LitHome {
-  LitHome(LightKey lightKey, HomeState at) : key(std::move(lightKey)), state(std::move(at)), sun(state.sun) {}
+  LitHome(LightKey lightKey, HomeState at) : key(std::move(lightKey)), state(std::move(at)), sunAtFirst(state.sun) {}
+  // Whether light can follow to where the sun is wanted; else the home is lit anew.
+  bool canFollow(const std::optional<SunState>& sun) const { return lit->followsDaylight() || sun == sunAtFirst; }
 
   LightKey key;
   Scene scene;
   HomeState state;  // that the scene and its light are in; while light follows, the follower's alone
-  const std::optional<SunState> sun;  // of that state: another needs another home
+  const std::optional<SunState> sunAtFirst;
   std::unique_ptr<LitScene> lit;
   std::unique_ptr<FrontHome> front;  // of techniques that have light in slots
 };

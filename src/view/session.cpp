@@ -224,14 +224,14 @@ bool Session::refinerLeaves(const LitHome& home) {
   return refiner_.tryLetGo();
 }
 
-// Of all that windows look at, the first that has no light, or light of another sun.
+// Of all that windows look at, the first that has no light, or light that cannot follow the sun.
 void Session::beginBuilding() {
   if (builder_.busy()) return;
   for (const Window& w : windows_) {
     for (size_t k = 0; k < w.sides.size() && w.connection; ++k) {
       const Side& s = w.sides[k];
       const auto lit = std::find_if(lit_.begin(), lit_.end(), [&](const auto& l) { return l->key == s.key; });
-      if (s.key.technique == failedBuild_ || (lit != lit_.end() && (*lit)->sun == stateOf(s.key).sun)) continue;
+      if (s.key.technique == failedBuild_ || (lit != lit_.end() && (*lit)->canFollow(stateOf(s.key).sun))) continue;
       RenderSettings settings = frames_;
       settings.technique = s.key.technique;
       RenderProgress progress;

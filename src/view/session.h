@@ -76,6 +76,7 @@ class Session {
   void openWindow(const Event& event, const std::string& wanted);
   void closeWindow(Window& window, TimePoint at);
   std::optional<ViewError> tooFar(const Edit& edit, const HomeState& next) const;
+  std::optional<ViewError> noLightAt(const Edit& edit, const HomeState& next) const;
   void on(Window& window, const Event& event, const Viewport& m);
   void on(Window& window, const Event& event, const ViewCamera& m);
   void on(Window& window, const Event& event, const DisplayChange& m);
@@ -127,6 +128,7 @@ class Session {
   Next nextOf(const Window& window, const Side& side, const LitHome& home) const;
   bool somebodyMoves() const;
   HomeState stateOf(const LightKey& key) const;
+  HomeState wantedOf(const LitHome& home) const;
   bool makeFrame(Window& window);
   bool answerPoints(Window& window);  // session_points.cpp
   bool stepSide(Window& window, size_t index);

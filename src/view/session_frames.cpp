@@ -18,6 +18,7 @@ constexpr double kQuickMs = 32;  // of 50: the rest is for light that follows, a
 constexpr double kEditMs = 65;  // where the scene changes: ten frames a second, and light that follows meanwhile
 constexpr double kForRays = 0.7;  // of that, at most: the rest is for light
 constexpr double kRestMs = 80;  // without an input: before that a better picture is not begun, since the next input would end it
+constexpr double kForLightMs = 500;  // after an input that was shown: light that follows it has the machine for itself
 constexpr double kLookAtColourMs = 250;
 constexpr int kColourRays = 32;  // along both edges
 constexpr size_t kMostHistories = 4;
@@ -76,16 +77,21 @@ LitHome* Session::litFor(const LightKey& key) {
   return lit_.front().get();
 }
 
-// All but the sun, which needs light that is found afresh.
-void Session::bringUpToDate(LitHome& home, const Camera& camera) {
+// Where a home's light is to come; the sun stays where its light cannot follow it.
+HomeState Session::wantedOf(const LitHome& home) const {
   HomeState wanted = stateOf(home.key);
-  wanted.sun = home.state.sun;
+  if (!home.canFollow(wanted.sun)) wanted.sun = home.sunAtFirst;
+  return wanted;
+}
+
+void Session::bringUpToDate(LitHome& home, const Camera& camera) {
+  HomeState wanted = wantedOf(home);
   RenderStats stats;
   RenderProgress silent;
   Stages stages(silent, stats);
   if (!(wanted == home.state)) {
     if (refiner_.home() == &home) refiner_.letGo();
-    const SceneChange change = stage(home_.editable, home.state, wanted, home.scene);
+    const SceneChange change = bring(home_, home.state, wanted, home.scene);
     home.state = std::move(wanted);
     home.lit->update(change, stages);
     for (Window& w : windows_) {
@@ -100,17 +106,14 @@ void Session::bringUpToDate(LitHome& home, const Camera& camera) {
 // Whether light has come to where the home is; else nobody but the follower may use it.
 bool Session::isUpToDate(const LitHome& home) const {
   if (follower_.home() == &home) return false;
-  HomeState wanted = stateOf(home.key);
-  wanted.sun = home.state.sun;
-  return wanted == home.state && home.lit->settled();
+  return wantedOf(home) == home.state && home.lit->settled();
 }
 
 // The scene of quick frames at once, its light later.
 void Session::followFront(LitHome& home) {
-  HomeState wanted = stateOf(home.key);
-  wanted.sun = home.front->state().sun;
+  HomeState wanted = wantedOf(home);
   if (wanted == home.front->state()) return;
-  const SceneChange change = home.front->follow(home_.editable, std::move(wanted));
+  const SceneChange change = home.front->follow(home_, std::move(wanted));
   for (Window& w : windows_) {
     for (Side& s : w.sides) {
       if (s.key == home.key) s.quick.sceneChanged(change, home.front->scene());
@@ -127,7 +130,7 @@ void Session::followLight() {
       soon_ = true;
       return;
     }
-    return follower_.begin(home_.editable, *home, stateOf(home->key), settings_.threads, [this] {
+    return follower_.begin(home_, *home, wantedOf(*home), settings_.threads, [this] {
       {
         const std::lock_guard lock(mutex_);
         lightReady_ = true;
@@ -199,7 +202,10 @@ Session::Next Session::nextOf(const Window& window, const Side& side, const LitH
   const bool current = side.shownSerial == window.serial && side.picture.begun();
   if (!current || side.lightCame) return Next::Quick;
   if (side.again) return Next::Again;
-  if (home.front && !isUpToDate(home)) return side.picture.samples() == 0 && !side.quick.settled() ? Next::Quick : Next::Wait;
+  if (home.front && !isUpToDate(home)) {
+    const bool waits = millisecondsSince(window.inputAt) < kForLightMs || side.picture.samples() > 0 || side.quick.settled();
+    return waits ? Next::Wait : Next::Quick;
+  }
   if (!home.lit->settled()) return home.front ? Next::Wait : Next::Quick;
   if (side.picture.averaged()) return Next::Nothing;
   if (millisecondsSince(window.inputAt) >= kRestMs) return somebodyMoves() ? Next::Wait : Next::Better;
@@ -290,7 +296,7 @@ void Session::sendFrame(Window& window, size_t index, LitHome& home) {
   FrameInfo info;
   info.number = window.nextFrame++;
   info.side = window.sides.size() > 1 ? static_cast<uint8_t>(index + 1) : uint8_t{0};
-  const bool sunBehind = !(home.sun == stateOf(side.key).sun), lightBehind = home.front && !isUpToDate(home);
+  const bool sunBehind = !home.canFollow(stateOf(side.key).sun), lightBehind = home.front && !isUpToDate(home);
   const auto flag = [](bool on, uint8_t bit) { return on ? bit : uint8_t{0}; };
   info.flags = static_cast<uint8_t>(flag(picture.quick(), kQuick) | flag(picture.settled(), kSettled) | flag(picture.refined(), kRefined) | flag(sunBehind || lightBehind || side.shownRevision != revision_, kLightIsBehind));
   info.jpegQuality = static_cast<uint16_t>(window.line.quality());

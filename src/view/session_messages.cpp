@@ -153,10 +153,18 @@ std::optional<ViewError> Session::tooFar(const Edit& edit, const HomeState& next
   return {};
 }
 
+// A weather file may end, or lack an hour.
+std::optional<ViewError> Session::noLightAt(const Edit& edit, const HomeState& next) const {
+  if (!home_.sun || next.sun == state_.sun || next.sun == home_.sun->atStart) return {};
+  const Result<SunLight> light = home_.sun->at(*next.sun);
+  return light ? std::nullopt : std::optional(ViewError{edit.id, "notPossible", edit.set.hour ? "hour" : "date", light.error()});
+}
+
 void Session::on(Window& window, const Event&, const Edit& m) {
   Edited edited;
   if (const auto error = applyEdit(home_.editable, home_.scene, m, state_, edited)) return tell(window, errorText(*error));
   if (const auto error = tooFar(m, edited.state)) return tell(window, errorText(*error));
+  if (const auto error = noLightAt(m, edited.state)) return tell(window, errorText(*error));
   tell(window, okText(m.id));
   if (edited.state == state_) return;
   // A page that was loaded again counts its gestures from one, so that those of other things have the same names.

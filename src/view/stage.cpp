@@ -37,6 +37,12 @@ Affine swing(const Leaf& leaf, float by) {
 
 bool isSwung(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state) { return part.leaf && state.open != object.openAtRest; }
 
+Bounds3 movedBox(const Bounds3& b, const Affine& motion) {
+  Bounds3 out;
+  for (int corner = 0; corner < 8; ++corner) out.add(motion.point({corner & 1 ? b.hi.x : b.lo.x, corner & 2 ? b.hi.y : b.lo.y, corner & 4 ? b.hi.z : b.lo.z}));
+  return out;
+}
+
 // From where the file has a part to where it is.
 Affine motionOf(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state) {
   const Affine place = isAtRest(state) ? Affine() : placeOf(object, state);
@@ -123,6 +129,7 @@ void stageObject(const EditableHome& home, size_t index, const HomeState& to, Sc
     const Affine place = rests ? part.atRest : motionOf(object, part, state) * part.atRest;
     const int mesh = state.hidden ? home.hiddenMesh : part.mesh;
     if (!painted && instance.mesh == mesh && instance.worldFromObject == place) continue;  // the frame of a door that opens
+    change.before[part.instance] = movedBox(part.bounds, instance.worldFromObject * inverse(part.atRest));
     instance.worldFromObject = place, instance.mesh = mesh;
     change.moved.push_back(part.instance);
   }
@@ -153,11 +160,7 @@ Bounds3 boundsOf(const EditableObject& object, const ObjectState& state) {
   if (isAtRest(state) && state.open == object.openAtRest) return object.bounds;
   Bounds3 bounds;
   for (const EditableObject::Part& part : object.parts) {
-    const Affine motion = motionOf(object, part, state);
-    for (int corner = 0; corner < 8; ++corner) {
-      const Bounds3& b = part.bounds;
-      bounds.add(motion.point({corner & 1 ? b.hi.x : b.lo.x, corner & 2 ? b.hi.y : b.lo.y, corner & 4 ? b.hi.z : b.lo.z}));
-    }
+    bounds.add(movedBox(part.bounds, motionOf(object, part, state)));
   }
   return bounds;
 }

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <deque>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 #include "import/lighting_daylight.h"
 #include "import/lighting_sky.h"
@@ -17,6 +21,8 @@ namespace roomlight::view {
 namespace {
 
 using nlohmann::json;
+
+constexpr size_t kRemembered = 4;
 
 // Of "..T17:00+02:00" or "..Z", which parseMoment() has taken already.
 double utcOffsetOf(const std::string& text) {
@@ -63,6 +69,22 @@ json atTime(const SunByDate& sun, const SunState& state) {
   return source;
 }
 
+// Asked of a moment again, a function of those of late answers from memory: an hour that was set is asked for by all who follow it. From any thread.
+std::function<Result<SunLight>(const SunState&)> remembering(std::function<Result<SunLight>(const SunState&)> find) {
+  struct Memory {
+    std::mutex mutex;
+    std::deque<std::pair<SunState, Result<SunLight>>> found;
+  };
+  return [find = std::move(find), memory = std::make_shared<Memory>()](const SunState& state) {
+    const std::lock_guard lock(memory->mutex);
+    for (const auto& [at, light] : memory->found) {
+      if (at == state) return light;
+    }
+    if (memory->found.size() >= kRemembered) memory->found.pop_front();
+    return memory->found.emplace_back(state, find(state)).second;
+  };
+}
+
 std::string skyInWords(const json& sky) {
   if (sky.is_string()) return sky.get<std::string>();
   return sky.is_number() ? fmt::format("CIE type {}", sky.get<double>()) : "perez";
@@ -80,7 +102,7 @@ std::optional<SunByDate> sunOfDaylight(const json& daylight, const std::filesyst
   std::optional<SunByDate> out = byDate(daylight, folder);
   if (!out) return {};
   out->sky = daylight.contains("weather") ? "weather" : skyInWords(daylight.value("sky", json()));
-  out->at = [sun = *out, folder](const SunState& state) -> Result<SunLight> {
+  out->at = remembering([sun = *out, folder](const SunState& state) -> Result<SunLight> {
     std::string error;
     const json source = atTime(sun, state);
     Daylight light = readDaylight(JsonPlace(source, "daylight", error), folder);
@@ -89,7 +111,7 @@ std::optional<SunByDate> sunOfDaylight(const json& daylight, const std::filesyst
     if (!isBlack(light.sun.illuminanceLux)) lit.suns.push_back(light.sun);
     lit.sky = std::move(light.sky);
     return lit;
-  };
+  });
   return out;
 }
 
@@ -101,7 +123,7 @@ std::optional<SunByDate> sunOfLighting(const json& document, const std::filesyst
   if (!out) return {};
   out->isDaylight = false;
   out->sky = "as it is";
-  out->at = [sun = *out](const SunState& state) -> Result<SunLight> {
+  out->at = remembering([sun = *out](const SunState& state) -> Result<SunLight> {
     std::string error;
     const json source = atTime(sun, state);
     const Sun light = readSun(JsonPlace(source, "sun", error));
@@ -109,7 +131,7 @@ std::optional<SunByDate> sunOfLighting(const json& document, const std::filesyst
     SunLight lit;
     if (!isBlack(light.illuminanceLux)) lit.suns.push_back(light);
     return lit;
-  };
+  });
   return out;
 }
 

@@ -30,6 +30,15 @@ TEST(Tone, fastPowersAreAsGoodAsFloats) {
   for (float y = -20; y < 20; y += 0.0137f) EXPECT_NEAR(static_cast<double>(fastExp2(y)) / std::exp2(static_cast<double>(y)), 1, 2e-7) << y;
 }
 
+TEST(FastMath, arcTangentIsAsGoodAsAFloat) {
+  for (double angle = -3.1415; angle < 3.1416; angle += 0.00137) {
+    for (const double r : {1e-20, 1.0, 7e12}) {
+      EXPECT_NEAR(static_cast<double>(fastAtan2(static_cast<float>(r * std::sin(angle)), static_cast<float>(r * std::cos(angle)))), angle, 5e-7) << angle;
+    }
+  }
+  for (const auto& [y, x] : {std::pair{0.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}, {1.0f, 0.0f}, {-1.0f, 0.0f}}) EXPECT_FLOAT_EQ(fastAtan2(y, x), std::atan2(y, x));
+}
+
 TEST(Tone, whatIsNotANumberStaysSo) {
   EXPECT_TRUE(std::isnan(srgbEncode(std::nanf(""))));
   EXPECT_TRUE(std::isnan(toneMap(constant({1, std::nanf(""), 1}), 0, ToneCurve::Clip).pixels[0].y));

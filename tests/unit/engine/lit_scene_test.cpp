@@ -116,6 +116,29 @@ TEST_P(LitSceneUpdate, aHiddenThingIsGone) {
   expectSame(picture(*lit), picture(*open(home.scene)));
 }
 
+TEST_P(LitSceneUpdate, theSunMoves) {
+  Home home;
+  home.scene.meshes.emplace_back();
+  home.scene.instances[5].mesh = static_cast<int>(home.scene.meshes.size()) - 1;  // a wall that is not there
+  home.scene.sky.luminanceCdM2 = Vec3(200);
+  home.scene.suns = {{"sun", normalize(Vec3(0.3f, 0.8f, 1)), Vec3(20000), 0}};
+  const auto lit = open(home.scene);
+  if (!lit->followsDaylight()) GTEST_SKIP() << "is lit anew";
+  const Image before = picture(*lit);
+  home.scene.suns[0].toLight = normalize(Vec3(-0.4f, 0.5f, 1)), home.scene.sky.luminanceCdM2 = Vec3(90);
+  SceneChange change;
+  change.daylight = true;
+  lit->update(change, stages_);
+  expectSame(picture(*lit), picture(*open(home.scene)));
+  home.scene.suns[0].toLight = normalize(Vec3(0.3f, 0.8f, 1)), home.scene.sky.luminanceCdM2 = Vec3(200);
+  change = home.moveBox({1.1f, 0, 1.3f});
+  change.daylight = true;
+  lit->update(change, stages_);
+  expectSame(picture(*lit), picture(*open(home.scene)));
+  lit->update(home.moveBox({-1.1f, 0, -1.3f}), stages_);
+  expectSame(picture(*lit), before);
+}
+
 INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon", "path"), [](const auto& test) { return test.param; });
 
 TEST(MeasureWalk, playsEveryFrameAndPutsAllBack) {
@@ -140,6 +163,30 @@ TEST(MeasureWalk, playsEveryFrameAndPutsAllBack) {
   EXPECT_EQ(frames.value().frames.size(), 4u);
   EXPECT_GT(frames.value().framesPerSecond(), 0);
   EXPECT_EQ(home.scene.instances[home.box[0]].worldFromObject.w, thing.atRest[0].w);
+}
+
+TEST(MeasureWalk, quickFramesAreAsBright) {
+  Home home;
+  Walk walk;
+  walk.seconds = 1, walk.framesPerSecond = 4;
+  walk.camera = {{0, 1}, {{2, 1}, {1.4f, 1.4f}, {4.6f, 4}, {2, 2}, {1, 1}, {1, 1}, {1, 1}}};
+  RenderSettings settings = frameSettings(small("hybrid"));
+  settings.width = kWidth, settings.height = kHeight;
+  const auto brightness = [&](double quickMs) {
+    settings.frames.quickMs = quickMs;
+    std::vector<double> all;
+    const Result<WalkFrames> frames = measureWalk(home.scene, walk, settings, {}, [&](const ShownFrame& f) {
+      all.push_back(test::meanLuminance(f.image));
+      return Status(Ok{});
+    });
+    EXPECT_TRUE(frames.ok());
+    return all;
+  };
+  const std::vector<double> whole = brightness(0), quick = brightness(1e4);
+  ASSERT_EQ(quick.size(), 4u);
+  for (size_t i = 0; i < quick.size(); ++i) EXPECT_NEAR(quick[i], whole[i], 0.1 * whole[i]) << i;
+  settings.technique = "path";
+  EXPECT_NE(measureWalk(home.scene, walk, settings).error().find("frames.quickMs"), std::string::npos);
 }
 
 }  // namespace

@@ -149,6 +149,31 @@ TEST(Update, equalsASceneLitAnew) {
   }
 }
 
+// Evening, a night without sun and sky, and noon again.
+TEST(FollowDaylight, equalsASceneLitAnew) {
+  Home home(true);
+  const auto light = [&](const Sun& sun, float skyCdM2) {
+    home.scene.suns.clear();
+    if (!isBlack(sun.illuminanceLux)) home.scene.suns.push_back(sun);
+    home.scene.sky.luminanceCdM2 = Vec3(skyCdM2);
+  };
+  const Sun noon{"noon", normalize(Vec3(0.2f, 0.9f, 1.5f)), Vec3(60000), 0.0047f}, evening{"evening", normalize(Vec3(-0.6f, 0.3f, 1)), Vec3(9000, 7000, 4000), 0.0047f};
+  light(noon, 3000);
+  LightCache cache = lit(home);
+  const LightCache first = lit(home);
+  for (const auto& [sun, sky] : {std::pair(evening, 800.0f), {Sun(), 0.0f}, {noon, 3000.0f}}) {
+    light(sun, sky);
+    const RayScene rays(home.scene);
+    cache.followDaylight(rays, Lights(home.scene), home.voxels());
+    const LightCache fresh = lit(home);
+    EXPECT_EQ(cache.field().guide.cdf, fresh.field().guide.cdf);
+    EXPECT_EQ(cache.field().sunLux, fresh.field().sunLux);
+    EXPECT_LT(cache.field().rays, first.field().rays * 7 / 10);
+    expectSame(cache, fresh, 3e-3f);
+  }
+  expectSame(cache, first, 3e-3f);
+}
+
 // The guide to the sky keeps what other links taught it: the same but for noise.
 TEST(Update, underASkyEqualsASceneLitAnewButForNoise) {
   Home home(true);
@@ -178,7 +203,7 @@ TEST(Update, bouncesFewAtOnceGoOnUntilTheyAreSettled) {
   EXPECT_FALSE(cache.settled());
   EXPECT_EQ(cache.field().bounces, 3);
   int updates = 0;
-  for (; !cache.settled() && updates < 30; ++updates) cache.relight(rays, Lights(home.scene), home.voxels());
+  for (; !cache.settled() && updates < 30; ++updates) cache.goOn(rays, Lights(home.scene), home.voxels());
   EXPECT_GT(updates, 1);
   expectSame(cache, lit(home), 3e-3f);
 }

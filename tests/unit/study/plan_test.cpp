@@ -70,6 +70,7 @@ TEST_F(StudyPlanTest, SaysWhatIsWrongAndWhere) {
       {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "radiosity"}])"), "unknown technique 'radiosity'"},
       {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "lpv", "settings": {"lpv": {"stepps": 1}}}])"), "stepps"},
       {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "lpv", "kind": "friend"}])"), "kind"},
+      {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "lpv", "only": "sundays"}])"), "only"},
   };
   for (const auto& [text, expected] : wrong) {
     const auto plan = read(text);

@@ -91,6 +91,16 @@ TEST_F(StudyTest, CurvesSettleAtTheBiasOfEachTechnique) {
   EXPECT_EQ(r.value().frames[2].failed, "cannot walk");
 }
 
+TEST_F(StudyTest, SomeTechniquesAreTriedInWalksOrPicturesAlone) {
+  plan_.techniques = {{"cone", "cone", "{}", "ours", "pictures"}, {"walking", "cone", "{}", "ours", "walks"}};
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  ASSERT_EQ(r.value().cases.front().curves.size(), 1u);
+  EXPECT_EQ(r.value().cases.front().curves[0].technique, "cone");
+  ASSERT_EQ(r.value().frames.size(), 1u);
+  EXPECT_EQ(r.value().frames[0].technique, "walking");
+}
+
 TEST_F(StudyTest, WhatHasBeenMeasuredIsNotMeasuredAgain) {
   plan_.techniques.pop_back();
   ASSERT_TRUE(run());
