@@ -35,6 +35,9 @@ inline RenderSettings servedSettings() {
   RenderSettings s;
   s.voxel.voxelSizeM = 0.25f;
   s.radiance.links = 4, s.radiance.directSamples = 4;
+  s.vxgi.resolution = 32, s.vxgi.levels = 2;
+  s.lpv.cells = 16, s.lpv.coarseCells = 0, s.lpv.mapSize = 64;
+  s.photon.photons = 20000, s.photon.causticPhotons = 0, s.photon.importons = 1000;
   return s;
 }
 
