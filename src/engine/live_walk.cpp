@@ -27,27 +27,31 @@ void addUp(const std::vector<StageStats>& more, std::vector<StageStats>& sums) {
 // Pictures of the frames, each from those before it.
 class FrameMaker {
  public:
-  FrameMaker(const LitScene& lit, const RenderSettings& settings) : lit_(lit), settings_(settings), history_(settings.frames) {}
-  static Status check(const LitScene& lit, const RenderSettings& settings) {
-    if (settings.frames.quickMs <= 0 || lit.snapshot()) return Ok{};
-    return Error{"frames.quickMs: technique '" + settings.technique + "' keeps no light in slots; 'hybrid' and 'cone' do"};
+  FrameMaker(const LitScene& lit, const RenderSettings& settings) : lit_(lit), settings_(settings), history_(settings.frames) {
+    if (isQuick()) light_ = lit.snapshot(), settled_ = lit.settled();
+  }
+  Status check() const {
+    if (!isQuick() || light_) return Ok{};
+    return Error{"frames.quickMs: technique '" + settings_.technique + "' keeps no light in slots; 'hybrid' and 'cone' do"};
   }
 
   // After light has followed.
   void follow(const SceneChange& change, const Scene& scene) {
-    if (settings_.frames.quickMs <= 0) return history_.sceneChanged(change, scene);
+    if (!isQuick()) return history_.sceneChanged(change, scene);
     quick_.sceneChanged(change, scene);
-    if (light_ && !change.any() && settled_) return;
+    if (!change.any() && settled_) return;
     settled_ = lit_.settled();
     light_ = lit_.snapshot();
     quick_.lightChanged();
   }
   Image make(const Camera& camera, const Progress& progress) {
-    if (settings_.frames.quickMs <= 0) return lit_.picture(camera, settings_.width, settings_.height, progress, &history_);
+    if (!isQuick()) return lit_.picture(camera, settings_.width, settings_.height, progress, &history_);
     return quick_.make({lit_.rays(), lit_.lights(), *light_, {}}, camera, settings_.width, settings_.height, settings_.frames.quickMs, progress);
   }
 
  private:
+  bool isQuick() const { return settings_.frames.quickMs > 0; }
+
   const LitScene& lit_;
   const RenderSettings& settings_;
   FrameHistory history_;
@@ -69,8 +73,8 @@ Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, cons
 
   const int count = walk.frameCount();
   if (opening.cancelled()) return out.complete = false, Ok{};
-  if (const Status can = FrameMaker::check(*lit, settings); !can) return can;
   FrameMaker maker(*lit, settings);
+  if (const Status can = maker.check(); !can) return can;
   RenderProgress silent;
   silent.cancelled = progress.cancelled;
   for (int frame = 0; frame < count; ++frame) {

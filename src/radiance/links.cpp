@@ -155,8 +155,8 @@ size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uin
   for (const LinkOf& l : all) {
     const bool followed = links.links[links.first[l.slot] + l.i].isDark();
     const float open = followed && ends[next].escaped ? luminance(ends[next].left) : 0.0f;
+    guide.add(brick, voxels.slots[l.slot].face, followed ? rays[next].direction : linkRay(voxels, paths, l, seed).direction, open);
     next += followed;
-    guide.add(brick, voxels.slots[l.slot].face, linkRay(voxels, paths, l, seed).direction, open);
   }
   return rays.size();
 }

@@ -7,6 +7,7 @@
 #include "client.h"
 #include "server/view_server.h"
 #include "support/rooms.h"
+#include "view/sun_by_date.h"
 
 namespace roomlight::testing {
 
@@ -29,6 +30,16 @@ inline Scene servedScene() {
   camera.worldFromCamera = looking({2, 1.6f, 4.6f}, {0, -0.45f, -1});
   scene.cameras.push_back(camera);
   return scene;
+}
+
+// Under a clear sky at noon in summer.
+inline view::ViewHome underTheSun(std::string name, Scene scene) {
+  const auto sun = view::sunOfDaylight({{"sky", "clear"}, {"latitude", 48}, {"longitude", 11}, {"time", "2026-06-21T13:00+02:00"}}, {});
+  view::SunLight light = sun->at(sun->atStart).value();
+  scene.suns = light.suns, scene.sky = *light.sky;
+  view::ViewHome home(std::move(name), std::move(scene));
+  home.sun = sun;
+  return home;
 }
 
 inline RenderSettings servedSettings() {

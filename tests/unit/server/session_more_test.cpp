@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "seen.h"
-#include "view/sun_by_date.h"
 
 namespace roomlight {
 namespace {
@@ -10,7 +9,7 @@ namespace {
 using namespace roomlight::testing;
 using nlohmann::json;
 
-// A yard under a clear sky at noon.
+// A yard.
 view::ViewHome yard() {
   Scene scene;
   const int stone = test::addMaterial(scene, test::lambertian(0.3f));
@@ -19,12 +18,7 @@ view::ViewHome yard() {
   Camera camera;
   camera.worldFromCamera = looking({0, 1.6f, 3}, {0, -0.4f, -1});
   scene.cameras.push_back(camera);
-  const auto sun = view::sunOfDaylight({{"sky", "clear"}, {"latitude", 48}, {"longitude", 11}, {"time", "2026-06-21T13:00+02:00"}}, {});
-  view::SunLight light = sun->at(sun->atStart).value();
-  scene.suns = light.suns, scene.sky = *light.sky;
-  view::ViewHome home("yard", std::move(scene));
-  home.sun = sun;
-  return home;
+  return underTheSun("yard", std::move(scene));
 }
 
 TEST(Session, theSunFollowsTheHour) {

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "served_home.h"
-#include "view/sun_by_date.h"
 
 namespace roomlight {
 namespace {
@@ -27,12 +26,7 @@ view::ViewHome sunnyHome() {
   Scene scene = servedScene();
   scene.meshes.emplace_back();
   scene.instances[5].mesh = static_cast<int>(scene.meshes.size()) - 1;
-  const auto sun = view::sunOfDaylight({{"sky", "clear"}, {"latitude", 48}, {"longitude", 11}, {"time", "2026-06-21T13:00+02:00"}}, {});
-  view::SunLight light = sun->at(sun->atStart).value();
-  scene.suns = light.suns, scene.sky = *light.sky;
-  view::ViewHome home("test", std::move(scene));
-  home.sun = sun;
-  return home;
+  return underTheSun("test", std::move(scene));
 }
 
 struct Manners {
