@@ -32,12 +32,12 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
     const LightSample sun = lights.sampleSun(0, {0.5f, 0.5f});
     sunDirection_ = sun.wi, sunColour_ = sun.radiance / luminance(sun.radiance);
   }
-  double sum = 0, area = 0;
+  double sum = 0, flux = 0, area = 0;
   for (size_t i = 0; i < voxels.slots.size(); ++i) {
-    sum += static_cast<double>(std::sqrt(luminance(field.irradianceLux[i])) * voxels.slots[i].areaM2);
-    area += static_cast<double>(voxels.slots[i].areaM2);
+    const float lux = luminance(field.irradianceLux[i]), areaM2 = voxels.slots[i].areaM2;
+    sum += static_cast<double>(std::sqrt(lux) * areaM2), flux += static_cast<double>(lux * areaM2), area += static_cast<double>(areaM2);
   }
-  if (area > 0) meanRadiance_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi;
+  if (area > 0) meanRadiance_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi, brightRadiance_ = static_cast<float>(flux / area) / kPi;
   const Scene& scene = rays.scene();
   for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
 }
@@ -131,11 +131,27 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
 }
 
 // Of light that falls on a surface, by the cache. A path that finds far more than all paths together should is a rare one: what it
-// finds is noise rather than picture, and is bounded. Meters are read as they are: beside a thing the nearest slot may lie in the dark within it.
+// finds is noise rather than picture, and is bounded. A slot may lie in the dark within a thing: then those around it tell, and meters are read as they are.
 float RayShader::expectedRadiance(const SurfacePoint& s) const {
   if (!s.material) return kInfinity;
   const SlotCache::Place place = cache_.find(s.p, s.ng);
-  return place.slot < 0 ? kInfinity : std::max(meanRadiance_, luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi);
+  if (place.slot < 0) return kInfinity;
+  const float own = luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi;
+  return own >= brightRadiance_ ? own : std::max(meanRadiance_, brightestAround(s.p));
+}
+
+// Radiance of the brightest slot in the voxel of p and its neighbours, did it reflect all light: what faces p may be all that lights it.
+float RayShader::brightestAround(Vec3 p) const {
+  const Int3 at = voxels_.voxelOf(p);
+  float most = 0;
+  for (int i = 0; i < 27; ++i) {
+    const int64_t found = voxels_.voxelAt({at.x + i % 3 - 1, at.y + i / 3 % 3 - 1, at.z + i / 9 - 1});
+    if (found < 0) continue;
+    const SurfaceVoxel& voxel = voxels_.voxels[static_cast<size_t>(found)];
+    const auto count = static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+    for (uint32_t k = voxel.firstSlot; k < voxel.firstSlot + count; ++k) most = std::max(most, luminance(field_.irradianceLux[k]));
+  }
+  return most / kPi;
 }
 
 Vec3 RayShader::skyAlong(const GatherPath& path) const {

@@ -28,6 +28,7 @@ class RayShader final : public SurfaceShader {
   static void sumUp(std::span<const Lobes> found, SurfaceLight& out);
   void follow(GatherWork& w) const;
   float expectedRadiance(const SurfacePoint& s) const;
+  float brightestAround(Vec3 p) const;
   void arrive(const GatherPath& path, const Hit& hit, GatherWork& w) const;
   bool cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const;
   void goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const;
@@ -51,7 +52,7 @@ class RayShader final : public SurfaceShader {
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
   const RayScatter scatter_;
-  float meanRadiance_ = 0;
+  float meanRadiance_ = 0, brightRadiance_ = 0;  // of all slots, did they reflect all light: the first a tenth of a mean that few bright ones hardly change
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
 };

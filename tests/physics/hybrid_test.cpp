@@ -221,6 +221,26 @@ TEST_P(HybridLuminaire, agreesWithPath) {
 }
 INSTANTIATE_TEST_SUITE_P(Sizes, HybridLuminaire, testing::Bool());
 
+// A face whose voxel keeps the light of another within a block, in a home most of which is dark: it is as bright as it is all the same.
+TEST(Hybrid, hiddenSlotDoesNotDarken) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.7f));
+  test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4, 2.6f, 3}, std::vector<int>(6, white));
+  test::addRoom(scene, {60, 0, 0}, {100, 3, 40}, std::vector<int>(6, white));
+  test::addBox(scene, {0.6f, 0, 0.5f}, {1.99f, 0.35f, 2.5f}, white);
+  test::addBox(scene, {1.985f, 0, 0.5f}, {3.2f, 0.35f, 2.5f}, white);
+  test::addBox(scene, {0.6f, 0.351f, 0.5f}, {1.8f, 1.2f, 2.5f}, white);
+  scene.lamps.push_back(test::pointLamp({0.3f, 2.2f, 1.5f}, 100));
+  const Lit lit(std::move(scene), 0.5f);
+  Camera camera = cameraAt({3.6f, 1, 1.3f}, {1.8f, 0.425f, 1.25f});
+  camera.yFovRad = 0.06f;
+  PathSettings path;
+  path.width = path.height = 48, path.samples = 256;
+  const double expected = mean(pathTrace(lit.rays, lit.lights, camera, path).image), measured = mean(lit.hybrid(camera));
+  test::record("Face above one hidden in a block, mean luminance, cd/m²", "voxels of 0.5 m", "hybrid", expected, measured);
+  EXPECT_NEAR(measured, expected, 0.1 * expected);
+}
+
 // The same picture whatever the number of threads.
 TEST(Hybrid, sameBitsWithAnyNumberOfThreads) {
   const Lit lit(twoRooms(0.1f), 0.1f);
