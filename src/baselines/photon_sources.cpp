@@ -35,7 +35,7 @@ PhotonStart PhotonSources::sample(size_t source, Sampler& sampler, uint64_t& ray
   source -= lights_.lampCount();
   if (source < lights_.emitterCount()) return {lights_.sampleEmitterRay(source, sampler)};
   source -= lights_.emitterCount();
-  const float choice = sampler.next1();
+  const double choice = static_cast<double>(sampler.next1()) + 0x1p-24 * static_cast<double>(sampler.fast1());  // finer than a float
   const Vec2 u = sampler.next2(), direction = sampler.next2();
   const bool sun = source < suns_.size();
   const PieceChoice::Place place = (sun ? suns_[source] : *sky_).sample(choice, u);

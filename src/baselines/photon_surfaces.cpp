@@ -67,18 +67,18 @@ PieceChoice::PieceChoice(const SurfacePieces& pieces, const PhotonImportance& im
   for (const auto& [key, cell] : cells) light += cell.areaM2 > 0 ? cell.light : 0;
   const double learned = light > 0 ? 1 - kOfUse - kAnywhere : 0, ofUse = areaOfUse > 0 ? kOfUse : 0;
   double sum = 0;
-  std::vector<double> upTo(keys.size());
+  upTo_.resize(keys.size());
   for (size_t side = 0; side < keys.size(); ++side) {
     const SurfacePieces::Piece& piece = all[side / 2];
     double perM2 = kAnywhere / area;
     if (ofUse > 0 && importance.at((piece.a + piece.b + piece.c) / 3) > 0) perM2 += ofUse / areaOfUse;
     if (const auto cell = cells.find(keys[side]); cell != cells.end() && learned > 0) perM2 += learned * cell->second.light / (light * cell->second.areaM2);
-    upTo[side] = sum += perM2 * static_cast<double>(piece.areaM2);
+    upTo_[side] = sum += perM2 * static_cast<double>(piece.areaM2);
   }
-  for (const double v : upTo) upTo_.push_back(static_cast<float>(v / sum));
+  for (double& v : upTo_) v /= sum;
 }
 
-PieceChoice::Place PieceChoice::sample(float choice, Vec2 u) const {
+PieceChoice::Place PieceChoice::sample(double choice, Vec2 u) const {
   if (upTo_.empty()) return {};
   const size_t side = std::min(static_cast<size_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin()), upTo_.size() - 1);
   const SurfacePieces::Piece& piece = pieces_->all()[side / 2];
@@ -86,7 +86,7 @@ PieceChoice::Place PieceChoice::sample(float choice, Vec2 u) const {
   Place place;
   place.p = piece.a * (1 - b.x - b.y) + piece.b * b.x + piece.c * b.y;
   place.n = side % 2 == 0 ? piece.normal() : -piece.normal();
-  place.pdf = (upTo_[side] - (side ? upTo_[side - 1] : 0)) / piece.areaM2;
+  place.pdf = static_cast<float>(upTo_[side] - (side ? upTo_[side - 1] : 0)) / piece.areaM2;
   return place;
 }
 

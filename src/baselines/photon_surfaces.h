@@ -36,11 +36,11 @@ class PieceChoice {
     Vec3 p, n;
     float pdf = 0;  // per m², of this side
   };
-  Place sample(float choice, Vec2 u) const;
+  Place sample(double choice, Vec2 u) const;
 
  private:
   const SurfacePieces* pieces_;
-  std::vector<float> upTo_;  // sums of chances; two sides of each piece
+  std::vector<double> upTo_;  // sums of chances; two sides of each piece. Millions of them, some of a billionth
 };
 
 }  // namespace roomlight

@@ -357,6 +357,7 @@ Status checkSettings(const RenderSettings& settings) {
   if (settings.voxel.smallestM > settings.voxel.largestM) {
     return Error{fmt::format("voxel.smallestM: must not be above voxel.largestM: {} > {}", settings.voxel.smallestM, settings.voxel.largestM)};
   }
+  if (settings.vxgi.resolution % 2 != 0) return Error{fmt::format("vxgi.resolution: must be even, for coarser voxels are made of two finer ones each way: {}", settings.vxgi.resolution)};
   return Ok{};
 }
 

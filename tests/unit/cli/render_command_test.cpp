@@ -123,6 +123,7 @@ TEST_F(RenderCommand, camerasGoByNameOrNumber) {
 
 TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
   const auto meanLuminance = [&](const std::string& lamps, const std::string& name) {
+    writeFile(path("odd.json"), R"({"vxgi": {"resolution": 33}})");
     writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");
     const ProgramRun run = render({"-o", path(name), "--technique", "path", "--samples", "16", "--lighting", path("rig.json")});
     EXPECT_EQ(run.exitStatus, 0) << run.err;
@@ -209,6 +210,7 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--metres-per-unit", "0"}, "--metres-per-unit"},
       {{"render", scene_, "-o", a, "--settings", path("unknown.json")}, "sampels"},
       {{"render", scene_, "-o", a, "--settings", path("limits.json")}, "voxel.smallestM: must not be above voxel.largestM: 0.2 > 0.1"},
+      {{"render", scene_, "-o", a, "--settings", path("odd.json")}, "vxgi.resolution: must be even"},
       {{"render", scene_, "-o", a, "--settings", path("missing.json")}, "missing.json"},
       {{"render", scene_, "-o", a, "--lighting", path("rig.json")}, "rig.json: lamps[0].flux: has no unit; write \"800 lm\""},
       {{"render", scene_, "-o", a, "--lighting", path("missing.json")}, "missing.json: no such file"},

@@ -116,6 +116,16 @@ TEST_P(LitSceneUpdate, aHiddenThingIsGone) {
   expectSame(picture(*lit), picture(*open(home.scene)));
 }
 
+// Not lit anew with every look, as from above a home where all that is seen lies on one side.
+TEST_P(LitSceneUpdate, anEyeOutsideKeepsTheLight) {
+  Home home;
+  const Camera above = test::cameraAt({2, 8, 2});
+  const auto lit = std::move(lightScene(home.scene, small(GetParam()), stages_, &above).value());
+  const size_t done = stats_.stages.size();
+  lit->lookFrom(above, stages_);
+  EXPECT_EQ(stats_.stages.size(), done);
+}
+
 TEST_P(LitSceneUpdate, theSunMoves) {
   Home home;
   home.scene.meshes.emplace_back();
