@@ -2,22 +2,25 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <thread>
-
-extern char** environ;
 
 namespace roomlight::cli {
 namespace {
 
 constexpr auto kAskEvery = std::chrono::milliseconds(20);
 constexpr size_t kMostKept = 4000;  // of what it says
+constexpr int kNotStarted = 127;    // exit status
 
 // The last line, without the program's name.
 std::string lastLine(std::string text) {
@@ -40,6 +43,20 @@ bool drain(int pipe, std::string& text) {
   }
 }
 
+// Not posix_spawn, which cannot ask for the signal of the parent's death. Between fork and exec only what is safe in a copy of a process that has threads.
+[[noreturn]] void becomeProgram(char* const* argv, int said, [[maybe_unused]] pid_t parent) {
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(kNotStarted);  // it was dead before that
+#endif
+  const int nothing = open("/dev/null", O_RDWR);
+  dup2(nothing, STDIN_FILENO);
+  dup2(nothing, STDOUT_FILENO);
+  dup2(said, STDERR_FILENO);
+  execv(argv[0], argv);
+  _exit(kNotStarted);
+}
+
 }  // namespace
 
 std::filesystem::path thisProgram() {
@@ -55,16 +72,11 @@ Status runThisProgram(const std::vector<std::string>& arguments, const std::atom
   for (std::string& w : words) argv.push_back(w.data());
   argv.push_back(nullptr);
 
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&files, ends[1], STDERR_FILENO);
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, argv[0], &files, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
+  const pid_t self = getpid(), child = fork();
+  const int failed = errno;
+  if (child == 0) becomeProgram(argv.data(), ends[1], self);
   close(ends[1]);
-  if (failed) {
+  if (child < 0) {
     close(ends[0]);
     return Error{fmt::format("a process cannot be started: {}", std::strerror(failed))};
   }
@@ -74,7 +86,8 @@ Status runThisProgram(const std::vector<std::string>& arguments, const std::atom
   pid_t ended = 0;
   while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
     drain(ends[0], said);
-    if (cancelled && *cancelled && !told) kill(child, SIGTERM), told = true;
+    // Again and again: the second ends it at once, and its result is not wanted.
+    if (cancelled && *cancelled) kill(child, SIGTERM), told = true;
     std::this_thread::sleep_for(kAskEvery);
   }
   drain(ends[0], said);
@@ -82,6 +95,7 @@ Status runThisProgram(const std::vector<std::string>& arguments, const std::atom
   if (told) return Error{"interrupted"};
   if (ended < 0) return Error{fmt::format("a process was lost: {}", std::strerror(errno))};
   if (WIFSIGNALED(status)) return Error{fmt::format("the process was killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
+  if (WEXITSTATUS(status) == kNotStarted) return Error{"a process cannot be started"};
   if (WEXITSTATUS(status) != 0) return Error{said.empty() ? fmt::format("the process ended with status {}", WEXITSTATUS(status)) : lastLine(said)};
   return Ok{};
 }

@@ -18,6 +18,7 @@
 #include "engine/version.h"
 #include "interrupt.h"
 #include "output_files.h"
+#include "study/check_walks.h"
 #include "study/dim_lamp.h"
 #include "study/report.h"
 
@@ -121,15 +122,16 @@ Result<StudySettings> settingsOf(const Options& o) {
 
 StudyHeader headerOf(const StudySettings& s, const StudyPlan& plan, double loadBefore) {
   const double memoryMiB = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1048576;
-  StudyHeader h = {{"program", s.program},
-                   {"memory", fmt::format("{:.1f} GiB", memoryMiB / 1024)},
-                   {"load of the machine at the start", fmt::format("{:.2f}", loadBefore)},
-                   {"pictures", fmt::format("{}x{}", s.width, s.height)},
-                   {"runs", fmt::format("{}", s.runs)},
-                   {"longest point", fmt::format("{:g} s", s.mostSeconds)},
-                   {"references", fmt::format("until a noise of {:g} or {:g} s", s.reference.noiseMse, s.reference.mostS)},
-                   {"frames", fmt::format("{} of {}x{}, one sample a pixel", s.walkFrames, s.walkWidth, s.walkHeight)}};
-  for (const StudyTechnique& t : plan.techniques) h.emplace_back(t.name, fmt::format("technique {}, settings {}", t.technique, t.settings));
+  StudyHeader h;
+  h.about = {{"program", s.program},
+             {"memory", fmt::format("{:.1f} GiB", memoryMiB / 1024)},
+             {"load of the machine at the start", fmt::format("{:.2f}", loadBefore)},
+             {"pictures", fmt::format("{}x{}", s.width, s.height)},
+             {"runs", fmt::format("{}", s.runs)},
+             {"longest point", fmt::format("{:g} s", s.mostSeconds)},
+             {"references", fmt::format("until a noise of {:g} or {:g} s", s.reference.noiseMse, s.reference.mostS)},
+             {"frames", fmt::format("{} of {}x{}, one sample a pixel", s.walkFrames, s.walkWidth, s.walkHeight)}};
+  for (const StudyTechnique& t : plan.techniques) h.techniques.emplace_back(t.name, fmt::format("technique {}, settings {}", t.technique, t.settings));
   return h;
 }
 
@@ -162,12 +164,16 @@ class Programs {
     const Result<nlohmann::json> stats = run(words, w.lighting, w.settings);
     if (!stats) return Error{stats.error()};
     const nlohmann::json& j = stats.value();
-    std::vector<double> update, picture;
-    for (const nlohmann::json& frame : j["frames"]) update.push_back(frame["updateMs"].get<double>()), picture.push_back(frame["pictureMs"].get<double>());
-    return WalkCost{static_cast<int>(update.size()), j["framesPerSecond"].get<double>(), medianOf(update), medianOf(picture)};
+    return WalkCost{static_cast<int>(j["frames"].size()), j["framesPerSecond"].get<double>(), medianOfFrames(j["frames"], "updateMs"), medianOfFrames(j["frames"], "pictureMs")};
   }
 
  private:
+  // Without the first where there are more, as framesPerSecond is.
+  static double medianOfFrames(const nlohmann::json& frames, const char* key) {
+    std::vector<double> values;
+    for (size_t i = frames.size() > 1 ? 1 : 0; i < frames.size(); ++i) values.push_back(frames[i][key].get<double>());
+    return medianOf(std::move(values));
+  }
   Result<nlohmann::json> run(std::vector<std::string> words, const std::filesystem::path& lighting, const std::string& settings) const {
     const std::filesystem::path settingsFile = folder_ / "settings.json", stats = folder_ / "stats.json";
     std::error_code ignored;
@@ -227,7 +233,7 @@ void makeQuick(Options& o, const CLI::App& app) {
   otherwise("--most-seconds", o.mostSeconds, 2.0), otherwise("--reference-seconds", o.referenceSeconds, 16.0);
 }
 
-// Each must be of one of the plan's views, and of the study's size, before hours are spent.
+// Each must be of one of the plan's views, of the study's size and of finite values, before hours are spent.
 Status checkExternals(const StudyPlan& plan, const StudySettings& settings) {
   size_t views = 0;
   for (const StudyScene& s : plan.scenes) views += s.lights.size();
@@ -242,9 +248,13 @@ Status checkExternals(const StudyPlan& plan, const StudySettings& settings) {
     if (image.value().width != settings.width || image.value().height != settings.height) {
       return Error{fmt::format("--external {}: is {}x{}, the study {}x{}; give --size", e.name, image.value().width, image.value().height, settings.width, settings.height)};
     }
+    const std::vector<Vec3>& pixels = image.value().pixels;
+    if (!std::all_of(pixels.begin(), pixels.end(), [](Vec3 p) { return isFinite(p); })) return Error{fmt::format("--external {}: {}: holds values that are not finite", e.name, e.file.string())};
   }
   return Ok{};
 }
+
+std::string whyNothing(const StudyResults& results) { return results.remarks.empty() ? "the plan has no picture and no walk for its techniques" : results.remarks.front(); }
 
 int runStudyCommand(Options o, const CLI::App& app) {
   interrupted();
@@ -266,6 +276,7 @@ int runStudyCommand(Options o, const CLI::App& app) {
   const Result<RunStore> store = RunStore::open(folder / "runs");
   if (!store) return bad(store.error(), kFailed);
   if (const Status s = writeDimLamps(plan.value(), store.value()); !s) return bad(s.error());
+  if (const Status s = checkWalks(plan.value(), store.value(), settings.value().program); !s) return bad(s.error());
   const StudyHeader header = headerOf(settings.value(), plan.value(), load);
   const Programs programs(store.value().folder(), settings.value().walkFrames);
   const StudyTools tools{[&](const StudyRender& r) { return programs.render(r); }, [&](const StudyWalk& w) { return programs.walk(w); }};
@@ -285,6 +296,7 @@ int runStudyCommand(Options o, const CLI::App& app) {
   }
   if (!o.quiet) fmt::print("wrote {}\n", (folder / "study.html").string());
   if (!results.value().complete) return bad("interrupted; started again with the same folder, the study goes on", kInterrupted);
+  if (nothingMeasured(results.value())) return bad("nothing could be measured: " + whyNothing(results.value()), kFailed);
   return kOk;
 }
 

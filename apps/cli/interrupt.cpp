@@ -1,6 +1,7 @@
 #include "interrupt.h"
 
 #include <csignal>
+#include <initializer_list>
 #include <unistd.h>
 
 #include "commands.h"
@@ -15,6 +16,11 @@ void onInterrupt(int) {
   if (gInterrupted.exchange(true)) _exit(kInterrupted);
 }
 
+bool isIgnored(int number) {
+  struct sigaction now = {};
+  return sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 const std::atomic<bool>& interrupted() {
@@ -22,7 +28,8 @@ const std::atomic<bool>& interrupted() {
     struct sigaction action = {};
     action.sa_handler = onInterrupt;
     action.sa_flags = SA_RESTART;  // a file that is being read or written is not cut short
-    sigaction(SIGINT, &action, nullptr);
+    for (const int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
+    if (!isIgnored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);  // nohup: it is to go on
     return true;
   }();
   static_cast<void>(installed);

@@ -51,7 +51,7 @@ void writeAll(int file, const uint8_t* bytes, size_t count) {
 }
 
 [[noreturn]] void runChild(const std::function<Bytes()>& work, int file) {
-  std::signal(SIGINT, SIG_DFL);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
   std::signal(SIGALRM, SIG_DFL);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, kSeconds);

@@ -24,6 +24,27 @@ Result<Vec3> positionIn(const StudyScene& s) {
   return dimLampPosition(imported.value().scene, camera.value());
 }
 
+Status writeDimLamp(const StudyScene& s, StudyLight& light, const RunStore& store) {
+  if (light.dimLampLm <= 0) return Ok{};
+  const RunStore::Key key{{"light", s.name, light.name}, fmt::format("{} | camera {} | {} lm", contentHash(s.file), s.camera, light.dimLampLm)};
+  light.lighting = store.file(key, ".lighting.json");
+  if (std::filesystem::exists(light.lighting)) return Ok{};
+  const Result<Vec3> p = positionIn(s);
+  if (!p) return Error{p.error()};
+  const auto off = {"lamps", "suns", "sky", "emission"};
+  nlohmann::ordered_json file = {{"comment", "One weak lamp; every other light is off."}};
+  for (const char* what : off) file["scene"][what] = "off";
+  file["lamps"] = {{{"name", "dim lamp"}, {"type", "point"}, {"position", {p.value().x, p.value().y, p.value().z}}, {"flux", fmt::format("{:g} lm", light.dimLampLm)}, {"temperature", kColour}}};
+  const std::filesystem::path half = store.file(key, ".part");
+  std::ofstream out(half);
+  out << file.dump(2) << "\n";
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(half, light.lighting, error);
+  if (!out || error) return Error{fmt::format("{}: cannot be written", light.lighting.string())};
+  return Ok{};
+}
+
 }  // namespace
 
 Vec3 dimLampPosition(const Scene& scene, const Camera& camera) {
@@ -36,24 +57,10 @@ Vec3 dimLampPosition(const Scene& scene, const Camera& camera) {
 Status writeDimLamps(StudyPlan& plan, const RunStore& store) {
   for (StudyScene& s : plan.scenes) {
     for (StudyLight& light : s.lights) {
-      if (light.dimLampLm <= 0) continue;
-      const RunStore::Key key{{"light", s.name, light.name}, fmt::format("{} | camera {} | {} lm", contentHash(s.file), s.camera, light.dimLampLm)};
-      light.lighting = store.file(key, ".lighting.json");
-      if (std::filesystem::exists(light.lighting)) continue;
-      const Result<Vec3> p = positionIn(s);
-      if (!p) return Error{p.error()};
-      const auto off = {"lamps", "suns", "sky", "emission"};
-      nlohmann::ordered_json file = {{"comment", "One weak lamp; every other light is off."}};
-      for (const char* what : off) file["scene"][what] = "off";
-      file["lamps"] = {{{"name", "dim lamp"}, {"type", "point"}, {"position", {p.value().x, p.value().y, p.value().z}}, {"flux", fmt::format("{:g} lm", light.dimLampLm)}, {"temperature", kColour}}};
-      const std::filesystem::path half = store.file(key, ".part");
-      std::ofstream out(half);
-      out << file.dump(2) << "\n";
-      out.close();
-      std::error_code error;
-      if (out) std::filesystem::rename(half, light.lighting, error);
-      if (!out || error) return Error{fmt::format("{}: cannot be written", light.lighting.string())};
+      if (const Status written = writeDimLamp(s, light, store); !written) return written;
     }
+    if (s.walk.empty()) continue;
+    if (const Status written = writeDimLamp(s, s.walkLight, store); !written) return written;
   }
   return Ok{};
 }

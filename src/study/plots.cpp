@@ -90,12 +90,10 @@ std::string curvesSvg(const StudyCase& one) {
 
 std::string barsSvg(const std::vector<Bar>& bars, const std::string& unit) {
   constexpr double kName = 170, kBar = 300, kRow = 24;
-  double most = 1e-9, scale = 0;
-  for (const Bar& b : bars) {
-    most = std::max(most, b.value);
-    if (scale <= 0 && b.published > 0 && b.value > 0) scale = b.value / b.published;
-  }
-  for (const Bar& b : bars) most = std::max(most, b.published * scale);
+  const auto cone = std::find_if(bars.begin(), bars.end(), [](const Bar& b) { return b.name == "cone" && b.value > 0 && b.published > 0; });
+  const double scale = cone == bars.end() ? 0 : cone->value / cone->published;
+  double most = 1e-9;
+  for (const Bar& b : bars) most = std::max({most, b.value, b.published * scale});
   std::string s = fmt::format("<svg viewBox='0 0 {} {}' role='img'>", kWidth, kRow * static_cast<double>(bars.size()) + 4);
   for (size_t i = 0; i < bars.size(); ++i) {
     const Bar& b = bars[i];

@@ -9,8 +9,10 @@
 
 namespace roomlight {
 
-// Where and how it was run: rows of name and value.
-using StudyHeader = std::vector<std::pair<std::string, std::string>>;
+// Where and how it was run, and what each technique is, by its name: rows of name and value.
+struct StudyHeader {
+  std::vector<std::pair<std::string, std::string>> about{}, techniques{};
+};
 
 // What was asked of a study, and what came out.
 struct StudyVerdict {

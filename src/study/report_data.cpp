@@ -104,25 +104,34 @@ std::string timeRatios(const StudyResults& r, const std::string& technique) {
 }
 
 std::string framesTable(const StudyResults& r) {
-  std::string s = "| scene | technique | frames a second | update ms | picture ms | frames |\n|---|---|---|---|---|---|\n";
+  std::string s = "| scene | light | technique | frames a second | update ms | picture ms | frames |\n|---|---|---|---|---|---|---|\n";
   for (const StudyFrames& f : r.frames) {
-    s += f.failed.empty() ? fmt::format("| {} | {} | {:.2f} | {:.0f} | {:.0f} | {} |\n", cell(f.scene), cell(f.technique), f.cost.framesPerSecond, f.cost.updateMs, f.cost.pictureMs, f.cost.frames)
-                          : fmt::format("| {} | {} | – | {} | | |\n", cell(f.scene), cell(f.technique), cell(f.failed));
+    s += fmt::format("| {} | {} | {} |", cell(f.scene), cell(f.light), cell(f.technique));
+    s += f.runs.empty() ? fmt::format(" – | {} | | |\n", cell(f.failed)) : fmt::format(" {:.2f} | {:.0f} | {:.0f} | {} |\n", f.cost.framesPerSecond, f.cost.updateMs, f.cost.pictureMs, f.cost.frames);
   }
   return s;
+}
+
+// Techniques apart: their names are the plan's, and may be those of other rows.
+Json aboutJson(const StudyHeader& header) {
+  Json j = Json::object(), techniques = Json::object();
+  for (const auto& [name, value] : header.about) j[name] = value;
+  for (const auto& [name, value] : header.techniques) techniques[name] = value;
+  j["techniques"] = techniques;
+  return j;
 }
 
 }  // namespace
 
 std::string studyJson(const StudyHeader& header, const StudyResults& r) {
   Json j;
-  for (const auto& [name, value] : header) j["about"][name] = value;
+  j["about"] = aboutJson(header);
   j["complete"] = r.complete;
   j["verdicts"] = Json::array(), j["cases"] = Json::array(), j["frames"] = Json::array();
   for (const StudyVerdict& v : studyVerdicts(r)) j["verdicts"].push_back({{"asked", v.asked}, {"measured", v.measured}, {"met", v.met}});
   for (const StudyCase& c : r.cases) j["cases"].push_back(caseJson(c));
   for (const StudyFrames& f : r.frames) {
-    j["frames"].push_back({{"scene", f.scene}, {"technique", f.technique}, {"framesPerSecond", f.cost.framesPerSecond}, {"frames", f.cost.frames}, {"updateMs", f.cost.updateMs}, {"pictureMs", f.cost.pictureMs}, {"runs", f.runs.size()}, {"failed", f.failed}});
+    j["frames"].push_back({{"scene", f.scene}, {"light", f.light}, {"technique", f.technique}, {"framesPerSecond", f.cost.framesPerSecond}, {"frames", f.cost.frames}, {"updateMs", f.cost.updateMs}, {"pictureMs", f.cost.pictureMs}, {"runs", f.runs.size()}, {"failed", f.failed}});
   }
   for (const auto& t : published::kTechniques) j["published"].push_back({{"technique", t.name}, {"drawingSeconds", t.drawingS}, {"settledMse", t.settledMse}, {"framesPerSecond", t.framesPerSecond}});
   j["remarks"] = r.remarks;
@@ -141,14 +150,16 @@ std::string studyCsv(const StudyResults& r) {
     for (const StudyExternal& e : c.externals) s += fmt::format("external,{},{},,{:.4f},,,{:.7f},{:.7f},{:.5f},{:.3f},\r\n", place, quoted(e.name), e.seconds, e.mse, e.mseBeyondNoise, e.flip, e.meanErrorPercent);
   }
   for (const StudyFrames& f : r.frames) {
-    if (f.failed.empty()) s += fmt::format("walk,{},,{},,,,,,,,,{:.4f}\r\n", quoted(f.scene), quoted(f.technique), f.cost.framesPerSecond);
+    if (!f.runs.empty()) s += fmt::format("walk,{},{},{},,,,,,,,,{:.4f}\r\n", quoted(f.scene), quoted(f.light), quoted(f.technique), f.cost.framesPerSecond);
   }
   return s;
 }
 
 std::string studyMarkdown(const StudyHeader& header, const StudyResults& r) {
   std::string s = "# Study of techniques\n\nMade by `roomlight study`";
-  for (const auto& [name, value] : header) s += fmt::format("; {}: {}", name, value);
+  for (const auto* rows : {&header.about, &header.techniques}) {
+    for (const auto& [name, value] : *rows) s += fmt::format("; {}: {}", name, value);
+  }
   s += fmt::format(".{}\n\n## Asked\n\n| asked | measured | |\n|---|---|---|\n", r.complete ? "" : " Stopped early: what follows is a part.");
   for (const StudyVerdict& v : studyVerdicts(r)) s += fmt::format("| {} | {} | {} |\n", cell(v.asked), cell(v.measured), v.met ? "met" : "missed");
   s += "\n## Seconds until the error settles (Table 1 of the published study)\n\n" + drawingTimes(r);

@@ -193,25 +193,35 @@ std::string errorOverTime(const StudyResults& r) {
   return s + "</div>\n";
 }
 
+// Those whose colours plots have: of pictures, or where there are none, of walks.
+std::vector<StudyCurve> colouredCurves(const StudyResults& r) {
+  if (!r.cases.empty() && !r.cases.front().curves.empty()) return r.cases.front().curves;
+  std::vector<StudyCurve> curves;
+  for (const StudyFrames& f : r.frames) {
+    if (f.scene == r.frames.front().scene) curves.push_back({f.technique, f.kind, {}, {}});
+  }
+  return curves;
+}
+
 std::string frames(const StudyResults& r) {
   if (r.frames.empty()) return {};
   std::string s = "<h2>Frames a second</h2><p>Along a recorded walk with moving objects, one sample a pixel a frame. Black ticks: the published frames (cone 36, vxgi 28, lpv 23, photon 7) in ratio to <i>cone</i>.</p><div class=plots>\n";
   std::map<std::string, double> published;
   for (const auto& t : published::kTechniques) published[t.name] = t.framesPerSecond;
-  std::vector<std::string> scenes;
+  std::vector<std::pair<std::string, std::string>> walks;  // scene and light
   for (const StudyFrames& f : r.frames) {
-    if (scenes.empty() || scenes.back() != f.scene) scenes.push_back(f.scene);
+    if (walks.empty() || walks.back().first != f.scene) walks.emplace_back(f.scene, f.light);
   }
-  for (const std::string& scene : scenes) {
+  const std::vector<StudyCurve> all = colouredCurves(r);
+  for (const auto& [scene, light] : walks) {
     std::vector<Bar> bars;
     for (const StudyFrames& f : r.frames) {
-      if (f.scene != scene || !f.failed.empty()) continue;
+      if (f.scene != scene || f.runs.empty()) continue;
       std::string colour = "#777777";
-      const auto& all = r.cases.front().curves;
       for (size_t i = 0; i < all.size(); ++i) colour = all[i].technique == f.technique ? colourOf(all, i) : colour;
       bars.push_back({f.technique, colour, f.cost.framesPerSecond, published.count(f.technique) ? published[f.technique] : 0});
     }
-    s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(scene), barsSvg(bars, "/s"));
+    if (!bars.empty()) s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(scene + ", " + light), barsSvg(bars, "/s"));
   }
   return s + "</div>\n";
 }
@@ -231,18 +241,23 @@ Result<std::string> sheets(const StudyResults& r, const std::filesystem::path& f
 }  // namespace
 
 Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, const std::filesystem::path& folder) {
-  const auto page = [](const std::string& body) { return htmlPage("Study of techniques", kStyle, body); };
   std::string s = "<h1>Study of techniques</h1>\n";
   if (!r.complete) s += "<p><b>Stopped early: this is a part.</b> Started again, the study goes on.</p>\n";
-  if (r.cases.empty()) return page(s + "<p>Nothing has been measured.</p>\n");
-  const Result<std::string> pictures = sheets(r, folder);
-  if (!pictures) return pictures;
-  s += verdictTable(r) + tables(r) + errorOverTime(r) + frames(r) + pictures.value();
+  s += nothingMeasured(r) ? "<p>Nothing has been measured.</p>\n" : verdictTable(r);
+  if (!r.cases.empty()) s += tables(r) + errorOverTime(r);
+  s += frames(r);
+  if (!r.cases.empty()) {
+    const Result<std::string> pictures = sheets(r, folder);
+    if (!pictures) return pictures;
+    s += pictures.value();
+  }
   s += "<h2>Machine and settings</h2><table>";
-  for (const auto& [name, value] : header) s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));
+  for (const auto* rows : {&header.about, &header.techniques}) {
+    for (const auto& [name, value] : *rows) s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));
+  }
   s += "</table>\n";
   for (const std::string& remark : r.remarks) s += "<p class=soft>" + htmlEscaped(remark) + "</p>\n";
-  return page(s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take turns.</footer>\n");
+  return htmlPage("Study of techniques", kStyle, s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take turns.</footer>\n");
 }
 
 }  // namespace roomlight

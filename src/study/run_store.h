@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -13,7 +14,8 @@ namespace roomlight {
 
 class RunStore {
  public:
-  // `folder` is made where it is not there.
+  // `folder` is made where it is not there, and is this store's alone (among processes too) for as long as the store or a copy of it lives: an error where another
+  // has it.
   static Result<RunStore> open(const std::filesystem::path& folder);
 
   // A result is known by what it is (a kind, a scene, a light, ..) and by everything that it depends on.
@@ -30,8 +32,9 @@ class RunStore {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  explicit RunStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  RunStore(std::filesystem::path folder, std::shared_ptr<void> lock) : folder_(std::move(folder)), lock_(std::move(lock)) {}
   std::filesystem::path folder_;
+  std::shared_ptr<void> lock_;
 };
 
 // Letters, digits and - of a name, lower case, others as _: fit for a file.

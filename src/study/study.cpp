@@ -47,13 +47,16 @@ class Pace {
   Stopwatch watch_;
 };
 
+bool isOf(const ExternalPicture& e, const std::string& scene, const std::string& light) { return (e.scene.empty() || e.scene == scene) && (e.light.empty() || e.light == light); }
+
 // One scene in one light, measured or read from the store.
 class CaseStudy {
  public:
   CaseStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace)
       : plan_(plan), settings_(settings), store_(store), tools_(tools), progress_(progress), pace_(pace) {}
 
-  Result<StudyCase> run(const StudyScene& scene, const StudyLight& light);
+  // What is left out is told in `remarks`.
+  Result<StudyCase> run(const StudyScene& scene, const StudyLight& light, std::vector<std::string>& remarks);
 
  private:
   StudyRender request(const StudyTechnique& t, int samples, const std::filesystem::path& picture) const {
@@ -71,7 +74,8 @@ class CaseStudy {
   Result<nlohmann::json> errorOfPicture(RunStore::Key key, const std::filesystem::path& picture) const;
   Result<StudyPoint> point(const StudyTechnique& t, int samples, bool& measured);
   bool timeAgain(const StudyTechnique& t, StudyCurve& curve, int run);
-  Status addExternals();
+  Status addExternal(const ExternalPicture& e);
+  void addExternals(std::vector<std::string>& remarks);
   void sumUp();
 
   const StudyPlan& plan_;
@@ -168,18 +172,22 @@ bool CaseStudy::timeAgain(const StudyTechnique& t, StudyCurve& curve, int run) {
   return measured;
 }
 
-Status CaseStudy::addExternals() {
-  for (const ExternalPicture& e : settings_.externals) {
-    if ((!e.scene.empty() && e.scene != out_.scene) || (!e.light.empty() && e.light != out_.light)) continue;
-    const Result<Image> image = readImage(e.file);
-    if (!image) return Error{image.error()};
-    const Result<Report> r = compare(reference_.first, reference_.second, image.value());
-    if (!r) return Error{fmt::format("--external {}: {}", e.name, r.error())};
-    const std::filesystem::path copy = store_.file({{"external", out_.scene, out_.light, e.name}, what_}, ".exr");
-    if (const Status s = writeExr(copy, image.value(), {}); !s) return s;
-    out_.externals.push_back({e.name, e.seconds, r.value().mse, r.value().mseBeyondNoise.value_or(r.value().mse), r.value().flip, r.value().meanLuminanceErrorPercent, copy.filename().string()});
-  }
+Status CaseStudy::addExternal(const ExternalPicture& e) {
+  const Result<Image> image = readImage(e.file);
+  if (!image) return Error{image.error()};
+  const Result<Report> r = compare(reference_.first, reference_.second, image.value());
+  if (!r) return Error{r.error()};
+  const std::filesystem::path copy = store_.file({{"external", out_.scene, out_.light, e.name}, what_}, ".exr");
+  if (const Status s = writeExr(copy, image.value(), {}); !s) return s;
+  out_.externals.push_back({e.name, e.seconds, r.value().mse, r.value().mseBeyondNoise.value_or(r.value().mse), r.value().flip, r.value().meanLuminanceErrorPercent, copy.filename().string()});
   return Ok{};
+}
+
+void CaseStudy::addExternals(std::vector<std::string>& remarks) {
+  for (const ExternalPicture& e : settings_.externals) {
+    if (!isOf(e, out_.scene, out_.light)) continue;
+    if (const Status s = addExternal(e); !s) remarks.push_back(fmt::format("{}, {}: --external {}: left out: {}", out_.scene, out_.light, e.name, s.error()));
+  }
 }
 
 void CaseStudy::sumUp() {
@@ -188,7 +196,7 @@ void CaseStudy::sumUp() {
   }
 }
 
-Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& light) {
+Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& light, std::vector<std::string>& remarks) {
   out_.scene = scene.name, out_.light = light.name, out_.lighting = light.lighting.filename().string();
   view_.scene = scene.file, view_.lighting = light.lighting, view_.camera = scene.camera, view_.width = settings_.width, view_.height = settings_.height;
   what_ = fmt::format("{} {} | {} | {}x{}", scene.file.filename().string(), contentHash(scene.file), light.lighting.empty() ? "own light" : contentHash(light.lighting), view_.width, view_.height) +
@@ -213,28 +221,22 @@ Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& ligh
     for (size_t i = 0; i < techniques.size(); ++i) pace_.unit(timeAgain(techniques[i], out_.curves[i], run));
   }
   sumUp();
-  if (const Status s = addExternals(); !s) return Error{s.error()};
+  addExternals(remarks);
   return std::move(out_);
 }
 
-// Adds a run of the walk to those there are.
-void walkOnce(const StudyScene& scene, const StudyTechnique& t, const StudySettings& settings, const RunStore& store, const StudyTools& tools, int run, StudyFrames& out, bool& measured) {
-  const std::filesystem::path lighting = scene.lights.front().lighting;
+Result<WalkCost> walkOnce(const StudyScene& scene, const StudyTechnique& t, const StudySettings& settings, const RunStore& store, const StudyTools& tools, int run, bool& measured) {
+  const std::filesystem::path& lighting = scene.walkLight.lighting;
   const std::string circumstances = fmt::format("{} | {} | {} | {} | {} {} | {}x{}, {} frames", settings.program, contentHash(scene.file), contentHash(lighting), contentHash(scene.walk), t.technique, t.settings,
                                                 settings.walkWidth, settings.walkHeight, settings.walkFrames);
   const RunStore::Key key{{fmt::format("walk {}", run + 1), scene.name, t.name}, circumstances};
-  std::optional<nlohmann::json> kept = store.find(key);
-  if (!kept) {
-    measured = true;
-    const Result<WalkCost> cost = tools.walk({scene.file, lighting, scene.walk, settings.walkWidth, settings.walkHeight, t.technique, t.settings});
-    if (!cost) {
-      out.failed = cost.error();
-      return;
-    }
-    kept = nlohmann::json{{"frames", cost.value().frames}, {"framesPerSecond", cost.value().framesPerSecond}, {"updateMs", cost.value().updateMs}, {"pictureMs", cost.value().pictureMs}};
-    if (const Status s = store.keep(key, *kept); !s) out.failed = s.error();
-  }
-  out.runs.push_back({static_cast<int>(number(*kept, "frames")), number(*kept, "framesPerSecond"), number(*kept, "updateMs"), number(*kept, "pictureMs")});
+  if (const auto kept = store.find(key)) return WalkCost{static_cast<int>(number(*kept, "frames")), number(*kept, "framesPerSecond"), number(*kept, "updateMs"), number(*kept, "pictureMs")};
+  measured = true;
+  const Result<WalkCost> cost = tools.walk({scene.file, lighting, scene.walk, settings.walkWidth, settings.walkHeight, t.technique, t.settings});
+  if (!cost) return cost;
+  const WalkCost& c = cost.value();
+  if (const Status s = store.keep(key, {{"frames", c.frames}, {"framesPerSecond", c.framesPerSecond}, {"updateMs", c.updateMs}, {"pictureMs", c.pictureMs}}); !s) return Error{s.error()};
+  return cost;
 }
 
 // The median run of each.
@@ -248,22 +250,30 @@ WalkCost medianCost(const std::vector<WalkCost>& runs) {
 }
 
 // Techniques in turn, run after run.
+std::vector<StudyFrames> walkThrough(const StudyScene& scene, const std::vector<StudyTechnique>& techniques, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace) {
+  std::vector<StudyFrames> found;
+  for (const StudyTechnique& t : techniques) found.push_back({scene.name, scene.walkLight.name, t.name, t.kind, {}, {}, {}});
+  for (int run = 0; run < settings.runs; ++run) {
+    for (size_t i = 0; i < found.size() && !progress.stop(); ++i) {
+      pace.now(fmt::format("{}: frames a second, {}, run {}", scene.name, found[i].technique, run + 1));
+      bool measured = false;
+      if (found[i].failed.empty()) {
+        const Result<WalkCost> cost = walkOnce(scene, techniques[i], settings, store, tools, run, measured);
+        if (cost) found[i].runs.push_back(cost.value());
+        if (!cost && !progress.stop()) found[i].failed = cost.error();
+      }
+      pace.unit(measured);
+    }
+  }
+  return found;
+}
+
 void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace, StudyResults& results) {
   const std::vector<StudyTechnique> techniques = plan.techniquesIn("walks");
   for (const StudyScene& scene : plan.scenes) {
     if (scene.walk.empty() || !tools.walk) continue;
-    std::vector<StudyFrames> found;
-    for (const StudyTechnique& t : techniques) found.push_back({scene.name, t.name, t.kind, {}, {}, {}});
-    for (int run = 0; run < settings.runs; ++run) {
-      for (size_t i = 0; i < found.size() && !progress.stop(); ++i) {
-        pace.now(fmt::format("{}: frames a second, {}, run {}", scene.name, found[i].technique, run + 1));
-        bool measured = false;
-        if (found[i].failed.empty()) walkOnce(scene, techniques[i], settings, store, tools, run, found[i], measured);
-        pace.unit(measured);
-      }
-    }
-    for (StudyFrames& f : found) {
-      if (progress.stop() && f.runs.empty()) continue;
+    for (StudyFrames& f : walkThrough(scene, techniques, settings, store, tools, progress, pace)) {
+      if (f.runs.empty() && f.failed.empty()) continue;  // stopped before
       f.cost = medianCost(f.runs);
       if (!f.failed.empty()) results.remarks.push_back(fmt::format("{}: walk: {}: {}", scene.name, f.technique, f.failed));
       results.frames.push_back(std::move(f));
@@ -271,22 +281,39 @@ void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStor
   }
 }
 
+// Whether the view has anything to be compared with a reference.
+bool isWanted(const StudyPlan& plan, const StudySettings& settings, const StudyScene& scene, const StudyLight& light) {
+  if (!plan.techniquesIn("pictures").empty()) return true;
+  return std::any_of(settings.externals.begin(), settings.externals.end(), [&](const ExternalPicture& e) { return isOf(e, scene.name, light.name); });
+}
+
+// Of Pace: a reference of a view and each run of each technique.
+size_t unitsOf(const StudyPlan& plan, const StudySettings& settings, const StudyTools& tools) {
+  const auto runs = static_cast<size_t>(settings.runs);
+  const size_t ofView = 1 + plan.techniquesIn("pictures").size() * runs, ofWalk = plan.techniquesIn("walks").size() * runs;
+  size_t units = 0;
+  for (const StudyScene& s : plan.scenes) {
+    for (const StudyLight& light : s.lights) units += isWanted(plan, settings, s, light) ? ofView : 0;
+    if (!s.walk.empty() && tools.walk) units += ofWalk;
+  }
+  return units;
+}
+
 }  // namespace
+
+bool nothingMeasured(const StudyResults& r) {
+  return r.cases.empty() && std::all_of(r.frames.begin(), r.frames.end(), [](const StudyFrames& f) { return f.runs.empty(); });
+}
 
 Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress,
                               const std::function<void(const StudyResults&)>& soFar) {
-  const size_t inPictures = plan.techniquesIn("pictures").size(), inWalks = plan.techniquesIn("walks").size();
-  size_t units = 0;
-  for (const StudyScene& s : plan.scenes) {
-    units += s.lights.size() * (1 + inPictures * static_cast<size_t>(settings.runs));
-    if (!s.walk.empty() && tools.walk) units += inWalks * static_cast<size_t>(settings.runs);
-  }
-  Pace pace(progress, units);
+  Pace pace(progress, unitsOf(plan, settings, tools));
   StudyResults results;
   for (const StudyScene& scene : plan.scenes) {
     for (const StudyLight& light : scene.lights) {
       if (progress.stop()) break;
-      Result<StudyCase> one = CaseStudy(plan, settings, store, tools, progress, pace).run(scene, light);
+      if (!isWanted(plan, settings, scene, light)) continue;
+      Result<StudyCase> one = CaseStudy(plan, settings, store, tools, progress, pace).run(scene, light, results.remarks);
       if (!one && progress.stop()) break;
       if (!one) {
         results.remarks.push_back(fmt::format("{}, {}: left out: {}", scene.name, light.name, one.error()));

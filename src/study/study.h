@@ -45,10 +45,10 @@ struct StudyCase {
 };
 
 struct StudyFrames {
-  std::string scene, technique, kind;
+  std::string scene, light, technique, kind;
   std::vector<WalkCost> runs;
-  WalkCost cost;  // their median
-  std::string failed;
+  WalkCost cost;       // their median
+  std::string failed;  // why there are no (more) runs; empty: nothing went wrong
 };
 
 struct StudyResults {
@@ -58,8 +58,12 @@ struct StudyResults {
   bool complete = true;              // false: stopped early
 };
 
+// Neither a view nor a frame of a walk.
+bool nothingMeasured(const StudyResults& results);
+
 // Pictures and what was measured lie in `store`; what it already holds is not measured again. `soFar` is called after every case.
-// A technique that fails has its reason in its curve; a scene and light without a reference is left out, with a remark.
+// A technique that fails has its reason in its curve; a scene and light without a reference, and an external picture that cannot be compared, is left out, with a
+// remark. Views have references only where there is something to be compared: a technique for pictures, or an external one.
 Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress = {},
                               const std::function<void(const StudyResults&)>& soFar = {});
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -58,13 +59,22 @@ StudyLight readLight(const JsonPlace& j, const std::filesystem::path& folder) {
   return light;
 }
 
+// A name, or a number as the file counts them.
+std::string readCamera(const JsonPlace& j) {
+  if (!j.isNumber()) return j.text();
+  const double number = j.number(0, 1e6);
+  if (std::floor(number) < number) j.fail(fmt::format("{} is no camera; write a whole number from 0 or a name", number));
+  return fmt::format("{:.0f}", number);
+}
+
 StudyScene readScene(const JsonPlace& j, const std::filesystem::path& folder) {
   StudyScene scene;
   if (!j.isObject({"name", "scene", "camera", "lights", "walk"})) return scene;
   scene.name = j["name"].text();
   scene.file = fileAt(j["scene"], folder);
-  if (j.has("camera")) scene.camera = j["camera"].isNumber() ? fmt::format("{:.0f}", j["camera"].number(0, 1e6)) : j["camera"].text();
+  if (j.has("camera")) scene.camera = readCamera(j["camera"]);
   scene.lights = readList(j["lights"], [&](const JsonPlace& light) { return readLight(light, folder); });
+  if (!scene.lights.empty()) scene.walkLight = scene.lights.front();
   if (j.has("walk")) scene.walk = fileAt(j["walk"], folder);
   return scene;
 }

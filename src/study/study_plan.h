@@ -21,6 +21,7 @@ struct StudyScene {
   std::string camera;  // name or number; empty: the scene's usual one
   std::vector<StudyLight> lights;
   std::filesystem::path walk;  // walk file for frames a second; empty: none
+  StudyLight walkLight{};      // of the walk: the first of the plan's, even where not all of them are tried
 };
 
 // A technique with settings, tried with twice as many samples a pixel each time until its error settles.

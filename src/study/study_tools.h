@@ -41,7 +41,7 @@ struct StudyWalk {
 struct WalkCost {
   int frames = 0;
   double framesPerSecond = 0;
-  double updateMs = 0, pictureMs = 0;  // of a frame, median
+  double updateMs = 0, pictureMs = 0;  // of a frame, median; framesPerSecond and these without the first frame where there are more
 };
 
 struct StudyTools {

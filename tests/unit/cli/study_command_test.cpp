@@ -1,8 +1,10 @@
 // `roomlight study` from outside.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/image_io.h"
 #include "unit/cli/program.h"
 
 namespace roomlight {
@@ -58,11 +60,57 @@ TEST(StudyCommand, takesThePictureOfAnother) {
   EXPECT_NE(readFile(folder / "out/study.md").find("offline (external)"), std::string::npos);
 }
 
+// The same in which the room is walked through, past this object.
+std::vector<std::string> walkCommand(const TemporaryFolder& folder, const std::string& object) {
+  const std::vector<std::string> words = command(folder, {"--only", "one dim lamp", "--walk-size", "32x18", "--walk-frames", "2"});
+  const std::string objects = R"([{"name": ")" + object + R"(", "keys": [{"time": 0}, {"time": 1, "move": [0.2, 0, 0]}]}])";
+  const std::string camera = R"([{"time": 0, "position": [0, 1.5, 1.8], "target": [0, 1.5, 0]}, {"time": 1, "position": [-1, 1.5, 1.5], "target": [0, 1.5, 0]}])";
+  writeFile(folder / "walk.json", R"({"seconds": 1, "camera": )" + camera + R"(, "objects": )" + objects + "}");
+  writeFile(folder / "plan.json", R"({"scenes": [{"name": "Room", "scene": "room.gltf", "camera": "Front", "lights": [{"name": "own"}, {"name": "one dim lamp", "dimLamp": "150 lm"}], "walk": "walk.json"}]})");
+  return words;
+}
+
+TEST(StudyCommand, walksInTheFirstLightOfThePlan) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram(walkCommand(folder, "Pillar"));
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  const auto j = nlohmann::json::parse(readFile(folder / "out/study.json"));
+  ASSERT_EQ(j["cases"].size(), 1u);
+  EXPECT_EQ(j["cases"][0]["light"], "one dim lamp");
+  ASSERT_EQ(j["frames"].size(), 2u);
+  for (const auto& frames : j["frames"]) {
+    EXPECT_EQ(frames["light"], "own");
+    EXPECT_EQ(frames["frames"], 2) << frames;
+  }
+}
+
+TEST(StudyCommand, readsWalksBeforeItMeasures) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram(walkCommand(folder, "Sofa"));
+  EXPECT_EQ(run.exitStatus, 2);
+  EXPECT_NE(run.err.find("walk.json: objects[0].name: no object 'Sofa'"), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("reference"), std::string::npos) << run.err;
+}
+
+TEST(StudyCommand, endsWithAnErrorWhereNothingCouldBeMeasured) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words = command(folder);
+  writeFile(folder / "plan.json", R"({"scenes": [{"name": "Room", "scene": "room.gltf", "camera": "Garden", "lights": [{"name": "own"}]}]})");
+  const ProgramRun run = runProgram(words);
+  EXPECT_EQ(run.exitStatus, 1);
+  EXPECT_NE(run.err.find("nothing could be measured: Room, own: left out: "), std::string::npos) << run.err;
+  EXPECT_NE(readFile(folder / "out/study.html").find("Room, own: left out: "), std::string::npos);
+}
+
 TEST(StudyCommand, refusesWhatItCannotUse) {
   const TemporaryFolder folder;
+  Image broken(32, 18);
+  broken.pixels[5].x = std::numeric_limits<float>::infinity();
+  ASSERT_TRUE(writeExr(folder / "broken.exr", broken, {}));
   const std::pair<std::vector<std::string>, std::string> wrong[] = {
       {command(folder, {"--external", "offline"}), "NAME=picture.exr,SECONDS"},
       {command(folder, {"--external", "offline=gone.exr,9"}), "gone.exr: no such file"},
+      {command(folder, {"--external", "offline@Room/own=" + (folder / "broken.exr").string() + ",9"}), "broken.exr: holds values that are not finite"},
       {command(folder, {"--only", "garden"}), "no SCENE/LIGHT holds this"},
       {command(folder, {"--technique", "vxgj"}), "'vxgi'"},
       {{"study", folder / "gone.json", "-o", folder / "out"}, "gone.json"},

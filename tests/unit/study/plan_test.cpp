@@ -37,6 +37,8 @@ TEST_F(StudyPlanTest, ReadsScenesLightsAndTechniques) {
   EXPECT_EQ(s.lights[0].lighting, folder_.path() / "day.json");
   EXPECT_EQ(s.lights[1].dimLampLm, 150);
   EXPECT_TRUE(s.lights[2].lighting.empty());
+  EXPECT_EQ(s.walkLight.name, "daylight");
+  EXPECT_EQ(s.walkLight.lighting, s.lights[0].lighting);
   ASSERT_EQ(plan.value().techniques.size(), 1u);
   EXPECT_EQ(plan.value().techniques[0].kind, "rival");
   const auto settings = settingsFromJson(plan.value().techniques[0].settings, "plan");
@@ -67,6 +69,8 @@ TEST_F(StudyPlanTest, SaysWhatIsWrongAndWhere) {
       {scene(R"({"name": "a"}, {"name": "a"})"), "lights[1].name: 'a' is there twice"},
       {scene(R"({"name": "a", "lighting": "day.json", "dimLamp": "1 lm"})"), "one of lighting, dimLamp"},
       {scene(R"({"name": "a", "dimLamp": 150})"), "dimLamp"},
+      {R"({"scenes": [{"name": "Room", "scene": "room.glb", "camera": 1.6, "lights": [{"name": "own"}]}]})", "scenes[0].camera: 1.6 is no camera"},
+      {R"({"scenes": [{"name": "Room", "scene": "room.glb", "camera": -1, "lights": [{"name": "own"}]}]})", "scenes[0].camera"},
       {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "radiosity"}])"), "unknown technique 'radiosity'"},
       {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "lpv", "settings": {"lpv": {"stepps": 1}}}])"), "stepps"},
       {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "lpv", "kind": "friend"}])"), "kind"},

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/image_io.h"
 #include "base/random.h"
+#include "study/plots.h"
 #include "study/report.h"
 #include "unit/temporary_folder.h"
 
@@ -34,6 +36,7 @@ class StudyTest : public ::testing::Test {
   void SetUp() override {
     for (const char* name : {"room.glb", "day.json", "walk.json"}) std::ofstream(folder_.path() / name) << name;
     plan_.scenes = {{"Room", folder_.path() / "room.glb", "", {{"daylight", folder_.path() / "day.json"}}, folder_.path() / "walk.json"}};
+    plan_.scenes[0].walkLight = plan_.scenes[0].lights[0];
     plan_.techniques = {{"cone", "cone", "{}", "ours"}, {"vxgi", "vxgi", "{}", "rival"}, {"lpv", "lpv", "{}", "rival"}};
     settings_.width = kWidth, settings_.height = kHeight, settings_.runs = 2, settings_.mostSeconds = 1000, settings_.program = "test";
     settings_.reference = {.roundS = 1, .mostS = 6, .noiseMse = 1e-9};
@@ -61,6 +64,7 @@ class StudyTest : public ::testing::Test {
     const Result<RunStore> store = RunStore::open(folder_.path() / "runs");
     StudyProgress progress;
     progress.cancelled = &cancelled_;
+    progress.report = [this](const std::string&, double done, double) { done_ = done; };
     return runStudy(plan_, settings_, store.value(), tools_, progress);
   }
 
@@ -70,6 +74,7 @@ class StudyTest : public ::testing::Test {
   StudyTools tools_;
   std::atomic<bool> cancelled_{false};
   int renders_ = 0, walks_ = 0, cancelAt_ = -1;
+  double done_ = 0;  // as told last
 };
 
 TEST_F(StudyTest, CurvesSettleAtTheBiasOfEachTechnique) {
@@ -101,6 +106,67 @@ TEST_F(StudyTest, SomeTechniquesAreTriedInWalksOrPicturesAlone) {
   EXPECT_EQ(r.value().frames[0].technique, "walking");
 }
 
+TEST_F(StudyTest, WhereNoTechniqueIsForPicturesThereAreWalksAlone) {
+  plan_.techniques = {{"walking", "cone", "{}", "ours", "walks"}};
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  EXPECT_EQ(renders_, 0) << "no reference";
+  EXPECT_TRUE(r.value().cases.empty());
+  EXPECT_DOUBLE_EQ(done_, 0.5) << "before the second of two runs";
+  ASSERT_EQ(r.value().frames.size(), 1u);
+  EXPECT_FALSE(nothingMeasured(r.value()));
+  const Result<std::string> html = studyHtml({}, r.value(), folder_.path() / "runs");
+  ASSERT_TRUE(html) << html.error();
+  EXPECT_NE(html.value().find("<h3>Room, daylight</h3>"), std::string::npos);
+}
+
+TEST_F(StudyTest, WhereNothingCouldBeMeasuredThePageSaysWhy) {
+  plan_.techniques = {{"walking", "lpv", "{}", "ours", "walks"}};
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  EXPECT_TRUE(nothingMeasured(r.value()));
+  const Result<std::string> html = studyHtml({}, r.value(), folder_.path() / "runs");
+  ASSERT_TRUE(html) << html.error();
+  EXPECT_NE(html.value().find("Nothing has been measured"), std::string::npos);
+  EXPECT_NE(html.value().find("Room: walk: walking: cannot walk"), std::string::npos);
+}
+
+TEST_F(StudyTest, WalksAreInTheFirstLightOfThePlanWhateverElseIsTried) {
+  plan_.scenes[0].lights[0].name = "lamps", plan_.scenes[0].lights[0].lighting.clear();
+  plan_.techniques = {{"cone", "cone", "{}", "ours", "walks"}};
+  tools_.walk = [this](const StudyWalk& w) -> Result<WalkCost> {
+    EXPECT_EQ(w.lighting, folder_.path() / "day.json");
+    return WalkCost{10, 4, 5, 6};
+  };
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  ASSERT_EQ(r.value().frames.size(), 1u);
+  EXPECT_EQ(nlohmann::json::parse(studyJson({}, r.value()))["frames"][0]["light"], "daylight");
+  EXPECT_NE(studyCsv(r.value()).find(R"(walk,"Room","daylight","cone")"), std::string::npos);
+  EXPECT_NE(studyMarkdown({}, r.value()).find("| Room | daylight | cone | 4.00 |"), std::string::npos);
+}
+
+TEST_F(StudyTest, WalksThatWereGoodCountWhereALaterOneIsInterruptedOrFails) {
+  plan_.techniques = {{"cone", "cone", "{}", "ours", "walks"}, {"vxgi", "vxgi", "{}", "rival", "walks"}};
+  for (const bool interrupted : {true, false}) {
+    cancelled_ = false, walks_ = 0;
+    settings_.program = interrupted ? "interrupted" : "failing";
+    tools_.walk = [&](const StudyWalk&) -> Result<WalkCost> {
+      if (++walks_ != 3) return WalkCost{10, 4, 5, 6};
+      cancelled_ = interrupted;
+      return Error{"lost"};
+    };
+    const Result<StudyResults> r = run();
+    ASSERT_TRUE(r) << r.error();
+    EXPECT_EQ(r.value().complete, !interrupted);
+    ASSERT_EQ(r.value().frames.size(), 2u);
+    EXPECT_EQ(r.value().frames[0].failed, interrupted ? "" : "lost");
+    EXPECT_EQ(r.value().frames[0].cost.framesPerSecond, 4);
+    EXPECT_EQ(r.value().remarks.size(), interrupted ? 0u : 1u);
+    EXPECT_NE(studyCsv(r.value()).find(R"("cone")"), std::string::npos);
+  }
+}
+
 TEST_F(StudyTest, WhatHasBeenMeasuredIsNotMeasuredAgain) {
   plan_.techniques.pop_back();
   ASSERT_TRUE(run());
@@ -115,8 +181,12 @@ TEST_F(StudyTest, WhatHasBeenMeasuredIsNotMeasuredAgain) {
 
 TEST_F(StudyTest, AReferenceIsNotMadeAgainByAnotherBuildButByAnotherLight) {
   plan_.techniques.clear();
+  const auto file = folder_.path() / "other.exr";
+  ASSERT_TRUE(writeExr(file, picture(0.1, 0, 1), {}));
+  settings_.externals = {{"offline", "", "", file, 412}};
   ASSERT_TRUE(run());
   const int renders = renders_;
+  EXPECT_GT(renders, 0);
   settings_.program = "another build";
   ASSERT_TRUE(run());
   EXPECT_EQ(renders_, renders);
@@ -155,11 +225,30 @@ TEST_F(StudyTest, PicturesOfOthersStandInTheSameTable) {
   EXPECT_NE(studyMarkdown({}, r.value()).find("| `cone` over | vxgi"), std::string::npos);
 }
 
+TEST_F(StudyTest, APictureOfAnotherThatCannotBeComparedIsARemark) {
+  const auto file = folder_.path() / "broken.exr";
+  Image broken = picture(0.1, 0, 1);
+  broken.pixels[7].y = std::numeric_limits<float>::quiet_NaN();
+  ASSERT_TRUE(writeExr(file, broken, {}));
+  settings_.externals = {{"offline", "", "", file, 412}};
+  const Result<StudyResults> r = run();
+  ASSERT_TRUE(r) << r.error();
+  ASSERT_EQ(r.value().cases.size(), 1u);
+  EXPECT_TRUE(r.value().cases[0].externals.empty());
+  EXPECT_FALSE(r.value().cases[0].curves.at(0).points.empty());
+  ASSERT_FALSE(r.value().remarks.empty());
+  EXPECT_NE(r.value().remarks[0].find("Room, daylight: --external offline: left out"), std::string::npos) << r.value().remarks[0];
+}
+
 TEST_F(StudyTest, ReportsAreWholeAndAgree) {
   const Result<StudyResults> r = run();
   ASSERT_TRUE(r) << r.error();
-  const StudyHeader header = {{"processor", "<fast & cheap>"}};
+  StudyHeader header;
+  header.about = {{"processor", "<fast & cheap>"}, {"program", "test"}};
+  header.techniques = {{"program", "technique lpv, settings {}"}};
   const auto json = nlohmann::json::parse(studyJson(header, r.value()));
+  EXPECT_EQ(json["about"]["program"], "test");
+  EXPECT_EQ(json["about"]["techniques"]["program"], "technique lpv, settings {}") << "a technique may have the name of another row";
   EXPECT_EQ(json["cases"][0]["curves"].size(), 3u);
   EXPECT_EQ(json["published"].size(), 4u);
   const std::string csv = studyCsv(r.value());
@@ -237,6 +326,33 @@ TEST_F(StudyTest, VerdictsTellWhoWins) {
   };
   EXPECT_TRUE(found("cone settles below").met);
   EXPECT_TRUE(found("frames a second").met);
+  EXPECT_NE(found("frames a second").measured.find("quickest of ours: 'cone'"), std::string::npos) << found("frames a second").measured;
+}
+
+TEST(StudyBars, PublishedTicksAreInRatioToCone) {
+  const auto ticks = [](const std::vector<Bar>& bars) {
+    const std::string svg = barsSvg(bars, "/s");
+    size_t count = 0;
+    for (size_t at = 0; (at = svg.find("class='published'", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  const Bar vxgi{"vxgi", "#000", 9, 28}, cone{"cone", "#000", 18, 36};
+  EXPECT_EQ(ticks({vxgi}), 0u) << "nothing to be in ratio to";
+  EXPECT_EQ(ticks({vxgi, cone}), 2u);
+  EXPECT_NE(barsSvg({vxgi, cone}, "/s").find("class='published' x1='470.0'"), std::string::npos) << "cone's own stands at its end, the longest, whichever comes first";
+}
+
+TEST(StudyStore, AFolderIsOfOneStudyAtATime) {
+  const testing::TemporaryFolder folder;
+  Result<RunStore> first = RunStore::open(folder / "runs");
+  ASSERT_TRUE(first) << first.error();
+  {
+    const RunStore moved = std::move(first.value());
+    const Result<RunStore> second = RunStore::open(folder / "runs");
+    ASSERT_FALSE(second);
+    EXPECT_NE(second.error().find("runs: is in use by another study"), std::string::npos) << second.error();
+  }
+  EXPECT_TRUE(RunStore::open(folder / "runs"));
 }
 
 }  // namespace
