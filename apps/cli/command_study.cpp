@@ -8,6 +8,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "arguments.h"
@@ -237,12 +238,18 @@ void makeQuick(Options& o, const CLI::App& app) {
 Status checkExternals(const StudyPlan& plan, const StudySettings& settings) {
   size_t views = 0;
   for (const StudyScene& s : plan.scenes) views += s.lights.size();
+  std::set<std::string> taken;
+  for (const StudyTechnique& t : plan.techniques) taken.insert(t.name);
   for (const ExternalPicture& e : settings.externals) {
+    std::string view;
     size_t meant = 0;
     for (const StudyScene& s : plan.scenes) {
-      for (const StudyLight& light : s.lights) meant += (e.scene.empty() || e.scene == s.name) && (e.light.empty() || e.light == light.name);
+      for (const StudyLight& light : s.lights) {
+        if ((e.scene.empty() || e.scene == s.name) && (e.light.empty() || e.light == light.name)) ++meant, view = s.name + "/" + light.name;
+      }
     }
     if (meant != 1) return Error{fmt::format("--external {}: is of {} of the study's {} views; write NAME@SCENE/LIGHT=...", e.name, meant, views)};
+    if (taken.contains(e.name) || !taken.insert(e.name + "@" + view).second) return Error{fmt::format("--external {}: the name is taken in {}", e.name, view)};
     const Result<Image> image = readImage(e.file);
     if (!image) return Error{image.error()};
     if (image.value().width != settings.width || image.value().height != settings.height) {

@@ -40,9 +40,6 @@ struct VxgiLight {
   uint64_t rays = 0;
 };
 
-// What surrounds `eye`, as far as the first surfaces in all directions; a few of the farthest are left out.
-Bounds3 roomAround(const RayScene& rays, Vec3 eye);
-
 // Voxels, their light by shadow rays, and its bounces by cones. `room` is what the finest level shall hold. Once `progress` says stop
 // it ends soon, with part of the light.
 VxgiLight lightVxgi(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings, const Progress& progress = {});

@@ -1,6 +1,7 @@
 // Techniques `vxgi` and `lpv` as lit scenes: finest about one place, which follows the camera from room to room.
 #include "baselines/lpv_cache.h"
 #include "baselines/lpv_shader.h"
+#include "baselines/room_around.h"
 #include "baselines/vxgi_cache.h"
 #include "baselines/vxgi_shader.h"
 #include "engine/lit_techniques.h"
@@ -16,7 +17,7 @@ template <class Method>
 class BaselineScene final : public LitScene {
  public:
   BaselineScene(const Scene& scene, const typename Method::Settings& settings, Stages& stages, const Camera* camera) : LitScene(scene, true, stages), settings_(settings) {
-    if (camera) room_ = roomOf(camera->worldFromCamera.w);
+    if (camera) room_ = roomAround(rays(), camera->worldFromCamera.w);
     light(stages);
   }
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
@@ -30,17 +31,11 @@ class BaselineScene final : public LitScene {
   void lookFrom(const Camera& camera, Stages& stages) override {
     const Vec3 eye = camera.worldFromCamera.w;
     if (room_ && minComponent(min(eye - room_->lo, room_->hi - eye)) >= 0) return;
-    room_ = roomOf(eye);
+    room_ = roomAround(rays(), eye);
     light(stages);
   }
 
  private:
-  // With the eye in it: from above or outside a home, what rays meet may all lie on one side.
-  Bounds3 roomOf(Vec3 eye) const {
-    Bounds3 room = roomAround(rays(), eye);
-    room.add(eye);
-    return room;
-  }
   bool settled() const override { return cache_->settled(); }
   void relight(const SceneChange& change, bool emitters, Stages& stages) override {
     shader_.reset();

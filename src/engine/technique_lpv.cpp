@@ -1,5 +1,5 @@
 #include "baselines/lpv_shader.h"
-#include "baselines/vxgi.h"
+#include "baselines/room_around.h"
 #include "engine/technique_settings.h"
 #include "engine/techniques.h"
 

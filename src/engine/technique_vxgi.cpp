@@ -1,3 +1,4 @@
+#include "baselines/room_around.h"
 #include "baselines/vxgi_shader.h"
 #include "engine/technique_settings.h"
 #include "engine/techniques.h"

@@ -14,6 +14,7 @@ namespace {
 // Okabe & Ito 2008 and Tol 2021, told apart by people with any colour vision.
 constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#882255", "#999933"};
 constexpr double kWidth = 560, kHeight = 300, kLeft = 54, kRight = 12, kTop = 10, kBottom = 34;
+constexpr double kLeastError = 1e-9;  // that a logarithmic axis shows
 
 struct Axis {
   double low, high, from, to;  // logarithms of values, and where they are drawn
@@ -67,8 +68,15 @@ std::string curvesSvg(const StudyCase& one) {
       leastS = std::min(leastS, s), mostS = std::max(mostS, s), leastE = std::min(leastE, errorOf(p)), mostE = std::max(mostE, errorOf(p));
     }
   }
+  for (const StudyExternal& e : one.externals) {
+    leastS = std::min(leastS, std::max(e.seconds, 1e-3)), mostS = std::max(mostS, e.seconds);
+    leastE = std::min(leastE, std::max(e.mseBeyondNoise, kLeastError)), mostE = std::max(mostE, e.mseBeyondNoise);
+  }
   if (mostS <= 0) return "<p>nothing measured</p>";
   const Axis x = axisOf(leastS, mostS, kLeft, kWidth - kRight), y = axisOf(std::max(leastE, mostE * 1e-4), mostE, kHeight - kBottom, kTop);
+  const auto placeOf = [&](double secondsTaken, double error) {
+    return std::pair{x.at(std::max(secondsTaken, 1e-3)), std::min(y.at(std::pow(10, std::max(y.low, std::log10(std::max(error, kLeastError))))), kHeight - kBottom)};
+  };
   std::string s = fmt::format("<svg viewBox='0 0 {} {}' role='img' aria-label='Error over time, {}'>", kWidth, kHeight, htmlEscaped(one.scene + ", " + one.light)) + grid(x, y);
   for (size_t i = 0; i < one.curves.size(); ++i) {
     const StudyCurve& c = one.curves[i];
@@ -77,13 +85,17 @@ std::string curvesSvg(const StudyCase& one) {
     std::string path, dots;
     const StudyPoint& settled = settledPoint(c);
     for (const StudyPoint& p : c.points) {
-      const double px = x.at(std::max(p.seconds, 1e-3)), py = std::min(y.at(std::pow(10, std::max(y.low, std::log10(errorOf(p))))), kHeight - kBottom);
+      const auto [px, py] = placeOf(p.seconds, errorOf(p));
       path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, py);
       dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}' stroke='{}'><title>{}: {} samples, {:.2f} s, mse beyond noise {:.5f}</title></circle>", px, py, &p == &settled ? 5 : 3, &p == &settled ? colour : "#fff", colour, htmlEscaped(c.technique),
                           p.samples, p.seconds, p.mseBeyondNoise);
     }
     const bool dashed = c.technique.find(',') != std::string::npos;
     s += fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='2'{}/>", path, colour, dashed ? " stroke-dasharray='5 3'" : "") + dots;
+  }
+  for (const StudyExternal& e : one.externals) {
+    const auto [px, py] = placeOf(e.seconds, e.mseBeyondNoise);
+    s += fmt::format("<path d='M{0:.1f} {1:.1f}l6 6l-6 6l-6 -6z' fill='#111'><title>{2}: {3:.2f} s, mse beyond noise {4:.5f}</title></path><text x='{5:.1f}' y='{6:.1f}'>{2}</text>", px, py - 6, htmlEscaped(e.name), e.seconds, e.mseBeyondNoise, px + 9, py + 4);
   }
   return s + "</svg>";
 }

@@ -53,21 +53,22 @@ std::string cell(const std::string& text) {
 std::string secondsText(double s) { return s < 9.95 ? fmt::format("{:.2f}", s) : fmt::format("{:.1f}", s); }
 
 std::string curvesTable(const StudyCase& c) {
-  std::string s = "| technique | settles at mse | beyond noise | flip | mean | samples | s | MiB | s to cone's error |\n|---|---|---|---|---|---|---|---|---|\n";
+  std::string s = "| technique | settles at mse | beyond noise | flip | mean | samples | s | processor s | MiB | s to cone's error |\n|---|---|---|---|---|---|---|---|---|---|\n";
   const StudyCurve* cone = nullptr;
   for (const StudyCurve& curve : c.curves) cone = curve.technique == "cone" && !curve.points.empty() ? &curve : cone;
   for (const StudyCurve& curve : c.curves) {
     if (curve.points.empty()) {
-      s += fmt::format("| {} | – | {} | | | | | | |\n", cell(curve.technique), cell(curve.failed));
+      s += fmt::format("| {} | – | {} | | | | | | | |\n", cell(curve.technique), cell(curve.failed));
       continue;
     }
     const StudyPoint& p = settledPoint(curve);
     const auto same = cone ? secondsTo(curve, errorOf(settledPoint(*cone))) : std::nullopt;
-    s += fmt::format("| {}{} | {:.5f} | {:.5f} | {:.3f} | {:+.1f} % | {} | {} | {:.0f} | {} |\n", cell(curve.technique), hasSettled(curve) ? "" : " (still falling)", p.mse, p.mseBeyondNoise, p.flip, p.meanErrorPercent, p.samples, secondsText(p.seconds),
-                     p.memoryMiB, same ? secondsText(*same) : "not reached");
+    s += fmt::format("| {}{} | {:.5f} | {:.5f} | {:.3f} | {:+.1f} % | {} | {} | {} | {:.0f} | {} |\n", cell(curve.technique), hasSettled(curve) ? "" : " (still falling)", p.mse, p.mseBeyondNoise, p.flip, p.meanErrorPercent, p.samples, secondsText(p.seconds),
+                     secondsText(p.processorSeconds), p.memoryMiB, same ? secondsText(*same) : cone ? "not reached"
+                                                                                                    : "");
   }
   for (const StudyExternal& e : c.externals) {
-    s += fmt::format("| {} (external) | {:.5f} | {:.5f} | {:.3f} | {:+.1f} % | | {} | | |\n", cell(e.name), e.mse, e.mseBeyondNoise, e.flip, e.meanErrorPercent, secondsText(e.seconds));
+    s += fmt::format("| {} (external) | {:.5f} | {:.5f} | {:.3f} | {:+.1f} % | | {} | | | |\n", cell(e.name), e.mse, e.mseBeyondNoise, e.flip, e.meanErrorPercent, secondsText(e.seconds));
   }
   return s;
 }

@@ -23,7 +23,7 @@ constexpr int kWidestPicture = 480;
 constexpr const char* kStyle = R"(
 td.best{font-weight:700}
 .plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:14px 30px}
-.plots h3{margin:12px 0 0}svg{width:100%;height:auto;display:block}
+.plots h3{margin:12px 0 0}svg{width:100%;max-width:680px;height:auto;display:block}
 svg .grid{stroke:#e4e7eb}svg .published{stroke:#111;stroke-width:2}
 .key{display:flex;gap:6px 18px;flex-wrap:wrap;margin:6px 0 10px;font-size:13.5px}.key i{display:inline-block;width:22px;height:0;border-top:3px solid;vertical-align:middle;margin-right:6px}
 .sheet{display:grid;grid-template-columns:repeat(auto-fill,minmax(210px,1fr));gap:12px;margin:8px 0 6px}
@@ -117,7 +117,7 @@ std::string key(const std::vector<StudyCurve>& curves) {
 }
 
 std::string verdictTable(const StudyResults& r) {
-  std::string s = "<table><tr><th>asked</th><th class=l>measured</th><th></th></tr>";
+  std::string s = "<h2>Against the published study</h2><p>What roomlight asks of its own techniques beside the rivals, after the figures of the study that it builds on.</p><table><tr><th>asked</th><th class=l>measured</th><th></th></tr>";
   for (const StudyVerdict& v : studyVerdicts(r)) s += fmt::format("<tr><td>{}</td><td class=l>{}</td><td class=\"{}\">{}</td></tr>\n", htmlEscaped(v.asked), htmlEscaped(v.measured), v.met ? "met" : "missed", v.met ? "✓ met" : "✗ missed");
   return s + "</table>\n";
 }
@@ -154,6 +154,24 @@ std::string externals(const StudyResults& r) {
   return rows.empty() ? "" : "<h2>Other renderers</h2><table><tr><th>name</th><th class=l>scene, light</th><th>seconds</th><th>mse</th><th>flip</th><th>mean</th></tr>\n" + rows + "</table>\n";
 }
 
+std::string timesToCone(const StudyResults& r) {
+  const auto coneError = [](const StudyCase& c) {
+    for (const StudyCurve& curve : c.curves) {
+      if (curve.technique == "cone" && !curve.points.empty()) return errorOf(settledPoint(curve));
+    }
+    return 0.0;
+  };
+  if (std::all_of(r.cases.begin(), r.cases.end(), [&](const StudyCase& c) { return coneError(c) <= 0; })) return {};
+  return "<h2>Time to the error of <i>cone</i></h2><p>Seconds until a technique is as good as <i>cone</i> where that settles; between points of its curve along a straight line of logarithms. –: it never is.</p>" +
+         matrix(
+             r,
+             [&](const StudyCurve& curve, const StudyCase& c) {
+               const auto t = secondsTo(curve, coneError(c));
+               return t ? seconds(*t) : std::string("–");
+             },
+             [](const StudyCurve&) { return 1e31; });
+}
+
 std::string tables(const StudyResults& r) {
   std::string s = "<h2>Drawing time</h2><p>Seconds after loading until the error has settled: twice the samples a pixel take away less than a twentieth of it, two times in a row. &gt;: stopped by time while it still fell. Bold: the quickest, whatever its error.</p>";
   s += matrix(
@@ -167,20 +185,7 @@ std::string tables(const StudyResults& r) {
   s += "</tr></table></details>\n<h2>Error where it settles</h2><p>Mean squared difference of the exposed, clipped and sRGB-encoded pictures, without what the reference's own noise adds. Published: cone .0034, vxgi .0051, lpv .0085, photon .0105. Bold: the least of all but the judge.</p>";
   s += matrix(
       r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.4f}", errorOf(settledPoint(c))); }, [](const StudyCurve& c) { return errorOf(settledPoint(c)); });
-  s += "<h2>Time to the error of <i>cone</i></h2><p>Seconds until a technique is as good as <i>cone</i> where that settles; between points of its curve along a straight line of logarithms. –: it never is.</p>";
-  const auto coneError = [](const StudyCase& c) {
-    for (const StudyCurve& curve : c.curves) {
-      if (curve.technique == "cone" && !curve.points.empty()) return errorOf(settledPoint(curve));
-    }
-    return 0.0;
-  };
-  s += matrix(
-      r,
-      [&](const StudyCurve& curve, const StudyCase& c) {
-        const auto t = secondsTo(curve, coneError(c));
-        return t ? seconds(*t) : std::string("–");
-      },
-      [](const StudyCurve&) { return 1e31; });
+  s += timesToCone(r);
   s += "<h2>Memory</h2><p>Peak of the process, MiB, the home included.</p>";
   s += matrix(
       r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.0f}", settledPoint(c).memoryMiB); }, [](const StudyCurve& c) { return settledPoint(c).memoryMiB; });
@@ -188,7 +193,7 @@ std::string tables(const StudyResults& r) {
 }
 
 std::string errorOverTime(const StudyResults& r) {
-  std::string s = "<h2>Error over time</h2><p>Every point is a picture of its own with twice the samples of the one before. Large dots: where the error settles. Both axes are logarithmic; down and left is better.</p>" + key(r.cases.front().curves) + "<div class=plots>\n";
+  std::string s = "<h2>Error over time</h2><p>Every point is a picture of its own with twice the samples of the one before. Large dots: where the error settles; diamonds: other renderers. Both axes are logarithmic; down and left is better.</p>" + key(r.cases.front().curves) + "<div class=plots>\n";
   for (const StudyCase& c : r.cases) s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(c.scene + ", " + c.light), curvesSvg(c));
   return s + "</div>\n";
 }
@@ -205,7 +210,7 @@ std::vector<StudyCurve> colouredCurves(const StudyResults& r) {
 
 std::string frames(const StudyResults& r) {
   if (r.frames.empty()) return {};
-  std::string s = "<h2>Frames a second</h2><p>Along a recorded walk with moving objects, one sample a pixel a frame. Black ticks: the published frames (cone 36, vxgi 28, lpv 23, photon 7) in ratio to <i>cone</i>.</p><div class=plots>\n";
+  std::string s = "<h2>Frames a second</h2><p>Along a recorded walk with moving objects, one sample a pixel a frame. Black ticks, where there is <i>cone</i>: the published frames (cone 36, vxgi 28, lpv 23, photon 7) in ratio to it.</p><div class=plots>\n";
   std::map<std::string, double> published;
   for (const auto& t : published::kTechniques) published[t.name] = t.framesPerSecond;
   std::vector<std::pair<std::string, std::string>> walks;  // scene and light
@@ -243,7 +248,7 @@ Result<std::string> sheets(const StudyResults& r, const std::filesystem::path& f
 Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, const std::filesystem::path& folder) {
   std::string s = "<h1>Study of techniques</h1>\n";
   if (!r.complete) s += "<p><b>Stopped early: this is a part.</b> Started again, the study goes on.</p>\n";
-  s += nothingMeasured(r) ? "<p>Nothing has been measured.</p>\n" : verdictTable(r);
+  if (nothingMeasured(r)) s += "<p>Nothing has been measured.</p>\n";
   if (!r.cases.empty()) s += tables(r) + errorOverTime(r);
   s += frames(r);
   if (!r.cases.empty()) {
@@ -251,6 +256,7 @@ Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, 
     if (!pictures) return pictures;
     s += pictures.value();
   }
+  if (!nothingMeasured(r)) s += verdictTable(r);
   s += "<h2>Machine and settings</h2><table>";
   for (const auto* rows : {&header.about, &header.techniques}) {
     for (const auto& [name, value] : *rows) s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));

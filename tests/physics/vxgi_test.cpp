@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
+#include "baselines/room_around.h"
 #include "baselines/vxgi_shader.h"
 #include "support/record.h"
 #include "support/pictures.h"

@@ -107,10 +107,13 @@ TEST(StudyCommand, refusesWhatItCannotUse) {
   Image broken(32, 18);
   broken.pixels[5].x = std::numeric_limits<float>::infinity();
   ASSERT_TRUE(writeExr(folder / "broken.exr", broken, {}));
+  ASSERT_TRUE(writeExr(folder / "black.exr", Image(32, 18), {}));
   const std::pair<std::vector<std::string>, std::string> wrong[] = {
       {command(folder, {"--external", "offline"}), "NAME=picture.exr,SECONDS"},
       {command(folder, {"--external", "offline=gone.exr,9"}), "gone.exr: no such file"},
       {command(folder, {"--external", "offline@Room/own=" + (folder / "broken.exr").string() + ",9"}), "broken.exr: holds values that are not finite"},
+      {command(folder, {"--external", "cone@Room/own=" + (folder / "black.exr").string() + ",9"}), "the name is taken in Room/own"},
+      {command(folder, {"--external", "a@Room/own=" + (folder / "black.exr").string() + ",9", "--external", "a@Room/own=" + (folder / "black.exr").string() + ",8"}), "the name is taken in Room/own"},
       {command(folder, {"--only", "garden"}), "no SCENE/LIGHT holds this"},
       {command(folder, {"--technique", "vxgj"}), "'vxgi'"},
       {{"study", folder / "gone.json", "-o", folder / "out"}, "gone.json"},
