@@ -1,6 +1,7 @@
 // Light kept apart by layers while a picture is gathered: beside every sum of light, what lamps, suns and sky have in it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -30,13 +31,14 @@ class LayerSums {
                        kVariance,  // of the luminance of the first three
                        kParts };
   LayerSums() = default;
-  explicit LayerSums(size_t layers) : stride_(layerStride(layers)) {}
+  // `together`: of all things one sum, as the first.
+  explicit LayerSums(size_t layers, bool together = false) : stride_(layerStride(layers)), together_(together) {}
 
-  void resize(size_t things) { values_.assign(things * size(), 0); }
+  void resize(size_t things) { values_.assign((together_ ? std::min<size_t>(1, things) : things) * size(), 0); }
   size_t stride() const { return stride_; }
   size_t bytes() const { return values_.size() * sizeof(float); }
-  float* at(size_t thing, Part part) { return values_.data() + thing * size() + part * 3 * stride_; }
-  const float* at(size_t thing, Part part) const { return values_.data() + thing * size() + part * 3 * stride_; }
+  float* at(size_t thing, Part part) { return values_.data() + begin(thing, part); }
+  const float* at(size_t thing, Part part) const { return values_.data() + begin(thing, part); }
   Vec3 get(size_t thing, Part part, size_t layer) const {
     const float* v = at(thing, part) + layer;
     return {v[0], v[stride_], v[2 * stride_]};
@@ -65,7 +67,9 @@ class LayerSums {
 
  private:
   size_t size() const { return kParts * 3 * stride_; }
+  size_t begin(size_t thing, Part part) const { return (together_ ? 0 : thing * size()) + part * 3 * stride_; }
   size_t stride_ = 0;
+  bool together_ = false;
   std::vector<float> values_;
 };
 

@@ -106,15 +106,11 @@ void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const S
   thread_local LayerSums sums;
   samples.take(sharp, element, meter, first, kBatch, seed, true);
   light.assign(samples.shadings.size(), {});
-  sums = LayerSums(means.size());
+  sums = LayerSums(means.size(), true);
   sums.resize(samples.shadings.size());
   GatherCounters counters;
   shader.shadeInLayers(samples.shadings, samples.shadows, light, sums, counters);
-  for (size_t l = 0; l < means.size(); ++l) {
-    Vec3 sum;
-    for (size_t k = 0; k < light.size(); ++k) sum += sums.get(k, LayerSums::kDiffuse, l) + sums.get(k, LayerSums::kSharp, l);
-    means[l] += sum * (kPi / kBatch);
-  }
+  for (size_t l = 0; l < means.size(); ++l) means[l] += (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / kBatch);
 }
 
 }  // namespace

@@ -76,12 +76,13 @@ struct GatherWork {
   // Where light is kept in layers: sums of the shadings, the one of each estimate, and the part that the estimate has in it.
   LayerSums* layers = nullptr;
   const SlotLayers* slots = nullptr;
+  bool layersAlone = false;  // for meters: nobody wants the sum of all light
   std::vector<uint32_t> shadingOf;
   std::vector<float> part;
 
   void clear() {
     samplers.clear(), found.clear(), most.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
-    rayCount = 0, layers = nullptr;
+    rayCount = 0, layers = nullptr, layersAlone = false;
   }
   // `sure`: of a light that is sampled too, so that none of its samples stands for much.
   // Returns what was added.

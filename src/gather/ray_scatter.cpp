@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kNothing = 1e-4f;
 constexpr float kPictureShare = 1.0f / 64;  // of layers' light from lamps comes from the picture's own samples: where it has light they have, too
+constexpr float kOften = 0.25f;             // of the strongest lamp's light: what gives as much is always asked
 constexpr float kDoubt = 0.125f;            // chance to ask a layer that seems not to reach a place
 constexpr float kNudge = 0.05f;             // voxels
 constexpr uint64_t kLayerKey = 0x1a7e25;    // other random numbers than the picture's
@@ -80,7 +81,7 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   if (v.first) {
     if (sampleLamps_ && !v.lampsKnown) takeLocal(lights_.sampleLamps(v.s.p, sampler));
   } else {
-    if (lights_.lampCount() > 0) {
+    if (lights_.lampCount() > 0 && !(asksLayers && w.layersAlone)) {
       const LightSample lamp = lights_.sampleLamps(v.s.p, sampler);
       if (!leavesToCache(v, lamp)) takeLocal(lamp);
     }
@@ -105,6 +106,7 @@ void RayScatter::layersAt(const GatherVertex& v, GatherWork& w) const {
   const int32_t brick = at.x < 0 || at.y < 0 || at.z < 0 ? -1 : voxels_.brickAt({at.x / kBrickSize, at.y / kBrickSize, at.z / kBrickSize});
   // A meter in the air is no surface of the scene: what slots near it see says little of it.
   const uint64_t reach = brick < 0 || !v.s.material ? ~uint64_t{0} : field_.layers.reach[static_cast<size_t>(brick)];
+  if (!v.first && w.layersAlone) return lampsOfMeterAt(v, reach, w);
   const bool lamps = !v.first || asksLamps(v.lampsKnown);
   for (size_t l = 0; l < members_.size(); ++l) {
     if ((members_[l].lamps.empty() || !lamps) && (members_[l].emitters.empty() || !v.first)) continue;
@@ -115,6 +117,25 @@ void RayScatter::layersAt(const GatherVertex& v, GatherWork& w) const {
     }
     const LightSample light = sampleLayer(l, v.s.p, lamps, v.first, sampler);
     if (v.first || !leavesToCache(v, light)) takeLight(v, light, LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
+  }
+}
+
+// What lamps give a place that a meter's light comes from. Those that can give little there beside the strongest are asked as much more rarely: with dozens of
+// candidates most rays would go to them. Whoever reads meters by layers does not want the sum of all light.
+void RayScatter::lampsOfMeterAt(const GatherVertex& v, uint64_t reach, GatherWork& w) const {
+  thread_local std::vector<float> importance;
+  importance.resize(lights_.lampCount());
+  float strongest = 0;
+  for (size_t i = 0; i < importance.size(); ++i) strongest = std::max(strongest, importance[i] = lights_.lampImportance(i, v.s.p));
+  Sampler sampler = w.samplers[v.estimate].forked(kLayerKey);
+  for (size_t i = 0; i < importance.size(); ++i) {
+    const int32_t layer = field_.layers.lights->ofLamp[i];
+    float chance = std::min(1.0f, importance[i] / (kOften * strongest));
+    if (!((reach >> layer) & 1)) chance *= kDoubt;
+    if (!(chance > 0) || sampler.fast1() >= chance) continue;
+    LightSample light = lights_.sampleLamp(i, v.s.p, sampler.next2());
+    light.radiance *= 1 / chance;
+    if (!leavesToCache(v, light)) takeLight(v, light, LightOrigin::ofLayer(layer), true, w);
   }
 }
 

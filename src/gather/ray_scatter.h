@@ -26,6 +26,7 @@ class RayScatter {
   // Whether layers' lamps are sampled for what the camera sees: else each of them is asked by whoever wants its light.
   bool asksLamps(bool lampsKnown) const { return sampleLamps_ && !lampsKnown; }
   void layersAt(const GatherVertex& v, GatherWork& w) const;
+  void lampsOfMeterAt(const GatherVertex& v, uint64_t reach, GatherWork& w) const;
   LightSample sampleLayer(size_t layer, Vec3 p, bool withLamps, bool withEmitters, Sampler& sampler) const;
   bool leavesToCache(const GatherVertex& v, const LightSample& light) const;
   void glowAt(const GatherVertex& v, GatherWork& w) const;

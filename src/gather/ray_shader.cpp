@@ -45,7 +45,7 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
 void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, GatherCounters& count) const {
   thread_local GatherWork w;
   w.clear();
-  w.layers = layers, w.slots = &field_.layers;
+  w.layers = layers, w.slots = &field_.layers, w.layersAlone = layers && !work.empty() && work[0].lampsKnown;
   for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), w);
   traceShadows(w);
   while (!w.next.empty()) {

@@ -23,7 +23,7 @@ struct Shading {
   bool followed;         // a mirror: the caller sends rays on where it reflects
   int gathers = 1;       // times as many estimates as else; 0: of sharp lights, and of what smooth surfaces reflect, alone
   bool skyKnown = false; // what comes straight from the sky, through panes too, is left to the caller;
-  bool lampsKnown = false; // so is what comes straight from lamps (shadeInLayers() alone)
+  bool lampsKnown = false; // so is what comes straight from lamps (shadeInLayers() alone, of meters, whose sum of all light is of no use then)
 };
 
 // Light that a surface sends to the eye, in cd/m², without what it emits, what passes straight through it and, where that is

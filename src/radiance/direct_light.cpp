@@ -235,7 +235,9 @@ void DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> 
   Lamp unit = lamp;
   unit.intensityCd = Vec3(1);
   const LightSurroundings around(lamp, voxels_.voxelSizeM);
+  const float reachM = lamp.extended ? 0.5f * std::hypot(lamp.web->sizeC0M, lamp.web->sizeC90M) : 0;
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
+    if (dot(lamp.position - p, voxels_.slots[s].normal) + reachM <= 0) return LightSample{};  // behind it, before the web is looked up
     if (around.contains(voxels_.slots[s].position)) return LightSample{};
     if (!lamp.extended) return sampleLamp(unit, p, {});
     Sampler sampler(paths_.key(s), k, settings_.seed + 5);
@@ -243,7 +245,7 @@ void DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> 
   };
   const auto soft = static_cast<uint32_t>(settings_.directSamples);
   const Samples samples = lamp.extended ? Samples{(soft + 1) / 2, soft} : Samples{1, perDelta()};
-  const Vec3 half(lamp.extended ? 0.5f * std::hypot(lamp.web->sizeC0M, lamp.web->sizeC90M) : 0);
+  const Vec3 half(reachM);
   const auto findMarks = [&](Marks& marks) {
     if (mayCross(brick, {lamp.position - half, lamp.position + half}, near)) findCrossed(brick, samples.most, near, 0, ways(sample), marks);
   };
