@@ -22,7 +22,7 @@ struct StudySettings {
   double mostSeconds = 60;  // a point that would take longer is left out
   int mostSamples = 4096;  // per pixel
   int walkWidth = 960, walkHeight = 540;
-  int walkFrames = 12;     // of a walk, evenly spread
+  int walkFrames = 12;     // of a walk, the first in a row
   ReferenceSettings reference;
   std::vector<ExternalPicture> externals;
   std::string program;     // what tells this build from others: what other builds measured does not count
