@@ -123,8 +123,7 @@ TEST_F(RenderCommand, camerasGoByNameOrNumber) {
 
 TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
   const auto meanLuminance = [&](const std::string& lamps, const std::string& name) {
-    writeFile(path("odd.json"), R"({"vxgi": {"resolution": 33}})");
-    writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");
+      writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");
     const ProgramRun run = render({"-o", path(name), "--technique", "path", "--samples", "16", "--lighting", path("rig.json")});
     EXPECT_EQ(run.exitStatus, 0) << run.err;
     EXPECT_EQ(metadata(name).at("roomlight.lighting"), path("rig.json"));
@@ -175,6 +174,7 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   writeFile(path("broken.glb"), "glTF but not really");
   writeFile(path("unknown.json"), R"({"sampels": 3})");
   writeFile(path("limits.json"), R"({"voxel": {"smallestM": 0.2, "largestM": 0.1}})");
+  writeFile(path("odd.json"), R"({"vxgi": {"resolution": 33}})");
   writeFile(path("rig.json"), R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": 800}]})");
   const std::string a = path("a.png");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
