@@ -38,7 +38,7 @@ constexpr double kKeepEveryS = 10;    // the state of the search
 constexpr size_t kTracePoints = 200;  // of the hypervolume over a search
 constexpr double kTraceS = 2, kTraceShare = 0.05;  // what the trace may take: so long, and so much of the search's time
 constexpr size_t kRelaxedShare = 5;   // hybrid: of the first generation, one in so many
-constexpr double kPolishShare = 0.1;  // hybrid: of all evaluations; linear programs are dear beside evaluations of designs
+constexpr double kPolishShare = 0.25; // hybrid: of all evaluations; linear programs are dear beside evaluations of designs
 
 int bad(const std::string& message, int code = kBadInput) {
   printError(message);

@@ -123,7 +123,7 @@ TEST_F(RenderCommand, camerasGoByNameOrNumber) {
 
 TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
   const auto meanLuminance = [&](const std::string& lamps, const std::string& name) {
-      writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");
+    writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");
     const ProgramRun run = render({"-o", path(name), "--technique", "path", "--samples", "16", "--lighting", path("rig.json")});
     EXPECT_EQ(run.exitStatus, 0) << run.err;
     EXPECT_EQ(metadata(name).at("roomlight.lighting"), path("rig.json"));
