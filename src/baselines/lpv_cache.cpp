@@ -62,7 +62,7 @@ LpvCache::LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& ro
   light(rays, lights, progress);
 }
 
-void LpvCache::update(const RayScene& rays, const Lights& lights, const SceneChange& change, bool, const Progress& progress) {
+void LpvCache::update(const RayScene& rays, const Lights& lights, const SceneChange& change, const Progress& progress) {
   light_.rays = 0;
   if (!change.moved.empty()) {
     const std::vector<Bounds3> places = followMoves(voxels_, rays.scene(), change);

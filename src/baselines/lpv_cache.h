@@ -18,7 +18,7 @@ class LpvCache {
   LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings, const Progress& progress = {});
 
   // `rays` and `lights` are of the scene as it is now; suns and sky are as before.
-  void update(const RayScene& rays, const Lights& lights, const SceneChange& change, bool emitters, const Progress& progress = {});
+  void update(const RayScene& rays, const Lights& lights, const SceneChange& change, const Progress& progress = {});
   bool settled() const { return true; }
 
   const LpvLight& light() const { return light_; }

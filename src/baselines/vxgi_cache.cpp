@@ -35,7 +35,7 @@ VxgiCache::VxgiCache(const RayScene& rays, const Lights& lights, const Bounds3& 
   bounce(settings.maxBounces, progress);
 }
 
-void VxgiCache::update(const RayScene& rays, const Lights& lights, const SceneChange& change, bool emitters, const Progress& progress) {
+void VxgiCache::update(const RayScene& rays, const Lights& lights, const SceneChange& change, const Progress& progress) {
   std::vector<uint32_t> changed = change.moved;
   changed.insert(changed.end(), change.glow.begin(), change.glow.end());
   light_.rays = 0;
@@ -45,7 +45,7 @@ void VxgiCache::update(const RayScene& rays, const Lights& lights, const SceneCh
       level->direct.relight(rays, lights, level->voxelisation.voxels, {{}, progress.cancelled});
     } else {
       const std::vector<Bounds3> places = followMoves(level->voxelisation, rays.scene(), change);
-      level->direct.update(rays, lights, level->voxelisation.voxels, {changed, places, emitters}, {{}, progress.cancelled});
+      level->direct.update(rays, lights, level->voxelisation.voxels, places, {{}, progress.cancelled});
     }
   }
   if (progress.stop()) return;

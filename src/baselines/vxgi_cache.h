@@ -18,8 +18,8 @@ class VxgiCache {
   // `room` is what the finest level shall hold. Once `progress` says stop it ends soon, with part of the light.
   VxgiCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings, const Progress& progress = {});
 
-  // `rays` and `lights` are of the scene as it is now; suns and sky are as before. `emitters`: whether emissive meshes are among what changed.
-  void update(const RayScene& rays, const Lights& lights, const SceneChange& change, bool emitters, const Progress& progress = {});
+  // `rays` and `lights` are of the scene as it is now; suns and sky are as before.
+  void update(const RayScene& rays, const Lights& lights, const SceneChange& change, const Progress& progress = {});
   // Whether bounces have come to their end; if not, update() goes on with them.
   bool settled() const { return settled_; }
 

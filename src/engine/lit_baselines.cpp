@@ -37,10 +37,10 @@ class BaselineScene final : public LitScene {
 
  private:
   bool settled() const override { return cache_->settled(); }
-  void relight(const SceneChange& change, bool emitters, Stages& stages) override {
+  void relight(const SceneChange& change, Stages& stages) override {
     shader_.reset();
     stages.run("illuminate", [&](const Progress& p) {
-      cache_->update(rays(), lights(), change, emitters, p);
+      cache_->update(rays(), lights(), change, p);
       return true;
     });
     makeShader(stages);

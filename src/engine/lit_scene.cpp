@@ -53,7 +53,7 @@ class PhotonScene final : public LitScene {
 SceneRays::SceneRays(const Scene& scene, bool sunApart, Stages& stages)
     : sunApart_(sunApart), rays_(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })), lights_(stages.run("lights", [&](const Progress&) { return Lights(scene, sunApart); })) {}
 
-bool SceneRays::follow(const SceneChange& change, Stages& stages) {
+void SceneRays::follow(const SceneChange& change, Stages& stages) {
   const Scene& scene = rays_.scene();
   const bool emitters = !change.glow.empty() || std::any_of(change.moved.begin(), change.moved.end(), [&](uint32_t i) {
     return lights_->emitterOf(i) >= 0 || !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission);
@@ -73,12 +73,12 @@ bool SceneRays::follow(const SceneChange& change, Stages& stages) {
     Lights next = stages.run("lights", [&](const Progress&) { return Lights(scene, std::move(*lights_)); });
     lights_.emplace(std::move(next));
   }
-  return emitters;
 }
 
 void LitScene::update(const SceneChange& change, Stages& stages) {
   if (!change.any() && settled()) return;
-  relight(change, base_.follow(change, stages), stages);
+  base_.follow(change, stages);
+  relight(change, stages);
 }
 
 Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera) {

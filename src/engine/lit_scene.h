@@ -40,8 +40,8 @@ class SceneRays {
  public:
   // Refers to the scene. `sunApart`: see Lights. Stages "bvh" and "lights".
   SceneRays(const Scene& scene, bool sunApart, Stages& stages);
-  // Stages "rays" and "lights". Returns whether emissive meshes are among what changed. No ray may be under way.
-  bool follow(const SceneChange& change, Stages& stages);
+  // Stages "rays" and "lights". No ray may be under way.
+  void follow(const SceneChange& change, Stages& stages);
   const RayScene& rays() const { return rays_; }
   const Lights& lights() const { return *lights_; }
 
@@ -83,8 +83,8 @@ class LitScene {
 
  protected:
   LitScene(const Scene& scene, bool sunApart, Stages& stages) : base_(scene, sunApart, stages) {}
-  // After rays and lights have followed. `emitters`: whether emissive meshes are among what changed.
-  virtual void relight(const SceneChange&, bool /*emitters*/, Stages&) {}
+  // After rays and lights have followed.
+  virtual void relight(const SceneChange&, Stages&) {}
 
  private:
   SceneRays base_;

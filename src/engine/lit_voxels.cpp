@@ -40,23 +40,26 @@ class VoxelScene final : public LitScene {
   std::shared_ptr<const SlotSnapshot> snapshot() const override { return std::make_shared<const SlotSnapshot>(voxels_.voxels, light_->field().irradianceLux, light_->sharpLux(voxels_.voxels)); }
 
  private:
-  void relight(const SceneChange& change, bool emitters, Stages& stages) override {
+  // What voxels know of emission light does not ask: it follows when something moves.
+  void relight(const SceneChange& change, Stages& stages) override {
     shader_.reset();
-    std::vector<uint32_t> changed = change.moved;
-    changed.insert(changed.end(), change.glow.begin(), change.glow.end());
+    glow_.insert(glow_.end(), change.glow.begin(), change.glow.end());
+    const std::vector<uint32_t>& moved = change.moved;
+    SceneChange behind = change;
+    if (!moved.empty()) behind.glow = std::exchange(glow_, {});
     std::vector<Bounds3> places;
-    if (!changed.empty()) places = stages.run("voxelise", [&](const Progress&) { return followMoves(voxels_, rays().scene(), change); });
+    if (!moved.empty()) places = stages.run("voxelise", [&](const Progress&) { return followMoves(voxels_, rays().scene(), behind); });
     stages.run("illuminate", [&](const Progress& p) {
-      if (change.daylight && !changed.empty()) {
+      if (change.daylight && !moved.empty()) {
         light_.emplace(rays(), lights(), voxels_.voxels, radiance_, p);
       } else if (change.daylight) {
         light_->followDaylight(rays(), lights(), voxels_.voxels, p);
       } else if (!change.any()) {
         light_->goOn(rays(), lights(), voxels_.voxels, p);
-      } else if (changed.empty()) {
+      } else if (moved.empty()) {
         light_->relight(rays(), lights(), voxels_.voxels, p);
       } else {
-        light_->update(rays(), lights(), voxels_.voxels, {changed, places, emitters}, p);
+        light_->update(rays(), lights(), voxels_.voxels, places, p);
       }
       return true;
     });
@@ -74,6 +77,7 @@ class VoxelScene final : public LitScene {
   RadianceSettings radiance_;
   const Settings gather_;
   Voxelisation voxels_;
+  std::vector<uint32_t> glow_;  // instances that shine otherwise than voxels know
   std::optional<LightCache> light_;
   std::optional<Shader> shader_;
 };

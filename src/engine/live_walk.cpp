@@ -141,6 +141,7 @@ RenderSettings frameSettings(RenderSettings settings) {
   settings.samples = 1;
   settings.path.filter = true;
   settings.radiance.bouncesAtOnce = kBouncesAFrame;
+  settings.radiance.emittersApart = true;
   settings.vxgi.bouncesAtOnce = 1;  // as the SDK's frames have it
   return settings;
 }

@@ -62,6 +62,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("residual", s.radiance.residual, 1e-6, 1);
     g.number("maxBounces", s.radiance.maxBounces, 0, 100000);
     g.number("bouncesAtOnce", s.radiance.bouncesAtOnce, 0, 100000);
+    g.flag("emittersApart", s.radiance.emittersApart);
   });
   v.group("hybrid", [&](auto& g) {
     g.number("firstSamples", s.hybrid.firstSamples, 1, 8);

@@ -30,7 +30,7 @@ uint64_t hashOf(const Voxels& voxels, size_t b) {
   const auto [first, last] = slotsOfBrick(voxels, b);
   for (size_t s = first; s < last; ++s) {
     const FaceSlot& slot = voxels.slots[s];
-    hash.add(slot.position), hash.add(slot.normal), hash.add(slot.albedo), hash.add(slot.emission);
+    hash.add(slot.position), hash.add(slot.normal), hash.add(slot.albedo);  // not its emission: emissive meshes are lights
     hash.add(slot.areaM2, slot.opacity), hash.add(slot.instance | static_cast<uint64_t>(slot.face) << 32);
   }
   return hash.value();

@@ -5,10 +5,13 @@
 #include "base/sampling.h"
 #include "radiance/attenuation.h"
 #include "radiance/sky_guide.h"
+#include "trace/emitter_view.h"
 #include "trace/shadow_ray.h"
 
 namespace roomlight {
 namespace {
+
+constexpr float kWide = 0.5f;  // a light's size over its distance
 
 // Of each voxel of a brick and each face: 1 where a slot has rays that arrive, 2 where it has some that do not.
 class Shadows {
@@ -313,14 +316,31 @@ void DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::spa
   renew(brick, {(most + 1) / 2, most}, near, lux, findMarks, sample);
 }
 
-void DirectLight::emitter(size_t index, size_t brick, std::span<Vec3> lux) {
+// Large ones have wide half-shadows.
+DirectLight::Samples DirectLight::samplesOf(const Bounds3& source, const Bounds3& slots) const {
+  const Vec3 apart = max(max(slots.lo - source.hi, source.lo - slots.hi), Vec3(0));
+  const auto soft = static_cast<uint32_t>(settings_.directSamples);
+  if (lengthSquared(source.size()) > kWide * kWide * lengthSquared(apart)) return {(soft + 1) / 2, soft};
+  return {1, perDelta()};
+}
+
+void DirectLight::emitter(size_t index, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
+  const Bounds3 &bounds = lights_.emitterBounds(index), slots = whereSlotsLie(brick);
+  const EmitterView view(lights_, index, slots);
+  const Vec3 middle = bounds.centre(), half = bounds.size() * 0.5f;
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
-    if (besideEmitters_[index].contains(voxels_.slots[s].position)) return LightSample{};
+    const FaceSlot& slot = voxels_.slots[s];
+    if (dot(middle - p, slot.normal) + dot(half, abs(slot.normal)) <= 0) return LightSample{};  // all of it behind the slot
+    if (besideEmitters_[index].contains(slot.position)) return LightSample{};
     Sampler sampler(paths_.key(s), k, settings_.seed + 3);
     const Vec2 u = sampler.next2();
-    return lights_.sampleEmitter(index, p, u, sampler.next1());
+    return view.sample(p, u, sampler.next1());
   };
-  trace(brick, {1, perDelta()}, {}, lux, sample);
+  const Samples samples = samplesOf(bounds, slots);
+  const auto findMarks = [&](Marks& marks) {
+    if (!view.dark() && mayCross(brick, bounds, near)) findCrossed(brick, samples.most, near, 0, ways(sample), marks);
+  };
+  renew(brick, samples, near, lux, findMarks, sample);
 }
 
 }  // namespace roomlight

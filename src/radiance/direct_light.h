@@ -24,9 +24,9 @@ class DirectLight {
   void suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   // `ways`: of its slots, written where all is traced and read where only what boxes concern is.
   void sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyWays& ways, std::span<Vec3> lux);
+  // Of one emissive mesh alone, and of all as one light: fewer rays than one by one.
+  void emitter(size_t index, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   void emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
-  // Of one emissive mesh alone: added.
-  void emitter(size_t index, size_t brick, std::span<Vec3> lux);
 
   uint64_t rayCount() const { return count_; }
 
@@ -47,6 +47,7 @@ class DirectLight {
   bool mayCross(size_t brick, const Bounds3& source, std::span<const Bounds3> near) const;
   bool mayCrossFromAfar(size_t brick, const Bounds3& directions, std::span<const Bounds3> near) const;
   Bounds3 whereSlotsLie(size_t brick) const;
+  Samples samplesOf(const Bounds3& source, const Bounds3& slots) const;
   void clear(size_t brick, const Marks& marks, std::span<Vec3> lux) const;
   template <class Sample>
   void trace(size_t brick, Samples samples, const Marks& marks, std::span<Vec3> lux, const Sample& sample);

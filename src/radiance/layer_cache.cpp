@@ -1,7 +1,6 @@
 // LightCache::splitIntoLayers: whose the light on slots is.
 #include "base/parallel.h"
 #include "radiance/bounces_together.h"
-#include "radiance/direct_light.h"
 #include "radiance/half.h"
 #include "radiance/light_cache.h"
 
@@ -26,14 +25,9 @@ LightCache::LayerDirect LightCache::directOf(const Sources& from, const LightLay
   for (size_t i = 0; i < layers.ofLamp.size(); ++i) {
     if (layers.ofLamp[i] == layer) lamps_[i].direct.addTo(voxels, lamps_[i].lamp.intensityCd, out.all);
   }
-  DirectLight direct(from.rays, from.lights, voxels, paths_, settings_);
   for (size_t i = 0; i < layers.ofEmitter.size(); ++i) {
-    if (layers.ofEmitter[i] != layer) continue;
-    parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
-      if (!from.progress.stop()) direct.emitter(i, b, out.all);
-    });
+    if (layers.ofEmitter[i] == layer) addEmitter(from, i, out.all);
   }
-  field_.rays += direct.rayCount();
   std::vector<Vec3> far;
   for (const LitParticles& p : litParticles()) {
     if ((p.lamp >= 0 ? layers.ofLamp[static_cast<size_t>(p.lamp)] : layers.ofEmitter[static_cast<size_t>(p.emitter)]) != layer) continue;

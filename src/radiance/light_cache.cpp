@@ -57,7 +57,6 @@ LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels&
   traceAllLinks(from);
   progress.at(0.5f);
   traceDaylight(from);
-  traceEmitters(from);
   matchEmitters(from);
   matchLamps(from);
   progress.at(0.8f);
@@ -70,6 +69,7 @@ void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxel
   const Sources from{rays, lights, voxels, progress};
   field_.rays = 0;
   paths_.refer(rays, voxels);
+  matchEmitters(from);
   matchLamps(from);
   progress.at(0.5f);
   solve(from, bouncesOfUpdate());
@@ -89,6 +89,7 @@ void LightCache::followDaylight(const RayScene& rays, const Lights& lights, cons
   paths_.refer(rays, voxels);
   findGuide(from);
   traceDaylight(from);
+  matchEmitters(from);
   matchLamps(from);
   progress.at(0.5f);
   if (progress.stop()) return field_.irradianceLux.clear();
@@ -143,13 +144,6 @@ void LightCache::traceDaylight(const Sources& from) {
   field_.rays += direct.rayCount();
 }
 
-void LightCache::traceEmitters(const Sources& from) {
-  if (!from.lights.hasEmitters()) return;
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
-  emitters_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.emitters(b, {}, lux); });
-  field_.rays += direct.rayCount();
-}
-
 SlotLight LightCache::lightOfAll(const Sources& from, const std::function<void(size_t, std::vector<Vec3>&)>& ofBrick) {
   std::vector<Vec3> lux(from.voxels.slots.size());
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
@@ -183,28 +177,6 @@ ParticleLight LightCache::particlesFrom(const Sources& from, const ParticleSourc
   ParticleLight light = traceParticles(from.rays, from.voxels, paths_, source, settings_, from.progress);
   field_.rays += light.rays;
   return light;
-}
-
-// Of emissive meshes that are small; `known` are looked for among those there are, the others are traced.
-void LightCache::matchEmitters(const Sources& from) {
-  std::vector<size_t> small;
-  for (size_t i = 0; i < from.lights.emitterCount(); ++i) {
-    if (isSmall(from.lights, i, from.voxels.voxelSizeM)) small.push_back(i);
-  }
-  std::vector<EmitterLight> next;
-  for (const size_t i : small) {
-    const EmitterLight key{from.lights.emitterBounds(i), from.lights.emitterFluxLm(i), i, {}};
-    const auto known = std::find_if(nearEmitters_.begin(), nearEmitters_.end(), [&](const EmitterLight& e) { return e.isOf(key); });
-    if (known != nearEmitters_.end()) {
-      next.push_back(std::move(*known));
-      next.back().index = i;
-      nearEmitters_.erase(known);
-    } else {
-      next.push_back(key);
-      next.back().particles = particlesFrom(from, particlesOf(from.lights, i, small.size(), from.voxels.voxelSizeM));
-    }
-  }
-  nearEmitters_ = std::move(next);
 }
 
 // What is known of lamps in the same place stays; the rest is traced.
@@ -254,7 +226,10 @@ void LightCache::solve(const Sources& from, int mostBounces) {
 std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   const Voxels& voxels = from.voxels;
   direct_.assign(voxels.slots.size(), {});
-  for (const SlotLight* light : {&suns_, &sky_, &emitters_}) light->addTo(voxels, Vec3(1), direct_);
+  for (const SlotLight* light : {&suns_, &sky_, &emittersTogether_}) light->addTo(voxels, Vec3(1), direct_);
+  for (const EmitterLight& e : emitters_) {
+    if (!isBlack(e.scale)) e.direct.addTo(voxels, e.scale, direct_);
+  }
   for (const LampLight& l : lamps_) {
     if (!isBlack(l.lamp.intensityCd)) l.direct.addTo(voxels, l.lamp.intensityCd, direct_);
   }
@@ -319,7 +294,7 @@ std::vector<Vec3> LightCache::sharpLux(const Voxels& voxels) const {
 // Of all that shines and has left any.
 std::vector<LightCache::LitParticles> LightCache::litParticles() const {
   std::vector<LitParticles> out;
-  for (const EmitterLight& e : nearEmitters_) out.push_back({&e.particles, Vec3(1), -1, static_cast<int32_t>(e.index)});
+  for (const EmitterLight& e : emitters_) out.push_back({&e.particles, e.scale, -1, e.index});
   for (size_t i = 0; i < lamps_.size(); ++i) out.push_back({&lamps_[i].particles, lamps_[i].lamp.intensityCd, static_cast<int32_t>(i), -1});
   std::erase_if(out, [](const LitParticles& p) { return p.particles->near.empty() || isBlack(p.scale); });
   return out;
@@ -348,9 +323,9 @@ std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) con
 }
 
 size_t LightCache::bytes() const {
-  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + emitters_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) + (direct_.size() + indirect_.size()) * sizeof(Vec3);
+  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + emittersTogether_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) + (direct_.size() + indirect_.size()) * sizeof(Vec3);
   for (const LampLight& l : lamps_) sum += l.direct.bytes() + l.particles.bytes();
-  for (const EmitterLight& e : nearEmitters_) sum += e.particles.bytes();
+  for (const EmitterLight& e : emitters_) sum += e.direct.bytes() + e.particles.bytes();
   return sum;
 }
 

@@ -8,6 +8,7 @@
 
 #include "radiance/bounces.h"
 #include "radiance/carried.h"
+#include "radiance/emissive_mesh.h"
 #include "radiance/links.h"
 #include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
@@ -17,30 +18,24 @@
 
 namespace roomlight {
 
-struct MovedInstances {
-  std::span<const uint32_t> instances;
-  std::span<const Bounds3> places;  // where they were and where they are, m (see Voxelisation::instanceBounds); none empty
-  bool glow = false;  // some of the instances shine otherwise than before, or no longer
-};
-
 class LightCache {
  public:
   // Lights everything. Where `progress` says stop, here or below, the field comes out without irradiance and the cache is of no
   // further use.
   LightCache(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress = {});
 
-  // After lamps were switched, dimmed, coloured, moved, added or removed; suns, sky, emissive meshes and geometry are as before. Only
-  // lamps in new places are traced, those dimmed or coloured are scaled, and bounces go on from the light there was.
+  // After lamps were switched, dimmed, coloured, moved, added or removed, or emissive meshes switched, dimmed or coloured; suns, sky and
+  // geometry are as before. Only lamps in new places are traced, those dimmed or coloured are scaled, and bounces go on from the light there was.
   void relight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
 
-  // After the suns or the sky changed; lamps may have changed too, emissive meshes and geometry are as before. Bounces go on from the light there was, darkened
+  // After the suns or the sky changed; lamps and the light of emissive meshes may have changed too, geometry is as before. Bounces go on from the light there was, darkened
   // as what they come from.
   void followDaylight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
 
-  // After instances moved, appeared or vanished; suns and sky are as before, lamps may have changed too. `rays`, `lights` and `voxels`
-  // are of the scene as it is now. What changed bricks, or ways that cross the changed places, have to do with is traced again; the
+  // After instances moved, appeared or vanished; suns and sky are as before, lamps and the light of emissive meshes may have changed too. `rays`, `lights` and `voxels`
+  // are of the scene as it is now; `places`: where they were and where they are, m (see followMoves); none empty. What changed bricks, or ways that cross the changed places, have to do with is traced again; the
   // rest comes out as if all were lit anew with the same seed.
-  void update(const RayScene& rays, const Lights& lights, const Voxels& voxels, const MovedInstances& moved, const Progress& progress = {});
+  void update(const RayScene& rays, const Lights& lights, const Voxels& voxels, std::span<const Bounds3> places, const Progress& progress = {});
 
   // Goes on with bounces that an update left over (see RadianceSettings::bouncesAtOnce): with twice as many as the call before made.
   void goOn(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
@@ -60,12 +55,13 @@ class LightCache {
     SlotLight direct;
     ParticleLight particles;
   };
+  // As it was when it was traced. Dark where it has been switched off: it may come back.
   struct EmitterLight {
-    Bounds3 bounds;  // of the emissive mesh, and
-    float fluxLm;    // luminous: what tells it from others
-    size_t index;    // of all emissive meshes
+    EmissiveMesh mesh;
+    Vec3 scale;     // that makes it what shines now
+    int32_t index;  // of all emissive meshes; -1: dark
+    SlotLight direct;
     ParticleLight particles;
-    bool isOf(const EmitterLight& o) const { return bounds.lo == o.bounds.lo && bounds.hi == o.bounds.hi && fluxLm == o.fluxLm; }
   };
   struct LitParticles {
     const ParticleLight* particles;
@@ -92,12 +88,17 @@ class LightCache {
   void updateLinks(const Sources& from, const SlotPaths& paths, const Change& change);
   SlotLight updated(const Sources& from, const SlotLight& before, const Change& change, const BrickTracer& trace) const;
   SlotLight carriedLight(const Sources& from, const SlotLight& before, const Carried& carried) const;
-  void updateFixedLights(const Sources& from, const Change& change, bool emittersMoved);
+  void updateFixedLights(const Sources& from, const Change& change);
+  void updateEmitters(const Sources& from, const Change& change);
   void updateParticles(const Sources& from, const Change& change);
   void updateLamps(const Sources& from, const Change& change);
   void findGuide(const Sources& from);
   void traceDaylight(const Sources& from);
-  void traceEmitters(const Sources& from);
+  static size_t smallEmitters(const Sources& from);
+  bool emittersApart(const Lights& lights) const;
+  void traceEmittersTogether(const Sources& from);
+  void addEmitter(const Sources& from, size_t index, std::vector<Vec3>& lux);
+  EmitterLight tracedEmitter(const Sources& from, size_t index, size_t small);
   static SlotLight lightOfAll(const Sources& from, const std::function<void(size_t brick, std::vector<Vec3>& lux)>& ofBrick);
   void traceLamp(const Sources& from, LampLight& light);
   ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
@@ -121,9 +122,11 @@ class LightCache {
   SlotPaths paths_;
   Links links_;
   std::vector<BrickMark> marks_;
-  SlotLight suns_, sky_, emitters_;
+  SlotLight suns_, sky_;
+  SlotLight emittersTogether_;                  // all, where there are too many to keep them apart
+  std::vector<EmissiveMesh> knownTogether_;     // as they were then
   SkyWays skyWays_;  // empty: no sky
-  std::vector<EmitterLight> nearEmitters_;
+  std::vector<EmitterLight> emitters_;
   std::vector<LampLight> lamps_;
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
   int mostAtOnce_ = 0;  // bounces, the last time

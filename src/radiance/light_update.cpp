@@ -56,22 +56,19 @@ std::vector<LinkOf> carryLinks(const Voxels& voxels, const SlotPaths& paths, siz
 
 }  // namespace
 
-void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels& voxels, const MovedInstances& moved, const Progress& progress) {
+void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels& voxels, std::span<const Bounds3> places, const Progress& progress) {
   const Sources from{rays, lights, voxels, progress};
   std::vector<BrickMark> marks = marksOf(voxels);
-  const Carried carried = carry(marks_, marks, voxels, moved.places);
-  const Change change{carried, moved.places};
+  const Carried carried = carry(marks_, marks, voxels, places);
+  const Change change{carried, places};
   field_.rays = 0;
   const SlotPaths paths(rays, voxels, settings_.seed, progress, &paths_, &carried);
   if (progress.stop()) return;
   updateLinks(from, paths, change);
   paths_ = paths;
   progress.at(0.5f);
-  const bool emittersMoved = moved.glow || std::any_of(moved.instances.begin(), moved.instances.end(), [&](uint32_t i) {
-                               const Scene& scene = rays.scene();
-                               return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission);
-                             });
-  updateFixedLights(from, change, emittersMoved);
+  updateFixedLights(from, change);
+  updateEmitters(from, change);
   forgetLampsBut(lights);
   updateLamps(from, change);
   updateParticles(from, change);
@@ -113,7 +110,7 @@ SlotLight LightCache::updated(const Sources& from, const SlotLight& before, cons
       const auto [first, last] = slotsOfBrick(from.voxels, b);
       before.copyBrick(static_cast<size_t>(change.carried.oldBrick[b]), last - first, std::span(lux).subspan(first));
     }
-    trace(b, keeps ? change.places : std::span<const Bounds3>(), lux);
+    if (!keeps || !change.places.empty()) trace(b, keeps ? change.places : std::span<const Bounds3>(), lux);
   });
   return SlotLight(from.voxels, lux);
 }
@@ -122,7 +119,7 @@ SlotLight LightCache::carriedLight(const Sources& from, const SlotLight& before,
   return updated(from, before, {carried, {}}, [](size_t, std::span<const Bounds3>, std::span<Vec3>) {});
 }
 
-void LightCache::updateFixedLights(const Sources& from, const Change& change, bool emittersMoved) {
+void LightCache::updateFixedLights(const Sources& from, const Change& change) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
   if (from.lights.sunCount() > 0) {
     suns_ = updated(from, suns_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.suns(b, near, lux); });
@@ -134,13 +131,6 @@ void LightCache::updateFixedLights(const Sources& from, const Change& change, bo
     }
     skyWays_ = std::move(ways);
     sky_ = updated(from, sky_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.sky(field_.guide, b, near, skyWays_, lux); });
-  }
-  if (from.lights.hasEmitters()) {
-    emitters_ = updated(from, emitters_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) {
-      direct.emitters(b, emittersMoved ? std::span<const Bounds3>() : near, lux);
-    });
-  } else {
-    emitters_ = {};
   }
   field_.rays += direct.rayCount();
 }
@@ -162,9 +152,17 @@ void LightCache::updateParticles(const Sources& from, const Change& change) {
   const auto isTouched = [&](const ParticleLight& particles, const LightSurroundings& around) {
     return std::any_of(dirty.begin(), dirty.end(), [&](const Bounds3& d) { return overlap(particles.way, d, 0) || around.touches(d); });
   };
-  // Emissive meshes left out here are traced by matchEmitters, where they still are.
-  std::erase_if(nearEmitters_, [&](const EmitterLight& e) { return isTouched(e.particles, LightSurroundings(e.bounds, from.voxels.voxelSizeM)); });
-  for (EmitterLight& e : nearEmitters_) carryParticles(from, change.carried, e.particles);
+  const size_t small = smallEmitters(from);
+  for (EmitterLight& light : emitters_) {
+    const auto index = static_cast<size_t>(light.index);
+    if (!isSmall(from.lights, index, from.voxels.voxelSizeM)) continue;
+    const ParticleSource source = particlesOf(from.lights, index, small, from.voxels.voxelSizeM);
+    if (isTouched(light.particles, source.around)) {
+      light.particles = particlesFrom(from, source);
+    } else {
+      carryParticles(from, change.carried, light.particles);
+    }
+  }
   for (LampLight& light : lamps_) {
     const ParticleSource source = particlesOfLamp(from, light.lamp);
     if (isTouched(light.particles, source.around)) {

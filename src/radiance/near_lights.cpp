@@ -145,6 +145,12 @@ ParticleSource particlesOf(const Lights& lights, size_t emitter, size_t emitters
   return {around, keyOf({box.lo, box.hi}), lights.emitterFluxLm(emitter), particlesFor(around.sizeOfPoints(), emitters), true, ray};
 }
 
+void ParticleLight::scale(Vec3 by) {
+  near.scale(by), far.scale(by);
+  for (GlowPoint& g : points) g.fluxLm *= by;
+  fluxLm *= luminance(by);
+}
+
 ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Progress& progress) {
   ParticleLight light;
   const size_t n = source.particles;

@@ -35,6 +35,7 @@ struct ParticleLight {
   Bounds3 way;     // of all particles
   float fluxLm = 0;  // luminous, of the source
   uint64_t rays = 0;
+  void scale(Vec3 by);  // the source shines otherwise
   size_t bytes() const { return near.bytes() + far.bytes() + points.size() * sizeof(GlowPoint); }
 };
 

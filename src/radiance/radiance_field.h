@@ -34,6 +34,7 @@ struct RadianceSettings {
   float residual = 0.002f; // bounces stop when the light still to come is below this fraction of what is there
   int maxBounces = 100;
   int bouncesAtOnce = 0;   // of an update: what is missing then follows with the next; 0: no limit
+  bool emittersApart = false;  // emissive meshes one by one (up to 48), so that one can be dimmed or moved alone; more rays at first
   bool pyramid = true;     // directional levels for cones; without them only what slots receive is known
   uint64_t seed = 0;
   std::shared_ptr<const LightLayers> layers;  // lights that are told apart; none: they are not

@@ -13,7 +13,7 @@ SlotLight::SlotLight(const Voxels& voxels, std::span<const Vec3> perSlot) {
   for (const Vec3& v : perSlot) brightest = std::max(brightest, maxComponent(v));
   if (!(brightest > 0)) return;
   // A power of two, so that what is stored again does not change.
-  unit_ = std::exp2(std::ceil(std::log2(brightest / 32768)));
+  unit_ = Vec3(std::exp2(std::ceil(std::log2(brightest / 32768))));
   first_.assign(voxels.bricks.size(), kNone);
   size_t count = 0;
   for (size_t b = 0; b < first_.size(); ++b) {

@@ -22,6 +22,7 @@ class SlotLight {
   // Adds scale times this to one value a slot.
   void addTo(const Voxels& voxels, Vec3 scale, std::span<Vec3> perSlot) const;
   void addBrick(const Voxels& voxels, size_t brick, Vec3 scale, std::span<Vec3> perSlot) const;
+  void scale(Vec3 by) { unit_ *= by; }
   // Of another brick with the same slots: to the slots from `firstSlot` on.
   void copyBrick(size_t brick, size_t slots, std::span<Vec3> to) const;
   size_t bytes() const { return first_.size() * sizeof(uint32_t) + values_.size() * sizeof(values_[0]); }
@@ -30,7 +31,7 @@ class SlotLight {
   static constexpr uint32_t kNone = 0xffffffffu;
   std::vector<uint32_t> first_;                  // per brick: where its values begin
   std::vector<std::array<uint16_t, 3>> values_;  // in unit_
-  float unit_ = 1;
+  Vec3 unit_{1, 1, 1};
 };
 
 }  // namespace roomlight

@@ -214,6 +214,10 @@ LightRay Lights::sampleEmitterRay(size_t index, Sampler& sampler) const {
 
 LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {
   const EmitterTriangle& t = chosenTriangle(e, choice);
+  return sampleOnTriangle(e, t, chance * t.share, p, u);
+}
+
+LightSample Lights::sampleOnTriangle(const Emitter& e, const EmitterTriangle& t, float chance, Vec3 p, Vec2 u) const {
   const TriangleVertices& v = t.v;
   const Vec3 n = t.normal;
   LightSample s;
@@ -226,7 +230,7 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
     if (cosLight == 0 || (!e.doubleSided && cosLight > 0)) return s;
     s.distance = dot(v.a - p, n) / cosLight;
     if (!(s.distance > 1e-4f)) return s;
-    s.pdf = chance * t.share / solidAngle;
+    s.pdf = chance / solidAngle;
     const Vec3 q = p + s.wi * s.distance;
     const Vec3 twiceArea = cross(v.b - v.a, v.c - v.a);
     const float scale = 1 / lengthSquared(twiceArea);
@@ -240,7 +244,7 @@ LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice
     s.wi = d / s.distance;
     const float cosLight = -dot(n, s.wi);
     if (!e.doubleSided && cosLight <= 0) return s;
-    s.pdf = chance * t.share / t.areaM2 * d2 / std::max(std::abs(cosLight), 1e-6f);
+    s.pdf = chance / t.areaM2 * d2 / std::max(std::abs(cosLight), 1e-6f);
   }
   s.radiance = emissionAt(e, t, b) / s.pdf;
   return s;

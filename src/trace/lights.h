@@ -62,6 +62,8 @@ class Lights {
   float pdfEmitters(Vec3 p, const SurfacePoint& q) const;
   // The same of one alone, as if there were no other, and what its light at p could be without shadows, for choosing.
   LightSample sampleEmitter(size_t index, Vec3 p, Vec2 u, float choice) const { return sampleEmitter(emitters_[index], p, u, choice, 1); }
+  // A point of one triangle of it, chosen with that chance; dark where the triangle does not shine towards p.
+  LightSample sampleEmitterTriangle(size_t index, size_t triangle, float chance, Vec3 p, Vec2 u) const { return sampleOnTriangle(emitters_[index], emitters_[index].triangles[triangle], chance, p, u); }
   float pdfEmitter(size_t index, Vec3 p, const SurfacePoint& q) const { return pdfInEmitter(emitters_[index], p, q); }
   float emitterImportance(size_t index, Vec3 p) const { return importance(emitters_[index], p); }
   float lampImportance(size_t index, Vec3 p) const { return importance(lampTerms_[index], p); }
@@ -123,6 +125,7 @@ class Lights {
   void addLamps();
   LightRay lampRay(size_t index, Vec2 u, float chance, Sampler& sampler) const;
   LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;
+  LightSample sampleOnTriangle(const Emitter& e, const EmitterTriangle& t, float chance, Vec3 p, Vec2 u) const;
   float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
   static const EmitterTriangle& chosenTriangle(const Emitter& e, float choice);
   Vec3 emissionAt(const Emitter& e, const EmitterTriangle& t, Vec2 b) const;

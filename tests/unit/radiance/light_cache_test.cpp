@@ -129,7 +129,7 @@ TEST(Update, directLightIsThatOfASceneLitAnew) {
   const uint64_t all = cache.field().rays;
   const std::vector<Bounds3> places = home.moveBox({0.43f, 0, 0.71f});
   const RayScene rays(home.scene);
-  cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+  cache.update(rays, Lights(home.scene), home.voxels(), places);
   EXPECT_LT(cache.field().rays, all * 3 / 4);
   const LightCache fresh = lit(home, settings);
   ASSERT_EQ(cache.field().irradianceLux.size(), fresh.field().irradianceLux.size());
@@ -144,12 +144,134 @@ TEST(Update, equalsASceneLitAnew) {
   for (const Vec3 by : {Vec3{0.43f, 0, 0.71f}, Vec3{0.2f, 0.3f, 2.1f}, Vec3{-6, 0, 0}, Vec3{5.2f, 0, 0.1f}}) {
     const std::vector<Bounds3> places = home.moveBox(by);
     const RayScene rays(home.scene);
-    cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+    cache.update(rays, Lights(home.scene), home.voxels(), places);
     expectSame(cache, lit(home), 2e-3f);
   }
 }
 
 // Evening, a night without sun and sky, and noon again.
+
+// A panel under the ceiling and a small glowing cube by the table, each with its own material.
+struct GlowingHome : Home {
+  int panel, cube;
+  std::vector<uint32_t> panelAlone;  // instances
+  GlowingHome() {
+    scene.lamps.clear();
+    panel = test::addMaterial(scene, test::lambertian(0, 300)), cube = test::addMaterial(scene, test::lambertian(0, 4000));
+    test::addRectangle(scene, {1.2f, 2.5f, 2}, {0, 0, 1}, {-0.8f, 0, 0}, panel);
+    panelAlone = {static_cast<uint32_t>(scene.instances.size() - 1)};
+    test::addBox(scene, {3.02f, 1.2f, 3.61f}, {3.08f, 1.26f, 3.67f}, cube);
+    VoxelSettings settings;
+    settings.voxelSizeM = 0.1f;
+    voxelisation = voxelise(scene, settings);
+  }
+  Vec3& emission(int material) { return scene.materials[static_cast<size_t>(material)].emission; }
+};
+
+RadianceSettings apart() {
+  RadianceSettings settings = exact();
+  settings.emittersApart = true;
+  return settings;
+}
+
+TEST(Relight, dimsAndColoursEmissiveMeshesWithoutARay) {
+  GlowingHome home;
+  const RayScene rays(home.scene);
+  LightCache cache(rays, Lights(home.scene), home.voxels(), apart());
+  home.emission(home.panel) = {10, 40, 90};
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_EQ(cache.field().rays, 0u);
+  expectSame(cache, lit(home, apart()), 2e-3f);
+  home.emission(home.panel) = {0, 40, 90};
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_EQ(cache.field().rays, 0u);
+  expectSame(cache, lit(home, apart()), 2e-3f);
+}
+
+TEST(Relight, remembersEmissiveMeshesSwitchedOff) {
+  GlowingHome home;
+  const RayScene rays(home.scene);
+  const LightCache before = lit(home, apart());
+  LightCache cache(rays, Lights(home.scene), home.voxels(), apart());
+  home.emission(home.cube) = {};
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_EQ(cache.field().rays, 0u);
+  expectSame(cache, lit(home, apart()), 2e-3f);
+  home.emission(home.cube) = Vec3(4000);
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_EQ(cache.field().rays, 0u);
+  expectSame(cache, before, 2e-3f);
+}
+
+// A colour that was not there when its light was traced cannot be scaled.
+TEST(Relight, tracesAnEmissiveMeshThatTakesOnANewColour) {
+  GlowingHome home;
+  home.emission(home.panel) = {300, 300, 0};
+  const RayScene rays(home.scene);
+  LightCache cache(rays, Lights(home.scene), home.voxels(), apart());
+  home.emission(home.panel) = {300, 300, 100};
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_GT(cache.field().rays, 0u);
+  expectSame(cache, lit(home, apart()), 2e-3f);
+}
+
+TEST(Relight, followsEmissiveMeshesThatAreLitTogether) {
+  GlowingHome home;
+  const RayScene rays(home.scene);
+  LightCache cache(rays, Lights(home.scene), home.voxels(), exact());
+  home.emission(home.panel) = Vec3(50);
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  EXPECT_GT(cache.field().rays, 0u);
+  expectSame(cache, lit(home), 2e-3f);
+}
+
+// Rays alone or together find the same light.
+TEST(LightCache, emissiveMeshesApartGiveTheSameFlux) {
+  const GlowingHome home;
+  double flux[2] = {};
+  for (const bool isApart : {false, true}) {
+    const LightCache cache = lit(home, isApart ? apart() : exact());
+    for (size_t s = 0; s < home.voxels().slots.size(); ++s) flux[isApart] += static_cast<double>(luminance(cache.field().irradianceLux[s]) * home.voxels().slots[s].areaM2);
+  }
+  EXPECT_NEAR(flux[1] / flux[0], 1, 0.005);
+}
+
+// A box moves; a lamp is dimmed at the same time, and then dimmed again without a ray.
+TEST(Update, withEmissiveMeshesEqualsASceneLitAnew) {
+  GlowingHome home;
+  LightCache cache = lit(home, apart());
+  float dimmed = 1;
+  for (const Vec3 by : {Vec3{0.43f, 0, 0.71f}, Vec3{0.2f, 0.3f, 2.1f}}) {
+    const std::vector<Bounds3> places = home.moveBox(by);
+    home.emission(home.panel) *= 0.5f;
+    const RayScene rays(home.scene);
+    cache.update(rays, Lights(home.scene), home.voxels(), places);
+    expectSame(cache, lit(home, apart()), 3e-3f);
+    home.emission(home.cube) = Vec3(4000 * (dimmed *= 0.7f));
+    cache.relight(rays, Lights(home.scene), home.voxels());
+    EXPECT_EQ(cache.field().rays, 0u);
+    expectSame(cache, lit(home, apart()), 3e-3f);
+  }
+}
+
+// Whatever boxes have to do with is traced either way.
+TEST(Update, leavesTheLightOfOtherEmissiveMeshesAsItIs) {
+  uint64_t renewed[2] = {};  // of all rays, those for direct light of emissive meshes: per 1000
+  for (const bool isApart : {false, true}) {
+    GlowingHome home;
+    RadianceSettings settings = isApart ? apart() : exact();
+    LightCache cache = lit(home, settings);
+    const uint64_t all = cache.field().rays;
+    home.box = home.panelAlone;
+    const std::vector<Bounds3> places = home.moveBox({0.61f, -0.31f, 0.43f});
+    const RayScene rays(home.scene);
+    cache.update(rays, Lights(home.scene), home.voxels(), places);
+    renewed[isApart] = 1000 * cache.field().rays / all;
+    expectSame(cache, lit(home, settings), 3e-3f);
+  }
+  EXPECT_LT(renewed[true], renewed[false]);
+}
+
 TEST(FollowDaylight, equalsASceneLitAnew) {
   Home home(true);
   const auto light = [&](const Sun& sun, float skyCdM2) {
@@ -180,7 +302,7 @@ TEST(Update, underASkyEqualsASceneLitAnewButForNoise) {
   LightCache cache = lit(home);
   const std::vector<Bounds3> places = home.moveBox({0.43f, 0, 0.71f});
   const RayScene rays(home.scene);
-  cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+  cache.update(rays, Lights(home.scene), home.voxels(), places);
   const LightCache fresh = lit(home);
   double a = 0, b = 0;
   for (size_t s = 0; s < fresh.field().irradianceLux.size(); ++s) {
@@ -199,7 +321,7 @@ TEST(Update, bouncesFewAtOnceGoOnUntilTheyAreSettled) {
   EXPECT_TRUE(cache.settled());
   const std::vector<Bounds3> places = home.moveBox({0.43f, 0, 0.71f});
   const RayScene rays(home.scene);
-  cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+  cache.update(rays, Lights(home.scene), home.voxels(), places);
   EXPECT_FALSE(cache.settled());
   EXPECT_EQ(cache.field().bounces, 3);
   int updates = 0;
@@ -217,7 +339,7 @@ TEST(LightCache, sameBitsWithAnyNumberOfThreads) {
       const std::vector<Bounds3> places = home.moveBox({0.43f, 0, 0.71f});
       home.scene.lamps[1].position = {2.2f, 1.1f, 3.3f};
       const RayScene rays(home.scene);
-      cache.update(rays, Lights(home.scene), home.voxels(), {home.box, places});
+      cache.update(rays, Lights(home.scene), home.voxels(), places);
       home.scene.lamps[0].intensityCd *= 0.5f;
       cache.relight(rays, Lights(home.scene), home.voxels());
       results.push_back(cache.field().irradianceLux);
