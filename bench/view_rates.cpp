@@ -233,7 +233,7 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
   browser.wait([](const Frame&) { return true; }, 600);
   json out;
   out["openS"] = opening.seconds();
-  browser.wait([](const Frame& f) { return f.samples >= 4; });
+  browser.wait(isSettledLight);
   uint32_t id = 0;
   const auto walkAt = [&](double s) {
     const double period = 2 * walk->seconds, t = std::fmod(s, period);
@@ -243,7 +243,7 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
   out["walk"] = ratesOf(walked);
   if (!keep.empty()) keepFrames(keep + "_walk.csv", walked);
   browser.say(cameraMessage(first));
-  const Frame rested = browser.wait([](const Frame& f) { return f.samples >= 4; });
+  const Frame rested = browser.wait(isSettledLight);
 
   // The movable thing, and the lamp, nearest to what the camera looks at.
   const Vec3 eye = first.worldFromCamera.w, ahead = eye - first.worldFromCamera.z * 2.5f;
@@ -268,7 +268,7 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
   }
   // One exposure for all, half a stop darker than the automatic one, and no tone curve, so that pictures of different light can be compared.
   browser.say({{"type", "display"}, {"exposure", rested.ev100 + 0.5f}, {"curve", "clip"}, {"whiteBalance", "none"}});
-  browser.wait([](const Frame& f) { return f.samples >= 4; });
+  browser.wait(isSettledLight);
   const auto moving = [&](const char* name, const json& what, bool isLamp) {
     if (what.is_null()) return;
     const auto edit = [&](Vec3 by) {
@@ -289,10 +289,10 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
     if (!keep.empty()) keepFrames(fmt::format("{}_{}.csv", keep, name), moved);
     of["name"] = what["name"];
     browser.say(edit({}));
-    browser.wait([](const Frame& f) { return f.samples >= 4 && !f.behind(); });
+    browser.wait(isSettledLight);
     of["jump"] = afterJump(browser, edit({0.3f, 0, 0.2f}), id, keep.empty() ? "" : keep + "_" + name);
     browser.say(edit({}));
-    browser.wait([](const Frame& f) { return f.samples >= 4 && !f.behind(); });
+    browser.wait(isSettledLight);
   };
   moving("thing", thing, false);
   moving("lamp", lamp, true);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "trace/ray_scene.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
@@ -29,6 +30,8 @@ struct Carried {
 Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels, std::span<const Bounds3> changed);
 
 Bounds3 boundsOfBrick(const Voxels& voxels, size_t brick);
+// Whether a segment (tMin, tMax of the ray) comes closer than `margin` to one of the boxes.
+bool crosses(const Ray& ray, std::span<const Bounds3> boxes, float margin);
 bool overlap(const Bounds3& a, const Bounds3& b, float margin);
 // Those of `boxes` that rays from a slot's points, which all leave to its outside, may come closer to than a voxel.
 void inFront(const FaceSlot& slot, std::span<const Bounds3> boxes, float voxelSizeM, std::vector<Bounds3>& out);

@@ -76,19 +76,6 @@ FaceBits spread(const FaceBits& bits) {
 
 }  // namespace
 
-bool crosses(const Ray& ray, std::span<const Bounds3> boxes, float margin) {
-  for (const Bounds3& box : boxes) {
-    float t0 = ray.tMin, t1 = ray.tMax;
-    for (int k = 0; k < 3; ++k) {
-      const float inverse = 1 / (std::abs(ray.direction[k]) > 1e-12f ? ray.direction[k] : std::copysign(1e-12f, ray.direction[k]));
-      const float a = (box.lo[k] - margin - ray.origin[k]) * inverse, b = (box.hi[k] + margin - ray.origin[k]) * inverse;
-      t0 = std::max(t0, std::min(a, b)), t1 = std::min(t1, std::max(a, b));
-    }
-    if (t0 <= t1) return true;
-  }
-  return false;
-}
-
 // Where a light's ray goes from a slot.
 struct DirectLight::Way {
   Vec3 direction;  // unit; zero: nowhere

@@ -65,7 +65,4 @@ class DirectLight {
   std::atomic<uint64_t> count_ = 0;
 };
 
-// Whether a segment (tMin, tMax of the ray) comes closer than `margin` to one of the boxes.
-bool crosses(const Ray& ray, std::span<const Bounds3> boxes, float margin);
-
 }  // namespace roomlight

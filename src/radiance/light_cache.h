@@ -87,10 +87,10 @@ class LightCache {
   void traceAllLinks(const Sources& from);
   void updateLinks(const Sources& from, const SlotPaths& paths, const Change& change);
   SlotLight updated(const Sources& from, const SlotLight& before, const Change& change, const BrickTracer& trace) const;
-  SlotLight carriedLight(const Sources& from, const SlotLight& before, const Carried& carried) const;
   void updateFixedLights(const Sources& from, const Change& change);
   void updateEmitters(const Sources& from, const Change& change);
   void updateParticles(const Sources& from, const Change& change);
+  void updateParticlesOf(const Sources& from, const Change& change, const ParticleSource& source, ParticleLight& particles);
   void updateLamps(const Sources& from, const Change& change);
   void findGuide(const Sources& from);
   void traceDaylight(const Sources& from);
@@ -103,7 +103,6 @@ class LightCache {
   void traceLamp(const Sources& from, LampLight& light);
   ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
   ParticleLight particlesFrom(const Sources& from, const ParticleSource& source);
-  void carryParticles(const Sources& from, const Carried& carried, ParticleLight& particles) const;
   std::vector<LitParticles> litParticles() const;
   void forgetLampsBut(const Lights& lights);
   void matchEmitters(const Sources& from);

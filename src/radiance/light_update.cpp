@@ -115,10 +115,6 @@ SlotLight LightCache::updated(const Sources& from, const SlotLight& before, cons
   return SlotLight(from.voxels, lux);
 }
 
-SlotLight LightCache::carriedLight(const Sources& from, const SlotLight& before, const Carried& carried) const {
-  return updated(from, before, {carried, {}}, [](size_t, std::span<const Bounds3>, std::span<Vec3>) {});
-}
-
 void LightCache::updateFixedLights(const Sources& from, const Change& change) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
   if (from.lights.sunCount() > 0) {
@@ -143,41 +139,23 @@ void LightCache::updateLamps(const Sources& from, const Change& change) {
   field_.rays += direct.rayCount();
 }
 
-// Particles of a source are sent out again if any has been near a change; those of one source are quickly traced.
 void LightCache::updateParticles(const Sources& from, const Change& change) {
-  std::vector<Bounds3> dirty(change.places.begin(), change.places.end());
-  for (size_t b = 0; b < from.voxels.bricks.size(); ++b) {
-    if (!change.carried.keeps(b)) dirty.push_back(boundsOfBrick(from.voxels, b));
-  }
-  const auto isTouched = [&](const ParticleLight& particles, const LightSurroundings& around) {
-    return std::any_of(dirty.begin(), dirty.end(), [&](const Bounds3& d) { return overlap(particles.way, d, 0) || around.touches(d); });
-  };
   const size_t small = smallEmitters(from);
   for (EmitterLight& light : emitters_) {
     const auto index = static_cast<size_t>(light.index);
-    if (!isSmall(from.lights, index, from.voxels.voxelSizeM)) continue;
-    const ParticleSource source = particlesOf(from.lights, index, small, from.voxels.voxelSizeM);
-    if (isTouched(light.particles, source.around)) {
-      light.particles = particlesFrom(from, source);
-    } else {
-      carryParticles(from, change.carried, light.particles);
-    }
+    if (isSmall(from.lights, index, from.voxels.voxelSizeM)) updateParticlesOf(from, change, particlesOf(from.lights, index, small, from.voxels.voxelSizeM), light.particles);
   }
-  for (LampLight& light : lamps_) {
-    const ParticleSource source = particlesOfLamp(from, light.lamp);
-    if (isTouched(light.particles, source.around)) {
-      light.particles = particlesFrom(from, source);
-    } else {
-      carryParticles(from, change.carried, light.particles);
-    }
-  }
+  for (LampLight& light : lamps_) updateParticlesOf(from, change, particlesOfLamp(from, light.lamp), light.particles);
 }
 
-void LightCache::carryParticles(const Sources& from, const Carried& carried, ParticleLight& particles) const {
-  particles.near = carriedLight(from, particles.near, carried), particles.far = carriedLight(from, particles.far, carried);
-  for (GlowPoint& g : particles.points) {
-    if (g.slot >= 0) g.slot = static_cast<int64_t>(carried.newSlot[static_cast<size_t>(g.slot)]);
+void LightCache::updateParticlesOf(const Sources& from, const Change& change, const ParticleSource& source, ParticleLight& particles) {
+  if (particles.trails.empty()) {  // there was no surface near it
+    const bool mayBe = std::any_of(change.places.begin(), change.places.end(), [&](const Bounds3& place) { return source.around.touches(place); });
+    if (mayBe) particles = particlesFrom(from, source);
+    return;
   }
+  roomlight::updateParticles(from.rays, from.voxels, paths_, source, settings_, change.carried, change.places, from.progress, particles);
+  field_.rays += particles.rays;
 }
 
 }  // namespace roomlight

@@ -1,6 +1,9 @@
 #include "radiance/near_lights.h"
 
+#include <array>
+#include <atomic>
 #include <bit>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "base/sampling.h"
@@ -12,6 +15,8 @@ namespace {
 constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12, kChunk = 512;
 constexpr int kMostReflections = 64;
+constexpr float kAwayM = 1000;   // of what leaves the scene
+constexpr float kWithin = 2;     // voxels: so far at most from a slot's place lie hits on the surface it stands for
 
 uint64_t keyOf(std::initializer_list<Vec3> values) {
   uint64_t key = 0;
@@ -30,89 +35,86 @@ size_t particlesFor(float sizeOfPoints, size_t sources) {
 // Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.
 float litArea(const FaceSlot& slot, float h) { return std::clamp(slot.areaM2, kSmallest * h * h, h * h / std::max(0.577f, maxComponent(abs(slot.normal)))); }
 
-struct Deposit {
-  uint32_t slot;
-  Vec3 fluxLm;
-  bool near;  // carried on
-};
-
-// What a chunk of particles leaves behind.
-struct Trail {
-  std::vector<Deposit> deposits;
-  std::vector<GlowPoint> points;
-  Bounds3 way;
-};
-
 class Particles {
  public:
   Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings)
       : rays_(rays), voxels_(voxels), paths_(paths), source_(source), settings_(settings), pointLm_(source.fluxLm / std::min(kGlowPoints, static_cast<float>(source.particles))) {}
 
-  // All of a chunk step by step together, so that they can be traced together.
-  Trail trace(size_t chunk) const {
-    Trail trail;
+  // Some of a chunk step by step together, so that they can be traced together. Added to `trail`.
+  void trace(size_t chunk, std::span<const uint16_t> which, ParticleTrail& trail) const {
+    std::vector<Flight> flights;
     std::vector<Ray> rays;
     std::vector<Sampler> samplers;
-    std::vector<Vec3> fluxLm;
-    for (size_t i = 0; i < kChunk; ++i) {
-      Sampler sampler(source_.key, static_cast<uint32_t>(chunk * kChunk + i), settings_.seed + 7);
+    for (const uint16_t i : which) {
+      const auto number = static_cast<uint32_t>(chunk * kChunk + i);
+      Sampler sampler(source_.key, number, settings_.seed + 7);
       const LightRay ray = source_.ray(sampler);
-      trail.way.add(ray.origin);
       rays.emplace_back(ray.origin, ray.direction, 0, kInfinity);
-      samplers.emplace_back(source_.key, static_cast<uint32_t>(chunk * kChunk + i), settings_.seed + 8);
-      fluxLm.push_back(ray.fluxLm / static_cast<float>(source_.particles));
+      samplers.emplace_back(source_.key, number, settings_.seed + 8);
+      flights.push_back({ray.fluxLm / static_cast<float>(source_.particles), i});
     }
-    for (int k = 0; k < kMostReflections && !rays.empty(); ++k) step(k > 0, rays, samplers, fluxLm, trail);
-    return trail;
+    for (int k = 0; k < kMostReflections && !rays.empty(); ++k) step(k > 0, rays, samplers, flights, trail);
   }
 
  private:
+  struct Flight {
+    Vec3 fluxLm;
+    uint16_t particle;
+  };
+
   // From slot to slot while these are near the source. What falls on another slot straight from it is not ours.
-  void step(bool reflected, std::vector<Ray>& rays, std::vector<Sampler>& samplers, std::vector<Vec3>& fluxLm, Trail& trail) const {
+  void step(bool reflected, std::vector<Ray>& rays, std::vector<Sampler>& samplers, std::vector<Flight>& flights, ParticleTrail& trail) const {
     std::vector<Arrival> ends;
     std::vector<HiddenReflection> hidden;
     paths_.follow(rays, samplers, ends, &hidden);
+    std::vector<Bounds3> bent(hidden.empty() ? 0 : rays.size());
     for (const HiddenReflection& h : hidden) {
-      trail.way.add(h.p);
-      if (source_.around.contains(h.p) && !isLeftToRays(*h.material)) reflectedAt(h.p, h.n, fluxLm[h.ray] * h.left, -1, samplers[h.ray], trail);
+      bent[h.ray].add(h.p);
+      if (source_.around.contains(h.p) && !isLeftToRays(*h.material)) reflectedAt(h.p, h.n, flights[h.ray].fluxLm * h.left, -1, flights[h.ray].particle, samplers[h.ray], trail);
     }
     size_t live = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
       const Arrival& end = ends[i];
-      if (end.escaped) trail.way = {Vec3(-kInfinity), Vec3(kInfinity)};
-      if (end.slot < 0) continue;
       const auto s = static_cast<size_t>(end.slot);
+      const bool arrives = end.slot >= 0;
+      const SurfacePlace place = arrives ? paths_.place(end) : SurfacePlace{};
+      addWay(rays[i], end, arrives ? place.p : end.ray.origin + end.ray.direction * kAwayM, bent.empty() ? Bounds3() : bent[i], flights[i].particle, trail);
+      if (!arrives) continue;
       const FaceSlot& slot = voxels_.slots[s];
       const bool isNear = source_.around.contains(slot.position), indirect = reflected || end.reflected;
       if (!indirect && !isNear) continue;
-      const SurfacePlace place = paths_.place(end);
-      trail.way.add(place.p);
-      Vec3 flux = fluxLm[i] * end.left;
+      Vec3 flux = flights[i].fluxLm * end.left;
       const float facing = -dot(slot.normal, end.ray.direction);
       if (!indirect && facing > 0.05f) flux *= attenuation(settings_.attenuation, slot.normal, -end.ray.direction) / facing;
       const bool carriedOn = isNear && !isLeftToRays(*place.material);
-      trail.deposits.push_back({static_cast<uint32_t>(s), flux, carriedOn});
+      trail.deposits.push_back({flux, static_cast<uint32_t>(s), flights[i].particle, carriedOn});
       if (!carriedOn) continue;
       const Vec3 albedo = paths_.albedo(end);
       Sampler sampler = samplers[i];
-      reflectedAt(place.p, place.ng, flux * albedo, end.slot, sampler, trail);
+      reflectedAt(place.p, place.ng, flux * albedo, end.slot, flights[i].particle, sampler, trail);
       const float survive = std::min(0.95f, maxComponent(albedo));
       if (sampler.next1() >= survive) continue;
       rays[live] = {offsetOrigin(place.p, place.ng), Frame(place.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
       samplers[live] = sampler;
-      fluxLm[live++] = flux * (albedo / survive);
+      flights[live++] = {flux * (albedo / survive), flights[i].particle};
     }
     rays.erase(rays.begin() + static_cast<std::ptrdiff_t>(live), rays.end());
     samplers.erase(samplers.begin() + static_cast<std::ptrdiff_t>(live), samplers.end());
-    fluxLm.erase(fluxLm.begin() + static_cast<std::ptrdiff_t>(live), fluxLm.end());
+    flights.erase(flights.begin() + static_cast<std::ptrdiff_t>(live), flights.end());
+  }
+
+  void addWay(const Ray& ray, const Arrival& end, Vec3 to, Bounds3 bent, uint16_t particle, ParticleTrail& trail) const {
+    if (!end.reflected) return trail.ways.push_back({ray.origin, to, particle, true});
+    for (const Vec3 p : {ray.origin, end.ray.origin, to}) bent.add(p);
+    trail.ways.push_back({bent.lo, bent.hi, particle, false});
   }
 
   bool isLeftToRays(const Material& m) const { return source_.isSurface && isPolishedMetal(m); }
 
   // As many points as the flux asks for on average, each of `pointLm_`.
-  void reflectedAt(Vec3 p, Vec3 n, Vec3 flux, int64_t slot, Sampler& sampler, Trail& trail) const {
+  void reflectedAt(Vec3 p, Vec3 n, Vec3 flux, int64_t slot, uint16_t particle, Sampler& sampler, ParticleTrail& trail) const {
     const float luminous = luminance(flux), copies = std::floor(luminous / pointLm_ + sampler.fast1());
-    for (float k = 0; k < copies; ++k) trail.points.push_back({offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0, -1, -1});
+    for (float k = 0; k < copies; ++k) trail.points.push_back({{offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0, -1, -1}, particle});
   }
 
   const RayScene& rays_;
@@ -121,6 +123,58 @@ class Particles {
   const ParticleSource& source_;
   const RadianceSettings& settings_;
   const float pointLm_;
+};
+
+// What the trails hold together. In order, so that sums do not depend on threads.
+void addUp(const Voxels& voxels, ParticleLight& light) {
+  std::vector<Vec3> near(voxels.slots.size()), far(voxels.slots.size());
+  light.points.clear();
+  for (const ParticleTrail& trail : light.trails) {
+    for (const ParticleTrail::Point& p : trail.points) light.points.push_back(p.glow);
+    for (const ParticleTrail::Deposit& d : trail.deposits) (d.near ? near : far)[d.slot] += d.fluxLm / litArea(voxels.slots[d.slot], voxels.voxelSizeM);
+  }
+  light.near = SlotLight(voxels, near), light.far = SlotLight(voxels, far);
+}
+
+// What of a trail stays: the numbers of particles that do not are left in `again`.
+class Keeper {
+ public:
+  Keeper(const Carried& carried, std::span<const Bounds3> places, float voxelSizeM) : carried_(carried), places_(places), h_(voxelSizeM) {
+    for (const Bounds3& box : places) around_.add(box);
+  }
+
+  void keep(ParticleTrail& trail, std::vector<uint16_t>& again) const {
+    std::array<bool, kChunk> gone{};
+    for (ParticleTrail::Deposit& d : trail.deposits) {
+      d.slot = carried_.newSlot[d.slot];
+      if (d.slot == Carried::kGone) gone[d.particle] = true;
+    }
+    for (const ParticleTrail::Piece& way : trail.ways) gone[way.particle] = gone[way.particle] || touches(way);
+    for (uint16_t i = 0; i < kChunk; ++i) {
+      if (gone[i]) again.push_back(i);
+    }
+    for (ParticleTrail::Point& p : trail.points) {
+      if (p.glow.slot >= 0 && !gone[p.particle]) p.glow.slot = static_cast<int64_t>(carried_.newSlot[static_cast<size_t>(p.glow.slot)]);
+    }
+    const auto isGone = [&](const auto& x) { return gone[x.particle]; };
+    std::erase_if(trail.deposits, isGone), std::erase_if(trail.points, isGone), std::erase_if(trail.ways, isGone);
+  }
+
+ private:
+  // Surfaces as far from a way's end as the slot that stands for them may decide which one that is.
+  bool touches(const ParticleTrail::Piece& way) const {
+    const float off = kWithin * h_;
+    if (!way.straight) return std::any_of(places_.begin(), places_.end(), [&](const Bounds3& place) { return overlap({way.from, way.to}, place, off); });
+    const Vec3 d = way.to - way.from;
+    const float metres = length(d);
+    const Ray ray{way.from, metres > 0 ? d / metres : Vec3{0, 0, 1}, 0, metres + off};
+    return crosses(ray, {&around_, 1}, h_) && crosses(ray, places_, h_);
+  }
+
+  const Carried& carried_;
+  std::span<const Bounds3> places_;
+  const float h_;
+  Bounds3 around_;
 };
 
 }  // namespace
@@ -148,31 +202,51 @@ ParticleSource particlesOf(const Lights& lights, size_t emitter, size_t emitters
 void ParticleLight::scale(Vec3 by) {
   near.scale(by), far.scale(by);
   for (GlowPoint& g : points) g.fluxLm *= by;
+  for (ParticleTrail& trail : trails) {
+    for (ParticleTrail::Deposit& d : trail.deposits) d.fluxLm *= by;
+    for (ParticleTrail::Point& p : trail.points) p.glow.fluxLm *= by;
+  }
   fluxLm *= luminance(by);
+}
+
+size_t ParticleLight::bytes() const {
+  size_t sum = near.bytes() + far.bytes() + points.size() * sizeof(points[0]);
+  for (const ParticleTrail& t : trails) sum += t.deposits.size() * sizeof(t.deposits[0]) + t.points.size() * sizeof(t.points[0]) + t.ways.size() * sizeof(t.ways[0]);
+  return sum;
 }
 
 ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Progress& progress) {
   ParticleLight light;
-  const size_t n = source.particles;
   const Particles particles(rays, voxels, paths, source, settings);
-  std::vector<Trail> trails(n / kChunk);
-  parallelFor(trails.size(), 1, [&](size_t chunk) {
-    if (!progress.stop()) trails[chunk] = particles.trace(chunk);
+  std::array<uint16_t, kChunk> all;
+  std::iota(all.begin(), all.end(), uint16_t{0});
+  light.trails.resize(source.particles / kChunk);
+  parallelFor(light.trails.size(), 1, [&](size_t chunk) {
+    if (!progress.stop()) particles.trace(chunk, all, light.trails[chunk]);
   });
-  std::vector<Vec3> near(voxels.slots.size()), far(voxels.slots.size());
-  // In order, so that sums do not depend on threads.
-  for (const Trail& trail : trails) {
-    light.points.insert(light.points.end(), trail.points.begin(), trail.points.end());
-    light.way.add(trail.way);
-    for (const Deposit& d : trail.deposits) {
-      const FaceSlot& slot = voxels.slots[d.slot];
-      (d.near ? near : far)[d.slot] += d.fluxLm / litArea(slot, voxels.voxelSizeM);
-    }
-  }
-  light.near = SlotLight(voxels, near), light.far = SlotLight(voxels, far);
-  light.rays = n;
+  addUp(voxels, light);
+  light.rays = source.particles;
   light.fluxLm = source.fluxLm;
   return light;
+}
+
+void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Carried& carried, std::span<const Bounds3> places,
+                     const Progress& progress, ParticleLight& light) {
+  ParticleSource same = source;
+  same.particles = light.trails.size() * kChunk;  // of as many sources as there were
+  const Particles particles(rays, voxels, paths, same, settings);
+  const Keeper keeper(carried, places, voxels.voxelSizeM);
+  std::atomic<uint64_t> traced = 0;
+  parallelFor(light.trails.size(), 1, [&](size_t chunk) {
+    if (progress.stop()) return;
+    std::vector<uint16_t> again;
+    keeper.keep(light.trails[chunk], again);
+    particles.trace(chunk, again, light.trails[chunk]);
+    traced += again.size();
+  });
+  if (progress.stop()) return;
+  addUp(voxels, light);
+  light.rays = traced;
 }
 
 }  // namespace roomlight

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "radiance/carried.h"
 #include "radiance/radiance_field.h"
 #include "radiance/slot_light.h"
 #include "radiance/slot_paths.h"
@@ -27,21 +28,48 @@ struct ParticleSource {
 ParticleSource particlesOf(const Lamp& lamp, size_t lamps, float voxelSizeM);
 ParticleSource particlesOf(const Lights& lights, size_t emitter, size_t emitters, float voxelSizeM);
 
+// What some particles of a source left behind, and where they went. Each knows whose it is.
+struct ParticleTrail {
+  struct Deposit {
+    Vec3 fluxLm;
+    uint32_t slot;
+    uint16_t particle;
+    bool near;  // carried on
+  };
+  struct Point {
+    GlowPoint glow;
+    uint16_t particle;
+  };
+  struct Piece {
+    Vec3 from, to;
+    uint16_t particle;
+    bool straight;  // else it keeps within the box of the two
+  };
+  std::vector<Deposit> deposits;
+  std::vector<Point> points;
+  std::vector<Piece> ways;
+};
+
 // What particles of one source leave behind.
 struct ParticleLight {
   SlotLight near;  // lx; on slots in its surroundings: what they reflect of it is contained in `near` and `far`
   SlotLight far;   // lx; on other slots, by reflection in its surroundings or on surfaces that no slot stands for; and on polished metal
   std::vector<GlowPoint> points;  // of what surfaces in its surroundings reflect, about kPoints of them for all its flux
-  Bounds3 way;     // of all particles
+  std::vector<ParticleTrail> trails;  // kChunk particles each
   float fluxLm = 0;  // luminous, of the source
-  uint64_t rays = 0;
+  uint64_t rays = 0;  // of the last trace
   void scale(Vec3 by);  // the source shines otherwise
-  size_t bytes() const { return near.bytes() + far.bytes() + points.size() * sizeof(GlowPoint); }
+  size_t bytes() const;
 };
 
 constexpr float kGlowPoints = 32768;  // that stand for a flux like that of all sources
 
 // Ends early, with a part of the light, once `progress` says stop.
 ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Progress& progress);
+
+// After instances have moved, of the same source where it was: particles that came near `places`, where these were and are, are traced
+// again, and those that left something on slots that are gone.
+void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Carried& carried, std::span<const Bounds3> places,
+                     const Progress& progress, ParticleLight& light);
 
 }  // namespace roomlight

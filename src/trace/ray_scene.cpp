@@ -20,10 +20,25 @@ struct GeometryTag {  // what a filter function needs to know of the geometry it
   const Mesh* mesh;
 };
 
-struct ShadowContext {
+constexpr unsigned kStill = 0, kMoving = 1;  // parts of the top, once anything has moved
+
+struct Query {
   RTCIntersectContext base;  // first member: Embree hands back a pointer to it
-  Vec3* left;                // one per ray of the packet, indexed by ray id
+  const uint8_t* gone;       // per instance; null: none is
+  Vec3* left;                // of shadow rays: one per ray of the packet, indexed by ray id
 };
+
+// Whether the surface of what has moved is met where it is no longer.
+bool isGone(const RTCFilterFunctionNArguments* args, unsigned i) {
+  const uint8_t* gone = reinterpret_cast<const Query*>(args->context)->gone;
+  return gone && RTCHitN_instID(args->hit, args->N, i, 0) == kStill && gone[RTCHitN_geomID(args->hit, args->N, i)];
+}
+
+void filterGone(const RTCFilterFunctionNArguments* args) {
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == -1 && isGone(args, i)) args->valid[i] = 0;
+  }
+}
 
 bool isMasked(const Material& m) { return m.alphaMode == AlphaMode::Mask; }
 
@@ -41,17 +56,21 @@ void filterIntersect(const RTCFilterFunctionNArguments* args) {
 // Glass and blended surfaces reduce what is left; the ray goes on until nothing is.
 void filterOccluded(const RTCFilterFunctionNArguments* args) {
   const auto* tag = static_cast<const GeometryTag*>(args->geometryUserPtr);
-  const auto* context = reinterpret_cast<const ShadowContext*>(args->context);
+  const auto* query = reinterpret_cast<const Query*>(args->context);
   const Material& material = tag->scene->materials[static_cast<size_t>(tag->mesh->material)];
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] != -1) continue;
+    if (isGone(args, i)) {  // this filter comes before that of the query
+      args->valid[i] = 0;
+      continue;
+    }
     const TrianglePoint p{RTCHitN_primID(args->hit, n, i), RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i)};
     const Vec3 ng{RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)};
     const Vec3 d{RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)};
     const float cosTheta = std::abs(dot(ng, d)) / std::sqrt(lengthSquared(ng) * lengthSquared(d));
     const MaterialSample m = materialAt(*tag->scene, *tag->mesh, p);
-    Vec3& left = context->left[RTCRayN_id(args->ray, n, i)];
+    Vec3& left = query->left[RTCRayN_id(args->ray, n, i)];
     left *= straightTransmittance(material, m, cosTheta);
     if (!isBlack(left)) args->valid[i] = 0;
   }
@@ -66,10 +85,10 @@ struct RayScene::State {
   Bounds3 bounds;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
-  // Once anything has moved: what has not, and what has, which `top` holds then. Both in world space.
+  // Once anything has moved: what was there at first, and what has moved, which `top` holds then. Both in world space.
   RTCScene still = nullptr, moving = nullptr;
-  std::vector<uint8_t> moves;        // per instance: it is in `moving`; empty before that
-  std::vector<uint8_t> attached;  // per instance: it has a geometry in one of them
+  std::vector<uint8_t> gone;      // per instance: what `still` holds of it is no longer there; empty before that
+  std::vector<uint8_t> attached;  // per instance: it has a geometry in `moving` or, not gone, in the other
   bool shares = false;               // meshes are Embree instances, below which there can be no more
   RayLog* log = nullptr;
   std::vector<RTCScene> meshScenes;  // of instanced meshes, else null
@@ -95,7 +114,9 @@ struct RayScene::State {
   RTCGeometry makeGeometry(int meshIndex, const Affine& transform);
   void build();
   void commitTop();
+  RTCScene newScene() const;
   void part();
+  void begin(Query& query) const;
   void update(std::span<const uint32_t> changed);
   Hit hit(unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t, Vec3 ng) const;
   void note(RayLog::Kind kind, std::span<const Ray> rays) const {
@@ -133,8 +154,9 @@ Hit RayScene::State::hit(unsigned geomID, unsigned instID, unsigned primID, floa
 void RayScene::State::build() {
   if (!device) device = rtcNewDevice(nullptr);
   releaseScenes();
-  top = rtcNewScene(device);
+  top = newScene();
   rtcSetSceneBuildQuality(top, RTC_BUILD_QUALITY_MEDIUM);
+  gone.clear();
   tags.clear();
   tags.reserve(scene->meshes.size());
   for (const Mesh& mesh : scene->meshes) tags.push_back({scene, &mesh});
@@ -174,6 +196,19 @@ void RayScene::State::build() {
   commitTop();
 }
 
+RTCScene RayScene::State::newScene() const {
+  RTCScene made = rtcNewScene(device);
+  rtcSetSceneFlags(made, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  return made;
+}
+
+// A filter for all surfaces takes some hundredths of the rays' time, a build of the whole without what has moved a second.
+void RayScene::State::begin(Query& query) const {
+  rtcInitIntersectContext(&query.base);
+  query.gone = gone.empty() ? nullptr : gone.data();
+  if (query.gone) query.base.filter = filterGone;
+}
+
 void RayScene::State::commitTop() {
   rtcCommitScene(top);
   RTCBounds b;
@@ -184,13 +219,13 @@ void RayScene::State::commitTop() {
 // Nothing has moved yet: all stays in one hierarchy, below a top that has room for another.
 void RayScene::State::part() {
   still = top;
-  moving = rtcNewScene(device), top = rtcNewScene(device);
-  moves.assign(scene->instances.size(), 0);
+  moving = newScene(), top = newScene();
+  gone.assign(scene->instances.size(), 0);
   for (const RTCScene part : {still, moving}) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, part);
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &kInPlace);
-    rtcAttachGeometryByID(top, geometry, part == still ? 0 : 1);
+    rtcAttachGeometryByID(top, geometry, part == still ? kStill : kMoving);
     rtcReleaseGeometry(geometry);
   }
 }
@@ -200,13 +235,9 @@ void RayScene::State::update(std::span<const uint32_t> changed) {
   if (surfaces) surfaces->update(changed);
   if (shares) return build();
   if (!still) part();
-  bool stillLess = false;
   for (const uint32_t i : changed) {
-    if (attached[i]) {
-      rtcDetachGeometry(moves[i] ? moving : still, i);
-      stillLess = stillLess || !moves[i];
-    }
-    moves[i] = 1, attached[i] = 0;
+    if (attached[i] && gone[i]) rtcDetachGeometry(moving, i);
+    gone[i] = 1, attached[i] = 0;
     const Instance& instance = scene->instances[i];
     if (scene->meshes[static_cast<size_t>(instance.mesh)].triangleCount() == 0) continue;
     // In world space, not placed by a transform: the same bits as a scene has in which nothing moved.
@@ -215,9 +246,8 @@ void RayScene::State::update(std::span<const uint32_t> changed) {
     attached[i] = 1;
     rtcReleaseGeometry(geometry);
   }
-  if (stillLess) rtcCommitScene(still);
   rtcCommitScene(moving);
-  for (const unsigned part : {0u, 1u}) rtcCommitGeometry(rtcGetGeometry(top, part));
+  for (const unsigned part : {kStill, kMoving}) rtcCommitGeometry(rtcGetGeometry(top, part));
   commitTop();
 }
 
@@ -239,25 +269,25 @@ const Surfaces& RayScene::surfaces() const {
 }
 
 Hit RayScene::intersect(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  Query query{};
+  state_->begin(query);
   RTCRayHit r;
   r.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.tMin, ray.direction.x, ray.direction.y, ray.direction.z,
            0, ray.tMax, 0xffffffffu, 0, 0};
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(state_->top, &context, &r);
+  rtcIntersect1(state_->top, &query.base, &r);
   return state_->hit(r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
 }
 
 Vec3 RayScene::transmittance(const Ray& ray) const {
   Vec3 left(1);
-  ShadowContext context;
-  rtcInitIntersectContext(&context.base);
-  context.left = &left;
+  Query query{};
+  state_->begin(query);
+  query.left = &left;
   RTCRay r{ray.origin.x, ray.origin.y, ray.origin.z, ray.tMin, ray.direction.x, ray.direction.y, ray.direction.z,
            0, ray.tMax, 0xffffffffu, 0, 0};
-  rtcOccluded1(state_->top, &context.base, &r);
+  rtcOccluded1(state_->top, &query.base, &r);
   return r.tfar < 0 ? Vec3(0) : left;
 }
 
@@ -279,9 +309,9 @@ void RayScene::intersectClose(std::span<const Ray> rays, std::span<Hit> hits) co
 
 void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, bool close) const {
   state_->note(close ? RayLog::Kind::NearestClose : RayLog::Kind::Nearest, rays);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  if (close) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  Query query{};
+  state_->begin(query);
+  if (close) query.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (size_t first = 0; first < rays.size(); first += 8) {
     alignas(32) RTCRayHit8 r;
     alignas(32) int valid[8] = {};
@@ -292,7 +322,7 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
       r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       valid[i] = -1;
     }
-    rtcIntersect8(valid, state_->top, &context, &r);
+    rtcIntersect8(valid, state_->top, &query.base, &r);
     for (unsigned i = 0; i < n; ++i) {
       const Vec3 ng{r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]};
       hits[first + i] = state_->hit(r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i], ng);
@@ -302,11 +332,11 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
 
 void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> left) const {
   state_->note(RayLog::Kind::Shadow, rays);
+  Query query{};
+  state_->begin(query);
   for (size_t first = 0; first < rays.size(); first += 8) {
     Vec3 lanes[8];
-    ShadowContext context;
-    rtcInitIntersectContext(&context.base);
-    context.left = lanes;
+    query.left = lanes;
     alignas(32) RTCRay8 r;
     alignas(32) int valid[8] = {};
     const auto n = static_cast<unsigned>(std::min<size_t>(8, rays.size() - first));
@@ -315,7 +345,7 @@ void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> left) co
       lanes[i] = Vec3(1);
       valid[i] = -1;
     }
-    rtcOccluded8(valid, state_->top, &context.base, &r);
+    rtcOccluded8(valid, state_->top, &query.base, &r);
     for (unsigned i = 0; i < n; ++i) left[first + i] = r.tfar[i] < 0 ? Vec3(0) : lanes[i];
   }
 }

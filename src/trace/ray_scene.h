@@ -61,7 +61,8 @@ class RayScene {
   void transmittance(std::span<const Ray> rays, std::span<Vec3> left) const;
 
   // Follows the scene, edited where it stands, after these instances moved or got another mesh (one without triangles hides them). What
-  // has moved once has a hierarchy of its own from then on: the first time costs a build of the whole, later ones that of what moves.
+  // has moved once has a hierarchy of its own from then on, and where it was at first is no longer met: this costs a build of what moves. With meshes
+  // shared, in scenes of millions of triangles, the whole is built anew.
   // The same hits, bit for bit, as of a RayScene made anew. No ray may be under way.
   void update(std::span<const uint32_t> changedInstances);
 

@@ -74,5 +74,23 @@ TEST(RaySceneUpdate, aMeshWithoutTrianglesHides) {
   expectSameHits(rays, scene);
 }
 
+// Nor does what has moved darken light where it was.
+TEST(RaySceneUpdate, aPaneThatMovedLetsAllLightPassWhereItWas) {
+  Scene scene = home();
+  Material glass = test::lambertian(0.5f);
+  glass.alphaMode = AlphaMode::Blend, glass.alpha = 0.5f;
+  const auto pane = static_cast<uint32_t>(scene.instances.size());
+  test::addRectangle(scene, {1, 1, 1}, {0, 0, 1}, {1, 0, 0}, test::addMaterial(scene, glass));
+  RayScene rays(scene);
+  const Ray before{{1.3f, 0.5f, 1.6f}, {0, 1, 0}, 0, 1}, after{{1.3f, 0.7f, 1.6f}, {0, 1, 0}, 0, 0.2f};
+  EXPECT_FLOAT_EQ(rays.transmittance(before).x, 0.5f);
+  scene.instances[pane].worldFromObject.w.y -= 0.2f;
+  rays.update(std::vector<uint32_t>{pane});
+  std::vector<Vec3> left(2);
+  rays.transmittance(std::vector<Ray>{before, after}, left);
+  for (const Vec3& l : left) EXPECT_FLOAT_EQ(l.x, 0.5f);
+  EXPECT_FLOAT_EQ(rays.transmittance({{1.3f, 0.9f, 1.6f}, {0, 1, 0}, 0, 0.2f}).x, 1);
+}
+
 }  // namespace
 }  // namespace roomlight
