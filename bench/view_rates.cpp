@@ -210,7 +210,7 @@ json afterJump(Browser& browser, json edit, uint32_t& id, const std::string& kee
     std::ofstream(keep + "_300ms.jpg", std::ios::binary) << shown.jpeg;
     std::ofstream(keep + "_settled.jpg", std::ios::binary) << good.jpeg;
   }
-  return {{"frames", soon.size()}, {"firstMs", soon.front().latencyMs}, {"lightS", lightS}, {"offLightPercent", difference(at300, linear(light.jpeg))}, {"offSettledPercent", difference(at300, settled)}};
+  return {{"frames", soon.size()}, {"firstMs", soon.front().latencyMs}, {"lightS", lightS}, {"offLightPercent", difference(at300, linear(light.jpeg))}, {"offSettledPercent", difference(at300, settled)}, {"quickOffSettledPercent", difference(linear(light.jpeg), settled)}};
 }
 
 int run(const std::string& homeFile, const std::string& lighting, const std::string& walkFile, double seconds, const std::string& keep) {

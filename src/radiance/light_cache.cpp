@@ -68,6 +68,7 @@ LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels&
 void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
   const Sources from{rays, lights, voxels, progress};
   field_.rays = 0;
+  fewParticles_ = settings_.bouncesAtOnce > 0;
   paths_.refer(rays, voxels);
   matchEmitters(from);
   matchLamps(from);
@@ -78,9 +79,23 @@ void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxel
 void LightCache::goOn(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
   if (settled_) return;
   field_.rays = 0;
+  const Sources from{rays, lights, voxels, progress};
   paths_.refer(rays, voxels);
+  traceAllParticles(from);
   mostAtOnce_ = std::min(2 * mostAtOnce_, settings_.maxBounces);
-  solve({rays, lights, voxels, progress}, mostAtOnce_);
+  solve(from, mostAtOnce_);
+}
+
+// Of what has moved while light was followed in steps.
+void LightCache::traceAllParticles(const Sources& from) {
+  fewParticles_ = false;
+  const size_t small = smallEmitters(from);
+  for (EmitterLight& light : emitters_) {
+    if (light.particles.few && light.index >= 0) light.particles = particlesFrom(from, particlesOf(from.lights, static_cast<size_t>(light.index), small, from.voxels.voxelSizeM));
+  }
+  for (LampLight& light : lamps_) {
+    if (light.particles.few) light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
+  }
 }
 
 void LightCache::followDaylight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
@@ -164,7 +179,7 @@ ParticleSource LightCache::particlesOfLamp(const Sources& from, const Lamp& lamp
 }
 
 // None where there is no surface near the source.
-ParticleLight LightCache::particlesFrom(const Sources& from, const ParticleSource& source) {
+ParticleLight LightCache::particlesFrom(const Sources& from, ParticleSource source) {
   std::atomic<bool> any = false;
   parallelFor(from.voxels.bricks.size(), 16, [&](size_t b) {
     if (any || !source.around.touches(boundsOfBrick(from.voxels, b))) return;
@@ -174,8 +189,10 @@ ParticleLight LightCache::particlesFrom(const Sources& from, const ParticleSourc
     }
   });
   if (!any || from.progress.stop()) return {};
+  if (fewParticles_) source.takeFewer();
   ParticleLight light = traceParticles(from.rays, from.voxels, paths_, source, settings_, from.progress);
   field_.rays += light.rays;
+  light.few = fewParticles_;
   return light;
 }
 
@@ -214,6 +231,11 @@ void LightCache::forgetLampsBut(const Lights& lights) {
   });
 }
 
+bool LightCache::hasFewParticles() const {
+  return std::any_of(emitters_.begin(), emitters_.end(), [](const EmitterLight& e) { return e.particles.few && e.index >= 0; }) ||
+         std::any_of(lamps_.begin(), lamps_.end(), [](const LampLight& l) { return l.particles.few; });
+}
+
 int LightCache::bouncesOfUpdate() { return mostAtOnce_ = settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces) : settings_.maxBounces; }
 
 void LightCache::solve(const Sources& from, int mostBounces) {
@@ -249,7 +271,7 @@ void LightCache::bounceOn(const Sources& from, int mostBounces, std::vector<Vec3
   RadianceSettings once = settings_;
   once.maxBounces = mostBounces;
   const Bounces done = once.bounceBy == BounceBy::Cones ? bounceByCones(voxels, paths_, direct_, indirect_, once, from.progress) : bounce(voxels, links_, direct_, indirect_, once, from.progress);
-  settled_ = done.done < mostBounces || mostBounces >= settings_.maxBounces;
+  settled_ = !hasFewParticles() && (done.done < mostBounces || mostBounces >= settings_.maxBounces);
   field_.bounces = done.done, field_.residual = done.residual;
   if (!from.progress.stop()) fillField(from, near);
   if (settings_.layers && !from.progress.stop()) splitIntoLayers(from, done);

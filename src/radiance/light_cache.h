@@ -102,7 +102,9 @@ class LightCache {
   static SlotLight lightOfAll(const Sources& from, const std::function<void(size_t brick, std::vector<Vec3>& lux)>& ofBrick);
   void traceLamp(const Sources& from, LampLight& light);
   ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
-  ParticleLight particlesFrom(const Sources& from, const ParticleSource& source);
+  ParticleLight particlesFrom(const Sources& from, ParticleSource source);
+  void traceAllParticles(const Sources& from);
+  bool hasFewParticles() const;
   std::vector<LitParticles> litParticles() const;
   void forgetLampsBut(const Lights& lights);
   void matchEmitters(const Sources& from);
@@ -130,6 +132,7 @@ class LightCache {
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
   int mostAtOnce_ = 0;  // bounces, the last time
   bool settled_ = true;
+  bool fewParticles_ = false;  // where light is followed in steps: of what has moved, the rest follows with bounces
   RadianceField field_;
 };
 

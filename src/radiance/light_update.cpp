@@ -61,6 +61,7 @@ void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels
   std::vector<BrickMark> marks = marksOf(voxels);
   const Carried carried = carry(marks_, marks, voxels, places);
   const Change change{carried, places};
+  fewParticles_ = settings_.bouncesAtOnce > 0;
   field_.rays = 0;
   const SlotPaths paths(rays, voxels, settings_.seed, progress, &paths_, &carried);
   if (progress.stop()) return;

@@ -15,6 +15,7 @@ namespace {
 constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12, kChunk = 512;
 constexpr int kMostReflections = 64;
+constexpr size_t kFirstLook = 4;
 constexpr float kAwayM = 1000;   // of what leaves the scene
 constexpr float kWithin = 2;     // voxels: so far at most from a slot's place lie hits on the surface it stands for
 
@@ -198,6 +199,8 @@ ParticleSource particlesOf(const Lights& lights, size_t emitter, size_t emitters
   const auto ray = [&lights, emitter](Sampler& sampler) { return lights.sampleEmitterRay(emitter, sampler); };
   return {around, keyOf({box.lo, box.hi}), lights.emitterFluxLm(emitter), particlesFor(around.sizeOfPoints(), emitters), true, ray};
 }
+
+void ParticleSource::takeFewer() { particles = std::max(kChunk, particles / kFirstLook / kChunk * kChunk); }
 
 void ParticleLight::scale(Vec3 by) {
   near.scale(by), far.scale(by);

@@ -20,6 +20,7 @@ struct ParticleSource {
   uint64_t key;       // the same random numbers for a source whatever others there are
   float fluxLm;       // luminous
   size_t particles;
+  void takeFewer();  // a part of them, for a first look
   bool isSurface;     // rays may find it: what polished metal reflects of it is left to them
   std::function<LightRay(Sampler&)> ray;  // with the flux of all, if it were the only one
 };
@@ -58,6 +59,7 @@ struct ParticleLight {
   std::vector<ParticleTrail> trails;  // kChunk particles each
   float fluxLm = 0;  // luminous, of the source
   uint64_t rays = 0;  // of the last trace
+  bool few = false;  // not as many as the source asks for
   void scale(Vec3 by);  // the source shines otherwise
   size_t bytes() const;
 };

@@ -272,6 +272,34 @@ TEST(Update, leavesTheLightOfOtherEmissiveMeshesAsItIs) {
   EXPECT_LT(renewed[true], renewed[false]);
 }
 
+// Followed in steps, what has moved first sends a part of its particles; in the end all of them.
+TEST(Update, particlesOfWhatMovedComeToAll) {
+  GlowingHome home;
+  RadianceSettings settings = apart();
+  settings.bouncesAtOnce = 3;
+  LightCache cache = lit(home, settings);
+  home.box.assign(1, home.panelAlone[0] + 1);  // a side of the cube
+  const std::vector<Bounds3> places = home.moveBox({0, 0.13f, 0});
+  const RayScene rays(home.scene);
+  cache.update(rays, Lights(home.scene), home.voxels(), places);
+  EXPECT_FALSE(cache.settled());
+  const uint64_t first = cache.field().rays;
+  uint64_t more = 0;
+  for (int k = 0; k < 20 && !cache.settled(); ++k) {
+    cache.goOn(rays, Lights(home.scene), home.voxels());
+    more += cache.field().rays;
+  }
+  EXPECT_TRUE(cache.settled());
+  EXPECT_GT(first, 0u);
+  EXPECT_GE(more, 4096u);
+  expectSame(cache, lit(home, settings), 3e-3f);
+  // One that was switched off before it sent all does not keep light from settling.
+  home.emission(home.cube) = {};
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  for (int k = 0; k < 20 && !cache.settled(); ++k) cache.goOn(rays, Lights(home.scene), home.voxels());
+  EXPECT_TRUE(cache.settled());
+}
+
 TEST(FollowDaylight, equalsASceneLitAnew) {
   Home home(true);
   const auto light = [&](const Sun& sun, float skyCdM2) {
