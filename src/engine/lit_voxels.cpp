@@ -13,6 +13,8 @@
 namespace roomlight {
 namespace {
 
+constexpr size_t kMostEdited = 8;  // each takes a ray of a pixel of quick frames
+
 template <class Shader, class Settings>
 class VoxelScene final : public LitScene {
  public:
@@ -37,12 +39,17 @@ class VoxelScene final : public LitScene {
     if (!shader_) return {};
     return gatherView(rays(), lights(), *shader_, camera, asked(gather_, wish), wish.history, progress);
   }
-  std::shared_ptr<const SlotSnapshot> snapshot() const override { return std::make_shared<const SlotSnapshot>(voxels_.voxels, light_->field().irradianceLux, light_->sharpLux(voxels_.voxels)); }
+  std::shared_ptr<const SlotSnapshot> snapshot() const override {
+    std::vector<uint32_t> edited = light_->emittersApart(lights()) ? edited_ : std::vector<uint32_t>();
+    const std::vector<Vec3> sharp = light_->sharpLux(voxels_.voxels, edited);
+    return std::make_shared<const SlotSnapshot>(voxels_.voxels, light_->field().irradianceLux, sharp, std::move(edited));
+  }
 
  private:
   // What voxels know of emission light does not ask: it follows when something moves.
   void relight(const SceneChange& change, Stages& stages) override {
     shader_.reset();
+    noteEdited(change);
     glow_.insert(glow_.end(), change.glow.begin(), change.glow.end());
     const std::vector<uint32_t>& moved = change.moved;
     SceneChange behind = change;
@@ -65,6 +72,14 @@ class VoxelScene final : public LitScene {
     });
     makeShader(stages);
   }
+  // Emissive meshes that may be edited again at once.
+  void noteEdited(const SceneChange& change) {
+    std::vector<uint32_t> now;
+    for (const std::vector<uint32_t>* list : {&change.glow, &change.moved}) {
+      std::copy_if(list->begin(), list->end(), std::back_inserter(now), [&](uint32_t i) { return lights().emitterOf(i) >= 0; });
+    }
+    if (!now.empty() && now.size() <= kMostEdited) edited_ = std::move(now);
+  }
   bool settled() const override { return light_->settled(); }
   void makeShader(Stages& stages) {
     if (stages.cancelled()) return;
@@ -77,6 +92,7 @@ class VoxelScene final : public LitScene {
   RadianceSettings radiance_;
   const Settings gather_;
   Voxelisation voxels_;
+  std::vector<uint32_t> edited_;  // emissive meshes, the last time
   std::vector<uint32_t> glow_;  // instances that shine otherwise than voxels know
   std::optional<LightCache> light_;
   std::optional<Shader> shader_;

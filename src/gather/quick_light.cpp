@@ -1,5 +1,6 @@
 #include "gather/quick_maker.h"
 
+#include "base/random.h"
 #include "trace/bsdf.h"
 #include "trace/lamp_light.h"
 #include "trace/shadow_ray.h"
@@ -67,14 +68,43 @@ void QuickFrames::Maker::shade(uint32_t index, Work& w) const {
   }
   const size_t lamps = scene_.lights.lampCount(), lights = lamps + scene_.lights.sunCount();
   const float faint = kFaint * luminance(e.soft + e.sharp) / kPi;
-  for (size_t i = 0; i < lights; ++i) {
-    if (i < lamps && !isSharp(scene_.lights.lamp(i))) continue;
-    const LightSample l = i < lamps ? scene_.lights.sampleLamp(i, s.p, {0.5f, 0.5f}) : scene_.lights.sampleSun(i - lamps, {0.5f, 0.5f});
+  const auto ask = [&](LightSample l, const LightSurroundings* around) {
     const float cosine = dot(l.wi, s.ns);
-    if (!l.valid() || cosine <= 0 || dot(l.wi, s.ng) <= 0 || luminance(l.radiance) * cosine < kPi * faint) continue;
+    if (!l.valid() || cosine <= 0 || dot(l.wi, s.ng) <= 0 || luminance(l.radiance) * cosine < kPi * faint) return;
+    if (around) l.radiance *= shareOutside(*around, s.p, l.wi);
+    if (isBlack(l.radiance)) return;
     w.shadows.push_back({index, l.radiance * (cosine / kPi), left * bsdf.evaluateSpecular(l.wi) * l.radiance});
     w.shadowRays.push_back(shadowRay(offsetOrigin(s.p, s.ng), s.p, l));
+  };
+  for (size_t i = 0; i < lights; ++i) {
+    if (i < lamps && !isSharp(scene_.lights.lamp(i))) continue;
+    ask(i < lamps ? scene_.lights.sampleLamp(i, s.p, {0.5f, 0.5f}) : scene_.lights.sampleSun(i - lamps, {0.5f, 0.5f}), i < lamps ? &besideLamps_[i] : nullptr);
   }
+  for (size_t k = 0; k < emitters_.size(); ++k) {
+    Rng random(a.pixel, f_.frame_, k);
+    const Vec2 u = random.uniform2();
+    ask(w.views[k].sample(s.p, u, random.uniform()), &emitters_[k].around);
+  }
+}
+
+// For those that light the pixels of a tile.
+void QuickFrames::Maker::lookAtEmitters(Work& w) const {
+  w.views.clear();
+  Bounds3 places;
+  for (const Asked& a : w.asked) {
+    if (a.hit.valid()) places.add(a.p);
+  }
+  if (places.empty()) return;  // sky alone
+  for (const SharpEmitter& e : emitters_) w.views.emplace_back(scene_.lights, e.index, places);
+}
+
+// Within the surroundings of a source its light comes by slots (radiance/near_lights.h). Between slots inside and outside light is interpolated over a voxel, and so is what is asked for.
+float QuickFrames::Maker::shareOutside(const LightSurroundings& around, Vec3 p, Vec3 towards) const {
+  float outside = 0;
+  for (const float step : {-0.375f, -0.125f, 0.125f, 0.375f}) {
+    if (!around.contains(p + towards * (step * scene_.light.voxelSizeM()))) outside += 0.25f;
+  }
+  return outside;
 }
 
 // Pixels that are not lit take the light of the nearest in their block, or in one beside it, that is and sees the same.
@@ -126,6 +156,7 @@ void QuickFrames::Maker::lightAll(Work& w, size_t first) const {
 
 void QuickFrames::Maker::light(Work& w, Count& count, Image& out) const {
   w.shadows.clear(), w.shadowRays.clear();
+  lookAtEmitters(w);
   for (uint32_t i = 0; i < w.asked.size(); ++i) {
     if (w.asked[i].lit) shade(i, w), ++count.lit;
   }

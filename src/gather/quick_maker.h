@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "gather/quick_frames.h"
+#include "radiance/surroundings.h"
+#include "trace/emitter_view.h"
 
 namespace roomlight {
 
@@ -58,6 +60,14 @@ class QuickFrames::Maker {
     const auto onPlane = [&](const Ray& r) { return r.direction / dot(r.direction, ahead); };
     corner_ = onPlane(corner), stepX_ = (onPlane(right) - corner_) / static_cast<float>(width), stepY_ = (onPlane(down) - corner_) / static_cast<float>(height);
     coarser_ = slope_ * std::max(1.0f, frames.pastHeight_ > 0 ? static_cast<float>(height) / static_cast<float>(frames.pastHeight_) : 1.0f);
+    const float voxelM = scene.light.voxelSizeM();
+    for (size_t i = 0; i < scene.lights.lampCount(); ++i) besideLamps_.emplace_back(scene.lights.lamp(i), voxelM);
+    for (const uint32_t i : scene.light.sharpEmissive()) {
+      const int32_t e = scene.lights.emitterOf(i);
+      if (e < 0) continue;
+      const auto index = static_cast<size_t>(e);
+      emitters_.push_back({index, isSmall(scene.lights, index, voxelM) ? LightSurroundings(scene.lights.emitterBounds(index), voxelM) : LightSurroundings()});
+    }
     nearM_ = camera.nearM;
     anyStale_ = frames.changed_.any();
   }
@@ -91,6 +101,7 @@ class QuickFrames::Maker {
     std::vector<Shadow> shadows;
     std::vector<Ray> shadowRays;
     std::vector<Vec3> left;
+    std::vector<EmitterView> views;  // of emitters_
     std::array<std::vector<uint32_t>, (Rules::kTile / Rules::kLendWithin) * (Rules::kTile / Rules::kLendWithin)> litOf;
   };
   void trace(int x0, int y0, int x1, int y1, Work& w) const;
@@ -100,6 +111,8 @@ class QuickFrames::Maker {
   const Pixel* find(uint32_t key, Vec3 p, Vec3 n) const;
   void light(Work& w, Count& count, Image& out) const;
   void shade(uint32_t index, Work& w) const;
+  void lookAtEmitters(Work& w) const;
+  float shareOutside(const LightSurroundings& around, Vec3 p, Vec3 towards) const;
   void lightAll(Work& w, size_t first) const;
   void lend(Work& w, Count& count) const;
   void store(const Asked& a, Vec3 colour, State state, Image& out) const;
@@ -114,8 +127,14 @@ class QuickFrames::Maker {
   SlotIrradiance receivedAt(uint32_t instance, Vec3 p, Vec3 n) const;
   Vec3 radianceAlong(Ray ray, Vec3 left) const;
 
+  struct SharpEmitter {
+    size_t index;
+    LightSurroundings around;
+  };
   QuickFrames& f_;
   const QuickScene& scene_;
+  std::vector<LightSurroundings> besideLamps_;
+  std::vector<SharpEmitter> emitters_;
   const CameraRays rays_;
   const Vec3 eye_;
   Ray rayOf(int x, int y) const {

@@ -304,11 +304,14 @@ void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
   if (settings_.pyramid) buildPyramid(voxels, radiance, glow, field_);
 }
 
-std::vector<Vec3> LightCache::sharpLux(const Voxels& voxels) const {
+std::vector<Vec3> LightCache::sharpLux(const Voxels& voxels, std::span<const uint32_t> emissive) const {
   std::vector<Vec3> out(voxels.slots.size());
   suns_.addTo(voxels, Vec3(1), out);
   for (const LampLight& l : lamps_) {
     if (!isBlack(l.lamp.intensityCd) && isSharp(l.lamp)) l.direct.addTo(voxels, l.lamp.intensityCd, out);
+  }
+  for (const EmitterLight& e : emitters_) {
+    if (std::find(emissive.begin(), emissive.end(), e.mesh.instance) != emissive.end() && !isBlack(e.scale)) e.direct.addTo(voxels, e.scale, out);
   }
   return out;
 }

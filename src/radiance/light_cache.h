@@ -43,8 +43,11 @@ class LightCache {
   bool settled() const { return settled_; }
 
   const RadianceField& field() const { return field_; }
-  // Of the field's irradiance what comes straight from suns and from lamps that have sharp shadows (trace/lamp_light.h), lx per slot.
-  std::vector<Vec3> sharpLux(const Voxels& voxels) const;
+  // Of the field's irradiance what comes straight from suns, from lamps that have sharp shadows (trace/lamp_light.h) and from the emissive meshes that these instances are, where they are
+  // kept apart; lx per slot. What particles of these bring is not in it.
+  std::vector<Vec3> sharpLux(const Voxels& voxels, std::span<const uint32_t> emissive = {}) const;
+  // Whether the light of each emissive mesh is kept.
+  bool emittersApart(const Lights& lights) const;
   RadianceField take() { return std::move(field_); }
   size_t bytes() const;  // beside the field
 
@@ -95,7 +98,6 @@ class LightCache {
   void findGuide(const Sources& from);
   void traceDaylight(const Sources& from);
   static size_t smallEmitters(const Sources& from);
-  bool emittersApart(const Lights& lights) const;
   void traceEmittersTogether(const Sources& from);
   void addEmitter(const Sources& from, size_t index, std::vector<Vec3>& lux);
   EmitterLight tracedEmitter(const Sources& from, size_t index, size_t small);

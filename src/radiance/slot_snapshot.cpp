@@ -36,8 +36,8 @@ int8_t packedUnit(float v) { return static_cast<int8_t>(std::lround(127 * v)); }
 
 }  // namespace
 
-SlotSnapshot::SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux)
-    : perMetre_(1 / voxels.voxelSizeM), grid_(voxels), cells_(voxels.voxels.size()), records_(voxels.slots.size()) {
+SlotSnapshot::SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux, std::vector<uint32_t> emissive)
+    : perMetre_(1 / voxels.voxelSizeM), emissive_(std::move(emissive)), grid_(voxels), cells_(voxels.voxels.size()), records_(voxels.slots.size()) {
   parallelFor(cells_.size(), 16384, [&](size_t v) { cells_[v] = {voxels.voxels[v].firstSlot, voxels.voxels[v].faces}; });
   std::vector<Vec3> soft(records_.size());
   parallelFor(records_.size(), 16384, [&](size_t i) {

@@ -12,17 +12,19 @@ namespace roomlight {
 // What falls on one side of a surface, lx per channel.
 struct SlotIrradiance {
   Vec3 soft;   // from all around, and
-  Vec3 sharp;  // straight from suns and small lamps, as voxels know it: shadows as coarse as they are
+  Vec3 sharp;  // straight from suns, small lamps and what was edited last, as voxels know it: shadows as coarse as they are
   bool found = false;  // else no slot is near
 };
 
 class SlotSnapshot {
  public:
-  // One value a slot: all light, and the part of it that comes straight from suns and small lamps.
-  SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux);
+  // One value a slot: all light, and the part of it that comes straight from suns, small lamps and the emissive meshes that instances `emissive` are.
+  SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux, std::vector<uint32_t> emissive = {});
 
   // Mean of the eight voxels around p, weighted by nearness, of slots that face as n (unit) does and whose plane p lies on; where there is none, the nearest's.
   SlotIrradiance at(Vec3 p, Vec3 n) const;
+  const std::vector<uint32_t>& sharpEmissive() const { return emissive_; }
+  float voxelSizeM() const { return 1 / perMetre_; }
   size_t bytes() const;
 
  private:
@@ -49,6 +51,7 @@ class SlotSnapshot {
   }
 
   float perMetre_;  // voxels
+  std::vector<uint32_t> emissive_;
   BrickGrid grid_;
   std::vector<Cell> cells_;
   std::vector<Record> records_;

@@ -154,6 +154,49 @@ TEST_F(QuickFramesTest, aDimmedLampShowsInTheNextFrame) {
   EXPECT_LT(meanOf(frame(frames, camera(2))), 1e-3 * before);
 }
 
+// There light comes by particles, on slots, and not by a shadow ray as well.
+TEST_F(QuickFramesTest, besideALampTheyAreAsBrightAsPictures) {
+  Camera up;
+  up.worldFromCamera = looking({3.1f, 0.6f, 3.9f}, {0.01f, 1, 0.02f});
+  up.yFovRad = 0.6f;
+  const double now = meanOf(fresh(up)), picture = meanOf(lit_->picture(up, kWidth, kHeight));
+  EXPECT_NEAR(now / picture, 1, 0.06);
+}
+
+// What an emissive mesh that was edited sends straight is there before its light has followed.
+TEST_F(QuickFramesTest, anEditedEmissiveMeshIsAskedForItsLight) {
+  scene_.lamps.clear();
+  const int glowing = test::addMaterial(scene_, test::lambertian(0, 40000));
+  const auto first = static_cast<uint32_t>(scene_.instances.size());
+  test::addBox(scene_, {2.0f, 1.9f, 2.6f}, {2.06f, 1.96f, 2.66f}, glowing);
+  SceneChange change;
+  for (uint32_t i = first; i < scene_.instances.size(); ++i) change.glow.push_back(i);
+  RenderSettings s;
+  s.voxel.voxelSizeM = 0.15f;
+  s.radiance.links = 64;
+  s.radiance.emittersApart = true;
+  lit_ = lightScene(scene_, s, stages_).value();
+  light_ = lit_->snapshot();
+  const double bySlots = meanOf(fresh(camera(2)));
+  Vec3& emission = scene_.materials[static_cast<size_t>(glowing)].emission;
+  emission *= 0.5f;
+  lit_->update(change, stages_);
+  light_ = lit_->snapshot();
+  EXPECT_NEAR(meanOf(fresh(camera(2))) / bySlots, 0.5, 0.02);
+  const Camera c = camera(2);
+  const auto withLights = [&](const Lights& lights) {
+    QuickFrames frames;
+    return meanOf(frames.make({lit_->rays(), lights, *light_, moved_}, c, kWidth, kHeight, kPlenty));
+  };
+  const double before = withLights(Lights(scene_, true));
+  emission *= 2;
+  const double brighter = withLights(Lights(scene_, true));
+  emission = {};
+  const double dark = withLights(Lights(scene_, true));
+  EXPECT_LT(dark, 0.75 * before);
+  EXPECT_NEAR(brighter - before, before - dark, 0.05 * before);  // what is straight, once more
+}
+
 TEST_F(QuickFramesTest, framesOfAnotherSizeGoOnFromThoseBefore) {
   QuickFrames frames;
   for (int i = 0; i < 20; ++i) frame(frames, camera(2), kPlenty, kWidth / 2, kHeight / 2);
