@@ -88,7 +88,7 @@ struct RayScene::State {
   // Once anything has moved: what was there at first, and what has moved, which `top` holds then. Both in world space.
   RTCScene still = nullptr, moving = nullptr;
   std::vector<uint8_t> gone;      // per instance: what `still` holds of it is no longer there; empty before that
-  std::vector<uint8_t> attached;  // per instance: it has a geometry in `moving` or, not gone, in the other
+  std::vector<int> movingMesh;    // per instance: the mesh whose geometry `moving` has for it, or -1; empty before that
   bool shares = false;               // meshes are Embree instances, below which there can be no more
   RayLog* log = nullptr;
   std::vector<RTCScene> meshScenes;  // of instanced meshes, else null
@@ -112,10 +112,13 @@ struct RayScene::State {
   }
 
   RTCGeometry makeGeometry(int meshIndex, const Affine& transform);
+  void placeVertices(Vec3* vertices, const Mesh& mesh, const Affine& transform) const;
+  void setFilters(RTCGeometry geometry, const Mesh& mesh) const;
   void build();
   void commitTop();
   RTCScene newScene() const;
   void part();
+  void move(uint32_t instance);
   void begin(Query& query) const;
   void update(std::span<const uint32_t> changed);
   Hit hit(unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t, Vec3 ng) const;
@@ -131,17 +134,26 @@ RTCGeometry RayScene::State::makeGeometry(int meshIndex, const Affine& transform
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                               sizeof(Vec3), mesh.positions.size()));
-  parallelFor(mesh.positions.size(), 16384, [&](size_t i) { vertices[i] = transform.point(mesh.positions[i]); });
+  placeVertices(vertices, mesh, transform);
   // Copied rather than shared: Embree reads a few bytes past the last index.
   auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                  3 * sizeof(uint32_t), mesh.triangleCount()));
   std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
   rtcSetGeometryUserData(geometry, &tags[static_cast<size_t>(meshIndex)]);
-  const Material& material = scene->materials[static_cast<size_t>(mesh.material)];
-  if (isMasked(material)) rtcSetGeometryIntersectFilterFunction(geometry, filterIntersect);
-  if (letsLightThrough(material)) rtcSetGeometryOccludedFilterFunction(geometry, filterOccluded);
+  setFilters(geometry, mesh);
   rtcCommitGeometry(geometry);
   return geometry;
+}
+
+// In world space, not placed by a transform: the same bits wherever it came from.
+void RayScene::State::placeVertices(Vec3* vertices, const Mesh& mesh, const Affine& transform) const {
+  parallelFor(mesh.positions.size(), 16384, [&](size_t i) { vertices[i] = transform.point(mesh.positions[i]); });
+}
+
+void RayScene::State::setFilters(RTCGeometry geometry, const Mesh& mesh) const {
+  const Material& material = scene->materials[static_cast<size_t>(mesh.material)];
+  rtcSetGeometryIntersectFilterFunction(geometry, isMasked(material) ? filterIntersect : nullptr);
+  rtcSetGeometryOccludedFilterFunction(geometry, letsLightThrough(material) ? filterOccluded : nullptr);
 }
 
 // Embree leaves `ng` in the space of the geometry.
@@ -156,12 +168,11 @@ void RayScene::State::build() {
   releaseScenes();
   top = newScene();
   rtcSetSceneBuildQuality(top, RTC_BUILD_QUALITY_MEDIUM);
-  gone.clear();
+  gone.clear(), movingMesh.clear();
   tags.clear();
   tags.reserve(scene->meshes.size());
   for (const Mesh& mesh : scene->meshes) tags.push_back({scene, &mesh});
   meshScenes.assign(scene->meshes.size(), nullptr);
-  attached.assign(scene->instances.size(), 0);
 
   std::vector<int> uses(scene->meshes.size(), 0);
   for (const Instance& instance : scene->instances) ++uses[static_cast<size_t>(instance.mesh)];
@@ -190,7 +201,6 @@ void RayScene::State::build() {
       rtcCommitGeometry(geometry);
     }
     rtcAttachGeometryByID(top, geometry, static_cast<unsigned>(i));
-    attached[i] = 1;
     rtcReleaseGeometry(geometry);
   }
   commitTop();
@@ -216,11 +226,14 @@ void RayScene::State::commitTop() {
   bounds = {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
 }
 
-// Nothing has moved yet: all stays in one hierarchy, below a top that has room for another.
+// Nothing has moved yet: all stays in one hierarchy, below a top that has room for another, in which each thing has its own, refitted as it moves on.
 void RayScene::State::part() {
   still = top;
   moving = newScene(), top = newScene();
+  rtcSetSceneFlags(moving, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | RTC_SCENE_FLAG_DYNAMIC);
+  rtcSetSceneBuildQuality(moving, RTC_BUILD_QUALITY_LOW);
   gone.assign(scene->instances.size(), 0);
+  movingMesh.assign(scene->instances.size(), -1);
   for (const RTCScene part : {still, moving}) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, part);
@@ -230,22 +243,36 @@ void RayScene::State::part() {
   }
 }
 
+void RayScene::State::move(uint32_t index) {
+  const Instance& instance = scene->instances[index];
+  const Mesh& mesh = scene->meshes[static_cast<size_t>(instance.mesh)];
+  gone[index] = 1;
+  int& known = movingMesh[index];
+  if (known == instance.mesh) {
+    RTCGeometry geometry = rtcGetGeometry(moving, index);
+    placeVertices(static_cast<Vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)), mesh, instance.worldFromObject);
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    setFilters(geometry, mesh);
+    rtcCommitGeometry(geometry);
+    return;
+  }
+  if (known >= 0) rtcDetachGeometry(moving, index);
+  known = -1;
+  if (mesh.triangleCount() == 0) return;
+  RTCGeometry geometry = makeGeometry(instance.mesh, instance.worldFromObject);
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(moving, geometry, index);
+  rtcReleaseGeometry(geometry);
+  known = instance.mesh;
+}
+
 void RayScene::State::update(std::span<const uint32_t> changed) {
   if (changed.empty()) return;
   if (surfaces) surfaces->update(changed);
   if (shares) return build();
   if (!still) part();
-  for (const uint32_t i : changed) {
-    if (attached[i] && gone[i]) rtcDetachGeometry(moving, i);
-    gone[i] = 1, attached[i] = 0;
-    const Instance& instance = scene->instances[i];
-    if (scene->meshes[static_cast<size_t>(instance.mesh)].triangleCount() == 0) continue;
-    // In world space, not placed by a transform: the same bits as a scene has in which nothing moved.
-    RTCGeometry geometry = makeGeometry(instance.mesh, instance.worldFromObject);
-    rtcAttachGeometryByID(moving, geometry, i);
-    attached[i] = 1;
-    rtcReleaseGeometry(geometry);
-  }
+  for (const uint32_t i : changed) move(i);
   rtcCommitScene(moving);
   for (const unsigned part : {kStill, kMoving}) rtcCommitGeometry(rtcGetGeometry(top, part));
   commitTop();

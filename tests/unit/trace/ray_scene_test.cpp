@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 
 #include "base/sampler.h"
@@ -55,6 +56,23 @@ TEST(RaySceneUpdate, hitsAreThoseOfASceneMadeAnew) {
   scene.instances[6].worldFromObject.w.y += 1;
   rays.update(std::vector<uint32_t>{6});
   expectSameHits(rays, scene);
+}
+
+// Far from where its hierarchy was made.
+TEST(RaySceneUpdate, aThingOfManyTrianglesTurns) {
+  Scene scene = home();
+  const auto ball = static_cast<uint32_t>(scene.instances.size());
+  test::addSphere(scene, {0, 0, 0}, 0.6f, 0, 40);
+  for (Vec3& p : scene.meshes.back().positions) p.y *= 0.2f;
+  scene.instances[ball].worldFromObject.w = {2, 1.3f, 2};
+  RayScene rays(scene);
+  rays.surfaces();
+  for (int i = 1; i <= 6; ++i) {
+    const float angle = 0.6f * static_cast<float>(i), c = std::cos(angle), s = std::sin(angle);
+    scene.instances[ball].worldFromObject = {{c, s, 0}, {-s, c, 0}, {0, 0, 1}, {2, 1.3f, 2}};
+    rays.update(std::vector<uint32_t>{ball});
+    expectSameHits(rays, scene);
+  }
 }
 
 TEST(RaySceneUpdate, aMeshWithoutTrianglesHides) {
