@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "base/parallel.h"
+#include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
 #include "engine/quality.h"
@@ -153,7 +154,7 @@ Status writeReports(const Options& o, const Plan& plan, const Measurements& m, c
   Status first = Ok{};
   const auto write = [&](const std::string& file, const auto& text) {
     if (file.empty()) return;
-    if (const Status s = writeTextFile(file, text()); !s && first) first = s;
+    if (const Status s = writeWhole(file, text()); !s && first) first = s;
   };
   write(o.json, [&] { return reportJson(header, m); });
   write(o.csv, [&] { return reportCsv(m); });

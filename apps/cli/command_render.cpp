@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
 #include "display_options.h"
@@ -202,7 +203,7 @@ Status writePictures(const Options& o, const Plan& plan, const Scene& scene, con
 Status writeStats(const std::string& file, const RenderStats& stats, double totalMs) {
   auto numbers = nlohmann::ordered_json::object();
   for (const auto& [name, value] : stats.numbers) numbers[name] = value;
-  return writeTextFile(file, dump({{"stages", stagesJson(stats)}, {"numbers", numbers}, {"totalMs", totalMs}}, 2) + "\n");
+  return writeWhole(file, dump({{"stages", stagesJson(stats)}, {"numbers", numbers}, {"totalMs", totalMs}}, 2) + "\n");
 }
 
 int bad(const std::string& message, int code = kBadInput) {

@@ -13,6 +13,7 @@
 
 #include "arguments.h"
 #include "base/image_io.h"
+#include "base/write_file.h"
 #include "child_program.h"
 #include "commands.h"
 #include "console.h"
@@ -179,7 +180,7 @@ class Programs {
     const std::filesystem::path settingsFile = folder_ / "settings.json", stats = folder_ / "stats.json";
     std::error_code ignored;
     std::filesystem::remove(stats, ignored);
-    if (const Status s = writeTextFile(settingsFile, settings); !s) return Error{s.error()};
+    if (const Status s = writeWhole(settingsFile, settings); !s) return Error{s.error()};
     if (!lighting.empty()) words.insert(words.end(), {"--lighting", lighting.string()});
     words.insert(words.end(), {"--settings", settingsFile.string(), "--stats", stats.string(), "--quiet"});
     if (const Status s = runThisProgram(words, &interrupted()); !s) return Error{s.error()};
@@ -218,10 +219,10 @@ class Line {
 Status writeReports(const std::filesystem::path& folder, const StudyHeader& header, const StudyResults& results) {
   const Result<std::string> html = studyHtml(header, results, folder / "runs");
   if (!html) return Error{html.error()};
-  if (const Status s = writeTextFile(folder / "study.html", html.value()); !s) return s;
-  if (const Status s = writeTextFile(folder / "study.csv", studyCsv(results)); !s) return s;
-  if (const Status s = writeTextFile(folder / "study.md", studyMarkdown(header, results)); !s) return s;
-  return writeTextFile(folder / "study.json", studyJson(header, results));
+  if (const Status s = writeWhole(folder / "study.html", html.value()); !s) return s;
+  if (const Status s = writeWhole(folder / "study.csv", studyCsv(results)); !s) return s;
+  if (const Status s = writeWhole(folder / "study.md", studyMarkdown(header, results)); !s) return s;
+  return writeWhole(folder / "study.json", studyJson(header, results));
 }
 
 // What --quick stands for, where nothing else is asked for.

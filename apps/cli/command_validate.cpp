@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/parallel.h"
+#include "base/write_file.h"
 #include "arguments.h"
 #include "commands.h"
 #include "console.h"
@@ -72,10 +73,10 @@ int runValidate(const Options& o) {
   if (v.value().complete && v.value().rows.empty()) return bad(fmt::format("--case: no case's name holds '{}'", o.only));
   if (!o.quiet) printTable(v.value());
   if (!o.json.empty()) {
-    if (const Status s = writeTextFile(o.json, validationJson(v.value())); !s) return bad(s.error(), kFailed);
+    if (const Status s = writeWhole(o.json, validationJson(v.value())); !s) return bad(s.error(), kFailed);
   }
   if (!o.html.empty()) {
-    if (const Status s = writeTextFile(o.html, validationHtml(v.value(), version())); !s) return bad(s.error(), kFailed);
+    if (const Status s = writeWhole(o.html, validationHtml(v.value(), version())); !s) return bad(s.error(), kFailed);
   }
   if (!v.value().complete) return bad("interrupted; what was measured so far is above", kInterrupted);
   return v.value().pass() ? kOk : kFailed;

@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "base/image_io.h"
+#include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
 #include "display_options.h"
@@ -169,7 +170,7 @@ int work(const Options& o, const Plan& plan) {
   if (!result) return bad(result.error(), failed.empty() ? kBadInput : kFailed);
   if (result.value().frames.empty()) return bad("interrupted before there was a picture", kInterrupted);
   if (!o.stats.empty()) {
-    if (const Status s = writeTextFile(o.stats, statsJson(plan.settings, result.value())); !s) return bad(s.error(), kFailed);
+    if (const Status s = writeWhole(o.stats, statsJson(plan.settings, result.value())); !s) return bad(s.error(), kFailed);
   }
   printResult(result.value());
   return result.value().complete ? kOk : kInterrupted;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
+#include "base/write_file.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "mix/floor_plan.h"
@@ -58,11 +59,11 @@ std::string told(const OverlayTrial& trial) {
 }
 
 Status writePages(const FloorPlan& plan, const OverlayTrial& trial, const OverlaysJob& job) {
-  if (const Status s = writeTextFile(job.folder / "index.html", pageOf(plan)); !s) return s;
-  if (const Status s = writeTextFile(job.folder / kOverlaysIndex, overlayIndexOf(plan, trial)); !s) return s;
+  if (const Status s = writeWhole(job.folder / "index.html", pageOf(plan)); !s) return s;
+  if (const Status s = writeWhole(job.folder / kOverlaysIndex, overlayIndexOf(plan, trial)); !s) return s;
   if (job.cardFile.empty()) return Ok{};
-  if (const Status s = writeTextFile(job.cardFile, cardOf(plan, job.urlPrefix, job.dimmed)); !s) return s;
-  return job.dimmed ? writeTextFile(sensorsFileOf(job.cardFile), sensorsOf(plan)) : Status(Ok{});
+  if (const Status s = writeWhole(job.cardFile, cardOf(plan, job.urlPrefix, job.dimmed)); !s) return s;
+  return job.dimmed ? writeWhole(sensorsFileOf(job.cardFile), sensorsOf(plan)) : Status(Ok{});
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ std::filesystem::path sensorsFileOf(const std::filesystem::path& cardFile) { ret
 int writeStates(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const StatesJob& job, ProgressDisplay& display) {
   if (const Status s = makeFolder(job.folder); !s) return failed(s.error());
   removeFormer(job.folder, kStatesIndex, "states");
-  if (const Status s = writeTextFile(job.folder / kStatesIndex, stateIndex(home, switches, metadata, job.extension)); !s) return failed(s.error());
+  if (const Status s = writeWhole(job.folder / kStatesIndex, stateIndex(home, switches, metadata, job.extension)); !s) return failed(s.error());
   const std::vector<uint32_t> states = allStates(switches.lamps.size());
   std::mutex oneAtATime;
   std::string error;

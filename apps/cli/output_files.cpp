@@ -9,20 +9,12 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/write_file.h"
+
 namespace roomlight::cli {
 namespace {
 
 constexpr uintmax_t kLargestTextBytes = 64u << 20;
-
-// The name under which the picture writers, too, keep an unfinished file.
-std::filesystem::path unfinished(std::filesystem::path file) {
-  file += fmt::format(".part-{}", getpid());
-  return file;
-}
-
-Error systemError(const std::filesystem::path& file, int code) {
-  return {fmt::format("{}: cannot be written: {}", file.string(), std::strerror(code))};
-}
 
 }  // namespace
 
@@ -30,25 +22,12 @@ Status checkWritable(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) return Error{fmt::format("{}: is a folder; name a file", file.string())};
   // Trying is the only test that knows of read-only disks, rights and names that are too long.
-  const std::filesystem::path probe = unfinished(file);
+  const std::filesystem::path probe = unfinishedName(file);
   const int handle = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (handle < 0) return systemError(file, errno);
+  if (handle < 0) return cannotWrite(file, errno);
   close(handle);
   unlink(probe.c_str());
   return Ok{};
-}
-
-Status writeTextFile(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path part = unfinished(file);
-  std::ofstream out(part, std::ios::binary);
-  out << text << std::flush;
-  out.close();
-  std::error_code code;
-  if (out) std::filesystem::rename(part, file, code);
-  if (out && !code) return Ok{};
-  const int reason = code ? code.value() : errno;
-  std::filesystem::remove(part, code);
-  return systemError(file, reason);
 }
 
 Result<std::string> readTextFile(const std::filesystem::path& file) {

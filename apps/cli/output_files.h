@@ -1,4 +1,4 @@
-// Files the program writes: checked before the work, written whole or not at all.
+// Files the program writes: checked before the work.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,6 @@ namespace roomlight::cli {
 // Could this file be written? Leaves no trace.
 Status checkWritable(const std::filesystem::path& file);
 
-Status writeTextFile(const std::filesystem::path& file, const std::string& text);
 Result<std::string> readTextFile(const std::filesystem::path& file);
 
 }  // namespace roomlight::cli

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/image_formats.h"
+#include "base/write_file.h"
 
 namespace roomlight {
 namespace {
@@ -50,8 +51,7 @@ Result<T> guarded(const std::filesystem::path& file, Work&& work) {
 // A reader of `file` sees either the old file or the whole new one: write beside it, then rename.
 template <class Write>
 Status writeAtomically(const std::filesystem::path& file, Write&& write) {
-  std::filesystem::path temporary = file;
-  temporary += fmt::format(".part-{}", getpid());
+  const std::filesystem::path temporary = unfinishedName(file);
   Status status = guarded<Ok>(file, [&] {
     write(temporary);
     std::filesystem::rename(temporary, file);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/write_file.h"
 #include "search/checkpoint.h"
 
 namespace roomlight::optimise {
@@ -109,22 +110,7 @@ std::string hashOfScene(const Scene& scene) {
   return hash.text();
 }
 
-Status writeWhole(const std::filesystem::path& file, std::string_view bytes) {
-  std::filesystem::path part = file;
-  part += ".part";
-  {
-    std::ofstream out(part, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.flush();
-    if (!out) return Error{fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno))};
-  }
-  std::error_code code;
-  std::filesystem::rename(part, file, code);
-  if (code) return Error{fmt::format("{}: cannot be written: {}", file.string(), code.message())};
-  return Ok{};
-}
-
-Status keepResponse(const std::filesystem::path& file, const std::string& hash, const Response& r) {
+Status saveResponse(const std::filesystem::path& file, const std::string& hash, const Response& r) {
   std::string bytes = std::string(kMagic) + hash;
   const std::vector<uint64_t> sizes = {r.elements, r.eyes, r.base.size()};
   put(bytes, sizes), put(bytes, r.lux), put(bytes, r.glare), put(bytes, std::vector<float>{r.worstErrorPercent});
@@ -132,7 +118,7 @@ Status keepResponse(const std::filesystem::path& file, const std::string& hash, 
   return writeWhole(file, bytes);
 }
 
-std::optional<Response> findResponse(const std::filesystem::path& file, const std::string& hash, const ResponseSizes& wanted) {
+std::optional<Response> loadResponse(const std::filesystem::path& file, const std::string& hash, const ResponseSizes& wanted) {
   const auto bytes = contentOf(file);
   const std::string head = std::string(kMagic) + hash;
   if (!bytes || !bytes->starts_with(head)) return std::nullopt;
@@ -154,9 +140,9 @@ std::optional<Response> findResponse(const std::filesystem::path& file, const st
   return r;
 }
 
-Status keepSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state) { return writeWhole(file, hash + "\n" + search::toJson(state)); }
+Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state) { return writeWhole(file, hash + "\n" + search::toJson(state)); }
 
-std::optional<search::State> findSearch(const std::filesystem::path& file, const std::string& hash, const search::Problem& problem) {
+std::optional<search::State> loadSearch(const std::filesystem::path& file, const std::string& hash, const search::Problem& problem) {
   const auto text = contentOf(file);
   if (!text || !text->starts_with(hash + "\n")) return std::nullopt;
   const auto state = search::stateFromJson(std::string_view(*text).substr(hash.size() + 1), problem, file.string());

@@ -17,16 +17,14 @@ std::string inputHash(const std::filesystem::path& home, const StudyFile& study,
 std::string hashOfScene(const Scene& scene);
 
 // Whole or not at all.
-Status keepResponse(const std::filesystem::path& file, const std::string& hash, const Response& response);
+Status saveResponse(const std::filesystem::path& file, const std::string& hash, const Response& response);
 // None where there is none, or one of other inputs or sizes.
 struct ResponseSizes {
   size_t candidates = 0, elements = 0, eyes = 0, conditions = 0;
 };
-std::optional<Response> findResponse(const std::filesystem::path& file, const std::string& hash, const ResponseSizes& sizes);
+std::optional<Response> loadResponse(const std::filesystem::path& file, const std::string& hash, const ResponseSizes& sizes);
 
-Status keepSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state);
-std::optional<search::State> findSearch(const std::filesystem::path& file, const std::string& hash, const search::Problem& problem);
-
-Status writeWhole(const std::filesystem::path& file, std::string_view bytes);
+Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state);
+std::optional<search::State> loadSearch(const std::filesystem::path& file, const std::string& hash, const search::Problem& problem);
 
 }  // namespace roomlight::optimise

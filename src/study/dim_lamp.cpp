@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/write_file.h"
 #include "import/import.h"
 #include "scene/find_camera.h"
 #include "trace/ray_scene.h"
@@ -35,14 +35,7 @@ Status writeDimLamp(const StudyScene& s, StudyLight& light, const RunStore& stor
   nlohmann::ordered_json file = {{"comment", "One weak lamp; every other light is off."}};
   for (const char* what : off) file["scene"][what] = "off";
   file["lamps"] = {{{"name", "dim lamp"}, {"type", "point"}, {"position", {p.value().x, p.value().y, p.value().z}}, {"flux", fmt::format("{:g} lm", light.dimLampLm)}, {"temperature", kColour}}};
-  const std::filesystem::path half = store.file(key, ".part");
-  std::ofstream out(half);
-  out << file.dump(2) << "\n";
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(half, light.lighting, error);
-  if (!out || error) return Error{fmt::format("{}: cannot be written", light.lighting.string())};
-  return Ok{};
+  return writeWhole(light.lighting, file.dump(2) + "\n");
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/write_file.h"
+
 namespace roomlight {
 
 std::string fileNameOf(const std::string& name) {
@@ -82,14 +84,7 @@ std::optional<nlohmann::json> RunStore::find(const Key& key) const {
 }
 
 Status RunStore::keep(const Key& key, const nlohmann::json& result) const {
-  const std::filesystem::path to = file(key, ".json"), half = file(key, ".json.part");
-  std::ofstream out(half);
-  out << nlohmann::json{{"circumstances", key.circumstances}, {"result", result}}.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(half, to, error);
-  if (!out || error) return Error{fmt::format("{}: cannot be written{}", to.string(), error ? ": " + error.message() : "")};
-  return Ok{};
+  return writeWhole(file(key, ".json"), nlohmann::json{{"circumstances", key.circumstances}, {"result", result}}.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 void RunStore::forget(const Key& key) const {

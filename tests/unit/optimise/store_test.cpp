@@ -14,24 +14,24 @@ using testing::SmallProblem;
 TEST(Store, AResponseComesBackBitByBitAndOnlyForItsInputs) {
   const SmallProblem p;
   const testing::TemporaryFolder folder;
-  ASSERT_TRUE(keepResponse(folder / "response.bin", "abc", p.response));
+  ASSERT_TRUE(saveResponse(folder / "response.bin", "abc", p.response));
   const ResponseSizes sizes{p.candidates.candidates.size(), p.meters.elements.size(), 1, 1};
-  const auto back = findResponse(folder / "response.bin", "abc", sizes);
+  const auto back = loadResponse(folder / "response.bin", "abc", sizes);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->elements, p.response.elements);
   EXPECT_TRUE(std::equal(back->lux.begin(), back->lux.end(), p.response.lux.begin(), p.response.lux.end()));
   EXPECT_EQ(back->base.size(), p.response.base.size());
-  EXPECT_FALSE(findResponse(folder / "response.bin", "abd", sizes));
+  EXPECT_FALSE(loadResponse(folder / "response.bin", "abd", sizes));
   // Nor is one that has other sizes than the study.
-  for (const ResponseSizes& other : {ResponseSizes{sizes.candidates + 1, sizes.elements, 1, 1}, {sizes.candidates, sizes.elements + 1, 1, 1}, {sizes.candidates, sizes.elements, 2, 1}, {sizes.candidates, sizes.elements, 1, 2}}) EXPECT_FALSE(findResponse(folder / "response.bin", "abc", other));
+  for (const ResponseSizes& other : {ResponseSizes{sizes.candidates + 1, sizes.elements, 1, 1}, {sizes.candidates, sizes.elements + 1, 1, 1}, {sizes.candidates, sizes.elements, 2, 1}, {sizes.candidates, sizes.elements, 1, 2}}) EXPECT_FALSE(loadResponse(folder / "response.bin", "abc", other));
   Response broken = p.response;
   broken.base[0].lux.pop_back();
-  ASSERT_TRUE(keepResponse(folder / "broken.bin", "abc", broken));
-  EXPECT_FALSE(findResponse(folder / "broken.bin", "abc", sizes));
+  ASSERT_TRUE(saveResponse(folder / "broken.bin", "abc", broken));
+  EXPECT_FALSE(loadResponse(folder / "broken.bin", "abc", sizes));
   // Half a file is none.
   const std::string bytes = testing::readFile(folder / "response.bin");
   testing::writeFile(folder / "half.bin", bytes.substr(0, bytes.size() / 2));
-  EXPECT_FALSE(findResponse(folder / "half.bin", "abc", sizes));
+  EXPECT_FALSE(loadResponse(folder / "half.bin", "abc", sizes));
 }
 
 TEST(Store, ASearchThatWasStoppedGoesOnToTheSameFront) {
@@ -44,9 +44,9 @@ TEST(Store, ASearchThatWasStoppedGoesOnToTheSameFront) {
   search::State part = search::start(problem, settings, first);
   for (int i = 0; i < 4; ++i) search::advance(problem, part);
   const testing::TemporaryFolder folder;
-  ASSERT_TRUE(keepSearch(folder / "search.json", "abc", part));
-  EXPECT_FALSE(findSearch(folder / "search.json", "other", problem));
-  auto again = findSearch(folder / "search.json", "abc", problem);
+  ASSERT_TRUE(saveSearch(folder / "search.json", "abc", part));
+  EXPECT_FALSE(loadSearch(folder / "search.json", "other", problem));
+  auto again = loadSearch(folder / "search.json", "abc", problem);
   ASSERT_TRUE(again);
   search::run(problem, *again);
   EXPECT_EQ(again->archive.objectives, whole.archive.objectives);
