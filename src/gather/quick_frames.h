@@ -1,5 +1,5 @@
-// Frames for walking about, in some tens of milliseconds: every pixel sends its ray, and keeps the colour of what it sees if the frame before saw it too (after the
-// render cache: Walter et al. 1999, with rays instead of warped points). The rest is lit by what slots know, interpolated, and by a shadow ray to each sun and lamp.
+// Frames for walking about, in some tens of milliseconds: points that the frame before saw are projected into the new one (after the render cache: Walter et al. 1999), and only pixels to
+// which none came send a ray. What was not seen before is lit by what slots know, interpolated, and by a shadow ray to each sun and small lamp.
 // Where there is no time for all of them, some are lit and lend their light to those beside them, until a later frame comes to these too.
 #pragma once
 

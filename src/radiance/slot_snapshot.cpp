@@ -106,8 +106,6 @@ void SlotSnapshot::findBeside(Int3 v, const Record& r, int face, std::array<int3
   }
 }
 
-size_t SlotSnapshot::bytes() const { return grid_.brickIndex.size() * sizeof(int32_t) + grid_.bricks.size() * sizeof(Brick) + cells_.size() * sizeof(Cell) + records_.size() * sizeof(Record); }
-
 SlotIrradiance SlotSnapshot::at(Vec3 p, Vec3 n) const {
   const Vec3 q = (p - grid_.origin) * perMetre_, corner = q - Vec3(0.5f);
   const Int3 v{static_cast<int>(std::floor(corner.x)), static_cast<int>(std::floor(corner.y)), static_cast<int>(std::floor(corner.z))};

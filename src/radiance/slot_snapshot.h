@@ -25,7 +25,6 @@ class SlotSnapshot {
   SlotIrradiance at(Vec3 p, Vec3 n) const;
   const std::vector<uint32_t>& sharpEmissive() const { return emissive_; }
   float voxelSizeM() const { return 1 / perMetre_; }
-  size_t bytes() const;
 
  private:
   struct Record {

@@ -14,7 +14,7 @@ void LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, 
     try {
       inBackground(threads, [&] { follow(all, home, wanted); });
     } catch (const std::exception& e) {
-      light_ = nullptr, error_ = e.what();
+      change_.reset(), light_ = nullptr, error_ = e.what();
     }
     done_ = true;
     ready();
@@ -25,16 +25,19 @@ void LightFollower::follow(const ViewHome& all, LitHome& home, const HomeState& 
   RenderStats stats;
   RenderProgress silent;
   Stages stages(silent, stats);
-  const SceneChange change = bring(all, home.state, wanted, home.scene);
+  SceneChange change = bring(all, home.state, wanted, home.scene);
   home.state = wanted;
   home.lit->update(change, stages);
+  change_ = std::move(change);
   light_ = home.lit->snapshot();
 }
 
 FollowedLight LightFollower::finish() {
   if (!thread_.joinable()) return {};
   thread_.join();
-  return {std::exchange(home_, nullptr), std::exchange(light_, nullptr), std::exchange(error_, {})};
+  FollowedLight out{std::exchange(home_, nullptr), std::move(change_), std::exchange(light_, nullptr), std::exchange(error_, {})};
+  change_.reset();
+  return out;
 }
 
 }  // namespace roomlight::view

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -13,8 +14,9 @@ namespace roomlight::view {
 
 struct FollowedLight {
   LitHome* home = nullptr;                    // null: there was nothing to follow
-  std::shared_ptr<const SlotSnapshot> light;  // null: that failed, and the home is somewhere between two states
-  std::string error;                          // then: why
+  std::optional<SceneChange> change;          // none: that failed, and the home is somewhere between two states
+  std::shared_ptr<const SlotSnapshot> light;  // of techniques that have light in slots
+  std::string error;                          // of a failure: why
 };
 
 class LightFollower {
@@ -32,6 +34,7 @@ class LightFollower {
   void follow(const ViewHome& all, LitHome& home, const HomeState& wanted);
 
   LitHome* home_ = nullptr;
+  std::optional<SceneChange> change_;
   std::shared_ptr<const SlotSnapshot> light_;
   std::string error_;
   std::atomic<bool> done_{false};

@@ -15,7 +15,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kLookAgain{250};  // at lines that may have become free, windows that were lost
 constexpr milliseconds kSoon{20}, kTellEvery{100};
 constexpr milliseconds kAfterFailure{2000};
-constexpr size_t kMostLit = 3;           // kept, so that going back to a technique or plan is quick
 // Around the home. The light of everything is found in one box: a thing that is carried out of sight would make that absurdly large.
 constexpr float kFarthestOutM = 100;
 
@@ -171,81 +170,6 @@ bool Session::work() {
     return true;
   }
   return false;
-}
-
-void Session::adoptBuilt() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!built_) return;
-    built_ = false;
-    progress_.reset();  // told after the end it would stay
-  }
-  tellAll(textOf({{"type", "progress"}, {"stage", "done"}, {"fraction", 1}}));
-  const LightKey key = builder_.work().key;
-  auto result = builder_.take();
-  if (!result) return;
-  if (!*result) {
-    failedBuild_ = key.technique;
-    return tellFailure(result->error());
-  }
-  if (const LitHome* before = litFor(key)) dropLight(*before);
-  lit_.push_front(std::move(*result).value());
-  for (Window& w : windows_) {
-    for (Side& s : w.sides) {
-      if (s.key == key) s.restart();
-    }
-  }
-}
-
-bool Session::needs(const LightKey& key) const {
-  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return w.connection && std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; }); });
-}
-
-// The ones that nobody looks at and were not used for longest, beyond a few; those that a thread still works on another time.
-void Session::dropLights() {
-  for (auto l = lit_.end(); l != lit_.begin() && lit_.size() > kMostLit;) {
-    --l;
-    if (needs((*l)->key) || follower_.home() == l->get() || !refinerLeaves(**l)) continue;
-    l = lit_.erase(l);
-  }
-}
-
-// Waits for the threads that work on it.
-void Session::dropLight(const LitHome& home) {
-  if (refiner_.home() == &home) refiner_.letGo(), refining_.reset();
-  if (follower_.home() == &home) follower_.finish();
-  lit_.remove_if([&](const auto& l) { return l.get() == &home; });
-}
-
-// Whether the refiner has nothing to do with a home; where it has, it is asked to leave, and nobody waits.
-bool Session::refinerLeaves(const LitHome& home) {
-  if (refiner_.home() != &home) return true;
-  refining_.reset();
-  return refiner_.tryLetGo();
-}
-
-// Of all that windows look at, the first that has no light, or light that cannot follow the sun.
-void Session::beginBuilding() {
-  if (builder_.busy()) return;
-  for (const Window& w : windows_) {
-    for (size_t k = 0; k < w.sides.size() && w.connection; ++k) {
-      const Side& s = w.sides[k];
-      const auto lit = std::find_if(lit_.begin(), lit_.end(), [&](const auto& l) { return l->key == s.key; });
-      if (s.key.technique == failedBuild_ || (lit != lit_.end() && (*lit)->canFollow(stateOf(s.key).sun))) continue;
-      RenderSettings settings = frames_;
-      settings.technique = s.key.technique;
-      RenderProgress progress;
-      progress.report = [this](const std::string& stage, float fraction) { tellProgress(stage, fraction); };
-      builder_.begin(home_, {s.key, stateOf(s.key), settings, cameraOf(w.camera)}, std::move(progress), [this] {
-        {
-          const std::lock_guard lock(mutex_);
-          built_ = true;
-        }
-        wake_.notify_all();
-      });
-      return;
-    }
-  }
 }
 
 }  // namespace roomlight::view

@@ -1,5 +1,7 @@
 // One home looked at through several windows. Knows messages and frames, no network: who owns it hands in what browsers say and carries
-// away what they are told. One thread does all the work on light; another lights afresh in the background.
+// away what they are told. Of its threads the loop (session.cpp) makes quick frames and owns windows and state; others work in the background and wake it: one lights
+// homes anew (LightBuilder), one brings their light to where the home is (LightFollower), one refines a picture (Refiner), one makes final pictures (RenderJobs), one
+// packs frames (FrameSender).
 #pragma once
 
 #include <condition_variable>
@@ -68,8 +70,26 @@ class Session {
   bool handleEvents();
   bool work();
   void tellFailure(const std::string& what);
-  void adoptBuilt();
+  void takeNews(const JobNews& news);
+  void tellProgress(const std::string& stage, float fraction);
+
+  // session_light.cpp: lit homes
+  HomeState stateOf(const LightKey& key) const;
+  LitHome* litFor(const LightKey& key);
+  bool needs(const LightKey& key) const;
+  size_t lightsNeeded() const;
   void beginBuilding();
+  void adoptBuilt();
+  bool refinerLeaves(const LitHome& home);
+  void dropLights();
+  void dropLight(const LitHome& home);
+  HomeState wantedOf(const LitHome& home) const;
+  bool isUpToDate(const LitHome& home) const;
+  bool canBeShown(const LitHome& home) const;
+  bool isOwedAFrame(const LitHome& home) const;
+  void followFront(LitHome& home);
+  void followLight();
+  bool takeLight();
 
   // session_messages.cpp: what each message does
   void handle(const Event& event);
@@ -105,20 +125,9 @@ class Session {
   Window* windowOf(Connection connection);
   Window* windowNamed(const std::string& name);
   void chooseSides(Window& window);
-  bool needs(const LightKey& key) const;
-  size_t lightsNeeded() const;
-  void dropLights();
-  void dropLight(const LitHome& home);
-  bool refinerLeaves(const LitHome& home);
   void newInput(Window& window, TimePoint at);
-  LitHome* litFor(const LightKey& key);
-  void bringUpToDate(LitHome& home, const Camera& camera);
-  void goOnWithLight(LitHome& home);
+  void lookFrom(LitHome& home, const Camera& camera);
   FrameHistory* historyOf(Side& side, Window& window);
-  bool isUpToDate(const LitHome& home) const;
-  void followFront(LitHome& home);
-  void followLight();
-  bool takeLight();
   bool showQuick(Window& window, Side& side, LitHome& home, const Camera& camera);
   enum class Next { Nothing,
                     Wait,   // for rest, or for light
@@ -127,13 +136,17 @@ class Session {
                     Better };
   Next nextOf(const Window& window, const Side& side, const LitHome& home) const;
   bool somebodyMoves() const;
-  HomeState stateOf(const LightKey& key) const;
-  HomeState wantedOf(const LitHome& home) const;
   bool makeFrame(Window& window);
-  bool answerPoints(Window& window);  // session_points.cpp
   bool stepSide(Window& window, size_t index);
   void sendFrame(Window& window, size_t index, LitHome& home);
   void packed(Window& window, const Packed& p, TimePoint at);
+  void tell(const Window& window, std::string text) const;
+  void tellAll(const std::string& text) const;
+
+  // session_points.cpp: picking and metering
+  bool canBeMetered(const Window& window, const LitHome& home) const;
+  bool meterIsDue(const LitHome& home) const;
+  bool answerPoints(Window& window);
 
   // session_refine.cpp
   bool refines(const Side& side) const;
@@ -141,12 +154,7 @@ class Session {
   bool isTurnOver(const Side& next);
   void beginRefining();
   bool takeRefined();
-
-  void tell(const Window& window, std::string text) const;
-  void tellAll(const std::string& text) const;
-  void takeNews(const JobNews& news);
   void tellRefined();
-  void tellProgress(const std::string& stage, float fraction);
 
   const ViewHome home_;
   const Bounds3 reach_;            // how far things may be moved
@@ -163,6 +171,7 @@ class Session {
   std::string failedBuild_;  // technique that could not be lit: not tried again until something changes
   Json homeJson_;
   LightFollower follower_;
+  LightKey lastFollowed_;
   bool soon_ = false;  // a window rests in a moment
   struct Refining {  // whose picture it is; of an older serial it is of no more use
     std::string window;

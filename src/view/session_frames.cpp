@@ -62,116 +62,11 @@ void Session::newInput(Window& window, TimePoint at) {
   window.inputAt = at, window.inputShown = false;
 }
 
-HomeState Session::stateOf(const LightKey& key) const {
-  const auto plan = plans_.find(key.plan);
-  if (key.plan.empty() || plan == plans_.end()) return state_;
-  HomeState state = state_;
-  state.lamps = plan->second.lamps, state.sun = plan->second.sun;
-  return state;
-}
-
-LitHome* Session::litFor(const LightKey& key) {
-  const auto lit = std::find_if(lit_.begin(), lit_.end(), [&](const auto& l) { return l->key == key; });
-  if (lit == lit_.end()) return nullptr;
-  lit_.splice(lit_.begin(), lit_, lit);
-  return lit_.front().get();
-}
-
-// Where a home's light is to come; the sun stays where its light cannot follow it.
-HomeState Session::wantedOf(const LitHome& home) const {
-  HomeState wanted = stateOf(home.key);
-  if (!home.canFollow(wanted.sun)) wanted.sun = home.sunAtFirst;
-  return wanted;
-}
-
-void Session::bringUpToDate(LitHome& home, const Camera& camera) {
-  HomeState wanted = wantedOf(home);
+void Session::lookFrom(LitHome& home, const Camera& camera) {
   RenderStats stats;
   RenderProgress silent;
   Stages stages(silent, stats);
-  if (!(wanted == home.state)) {
-    if (refiner_.home() == &home) refiner_.letGo();
-    const SceneChange change = bring(home_, home.state, wanted, home.scene);
-    home.state = std::move(wanted);
-    home.lit->update(change, stages);
-    for (Window& w : windows_) {
-      for (Side& s : w.sides) {
-        if (s.key == home.key && s.history) s.history->sceneChanged(change, home.scene);
-      }
-    }
-  }
   home.lit->lookFrom(camera, stages);
-}
-
-// Whether light has come to where the home is; else nobody but the follower may use it.
-bool Session::isUpToDate(const LitHome& home) const {
-  if (follower_.home() == &home) return false;
-  return wantedOf(home) == home.state && home.lit->settled();
-}
-
-// The scene of quick frames at once, its light later.
-void Session::followFront(LitHome& home) {
-  HomeState wanted = wantedOf(home);
-  if (wanted == home.front->state()) return;
-  const SceneChange change = home.front->follow(home_, std::move(wanted));
-  for (Window& w : windows_) {
-    for (Side& s : w.sides) {
-      if (s.key == home.key) s.quick.sceneChanged(change, home.front->scene());
-    }
-  }
-}
-
-// Begins to find the light of a home that windows look at and that has changed.
-void Session::followLight() {
-  if (follower_.home()) return;
-  for (const auto& home : lit_) {
-    if (!home->front || !needs(home->key) || isUpToDate(*home)) continue;
-    if (!refinerLeaves(*home)) {
-      soon_ = true;
-      return;
-    }
-    return follower_.begin(home_, *home, wantedOf(*home), settings_.threads, [this] {
-      {
-        const std::lock_guard lock(mutex_);
-        lightReady_ = true;
-      }
-      wake_.notify_all();
-    });
-  }
-}
-
-// Whether there was light to take.
-bool Session::takeLight() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!lightReady_) return false;
-    lightReady_ = false;
-  }
-  if (!follower_.done()) return false;  // of one that is no longer there
-  FollowedLight followed = follower_.finish();
-  if (!followed.home) return false;
-  LitHome& home = *followed.home;
-  if (!followed.light) {  // found afresh, then
-    dropLight(home);
-    tellFailure(fmt::format("light could not follow the change: {}", followed.error));
-    return true;
-  }
-  home.front->take(std::move(followed.light), home.scene);
-  for (Window& w : windows_) {
-    for (Side& s : w.sides) {
-      if (s.key == home.key) s.quick.lightChanged(), s.lightCame = true;
-    }
-  }
-  return true;
-}
-
-// Bounces that the last change still owes: a frame shows them as far as they have come.
-void Session::goOnWithLight(LitHome& home) {
-  if (refiner_.home() == &home) refiner_.letGo();
-  RenderStats stats;
-  RenderProgress silent;
-  Stages stages(silent, stats);
-  home.lit->update({}, stages);
 }
 
 // Of the few that moved last: a history takes some hundred bytes a pixel.
@@ -199,6 +94,7 @@ bool Session::somebodyMoves() const {
 
 // What a side of a window needs next.
 Session::Next Session::nextOf(const Window& window, const Side& side, const LitHome& home) const {
+  if (!canBeShown(home)) return Next::Wait;
   const bool current = side.shownSerial == window.serial && side.picture.begun();
   if (!current || side.lightCame) return Next::Quick;
   if (side.again) return Next::Again;
@@ -206,7 +102,7 @@ Session::Next Session::nextOf(const Window& window, const Side& side, const LitH
     const bool waits = millisecondsSince(window.inputAt) < kForLightMs || side.picture.samples() > 0 || side.quick.settled();
     return waits ? Next::Wait : Next::Quick;
   }
-  if (!home.lit->settled()) return home.front ? Next::Wait : Next::Quick;
+  if (!isUpToDate(home)) return Next::Wait;
   if (side.picture.averaged()) return Next::Nothing;
   if (millisecondsSince(window.inputAt) >= kRestMs) return somebodyMoves() ? Next::Wait : Next::Better;
   return home.front && side.picture.samples() == 0 && !side.quick.settled() ? Next::Quick : Next::Wait;
@@ -277,12 +173,10 @@ bool Session::stepSide(Window& window, size_t index) {
     if (home.front) {
       followFront(home);
     } else {
-      bringUpToDate(home, camera);
+      lookFrom(home, camera);
     }
-    side.shownRevision = revision_;
-  } else if (!home.front && !home.lit->settled()) {
-    goOnWithLight(home);
   }
+  if (home.front || wantedOf(home) == home.state) side.shownRevision = revision_;
   if (std::exchange(side.lightCame, false)) side.picture.restart();
   if (!showQuick(window, side, home, camera)) return false;
   sendFrame(window, index, home);
@@ -296,7 +190,7 @@ void Session::sendFrame(Window& window, size_t index, LitHome& home) {
   FrameInfo info;
   info.number = window.nextFrame++;
   info.side = window.sides.size() > 1 ? static_cast<uint8_t>(index + 1) : uint8_t{0};
-  const bool sunBehind = !home.canFollow(stateOf(side.key).sun), lightBehind = home.front && !isUpToDate(home);
+  const bool sunBehind = !home.canFollow(stateOf(side.key).sun), lightBehind = !isUpToDate(home);
   const auto flag = [](bool on, uint8_t bit) { return on ? bit : uint8_t{0}; };
   info.flags = static_cast<uint8_t>(flag(picture.quick(), kQuick) | flag(picture.settled(), kSettled) | flag(picture.refined(), kRefined) | flag(sunBehind || lightBehind || side.shownRevision != revision_, kLightIsBehind));
   info.jpegQuality = static_cast<uint16_t>(window.line.quality());

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <random>
-#include <set>
 #include <utility>
 
 #include "engine/render.h"
@@ -97,16 +96,6 @@ void Session::on(Window& window, const Event& event, const DisplayChange& m) {
   apply(m, window.display);
   window.inputAt = event.at, window.inputShown = false;
   for (Side& s : window.sides) s.again = true;
-}
-
-size_t Session::lightsNeeded() const {
-  std::set<std::pair<std::string, std::string>> keys;
-  for (const Window& w : windows_) {
-    for (const Side& s : w.sides) {
-      if (w.connection) keys.emplace(s.key.technique, s.key.plan);
-    }
-  }
-  return keys.size();
 }
 
 void Session::on(Window& window, const Event& event, const ChooseTechnique& m) {

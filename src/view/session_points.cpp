@@ -1,4 +1,5 @@
 // Picking and metering.
+#include <algorithm>
 #include <cmath>
 
 #include "measure/exposure.h"
@@ -32,6 +33,8 @@ Json meteredJson(const PickedPoint& p, const Metered& m) {
           {"reflectedEv100", ev(reflectedEv100(m.luminanceCdM2))}};
 }
 
+constexpr std::chrono::milliseconds kPatience{1000};
+
 std::string answer(const char* type, uint32_t id, Json hit) { return textOf({{"type", type}, {"id", id}, {"hit", std::move(hit)}}); }
 
 }  // namespace
@@ -40,18 +43,29 @@ void Session::on(Window& window, const Event&, const Point& m) {
   std::optional<Point>& waiting = m.meter ? window.meter : window.pick;
   if (waiting) tell(window, answer(m.meter ? "metered" : "picked", waiting->id, nullptr));
   waiting = m;
+  if (m.meter) window.meterAt = std::chrono::steady_clock::now();
+}
+
+// A meter waits for the light; where that has to follow one change after the other, it takes what there is, between two of them.
+bool Session::canBeMetered(const Window& window, const LitHome& home) const {
+  if (follower_.home() == &home) return false;
+  return isUpToDate(home) || std::chrono::steady_clock::now() - window.meterAt > kPatience;
+}
+
+bool Session::meterIsDue(const LitHome& home) const {
+  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return w.connection && w.meter && w.viewport.width > 0 && w.sides.front().key == home.key && canBeShown(home) && canBeMetered(w, home); });
 }
 
 // Answers what waits, where there is light to answer by. False: nothing does, or nothing can yet.
 bool Session::answerPoints(Window& window) {
   if ((!window.pick && !window.meter) || window.viewport.width == 0) return false;
   LitHome* home = litFor(window.sides.front().key);
-  if (!home) return false;
+  if (!home || !canBeShown(*home)) return false;
   const Camera camera = cameraOf(window.camera);
   if (home->front) {
     followFront(*home);
   } else {
-    bringUpToDate(*home, camera);
+    lookFrom(*home, camera);
   }
   const RayScene& rays = home->front ? home->front->rays() : home->lit->rays();
   const auto find = [&](const Point& p) { return pickAt(home_.editable, home->front ? home->front->state() : home->state, rays, camera, frameSize(window.viewport, 1), p.x, p.y, static_cast<float>(window.viewport.height)); };
@@ -62,8 +76,7 @@ bool Session::answerPoints(Window& window) {
     window.pick.reset();
     answered = true;
   }
-  // A meter waits for the light.
-  if (!window.meter || (home->front && !isUpToDate(*home))) return answered;
+  if (!window.meter || !canBeMetered(window, *home)) return answered;
   const Point asked = *window.meter;
   const std::optional<PickedPoint> picked = find(asked);
   const std::optional<Metered> metered = picked ? meterAt(*home, *picked, camera.worldFromCamera.w, stop_) : std::nullopt;

@@ -71,6 +71,7 @@ struct Window {
   std::shared_ptr<Adaptation> eye[2] = {std::make_shared<Adaptation>(), std::make_shared<Adaptation>()};
   TimePoint lastFrameAt;
   std::optional<Point> pick, meter;  // wait to be answered
+  TimePoint meterAt;                 // since when
   std::map<std::string, JobNews> jobs;  // the last of each, as far as it may have to be told again
 };
 

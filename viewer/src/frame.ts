@@ -12,7 +12,7 @@ export interface FrameHeader {
   readonly side: FrameSide;
   readonly quick: boolean; // reduced size, right after an input
   readonly settled: boolean; // none better follows until something changes
-  readonly lightBehind: boolean; // shows an older state than the newest
+  readonly lightBehind: boolean; // its light does not yet follow the newest state
   readonly falseColor: boolean;
   readonly refining: boolean;
   readonly camera: number; // number of the camera message that it shows, 0 without

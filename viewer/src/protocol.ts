@@ -8,13 +8,10 @@ const room = c.shape({ name: c.text, low: c.triple, high: c.triple, floor: c.lis
 export type Room = c.Checked<typeof room>;
 
 const namedCamera = c.shape({ name: c.text, position: c.triple, direction: c.triple, verticalFov: c.real });
-export type NamedCamera = c.Checked<typeof namedCamera>;
 
 const windowCamera = c.shape({ position: c.triple, direction: c.triple, up: c.triple, verticalFov: c.real });
-export type WindowCamera = c.Checked<typeof windowCamera>;
 
 const described = c.shape({ name: c.text, about: c.text });
-export type Described = c.Checked<typeof described>;
 
 const lamp = c.shape({
   id: c.text,

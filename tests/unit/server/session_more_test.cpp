@@ -1,7 +1,10 @@
 // The sun, splits, plans, final pictures, saved lighting.
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "seen.h"
+#include "view/frame.h"
 
 namespace roomlight {
 namespace {
@@ -71,6 +74,50 @@ TEST(Session, splitsShowTwoPlans) {
   EXPECT_EQ(client.hear("error", 9)["field"], "split.left.plan");
   client.say({{"type", "technique"}, {"id", 10}, {"technique", "magic"}});
   EXPECT_EQ(client.hear("error", 10)["field"], "technique");
+}
+
+// Light that always has a next change to follow is never that of the newest state.
+void readWhileAnotherWindowEdits(const char* technique) {
+  const ServedHome home;
+  Client editor(home.port(), home.live()), reader(home.port(), home.live());
+  const std::string lamp = named(editor.hear("welcome")["lamps"], "Pendant")["id"];
+  reader.say({{"type", "technique"}, {"id", 100}, {"technique", technique}});
+  reader.hear("ok", 100);
+  reader.say(kViewport);
+  reader.see(isWhole);
+  const std::jthread edits([&](const std::stop_token& enough) {
+    for (uint32_t id = 1; !enough.stop_requested(); ++id) {
+      editor.say({{"type", "edit"}, {"id", id}, {"target", lamp}, {"position", {1.5 + 0.001 * (id % 1000), 2.2, 2.5}}});
+      std::this_thread::sleep_for(std::chrono::milliseconds(6));
+    }
+  });
+  for (uint32_t id = 1; id <= 3; ++id) EXPECT_GT(lux(reader, id), 1);
+  uint32_t last = 0;
+  for (int i = 0; i < 3; ++i) last = reader.see([&](const ReceivedFrame& f) { return f.number > last; }).number;
+}
+
+TEST(Session, aMeterIsAnsweredWhileAnotherWindowEdits) { readWhileAnotherWindowEdits("hybrid"); }
+TEST(Session, techniquesWithoutAFrontAreShownWhileAnotherWindowEdits) { readWhileAnotherWindowEdits("lpv"); }
+
+TEST(Session, splitsOfTechniquesAllFollow) {
+  const ServedHome home;
+  Client client(home.port(), home.live());
+  const std::string lamp = named(client.hear("welcome")["lamps"], "Pendant")["id"];
+  client.say(kViewport);
+  for (const char* technique : {"cone", "vxgi", "lpv", "photon", "path"}) {
+    client.say({{"type", "split"}, {"id", 1}, {"split", {{"left", {{"technique", technique}}}, {"right", {{"technique", "hybrid"}}}}}});
+    client.hear("ok", 1);
+    client.see([](const ReceivedFrame& f) { return f.side == 1 && f.samples >= 4; });
+    const double before = lux(client, 2);
+    client.say({{"type", "edit"}, {"id", 3}, {"target", lamp}, {"dim", 0.25}});
+    client.hear("ok", 3);
+    const uint32_t revision = client.hear("state")["revision"];
+    for (const int side : {1, 2}) client.see([&](const ReceivedFrame& f) { return f.side == side && f.revision >= revision && !(f.flags & view::kLightIsBehind); });
+    EXPECT_LT(lux(client, 4), 0.6 * before) << technique;
+    client.say({{"type", "undo"}, {"id", 5}});
+    client.hear("ok", 5);
+    EXPECT_NEAR(lux(client, 6), before, 0.05 * before) << technique;
+  }
 }
 
 TEST(Session, finalPicturesAreFetchedOnce) {

@@ -1,5 +1,6 @@
 // Four browsers that do all sorts of things at once. Seconds here; for longer: ROOMLIGHT_SOAK_SECONDS=3600 test_server --gtest_filter='Soak.*', also
 // with sanitizers. Prints how much memory there was at a fifth of the time and at the end.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -37,7 +38,7 @@ struct Manners {
 
 class Visitor {
  public:
-  Visitor(const ServedHome& home, uint32_t seed, Manners manners) : home_(home), manners_(manners), random_(seed) {}
+  Visitor(const ServedHome& home, uint32_t seed, Manners manners) : home_(home), manners_(manners), name_(seed), random_(seed) {}
 
   void visit(std::chrono::steady_clock::time_point until) {
     std::string window;
@@ -48,7 +49,8 @@ class Visitor {
       client.say(viewport());
       for (int i = whole(5, 60); i > 0 && std::chrono::steady_clock::now() < until; --i) {
         client.acknowledges = !manners_.forgets || whole(0, 2) > 0;
-        client.say(something(welcome));
+        said_ = something(welcome);
+        client.say(said_);
         if (manners_.slowestMs > 0) std::this_thread::sleep_for(std::chrono::milliseconds(whole(0, manners_.slowestMs)));
         if (whole(0, 3) == 0) ask(client);
       }
@@ -68,8 +70,13 @@ class Visitor {
 
   // Everything said so far has been taken.
   void ask(Client& client) {
+    constexpr double kPatienceS = 120;
     client.say({{"type", "meter"}, {"id", ++id_}, {"x", real(0, 1)}, {"y", real(0, 1)}});
-    client.hear("metered", id_, 120);
+    try {
+      client.hear("metered", id_, kPatienceS);
+    } catch (const std::exception& e) {
+      throw std::runtime_error(fmt::format("visitor {}: no meter's answer to {} within {} s; it said {}", name_, id_, kPatienceS, said_.dump()));
+    }
   }
 
   json something(const json& home) {
@@ -99,8 +106,10 @@ class Visitor {
 
   const ServedHome& home_;
   const Manners manners_;
+  const uint32_t name_;
   std::mt19937 random_;
   uint32_t id_ = 0;
+  json said_;
 };
 
 TEST(Soak, fourVisitorsAtOnce) {

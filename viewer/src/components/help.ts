@@ -7,8 +7,8 @@ const kKeys: readonly (readonly [string, readonly (readonly [string, string])[]]
   [
     "Walk and look",
     [
-      ["W A S D, arrows", "walk; with Shift three times as fast"],
-      ["Q E", "turn"],
+      ["W A S D, arrows up and down", "walk; with Shift three times as fast"],
+      ["Q E, arrows left and right", "turn"],
       ["Page up, Page down", "raise and lower the eye"],
       ["Drag", "look around"],
       ["Wheel", "forward and back"],

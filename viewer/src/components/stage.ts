@@ -263,8 +263,8 @@ export class Stage extends SessionElement {
     const first = this.shown === null;
     this.shown = header;
     // For tests and the curious: which frame this is.
-    const { number, camera, revision, settled, quick, lightBehind } = header;
-    Object.assign(this.dataset, { frame: number, camera, revision, settled, whole: !quick && !lightBehind });
+    const { number, camera, revision, samples, settled, quick, lightBehind } = header;
+    Object.assign(this.dataset, { frame: number, camera, revision, samples, settled, whole: !quick && !lightBehind });
     if (first) this.requestUpdate();
     this.drawOverlay();
   }

@@ -82,6 +82,11 @@ export interface Line {
   close(): Promise<void>;
 }
 
+// A request as the program takes it: to its own address, of a page from there. What is no request stays as it is.
+function addressed(bytes: Buffer, host: string): Buffer {
+  return bytes.subarray(0, 4).equals(Buffer.from("GET ")) ? Buffer.from(bytes.toString("latin1").replaceAll(host, "127.0.0.1"), "latin1") : bytes;
+}
+
 // The program by way of another address of this machine, where the connection can be cut.
 export async function lineTo(program: Program): Promise<Line> {
   const host = "127.0.0.2";
@@ -93,7 +98,8 @@ export async function lineTo(program: Program): Promise<Line> {
       [far, near],
     ] as const) {
       sockets.add(a);
-      a.pipe(b);
+      a.on("data", (bytes: Buffer) => b.write(a === near ? addressed(bytes, host) : bytes));
+      a.on("end", () => b.end());
       a.on("error", () => b.destroy());
       a.on("close", () => {
         sockets.delete(a);
