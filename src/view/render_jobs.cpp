@@ -98,6 +98,11 @@ bool RenderJobs::cancel(const std::string& job) {
   return true;
 }
 
+bool RenderJobs::busy() const {
+  const std::lock_guard lock(mutex_);
+  return !running_.empty() || !waiting_.empty();
+}
+
 std::optional<FinishedFile> RenderJobs::find(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto file = fileOf(finished_, id);

@@ -53,6 +53,8 @@ class RenderJobs {
   bool add(RenderWork work);
   // False: there is no such job. What there is of its picture is kept.
   bool cancel(const std::string& job);
+  // Whether a picture is being made or waits to be.
+  bool busy() const;
   // From any thread: a finished picture, until drop() removes it or many newer ones have come.
   std::optional<FinishedFile> find(const std::string& id);
   void drop(const std::string& id);
@@ -68,7 +70,7 @@ class RenderJobs {
   const ViewHome& home_;
   const std::function<void(const JobNews&)> tell_;
   std::filesystem::path folder_;  // of the owner's alone
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<RenderWork> waiting_;
   std::string running_;

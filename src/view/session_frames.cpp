@@ -104,6 +104,7 @@ Session::Next Session::nextOf(const Window& window, const Side& side, const LitH
   }
   if (!isUpToDate(home)) return Next::Wait;
   if (side.picture.averaged()) return Next::Nothing;
+  if (side.picture.samples() > 0 && jobs_.busy()) return Next::Wait;  // somebody waits for that
   if (millisecondsSince(window.inputAt) >= kRestMs) return somebodyMoves() ? Next::Wait : Next::Better;
   return home.front && side.picture.samples() == 0 && !side.quick.settled() ? Next::Quick : Next::Wait;
 }

@@ -50,6 +50,10 @@ bool Session::isTurnOver(const Side& next) {
 }
 
 void Session::beginRefining() {
+  if (jobs_.busy()) {  // somebody waits for that
+    if (refining_) refiner_.giveUp(), refining_.reset();
+    return;
+  }
   const auto [window, k] = nextToRefine();
   if (!window || (refining_ && !isTurnOver(window->sides[k]))) return;
   if (refining_) refiner_.giveUp(), refining_.reset();

@@ -143,6 +143,26 @@ TEST(Session, finalPicturesAreFetchedOnce) {
   EXPECT_EQ(get(home.port(), target).status, 404);
 }
 
+TEST(Session, picturesOfRestWaitWhileAFinalPictureIsMade) {
+  const ServedHome home;
+  Client client(home.port(), home.live());
+  client.say(kViewport);
+  client.see(isWhole);
+  client.say({{"type", "render"}, {"id", 1}, {"kind", "picture"}, {"width", 640}, {"height", 480}, {"technique", "path"}, {"seconds", 600}});
+  const std::string job = client.hear("ok", 1)["job"];
+  uint32_t first = 0, last = 0;
+  const auto noneEnds = [&](const ReceivedFrame& f) {
+    first = first ? first : f.samples, last = f.samples;
+    return false;
+  };
+  EXPECT_ANY_THROW(client.see(noneEnds, 2));
+  EXPECT_LE(last, first + 2);
+  Client another(home.port(), home.live());
+  another.say({{"type", "cancel"}, {"id", 2}, {"job", job}});
+  another.say(kViewport);
+  another.see([](const ReceivedFrame& f) { return f.samples > 20; });
+}
+
 TEST(Session, picturesThatNobodyFetchedAreToldOfAgain) {
   const ServedHome home;
   std::string window, job;
