@@ -57,6 +57,7 @@ struct LitHome {
   LightKey key;
   Scene scene;
   HomeState state;  // that the scene and its light are in; while light follows, the follower's alone
+  uint32_t revision = 0;  // of the session: the newest that its light knows of
   const std::optional<SunState> sunAtFirst;
   std::unique_ptr<LitScene> lit;
   std::unique_ptr<FrontHome> front;  // of techniques that have light in slots
@@ -71,6 +72,7 @@ class LightBuilder {
     HomeState state;
     RenderSettings settings;
     std::optional<Camera> camera;
+    uint32_t revision = 0;
   };
   // One at a time. `home` must stay; `progress` and `ready` are called from the builder's thread.
   void begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready);

@@ -172,6 +172,7 @@ class Session {
   Json homeJson_;
   LightFollower follower_;
   LightKey lastFollowed_;
+  uint32_t followed_ = 0;  // revision to which it follows
   bool soon_ = false;  // a window rests in a moment
   struct Refining {  // whose picture it is; of an older serial it is of no more use
     std::string window;

@@ -54,7 +54,7 @@ void Session::beginBuilding() {
       settings.technique = s.key.technique;
       RenderProgress progress;
       progress.report = [this](const std::string& stage, float fraction) { tellProgress(stage, fraction); };
-      builder_.begin(home_, {s.key, stateOf(s.key), settings, cameraOf(w.camera)}, std::move(progress), [this] {
+      builder_.begin(home_, {s.key, stateOf(s.key), settings, cameraOf(w.camera), revision_}, std::move(progress), [this] {
         {
           const std::lock_guard lock(mutex_);
           built_ = true;
@@ -75,6 +75,7 @@ void Session::adoptBuilt() {
   }
   tellAll(textOf({{"type", "progress"}, {"stage", "done"}, {"fraction", 1}}));
   const LightKey key = builder_.work().key;
+  const uint32_t revision = builder_.work().revision;
   auto result = builder_.take();
   if (!result) return;
   if (!*result) {
@@ -83,6 +84,7 @@ void Session::adoptBuilt() {
   }
   if (const LitHome* before = litFor(key)) dropLight(*before);
   lit_.push_front(std::move(*result).value());
+  lit_.front()->revision = revision;
   for (Window& w : windows_) {
     for (Side& s : w.sides) {
       if (s.key == key) s.restart();
@@ -163,7 +165,7 @@ void Session::followLight() {
     soon_ = true;
     return;
   }
-  lastFollowed_ = next->key;
+  lastFollowed_ = next->key, followed_ = revision_;
   follower_.begin(home_, *next, wantedOf(*next), settings_.threads, [this] {
     {
       const std::lock_guard lock(mutex_);
@@ -189,6 +191,7 @@ bool Session::takeLight() {
     tellFailure(fmt::format("light could not follow the change: {}", followed.error));
     return true;
   }
+  home.revision = followed_;
   if (home.front) home.front->take(std::move(followed.light), home.scene);
   for (Window& w : windows_) {
     for (Side& s : w.sides) {

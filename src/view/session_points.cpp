@@ -43,13 +43,13 @@ void Session::on(Window& window, const Event&, const Point& m) {
   std::optional<Point>& waiting = m.meter ? window.meter : window.pick;
   if (waiting) tell(window, answer(m.meter ? "metered" : "picked", waiting->id, nullptr));
   waiting = m;
-  if (m.meter) window.meterAt = std::chrono::steady_clock::now();
+  if (m.meter) window.meterAt = std::chrono::steady_clock::now(), window.meterRevision = revision_;
 }
 
-// A meter waits for the light; where that has to follow one change after the other, it takes what there is, between two of them.
+// A meter waits for the light of the state that it was asked in; where changes go on after that, for no more than this, between two of them, and bounces may be missing.
 bool Session::canBeMetered(const Window& window, const LitHome& home) const {
   if (follower_.home() == &home) return false;
-  return isUpToDate(home) || std::chrono::steady_clock::now() - window.meterAt > kPatience;
+  return isUpToDate(home) || (home.revision >= window.meterRevision && std::chrono::steady_clock::now() - window.meterAt > kPatience);
 }
 
 bool Session::meterIsDue(const LitHome& home) const {

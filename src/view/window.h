@@ -71,7 +71,8 @@ struct Window {
   std::shared_ptr<Adaptation> eye[2] = {std::make_shared<Adaptation>(), std::make_shared<Adaptation>()};
   TimePoint lastFrameAt;
   std::optional<Point> pick, meter;  // wait to be answered
-  TimePoint meterAt;                 // since when
+  TimePoint meterAt;                 // since when,
+  uint32_t meterRevision = 0;        // of which state
   std::map<std::string, JobNews> jobs;  // the last of each, as far as it may have to be told again
 };
 
