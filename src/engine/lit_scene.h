@@ -30,6 +30,7 @@ struct PictureWish {
   int width = 960, height = 540;
   int samples = 0;                  // per pixel; 0: those of the settings the scene was lit with
   std::optional<uint64_t> seed;     // none: that of the settings
+  bool white = false;               // of what falls on what is seen: pi times the picture is illuminance in lux (scene/surface.h: whitened)
   bool orNothing = false;           // once cancelled no picture; else one of few samples. `path` makes its first pass all the same
   // Of frames before, of this scene alone, which is told of what changes; frames of one sample a pixel reuse their light. `path` does not.
   FrameHistory* history = nullptr;
@@ -62,7 +63,7 @@ class LitScene {
   virtual const LightLayers* layers() const { return nullptr; }
   // Linear, cd/m², with the quality of the settings the scene was lit with.
   Image picture(const Camera& camera, int width, int height, const Progress& progress = {}, FrameHistory* history = nullptr) const {
-    return pictureOf(camera, {width, height, 0, {}, false, history}, progress);
+    return pictureOf(camera, {width, height, 0, {}, false, false, history}, progress);
   }
   virtual Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress = {}) const = 0;
 

@@ -33,6 +33,7 @@ Settings asked(const Settings& settings, const PictureWish& wish) {
   Settings out = sized(settings, wish.width, wish.height);
   if (wish.samples > 0) out.samples = wish.samples;
   if (wish.seed) out.seed = *wish.seed;
+  out.white = wish.white;
   if constexpr (requires { out.orNothing; }) out.orNothing = wish.orNothing;
   return out;
 }

@@ -362,7 +362,7 @@ void FrameMaker::make(int x0, int y0, GatherCounters& count) const {
 }  // namespace
 
 Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory* history, const Progress& progress) {
-  if (history && history->settings().reuse && settings.samples == 1) return gatherFrame(rays, lights, shader, camera, settings, *history, progress);
+  if (history && history->settings().reuse && settings.samples == 1 && !settings.white) return gatherFrame(rays, lights, shader, camera, settings, *history, progress);
   return gatherPicture(rays, lights, shader, camera, settings, progress).image;
 }
 

@@ -160,7 +160,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   const Scene& scene = rays_.scene();
   const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[group.instance].mesh)];
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-  const MaterialSample m = meanMaterial(group, layer, isUniform(material, mesh));
+  const MaterialSample mean = meanMaterial(group, layer, isUniform(material, mesh)), m = settings_.white ? whitened(mean) : mean;
   const float cosTheta = std::abs(dot(group.ng, layer.ray[group.member[0]].direction));
   const Vec3 through = passing(m, material, cosTheta);
   const bool solid = luminance(through) < 0.5f;

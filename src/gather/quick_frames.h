@@ -25,6 +25,7 @@ struct QuickScene {
   const Lights& lights;
   const SlotSnapshot& light;
   const std::unordered_map<uint32_t, Affine>& moved;
+  bool white = false;  // what is seen is whitened (scene/surface.h); the same in all frames until forget()
 };
 
 class QuickFrames {

@@ -48,7 +48,8 @@ void QuickFrames::Maker::shade(uint32_t index, Work& w) const {
     a.rest += radianceAlong({offsetOrigin(sight.panePlace, sight.paneNormal), d, 0, kInfinity}, sight.reflectance);
   }
   if (!a.hit.valid()) return;
-  const SurfacePoint s = surfaceAt(scene, a.hit, sight.ray.direction);
+  SurfacePoint s = surfaceAt(scene, a.hit, sight.ray.direction);
+  if (scene_.white) s.m = whitened(s.m);
   const Vec3 wo = -sight.ray.direction;
   const Bsdf bsdf(s.m, s.ns, s.ng, wo);
   const SlotIrradiance e = receivedAt(s.instance, s.p, s.ng);
@@ -138,7 +139,7 @@ void QuickFrames::Maker::lend(Work& w, Count& count) const {
     if (!from) continue;
     ++count.lent;
     if (a.hit.valid()) {
-      const MaterialSample m = materialAt(scene, a.hit);
+      const MaterialSample seen = materialAt(scene, a.hit), m = scene_.white ? whitened(seen) : seen;
       a.albedo = a.sight.left * m.alpha * Bsdf(m, a.n, a.n, -a.sight.ray.direction).diffuseAlbedo();
     }
     a.diffuse = from->diffuse, a.rest = from->rest, a.lent = true;

@@ -63,7 +63,7 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
   Image fresh(w, h);
   std::vector<FilterPixel> seen(st.pixels.size());
   st.traceLightPaths();
-  const PathWalk walk(st.rays, st.lights, &st.vertices);
+  const PathWalk walk(st.rays, st.lights, &st.vertices, st.settings.white);
   const int tilesX = (w + kTile - 1) / kTile, tilesY = (h + kTile - 1) / kTile;
   std::atomic<int> tilesDone = 0;
   std::mutex reporting;

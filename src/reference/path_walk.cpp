@@ -167,7 +167,8 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
       if constexpr (Record::kOn) record.add(light);
       break;
     }
-    const SurfacePoint s = surfaces_.at(hit, path.ray.direction);
+    SurfacePoint s = surfaces_.at(hit, path.ray.direction);
+    if (white_ && scattered == 0) s.m = whitened(s.m);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const int32_t emitter = lights_.emitterOf(s.instance);
       const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, lights_.pdfLocal(path.lastPoint, s)) : 1;

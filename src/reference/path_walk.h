@@ -21,8 +21,9 @@ struct PathLayers {
 class PathWalk {
  public:
   // vertices: of light paths to connect to, or null.
-  PathWalk(const RayScene& rays, const Lights& lights, const LightVertices* vertices = nullptr)
-      : rays_(rays), lights_(lights), surfaces_(rays.surfaces()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr) {}
+  // white: what is seen first, or through panes, is whitened (scene/surface.h).
+  PathWalk(const RayScene& rays, const Lights& lights, const LightVertices* vertices = nullptr, bool white = false)
+      : rays_(rays), lights_(lights), surfaces_(rays.surfaces()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr), white_(white) {}
 
   // Towards the ray's origin, cd/m²; added to `layers` as well, if there are.
   Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, PathLayers* layers = nullptr) const;
@@ -56,6 +57,7 @@ class PathWalk {
   const Lights& lights_;
   const Surfaces& surfaces_;
   const LightVertices* vertices_;
+  const bool white_;
 };
 
 }  // namespace roomlight

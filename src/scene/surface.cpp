@@ -219,6 +219,13 @@ Vec3 bihemisphericalAlbedo(const MaterialSample& m) {
   return specular + diffuse * (1 - std::min(1.0f, maxComponent(specular)));
 }
 
+MaterialSample whitened(const MaterialSample& m) {
+  if (m.transmission > 0 || m.glazed) return m;
+  MaterialSample white;
+  white.baseColor = Vec3(1), white.alpha = m.alpha;
+  return white;
+}
+
 void glaze(Material& material, const Glazing& glazing) {
   Material window;
   window.name = material.name;

@@ -59,6 +59,9 @@ Vec3 triangleTangent(const Mesh& mesh, const TextureRef& ref, uint32_t triangle,
 // voxel of this material must reflect. Light that passes straight through is not in it.
 Vec3 bihemisphericalAlbedo(const MaterialSample& m);
 
+// The same surface, matt and reflecting everything: pi times the luminance of what it reflects is its illuminance. What light passes through stays as it is, and so do veils' gaps.
+MaterialSample whitened(const MaterialSample& m);
+
 // Makes a material a clear window, whatever it was before; what it emits stays.
 void glaze(Material& material, const Glazing& glazing);
 

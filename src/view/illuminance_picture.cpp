@@ -7,15 +7,12 @@
 namespace roomlight::view {
 namespace {
 
-constexpr float kDarkest = 0.03f, kMostMetal = 0.5f, kMostGlass = 0.3f;
-
 float luxAt(const RayScene& rays, const Ray& ray, Vec3 light) {
   const Hit hit = rays.intersect(ray);
   if (!hit.valid()) return -1;
   const SurfacePoint p = surfaceAt(rays.scene(), hit, ray.direction);
-  if (!isBlack(p.m.emission) || p.m.metallic > kMostMetal || p.m.transmission > kMostGlass || p.m.alpha < 1 || p.material->glazing.panes > 0) return -1;
-  const float reflectance = luminance(p.m.baseColor) * (1 - p.m.metallic) * (1 - p.m.transmission);
-  return reflectance < kDarkest ? -1 : kPi * luminance(light) / reflectance;
+  const bool none = !isBlack(p.m.emission) || p.m.transmission > 0 || p.m.alpha < 1 || p.m.glazed;
+  return none ? -1 : kPi * luminance(light);
 }
 
 }  // namespace

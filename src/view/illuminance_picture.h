@@ -6,8 +6,7 @@
 
 namespace roomlight::view {
 
-// Illuminance in lx in every channel, of a picture in cd/m²: pi times luminance over reflectance, which is exact on matt surfaces and on the mean
-// over gloss. Negative where that tells nothing: sky, glass, mirrors and metal, what shines by itself, what reflects under 3 %.
+// Illuminance in lx in every channel, of a picture in cd/m² whose surfaces are whitened (PictureWish::white). Negative where there is none to tell: sky, glass, gauze, what shines by itself.
 Image illuminancePicture(const RayScene& rays, const Camera& camera, const Image& light);
 
 }  // namespace roomlight::view

@@ -35,7 +35,7 @@ class FrontHome {
 
   const Scene& scene() const { return scene_; }
   const HomeState& state() const { return state_; }
-  QuickScene quick() const { return {base_.rays(), base_.lights(), *light_, moved_}; }
+  QuickScene quick(bool white) const { return {base_.rays(), base_.lights(), *light_, moved_, white}; }
   const RayScene& rays() const { return base_.rays(); }
 
  private:

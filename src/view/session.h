@@ -149,7 +149,7 @@ class Session {
   bool answerPoints(Window& window);
 
   // session_refine.cpp
-  bool refines(const Side& side) const;
+  bool refines(const Window& window, const Side& side) const;
   std::pair<Window*, size_t> nextToRefine();
   bool isTurnOver(const Side& next);
   void beginRefining();

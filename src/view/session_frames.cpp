@@ -138,10 +138,11 @@ bool Session::showQuick(Window& window, Side& side, LitHome& home, const Camera&
   Image image;
   double costMs = 0;
   if (home.front) {
-    image = side.quick.make(home.front->quick(), camera, size.first, size.second, ms, {{}, &stop_});
+    image = side.quick.make(home.front->quick(window.display.white()), camera, size.first, size.second, ms, {{}, &stop_});
     costMs = side.quick.count().otherMs / std::max(1, threadCount());  // light takes what time is left
   } else {
-    image = home.lit->pictureOf(camera, {size.first, size.second, 1, {}, true, historyOf(side, window)}, {{}, &stop_});
+    const bool white = window.display.white();
+    image = home.lit->pictureOf(camera, {size.first, size.second, 1, {}, white, true, white ? nullptr : historyOf(side, window)}, {{}, &stop_});
     costMs = watch.seconds() * 1e3;
   }
   if (stop_ || image.width == 0) return false;
@@ -163,7 +164,7 @@ bool Session::stepSide(Window& window, size_t index) {
   }
   if (next == Next::Better) {
     // Of the whole size on slow lines too: nobody waits for the next.
-    const bool shows = side.picture.step(home, camera, frameSize(window.viewport, 1), refines(side), newer_);
+    const bool shows = side.picture.step(home, camera, frameSize(window.viewport, 1), {window.display.white(), refines(window, side)}, newer_);
     if (shows) sendFrame(window, index, home);
     return true;
   }

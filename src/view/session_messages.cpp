@@ -93,9 +93,13 @@ void Session::on(Window& window, const Event& event, const ViewCamera& m) {
 }
 
 void Session::on(Window& window, const Event& event, const DisplayChange& m) {
+  const bool white = window.display.white();
   apply(m, window.display);
   window.inputAt = event.at, window.inputShown = false;
   for (Side& s : window.sides) s.again = true;
+  if (window.display.white() == white) return;
+  for (Side& s : window.sides) s.restart();
+  newInput(window, event.at);
 }
 
 void Session::on(Window& window, const Event& event, const ChooseTechnique& m) {

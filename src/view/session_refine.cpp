@@ -17,8 +17,8 @@ bool couldBeRefined(const Window& w, const Side& s) {
 
 }  // namespace
 
-// Other techniques show what they find, not what is true.
-bool Session::refines(const Side& side) const { return side.key.technique == "hybrid" || side.key.technique == "path"; }
+// Other techniques show what they find, not what is true; of illuminance the averages are good enough.
+bool Session::refines(const Window& window, const Side& side) const { return !window.display.white() && (side.key.technique == "hybrid" || side.key.technique == "path"); }
 
 void Session::tellRefined() {
   {

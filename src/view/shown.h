@@ -16,6 +16,7 @@ struct ViewDisplay {
   float compensationEv = 0;  // positive is brighter
   FalseColour falseColour = FalseColour::Off;
   std::optional<double> low, high;  // of the scale; none: by the picture
+  bool white() const { return falseColour == FalseColour::Illuminance; }  // what is seen is whitened (scene/surface.h)
 };
 void apply(const DisplayChange& change, ViewDisplay& display);
 
