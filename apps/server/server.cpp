@@ -32,7 +32,7 @@ using boost::system::error_code;
 using Request = http::request<http::empty_body>;
 
 constexpr uint32_t kMostHeaderBytes = 16 << 10;
-constexpr std::chrono::seconds kRequestTime{20}, kSilence{60}, kFileTime{600};
+constexpr std::chrono::seconds kRequestTime{5}, kSilence{60}, kFileTime{600};
 constexpr std::chrono::milliseconds kLastLook{10};
 constexpr int kLastLooks = 50;
 constexpr size_t kMostWaiting = 4096, kMostWaitingBytes = 64 << 20;  // a browser that takes nothing more is let go

@@ -56,10 +56,13 @@ void ChangedPlaces::add(const SceneChange& change, const Scene& scene, const std
   if (near_.size() > kMostNear) near_.clear(), lightsChanged_ = true;
 }
 
-void ChangedPlaces::lightBy(const Lights& lights) {
+void ChangedPlaces::lightBy(const Lights& lights, std::span<const uint32_t> emissive) {
   casters_.clear();
   for (size_t i = 0; i < lights.lampCount(); ++i) casters_.push_back({lights.lamp(i).position, false});
   for (size_t i = 0; i < lights.sunCount(); ++i) casters_.push_back({lights.sampleSun(i, {0.5f, 0.5f}).wi, true});
+  for (const uint32_t i : emissive) {
+    if (const int32_t e = lights.emitterOf(i); e >= 0) casters_.push_back({lights.emitterBounds(static_cast<size_t>(e)).centre(), false});
+  }
 }
 
 bool ChangedPlaces::concern(Vec3 p, float nearM) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "scene/scene.h"
@@ -16,7 +17,8 @@ class ChangedPlaces {
   // After many changes without a frame light counts as changed everywhere.
   void add(const SceneChange& change, const Scene& scene, const std::function<void(std::vector<Bounds3>&)>& addSeen);
   // Light of the scene as it is now: where things that moved throw shadows, or did, light has changed.
-  void lightBy(const Lights& lights);
+  // `emissive`: instances of emissive meshes that throw sharp ones too.
+  void lightBy(const Lights& lights, std::span<const uint32_t> emissive = {});
 
   bool lightsChanged() const { return lightsChanged_; }  // everywhere
   bool anyMoved() const { return anyMoved_; }

@@ -84,7 +84,7 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
   width_ = width, height_ = height;
   now_.resize(pixels);
   if (!hasPast_) past_.clear();
-  changed_.lightBy(scene.lights);
+  changed_.lightBy(scene.lights, scene.light.sharpEmissive());
   // Where the scene has changed every pixel looks for itself.
   lands_ = hasPast_ && !stale_ && !changed_.any();
   planShares(ms);

@@ -9,7 +9,7 @@ namespace roomlight {
 namespace {
 
 constexpr float kPictureRoughness = 0.3f;  // smoother: what it reflects is looked for by a ray
-constexpr float kFaint = 0.01f;        // of a place's light: lamps that could give less are left out
+constexpr float kFaint = 0.01f;        // of a place's light: that of lamps that could give less is taken from slots
 
 }  // namespace
 
@@ -68,12 +68,16 @@ void QuickFrames::Maker::shade(uint32_t index, Work& w) const {
     if (!isBlack(through)) a.rest += radianceAlong({offsetOrigin(s.p, -s.ng), sight.ray.direction, 0, kInfinity}, sight.left * through);
   }
   const size_t lamps = scene_.lights.lampCount(), lights = lamps + scene_.lights.sunCount();
-  const float faint = kFaint * luminance(e.soft + e.sharp) / kPi;
+  const float faintest = kFaint * luminance(e.soft + e.sharp) / kPi;
+  float all = 0, faint = 0;  // if nothing is in the way
   const auto ask = [&](LightSample l, const LightSurroundings* around) {
     const float cosine = dot(l.wi, s.ns);
-    if (!l.valid() || cosine <= 0 || dot(l.wi, s.ng) <= 0 || luminance(l.radiance) * cosine < kPi * faint) return;
+    if (!l.valid() || cosine <= 0 || dot(l.wi, s.ng) <= 0) return;
     if (around) l.radiance *= shareOutside(*around, s.p, l.wi);
-    if (isBlack(l.radiance)) return;
+    const float most = luminance(l.radiance) * cosine / kPi;
+    all += most;
+    if (most < faintest) faint += most;
+    if (most < faintest || isBlack(l.radiance)) return;
     w.shadows.push_back({index, l.radiance * (cosine / kPi), left * bsdf.evaluateSpecular(l.wi) * l.radiance});
     w.shadowRays.push_back(shadowRay(offsetOrigin(s.p, s.ng), s.p, l));
   };
@@ -86,6 +90,7 @@ void QuickFrames::Maker::shade(uint32_t index, Work& w) const {
     const Vec2 u = random.uniform2();
     ask(w.views[k].sample(s.p, u, random.uniform()), &emitters_[k].around);
   }
+  if (faint > 0) a.diffuse += e.sharp * (faint / (all * kPi));
 }
 
 // For those that light the pixels of a tile.

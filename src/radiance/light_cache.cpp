@@ -91,10 +91,14 @@ void LightCache::traceAllParticles(const Sources& from) {
   fewParticles_ = false;
   const size_t small = smallEmitters(from);
   for (EmitterLight& light : emitters_) {
-    if (light.particles.few && light.index >= 0) light.particles = particlesFrom(from, particlesOf(from.lights, static_cast<size_t>(light.index), small, from.voxels.voxelSizeM));
+    if (!light.needsAllParticles()) continue;
+    light.particles = particlesFrom(from, particlesOf(from.lights, static_cast<size_t>(light.index), small, from.voxels.voxelSizeM));
+    // These are of the mesh as it shines now, and so must be all that is kept of it.
+    light.direct.scale(light.scale);
+    light.mesh = EmissiveMesh(from.rays.scene(), light.mesh.instance), light.scale = Vec3(1);
   }
   for (LampLight& light : lamps_) {
-    if (light.particles.few) light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
+    if (light.needsAllParticles()) light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
   }
 }
 
@@ -232,8 +236,8 @@ void LightCache::forgetLampsBut(const Lights& lights) {
 }
 
 bool LightCache::hasFewParticles() const {
-  return std::any_of(emitters_.begin(), emitters_.end(), [](const EmitterLight& e) { return e.particles.few && e.index >= 0; }) ||
-         std::any_of(lamps_.begin(), lamps_.end(), [](const LampLight& l) { return l.particles.few; });
+  return std::any_of(emitters_.begin(), emitters_.end(), [](const EmitterLight& e) { return e.needsAllParticles(); }) ||
+         std::any_of(lamps_.begin(), lamps_.end(), [](const LampLight& l) { return l.needsAllParticles(); });
 }
 
 int LightCache::bouncesOfUpdate() { return mostAtOnce_ = settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces) : settings_.maxBounces; }

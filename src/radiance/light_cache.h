@@ -57,6 +57,7 @@ class LightCache {
     Lamp lamp;
     SlotLight direct;
     ParticleLight particles;
+    bool needsAllParticles() const { return particles.few && !isBlack(lamp.intensityCd); }
   };
   // As it was when it was traced. Dark where it has been switched off: it may come back.
   struct EmitterLight {
@@ -65,6 +66,7 @@ class LightCache {
     int32_t index;  // of all emissive meshes; -1: dark
     SlotLight direct;
     ParticleLight particles;
+    bool needsAllParticles() const { return particles.few && index >= 0; }
   };
   struct LitParticles {
     const ParticleLight* particles;

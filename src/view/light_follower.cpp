@@ -9,7 +9,7 @@ namespace roomlight::view {
 
 void LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready) {
   finish();
-  home_ = &home, done_ = false;
+  home_ = &home, done_ = cancelled_ = false;
   thread_ = std::thread([this, &all, &home, wanted = std::move(wanted), threads, ready = std::move(ready)] {
     try {
       inBackground(threads, [&] { follow(all, home, wanted); });
@@ -24,12 +24,19 @@ void LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, 
 void LightFollower::follow(const ViewHome& all, LitHome& home, const HomeState& wanted) {
   RenderStats stats;
   RenderProgress silent;
+  silent.cancelled = &cancelled_;
   Stages stages(silent, stats);
   SceneChange change = bring(all, home.state, wanted, home.scene);
   home.state = wanted;
   home.lit->update(change, stages);
+  if (cancelled_) return;
   change_ = std::move(change);
   light_ = home.lit->snapshot();
+}
+
+void LightFollower::cancel() {
+  cancelled_ = true;
+  finish();
 }
 
 FollowedLight LightFollower::finish() {

@@ -21,7 +21,7 @@ struct FollowedLight {
 
 class LightFollower {
  public:
-  ~LightFollower() { finish(); }
+  ~LightFollower() { cancel(); }
   // Brings the home to a state that it can follow to, or goes on with bounces that it still owes; one at a time. Nobody else may touch `home`, but for its front, until
   // finish() has returned. `ready` is called from the follower's thread.
   void begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready);
@@ -29,6 +29,8 @@ class LightFollower {
   bool done() const { return done_; }
   // Waits for the end.
   FollowedLight finish();
+  // Ends it, and waits for that; its home is of no further use.
+  void cancel();
 
  private:
   void follow(const ViewHome& all, LitHome& home, const HomeState& wanted);
@@ -37,7 +39,7 @@ class LightFollower {
   std::optional<SceneChange> change_;
   std::shared_ptr<const SlotSnapshot> light_;
   std::string error_;
-  std::atomic<bool> done_{false};
+  std::atomic<bool> done_{false}, cancelled_{false};
   std::thread thread_;
 };
 

@@ -16,7 +16,7 @@ Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder:
   Stages stages(progress, stats);
   Result<std::unique_ptr<LitScene>> lit = lightScene(out->scene, work.settings, stages, work.camera ? &*work.camera : nullptr);
   if (!lit) return Error{lit.error()};
-  if (!lit.value() || stages.cancelled()) return Error{"cancelled"};
+  if (!lit.value() || stages.cancelled()) return std::unique_ptr<LitHome>();
   out->lit = std::move(lit.value());
   if (std::shared_ptr<const SlotSnapshot> light = out->lit->snapshot()) {
     out->front = std::make_unique<FrontHome>(out->scene, out->state, stages);

@@ -58,6 +58,7 @@ struct LitHome {
   Scene scene;
   HomeState state;  // that the scene and its light are in; while light follows, the follower's alone
   uint32_t revision = 0;  // of the session: the newest that its light knows of
+  uint64_t followedAt = 0;  // counts followings of all homes: the last that was its own
   const std::optional<SunState> sunAtFirst;
   std::unique_ptr<LitScene> lit;
   std::unique_ptr<FrontHome> front;  // of techniques that have light in slots
@@ -78,8 +79,9 @@ class LightBuilder {
   void begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready);
   bool busy() const { return thread_.joinable(); }
   const Work& work() const { return work_; }
-  // What has come of it, once ready() was called; the builder is free then. An error's message, or the home.
+  // What has come of it, once ready() was called; the builder is free then. An error's message, or the home; a null one where it was given up.
   std::optional<Result<std::unique_ptr<LitHome>>> take();
+  void giveUp() { cancelled_ = true; }  // and nobody waits
   void cancel();
 
  private:

@@ -42,7 +42,7 @@ Session::~Session() {
   thread_.join();
   builder_.cancel();
   refiner_.stop();
-  follower_.finish();
+  follower_.cancel();
 }
 
 void Session::open(Connection connection, const std::string& window) { push(connection, Opened{window}); }
@@ -164,8 +164,15 @@ bool Session::handleEvents() {
 bool Session::work() {
   for (auto w = windows_.begin(); w != windows_.end(); ++w) {
     if (!w->connection) continue;
-    const bool answered = answerPoints(*w);
-    if (!makeFrame(*w) && !answered) continue;
+    bool done = false;
+    try {
+      done = answerPoints(*w);
+      done |= makeFrame(*w);
+    } catch (const std::exception&) {  // others come before it is tried again
+      windows_.splice(windows_.end(), windows_, w);
+      throw;
+    }
+    if (!done) continue;
     windows_.splice(windows_.end(), windows_, w);
     return true;
   }

@@ -9,6 +9,7 @@
 #include <list>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "view/apply_edit.h"
@@ -77,6 +78,7 @@ class Session {
   HomeState stateOf(const LightKey& key) const;
   LitHome* litFor(const LightKey& key);
   bool needs(const LightKey& key) const;
+  bool isShown(const LightKey& key) const;
   size_t lightsNeeded() const;
   void beginBuilding();
   void adoptBuilt();
@@ -168,11 +170,11 @@ class Session {
   std::list<Window> windows_;
   std::list<std::unique_ptr<LitHome>> lit_;
   LightBuilder builder_;
-  std::string failedBuild_;  // technique that could not be lit: not tried again until something changes
+  std::set<std::string> failedBuilds_;  // techniques that could not be lit: not tried again until something changes
   Json homeJson_;
   LightFollower follower_;
-  LightKey lastFollowed_;
-  uint32_t followed_ = 0;  // revision to which it follows
+  uint64_t followings_ = 0;  // so far
+  uint32_t followed_ = 0;    // revision to which it follows
   bool soon_ = false;  // a window rests in a moment
   struct Refining {  // whose picture it is; of an older serial it is of no more use
     std::string window;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "base/clock.h"
@@ -66,7 +67,12 @@ void Session::lookFrom(LitHome& home, const Camera& camera) {
   RenderStats stats;
   RenderProgress silent;
   Stages stages(silent, stats);
-  home.lit->lookFrom(camera, stages);
+  try {
+    home.lit->lookFrom(camera, stages);
+  } catch (const std::exception&) {  // its light is in pieces
+    dropLight(home);
+    throw;
+  }
 }
 
 // Of the few that moved last: a history takes some hundred bytes a pixel.
@@ -163,6 +169,7 @@ bool Session::stepSide(Window& window, size_t index) {
     return true;
   }
   if (next == Next::Better) {
+    if (!home.front) lookFrom(home, camera);  // another window may have had it elsewhere
     // Of the whole size on slow lines too: nobody waits for the next.
     const bool shows = side.picture.step(home, camera, frameSize(window.viewport, 1), {window.display.white(), refines(window, side)}, newer_);
     if (shows) sendFrame(window, index, home);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <set>
 
 #include "view/session.h"
@@ -32,6 +33,11 @@ bool Session::needs(const LightKey& key) const {
   return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return w.connection && std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; }); });
 }
 
+// The same of windows that were lost but may come back.
+bool Session::isShown(const LightKey& key) const {
+  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; }); });
+}
+
 size_t Session::lightsNeeded() const {
   std::set<std::pair<std::string, std::string>> keys;
   for (const Window& w : windows_) {
@@ -44,12 +50,15 @@ size_t Session::lightsNeeded() const {
 
 // Of all that windows look at, the first that has no light, or light that cannot follow the sun.
 void Session::beginBuilding() {
-  if (builder_.busy()) return;
+  if (builder_.busy()) {
+    if (!isShown(builder_.work().key)) builder_.giveUp();
+    return;
+  }
   for (const Window& w : windows_) {
     for (size_t k = 0; k < w.sides.size() && w.connection; ++k) {
       const Side& s = w.sides[k];
       const auto lit = std::find_if(lit_.begin(), lit_.end(), [&](const auto& l) { return l->key == s.key; });
-      if (s.key.technique == failedBuild_ || (lit != lit_.end() && (*lit)->canFollow(stateOf(s.key).sun))) continue;
+      if (failedBuilds_.contains(s.key.technique) || (lit != lit_.end() && (*lit)->canFollow(stateOf(s.key).sun))) continue;
       RenderSettings settings = frames_;
       settings.technique = s.key.technique;
       RenderProgress progress;
@@ -79,9 +88,10 @@ void Session::adoptBuilt() {
   auto result = builder_.take();
   if (!result) return;
   if (!*result) {
-    failedBuild_ = key.technique;
+    failedBuilds_.insert(key.technique);
     return tellFailure(result->error());
   }
+  if (!result->value()) return;  // given up
   if (const LitHome* before = litFor(key)) dropLight(*before);
   lit_.push_front(std::move(*result).value());
   lit_.front()->revision = revision;
@@ -111,7 +121,7 @@ void Session::dropLights() {
 // Waits for the threads that work on it.
 void Session::dropLight(const LitHome& home) {
   if (refiner_.home() == &home) refiner_.letGo(), refining_.reset();
-  if (follower_.home() == &home) follower_.finish();
+  if (follower_.home() == &home) follower_.cancel();
   lit_.remove_if([&](const auto& l) { return l.get() == &home; });
 }
 
@@ -143,7 +153,13 @@ bool Session::isOwedAFrame(const LitHome& home) const {
 void Session::followFront(LitHome& home) {
   HomeState wanted = wantedOf(home);
   if (wanted == home.front->state()) return;
-  const SceneChange change = home.front->follow(home_, std::move(wanted));
+  SceneChange change;
+  try {
+    change = home.front->follow(home_, std::move(wanted));
+  } catch (const std::exception&) {  // it is between two states
+    dropLight(home);
+    throw;
+  }
   for (Window& w : windows_) {
     for (Side& s : w.sides) {
       if (s.key == home.key) s.quick.sceneChanged(change, home.front->scene());
@@ -158,14 +174,14 @@ void Session::followLight() {
   for (const auto& home : lit_) {
     if (!needs(home->key) || isUpToDate(*home) || meterIsDue(*home)) continue;
     if (!home->front && isOwedAFrame(*home)) continue;
-    if (!next || next->key == lastFollowed_) next = home.get();
+    if (!next || home->followedAt < next->followedAt) next = home.get();
   }
   if (!next) return;
   if (!refinerLeaves(*next)) {
     soon_ = true;
     return;
   }
-  lastFollowed_ = next->key, followed_ = revision_;
+  next->followedAt = ++followings_, followed_ = revision_;
   follower_.begin(home_, *next, wantedOf(*next), settings_.threads, [this] {
     {
       const std::lock_guard lock(mutex_);

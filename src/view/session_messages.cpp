@@ -54,6 +54,10 @@ void Session::openWindow(const Event& event, const std::string& wanted) {
   }
   Window& window = *known;
   window.connection = event.connection;
+  if (lightsNeeded() > kMostAtOnce) {  // others have taken its place meanwhile
+    window.technique = settings_.technique, window.split.reset();
+    chooseSides(window);
+  }
   window.underWay.clear();
   newInput(window, event.at);
   Json welcome = homeJson_;
@@ -111,7 +115,7 @@ void Session::on(Window& window, const Event& event, const ChooseTechnique& m) {
     chooseSides(window);
     return tell(window, errorText({m.id, "notPossible", "technique", tooMany()}));
   }
-  failedBuild_.clear();
+  failedBuilds_.clear();
   newInput(window, event.at);
   tell(window, okText(m.id));
 }
@@ -132,7 +136,7 @@ void Session::on(Window& window, const Event& event, const ChooseSplit& m) {
     chooseSides(window);
     return tell(window, errorText({m.id, "notPossible", "split", tooMany()}));
   }
-  failedBuild_.clear();
+  failedBuilds_.clear();
   newInput(window, event.at);
   tell(window, okText(m.id));
 }
@@ -232,7 +236,7 @@ void Session::setState(HomeState next, const Window& by) {
   const bool sun = !(next.sun == state_.sun);
   state_ = std::move(next);
   ++revision_;
-  failedBuild_.clear();
+  failedBuilds_.clear();
   Json json = stateJson(lamps, objects, sun);
   json["by"] = by.name;
   tellAll(textOf(json));

@@ -1,6 +1,7 @@
 // Picking and metering.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "measure/exposure.h"
 #include "view/point.h"
@@ -70,18 +71,18 @@ bool Session::answerPoints(Window& window) {
   const RayScene& rays = home->front ? home->front->rays() : home->lit->rays();
   const auto find = [&](const Point& p) { return pickAt(home_.editable, home->front ? home->front->state() : home->state, rays, camera, frameSize(window.viewport, 1), p.x, p.y, static_cast<float>(window.viewport.height)); };
   bool answered = false;
+  // What fails is not asked again.
   if (window.pick) {
-    const std::optional<PickedPoint> picked = find(*window.pick);
-    tell(window, answer("picked", window.pick->id, picked ? pickedJson(*picked) : Json(nullptr)));
-    window.pick.reset();
+    const Point asked = *std::exchange(window.pick, std::nullopt);
+    const std::optional<PickedPoint> picked = find(asked);
+    tell(window, answer("picked", asked.id, picked ? pickedJson(*picked) : Json(nullptr)));
     answered = true;
   }
   if (!window.meter || !canBeMetered(window, *home)) return answered;
-  const Point asked = *window.meter;
+  const Point asked = *std::exchange(window.meter, std::nullopt);
   const std::optional<PickedPoint> picked = find(asked);
   const std::optional<Metered> metered = picked ? meterAt(*home, *picked, camera.worldFromCamera.w, stop_) : std::nullopt;
   tell(window, answer("metered", asked.id, metered ? meteredJson(*picked, *metered) : Json(nullptr)));
-  window.meter.reset();
   return true;
 }
 

@@ -219,5 +219,21 @@ TEST_F(QuickFramesTest, coloursOfABetterPictureStay) {
   EXPECT_GT(kept, last.pixels.size() * 9 / 10);
 }
 
+// Each too faint to send a ray for; together they are a lamp like any other.
+TEST_F(QuickFramesTest, manyFaintLampsAreAsBrightAsOne) {
+  constexpr int kLamps = 150;
+  const auto bright = [&](int lamps) {
+    scene_.lamps.clear();
+    for (int i = 0; i < lamps; ++i) scene_.lamps.push_back(test::pointLamp({3.1f + 1e-4f * static_cast<float>(i), 2.2f, 3.9f}, 80.0f / static_cast<float>(lamps)));
+    RenderSettings s;
+    s.voxel.voxelSizeM = 0.15f;
+    lit_ = lightScene(scene_, s, stages_).value();
+    light_ = lit_->snapshot();
+    return meanOf(fresh(camera(2)));
+  };
+  const double one = bright(1), many = bright(kLamps);
+  EXPECT_NEAR(many / one, 1, 0.03);
+}
+
 }  // namespace
 }  // namespace roomlight

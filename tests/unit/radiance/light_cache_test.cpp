@@ -300,6 +300,48 @@ TEST(Update, particlesOfWhatMovedComeToAll) {
   EXPECT_TRUE(cache.settled());
 }
 
+// Dimmed before it sent all: the rest is of how it shines now.
+TEST(Update, particlesOfWhatMovedAndWasDimmedAreThoseOfASceneLitAnew) {
+  GlowingHome home;
+  RadianceSettings settings = apart();
+  settings.bouncesAtOnce = 3;
+  LightCache cache = lit(home, settings);
+  home.box.assign(1, home.panelAlone[0] + 1);
+  const std::vector<Bounds3> places = home.moveBox({0, 0.13f, 0});
+  const RayScene rays(home.scene);
+  cache.update(rays, Lights(home.scene), home.voxels(), places);
+  const auto settle = [&](const char* when) {
+    for (int k = 0; k < 20 && !cache.settled(); ++k) cache.goOn(rays, Lights(home.scene), home.voxels());
+    EXPECT_TRUE(cache.settled()) << when;
+    expectSame(cache, lit(home, settings), 3e-3f);
+  };
+  home.emission(home.cube) = Vec3(400);
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  settle("dimmed");
+  home.emission(home.cube) = Vec3(800);
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  settle("brighter again");
+}
+
+TEST(Update, lampsThatWereLeftDarkAreNotTracedToTheEnd) {
+  Home home;
+  RadianceSettings settings = exact();
+  settings.bouncesAtOnce = 3;
+  LightCache cache = lit(home, settings);
+  const RayScene rays(home.scene);
+  for (const float x : {1.1f, 1.7f, 2.3f}) {
+    home.scene.lamps[0].position = {x, 2.55f, 3.6f};
+    cache.relight(rays, Lights(home.scene), home.voxels());
+  }
+  home.scene.lamps.erase(home.scene.lamps.begin());
+  cache.relight(rays, Lights(home.scene), home.voxels());
+  for (int k = 0; k < 20 && !cache.settled(); ++k) {
+    cache.goOn(rays, Lights(home.scene), home.voxels());
+    EXPECT_EQ(cache.field().rays, 0u);
+  }
+  EXPECT_TRUE(cache.settled());
+}
+
 TEST(FollowDaylight, equalsASceneLitAnew) {
   Home home(true);
   const auto light = [&](const Sun& sun, float skyCdM2) {
