@@ -24,13 +24,14 @@ RadianceSettings directOnly(const VxgiSettings& settings) {
 
 VxgiCache::VxgiCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings, const Progress& progress)
     : settings_(settings), light_{VxgiClipmap(room.centre(), finestVoxelM(rays, room, settings), settings.resolution, settings.levels), {}, {}, 0, 0, 0, 0} {
-  for (int level = 0; level < settings.levels && !progress.stop(); ++level) {
+  for (int level = 0; level < settings.levels; ++level) {
+    if (progress.stop()) return;
     VoxelSettings voxel;
     voxel.voxelSizeM = light_.map.voxelSizeM(level);
     levels_.push_back(std::make_unique<Level>(rays, lights, voxel, directOnly(settings), Progress{{}, progress.cancelled}));
-    if (progress.stop()) return;
     progress.at(0.5f * static_cast<float>(level + 1) / static_cast<float>(settings.levels));
   }
+  if (progress.stop()) return;
   gatherSources(rays);
   bounce(settings.maxBounces, progress);
 }

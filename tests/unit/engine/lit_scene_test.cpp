@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "base/clock.h"
 #include "engine/live_walk.h"
 #include "support/pictures.h"
 #include "support/rooms.h"
@@ -124,6 +129,37 @@ TEST_P(LitSceneUpdate, anEyeOutsideKeepsTheLight) {
   const size_t done = stats_.stages.size();
   lit->lookFrom(above, stages_);
   EXPECT_EQ(stats_.stages.size(), done);
+}
+
+// From another thread, sooner and later: there is no light then, or a whole one.
+TEST_P(LitSceneUpdate, canBeCancelledAtAnyTime) {
+  constexpr int kTimes = 12;
+  Home home;
+  const Stopwatch whole;
+  static_cast<void>(open(home.scene));
+  const double seconds = whole.seconds();
+  for (int i = 0; i < kTimes; ++i) {
+    std::atomic<bool> cancelled = i == 0;
+    const auto later = [&](double s) {
+      return std::thread([&cancelled, s] {
+        std::this_thread::sleep_for(std::chrono::duration<double>(s));
+        cancelled = true;
+      });
+    };
+    RenderProgress progress;
+    progress.cancelled = &cancelled;
+    Stages stages(progress, stats_);
+    std::thread first = later(seconds * i / kTimes);
+    const auto lit = lightScene(home.scene, small(GetParam()), stages, &camera_);
+    first.join();
+    ASSERT_TRUE(lit.ok());
+    const auto other = open(home.scene);
+    cancelled = false;
+    std::thread second = later(0.5 * seconds * i / kTimes);
+    other->update(home.moveBox({0.11f, 0, 0.13f}), stages);
+    second.join();
+    home.moveBox({-0.11f, 0, -0.13f});
+  }
 }
 
 TEST_P(LitSceneUpdate, theSunMoves) {
