@@ -189,6 +189,7 @@ search::Problem problemOf(const Model& m) {
     problem.integers.push_back({static_cast<int32_t>(m.firstOption[p + 1] - m.firstOption[p]) + 1, false, group});
     for (size_t l = 0; l < m.levels(); ++l) problem.reals.push_back({group});
   }
+  problem.blockOfGroup.assign(m.ruleOfPlace.begin(), m.ruleOfPlace.end());
   problem.objectives = m.objectives.size();
   problem.evaluate = [&m](const search::Genomes& designs, std::span<double> objectives) { evaluateAll(m, designs, objectives); };
   problem.repair = [&m](search::Genome design) { repair(m, design); };

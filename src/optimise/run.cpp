@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "base/clock.h"
@@ -20,7 +21,7 @@ namespace {
 constexpr double kKeepEveryS = 10;     // the state of the search
 constexpr size_t kTracePoints = 200;   // of the hypervolume over a search
 constexpr double kTraceS = 2, kTraceShare = 0.05;  // what the trace may take: so long, and so much of the search's time
-constexpr size_t kRelaxedShare = 5;    // hybrid: of the first generation, one in so many
+constexpr size_t kRelaxedShare = 20;   // hybrid: of the first generation, one in so many
 constexpr double kPolishShare = 0.25;  // hybrid: of all evaluations; linear programs are dear beside evaluations of designs
 constexpr size_t kFewestProposed = 8;
 
@@ -121,7 +122,7 @@ Status Run::respond(Stages& stages) {
 search::State Run::start(const search::Problem& problem, const search::Settings& settings) const {
   if (settings.method != search::Method::hybrid) return search::start(problem, settings);
   const Stopwatch watch;
-  const RelaxedDesigns relaxed = relaxedDesigns(model_, settings.population / kRelaxedShare);
+  const RelaxedDesigns relaxed = relaxedDesigns(model_, std::max<size_t>(1, settings.population / kRelaxedShare));
   const double seconds = watch.seconds();
   search::State state = search::start(problem, settings, relaxed.designs);
   state.evaluations += relaxed.evaluations, state.seconds += seconds;

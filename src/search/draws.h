@@ -12,7 +12,8 @@ enum class Purpose : uint64_t { first,
                                 parents,
                                 vary,
                                 again,
-                                polish };
+                                polish,
+                                mates };
 
 class Draws {
  public:

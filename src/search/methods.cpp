@@ -7,7 +7,7 @@ namespace roomlight::search {
 namespace {
 
 constexpr std::array kMethods{
-    MethodInfo{Method::hybrid, "hybrid", "NSGA-II; the best of each generation are polished"},
+    MethodInfo{Method::hybrid, "hybrid", "NSGA-II by blocks of what belongs together; the best of each generation are polished"},
     MethodInfo{Method::nsga2, "nsga2", "NSGA-II with variation for mixed variables"},
     MethodInfo{Method::pagmoNsga2, "pagmo", "NSGA-II as pagmo has it"},
     MethodInfo{Method::weightedSum, "weighted", "genetic searches for one weighted sum of the objectives each"},

@@ -14,6 +14,7 @@ namespace {
 
 // Of the polishes, those in a random direction: they fill gaps of the front where designs drift together.
 constexpr double kAnyDirection = 0.3;
+constexpr size_t kSuitors = 3;  // of which the nearest is taken
 
 double widthOf(const Range& range, size_t m) {
   const double width = range.highest[m] - range.lowest[m];
@@ -80,17 +81,43 @@ std::vector<size_t> bestFrom(const Ranking& ranking, size_t from, size_t count) 
   return best;
 }
 
-void generation(const Problem& problem, State& state, bool polishing) {
+// Of each pair of winners the second gives way to one that stands nearer to the first, in ranges of the front: their blocks strike the same balance between objectives, so that
+// they go together.
+void mateNear(const Problem& problem, const State& state, std::vector<size_t>& winners) {
+  const Range range = rangeOf(state.archive);
+  const std::vector<size_t> all = winners;
+  const auto distance = [&](size_t a, size_t b) {
+    double squares = 0;
+    for (size_t m = 0; m < problem.objectives; ++m) {
+      const double d = (state.objectives[a * problem.objectives + m] - state.objectives[b * problem.objectives + m]) / widthOf(range, m);
+      squares += d * d;
+    }
+    return squares;
+  };
+  for (size_t i = 0; i + 1 < winners.size(); i += 2) {
+    Draws draws(state.settings.seed, state.generation, Purpose::mates, i);
+    for (size_t k = 1; k < kSuitors; ++k) {
+      const size_t other = all[draws.index(all.size())];
+      if (other == winners[i]) continue;
+      if (winners[i + 1] == winners[i] || distance(other, winners[i]) < distance(winners[i + 1], winners[i])) winners[i + 1] = other;
+    }
+  }
+}
+
+void generation(const Problem& problem, State& state, bool hybrid) {
   const Ranking ranking = rankPoints(state.objectives, problem.objectives);
-  const Genomes parents = pick(state.population, tournaments(ranking, state, state.settings.population));
-  const Genomes children = offspring(problem, state.settings, state.generation, parents, state.population);
+  const Blocks blocks = hybrid ? Blocks(problem) : Blocks();
+  std::vector<size_t> winners = tournaments(ranking, state, state.settings.population);
+  if (blocks.any()) mateNear(problem, state, winners);
+  const Genomes parents = pick(state.population, winners);
+  const Genomes children = offspring(problem, state.settings, state.generation, parents, state.population, blocks);
   const std::vector<double> found = evaluate(problem, state, children);
   const size_t old = state.population.count;
   Genomes all = state.population;
   all.append(children);
   std::vector<double> objectives = state.objectives;
   objectives.insert(objectives.end(), found.begin(), found.end());
-  if (polishing && problem.polish) polish(problem, state, bestFrom(rankPoints(objectives, problem.objectives), old, polishesNow(state)), all, objectives);
+  if (hybrid && problem.polish) polish(problem, state, bestFrom(rankPoints(objectives, problem.objectives), old, polishesNow(state)), all, objectives);
   keepBest(problem, state, all, objectives);
 }
 

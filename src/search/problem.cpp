@@ -43,6 +43,9 @@ Status check(const Problem& problem) {
   if (problem.integers.empty() && problem.reals.empty()) return Error{"variables: there is nothing to change"};
   for (size_t i = 0; i < problem.integers.size(); ++i)
     if (problem.integers[i].cardinality < 1) return Error{"integers[" + std::to_string(i) + "]: has no value to take; give it one or leave it out"};
+  const auto hasNoBlock = [&](const auto& v) { return v.group >= static_cast<int32_t>(problem.blockOfGroup.size()); };
+  if (!problem.blockOfGroup.empty() && (std::any_of(problem.integers.begin(), problem.integers.end(), hasNoBlock) || std::any_of(problem.reals.begin(), problem.reals.end(), hasNoBlock) || *std::min_element(problem.blockOfGroup.begin(), problem.blockOfGroup.end()) < 0))
+    return Error{"blockOfGroup: give every group a block, 0 or more"};
   if (!problem.evaluate) return Error{"evaluate: is missing"};
   return Ok{};
 }

@@ -63,6 +63,10 @@ struct Problem {
   std::vector<RealVariable> reals;
   size_t objectives = 2;  // two to four, all made small
 
+  // Optional: the block of each group, 0 and up. Groups of a block, for example the lamps of a room, matter to each other and to those of other blocks little. The
+  // hybrid recombines designs by whole blocks, and moves what groups hold within them. Empty: nothing is known.
+  std::vector<int32_t> blockOfGroup;
+
   // Writes objectives[i × Problem::objectives + m] of every design i: finite numbers that depend on that design alone, not on its place
   // among the others. Called with a generation at a time, from one thread; it may use as many as it likes.
   std::function<void(const Genomes& designs, std::span<double> objectives)> evaluate;
@@ -84,7 +88,7 @@ struct Problem {
   Genomes none() const;  // no designs, of this problem's shape
 };
 
-// Errors: objectives not two to four, no variables, a cardinality below 1, no evaluate.
+// Errors: objectives not two to four, no variables, a cardinality below 1, groups without a block where there are blocks, no evaluate.
 Status check(const Problem& problem);
 
 // Every variable within its bounds and the shape right.

@@ -14,6 +14,7 @@ namespace roomlight::search {
 namespace {
 
 constexpr int kTriesAgain = 4;
+constexpr double kByBlocks = 0.8, kMoves = 0.5;  // of pairs, of children; docs/methods/search.md
 
 // How far one side of simulated binary crossover spreads: from u uniform, with room to the bound of `room` half-distances of the parents.
 double spread(double u, double room, double index) {
@@ -98,14 +99,20 @@ void mutate(const Problem& problem, const Settings& settings, Genome genome, Dra
     if (integers + i == certain || draws.chance(rate)) genome.reals[i] = mutateReal(genome.reals[i], settings.mutationIndex, draws);
 }
 
-Genomes offspring(const Problem& problem, const Settings& settings, size_t generation, const Genomes& parents, const Genomes& known) {
+Genomes offspring(const Problem& problem, const Settings& settings, size_t generation, const Genomes& parents, const Genomes& known, const Blocks& blocks) {
   Genomes children = parents;
   parallelFor(children.count / 2, 16, [&](size_t pair) {
     Draws draws(settings.seed, generation, Purpose::vary, pair);
     const Genome a = children[2 * pair], b = children[2 * pair + 1];
-    cross(problem, settings, a, b, draws);
-    mutate(problem, settings, a, draws);
-    mutate(problem, settings, b, draws);
+    if (blocks.any() && draws.chance(kByBlocks)) {
+      if (draws.chance(settings.crossoverRate)) blocks.exchange(a, b, draws);
+    } else {
+      cross(problem, settings, a, b, draws);
+    }
+    for (const Genome& child : {a, b}) {
+      mutate(problem, settings, child, draws);
+      if (blocks.any() && draws.chance(kMoves)) blocks.move(child, draws);
+    }
     if (problem.repair) problem.repair(a), problem.repair(b);
   });
   // A design known already would waste its evaluation.

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "search/blocks.h"
 #include "search/draws.h"
 #include "search/methods.h"
 
@@ -17,7 +18,7 @@ void cross(const Problem& problem, const Settings& settings, Genome a, Genome b,
 void mutate(const Problem& problem, const Settings& settings, Genome genome, Draws& draws, bool atLeastOne = false);
 
 // One child for each parent, pair by pair (parents.count even), crossed, mutated and repaired. A child that equals one of `known` or another
-// child is mutated again, a few times at most.
-Genomes offspring(const Problem& problem, const Settings& settings, size_t generation, const Genomes& parents, const Genomes& known);
+// child is mutated again, a few times at most. Where there are blocks most pairs exchange them whole, and half the children have something moved.
+Genomes offspring(const Problem& problem, const Settings& settings, size_t generation, const Genomes& parents, const Genomes& known, const Blocks& blocks = {});
 
 }  // namespace roomlight::search

@@ -98,6 +98,60 @@ TEST(Crossover, inheritsGroupsWhole) {
   EXPECT_EQ(seen.size(), 8u);
 }
 
+// Two blocks of two groups, each of a kind and a real; a variable that belongs to none.
+Problem inBlocks() {
+  Problem problem;
+  for (int32_t g = 0; g < 4; ++g) problem.integers.push_back({.cardinality = 9, .group = g}), problem.reals.push_back({.group = g});
+  problem.integers.push_back({.cardinality = 9});
+  problem.blockOfGroup = {0, 0, 1, 1};
+  return problem;
+}
+
+TEST(Blocks, areExchangedWhole) {
+  const Problem problem = inBlocks();
+  const Blocks blocks(problem);
+  std::set<std::vector<int32_t>> seen;
+  for (size_t i = 0; i < 100; ++i) {
+    Genomes two = problem.none();
+    two.append(ConstGenome{std::vector<int32_t>(5, 1), std::vector<double>(4, 0.1)}), two.append(ConstGenome{std::vector<int32_t>(5, 2), std::vector<double>(4, 0.2)});
+    Draws draws(1, 0, Purpose::vary, i);
+    blocks.exchange(two[0], two[1], draws);
+    for (size_t k = 0; k < 5; ++k) EXPECT_EQ(two.integers[k] + two.integers[5 + k], 3);
+    for (size_t k = 0; k < 4; ++k) EXPECT_EQ(two.reals[k], 0.1 * two.integers[k]);
+    for (const size_t k : {0, 2}) EXPECT_EQ(two.integers[k], two.integers[k + 1]);
+    EXPECT_EQ(two.integers[4], 1);
+    seen.insert({two.integers.begin(), two.integers.begin() + 5});
+  }
+  EXPECT_EQ(seen.size(), 4u);
+}
+
+TEST(Blocks, moveWhatAGroupHoldsWithinThem) {
+  const Problem problem = inBlocks();
+  const Blocks blocks(problem);
+  std::set<std::vector<int32_t>> seen;
+  for (size_t i = 0; i < 100; ++i) {
+    Genomes one = problem.none();
+    one.append(ConstGenome{std::vector<int32_t>{0, 3, 5, 7, 8}, std::vector<double>{0, 0.3, 0.5, 0.7}});
+    Draws draws(1, 0, Purpose::vary, i);
+    blocks.move(one[0], draws);
+    for (size_t k = 0; k < 4; ++k) EXPECT_NEAR(one.reals[k], 0.1 * one.integers[k], 1e-12);
+    seen.insert(one.integers);
+  }
+  seen.erase({0, 3, 5, 7, 8});  // chance may have found none
+  EXPECT_EQ(seen, (std::set<std::vector<int32_t>>{{3, 0, 5, 7, 8}, {0, 3, 7, 5, 8}}));
+}
+
+TEST(Blocks, ofAProblemMustHoldEveryGroup) {
+  Problem problem = inBlocks();
+  problem.evaluate = [](const Genomes&, std::span<double>) {};
+  EXPECT_TRUE(check(problem));
+  problem.blockOfGroup.pop_back();
+  EXPECT_FALSE(check(problem));
+  problem.blockOfGroup.clear();
+  EXPECT_TRUE(check(problem));
+  EXPECT_FALSE(Blocks(problem).any());
+}
+
 TEST(Offspring, areRepairedAndNew) {
   const Problem problem = lampRow().problem;
   Genomes parents = problem.none();
