@@ -35,7 +35,11 @@ std::string cell(const std::string& text, const char* kind = "") { return fmt::f
 class Drawer {
  public:
   Drawer(const Report& r, const Scene& home) : r_(r), scene_(home) {
-    scene_.lamps.clear();
+    if (r.study.ownLamps) {
+      ownLamps_ = home.lamps;
+    } else {  // what no longer shines is no lamp
+      for (Material& m : scene_.materials) m.emission = {};
+    }
     low_ = {kInfinity, kInfinity}, high_ = {-kInfinity, -kInfinity};
     float y = kInfinity;
     const auto take = [&](const Room& room) {
@@ -67,7 +71,7 @@ class Drawer {
   std::string maps(const Proposed& d, search::ConstGenome design, size_t condition) {
     const std::vector<float> lux = luxOf(d, design, condition);
     const LightScale scale = scaleOf(lux);
-    scene_.lamps.clear();
+    scene_.lamps = ownLamps_;
     for (const BillLine& l : d.bill) {
       Lamp lamp;
       lamp.name = l.name, lamp.position = l.position;
@@ -98,6 +102,7 @@ class Drawer {
   }
 
   const Report& r_;
+  std::vector<Lamp> ownLamps_;  // of the home, where they stay lit
   Scene scene_;
   Vec2 low_, high_;
   std::string walls_;
