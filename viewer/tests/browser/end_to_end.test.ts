@@ -101,7 +101,7 @@ test("a lamp that is moved changes the measured light, and undo brings it back",
   await choose(visited, "Lamps", kLampName);
   await upToDate(visited);
   await visited.page.keyboard.press("m");
-  const place = [0.6, 0.67] as const; // on the table: the lamp comes to hang above it
+  const place = [0.6, 0.67] as const; // on the wall beside where the lamp comes to hang
   const before = await luxAt(visited, ...place);
   const picture = await meanColor(visited, 0, 0, 1, 1);
   const start = Number(await position(visited.page, "x").inputValue());
@@ -113,6 +113,7 @@ test("a lamp that is moved changes the measured light, and undo brings it back",
   assert.ok(Math.abs(moved / before - 1) > 0.05, `${before} lx and ${moved} lx`);
   const after = await meanColor(visited, 0, 0, 1, 1);
   assert.ok(Math.hypot(...after.map((v, i) => v - picture[i]!)) > 0.5, `${picture} and ${after}`);
+  await clean(visited);
   await visited.shot("view_moved");
   await visited.page.getByRole("button", { name: "Undo" }).click();
   await until("the number is back", async () => Number(await position(visited.page, "x").inputValue()) === start, kSlowMs);
