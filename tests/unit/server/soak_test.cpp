@@ -90,7 +90,7 @@ class Visitor {
       case 4: m["target"] = idOfOne(home["objects"]), m["hidden"] = whole(0, 3) == 0; return m;
       case 5: m["target"] = idOfOne(home["objects"]), m["color"] = {real(0, 1), real(0, 1), real(0, 1)}; return m;
       case 6: return {{"type", whole(0, 1) ? "undo" : "redo"}, {"id", id_}};
-      case 7: return {{"type", "display"}, {"falseColor", whole(0, 1) ? "luminance" : "off"}, {"compensation", real(-2, 2)}};
+      case 7: return {{"type", "display"}, {"falseColor", oneOf({"luminance", "illuminance", "off"})}, {"compensation", real(-2, 2)}};
       case 8: return {{"type", "technique"}, {"id", id_}, {"technique", oneOf({"hybrid", "hybrid", "hybrid", "cone", "cone", "vxgi", "lpv", "photon", "path"})}};
       case 9: return whole(0, 1) ? json{{"type", "split"}, {"id", id_}, {"split", nullptr}} : json{{"type", "split"}, {"id", id_}, {"split", {{"left", {{"plan", "start"}}}, {"right", json::object()}}}};
       case 10: return {{"type", "plan"}, {"id", id_}, {"do", whole(0, 1) ? "keep" : "apply"}, {"name", whole(0, 1) ? "a" : "b"}};
