@@ -196,6 +196,8 @@ Status Run::propose() {
     if (const Status s = writeDesign(design, number, d); !s) return s;
     report_.designs.push_back(std::move(d));
   }
+  const bool dark = std::all_of(report_.designs.begin(), report_.designs.end(), [](const Proposed& d) { return d.bill.empty(); });
+  if (dark) news_.warning("no design has a lamp: the limits are too small for any, or no objective asks for light (targetMiss)");
   return Ok{};
 }
 

@@ -108,6 +108,13 @@ TEST_F(OptimiseCommand, StoppedAmidTheSearchItWritesTheFrontThereIs) {
   EXPECT_GT(std::count(front.begin(), front.end(), '\n'), 1);
 }
 
+TEST_F(OptimiseCommand, SaysWhyThereIsNoLamp) {
+  writeFile(files_ / "study.toml", "limits = { cost = 5 }\n" + std::string(kStudy));
+  const ProgramRun run = optimise("out", {"--quiet"});
+  EXPECT_EQ(run.exitStatus, 0) << run.err;
+  EXPECT_NE(run.err.find("no design has a lamp"), std::string::npos) << run.err;
+}
+
 TEST_F(OptimiseCommand, WhatIsWrongIsOneLineAndExitStatusTwo) {
   writeFile(files_ / "number.json", R"({"scene": 3})");
   writeFile(files_ / "object.json", R"({"lamps": {}})");
