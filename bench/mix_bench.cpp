@@ -1,11 +1,11 @@
 // A mix of 14 layers at 1920x1080, to bytes for a screen: the arguments are threads. Beside it what memory allows (the same bytes summed), and
 // the sum alone of layers kept as 32-bit and as half floats. Needs no home.
 #include <benchmark/benchmark.h>
-#include <immintrin.h>
 
 #include <random>
 
 #include "base/parallel.h"
+#include "base/simd.h"
 #include "mix/mixer.h"
 
 namespace roomlight::bench {
@@ -100,8 +100,7 @@ void asFloats(benchmark::State& state) {
 void asHalves(benchmark::State& state) {
   sumOf<uint16_t>(state, [](float* sum, const uint16_t* light, size_t count, float gain) {
     for (size_t i = 0; i < count; i += 8) {
-      const __m256 l = _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(light + i)));
-      _mm256_storeu_ps(sum + i, _mm256_fmadd_ps(_mm256_set1_ps(gain), l, _mm256_loadu_ps(sum + i)));
+      fma(Float8(gain), fromHalf8(light + i), Float8::load(sum + i)).store(sum + i);
     }
   });
 }

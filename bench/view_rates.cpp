@@ -214,18 +214,17 @@ json afterJump(Browser& browser, json edit, uint32_t& id, const std::string& kee
 }
 
 int run(const std::string& homeFile, const std::string& lighting, const std::string& walkFile, double seconds, const std::string& keep) {
-  std::vector<std::string> warnings;
-  Result<view::ViewHome> home = view::openHome(homeFile, lighting, {}, warnings);
+  Result<view::OpenedView> home = view::openHome({.scene = homeFile, .lighting = lighting});
   if (!home) return fmt::print(stderr, "{}\n", home.error()), 1;
   std::optional<Walk> walk;
   if (!walkFile.empty()) {
-    Result<Walk> read = readWalkFile(walkFile, home.value().scene);
+    Result<Walk> read = readWalkFile(walkFile, home.value().home.scene);
     if (!read) return fmt::print(stderr, "{}\n", read.error()), 1;
     walk = std::move(read).value();
   }
   const RenderSettings settings = settingsFromJson(R"({"quality": "draft"})", "settings").value();  // for shorter waits: quick frames are the same
   const Stopwatch opening;
-  Browser browser(std::move(home).value(), settings);
+  Browser browser(std::move(home.value().home), settings);
   const json welcome = browser.welcome();
   const Camera first = cameraAt(*walk, 0);
   browser.say({{"type", "viewport"}, {"width", kWidth}, {"height", kHeight}});

@@ -28,9 +28,12 @@ void writePng(const std::filesystem::path& file, const ByteImage& image, const M
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp);
 void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp);
 std::string encodeJpeg(const ByteImage& image, int quality);
+ByteImage bytesOf(const Image& encoded);  // values 0..1 clipped and rounded to 8 bits, three channels
 void writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; transparency over black
 Metadata readPngMetadata(std::span<const uint8_t> bytes);
+
+Image readJpeg(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; three channels or grey
 
 // The 8-bit RGBA numbers of a texture as they are: no colour space, gamma or transparency is applied. Deeper channels
 // lose their low bits. `size` is what readPngSize told, so that a caller can refuse it before memory is taken.

@@ -17,11 +17,13 @@ namespace {
 
 constexpr uint64_t kLargestFileBytes = uint64_t{2} << 30;
 constexpr uint8_t kPngMagic[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+constexpr uint8_t kJpegMagic[] = {0xff, 0xd8, 0xff};
 constexpr uint8_t kExrMagic[] = {0x76, 0x2f, 0x31, 0x01};
 
 enum class Format {
   Exr,
   Png,
+  Jpeg,
   Hdr,
 };
 
@@ -84,8 +86,9 @@ Format formatOf(const std::filesystem::path& file) {
   };
   if (startsWith(kExrMagic, sizeof kExrMagic)) return Format::Exr;
   if (startsWith(kPngMagic, sizeof kPngMagic)) return Format::Png;
+  if (startsWith(kJpegMagic, sizeof kJpegMagic)) return Format::Jpeg;
   if (startsWith("#?RADIANCE", 10) || startsWith("#?RGBE", 6)) return Format::Hdr;
-  throw std::runtime_error("neither OpenEXR, PNG nor Radiance HDR by its first bytes");
+  throw std::runtime_error("neither OpenEXR, PNG, JPEG nor Radiance HDR by its first bytes");
 }
 
 }  // namespace
@@ -139,6 +142,10 @@ Result<std::string> encodeJpeg(const ByteImage& image, int quality) {
   return guarded<std::string>("JPEG", [&] { return formats::encodeJpeg(image, quality); });
 }
 
+Result<std::string> encodeJpeg(const Image& encoded, int quality) {
+  return guarded<std::string>("JPEG", [&] { return formats::encodeJpeg(formats::bytesOf(encoded), quality); });
+}
+
 Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality) {
   return writeAtomically(file, [&](const auto& temporary) { formats::writeWebp(temporary, image, quality); });
 }
@@ -148,9 +155,17 @@ Result<Image> readImage(const std::filesystem::path& file) {
     switch (formatOf(file)) {
       case Format::Exr: return formats::readExr(file);
       case Format::Png: return formats::readPng(readBytes(file, kLargestFileBytes));
+      case Format::Jpeg: return formats::readJpeg(readBytes(file, kLargestFileBytes));
       case Format::Hdr: break;
     }
     return formats::readHdr(readBytes(file, kLargestFileBytes));
+  });
+}
+
+Result<bool> isForDisplay(const std::filesystem::path& file) {
+  return guarded<bool>(file, [&] {
+    const Format format = formatOf(file);
+    return format == Format::Png || format == Format::Jpeg;
   });
 }
 
@@ -159,6 +174,7 @@ Result<Metadata> readMetadata(const std::filesystem::path& file) {
     switch (formatOf(file)) {
       case Format::Exr: return formats::readExrMetadata(file);
       case Format::Png: return formats::readPngMetadata(readBytes(file, kLargestFileBytes));
+      case Format::Jpeg:
       case Format::Hdr: break;
     }
     return Metadata{};

@@ -30,10 +30,14 @@ Status writePng(const std::filesystem::path& file, const ByteImage& image, const
 Status writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes);
 // JPEG of three channels as bytes, `quality` 1 to 100, for showing at once.
 Result<std::string> encodeJpeg(const ByteImage& image, int quality);
+// The same of values already display-encoded (0..1, sRGB).
+Result<std::string> encodeJpeg(const Image& encoded, int quality);
 Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality);
 
-// EXR (linear), Radiance .hdr (linear) or PNG (decoded from sRGB to linear), by content.
+// EXR (linear), Radiance .hdr (linear), PNG or JPEG (decoded from sRGB to linear), by content.
 Result<Image> readImage(const std::filesystem::path& file);
+// Whether it holds what a display shows (PNG, JPEG), exposed and tone-mapped for good, rather than linear light; by content.
+Result<bool> isForDisplay(const std::filesystem::path& file);
 Result<Metadata> readMetadata(const std::filesystem::path& file);
 
 }  // namespace roomlight

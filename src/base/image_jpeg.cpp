@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/image_formats.h"
+#include "base/tone.h"
 
 namespace roomlight::formats {
 namespace {
@@ -38,14 +39,32 @@ void insertXmp(std::string& jpeg, const std::string& xmp) {
 
 std::string encodeJpeg(const ByteImage& image, int quality) { return compressed(image, quality); }
 
-void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) {
+Image readJpeg(std::span<const uint8_t> bytes) {
+  const std::unique_ptr<void, int (*)(tjhandle)> decoder(tjInitDecompress(), tjDestroy);
+  int width = 0, height = 0, subsampling = 0, colours = 0;
+  if (!decoder || tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &width, &height, &subsampling, &colours) != 0) throw std::runtime_error("a damaged JPEG file");
+  if (colours == TJCS_CMYK || colours == TJCS_YCCK) throw std::runtime_error("a JPEG file of printing colours (CMYK) is not read");
+  // A few bits may stand for thousands of empty blocks of 64 pixels.
+  checkSize(width, height, 64 * uint64_t{bytes.size()});
+  std::vector<uint8_t> samples(3 * static_cast<size_t>(width) * static_cast<size_t>(height));
+  if (tjDecompress2(decoder.get(), bytes.data(), bytes.size(), samples.data(), width, 0, height, TJPF_RGB, TJFLAG_ACCURATEDCT) != 0) throw std::runtime_error("a damaged JPEG file");
+  Image image(width, height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) image.pixels[i][c] = srgbDecode(static_cast<float>(samples[3 * i + static_cast<size_t>(c)]) / 255);
+  }
+  return image;
+}
+
+ByteImage bytesOf(const Image& encoded) {
   ByteImage image(encoded.width, encoded.height, 3);
   auto* next = image.samples.data();
   for (const Vec3& p : encoded.pixels) {
     for (int c = 0; c < 3; ++c) *next++ = static_cast<uint8_t>(std::clamp(p[c], 0.0f, 1.0f) * 255 + 0.5f);
   }
-  formats::writeJpeg(file, image, mostBytes, xmp);
+  return image;
 }
+
+void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) { formats::writeJpeg(file, bytesOf(encoded), mostBytes, xmp); }
 
 void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp) {
   std::string bytes;

@@ -1,10 +1,9 @@
 #include "baselines/photon_map.h"
 
-#include <immintrin.h>
-
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/simd.h"
 
 namespace roomlight {
 namespace {
@@ -104,12 +103,12 @@ Vec3 PhotonMap::direction(size_t i) const { return unpackDirection(rest_[i].wi);
 Vec3 PhotonMap::normal(size_t i) const { return unpackDirection(rest_[i].n); }
 
 void PhotonMap::distances(const PhotonQuery& q, size_t first, float* out) const {
-  const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(&x_[first]), _mm256_set1_ps(q.p.x));
-  const __m256 dy = _mm256_sub_ps(_mm256_loadu_ps(&y_[first]), _mm256_set1_ps(q.p.y));
-  const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(&z_[first]), _mm256_set1_ps(q.p.z));
-  const __m256 along = _mm256_fmadd_ps(dx, _mm256_set1_ps(q.n.x), _mm256_fmadd_ps(dy, _mm256_set1_ps(q.n.y), _mm256_mul_ps(dz, _mm256_set1_ps(q.n.z))));
-  const __m256 d2 = _mm256_fmadd_ps(dx, dx, _mm256_fmadd_ps(dy, dy, _mm256_mul_ps(dz, dz)));
-  _mm256_storeu_ps(out, _mm256_fmadd_ps(_mm256_mul_ps(along, along), _mm256_set1_ps(q.flatness * q.flatness - 1), d2));
+  const Float8 dx = Float8::load(&x_[first]) - Float8(q.p.x);
+  const Float8 dy = Float8::load(&y_[first]) - Float8(q.p.y);
+  const Float8 dz = Float8::load(&z_[first]) - Float8(q.p.z);
+  const Float8 along = fma(dx, Float8(q.n.x), fma(dy, Float8(q.n.y), dz * Float8(q.n.z)));
+  const Float8 d2 = fma(dx, dx, fma(dy, dy, dz * dz));
+  fma(along * along, Float8(q.flatness * q.flatness - 1), d2).store(out);
 }
 
 void PhotonMap::nearest(const PhotonQuery& q, size_t k, std::vector<NearPhoton>& out) const {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/simd.h"
 #include "base/parallel.h"
-#include "radiance/half.h"
 
 namespace roomlight {
 
@@ -34,21 +34,21 @@ bool VxgiClipmap::isMadeOfFiner(int level, Int3 v) const {
   return contains({2 * (own.x + v.x) - finer.x, 2 * (own.y + v.y) - finer.y, 2 * (own.z + v.z) - finer.z});
 }
 
-void VxgiClipmap::put(int level, Int3 v, int face, __m128 value) {
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(&texels_[texel(levels_[static_cast<size_t>(level)], face, v)]), _mm_cvtps_ph(value, 0));
+void VxgiClipmap::put(int level, Int3 v, int face, Float4 value) {
+  toHalf4(value, &texels_[texel(levels_[static_cast<size_t>(level)], face, v)]);
 }
 
 void VxgiClipmap::set(int level, Int3 v, int face, Vec3 radiance, float opacity) {
   const Vec3 shown = radiance * (opacity / unit_);
-  put(level, v, face, _mm_setr_ps(shown.x, shown.y, shown.z, opacity));
+  put(level, v, face, Float4(shown.x, shown.y, shown.z, opacity));
 }
 
-__m128 VxgiClipmap::get(int level, Int3 v, int face) const { return fromHalf4(&texels_[texel(levels_[static_cast<size_t>(level)], face, v)]); }
+Float4 VxgiClipmap::get(int level, Int3 v, int face) const { return fromHalf4(&texels_[texel(levels_[static_cast<size_t>(level)], face, v)]); }
 
 // Of the eight voxels of the finer level from v on.
-__m128 VxgiClipmap::composed(int finer, Int3 v, int face) const {
+Float4 VxgiClipmap::composed(int finer, Int3 v, int face) const {
   const int axis = face / 2, front = face % 2 == 0 ? 1 : 0;
-  __m128 sum = _mm_setzero_ps();
+  Float4 sum;
   for (int column = 0; column < 4; ++column) {
     const int a = column & 1, b = column >> 1;
     const auto at = [&](int along) {
@@ -56,11 +56,11 @@ __m128 VxgiClipmap::composed(int finer, Int3 v, int face) const {
                                                                     : Int3{a, b, along};
       return get(finer, {v.x + offset.x, v.y + offset.y, v.z + offset.z}, face);
     };
-    const __m128 over = at(front);
-    const __m128 left = _mm_sub_ps(_mm_set1_ps(1), _mm_shuffle_ps(over, over, 0xff));
-    sum = _mm_add_ps(sum, _mm_fmadd_ps(left, at(1 - front), over));
+    const Float4 over = at(front);
+    const Float4 left = Float4(1.0f) - over.everyW();
+    sum = sum + fma(left, at(1 - front), over);
   }
-  return _mm_mul_ps(sum, _mm_set1_ps(0.25f));
+  return sum * Float4(0.25f);
 }
 
 void VxgiClipmap::clear() {
@@ -107,31 +107,29 @@ int VxgiClipmap::levelAt(Vec3 p, int near) const {
   return level == near && level > 0 && reaches(levels_[static_cast<size_t>(level - 1)], p) ? level - 1 : level;
 }
 
-__m128 VxgiClipmap::sample(int level, Vec3 p, Vec3 d) const {
+Float4 VxgiClipmap::sample(int level, Vec3 p, Vec3 d) const {
   const Level& l = levels_[static_cast<size_t>(level)];
   const Vec3 q = (p - l.firstCentre) * l.perM;
   const Int3 v{static_cast<int>(q.x), static_cast<int>(q.y), static_cast<int>(q.z)};
-  if (empty_[place(static_cast<size_t>(level), v)]) return _mm_setzero_ps();
+  if (empty_[place(static_cast<size_t>(level), v)]) return {};
   const float fx = q.x - static_cast<float>(v.x), fy = q.y - static_cast<float>(v.y), fz = q.z - static_cast<float>(v.z);
   const auto n = static_cast<size_t>(n_);
   const size_t alongY = 4 * n, alongZ = 4 * n * n;
   // Two voxels, neighbours in x, a load.
-  __m256 sum = _mm256_setzero_ps();
+  Float8 sum;
   for (int axis = 0; axis < 3; ++axis) {
     const float weight = std::abs(d[axis]);
     const uint16_t* at = &texels_[texel(l, 2 * axis + (d[axis] > 0 ? 1 : 0), v)];
     const auto add = [&](size_t offset, float w) {
-      sum = _mm256_fmadd_ps(_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at + offset))), _mm256_set1_ps(w * weight), sum);
+      sum = fma(fromHalf8(at + offset), Float8(w * weight), sum);
     };
     add(0, (1 - fy) * (1 - fz));
     add(alongY, fy * (1 - fz));
     add(alongZ, (1 - fy) * fz);
     add(alongY + alongZ, fy * fz);
   }
-  const __m128 low = _mm256_castps256_ps128(sum), high = _mm256_extractf128_ps(sum, 1);
-  const __m128 seen = _mm_fmadd_ps(_mm_set1_ps(fx), _mm_sub_ps(high, low), low);
-  const __m128 opacity = _mm_shuffle_ps(seen, seen, 0xff);
-  return _mm_div_ps(seen, _mm_max_ps(opacity, _mm_set1_ps(1)));
+  const Float4 seen = fma(Float4(fx), sum.high() - sum.low(), sum.low());
+  return seen / max(seen.everyW(), Float4(1.0f));
 }
 
 }  // namespace roomlight

@@ -3,11 +3,10 @@
 // axis directions an opacity and a radiance. docs/methods/vxgi.md
 #pragma once
 
-#include <immintrin.h>
-
 #include <cstdint>
 #include <vector>
 
+#include "base/simd.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
@@ -32,7 +31,7 @@ class VxgiClipmap {
   // What a voxel shows to direction `face`: radiance (of what is opaque; cd/m²) and opacity 0..1.
   void set(int level, Int3 v, int face, Vec3 radiance, float opacity);
   // The same, radiance times opacity and opacity.
-  __m128 get(int level, Int3 v, int face) const;
+  Float4 get(int level, Int3 v, int face) const;
   // Fills what is made of finer voxels, from the finest level on: front over back along each direction, the mean of the four columns.
   void buildCoarser();
   void clear();  // all is empty again
@@ -50,7 +49,7 @@ class VxgiClipmap {
   // Radiance times opacity in x, y, z, and opacity in w, as seen by who looks along unit d: between the eight voxels around p, and
   // of the three directions that face the looker by their cosines, which makes the opacity that of the area seen, at most 1. In
   // unit(). p must lie in the level.
-  __m128 sample(int level, Vec3 p, Vec3 d) const;
+  Float4 sample(int level, Vec3 p, Vec3 d) const;
 
  private:
   struct Level {
@@ -72,8 +71,8 @@ class VxgiClipmap {
     const auto n = static_cast<size_t>(n_);
     return level.first + 4 * (((static_cast<size_t>(face) * n + static_cast<size_t>(v.z)) * n + static_cast<size_t>(v.y)) * n + static_cast<size_t>(v.x));
   }
-  void put(int level, Int3 v, int face, __m128 value);
-  __m128 composed(int finer, Int3 v, int face) const;
+  void put(int level, Int3 v, int face, Float4 value);
+  Float4 composed(int finer, Int3 v, int face) const;
 
   int n_;
   std::vector<Level> levels_;

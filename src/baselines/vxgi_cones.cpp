@@ -12,7 +12,7 @@ constexpr float kOpaque = 0.01f;  // what is left of a cone when it is given up
 Vec3 traceVxgiCone(const VxgiClipmap& map, Vec3 origin, Vec3 d, float tanHalf, const VxgiTracing& tracing) {
   const int coarsest = map.levels() - 1;
   const float perFinest = 1 / map.voxelSizeM(0), coarsestM = map.voxelSizeM(coarsest);
-  __m128 sum = _mm_setzero_ps();
+  Float4 sum;
   float left = 1, t = 0;
   int finest = map.levelAt(origin);
   for (int i = 0; i < tracing.maxSamples && left > kOpaque && finest <= coarsest; ++i) {
@@ -26,18 +26,18 @@ Vec3 traceVxgiCone(const VxgiClipmap& map, Vec3 origin, Vec3 d, float tanHalf, c
     int level;
     float coarser = 2 * std::frexp(wide * perFinest, &level) - 1;
     if (--level < finest) level = finest, coarser = 0;
-    __m128 found = map.sample(level, p, d);
-    if (coarser > 0 && level < coarsest) found = _mm_fmadd_ps(_mm_set1_ps(coarser), _mm_sub_ps(map.sample(level + 1, p, d), found), found);
-    const float alpha = _mm_cvtss_f32(_mm_shuffle_ps(found, found, 0xff));
+    Float4 found = map.sample(level, p, d);
+    if (coarser > 0 && level < coarsest) found = fma(Float4(coarser), map.sample(level + 1, p, d) - found, found);
+    const float alpha = found.everyW().x();
     if (alpha > 1e-4f) {
       // Opacity is that of a whole voxel: of a step through it, 1 - (1 - alpha)^step.
       const float clear = std::max(0.0f, 1 - alpha), passes = tracing.step == 0.5f ? std::sqrt(clear) : std::pow(clear, tracing.step);
-      sum = _mm_fmadd_ps(_mm_set1_ps(left * (1 - passes) / alpha), found, sum);
+      sum = fma(Float4(left * (1 - passes) / alpha), found, sum);
       left *= passes;
     }
   }
-  alignas(16) float rgba[4];
-  _mm_store_ps(rgba, sum);
+  float rgba[4];
+  sum.store(rgba);
   return Vec3{rgba[0], rgba[1], rgba[2]} * map.unit();
 }
 

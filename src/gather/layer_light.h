@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/simd.h"
 #include "base/vec.h"
-#include "radiance/half.h"
 #include "radiance/slot_layers.h"
 
 namespace roomlight {
@@ -51,8 +51,8 @@ class LayerSums {
   void addShares(size_t thing, Part part, const uint16_t* shares, Vec3 light) {
     float* v = at(thing, part);
     for (int c = 0; c < 3; ++c, v += stride_, shares += stride_) {
-      const __m128 l = _mm_set1_ps(light[c]);
-      for (size_t i = 0; i < stride_; i += 4) _mm_storeu_ps(v + i, _mm_fmadd_ps(fromHalf4(shares + i), l, _mm_loadu_ps(v + i)));
+      const Float4 l(light[c]);
+      for (size_t i = 0; i < stride_; i += 4) fma(fromHalf4(shares + i), l, Float4::load(v + i)).store(v + i);
     }
   }
   // Adds `factor` times what another has of a thing.
@@ -60,8 +60,8 @@ class LayerSums {
     float* v = at(thing, part);
     const float* o = other.at(otherThing, part);
     for (int c = 0; c < 3; ++c, v += stride_, o += stride_) {
-      const __m128 f = _mm_set1_ps(factor[c]);
-      for (size_t i = 0; i < stride_; i += 4) _mm_storeu_ps(v + i, _mm_fmadd_ps(_mm_loadu_ps(o + i), f, _mm_loadu_ps(v + i)));
+      const Float4 f(factor[c]);
+      for (size_t i = 0; i < stride_; i += 4) fma(Float4::load(o + i), f, Float4::load(v + i)).store(v + i);
     }
   }
 

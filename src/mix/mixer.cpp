@@ -1,10 +1,9 @@
 #include "mix/mixer.h"
 
-#include <immintrin.h>
-
 #include <cassert>
 
 #include "base/parallel.h"
+#include "base/simd.h"
 #include "base/tone_curves.h"
 
 namespace roomlight {
@@ -17,17 +16,11 @@ struct Planes {
   alignas(64) float rgb[3][kTilePixels];
 };
 
-// Eight numbers from their packed halves. Left to the compiler this takes three times as long.
-inline __m256 unpacked(const uint16_t* high, const uint8_t* low) {
-  const __m256i h = _mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(high)));
-  const __m256i l = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(low)));
-  return _mm256_castsi256_ps(_mm256_or_si256(_mm256_slli_epi32(h, 15), _mm256_slli_epi32(l, 7)));
-}
-
+// Left to the compiler this takes three times as long.
 void addPlane(float* sum, const PackedTile& tile, int c, float gain) {
-  const __m256 g = _mm256_set1_ps(gain);
+  const Float8 g(gain);
   for (size_t i = 0; i < kTilePixels; i += 8) {
-    _mm256_store_ps(sum + i, _mm256_fmadd_ps(g, unpacked(tile.high[c] + i, tile.low[c] + i), _mm256_load_ps(sum + i)));
+    fma(g, fromTopBits(tile.high[c] + i, tile.low[c] + i), Float8::load(sum + i)).store(sum + i);
   }
 }
 

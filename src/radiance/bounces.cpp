@@ -1,7 +1,7 @@
 #include "radiance/bounces.h"
 
+#include "base/simd.h"
 #include "base/parallel.h"
-#include "radiance/half.h"
 
 namespace roomlight {
 namespace {
@@ -19,20 +19,20 @@ constexpr size_t kAhead = 32;      // links whose light is on its way from memor
 struct alignas(16) Padded {
   Padded() = default;
   Padded(Vec3 xyz, float w) : v{xyz.x, xyz.y, xyz.z, w} {}
-  explicit Padded(__m128 all) { _mm_store_ps(v, all); }
-  __m128 load() const { return _mm_load_ps(v); }
+  explicit Padded(Float4 all) { all.store(v); }
+  Float4 load() const { return Float4::load(v); }
   float v[4] = {};
 };
 
 // The same as half floats: twice as many stay in the cache.
 struct Halves {
   Halves() = default;
-  explicit Halves(__m128 all) { _mm_storel_epi64(reinterpret_cast<__m128i*>(v), _mm_cvtps_ph(_mm_min_ps(all, _mm_set1_ps(65504)), 0)); }
-  __m128 load() const { return fromHalf4(v); }
+  explicit Halves(Float4 all) { toHalf4(min(all, Float4(65504.0f)), v); }
+  Float4 load() const { return fromHalf4(v); }
   alignas(8) uint16_t v[4] = {};
 };
 
-float luminanceOf(__m128 v) { return _mm_cvtss_f32(_mm_dp_ps(v, _mm_setr_ps(0.2126f, 0.7152f, 0.0722f, 0), 0x71)); }
+float luminanceOf(Float4 v) { return dot(v, Float4(0.2126f, 0.7152f, 0.0722f, 0)); }
 
 class Iteration {
  public:
@@ -46,7 +46,7 @@ class Iteration {
     float brightest = 1e-30f;
     for (size_t i = 0; i < direct.size(); ++i) brightest = std::max(brightest, maxComponent(direct[i] + indirect[i]));
     unit_ = brightest * kHeadroom;
-    parallelFor(surfaces_.size(), 8192, [&](size_t i) { reflected_[i] = reflectedBy(i, _mm_add_ps(direct_[i].load(), indirect_[i].load()), unit_); });
+    parallelFor(surfaces_.size(), 8192, [&](size_t i) { reflected_[i] = reflectedBy(i, direct_[i].load() + indirect_[i].load(), unit_); });
   }
 
   Bounces run(const RadianceSettings& settings, const Progress& progress) {
@@ -86,7 +86,7 @@ class Iteration {
   double step(float omega) {
     struct Sums {
       double light = 0, lightSquared = 0, area = 0, squares = 0, fractions = 0;
-      __m128 brightest = _mm_setzero_ps();
+      Float4 brightest;
     };
     const size_t slots = surfaces_.size();
     const float nextUnit = std::max(unit_, brightest_ * kHeadroom);
@@ -94,22 +94,22 @@ class Iteration {
     parallelFor(parts.size(), 1, [&](size_t c) {
       Sums& sum = parts[c];
       for (size_t i = c * kChunk; i < std::min(slots, (c + 1) * kChunk); ++i) {
-        const __m128 gathered = gather(i), straight = direct_[i].load(), before = other_[i].load();
+        const Float4 gathered = gather(i), straight = direct_[i].load(), before = other_[i].load();
         const auto area = static_cast<double>(surfaces_[i].v[3]);
-        const auto light = static_cast<double>(std::max(0.0f, luminanceOf(_mm_add_ps(gathered, straight))));
-        const double r = static_cast<double>(std::abs(luminanceOf(_mm_sub_ps(gathered, indirect_[i].load())))) / (light + kDark * mean_ + 1e-30);
+        const auto light = static_cast<double>(std::max(0.0f, luminanceOf(gathered + straight)));
+        const double r = static_cast<double>(std::abs(luminanceOf(gathered - indirect_[i].load()))) / (light + kDark * mean_ + 1e-30);
         sum.light += area * light, sum.lightSquared += area * light * light, sum.area += area, sum.squares += area * r * r, sum.fractions += area * r;
-        const __m128 after = _mm_fmadd_ps(_mm_sub_ps(gathered, before), _mm_set1_ps(omega), before);
+        const Float4 after = fma(gathered - before, Float4(omega), before);
         other_[i] = Padded(after);
-        const __m128 all = _mm_add_ps(straight, after);
-        sum.brightest = _mm_max_ps(sum.brightest, all);
+        const Float4 all = straight + after;
+        sum.brightest = max(sum.brightest, all);
         next_[i] = reflectedBy(i, all, nextUnit);
       }
     });
     reflected_.swap(next_);
     unit_ = nextUnit;
-    __m128 brightest = _mm_setzero_ps();
-    for (const Sums& p : parts) brightest = _mm_max_ps(brightest, p.brightest);
+    Float4 brightest;
+    for (const Sums& p : parts) brightest = max(brightest, p.brightest);
     const Padded channels(brightest);
     brightest_ = std::max({channels.v[0], channels.v[1], channels.v[2]});
     Sums sum;
@@ -118,17 +118,17 @@ class Iteration {
     return sum.fractions > 0 ? std::min(sum.squares / sum.fractions, sum.fractions / (kSmall * sum.area)) : 0;
   }
 
-  Halves reflectedBy(size_t slot, __m128 lux, float unit) const { return Halves(_mm_mul_ps(_mm_mul_ps(surfaces_[slot].load(), lux), _mm_set1_ps(1 / unit))); }
+  Halves reflectedBy(size_t slot, Float4 lux, float unit) const { return Halves(surfaces_[slot].load() * lux * Float4(1 / unit)); }
 
-  __m128 gather(size_t slot) const {
+  Float4 gather(size_t slot) const {
     const size_t first = links_.first[slot], last = links_.first[slot + 1], end = links_.links.size();
-    __m128 sum = _mm_setzero_ps();
+    Float4 sum;
     for (size_t j = first; j < last; ++j) {
       if (j + kAhead < end) __builtin_prefetch(&reflected_[links_.links[j + kAhead].slot()]);
       const Link link = links_.links[j];
-      sum = _mm_fmadd_ps(reflected_[link.slot()].load(), link.left(), sum);
+      sum = fma(reflected_[link.slot()].load(), Float4(link.left()), sum);
     }
-    return _mm_mul_ps(sum, _mm_set1_ps(unit_ * Link::kUnit / static_cast<float>(std::max<size_t>(1, last - first))));
+    return sum * Float4(unit_ * Link::kUnit / static_cast<float>(std::max<size_t>(1, last - first)));
   }
 
   const Links& links_;

@@ -2,8 +2,8 @@
 
 #include <cassert>
 
+#include "base/half.h"
 #include "base/parallel.h"
-#include "radiance/half.h"
 
 namespace roomlight {
 namespace {
@@ -13,20 +13,16 @@ constexpr size_t kAhead = 16;       // links whose light is on its way from memo
 
 // Three channels of all lights.
 struct Floats {
-  __m256 c[3];
+  Float8 c[3];
 };
 struct alignas(16) Halves {
   uint16_t v[3][kTogether] = {};
   Floats load() const {
     Floats out;
-    for (int i = 0; i < 3; ++i) out.c[i] = _mm256_cvtph_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(v[i])));
+    for (int i = 0; i < 3; ++i) out.c[i] = fromHalf8(v[i]);
     return out;
   }
-  void store(int channel, __m256 value) {
-    const __m256 limit = _mm256_set1_ps(65504);
-    const __m256 bounded = _mm256_max_ps(_mm256_min_ps(value, limit), _mm256_sub_ps(_mm256_setzero_ps(), limit));
-    _mm_store_si128(reinterpret_cast<__m128i*>(v[channel]), _mm256_cvtps_ph(bounded, 0));
-  }
+  void store(int channel, Float8 value) { toHalf8(max(min(value, Float8(65504.0f)), Float8(-65504.0f)), v[channel]); }
 };
 
 class Iteration {
@@ -51,9 +47,9 @@ class Iteration {
       const Floats gathered = gather(s), straight = direct_[s].load(), before = other_[s].load();
       Floats all;
       for (int c = 0; c < 3; ++c) {
-        const __m256 after = _mm256_fmadd_ps(_mm256_sub_ps(gathered.c[c], before.c[c]), _mm256_set1_ps(omega), before.c[c]);
+        const Float8 after = fma(gathered.c[c] - before.c[c], Float8(omega), before.c[c]);
         other_[s].store(c, after);
-        all.c[c] = _mm256_add_ps(straight.c[c], after);
+        all.c[c] = straight.c[c] + after;
       }
       reflect(s, all, next_[s]);
     });
@@ -73,21 +69,21 @@ class Iteration {
 
  private:
   void reflect(size_t slot, const Floats& lux, Halves& out) const {
-    for (int c = 0; c < 3; ++c) out.store(c, _mm256_mul_ps(lux.c[c], _mm256_set1_ps(voxels_.slots[slot].albedo[c])));
+    for (int c = 0; c < 3; ++c) out.store(c, lux.c[c] * Float8(voxels_.slots[slot].albedo[c]));
   }
 
   Floats gather(size_t slot) const {
     const size_t first = links_.first[slot], last = links_.first[slot + 1], end = links_.links.size();
-    Floats sum{{_mm256_setzero_ps(), _mm256_setzero_ps(), _mm256_setzero_ps()}};
+    Floats sum;
     for (size_t j = first; j < last; ++j) {
       if (j + kAhead < end) __builtin_prefetch(&reflected_[links_.links[j + kAhead].slot()]);
       const Link link = links_.links[j];
-      const __m256 left = _mm256_broadcastss_ps(link.left());
+      const Float8 left(link.left());
       const Floats light = reflected_[link.slot()].load();
-      for (int c = 0; c < 3; ++c) sum.c[c] = _mm256_fmadd_ps(light.c[c], left, sum.c[c]);
+      for (int c = 0; c < 3; ++c) sum.c[c] = fma(light.c[c], left, sum.c[c]);
     }
-    const __m256 share = _mm256_set1_ps(Link::kUnit / static_cast<float>(std::max<size_t>(1, last - first)));
-    for (__m256& c : sum.c) c = _mm256_mul_ps(c, share);
+    const Float8 share(Link::kUnit / static_cast<float>(std::max<size_t>(1, last - first)));
+    for (Float8& c : sum.c) c = c * share;
     return sum;
   }
 

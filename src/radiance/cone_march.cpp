@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "radiance/half.h"
+#include "base/half.h"
 
 namespace roomlight {
 namespace {
@@ -34,28 +34,23 @@ bool isSheet(const DirectionalPlanes& voxel, size_t face, Vec3 n) {
   return std::abs(voxel.distance(face) + voxel.distance(other)) < kSheet && dot(n, voxel.normal(other)) < -0.7f;
 }
 
-__m256 widened(const int8_t* v) { return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(v)))); }
-__m256 widened(const uint8_t* v) { return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(v)))); }
-
 // Planes of one voxel that the ray crosses from their fronts between t0 and t1, nearest first. `q` is the ray's origin from the
 // voxel's middle; lengths in voxel edges.
 // `ownNormal` is that of the surface the ray comes from, which may lie behind the plane of its own voxel where it is bent, by up
 // to `ownReach`: the plane's other side is not met then.
 int crossings(const DirectionalPlanes& voxel, Vec3 q, Vec3 d, float t0, float t1, Vec3 ownNormal, float ownReach, Crossing (&out)[6]) {
   // All faces at once, normals in 1/127.
-  const __m256 x = widened(voxel.normalX.data()), y = widened(voxel.normalY.data()), z = widened(voxel.normalZ.data());
-  const auto along = [&](Vec3 v) { return _mm256_fmadd_ps(x, _mm256_set1_ps(v.x), _mm256_fmadd_ps(y, _mm256_set1_ps(v.y), _mm256_mul_ps(z, _mm256_set1_ps(v.z)))); };
-  const __m256 facing = along(d);
-  const __m256 plane = _mm256_fmadd_ps(widened(voxel.plane.data()), _mm256_set1_ps(127 * kFarthestPlane * 2 / 255), _mm256_set1_ps(-127 * kFarthestPlane));
-  const __m256 ahead = _mm256_sub_ps(along(q), plane), t = _mm256_div_ps(_mm256_sub_ps(_mm256_setzero_ps(), ahead), facing);
-  const __m256 within = _mm256_and_ps(_mm256_cmp_ps(t, _mm256_set1_ps(t0), _CMP_GE_OQ), _mm256_cmp_ps(t, _mm256_set1_ps(t1), _CMP_LT_OQ));
+  const Float8 x = fromBytes(voxel.normalX.data()), y = fromBytes(voxel.normalY.data()), z = fromBytes(voxel.normalZ.data());
+  const auto along = [&](Vec3 v) { return fma(x, Float8(v.x), fma(y, Float8(v.y), z * Float8(v.z))); };
+  const Float8 facing = along(d);
+  const Float8 plane = fma(fromBytes(voxel.plane.data()), Float8(127 * kFarthestPlane * 2 / 255), Float8(-127 * kFarthestPlane));
+  const Float8 ahead = along(q) - plane, t = (Float8(0.0f) - ahead) / facing;
+  const Float8 within = (Float8(t0) <= t) & (t < Float8(t1));
   // Where no surface faces a way, the normal there is 0 and so is `facing`.
-  const __m256 met = _mm256_and_ps(within, _mm256_cmp_ps(facing, _mm256_set1_ps(-127 * 1e-4f), _CMP_LT_OQ));
-  unsigned faces = static_cast<unsigned>(_mm256_movemask_ps(met)) & 0x3f;
+  unsigned faces = topBits(within & (facing < Float8(-127 * 1e-4f))) & 0x3f;
   if (faces == 0) return 0;
-  alignas(32) float aheadOf[8], tOf[8];
-  _mm256_store_ps(aheadOf, ahead);
-  _mm256_store_ps(tOf, t);
+  float aheadOf[8], tOf[8];
+  ahead.store(aheadOf), t.store(tOf);
   int found = 0;
   for (; faces; faces &= faces - 1) {
     const auto face = static_cast<size_t>(std::countr_zero(faces));

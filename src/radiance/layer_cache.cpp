@@ -1,7 +1,7 @@
 // LightCache::splitIntoLayers: whose the light on slots is.
+#include "base/half.h"
 #include "base/parallel.h"
 #include "radiance/bounces_together.h"
-#include "radiance/half.h"
 #include "radiance/light_cache.h"
 
 namespace roomlight {

@@ -1,8 +1,6 @@
 // Links: where light comes to a slot from. Rays traced once, along which bounces are iterated without tracing.
 #pragma once
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +21,7 @@ class Link {
   Link() = default;
   Link(uint32_t slot, float left, bool bent) : packed_(slot | (bent ? kBent : 0) | static_cast<uint32_t>(std::lround(15 * std::clamp(left, 0.0f, 1.0f))) << 28) {}
   uint32_t slot() const { return packed_ & (kBent - 1); }
-  __m128 left() const { return _mm_cvtepi32_ps(_mm_srli_epi32(_mm_set1_epi32(static_cast<int>(packed_)), 28)); }  // in kUnit
+  float left() const { return static_cast<float>(packed_ >> 28); }  // in kUnit
   bool isDark() const { return packed_ >> 28 == 0; }
   bool isBent() const { return (packed_ & kBent) != 0; }  // reflected on the way
   Link withSlot(uint32_t slot) const {

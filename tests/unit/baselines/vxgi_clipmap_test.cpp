@@ -7,9 +7,9 @@
 namespace roomlight {
 namespace {
 
-std::array<float, 4> numbers(__m128 v) {
+std::array<float, 4> numbers(Float4 v) {
   std::array<float, 4> out;
-  _mm_storeu_ps(out.data(), v);
+  v.store(out.data());
   return out;
 }
 
