@@ -13,15 +13,14 @@
 #include <algorithm>
 #include <cstring>
 
+#include "import/assimp_collect.h"
 #include "import/child_process.h"
 #include "import/failure.h"
-#include "import/foreign_model.h"
 
 namespace roomlight::importers {
 namespace {
 
 constexpr size_t kMaxBytes = size_t{256} << 20;
-constexpr int kDeepestNode = 512;
 
 class MemoryStream : public Assimp::IOStream {
  public:
@@ -65,82 +64,20 @@ class OneFile : public Assimp::IOSystem {
   std::span<const uint8_t> bytes_;
 };
 
-std::string text(const aiString& s) { return std::string(s.data, std::min<size_t>(s.length, sizeof(s.data))); }
-
-ForeignMaterial materialOf(const aiMaterial& in) {
-  ForeignMaterial out;
-  aiString name;
-  if (in.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) out.name = text(name);
-  const auto colour = [&](const char* key, unsigned type, unsigned index, Vec3& v) {
-    aiColor3D c;
-    if (in.Get(key, type, index, c) == aiReturn_SUCCESS) v = {c.r, c.g, c.b};
-  };
-  colour(AI_MATKEY_COLOR_DIFFUSE, out.diffuse);
-  colour(AI_MATKEY_COLOR_SPECULAR, out.specular);
-  colour(AI_MATKEY_COLOR_EMISSIVE, out.emission);
-  in.Get(AI_MATKEY_OPACITY, out.opacity);
-  in.Get(AI_MATKEY_SHININESS, out.shininess);
-  const auto picture = [&](aiTextureType type) {
-    aiString path;
-    return in.GetTextureCount(type) > 0 && in.GetTexture(type, 0, &path) == aiReturn_SUCCESS ? text(path) : std::string();
-  };
-  out.diffusePicture = picture(aiTextureType_DIFFUSE);
-  out.opacityPicture = picture(aiTextureType_OPACITY);
-  out.emissionPicture = picture(aiTextureType_EMISSIVE);
-  return out;
-}
-
-class Collector {
- public:
-  Collector(const aiScene& scene, size_t maxTriangles) : scene_(scene), maxTriangles_(maxTriangles) {}
-
-  ForeignModel collect() {
-    for (unsigned i = 0; i < scene_.mNumMaterials; ++i) model_.materials.push_back(materialOf(*scene_.mMaterials[i]));
-    if (scene_.mRootNode) walk(*scene_.mRootNode, aiMatrix4x4(), 0);
-    return std::move(model_);
-  }
-
- private:
-  void walk(const aiNode& node, const aiMatrix4x4& above, int depth) {
-    if (depth > kDeepestNode) fail("", fmt::format("has nodes nested more than {} deep", kDeepestNode));
-    const aiMatrix4x4 m = above * node.mTransformation;
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene_.mMeshes[node.mMeshes[i]], text(node.mName), m);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) walk(*node.mChildren[i], m, depth + 1);
-  }
-
-  void add(const aiMesh& in, const std::string& name, const aiMatrix4x4& m) {
-    Mesh out;
-    out.name = name, out.material = static_cast<int>(in.mMaterialIndex);
-    const bool mirrored = m.Determinant() < 0;
-    aiMatrix3x3 forNormals(m);
-    const bool normals = in.HasNormals() && m.Determinant() != 0;
-    if (normals) forNormals.Inverse().Transpose();
-    for (unsigned i = 0; i < in.mNumVertices; ++i) {
-      const aiVector3D p = m * in.mVertices[i];
-      out.positions.push_back({p.x, p.y, p.z});
-      if (normals) {
-        const aiVector3D n = forNormals * in.mNormals[i];
-        out.normals.push_back({n.x, n.y, n.z});
-      }
-      // Texture coordinates count from the picture's bottom here, from its top in the scene.
-      if (in.HasTextureCoords(0)) out.uv[0].push_back({in.mTextureCoords[0][i].x, 1 - in.mTextureCoords[0][i].y});
-    }
-    for (unsigned i = 0; i < in.mNumFaces; ++i) {
-      const aiFace& face = in.mFaces[i];
-      if (face.mNumIndices != 3) {
-        ++model_.noTriangles;
-        continue;
-      }
-      if (++triangles_ > maxTriangles_) fail("", fmt::format("has more than {} triangles", maxTriangles_));
-      out.indices.insert(out.indices.end(), {face.mIndices[0], face.mIndices[mirrored ? 2 : 1], face.mIndices[mirrored ? 1 : 2]});
-    }
-    model_.meshes.push_back(std::move(out));
-  }
-
-  const aiScene& scene_;
-  size_t maxTriangles_, triangles_ = 0;
-  ForeignModel model_;
+struct About {
+  const char* extension;
+  UpAxis up;  // where the file does not say it
 };
+About aboutOf(AssimpFormat format) {
+  switch (format) {
+    case AssimpFormat::Collada: return {"dae", UpAxis::Y};
+    case AssimpFormat::Studio3D: return {"3ds", UpAxis::Z};
+    case AssimpFormat::Fbx: return {"fbx", UpAxis::Y};
+    case AssimpFormat::Stl: return {"stl", UpAxis::Z};
+    case AssimpFormat::Ply: break;
+  }
+  return {"ply", UpAxis::Z};
+}
 
 // Of the library's forty formats only the one that is meant.
 void keepOnly(Assimp::Importer& importer, const std::string& extension) {
@@ -151,24 +88,43 @@ void keepOnly(Assimp::Importer& importer, const std::string& extension) {
   }
 }
 
-Bytes readInside(std::span<const uint8_t> bytes, const std::string& extension, size_t maxTriangles) {
+Bytes readInside(std::span<const uint8_t> bytes, AssimpFormat format, bool ignoreUp, size_t maxTriangles) {
   Assimp::Importer importer;
+  const std::string extension = aboutOf(format).extension;
   keepOnly(importer, extension);
   const std::string name = "model." + extension;
   importer.SetIOHandler(new OneFile(name, bytes));  // owned by the importer
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // of nodes, instead of their ids
-  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_TransformUVCoords);
-  if (!scene) fail("", std::string("is damaged: ") + importer.GetErrorString());
-  return toBytes(Collector(*scene, maxTriangles).collect());
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, ignoreUp);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);  // one node for each of the file's, not one for each part of its transform
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+  unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_TransformUVCoords;
+  if (format == AssimpFormat::Stl) {
+    // Normals of facets, often wrong, which would keep their corners apart.
+    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS);
+    steps |= aiProcess_RemoveComponent;
+  }
+  const aiScene* scene = importer.ReadFile(name, steps);
+  if (!scene) fail("", std::string("is damaged, or of a version that is not read: ") + importer.GetErrorString());
+  return toBytes(collectForeign(*scene, format, maxTriangles));
 }
 
 }  // namespace
 
-Scene readByAssimp(std::span<const uint8_t> bytes, AssimpFormat format, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings) {
+UpAxis usualUp(AssimpFormat format) { return aboutOf(format).up; }
+
+ForeignModel readForeign(std::span<const uint8_t> bytes, AssimpFormat format, bool ignoreUp, size_t maxTriangles) {
   if (bytes.size() > kMaxBytes) fail("", fmt::format("is larger than {} MiB", kMaxBytes >> 20));
-  const std::string extension = format == AssimpFormat::Collada ? "dae" : "3ds";
-  const Bytes read = inChildProcess([&] { return readInside(bytes, extension, maxTriangles); });
-  return sceneOf(foreignModel(read), companions, warnings);
+  return foreignModel(inChildProcess([&] { return readInside(bytes, format, ignoreUp, maxTriangles); }));
+}
+
+Scene readByAssimp(std::span<const uint8_t> bytes, AssimpFormat format, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings) {
+  ForeignModel model = readForeign(bytes, format, false, maxTriangles);
+  const UpAxis up = model.up ? static_cast<UpAxis>(model.up) : usualUp(format);
+  Scene scene = sceneOf(std::move(model), companions, warnings);
+  turnUpright(scene, up);
+  bakeInstances(scene);
+  return scene;
 }
 
 }  // namespace roomlight::importers

@@ -1,10 +1,11 @@
-// COLLADA (.dae) and 3D Studio (.3ds) by the library assimp, the only place that knows it.
+// FBX, COLLADA (.dae), 3D Studio (.3ds), STL and PLY by the library assimp.
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "import/file_access.h"
+#include "import/foreign_model.h"
+#include "import/up_axis.h"
 #include "import/warnings.h"
 #include "scene/scene.h"
 
@@ -13,10 +14,19 @@ namespace roomlight::importers {
 enum class AssimpFormat {
   Collada,
   Studio3D,
+  Fbx,
+  Stl,
+  Ply,
 };
 
-// The model in its own unit, y up. It is read in a process of its own, as the library follows cycles and sizes that a hostile file claims,
-// and sees no file but these bytes; pictures are read by `companions`, in this process. Throws Failure.
+// What a file of the format means that does not say which axis points up.
+UpAxis usualUp(AssimpFormat format);
+
+// The file is read in a process of its own, as the library follows cycles and sizes that a hostile file claims, and sees no file but these
+// bytes. `ignoreUp`: in the file's own axes even where it says which one points up. Throws Failure.
+ForeignModel readForeign(std::span<const uint8_t> bytes, AssimpFormat format, bool ignoreUp, size_t maxTriangles);
+
+// One model of many: in its own unit, y up, without transforms, lights and cameras; pictures are read by `companions`, in this process.
 Scene readByAssimp(std::span<const uint8_t> bytes, AssimpFormat format, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings);
 
 }  // namespace roomlight::importers

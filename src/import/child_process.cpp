@@ -1,5 +1,6 @@
 #include "import/child_process.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -50,9 +51,16 @@ void writeAll(int file, const uint8_t* bytes, size_t count) {
   }
 }
 
+// Libraries complain on the terminal; what matters comes back as a failure.
+void silence() {
+  const int nowhere = open("/dev/null", O_WRONLY);
+  if (nowhere >= 0) dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
+}
+
 [[noreturn]] void runChild(const std::function<Bytes()>& work, int file) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
   std::signal(SIGALRM, SIG_DFL);
+  silence();
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, kSeconds);
   alarm(2 * kSeconds);  // a busy machine may give it half of a core

@@ -20,17 +20,20 @@ int hexDigit(char c) {
   return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
+// Of both alphabets, that of files and that of addresses.
 int base64Digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
   if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' ? 62 : c == '/' ? 63
-                                  : -1;
+  return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63
+                                                          : -1;
 }
 
-Bytes base64Decode(std::string_view text, const std::string& place) {
+Bytes base64Decode(std::string_view given, const std::string& place) {
+  std::string text(given);
+  std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
   size_t padding = 0;
-  while (padding < 2 && !text.empty() && text.back() == '=') text.remove_suffix(1), ++padding;
+  while (padding < 2 && !text.empty() && text.back() == '=') text.pop_back(), ++padding;
   if (text.size() % 4 == 1 || (padding > 0 && (text.size() + padding) % 4 != 0)) fail(place, "the base64 data are cut short");
   Bytes out;
   out.reserve(text.size() / 4 * 3 + 3);
@@ -47,6 +50,11 @@ Bytes base64Decode(std::string_view text, const std::string& place) {
     }
   }
   return out;
+}
+
+std::string lowerCase(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 // Letters before a colon. One letter is a drive, which must not be followed either.
@@ -74,16 +82,15 @@ Bytes readWholeFile(const std::filesystem::path& file, const std::string& place)
   return bytes;
 }
 
-std::string percentDecode(std::string_view uri, const std::string& place) {
+std::string percentDecode(std::string_view uri) {
   std::string out;
   for (size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] != '%') {
+    const int high = uri[i] == '%' && i + 2 < uri.size() ? hexDigit(uri[i + 1]) : -1;
+    const int low = high >= 0 ? hexDigit(uri[i + 2]) : -1;
+    if (low < 0) {
       out += uri[i];
       continue;
     }
-    const int high = i + 2 < uri.size() ? hexDigit(uri[i + 1]) : -1;
-    const int low = i + 2 < uri.size() ? hexDigit(uri[i + 2]) : -1;
-    if (high < 0 || low < 0) fail(place, fmt::format("URI '{}' holds a bad percent escape", printable(uri)));
     out += static_cast<char>(high * 16 + low);
     i += 2;
   }
@@ -115,14 +122,35 @@ std::filesystem::path pathInside(const std::filesystem::path& folder, std::strin
   return target;
 }
 
+std::optional<std::filesystem::path> findInside(const std::filesystem::path& folder, std::string_view reference, const std::string& place) {
+  std::string relative(reference);
+  std::replace(relative.begin(), relative.end(), '\\', '/');
+  std::filesystem::path file = pathInside(folder, relative, place);
+  std::error_code code;
+  if (std::filesystem::is_regular_file(file, code)) return file;
+  // Part by part, the first name in the alphabet that differs by case alone.
+  std::filesystem::path found;
+  for (const auto& part : std::filesystem::path(relative)) {
+    if (part.empty() || part == ".") continue;
+    const std::string wanted = lowerCase(part.string());
+    std::string best;
+    for (std::filesystem::directory_iterator entry((folder.empty() ? "." : folder) / found, code), end; !code && entry != end; entry.increment(code)) {
+      const std::string name = entry->path().filename().string();
+      if (lowerCase(name) == wanted && (best.empty() || name < best)) best = name;
+    }
+    if (best.empty()) return std::nullopt;
+    found /= best;
+  }
+  file = pathInside(folder, found.string(), place);
+  if (!std::filesystem::is_regular_file(file, code)) return std::nullopt;
+  return file;
+}
+
 ReadCompanion companionsIn(const std::filesystem::path& folder) {
   return [folder](std::string_view reference, const std::string& place) -> std::optional<Bytes> {
-    std::string relative(reference);
-    std::replace(relative.begin(), relative.end(), '\\', '/');
-    const std::filesystem::path file = pathInside(folder, relative, place);
-    std::error_code code;
-    if (!std::filesystem::is_regular_file(file, code)) return std::nullopt;
-    return readWholeFile(file, place);
+    const auto file = findInside(folder, reference, place);
+    if (!file) return std::nullopt;
+    return readWholeFile(*file, place);
   };
 }
 
@@ -134,9 +162,18 @@ std::optional<Bytes> dataUri(std::string_view uri, const std::string& place) {
   return base64Decode(uri.substr(comma + 1), place);
 }
 
+std::optional<std::filesystem::path> fileOfUri(const std::filesystem::path& folder, std::string_view uri, const std::string& place) {
+  const std::string decoded = percentDecode(uri);
+  if (auto file = findInside(folder, decoded, place)) return file;
+  return decoded == uri ? std::nullopt : findInside(folder, uri, place);
+}
+
 Bytes readUri(const std::filesystem::path& folder, std::string_view uri, const std::string& place) {
   if (auto embedded = dataUri(uri, place)) return std::move(*embedded);
-  return readWholeFile(pathInside(folder, percentDecode(uri, place), place), fmt::format("{} '{}'", place, printable(uri)));
+  const std::string named = fmt::format("{} '{}'", place, printable(uri));
+  const auto file = fileOfUri(folder, uri, place);
+  if (!file) fail(named, "there is no such file");
+  return readWholeFile(*file, named);
 }
 
 }  // namespace roomlight::importers

@@ -3,19 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <set>
 #include <type_traits>
 
 #include "import/failure.h"
+#include "import/grey_material.h"
 #include "import/obj_textures.h"
 #include "import/triangles.h"
 
 namespace roomlight::importers {
 namespace {
 
-constexpr float kBrightest = 1e12f;
+constexpr float kBrightest = 1e12f, kFarthest = 1e12f;
 
 template <class T>
 constexpr bool kPlain = std::is_trivially_copyable_v<T>;
@@ -30,6 +32,11 @@ class Writer {
   void operator()(const std::string& s) { all(s); }
   template <class T>
   void operator()(const std::vector<T>& v) { all(v); }
+  template <class T, class Each>
+  void each(const std::vector<T>& v, Each&& one) {
+    (*this)(static_cast<uint64_t>(v.size()));
+    for (const T& t : v) one(*this, t);
+  }
 
   Bytes bytes;
 
@@ -57,10 +64,16 @@ class Reader {
   void operator()(std::string& s) { all(s); }
   template <class T>
   void operator()(std::vector<T>& v) { all(v); }
-
-  size_t left() const { return bytes_.size() - at_; }
+  template <class T, class Each>
+  void each(std::vector<T>& v, Each&& one) {
+    uint64_t count = 0;
+    (*this)(count);
+    if (count > left()) fail("", "is damaged");
+    for (uint64_t i = 0; i < count; ++i) one(*this, v.emplace_back());
+  }
 
  private:
+  size_t left() const { return bytes_.size() - at_; }
   template <class Array>
   void all(Array& v) {
     uint64_t count = 0;
@@ -80,27 +93,31 @@ class Reader {
 };
 
 // One list of fields for both ways.
-template <class Visit, class M>
-void visitMaterial(Visit& visit, M& m) {
-  visit(m.name), visit(m.diffuse), visit(m.specular), visit(m.emission), visit(m.opacity), visit(m.shininess);
-  visit(m.diffusePicture), visit(m.opacityPicture), visit(m.emissionPicture);
-}
-template <class Visit, class M>
-void visitMesh(Visit& visit, M& m) {
-  visit(m.name), visit(m.positions), visit(m.normals), visit(m.uv[0]), visit(m.indices), visit(m.material);
+template <class Visit, class Model>
+void visitModel(Visit& visit, Model& model) {
+  visit.each(model.materials, [](auto& v, auto& m) {
+    v(m.name), v(m.diffuse), v(m.specular), v(m.emission), v(m.opacity), v(m.shininess);
+    v(m.diffusePicture), v(m.opacityPicture), v(m.emissionPicture), v(m.normalPicture);
+  });
+  visit.each(model.meshes, [](auto& v, auto& m) { v(m.name), v(m.positions), v(m.normals), v(m.colors), v(m.uv[0]), v(m.indices), v(m.material); });
+  visit.each(model.instances, [](auto& v, auto& i) { v(i.name), v(i.mesh), v(i.object), v(i.modelFromMesh); });
+  visit.each(model.pictures, [](auto& v, auto& p) { v(p); });
+  visit.each(model.cameras, [](auto& v, auto& c) { v(c.name), v(c.position), v(c.direction), v(c.up), v(c.xFovRad), v(c.aspect); });
+  visit.each(model.lights, [](auto& v, auto& l) {
+    v(l.name), v(l.kind), v(l.position), v(l.direction), v(l.up), v(l.colour), v(l.innerConeRad), v(l.outerConeRad), v(l.width), v(l.height);
+  });
+  visit(model.noTriangles), visit(model.otherLights), visit(model.up), visit(model.metresPerUnit);
 }
 
-bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool sensible(Vec3 v) { return isFinite(v) && maxComponent(abs(v)) <= kFarthest; }
 
 void checkMesh(Mesh& mesh, size_t materials) {
   const size_t n = mesh.positions.size();
-  const bool sizes = (mesh.normals.empty() || mesh.normals.size() == n) && (mesh.uv[0].empty() || mesh.uv[0].size() == n) && mesh.indices.size() % 3 == 0;
+  const auto agrees = [n](size_t size) { return size == 0 || size == n; };
+  const bool sizes = agrees(mesh.normals.size()) && agrees(mesh.uv[0].size()) && agrees(mesh.colors.size()) && mesh.indices.size() % 3 == 0;
   if (!sizes || mesh.material < 0 || static_cast<size_t>(mesh.material) >= materials) fail("", "is damaged");
   for (const uint32_t i : mesh.indices) {
     if (i >= n) fail("", "is damaged");
-  }
-  for (const Vec3 p : mesh.positions) {
-    if (!finite(p) || maxComponent(abs(p)) > 1e12f) fail("", "holds a vertex that is no finite place");
   }
   for (Vec3& normal : mesh.normals) {
     const float size = length(normal);
@@ -110,9 +127,36 @@ void checkMesh(Mesh& mesh, size_t materials) {
     }
     normal = normal / size;
   }
+  for (Vec3& c : mesh.colors) {
+    for (float* v : {&c.x, &c.y, &c.z}) *v = *v >= 0 ? std::min(*v, 1.0f) : 0;
+  }
   for (Vec2& t : mesh.uv[0]) {
     if (!std::isfinite(t.x) || !std::isfinite(t.y)) t = {};
   }
+}
+
+// Unit; `otherwise` where the file's has no length.
+Vec3 direction(Vec3 v, Vec3 otherwise) {
+  const float size = length(v);
+  return size > 1e-20f && std::isfinite(size) ? v / size : otherwise;
+}
+
+// What would put things nowhere is left out, the rest stays.
+void keepSensible(ForeignModel& model) {
+  std::erase_if(model.instances, [&](const ForeignInstance& i) {
+    if (i.mesh >= model.meshes.size()) fail("", "is damaged");
+    const Affine& m = i.modelFromMesh;
+    return !sensible(m.x) || !sensible(m.y) || !sensible(m.z) || !sensible(m.w) || !(std::abs(m.determinant()) > 0);
+  });
+  std::erase_if(model.cameras, [](const ForeignCamera& c) { return !sensible(c.position); });
+  for (ForeignCamera& c : model.cameras) c.direction = direction(c.direction, {0, 0, -1}), c.up = direction(c.up, {0, 1, 0});
+  std::erase_if(model.lights, [](const ForeignLight& l) { return !sensible(l.position) || !isFinite(l.colour) || l.kind > ForeignLightKind::Area; });
+  for (ForeignLight& l : model.lights) {
+    l.direction = direction(l.direction, {0, -1, 0});
+    for (float* v : {&l.innerConeRad, &l.outerConeRad, &l.width, &l.height}) *v = *v >= 0 && *v <= kFarthest ? *v : 0;
+  }
+  if (!(model.metresPerUnit > 0 && model.metresPerUnit <= 1e6f)) model.metresPerUnit = 0;
+  if (model.up != 'x' && model.up != 'y' && model.up != 'z') model.up = 0;
 }
 
 float limited(float v, float high) { return std::isfinite(v) ? std::clamp(v, 0.0f, high) : 0.0f; }
@@ -126,6 +170,8 @@ Material converted(const ForeignMaterial& in, ObjTextures& textures, Scene& scen
   m.baseColorTexture.texture = textures.colourWithAlpha(in.diffusePicture, in.opacityPicture, Wrap::Repeat, scene);
   // A picture stands in the place of the colour.
   m.baseColor = m.baseColorTexture.texture >= 0 ? Vec3(1) : limited(in.diffuse, 1);
+  if (m.baseColorTexture.texture < 0 && !in.diffusePicture.empty()) m.baseColor = colourWithoutPicture(m.baseColor);
+  m.normalTexture.texture = textures.colourWithAlpha(in.normalPicture, "", Wrap::Repeat, scene);
   m.alpha = limited(in.opacity, 1);
   m.alphaMode = m.alpha < 1 || !in.opacityPicture.empty() ? AlphaMode::Blend : AlphaMode::Opaque;
   m.emission = limited(in.emission, kBrightest);
@@ -137,47 +183,93 @@ Material converted(const ForeignMaterial& in, ObjTextures& textures, Scene& scen
   return m;
 }
 
+// Nothing beside the vertices' colours says how much the surface reflects.
+void whitePaint(Material& m) {
+  if (m.baseColorTexture.texture < 0) m.baseColor = Vec3(kWhitePaint);
+}
+
+void addCamera(const ForeignCamera& in, Scene& scene) {
+  constexpr float kUsualAspect = 1.5f, kNarrowestRad = 0.02f, kWidestRad = 3;
+  Camera camera;
+  camera.name = in.name;
+  const Vec3 right = cross(in.direction, in.up);
+  if (length(right) > 1e-4f) {
+    const Vec3 x = normalize(right);
+    camera.worldFromCamera = {x, cross(x, in.direction), -in.direction, in.position};
+  } else {
+    camera.worldFromCamera = looking(in.position, in.direction);
+  }
+  if (in.aspect > 0.1f && in.aspect < 10) camera.aspect = in.aspect;
+  if (in.xFovRad > kNarrowestRad && in.xFovRad < kWidestRad) {
+    camera.yFovRad = 2 * std::atan(std::tan(in.xFovRad / 2) / (camera.aspect > 0 ? camera.aspect : kUsualAspect));
+  }
+  scene.cameras.push_back(camera);
+}
+
 }  // namespace
 
 Bytes toBytes(const ForeignModel& model) {
   Writer write;
-  write(static_cast<uint64_t>(model.noTriangles)), write(static_cast<uint64_t>(model.materials.size())), write(static_cast<uint64_t>(model.meshes.size()));
-  for (const ForeignMaterial& m : model.materials) visitMaterial(write, m);
-  for (const Mesh& m : model.meshes) visitMesh(write, m);
+  visitModel(write, model);
   return std::move(write.bytes);
 }
 
 ForeignModel foreignModel(const Bytes& bytes) {
   Reader read(bytes);
   ForeignModel model;
-  uint64_t noTriangles = 0, materials = 0, meshes = 0;
-  read(noTriangles), read(materials), read(meshes);
-  if (materials > read.left() || meshes > read.left()) fail("", "is damaged");
-  model.noTriangles = static_cast<size_t>(noTriangles);
-  for (uint64_t i = 0; i < materials; ++i) visitMaterial(read, model.materials.emplace_back());
-  for (uint64_t i = 0; i < meshes; ++i) visitMesh(read, model.meshes.emplace_back());
+  visitModel(read, model);
   for (Mesh& mesh : model.meshes) checkMesh(mesh, model.materials.size());
+  keepSensible(model);
   return model;
 }
 
 Scene sceneOf(ForeignModel model, const ReadCompanion& companions, Warnings& warnings) {
   std::set<std::string> names;
   for (const ForeignMaterial& m : model.materials) {
-    for (const std::string* name : {&m.diffusePicture, &m.opacityPicture, &m.emissionPicture}) {
+    for (const std::string* name : {&m.diffusePicture, &m.opacityPicture, &m.emissionPicture, &m.normalPicture}) {
       if (!name->empty()) names.insert(*name);
     }
   }
+  const ReadCompanion ownOrBeside = [&](std::string_view name, const std::string& place) -> std::optional<Bytes> {
+    if (!name.starts_with('*')) return companions(name, place);
+    size_t number = 0;
+    const auto [end, code] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+    if (code != std::errc() || number >= model.pictures.size()) return {};
+    return model.pictures[number];
+  };
   Scene scene;
-  ObjTextures textures(companions, names, warnings);
+  ObjTextures textures(ownOrBeside, names, warnings);
   for (const ForeignMaterial& m : model.materials) scene.materials.push_back(converted(m, textures, scene));
+  std::vector<int> kept;
   for (Mesh& mesh : model.meshes) {
-    dropDegenerate(mesh);
-    if (mesh.indices.empty()) continue;
-    scene.instances.push_back({mesh.name, static_cast<int>(scene.meshes.size()), static_cast<int>(scene.meshes.size()), {}});
-    scene.meshes.push_back(std::move(mesh));
+    warnings.mended("triangles with a vertex that is no finite place are left out", dropInfinite(mesh));
+    warnings.mended("triangles without area are left out", dropDegenerate(mesh));
+    kept.push_back(mesh.indices.empty() ? -1 : static_cast<int>(scene.meshes.size()));
+    if (!mesh.colors.empty()) whitePaint(scene.materials[static_cast<size_t>(mesh.material)]);
+    if (!mesh.indices.empty()) scene.meshes.push_back(std::move(mesh));
   }
+  for (const ForeignInstance& i : model.instances) {
+    if (kept[i.mesh] >= 0) scene.instances.push_back({i.name, kept[i.mesh], static_cast<int>(i.object & 0x7fffffff), i.modelFromMesh});
+  }
+  for (const ForeignCamera& c : model.cameras) addCamera(c, scene);
   warnings.add("points and lines are ignored", model.noTriangles);
   return scene;
+}
+
+void bakeInstances(Scene& scene) {
+  std::vector<Mesh> meshes;
+  for (Instance& i : scene.instances) {
+    Mesh mesh = scene.meshes[static_cast<size_t>(i.mesh)];
+    const Affine& m = i.worldFromObject;
+    const bool mirrored = m.determinant() < 0;
+    for (Vec3& p : mesh.positions) p = m.point(p);
+    for (Vec3& n : mesh.normals) n = normalize(m.normal(n)) * (mirrored ? -1.0f : 1.0f);
+    for (size_t t = 0; mirrored && t + 2 < mesh.indices.size(); t += 3) std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
+    mesh.name = i.name;
+    i.mesh = static_cast<int>(meshes.size()), i.worldFromObject = {};
+    meshes.push_back(std::move(mesh));
+  }
+  scene.meshes = std::move(meshes);
 }
 
 }  // namespace roomlight::importers

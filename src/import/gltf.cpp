@@ -18,6 +18,7 @@ Result<Imported> importGltf(const std::filesystem::path& file, const ImportOptio
     imported.warnings = document->warnings.lines();
     const auto& odd = document->photometric.warnings();
     imported.warnings.insert(imported.warnings.end(), odd.begin(), odd.end());
+    imported.faults = document->warnings.faults().lines(), imported.faultCount = document->warnings.faults().total();
     return imported;
   });
 }

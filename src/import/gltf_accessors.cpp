@@ -129,7 +129,6 @@ std::vector<float> readFloats(const Accessor& a, int components, std::span<const
     }
     for (size_t c = 0; p && c < width; ++c) {
       const double v = component(p + c * size, a.componentType) * scale;
-      if (!std::isfinite(v)) a.json.fail(fmt::format("element {} is not a finite number", element));
       out[i * width + c] = static_cast<float>(scaled ? std::max(v, -1.0) : v);
     }
   }
@@ -138,13 +137,12 @@ std::vector<float> readFloats(const Accessor& a, int components, std::span<const
 
 std::vector<uint32_t> readIndices(const Accessor& a) {
   if (a.components != 1) a.json.fail("indices must be scalars");
-  if (a.componentType != kUnsignedByte && a.componentType != kUnsignedShort && a.componentType != kUnsignedInt) {
-    a.json.fail("indices must be unsigned integers");
-  }
+  if (a.componentType == kFloat) a.json.fail("indices must be unsigned integers");
   if (!a.sparseIndices.empty() || a.bytes.empty()) a.json.fail("indices must lie in a buffer view and not be sparse");
   std::vector<uint32_t> out(a.count);
   for (size_t i = 0; i < a.count; ++i) {
-    out[i] = static_cast<uint32_t>(component(a.bytes.data() + i * a.stride, a.componentType));
+    const double v = component(a.bytes.data() + i * a.stride, a.componentType);
+    out[i] = v < 0 ? std::numeric_limits<uint32_t>::max() : static_cast<uint32_t>(v);
   }
   return out;
 }

@@ -25,11 +25,11 @@ struct Accessor {
 // The accessor that the JSON number `use` names. Throws Failure.
 Accessor openAccessor(const GltfDocument& document, const Json& use);
 
-// `components` numbers an element, of all elements or of those in `selection`. Finite, else Failure. An accessor with more
+// `components` numbers an element, of all elements or of those in `selection`; floats as they are, finite or not. An accessor with more
 // components gives the first ones; with fewer it is refused.
 std::vector<float> readFloats(const Accessor& accessor, int components, std::span<const uint32_t> selection = {});
 
-// Unsigned whole numbers of one component.
+// Whole numbers of one component; negative ones, which some exporters' types allow, become the largest.
 std::vector<uint32_t> readIndices(const Accessor& accessor);
 
 // What a normalized integer of this component type is divided by; 1 for floats and 32-bit numbers.

@@ -17,7 +17,7 @@ std::optional<Json> meshoptOf(const Json& object) {
 }
 
 std::span<const uint8_t> loadBuffer(GltfDocument& document, const Json& buffer, size_t index) {
-  const size_t length = buffer.at("byteLength").integer(kMaxBytes);
+  const uint64_t stated = buffer.integer("byteLength", kMaxBytes, kMaxBytes);
   std::span<const uint8_t> bytes;
   if (const auto uri = buffer.find("uri")) {
     document.storage.push_back(readUri(document.folder, uri->text(), uri->path()));
@@ -30,18 +30,18 @@ std::span<const uint8_t> loadBuffer(GltfDocument& document, const Json& buffer, 
   } else {
     buffer.fail("has neither a uri nor a binary chunk");
   }
-  if (bytes.size() < length) buffer.fail(fmt::format("claims {} bytes, but there are {}", length, bytes.size()));
-  return bytes.first(length);
+  if (!buffer.find("byteLength")) return bytes;
+  if (bytes.size() < stated) buffer.fail(fmt::format("claims {} bytes, but there are {}; the file is cut short", stated, bytes.size()));
+  return bytes.first(stated);
 }
 
+// As much of a range as there is: who reads it says what is missing.
 std::span<const uint8_t> slice(const std::vector<std::span<const uint8_t>>& buffers, const Json& range) {
   const auto buffer = buffers[static_cast<size_t>(range.at("buffer").index(buffers.size()))];
   const uint64_t offset = range.integer("byteOffset", 0, kMaxBytes);
   const uint64_t length = range.at("byteLength").integer(kMaxBytes);
-  if (offset > buffer.size() || length > buffer.size() - offset) {
-    range.fail(fmt::format("bytes {} to {} reach beyond the buffer of {} bytes", offset, offset + length, buffer.size()));
-  }
-  return buffer.subspan(offset, length);
+  if (offset > buffer.size()) return {};
+  return buffer.subspan(offset, std::min<uint64_t>(length, buffer.size() - offset));
 }
 
 }  // namespace

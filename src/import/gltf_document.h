@@ -42,10 +42,18 @@ struct GltfDocument {
   PhotometricFiles photometric;
 
   Json root() const { return Json(json, ""); }
+
+  // Index into a list of `count` things that the file can do without; -1: none, or one that does not exist, which is counted.
+  int looseIndex(const Json& in, const char* key, size_t count) {
+    bool isBroken = false;
+    const int index = in.looseIndex(key, count, isBroken);
+    if (isBroken) warnings.add("references to things that do not exist are ignored");
+    return index;
+  }
 };
 
-// Throws Failure. Refuses versions other than 2 and required extensions that are not known; warns of used ones that
-// are not honoured. Spans point into the document: it stays where it is.
+// Throws Failure. Refuses versions other than 2 and required extensions without which the file would show wrong; warns of
+// used ones that are not honoured. Spans point into the document: it stays where it is.
 std::unique_ptr<GltfDocument> openGltf(const std::filesystem::path& file);
 
 // The steps of openGltf.

@@ -5,7 +5,6 @@
 #include <draco/core/varint_decoding.h>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "import/failure.h"
@@ -88,9 +87,6 @@ DracoAttribute valuesOf(const draco::Mesh& mesh, const draco::PointAttribute& at
     if (value.value() >= attribute.size()) use.fail("the Draco data are damaged: a vertex has no value");
     float* v = &out.values[i * width];
     if (!attribute.ConvertValue(value, static_cast<int8_t>(width), v)) use.fail("the Draco data are damaged: a value cannot be read");
-    for (size_t c = 0; c < width; ++c) {
-      if (!std::isfinite(v[c])) use.fail(fmt::format("vertex {} is not a finite number", i));
-    }
   }
   return out;
 }

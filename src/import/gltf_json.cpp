@@ -19,7 +19,7 @@ void Json::fail(std::string_view what) const { importers::fail(path_, what); }
 std::optional<Json> Json::find(const char* key) const {
   if (!value_->is_object()) fail("is not an object");
   const auto it = value_->find(key);
-  if (it == value_->end()) return std::nullopt;
+  if (it == value_->end() || it->is_null()) return std::nullopt;
   return Json(*it, path_.empty() ? key : path_ + "." + key);
 }
 
@@ -129,6 +129,15 @@ Vec3 Json::vec3(const char* key, Vec3 fallback) const {
 int Json::index(const char* key, size_t count) const {
   const auto member = find(key);
   return member ? member->index(count) : -1;
+}
+
+int Json::looseIndex(const char* key, size_t count, bool& isBroken) const {
+  const auto member = find(key);
+  if (!member) return -1;
+  const double v = member->number();
+  if (v >= 0 && v < static_cast<double>(count)) return member->index(count);
+  isBroken = isBroken || v != -1;  // which some exporters write for none
+  return -1;
 }
 
 int Json::index(size_t count) const {

@@ -21,7 +21,7 @@ class Json {
   const nlohmann::json& raw() const { return *value_; }
   [[noreturn]] void fail(std::string_view what) const;
 
-  // Members of an object.
+  // Members of an object; null, which some exporters write for what they leave out, is none.
   std::optional<Json> find(const char* key) const;
   Json at(const char* key) const;
   std::optional<Json> extension(const char* name) const;  // extensions.<name>
@@ -49,6 +49,8 @@ class Json {
   // Index into a list of `count` things; -1 where absent.
   int index(const char* key, size_t count) const;
   int index(size_t count) const;
+  // The same for references that a file can do without: -1 also where the thing does not exist, which `isBroken` then tells.
+  int looseIndex(const char* key, size_t count, bool& isBroken) const;
 
  private:
   const nlohmann::json* value_;

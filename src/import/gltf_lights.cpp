@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -12,6 +13,7 @@ namespace roomlight::importers {
 namespace {
 
 constexpr float kBrightest = 1e12f;
+constexpr float kFarthest = 1e6f;
 
 std::string nameOf(const Json& thing, const std::string& nodeName) {
   const std::string name = thing.name();
@@ -28,40 +30,46 @@ std::string photometricName(const std::string& nodeName) {
 
 }  // namespace
 
-Camera readGltfCamera(const Json& in, const std::string& nodeName, const Affine& world) {
+std::optional<Camera> readGltfCamera(const Json& in, const std::string& nodeName, const Affine& world) {
   Camera camera;
   camera.name = nameOf(in, nodeName);
   camera.worldFromCamera = {normalize(world.x), normalize(world.y), normalize(world.z), world.w};
-  const std::string type = in.at("type").text();
-  if (type == "orthographic") {
-    const Json o = in.at("orthographic");
-    const float xMag = std::abs(o.number("xmag", 1, -1e6f, 1e6f));
+  const std::string type = in.text("type");
+  if (const auto o = in.find("orthographic"); o && type == "orthographic") {
+    const float xMag = std::abs(o->number("xmag", 1));
     camera.projection = Projection::Orthographic;
-    camera.yMagM = std::abs(o.number("ymag", 1, -1e6f, 1e6f));
-    if (xMag == 0 || camera.yMagM == 0) o.fail("sees nothing: xmag and ymag must not be zero");
+    camera.yMagM = std::abs(o->number("ymag", 1));
+    if (!(xMag > 0 && xMag <= kFarthest && camera.yMagM > 0 && camera.yMagM <= kFarthest)) return std::nullopt;
     camera.aspect = xMag / camera.yMagM;
-    camera.nearM = o.number("znear", 0, -1e6f, 1e6f);
-  } else if (type == "perspective") {
-    // The near plane only serves depth buffers: a picture of a room is not cut open by it.
-    const Json p = in.at("perspective");
-    p.at("yfov");
-    camera.yFovRad = p.number("yfov", 0, 1e-4f, kPi - 1e-3f);
-    camera.aspect = p.number("aspectRatio", 0, 0, 1e4f);
-  } else {
-    in.at("type").fail("is neither perspective nor orthographic");
+    camera.nearM = std::clamp(o->number("znear", 0), -kFarthest, kFarthest);
+    return camera;
   }
-  return camera;
+  if (const auto p = in.find("perspective"); p && type == "perspective") {
+    // The near plane only serves depth buffers: a picture of a room is not cut open by it.
+    camera.yFovRad = p->number("yfov", 0);
+    if (camera.yFovRad < 1e-4f || camera.yFovRad > kPi - 1e-3f) return std::nullopt;
+    const float aspect = p->number("aspectRatio", 0);
+    camera.aspect = aspect >= 1e-4f && aspect <= 1e4f ? aspect : 0;
+    return camera;
+  }
+  return std::nullopt;
 }
 
-void addGltfLight(const GltfDocument& document, const Json& extension, const std::string& nodeName, const Affine& world, Scene& scene) {
+void addGltfLight(GltfDocument& document, const Json& extension, const std::string& nodeName, const Affine& world, Scene& scene) {
   const auto all = document.root().extension("KHR_lights_punctual");
-  if (!all) extension.fail("the file has no lights");
-  const Json lights = all->at("lights");
-  const Json in = lights[static_cast<size_t>(extension.at("light").index(lights.size()))];
-  const Vec3 colour = in.vec3("color", Vec3(1));
-  if (minComponent(colour) < 0 || maxComponent(colour) > 1e6f) in.at("color").fail("must be from 0 to 1");
-  const Vec3 strength = colour * in.number("intensity", 1, 0, kBrightest);
-  const std::string type = in.at("type").text(), name = nameOf(in, nodeName);
+  if (!all) return document.warnings.add("references to things that do not exist are ignored");
+  const Json lights = all->list("lights");
+  const int index = document.looseIndex(extension, "light", lights.size());
+  if (index < 0) return;
+  const Json in = lights[static_cast<size_t>(index)];
+  const auto limited = [&](float v, float low, float high) {
+    if (!(v >= low && v <= high)) document.warnings.add("values of lights outside their range are limited to it");
+    return std::clamp(v, low, high);
+  };
+  Vec3 strength = in.vec3("color", Vec3(1));
+  for (int c = 0; c < 3; ++c) strength[c] = limited(strength[c], 0, 1e6f);
+  strength *= limited(in.number("intensity", 1), 0, kBrightest);
+  const std::string type = in.text("type"), name = nameOf(in, nodeName);
   if (type == "directional") {
     scene.suns.push_back({.name = name, .toLight = normalize(world.z), .illuminanceLux = strength});
     return;
@@ -74,12 +82,11 @@ void addGltfLight(const GltfDocument& document, const Json& extension, const std
   if (type == "spot") {
     lamp.kind = LampKind::Spot;
     if (const auto spot = in.find("spot")) {
-      lamp.outerConeRad = spot->number("outerConeAngle", kPi / 4, 0, kPi / 2 + 1e-4f);
-      lamp.innerConeRad = spot->number("innerConeAngle", 0, 0, kPi / 2 + 1e-4f);
+      lamp.outerConeRad = limited(spot->number("outerConeAngle", kPi / 4), 1e-3f, kPi / 2 + 1e-4f);
+      lamp.innerConeRad = limited(spot->number("innerConeAngle", 0), 0, lamp.outerConeRad);
     }
-    if (lamp.innerConeRad > lamp.outerConeRad || lamp.outerConeRad == 0) in.at("spot").fail("the inner cone must be smaller than the outer one");
   } else if (type != "point") {
-    in.at("type").fail("is none of point, spot and directional");
+    return document.warnings.add("lights of an unknown kind are left out");
   }
   scene.lamps.push_back(lamp);
 }

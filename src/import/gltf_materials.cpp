@@ -4,13 +4,15 @@
 
 #include <algorithm>
 
+#include "import/gltf_specular_glossiness.h"
 #include "import/gltf_textures.h"
 
 namespace roomlight::importers {
 namespace {
 
 constexpr float kBrightest = 1e12f;          // of any unit; keeps squares finite in floats
-constexpr float kUnlitWhiteCdM2 = 100;       // an unlit surface shines by itself; white like a monitor
+constexpr float kPlastic = 0.04f;             // what plastics and paints mirror
+constexpr float kGrey = 0.6f;                 // stands in for a lost picture of base colours: white walls would never let light end
 
 class Reader {
  public:
@@ -20,13 +22,14 @@ class Reader {
     Material m;
     m.name = in.name();
     if (const auto pbr = in.find("pbrMetallicRoughness")) metallicRoughness(*pbr, m);
+    if (const auto e = in.extension("KHR_materials_pbrSpecularGlossiness")) specularGlossiness(*e, m);
     if (const auto normal = in.find("normalTexture")) {
       m.normalTexture = textures_.reference(*normal);
       m.normalScale = limited(*normal, "scale", 1, -100, 100);
     }
     emission(in, m);
     const std::string mode = in.text("alphaMode", "OPAQUE");
-    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") in.at("alphaMode").fail("is none of OPAQUE, MASK and BLEND");
+    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") document_.warnings.add("materials with an unknown alphaMode are opaque");
     m.alphaMode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend
                                                                      : AlphaMode::Opaque;
     m.alphaCutoff = limited(in, "alphaCutoff", 0.5f, 0, 1e6f);
@@ -39,10 +42,21 @@ class Reader {
       ignore(*e, "specularColorTexture");
     }
     if (in.extension("KHR_materials_unlit")) unlit(m);
+    ++materials_;
     return m;
   }
 
-  void decodeTextures(Scene& scene) { textures_.decode(scene); }
+  // After the last material: decodes what they refer to.
+  void decodeTextures(Scene& scene) {
+    const std::vector<int> indices = textures_.decode(scene);
+    for (Material& m : scene.materials) settle(indices, m);
+    for (SpecularGlossiness& wish : specularGlossiness_) {
+      if (wish.texture.texture < 0) continue;
+      wish.texture.texture = indices[static_cast<size_t>(wish.texture.texture)];
+      if (wish.texture.texture < 0) wish.specular = min(wish.specular, Vec3(kPlastic)), wish.glossiness = std::min(wish.glossiness, 1 - kGrey);
+    }
+    convertSpecularGlossiness(specularGlossiness_, scene);
+  }
 
  private:
   void metallicRoughness(const Json& pbr, Material& m) {
@@ -56,16 +70,40 @@ class Reader {
     m.metallicRoughnessTexture = textures_.reference(pbr.find("metallicRoughnessTexture"));
   }
 
-  // A surface whose glow is a picture that cannot be shown stays dark: as bright as its factor would be far too bright.
+  void specularGlossiness(const Json& in, Material& m) {
+    if (const auto factor = in.find("diffuseFactor"); factor && factor->size() > 3) m.alpha = limitedTo(static_cast<float>((*factor)[3].number()), 0, 1);
+    m.baseColor = colour(in, "diffuseFactor", Vec3(1), 1);
+    m.baseColorTexture = textures_.reference(in.find("diffuseTexture"));
+    m.metallicRoughnessTexture = {};
+    SpecularGlossiness wish{.material = materials_};
+    wish.specular = colour(in, "specularFactor", Vec3(1), 1);
+    wish.glossiness = limited(in, "glossinessFactor", 1, 0, 1);
+    wish.texture = textures_.reference(in.find("specularGlossinessTexture"));
+    specularGlossiness_.push_back(wish);
+  }
+
+  // Numbers of textures to their indices, and what stands in for a picture that is lost.
+  static void settle(const std::vector<int>& indices, Material& m) {
+    const auto lost = [&](TextureRef& ref) {
+      if (ref.texture < 0) return false;
+      ref.texture = indices[static_cast<size_t>(ref.texture)];
+      if (ref.texture < 0) ref = {};
+      return ref.texture < 0;
+    };
+    if (lost(m.baseColorTexture)) m.baseColor *= kGrey;
+    if (lost(m.metallicRoughnessTexture)) m.metallic = 0;
+    if (lost(m.emissionTexture)) m.emission = Vec3(0);  // as bright as its factor would be far too bright
+    lost(m.normalTexture);
+    lost(m.transmissionTexture);
+  }
+
   void emission(const Json& in, Material& m) {
     m.emission = colour(in, "emissiveFactor", Vec3(0), kBrightest);
     if (const auto e = in.extension("KHR_materials_emissive_strength")) {
       m.emission *= limited(*e, "emissiveStrength", 1, 0, kBrightest);
       m.emission = min(m.emission, Vec3(kBrightest));
     }
-    const auto texture = in.find("emissiveTexture");
-    m.emissionTexture = textures_.reference(texture);
-    if (texture && m.emissionTexture.texture < 0) m.emission = Vec3(0);
+    m.emissionTexture = textures_.reference(in.find("emissiveTexture"));
   }
 
   void glass(const Json& in, Material& m) {
@@ -82,21 +120,22 @@ class Reader {
       m.thicknessM = limited(*e, "thicknessFactor", 0, 0, 1e6f);
       m.attenuationColor = colour(*e, "attenuationColor", Vec3(1), 1);
       m.attenuationDistanceM = e->number("attenuationDistance", kInfinity);
-      if (!(m.attenuationDistanceM > 0)) e->at("attenuationDistance").fail("must be above 0");
+      if (!(m.attenuationDistanceM > 0)) m.attenuationDistanceM = limitedTo(m.attenuationDistanceM, kInfinity, kInfinity);
       ignore(*e, "thicknessTexture");
     }
   }
 
-  // Takes no light, shows its colour: glows with it and reflects nothing.
+  // Files for the web bake their light into such surfaces; here they take the scene's light instead, as paint of that colour.
   void unlit(Material& m) {
-    m.emission = m.baseColor * kUnlitWhiteCdM2;
-    m.emissionTexture = m.baseColorTexture;
-    m.baseColor = Vec3(0);
+    document_.warnings.add("materials that ask for no light (KHR_materials_unlit) are lit as matt ones of their colour");
     m.metallic = m.specular = 0;
+    m.roughness = 1;
+    m.metallicRoughnessTexture = {};
+    std::erase_if(specularGlossiness_, [&](const SpecularGlossiness& wish) { return wish.material == materials_; });
   }
 
   float limitedTo(float v, float low, float high) {
-    if (v < low || v > high) document_.warnings.add("values of materials outside their range are limited to it");
+    if (v < low || v > high) document_.warnings.mended("values of materials outside their range are limited to it");
     return std::clamp(v, low, high);
   }
   float limited(const Json& in, const char* key, float fallback, float low, float high) { return limitedTo(in.number(key, fallback), low, high); }
@@ -110,6 +149,8 @@ class Reader {
 
   GltfDocument& document_;
   GltfTextures textures_;
+  std::vector<SpecularGlossiness> specularGlossiness_;
+  size_t materials_ = 0;  // read so far
 };
 
 }  // namespace

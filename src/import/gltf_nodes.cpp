@@ -19,53 +19,99 @@ class Walker {
   void walk() {
     visited_.resize(nodes_.size());
     const Json root = document_.root(), scenes = root.list("scenes");
-    if (scenes.size() == 0) return walkRoots();
-    if (scenes.size() > 1) document_.warnings.add("scenes other than the default one are ignored", scenes.size() - 1);
-    const int named = root.index("scene", scenes.size());
-    const Json list = scenes[static_cast<size_t>(std::max(0, named))].list("nodes");
-    for (size_t i = 0; i < list.size(); ++i) visit(list[i], {}, 0);
+    const int chosen = sceneOf(root, scenes);
+    if (chosen < 0) {
+      walkRoots();
+    } else {
+      if (scenes.size() > 1) document_.warnings.add("scenes other than the default one are ignored", scenes.size() - 1);
+      visitAll(scenes[static_cast<size_t>(chosen)].list("nodes"), {}, 0);
+    }
+    if (nodes_.size() == 0) placeAllMeshes();
   }
 
  private:
+  // The default scene, or the first that shows something; -1: none does.
+  int sceneOf(const Json& root, const Json& scenes) {
+    const int named = document_.looseIndex(root, "scene", scenes.size());
+    if (named >= 0 && scenes[static_cast<size_t>(named)].list("nodes").size() > 0) return named;
+    for (size_t i = 0; i < scenes.size(); ++i) {
+      if (scenes[i].list("nodes").size() > 0) return static_cast<int>(i);
+    }
+    return -1;
+  }
+
   // A file without a scene: every node that is nobody's child.
   void walkRoots() {
     std::vector<bool> isChild(nodes_.size());
     for (size_t i = 0; i < nodes_.size(); ++i) {
       const Json children = nodes_[i].list("children");
-      for (size_t k = 0; k < children.size(); ++k) isChild[static_cast<size_t>(children[k].index(nodes_.size()))] = true;
+      for (size_t k = 0; k < children.size(); ++k) {
+        if (const int child = indexOf(children[k]); child >= 0) isChild[static_cast<size_t>(child)] = true;
+      }
     }
     for (size_t i = 0; i < nodes_.size(); ++i) {
-      if (!isChild[i]) visitNode(static_cast<int>(i), nodes_[i], {}, 0);
+      if (!isChild[i]) visit(static_cast<int>(i), nodes_[i], {}, 0);
     }
   }
 
-  void visit(const Json& use, const Affine& worldFromParent, int depth) { visitNode(use.index(nodes_.size()), use, worldFromParent, depth); }
+  // A file of meshes without nodes.
+  void placeAllMeshes() {
+    for (size_t mesh = 0; mesh < primitivesOfMesh_.size(); ++mesh) {
+      place(document_.root().list("meshes")[mesh], static_cast<int>(mesh), {});
+      document_.warnings.add("meshes that no node places stand at the origin");
+    }
+  }
 
-  void visitNode(int index, const Json& use, const Affine& worldFromParent, int depth) {
-    if (visited_[static_cast<size_t>(index)]) use.fail(fmt::format("node {} has two parents or is its own ancestor", index));
+  // -1 where there is no such node.
+  int indexOf(const Json& use) const {
+    const double v = use.number();
+    return v >= 0 && v < static_cast<double>(nodes_.size()) ? use.index(nodes_.size()) : -1;
+  }
+
+  void visitAll(const Json& uses, const Affine& worldFromParent, int depth) {
+    for (size_t i = 0; i < uses.size(); ++i) {
+      const int index = indexOf(uses[i]);
+      if (index < 0) {
+        document_.warnings.add("references to things that do not exist are ignored");
+      } else if (visited_[static_cast<size_t>(index)]) {
+        document_.warnings.add("nodes with a second parent, or that are their own, keep the first");
+      } else {
+        visit(index, uses[i], worldFromParent, depth);
+      }
+    }
+  }
+
+  void visit(int index, const Json& use, const Affine& worldFromParent, int depth) {
     visited_[static_cast<size_t>(index)] = true;
     if (depth > kMaxDepth) use.fail(fmt::format("nodes are nested deeper than {} levels", kMaxDepth));
     const Json node = nodes_[static_cast<size_t>(index)];
+    if (const auto e = node.extension("KHR_node_visibility"); e && !e->boolean("visible", true)) {
+      document_.warnings.add("nodes that the file hides are left out with all below them");
+      return;
+    }
     const Affine world = worldFromParent * transformOf(node);
     if (!isFinite(world.x) || !isFinite(world.y) || !isFinite(world.z) || !isFinite(world.w)) node.fail("its transform is too large");
     if (world.determinant() == 0) {
-      document_.warnings.add("nodes scaled to nothing are left out with all below them");
+      document_.warnings.mended("nodes scaled to nothing are left out with all below them");
       return;
     }
     placeMesh(node, world);
     const Json cameras = document_.root().list("cameras");
-    if (const int camera = node.index("camera", cameras.size()); camera >= 0) {
-      scene_.cameras.push_back(readGltfCamera(cameras[static_cast<size_t>(camera)], node.name(), world));
+    if (const int camera = document_.looseIndex(node, "camera", cameras.size()); camera >= 0) {
+      if (auto read = readGltfCamera(cameras[static_cast<size_t>(camera)], node.name(), world)) {
+        scene_.cameras.push_back(std::move(*read));
+      } else {
+        document_.warnings.add("cameras that see nothing are left out");
+      }
     }
     if (const auto e = node.extension("KHR_lights_punctual")) addGltfLight(document_, *e, node.name(), world, scene_);
     addGltfLuminaire(document_, node, world, scene_);
-    const Json children = node.list("children");
-    for (size_t i = 0; i < children.size(); ++i) visit(children[i], world, depth + 1);
+    visitAll(node.list("children"), world, depth + 1);
   }
 
   void placeMesh(const Json& node, const Affine& world) {
     if (node.find("skin")) document_.warnings.add("skins are ignored, meshes keep their rest pose");
-    const int mesh = node.index("mesh", primitivesOfMesh_.size());
+    const int mesh = document_.looseIndex(node, "mesh", primitivesOfMesh_.size());
     if (mesh < 0) return;
     if (const auto e = node.extension("EXT_mesh_gpu_instancing")) {
       for (const Affine& placement : placements(*e)) place(node, mesh, world * placement);
@@ -75,8 +121,8 @@ class Walker {
   }
 
   void place(const Json& node, int mesh, const Affine& world) {
-    if (world.determinant() == 0) {
-      document_.warnings.add("instances scaled to nothing are left out");
+    if (world.determinant() == 0 || !isFinite(world.x) || !isFinite(world.y) || !isFinite(world.z) || !isFinite(world.w)) {
+      document_.warnings.mended("instances scaled to nothing are left out");
       return;
     }
     for (const int primitive : primitivesOfMesh_[static_cast<size_t>(mesh)]) {
@@ -107,7 +153,6 @@ class Walker {
     for (size_t i = 0; i < count.value_or(0); ++i) {
       const auto at = [&](size_t k, size_t c, float otherwise) { return values[k].empty() ? otherwise : values[k][i * (k == 1 ? 4 : 3) + c]; };
       const Quaternion q{at(1, 0, 0), at(1, 1, 0), at(1, 2, 0), at(1, 3, 1)};
-      if (!(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w > 1e-12)) attributes.at("ROTATION").fail(fmt::format("element {} is no rotation", i));
       out.push_back(composed({at(0, 0, 0), at(0, 1, 0), at(0, 2, 0)}, q, {at(2, 0, 1), at(2, 1, 1), at(2, 2, 1)}));
     }
     return out;

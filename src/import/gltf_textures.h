@@ -14,32 +14,32 @@ class GltfTextures {
  public:
   explicit GltfTextures(GltfDocument& document) : document_(document) {}
 
-  // A material's texture info (index, texCoord, KHR_texture_transform); no texture where `info` is missing or where the
-  // picture or the set of coordinates cannot be honoured, which is then counted as a warning. Throws Failure.
+  // A material's texture info (index, texCoord, KHR_texture_transform). Its `texture` is a number that decode() tells the meaning of; -1
+  // where `info` is missing. What cannot be honoured is counted as a warning. Throws Failure.
   TextureRef reference(const std::optional<Json>& info);
 
-  // Decodes all pictures that were referred to and appends the textures to the scene, in the order of the indices that
-  // reference() gave.
-  void decode(Scene& scene);
+  // Decodes all pictures that were referred to and appends the textures to the scene. Returns, for each number that reference() gave, the
+  // index of its texture in the scene; -1 where the picture is missing, damaged or of an unknown kind, which is counted as a warning.
+  std::vector<int> decode(Scene& scene);
 
  private:
   struct Use {
-    int image = 0;
+    int image = -1;
     Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
     auto operator<=>(const Use&) const = default;
   };
-  struct Picture {
-    std::span<const uint8_t> bytes;
-    bool honoured = true;
-  };
   int imageOf(const Json& texture);
-  Picture& open(int image);
+  Wrap wrapOf(const Json& sampler, const char* key);
+  std::span<const uint8_t> open(int image);
+  std::optional<Bytes> bytesOf(const Json& uri);
+  std::string nameOf(int image) const;
 
   GltfDocument& document_;
-  std::map<Use, int> indices_;
+  std::map<Use, int> numbers_;
   std::vector<Use> uses_;
-  std::map<int, Picture> pictures_;
+  std::map<int, std::span<const uint8_t>> pictures_;  // no bytes: missing or of an unknown kind
   std::vector<std::unique_ptr<Bytes>> storage_;
+  Listed missing_;
 };
 
 }  // namespace roomlight::importers

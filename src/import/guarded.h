@@ -8,9 +8,17 @@
 
 #include "import/failure.h"
 #include "import/import.h"
+#include "import/warnings.h"
 #include "scene/validate.h"
 
 namespace roomlight::importers {
+
+inline Imported importedScene(Scene scene, const Warnings& warnings) {
+  Imported imported;
+  imported.scene = std::move(scene), imported.warnings = warnings.lines();
+  imported.faults = warnings.faults().lines(), imported.faultCount = warnings.faults().total();
+  return imported;
+}
 
 // `read` returns an Imported or throws; its scene is validated.
 template <class Read>

@@ -2,56 +2,53 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
+#include "import/failure.h"
+#include "import/foreign_import.h"
+#include "import/scene_kind.h"
+#include "import/scene_package.h"
+#include "scene/scale.h"
 
 namespace roomlight {
 namespace {
 
 constexpr float kFarthestM = 1e6f;  // no home is larger, and floats hold no detail there
 
-// Lengths into metres: placements, media, lamps and cameras. Meshes keep their own coordinates.
-void scaleToMetres(Scene& scene, float s) {
-  for (Instance& instance : scene.instances) {
-    Affine& m = instance.worldFromObject;
-    m = {m.x * s, m.y * s, m.z * s, m.w * s};
+}  // namespace
+
+namespace importers {
+
+Result<Imported> importFile(const std::filesystem::path& file, const ImportOptions& options) {
+  try {
+    switch (kindOf(file)) {
+      case SceneKind::Gltf: return importGltf(file, options);
+      case SceneKind::Sh3d: return importSh3d(file, options);
+      case SceneKind::Obj: return importObj(file, options);
+      case SceneKind::Fbx: return importForeign(file, AssimpFormat::Fbx, options);
+      case SceneKind::Collada: return importForeign(file, AssimpFormat::Collada, options);
+      case SceneKind::Studio3D: return importForeign(file, AssimpFormat::Studio3D, options);
+      case SceneKind::Ply: return importForeign(file, AssimpFormat::Ply, options);
+      case SceneKind::Stl: return importForeign(file, AssimpFormat::Stl, options);
+      case SceneKind::Sh3f: return importSh3f(file, options);
+      case SceneKind::Zip: break;
+    }
+  } catch (const std::exception& e) {
+    return Error{fmt::format("{}: {}", file.string(), printable(e.what(), 600))};
   }
-  for (Leaf& leaf : scene.leaves) leaf.hinge *= s, leaf.slideM *= s;
-  for (Camera& camera : scene.cameras) {
-    camera.worldFromCamera.w *= s;
-    camera.nearM *= s;
-    camera.yMagM *= s;
-  }
-  for (Room& room : scene.rooms) {
-    for (Vec2& corner : room.floor) corner = corner * s;
-    room.elevationM *= s, room.heightM *= s;
-  }
-  for (Material& material : scene.materials) {
-    material.thicknessM *= s;
-    material.attenuationDistanceM *= s;
-  }
-  for (Lamp& lamp : scene.lamps) {
-    lamp.position *= s;
-    lamp.widthM *= s;
-    lamp.heightM *= s;
-  }
+  if (!options.companionRoot.empty()) return Error{fmt::format("{}: is an archive in an archive or a folder; unpack it first", file.string())};
+  return importZip(file, options);
 }
 
-}  // namespace
+}  // namespace importers
+
+std::string supportedFiles() { return ".glb, .gltf, .obj, .fbx, .dae, .3ds, .ply, .stl, .sh3d or .sh3f, or a folder or .zip file with one"; }
 
 Result<Imported> importScene(const std::filesystem::path& file, const ImportOptions& options) {
   std::error_code code;
-  if (!std::filesystem::is_regular_file(file, code)) return Error{fmt::format("{}: no such file", file.string())};
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto import = extension == ".gltf" || extension == ".glb" ? importGltf
-                      : extension == ".obj"                       ? importObj
-                      : extension == ".sh3d"                      ? importSh3d
-                      : extension == ".sh3f"                      ? importSh3f
-                                                                  : nullptr;
-  if (!import) return Error{fmt::format("{}: unknown kind of file '{}'; use .gltf, .glb, .obj, .sh3d or .sh3f", file.string(), extension)};
-  Result<Imported> imported = import(file, options);
-  if (imported && options.metresPerUnit != 1) scaleToMetres(imported.value().scene, options.metresPerUnit);
+  const bool folder = std::filesystem::is_directory(file, code);
+  if (!folder && !std::filesystem::is_regular_file(file, code)) return Error{fmt::format("{}: no such file", file.string())};
+  if (options.upAxis && *options.upAxis != 'x' && *options.upAxis != 'y' && *options.upAxis != 'z') return Error{"the axis that points up is x, y or z"};
+  Result<Imported> imported = folder ? importers::importFolder(file, options) : importers::importFile(file, options);
+  if (imported && options.metresPerUnit != 1) scaleScene(imported.value().scene, options.metresPerUnit);
   if (imported) {
     const Scene& scene = imported.value().scene;
     Bounds3 bounds = scene.bounds();

@@ -5,6 +5,8 @@
 //     "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" | "horizontalIlluminance": "10 klx" },
 //     "daylight": { "sky": "clear"|"intermediate"|"overcast"|1..16|"perez", "latitude", "longitude", "time", .. },
 //     "own": [ { "name", "number", "dimming": 0..1, "factor", .. } ],
+//     "metresPerUnit": number, the scene's unit that places are meant for (home/open_home),
+//     "ground": { "elevation": y, "centre": [x,z], "radius": r, "reflectance": 0..1 },
 //     "glazing": [ { "material": "Glass", "panes": 2, "internalTransmittance": 0.96, "ior": 1.52 } ] }
 #include "import/lighting_file.h"
 
@@ -16,6 +18,7 @@
 #include "import/json_file.h"
 #include "import/lighting_daylight.h"
 #include "import/lighting_glazing.h"
+#include "import/lighting_ground.h"
 #include "import/lighting_lamps.h"
 #include "import/lighting_own.h"
 #include "import/lighting_sky.h"
@@ -57,6 +60,7 @@ struct Lighting {
   std::vector<Lamp> lamps;
   std::vector<Sun> suns;
   std::optional<Sky> sky;
+  std::optional<Ground> ground;
   std::vector<GlazedMaterial> glazing;
   std::vector<OwnLamp> own;
   std::vector<std::string> warnings;
@@ -64,7 +68,7 @@ struct Lighting {
 
 Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder, PhotometricFiles& files) {
   Lighting out;
-  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight", "glazing", "own"})) return out;
+  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight", "ground", "glazing", "own", "metresPerUnit"})) return out;
   if (root.has("version") && root["version"].number(1, 1e6) != 1) root["version"].fail("must be 1");
   if (root.has("comment")) root["comment"].text();
   if (root.has("scene")) out.kept = readKept(root["scene"]);
@@ -88,6 +92,8 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
     out.suns.push_back(daylight.sun);
     out.sky = std::move(daylight.sky);
   }
+  if (root.has("metresPerUnit")) root["metresPerUnit"].number(1e-9, 1e6);
+  if (root.has("ground")) out.ground = readGround(root["ground"]);
   if (root.has("glazing")) out.glazing = readGlazing(root["glazing"]);
   if (root.has("own")) out.own = readOwnLamps(root["own"]);
   return out;
@@ -111,6 +117,7 @@ void apply(Lighting& lighting, Scene& scene) {
   const size_t first = scene.lamps.size();
   scene.lamps.insert(scene.lamps.end(), lighting.lamps.begin(), lighting.lamps.end());
   addAreaLampMeshes(scene, first);
+  if (lighting.ground) addGround(*lighting.ground, scene);
   for (const Sun& sun : lighting.suns) {
     if (!isBlack(sun.illuminanceLux)) scene.suns.push_back(sun);
   }

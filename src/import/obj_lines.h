@@ -1,40 +1,41 @@
-// The lines of an OBJ file as a stream buffer: hands out one line at a time, so that a reader's callbacks know where they
-// are, and refuses damaged lines before anything parses them.
+// The lines of an OBJ file and the words in them.
 #pragma once
 
-#include <cstddef>
-#include <streambuf>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace roomlight::importers {
 
-class ObjLines : public std::streambuf {
+class ObjLines {
  public:
-  explicit ObjLines(std::string_view text) : rest_(text) {}
+  explicit ObjLines(std::string_view text);
 
-  size_t number() const { return number_; }                               // of the line handed out last, from 1
+  // The next line, without blanks at its ends; a backslash at its end joins the one after. It is good until the next call.
+  bool next(std::string_view& line);
+
+  size_t number() const { return number_; }  // of the line handed out last, from 1
   std::string place() const { return "line " + std::to_string(number_); }
-  const std::string& failure() const { return failure_; }                 // why reading stopped early, or empty
-  const std::vector<std::string>& libraries() const { return libraries_; }  // names after mtllib so far
-
-  size_t linesAndPoints() const { return linesAndPoints_; }  // elements that are no surfaces
-  size_t freeForm() const { return freeForm_; }              // curves and patches
-
- protected:
-  int_type underflow() override;
 
  private:
-  void takeLine();
-  void check();
+  std::string_view takePart(bool& joined);
 
   std::string_view rest_;
-  std::string line_;
+  std::string joined_;
   size_t number_ = 0, next_ = 1;
-  size_t linesAndPoints_ = 0, freeForm_ = 0;
-  std::vector<std::string> libraries_;
-  std::string failure_;
 };
+
+// Takes the first word off the text; empty at its end.
+std::string_view nextWord(std::string_view& text);
+
+// NaN where the word is no finite float. "+1", "1." and a decimal comma are numbers too.
+float objNumber(std::string_view word);
+
+// Which position, texture coordinate and normal: as the file counts them, from 1 or back from -1; 0: none.
+struct ObjCorner {
+  int64_t v = 0, vt = 0, vn = 0;
+};
+// "7", "7/1", "7//2", "7/1/2"; none where the word is something else.
+std::optional<ObjCorner> objCorner(std::string_view word);
 
 }  // namespace roomlight::importers

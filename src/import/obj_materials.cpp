@@ -3,15 +3,19 @@
 #include "import/obj_materials.h"
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#define TINYOBJLOADER_IMPLEMENTATION
+#include <tiny_obj_loader.h>
+
 #include "import/failure.h"
 #include "import/grey_material.h"
+#include "import/obj_lines.h"
 #include "import/obj_textures.h"
+#include "import/utf8_text.h"
 
 namespace roomlight::importers {
 namespace {
@@ -48,19 +52,74 @@ std::string withAllNumbers(const std::string& text) {
   return out;
 }
 
-void readLibrary(const ReadCompanion& companions, const std::string& name, Libraries& out, Warnings& warnings) {
-  const std::string place = fmt::format("mtllib '{}'", printable(name));
-  const std::optional<Bytes> bytes = companions(name, place);
-  if (!bytes) {
-    warnings.add(fmt::format("MTL file '{}' is missing, its materials are grey", printable(name)));
-    return;
+// Which materials say opacity as `d`, and which only as `Tr`.
+struct Opacities {
+  std::set<std::string> byD, byTr;
+};
+
+Opacities opacitiesOf(std::string_view text) {
+  Opacities out;
+  ObjLines lines(text);
+  std::string name;
+  for (std::string_view line; lines.next(line);) {
+    const std::string_view word = nextWord(line);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (word == "newmtl") name = line;
+    if (word == "d") out.byD.insert(name);
+    if (word == "Tr") out.byTr.insert(name);
   }
-  const std::string text(bytes->begin(), bytes->end());
+  for (const std::string& known : out.byD) out.byTr.erase(known);
+  return out;
+}
+
+// Nobody draws what cannot be seen. Where a material is wholly transparent by `Tr` alone, its exporter means opacity by it; where all of them are
+// by `d`, it means nothing.
+void mendOpacities(const Opacities& said, std::vector<tinyobj::material_t>& materials, size_t first, Warnings& warnings) {
+  const auto from = materials.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto byTr = [&](const tinyobj::material_t& m) { return said.byTr.contains(m.name); };
+  const bool swapped = std::any_of(from, materials.end(), [&](const tinyobj::material_t& m) { return byTr(m) && m.dissolve <= 0; });
+  const bool allUnseen = !said.byD.empty() && std::all_of(from, materials.end(), [&](const tinyobj::material_t& m) { return m.dissolve <= 0 && !byTr(m); });
+  for (auto m = from; m != materials.end(); ++m) {
+    if (swapped && byTr(*m)) {
+      m->dissolve = 1 - m->dissolve;
+      warnings.mended("Tr of an MTL file, by which materials would be invisible, is taken as their opacity");
+    } else if (allUnseen) {
+      m->dissolve = 1;
+      warnings.mended("d of an MTL file, by which all materials would be invisible, is ignored");
+    }
+  }
+}
+
+void readLibrary(const std::string& name, const Bytes& bytes, Libraries& out, Warnings& warnings) {
+  std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (raw.starts_with("\xef\xbb\xbf")) raw.remove_prefix(3);
+  const std::string text = asUtf8(raw);
   size_t count = 0;
   for (size_t at = text.find("newmtl"); at != std::string::npos && count <= kMaxMaterials; at = text.find("newmtl", at + 6)) ++count;
-  if (count > kMaxMaterials) fail(place, fmt::format("holds more than {} materials", kMaxMaterials));
+  if (count > kMaxMaterials) fail(fmt::format("mtllib '{}'", printable(name)), fmt::format("holds more than {} materials", kMaxMaterials));
   std::istringstream in(withAllNumbers(text));
+  const size_t first = out.materials.size();
   tinyobj::LoadMtl(&out.indices, &out.materials, &in, nullptr, nullptr);
+  mendOpacities(opacitiesOf(text), out.materials, first, warnings);
+}
+
+// A line may name one library with blanks in its name, or several.
+void readLibraries(const ReadCompanion& companions, const std::string& line, Libraries& out, Warnings& warnings) {
+  const auto read = [&](const std::string& name) {
+    const std::optional<Bytes> bytes = companions(name, fmt::format("mtllib '{}'", printable(name)));
+    if (bytes) readLibrary(name, *bytes, out, warnings);
+    return bytes.has_value();
+  };
+  if (read(line)) return;
+  const auto missing = [&](const std::string& name) { warnings.add(fmt::format("MTL file '{}' is missing, its materials are grey", printable(name))); };
+  std::vector<std::string> names;
+  std::string_view rest = line;
+  for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) names.emplace_back(word);
+  const bool several = std::count_if(names.begin(), names.end(), [](const std::string& n) { return n.ends_with(".mtl") || n.ends_with(".MTL"); }) > 1;
+  if (!several) return missing(line);
+  for (const std::string& name : names) {
+    if (!read(name)) missing(name);
+  }
 }
 
 class Translator {
@@ -70,10 +129,10 @@ class Translator {
   Material material(const tinyobj::material_t& in) {
     Material m;
     m.name = in.name;
-    place_ = fmt::format("material '{}'", printable(in.name));
     m.baseColor = colour(in.diffuse, "Kd", 1);
     if (isBlack(m.baseColor) && !in.diffuse_texname.empty()) m.baseColor = Vec3(1);  // "no factor" of some exporters
     m.baseColorTexture = reference(textures_.colourWithAlpha(in.diffuse_texname, in.alpha_texname, wrapOf(in.diffuse_texopt), scene_), in.diffuse_texopt);
+    if (m.baseColorTexture.texture < 0 && !in.diffuse_texname.empty()) m.baseColor = colourWithoutPicture(m.baseColor);
     m.alpha = limited(in.dissolve, 0, 1, "d");
     m.alphaMode = m.alpha < 1 || !in.alpha_texname.empty() ? AlphaMode::Blend : AlphaMode::Opaque;
     m.emission = colour(in.emission, "Ke", kBrightest);
@@ -107,8 +166,11 @@ class Translator {
   }
 
   float limited(float v, float low, float high, const char* key) {
-    if (!std::isfinite(v)) fail(place_, fmt::format("{} is not a finite number", key));
-    if (v < low || v > high) warnings_.add(fmt::format("{} of a material is outside {} to {} and limited", key, low, high));
+    if (!std::isfinite(v)) {
+      warnings_.mended(fmt::format("{} of a material is not a finite number and taken as {}", key, high < 2 ? high : 0));
+      return high < 2 ? high : 0;
+    }
+    if (v < low || v > high) warnings_.mended(fmt::format("{} of a material is outside {} to {} and limited", key, low, high));
     return std::clamp(v, low, high);
   }
   Vec3 colour(const float (&v)[3], const char* key, float high) {
@@ -142,7 +204,6 @@ class Translator {
   ObjTextures& textures_;
   Scene& scene_;
   Warnings& warnings_;
-  std::string place_;
 };
 
 std::set<std::string> picturesOf(const std::vector<const tinyobj::material_t*>& used) {
@@ -161,7 +222,7 @@ std::set<std::string> picturesOf(const std::vector<const tinyobj::material_t*>& 
 void addObjMaterials(const ReadCompanion& companions, const std::vector<std::string>& libraries, const std::vector<std::string>& names,
                      Scene& scene, Warnings& warnings) {
   Libraries read;
-  for (const std::string& library : libraries) readLibrary(companions, library, read, warnings);
+  for (const std::string& library : libraries) readLibraries(companions, library, read, warnings);
   std::vector<const tinyobj::material_t*> used;
   for (const std::string& name : names) {
     const auto it = read.indices.find(name);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
 #include "import/failure.h"
 #include "import/pictures.h"
 
@@ -33,7 +34,7 @@ ObjTextures::ObjTextures(const ReadCompanion& companions, const std::set<std::st
   for (const std::string& name : names) {
     std::optional<Bytes> bytes = companions(name, fmt::format("picture '{}'", printable(name)));
     if (!bytes) {
-      warnings.add("pictures that MTL files name are missing");
+      warnings.add("pictures are missing, a plain colour stands in their place");
       continue;
     }
     if (const auto kind = undecodable(*bytes)) {
@@ -44,9 +45,26 @@ ObjTextures::ObjTextures(const ReadCompanion& companions, const std::set<std::st
     files.push_back(std::move(*bytes));
   }
   std::vector<PictureJob> jobs;
-  for (size_t i = 0; i < found.size(); ++i) jobs.push_back({fmt::format("picture '{}'", printable(found[i])), files[i]});
-  std::vector<Texture> textures = decodePictures(jobs, warnings);
-  for (size_t i = 0; i < found.size(); ++i) pictures_.emplace(found[i], std::move(textures[i]));
+  size_t pixels = 0;
+  for (size_t i = 0; i < found.size(); ++i) {
+    jobs.push_back({fmt::format("picture '{}'", printable(found[i])), files[i]});
+    pixels += claimedPixels(files[i]);
+  }
+  if (pixels > kMaxAllPixels) fail("", fmt::format("the pictures together have more than {} pixels", kMaxAllPixels));
+  // Each by itself, so that a damaged one costs no more than itself.
+  std::vector<std::optional<Texture>> textures(jobs.size());
+  std::vector<Warnings> said(jobs.size());
+  parallelFor(jobs.size(), 1, [&](size_t i) {
+    try {
+      textures[i] = std::move(decodePictures({jobs[i]}, said[i])[0]);
+    } catch (const Failure& failure) {
+      said[i].add(fmt::format("{}; a plain colour stands in its place", printable(failure.what(), 200)));
+    }
+  });
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    warnings.add(said[i]);
+    if (textures[i]) pictures_.emplace(found[i], std::move(*textures[i]));
+  }
 }
 
 const Texture* ObjTextures::find(const std::string& name) const {

@@ -19,6 +19,7 @@
 
 #include "base/image_formats.h"
 #include "import/failure.h"
+#include "import/ktx2.h"
 #include "import/parallel_failures.h"
 
 namespace roomlight::importers {
@@ -30,6 +31,7 @@ enum class Format {
   Png,
   Jpeg,
   WebP,
+  Ktx2,
   Bmp,
   Tga,
   Unknown,
@@ -43,6 +45,7 @@ Format formatOf(ByteView bytes) {
   if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return Format::Png;
   if (startsWith(bytes, "\xff\xd8\xff")) return Format::Jpeg;
   if (startsWith(bytes, "RIFF") && startsWith(bytes, "WEBP", 8)) return Format::WebP;
+  if (isKtx2(bytes)) return Format::Ktx2;
   if (startsWith(bytes, "BM")) return Format::Bmp;
   int w = 0, h = 0, n = 0;
   // TGA has no magic number: believed only when its header makes sense.
@@ -57,6 +60,7 @@ struct Header {
   int width = 0, height = 0;
   int jpegColours = 0;
   formats::PngSize png;
+  Ktx2Header ktx2;
 };
 
 Header readHeader(ByteView bytes) {
@@ -79,8 +83,12 @@ Header readHeader(ByteView bytes) {
     case Format::WebP:
       fine = WebPGetInfo(bytes.data(), bytes.size(), &h.width, &h.height) != 0;
       break;
+    case Format::Ktx2:
+      h.ktx2 = readKtx2Header(bytes);
+      h.width = h.ktx2.width, h.height = h.ktx2.height;
+      break;
     case Format::Unknown:
-      fail("", "is no PNG, JPEG, WebP, BMP or TGA picture");
+      fail("", "is no PNG, JPEG, WebP, KTX2, BMP or TGA picture");
     default:
       fine = stbi_info_from_memory(bytes.data(), size, &h.width, &h.height, &channels) != 0;
   }
@@ -90,7 +98,7 @@ Header readHeader(ByteView bytes) {
 
 // Most pixels that a picture can hold in so many bytes: what claims more is cut off or a bomb. PNG: deflate reaches
 // 1:1032. JPEG: end-of-band runs of 8x8 blocks. TGA: runs of 128 pixels in two bytes. BMP: one bit.
-// A plain WebP picture of any size takes a few bytes, so it gets a flat allowance.
+// A WebP or KTX2 picture of one colour takes a few bytes whatever its size, so these get a flat allowance.
 size_t mostPixels(const Header& h, size_t bytes) {
   switch (h.format) {
     case Format::Png: return bytes * 1040 * 8 / static_cast<size_t>(h.png.bitsPerPixel);
@@ -156,6 +164,10 @@ Texture decode(ByteView bytes, const Header& h, std::string& complaint) {
     t.rgba = formats::readPngTexels(bytes, h.png);
     return t;
   }
+  if (h.format == Format::Ktx2) {
+    t.rgba = decodeKtx2(h.ktx2);
+    return t;
+  }
   t.rgba.resize(static_cast<size_t>(h.width) * static_cast<size_t>(h.height) * 4);
   if (h.format == Format::Jpeg) {
     complaint = decodeJpeg(bytes, h, t.rgba);
@@ -167,21 +179,23 @@ Texture decode(ByteView bytes, const Header& h, std::string& complaint) {
   return t;
 }
 
-// Runs `work`; what it throws becomes a failure at `place`.
+// Runs `work`; returns what it throws, empty: nothing.
 template <class Work>
-void at(const std::string& place, Work&& work) {
+std::string failureOf(Work&& work) {
   try {
     work();
+    return {};
   } catch (const std::exception& e) {
-    fail(place, printable(e.what(), 300));
+    return printable(e.what(), 300);
   }
 }
 
 }  // namespace
 
 std::optional<std::string> undecodable(ByteView bytes) {
-  if (formatOf(bytes) != Format::Unknown) return std::nullopt;
-  if (startsWith(bytes, "\xabKTX 20\xbb")) return "KTX2 (Basis Universal)";
+  const Format format = formatOf(bytes);
+  if (format == Format::Ktx2) return undecodableKtx2(bytes);
+  if (format != Format::Unknown) return std::nullopt;
   if (startsWith(bytes, "DDS ")) return "DDS";
   if (startsWith(bytes, "GIF8")) return "GIF";
   if (startsWith(bytes, "II*") || startsWith(bytes, std::string_view("MM\0*", 4))) return "TIFF";
@@ -197,23 +211,34 @@ size_t claimedPixels(ByteView bytes) {
   }
 }
 
-std::vector<Texture> decodePictures(const std::vector<PictureJob>& jobs, Warnings& warnings) {
+std::vector<DecodedPicture> tryPictures(const std::vector<PictureJob>& jobs, Warnings& warnings) {
   std::vector<Header> headers(jobs.size());
+  std::vector<DecodedPicture> out(jobs.size());
   size_t pixels = 0;
   for (size_t i = 0; i < jobs.size(); ++i) {
-    at(jobs[i].place, [&] {
+    out[i].failure = failureOf([&] {
       headers[i] = readHeader(jobs[i].bytes);
-      pixels += checkedPixels(headers[i], jobs[i].bytes.size());
-      if (pixels > kMaxAllPixels) fail("", fmt::format("all pictures together have more than {} pixels", kMaxAllPixels));
+      const size_t more = checkedPixels(headers[i], jobs[i].bytes.size());
+      if (pixels + more > kMaxAllPixels) fail("", fmt::format("all pictures together have more than {} pixels", kMaxAllPixels));
+      pixels += more;
     });
   }
-  std::vector<Texture> textures(jobs.size());
   std::vector<std::string> complaints(jobs.size());
   parallelOrFail(jobs.size(), [&](size_t i) {
-    at(jobs[i].place, [&] { textures[i] = decode(jobs[i].bytes, headers[i], complaints[i]); });
+    if (out[i].failure.empty()) out[i].failure = failureOf([&] { out[i].texture = decode(jobs[i].bytes, headers[i], complaints[i]); });
   });
   for (const std::string& complaint : complaints) {
     if (!complaint.empty()) warnings.add("damaged JPEG pictures are shown as far as they could be read");
+  }
+  return out;
+}
+
+std::vector<Texture> decodePictures(const std::vector<PictureJob>& jobs, Warnings& warnings) {
+  std::vector<DecodedPicture> pictures = tryPictures(jobs, warnings);
+  std::vector<Texture> textures;
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    if (!pictures[i].failure.empty()) fail(jobs[i].place, pictures[i].failure);
+    textures.push_back(std::move(pictures[i].texture));
   }
   return textures;
 }

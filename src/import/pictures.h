@@ -1,4 +1,4 @@
-// Decodes textures: PNG, JPEG, WebP, BMP and TGA from memory to 8-bit RGBA, several at a time.
+// Decodes textures: PNG, JPEG, WebP, KTX2, BMP and TGA from memory to 8-bit RGBA, several at a time.
 #pragma once
 
 #include <optional>
@@ -22,15 +22,22 @@ struct PictureJob {
   std::span<const uint8_t> bytes;
 };
 
-// The kind of a picture file that cannot be decoded here ("KTX2 (Basis Universal)", "AVIF", ...); none where it can.
+// The kind of a picture file that cannot be decoded here ("DDS", "AVIF", ...); none where it can.
 std::optional<std::string> undecodable(std::span<const uint8_t> bytes);
 
 // Pixels that the picture's header claims; 0 where it is no picture, or damaged.
 size_t claimedPixels(std::span<const uint8_t> bytes);
 
-// Textures without names and wrap modes, in the order of the jobs. Throws Failure that names the place of the first job that
-// fails: damaged, or beyond a limit. Sizes are checked against the number of bytes before anything is allocated. What a
-// decoder complained about although it could go on is counted in `warnings`.
+struct DecodedPicture {
+  Texture texture;      // without name and wrap modes; empty where it failed
+  std::string failure;  // what is wrong with it: damaged, or beyond a limit
+};
+
+// In the order of the jobs. Sizes are checked against the number of bytes before anything is allocated. What a decoder complained
+// about although it could go on is counted in `warnings`.
+std::vector<DecodedPicture> tryPictures(const std::vector<PictureJob>& jobs, Warnings& warnings);
+
+// The same; throws Failure that names the place of the first job that fails.
 std::vector<Texture> decodePictures(const std::vector<PictureJob>& jobs, Warnings& warnings);
 
 }  // namespace roomlight::importers

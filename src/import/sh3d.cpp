@@ -21,14 +21,16 @@ Imported readSh3d(const std::filesystem::path& file, const ImportOptions& option
   warnings.add("entries whose names lead out of the file are left out", archive.refused());
   const auto xml = archive.read("Home.xml");
   if (!xml) {
-    fail("", archive.has("Home") ? "holds no Home.xml, as files of before Sweet Home 3D 5.3; open it in Sweet Home 3D 5.3 or later and save it again"
+    fail("", archive.has("Home") ? "is of before Sweet Home 3D 5.3 and holds no Home.xml; open it in Sweet Home 3D 5.3 or newer and save it again"
                                  : "holds no Home.xml, so it is no home of Sweet Home 3D");
   }
   const Home home = readHomeXml(*xml, warnings);
   const ContentDigests digests(archive, warnings);
   std::string daylight;
   Scene scene = sceneOfHome(home, archive, digests, options, warnings, daylight);
-  return {std::move(scene), warnings.lines(), home.environment.photo, std::move(daylight)};
+  Imported imported = importedScene(std::move(scene), warnings);
+  imported.photo = home.environment.photo, imported.daylight = std::move(daylight);
+  return imported;
 }
 
 }  // namespace

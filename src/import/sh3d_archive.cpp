@@ -102,6 +102,16 @@ Archive::~Archive() = default;
 
 bool Archive::has(std::string_view name) const { return indexOf(name).has_value(); }
 
+size_t Archive::sizeOf(std::string_view name) const {
+  const auto index = indexOf(name);
+  if (!index) return 0;
+  Zip zip = state_->take();
+  zip_stat_t stat;
+  const bool known = zip_stat_index(zip.get(), *index, 0, &stat) == 0 && (stat.valid & ZIP_STAT_SIZE);
+  state_->giveBack(std::move(zip));
+  return known ? static_cast<size_t>(stat.size) : 0;
+}
+
 std::vector<std::string> Archive::namesIn(std::string_view folder) const {
   std::vector<std::string> names;
   for (auto it = state_->entries.lower_bound(folder); it != state_->entries.end() && it->first.starts_with(folder); ++it) names.push_back(it->first);
@@ -110,13 +120,7 @@ std::vector<std::string> Archive::namesIn(std::string_view folder) const {
 
 std::optional<uint64_t> Archive::indexOf(std::string_view name) const {
   auto it = state_->entries.find(name);
-  if (it == state_->entries.end() && name.find('%') != std::string_view::npos) {
-    try {
-      it = state_->entries.find(percentDecode(name, ""));
-    } catch (const Failure&) {
-      return {};  // no escapes, and no such entry
-    }
-  }
+  if (it == state_->entries.end() && name.find('%') != std::string_view::npos) it = state_->entries.find(percentDecode(name));
   return it == state_->entries.end() ? std::nullopt : std::optional<uint64_t>(it->second);
 }
 

@@ -37,6 +37,7 @@ class Archive {
   const std::vector<std::string>& names() const { return names_; }
   size_t refused() const { return refused_; }
   bool has(std::string_view name) const;
+  size_t sizeOf(std::string_view name) const;  // unpacked, as the archive claims; 0 where it does not say
   std::vector<std::string> namesIn(std::string_view folder) const;  // that begin with it ("3/"), sorted
 
   // The unpacked entry; none where there is no such entry. A name with percent escapes also means the entry of the name without them. Throws

@@ -60,7 +60,7 @@ std::vector<Affine> poses(const Piece& piece, const std::vector<const Mesh*>& me
     for (size_t i = 0; i < meshes.size(); ++i) {
       if (moves(t.name, meshes[i]->name)) out[i] = fromRows(t.rows) * out[i], moved = true;
     }
-    if (!moved) warnings.add("transformations of parts that the model does not name are left out");
+    if (!moved) warnings.mended("transformations of parts that the model does not name are left out");
   }
   return out;
 }
@@ -98,7 +98,7 @@ class Placer {
     const std::vector<Affine> posed = poses(p, meshes, warnings_);
     const Affine worldFrom = worldFromModel(home_, p, meshes, posed);
     if (!(std::abs(worldFrom.determinant()) > 0)) {
-      warnings_.add("pieces without height, width or depth are left out");
+      warnings_.mended("pieces without height, width or depth are left out");
       return;
     }
     const std::vector<int> leaves = leavesOf(p, meshes, posed, worldFrom);

@@ -189,7 +189,7 @@ void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effor
   for (const Room& room : home.rooms) {
     if (!isShown(home, room.level)) continue;
     if (room.points.size() < 3 || std::abs(signedAreaOf(room.points)) < 1) {
-      warnings.add("rooms without area are left out");
+      warnings.mended("rooms without area are left out");
       continue;
     }
     const auto [entry, isNew] = corners.try_emplace(room.level);

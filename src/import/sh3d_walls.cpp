@@ -210,7 +210,7 @@ void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Effor
     const Wall& w = home.walls[i];
     if (!isShown(home, w.level)) continue;
     if (outlines[i].left.empty()) {
-      warnings.add("walls without length are left out");
+      warnings.mended("walls without length are left out");
       continue;
     }
     const WallHeights h = heightsOf(home, w, outlines[i]);

@@ -174,7 +174,7 @@ class Reader {
     const auto find = [&](const std::string& id) {
       if (id.empty()) return -1;
       const auto it = wallIds_.find(id);
-      if (it == wallIds_.end()) warnings_.add("walls are joined to walls that do not exist");
+      if (it == wallIds_.end()) warnings_.mended("walls are joined to walls that do not exist");
       return it == wallIds_.end() ? -1 : it->second;
     };
     for (size_t i = 0; i < home_.walls.size(); ++i) home_.walls[i].atStart = find(joins_[i].first), home_.walls[i].atEnd = find(joins_[i].second);

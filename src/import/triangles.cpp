@@ -8,7 +8,7 @@ constexpr double kSmallest = 1e-24;
 
 }  // namespace
 
-void dropDegenerate(Mesh& mesh) {
+size_t dropDegenerate(Mesh& mesh) {
   size_t kept = 0;
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     const uint32_t a = mesh.indices[t], b = mesh.indices[t + 1], c = mesh.indices[t + 2];
@@ -18,7 +18,29 @@ void dropDegenerate(Mesh& mesh) {
     if (x * x + y * y + z * z < kSmallest * kSmallest) continue;
     mesh.indices[kept++] = a, mesh.indices[kept++] = b, mesh.indices[kept++] = c;
   }
+  const size_t dropped = (mesh.indices.size() - kept) / 3;
   mesh.indices.resize(kept);
+  return dropped;
+}
+
+size_t dropInfinite(Mesh& mesh) {
+  constexpr float kFarthest = 1e12f;
+  std::vector<bool> bad(mesh.positions.size());
+  bool any = false;
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    Vec3& p = mesh.positions[i];
+    if (isFinite(p) && maxComponent(abs(p)) <= kFarthest) continue;
+    p = {}, bad[i] = any = true;
+  }
+  if (!any) return 0;
+  size_t kept = 0;
+  for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    if (bad[mesh.indices[t]] || bad[mesh.indices[t + 1]] || bad[mesh.indices[t + 2]]) continue;
+    for (size_t k = 0; k < 3; ++k) mesh.indices[kept++] = mesh.indices[t + k];
+  }
+  const size_t dropped = (mesh.indices.size() - kept) / 3;
+  mesh.indices.resize(kept);
+  return dropped;
 }
 
 }  // namespace roomlight::importers

@@ -1,4 +1,5 @@
-// What a file asks for and an importer cannot honour: one line for each kind, with how often it occurred.
+// What an importer says about a file: one line for each kind, with how often it occurred. Warnings are what somebody must know: what the file
+// asks for and the scene does not have. Faults are small things that were mended and that nobody sees.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +9,10 @@
 
 namespace roomlight::importers {
 
-class Warnings {
+// Kinds in the order they were met.
+class CountedKinds {
  public:
-  void add(const std::string& kind, size_t times = 1) {
+  void add(const std::string& kind, size_t times) {
     for (auto& [known, count] : kinds_) {
       if (known == kind) {
         count += times;
@@ -19,7 +21,7 @@ class Warnings {
     }
     if (times > 0) kinds_.emplace_back(kind, times);
   }
-  void add(const Warnings& others) {
+  void add(const CountedKinds& others) {
     for (const auto& [kind, count] : others.kinds_) add(kind, count);
   }
   std::vector<std::string> lines() const {
@@ -29,9 +31,42 @@ class Warnings {
     }
     return out;
   }
+  size_t total() const {
+    size_t sum = 0;
+    for (const auto& [kind, count] : kinds_) sum += count;
+    return sum;
+  }
 
  private:
-  std::vector<std::pair<std::string, size_t>> kinds_;  // in the order they were met
+  std::vector<std::pair<std::string, size_t>> kinds_;
+};
+
+class Warnings {
+ public:
+  void add(const std::string& kind, size_t times = 1) { warnings_.add(kind, times); }
+  void mended(const std::string& kind, size_t times = 1) { faults_.add(kind, times); }
+  void add(const Warnings& others) { warnings_.add(others.warnings_), faults_.add(others.faults_); }
+  std::vector<std::string> lines() const { return warnings_.lines(); }
+  const CountedKinds& faults() const { return faults_; }
+
+ private:
+  CountedKinds warnings_, faults_;
+};
+
+// Names for one warning: the first few, and how often all of them occurred.
+class Listed {
+ public:
+  void add(const std::string& name, size_t times = 1) {
+    if (named_ < 6) names_ += (named_ > 0 ? ", " : "") + name;
+    if (named_ == 6) names_ += ", ...";
+    ++named_;
+    times_ += times;
+  }
+  void addTo(Warnings& warnings, const std::string& what) const { warnings.add(what + names_, times_); }
+
+ private:
+  std::string names_;
+  size_t named_ = 0, times_ = 0;
 };
 
 }  // namespace roomlight::importers

@@ -73,7 +73,7 @@ TEST_F(GltfGeometry, instancingPlacesTheMeshManyTimes) {
   EXPECT_NE(imported.scene.instances[0].object, imported.scene.instances[1].object);
   expectNear(imported.scene.instances[0].worldFromObject.point({1, 0, 0}), {2, 0, 7});
   expectNear(imported.scene.instances[1].worldFromObject.point({1, 0, 0}), {0, 0, 7});  // turned by 180 degrees
-  EXPECT_EQ(imported.warnings.size(), 1u);
+  EXPECT_EQ(imported.faults.size(), 1u);
 }
 
 TEST_F(GltfGeometry, tinyTrianglesAreKeptForNodesToScaleUp) {

@@ -4,6 +4,7 @@
 #include <webp/encode.h>
 
 #include "unit/import/gltf_file.h"
+#include "unit/import/ktx2_file.h"
 #include "unit/temporary_folder.h"
 
 namespace roomlight {
@@ -64,13 +65,17 @@ TEST_F(GltfLook, materialFactorsAndExtensions) {
   EXPECT_TRUE(imported.warnings.empty());
 }
 
-TEST_F(GltfLook, unlitSurfacesGlowAndReflectNothing) {
-  material_["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 1};
+TEST_F(GltfLook, unlitSurfacesAreMattPaintOfTheirColour) {
+  material_["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1, 1};
   material_["extensions"]["KHR_materials_unlit"] = json::object();
-  const Material m = read().scene.materials.at(0);
-  EXPECT_EQ(m.emission, Vec3(100));
-  EXPECT_EQ(m.baseColor, Vec3(0));
+  const Imported imported = read();
+  const Material& m = imported.scene.materials.at(0);
+  EXPECT_EQ(m.emission, Vec3(0));
+  EXPECT_EQ(m.baseColor, Vec3(0.5f, 0.25f, 1));
+  EXPECT_EQ(m.metallic, 0);
   EXPECT_EQ(m.specular, 0);
+  ASSERT_EQ(imported.warnings.size(), 1u);
+  EXPECT_NE(imported.warnings[0].find("KHR_materials_unlit"), std::string::npos);
 }
 
 TEST_F(GltfLook, texturesOfEveryUse) {
@@ -151,18 +156,49 @@ TEST_F(GltfLook, picturesBesideTheFileAreFoundByTheirEscapedName) {
   EXPECT_EQ(read().scene.textures.at(0).rgba, (std::vector<uint8_t>{0, 0, 0, 255}));
 }
 
-TEST_F(GltfLook, basisPicturesAreAWarningAndTheirGlowStaysDark) {
-  file_.json["images"] = {{{"bufferView", file_.addView("\xabKTX 20\xbb\r\n\x1a\n and more")}}};
+TEST_F(GltfLook, basisPicturesAreDecoded) {
+  testing::Ktx2File picture{.width = 1, .height = 1};
+  picture.level = testing::BitWriter().put(0x17, 5).put(10, 8).put(20, 8).put(30, 8).put(40, 8).block();
+  file_.json["images"] = {{{"bufferView", file_.addView(picture.bytes())}, {"mimeType", "image/ktx2"}}};
   file_.json["textures"] = {{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
   file_.json["extensionsRequired"] = {"KHR_texture_basisu"};
   material_["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
-  material_["emissiveTexture"] = {{"index", 0}};
-  material_["emissiveFactor"] = {1, 1, 1};
   const Imported imported = read();
-  EXPECT_EQ(imported.scene.materials.at(0).baseColorTexture.texture, -1);
-  EXPECT_TRUE(isBlack(imported.scene.materials.at(0).emission));
+  EXPECT_EQ(imported.scene.textures.at(0).rgba, (std::vector<uint8_t>{10, 20, 30, 40}));
+  EXPECT_TRUE(imported.warnings.empty());
+}
+
+TEST_F(GltfLook, materialsOfPicturesThatCannotBeDecodedAreNeutral) {
+  file_.json["images"] = {{{"bufferView", file_.addView("DDS and more")}}};
+  file_.json["textures"] = {{{"extensions", {{"MSFT_texture_dds", {{"source", 0}}}}}}};
+  file_.json["extensionsRequired"] = {"MSFT_texture_dds"};
+  const json info = {{"index", 0}};
+  material_ = {{"pbrMetallicRoughness", {{"baseColorTexture", info}, {"metallicRoughnessTexture", info}}}, {"normalTexture", info}, {"emissiveTexture", info}, {"emissiveFactor", {1, 1, 1}}};
+  const Imported imported = read();
+  const Material& m = imported.scene.materials.at(0);
+  for (const TextureRef& ref : {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture}) EXPECT_EQ(ref.texture, -1);
+  EXPECT_EQ(m.baseColor, Vec3(0.6f));
+  EXPECT_EQ(m.metallic, 0);
+  EXPECT_TRUE(isBlack(m.emission));
   ASSERT_EQ(imported.warnings.size(), 1u);
-  EXPECT_NE(imported.warnings[0].find("KTX2 (Basis Universal)"), std::string::npos);
+  EXPECT_NE(imported.warnings[0].find("kind DDS"), std::string::npos);
+}
+
+TEST_F(GltfLook, picturesOfOtherKindsHaveTheirFallback) {
+  addTexture(testing::pngOf(1, 1, 1));
+  file_.json["images"].push_back({{"bufferView", file_.addView("....ftypavif....")}});
+  file_.json["textures"][0]["extensions"]["EXT_texture_avif"] = {{"source", 1}};
+  material_["normalTexture"] = {{"index", 0}};
+  const Imported imported = read();
+  EXPECT_EQ(imported.scene.textures.size(), 1u);
+  EXPECT_TRUE(imported.warnings.empty());
+}
+
+TEST_F(GltfLook, refinementsOfMaterialsAreOneWarning) {
+  material_["extensions"] = {{"KHR_materials_clearcoat", json::object()}, {"KHR_materials_sheen", json::object()}};
+  file_.json["extensionsRequired"] = {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_animation_pointer"};
+  const Imported imported = read();
+  EXPECT_EQ(imported.warnings, (std::vector<std::string>{"looks that are not supported show as their base material: KHR_materials_clearcoat, KHR_materials_sheen (2 times)"}));
 }
 
 TEST_F(GltfLook, lightsAndCameras) {
@@ -212,12 +248,13 @@ TEST_F(GltfLook, eachKindThatCannotBeHonouredIsOneWarningWithItsCount) {
   file_.node()["scale"] = {1, 1, 1};
   file_.json["nodes"].push_back({{"scale", {0, 1, 1}}, {"mesh", 0}});
   file_.json["scenes"][0]["nodes"].push_back(1);
-  const std::vector<std::string> warnings = read().warnings;
-  const char* expected[] = {"KHR_materials_clearcoat is not supported and ignored (once)", "animations are ignored, things stay where their nodes put them (2 times)",
+  const Imported imported = read();
+  const char* expected[] = {"looks that are not supported show as their base material: KHR_materials_clearcoat (once)", "animations are ignored, things stay where their nodes put them (2 times)",
                             "morph targets are ignored, meshes keep their base shape (once)", "points and lines are ignored (2 times)",
-                            "scenes other than the default one are ignored (once)", "skins are ignored, meshes keep their rest pose (once)",
-                            "nodes scaled to nothing are left out with all below them (once)"};
-  EXPECT_EQ(warnings, std::vector<std::string>(std::begin(expected), std::end(expected)));
+                            "scenes other than the default one are ignored (once)", "skins are ignored, meshes keep their rest pose (once)"};
+  EXPECT_EQ(imported.warnings, std::vector<std::string>(std::begin(expected), std::end(expected)));
+  EXPECT_EQ(imported.faults, std::vector<std::string>{"nodes scaled to nothing are left out with all below them (once)"});
+  EXPECT_EQ(imported.faultCount, 1u);
 }
 
 }  // namespace

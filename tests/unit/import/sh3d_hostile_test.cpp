@@ -26,7 +26,7 @@ TEST(HostileSh3d, whatIsNoHomeSaysSo) {
   expectRefused("", "holds no Home.xml");
   expectRefused("hello", "no zip file");
   expectRefused(zipped({{"readme.txt", "x"}}), "holds no Home.xml");
-  expectRefused(zipped({{"Home", "\xac\xed"}}), "open it in Sweet Home 3D 5.3 or later and save it again");
+  expectRefused(zipped({{"Home", "\xac\xed"}}), "open it in Sweet Home 3D 5.3 or newer and save it again");
 }
 
 TEST(HostileSh3d, everyPrefixAndFlippedByteIsAnswered) {
