@@ -71,6 +71,26 @@ double relativeMeanSquaredError(const Image& reference, const Image& picture, do
   return sum / (3 * static_cast<double>(reference.pixels.size()));
 }
 
+double meanFlip(const Image& r, const Image& p) {
+  const Plane flip = flipDifference(r, p);
+  double sum = 0;
+  for (const float v : flip.values) sum += static_cast<double>(v);
+  return sum / static_cast<double>(flip.values.size());
+}
+
+// As a display takes it: clipped to 0..1 and sRGB-encoded, without an exposure.
+Image asShown(const Image& linear) { return toneMap(linear, std::log2(1 / 1.2f), ToneCurve::Clip); }
+
+Image differenceOfEncoded(const Image& r, const Image& p) {
+  const Vec3 equal(0.5f), tooBright{0.9f, 0.05f, 0.05f}, tooDark{0.1f, 0.2f, 0.95f};
+  Image out(r.width, r.height);
+  for (size_t i = 0; i < out.pixels.size(); ++i) {
+    const float d = (luminance(p.pixels[i]) - luminance(r.pixels[i])) / 0.25f;
+    out.pixels[i] = lerp(equal, d > 0 ? tooBright : tooDark, std::min(std::abs(d), 1.0f));
+  }
+  return out;
+}
+
 Image decoded(Image encoded) {
   for (Vec3& p : encoded.pixels) p = {srgbDecode(p.x), srgbDecode(p.y), srgbDecode(p.z)};
   return encoded;
@@ -88,9 +108,7 @@ Result<Report> compare(const Image& reference, const Image& picture) {
   report.mse = meanSquaredError(r, p);
   report.relMse = relativeMeanSquaredError(reference, picture, report.referenceMeanLuminance);
   report.ssim = structuralSimilarity(luminanceOf(r), luminanceOf(p));
-  const Plane flip = flipDifference(decoded(r), decoded(p));
-  for (const float v : flip.values) report.flip += static_cast<double>(v);
-  report.flip /= static_cast<double>(flip.values.size());
+  report.flip = meanFlip(decoded(r), decoded(p));
   report.meanLuminanceErrorPercent = 100 * (meanLuminance(picture) / report.referenceMeanLuminance - 1);
   return report;
 }
@@ -114,14 +132,18 @@ Result<Report> compare(const Image& reference, const Image& second, const Image&
 Image differencePicture(const Image& reference, const Image& picture) {
   assert(checkPair(reference, picture).ok());
   const float ev100 = automaticEv100(reference);
-  const Image r = toneMap(reference, ev100, ToneCurve::Clip), p = toneMap(picture, ev100, ToneCurve::Clip);
-  const Vec3 equal(0.5f), tooBright{0.9f, 0.05f, 0.05f}, tooDark{0.1f, 0.2f, 0.95f};
-  Image out(r.width, r.height);
-  for (size_t i = 0; i < out.pixels.size(); ++i) {
-    const float d = (luminance(p.pixels[i]) - luminance(r.pixels[i])) / 0.25f;
-    out.pixels[i] = lerp(equal, d > 0 ? tooBright : tooDark, std::min(std::abs(d), 1.0f));
-  }
-  return out;
+  return differenceOfEncoded(toneMap(reference, ev100, ToneCurve::Clip), toneMap(picture, ev100, ToneCurve::Clip));
+}
+
+Result<ShownReport> compareShown(const Image& reference, const Image& picture) {
+  if (Status s = checkPair(reference, picture); !s.ok()) return Error{s.error()};
+  const Image r = asShown(reference), p = asShown(picture);
+  return ShownReport{meanSquaredError(r, p), structuralSimilarity(luminanceOf(r), luminanceOf(p)), meanFlip(reference, picture)};
+}
+
+Image differencePictureOfShown(const Image& reference, const Image& picture) {
+  assert(checkPair(reference, picture).ok());
+  return differenceOfEncoded(asShown(reference), asShown(picture));
 }
 
 }  // namespace roomlight

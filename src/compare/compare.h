@@ -27,6 +27,14 @@ struct Report {
 // Cost: about 0.3 s for a million pixels on two cores, nearly all of it FLIP.
 Result<Report> compare(const Image& reference, const Image& picture);
 
+// Of pictures that are exposed and tone-mapped already (.png, .jpg): what is shown, as in the files. How much light there was they no longer tell, so
+// that there is no relMse and no error of the mean luminance. Both pictures decoded from sRGB to linear, as readImage() gives them.
+struct ShownReport {
+  double mse = 0, ssim = 1, flip = 0;  // as in Report, without an exposure
+};
+// Errors: as of compare(), but for black ones.
+Result<ShownReport> compareShown(const Image& reference, const Image& picture);
+
 // Against the mean of two references of the same view that were rendered independently (other seeds, equal effort).
 Result<Report> compare(const Image& reference, const Image& second, const Image& picture);
 Image meanOf(const Image& a, const Image& b);  // of equal size
@@ -34,5 +42,7 @@ Image meanOf(const Image& a, const Image& b);  // of equal size
 // Where the picture is too bright (red) or too dark (blue), display-encoded: mid-grey is equal; full colour is a
 // difference of 0.25 in encoded luma. For pairs that compare() accepts.
 Image differencePicture(const Image& reference, const Image& picture);
+// The same of pictures that compareShown() accepts.
+Image differencePictureOfShown(const Image& reference, const Image& picture);
 
 }  // namespace roomlight

@@ -13,6 +13,7 @@ namespace {
 
 constexpr float kCellM = 0.2f;            // of the search, at least
 constexpr int kMostCellsASide = 250;
+constexpr float kRounding = 1e-3f;        // of a cell
 constexpr float kHeadroomM = 1.9f;        // above a floor
 constexpr float kOverDoorsM = 2.2f;       // above a floor
 constexpr float kLevelM = 0.05f;          // floors within as much are one level
@@ -49,8 +50,9 @@ Search searchOver(const RayScene& rays, const Bounds3& b) {
   Search s{rays, b.lo};
   const float side = std::max(b.size().x, b.size().z);
   s.cellM = std::max(kCellM, side / kMostCellsASide);
-  s.columns = std::max(1, static_cast<int>(std::ceil(b.size().x / s.cellM)));
-  s.rows = std::max(1, static_cast<int>(std::ceil(b.size().z / s.cellM)));
+  // A scene that was scaled into metres is not a cell longer for that.
+  s.columns = std::max(1, static_cast<int>(std::ceil(b.size().x / s.cellM - kRounding)));
+  s.rows = std::max(1, static_cast<int>(std::ceil(b.size().z / s.cellM - kRounding)));
   s.topM = b.hi.y + 1;
   return s;
 }

@@ -162,7 +162,14 @@ class Drawing {
       if (wall_) p.y = size_.y - p.y;
       d += fmt::format("M{} {}h0", cm(p.x), cm(p.y));
     }
-    return fmt::format("<path class=\"point\" d=\"{}\"/>\n", d);
+    std::string crosses;
+    for (const LeftOutCell& c : grid_.leftOut) {
+      const Lattice& l = grid_.points.lattice;
+      Vec2 p = place(l.centre(static_cast<int>(c.cell) % l.columns, static_cast<int>(c.cell) / l.columns));
+      if (wall_) p.y = size_.y - p.y;
+      crosses += fmt::format("M{} {}l8 8m-8 0l8-8", cm(p.x) - 4, cm(p.y) - 4);
+    }
+    return fmt::format("<path class=\"point\" d=\"{}\"/>\n<path class=\"out\" d=\"{}\"/>\n", d, crosses);
   }
 
   std::string lamp(Vec3 at, const std::string& name) const {
@@ -209,6 +216,7 @@ const char* const kLightMapStyle = R"(
 .map .wall{fill:none;stroke:#111820;stroke-width:calc(1.3*var(--px));stroke-linejoin:round;stroke-linecap:round}
 .map .contour{fill:none;stroke:#fff;stroke-opacity:.8;stroke-width:calc(1.1*var(--px))}
 .map .point{stroke:#111820;stroke-opacity:.55;stroke-width:calc(2.6*var(--px));stroke-linecap:round}
+.map .out{fill:none;stroke:#111820;stroke-opacity:.45;stroke-width:var(--px)}
 .map text.level{font-size:calc(11.5*var(--px));text-anchor:middle;dominant-baseline:central;paint-order:stroke;stroke:#fff;stroke-opacity:.85;stroke-width:calc(3*var(--px));stroke-linejoin:round}
 .map .lamp circle{fill:#fff;stroke:#111820;stroke-width:calc(1.2*var(--px))}
 .map .lamp path{stroke:#111820;stroke-width:calc(1.2*var(--px))}

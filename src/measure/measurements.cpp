@@ -18,19 +18,74 @@ std::string threeDigits(double value) {
   return fmt::format("{:.{}f}", rounded, std::clamp(3 - digits, 0, 6));
 }
 
-namespace {
-
 bool isIn(const Room& room, Vec3 p) { return p.y >= room.elevationM && p.y <= room.elevationM + room.heightM && contains(room.floor, {p.x, p.z}); }
 
+std::optional<HomeMeans> homeMeans(const Measurements& m) {
+  HomeMeans means;
+  for (const GridReading& g : m.grids) {
+    const Statistics s = g.lux();
+    if (g.kind != SurfaceKind::WorkPlane || g.outdoors || s.points == 0 || g.areaM2 <= 0) continue;
+    ++means.rooms, means.areaM2 += g.areaM2;
+    means.ofRoomsLux += s.mean, means.ofAreaLux += s.mean * g.areaM2;
+  }
+  if (means.rooms == 0) return std::nullopt;
+  means.ofRoomsLux /= static_cast<double>(means.rooms), means.ofAreaLux /= means.areaM2;
+  return means;
+}
+
+namespace {
+
+constexpr size_t kMostNames = 3;
+
+std::string namesOf(const std::vector<std::string>& names, const char* more) {
+  std::string text;
+  for (size_t i = 0; i < std::min(names.size(), kMostNames); ++i) text += (i ? ", " : "") + names[i];
+  return names.size() > kMostNames ? fmt::format("{} and {} more{}", text, names.size() - kMostNames, more) : text;
+}
+
+std::string misplacedAt(const Measurements& m, MeterPlace place, const char* where) {
+  std::vector<std::string> grids, meters, whole;
+  size_t cells = 0;
+  for (const GridReading& g : m.grids) {
+    const auto count = static_cast<size_t>(std::count_if(g.leftOut.begin(), g.leftOut.end(), [&](const LeftOutCell& c) { return c.place == place; }));
+    if (count > 0) cells += count, grids.push_back(fmt::format("{} of '{}'", count, g.name));
+    if (g.outdoors && place == MeterPlace::Outdoors) whole.push_back(fmt::format("'{}'", g.name));
+  }
+  const auto add = [&](const auto& readings) {
+    for (const auto& r : readings) {
+      if (r.place == place) meters.push_back(fmt::format("'{}'", r.plan.name));
+    }
+  };
+  add(m.points), add(m.spots), add(m.glares);
+  std::string text;
+  const auto part = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
+  if (cells > 0) part(fmt::format("{} {} of grids left out of means and minima ({})", cells, cells == 1 ? "point" : "points", namesOf(grids, grids.size() > kMostNames + 1 ? " grids" : " grid")));
+  if (!whole.empty()) part(fmt::format("{} measured, but left out of the means of the home ({})", whole.size() == 1 ? "one grid" : fmt::format("{} grids", whole.size()), namesOf(whole, "")));
+  if (!meters.empty()) {
+    part(fmt::format("{} {}{} ({})", meters.size(), meters.size() == 1 ? "meter" : "meters", isMisplaced(place) ? ", read but not judged" : "", namesOf(meters, "")));
+  }
+  return text.empty() ? text : fmt::format("{}: {}", where, text);
+}
+
 }  // namespace
+
+std::vector<std::string> misplaced(const Measurements& m) {
+  std::vector<std::string> lines;
+  for (const auto& [place, where] : {std::pair(MeterPlace::Furniture, "in furniture"), std::pair(MeterPlace::Wall, "in a wall, floor or ceiling"), std::pair(MeterPlace::Outdoors, "outdoors")}) {
+    const std::string line = misplacedAt(m, place, where);
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
 
 std::vector<std::string> notJudged(const Measurements& m) {
   std::vector<std::string> list;
   for (const GridReading& g : m.grids) {
-    if (g.kind == SurfaceKind::WorkPlane && g.lux().points == 0 && g.targets.lux) list.push_back(fmt::format("{}: illuminance is not judged, since no point is left ({} lie in furniture)", g.name, g.leftOut));
+    if (g.kind == SurfaceKind::WorkPlane && g.lux().points == 0 && g.targets.lux) list.push_back(fmt::format("{}: illuminance is not judged, since no point is left ({} lie in furniture or walls)", g.name, g.leftOut.size()));
   }
   for (const GlareReading& g : m.glares) {
-    if (!g.ugr && g.plan.targets.ugr) list.push_back(fmt::format("{}: glare is not judged, since there is no rating", g.plan.name));
+    if (isMisplaced(g.place) && g.plan.targets.ugr) list.push_back(fmt::format("{}: glare is not judged, since the eye is in {}", g.plan.name, g.place == MeterPlace::Wall ? "a wall" : "furniture"));
+    if (!isMisplaced(g.place) && !g.ugr && g.plan.targets.ugr) list.push_back(fmt::format("{}: glare is not judged, since there is no rating", g.plan.name));
   }
   for (const RoomReading& r : m.rooms) {
     const auto ofRoom = [&](const GridReading& g) { return g.room == r.room.name && g.kind == SurfaceKind::WorkPlane; };
@@ -54,13 +109,16 @@ std::vector<Verdict> verdictsOf(const Measurements& m) {
     judge(g.name, "mean illuminance", "lx", g.targets.lux, s.mean * m.maintenanceFactor, false);
     judge(g.name, "uniformity U0", "", g.targets.uniformity, s.u0(), false);
   }
-  for (const PointReading& p : m.points) judge(p.plan.name, "illuminance", "lx", p.plan.targets.lux, p.lux * m.maintenanceFactor, false);
+  for (const PointReading& p : m.points) {
+    if (isMisplaced(p.place)) continue;
+    judge(p.plan.name, "illuminance", "lx", p.plan.targets.lux, p.lux * m.maintenanceFactor, false);
+  }
   for (const GlareReading& g : m.glares) {
-    if (g.ugr) judge(g.plan.name, "glare UGR", "", g.plan.targets.ugr, *g.ugr, true);
+    if (g.ugr && !isMisplaced(g.place)) judge(g.plan.name, "glare UGR", "", g.plan.targets.ugr, *g.ugr, true);
   }
   for (const RoomReading& r : m.rooms) {
     for (const GlareReading& g : m.glares) {
-      if (g.ugr && !g.plan.targets.ugr && isIn(r.room, g.plan.position)) judge(r.room.name + ", " + g.plan.name, "glare UGR", "", r.targets.ugr, *g.ugr, true);
+      if (g.ugr && !isMisplaced(g.place) && !g.plan.targets.ugr && isIn(r.room, g.plan.position)) judge(r.room.name + ", " + g.plan.name, "glare UGR", "", r.targets.ugr, *g.ugr, true);
     }
     if (r.wattsKnown() && r.areaM2 > 0) judge(r.room.name, "power density", "W/m²", r.targets.wattsPerM2, r.wattsW / r.areaM2, true);
   }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "measure/luminaires.h"
+#include "measure/meter_place.h"
 #include "measure/meter_plan.h"
 
 namespace roomlight {
@@ -29,7 +31,9 @@ struct GridReading {
   std::vector<Vec2> floor;  // outline, where known
   Field points;             // what statistics are of
   std::optional<Field> map; // finer and up to the walls, for a picture
-  size_t leftOut = 0;       // points inside furniture
+  double areaM2 = 0;        // of the room; 0: of none
+  std::vector<LeftOutCell> leftOut;  // points in furniture, in walls, or outdoors while others are not
+  bool outdoors = false;    // as a whole: measured, but no part of the home's means
   Statistics lux() const { return statisticsOf(points.lux); }
 };
 
@@ -46,11 +50,13 @@ struct PointReading {
   PointPlan plan;
   double lux = 0, standardErrorLux = 0;
   std::optional<double> daylightPercent;
+  MeterPlace place = MeterPlace::Free;
 };
 
 struct SpotReading {
   SpotPlan plan;
   double luminanceCdM2 = 0;
+  MeterPlace place = MeterPlace::Free;
 };
 
 struct GlareReading {
@@ -60,6 +66,18 @@ struct GlareReading {
   double backgroundCdM2 = 0;
   double eyeLux = 0;             // on the plane that faces the view, all light
   size_t sources = 0;
+  MeterPlace place = MeterPlace::Free;
+};
+
+// In furniture or in a wall: what is read there is told, but judged by no target.
+inline bool isMisplaced(MeterPlace place) { return place == MeterPlace::Furniture || place == MeterPlace::Wall; }
+
+// Work planes of all rooms indoors together.
+struct HomeMeans {
+  size_t rooms = 0;
+  double areaM2 = 0;
+  double ofRoomsLux = 0;  // every room alike
+  double ofAreaLux = 0;   // every square metre alike
 };
 
 // A target met or missed.
@@ -70,15 +88,31 @@ struct Verdict {
   bool met() const { return atMost ? got <= wanted : got >= wanted; }
 };
 
+// How certain the readings of grids and points are: relative standard errors.
+struct Certainty {
+  size_t meters = 0;
+  double worst = 0, median = 0;
+};
+
 struct Measurements {
   std::vector<RoomReading> rooms;
   std::vector<GridReading> grids;
   std::vector<PointReading> points;
   std::vector<SpotReading> spots;
   std::vector<GlareReading> glares;
+  std::vector<Luminaire> luminaires;  // of the whole scene
+  Certainty certainty;
   double maintenanceFactor = 1;
   std::vector<std::string> warnings;
 };
+
+// None without a work plane indoors that was measured.
+std::optional<HomeMeans> homeMeans(const Measurements& m);
+
+// Meters that stand where none belongs: a line for each kind of place.
+std::vector<std::string> misplaced(const Measurements& m);
+
+bool isIn(const Room& room, Vec3 p);
 
 // Targets that nothing was measured for, each with the reason.
 std::vector<std::string> notJudged(const Measurements& m);

@@ -43,24 +43,34 @@ std::string shown(std::string name) {
 
 std::string ev(double v) { return std::isfinite(v) ? fmt::format("{:.1f}", v) : "-"; }
 
+// Of several rooms together.
+std::string home(const Measurements& m) {
+  const std::optional<HomeMeans> means = homeMeans(m);
+  if (!means || means->rooms < 2) return {};
+  return fmt::format("mean of {} rooms {} lx, of their {:.1f} m² {} lx\n", means->rooms, threeDigits(means->ofRoomsLux), means->areaM2, threeDigits(means->ofAreaLux));
+}
+
+// Beside the name of a meter that stands where none belongs.
+std::string marked(const std::string& name, MeterPlace place) { return place == MeterPlace::Free ? shown(name) : fmt::format("{} ({})", shown(name), placeName(place)); }
+
 std::string grids(const Measurements& m) {
   const bool daylight = std::any_of(m.grids.begin(), m.grids.end(), [](const GridReading& g) { return !g.points.daylightPercent.empty(); });
   std::vector<Row> rows = {{"grid", "points", "mean lx", "min lx", "max lx", "U0", "U1"}};
   if (daylight) rows[0].insert(rows[0].end(), {"mean DF %", "min DF %"});
   for (const GridReading& g : m.grids) {
     const Statistics s = g.lux();
-    rows.push_back({shown(g.name), fmt::format("{}", s.points), threeDigits(s.mean), threeDigits(s.least), threeDigits(s.most), fmt::format("{:.2f}", s.u0()), fmt::format("{:.2f}", s.u1())});
+    rows.push_back({marked(g.name, g.outdoors ? MeterPlace::Outdoors : MeterPlace::Free), fmt::format("{}", s.points), threeDigits(s.mean), threeDigits(s.least), threeDigits(s.most), fmt::format("{:.2f}", s.u0()), fmt::format("{:.2f}", s.u1())});
     const Statistics d = statisticsOf(g.points.daylightPercent);
     if (daylight) rows.back().insert(rows.back().end(), {threeDigits(d.mean), threeDigits(d.least)});
   }
-  return aligned(rows);
+  return aligned(rows) + home(m);
 }
 
 std::string points(const Measurements& m) {
   std::vector<Row> rows = {{"point", "x m", "y m", "z m", "lx", "EV100", "DF %"}};
   for (const PointReading& p : m.points) {
     const Vec3 at = p.plan.place.position;
-    rows.push_back({shown(p.plan.name), fmt::format("{:.2f}", at.x), fmt::format("{:.2f}", at.y), fmt::format("{:.2f}", at.z), threeDigits(p.lux), ev(incidentEv100(p.lux)),
+    rows.push_back({marked(p.plan.name, p.place), fmt::format("{:.2f}", at.x), fmt::format("{:.2f}", at.y), fmt::format("{:.2f}", at.z), threeDigits(p.lux), ev(incidentEv100(p.lux)),
                     p.daylightPercent ? threeDigits(*p.daylightPercent) : ""});
   }
   if (std::none_of(m.points.begin(), m.points.end(), [](const PointReading& p) { return p.daylightPercent.has_value(); })) {
@@ -96,13 +106,13 @@ std::string reportTable(const Measurements& m) {
   if (!m.points.empty()) parts.push_back(points(m));
   if (!m.spots.empty()) {
     std::vector<Row> rows = {{"spot", "field", "cd/m²", "EV100"}};
-    for (const SpotReading& s : m.spots) rows.push_back({shown(s.plan.name), fmt::format("{:g}°", s.plan.angleDeg), threeDigits(s.luminanceCdM2), ev(reflectedEv100(s.luminanceCdM2))});
+    for (const SpotReading& s : m.spots) rows.push_back({marked(s.plan.name, s.place), fmt::format("{:g}°", s.plan.angleDeg), threeDigits(s.luminanceCdM2), ev(reflectedEv100(s.luminanceCdM2))});
     parts.push_back(aligned(rows));
   }
   if (!m.glares.empty()) {
     std::vector<Row> rows = {{"eye", "UGR", "background cd/m²", "lamps seen", "at the eye lx"}};
     for (const GlareReading& g : m.glares) {
-      rows.push_back({shown(g.plan.name), g.ugr ? fmt::format("{:.1f}", *g.ugr) : "-", threeDigits(g.backgroundCdM2), fmt::format("{}", g.sources), threeDigits(g.eyeLux)});
+      rows.push_back({marked(g.plan.name, g.place), g.ugr ? fmt::format("{:.1f}", *g.ugr) : "-", threeDigits(g.backgroundCdM2), fmt::format("{}", g.sources), threeDigits(g.eyeLux)});
     }
     parts.push_back(aligned(rows));
   }
