@@ -1,10 +1,8 @@
 // roomlight compare: how far a picture is from a reference.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "base/image_io.h"
 #include "commands.h"
@@ -25,15 +23,49 @@ int bad(const std::string& message, int code = kBadInput) {
   return code;
 }
 
-bool isPng(const std::string& file) {
-  char magic[4] = {};
-  std::ifstream(file, std::ios::binary).read(magic, sizeof magic);
-  return std::string_view(magic, sizeof magic) == "\x89PNG";
+struct Pictures {
+  Image reference, second, picture;
+  bool forDisplay = false;  // all of them: tone-mapped
+};
+
+Result<Pictures> readPictures(const Options& o) {
+  Pictures read;
+  const std::pair<const std::string*, Image*> files[] = {{&o.reference, &read.reference}, {&o.second, &read.second}, {&o.picture, &read.picture}};
+  for (const auto& [file, image] : files) {
+    if (file->empty()) continue;
+    const Result<bool> forDisplay = isForDisplay(*file);
+    if (!forDisplay) return Error{forDisplay.error()};
+    if (file == &o.reference) read.forDisplay = forDisplay.value();
+    if (forDisplay.value() != read.forDisplay) {
+      const std::string& linear = read.forDisplay ? *file : o.reference;
+      const std::string& shown = read.forDisplay ? o.reference : *file;
+      return Error{fmt::format("{} holds linear light and {} a tone-mapped picture: no figure compares them; give two .exr, or two of .png and .jpg", linear, shown)};
+    }
+    Result<Image> one = readImage(*file);
+    if (!one) return Error{one.error()};
+    *image = std::move(one).value();
+  }
+  if (read.forDisplay && !o.second.empty()) return Error{fmt::format("--second {}: the noise of a reference is told from two linear ones; give .exr", o.second)};
+  return read;
+}
+
+void print(const ShownReport& r, const Options& o) {
+  if (o.json) {
+    const nlohmann::ordered_json json = {{"space", "display"}, {"mse", r.mse}, {"ssim", r.ssim}, {"flip", r.flip}, {"difference", o.difference}};
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    return;
+  }
+  fmt::print("mse                        {:.6f}\n", r.mse);
+  fmt::print("ssim                       {:.4f}\n", r.ssim);
+  fmt::print("flip                       {:.4f}\n", r.flip);
+  fmt::print("difference picture         {}\n", o.difference);
+  fmt::print("of the pictures as shown: what is tone-mapped no longer tells how much light there was; give two .exr for that\n");
 }
 
 void print(const Report& r, const Options& o) {
   if (o.json) {
-    nlohmann::ordered_json json = {{"mse", r.mse},
+    nlohmann::ordered_json json = {{"space", "linear"},
+                                   {"mse", r.mse},
                                    {"relMse", r.relMse},
                                    {"ssim", r.ssim},
                                    {"flip", r.flip},
@@ -52,31 +84,28 @@ void print(const Report& r, const Options& o) {
   fmt::print("difference picture         {}\n", o.difference);
 }
 
+template <class AnyReport, class MakePicture>
+int tell(const Options& o, const Result<AnyReport>& report, const MakePicture& differenceOf) {
+  if (!report) return bad(fmt::format("{}, {}: {}", o.reference, o.picture, report.error()));
+  if (const Status s = checkWritable(o.difference); !s) return bad(s.error());
+  const Status written = writePng(o.difference, differenceOf(), {{"roomlight.reference", o.reference}, {"roomlight.picture", o.picture}});
+  if (!written) return bad(written.error(), kFailed);
+  print(report.value(), o);
+  return kOk;
+}
+
 int runCompare(Options o) {
   if (o.difference.empty()) o.difference = o.picture + ".difference.png";
   if (!o.difference.ends_with(".png")) return bad(fmt::format("{}: the difference picture is a .png", o.difference));
   if (o.difference == o.reference || o.difference == o.second || o.difference == o.picture) {
     return bad(fmt::format("{}: is named twice; name another file for the difference picture", o.difference));
   }
-  Result<Image> reference = readImage(o.reference);
-  if (!reference) return bad(reference.error());
-  const Result<Image> second = o.second.empty() ? Result<Image>(Image{}) : readImage(o.second);
-  if (!second) return bad(second.error());
-  const Result<Image> picture = readImage(o.picture);
-  if (!picture) return bad(picture.error());
-  if (isPng(o.reference) != isPng(o.picture)) {
-    printWarnings({"one picture is linear and the other tone-mapped: the figures say little; compare two .exr"});
-  }
-  const Result<Report> report =
-      o.second.empty() ? compare(reference.value(), picture.value()) : compare(reference.value(), second.value(), picture.value());
-  if (!report) return bad(fmt::format("{}, {}: {}", o.reference, o.picture, report.error()));
-  if (!o.second.empty()) reference = meanOf(reference.value(), second.value());
-  if (const Status s = checkWritable(o.difference); !s) return bad(s.error());
-  const Status written = writePng(o.difference, differencePicture(reference.value(), picture.value()),
-                                  {{"roomlight.reference", o.reference}, {"roomlight.picture", o.picture}});
-  if (!written) return bad(written.error(), kFailed);
-  print(report.value(), o);
-  return kOk;
+  Result<Pictures> pictures = readPictures(o);
+  if (!pictures) return bad(pictures.error());
+  const auto& [reference, second, picture, forDisplay] = pictures.value();
+  if (forDisplay) return tell(o, compareShown(reference, picture), [&] { return differencePictureOfShown(reference, picture); });
+  if (o.second.empty()) return tell(o, compare(reference, picture), [&] { return differencePicture(reference, picture); });
+  return tell(o, compare(reference, second, picture), [&] { return differencePicture(meanOf(reference, second), picture); });
 }
 
 }  // namespace
@@ -84,8 +113,8 @@ int runCompare(Options o) {
 Registered addCompare(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("compare", "Measure how far a picture is from a reference");
-  app->add_option("REFERENCE", o->reference, "Picture taken as true: .exr, .hdr or .png")->required();
-  app->add_option("PICTURE", o->picture, "Picture to judge, of the same size")->required();
+  app->add_option("REFERENCE", o->reference, "Picture taken as true: .exr or .hdr; or, to compare what is shown, .png or .jpg")->required();
+  app->add_option("PICTURE", o->picture, "Picture to judge, of the same size and kind")->required();
   app->add_option("--second", o->second, "A second reference with another seed; figures are against the mean of both");
   app->add_flag("--json", o->json, "Print JSON");
   app->add_option("--difference", o->difference, "Where the difference picture goes (default: PICTURE.difference.png)");

@@ -32,6 +32,9 @@ int runDevelop(const Options& o) {
   if (const Status s = checkWritable(o.output); !s) return bad(s.error());
   std::vector<Image> pictures;
   for (const std::string& file : o.pictures) {
+    const Result<bool> finished = isForDisplay(file);
+    if (!finished) return bad(finished.error());
+    if (finished.value()) return bad(fmt::format("{}: is exposed and tone-mapped already; develop takes linear pictures, such as render writes with -o picture.exr", file));
     Result<Image> read = readImage(file);
     if (!read) return bad(read.error());
     pictures.push_back(std::move(read).value());
@@ -59,7 +62,7 @@ int runDevelop(const Options& o) {
 Registered addDevelop(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("develop", "Expose and tone-map .exr pictures alike, side by side");
-  app->add_option("PICTURE", o->pictures, "Pictures of one height: .exr")->required()->check(CLI::ExistingFile);
+  app->add_option("PICTURE", o->pictures, "Linear pictures of one height: .exr or .hdr")->required()->check(CLI::ExistingFile);
   app->add_option("-o,--output", o->output, "Picture: .png or .jpg")->required();
   app->add_option("--exposure", o->ev100, "EV100 as on a light meter; without it, that of the last picture")->check(CLI::Range(-64.0, 64.0));
   app->add_option("--tone", o->tone, "Tone curve: neutral, agx, filmic or clip")->capture_default_str();

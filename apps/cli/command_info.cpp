@@ -7,9 +7,13 @@
 
 #include "commands.h"
 #include "console.h"
+#include "engine/views.h"
 #include "import/import.h"
+#include "home/rooms.h"
 #include "import/photometric_file.h"
+#include "measure/luminaires.h"
 #include "scene/object_measures.h"
+#include "scene_options.h"
 #include "trace/light_layers.h"
 
 namespace roomlight::cli {
@@ -17,10 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
-  std::string scene;
-  float metresPerUnit = 1;
-  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
+struct Options : SceneOptions {
   bool json = false, objects = false;
 };
 
@@ -94,15 +95,31 @@ Json lightsJson(const Scene& scene) {
   return out;
 }
 
-Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
+Json roomsJson(const home::OpenedHome& home) {
+  Json rooms = Json::array();
+  const std::vector<Luminaire> luminaires = luminairesOf(home.scene);  // as measure counts them
+  const std::vector<Level> levels = levelsOf(home.rooms);
+  for (const Room& room : home.rooms) {
+    size_t level = 0;
+    for (size_t i = 0; i < levels.size(); ++i) level = room.elevationM >= levels[i].elevationM - 1e-3f ? i : level;
+    rooms.push_back({{"name", room.name}, {"areaM2", home::areaM2(room)}, {"elevationM", room.elevationM}, {"heightM", room.heightM}, {"level", level}});
+    const auto lamps = std::count_if(luminaires.begin(), luminaires.end(), [&](const Luminaire& l) { return home::isIn(room, l.position); });
+    rooms.back()["lamps"] = lamps;
+  }
+  return rooms;
+}
+
+Json describe(const home::OpenedHome& home) {
+  const Scene& scene = home.scene;
   const Bounds3 bounds = scene.bounds();
   size_t emissive = 0;
   for (const Material& m : scene.materials) emissive += isBlack(m.emission) ? 0 : 1;
   Json lamps = Json::array(), suns = Json::array(), cameras = Json::array();
   for (const Lamp& lamp : scene.lamps) lamps.push_back(lampJson(lamp));
   for (const Sun& sun : scene.suns) suns.push_back({{"name", sun.name}, {"illuminanceLux", luminance(sun.illuminanceLux)}, {"toLight", vector(sun.toLight)}});
-  for (const Camera& c : scene.cameras) {
-    cameras.push_back({{"name", c.name}, {"kind", c.projection == Projection::Orthographic ? "orthographic" : "perspective"}, {"positionM", vector(c.worldFromCamera.w)}});
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    const Camera& c = scene.cameras[i];
+    cameras.push_back({{"name", c.name}, {"kind", c.projection == Projection::Orthographic ? "orthographic" : "perspective"}, {"positionM", vector(c.worldFromCamera.w)}, {"proposed", i >= home.fileCameras}, {"default", static_cast<int>(i) == scene.cameraInUse}});
     if (c.projection == Projection::Perspective) cameras.back()["verticalAngleDeg"] = c.yFovRad * 180 / kPi;
   }
   return {{"triangles", scene.triangleCount()},
@@ -115,9 +132,13 @@ Json describe(const Scene& scene, const std::vector<std::string>& warnings) {
           {"lights", lightsJson(scene)},
           {"suns", suns},
           {"sky", scene.sky.present()},
+          {"rooms", roomsJson(home)},
+          {"levels", levelsOf(home.rooms).size()},
           {"cameras", cameras},
+          {"metresPerUnit", home.metresPerUnit},
           {"boundsM", {{"low", vector(bounds.lo)}, {"high", vector(bounds.hi)}}},
-          {"warnings", warnings}};
+          {"notes", home.notes},
+          {"warnings", home.warnings}};
 }
 
 // Names come from files; line breaks in them must not break the table.
@@ -174,9 +195,16 @@ void printTable(const Json& j) {
   fmt::print("{:<18} {}\n", "suns", j["suns"].size());
   for (const Json& sun : j["suns"]) fmt::print("  {}: {:.6g} lx\n", shown(sun["name"]), sun["illuminanceLux"].get<double>());
   fmt::print("{:<18} {}\n", "sky", j["sky"].get<bool>() ? "yes" : "no");
+  fmt::print("{:<18} {}, on {} levels\n", "rooms", j["rooms"].size(), j["levels"].get<size_t>());
+  for (const Json& r : j["rooms"]) {
+    fmt::print("  {}: {:.1f} m2, {:.2f} m high, level {} at {:.2f} m, lamps {}\n", shown(r["name"]), r["areaM2"].get<double>(), r["heightM"].get<double>(), r["level"].get<size_t>(), r["elevationM"].get<double>(), r["lamps"].get<long>());
+  }
   fmt::print("{:<18} {}\n", "cameras", j["cameras"].size());
   size_t index = 0;
-  for (const Json& c : j["cameras"]) fmt::print("  {} {}: {}\n", index++, shown(c["name"]), c["kind"].get<std::string>());
+  for (const Json& c : j["cameras"]) {
+    const auto at = c["positionM"].get<std::vector<double>>();
+    fmt::print("  {} {}: {} at ({:.2f}, {:.2f}, {:.2f}){}{}\n", index++, shown(c["name"]), c["kind"].get<std::string>(), at[0], at[1], at[2], c["proposed"].get<bool>() ? ", proposed" : "", c["default"].get<bool>() ? ", shown by default" : "");
+  }
 }
 
 int showPhotometricFile(const Options& o) {
@@ -203,24 +231,31 @@ int showPhotometricFile(const Options& o) {
 int runInfo(const Options& o) {
   if (importers::isPhotometric(o.scene)) return showPhotometricFile(o);
 
-  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) {
-    printError("--metres-per-unit: must be above 0 and at most 1000000");
+  Result<home::OpenWish> wish = readSceneOptions(o);
+  if (!wish) {
+    printError(wish.error());
     return kBadInput;
   }
-  const Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
-  if (!imported) {
-    printError(imported.error());
+  if (o.light == "auto") wish.value().light = home::LightWish::File;  // what the file holds
+  wish.value().allCameras = true;
+  const Result<home::OpenedHome> opened = home::openHome(wish.value());
+  if (!opened) {
+    printError(opened.error());
     return kBadInput;
   }
-  Json j = describe(imported.value().scene, imported.value().warnings);
+  if (const Status s = writeAddedLight(o, opened.value()); !s) {
+    printError(s.error());
+    return kBadInput;
+  }
+  Json j = describe(opened.value());
   const bool objects = o.objects || std::filesystem::path(o.scene).extension() == ".sh3f";  // a library is its pieces
-  if (objects) j["objects"] = objectsJson(imported.value().scene);
+  if (objects) j["objects"] = objectsJson(opened.value().scene);
   if (o.json) {
     fmt::print("{}\n", j.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
     printTable(j);
     if (objects) printObjects(j["objects"]);
-    printWarnings(imported.value().warnings);
+    printOpened(o, opened.value());
   }
   return kOk;
 }
@@ -230,11 +265,7 @@ int runInfo(const Options& o) {
 Registered addInfo(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("info", "Say what a scene or a photometric file holds");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f; or one luminaire: .ies or .ldt")->required();
-  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
-  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e9));
+  addSceneOptions(*app, *o, "SCENE");
   app->add_flag("--objects", o->objects, "List every object with its triangles, area, volume and bounds");
   app->add_flag("--json", o->json, "Print JSON");
   app->footer("Example:\n  roomlight info flat.glb --json");

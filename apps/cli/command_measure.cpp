@@ -11,27 +11,25 @@
 #include "console.h"
 #include "engine/quality.h"
 #include "engine/version.h"
-#include "import/import.h"
-#include "import/lighting_file.h"
 #include "interrupt.h"
 #include "measure/daylight.h"
 #include "measure/measure.h"
 #include "measure/meter_file.h"
 #include "measure/report.h"
 #include "output_files.h"
+#include "report_picture.h"
+#include "scene_options.h"
 
 namespace roomlight::cli {
 namespace {
 
-struct Options {
-  std::string scene, lighting, meters, quality, tolerance = "2%", json, csv, html, eye, view;
+struct Options : SceneOptions {
+  std::string meters, quality, tolerance = "2%", json, csv, html, eye, view;
   std::vector<std::string> points;
   std::optional<std::string> technique;
   std::optional<int> threads;
   std::optional<std::string> seed;
-  float metresPerUnit = 1;
-  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
-  bool daylightFactor = false, quiet = false;
+  bool noPicture = false, daylightFactor = false, quiet = false;
 };
 
 // Everything that can be known to be wrong before any work is done.
@@ -39,6 +37,7 @@ struct Plan {
   RenderSettings render;
   MeasureSettings measure;
   MeterPlan onCommandLine;
+  home::OpenWish open;
 };
 
 Result<PointPlan> parsePoint(const std::string& text, size_t number) {
@@ -92,7 +91,9 @@ Result<Plan> makePlan(const Options& o) {
   }
   if (const Status status = checkSettings(plan.render); !status) return Error{status.error()};
   if (const Status status = checkTechnique(plan.render.technique); !status) return Error{status.error()};
-  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
+  Result<home::OpenWish> open = readSceneOptions(o);
+  if (!open) return Error{open.error()};
+  plan.open = std::move(open.value());
   const Result<double> tolerance = parseTolerance(o.tolerance);
   if (!tolerance) return Error{tolerance.error()};
   plan.measure.meters.tolerance = tolerance.value();
@@ -116,22 +117,21 @@ Status checkOutputs(const Options& o) {
     if (file.empty()) continue;
     if (const Status s = checkWritable(file); !s) return s;
   }
-  return checkDistinct({o.scene, o.lighting, o.meters, o.json, o.csv, o.html});
+  return checkDistinct({o.scene, o.lighting, o.meters, o.json, o.csv, o.html, o.writeLighting});
 }
 
 struct Home {
   Scene scene;
   MeterPlan meters;
-  std::vector<std::string> warnings;
+  std::string addedLight;
 };
 
 Result<Home> loadHome(const Options& o, const Plan& plan) {
-  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
-  if (!imported) return Error{imported.error()};
-  Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
-  if (!o.lighting.empty()) {
-    if (const Status s = applyLightingFile(o.lighting, home.scene, &home.warnings); !s) return Error{s.error()};
-  }
+  Result<home::OpenedHome> opened = home::openHome(plan.open);
+  if (!opened) return Error{opened.error()};
+  if (const Status s = writeAddedLight(o, opened.value()); !s) return Error{s.error()};
+  if (!o.quiet) printOpened(o, opened.value());
+  Home home{std::move(opened.value().scene), {}, opened.value().added};
   if (!o.meters.empty()) {
     Result<MeterPlan> read = readMeterFile(o.meters, home.scene.rooms);
     if (!read) return Error{read.error()};
@@ -149,8 +149,8 @@ int bad(const std::string& message, int code = kBadInput) {
 }
 
 // All of them, even if one cannot be written; the first error.
-Status writeReports(const Options& o, const Plan& plan, const Measurements& m, const Scene& scene) {
-  const ReportHeader header{o.scene, o.lighting, o.meters, plan.render.technique, plan.render.quality, version(), plan.measure.meters.tolerance};
+Status writeReports(const Options& o, const Plan& plan, const Measurements& m, const Home& home, const ReportPicture& picture) {
+  const ReportHeader header{o.scene, o.lighting, o.meters, plan.render.technique, plan.render.quality, version(), plan.measure.meters.tolerance, today(), picture.jpeg, picture.title, home.addedLight};
   Status first = Ok{};
   const auto write = [&](const std::string& file, const auto& text) {
     if (file.empty()) return;
@@ -158,7 +158,7 @@ Status writeReports(const Options& o, const Plan& plan, const Measurements& m, c
   };
   write(o.json, [&] { return reportJson(header, m); });
   write(o.csv, [&] { return reportCsv(m); });
-  write(o.html, [&] { return reportHtml(header, m, scene); });
+  write(o.html, [&] { return reportHtml(header, m, home.scene); });
   return first;
 }
 
@@ -184,7 +184,6 @@ int work(const Options& o, const Plan& plan) {
 
   Result<Home> home = stages.run("load", [&](const Progress&) { return loadHome(o, plan); });
   if (!home) return bad(home.error());
-  if (!o.quiet) printWarnings(home.value().warnings);
   if (interrupted()) return stopped();
   Result<std::unique_ptr<LitScene>> lit = lightScene(home.value().scene, plan.render, stages);
   if (!lit) return bad(lit.error());
@@ -192,13 +191,15 @@ int work(const Options& o, const Plan& plan) {
   Measurements m = measure(*lit.value(), home.value().meters, plan.measure, stages);
   lit.value().reset();
   if (interrupted()) return stopped();
+  ReportPicture picture;
+  if (!o.html.empty() && !o.noPicture) picture = stages.run("picture", [&](const Progress&) { return pictureFor(home.value().scene, plan.render.threads); });
   if (o.daylightFactor) {
     if (const Status s = measureDaylight(plan, home.value(), m, stages); !s) return bad(s.error());
     if (interrupted()) return stopped();
   }
   if (!o.quiet) printWarnings(m.warnings);
   fmt::print("{}", reportTable(m));
-  if (const Status s = writeReports(o, plan, m, home.value().scene); !s) return bad(s.error(), kFailed);
+  if (const Status s = writeReports(o, plan, m, home.value(), picture); !s) return bad(s.error(), kFailed);
   for (const std::string& file : {o.json, o.csv, o.html}) {
     if (!file.empty()) display.line(fmt::format("wrote {}", file));
   }
@@ -220,8 +221,7 @@ int runMeasure(const Options& o) {
 Registered addMeasure(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("measure", "Light a scene and hold light meters into it");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
-  app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
+  addSceneOptions(*app, *o, "SCENE");
   app->add_option("--meters", o->meters, "Meter file: rooms, grids, points, spot meters and eyes (docs/formats/meters.md); without it, every room");
   app->add_option("--point", o->points, "Incident meter at x,y,z, or x,y,z,nx,ny,nz for a receptor that does not face up; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--eye", o->eye, "Where glare (UGR) is judged: x,y,z");
@@ -231,14 +231,11 @@ Registered addMeasure(CLI::App& program) {
   app->add_option("--tolerance", o->tolerance, "Relative standard error at which a meter is read")->capture_default_str();
   app->add_option("--json", o->json, "Write all readings to this JSON file");
   app->add_option("--csv", o->csv, "Write all readings to this table, one line each");
-  app->add_option("--html", o->html, "Write a report with plans and false-colour maps to this HTML file");
+  app->add_option("--html", o->html, "Write a report for printing to this HTML file: a picture, plans, targets by room, false-colour maps, a luminaire schedule");
+  app->add_flag("--no-picture", o->noPicture, "Leave the picture out of the report; it takes some seconds");
   app->add_flag("--daylight-factor", o->daylightFactor, "Measure grids and points a second time, under a CIE overcast sky alone, as a share of the light outdoors");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same readings");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
-  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
-  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e9));
   app->add_flag("--quiet", o->quiet, "Only the table and errors");
   app->footer(
       "Examples:\n"

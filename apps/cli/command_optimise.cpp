@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "console.h"
 #include "engine/quality.h"
+#include "import/import.h"
 #include "interrupt.h"
 #include "optimise/run.h"
 #include "output_files.h"
@@ -20,6 +21,7 @@ struct Options {
   std::string home, study, folder, method = "hybrid", quality, seed;
   std::vector<std::string> baselines;
   std::optional<int> threads, evaluations, certify;
+  std::optional<float> metresPerUnit;
   double seconds = 0;
   bool quiet = false;
 };
@@ -94,7 +96,7 @@ int work(const Options& o, const optimise::RunWish& wish) {
 // What the command line asks for.
 Result<optimise::RunWish> wishOf(const Options& o) {
   optimise::RunWish wish;
-  wish.home = o.home, wish.study = o.study, wish.folder = o.folder, wish.seconds = o.seconds, wish.certified = o.certify, wish.stop = &interrupted();
+  wish.home = o.home, wish.metresPerUnit = o.metresPerUnit, wish.study = o.study, wish.folder = o.folder, wish.seconds = o.seconds, wish.certified = o.certify, wish.stop = &interrupted();
   if (o.evaluations) wish.evaluations = static_cast<size_t>(*o.evaluations);
   if (!o.quality.empty()) {
     if (const Status s = applyQuality(o.quality, wish.render); !s) return Error{"--" + s.error()};
@@ -133,7 +135,7 @@ int runOptimise(const Options& o) {
 Registered addOptimise(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("optimise", "Propose lighting: places, kinds, aims and dimming of lamps on the best trade-offs between goals");
-  app->add_option("HOME", o->home, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
+  app->add_option("HOME", o->home, "Home or room: " + supportedFiles())->required();
   app->add_option("STUDY", o->study, "Study file: goals, places, catalogue, limits (docs/formats/optimise.md)")->required();
   app->add_option("-o,--output", o->folder, "Folder for index.html, front.csv and lighting files; what it holds of the same inputs is not found again")->required();
   std::vector<std::pair<std::string, std::string>> methods;
@@ -144,6 +146,7 @@ Registered addOptimise(CLI::App& program) {
   app->add_option("--seconds", o->seconds, "End the search after so long; 0: never")->check(CLI::Range(0.0, 1e6));
   app->add_option("--certify", o->certify, "Designs that are solved in full, instead of the study's")->check(CLI::Range(0, 1000));
   app->add_option("--quality", o->quality, listed("How much is done for light:", qualities()));
+  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the home's unit in metres; without it the file's, or guessed")->check(CLI::Range(1e-9, 1e6));
   app->add_option("--seed", o->seed, "Instead of the study's; the same seed gives the same front");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_flag("--quiet", o->quiet, "Only the table and errors");

@@ -16,26 +16,25 @@
 #include "engine/render.h"
 #include "engine/stages.h"
 #include "engine/version.h"
-#include "import/import.h"
-#include "import/lighting_file.h"
+#include "home/reach.h"
+#include "home/sights.h"
 #include "interrupt.h"
 #include "layers_file.h"
 #include "measure/luminance_picture.h"
 #include "output_files.h"
 #include "scene/find_camera.h"
+#include "scene_options.h"
 #include "view_options.h"
 
 namespace roomlight::cli {
 namespace {
 
-struct Options : SettingsOptions {
-  std::string scene, lighting, camera, kind = "picture", stats;
+struct Options : SettingsOptions, SceneOptions {
+  std::string camera, kind = "picture", stats;
   DisplayOptions display;
   std::vector<std::string> outputs;
   std::optional<double> timeLimitS, noiseLevel;
   std::optional<float> voxelSizeM;
-  float metresPerUnit = 1;
-  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
   bool layers = false;
   std::optional<std::string> layerGroups;
   bool quiet = false;
@@ -47,6 +46,7 @@ struct Plan {
   RenderSettings settings;
   Display display;
   ViewWish view;
+  home::OpenWish open;
 };
 
 Status checkOutputs(const Options& o) {
@@ -60,7 +60,7 @@ Status checkOutputs(const Options& o) {
   if (!o.stats.empty()) {
     if (const Status s = checkWritable(o.stats); !s) return s;
   }
-  std::vector<std::string> files = {o.scene, o.lighting, o.settingsFile, o.stats};
+  std::vector<std::string> files = {o.scene, o.lighting, o.settingsFile, o.stats, o.writeLighting};
   files.insert(files.end(), o.outputs.begin(), o.outputs.end());
   return checkDistinct(files);
 }
@@ -89,8 +89,9 @@ Result<Plan> makePlan(const Options& o) {
   if (const Status status = applyLayerGroups(o, s); !status) return Error{status.error()};
   s.voxel.voxelSizeM = o.voxelSizeM.value_or(s.voxel.voxelSizeM);
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
-  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
-
+  Result<home::OpenWish> open = readSceneOptions(o, o.camera);
+  if (!open) return Error{open.error()};
+  plan.open = std::move(open.value());
   const Result<Display> display = readDisplay(o.display);
   if (!display) return Error{display.error()};
   plan.display = display.value();
@@ -213,10 +214,24 @@ int bad(const std::string& message, int code = kBadInput) {
 
 // What is rendered: the scene under its light, and from where.
 struct Home {
-  Scene scene;
+  home::OpenedHome opened;
   Camera camera;
-  std::vector<std::string> warnings;
 };
+
+// Of large scenes the part whose light comes to the camera. The reference sees everything, layers name every lamp, and plans see all rooms.
+std::optional<Scene> partInReach(const Home& home, const Plan& plan) {
+  if (plan.settings.technique == "path" || plan.settings.layers || home.camera.projection == Projection::Orthographic || home.camera.cutHeightM < kInfinity) return std::nullopt;
+  return home::withinReach(RayScene(home.opened.scene), home.camera);
+}
+
+// Of the camera's view: what a first picture is judged by.
+void addView(const Home& home, RenderStats& stats) {
+  const RayScene rays(home.opened.scene);
+  const home::Sights sights = home::sightsOf(rays, home.camera);
+  stats.numbers.emplace_back("view.surfaceShare", sights.share(0, kInfinity));
+  stats.numbers.emplace_back("view.halfToTenMetresShare", sights.share(0.5f, 10));
+  stats.numbers.emplace_back("view.indoors", home::isIndoors(rays, home.opened.rooms, home.camera, sights) ? 1 : 0);
+}
 
 // What a Sweet Home 3D home says of its photo, where neither options nor settings say how large and how well: its first two qualities are
 // without ray tracing, the last is for keeping.
@@ -232,22 +247,20 @@ void applyPhoto(const Options& o, const PhotoWish& photo, Plan& plan) {
 }
 
 Result<Home> loadHome(const Options& o, Plan& plan) {
-  Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower, .camera = o.camera});
-  if (!imported) return Error{imported.error()};
-  Home home{std::move(imported.value().scene), {}, std::move(imported.value().warnings)};
-  if (!o.lighting.empty()) {
-    if (const Status s = applyLightingFile(o.lighting, home.scene, &home.warnings); !s) return Error{s.error()};
-  }
-  const Result<Camera> camera = findCamera(home.scene, o.camera);
+  Result<home::OpenedHome> opened = home::openHome(plan.open);
+  if (!opened) return Error{opened.error()};
+  Home out{std::move(opened.value()), {}};
+  const Scene& scene = out.opened.scene;
+  const Result<Camera> camera = findCamera(scene, o.camera);
   if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
-  if (imported.value().photo) applyPhoto(o, *imported.value().photo, plan);
-  const std::vector<Room> rooms = roomsFor(home.scene, plan.view);
-  const Result<Viewed> viewed = makeView(home.scene, rooms, camera.value(), !o.camera.empty() || !home.scene.cameras.empty(), {plan.settings.width, plan.settings.height}, plan.view);
+  if (out.opened.photo) applyPhoto(o, *out.opened.photo, plan);
+  const Result<Viewed> viewed = makeView(scene, out.opened.rooms, camera.value(), !o.camera.empty() || out.opened.placed(), {plan.settings.width, plan.settings.height}, plan.view);
   if (!viewed) return Error{fmt::format("{}: {}", o.scene, viewed.error())};
-  home.camera = viewed.value().camera;
+  out.camera = viewed.value().camera;
   plan.settings.width = viewed.value().width, plan.settings.height = viewed.value().height;
   if (const Status s = checkSettings(plan.settings); !s) return Error{s.error()};
-  return home;
+  if (const Status s = writeAddedLight(o, out.opened); !s) return Error{s.error()};
+  return out;
 }
 
 // "render" with everything checked; stages of loading come first in the statistics.
@@ -261,11 +274,13 @@ int work(const Options& o, Plan plan) {
   Result<Home> home = loading.run("load", [&](const Progress&) { return loadHome(o, plan); });
   if (!home) return bad(home.error());
   const Camera& camera = home.value().camera;
-  if (!o.quiet) printWarnings(home.value().warnings);
+  if (!o.quiet) printOpened(o, home.value().opened);
   const auto noPicture = [] { return bad("interrupted before there was a picture; nothing was written", kInterrupted); };
   if (interrupted()) return noPicture();
 
-  Result<Rendered> result = render(home.value().scene, camera, plan.settings, progress);
+  const std::optional<Scene> part = loading.run("reach", [&](const Progress&) { return partInReach(home.value(), plan); });
+  if (part) display.line(fmt::format("of {} triangles those are used whose light comes to the camera: {}", home.value().opened.scene.triangleCount(), part->triangleCount()));
+  Result<Rendered> result = render(part ? *part : home.value().opened.scene, camera, plan.settings, progress);
   if (!result) return bad(result.error());
   Rendered& rendered = result.value();
   if (rendered.image.pixels.empty()) return noPicture();
@@ -275,13 +290,14 @@ int work(const Options& o, Plan plan) {
   RenderStats writeStage;
   RenderProgress silent;
   Stages writing(silent, writeStage);
-  const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, home.value().scene, camera, rendered); });
+  const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, home.value().opened.scene, camera, rendered); });
   if (!written) return bad(written.error(), kFailed);
   rendered.stats.stages.push_back(writeStage.stages.front());
   for (const auto& [name, value] : rendered.stats.numbers) {
     if (name == "brokenPixels" && value > 0) printWarnings({fmt::format("{} pixels are negative or not finite: a defect, please report it", value)});
   }
   if (!o.stats.empty()) {
+    addView(home.value(), rendered.stats);
     if (const Status s = writeStats(o.stats, rendered.stats, total.seconds() * 1e3); !s) return bad(s.error(), kFailed);
   }
   display.lineOfEstimate();
@@ -305,9 +321,8 @@ int runRender(const Options& o) {
 Registered addRender(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
+  addSceneOptions(*app, *o, "SCENE");
   app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2), .png or .jpg (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
   app->add_option("--camera", o->camera, "Name of a camera in the scene, or its number from 0");
   addViewOptions(*app, o->view);
   app->add_option("--size", o->size, "Width and height in pixels, for example 960x540; views other than camera choose their own");
@@ -325,10 +340,6 @@ Registered addRender(CLI::App& program) {
   app->add_option("--output-kind", o->kind, "picture; luminance: .exr in cd/m2 without colour, .png in grey; or falsecolour: .png in colours that tell luminance, with a legend")->capture_default_str();
   app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
   app->add_option("--stats", o->stats, "Write time and memory of each stage to this JSON file");
-  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
-  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e9));
   app->add_flag("--quiet", o->quiet, "Only errors");
   app->footer(
       "Ctrl-C ends the work and keeps the best picture so far, if there is one (exit status 130); a second one ends at once.\n"

@@ -9,21 +9,19 @@
 #include "console.h"
 #include "engine/quality.h"
 #include "engine/stages.h"
-#include "import/import.h"
 #include "interrupt.h"
+#include "scene_options.h"
 #include "server/view_server.h"
 #include "view/open_home.h"
 
 namespace roomlight::cli {
 namespace {
 
-struct Options {
-  std::string scene, lighting, viewer, quality, address = "127.0.0.1";
+struct Options : SceneOptions {
+  std::string viewer, quality, address = "127.0.0.1";
   std::optional<std::string> technique;
   std::optional<int> threads;
   int port = 0;
-  float metresPerUnit = 1;
-  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
   bool noOpen = false, quiet = false;
 };
 
@@ -41,7 +39,6 @@ Result<RenderSettings> readSettings(const Options& o) {
   s.threads = o.threads.value_or(s.threads);
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
-  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
   return s;
 }
 
@@ -60,16 +57,19 @@ int runView(const Options& o) {
   const std::atomic<bool>& stop = interrupted();  // from here on Ctrl-C is ours
   const Result<RenderSettings> settings = readSettings(o);
   if (!settings) return bad(settings.error());
+  Result<home::OpenWish> open = readSceneOptions(o);
+  if (!open) return bad(open.error());
+  open.value().allCameras = true;
   Result<server::StaticFiles> page = server::readStaticFiles(o.viewer.empty() ? viewerFolder() : std::filesystem::path(o.viewer));
   if (!page) return bad(page.error());
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &stop, {}};
   RenderStats stats;
   Stages loading(progress, stats);
-  std::vector<std::string> warnings;
-  Result<view::ViewHome> home = loading.run("load", [&](const Progress&) { return view::openHome(o.scene, o.lighting, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower}, warnings); });
+  Result<view::OpenedView> home = loading.run("load", [&](const Progress&) { return view::openHome(open.value()); });
   if (!home) return bad(home.error());
-  if (!o.quiet) printWarnings(warnings);
+  if (const Status s = writeAddedLight(o, home.value().opened); !s) return bad(s.error());
+  if (!o.quiet) printOpened(o, home.value().opened);
   server::Options options;
   options.address = o.address;
   options.port = static_cast<uint16_t>(o.port);
@@ -82,7 +82,7 @@ int runView(const Options& o) {
     if (!o.noOpen) shown.emplace(link);
   };
   tell.failed = [](const std::string& line) { printError(line); };
-  const Status served = server::serveHome(std::move(home).value(), settings.value(), options, std::move(page).value(), tell, stop);
+  const Status served = server::serveHome(std::move(home.value().home), settings.value(), options, std::move(page).value(), tell, stop);
   return served ? kOk : bad(served.error());
 }
 
@@ -91,8 +91,7 @@ int runView(const Options& o) {
 Registered addView(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("view", "Walk through a home in a browser, move things, dim lamps, read lux");
-  app->add_option("HOME", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
-  app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
+  addSceneOptions(*app, *o, "HOME");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
   app->add_option("--quality", o->quality, listed("How fine the light is kept:", qualities()));
   app->add_option("--port", o->port, "Port to listen on; 0: any that is free")->capture_default_str()->check(CLI::Range(0, 65535));
@@ -100,8 +99,6 @@ Registered addView(CLI::App& program) {
   app->add_option("--viewer", o->viewer, "Folder of the built page");
   app->add_flag("--no-open", o->noOpen, "Print the link only, open no browser");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
-  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
-  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")->capture_default_str()->check(CLI::Range(0.0, 1e9));
   app->add_flag("--quiet", o->quiet, "Only the link and errors");
   app->footer(
       "Prints the link of the page and opens it. The link holds a secret: whoever has it may look and change while the program runs.\n"

@@ -14,27 +14,26 @@
 #include "engine/live_walk.h"
 #include "engine/quality.h"
 #include "engine/stages.h"
-#include "import/import.h"
-#include "import/lighting_file.h"
+#include "import/walk_file.h"
 #include "interrupt.h"
 #include "output_files.h"
+#include "scene_options.h"
 
 namespace roomlight::cli {
 namespace {
 
-struct Options : SettingsOptions {
-  std::string scene, walk, lighting, output, stats;
+struct Options : SettingsOptions, SceneOptions {
+  std::string walk, output, stats;
   DisplayOptions display;
   int frames = 0;
   bool inARow = false;
-  float metresPerUnit = 1;
-  double lumenAtFullPower = ImportOptions().lumenAtFullPower;
   bool quiet = false;
 };
 
 struct Plan {
   RenderSettings settings;
   Display display;
+  home::OpenWish open;
 };
 
 int bad(const std::string& message, int code = kBadInput) {
@@ -48,7 +47,6 @@ Result<RenderSettings> frameSettingsOf(const Options& o) {
   const RenderSettings& s = settings.value();
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
-  if (!(o.metresPerUnit > 0 && o.metresPerUnit <= 1e6f)) return Error{"--metres-per-unit: must be above 0 and at most 1000000"};
   return s;
 }
 
@@ -72,7 +70,7 @@ Status checkFiles(const Options& o) {
   if (!o.stats.empty()) {
     if (const Status s = checkWritable(o.stats); !s) return s;
   }
-  return checkDistinct({o.scene, o.walk, o.lighting, o.settingsFile, o.stats, o.output});
+  return checkDistinct({o.scene, o.walk, o.lighting, o.settingsFile, o.stats, o.output, o.writeLighting});
 }
 
 // Writes frames exposed and balanced alike, by the first.
@@ -136,18 +134,11 @@ int work(const Options& o, const Plan& plan) {
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
   RenderStats loadStats;
   Stages loading(progress, loadStats);
-  std::vector<std::string> warnings;
-  Result<Scene> scene = loading.run("load", [&](const Progress&) -> Result<Scene> {
-    Result<Imported> imported = importScene(o.scene, {.metresPerUnit = o.metresPerUnit, .lumenAtFullPower = o.lumenAtFullPower});
-    if (!imported) return Error{imported.error()};
-    warnings = std::move(imported.value().warnings);
-    if (!o.lighting.empty()) {
-      if (const Status s = applyLightingFile(o.lighting, imported.value().scene, &warnings); !s) return Error{s.error()};
-    }
-    return std::move(imported.value().scene);
-  });
-  if (!scene) return bad(scene.error());
-  Result<Walk> walk = readWalkFile(o.walk, scene.value());
+  Result<home::OpenedHome> home = loading.run("load", [&](const Progress&) { return home::openHome(plan.open); });
+  if (!home) return bad(home.error());
+  if (const Status s = writeAddedLight(o, home.value()); !s) return bad(s.error());
+  Scene& scene = home.value().scene;
+  Result<Walk> walk = readWalkFile(o.walk, scene);
   if (!walk) return bad(walk.error());
   if (o.frames > 0 && o.frames < walk.value().frameCount()) {
     if (o.inARow) {
@@ -156,7 +147,7 @@ int work(const Options& o, const Plan& plan) {
       walk.value().framesPerSecond = o.frames / walk.value().seconds;
     }
   }
-  if (!o.quiet) printWarnings(warnings);
+  if (!o.quiet) printOpened(o, home.value());
   std::string failed;
   TakeFrame take;
   if (!o.output.empty()) {
@@ -166,7 +157,7 @@ int work(const Options& o, const Plan& plan) {
       return s;
     };
   }
-  const Result<WalkFrames> result = measureWalk(scene.value(), walk.value(), plan.settings, progress, take);
+  const Result<WalkFrames> result = measureWalk(scene, walk.value(), plan.settings, progress, take);
   if (!result) return bad(result.error(), failed.empty() ? kBadInput : kFailed);
   if (result.value().frames.empty()) return bad("interrupted before there was a picture", kInterrupted);
   if (!o.stats.empty()) {
@@ -183,7 +174,9 @@ int runWalk(const Options& o) {
   const Result<Display> display = readDisplay(o.display);
   if (!display) return bad(display.error());
   if (const Status s = checkFiles(o); !s) return bad(s.error());
-  return work(o, {settings.value(), display.value()});
+  Result<home::OpenWish> open = readSceneOptions(o);
+  if (!open) return bad(open.error());
+  return work(o, {settings.value(), display.value(), std::move(open.value())});
 }
 
 }  // namespace
@@ -191,9 +184,8 @@ int runWalk(const Options& o) {
 Registered addWalk(CLI::App& program) {
   const auto o = std::make_shared<Options>();
   CLI::App* app = program.add_subcommand("walk", "Walk through a home in which things move, and tell how many frames a second that makes");
-  app->add_option("SCENE", o->scene, "Home or room: .glb, .gltf, .obj, .sh3d or .sh3f")->required();
+  addSceneOptions(*app, *o, "SCENE");
   app->add_option("--walk", o->walk, "Walk file: the camera's way, what moves, which lamps are dimmed (docs/formats/walk.md)")->required();
-  app->add_option("--lighting", o->lighting, "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
   app->add_option("--quality", o->quality, listed("How much is done, if nothing else says so:", qualities()));
   app->add_option("--size", o->size, "Width and height of a frame in pixels, by default 960x540");
@@ -206,8 +198,6 @@ Registered addWalk(CLI::App& program) {
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   addDisplayOptions(*app, o->display, ".png and .jpg");
   app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
-  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the scene's unit in metres")->capture_default_str();
-  app->add_option("--lumen-at-full-power", o->lumenAtFullPower, "What lights of power 1 in Sweet Home 3D's files send out")->capture_default_str()->check(CLI::Range(0.0, 1e9));
   app->add_flag("--quiet", o->quiet, "Only results and errors");
   app->footer(
       "Ctrl-C ends the walk and tells of the frames so far (exit status 130).\n"

@@ -27,15 +27,39 @@ std::string duration(double s) {
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
+// Each once, in the order in which they came first.
+std::vector<std::string> once(const std::vector<std::string>& lines) {
+  std::set<std::string> said;
+  std::vector<std::string> out;
+  for (const std::string& line : lines) {
+    if (said.insert(line).second) out.push_back(line);
+  }
+  return out;
+}
+
 }  // namespace
 
 void printError(const std::string& message) { fmt::print(stderr, "roomlight: {}\n", oneLine(message)); }
 
 void printWarnings(const std::vector<std::string>& warnings) {
-  std::set<std::string> said;
-  for (const std::string& w : warnings) {
-    if (said.insert(w).second) fmt::print(stderr, "warning: {}\n", oneLine(w));
-  }
+  for (const std::string& w : once(warnings)) fmt::print(stderr, "warning: {}\n", oneLine(w));
+}
+
+void printFindings(const std::vector<std::string>& warnings, const std::vector<std::string>& faults, size_t faultCount, bool verbose) {
+  std::vector<std::string> shown = once(warnings);
+  const size_t all = shown.size();
+  // One more line than a cut list would have is no reason to cut.
+  const bool cut = !verbose && all > kMostWarnings + 1;
+  if (cut) shown.resize(kMostWarnings);
+  for (const std::string& w : shown) fmt::print(stderr, "warning: {}\n", oneLine(w));
+  if (cut) fmt::print(stderr, "warning: and {} more; --verbose lists them\n", all - shown.size());
+  if (faultCount == 0) return;
+  fmt::print(stderr, "{} small {} in models mended{}\n", faultCount, faultCount == 1 ? "fault" : "faults", verbose ? ":" : "; --verbose lists them");
+  for (const std::string& f : verbose ? once(faults) : std::vector<std::string>()) fmt::print(stderr, "  {}\n", oneLine(f));
+}
+
+void printNotes(const std::vector<std::string>& notes) {
+  for (const std::string& n : notes) fmt::print(stderr, "note: {}\n", oneLine(n));
 }
 
 ProgressDisplay::ProgressDisplay(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}

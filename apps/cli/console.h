@@ -12,6 +12,13 @@ namespace roomlight::cli {
 void printError(const std::string& message);
 // "warning: ..." once each, in the order in which they came first.
 void printWarnings(const std::vector<std::string>& warnings);
+// What was found in a scene's files: the first kMostWarnings warnings, and how many small faults were mended; with `verbose` all of them.
+// `faults` are kinds, `faultCount` is how many of all kinds there were.
+constexpr size_t kMostWarnings = 8;
+void printFindings(const std::vector<std::string>& warnings, const std::vector<std::string>& faults, size_t faultCount, bool verbose);
+
+// "note: ..." each: what was guessed or added for the user.
+void printNotes(const std::vector<std::string>& notes);
 
 // A bar with the time left on a terminal; elsewhere one line a stage when it is done. Called from one thread at a time.
 class ProgressDisplay {

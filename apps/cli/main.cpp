@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "console.h"
 #include "engine/version.h"
+#include "words.h"
 
 namespace {
 
@@ -30,6 +31,10 @@ int runProgram(int argc, char** argv) {
     for (CLI::Option* option : command.app->get_options()) {
       if (option->get_items_expected_max() > 0) option->check([](const std::string& value) { return std::string(value.empty() ? "has an empty value" : ""); }, "");
     }
+  }
+  if (const roomlight::Status s = roomlight::cli::checkWords(program, {argv + 1, argv + argc}); !s) {
+    roomlight::cli::printError(s.error());
+    return roomlight::cli::kBadInput;
   }
   try {
     program.parse(argc, argv);

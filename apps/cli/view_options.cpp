@@ -3,47 +3,14 @@
 #include <fmt/format.h>
 
 #include "arguments.h"
-#include "measure/areas.h"
 
 namespace roomlight::cli {
 namespace {
-
-constexpr float kNoCeilingM = 2.5f, kEyeM = 1.6f;
 
 Result<Vec3> parsePlace(const std::string& option, const std::string& text) {
   const Result<std::vector<float>> n = parseList(option, text, "x,y,z in metres", {3});
   if (!n) return Error{n.error()};
   return Vec3{n.value()[0], n.value()[1], n.value()[2]};
-}
-
-// As a room: the rectangle around its cells, up to what is over most of them.
-Room roomOf(const RayScene& rays, const Area& area) {
-  const Lattice& cells = area.map;
-  Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
-  std::vector<Vec3> places;
-  for (int row = 0; row < cells.rows; ++row) {
-    for (int column = 0; column < cells.columns; ++column) {
-      if (!cells.used[cells.index(column, row)]) continue;
-      const Vec3 c = cells.centre(column, row);
-      places.push_back(c);
-      low = {std::min(low.x, c.x - 0.5f * cells.stepUM), std::min(low.y, c.z - 0.5f * cells.stepVM)};
-      high = {std::max(high.x, c.x + 0.5f * cells.stepUM), std::max(high.y, c.z + 0.5f * cells.stepVM)};
-    }
-  }
-  Room room;
-  room.name = area.name;
-  room.floor = {{low.x, low.y}, {low.x, high.y}, {high.x, high.y}, {high.x, low.y}};
-  room.elevationM = area.elevationM;
-  // From the height of a standing eye: over furniture.
-  std::vector<float> heights;
-  for (const Vec3 p : places) {
-    const Hit ceiling = rays.intersect({{p.x, area.elevationM + kEyeM, p.z}, {0, 1, 0}, 0, kInfinity});
-    if (ceiling.valid()) heights.push_back(kEyeM + ceiling.t);
-  }
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  room.heightM = heights.empty() ? kNoCeilingM : *middle;
-  return room;
 }
 
 Status checkCombination(const ViewOptions& o, View view, bool cameraNamed) {
@@ -104,16 +71,6 @@ Result<ViewWish> readViewWish(const ViewOptions& o, bool cameraNamed) {
     wish.target = target.value();
   }
   return wish;
-}
-
-std::vector<Room> roomsFor(const Scene& scene, const ViewWish& wish) {
-  const bool around = wish.view == View::Panorama || wish.view == View::Stereo;
-  const bool needed = wish.cutM || (around ? !wish.eye : wish.view != View::Camera);
-  if (!scene.rooms.empty() || !needed) return scene.rooms;
-  const RayScene rays(scene);
-  std::vector<Room> rooms;
-  for (const Area& area : findAreas(rays, 0.75, {})) rooms.push_back(roomOf(rays, area));
-  return rooms;
 }
 
 }  // namespace roomlight::cli

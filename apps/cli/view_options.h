@@ -19,7 +19,4 @@ void addViewOptions(CLI::App& app, ViewOptions& options);
 // Everything that can be known to be wrong without the scene. `cameraNamed`: with --camera.
 Result<ViewWish> readViewWish(const ViewOptions& options, bool cameraNamed);
 
-// The scene's rooms; where it knows none and the wish asks for some, those that are found in it.
-std::vector<Room> roomsFor(const Scene& scene, const ViewWish& wish);
-
 }  // namespace roomlight::cli

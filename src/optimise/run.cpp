@@ -9,7 +9,7 @@
 #include "base/write_file.h"
 #include "engine/settings.h"
 #include "engine/version.h"
-#include "import/import.h"
+#include "home/open_home.h"
 #include "optimise/relaxation.h"
 #include "optimise/store.h"
 #include "optimise/timing.h"
@@ -65,9 +65,14 @@ class Trace {
 };
 
 Status Run::read() {
-  Result<Imported> imported = importScene(wish_.home);
-  if (!imported) return Error{imported.error()};
-  home_ = std::move(imported.value().scene);
+  // Light comes by the study's conditions.
+  home::OpenWish wish;
+  wish.scene = wish_.home, wish.light = home::LightWish::File, wish.metresPerUnit = wish_.metresPerUnit;
+  Result<home::OpenedHome> opened = home::openHome(wish);
+  if (!opened) return Error{opened.error()};
+  for (const std::string& note : opened.value().notes) news_.line(note);
+  home_ = std::move(opened.value().scene);
+  home_.rooms = std::move(opened.value().rooms);
   Result<StudyFile> study = readStudy(wish_.study, home_.rooms);
   if (!study) return Error{study.error()};
   study_ = std::move(study.value());

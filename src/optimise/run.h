@@ -16,6 +16,7 @@
 namespace roomlight::optimise {
 
 struct RunWish {
+  std::optional<float> metresPerUnit;  // of the home; none: the file's, or guessed
   std::filesystem::path home, study, folder;
   RenderSettings render;
   std::vector<search::Method> methods = {search::Method::hybrid};  // the first finds the front, the others are compared with it

@@ -57,7 +57,7 @@ Affine looking(Vec3 from, Vec3 forward) {
 }
 
 Camera defaultCamera(const Scene& scene) {
-  if (!scene.cameras.empty()) return scene.cameras.front();
+  if (!scene.cameras.empty()) return scene.cameras[static_cast<size_t>(scene.cameraInUse) % scene.cameras.size()];
   const Bounds3 bounds = scene.bounds();
   const Vec3 size = bounds.size(), centre = bounds.centre();
   const float eye = bounds.lo.y + std::min(1.6f, size.y * 0.6f);

@@ -191,6 +191,7 @@ struct Scene {
   std::vector<Sun> suns;
   Sky sky;
   std::vector<Camera> cameras;
+  int cameraInUse = 0;  // index into cameras: what is shown where nobody says
   std::vector<Room> rooms;  // where the file knows them
 
   size_t triangleCount() const;  // of all instances
@@ -206,7 +207,7 @@ void addAreaLampMeshes(Scene& scene, size_t firstLamp = 0);
 // The frame of a camera that looks along `forward`, upright; straight up or down the top of its picture is -z or +z.
 Affine looking(Vec3 from, Vec3 forward);
 
-// A camera that sees the scene: the first of the file, else one that looks into the bounds from a corner at eye height.
+// A camera that sees the scene: the one in use, else one that looks into the bounds from a corner at eye height.
 Camera defaultCamera(const Scene& scene);
 
 }  // namespace roomlight

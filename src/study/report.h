@@ -14,7 +14,7 @@ struct StudyHeader {
   std::vector<std::pair<std::string, std::string>> about{}, techniques{};
 };
 
-// What was asked of a study, and what came out.
+// What roomlight asks of its own techniques after the figures of the published study, and what came out; none where the plan does not ask for that.
 struct StudyVerdict {
   std::string asked, measured;
   bool met = false;

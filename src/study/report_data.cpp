@@ -86,6 +86,16 @@ std::string drawingTimes(const StudyResults& r) {
   return head + "\n" + rule + "\n" + s;
 }
 
+std::string publishedTimes() {
+  std::string s = "\n| published scene | cone | vxgi | lpv | photon |\n|---|---|---|---|---|\n";
+  for (size_t i = 0; i < 6; ++i) {
+    s += fmt::format("| {} |", i + 1);
+    for (const auto& t : published::kTechniques) s += fmt::format(" {:.1f} |", t.drawingS[i]);
+    s += "\n";
+  }
+  return s;
+}
+
 // Of one technique over each rival, at the least error that both reach.
 std::string timeRatios(const StudyResults& r, const std::string& technique) {
   std::string head, s;
@@ -128,13 +138,17 @@ std::string studyJson(const StudyHeader& header, const StudyResults& r) {
   Json j;
   j["about"] = aboutJson(header);
   j["complete"] = r.complete;
-  j["verdicts"] = Json::array(), j["cases"] = Json::array(), j["frames"] = Json::array();
+  if (r.againstPublished) j["verdicts"] = Json::array();
+  j["cases"] = Json::array(), j["frames"] = Json::array();
   for (const StudyVerdict& v : studyVerdicts(r)) j["verdicts"].push_back({{"asked", v.asked}, {"measured", v.measured}, {"met", v.met}});
   for (const StudyCase& c : r.cases) j["cases"].push_back(caseJson(c));
   for (const StudyFrames& f : r.frames) {
     j["frames"].push_back({{"scene", f.scene}, {"light", f.light}, {"technique", f.technique}, {"framesPerSecond", f.cost.framesPerSecond}, {"frames", f.cost.frames}, {"updateMs", f.cost.updateMs}, {"pictureMs", f.cost.pictureMs}, {"runs", f.runs.size()}, {"failed", f.failed}});
   }
-  for (const auto& t : published::kTechniques) j["published"].push_back({{"technique", t.name}, {"drawingSeconds", t.drawingS}, {"settledMse", t.settledMse}, {"framesPerSecond", t.framesPerSecond}});
+  for (const auto& t : published::kTechniques) {
+    if (!r.againstPublished) break;
+    j["published"].push_back({{"technique", t.name}, {"drawingSeconds", t.drawingS}, {"settledMse", t.settledMse}, {"framesPerSecond", t.framesPerSecond}});
+  }
   j["remarks"] = r.remarks;
   return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -161,20 +175,18 @@ std::string studyMarkdown(const StudyHeader& header, const StudyResults& r) {
   for (const auto* rows : {&header.about, &header.techniques}) {
     for (const auto& [name, value] : *rows) s += fmt::format("; {}: {}", name, value);
   }
-  s += fmt::format(".{}\n\n## Asked\n\n| asked | measured | |\n|---|---|---|\n", r.complete ? "" : " Stopped early: what follows is a part.");
+  s += fmt::format(".{}\n", r.complete ? "" : " Stopped early: what follows is a part.");
+  if (r.againstPublished) s += "\n## Asked\n\n| asked | measured | |\n|---|---|---|\n";
   for (const StudyVerdict& v : studyVerdicts(r)) s += fmt::format("| {} | {} | {} |\n", cell(v.asked), cell(v.measured), v.met ? "met" : "missed");
-  s += "\n## Seconds until the error settles (Table 1 of the published study)\n\n" + drawingTimes(r);
-  s += "\n`>`: stopped by time or samples while the error still fell.\n\n| published scene | cone | vxgi | lpv | photon |\n|---|---|---|---|---|\n";
-  for (size_t i = 0; i < 6; ++i) {
-    s += fmt::format("| {} |", i + 1);
-    for (const auto& t : published::kTechniques) s += fmt::format(" {:.1f} |", t.drawingS[i]);
-    s += "\n";
-  }
+  s += fmt::format("\n## Seconds until the error settles{}\n\n", r.againstPublished ? " (Table 1 of the published study)" : "") + drawingTimes(r);
+  s += "\n`>`: stopped by time or samples while the error still fell.\n";
+  if (r.againstPublished) s += publishedTimes();
   for (const char* own : {"cone", "hybrid"}) {
     if (const std::string ratios = timeRatios(r, own); !ratios.empty()) s += fmt::format("\n## Time at equal error, {}\n\nSeconds over those of the other, at the least error that both reach.\n\n", own) + ratios;
   }
-  if (!r.frames.empty()) s += "\n## Frames a second along a walk (Fig. 3)\n\n" + framesTable(r) + "\nPublished: cone 36, vxgi 28, lpv 23, photon 7.\n";
-  s += "\n## Where each settles (Fig. 2 and memory)\n\nPublished: cone .0034, vxgi .0051, lpv .0085, photon .0105.\n";
+  if (!r.frames.empty()) s += fmt::format("\n## Frames a second along a walk{}\n\n", r.againstPublished ? " (Fig. 3)" : "") + framesTable(r);
+  if (!r.frames.empty() && r.againstPublished) s += "\nPublished: cone 36, vxgi 28, lpv 23, photon 7.\n";
+  s += r.againstPublished ? "\n## Where each settles (Fig. 2 and memory)\n\nPublished: cone .0034, vxgi .0051, lpv .0085, photon .0105.\n" : "\n## Where each settles, and memory\n";
   for (const StudyCase& c : r.cases) {
     s += fmt::format("\n### {}, {}\n\nReference: {:.0f} samples a pixel, {:.0f} s, noise {:.6f}{}.\n\n", c.scene, c.light, c.referenceSamples, c.referenceS, c.noiseMse, c.referenceConverged ? "" : " (not down to what was asked)") + curvesTable(c);
   }

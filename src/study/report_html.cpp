@@ -172,17 +172,23 @@ std::string timesToCone(const StudyResults& r) {
              [](const StudyCurve&) { return 1e31; });
 }
 
-std::string tables(const StudyResults& r) {
-  std::string s = "<h2>Drawing time</h2><p>Seconds after loading until the error has settled: twice the samples a pixel take away less than a twentieth of it, two times in a row. &gt;: stopped by time while it still fell. Bold: the quickest, whatever its error.</p>";
-  s += matrix(
-      r, [](const StudyCurve& c, const StudyCase&) { return (hasSettled(c) ? "" : "&gt; ") + seconds(settledPoint(c).seconds); }, [](const StudyCurve& c) { return settledPoint(c).seconds; });
-  s += "<details><summary>Table 1 of the published study, seconds</summary><table><tr><th>scene</th>";
+std::string publishedTimes() {
+  std::string s = "<details><summary>Table 1 of the published study, seconds</summary><table><tr><th>scene</th>";
   for (const auto& t : published::kTechniques) s += fmt::format("<th>{}</th>", t.name);
   for (size_t i = 0; i < 6; ++i) {
     s += fmt::format("</tr><tr><td>{}</td>", i + 1);
     for (const auto& t : published::kTechniques) s += fmt::format("<td>{:.1f}</td>", t.drawingS[i]);
   }
-  s += "</tr></table></details>\n<h2>Error where it settles</h2><p>Mean squared difference of the exposed, clipped and sRGB-encoded pictures, without what the reference's own noise adds. Published: cone .0034, vxgi .0051, lpv .0085, photon .0105. Bold: the least of all but the judge.</p>";
+  return s + "</tr></table></details>\n";
+}
+
+std::string tables(const StudyResults& r) {
+  std::string s = "<h2>Drawing time</h2><p>Seconds after loading until the error has settled: twice the samples a pixel take away less than a twentieth of it, two times in a row. &gt;: stopped by time while it still fell. Bold: the quickest, whatever its error.</p>";
+  s += matrix(
+      r, [](const StudyCurve& c, const StudyCase&) { return (hasSettled(c) ? "" : "&gt; ") + seconds(settledPoint(c).seconds); }, [](const StudyCurve& c) { return settledPoint(c).seconds; });
+  if (r.againstPublished) s += publishedTimes();
+  s += "<h2>Error where it settles</h2><p>Mean squared difference of the exposed, clipped and sRGB-encoded pictures, without what the reference's own noise adds. ";
+  s += fmt::format("{}Bold: the least of all but the judge.</p>", r.againstPublished ? "Published: cone .0034, vxgi .0051, lpv .0085, photon .0105. " : "");
   s += matrix(
       r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.4f}", errorOf(settledPoint(c))); }, [](const StudyCurve& c) { return errorOf(settledPoint(c)); });
   s += timesToCone(r);
@@ -210,9 +216,12 @@ std::vector<StudyCurve> colouredCurves(const StudyResults& r) {
 
 std::string frames(const StudyResults& r) {
   if (r.frames.empty()) return {};
-  std::string s = "<h2>Frames a second</h2><p>Along a recorded walk with moving objects, one sample a pixel a frame. Black ticks, where there is <i>cone</i>: the published frames (cone 36, vxgi 28, lpv 23, photon 7) in ratio to it.</p><div class=plots>\n";
+  std::string s = "<h2>Frames a second</h2><p>Along a recorded walk with moving objects, one sample a pixel a frame.";
+  s += fmt::format("{}</p><div class=plots>\n", r.againstPublished ? " Black ticks, where there is <i>cone</i>: the published frames (cone 36, vxgi 28, lpv 23, photon 7) in ratio to it." : "");
   std::map<std::string, double> published;
-  for (const auto& t : published::kTechniques) published[t.name] = t.framesPerSecond;
+  for (const auto& t : published::kTechniques) {
+    if (r.againstPublished) published[t.name] = t.framesPerSecond;
+  }
   std::vector<std::pair<std::string, std::string>> walks;  // scene and light
   for (const StudyFrames& f : r.frames) {
     if (walks.empty() || walks.back().first != f.scene) walks.emplace_back(f.scene, f.light);
@@ -256,7 +265,7 @@ Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, 
     if (!pictures) return pictures;
     s += pictures.value();
   }
-  if (!nothingMeasured(r)) s += verdictTable(r);
+  if (r.againstPublished && !nothingMeasured(r)) s += verdictTable(r);
   s += "<h2>Machine and settings</h2><table>";
   for (const auto* rows : {&header.about, &header.techniques}) {
     for (const auto& [name, value] : *rows) s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));

@@ -309,6 +309,7 @@ Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settin
                               const std::function<void(const StudyResults&)>& soFar) {
   Pace pace(progress, unitsOf(plan, settings, tools));
   StudyResults results;
+  results.againstPublished = plan.againstPublished;
   for (const StudyScene& scene : plan.scenes) {
     for (const StudyLight& light : scene.lights) {
       if (progress.stop()) break;

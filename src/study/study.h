@@ -56,6 +56,7 @@ struct StudyResults {
   std::vector<StudyFrames> frames;
   std::vector<std::string> remarks;  // what went wrong on the way; one line each
   bool complete = true;              // false: stopped early
+  bool againstPublished = false;     // as the plan has it
 };
 
 // Neither a view nor a frame of a walk.

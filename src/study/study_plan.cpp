@@ -1,4 +1,4 @@
-// { "version": 1, "comment",
+// { "version": 1, "comment", "againstPublished": false,
 //   "scenes": [ { "name", "scene": "flat.sh3d", "camera": "Kitchen" | 2, "lights": [ { "name", "lighting": "day.json" | "dimLamp": "150 lm" } ], "walk": "walk.json" } ],
 //   "techniques": [ { "name", "technique", "settings": { .. }, "kind": "ours" | "rival" | "judge", "only": "pictures" | "walks" } ] }
 #include "study/study_plan.h"
@@ -125,9 +125,10 @@ Result<StudyPlan> readStudyFile(const std::filesystem::path& file) {
   const JsonPlace j(document.value(), "", error);
   const std::filesystem::path folder = file.parent_path();
   StudyPlan plan;
-  if (j.isObject({"version", "comment", "scenes", "techniques"})) {
+  if (j.isObject({"version", "comment", "againstPublished", "scenes", "techniques"})) {
     if (j.has("version") && j["version"].number(1, 1e6) != 1) j["version"].fail("must be 1");
     if (j.has("comment")) j["comment"].text();
+    if (j.has("againstPublished")) plan.againstPublished = j["againstPublished"].flag();
     plan.scenes = readList(j["scenes"], [&](const JsonPlace& scene) { return readScene(scene, folder); });
     plan.techniques = j.has("techniques") ? readList(j["techniques"], readTechnique) : usualTechniques();
   }

@@ -36,6 +36,7 @@ struct StudyTechnique {
 struct StudyPlan {
   std::vector<StudyScene> scenes;
   std::vector<StudyTechnique> techniques;
+  bool againstPublished = false;  // reports say what the study that roomlight builds on published, and what roomlight asks of itself beside it
   // Those that are tried so: "pictures" or "walks".
   std::vector<StudyTechnique> techniquesIn(const std::string& what) const;
 };

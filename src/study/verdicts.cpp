@@ -144,6 +144,7 @@ std::vector<StudyVerdict> frames(const StudyResults& r) {
 }  // namespace
 
 std::vector<StudyVerdict> studyVerdicts(const StudyResults& r) {
+  if (!r.againstPublished) return {};
   const auto has = [&](const std::string& start, const std::string& kind) {
     return std::any_of(r.cases.begin(), r.cases.end(), [&](const StudyCase& c) {
       return std::any_of(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) { return !curve.points.empty() && curve.technique.starts_with(start) && (kind.empty() || curve.kind == kind); });

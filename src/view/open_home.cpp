@@ -4,7 +4,6 @@
 
 #include "import/json_file.h"
 #include "import/json_reader.h"
-#include "import/lighting_file.h"
 #include "import/lighting_own.h"
 #include "view/save_lighting.h"
 #include "view/sun_by_date.h"
@@ -32,30 +31,47 @@ bool keepsOwnSun(const nlohmann::json& document) {
   return !document.contains("daylight") && !document.contains("sun") && !document.contains("sky") && scene.value("suns", "keep") == "keep" && scene.value("sky", "keep") == "keep";
 }
 
+// What was added comes after what the file says, as it does in the scene; its sky and sun replace others.
+void merge(const nlohmann::json& added, nlohmann::json& document) {
+  if (!document.is_object()) document = nlohmann::json::object();
+  if (added.contains("daylight") || added.contains("sky")) {
+    for (const char* key : {"daylight", "sun", "sky"}) document.erase(key);
+  }
+  for (const auto& [key, value] : added.items()) {
+    if (key == "lamps" && document.contains(key)) {
+      document[key].insert(document[key].end(), value.begin(), value.end());
+    } else {
+      document[key] = value;
+    }
+  }
+}
+
 }  // namespace
 
-Result<ViewHome> openHome(const std::filesystem::path& scene, const std::filesystem::path& lighting, const ImportOptions& options, std::vector<std::string>& warnings) {
-  Result<Imported> imported = importScene(scene, options);
-  if (!imported) return Error{imported.error()};
-  warnings = std::move(imported.value().warnings);
-  Scene& opened = imported.value().scene;
+Result<OpenedView> openHome(home::OpenWish wish) {
   LightingSource source;
-  source.folder = lighting.parent_path();
-  if (!lighting.empty()) {
-    Result<nlohmann::json> document = readJsonFile(lighting);
+  source.folder = wish.lighting.parent_path();
+  if (!wish.lighting.empty()) {
+    Result<nlohmann::json> document = readJsonFile(wish.lighting);
     if (!document) return Error{document.error()};
     source.document = std::move(document).value();
-    if (const std::string wrong = wrongDimming(source.document, opened); !wrong.empty()) return Error{fmt::format("{}: {}", lighting.string(), wrong)};
-    if (const Status s = applyLighting(withoutDimming(source.document), lighting, opened, &warnings); !s) return Error{s.error()};
-    if (source.document.contains("lamps")) source.lamps = source.document["lamps"].size();
+    wish.document = withoutDimming(source.document);
   }
-  ViewHome home(scene.stem().string(), std::move(opened));
+  Result<home::OpenedHome> result = home::openHome(wish);
+  if (!result) return Error{result.error()};
+  home::OpenedHome& opened = result.value();
+  if (!wish.lighting.empty()) {
+    if (const std::string wrong = wrongDimming(source.document, opened.scene); !wrong.empty()) return Error{fmt::format("{}: {}", wish.lighting.string(), wrong)};
+  }
+  if (!opened.lighting.is_null()) merge(opened.lighting, source.document);
+  if (source.document.contains("lamps")) source.lamps = source.document["lamps"].size();
+  ViewHome home(wish.scene.stem().string(), std::move(opened.scene));
   home.lighting = std::move(source);
   home.opened = stateOfFile(home, home.lighting.document);
   const nlohmann::json& document = home.lighting.document;
   home.sun = sunOfLighting(document, home.lighting.folder);
-  if (keepsOwnSun(document) && !imported.value().daylight.empty()) home.sun = sunOfDaylight(nlohmann::json::parse(imported.value().daylight), {});
-  return home;
+  if (keepsOwnSun(document) && !opened.daylight.empty()) home.sun = sunOfDaylight(nlohmann::json::parse(opened.daylight), {});
+  return OpenedView{std::move(home), std::move(opened)};
 }
 
 }  // namespace roomlight::view

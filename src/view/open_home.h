@@ -1,14 +1,15 @@
 // From files to a home that a session can open.
 #pragma once
 
-#include <filesystem>
-
-#include "import/import.h"
+#include "home/open_home.h"
 #include "view/home.h"
 
 namespace roomlight::view {
 
-// `lighting` may be empty.
-Result<ViewHome> openHome(const std::filesystem::path& scene, const std::filesystem::path& lighting, const ImportOptions& options, std::vector<std::string>& warnings);
+struct OpenedView {
+  ViewHome home;
+  home::OpenedHome opened;  // but for its scene, which is the session's
+};
+Result<OpenedView> openHome(home::OpenWish wish);
 
 }  // namespace roomlight::view

@@ -52,12 +52,46 @@ TEST_F(CompareCommand, tableAndDifferencePictureBesideThePictureByDefault) {
   EXPECT_TRUE(readImage(path("reference.exr.difference.png")).ok());
 }
 
+TEST_F(CompareCommand, tonemappedPicturesAreComparedAsShown) {
+  Image grey(20, 16), lighter(20, 16);
+  for (Vec3& p : grey.pixels) p = Vec3(51 / 255.0f);
+  for (Vec3& p : lighter.pixels) p = Vec3(102 / 255.0f);
+  ASSERT_TRUE(writePng(path("grey.png"), grey, {}).ok());
+  ASSERT_TRUE(writePng(path("lighter.png"), lighter, {}).ok());
+  ASSERT_TRUE(writeJpeg(path("lighter.jpg"), lighter, SIZE_MAX).ok());
+  for (const char* file : {"lighter.png", "lighter.jpg"}) {
+    const ProgramRun run = runProgram({"compare", path("grey.png"), path(file), "--json", "--difference", path("d.png")});
+    ASSERT_EQ(run.exitStatus, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["space"], "display");
+    // 0.2 in encoded values, whatever their exposure; JPEG may be off by one of 255.
+    EXPECT_NEAR(json["mse"].get<double>(), 0.04, std::string(file).ends_with(".png") ? 1e-6 : 2e-3) << file;
+    EXPECT_FALSE(json.contains("relMse"));
+    EXPECT_FALSE(json.contains("meanLuminanceErrorPercent"));
+  }
+  const ProgramRun same = runProgram({"compare", path("grey.png"), path("grey.png")});
+  EXPECT_NE(same.out.find("mse                        0.000000"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("as shown"), std::string::npos) << same.out;
+}
+
+TEST_F(CompareCommand, linearAndToneMappedPicturesAreNotCompared) {
+  ASSERT_TRUE(writePng(path("shown.png"), ramp(20, 0.01f), {}).ok());
+  for (const auto& [a, b] : {std::pair("reference.exr", "shown.png"), std::pair("shown.png", "reference.exr")}) {
+    const ProgramRun run = runProgram({"compare", path(a), path(b)});
+    EXPECT_EQ(run.exitStatus, 2);
+    EXPECT_NE(run.err.find("reference.exr holds linear light and " + path("shown.png") + " a tone-mapped picture"), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(runProgram({"compare", path("shown.png"), path("shown.png"), "--second", path("shown.png")}).exitStatus, 2);
+}
+
 TEST_F(CompareCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   testing::writeFile(path("text.exr"), "no picture");
+  testing::writeFile(path("torn.jpg"), "\xff\xd8\xff\xe0 no more");
   const size_t before = folder_.fileCount();
   const std::vector<std::vector<std::string>> cases = {{"compare", path("reference.exr"), path("wide.exr")},
                                                        {"compare", path("reference.exr"), path("missing.exr")},
                                                        {"compare", path("text.exr"), path("reference.exr")},
+                                                       {"compare", path("torn.jpg"), path("torn.jpg")},
                                                        {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("no/d.png")},
                                                        {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("d.exr")},
                                                        {"compare", path("reference.exr"), path("bright.exr"), "--difference", ""},

@@ -41,6 +41,19 @@ TEST(DevelopCommand, aJpegIsAsSmallAsAsked) {
   EXPECT_LE(size, 25000u);
 }
 
+TEST(DevelopCommand, finishedPicturesAreRefused) {
+  const TemporaryFolder folder;
+  Image grey(8, 6);
+  ASSERT_TRUE(writePng(folder / "a.png", grey, {}));
+  ASSERT_TRUE(writeJpeg(folder / "a.jpg", grey, SIZE_MAX));
+  for (const char* name : {"a.png", "a.jpg"}) {
+    const ProgramRun run = runProgram({"develop", folder / name, "-o", folder / "o.png"});
+    EXPECT_EQ(run.exitStatus, 2);
+    EXPECT_NE(run.err.find("is exposed and tone-mapped already; develop takes linear pictures"), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "o.png"));
+  }
+}
+
 TEST(DevelopCommand, badInputIsExitStatusTwo) {
   const TemporaryFolder folder;
   const std::string a = flat(folder, "a.exr", 8, 6, 1), b = flat(folder, "b.exr", 8, 5, 1), out = folder / "o.png";

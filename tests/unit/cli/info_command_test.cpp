@@ -25,7 +25,12 @@ TEST(InfoCommand, jsonSaysWhatTheSceneHolds) {
   EXPECT_EQ(json["materials"].is_array() ? json["materials"].size() : json["materials"].get<size_t>(), 1u);
   ASSERT_EQ(json["lamps"].size(), 1u);
   EXPECT_NEAR(json["lamps"][0]["intensityCd"].get<double>(), 200, 1e-3);
-  EXPECT_EQ(json["cameras"].size(), 2u);
+  ASSERT_EQ(json["cameras"].size(), 5u);  // two of the file, Room 1, Outside and Plan
+  EXPECT_FALSE(json["cameras"][1]["proposed"].get<bool>());
+  EXPECT_EQ(json["cameras"][2]["name"], "Room 1");
+  EXPECT_TRUE(json["cameras"][2]["proposed"].get<bool>());
+  ASSERT_EQ(json["rooms"].size(), 1u);
+  EXPECT_NEAR(json["rooms"][0]["heightM"].get<double>(), 3, 0.01);
   EXPECT_NEAR(json["boundsM"]["high"][1].get<double>(), 3, 1e-5);
 }
 

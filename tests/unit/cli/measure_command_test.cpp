@@ -30,7 +30,11 @@ TEST(MeasureCommand, findsTheRoomAndWritesEveryReport) {
   EXPECT_GT(lux["mean"].get<double>(), lux["min"].get<double>());
   EXPECT_EQ(j["technique"], "hybrid");
   const std::string csv = readFile(folder / "m.csv");
-  EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + lux["points"].get<size_t>());
+  EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + lux["points"].get<size_t>() + j["grids"][0]["leftOut"].size());
+  EXPECT_EQ(j["luminaires"][0]["name"], "Bulb");
+  EXPECT_EQ(j["luminaires"][0]["room"], "Area 1");
+  EXPECT_DOUBLE_EQ(j["home"]["meanOfAreaLux"].get<double>(), lux["mean"].get<double>());
+  EXPECT_EQ(j["roomTargets"][0]["useFrom"], "assumed");
 }
 
 // The bulb of 200 cd is 2.5 m up: direct light alone is 200 / 2.5² = 32 lx on the floor below it.
@@ -66,9 +70,29 @@ TEST(MeasureCommand, htmlReportStandsAloneWithDaylight) {
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   EXPECT_NE(run.out.find("mean DF %"), std::string::npos) << run.out;
   const std::string html = readFile(folder / "m.html");
-  for (const char* part : {"<!doctype html>", "Area 1, work plane", "class=\"map\"", "class=\"contour\"", "class=\"lamp\"", "class=\"legend\"", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
-  for (const char* part : {"<script", "src=", "href=", ">nan", ">inf", "-2147483648"}) EXPECT_EQ(html.find(part), std::string::npos) << part;
+  for (const char* part : {"<!doctype html>", "Area 1, work plane", "class=\"map\"", "class=\"contour\"", "class=\"lamp\"", "class=\"legend\"", "class=\"plan\"", "src=\"data:image/jpeg;base64,/9j/", "Luminaire schedule", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
+  for (const char* part : {"<script", "src=\"http", "href=", ">nan", ">inf", "-2147483648"}) EXPECT_EQ(html.find(part), std::string::npos) << part;
   EXPECT_LT(html.size(), size_t{2'000'000});
+}
+
+TEST(MeasureCommand, theReportIsWithoutAPictureWhereThatIsAsked) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--quality", "draft", "--tolerance", "10%", "--no-picture", "--html", folder / "m.html"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  EXPECT_EQ(run.err.find("picture"), std::string::npos) << run.err;
+  EXPECT_EQ(readFile(folder / "m.html").find("<img"), std::string::npos);
+}
+
+// The pillar of the room is 0.4 m wide, at x = 0.8.
+TEST(MeasureCommand, metersInFurnitureAreToldInOneLine) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--quality", "draft", "--tolerance", "10%", "--point", "0.8,1,0", "--point", "0,1,1", "--json", folder / "m.json"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  EXPECT_NE(run.err.find("warning: in furniture: 1 meter, read but not judged ('point 1')\n"), std::string::npos) << run.err;
+  EXPECT_NE(run.out.find("point 1 (furniture)"), std::string::npos) << run.out;
+  const auto j = nlohmann::json::parse(readFile(folder / "m.json"));
+  EXPECT_EQ(j["points"][0]["place"], "furniture");
+  EXPECT_EQ(j["points"][1]["place"], "free");
 }
 
 TEST(MeasureCommand, renderShowsLuminance) {

@@ -192,7 +192,7 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--technique", "magic"}, "hybrid, cone, vxgi, lpv, photon, path"},
       {{"render", scene_, "-o", a, "--quality", "perfect"}, "draft, good, best"},
       {{"render", scene_, "-o", a, "--camera", "Side"}, "'Front', 'Back'"},
-      {{"render", scene_, "-o", a, "--camera", "2"}, "'Front', 'Back'"},
+      {{"render", scene_, "-o", a, "--camera", "7"}, "'Front', 'Back'"},
       {{"render", scene_, "-o", a, "--samples", "-1"}, "samples"},
       {{"render", scene_, "-o", a, "--samples", "many"}, "samples"},
       {{"render", scene_, "-o", a, "--samples", ""}, "empty"},

@@ -46,6 +46,13 @@ TEST_F(StudyPlanTest, ReadsScenesLightsAndTechniques) {
   EXPECT_EQ(settings.value().lpv.steps, 99);
 }
 
+TEST_F(StudyPlanTest, IsAgainstThePublishedStudyOnlyWhereItSaysSo) {
+  const std::string scenes = R"("scenes": [{"name": "Room", "scene": "room.glb", "lights": [{"name": "own"}]}])";
+  EXPECT_FALSE(read("{" + scenes + "}").value().againstPublished);
+  EXPECT_TRUE(read(R"({"againstPublished": true, )" + scenes + "}").value().againstPublished);
+  EXPECT_FALSE(read(R"({"againstPublished": 1, )" + scenes + "}"));
+}
+
 TEST_F(StudyPlanTest, WithoutTechniquesTakesTheUsualOnes) {
   const auto plan = read(R"({"scenes": [{"name": "Room", "scene": "room.glb", "lights": [{"name": "own"}]}]})");
   ASSERT_TRUE(plan) << plan.error();

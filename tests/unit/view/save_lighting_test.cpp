@@ -35,11 +35,16 @@ class SaveLighting : public ::testing::Test {
     roomlight::testing::writeFile(folder_ / "home.gltf", kHome);
     roomlight::testing::writeFile(folder_ / "light.json", kLighting);
   }
-  ViewHome open(const std::string& lighting) {
-    std::vector<std::string> warnings;
-    Result<ViewHome> home = openHome(folder_ / "home.gltf", lighting.empty() ? std::filesystem::path() : folder_ / lighting, {}, warnings);
-    EXPECT_TRUE(home.ok()) << home.error();
-    return std::move(home).value();
+  home::OpenWish wishFor(const std::string& lighting, home::LightWish light = home::LightWish::File) const {
+    home::OpenWish wish;
+    wish.scene = folder_ / "home.gltf", wish.light = light;
+    if (!lighting.empty()) wish.lighting = folder_ / lighting;
+    return wish;
+  }
+  ViewHome open(const std::string& lighting, home::LightWish light = home::LightWish::File) {
+    Result<OpenedView> opened = view::openHome(wishFor(lighting, light));
+    EXPECT_TRUE(opened.ok()) << opened.error();
+    return std::move(opened.value().home);
   }
   // The scene as `render --lighting` has it.
   Scene rendered(const std::string& lighting) {
@@ -105,11 +110,19 @@ TEST_F(SaveLighting, homesWithoutAFileSaveWhatWasChanged) {
   expectSameLight(sceneIn(home, state).value(), rendered("saved.json"));
 }
 
+// Light that was added is part of what is saved, after what the file says.
+TEST_F(SaveLighting, ofAddedLight) {
+  const ViewHome home = open("light.json", home::LightWish::Evening);
+  const auto saved = json::parse(lightingFile(home, home.atStart()));
+  EXPECT_FALSE(saved["sky"].is_null());
+  roomlight::testing::writeFile(folder_ / "saved.json", saved.dump());
+  expectSameLight(sceneIn(home, home.atStart()).value(), rendered("saved.json"));
+}
+
 TEST_F(SaveLighting, wrongDimmingIsRefused) {
-  std::vector<std::string> warnings;
   for (const char* text : {R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": "1 lm", "dimming": 3}]})", R"({"own": [{"name": "Nobody"}]})", R"({"own": [{"name": "Panel", "number": 3}]})"}) {
     roomlight::testing::writeFile(folder_ / "wrong.json", text);
-    EXPECT_FALSE(openHome(folder_ / "home.gltf", folder_ / "wrong.json", {}, warnings).ok()) << text;
+    EXPECT_FALSE(view::openHome(wishFor("wrong.json")).ok()) << text;
   }
 }
 

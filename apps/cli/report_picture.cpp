@@ -1,0 +1,54 @@
+#include "report_picture.h"
+
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include "base/image_io.h"
+#include "engine/display.h"
+#include "engine/quality.h"
+#include "engine/render.h"
+#include "interrupt.h"
+
+namespace roomlight::cli {
+namespace {
+
+constexpr int kWidth = 1120, kHeight = 504;  // wide: half a page of A4 is for the plan
+constexpr double kMostS = 6;
+constexpr int kJpegQuality = 84;
+
+}  // namespace
+
+ReportPicture pictureFor(const Scene& scene, int threads) {
+  Camera camera = defaultCamera(scene);
+  if (camera.projection != Projection::Perspective && camera.projection != Projection::Orthographic)
+    camera.projection = Projection::Perspective;
+  RenderSettings settings;
+  applyQuality("draft", settings);
+  settings.width = kWidth, settings.height = kHeight, settings.timeLimitS = kMostS, settings.blend = false,
+  settings.threads = threads;
+  RenderProgress progress;
+  progress.cancelled = &interrupted();
+  const Result<Rendered> rendered = render(scene, camera, settings, progress);
+  if (!rendered || rendered.value().image.pixels.empty()) return {};
+  const Image& image = rendered.value().image;
+  const float ev100 = automaticEv100(image);
+  const Display display;
+  Result<std::string> jpeg =
+      encodeJpeg(displayed(image, display, whiteOf(display, rendered.value().lightColour, ev100), ev100), kJpegQuality);
+  if (!jpeg) return {};
+  return {std::move(jpeg.value()), camera.name.empty()
+                                       ? "View of the home, exposed for the eye"
+                                       : fmt::format("View from '{}', exposed for the eye", camera.name)};
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  static constexpr const char* kMonths[] = {"January", "February", "March", "April", "May", "June",
+                                            "July", "August", "September", "October", "November", "December"};
+  return fmt::format("{} {} {}", local.tm_mday, kMonths[local.tm_mon], local.tm_year + 1900);
+}
+
+}  // namespace roomlight::cli

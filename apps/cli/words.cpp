@@ -1,0 +1,94 @@
+#include "words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "arguments.h"
+
+namespace roomlight::cli {
+namespace {
+
+// Optimal string alignment.
+size_t editsBetween(const std::string& a, const std::string& b) {
+  std::vector<std::vector<size_t>> d(a.size() + 1, std::vector<size_t>(b.size() + 1));
+  for (size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (size_t k = 0; k <= b.size(); ++k) d[0][k] = k;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    for (size_t k = 1; k <= b.size(); ++k) {
+      d[i][k] = std::min({d[i - 1][k] + 1, d[i][k - 1] + 1, d[i - 1][k - 1] + (a[i - 1] == b[k - 1] ? 0 : 1)});
+      if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
+        d[i][k] = std::min(d[i][k], d[i - 2][k - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// A file alone: what to do with it.
+std::string howToSee(const std::string& file) {
+  const std::string kind = lowerExtension(file);
+  if (kind == ".exr" || kind == ".hdr") return fmt::format("to see it: roomlight develop {} -o picture.png", file);
+  if (kind == ".ies" || kind == ".ldt") return fmt::format("to read it: roomlight info {}", file);
+  return fmt::format("to see it: roomlight render {0} -o picture.png, or roomlight view {0}", file);
+}
+
+Status checkCommand(const CLI::App& program, const std::string& word) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : program.get_subcommands(nullptr)) commands.push_back(command->get_name());
+  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return Ok{};
+  std::error_code ignored;
+  if (std::filesystem::exists(word, ignored)) return Error{howToSee(word)};
+  const std::string nearest = nearestWord(word, commands);
+  if (!nearest.empty()) return Error{fmt::format("unknown command '{}'; did you mean {}?", word, nearest)};
+  if (word.find('/') != std::string::npos || !std::filesystem::path(word).extension().empty())
+    return Error{fmt::format("{}: no such file", word)};
+  return Error{fmt::format("unknown command '{}'; there are {}", word, joined(commands))};
+}
+
+Status checkOption(const CLI::App& command, const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  if (command.get_option_no_throw(name)) return Ok{};
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
+  }
+  const std::string nearest = nearestWord(name, names), of = command.get_name();
+  return Error{fmt::format(
+      "unknown option '{}' of {}; {}", name, of,
+      nearest.empty() ? fmt::format("see roomlight {} --help", of) : fmt::format("did you mean {}?", nearest))};
+}
+
+}  // namespace
+
+std::string nearestWord(const std::string& word, const std::vector<std::string>& candidates) {
+  const auto letters = static_cast<size_t>(std::count_if(word.begin(), word.end(), [](char c) { return c != '-'; }));
+  std::string nearest;
+  size_t fewest = letters / 3 + 1;
+  for (const std::string& candidate : candidates) {
+    const size_t edits = editsBetween(word, candidate);
+    if (edits < fewest) fewest = edits, nearest = candidate;
+  }
+  return nearest;
+}
+
+Status checkWords(const CLI::App& program, const std::vector<std::string>& words) {
+  if (words.empty())
+    return Error{"say what to do: a command and a file, such as 'roomlight view home.glb'; see roomlight --help"};
+  if (words.front().starts_with('-')) return Ok{};  // of the program itself
+  if (const Status s = checkCommand(program, words.front()); !s) return s;
+  const CLI::App& command = *program.get_subcommand(words.front());
+  for (size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
+    if (!words[i].starts_with("--")) continue;
+    if (const Status s = checkOption(command, words[i]); !s) return s;
+  }
+  return Ok{};
+}
+
+}  // namespace roomlight::cli

@@ -1,0 +1,45 @@
+// Light for scenes that have none: what there is, and what would make the scene look right.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "trace/ray_scene.h"
+
+namespace roomlight::home {
+
+// What a scene's own light could give at the most.
+struct OwnLight {
+  bool lamps = false, outdoors = false;  // point, spot and area lamps; suns and a sky
+  double indoorLux = 0;                  // of lamps and shining surfaces alone
+  double meanLux = 0;                    // on surfaces, estimated: all the flux of lamps and shining surfaces over all surfaces, and the light outdoors
+  std::vector<std::string> farLamps;     // that stand so far outside the scene that they light nothing
+
+  bool shines = false;                   // anything at all
+
+  bool none() const { return !lamps && !outdoors && meanLux < 0.5; }
+  bool faint() const { return meanLux < 0.5; }
+};
+OwnLight ownLightOf(const Scene& scene);
+
+// Whether the scene's suns and sky light anything that the camera sees; true out of doors.
+bool outdoorLightComesIn(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera);
+
+enum class Mood {
+  Auto,     // rooms by daylight and a ceiling lamp each, all else by sun and sky
+  Day,      // daylight; lamps only in rooms that it does not reach
+  Evening,  // a ceiling lamp in each room and the last light of the sky
+};
+
+// Light for a scene, as a lighting file has it (docs/formats/lighting.md).
+struct AddedLight {
+  nlohmann::ordered_json document;
+  std::string summary;  // "daylight and 3 ceiling lamps"
+};
+
+// `camera`: what is looked at. `rooms`: those of the scene, or found in it. Indoors the sun stands where most of it comes in. Where all that
+// would leave the picture black, a lamp is added over the camera.
+AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood);
+
+}  // namespace roomlight::home
