@@ -25,17 +25,18 @@ Imported read(const std::filesystem::path& file, AssimpFormat format, const Impo
   checkHeader(bytes, format);
   ForeignModel model = readForeign(bytes, format, options.upAxis.has_value(), options.maxTriangles);
   const char told = model.up;
+  const StatedUnit unit = model.metresPerUnit > 0 ? StatedUnit::Stated : StatedUnit::None;
   const float metresPerUnit = model.metresPerUnit > 0 ? model.metresPerUnit : 1;
   const std::vector<ForeignLight> lights = std::move(model.lights);
   Warnings warnings;
-  warnings.add("ambient lights are left out: light goes around by itself here", model.otherLights);
+  warnings.add("ambient lights are left out: bounced light is computed instead", model.otherLights);
   Scene scene = sceneOf(std::move(model), companionsAround(file, options.companionRoot), warnings);
   scaleScene(scene, metresPerUnit);
   addForeignLights(lights, metresPerUnit, scene, warnings);
   const std::optional<char> up = options.upAxis ? options.upAxis : told ? std::optional<char>(told)
                                                                         : std::nullopt;
   standUpright(scene, up, options.metresPerUnit, usualUp(format), warnings);
-  return importedScene(std::move(scene), warnings);
+  return importedScene(std::move(scene), warnings, unit);
 }
 
 }  // namespace

@@ -13,9 +13,9 @@
 
 namespace roomlight::importers {
 
-inline Imported importedScene(Scene scene, const Warnings& warnings) {
+inline Imported importedScene(Scene scene, const Warnings& warnings, StatedUnit unit) {
   Imported imported;
-  imported.scene = std::move(scene), imported.warnings = warnings.lines();
+  imported.scene = std::move(scene), imported.unit = unit, imported.warnings = warnings.lines();
   imported.faults = warnings.faults().lines(), imported.faultCount = warnings.faults().total();
   return imported;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "import/failure.h"
 #include "import/foreign_import.h"
 #include "import/scene_kind.h"
@@ -11,7 +13,34 @@
 namespace roomlight {
 namespace {
 
-constexpr float kFarthestM = 1e6f;  // no home is larger, and floats hold no detail there
+constexpr float kFarthest = 1e7f;  // no site is larger, not even in millimetres, and floats hold no detail there
+constexpr float kFarAway = 5000;   // from the origin: floats hold half a millimetre there, and
+constexpr float kFarAwayTimes = 20;  // times the scene's size
+
+float extentFromOrigin(const Bounds3& b) { return std::max(maxComponent(abs(b.lo)), maxComponent(abs(b.hi))); }
+
+// Lamps and cameras that cannot be meant, such as those of a tool's other unit, would make the whole scene unusable.
+void leaveOutFarThings(Imported& imported) {
+  const auto far = [](Vec3 p) { return !(maxComponent(abs(p)) <= kFarthest); };
+  Scene& scene = imported.scene;
+  const auto tell = [&](size_t count, const char* what) {
+    if (count > 0) imported.warnings.push_back(fmt::format("{} {}{} left out, more than {:.0f} m from the origin", count, what, count == 1 ? " is" : "s are", kFarthest));
+  };
+  tell(std::erase_if(scene.lamps, [&](const Lamp& l) { return l.kind != LampKind::Area && far(l.position); }), "lamp");
+  tell(std::erase_if(scene.cameras, [&](const Camera& c) { return far(c.worldFromCamera.w); }), "camera");
+  scene.cameraInUse = std::min(scene.cameraInUse, std::max(0, static_cast<int>(scene.cameras.size()) - 1));
+}
+
+// Sites in the coordinates of a country's grid come to the origin, or floats would round their walls.
+void moveToOrigin(Imported& imported) {
+  const Bounds3 bounds = imported.scene.bounds();
+  const Vec3 centre = bounds.centre();
+  const float away = maxComponent(abs(centre));
+  if (!(away > kFarAway) || !(away > kFarAwayTimes * maxComponent(bounds.size()))) return;
+  const Vec3 origin{centre.x, bounds.lo.y, centre.z};
+  moveScene(imported.scene, -origin);
+  imported.warnings.push_back(fmt::format("the scene lies far from its origin; it is moved there by ({:.0f}, {:.0f}, {:.0f}) m", -origin.x, -origin.y, -origin.z));
+}
 
 }  // namespace
 
@@ -50,13 +79,10 @@ Result<Imported> importScene(const std::filesystem::path& file, const ImportOpti
   Result<Imported> imported = folder ? importers::importFolder(file, options) : importers::importFile(file, options);
   if (imported && options.metresPerUnit != 1) scaleScene(imported.value().scene, options.metresPerUnit);
   if (imported) {
-    const Scene& scene = imported.value().scene;
-    Bounds3 bounds = scene.bounds();
-    for (const Lamp& lamp : scene.lamps) bounds.add(lamp.position);
-    for (const Camera& camera : scene.cameras) bounds.add(camera.worldFromCamera.w);
-    const float farthest = std::max(maxComponent(abs(bounds.lo)), maxComponent(abs(bounds.hi)));
-    if (!(farthest <= kFarthestM)) {
-      return Error{fmt::format("{}: the scene reaches {:.3g} m from its origin, more than {:.0f} m; give --metres-per-unit", file.string(), farthest, kFarthestM)};
+    leaveOutFarThings(imported.value());
+    moveToOrigin(imported.value());
+    if (const float farthest = extentFromOrigin(imported.value().scene.bounds()); !(farthest <= kFarthest)) {
+      return Error{fmt::format("{}: the scene reaches {:.3g} m from its origin, more than {:.0f} m; give --metres-per-unit", file.string(), farthest, kFarthest)};
     }
   }
   return imported;

@@ -20,6 +20,13 @@ struct ImportOptions {
   size_t maxTriangles = 200'000'000;   // of all instances; refuse absurd files before allocating
 };
 
+// What a file says of its unit of length.
+enum class StatedUnit {
+  None,     // nothing: OBJ, STL, PLY, 3DS
+  Stated,   // by its format or in the file; often wrong
+  Certain,  // Sweet Home 3D counts in centimetres, always
+};
+
 // The photo that a home was last set to be taken as.
 struct PhotoWish {
   int widthPx = 0, heightPx = 0;
@@ -35,6 +42,7 @@ struct Imported {
   std::string daylight = {};
   std::vector<std::string> faults = {};  // small things that were mended and that nobody sees: one per kind, with how often
   size_t faultCount = 0;                 // of all kinds together
+  StatedUnit unit = StatedUnit::Stated;  // the scene is in metres as far as the file knows
 };
 
 // ".glb, .gltf, ...": what importScene opens, for people.

@@ -289,7 +289,7 @@ Result<Imported> importObj(const std::filesystem::path& file, const ImportOption
     importers::Warnings warnings;
     Scene scene = importers::readObj(importers::readWholeFile(file, ""), importers::companionsAround(file, options.companionRoot), options.maxTriangles, warnings);
     importers::standUpright(scene, options.upAxis, options.metresPerUnit, importers::UpAxis::Y, warnings);
-    return importers::importedScene(std::move(scene), warnings);
+    return importers::importedScene(std::move(scene), warnings, StatedUnit::None);
   });
 }
 

@@ -28,7 +28,7 @@ Imported readSh3d(const std::filesystem::path& file, const ImportOptions& option
   const ContentDigests digests(archive, warnings);
   std::string daylight;
   Scene scene = sceneOfHome(home, archive, digests, options, warnings, daylight);
-  Imported imported = importedScene(std::move(scene), warnings);
+  Imported imported = importedScene(std::move(scene), warnings, StatedUnit::Certain);
   imported.photo = home.environment.photo, imported.daylight = std::move(daylight);
   return imported;
 }

@@ -180,7 +180,7 @@ Imported readSh3f(const std::filesystem::path& file, const ImportOptions& option
   const Home home = showroom(javaProperties(*catalogue), warnings);
   std::string daylight;  // of a piece of furniture there is none
   Scene scene = sceneOfHome(home, archive, ContentDigests(), options, warnings, daylight);
-  return importedScene(std::move(scene), warnings);
+  return importedScene(std::move(scene), warnings, StatedUnit::Certain);
 }
 
 }  // namespace

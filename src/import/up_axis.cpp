@@ -6,6 +6,8 @@
 //  storey    a home is wider than high, with most area level, and its levels lie as far apart as floor and ceiling
 #include "import/up_axis.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -171,8 +173,11 @@ void turnUpright(Scene& scene, UpAxis up) {
 void standUpright(Scene& scene, std::optional<char> wanted, float metresPerUnit, UpAxis usual, Warnings& warnings) {
   if (wanted) return turnUpright(scene, static_cast<UpAxis>(*wanted));
   const UpAxis up = guessUpAxis(scene, metresPerUnit, usual);
+  const auto say = [&](const char* why) { warnings.say(fmt::format("the file does not say which axis points up; {} it is taken to be {}; --up decides", why, static_cast<char>(up))); };
   if (up != usual) {
-    warnings.add(std::string("the file does not say which axis points up; by its shapes it is taken to be ") + static_cast<char>(up) + ", not " + static_cast<char>(usual));
+    say("by its shapes");
+  } else if (up != UpAxis::Y) {
+    say("as in most such files");
   }
   turnUpright(scene, up);
 }

@@ -21,7 +21,7 @@ UpAxis guessUpAxis(const Scene& scene, float metresPerUnit, UpAxis usual);
 // Turns a scene so that what was up in its file is +y: instances, lamps, suns and cameras.
 void turnUpright(Scene& scene, UpAxis up);
 
-// Both, for formats that do not say it: `wanted` decides where it is given ('x', 'y' or 'z'). A guess other than `usual` is told.
+// Both, for formats that do not say it: `wanted` decides where it is given ('x', 'y' or 'z'). A guess other than y is told.
 void standUpright(Scene& scene, std::optional<char> wanted, float metresPerUnit, UpAxis usual, Warnings& warnings);
 
 }  // namespace roomlight::importers

@@ -44,12 +44,21 @@ class CountedKinds {
 class Warnings {
  public:
   void add(const std::string& kind, size_t times = 1) { warnings_.add(kind, times); }
+  void say(std::string line) { said_.push_back(std::move(line)); }  // what is about the file as a whole
   void mended(const std::string& kind, size_t times = 1) { faults_.add(kind, times); }
-  void add(const Warnings& others) { warnings_.add(others.warnings_), faults_.add(others.faults_); }
-  std::vector<std::string> lines() const { return warnings_.lines(); }
+  void add(const Warnings& others) {
+    warnings_.add(others.warnings_), faults_.add(others.faults_);
+    said_.insert(said_.end(), others.said_.begin(), others.said_.end());
+  }
+  std::vector<std::string> lines() const {
+    std::vector<std::string> out = said_, counted = warnings_.lines();
+    out.insert(out.end(), counted.begin(), counted.end());
+    return out;
+  }
   const CountedKinds& faults() const { return faults_; }
 
  private:
+  std::vector<std::string> said_;
   CountedKinds warnings_, faults_;
 };
 

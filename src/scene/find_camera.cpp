@@ -16,7 +16,7 @@ Result<Camera> findCamera(const Scene& scene, const std::string& wanted) {
   size_t index = 0;
   const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
   if (code == std::errc() && end == wanted.data() + wanted.size() && index < scene.cameras.size()) return scene.cameras[index];
-  if (scene.cameras.empty()) return Error{fmt::format("no camera '{}': the scene has none; leave --camera out for a view from a corner", wanted)};
+  if (scene.cameras.empty()) return Error{fmt::format("no camera '{}': the scene has none; leave --camera out to have one proposed", wanted)};
   return Error{fmt::format("no camera '{}'; there are {}", wanted, names)};
 }
 

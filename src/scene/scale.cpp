@@ -28,4 +28,15 @@ void scaleScene(Scene& scene, float s) {
   }
 }
 
+void moveScene(Scene& scene, Vec3 by) {
+  for (Instance& instance : scene.instances) instance.worldFromObject.w += by;
+  for (Leaf& leaf : scene.leaves) leaf.hinge += by;
+  for (Camera& camera : scene.cameras) camera.worldFromCamera.w += by;
+  for (Lamp& lamp : scene.lamps) lamp.position += by;
+  for (Room& room : scene.rooms) {
+    for (Vec2& corner : room.floor) corner = corner + Vec2{by.x, by.z};
+    room.elevationM += by.y;
+  }
+}
+
 }  // namespace roomlight
