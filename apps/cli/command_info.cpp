@@ -95,11 +95,11 @@ Json lightsJson(const Scene& scene) {
   return out;
 }
 
-Json roomsJson(const home::OpenedHome& home) {
+Json roomsJson(const Scene& scene) {
   Json rooms = Json::array();
-  const std::vector<Luminaire> luminaires = luminairesOf(home.scene);  // as measure counts them
-  const std::vector<Level> levels = levelsOf(home.rooms);
-  for (const Room& room : home.rooms) {
+  const std::vector<Luminaire> luminaires = luminairesOf(scene);  // as measure counts them
+  const std::vector<Level> levels = levelsOf(scene.rooms);
+  for (const Room& room : scene.rooms) {
     size_t level = 0;
     for (size_t i = 0; i < levels.size(); ++i) level = room.elevationM >= levels[i].elevationM - 1e-3f ? i : level;
     rooms.push_back({{"name", room.name}, {"areaM2", home::areaM2(room)}, {"elevationM", room.elevationM}, {"heightM", room.heightM}, {"level", level}});
@@ -132,8 +132,8 @@ Json describe(const home::OpenedHome& home) {
           {"lights", lightsJson(scene)},
           {"suns", suns},
           {"sky", scene.sky.present()},
-          {"rooms", roomsJson(home)},
-          {"levels", levelsOf(home.rooms).size()},
+          {"rooms", roomsJson(scene)},
+          {"levels", levelsOf(scene.rooms).size()},
           {"cameras", cameras},
           {"metresPerUnit", home.metresPerUnit},
           {"boundsM", {{"low", vector(bounds.lo)}, {"high", vector(bounds.hi)}}},
@@ -236,7 +236,7 @@ int runInfo(const Options& o) {
     printError(wish.error());
     return kBadInput;
   }
-  if (o.light == "auto") wish.value().light = home::LightWish::File;  // what the file holds
+  if (o.light == "auto" && o.writeLighting.empty()) wish.value().light = home::LightWish::File;  // what the file holds
   wish.value().allCameras = true;
   const Result<home::OpenedHome> opened = home::openHome(wish.value());
   if (!opened) {

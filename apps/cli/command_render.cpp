@@ -230,7 +230,7 @@ void addView(const Home& home, RenderStats& stats) {
   const home::Sights sights = home::sightsOf(rays, home.camera);
   stats.numbers.emplace_back("view.surfaceShare", sights.share(0, kInfinity));
   stats.numbers.emplace_back("view.halfToTenMetresShare", sights.share(0.5f, 10));
-  stats.numbers.emplace_back("view.indoors", home::isIndoors(rays, home.opened.rooms, home.camera, sights) ? 1 : 0);
+  stats.numbers.emplace_back("view.indoors", home::isIndoors(rays, home.opened.scene.rooms, home.camera, sights) ? 1 : 0);
 }
 
 // What a Sweet Home 3D home says of its photo, where neither options nor settings say how large and how well: its first two qualities are
@@ -254,7 +254,7 @@ Result<Home> loadHome(const Options& o, Plan& plan) {
   const Result<Camera> camera = findCamera(scene, o.camera);
   if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
   if (out.opened.photo) applyPhoto(o, *out.opened.photo, plan);
-  const Result<Viewed> viewed = makeView(scene, out.opened.rooms, camera.value(), !o.camera.empty() || out.opened.placed(), {plan.settings.width, plan.settings.height}, plan.view);
+  const Result<Viewed> viewed = makeView(scene, scene.rooms, camera.value(), !o.camera.empty() || out.opened.placed(), {plan.settings.width, plan.settings.height}, plan.view);
   if (!viewed) return Error{fmt::format("{}: {}", o.scene, viewed.error())};
   out.camera = viewed.value().camera;
   plan.settings.width = viewed.value().width, plan.settings.height = viewed.value().height;

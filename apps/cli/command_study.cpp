@@ -182,6 +182,8 @@ class Programs {
     std::filesystem::remove(stats, ignored);
     if (const Status s = writeWhole(settingsFile, settings); !s) return Error{s.error()};
     if (!lighting.empty()) words.insert(words.end(), {"--lighting", lighting.string()});
+    // The study's own reading of a file: in its own unit, with the light that it holds.
+    words.insert(words.end(), {"--light", "file", "--metres-per-unit", "1"});
     words.insert(words.end(), {"--settings", settingsFile.string(), "--stats", stats.string(), "--quiet"});
     if (const Status s = runThisProgram(words, &interrupted()); !s) return Error{s.error()};
     const Result<std::string> text = readTextFile(stats);

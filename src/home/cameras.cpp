@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lattice.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sampling.h"
@@ -27,7 +28,7 @@ bool isLit(const RayScene& rays, const Room& room, const Camera& camera, bool li
   constexpr int kRays = 512;
   float open = 0;
   for (int i = 0; i < kRays; ++i) {
-    const Vec3 d = sampleSphere({(static_cast<float>(i) + 0.5f) / kRays, std::fmod(static_cast<float>(i) * 0.618034f, 1.0f)});
+    const Vec3 d = sampleSphere(latticePoint(i, kRays));
     open += luminance(rays.transmittance({camera.worldFromCamera.w, d, 0, kInfinity}));
   }
   return open > 0.002f * kRays;

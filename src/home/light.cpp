@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lattice.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sampling.h"
@@ -27,6 +28,7 @@ constexpr double kSunShare = 0.12;            // of what is seen indoors, as muc
 constexpr double kGroundReflectance = 0.2;
 constexpr double kLeastDaylight = 0.003;      // share of sky or sun; below it are seams between walls
 constexpr double kLumenPerM2 = 100, kLeastLumen = 500, kMostLumen = 6000;
+constexpr float kUnderThings = 0.0005f;            // of the extent: how far below them the ground lies
 constexpr float kUnderCeilingM = 0.06f, kHighestLampM = 3.2f, kLowestLampM = 1.8f;
 constexpr size_t kMostLamps = 40;
 
@@ -39,7 +41,7 @@ double openness(const RayScene& rays, Vec3 p) {
   constexpr int kRays = 1024;
   std::vector<float> open(kRays);
   parallelFor(open.size(), 64, [&](size_t i) {
-    const Vec3 d = sampleSphere({(static_cast<float>(i) + 0.5f) / kRays, std::fmod(static_cast<float>(i) * 0.618034f, 1.0f)});
+    const Vec3 d = sampleSphere(latticePoint(static_cast<int>(i), kRays));
     open[i] = luminance(rays.transmittance({p, d, 0, kInfinity}));
   });
   double sum = 0;
@@ -130,8 +132,7 @@ double freedomBelow(const RayScene& rays, Vec3 p) {
   const Frame down({0, -1, 0});
   int open = 0;
   for (int i = 0; i < kRays; ++i) {
-    const Vec2 u{(static_cast<float>(i) + 0.5f) / kRays, std::fmod(static_cast<float>(i) * 0.618034f, 1.0f)};
-    open += rays.intersect({p, down.toWorld(sampleCosineHemisphere(u)), 0, 0.5f}).valid() ? 0 : 1;
+    open += rays.intersect({p, down.toWorld(sampleCosineHemisphere(latticePoint(i, kRays))), 0, 0.5f}).valid() ? 0 : 1;
   }
   return open / static_cast<double>(kRays);
 }
@@ -184,7 +185,8 @@ Json lampOverCamera(const RayScene& rays, const std::vector<Seen>& seen, const C
 Json groundUnder(const Bounds3& b) {
   const float extent = maxComponent(b.size());
   const float radius = std::clamp(8 * extent, 4.0f, std::max(60.0f, 3 * extent));
-  return {{"elevation", number(b.lo.y - 0.001f - 0.0005f * extent)}, {"centre", {number(b.centre().x), number(b.centre().z)}}, {"radius", number(radius)}, {"reflectance", kGroundReflectance}};
+  const auto fine = [](float v) { return std::round(static_cast<double>(v) * 1e6) / 1e6; };  // things may be small
+  return {{"elevation", fine(b.lo.y - kUnderThings * extent)}, {"centre", {number(b.centre().x), number(b.centre().z)}}, {"radius", number(radius)}, {"reflectance", kGroundReflectance}};
 }
 
 bool reaches(const RayScene& rays, const std::vector<Json>& lamps, const Seen& s) {

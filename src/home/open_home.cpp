@@ -20,20 +20,6 @@ namespace {
 constexpr size_t kMostNamed = 3;
 constexpr std::array kLightKeys = {"scene", "lamps", "sun", "sky", "daylight"};  // of lighting files
 
-std::string lowerExtension(const std::filesystem::path& file) {
-  std::string e = file.extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e;
-}
-
-// Sweet Home 3D counts in centimetres, always.
-bool knowsItsUnit(const std::filesystem::path& file) { return lowerExtension(file) == ".sh3d" || lowerExtension(file) == ".sh3f"; }
-
-StatedUnit statedUnit(const std::filesystem::path& file) {
-  const std::string e = lowerExtension(file);
-  return e == ".obj" || e == ".stl" || e == ".ply" || e == ".3ds" || e == ".zip" ? StatedUnit::None : StatedUnit::Metres;
-}
-
 std::string quoted(const std::vector<std::string>& names) {
   std::string text;
   for (size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) text += fmt::format("{}'{}'", i > 0 ? ", " : "", names[i]);
@@ -58,8 +44,8 @@ bool decidesLight(const nlohmann::json& lighting) {
   return lighting.is_object() && std::any_of(kLightKeys.begin(), kLightKeys.end(), [&](const char* key) { return lighting.contains(key); });
 }
 
-void takeUnit(const OpenWish& wish, const nlohmann::json& lighting, OpenedHome& home) {
-  if (wish.metresPerUnit || knowsItsUnit(wish.scene)) {
+void takeUnit(const OpenWish& wish, StatedUnit stated, const nlohmann::json& lighting, OpenedHome& home) {
+  if (wish.metresPerUnit || stated == StatedUnit::Certain) {
     home.metresPerUnit = wish.metresPerUnit.value_or(1);
     return;
   }
@@ -68,7 +54,7 @@ void takeUnit(const OpenWish& wish, const nlohmann::json& lighting, OpenedHome& 
     guess.metres = *meant;
   } else {
     const RayScene rays(home.scene);
-    guess = guessUnit(proportionsOf(rays), statedUnit(wish.scene));
+    guess = guessUnit(proportionsOf(rays), stated);
   }
   home.metresPerUnit = guess.metres;
   if (guess.metres == 1) return;
@@ -79,7 +65,7 @@ void takeUnit(const OpenWish& wish, const nlohmann::json& lighting, OpenedHome& 
 // Which camera of the file is shown where nobody says; none that sees anything: its number of cameras.
 int cameraInUse(const RayScene& rays, const OpenedHome& home, std::string& fault) {
   for (size_t i = 0; i < home.fileCameras; ++i) {
-    const std::string wrong = faultOf(rays, home.rooms, home.scene.cameras[i]);
+    const std::string wrong = faultOf(rays, home.scene.rooms, home.scene.cameras[i]);
     if (wrong.empty()) return static_cast<int>(i);
     if (i == 0) fault = wrong;
   }
@@ -93,7 +79,7 @@ void chooseCamera(const RayScene& rays, const OpenWish& wish, bool lightComes, O
   scene.cameraInUse = cameraInUse(rays, home, fault);
   const bool unknown = !wish.camera.empty() && !findCamera(scene, wish.camera);
   if (wish.allCameras || unknown || !home.placed()) {
-    for (Camera& c : proposeCameras(rays, home.rooms, lightComes)) {
+    for (Camera& c : proposeCameras(rays, home.scene.rooms, lightComes)) {
       if (findCamera(scene, c.name) && home.fileCameras > 0) c.name += " (proposed)";  // the file's goes by the name
       scene.cameras.push_back(std::move(c));
     }
@@ -132,7 +118,7 @@ Camera shownCamera(const OpenWish& wish, const OpenedHome& home) {
 void addLight(const RayScene& rays, const OpenWish& wish, const OwnLight& own, std::optional<Mood> mood, OpenedHome& home) {
   tellOwnLight(own, mood.has_value(), wish.light, home);
   if (!mood) return;
-  AddedLight light = lightFor(rays, home.rooms, shownCamera(wish, home), *mood);
+  AddedLight light = lightFor(rays, home.scene.rooms, shownCamera(wish, home), *mood);
   const bool hasSun = !home.scene.suns.empty() || home.scene.sky.present();
   std::string why = hasSun ? "the sun and sky of the file do not come in: " : "no light in the file: ";
   if (own.shines && !hasSun) why = fmt::format("the light in the file is next to nothing, about {:.1g} lx: ", own.meanLux);
@@ -179,19 +165,19 @@ Result<OpenedHome> openHome(const OpenWish& wish) {
     if (!read) return Error{read.error()};
     lighting = std::move(read.value());
   }
-  takeUnit(wish, lighting, home);
+  takeUnit(wish, imported.value().unit, lighting, home);
   if (wish.light == LightWish::None) switchOff(home.scene);
   if (!wish.lighting.empty()) {
     if (const Status s = applyLighting(lighting, wish.lighting, home.scene, &home.warnings); !s) return Error{s.error()};
   }
   {
     const RayScene rays(home.scene);
-    home.rooms = home.scene.rooms.empty() ? findRooms(rays) : home.scene.rooms;
+    if (home.scene.rooms.empty()) home.scene.rooms = findRooms(rays);
     OwnLight own = ownLightOf(home.scene);
     const bool decided = decidesLight(lighting);
     std::optional<Mood> mood = moodOf(wish.light, own, decided);
     chooseCamera(rays, wish, own.outdoors || mood.has_value(), home);
-    if (wish.light == LightWish::Auto && !decided && !mood && !own.lamps && own.indoorLux < 0.5 && !outdoorLightComesIn(rays, home.rooms, shownCamera(wish, home))) {
+    if (wish.light == LightWish::Auto && !decided && !mood && !own.lamps && own.indoorLux < 0.5 && !outdoorLightComesIn(rays, home.scene.rooms, shownCamera(wish, home))) {
       own.outdoors = false;
       mood = Mood::Auto;
     }

@@ -33,8 +33,8 @@ struct OpenWish {
 };
 
 struct OpenedHome {
-  Scene scene;              // with the cameras of the file first, then those proposed, if any; `cameraInUse` is one that sees something
-  std::vector<Room> rooms;  // the file's, or found
+  // With the cameras of the file first, then those proposed, if any; `cameraInUse` is one that sees something. Rooms are the file's; where it has none, those found.
+  Scene scene;
   size_t fileCameras = 0;
   std::vector<std::string> warnings, faults;  // as Imported has them
   size_t faultCount = 0;

@@ -68,26 +68,26 @@ class Cells {
   std::vector<uint8_t> marked_;
 };
 
-// Places that rays meet, panes on the way included; the last is where light is stopped.
-struct Way {
+// What a ray meets, panes on the way included; the last place is where light is stopped.
+struct Trace {
   std::vector<Vec3> places;
   std::optional<Vec3> normal;  // there, towards the ray; none: the ray left the scene
 };
-Way follow(const RayScene& rays, Ray ray) {
-  Way way;
+Trace follow(const RayScene& rays, Ray ray) {
+  Trace trace;
   for (int i = 0; i <= kMostPanes; ++i) {
     const Hit hit = rays.intersect(ray);
-    if (!hit.valid()) return way;
+    if (!hit.valid()) return trace;
     const Vec3 p = ray.origin + ray.direction * hit.t, n = normalize(dot(hit.ng, ray.direction) > 0 ? -hit.ng : hit.ng);
-    way.places.push_back(p);
+    trace.places.push_back(p);
     const Scene& scene = rays.scene();
     if (!letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)].material)])) {
-      way.normal = n;
-      return way;
+      trace.normal = n;
+      return trace;
     }
     ray.origin = offsetOrigin(p, -n);
   }
-  return way;
+  return trace;
 }
 
 // Where lamps and shining things are: from each place of a path one of them is looked for.
@@ -108,17 +108,17 @@ void lookFor(const RayScene& rays, Vec3 from, Vec3 light, std::vector<Vec3>& pla
 void tracePath(const RayScene& rays, const std::vector<Vec3>& lights, const Ray& first, Rng& random, std::vector<Vec3>& places) {
   Ray ray = first;
   for (int bounce = 0; bounce <= kBounces; ++bounce) {
-    const Way way = follow(rays, ray);
-    places.insert(places.end(), way.places.begin(), way.places.end());
-    if (!way.normal) return;
-    const Vec3 from = offsetOrigin(way.places.back(), *way.normal);
+    const Trace met = follow(rays, ray);
+    places.insert(places.end(), met.places.begin(), met.places.end());
+    if (!met.normal) return;
+    const Vec3 from = offsetOrigin(met.places.back(), *met.normal);
     for (const Sun& sun : rays.scene().suns) {
-      if (dot(sun.toLight, *way.normal) <= 0) continue;
-      const Way toSun = follow(rays, {from, sun.toLight, 0, kInfinity});
+      if (dot(sun.toLight, *met.normal) <= 0) continue;
+      const Trace toSun = follow(rays, {from, sun.toLight, 0, kInfinity});
       places.insert(places.end(), toSun.places.begin(), toSun.places.end());
     }
     if (!lights.empty()) lookFor(rays, from, lights[std::min(lights.size() - 1, static_cast<size_t>(random.uniform() * static_cast<float>(lights.size())))], places);
-    ray = {from, Frame(*way.normal).toWorld(sampleCosineHemisphere(random.uniform2())), 0, kInfinity};
+    ray = {from, Frame(*met.normal).toWorld(sampleCosineHemisphere(random.uniform2())), 0, kInfinity};
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lattice.h"
 #include "base/sampling.h"
 #include "engine/views.h"
 #include "measure/areas.h"
@@ -141,7 +142,7 @@ Enclosure enclosureOf(const RayScene& rays, const Room& room) {
   const Vec3 eye{middle.x, room.elevationM + 0.6f * room.heightM, middle.y};
   int backs = 0, met = 0, level = 0, levelMet = 0;
   for (int i = 0; i < kRays; ++i) {
-    const Vec3 d = sampleSphere({(static_cast<float>(i) + 0.5f) / kRays, std::fmod(static_cast<float>(i) * 0.618034f, 1.0f)});
+    const Vec3 d = sampleSphere(latticePoint(i, kRays));
     const Hit hit = rays.intersect({eye, d, 0, kInfinity});
     if (std::abs(d.y) < 0.4f) ++level, levelMet += hit.valid() ? 1 : 0;
     if (!hit.valid()) continue;

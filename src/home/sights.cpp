@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lattice.h"
 #include "base/sampling.h"
 #include "home/rooms.h"
 #include "trace/camera_rays.h"
@@ -43,7 +44,7 @@ bool isIndoors(const RayScene& rays, const std::vector<Room>& rooms, const Camer
   if (!seen.empty() && 2 * static_cast<size_t>(std::count_if(seen.begin(), seen.end(), inRoom)) > seen.size()) return true;
   int met = 0;
   for (int i = 0; i < kAround; ++i) {
-    const Vec3 d = sampleSphere({(static_cast<float>(i) + 0.5f) / kAround, std::fmod(static_cast<float>(i) * 0.618034f, 1.0f)});
+    const Vec3 d = sampleSphere(latticePoint(i, kAround));
     met += rays.intersect({camera.worldFromCamera.w, d, 0, kInfinity}).valid() ? 1 : 0;
   }
   return met > kClosedIn * kAround;

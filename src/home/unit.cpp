@@ -96,7 +96,7 @@ double unlikelihood(const Proportions& p, const Unit& unit, StatedUnit stated) {
     const double asHome = unlikely(static_cast<double>(p.roomHeight) * unit.metres, 2.1, 4, 0.22) + unlikely(extentM, 1.8, 120, 0.6) + unlikelySteps(p.steps, unit.metres);
     size = std::min(asHome, size + 8 * static_cast<double>(p.enclosedShare));
   }
-  return size + unlikelyThings(p.things, unit.metres) - (stated == StatedUnit::Metres ? unit.ifMetresStated : unit.ifNoneStated);
+  return size + unlikelyThings(p.things, unit.metres) - (stated == StatedUnit::Stated ? unit.ifMetresStated : unit.ifNoneStated);
 }
 
 struct Column {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "import/import.h"
 #include "trace/ray_scene.h"
 
 namespace roomlight::home {
@@ -25,19 +26,13 @@ struct Proportions {
 // Some ten thousand rays.
 Proportions proportionsOf(const RayScene& rays);
 
-// Whether a file's format states the unit, so that only sizes that cannot be speak against it.
-enum class StatedUnit {
-  None,    // OBJ, STL, PLY
-  Metres,  // glTF by definition, or converted by the file's own word
-};
-
 struct UnitGuess {
   double metres = 1;    // of one unit
   const char* name = "metres";
   std::string because;  // "rooms would be 265 m high"; empty where it is metres
 };
 
-// The most likely among metres, centimetres, millimetres, inches and feet.
+// The most likely among metres, centimetres, millimetres, inches and feet. Against a stated unit speak only sizes that cannot be.
 UnitGuess guessUnit(const Proportions& proportions, StatedUnit stated);
 
 }  // namespace roomlight::home

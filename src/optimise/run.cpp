@@ -72,7 +72,6 @@ Status Run::read() {
   if (!opened) return Error{opened.error()};
   for (const std::string& note : opened.value().notes) news_.line(note);
   home_ = std::move(opened.value().scene);
-  home_.rooms = std::move(opened.value().rooms);
   Result<StudyFile> study = readStudy(wish_.study, home_.rooms);
   if (!study) return Error{study.error()};
   study_ = std::move(study.value());

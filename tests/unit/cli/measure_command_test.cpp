@@ -20,7 +20,7 @@ TEST(MeasureCommand, findsTheRoomAndWritesEveryReport) {
   const TemporaryFolder folder;
   const ProgramRun run = runProgram({"measure", testing::writeRoom(folder), "--quality", "draft", "--tolerance", "5%", "--json", folder / "m.json", "--csv", folder / "m.csv"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  for (const char* word : {"mean lx", "Area 1, work plane", "U0"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n"
+  for (const char* word : {"mean lx", "Room 1, work plane", "U0"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n"
                                                                                                                     << run.out;
   const auto j = nlohmann::json::parse(readFile(folder / "m.json"));
   ASSERT_EQ(j["grids"].size(), 1u);
@@ -32,7 +32,7 @@ TEST(MeasureCommand, findsTheRoomAndWritesEveryReport) {
   const std::string csv = readFile(folder / "m.csv");
   EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + lux["points"].get<size_t>() + j["grids"][0]["leftOut"].size());
   EXPECT_EQ(j["luminaires"][0]["name"], "Bulb");
-  EXPECT_EQ(j["luminaires"][0]["room"], "Area 1");
+  EXPECT_EQ(j["luminaires"][0]["room"], "Room 1");
   EXPECT_DOUBLE_EQ(j["home"]["meanOfAreaLux"].get<double>(), lux["mean"].get<double>());
   EXPECT_EQ(j["roomTargets"][0]["useFrom"], "assumed");
 }
@@ -70,7 +70,7 @@ TEST(MeasureCommand, htmlReportStandsAloneWithDaylight) {
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   EXPECT_NE(run.out.find("mean DF %"), std::string::npos) << run.out;
   const std::string html = readFile(folder / "m.html");
-  for (const char* part : {"<!doctype html>", "Area 1, work plane", "class=\"map\"", "class=\"contour\"", "class=\"lamp\"", "class=\"legend\"", "class=\"plan\"", "src=\"data:image/jpeg;base64,/9j/", "Luminaire schedule", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
+  for (const char* part : {"<!doctype html>", "Room 1, work plane", "class=\"map\"", "class=\"contour\"", "class=\"lamp\"", "class=\"legend\"", "class=\"plan\"", "src=\"data:image/jpeg;base64,/9j/", "Luminaire schedule", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
   for (const char* part : {"<script", "src=\"http", "href=", ">nan", ">inf", "-2147483648"}) EXPECT_EQ(html.find(part), std::string::npos) << part;
   EXPECT_LT(html.size(), size_t{2'000'000});
 }

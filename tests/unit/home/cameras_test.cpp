@@ -9,12 +9,12 @@
 namespace roomlight::home {
 namespace {
 
-struct Sights {
+struct Shares {
   double met = 0, tooNear = 0, oneToSix = 0;  // shares of the picture
 };
-Sights look(const RayScene& rays, const Camera& camera) {
+Shares look(const RayScene& rays, const Camera& camera) {
   const CameraRays through(camera, 64, 36);
-  Sights s;
+  Shares s;
   for (int y = 0; y < 36; ++y) {
     for (int x = 0; x < 64; ++x) {
       const Ray ray = through.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
@@ -38,7 +38,7 @@ TEST(Cameras, indoorsStandWhereTheRoomIsSeen) {
   EXPECT_EQ(cameras[2].name, "Plan");
   EXPECT_NEAR(cameras[0].worldFromCamera.w.y, 1.6, 0.01);
   EXPECT_NEAR(cameras[0].worldFromCamera.z.y, 0, 1e-5);  // level: lines stay upright
-  const Sights s = look(rays, cameras[0]);
+  const Shares s = look(rays, cameras[0]);
   EXPECT_EQ(s.tooNear, 0);
   EXPECT_GT(s.oneToSix, 0.8);
 }

@@ -43,6 +43,34 @@ TEST(AddedLight, ofARoomWithoutWindowsIsALamp) {
   EXPECT_EQ(lit(room, added(room, Mood::Day)).lamps.size(), 1u);  // daylight does not reach it
 }
 
+// Beside a room with a window.
+TEST(AddedLight, byDayIsALampInARoomThatNoDaylightReaches) {
+  Scene home = test::furnishedRoom();
+  const Scene closet = test::furnishedRoom(false);
+  for (Instance instance : closet.instances) {
+    instance.mesh += static_cast<int>(home.meshes.size());
+    instance.worldFromObject.w.z += 4.4f;
+    home.instances.push_back(instance);
+  }
+  home.meshes.insert(home.meshes.end(), closet.meshes.begin(), closet.meshes.end());
+  const AddedLight light = added(home, Mood::Day);
+  EXPECT_EQ(light.summary, "daylight and a ceiling lamp");
+  EXPECT_GT(lit(home, light).lamps.at(0).position.z, 4.4f);
+}
+
+TEST(OutdoorLight, comesInThroughAWindowAlone) {
+  const auto comesIn = [](bool window) {
+    Scene room = test::furnishedRoom(window);
+    room.suns.push_back({"Sun", {0, 0.4f, -0.9f}, Vec3(50000), 0.00465f});
+    room.sky.luminanceCdM2 = Vec3(2000);
+    const RayScene rays(room);
+    const std::vector<Room> rooms = findRooms(rays);
+    return outdoorLightComesIn(rays, rooms, proposeCameras(rays, rooms, true).front());
+  };
+  EXPECT_TRUE(comesIn(true));
+  EXPECT_FALSE(comesIn(false));
+}
+
 TEST(AddedLight, byDayIsNoLampWhereDaylightComes) {
   const Scene room = test::furnishedRoom();
   EXPECT_EQ(added(room, Mood::Day).summary, "daylight");

@@ -46,7 +46,7 @@ TEST_F(OpenHome, aRoomWithNothingGetsLightAndCameras) {
   EXPECT_EQ(defaultCamera(home.scene).name, "Room 1");
   EXPECT_FALSE(home.lighting.is_null());
   EXPECT_EQ(home.scene.suns.size(), 1u);
-  EXPECT_EQ(home.rooms.size(), 1u);
+  EXPECT_EQ(home.scene.rooms.size(), 1u);
   ASSERT_FALSE(home.notes.empty());
   EXPECT_NE(home.notes.back().find("added daylight and a ceiling lamp"), std::string::npos) << home.notes.back();
 }
@@ -63,6 +63,14 @@ TEST_F(OpenHome, inMillimetresIsTheSameRoom) {
   OpenWish wish;
   wish.metresPerUnit = 0.01f;
   EXPECT_NEAR(open(wish).scene.bounds().size().x, 54, 0.1);
+}
+
+// What measures, lists and names lamps by rooms knows the same ones.
+TEST_F(OpenHome, roomsAreThoseOfTheScene) {
+  write(test::furnishedRoom());
+  const OpenedHome home = open();
+  ASSERT_EQ(home.scene.rooms.size(), 1u);
+  EXPECT_EQ(home.scene.rooms[0].name, "Room 1");
 }
 
 TEST_F(OpenHome, lightIsAsWished) {

@@ -47,6 +47,16 @@ TEST(Reach, leavesOutRoomsThatNoLightComesFrom) {
   }
 }
 
+// A lamp in mid-air is on no ray's way.
+TEST(Reach, keepsLampsInMidAir) {
+  Scene row = rowOfRooms(30);
+  row.lamps[0].position = {2.5f, 1.3f, 3};
+  const RayScene rays(row);
+  const std::optional<Scene> near = withinReach(rays, inTheFirst());
+  ASSERT_TRUE(near);
+  EXPECT_TRUE(std::any_of(near->lamps.begin(), near->lamps.end(), [](const Lamp& l) { return l.position.z == 3; }));
+}
+
 TEST(Reach, leavesHomesWhole) {
   const Scene home = rowOfRooms(3);
   const RayScene rays(home);
