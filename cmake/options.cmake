@@ -54,6 +54,11 @@ function(roomlight_unity target)
   endif()
 endfunction()
 
+# What reads, writes and reports rather than computes: little optimisation, which compiles in two thirds of the time.
+function(roomlight_lightly_optimised target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # A folder of src/ is a static library roomlight_<folder> with an explicit source list.
 function(roomlight_folder name)
   cmake_parse_arguments(ARG "" "" "SOURCES;USES;LINKS" ${ARGN})
@@ -63,5 +68,8 @@ function(roomlight_folder name)
     target_link_libraries(roomlight_${name} PUBLIC roomlight_${use})
   endforeach()
   target_link_libraries(roomlight_${name} PRIVATE ${ARG_LINKS})
+  if(TARGET roomlight_headers AND "nlohmann_json::nlohmann_json" IN_LIST ARG_LINKS AND "fmt::fmt" IN_LIST ARG_LINKS)
+    target_precompile_headers(roomlight_${name} REUSE_FROM roomlight_headers)
+  endif()
   roomlight_unity(roomlight_${name})
 endfunction()
