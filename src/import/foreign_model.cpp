@@ -249,7 +249,7 @@ Scene sceneOf(ForeignModel model, const ReadCompanion& companions, Warnings& war
     if (!mesh.indices.empty()) scene.meshes.push_back(std::move(mesh));
   }
   for (const ForeignInstance& i : model.instances) {
-    if (kept[i.mesh] >= 0) scene.instances.push_back({i.name, kept[i.mesh], static_cast<int>(i.object & 0x7fffffff), i.modelFromMesh});
+    if (kept[i.mesh] >= 0) scene.instances.push_back({i.name, kept[i.mesh], static_cast<int>(i.object & 0x3fffffff), i.modelFromMesh});
   }
   for (const ForeignCamera& c : model.cameras) addCamera(c, scene);
   warnings.add("points and lines are ignored", model.noTriangles);
