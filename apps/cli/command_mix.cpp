@@ -20,6 +20,7 @@ namespace roomlight::cli {
 namespace {
 
 constexpr float kWebpQuality = 90;
+constexpr const char* kOfThisMix = "mix";  // automatic, but not of the unmixed picture
 
 struct Options {
   DialOptions dials;
@@ -156,9 +157,9 @@ Metadata describe(const Options& o, const MixHome& home, const Mixture& mixture,
           {"roomlight.layers", o.file},
           {"roomlight.gains", gains},
           {"roomlight.exposureEv100", fmt::format("{}", shown.look.ev100)},
-          {"roomlight.tone", std::string(toneCurveName(shown.look.tone))},
+          {"roomlight.tone", std::string(toneCurveName(shown.look.tone.curve))},
           {"roomlight.whiteK", fmt::format("{:.0f}", shown.white.kelvin)},
-          {"roomlight.whiteAdaptation", fmt::format("{:.3f}", shown.white.degree)}};
+          {"roomlight.whiteGains", fmt::format("{:.4f} {:.4f} {:.4f}", shown.white.gains.x, shown.white.gains.y, shown.white.gains.z)}};
 }
 
 Status writeOutputs(const Options& o, const MixHome& home, const Mixture& mixture, const ShownMix& shown, ProgressDisplay& display) {
@@ -183,7 +184,7 @@ Status writeOutputs(const Options& o, const MixHome& home, const Mixture& mixtur
 }
 
 // What is left to be wrong once the layers are known; then the pictures.
-int work(const Options& o, const Display& how, const std::optional<Blend>& blend) {
+int work(const Options& o, const Display& how, const FollowMix& follow, const std::optional<Blend>& blend) {
   ProgressDisplay display(o.quiet);
   const Result<MixHome> opened = openLayers(o.file);
   if (!opened) return bad(opened.error());
@@ -204,7 +205,7 @@ int work(const Options& o, const Display& how, const std::optional<Blend>& blend
   }
   if (o.list) fmt::print("{}", layerTable(home.layers));
   if (o.outputs.empty() && !switches) return kOk;
-  const ShownMix shown = showMix(home, mixture.value(), how);
+  const ShownMix shown = showMix(home, mixture.value(), how, follow);
   if (const Status s = writeOutputs(o, home, mixture.value(), shown, display); !s) return bad(s.error(), kFailed);
   const Metadata metadata = describe(o, home, mixture.value(), shown);
   const auto extension = [&](const char* usual) { return "." + (o.format.empty() ? std::string(usual) : o.format); };
@@ -219,13 +220,17 @@ int work(const Options& o, const Display& how, const std::optional<Blend>& blend
 
 int runMix(const Options& o) {
   interrupted();  // from here on Ctrl-C is ours
-  const Result<Display> how = readDisplay(o.display);
+  DisplayOptions display = o.display;
+  const FollowMix follow{display.exposure == kOfThisMix, display.whiteBalance == kOfThisMix};
+  if (follow.exposure) display.exposure = "auto";
+  if (follow.white) display.whiteBalance = "auto";
+  const Result<Display> how = readDisplay(display);
   if (!how) return bad(how.error());
   const Result<std::optional<Blend>> blend = blendOf(o.blend);
   if (!blend) return bad(blend.error());
   if (const Status s = checkOutputs(o); !s) return bad(s.error());
   int code = kFailed;
-  withThreads(o.threads, [&] { code = work(o, how.value(), blend.value()); });
+  withThreads(o.threads, [&] { code = work(o, how.value(), follow, blend.value()); });
   return code;
 }
 
@@ -242,6 +247,10 @@ Registered addMix(CLI::App& program) {
   app->add_option("--sun", o->dials.sun, "Sunlight: 50%, off, ...");
   app->add_option("--sky", o->dials.sky, "Light of the sky: 50%, off, ...");
   addDisplayOptions(*app, o->display, ".png, .webp and .jpg");
+  for (const char* name : {"--exposure", "--white-balance"}) {
+    CLI::Option* option = app->get_option(name);
+    option->description(fmt::format("{}. Automatic values are those of the unmixed picture, so that dimmed lamps look dimmed; {}: those of this mix", option->get_description(), kOfThisMix));
+  }
   app->add_flag("--list", o->list, "Print the layers: kind, colour, flux, room");
   app->add_option("--states", o->statesFolder, "Write a picture of every on/off state of the lamps to this folder");
   app->add_option("--overlays", o->overlaysFolder, "Write the picture without lamps, a transparent overlay a lamp and a page that shows them to this folder");

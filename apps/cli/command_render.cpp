@@ -96,8 +96,8 @@ Result<Plan> makePlan(const Options& o) {
   if (!display) return Error{display.error()};
   plan.display = display.value();
   if (o.kind != "picture" && o.kind != "luminance" && o.kind != "falsecolour") return Error{fmt::format("--output-kind {}: write picture, luminance or falsecolour", o.kind)};
-  if (o.kind != "picture" && (o.display.exposure != DisplayOptions().exposure || o.display.tone != DisplayOptions().tone)) {
-    return Error{fmt::format("--output-kind {} has a scale of luminance instead of --exposure and --tone; leave them out", o.kind)};
+  if (o.kind != "picture" && o.display != DisplayOptions()) {
+    return Error{fmt::format("--output-kind {} has a scale of luminance instead of --look, --exposure and the like; leave them out", o.kind)};
   }
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
   if (s.layers && s.technique != "hybrid" && s.technique != "path") return Error{fmt::format("--layers: technique {} does not keep lamps apart; use hybrid or path", s.technique)};
@@ -119,14 +119,6 @@ std::string dump(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Image displayPicture(const Plan& plan, const White& white, const Image& image, float ev100) {
-  if (white.degree == 0) return toneMap(image, ev100, plan.display.tone);
-  const Affine adapt = matrixOf(white);
-  Image adapted(image.width, image.height);
-  parallelFor(image.pixels.size(), 16384, [&](size_t i) { adapted.pixels[i] = adapt.vector(image.pixels[i]); });
-  return toneMap(adapted, ev100, plan.display.tone);
-}
-
 Metadata describe(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered, float ev100, const White& white) {
   auto times = nlohmann::ordered_json::object();
   for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
@@ -139,9 +131,9 @@ Metadata describe(const Options& o, const Plan& plan, const Camera& camera, cons
                        {"roomlight.camera", camera.name},
                        {"roomlight.view", o.view.view},
                        {"roomlight.exposureEv100", fmt::format("{}", ev100)},
-                       {"roomlight.tone", std::string(toneCurveName(plan.display.tone))},
+                       {"roomlight.tone", std::string(toneCurveName(plan.display.tone.curve))},
                        {"roomlight.whiteK", fmt::format("{:.0f}", white.kelvin)},
-                       {"roomlight.whiteAdaptation", fmt::format("{:.3f}", white.degree)},
+                       {"roomlight.whiteGains", fmt::format("{:.4f} {:.4f} {:.4f}", white.gains.x, white.gains.y, white.gains.z)},
                        {"roomlight.complete", rendered.complete ? "true" : "false"}};
   if (camera.projection == Projection::Orthographic) metadata["roomlight.metresPerPixel"] = fmt::format("{}", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel());
   if (camera.cutHeightM < kInfinity) metadata["roomlight.cutHeightM"] = fmt::format("{}", camera.cutHeightM);
@@ -176,7 +168,7 @@ std::string panoramaXmp(int width, int height) {
 Status writePicture(const std::string& out, const Plan& plan, const Camera& camera, const Rendered& rendered, const White& white, float ev100, Metadata metadata) {
   const std::string extension = lowerExtension(out);
   if (extension == ".exr") return writeExr(out, rendered.image, metadata);
-  const Image display = displayPicture(plan, white, unmixed(rendered.image, rendered.sights), ev100);
+  const Image display = displayed(unmixed(rendered.image, rendered.sights), plan.display, white, ev100);
   const std::string xmp = camera.projection == Projection::Panorama ? panoramaXmp(display.width, display.height) : "";
   if (extension == ".jpg") return writeJpeg(out, drawn(display, rendered.sights, kSectionColour, kPaperColour), SIZE_MAX, xmp);
   if (!xmp.empty()) metadata["XML:com.adobe.xmp"] = xmp;
@@ -188,8 +180,8 @@ Status writePicture(const std::string& out, const Plan& plan, const Camera& came
 }
 
 Status writePictures(const Options& o, const Plan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
-  const float ev100 = plan.display.ev100 ? *plan.display.ev100 : automaticEv100(pixelsOfRooms(scene, camera, rendered.image));
-  const White white = whiteOf(plan.display, rendered.lightColour, ev100);
+  const float ev100 = ev100Of(plan.display, pixelsOfRooms(scene, camera, rendered.image));
+  const White white = whiteOf(plan.display, rendered.lightColour);
   const Metadata metadata = describe(o, plan, camera, rendered, ev100, white);
   if (o.kind != "picture") return writeLuminance(o, rendered, metadata);
   std::optional<LayeredImage> layered;

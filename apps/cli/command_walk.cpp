@@ -83,8 +83,8 @@ class FrameWriter {
     const std::string extension = lowerExtension(file.value());
     if (extension == ".exr") return writeExr(file.value(), frame.image, {});
     if (!ev100_) {
-      ev100_ = display_.ev100 ? *display_.ev100 : automaticEv100(frame.image);
-      white_ = whiteOf(display_, lightColour(frame.rays, frame.camera, frame.image), *ev100_);
+      ev100_ = ev100Of(display_, frame.image);
+      white_ = whiteOf(display_, lightColour(frame.rays, frame.camera, frame.image));
     }
     const Image shown = displayed(frame.image, display_, white_, *ev100_);
     return extension == ".jpg" ? writeJpeg(file.value(), shown, SIZE_MAX) : writePng(file.value(), shown, {});
@@ -171,12 +171,13 @@ int runWalk(const Options& o) {
   interrupted();  // from here on Ctrl-C is ours
   const Result<RenderSettings> settings = frameSettingsOf(o);
   if (!settings) return bad(settings.error());
-  const Result<Display> display = readDisplay(o.display);
+  Result<Display> display = readDisplay(o.display);
   if (!display) return bad(display.error());
+  display.value().localExposure = o.display.localExposure.value_or(0);  // frames shall be exposed alike
   if (const Status s = checkFiles(o); !s) return bad(s.error());
   Result<home::OpenWish> open = readSceneOptions(o);
   if (!open) return bad(open.error());
-  return work(o, {settings.value(), display.value(), std::move(open.value())});
+  return work(o, {settings.value(), std::move(display.value()), std::move(open.value())});
 }
 
 }  // namespace

@@ -1,16 +1,19 @@
-// How pictures in cd/m² are shown, as options of commands say it: --exposure, --tone, --white-balance (docs/conventions.md, exposure and display).
+// How pictures in cd/m² are shown, as options of commands say it (docs/conventions.md, exposure and display).
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "base/result.h"
-#include "engine/display.h"
+#include "look/display.h"
 
 namespace roomlight::cli {
 
 struct DisplayOptions {
-  std::string exposure = "auto", tone = "neutral", whiteBalance = "auto";
+  std::string look = "natural", exposure = "auto", tone, whiteBalance;  // empty: the look's
+  std::optional<float> contrast, saturation, localExposure, glare, vignette;
+  bool operator==(const DisplayOptions&) const = default;
 };
 
 void addDisplayOptions(CLI::App& command, DisplayOptions& options, const std::string& ofWhat);

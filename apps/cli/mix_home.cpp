@@ -136,11 +136,13 @@ Result<Mixture> mixtureOf(const std::vector<LayerInfo>& layers, const DialOption
   return mixture;
 }
 
-ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display) {
+ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display, const FollowMix& follow) {
   ShownMix shown;
-  shown.look.ev100 = display.ev100 ? *display.ev100 : automaticEv100(linearMix(home, mixture.gains));
+  Mixture unmixed;
+  for (const LayerInfo& l : home.layers) unmixed.gains.push_back(Vec3(1)), unmixed.hues.push_back(l.colour);
+  shown.look.ev100 = ev100Of(display, display.ev100 ? Image() : linearMix(home, follow.exposure ? mixture.gains : unmixed.gains));
   shown.look.tone = display.tone;
-  shown.white = whiteOf(display, lightColourOf(home, mixture), shown.look.ev100);
+  shown.white = whiteOf(display, lightColourOf(home, follow.white ? mixture : unmixed));
   shown.look.whiteBalance = matrixOf(shown.white);
   return shown;
 }

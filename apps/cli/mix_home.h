@@ -39,12 +39,15 @@ struct Mixture {
 };
 Result<Mixture> mixtureOf(const std::vector<LayerInfo>& layers, const DialOptions& options);
 
-// How a mix is shown: exposure and white are those of `gains` where options do not fix them.
+// How a mix is shown: exposure and white are those of the unmixed picture where options do not fix them, or of this mix where that is wished, so that dimmed lamps look dimmed.
 struct ShownMix {
   Look look;
   White white;
 };
-ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display);
+struct FollowMix {
+  bool exposure = false, white = false;
+};
+ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display, const FollowMix& follow);
 
 // The name before the last '=', and what is behind it.
 struct Assignment {

@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "base/image_io.h"
-#include "engine/display.h"
+#include "look/look.h"
 #include "engine/quality.h"
 #include "engine/render.h"
 #include "interrupt.h"
@@ -32,10 +32,9 @@ ReportPicture pictureFor(const Scene& scene, int threads) {
   const Result<Rendered> rendered = render(scene, camera, settings, progress);
   if (!rendered || rendered.value().image.pixels.empty()) return {};
   const Image& image = rendered.value().image;
-  const float ev100 = automaticEv100(image);
-  const Display display;
+  const Display display = usualDisplay();
   Result<std::string> jpeg =
-      encodeJpeg(displayed(image, display, whiteOf(display, rendered.value().lightColour, ev100), ev100), kJpegQuality);
+      encodeJpeg(displayed(image, display, whiteOf(display, rendered.value().lightColour), ev100Of(display, image)), kJpegQuality);
   if (!jpeg) return {};
   return {std::move(jpeg.value()), camera.name.empty()
                                        ? "View of the home, exposed for the eye"

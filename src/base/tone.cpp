@@ -64,11 +64,12 @@ float srgbDecode(float encoded) {
   return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
 
-Image toneMap(const Image& image, float ev100, ToneCurve curve) {
+Image toneMap(const Image& image, float ev100, const Tone& tone) {
   Image out(image.width, image.height);
   const float exposure = exposureFromEv100(ev100);
   parallelFor(image.pixels.size(), 16384, [&](size_t i) {
-    const Vec3 v = applyCurve(max(image.pixels[i] * exposure, Vec3(0)), curve);
+    const Vec3 light = max(image.pixels[i] * exposure, Vec3(0));
+    const Vec3 v = applyCurve(tone.plain() ? light : curves::graded(light, tone.contrast, tone.saturation), tone.curve);
     out.pixels[i] = {srgbEncode(v.x), srgbEncode(v.y), srgbEncode(v.z)};
   });
   return out;

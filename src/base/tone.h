@@ -13,8 +13,18 @@ namespace roomlight {
 enum class ToneCurve {
   PbrNeutral,  // Khronos PBR neutral (Khronos specification, 2024)
   AgX,         // AgX base look (Sobotka 2022), polynomial fit
-  Filmic,      // ACES-like filmic curve (Narkowicz 2015)
+  Filmic,      // ACES-like filmic curve (Narkowicz 2015) of the largest channel, so that hues stay
   Clip         // no curve: clip to 0..1; what error measures use
+};
+
+// A curve, and what is done to exposed light before it.
+struct Tone {
+  ToneCurve curve = ToneCurve::PbrNeutral;
+  float contrast = 1;    // exponent of luminance about middle grey
+  float saturation = 1;  // factor of what differs from grey
+  Tone() = default;
+  Tone(ToneCurve c, float withContrast = 1, float withSaturation = 1) : curve(c), contrast(withContrast), saturation(withSaturation) {}
+  bool plain() const { return contrast == 1 && saturation == 1; }
 };
 
 Result<ToneCurve> toneCurveFromName(std::string_view name);  // "neutral", "agx", "filmic", "clip"
@@ -31,6 +41,6 @@ float automaticEv100(const Image& luminanceImage);
 float srgbDecode(float encoded);  // of srgbEncode (base/tone_curves.h)
 
 // Exposed, tone-mapped and encoded copy, every channel in 0..1.
-Image toneMap(const Image& image, float ev100, ToneCurve curve);
+Image toneMap(const Image& image, float ev100, const Tone& tone);
 
 }  // namespace roomlight

@@ -26,6 +26,16 @@ inline float smallest(Vec3 v) {
 
 inline Vec3 clip(Vec3 color) { return color; }
 
+// Contrast about middle grey and saturation, both without a change of hue.
+inline Vec3 graded(Vec3 color, float contrast, float saturation) {
+  constexpr float kMiddleGrey = 0.18f;
+  const float y = luminance(color), relative = y * (1 / kMiddleGrey);
+  const float gain = fastPow(relative < 1e-6f ? 1e-6f : relative, contrast - 1);
+  const float grey = y * gain * (1 - saturation);
+  const Vec3 v = color * (gain * saturation) + Vec3(grey);
+  return {v.x > 0 ? v.x : 0.0f, v.y > 0 ? v.y : 0.0f, v.z > 0 ? v.z : 0.0f};
+}
+
 // Khronos PBR Neutral Tone Mapper, specification 1.0: colours below 0.8 keep hue and saturation, highlights roll off to white.
 inline Vec3 neutral(Vec3 color) {
   constexpr float kStartCompression = 0.8f - 0.04f, kDesaturation = 0.15f;
@@ -69,9 +79,13 @@ inline Vec3 agx(Vec3 color) {
   return {linear(w.x), linear(w.y), linear(w.z)};
 }
 
-// Narkowicz 2015, "ACES Filmic Tone Mapping Curve".
-inline Vec3 filmic(Vec3 x) {
-  return x * (x * 2.51f + Vec3(0.03f)) / (x * (x * 2.43f + Vec3(0.59f)) + Vec3(0.14f));
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve", of the largest channel; the others keep their ratio to it, and towards the shoulder all of them go to white.
+inline Vec3 filmic(Vec3 color) {
+  constexpr float kShoulder = 0.7f;
+  const float brightest = largest(color), x = brightest > 1e-6f ? brightest : 1e-6f;
+  const float shown = x * (x * 2.51f + 0.03f) / (x * (x * 2.43f + 0.59f) + 0.14f), peak = shown < 1 ? shown : 1.0f;
+  const float beyond = peak > kShoulder ? (peak - kShoulder) / (1 - kShoulder) : 0.0f, white = beyond * beyond;
+  return color * ((1 - white) * peak / x) + Vec3(white * peak);
 }
 
 }  // namespace curves

@@ -35,29 +35,32 @@ void sumRun(const LayerStack& stack, std::span<const Vec3> gains, size_t run, Pl
 }
 
 // Exposure is in the matrix.
-template <Vec3 (*Curve)(Vec3)>
-void showRun(const Planes& light, const Affine& matrix, uint8_t* __restrict out) {
+template <Vec3 (*Curve)(Vec3), bool kGraded>
+void showRun(const Planes& light, const Affine& matrix, const Tone& tone, uint8_t* __restrict out) {
+  const float contrast = tone.contrast, saturation = tone.saturation;
   const float* __restrict r = light.rgb[0];
   const float* __restrict g = light.rgb[1];
   const float* __restrict b = light.rgb[2];
   for (size_t i = 0; i < kTilePixels; ++i) {
     const Vec3 v = matrix.vector({r[i], g[i], b[i]});
-    const Vec3 shown = Curve({v.x > 0 ? v.x : 0.0f, v.y > 0 ? v.y : 0.0f, v.z > 0 ? v.z : 0.0f});
+    const Vec3 lit{v.x > 0 ? v.x : 0.0f, v.y > 0 ? v.y : 0.0f, v.z > 0 ? v.z : 0.0f};
+    const Vec3 shown = Curve(kGraded ? curves::graded(lit, contrast, saturation) : lit);
     out[3 * i] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.x) * 255 + 0.5f));
     out[3 * i + 1] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.y) * 255 + 0.5f));
     out[3 * i + 2] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.z) * 255 + 0.5f));
   }
 }
 
-using ShowRun = void (*)(const Planes&, const Affine&, uint8_t* __restrict);
-ShowRun showRunOf(ToneCurve tone) {
-  switch (tone) {
-    case ToneCurve::PbrNeutral: return showRun<curves::neutral>;
-    case ToneCurve::AgX: return showRun<curves::agx>;
-    case ToneCurve::Filmic: return showRun<curves::filmic>;
+using ShowRun = void (*)(const Planes&, const Affine&, const Tone&, uint8_t* __restrict);
+template <bool kGraded>
+ShowRun showRunOf(ToneCurve curve) {
+  switch (curve) {
+    case ToneCurve::PbrNeutral: return showRun<curves::neutral, kGraded>;
+    case ToneCurve::AgX: return showRun<curves::agx, kGraded>;
+    case ToneCurve::Filmic: return showRun<curves::filmic, kGraded>;
     case ToneCurve::Clip: break;
   }
-  return showRun<curves::clip>;
+  return showRun<curves::clip, kGraded>;
 }
 
 size_t pixelsOfRun(const LayerStack& stack, size_t run) { return std::min(kTilePixels, stack.pixelCount() - run * kTilePixels); }
@@ -79,14 +82,14 @@ Image mixLinear(const LayerStack& stack, std::span<const Vec3> gains) {
 ByteImage mixDisplay(const LayerStack& stack, std::span<const Vec3> gains, const Look& look) {
   assert(gains.size() == stack.layerCount);
   ByteImage out(stack.width, stack.height, 3);
-  const ShowRun show = showRunOf(look.tone);
+  const ShowRun show = look.tone.plain() ? showRunOf<false>(look.tone.curve) : showRunOf<true>(look.tone.curve);
   const float exposure = exposureFromEv100(look.ev100);
   const Affine matrix{look.whiteBalance.x * exposure, look.whiteBalance.y * exposure, look.whiteBalance.z * exposure, {}};
   parallelFor(stack.runCount(), kRunsAtOnce, [&](size_t run) {
     Planes sum;
     uint8_t bytes[3 * kTilePixels];
     sumRun(stack, gains, run, sum);
-    show(sum, matrix, bytes);
+    show(sum, matrix, look.tone, bytes);
     std::copy_n(bytes, 3 * pixelsOfRun(stack, run), out.samples.data() + 3 * run * kTilePixels);
   });
   return out;

@@ -12,7 +12,7 @@ namespace roomlight {
 // How a mixed picture is shown (docs/conventions.md, exposure and display).
 struct Look {
   float ev100 = 0;
-  ToneCurve tone = ToneCurve::PbrNeutral;
+  Tone tone;
   Affine whiteBalance;  // linear Rec.709 to linear Rec.709; no translation
 };
 

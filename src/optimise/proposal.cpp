@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "base/clock.h"
-#include "engine/display.h"
+#include "look/look.h"
 #include "engine/light_colour.h"
 #include "engine/lit_scene.h"
 #include "measure/glare_meter.h"
@@ -74,9 +74,8 @@ void compare(Certificate::OfCondition& r) {
 
 // As `roomlight render` shows it.
 Image shown(const Image& light, const Camera& camera, const RayScene& rays) {
-  const Display display;
-  const float ev100 = automaticEv100(light);
-  return displayed(light, display, whiteOf(display, lightColour(rays, camera, light), ev100), ev100);
+  const Display display = usualDisplay();
+  return displayed(light, display, whiteOf(display, lightColour(rays, camera, light)), ev100Of(display, light));
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "photometry/white_balance.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "photometry/colour_temperature.h"
 
 namespace roomlight {
@@ -9,9 +12,6 @@ constexpr double kD65K = 6504;
 
 // IEC 61966-2-1, D65; columns.
 constexpr Affine kXyzFromRgb{{0.4124564f, 0.2126729f, 0.0193339f}, {0.3575761f, 0.7151522f, 0.1191920f}, {0.1804375f, 0.0721750f, 0.9503041f}, {0, 0, 0}};
-// CAT16, Li et al. 2017; columns.
-constexpr Affine kConesFromXyz{{0.401288f, -0.250268f, -0.002079f}, {0.650173f, 1.204414f, 0.048952f}, {-0.051461f, 0.045854f, 0.953127f}, {0, 0, 0}};
-
 Vec3 xyzOf(Vec2 xy) { return {xy.x / xy.y, 1, (1 - xy.x - xy.y) / xy.y}; }
 
 Vec2 uvOf(Vec3 xyz) {
@@ -57,16 +57,8 @@ double nearestWhiteK(Vec3 rgb) {
   return std::clamp(best, kLowestWhiteK, kHighestWhiteK);
 }
 
-double degreeOfAdaptation(double luminanceCdM2) {
-  // F = 1; what is adapted to is a fifth of white, and so is the mean of a room.
-  return std::clamp(1 - std::exp(-(luminanceCdM2 + 42) / 92) / 3.6, 0.0, 1.0);
-}
+double distanceFromWhite(Vec3 rgb, double kelvin) { return std::sqrt(distance2(kelvin, uvOf(kXyzFromRgb.vector(rgb)))); }
 
-Affine whiteBalance(double whiteK, double degree) {
-  const Affine conesFromRgb = kConesFromXyz * kXyzFromRgb;
-  const Vec3 from = kConesFromXyz.vector(xyzOf(whiteChromaticity(whiteK))), to = kConesFromXyz.vector(xyzOf(whiteChromaticity(kD65K)));
-  const Vec3 gain = lerp(Vec3(1), to / from, static_cast<float>(degree));
-  return inverse(conesFromRgb) * Affine{{gain.x, 0, 0}, {0, gain.y, 0}, {0, 0, gain.z}, {}} * conesFromRgb;
-}
+Vec3 whiteColour(double kelvin) { return inverse(kXyzFromRgb).vector(xyzOf(whiteChromaticity(kelvin))); }
 
 }  // namespace roomlight

@@ -1,4 +1,4 @@
-// White balance: the colours an eye adapted to one white would need under D65 to look the same.
+// White light by its temperature, and the temperature of light.
 #pragma once
 
 #include "base/vec.h"
@@ -14,11 +14,10 @@ Vec2 whiteChromaticity(double kelvin);
 // what is warmer or colder than the range, is not white and is left out. The colour is not black.
 double nearestWhiteK(Vec3 rgb);
 
-// How far an eye adapts to the white of a room whose mean luminance is that: 0 not at all, 1 in full. CIECAM02 and CIECAM16,
-// average surround: 0.82 in the dark, 0.86 at 20 cd/m², 1 from 500 cd/m² on.
-double degreeOfAdaptation(double luminanceCdM2);
+// How far the colour is from the white of a temperature: in CIE 1960 u, v. Beyond 0.05 no one speaks of white (CIE 15 for correlated colour temperatures).
+double distanceFromWhite(Vec3 rgb, double kelvin);
 
-// Linear Rec.709 seen under the white to linear Rec.709 under D65: von Kries scaling of CAT16 responses (Li et al. 2017).
-Affine whiteBalance(double whiteK, double degree);
+// Linear Rec.709 of that white, of luminance 1. Below 1900 K its blue is negative.
+Vec3 whiteColour(double kelvin);
 
 }  // namespace roomlight

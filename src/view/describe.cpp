@@ -38,7 +38,7 @@ Json displayJson(const ViewDisplay& d) {
   if (d.display.whiteK) white = *d.display.whiteK;
   return {{"exposure", d.display.ev100 ? Json(rounded(*d.display.ev100)) : Json("auto")},
           {"compensation", rounded(d.compensationEv)},
-          {"curve", toneCurveName(d.display.tone)},
+          {"curve", toneCurveName(d.display.tone.curve)},
           {"whiteBalance", white},
           {"falseColor", d.falseColour == FalseColour::Off ? "off" : d.falseColour == FalseColour::Luminance ? "luminance"
                                                                                                              : "illuminance"},

@@ -10,7 +10,7 @@
 #include "base/clock.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
-#include "engine/display.h"
+#include "look/display.h"
 
 namespace roomlight::view {
 namespace {
@@ -194,8 +194,8 @@ Result<FinishedFile> RenderJobs::write(const RenderWork& work, const Rendered& r
     status = writeExr(out.path, rendered.image, metadata);
   } else {
     const Display& display = work.display.display;
-    const float ev100 = (display.ev100 ? *display.ev100 : automaticEv100(rendered.image)) - work.display.compensationEv;
-    const Image shown = displayed(rendered.image, display, whiteOf(display, rendered.lightColour, ev100), ev100);
+    const float ev100 = ev100Of(display, rendered.image) - work.display.compensationEv;
+    const Image shown = displayed(rendered.image, display, whiteOf(display, rendered.lightColour), ev100);
     status = work.format == "jpg" ? writeJpeg(out.path, shown, SIZE_MAX) : writePng(out.path, shown, metadata);
   }
   if (!status) return Error{status.error()};

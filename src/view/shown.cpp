@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "photometry/white_balance.h"
+#include "look/look.h"
 
 namespace roomlight::view {
 namespace {
@@ -47,10 +47,16 @@ const std::array<Colour, kColours>& colours() {
 
 }  // namespace
 
+Display displayOfFrames() {
+  Display display = usualDisplay();
+  display.localExposure = 0;
+  return display;
+}
+
 void apply(const DisplayChange& change, ViewDisplay& d) {
   if (change.ev100) d.display.ev100 = *change.ev100;
   if (change.compensationEv) d.compensationEv = *change.compensationEv;
-  if (change.curve) d.display.tone = *change.curve;
+  if (change.curve) d.display.tone.curve = *change.curve;
   if (change.automaticWhite) d.display.automaticWhite = *change.automaticWhite;
   if (change.whiteK) d.display.whiteK = *change.whiteK;
   if (change.falseColour) d.falseColour = *change.falseColour;
@@ -58,34 +64,26 @@ void apply(const DisplayChange& change, ViewDisplay& d) {
   if (change.high) d.high = *change.high;
 }
 
-void Adaptation::follow(float wantedEv100, std::optional<float> wantedWhiteK, double seconds) {
+void Adaptation::follow(float wantedEv100, const White& wanted, double seconds) {
   const auto share = static_cast<float>(1 - std::exp(-seconds / kAdaptsInS));
   ev100 = ev100 ? *ev100 + share * (wantedEv100 - *ev100) : wantedEv100;
-  // Even steps of 1/K are even steps of colour.
-  if (!wantedWhiteK || !whiteK) {
-    whiteK = wantedWhiteK;
+  if (wanted.kelvin <= 0 || white.kelvin <= 0) {
+    white = wanted;
   } else {
-    whiteK = 1 / (1 / *whiteK + share * (1 / *wantedWhiteK - 1 / *whiteK));
+    white.gains = lerp(white.gains, wanted.gains, share);
+    // Even steps of 1/K are even steps of colour.
+    white.kelvin = 1 / (1 / white.kelvin + static_cast<double>(share) * (1 / wanted.kelvin - 1 / white.kelvin));
   }
 }
 
 ByteImage showPicture(const Image& light, Vec3 lightColour, const ViewDisplay& d, double seconds, Adaptation& eye, FrameInfo& info) {
-  const float wanted = d.display.ev100 ? *d.display.ev100 : automaticEv100(sparse(light));
-  const bool findsWhite = d.display.automaticWhite && !isBlack(lightColour);
-  const std::optional<float> wantedK = findsWhite ? std::optional(static_cast<float>(nearestWhiteK(lightColour))) : std::nullopt;
   // What is set by hand holds at once.
-  eye.follow(wanted, wantedK, d.display.ev100 ? kInfinity : seconds);
-  Display display = d.display;
+  eye.follow(ev100Of(d.display, sparse(light)), whiteOf(d.display, lightColour), d.display.ev100 ? kInfinity : seconds);
+  if (d.display.whiteK) eye.white = whiteOf(d.display, lightColour);
   const float ev100 = *eye.ev100 - d.compensationEv;
-  White white;
-  if (display.whiteK) {
-    white = {*display.whiteK, 1};
-  } else if (eye.whiteK) {
-    white = {static_cast<double>(*eye.whiteK), degreeOfAdaptation(0.18 / static_cast<double>(exposureFromEv100(ev100)))};
-  }
   info.ev100 = ev100;
-  info.whiteK = white.degree > 0 ? static_cast<float>(white.kelvin) : FrameInfo::kNone;
-  return bytesOf(displayed(light, display, white, ev100));
+  info.whiteK = eye.white.kelvin > 0 ? static_cast<float>(eye.white.kelvin) : FrameInfo::kNone;
+  return bytesOf(displayed(light, d.display, eye.white, ev100));
 }
 
 ByteImage showAmounts(const Image& amounts, const ViewDisplay& d, FrameInfo& info) {

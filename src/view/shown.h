@@ -4,15 +4,18 @@
 #include <optional>
 
 #include "base/byte_image.h"
-#include "engine/display.h"
+#include "look/display.h"
 #include "measure/false_colour.h"
 #include "view/frame.h"
 #include "view/message.h"
 
 namespace roomlight::view {
 
+// The usual look, with one exposure all over: local exposure would follow late.
+Display displayOfFrames();
+
 struct ViewDisplay {
-  Display display;
+  Display display = displayOfFrames();
   float compensationEv = 0;  // positive is brighter
   FalseColour falseColour = FalseColour::Off;
   std::optional<double> low, high;  // of the scale; none: by the picture
@@ -23,8 +26,8 @@ void apply(const DisplayChange& change, ViewDisplay& display);
 // What the eye of a window is used to: automatic values go there over a fraction of a second.
 struct Adaptation {
   std::optional<float> ev100;
-  std::optional<float> whiteK;
-  void follow(float wantedEv100, std::optional<float> wantedWhiteK, double seconds);
+  White white;
+  void follow(float wantedEv100, const White& wanted, double seconds);
 };
 
 // `lightColour`: of the light in the picture, for the automatic white; `seconds`: since the window's last frame. Fills in the frame's exposure and white.

@@ -89,6 +89,38 @@ TEST(Tone, neutralKeepsBaseColoursUpToItsOffset) {
   EXPECT_NEAR(srgbDecode(out.pixels[0].z), 0.16f, 1e-5f);
 }
 
+// Ratios of what differs from the smallest channel are the hue.
+TEST(Tone, neutralAndFilmicKeepHues) {
+  const auto hue = [](Vec3 v) {
+    const float low = minComponent(v), high = maxComponent(v);
+    return (v.y - low) / (high - low);
+  };
+  for (const ToneCurve curve : {ToneCurve::PbrNeutral, ToneCurve::Filmic}) {
+    for (const float light : {0.05f, 0.5f, 2.0f, 8.0f}) {
+      const Vec3 in{light, 0.45f * light, 0.1f * light}, out = toneMap(constant(in), std::log2(1 / 1.2f), curve).pixels[0];
+      const Vec3 linear{srgbDecode(out.x), srgbDecode(out.y), srgbDecode(out.z)};
+      if (maxComponent(linear) - minComponent(linear) < 0.03f) continue;  // as good as white
+      EXPECT_NEAR(hue(linear), hue(in), 0.02f) << toneCurveName(curve) << " at " << light;
+    }
+  }
+}
+
+TEST(Tone, contrastTurnsAboutMiddleGreyAndSaturationAboutGrey) {
+  const float ev100 = std::log2(1 / 1.2f);
+  const auto shown = [&](Vec3 light, float contrast, float saturation) {
+    const Vec3 v = toneMap(constant(light), ev100, {ToneCurve::Clip, contrast, saturation}).pixels[0];
+    return Vec3{srgbDecode(v.x), srgbDecode(v.y), srgbDecode(v.z)};
+  };
+  EXPECT_NEAR(shown(Vec3(0.18f), 1.5f, 1).y, 0.18f, 1e-3f);
+  EXPECT_NEAR(shown(Vec3(0.36f), 1.5f, 1).y, 0.18f * std::pow(2.0f, 1.5f), 2e-3f);
+  EXPECT_NEAR(shown(Vec3(0.09f), 1.5f, 1).y, 0.18f / std::pow(2.0f, 1.5f), 2e-3f);
+  const Vec3 red{0.4f, 0.1f, 0.1f}, grey = shown(red, 1, 0);
+  EXPECT_NEAR(grey.x, luminance(red), 1e-3f);
+  EXPECT_NEAR(grey.z, luminance(red), 1e-3f);
+  EXPECT_NEAR(luminance(shown(red, 1, 1.3f)), luminance(red), 2e-3f);
+  EXPECT_GT(shown(red, 1, 1.3f).x, 0.42f);
+}
+
 TEST(Tone, namesRoundTripAndUnknownNamesListTheChoice) {
   for (const char* name : {"neutral", "agx", "filmic", "clip"}) EXPECT_EQ(toneCurveName(toneCurveFromName(name).value()), name);
   const auto wrong = toneCurveFromName("sepia");

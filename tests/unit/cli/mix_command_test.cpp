@@ -145,12 +145,13 @@ TEST(MixCommand, onlyNamesLampsWithCommas) {
   EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps").size(), 2u);
 }
 
+// Local exposure is of whole pictures, not of mixes; the technical look has none.
 TEST(MixCommand, plansShowSectionsAndBackdropAsTheirRenderDoes) {
   const TemporaryFolder folder;
   const auto room = testing::writeRoom(folder);
-  const ProgramRun rendered = runProgram({"render", room, "--view", "plan", "--cut", "1.2", "--size", "60x60", "--samples", "4", "--layers", "--exposure", "6", "--white-balance", "none", "-o", folder / "l.exr", "-o", folder / "l.png", "--quiet"});
+  const ProgramRun rendered = runProgram({"render", room, "--view", "plan", "--cut", "1.2", "--size", "60x60", "--samples", "4", "--layers", "--look", "technical", "--exposure", "6", "--white-balance", "none", "-o", folder / "l.exr", "-o", folder / "l.png", "--quiet"});
   ASSERT_EQ(rendered.exitStatus, 0) << rendered.err;
-  const ProgramRun mixed = runProgram({"mix", folder / "l.exr", "--exposure", "6", "--white-balance", "none", "-o", folder / "m.png", "-o", folder / "m.exr", "--quiet"});
+  const ProgramRun mixed = runProgram({"mix", folder / "l.exr", "--look", "technical", "--exposure", "6", "--white-balance", "none", "-o", folder / "m.png", "-o", folder / "m.exr", "--quiet"});
   ASSERT_EQ(mixed.exitStatus, 0) << mixed.err;
   const Image wanted = readImage(folder / "l.png").value(), got = readImage(folder / "m.png").value();
   const Image light = readImage(folder / "l.exr").value(), same = readImage(folder / "m.exr").value();

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "photometry/white_balance.h"
 #include "unit/mix/layers.h"
 
 namespace roomlight {
@@ -53,15 +52,15 @@ TEST(Mixer, bytesAreThoseOfTheToneMappedMix) {
   const std::vector<Image> pictures = somePictures(kWidth, kHeight);
   const LayerStack stack = stackOf(pictures);
   const std::vector<Vec3> gains(4, Vec3(1));
-  const Affine balance = whiteBalance(3000, 0.8);
-  for (const ToneCurve tone : {ToneCurve::PbrNeutral, ToneCurve::AgX, ToneCurve::Filmic, ToneCurve::Clip}) {
+  const Affine balance{{0.6f, 0, 0}, {0, 1.1f, 0}, {0, 0, 2.5f}, {}};
+  for (const Tone& tone : {Tone(ToneCurve::PbrNeutral), Tone(ToneCurve::AgX), Tone(ToneCurve::Filmic), Tone(ToneCurve::Clip), Tone(ToneCurve::PbrNeutral, 1.2f, 0.9f)}) {
     Image light = mixLinear(stack, gains);
     for (Vec3& p : light.pixels) p = balance.vector(p);
     const Image expected = toneMap(light, 4, tone);
     const ByteImage bytes = mixDisplay(stack, gains, {4, tone, balance});
     ASSERT_EQ(bytes.samples.size(), 3 * expected.pixels.size());
     for (size_t i = 0; i < bytes.samples.size(); ++i) {
-      ASSERT_NEAR(static_cast<float>(bytes.samples[i]), expected.pixels[i / 3][static_cast<int>(i % 3)] * 255, 0.501f) << toneCurveName(tone);
+      ASSERT_NEAR(static_cast<float>(bytes.samples[i]), expected.pixels[i / 3][static_cast<int>(i % 3)] * 255, 0.501f) << toneCurveName(tone.curve);
     }
   }
 }

@@ -1,0 +1,81 @@
+#include "look/display.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/dither.h"
+#include "base/parallel.h"
+#include "look/exposure.h"
+#include "look/glare.h"
+#include "look/local_exposure.h"
+#include "photometry/white_balance.h"
+
+namespace roomlight {
+namespace {
+
+constexpr double kDaylightMired = 1e6 / 6504;
+// Photographers leave pictures a trace warmer than D65, by daylight too.
+constexpr double kUsualMired = 9;
+constexpr float kLeastLight = 0.02f;  // of a channel: what is not there cannot be brought back
+
+// How far light is taken for white: in full up to what coloured walls make of it, not at all from where nobody would call it white.
+float whiteness(Vec3 light, double kelvin) {
+  constexpr double kFull = 0.015, kNone = 0.05;
+  return static_cast<float>(std::clamp((kNone - distanceFromWhite(light, kelvin)) / (kNone - kFull), 0.0, 1.0));
+}
+
+// What that light shall look like: between D65 and its own temperature.
+Vec3 shownWhite(const Display& display, double kelvin) {
+  const double shift = 1e6 / kelvin - kDaylightMired, warmth = display.warmth.value_or(kUsualWarmth);
+  return whiteColour(1e6 / (kDaylightMired + warmth * shift + (display.warmth ? 0 : kUsualMired)));
+}
+
+// Darker by the square of the distance from the middle.
+void darkenCorners(Image& image, float by) {
+  const float x0 = 0.5f * static_cast<float>(image.width), y0 = 0.5f * static_cast<float>(image.height), r2 = x0 * x0 + y0 * y0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float dx = static_cast<float>(x) + 0.5f - x0, dy = static_cast<float>(y) + 0.5f - y0;
+      image.at(x, y) *= 1 - by * (dx * dx + dy * dy) / r2;
+    }
+  }
+}
+
+void dither(Image& image) {
+  parallelFor(static_cast<size_t>(image.height), 16, [&](size_t y) {
+    for (int x = 0; x < image.width; ++x) {
+      Vec3& p = image.at(x, static_cast<int>(y));
+      const float noise = (ditherAt(x, static_cast<int>(y)) - 0.5f) / 255;
+      p = max(min(p + Vec3(noise), Vec3(1)), Vec3(0));
+    }
+  });
+}
+
+}  // namespace
+
+White whiteOf(const Display& display, Vec3 lightColour) {
+  if (display.whiteK) return {Vec3(1) / max(whiteColour(*display.whiteK), Vec3(kLeastLight)), *display.whiteK};
+  if (!display.automaticWhite || !(luminance(lightColour) > 0)) return {};
+  const double kelvin = nearestWhiteK(lightColour);
+  const Vec3 light = max(lightColour / luminance(lightColour), Vec3(kLeastLight));
+  const Vec3 gains = shownWhite(display, kelvin) / light;
+  const float share = whiteness(light, kelvin);
+  return {{std::pow(gains.x, share), std::pow(gains.y, share), std::pow(gains.z, share)}, kelvin};
+}
+
+float ev100Of(const Display& display, const Image& image) { return display.ev100 ? *display.ev100 : lookedAtEv100(image) - display.brighterEv; }
+
+Affine matrixOf(const White& white) { return {{white.gains.x, 0, 0}, {0, white.gains.y, 0}, {0, 0, white.gains.z}, {}}; }
+
+Image displayed(const Image& image, const Display& display, const White& white, float ev100) {
+  Image adapted(image.width, image.height);
+  parallelFor(image.pixels.size(), 16384, [&](size_t i) { adapted.pixels[i] = image.pixels[i] * white.gains; });
+  if (display.localExposure > 0) exposeLocally(adapted, ev100, display.localExposure);
+  if (display.glare > 0) addGlare(adapted, display.glare);
+  if (display.vignette > 0) darkenCorners(adapted, display.vignette);
+  Image out = toneMap(adapted, ev100, display.tone);
+  dither(out);
+  return out;
+}
+
+}  // namespace roomlight

@@ -1,0 +1,43 @@
+// How pictures in cd/m² are shown: exposure, white balance, tone curve (docs/conventions.md, exposure and display).
+#pragma once
+
+#include <optional>
+
+#include "base/image.h"
+#include "base/tone.h"
+
+namespace roomlight {
+
+constexpr double kUsualWarmth = 0.05;  // how much of the way from daylight to lamp light an automatic white balance leaves
+
+struct Display {
+  std::optional<float> ev100;  // none: automatic
+  float brighterEv = 0;        // than the automatic exposure
+  Tone tone;
+  bool automaticWhite = true;
+  std::optional<double> whiteK;  // of what shall be white; none, and not automatic: no white balance
+  std::optional<double> warmth;  // of automatic white: share of the light's own warmth that is kept, 0 to 1; none: kUsualWarmth and a little
+  float localExposure = 0;       // 0: none, 1: shadows are opened and highlights held by up to two stops
+  float glare = 0;               // share of the light that the eye or lens scatters around what shines
+  float vignette = 0;            // how much darker the corners are, 0 to 1
+};
+
+// What display pictures are adapted by.
+struct White {
+  Vec3 gains{1, 1, 1};  // of linear Rec.709
+  double kelvin = 0;    // nearest temperature of the light that is taken for white; 0: none is
+};
+// `lightColour`: of the light in the picture, black where it is not known. Light and reflectance are multiplied channel by channel in Rec.709, so gains in
+// the same space give surfaces the colours they have under D65. Light that is far from any white keeps its colour.
+White whiteOf(const Display& display, Vec3 lightColour);
+
+// A picture in cd/m², exposed, white-balanced, tone-mapped and encoded. Values carry a noise below the last of 8 bits, the same in every run, against bands.
+Image displayed(const Image& image, const Display& display, const White& white, float ev100);
+
+// As the display says, or automatic.
+float ev100Of(const Display& display, const Image& image);
+
+// The gains as a matrix.
+Affine matrixOf(const White& white);
+
+}  // namespace roomlight

@@ -1,0 +1,15 @@
+// How bright a picture is shown.
+#pragma once
+
+#include "base/image.h"
+
+namespace roomlight {
+
+// A room lit by 300 lx, as a light meter shows it: one exposure for all rooms and hours.
+constexpr float kHomeEv100 = 6.9f;
+
+// EV100 that puts what is looked at to a middle grey: the geometric mean of the luminance, more of the middle than of the edges, without windows, lamps and holes that are
+// several stops away from most of it. Black pixels say nothing; a black picture gives 0.
+float lookedAtEv100(const Image& luminanceImage);
+
+}  // namespace roomlight

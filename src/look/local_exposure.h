@@ -1,0 +1,12 @@
+// Rooms beside bright windows: each part of a picture at the exposure that shows it best.
+#pragma once
+
+#include "base/image.h"
+
+namespace roomlight {
+
+// Multiplies every pixel by a gain that varies smoothly: three exposures, two stops times `strength` apart, are fused by how near each brings a place to a middle grey
+// (Mertens, Kautz & Van Reeth 2007, "Exposure fusion"), on luminance alone, so that colours keep their hue. A picture that is evenly lit keeps its exposure.
+void exposeLocally(Image& image, float ev100, float strength);
+
+}  // namespace roomlight

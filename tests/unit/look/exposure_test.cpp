@@ -1,0 +1,59 @@
+#include "look/exposure.h"
+
+#include <gtest/gtest.h>
+
+#include "base/tone.h"
+#include "look/local_exposure.h"
+
+namespace roomlight {
+namespace {
+
+// A room of one luminance with a window over `share` of the width.
+Image room(float cdM2, float windowCdM2, double share) {
+  Image image(120, 80);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) image.at(x, y) = Vec3(x < share * image.width ? windowCdM2 : cdM2);
+  }
+  return image;
+}
+
+TEST(LookedAt, isMiddleGrey) { EXPECT_NEAR(exposureFromEv100(lookedAtEv100(room(40, 40, 0))) * 40, 0.18f, 1e-4f); }
+
+TEST(LookedAt, windowsLampsAndHolesDoNotRule) {
+  const float ev100 = lookedAtEv100(room(40, 40, 0));
+  EXPECT_NEAR(lookedAtEv100(room(40, 4000, 0.35)), ev100, 1e-3f);
+  EXPECT_NEAR(lookedAtEv100(room(40, 0.1f, 0.35)), ev100, 1e-3f);
+  EXPECT_EQ(lookedAtEv100(room(0, 0, 0)), 0);
+}
+
+TEST(LookedAt, theMiddleCountsMoreThanTheEdges) {
+  Image image = room(10, 10, 0);
+  for (int y = 24; y < 56; ++y) {
+    for (int x = 36; x < 84; ++x) image.at(x, y) = Vec3(20);
+  }
+  EXPECT_GT(lookedAtEv100(image), lookedAtEv100(room(10, 10, 0)) + 0.16f + 0.05f);  // 16 % of the area
+}
+
+TEST(LocalExposure, leavesWhatIsEvenlyLit) {
+  const float ev100 = std::log2(1 / 1.2f);
+  Image grey = room(0.18f, 0.18f, 0);
+  exposeLocally(grey, ev100, 1);
+  for (const Vec3& p : grey.pixels) EXPECT_NEAR(p.y, 0.18f, 0.002f);
+}
+
+TEST(LocalExposure, bringsWindowAndRoomNearerAndKeepsHues) {
+  const float ev100 = std::log2(1 / 1.2f);
+  Image image = room(0.03f, 3, 0.4);
+  for (Vec3& p : image.pixels) p = p * Vec3{1, 0.8f, 0.5f};
+  const float before = image.at(5, 40).y / image.at(115, 40).y;
+  exposeLocally(image, ev100, 0.6f);
+  EXPECT_LT(image.at(5, 40).y / image.at(115, 40).y, 0.6f * before);
+  EXPECT_GT(image.at(115, 40).y, 1.15f * 0.03f * 0.8f);
+  for (const Vec3& p : image.pixels) {
+    EXPECT_NEAR(p.y / p.x, 0.8f, 1e-4f);
+    EXPECT_NEAR(p.z / p.x, 0.5f, 1e-4f);
+  }
+}
+
+}  // namespace
+}  // namespace roomlight
