@@ -142,8 +142,10 @@ Vec3 colourOf(const JsonPlace& j, const char* key) {
   return j.has(key) ? blackBodyColour(j[key].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin)) : Vec3(1);
 }
 
+constexpr double kSunshineWm2 = 120;
+
 // The two together, with the ground that they light.
-Daylight lit(const JsonPlace& j, const When& when, DaylightLux lux, const SkyFunction& luminance) {
+Daylight lit(const JsonPlace& j, const When& when, DaylightLux lux, const SkyFunction& luminance, bool clear) {
   Daylight out;
   if (when.altitudeRad <= 0) lux.sun = 0;
   const Vec3 skyColour = readColour(j), sunColour = colourOf(j, "sunTemperature");
@@ -154,12 +156,15 @@ Daylight lit(const JsonPlace& j, const When& when, DaylightLux lux, const SkyFun
   const double reflectance = j.number("ground", 0, 1, kGroundReflectance);
   const Vec3 groundLux = skyColour * static_cast<float>(lux.sky) + sunColour * static_cast<float>(lux.sun * std::sin(when.altitudeRad));
   if (isBlack(groundLux)) return out;
-  out.sky.image = skyImage(luminance, lux.sky, skyColour, groundLux * static_cast<float>(reflectance / std::numbers::pi));
+  SkyColour colour(skyColour);
+  colour.miredPerDecade = clear ? kClearSkyMiredPerDecade : 0;
+  colour.hazeRad = kHazeRad;
+  out.sky.image = skyImage(luminance, lux.sky, colour, groundLux * static_cast<float>(reflectance / std::numbers::pi));
   out.sky.horizonEdge = true;
   return out;
 }
 
-// The all-weather sky of what was measured.
+// The all-weather sky of what was measured. Clear where the sun shines (WMO: from 120 W/m² on).
 Daylight perezDaylight(const JsonPlace& j, const When& when, const Measured& measured) {
   if (measured.irradiance.diffuseHorizontal <= 0) {
     if (measured.irradiance.directNormal > 0) j.fail("direct light without any diffuse light is no sky; is one of the two missing?");
@@ -170,7 +175,8 @@ Daylight perezDaylight(const JsonPlace& j, const When& when, const Measured& mea
   const PerezSky sky = perezSky(measured.irradiance, angleRad(sun, {0, 1, 0}), outsideWm2, measured.waterCm);
   const DaylightLux lux{measured.skyLux.value_or(sky.diffuseEfficacy * measured.irradiance.diffuseHorizontal),
                         measured.sunLux.value_or(sky.directEfficacy * measured.irradiance.directNormal)};
-  return lit(j, when, lux, [=](Vec3 d) { return perezLuminance(sky, static_cast<double>(d.y), angleRad(d, sun)); });
+  return lit(
+      j, when, lux, [=](Vec3 d) { return perezLuminance(sky, static_cast<double>(d.y), angleRad(d, sun)); }, measured.irradiance.directNormal > kSunshineWm2);
 }
 
 Daylight cieDaylight(const JsonPlace& j) {
@@ -180,7 +186,7 @@ Daylight cieDaylight(const JsonPlace& j) {
   const bool anyTime = !dependsOnSun(type) && j.has("horizontalIlluminance") && !j.has("sunIlluminance");
   When when;
   if (!anyTime || j.has("time") || j.has("direction")) when = readWhen(j, nullptr);
-  return lit(j, when, cieLux(j, when, type), cieSky(type, when));
+  return lit(j, when, cieLux(j, when, type), cieSky(type, when), skyCover(type) == SkyCover::Clear);
 }
 
 }  // namespace

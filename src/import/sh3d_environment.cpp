@@ -135,7 +135,9 @@ std::string addDaylight(const Home& home, const Paints& paints, const std::strin
   } else {
     const Vec3 mixed = hue(home.environment.skyColour.value_or(0xffffff)) * tint, colour = mixed / luminance(mixed);
     const double zenithRad = angleRad(toSun, {0, 1, 0});
-    scene.sky.image = skyImage([=](Vec3 d) { return cieSkyLuminance(kClearSky, static_cast<double>(d.y), angleRad(d, toSun), zenithRad); }, skyLux, colour, ground(colour));
+    SkyColour sky(colour);
+    sky.miredPerDecade = kClearSkyMiredPerDecade, sky.hazeRad = kHazeRad;
+    scene.sky.image = skyImage([=](Vec3 d) { return cieSkyLuminance(kClearSky, static_cast<double>(d.y), angleRad(d, toSun), zenithRad); }, skyLux, sky, ground(colour));
   }
   scene.sky.horizonEdge = true;
   scene.suns.push_back(std::move(sun));

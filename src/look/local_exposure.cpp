@@ -10,7 +10,8 @@
 namespace roomlight {
 namespace {
 
-constexpr float kMiddleGrey = 0.18f, kStops = 2;
+constexpr float kMiddleGrey = 0.18f;
+constexpr std::array kStops = {2.0f, 0.0f, -2.0f, -4.0f};  // windows are farther from the middle than corners are
 constexpr float kSigma = 0.2f;  // of what counts as well exposed
 constexpr int kSmallest = 6;    // shorter side of the coarsest level
 constexpr float kLeast = 1e-5f;
@@ -24,13 +25,27 @@ struct Exposure {
   std::vector<Plane> details, weights;
 };
 
+float weightOf(float value) {
+  const float off = (value - 0.5f) / kSigma;
+  return std::exp(-0.5f * off * off) + 1e-6f;
+}
+
+// What an evenly lit middle grey would come out as.
+float fusedGrey(float strength) {
+  float weighted = 0, weights = 0;
+  for (const float stops : kStops) {
+    const float value = shown(kMiddleGrey * std::exp2(stops * strength)), weight = weightOf(value);
+    weighted += weight * value, weights += weight;
+  }
+  return undone(weighted / weights);
+}
+
 Exposure exposureOf(const Plane& light, float ev) {
   Plane value(light.width, light.height), weight(light.width, light.height);
   const float factor = std::exp2(ev);
   for (size_t i = 0; i < light.values.size(); ++i) {
     value.values[i] = shown(light.values[i] * factor);
-    const float off = (value.values[i] - 0.5f) / kSigma;
-    weight.values[i] = std::exp(-0.5f * off * off) + 1e-6f;
+    weight.values[i] = weightOf(value.values[i]);
   }
   Exposure e{gaussianPyramid(std::move(value), kSmallest), gaussianPyramid(std::move(weight), kSmallest)};
   for (size_t k = 0; k + 1 < e.details.size(); ++k) {
@@ -40,7 +55,9 @@ Exposure exposureOf(const Plane& light, float ev) {
   return e;
 }
 
-Plane fused(const std::array<Exposure, 3>& exposures) {
+using Exposures = std::array<Exposure, kStops.size()>;
+
+Plane fused(const Exposures& exposures) {
   Plane sum;
   for (size_t k = exposures[0].details.size(); k-- > 0;) {
     const Plane& size = exposures[0].details[k];
@@ -58,19 +75,19 @@ Plane fused(const std::array<Exposure, 3>& exposures) {
 }  // namespace
 
 void exposeLocally(Image& image, float ev100, float strength) {
-  const float exposure = exposureFromEv100(ev100), stops = kStops * strength;
+  const float exposure = exposureFromEv100(ev100);
   Plane light(image.width, image.height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const float l = luminance(image.pixels[i]) * exposure;
     light.values[i] = l > kLeast ? std::min(l, 1e4f) : kLeast;
   }
-  std::array<Exposure, 3> exposures;
-  parallelFor(exposures.size(), 1, [&](size_t i) { exposures[i] = exposureOf(light, stops * (static_cast<float>(i) - 1)); });
+  Exposures exposures;
+  parallelFor(exposures.size(), 1, [&](size_t i) { exposures[i] = exposureOf(light, kStops[i] * strength); });
   const Plane value = fused(exposures);
-  const float most = std::exp2(stops);
+  const float most = std::exp2(kStops.front() * strength), least = std::exp2(kStops.back() * strength), grey = kMiddleGrey / fusedGrey(strength);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const float wanted = undone(std::clamp(value.values[i], 0.0f, 0.999f));
-    image.pixels[i] *= std::clamp(wanted / light.values[i], 1 / most, most);
+    image.pixels[i] *= std::clamp(grey * wanted / light.values[i], least, most);
   }
 }
 

@@ -5,8 +5,8 @@
 
 namespace roomlight {
 
-// Multiplies every pixel by a gain that varies smoothly: three exposures, two stops times `strength` apart, are fused by how near each brings a place to a middle grey
-// (Mertens, Kautz & Van Reeth 2007, "Exposure fusion"), on luminance alone, so that colours keep their hue. A picture that is evenly lit keeps its exposure.
+// Multiplies every pixel by a gain that varies smoothly: four exposures, two stops times `strength` apart, one brighter and two darker, are fused by how near each brings a place to a middle grey
+// (Mertens, Kautz & Van Reeth 2007, "Exposure fusion"), on luminance alone, so that colours keep their hue. A middle grey keeps its exposure.
 void exposeLocally(Image& image, float ev100, float strength);
 
 }  // namespace roomlight

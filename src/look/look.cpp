@@ -7,16 +7,16 @@ namespace {
 
 Display natural() {
   Display d;
-  d.brighterEv = 0.45f;
+  d.brighterEv = 0.35f;
   d.tone = {ToneCurve::PbrNeutral, 1.08f, 1.05f};
-  d.localExposure = 0.4f;
+  d.localExposure = 0.85f;
   return d;
 }
 
 Display bright() {
   Display d = natural();
   d.brighterEv = 0.9f;
-  d.localExposure = 0.7f;
+  d.localExposure = 1;
   return d;
 }
 

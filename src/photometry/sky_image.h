@@ -14,9 +14,21 @@ using SkyFunction = std::function<double(Vec3)>;
 // sin² of the altitude and in bearing; error below 1e-4 for CIE and Perez skies.
 double horizontalIlluminance(const SkyFunction& luminance);
 
+// How a sky is coloured, all of it without a change of luminance.
+struct SkyColour {
+  Vec3 mean{1, 1, 1};        // of luminance 1
+  double miredPerDecade = 0; // how much warmer it is where it is ten times as bright as in the mean
+  float hazeRad = 0;         // below the horizon, ground fades into haze: to 1/e at that angle
+  SkyColour() = default;
+  SkyColour(Vec3 colour) : mean(colour) {}
+};
+// Of clear skies: Chain, Dumortier & Fontoynont 1999, 10^6 K / T = -132.1 + 59.77 log10(L in cd/m²).
+constexpr double kClearSkyMiredPerDecade = 59.77;
+constexpr float kHazeRad = 0.03f;
+
 // Equirectangular picture of 512 x 256 pixels in cd/m², laid out as Sky::image with its edge at the horizon: above it the sky, scaled so
-// that a level surface has `horizontalLux` from it (0: black) and coloured by `colour` of luminance 1; below it ground of even luminance.
+// that a level surface has `horizontalLux` from it (0: black); below it ground of even luminance, in the haze of the sky over it.
 // A function that is black all over gives a black sky.
-Image skyImage(const SkyFunction& luminance, double horizontalLux, Vec3 colour, Vec3 groundCdM2);
+Image skyImage(const SkyFunction& luminance, double horizontalLux, const SkyColour& colour, Vec3 groundCdM2);
 
 }  // namespace roomlight
