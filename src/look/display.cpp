@@ -70,7 +70,8 @@ Affine matrixOf(const White& white) { return {{white.gains.x, 0, 0}, {0, white.g
 Image displayed(const Image& image, const Display& display, const White& white, float ev100) {
   Image adapted(image.width, image.height);
   parallelFor(image.pixels.size(), 16384, [&](size_t i) { adapted.pixels[i] = image.pixels[i] * white.gains; });
-  if (display.localExposure > 0) exposeLocally(adapted, ev100, display.localExposure);
+  // About the metered grey: what the look adds stays.
+  if (display.localExposure > 0) exposeLocally(adapted, display.ev100 ? ev100 : ev100 + display.brighterEv, display.localExposure);
   if (display.glare > 0) addGlare(adapted, display.glare);
   if (display.vignette > 0) darkenCorners(adapted, display.vignette);
   Image out = toneMap(adapted, ev100, display.tone);

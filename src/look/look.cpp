@@ -7,22 +7,21 @@ namespace {
 
 Display natural() {
   Display d;
-  d.brighterEv = 0.35f;
+  d.brighterEv = 0.2f;
   d.tone = {ToneCurve::PbrNeutral, 1.08f, 1.05f};
-  d.localExposure = 0.85f;
+  d.localExposure = 1;
   return d;
 }
 
 Display bright() {
   Display d = natural();
-  d.brighterEv = 0.9f;
-  d.localExposure = 1;
+  d.brighterEv = 0.7f;
   return d;
 }
 
 Display evening() {
   Display d = natural();
-  d.brighterEv = -0.3f;
+  d.brighterEv = -0.4f;
   d.warmth = 0.3;
   d.glare = 0.05f;
   d.vignette = 0.15f;
