@@ -8,7 +8,7 @@ namespace roomlight {
 namespace {
 
 constexpr double kMiddleGrey = 0.18;
-constexpr double kAboveEv = 2.5, kBelowEv = 4.5;  // from the median on, light is that of windows and lamps, or of holes
+constexpr double kAboveEv = 2.5, kBelowEv = 6.5;  // from the median on, light is that of windows and lamps, or of holes
 constexpr float kEdge = 0.3f;                     // weight of the edges of the picture
 constexpr float kWide = 0.55f;                    // of the middle, in shares of width and height
 

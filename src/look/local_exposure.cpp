@@ -30,15 +30,8 @@ float weightOf(float value) {
   return std::exp(-0.5f * off * off) + 1e-6f;
 }
 
-// What an evenly lit middle grey would come out as.
-float fusedGrey(float strength) {
-  float weighted = 0, weights = 0;
-  for (const float stops : kStops) {
-    const float value = shown(kMiddleGrey * std::exp2(stops * strength)), weight = weightOf(value);
-    weighted += weight * value, weights += weight;
-  }
-  return undone(weighted / weights);
-}
+// What a picture is metered by: neither windows nor holes.
+bool isLookedAt(float light) { return light > kMiddleGrey / 64 && light < kMiddleGrey * 6; }
 
 Exposure exposureOf(const Plane& light, float ev) {
   Plane value(light.width, light.height), weight(light.width, light.height);
@@ -79,16 +72,21 @@ void exposeLocally(Image& image, float ev100, float strength) {
   Plane light(image.width, image.height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const float l = luminance(image.pixels[i]) * exposure;
-    light.values[i] = l > kLeast ? std::min(l, 1e4f) : kLeast;
+    light.values[i] = l > kLeast ? std::min(l, 1e4f) : kMiddleGrey;  // nothing there: it asks for no exposure
   }
   Exposures exposures;
   parallelFor(exposures.size(), 1, [&](size_t i) { exposures[i] = exposureOf(light, kStops[i] * strength); });
   const Plane value = fused(exposures);
-  const float most = std::exp2(kStops.front() * strength), least = std::exp2(kStops.back() * strength), grey = kMiddleGrey / fusedGrey(strength);
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    const float wanted = undone(std::clamp(value.values[i], 0.0f, 0.999f));
-    image.pixels[i] *= std::clamp(grey * wanted / light.values[i], least, most);
+  std::vector<float> gains(light.values.size());
+  double sum = 0, count = 0;
+  for (size_t i = 0; i < gains.size(); ++i) {
+    gains[i] = undone(std::clamp(value.values[i], 1e-4f, 0.999f)) / light.values[i];
+    if (!isBlack(image.pixels[i]) && isLookedAt(light.values[i])) sum += static_cast<double>(std::log2(gains[i])), ++count;
   }
+  // What is looked at keeps its exposure.
+  const float kept = count > 0 ? static_cast<float>(std::exp2(-sum / count)) : 1.0f;
+  const float most = std::exp2(kStops.front() * strength), least = std::exp2(kStops.back() * strength);
+  for (size_t i = 0; i < gains.size(); ++i) image.pixels[i] *= std::clamp(kept * gains[i], least, most);
 }
 
 }  // namespace roomlight

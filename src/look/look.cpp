@@ -15,7 +15,7 @@ Display natural() {
 
 Display bright() {
   Display d = natural();
-  d.brighterEv = 0.7f;
+  d.brighterEv = 0.9f;
   return d;
 }
 
