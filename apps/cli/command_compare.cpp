@@ -13,22 +13,17 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::string reference, second, picture, difference;
   bool json = false;
 };
-
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
-}
 
 struct Pictures {
   Image reference, second, picture;
   bool forDisplay = false;  // all of them: tone-mapped
 };
 
-Result<Pictures> readPictures(const Options& o) {
+Result<Pictures> readPictures(const CompareOptions& o) {
   Pictures read;
   const std::pair<const std::string*, Image*> files[] = {{&o.reference, &read.reference}, {&o.second, &read.second}, {&o.picture, &read.picture}};
   for (const auto& [file, image] : files) {
@@ -49,7 +44,7 @@ Result<Pictures> readPictures(const Options& o) {
   return read;
 }
 
-void print(const ShownReport& r, const Options& o) {
+void print(const ShownReport& r, const CompareOptions& o) {
   if (o.json) {
     const nlohmann::ordered_json json = {{"space", "display"}, {"mse", r.mse}, {"ssim", r.ssim}, {"flip", r.flip}, {"difference", o.difference}};
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
@@ -62,7 +57,7 @@ void print(const ShownReport& r, const Options& o) {
   fmt::print("of the pictures as shown: what is tone-mapped no longer tells how much light there was; give two .exr for that\n");
 }
 
-void print(const Report& r, const Options& o) {
+void print(const Report& r, const CompareOptions& o) {
   if (o.json) {
     nlohmann::ordered_json json = {{"space", "linear"},
                                    {"mse", r.mse},
@@ -85,23 +80,23 @@ void print(const Report& r, const Options& o) {
 }
 
 template <class AnyReport, class MakePicture>
-int tell(const Options& o, const Result<AnyReport>& report, const MakePicture& differenceOf) {
-  if (!report) return bad(fmt::format("{}, {}: {}", o.reference, o.picture, report.error()));
-  if (const Status s = checkWritable(o.difference); !s) return bad(s.error());
+int tell(const CompareOptions& o, const Result<AnyReport>& report, const MakePicture& differenceOf) {
+  if (!report) return failed(fmt::format("{}, {}: {}", o.reference, o.picture, report.error()));
+  if (const Status s = checkWritable(o.difference); !s) return failed(s.error());
   const Status written = writePng(o.difference, differenceOf(), {{"roomlight.reference", o.reference}, {"roomlight.picture", o.picture}});
-  if (!written) return bad(written.error(), kFailed);
+  if (!written) return failed(written.error(), kFailed);
   print(report.value(), o);
   return kOk;
 }
 
-int runCompare(Options o) {
+int runCompare(CompareOptions o) {
   if (o.difference.empty()) o.difference = o.picture + ".difference.png";
-  if (!o.difference.ends_with(".png")) return bad(fmt::format("{}: the difference picture is a .png", o.difference));
+  if (!o.difference.ends_with(".png")) return failed(fmt::format("{}: the difference picture is a .png", o.difference));
   if (o.difference == o.reference || o.difference == o.second || o.difference == o.picture) {
-    return bad(fmt::format("{}: is named twice; name another file for the difference picture", o.difference));
+    return failed(fmt::format("{}: is named twice; name another file for the difference picture", o.difference));
   }
   Result<Pictures> pictures = readPictures(o);
-  if (!pictures) return bad(pictures.error());
+  if (!pictures) return failed(pictures.error());
   const auto& [reference, second, picture, forDisplay] = pictures.value();
   if (forDisplay) return tell(o, compareShown(reference, picture), [&] { return differencePictureOfShown(reference, picture); });
   if (o.second.empty()) return tell(o, compare(reference, picture), [&] { return differencePicture(reference, picture); });
@@ -111,7 +106,7 @@ int runCompare(Options o) {
 }  // namespace
 
 Registered addCompare(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<CompareOptions>();
   CLI::App* app = program.add_subcommand("compare", "Measure how far a picture is from a reference");
   app->add_option("REFERENCE", o->reference, "Picture taken as true: .exr or .hdr; or, to compare what is shown, .png or .jpg")->required();
   app->add_option("PICTURE", o->picture, "Picture to judge, of the same size and kind")->required();

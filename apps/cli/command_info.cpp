@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "console.h"
@@ -11,6 +10,7 @@
 #include "import/import.h"
 #include "home/rooms.h"
 #include "import/photometric_file.h"
+#include "json_output.h"
 #include "measure/luminaires.h"
 #include "scene/object_measures.h"
 #include "scene_options.h"
@@ -19,9 +19,7 @@
 namespace roomlight::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct Options : SceneOptions {
+struct InfoOptions : SceneOptions {
   bool json = false, objects = false;
 };
 
@@ -184,7 +182,7 @@ void printLamps(const Json& j) {
   }
 }
 
-void printTable(const Json& j) {
+void printHome(const Json& j) {
   for (const char* key : {"triangles", "meshes", "instances", "materials", "emissiveMaterials", "textures"}) {
     fmt::print("{:<18} {}\n", key, j[key].get<size_t>());
   }
@@ -207,7 +205,7 @@ void printTable(const Json& j) {
   }
 }
 
-int showPhotometricFile(const Options& o) {
+int showPhotometricFile(const InfoOptions& o) {
   importers::PhotometricFiles files;
   const auto web = files.read(o.scene);
   if (!web) {
@@ -228,7 +226,7 @@ int showPhotometricFile(const Options& o) {
   return kOk;
 }
 
-int runInfo(const Options& o) {
+int runInfo(const InfoOptions& o) {
   if (importers::isPhotometric(o.scene)) return showPhotometricFile(o);
 
   Result<home::OpenWish> wish = readSceneOptions(o);
@@ -253,7 +251,7 @@ int runInfo(const Options& o) {
   if (o.json) {
     fmt::print("{}\n", j.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    printTable(j);
+    printHome(j);
     if (objects) printObjects(j["objects"]);
     printOpened(o, opened.value());
   }
@@ -263,7 +261,7 @@ int runInfo(const Options& o) {
 }  // namespace
 
 Registered addInfo(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<InfoOptions>();
   CLI::App* app = program.add_subcommand("info", "Say what a scene or a photometric file holds");
   addSceneOptions(*app, *o, "SCENE");
   app->add_flag("--objects", o->objects, "List every object with its triangles, area, volume and bounds");

@@ -23,7 +23,7 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options : SceneOptions {
+struct MeasureOptions : SceneOptions {
   std::string meters, quality, tolerance = "2%", json, csv, html, eye, view;
   std::vector<std::string> points;
   std::optional<std::string> technique;
@@ -33,7 +33,7 @@ struct Options : SceneOptions {
 };
 
 // Everything that can be known to be wrong before any work is done.
-struct Plan {
+struct MeasurePlan {
   RenderSettings render;
   MeasureSettings measure;
   MeterPlan onCommandLine;
@@ -55,7 +55,7 @@ Result<PointPlan> parsePoint(const std::string& text, size_t number) {
   return point;
 }
 
-Result<GlarePlan> parseEye(const Options& o) {
+Result<GlarePlan> parseEye(const MeasureOptions& o) {
   const Result<std::vector<float>> eye = parseList("--eye", o.eye, "x,y,z in metres", {3}), view = parseList("--view", o.view, "x,y,z, the direction looked along", {3});
   if (!eye) return Error{eye.error()};
   if (!view) return Error{view.error()};
@@ -77,8 +77,8 @@ Result<double> parseTolerance(const std::string& text) {
   return tolerance;
 }
 
-Result<Plan> makePlan(const Options& o) {
-  Plan plan;
+Result<MeasurePlan> planMeasure(const MeasureOptions& o) {
+  MeasurePlan plan;
   if (!o.quality.empty()) {
     if (const Status status = applyQuality(o.quality, plan.render); !status) return Error{"--" + status.error()};
   }
@@ -112,7 +112,7 @@ Result<Plan> makePlan(const Options& o) {
   return plan;
 }
 
-Status checkOutputs(const Options& o) {
+Status checkMeasureOutputs(const MeasureOptions& o) {
   for (const std::string& file : {o.json, o.csv, o.html}) {
     if (file.empty()) continue;
     if (const Status s = checkWritable(file); !s) return s;
@@ -120,18 +120,18 @@ Status checkOutputs(const Options& o) {
   return checkDistinct({o.scene, o.lighting, o.meters, o.json, o.csv, o.html, o.writeLighting});
 }
 
-struct Home {
+struct MeasuredHome {
   Scene scene;
   MeterPlan meters;
   std::string addedLight;
 };
 
-Result<Home> loadHome(const Options& o, const Plan& plan) {
+Result<MeasuredHome> loadHomeToMeasure(const MeasureOptions& o, const MeasurePlan& plan) {
   Result<home::OpenedHome> opened = home::openHome(plan.open);
   if (!opened) return Error{opened.error()};
   if (const Status s = writeAddedLight(o, opened.value()); !s) return Error{s.error()};
   if (!o.quiet) printOpened(o, opened.value());
-  Home home{std::move(opened.value().scene), {}, opened.value().added};
+  MeasuredHome home{std::move(opened.value().scene), {}, opened.value().added};
   if (!o.meters.empty()) {
     Result<MeterPlan> read = readMeterFile(o.meters, home.scene.rooms);
     if (!read) return Error{read.error()};
@@ -143,13 +143,8 @@ Result<Home> loadHome(const Options& o, const Plan& plan) {
   return home;
 }
 
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
-}
-
 // All of them, even if one cannot be written; the first error.
-Status writeReports(const Options& o, const Plan& plan, const Measurements& m, const Home& home, const ReportPicture& picture) {
+Status writeMeasureReports(const MeasureOptions& o, const MeasurePlan& plan, const Measurements& m, const MeasuredHome& home, const ReportPicture& picture) {
   const ReportHeader header{o.scene, o.lighting, o.meters, plan.render.technique, plan.render.quality, version(), plan.measure.meters.tolerance, today(), picture.jpeg, picture.title, home.addedLight};
   Status first = Ok{};
   const auto write = [&](const std::string& file, const auto& text) {
@@ -163,7 +158,7 @@ Status writeReports(const Options& o, const Plan& plan, const Measurements& m, c
 }
 
 // A second time, under an overcast sky. The lamps are back afterwards: reports show them.
-Status measureDaylight(const Plan& plan, Home& home, Measurements& m, Stages& stages) {
+Status measureDaylight(const MeasurePlan& plan, MeasuredHome& home, Measurements& m, Stages& stages) {
   std::vector<Lamp> lamps = home.scene.lamps;
   std::vector<Material> materials = home.scene.materials;
   lightByOvercastSky(home.scene, home.meters.groundReflectance);
@@ -175,18 +170,18 @@ Status measureDaylight(const Plan& plan, Home& home, Measurements& m, Stages& st
   return Ok{};
 }
 
-int work(const Options& o, const Plan& plan) {
+int workMeasure(const MeasureOptions& o, const MeasurePlan& plan) {
   ProgressDisplay display(o.quiet);
   const RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
   RenderStats stats;
   Stages stages(progress, stats);
-  const auto stopped = [] { return bad("interrupted before everything was measured; nothing was written", kInterrupted); };
+  const auto stopped = [] { return failed("interrupted before everything was measured; nothing was written", kInterrupted); };
 
-  Result<Home> home = stages.run("load", [&](const Progress&) { return loadHome(o, plan); });
-  if (!home) return bad(home.error());
+  Result<MeasuredHome> home = stages.run("load", [&](const Progress&) { return loadHomeToMeasure(o, plan); });
+  if (!home) return failed(home.error());
   if (interrupted()) return stopped();
   Result<std::unique_ptr<LitScene>> lit = lightScene(home.value().scene, plan.render, stages);
-  if (!lit) return bad(lit.error());
+  if (!lit) return failed(lit.error());
   if (!lit.value()) return stopped();
   Measurements m = measure(*lit.value(), home.value().meters, plan.measure, stages);
   lit.value().reset();
@@ -194,32 +189,32 @@ int work(const Options& o, const Plan& plan) {
   ReportPicture picture;
   if (!o.html.empty() && !o.noPicture) picture = stages.run("picture", [&](const Progress&) { return pictureFor(home.value().scene, plan.render.threads); });
   if (o.daylightFactor) {
-    if (const Status s = measureDaylight(plan, home.value(), m, stages); !s) return bad(s.error());
+    if (const Status s = measureDaylight(plan, home.value(), m, stages); !s) return failed(s.error());
     if (interrupted()) return stopped();
   }
   if (!o.quiet) printWarnings(m.warnings);
   fmt::print("{}", reportTable(m));
-  if (const Status s = writeReports(o, plan, m, home.value(), picture); !s) return bad(s.error(), kFailed);
+  if (const Status s = writeMeasureReports(o, plan, m, home.value(), picture); !s) return failed(s.error(), kFailed);
   for (const std::string& file : {o.json, o.csv, o.html}) {
     if (!file.empty()) display.line(fmt::format("wrote {}", file));
   }
   return kOk;
 }
 
-int runMeasure(const Options& o) {
+int runMeasure(const MeasureOptions& o) {
   interrupted();  // from here on Ctrl-C is ours
-  const Result<Plan> plan = makePlan(o);
-  if (!plan) return bad(plan.error());
-  if (const Status s = checkOutputs(o); !s) return bad(s.error());
+  const Result<MeasurePlan> plan = planMeasure(o);
+  if (!plan) return failed(plan.error());
+  if (const Status s = checkMeasureOutputs(o); !s) return failed(s.error());
   int code = kFailed;
-  withThreads(plan.value().render.threads, [&] { code = work(o, plan.value()); });
+  withThreads(plan.value().render.threads, [&] { code = workMeasure(o, plan.value()); });
   return code;
 }
 
 }  // namespace
 
 Registered addMeasure(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<MeasureOptions>();
   CLI::App* app = program.add_subcommand("measure", "Light a scene and hold light meters into it");
   addSceneOptions(*app, *o, "SCENE");
   app->add_option("--meters", o->meters, "Meter file: rooms, grids, points, spot meters and eyes (docs/formats/meters.md); without it, every room");

@@ -22,7 +22,7 @@ namespace {
 constexpr float kWebpQuality = 90;
 constexpr const char* kOfThisMix = "mix";  // automatic, but not of the unmixed picture
 
-struct Options {
+struct MixOptions {
   DialOptions dials;
   DisplayOptions display;
   std::string file, statesFolder, overlaysFolder, format, blend = "auto", cardFile, urlPrefix = "/local/floorplan/";
@@ -31,12 +31,7 @@ struct Options {
   bool list = false, dimmed = false, quiet = false;
 };
 
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
-}
-
-Status checkFormat(const Options& o) {
+Status checkFormat(const MixOptions& o) {
   const bool jpeg = o.format == "jpg" && o.overlaysFolder.empty();
   if (!o.format.empty() && o.format != "png" && o.format != "webp" && !jpeg) {
     return Error{fmt::format("--format {}: write png or webp{}", o.format, o.overlaysFolder.empty() ? " or jpg" : "; overlays are transparent")};
@@ -57,7 +52,7 @@ Status checkFolder(const std::string& option, const std::string& folder) {
   return Error{fmt::format("{} {}: is a file; name a folder", option, folder)};
 }
 
-Status checkOutputs(const Options& o) {
+Status checkMixOutputs(const MixOptions& o) {
   if (!o.list && o.outputs.empty() && o.statesFolder.empty() && o.overlaysFolder.empty()) return Error{"nothing to do; write -o OUT, --states DIR, --overlays DIR or --list"};
   for (const std::string& out : o.outputs) {
     const std::string e = lowerExtension(out);
@@ -147,7 +142,7 @@ Result<std::map<size_t, std::string>> entitiesOf(const MixHome& home, const std:
   return entities;
 }
 
-Metadata describe(const Options& o, const MixHome& home, const Mixture& mixture, const ShownMix& shown) {
+Metadata metadataOf(const MixOptions& o, const MixHome& home, const Mixture& mixture, const ShownMix& shown) {
   std::string gains;
   for (size_t i = 0; i < home.layers.size(); ++i) {
     const Vec3 g = mixture.gains[i];
@@ -162,8 +157,8 @@ Metadata describe(const Options& o, const MixHome& home, const Mixture& mixture,
           {"roomlight.whiteGains", fmt::format("{:.4f} {:.4f} {:.4f}", shown.white.gains.x, shown.white.gains.y, shown.white.gains.z)}};
 }
 
-Status writeOutputs(const Options& o, const MixHome& home, const Mixture& mixture, const ShownMix& shown, ProgressDisplay& display) {
-  const Metadata metadata = describe(o, home, mixture, shown);
+Status writeOutputs(const MixOptions& o, const MixHome& home, const Mixture& mixture, const ShownMix& shown, ProgressDisplay& display) {
+  const Metadata metadata = metadataOf(o, home, mixture, shown);
   for (const std::string& out : o.outputs) {
     Stopwatch mixing;
     double mixMs = 0;
@@ -184,30 +179,30 @@ Status writeOutputs(const Options& o, const MixHome& home, const Mixture& mixtur
 }
 
 // What is left to be wrong once the layers are known; then the pictures.
-int work(const Options& o, const Display& how, const FollowMix& follow, const std::optional<Blend>& blend) {
+int workMix(const MixOptions& o, const Display& how, const FollowMix& follow, const std::optional<Blend>& blend) {
   ProgressDisplay display(o.quiet);
   const Result<MixHome> opened = openLayers(o.file);
-  if (!opened) return bad(opened.error());
+  if (!opened) return failed(opened.error());
   const MixHome& home = opened.value();
   const Result<Mixture> mixture = mixtureOf(home.layers, o.dials);
-  if (!mixture) return bad(mixture.error());
+  if (!mixture) return failed(mixture.error());
   const Result<std::map<size_t, std::string>> entities = entitiesOf(home, o.entities);
-  if (!entities) return bad(entities.error());
+  if (!entities) return failed(entities.error());
   std::optional<Switches> switches;
   if (!o.statesFolder.empty() || !o.overlaysFolder.empty()) {
     Result<Switches> found = switchesOf(home, mixture.value(), o.only);
-    if (!found) return bad(found.error());
+    if (!found) return failed(found.error());
     switches = std::move(found).value();
     const size_t lamps = switches->lamps.size();
     if (!o.statesFolder.empty() && lamps > kMostSwitchedLamps) {
-      return bad(fmt::format("--states: {} lamps have 2^{} states; at most {} lamps (65536 pictures) are switched: choose them with --only", lamps, lamps, kMostSwitchedLamps));
+      return failed(fmt::format("--states: {} lamps have 2^{} states; at most {} lamps (65536 pictures) are switched: choose them with --only", lamps, lamps, kMostSwitchedLamps));
     }
   }
   if (o.list) fmt::print("{}", layerTable(home.layers));
   if (o.outputs.empty() && !switches) return kOk;
   const ShownMix shown = showMix(home, mixture.value(), how, follow);
-  if (const Status s = writeOutputs(o, home, mixture.value(), shown, display); !s) return bad(s.error(), kFailed);
-  const Metadata metadata = describe(o, home, mixture.value(), shown);
+  if (const Status s = writeOutputs(o, home, mixture.value(), shown, display); !s) return failed(s.error(), kFailed);
+  const Metadata metadata = metadataOf(o, home, mixture.value(), shown);
   const auto extension = [&](const char* usual) { return "." + (o.format.empty() ? std::string(usual) : o.format); };
   int code = kOk;
   if (!o.statesFolder.empty()) code = writeStates(home, *switches, shown, metadata, {o.statesFolder, extension("webp")}, display);
@@ -218,26 +213,26 @@ int work(const Options& o, const Display& how, const FollowMix& follow, const st
   return code;
 }
 
-int runMix(const Options& o) {
+int runMix(const MixOptions& o) {
   interrupted();  // from here on Ctrl-C is ours
   DisplayOptions display = o.display;
   const FollowMix follow{display.exposure == kOfThisMix, display.whiteBalance == kOfThisMix};
   if (follow.exposure) display.exposure = "auto";
   if (follow.white) display.whiteBalance = "auto";
   const Result<Display> how = readDisplay(display);
-  if (!how) return bad(how.error());
+  if (!how) return failed(how.error());
   const Result<std::optional<Blend>> blend = blendOf(o.blend);
-  if (!blend) return bad(blend.error());
-  if (const Status s = checkOutputs(o); !s) return bad(s.error());
+  if (!blend) return failed(blend.error());
+  if (const Status s = checkMixOutputs(o); !s) return failed(s.error());
   int code = kFailed;
-  withThreads(o.threads, [&] { code = work(o, how.value(), follow, blend.value()); });
+  withThreads(o.threads, [&] { code = workMix(o, how.value(), follow, blend.value()); });
   return code;
 }
 
 }  // namespace
 
 Registered addMix(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<MixOptions>();
   CLI::App* app = program.add_subcommand("mix", "Dim, colour and switch the lamps of a picture in layers, without rendering again");
   const auto each = [](CLI::Option* option) { option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll); };
   app->add_option("LAYERS", o->file, "Picture in layers (.exr) by render --layers")->required();

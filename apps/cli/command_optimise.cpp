@@ -17,7 +17,7 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options {
+struct OptimiseOptions {
   std::string home, study, folder, method = "hybrid", quality, seed;
   std::vector<std::string> baselines;
   std::optional<int> threads, evaluations, certify;
@@ -25,11 +25,6 @@ struct Options {
   double seconds = 0;
   bool quiet = false;
 };
-
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
-}
 
 // One line that says how far the search is, on a terminal over the last one; elsewhere now and then.
 class SearchLine {
@@ -67,34 +62,34 @@ void printFront(const optimise::Report& report) {
   }
 }
 
-int work(const Options& o, const optimise::RunWish& wish) {
+int workOptimise(const OptimiseOptions& o, const optimise::RunWish& wish) {
   ProgressDisplay display(o.quiet);
   SearchLine searching(o.quiet);
   const RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
   RenderStats stats;
   Stages stages(progress, stats);
-  const auto stopped = [] { return bad("interrupted; started again with the same folder, it goes on", kInterrupted); };
+  const auto stopped = [] { return failed("interrupted; started again with the same folder, it goes on", kInterrupted); };
   optimise::Run run(wish, {[&](const std::string& line) { display.line(line); }, [](const std::string& warning) { printWarnings({warning}); },
                            [&](const char* method, const search::State& s, double hypervolume, bool last) { searching.show(method, s, hypervolume, last); }});
   const Status read = stages.run("load", [&](const Progress&) { return run.read(); });
-  if (!read) return bad(read.error());
+  if (!read) return failed(read.error());
   if (run.stopped()) return stopped();
-  if (const Status s = run.respond(stages); !s) return bad(s.error());
+  if (const Status s = run.respond(stages); !s) return failed(s.error());
   if (run.stopped()) return stopped();
-  if (const Status s = run.searchAll(); !s) return bad(s.error());
+  if (const Status s = run.searchAll(); !s) return failed(s.error());
   // Stopped amid the search there is a front all the same: it is written, without certificates.
   if (run.report().front.size() == 0) return stopped();
-  if (const Status s = run.propose(); !s) return bad(s.error(), kFailed);
+  if (const Status s = run.propose(); !s) return failed(s.error(), kFailed);
   const Status certified = run.certifyAll(stages);
-  if (const Status s = run.write(); !s) return bad(s.error(), kFailed);
-  if (!certified) return bad(certified.error(), kFailed);
+  if (const Status s = run.write(); !s) return failed(s.error(), kFailed);
+  if (!certified) return failed(certified.error(), kFailed);
   printFront(run.report());
   display.line(fmt::format("wrote {}", (wish.folder / "index.html").string()));
   return run.stopped() ? stopped() : kOk;
 }
 
 // What the command line asks for.
-Result<optimise::RunWish> wishOf(const Options& o) {
+Result<optimise::RunWish> wishOf(const OptimiseOptions& o) {
   optimise::RunWish wish;
   wish.home = o.home, wish.metresPerUnit = o.metresPerUnit, wish.study = o.study, wish.folder = o.folder, wish.seconds = o.seconds, wish.certified = o.certify, wish.stop = &interrupted();
   if (o.evaluations) wish.evaluations = static_cast<size_t>(*o.evaluations);
@@ -115,25 +110,25 @@ Result<optimise::RunWish> wishOf(const Options& o) {
   return wish;
 }
 
-int runOptimise(const Options& o) {
+int runOptimise(const OptimiseOptions& o) {
   interrupted();  // from here on Ctrl-C is ours
   const Result<optimise::RunWish> wish = wishOf(o);
-  if (!wish) return bad(wish.error());
+  if (!wish) return failed(wish.error());
   std::error_code code;
   std::filesystem::create_directories(o.folder, code);
-  if (code) return bad(fmt::format("{}: cannot be made: {}", o.folder, code.message()));
+  if (code) return failed(fmt::format("{}: cannot be made: {}", o.folder, code.message()));
   for (const char* out : optimise::Run::kFiles) {
-    if (const Status s = checkWritable(wish.value().folder / out); !s) return bad(s.error());
+    if (const Status s = checkWritable(wish.value().folder / out); !s) return failed(s.error());
   }
   int result = kFailed;
-  withThreads(o.threads.value_or(0), [&] { result = work(o, wish.value()); });
+  withThreads(o.threads.value_or(0), [&] { result = workOptimise(o, wish.value()); });
   return result;
 }
 
 }  // namespace
 
 Registered addOptimise(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<OptimiseOptions>();
   CLI::App* app = program.add_subcommand("optimise", "Propose lighting: places, kinds, aims and dimming of lamps on the best trade-offs between goals");
   app->add_option("HOME", o->home, "Home or room: " + supportedFiles())->required();
   app->add_option("STUDY", o->study, "Study file: goals, places, catalogue, limits (docs/formats/optimise.md)")->required();

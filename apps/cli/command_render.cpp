@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "arguments.h"
 #include "base/image_io.h"
@@ -19,6 +18,7 @@
 #include "home/reach.h"
 #include "home/sights.h"
 #include "interrupt.h"
+#include "json_output.h"
 #include "layers_file.h"
 #include "measure/luminance_picture.h"
 #include "output_files.h"
@@ -29,7 +29,7 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options : SettingsOptions, SceneOptions {
+struct RenderOptions : SettingsOptions, SceneOptions {
   std::string camera, kind = "picture", stats;
   DisplayOptions display;
   std::vector<std::string> outputs;
@@ -42,14 +42,14 @@ struct Options : SettingsOptions, SceneOptions {
 };
 
 // Everything that can be known to be wrong before any work is done.
-struct Plan {
+struct RenderPlan {
   RenderSettings settings;
   Display display;
   ViewWish view;
   home::OpenWish open;
 };
 
-Status checkOutputs(const Options& o) {
+Status checkRenderOutputs(const RenderOptions& o) {
   for (const std::string& out : o.outputs) {
     const std::string e = lowerExtension(out);
     if (e != ".exr" && e != ".png" && e != ".jpg") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr, .png or .jpg", out, e)};
@@ -65,7 +65,7 @@ Status checkOutputs(const Options& o) {
   return checkDistinct(files);
 }
 
-Status applyLayerGroups(const Options& o, RenderSettings& settings) {
+Status applyLayerGroups(const RenderOptions& o, RenderSettings& settings) {
   if (o.layerGroups) {
     if (!o.layers) return Error{"--layer-groups goes with --layers"};
     if (*o.layerGroups != "name" && *o.layerGroups != "room") return Error{fmt::format("--layer-groups {}: write name or room", *o.layerGroups)};
@@ -77,8 +77,8 @@ Status applyLayerGroups(const Options& o, RenderSettings& settings) {
   return any ? Status(Ok{}) : Error{"--layers: layers are written into .exr; add -o FILE.exr"};
 }
 
-Result<Plan> makePlan(const Options& o) {
-  Plan plan;
+Result<RenderPlan> planRender(const RenderOptions& o) {
+  RenderPlan plan;
   Result<RenderSettings> settings = readSettings(o, plan.settings);
   if (!settings) return Error{settings.error()};
   plan.settings = std::move(settings.value());
@@ -109,17 +109,13 @@ Result<Plan> makePlan(const Options& o) {
   return plan;
 }
 
-nlohmann::ordered_json stagesJson(const RenderStats& stats) {
-  auto list = nlohmann::ordered_json::array();
-  for (const StageStats& s : stats.stages) list.push_back({{"name", s.name}, {"timeMs", s.timeMs}, {"cpuMs", s.cpuMs}, {"peakMemoryMiB", s.peakMemoryMiB}});
-  return list;
-}
-
 std::string dump(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Metadata describe(const Options& o, const Plan& plan, const Camera& camera, const Rendered& rendered, float ev100, const White& white) {
+std::string toText(Vec3 v) { return fmt::format("{:.4f} {:.4f} {:.4f}", v.x, v.y, v.z); }
+
+Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const Camera& camera, const Rendered& rendered, float ev100, const White& white) {
   auto times = nlohmann::ordered_json::object();
   for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
   Metadata metadata = {{"roomlight.version", version()},
@@ -133,7 +129,8 @@ Metadata describe(const Options& o, const Plan& plan, const Camera& camera, cons
                        {"roomlight.exposureEv100", fmt::format("{}", ev100)},
                        {"roomlight.tone", std::string(toneCurveName(plan.display.tone.curve))},
                        {"roomlight.whiteK", fmt::format("{:.0f}", white.kelvin)},
-                       {"roomlight.whiteGains", fmt::format("{:.4f} {:.4f} {:.4f}", white.gains.x, white.gains.y, white.gains.z)},
+                       {"roomlight.whiteGains", toText(white.gains)},
+                       {kLightColourKey, toText(rendered.lightColour)},
                        {"roomlight.complete", rendered.complete ? "true" : "false"}};
   if (camera.projection == Projection::Orthographic) metadata["roomlight.metresPerPixel"] = fmt::format("{}", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel());
   if (camera.cutHeightM < kInfinity) metadata["roomlight.cutHeightM"] = fmt::format("{}", camera.cutHeightM);
@@ -141,7 +138,7 @@ Metadata describe(const Options& o, const Plan& plan, const Camera& camera, cons
 }
 
 // How bright things are: .exr in cd/m², .png in grey up to a round luminance or in false colours.
-Status writeLuminance(const Options& o, const Rendered& rendered, Metadata metadata) {
+Status writeLuminance(const RenderOptions& o, const Rendered& rendered, Metadata metadata) {
   const LightScale scale = luminanceScale(rendered.image);
   metadata["roomlight.lowCdM2"] = fmt::format("{:g}", scale.low);
   metadata["roomlight.highCdM2"] = fmt::format("{:g}", scale.high);
@@ -165,7 +162,7 @@ std::string panoramaXmp(int width, int height) {
       width, height);
 }
 
-Status writePicture(const std::string& out, const Plan& plan, const Camera& camera, const Rendered& rendered, const White& white, float ev100, Metadata metadata) {
+Status writePicture(const std::string& out, const RenderPlan& plan, const Camera& camera, const Rendered& rendered, const White& white, float ev100, Metadata metadata) {
   const std::string extension = lowerExtension(out);
   if (extension == ".exr") return writeExr(out, rendered.image, metadata);
   const Image display = displayed(unmixed(rendered.image, rendered.sights), plan.display, white, ev100);
@@ -179,10 +176,10 @@ Status writePicture(const std::string& out, const Plan& plan, const Camera& came
   return writePng(out, drawn(display, rendered.sights, kSectionColour, std::nullopt), metadata, alpha);
 }
 
-Status writePictures(const Options& o, const Plan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
+Status writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
   const float ev100 = ev100Of(plan.display, pixelsOfRooms(scene, camera, rendered.image));
   const White white = whiteOf(plan.display, rendered.lightColour);
-  const Metadata metadata = describe(o, plan, camera, rendered, ev100, white);
+  const Metadata metadata = metadataOfPicture(o, plan, camera, rendered, ev100, white);
   if (o.kind != "picture") return writeLuminance(o, rendered, metadata);
   std::optional<LayeredImage> layered;
   if (plan.settings.layers) layered = layeredImage(scene, camera, rendered, metadata);
@@ -196,28 +193,23 @@ Status writePictures(const Options& o, const Plan& plan, const Scene& scene, con
 Status writeStats(const std::string& file, const RenderStats& stats, double totalMs) {
   auto numbers = nlohmann::ordered_json::object();
   for (const auto& [name, value] : stats.numbers) numbers[name] = value;
-  return writeWhole(file, dump({{"stages", stagesJson(stats)}, {"numbers", numbers}, {"totalMs", totalMs}}, 2) + "\n");
-}
-
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
+  return writeWhole(file, dump({{"stages", stagesJson(stats.stages)}, {"numbers", numbers}, {"totalMs", totalMs}}, 2) + "\n");
 }
 
 // What is rendered: the scene under its light, and from where.
-struct Home {
+struct HomeInView {
   home::OpenedHome opened;
   Camera camera;
 };
 
 // Of large scenes the part whose light comes to the camera. The reference sees everything, layers name every lamp, and plans see all rooms.
-std::optional<Scene> partInReach(const Home& home, const Plan& plan) {
+std::optional<Scene> partInReach(const HomeInView& home, const RenderPlan& plan) {
   if (plan.settings.technique == "path" || plan.settings.layers || home.camera.projection == Projection::Orthographic || home.camera.cutHeightM < kInfinity) return std::nullopt;
   return home::withinReach(RayScene(home.opened.scene), home.camera);
 }
 
 // Of the camera's view: what a first picture is judged by.
-void addView(const Home& home, RenderStats& stats) {
+void addView(const HomeInView& home, RenderStats& stats) {
   const RayScene rays(home.opened.scene);
   const home::Sights sights = home::sightsOf(rays, home.camera);
   stats.numbers.emplace_back("view.surfaceShare", sights.share(0, kInfinity));
@@ -225,9 +217,9 @@ void addView(const Home& home, RenderStats& stats) {
   stats.numbers.emplace_back("view.indoors", home::isIndoors(rays, home.opened.scene.rooms, home.camera, sights) ? 1 : 0);
 }
 
-// What a Sweet Home 3D home says of its photo, where neither options nor settings say how large and how well: its first two qualities are
+// What a Sweet HomeInView 3D home says of its photo, where neither options nor settings say how large and how well: its first two qualities are
 // without ray tracing, the last is for keeping.
-void applyPhoto(const Options& o, const PhotoWish& photo, Plan& plan) {
+void applyPhoto(const RenderOptions& o, const PhotoWish& photo, RenderPlan& plan) {
   RenderSettings& s = plan.settings;
   if (!plan.view.size) s.width = photo.widthPx, s.height = photo.heightPx;
   if (!o.quality.empty() || !o.settingsFile.empty()) return;
@@ -238,10 +230,10 @@ void applyPhoto(const Options& o, const PhotoWish& photo, Plan& plan) {
   s.voxel.voxelSizeM = voxelSizeM;
 }
 
-Result<Home> loadHome(const Options& o, Plan& plan) {
+Result<HomeInView> loadHomeInView(const RenderOptions& o, RenderPlan& plan) {
   Result<home::OpenedHome> opened = home::openHome(plan.open);
   if (!opened) return Error{opened.error()};
-  Home out{std::move(opened.value()), {}};
+  HomeInView out{std::move(opened.value()), {}};
   const Scene& scene = out.opened.scene;
   const Result<Camera> camera = findCamera(scene, o.camera);
   if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
@@ -256,24 +248,24 @@ Result<Home> loadHome(const Options& o, Plan& plan) {
 }
 
 // "render" with everything checked; stages of loading come first in the statistics.
-int work(const Options& o, Plan plan) {
+int workRender(const RenderOptions& o, RenderPlan plan) {
   const Stopwatch total;
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), [&](double relativeError, double mse) { display.estimate(relativeError, mse); }};
   RenderStats loadStats;
   Stages loading(progress, loadStats);
 
-  Result<Home> home = loading.run("load", [&](const Progress&) { return loadHome(o, plan); });
-  if (!home) return bad(home.error());
+  Result<HomeInView> home = loading.run("load", [&](const Progress&) { return loadHomeInView(o, plan); });
+  if (!home) return failed(home.error());
   const Camera& camera = home.value().camera;
   if (!o.quiet) printOpened(o, home.value().opened);
-  const auto noPicture = [] { return bad("interrupted before there was a picture; nothing was written", kInterrupted); };
+  const auto noPicture = [] { return failed("interrupted before there was a picture; nothing was written", kInterrupted); };
   if (interrupted()) return noPicture();
 
   const std::optional<Scene> part = loading.run("reach", [&](const Progress&) { return partInReach(home.value(), plan); });
   if (part) display.line(fmt::format("of {} triangles those are used whose light comes to the camera: {}", home.value().opened.scene.triangleCount(), part->triangleCount()));
   Result<Rendered> result = render(part ? *part : home.value().opened.scene, camera, plan.settings, progress);
-  if (!result) return bad(result.error());
+  if (!result) return failed(result.error());
   Rendered& rendered = result.value();
   if (rendered.image.pixels.empty()) return noPicture();
   rendered.stats.stages.insert(rendered.stats.stages.begin(), loadStats.stages.begin(), loadStats.stages.end());
@@ -283,14 +275,14 @@ int work(const Options& o, Plan plan) {
   RenderProgress silent;
   Stages writing(silent, writeStage);
   const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, home.value().opened.scene, camera, rendered); });
-  if (!written) return bad(written.error(), kFailed);
+  if (!written) return failed(written.error(), kFailed);
   rendered.stats.stages.push_back(writeStage.stages.front());
   for (const auto& [name, value] : rendered.stats.numbers) {
     if (name == "brokenPixels" && value > 0) printWarnings({fmt::format("{} pixels are negative or not finite: a defect, please report it", value)});
   }
   if (!o.stats.empty()) {
     addView(home.value(), rendered.stats);
-    if (const Status s = writeStats(o.stats, rendered.stats, total.seconds() * 1e3); !s) return bad(s.error(), kFailed);
+    if (const Status s = writeStats(o.stats, rendered.stats, total.seconds() * 1e3); !s) return failed(s.error(), kFailed);
   }
   display.lineOfEstimate();
   if (camera.projection == Projection::Orthographic) display.line(fmt::format("one pixel is {:.4g} m", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel()));
@@ -298,20 +290,20 @@ int work(const Options& o, Plan plan) {
   return rendered.complete ? kOk : kInterrupted;
 }
 
-int runRender(const Options& o) {
+int runRender(const RenderOptions& o) {
   interrupted();  // from here on Ctrl-C is ours
-  const Result<Plan> plan = makePlan(o);
-  if (!plan) return bad(plan.error());
-  if (const Status s = checkOutputs(o); !s) return bad(s.error());
+  const Result<RenderPlan> plan = planRender(o);
+  if (!plan) return failed(plan.error());
+  if (const Status s = checkRenderOutputs(o); !s) return failed(s.error());
   int code = kFailed;
-  withThreads(plan.value().settings.threads, [&] { code = work(o, plan.value()); });
+  withThreads(plan.value().settings.threads, [&] { code = workRender(o, plan.value()); });
   return code;
 }
 
 }  // namespace
 
 Registered addRender(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<RenderOptions>();
   CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
   addSceneOptions(*app, *o, "SCENE");
   app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2), .png or .jpg (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

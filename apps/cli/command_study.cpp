@@ -27,18 +27,13 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options {
+struct StudyOptions {
   std::string plan, folder, size = "640x360", walkSize = "960x540", only;
   std::vector<std::string> techniques, externals;
   int runs = 3, walkFrames = StudySettings().walkFrames;
   double mostSeconds = 60, referenceSeconds = 240;
   bool quick = false, quiet = false;
 };
-
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
-}
 
 constexpr int kLeastPixels = 16, kMostPixels = 16384;
 
@@ -71,7 +66,7 @@ Result<ExternalPicture> readExternal(const std::string& text) {
 }
 
 // What is left of the plan after --technique, --only and --quick.
-Status narrow(const Options& o, StudyPlan& plan) {
+Status narrow(const StudyOptions& o, StudyPlan& plan) {
   if (!o.techniques.empty()) {
     std::vector<StudyTechnique> kept;
     for (const std::string& wanted : o.techniques) {
@@ -106,7 +101,7 @@ std::string firstValue(const char* file, const std::string& key) {
   return "unknown";
 }
 
-Result<StudySettings> settingsOf(const Options& o) {
+Result<StudySettings> settingsOf(const StudyOptions& o) {
   StudySettings s;
   s.runs = o.runs, s.mostSeconds = o.mostSeconds, s.walkFrames = o.walkFrames;
   s.reference.mostS = o.referenceSeconds;
@@ -218,7 +213,7 @@ class Line {
   std::string last_;
 };
 
-Status writeReports(const std::filesystem::path& folder, const StudyHeader& header, const StudyResults& results) {
+Status writeStudyReports(const std::filesystem::path& folder, const StudyHeader& header, const StudyResults& results) {
   const Result<std::string> html = studyHtml(header, results, folder / "runs");
   if (!html) return Error{html.error()};
   if (const Status s = writeWhole(folder / "study.html", html.value()); !s) return s;
@@ -228,7 +223,7 @@ Status writeReports(const std::filesystem::path& folder, const StudyHeader& head
 }
 
 // What --quick stands for, where nothing else is asked for.
-void makeQuick(Options& o, const CLI::App& app) {
+void makeQuick(StudyOptions& o, const CLI::App& app) {
   const auto otherwise = [&](const char* option, auto& value, auto quick) {
     if (app.count(option) == 0) value = quick;
   };
@@ -266,27 +261,27 @@ Status checkExternals(const StudyPlan& plan, const StudySettings& settings) {
 
 std::string whyNothing(const StudyResults& results) { return results.remarks.empty() ? "the plan has no picture and no walk for its techniques" : results.remarks.front(); }
 
-int runStudyCommand(Options o, const CLI::App& app) {
+int runStudyCommand(StudyOptions o, const CLI::App& app) {
   interrupted();
   if (o.quick) makeQuick(o, app);
   Result<StudyPlan> plan = readStudyFile(o.plan);
-  if (!plan) return bad(plan.error());
+  if (!plan) return failed(plan.error());
   for (const char* out : {"study.html", "study.json", "study.csv", "study.md"}) {
-    if (const Status s = checkDistinct({o.plan, (std::filesystem::path(o.folder) / out).string()}); !s) return bad(s.error());
+    if (const Status s = checkDistinct({o.plan, (std::filesystem::path(o.folder) / out).string()}); !s) return failed(s.error());
   }
-  if (const Status s = narrow(o, plan.value()); !s) return bad(s.error());
+  if (const Status s = narrow(o, plan.value()); !s) return failed(s.error());
   const Result<StudySettings> settings = settingsOf(o);
-  if (!settings) return bad(settings.error());
-  if (const Status s = checkExternals(plan.value(), settings.value()); !s) return bad(s.error());
+  if (!settings) return failed(settings.error());
+  if (const Status s = checkExternals(plan.value(), settings.value()); !s) return failed(s.error());
   double load = 0;
   getloadavg(&load, 1);
   if (load > 0.7 && !o.quiet) printWarnings({fmt::format("the machine is busy (load {:.1f}): times will be longer than they need be", load)});
 
   const std::filesystem::path folder = o.folder;
   const Result<RunStore> store = RunStore::open(folder / "runs");
-  if (!store) return bad(store.error(), kFailed);
-  if (const Status s = writeDimLamps(plan.value(), store.value()); !s) return bad(s.error());
-  if (const Status s = checkWalks(plan.value(), store.value(), settings.value().program); !s) return bad(s.error());
+  if (!store) return failed(store.error(), kFailed);
+  if (const Status s = writeDimLamps(plan.value(), store.value()); !s) return failed(s.error());
+  if (const Status s = checkWalks(plan.value(), store.value(), settings.value().program); !s) return failed(s.error());
   const StudyHeader header = headerOf(settings.value(), plan.value(), load);
   const Programs programs(store.value().folder(), settings.value().walkFrames);
   const StudyTools tools{[&](const StudyRender& r) { return programs.render(r); }, [&](const StudyWalk& w) { return programs.walk(w); }};
@@ -296,24 +291,24 @@ int runStudyCommand(Options o, const CLI::App& app) {
     Line line(o.quiet);
     const StudyProgress progress{[&](const std::string& now, double done, double left) { line.show(now, done, left); }, &interrupted()};
     results = runStudy(plan.value(), settings.value(), store.value(), tools, progress, [&](const StudyResults& soFar) {
-      if (written) written = writeReports(folder, header, soFar);
+      if (written) written = writeStudyReports(folder, header, soFar);
     });
   }
-  if (!results) return bad(results.error(), kFailed);
-  if (!written) return bad(written.error(), kFailed);
+  if (!results) return failed(results.error(), kFailed);
+  if (!written) return failed(written.error(), kFailed);
   for (const StudyVerdict& v : studyVerdicts(results.value())) {
     if (!o.quiet) fmt::print("{:<7} {}: {}\n", v.met ? "met" : "missed", v.asked, v.measured);
   }
   if (!o.quiet) fmt::print("wrote {}\n", (folder / "study.html").string());
-  if (!results.value().complete) return bad("interrupted; started again with the same folder, the study goes on", kInterrupted);
-  if (nothingMeasured(results.value())) return bad("nothing could be measured: " + whyNothing(results.value()), kFailed);
+  if (!results.value().complete) return failed("interrupted; started again with the same folder, the study goes on", kInterrupted);
+  if (nothingMeasured(results.value())) return failed("nothing could be measured: " + whyNothing(results.value()), kFailed);
   return kOk;
 }
 
 }  // namespace
 
 Registered addStudy(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<StudyOptions>();
   CLI::App* app = program.add_subcommand("study", "Compare techniques: error, time, frames a second and memory, on scenes in several lights");
   app->add_option("PLAN", o->plan, "Study file: scenes, lights, walks, techniques (docs/formats/study.md)")->required();
   app->add_option("-o,--output", o->folder, "Folder for study.html, .json, .csv, .md and all pictures; what it holds of the same is not measured again")->required();

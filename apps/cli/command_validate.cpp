@@ -17,7 +17,7 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options {
+struct ValidateOptions {
   std::vector<std::string> techniques;
   std::string only, json, html;
   int threads = 0;
@@ -25,13 +25,8 @@ struct Options {
   bool brief = false, quiet = false;
 };
 
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
-}
-
 // One line a case and technique: its worst place.
-void printTable(const Validation& v) {
+void printValidation(const Validation& v) {
   fmt::print("{:<24} {:<7} {:<38} {:>10} {:>10} {:>9}\n", "case", "by", "worst place", "expected", "got", "error");
   for (size_t i = 0; i < v.rows.size();) {
     size_t worst = i, end = i;
@@ -48,15 +43,15 @@ void printTable(const Validation& v) {
   }
 }
 
-int runValidate(const Options& o) {
+int runValidate(const ValidateOptions& o) {
   interrupted();
   for (const std::string& file : {o.json, o.html}) {
     if (file.empty()) continue;
-    if (const Status s = checkWritable(file); !s) return bad(s.error());
+    if (const Status s = checkWritable(file); !s) return failed(s.error());
   }
-  if (const Status s = checkDistinct({o.json, o.html}); !s) return bad(s.error());
+  if (const Status s = checkDistinct({o.json, o.html}); !s) return failed(s.error());
   for (const std::string& technique : o.techniques) {
-    if (const Status s = checkTechnique(technique); !s) return bad(s.error());
+    if (const Status s = checkTechnique(technique); !s) return failed(s.error());
   }
   ValidationSettings settings;
   if (!o.techniques.empty()) settings.techniques = o.techniques;
@@ -69,23 +64,23 @@ int runValidate(const Options& o) {
   Progress progress{[&](float f) { display.report("validate", f); }, &interrupted()};
   Result<Validation> v = Error{""};
   withThreads(o.threads, [&] { v = validateTechniques(settings, progress); });
-  if (!v) return bad(v.error());
-  if (v.value().complete && v.value().rows.empty()) return bad(fmt::format("--case: no case's name holds '{}'", o.only));
-  if (!o.quiet) printTable(v.value());
+  if (!v) return failed(v.error());
+  if (v.value().complete && v.value().rows.empty()) return failed(fmt::format("--case: no case's name holds '{}'", o.only));
+  if (!o.quiet) printValidation(v.value());
   if (!o.json.empty()) {
-    if (const Status s = writeWhole(o.json, validationJson(v.value())); !s) return bad(s.error(), kFailed);
+    if (const Status s = writeWhole(o.json, validationJson(v.value())); !s) return failed(s.error(), kFailed);
   }
   if (!o.html.empty()) {
-    if (const Status s = writeWhole(o.html, validationHtml(v.value(), version())); !s) return bad(s.error(), kFailed);
+    if (const Status s = writeWhole(o.html, validationHtml(v.value(), version())); !s) return failed(s.error(), kFailed);
   }
-  if (!v.value().complete) return bad("interrupted; what was measured so far is above", kInterrupted);
+  if (!v.value().complete) return failed("interrupted; what was measured so far is above", kInterrupted);
   return v.value().pass() ? kOk : kFailed;
 }
 
 }  // namespace
 
 Registered addValidate(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ValidateOptions>();
   CLI::App* app = program.add_subcommand("validate", "Measure scenes whose light is known, by every technique, and judge the result");
   app->add_option("--technique", o->techniques, "Only this technique; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--case", o->only, "Only cases whose name holds this, such as 5.11");

@@ -17,7 +17,7 @@
 namespace roomlight::cli {
 namespace {
 
-struct Options : SceneOptions {
+struct ViewOptions : SceneOptions {
   std::string viewer, quality, address = "127.0.0.1";
   std::optional<std::string> technique;
   std::optional<int> threads;
@@ -25,12 +25,7 @@ struct Options : SceneOptions {
   bool noOpen = false, quiet = false;
 };
 
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
-}
-
-Result<RenderSettings> readSettings(const Options& o) {
+Result<RenderSettings> readSettings(const ViewOptions& o) {
   RenderSettings s;
   if (!o.quality.empty()) {
     if (const Status status = applyQuality(o.quality, s); !status) return Error{"--" + status.error()};
@@ -53,22 +48,22 @@ std::filesystem::path viewerFolder() {
   return places[0].lexically_normal();
 }
 
-int runView(const Options& o) {
+int runView(const ViewOptions& o) {
   const std::atomic<bool>& stop = interrupted();  // from here on Ctrl-C is ours
   const Result<RenderSettings> settings = readSettings(o);
-  if (!settings) return bad(settings.error());
+  if (!settings) return failed(settings.error());
   Result<home::OpenWish> open = readSceneOptions(o);
-  if (!open) return bad(open.error());
+  if (!open) return failed(open.error());
   open.value().allCameras = true;
   Result<server::StaticFiles> page = server::readStaticFiles(o.viewer.empty() ? viewerFolder() : std::filesystem::path(o.viewer));
-  if (!page) return bad(page.error());
+  if (!page) return failed(page.error());
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &stop, {}};
   RenderStats stats;
   Stages loading(progress, stats);
   Result<view::OpenedView> home = loading.run("load", [&](const Progress&) { return view::openHome(open.value()); });
-  if (!home) return bad(home.error());
-  if (const Status s = writeAddedLight(o, home.value().opened); !s) return bad(s.error());
+  if (!home) return failed(home.error());
+  if (const Status s = writeAddedLight(o, home.value().opened); !s) return failed(s.error());
   if (!o.quiet) printOpened(o, home.value().opened);
   server::Options options;
   options.address = o.address;
@@ -83,13 +78,13 @@ int runView(const Options& o) {
   };
   tell.failed = [](const std::string& line) { printError(line); };
   const Status served = server::serveHome(std::move(home.value().home), settings.value(), options, std::move(page).value(), tell, stop);
-  return served ? kOk : bad(served.error());
+  return served ? kOk : failed(served.error());
 }
 
 }  // namespace
 
 Registered addView(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ViewOptions>();
   CLI::App* app = program.add_subcommand("view", "Walk through a home in a browser, move things, dim lamps, read lux");
   addSceneOptions(*app, *o, "HOME");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));

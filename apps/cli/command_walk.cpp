@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "arguments.h"
 #include "base/image_io.h"
@@ -16,13 +15,14 @@
 #include "engine/stages.h"
 #include "import/walk_file.h"
 #include "interrupt.h"
+#include "json_output.h"
 #include "output_files.h"
 #include "scene_options.h"
 
 namespace roomlight::cli {
 namespace {
 
-struct Options : SettingsOptions, SceneOptions {
+struct WalkOptions : SettingsOptions, SceneOptions {
   std::string walk, output, stats;
   DisplayOptions display;
   int frames = 0;
@@ -30,18 +30,13 @@ struct Options : SettingsOptions, SceneOptions {
   bool quiet = false;
 };
 
-struct Plan {
+struct WalkPlan {
   RenderSettings settings;
   Display display;
   home::OpenWish open;
 };
 
-int bad(const std::string& message, int code = kBadInput) {
-  printError(message);
-  return code;
-}
-
-Result<RenderSettings> frameSettingsOf(const Options& o) {
+Result<RenderSettings> frameSettingsOf(const WalkOptions& o) {
   Result<RenderSettings> settings = readSettings(o, frameSettings({}));
   if (!settings) return Error{settings.error()};
   const RenderSettings& s = settings.value();
@@ -59,7 +54,7 @@ Result<std::string> frameFile(const std::string& pattern, int number) {
   return fmt::format("{}{:0{}}{}", pattern.substr(0, percent), number, *width, pattern.substr(d + 1));
 }
 
-Status checkFiles(const Options& o) {
+Status checkFiles(const WalkOptions& o) {
   if (!o.output.empty()) {
     const Result<std::string> first = frameFile(o.output, 0);
     if (!first) return Error{first.error()};
@@ -97,12 +92,6 @@ class FrameWriter {
   White white_;
 };
 
-nlohmann::ordered_json stagesJson(const std::vector<StageStats>& stages) {
-  auto list = nlohmann::ordered_json::array();
-  for (const StageStats& s : stages) list.push_back({{"name", s.name}, {"timeMs", s.timeMs}, {"cpuMs", s.cpuMs}, {"peakMemoryMiB", s.peakMemoryMiB}});
-  return list;
-}
-
 std::string statsJson(const RenderSettings& settings, const WalkFrames& result) {
   auto frames = nlohmann::ordered_json::array();
   for (const WalkFrame& f : result.frames) frames.push_back({{"updateMs", f.updateMs}, {"updateCpuMs", f.updateCpuMs}, {"pictureMs", f.pictureMs}, {"pictureCpuMs", f.pictureCpuMs}});
@@ -129,17 +118,17 @@ void printResult(const WalkFrames& result) {
   for (const StageStats& s : result.stages) fmt::print("  {:<17} {:.1f} ms, {:.1f} ms of processor time a frame\n", s.name, s.timeMs / n, s.cpuMs / n);
 }
 
-int work(const Options& o, const Plan& plan) {
+int workWalk(const WalkOptions& o, const WalkPlan& plan) {
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
   RenderStats loadStats;
   Stages loading(progress, loadStats);
   Result<home::OpenedHome> home = loading.run("load", [&](const Progress&) { return home::openHome(plan.open); });
-  if (!home) return bad(home.error());
-  if (const Status s = writeAddedLight(o, home.value()); !s) return bad(s.error());
+  if (!home) return failed(home.error());
+  if (const Status s = writeAddedLight(o, home.value()); !s) return failed(s.error());
   Scene& scene = home.value().scene;
   Result<Walk> walk = readWalkFile(o.walk, scene);
-  if (!walk) return bad(walk.error());
+  if (!walk) return failed(walk.error());
   if (o.frames > 0 && o.frames < walk.value().frameCount()) {
     if (o.inARow) {
       walk.value().seconds = o.frames / walk.value().framesPerSecond;
@@ -148,42 +137,42 @@ int work(const Options& o, const Plan& plan) {
     }
   }
   if (!o.quiet) printOpened(o, home.value());
-  std::string failed;
+  std::string unwritten;
   TakeFrame take;
   if (!o.output.empty()) {
     take = [&, writer = FrameWriter(o.output, plan.display)](const ShownFrame& frame) mutable {
       const Status s = writer(frame);
-      if (!s) failed = s.error();
+      if (!s) unwritten = s.error();
       return s;
     };
   }
   const Result<WalkFrames> result = measureWalk(scene, walk.value(), plan.settings, progress, take);
-  if (!result) return bad(result.error(), failed.empty() ? kBadInput : kFailed);
-  if (result.value().frames.empty()) return bad("interrupted before there was a picture", kInterrupted);
+  if (!result) return failed(result.error(), unwritten.empty() ? kBadInput : kFailed);
+  if (result.value().frames.empty()) return failed("interrupted before there was a picture", kInterrupted);
   if (!o.stats.empty()) {
-    if (const Status s = writeWhole(o.stats, statsJson(plan.settings, result.value())); !s) return bad(s.error(), kFailed);
+    if (const Status s = writeWhole(o.stats, statsJson(plan.settings, result.value())); !s) return failed(s.error(), kFailed);
   }
   printResult(result.value());
   return result.value().complete ? kOk : kInterrupted;
 }
 
-int runWalk(const Options& o) {
+int runWalk(const WalkOptions& o) {
   interrupted();  // from here on Ctrl-C is ours
   const Result<RenderSettings> settings = frameSettingsOf(o);
-  if (!settings) return bad(settings.error());
+  if (!settings) return failed(settings.error());
   Result<Display> display = readDisplay(o.display);
-  if (!display) return bad(display.error());
+  if (!display) return failed(display.error());
   display.value().localExposure = o.display.localExposure.value_or(0);  // frames shall be exposed alike
-  if (const Status s = checkFiles(o); !s) return bad(s.error());
+  if (const Status s = checkFiles(o); !s) return failed(s.error());
   Result<home::OpenWish> open = readSceneOptions(o);
-  if (!open) return bad(open.error());
-  return work(o, {settings.value(), std::move(display.value()), std::move(open.value())});
+  if (!open) return failed(open.error());
+  return workWalk(o, {settings.value(), std::move(display.value()), std::move(open.value())});
 }
 
 }  // namespace
 
 Registered addWalk(CLI::App& program) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<WalkOptions>();
   CLI::App* app = program.add_subcommand("walk", "Walk through a home in which things move, and tell how many frames a second that makes");
   addSceneOptions(*app, *o, "SCENE");
   app->add_option("--walk", o->walk, "Walk file: the camera's way, what moves, which lamps are dimmed (docs/formats/walk.md)")->required();

@@ -4,12 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-namespace roomlight::cli {
+#include "exit_status.h"
 
-constexpr int kOk = 0;
-constexpr int kFailed = 1;       // the work itself went wrong: a full disk
-constexpr int kBadInput = 2;     // a file or an option; nothing was written
-constexpr int kInterrupted = 130;
+namespace roomlight::cli {
 
 using Command = std::function<int()>;
 

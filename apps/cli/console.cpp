@@ -41,6 +41,11 @@ std::vector<std::string> once(const std::vector<std::string>& lines) {
 
 void printError(const std::string& message) { fmt::print(stderr, "roomlight: {}\n", oneLine(message)); }
 
+int failed(const std::string& message, int status) {
+  printError(message);
+  return status;
+}
+
 void printWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& w : once(warnings)) fmt::print(stderr, "warning: {}\n", oneLine(w));
 }

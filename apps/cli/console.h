@@ -5,11 +5,14 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "exit_status.h"
 
 namespace roomlight::cli {
 
 // One line "roomlight: ..." on stderr, whatever line breaks the message has.
 void printError(const std::string& message);
+// printError, and the status to leave with.
+int failed(const std::string& message, int status = kBadInput);
 // "warning: ..." once each, in the order in which they came first.
 void printWarnings(const std::vector<std::string>& warnings);
 // What was found in a scene's files: the first kMostWarnings warnings, and how many small faults were mended; with `verbose` all of them.

@@ -33,7 +33,7 @@ Status readWhite(const std::string& text, Display& display) {
 void addDisplayOptions(CLI::App& command, DisplayOptions& options, const std::string& ofWhat) {
   command.add_option("--look", options.look, listed(fmt::format("How {} shall look; the options below decide otherwise:", ofWhat), lookNames()))->capture_default_str();
   command.add_option("--exposure", options.exposure, fmt::format("auto, home (one for all rooms and hours: EV100 {}), or EV100 as on a light meter", kHomeEv100))->capture_default_str();
-  command.add_option("--local-exposure", options.localExposure, "How far windows are held and dark corners opened: 0, not at all, to 1, by up to four and two stops")->check(CLI::Range(0.0, 1.0));
+  command.add_option("--local-exposure", options.localExposure, "How far windows are held and dark corners opened: 0, not at all, to 1, by up to five and two stops")->check(CLI::Range(0.0, 1.0));
   command.add_option("--white-balance", options.whiteBalance,
                      "auto: surfaces have their own colours, with a trace of the light's warmth; 0% to 100%: so much of it; none; or the temperature in kelvin of light that shall look white");
   command.add_option("--tone", options.tone, "Tone curve: neutral, agx, filmic or clip");

@@ -10,6 +10,9 @@
 
 namespace roomlight::cli {
 
+// Metadata of linear pictures: what to balance them by, linear Rec.709.
+constexpr const char* kLightColourKey = "roomlight.lightColour";
+
 struct DisplayOptions {
   std::string look = "natural", exposure = "auto", tone, whiteBalance;  // empty: the look's
   std::optional<float> contrast, saturation, localExposure, glare, vignette;

@@ -3,18 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/views.h"
+#include "json_output.h"
 #include "mix/layer_info.h"
 #include "photometry/white_balance.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kNearlyWhite = 0.02;  // distance in CIE 1931 x, y from the white of a temperature that still counts as one
 
@@ -49,7 +47,7 @@ bool isOfView(const Scene& scene, const Camera& camera, int room) {
   return !floor || (room >= 0 && std::abs(scene.rooms[static_cast<size_t>(room)].elevationM - *floor) < kLevelsApartM);
 }
 
-Json describe(const LightLayer& light, const std::string& channel, const Scene& scene, const Camera& camera, const Image& picture) {
+Json layerJson(const LightLayer& light, const std::string& channel, const Scene& scene, const Camera& camera, const Image& picture) {
   const float flux = luminance(light.fluxLm);
   const Vec3 colour = flux > 0 ? light.fluxLm / flux : Vec3(1);
   const std::optional<double> kelvin = kelvinOf(colour);
@@ -77,7 +75,7 @@ LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& re
     const LayerKind kind = layer.light.kind;
     const std::string channel = !isLocal(layer.light) ? kindOf(kind) : kind == LayerKind::Mesh ? fmt::format("mesh_{:02}", ++meshes)
                                                                                                : fmt::format("lamp_{:02}", ++lamps);
-    list.push_back(describe(layer.light, channel, scene, camera, whole));
+    list.push_back(layerJson(layer.light, channel, scene, camera, whole));
     out.layers.push_back({channel, std::move(layer.image)});
   }
   Json all{{"version", 1}, {"camera", camera.name}, {"layers", list}};

@@ -4,26 +4,20 @@
 
 #include <atomic>
 #include <mutex>
-#include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
 #include "base/write_file.h"
 #include "commands.h"
 #include "interrupt.h"
+#include "json_output.h"
 #include "mix/floor_plan.h"
 #include "output_files.h"
 
 namespace roomlight::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr const char *kStatesIndex = "states.json", *kOverlaysIndex = "overlays.json";  // both kinds may lie in one folder
 constexpr float kStateQuality = 90;  // of WebP; states are looked at, overlays are summed
-
-int failed(const std::string& message) {
-  printError(message);
-  return kFailed;
-}
 
 Status makeFolder(const std::filesystem::path& folder) {
   std::error_code code;
@@ -71,9 +65,9 @@ Status writePages(const FloorPlan& plan, const OverlayTrial& trial, const Overla
 std::filesystem::path sensorsFileOf(const std::filesystem::path& cardFile) { return cardFile.parent_path() / (cardFile.stem().string() + "_sensors.yaml"); }
 
 int writeStates(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const StatesJob& job, ProgressDisplay& display) {
-  if (const Status s = makeFolder(job.folder); !s) return failed(s.error());
+  if (const Status s = makeFolder(job.folder); !s) return failed(s.error(), kFailed);
   removeFormer(job.folder, kStatesIndex, "states");
-  if (const Status s = writeWhole(job.folder / kStatesIndex, stateIndex(home, switches, metadata, job.extension)); !s) return failed(s.error());
+  if (const Status s = writeWhole(job.folder / kStatesIndex, stateIndex(home, switches, metadata, job.extension)); !s) return failed(s.error(), kFailed);
   const std::vector<uint32_t> states = allStates(switches.lamps.size());
   std::mutex oneAtATime;
   std::string error;
@@ -89,7 +83,7 @@ int writeStates(const MixHome& home, const Switches& switches, const ShownMix& s
     if (!s && !stop.exchange(true)) error = s.error();
     if (s) display.report("states", static_cast<float>(++written) / static_cast<float>(states.size()));
   });
-  if (stop) return failed(error);
+  if (stop) return failed(error, kFailed);
   if (written < states.size()) {
     printError(fmt::format("interrupted: {} of {} states are written", written, states.size()));
     return kInterrupted;
@@ -99,7 +93,7 @@ int writeStates(const MixHome& home, const Switches& switches, const ShownMix& s
 }
 
 int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const OverlaysJob& job, ProgressDisplay& display) {
-  if (const Status s = makeFolder(job.folder); !s) return failed(s.error());
+  if (const Status s = makeFolder(job.folder); !s) return failed(s.error(), kFailed);
   removeFormer(job.folder, kOverlaysIndex, "overlays");
   const OverlayTrial trial = tryOverlays(home.stack, switches, shown.look);
   FloorPlan plan = planOf(home.layers, switches, job.entities, job.extension);
@@ -107,7 +101,7 @@ int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix&
   const auto least = std::min_element(trial.errors.begin(), trial.errors.end(), [](const BlendError& a, const BlendError& b) { return a.rms < b.rms; });
   plan.blend = job.blend.value_or(kBlends[static_cast<size_t>(least - trial.errors.begin())]);
   const ByteImage base = displayMix(home, gainsOfState(switches, 0), shown.look, false);
-  if (const Status s = writeBytes(job.folder / plan.baseFile, displayMix(home, gainsOfState(switches, 0), shown.look, true), metadata, kLossless); !s) return failed(s.error());
+  if (const Status s = writeBytes(job.folder / plan.baseFile, displayMix(home, gainsOfState(switches, 0), shown.look, true), metadata, kLossless); !s) return failed(s.error(), kFailed);
   display.report("overlays", 0);
   for (size_t i = 0; i < plan.lamps.size(); ++i) {
     if (interrupted()) {
@@ -116,10 +110,10 @@ int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix&
     }
     plan.lamps[i].opacities = trial.opacities[i];
     const ByteImage lit = displayMix(home, gainsOfState(switches, uint64_t{1} << i), shown.look, false);
-    if (const Status s = writeBytes(job.folder / plan.lamps[i].file, overlayOf(base, lit, plan.blend), metadata, kLossless); !s) return failed(s.error());
+    if (const Status s = writeBytes(job.folder / plan.lamps[i].file, overlayOf(base, lit, plan.blend), metadata, kLossless); !s) return failed(s.error(), kFailed);
     display.report("overlays", static_cast<float>(i + 1) / static_cast<float>(plan.lamps.size()));
   }
-  if (const Status s = writePages(plan, trial, job); !s) return failed(s.error());
+  if (const Status s = writePages(plan, trial, job); !s) return failed(s.error(), kFailed);
   display.line(fmt::format("wrote base and {} overlays to {}, for mix-blend-mode: {}; open its index.html", plan.lamps.size(), job.folder.string(), cssName(plan.blend)));
   display.line(fmt::format("error of several lamps together, root mean square in steps of 1/255: {}", told(trial)));
   if (!job.cardFile.empty()) display.line(fmt::format("wrote {}{}", job.cardFile, job.dimmed ? " and " + sensorsFileOf(job.cardFile).string() : ""));

@@ -20,7 +20,7 @@ def night(home):
     return {
         "comment": f"{home.title} after sunset: its lamps, as many lumen as the home says, and a last glow of the sky.",
         "scene": {"suns": "off", "sky": "off"},
-        "sky": {"luminance": "0.1 cd/m2", "temperature": "9000 K"},
+        "daylight": {"sky": "clear", "direction": [0.6, -0.14, -0.8], "sunIlluminance": "0 lx", "temperature": "12000 K"},
         "glazing": GLAZING,
     }
 

@@ -114,13 +114,22 @@ Json daylightFrom(Vec3 toSun, const char* sky) {
   const double altitude = std::asin(std::clamp(static_cast<double>(toSun.y), -1.0, 1.0));
   int bestMinute = 0;
   double bestMiss = 10, bearing = 0;
-  for (int minute = 5 * 60; minute <= 12 * 60 + 30; minute += 5) {
+  const int first = altitude < 0 ? 21 * 60 : 5 * 60, last = altitude < 0 ? 23 * 60 : 12 * 60 + 30;
+  for (int minute = first; minute <= last; minute += 5) {
     const SunPosition p = sunPosition({2026, 6, 10, minute / 60.0 - 2}, kLatitudeDeg, kLongitudeDeg);
     if (std::abs(p.altitudeRad - altitude) < bestMiss) bestMiss = std::abs(p.altitudeRad - altitude), bestMinute = minute, bearing = p.bearingRad;
   }
   const double onPlan = std::atan2(static_cast<double>(toSun.x), -static_cast<double>(toSun.z));
   const double north = std::remainder((bearing - onPlan) * 180 / static_cast<double>(kPi), 360.0);
   return {{"sky", sky}, {"latitude", kLatitudeDeg}, {"longitude", kLongitudeDeg}, {"time", fmt::format("2026-06-10T{:02}:{:02}+02:00", bestMinute / 60, bestMinute % 60)}, {"north", std::round(north * 10) / 10}, {"ground", kGroundReflectance}};
+}
+
+// The glow of the sky is before the camera, to its left: the blue hour, when the sky is about as bright as rooms are.
+Vec3 sunAfterSunset(const Camera& camera) {
+  constexpr float kAltitude = -4 * kPi / 180, kAside = 50 * kPi / 180;
+  const Vec3 ahead = -camera.worldFromCamera.z;
+  const float bearing = std::atan2(ahead.x, -ahead.z) - kAside;
+  return {std::sin(bearing) * std::cos(kAltitude), std::sin(kAltitude), -std::cos(bearing) * std::cos(kAltitude)};
 }
 
 Json number(float v) { return std::round(static_cast<double>(v) * 1000) / 1000; }
@@ -254,7 +263,8 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   j["version"] = 1;
   if (mood != Mood::Auto) j["scene"] = {{"suns", "off"}, {"sky", "off"}};
   if (evening) {
-    j["sky"] = {{"luminance", "10 cd/m2"}, {"temperature", "12000 K"}};
+    j["daylight"] = daylightFrom(sunAfterSunset(camera), "clear");
+    j["daylight"]["temperature"] = "12000 K";
   } else if (daylight) {
     j["daylight"] = daylightFrom(toSun, indoors ? "clear" : "intermediate");
   }

@@ -16,6 +16,7 @@ namespace {
 constexpr double kDaylightMired = 1e6 / 6504;
 // Photographers leave pictures a trace warmer than D65, by daylight too.
 constexpr double kUsualMired = 9;
+constexpr double kBluestWhiteK = 9000;  // bluer light stays a little blue, as at dusk
 constexpr float kLeastLight = 0.02f;  // of a channel: what is not there cannot be brought back
 
 // How far light is taken for white: in full up to what coloured walls make of it, not at all from where nobody would call it white.
@@ -58,7 +59,8 @@ White whiteOf(const Display& display, Vec3 lightColour) {
   if (!display.automaticWhite || !(luminance(lightColour) > 0)) return {};
   const double kelvin = nearestWhiteK(lightColour);
   const Vec3 light = max(lightColour / luminance(lightColour), Vec3(kLeastLight));
-  const Vec3 gains = shownWhite(display, kelvin) / light;
+  const double white = display.warmth ? kelvin : std::min(kelvin, kBluestWhiteK);
+  const Vec3 gains = shownWhite(display, white) / (light * whiteColour(white) / whiteColour(kelvin));
   const float share = whiteness(light, kelvin);
   return {{std::pow(gains.x, share), std::pow(gains.y, share), std::pow(gains.z, share)}, kelvin};
 }

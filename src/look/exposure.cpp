@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kMiddleGrey = 0.18;
 constexpr double kAboveEv = 2.5, kBelowEv = 6.5;  // from the median on, light is that of windows and lamps, or of holes
+constexpr double kVoidEv = 0.4;                    // more for a picture that is all void, as a camera gives it that meters all of its frame
 constexpr float kEdge = 0.3f;                     // weight of the edges of the picture
 constexpr float kWide = 0.55f;                    // of the middle, in shares of width and height
 
@@ -49,7 +50,8 @@ float lookedAtEv100(const Image& image) {
     if (static_cast<double>(p.log2) > middle + kAboveEv || static_cast<double>(p.log2) < middle - kBelowEv) continue;
     sum += static_cast<double>(p.log2 * p.weight), weight += static_cast<double>(p.weight);
   }
-  return static_cast<float>(sum / weight - std::log2(kMiddleGrey * 1.2));
+  const double empty = 1 - static_cast<double>(places.size()) / static_cast<double>(image.pixels.size());
+  return static_cast<float>(sum / weight - std::log2(kMiddleGrey * 1.2) - kVoidEv * empty);
 }
 
 }  // namespace roomlight

@@ -9,7 +9,8 @@ namespace roomlight {
 constexpr float kHomeEv100 = 6.9f;
 
 // EV100 that puts what is looked at to a middle grey: the geometric mean of the luminance, more of the middle than of the edges, without windows, lamps and holes that are
-// several stops away from most of it. Black pixels say nothing; a black picture gives 0.
+// several stops away from most of it. Black pixels are void: a picture that is mostly void is shown a
+// little brighter; a black one gives 0.
 float lookedAtEv100(const Image& luminanceImage);
 
 }  // namespace roomlight

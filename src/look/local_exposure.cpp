@@ -5,13 +5,14 @@
 
 #include "base/parallel.h"
 #include "base/tone.h"
+#include "look/exposure.h"
 #include "look/pyramid.h"
 
 namespace roomlight {
 namespace {
 
 constexpr float kMiddleGrey = 0.18f;
-constexpr std::array kStops = {2.0f, 0.0f, -2.0f, -4.0f};  // windows are farther from the middle than corners are
+constexpr std::array kStops = {2.0f, 0.0f, -2.6f, -5.2f};  // windows are farther from the middle than corners are
 constexpr float kSigma = 0.2f;  // of what counts as well exposed
 constexpr int kSmallest = 6;    // shorter side of the coarsest level
 constexpr float kLeast = 1e-5f;
@@ -29,9 +30,6 @@ float weightOf(float value) {
   const float off = (value - 0.5f) / kSigma;
   return std::exp(-0.5f * off * off) + 1e-6f;
 }
-
-// What a picture is metered by: neither windows nor holes.
-bool isLookedAt(float light) { return light > kMiddleGrey / 64 && light < kMiddleGrey * 6; }
 
 Exposure exposureOf(const Plane& light, float ev) {
   Plane value(light.width, light.height), weight(light.width, light.height);
@@ -77,16 +75,12 @@ void exposeLocally(Image& image, float ev100, float strength) {
   Exposures exposures;
   parallelFor(exposures.size(), 1, [&](size_t i) { exposures[i] = exposureOf(light, kStops[i] * strength); });
   const Plane value = fused(exposures);
-  std::vector<float> gains(light.values.size());
-  double sum = 0, count = 0;
-  for (size_t i = 0; i < gains.size(); ++i) {
-    gains[i] = undone(std::clamp(value.values[i], 1e-4f, 0.999f)) / light.values[i];
-    if (!isBlack(image.pixels[i]) && isLookedAt(light.values[i])) sum += static_cast<double>(std::log2(gains[i])), ++count;
-  }
-  // What is looked at keeps its exposure.
-  const float kept = count > 0 ? static_cast<float>(std::exp2(-sum / count)) : 1.0f;
-  const float most = std::exp2(kStops.front() * strength), least = std::exp2(kStops.back() * strength);
-  for (size_t i = 0; i < gains.size(); ++i) image.pixels[i] *= std::clamp(kept * gains[i], least, most);
+  const float most = std::exp2(kStops.front() * strength), least = std::exp2(kStops.back() * strength), before = lookedAtEv100(image);
+  parallelFor(image.pixels.size(), 16384, [&](size_t i) {
+    image.pixels[i] *= std::clamp(undone(std::clamp(value.values[i], 1e-4f, 0.999f)) / light.values[i], least, most);
+  });
+  const float kept = std::exp2(before - lookedAtEv100(image));
+  for (Vec3& p : image.pixels) p *= kept;
 }
 
 }  // namespace roomlight

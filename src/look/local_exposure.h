@@ -5,8 +5,8 @@
 
 namespace roomlight {
 
-// Multiplies every pixel by a gain that varies smoothly: four exposures, two stops times `strength` apart, one brighter and two darker, are fused by how near each brings a place to a middle grey
-// (Mertens, Kautz & Van Reeth 2007, "Exposure fusion"), on luminance alone, so that colours keep their hue. What is looked at keeps its exposure in the mean.
+// Multiplies every pixel by a gain that varies smoothly: four exposures, one brighter by two stops times `strength` and two darker by 2.6 each, are fused by how near each brings a place to a middle grey
+// (Mertens, Kautz & Van Reeth 2007, "Exposure fusion"), on luminance alone, so that colours keep their hue. What is looked at, as `lookedAtEv100` meters it, keeps its exposure.
 void exposeLocally(Image& image, float ev100, float strength);
 
 }  // namespace roomlight

@@ -7,7 +7,7 @@ namespace {
 
 Display natural() {
   Display d;
-  d.brighterEv = 0.2f;
+  d.brighterEv = 0.3f;
   d.tone = {ToneCurve::PbrNeutral, 1.08f, 1.05f};
   d.localExposure = 1;
   return d;
@@ -15,13 +15,13 @@ Display natural() {
 
 Display bright() {
   Display d = natural();
-  d.brighterEv = 0.9f;
+  d.brighterEv = 1.0f;
   return d;
 }
 
 Display evening() {
   Display d = natural();
-  d.brighterEv = -0.4f;
+  d.brighterEv = -0.3f;
   d.warmth = 0.3;
   d.glare = 0.05f;
   d.vignette = 0.15f;

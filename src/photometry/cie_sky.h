@@ -24,7 +24,8 @@ bool dependsOnSun(int cieType);
 double cieSkyLuminance(int cieType, double cosZenith, double sunAngleRad, double sunZenithRad);
 
 // Illuminance in lux that the sky without its sun gives to open level ground: A + B sin^C(altitude) of IES RP-21 (Gillette, Pierpoint
-// & Treado 1984). 0 with the sun below the horizon.
+// & Treado 1984). With the sun below the horizon it falls as twilight does, to that of a night with some moon.
+constexpr double kNightLux = 0.05;
 double skyHorizontalLux(SkyCover cover, double sunAltitudeRad);
 
 // Extinction of sunlight per air mass in the same model, for sunLux(). An overcast sky hides the sun.

@@ -49,6 +49,15 @@ TEST(White, keepsATraceOfWarmthByDefault) {
   }
 }
 
+TEST(White, duskStaysBlueUnlessAskedOtherwise) {
+  const Vec3 light = whiteColour(14000), shown = light * whiteOf(Display(), light).gains;
+  EXPECT_GT(shown.z, 1.1f * shown.x);
+  Display neutral;
+  neutral.warmth = 0;
+  const Vec3 grey = light * whiteOf(neutral, light).gains;
+  EXPECT_NEAR(grey.z / grey.x, 1, 0.01f);
+}
+
 TEST(White, colouredLightStaysColoured) {
   const Vec3 light{3, 0.4f, 0.9f}, shown = light / luminance(light) * whiteOf(Display(), light).gains;
   EXPECT_LT(shown.y, 0.7f * shown.x);

@@ -62,7 +62,14 @@ TEST(CieSky, givesTheLuxOfTheModelForWantOfAMeasurement) {
   EXPECT_NEAR(skyHorizontalLux(SkyCover::Overcast, kPiD / 6), 10'800, 1e-6);
   EXPECT_NEAR(skyHorizontalLux(SkyCover::Clear, kPiD / 2), 16'300, 1e-6);
   EXPECT_NEAR(skyHorizontalLux(SkyCover::Intermediate, kPiD / 6), 22'800, 1e-6);
-  EXPECT_EQ(skyHorizontalLux(SkyCover::Overcast, -0.01), 0);
+}
+
+TEST(CieSky, darkensAsTwilightDoesAndIsNeverBlack) {
+  const auto lux = [](double deg) { return skyHorizontalLux(SkyCover::Clear, deg * kPiD / 180); };
+  EXPECT_NEAR(lux(-1e-6), lux(1e-6), 3);
+  EXPECT_NEAR(lux(-6), 3.6, 0.2);
+  for (double deg = 0; deg > -20; deg -= 0.5) EXPECT_LE(lux(deg - 0.5), lux(deg));
+  EXPECT_EQ(lux(-40), kNightLux);
 }
 
 }  // namespace

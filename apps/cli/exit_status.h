@@ -1,0 +1,11 @@
+// How the program ends.
+#pragma once
+
+namespace roomlight::cli {
+
+constexpr int kOk = 0;
+constexpr int kFailed = 1;       // the work itself went wrong: a full disk
+constexpr int kBadInput = 2;     // a file or an option; nothing was written
+constexpr int kInterrupted = 130;
+
+}  // namespace roomlight::cli
