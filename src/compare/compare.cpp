@@ -126,6 +126,7 @@ Result<Report> compare(const Image& reference, const Image& second, const Image&
   if (!report) return report;
   const auto seen = [&](const Image& image) { return toneMap(image, report.value().ev100, ToneCurve::Clip); };
   report.value().mseBeyondNoise = productOfErrors(seen(reference), seen(second), seen(picture));
+  report.value().noise = blotches(reference, second, picture);
   return report;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/image.h"
 #include "base/result.h"
+#include "compare/blotches.h"
 
 namespace roomlight {
 
@@ -21,6 +22,7 @@ struct Report {
   // With two references: what mse would be without their noise. With a and b independent, the mean of (a - p)(b - p) is free of
   // both variances. May be slightly negative.
   std::optional<double> mseBeyondNoise;
+  std::optional<Blotches> noise;  // with two references: what smooth surfaces have of it
 };
 
 // Errors: sizes differ, no pixels, a value that is not finite (says which pixel), a black reference.

@@ -1,19 +1,12 @@
-// A picture of one number a pixel, and separable convolution on it: what SSIM and FLIP are made of.
+// Separable convolution of pictures of one number a pixel: what SSIM, FLIP and blotches are made of.
 #pragma once
 
 #include <vector>
 
 #include "base/image.h"
+#include "base/plane.h"
 
 namespace roomlight {
-
-struct Plane {
-  int width = 0, height = 0;
-  std::vector<float> values;  // row-major, rows from the top
-
-  Plane() = default;
-  Plane(int w, int h) : width(w), height(h), values(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
-};
 
 // A kernel of odd length, its middle on the pixel.
 using Kernel = std::vector<float>;

@@ -19,6 +19,7 @@ template <class Shader, class Settings>
 class VoxelScene final : public LitScene {
  public:
   VoxelScene(const Scene& scene, const RenderSettings& settings, const StageSettings<Settings>& use, Stages& stages) : LitScene(scene, true, stages), radiance_(use.radiance), gather_(use.gather) {
+    radiance_.still = false;  // what changes is followed by links
     if (const auto layers = wantedLayers(scene, lights(), settings)) radiance_.layers = layers.value();
     voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, use.voxel); });
     stages.run("illuminate", [&](const Progress& p) {

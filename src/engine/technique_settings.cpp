@@ -23,6 +23,7 @@ StageSettings<RayGatherSettings> hybridStages(const RenderSettings& settings) {
   out.voxel.sizeFactor *= kCoarser;
   out.radiance.seed = settings.seed;
   out.radiance.pyramid = false;
+  out.radiance.still = true;
   applyPictureSettings(settings, out.gather);
   return out;
 }

@@ -78,7 +78,7 @@ Image composed(const FilterInput& input) {
   return out;
 }
 
-Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3>* once) {
+Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3>* once, std::vector<Vec3>* irradiance) {
   if (wrap) return filteredRound(input, passes);
   const int w = input.width, h = input.height, farthest = 1 << std::max(0, passes - 1);
   const auto pixelsOfRow = [&](int y) { return std::span(input.pixels).subspan(static_cast<size_t>(y) * static_cast<size_t>(w), static_cast<size_t>(w)); };
@@ -91,6 +91,7 @@ Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3
   const int reach = reachOf(passes);
   Image out(w, h);
   if (once) once->resize(out.pixels.size());
+  if (irradiance) irradiance->resize(out.pixels.size());
   for (int first = 0; first < h; first += kBand) {
     const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
     const auto rowCount = static_cast<size_t>(end - begin);
@@ -116,6 +117,9 @@ Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3
     parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
       const int y = first + static_cast<int>(i);
       compose(pixelsOfRow(y), rows, pass, y - begin, &out.at(0, y));
+      if (!irradiance) return;
+      const float* at = rows.line(FilterRows::light(0, pass.place[0]), y - begin);
+      for (int x = 0; x < w; ++x) (*irradiance)[static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
     });
   }
   return out;

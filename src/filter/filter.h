@@ -32,6 +32,7 @@ Image composed(const FilterInput& input);  // without filtering
 // Pass k looks 2^k pixels far. Diffuse light is filtered as irradiance, so textures stay sharp; mirrors are left alone.
 // `wrap`: the picture goes on at its other side, as panoramas do.
 // `once`, where given and unless it wraps: diffuse light over albedo after the first pass.
-Image filtered(const FilterInput& input, int passes, bool wrap = false, std::vector<Vec3>* once = nullptr);
+// `irradiance`, likewise: diffuse light over albedo after all passes.
+Image filtered(const FilterInput& input, int passes, bool wrap = false, std::vector<Vec3>* once = nullptr, std::vector<Vec3>* irradiance = nullptr);
 
 }  // namespace roomlight

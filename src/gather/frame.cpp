@@ -90,7 +90,7 @@ size_t placeOf(const FrameHistory& history) {
 class FrameMaker {
  public:
   FrameMaker(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history)
-      : rays_(rays), lights_(lights), shader_(shader), settings_(settings), history_(history), pixelRays_(rays, camera, settings), pixelShader_(rays, lights, settings), sharp_(rays, lights), place_(placeOf(history)) {
+      : rays_(rays), lights_(lights), shader_(shader), settings_(settings), history_(history), pixelRays_(rays, camera, settings), pixelShader_(rays, lights, settings, false), sharp_(rays, lights), place_(placeOf(history)) {
     const Scene& scene = rays.scene();
     for (const Instance& i : scene.instances) opaque_.push_back(!letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
   }
@@ -302,7 +302,7 @@ void FrameMaker::light(std::span<const Asked> asked, GatherCounters& count) cons
   found.resize(work.shadings.size());
   shader_.shade(work.shadings, work.shadows, found, count);
   pixelShader_.findOutshining(work, found);
-  PixelShader::add(work, found);
+  PixelShader::add(work, found, nullptr);
   for (size_t i = 0; i < asked.size(); ++i) {
     FilterPixel& p = history_.pixel(asked[i].pixel);
     PastLight& now = history_.light(asked[i].pixel);

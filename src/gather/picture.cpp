@@ -50,11 +50,13 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
   const LightLayers* layers = shader.layers();
   LayerSums byLayer(layers ? layers->size() : 0);
   byLayer.resize(static_cast<size_t>(w) * static_cast<size_t>(h));
-  const PixelShader pixelShader(rays, lights, settings, layers, layers ? &byLayer : nullptr);
+  const bool keepsFragments = settings.filterPasses > 0 && every == 1 && !layers && !pixelRays.camera().wraps();
+  const PixelShader pixelShader(rays, lights, settings, keepsFragments, layers, layers ? &byLayer : nullptr);
   GatheredPicture result;
   FilterInput sums(w, h);
   std::vector<PixelCount> counts(sums.pixels.size());
   const size_t tiles = static_cast<size_t>((w + kTile - 1) / kTile) * static_cast<size_t>((h + kTile - 1) / kTile);
+  std::vector<Fragments> fragments(keepsFragments ? tiles : 0);
   std::atomic<uint64_t> rayCount = 0, coneCount = 0;
   std::mutex reporting;
   const Stopwatch watch;
@@ -97,7 +99,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
           shader.shade(work.shadings, work.shadows, light, count);
         }
         pixelShader.findOutshining(work, light);
-        PixelShader::add(work, light);
+        PixelShader::add(work, light, keepsFragments ? &fragments[tile] : nullptr);
         if (layers) pixelShader.addLayers(work, light, layerLight);
         const size_t done = ++tilesDone;
         if (done % 64 == 0 && reporting.try_lock()) {
@@ -118,7 +120,9 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     sums.pixels[i] = meanOf(sums.pixels[i], counts[i]);
     if (!result.occlusion.pixels.empty()) result.occlusion.pixels[i] = Vec3(counts[i].occlusion / static_cast<float>(std::max(1u, counts[i].rays)));
   });
-  result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses, pixelRays.camera().wraps()) : composed(sums);
+  std::vector<Vec3> irradiance;
+  result.image = settings.filterPasses > 0 ? filtered(sums, settings.filterPasses, pixelRays.camera().wraps(), nullptr, keepsFragments ? &irradiance : nullptr) : composed(sums);
+  parallelFor(fragments.size(), 16, [&](size_t t) { addFragments(fragments[t], sums, counts, irradiance, result.image); });
   if (layers) {
     for (size_t l = 0; l < layers->size(); ++l) {
       const FilterInput input = inputOfLayer(sums, counts, byLayer, l);

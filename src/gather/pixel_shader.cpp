@@ -1,5 +1,7 @@
 #include "gather/pixel_shader.h"
 
+#include <algorithm>
+
 #include "trace/bsdf.h"
 
 namespace roomlight {
@@ -182,13 +184,13 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
     sum.rest += emitted;
     if (const int32_t emitter = byLayer_ ? lights_.emitterOf(group.instance) : -1; emitter >= 0) byLayer_->add(pixel.index, LayerSums::kRest, layers_->ofEmitter[static_cast<size_t>(emitter)], emitted);
     if (solid && !mirror && !layer.seen[i]) {
-      sum.normal += s.ns * weight;
-      sum.position += veiledPlace(s, layer.left[i]) * weight;
-      sum.roughness += m.roughness * weight;
-      sum.surface += weight;
+      TileWork::Part& part = work.parts.back();
+      part.normal += s.ns * weight, part.position += veiledPlace(s, layer.left[i]) * weight;
+      part.roughness += m.roughness * weight, part.surface += weight;
     }
     work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(surface, static_cast<uint32_t>(j), static_cast<uint32_t>(std::max(most, shadings))), shadow, mirror});
   }
+  if (!keepsFragments_) addPlace(work.parts.back());
   if (!isBlack(through)) passOn(group, layer, through, solid, behind);
   if (mirror) reflectOn(group, layer, m, surface, sequence, behind);
 }
@@ -216,22 +218,61 @@ void PixelShader::findOutshining(TileWork& work, std::span<const SurfaceLight> l
   }
 }
 
-void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light) {
-  for (const TileWork::Part& part : work.parts) {
-    FilterPixel& sum = *part.pixel.sum;
-    const std::span<const SurfaceLight> shadings = light.subspan(part.first, part.count);
-    if (part.outshines) {
-      for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.sharp + l.specular) * part.weight, part.pixel.count->occlusion += l.occlusion * part.weight;
-      continue;
+void PixelShader::addPlace(const TileWork::Part& part) {
+  FilterPixel& sum = *part.pixel.sum;
+  sum.normal += part.normal, sum.position += part.position, sum.roughness += part.roughness, sum.surface += part.surface;
+}
+
+void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLight> shadings) {
+  FilterPixel& sum = *part.pixel.sum;
+  if (part.outshines) {
+    for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.sharp + l.specular) * part.weight, part.pixel.count->occlusion += l.occlusion * part.weight;
+    return;
+  }
+  for (const SurfaceLight& l : shadings) {
+    sum.diffuse += part.left * l.diffuse * (part.weight * static_cast<float>(part.gathers));
+    sum.sharp += part.left * l.sharp * part.weight;
+    sum.albedo += part.left * l.albedo * part.weight;
+    sum.specular += part.left * l.specular * (part.weight * static_cast<float>(part.glossy));
+    part.pixel.count->occlusion += l.occlusion * part.weight;
+  }
+  addVariance(shadings, part);
+}
+
+// What is no part of the surface that fills most of the pixel. Shadows and reflections on it stay as they are.
+void PixelShader::addFragment(const TileWork::Part& part, std::span<const SurfaceLight> shadings, Fragments& fragments) {
+  const uint32_t pixel = part.pixel.index;
+  auto f = std::find_if(fragments.rbegin(), fragments.rend(), [&](const Fragment& o) { return o.pixel == pixel; });
+  if (f == fragments.rend()) fragments.push_back({pixel, {}, {}, {}, {}}), f = fragments.rbegin();
+  f->normal += part.normal, f->position += part.position, f->surface += part.surface;
+  for (const SurfaceLight& l : shadings) {
+    f->diffuse += part.left * l.diffuse * part.weight, f->albedo += part.left * l.albedo * part.weight;
+    part.pixel.sum->rest += part.left * (l.sharp + l.specular) * part.weight;
+    part.pixel.count->occlusion += l.occlusion * part.weight;
+  }
+}
+
+void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments) {
+  const auto shadingsOf = [&](const TileWork::Part& part) { return light.subspan(part.first, part.count); };
+  for (size_t begin = 0, end = 0; begin < work.parts.size(); begin = end) {
+    size_t most = begin;
+    for (end = begin; end < work.parts.size() && work.parts[end].pixel.sum == work.parts[begin].pixel.sum; ++end) {
+      if (work.parts[end].surface > work.parts[most].surface) most = end;
     }
-    for (const SurfaceLight& l : shadings) {
-      sum.diffuse += part.left * l.diffuse * (part.weight * static_cast<float>(part.gathers));
-      sum.sharp += part.left * l.sharp * part.weight;
-      sum.albedo += part.left * l.albedo * part.weight;
-      sum.specular += part.left * l.specular * (part.weight * static_cast<float>(part.glossy));
-      part.pixel.count->occlusion += l.occlusion * part.weight;
+    const FilterPixel& sum = *work.parts[begin].pixel.sum;
+    const bool known = sum.surface > 0;
+    const TileWork::Part& largest = work.parts[most];
+    const float surface = known ? sum.surface : std::max(largest.surface, 1e-6f);
+    const Vec3 place = (known ? sum.position : largest.position) / surface, normal = known ? sum.normal : largest.normal;
+    for (size_t i = begin; i < end; ++i) {
+      const TileWork::Part& part = work.parts[i];
+      if (fragments && part.surface > 0 && !part.outshines && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
+        addFragment(part, shadingsOf(part), *fragments);
+      } else {
+        if (fragments) addPlace(part);
+        addPart(part, shadingsOf(part));
+      }
     }
-    addVariance(shadings, part);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "filter/filter.h"
+#include "gather/fragments.h"
 #include "gather/picture.h"
 #include "scene/surface.h"
 
@@ -31,13 +32,6 @@ class PixelSequence {
   bool gathers_;
 };
 
-// What a pixel keeps beside the sums over its camera rays.
-struct PixelCount {
-  uint32_t rays = 0;
-  uint32_t gathered = 0, glossy = 0;  // that diffuse and specular light is known of, each times the estimates it got
-  bool edge = false;  // more than one surface seen
-  float occlusion = 0;
-};
 struct PixelSum {  // variances are of the sums
   FilterPixel* sum;
   PixelCount* count;
@@ -60,6 +54,8 @@ struct TileWork {
     float weight;           // camera rays that each stands for
     bool turn;              // whether its pixel is one of those that gather for others
     uint32_t gathers = 1, glossy = 1;  // what its diffuse and specular light counts for
+    Vec3 normal{}, position{};   // sums over camera rays of what it lets nothing be seen behind
+    float roughness = 0, surface = 0;
     bool outshines = false;  // what else is seen in its pixel, which has more of it: not filtered with that
   };
   std::vector<Shading> shadings;
@@ -70,15 +66,15 @@ struct TileWork {
 
 class PixelShader {
  public:
-  // `byLayer`, where given: a sum for each pixel, of light by `layers`.
-  PixelShader(const RayScene& rays, const Lights& lights, const PictureSettings& settings, const LightLayers* layers = nullptr, LayerSums* byLayer = nullptr)
-      : rays_(rays), lights_(lights), sharp_(rays, lights), settings_(settings), layers_(layers), byLayer_(byLayer) {}
+  // `keepsFragments`: what edges show of other surfaces is kept apart. `byLayer`, where given: a sum for each pixel, of light by `layers`.
+  PixelShader(const RayScene& rays, const Lights& lights, const PictureSettings& settings, bool keepsFragments, const LightLayers* layers = nullptr, LayerSums* byLayer = nullptr)
+      : rays_(rays), lights_(lights), sharp_(rays, lights), settings_(settings), keepsFragments_(keepsFragments), layers_(layers), byLayer_(byLayer) {}
   // At most kRaysAtOnce rays. What shines by itself is added to `pixel` at once; what has to be lit, to `work`.
   void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work, GatherCounters& count) const;
   // Marks parts that outshine their pixels.
   void findOutshining(TileWork& work, std::span<const SurfaceLight> light) const;
-  // Adds the light of everything in `work` to its pixels.
-  static void add(const TileWork& work, std::span<const SurfaceLight> light);
+  // Adds the light of everything in `work` to its pixels, but for what `fragments`, where given, take.
+  static void add(const TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments);
   // The same by layers, of which `light` has one thing for each shading.
   void addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const;
 
@@ -89,6 +85,9 @@ class PixelShader {
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
   uint32_t shadows(const Group& group, const Layer& layer, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
   void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
+  static void addPlace(const TileWork::Part& part);
+  static void addFragment(const TileWork::Part& part, std::span<const SurfaceLight> shadings, Fragments& fragments);
+  static void addPart(const TileWork::Part& part, std::span<const SurfaceLight> shadings);
   static void addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part);
   static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
   void addVarianceOfLayers(const TileWork::Part& part, std::span<const SurfaceLight> whole, const LayerSums& light) const;
@@ -99,6 +98,7 @@ class PixelShader {
   const Lights& lights_;
   const SharpLights sharp_;
   const PictureSettings& settings_;
+  const bool keepsFragments_;  // for add(); else all surfaces of a pixel are one
   const LightLayers* layers_;
   LayerSums* byLayer_;
 };

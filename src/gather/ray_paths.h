@@ -18,6 +18,7 @@ struct GatherPath {
   Vec3 from;      // where its direction was chosen,
   float pdf;      // and with which density; 0: no light was sampled for it
   int32_t guide;  // that sky samples there followed
+  int32_t side;  // of a brick, that samples of bright patches there followed
   uint32_t estimate;
   uint8_t depth, panes;
   bool clear;     // what it meets is seen clearly
@@ -32,7 +33,7 @@ struct GatherVertex {
   const SurfacePoint& s;
   const Bsdf& bsdf;
   Lobes factor;
-  int32_t guide;
+  int32_t guide, side;
   uint32_t estimate;
   uint8_t depth;
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
@@ -63,7 +64,8 @@ struct GatherWork {
   // Per estimate; those of a shading follow one another.
   std::vector<Sampler> samplers;
   std::vector<Lobes> found;
-  std::vector<float> most;  // luminance that a single path may add, by either lobe
+  std::vector<float> most;  // luminance that a single path may add, by either lobe,
+  std::vector<float> expected;  // and that all together should
   std::vector<GatherPath> paths, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
@@ -81,7 +83,7 @@ struct GatherWork {
   std::vector<float> part;
 
   void clear() {
-    samplers.clear(), found.clear(), most.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
+    samplers.clear(), found.clear(), most.clear(), expected.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
     rayCount = 0, layers = nullptr, layersAlone = false;
   }
   // `sure`: of a light that is sampled too, so that none of its samples stands for much.

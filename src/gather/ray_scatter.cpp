@@ -11,12 +11,13 @@ constexpr float kNothing = 1e-4f;
 constexpr float kPictureShare = 1.0f / 64;  // of layers' light from lamps comes from the picture's own samples: where it has light they have, too
 constexpr float kOften = 0.25f;             // of the strongest lamp's light: what gives as much is always asked
 constexpr float kDoubt = 0.125f;            // chance to ask a layer that seems not to reach a place
+constexpr float kLittle = 0.15f, kSeldom = 0.25f;  // of the light expected; chance to ask all the same
 constexpr float kNudge = 0.05f;             // voxels
 constexpr uint64_t kLayerKey = 0x1a7e25;    // other random numbers than the picture's
 
 }  // namespace
 
-RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, bool sampleLamps) : lights_(lights), voxels_(voxels), field_(field), sampleLamps_(sampleLamps), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
+RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, const BrightPatches& patches, bool sampleLamps) : lights_(lights), voxels_(voxels), field_(field), patches_(patches), sampleLamps_(sampleLamps), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
   for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
   if (field.layers.empty()) return;
   const LightLayers& layers = *field.layers.lights;
@@ -48,7 +49,7 @@ void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightO
 // Sends rays from a surface: to lights, and on to other surfaces.
 void RayScatter::from(const GatherVertex& v, GatherWork& w) const {
   lightsAt(v, w);
-  if (!field_.glow.empty()) glowAt(v, w);
+  if (!patches_.empty()) glowAt(v, w);
   gatherAt(v, w);
 }
 
@@ -187,20 +188,27 @@ bool RayScatter::isCached(const GatherPath& path, uint32_t instance) const {
   return path.leavesNear && emitter >= 0 && besideEmitters_[static_cast<size_t>(emitter)].contains(path.from);
 }
 
-// Light that surfaces near lamps reflect, as far as gathering rays leave it to LampGlow's points.
+// Light that bright patches reflect, as far as gathering rays leave it to points of them.
 void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
-  const GlowSample g = field_.glow.sample(v.s.p, v.s.ns, 1, 0, w.samplers[v.estimate]);
+  const GlowSample g = patches_.sample(v.s.p, v.s.ns, v.side, w.samplers[v.estimate]);
   if (!g.light.valid() || dot(g.light.wi, v.s.ng) <= 0) return;
   const Vec3 wi = g.light.wi;
   Lobes f = v.value(wi);
   const float cosine = cosinePdf(v, wi), mixed = v.bsdf.pdf(wi);
-  f.diffuse *= field_.glow.pointShare(g.point, v.s.p, {v.apart || v.followed ? cosine : mixed, 0});
-  f.specular *= v.clear ? 0 : field_.glow.pointShare(g.point, v.s.p, {v.apart ? v.bsdf.pdfSpecular(wi) : mixed, 0});
-  const Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  const GlowPoint& point = field_.glow.point(g.point);
+  f.diffuse *= patches_.pointShare(g.point, v.s.p, v.side, v.apart || v.followed ? cosine : mixed);
+  f.specular *= v.clear ? 0 : patches_.pointShare(g.point, v.s.p, v.side, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
+  Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
+  // What can give little seldom sends a ray.
+  const float worth = luminance(sum.diffuse + sum.specular) / (kLittle * w.expected[v.estimate]);
+  if (worth < 1) {
+    const float chance = std::max(worth, kSeldom);
+    if (w.samplers[v.estimate].fast1() >= chance) return;
+    sum.diffuse = sum.diffuse / chance, sum.specular = sum.specular / chance;
+  }
+  const GlowPoint& point = patches_.point(g.point);
   const LightLayers* layers = field_.layers.lights.get();
-  const int32_t layer = !layers ? -1 : point.lamp >= 0 ? layers->ofLamp[static_cast<size_t>(point.lamp)]
-                                                       : layers->ofEmitter[static_cast<size_t>(point.emitter)];
+  const int32_t layer = !layers || BrightPatches::isSun(point) ? -1 : point.lamp >= 0 ? layers->ofLamp[static_cast<size_t>(point.lamp)]
+                                                                                      : layers->ofEmitter[static_cast<size_t>(point.emitter)];
   if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, g.light), sum, LightOrigin::ofLayer(layer));
 }
 
@@ -209,7 +217,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gather/ray_paths.h"
+#include "radiance/bright_patches.h"
 #include "radiance/surroundings.h"
 #include "radiance/radiance_field.h"
 
@@ -11,7 +12,7 @@ namespace roomlight {
 class RayScatter {
  public:
   // `sampleLamps`: lamps are too many for each to cast its own shadow on what the camera sees.
-  RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, bool sampleLamps);
+  RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, const BrightPatches& patches, bool sampleLamps);
   // Adds its shadow rays and paths to `w`.
   void from(const GatherVertex& v, GatherWork& w) const;
   // Whether light straight from the emissive mesh of an instance to where the path came from is in the cache.
@@ -35,6 +36,7 @@ class RayScatter {
   const Lights& lights_;
   const Voxels& voxels_;
   const RadianceField& field_;
+  const BrightPatches& patches_;
   const bool sampleLamps_;
   // Lights of a layer that are sampled from there on: lamps, if they are at all, and emissive meshes.
   struct Members {

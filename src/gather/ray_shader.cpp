@@ -24,10 +24,17 @@ uint8_t kindOf(const Material& m) {
   return kind;
 }
 
+// Light in layers is told apart by the sun's own samples.
+BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings) {
+  std::vector<GlowPoint> points(field.glow.points().begin(), field.glow.points().end());
+  if (field.layers.empty()) points.insert(points.end(), field.sunPoints.begin(), field.sunPoints.end());
+  return BrightPatches(rays, voxels, points, settings.nearVoxels * voxels.voxelSizeM, settings.seed);
+}
+
 }  // namespace
 
 RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
-    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), settings_(settings), sharp_(rays, lights), scatter_(lights, voxels, field, lights.lampCount() + lights.sunCount() > sharp_.count()) {
+    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), patches_(patchesOf(rays, voxels, field, settings)), settings_(settings), sharp_(rays, lights), scatter_(lights, voxels, field, patches_, lights.lampCount() + lights.sunCount() > sharp_.count()) {
   if (lights.sunCount() == 1) {
     const LightSample sun = lights.sampleSun(0, {0.5f, 0.5f});
     sunDirection_ = sun.wi, sunColour_ = sun.radiance / luminance(sun.radiance);
@@ -94,7 +101,7 @@ void RayShader::follow(GatherWork& w) const {
 SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const {
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
-  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
+  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), patches_.sideAt(s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
   v.skyKnown = work.skyKnown, v.lampsKnown = work.lampsKnown;
   SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
@@ -124,6 +131,7 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
     w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(n)));
     w.found.push_back({});
     w.most.push_back(most);
+    w.expected.push_back(most < kInfinity ? most / kMost : 0);
     if (w.layers) w.shadingOf.push_back(index), w.part.push_back(1 / static_cast<float>(n));
     scatter_.from(v, w);
   }
@@ -243,7 +251,7 @@ void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) cons
   s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  scatter_.from({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear}, w);
+  scatter_.from({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), patches_.sideAt(s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear}, w);
 }
 
 // What the points of LampGlow give is left to them.
@@ -252,20 +260,28 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
   const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
   Vec3 light = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[static_cast<size_t>(slot)] / kPi;
   const Vec3 even = light;
+  const float left = rayShare(path, hit, slot, p, n, luminance(even));
   if (!field_.sunLux.empty() && field_.sunLux[static_cast<size_t>(slot)] > 0) light = max(Vec3(0), light + sunward(path, hit, slot));
-  float left = 1;
-  if (path.pdf > 0 && !field_.glow.empty()) {
-    const float share = field_.glowShare[static_cast<size_t>(slot)];
-    if (share > 0) left = 1 - share * (1 - field_.glow.coneShare(share * luminance(light), length(p - path.from), -dot(n, path.ray.direction), path.pdf));
-  }
   const Vec3 bent = light;
-  light *= left;
+  light = even * left + (light - even);
   const Lobes added = w.add(path.estimate, path.factor, light, {});
   if (!w.layers || isBlack(added.diffuse + added.specular)) return;
   // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
   const Vec3 ofEven = even / max(bent, Vec3(1e-20f)), ofSun = Vec3(1) - ofEven;
   w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven}, LightOrigin::ofSlot(slot, 1 - left));
   if (!isBlack(ofSun)) w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun}, LightOrigin::ofLayer(field_.layers.lights->sun));
+}
+
+// The part of a slot's light that a ray takes which finds it; points of bright patches take the rest.
+float RayShader::rayShare(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, float light) const {
+  if (!(path.pdf > 0) || !patches_.holds(slot)) return 1;
+  const auto s = static_cast<size_t>(slot);
+  const float all = luminance(field_.irradianceLux[s]);
+  const bool near = hit.t < settings_.nearVoxels * voxels_.voxelSizeM;
+  const float sun = near || field_.sunPoints.empty() || !field_.layers.empty() || field_.sunLux.empty() ? 0 : field_.sunLux[s] / std::max(all, 1e-30f);
+  const float share = std::min(1.0f, sun + (field_.glowShare.empty() ? 0 : field_.glowShare[s]));
+  if (!(share > 0)) return 1;
+  return 1 - share * (1 - patches_.rayShare(slot, share * light, length(p - path.from), -dot(n, path.ray.direction), path.side, path.pdf));
 }
 
 // Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its

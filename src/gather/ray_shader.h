@@ -34,6 +34,7 @@ class RayShader final : public SurfaceShader {
   void goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const;
   void read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const;
   Vec3 sunward(const GatherPath& path, const Hit& hit, int64_t slot) const;
+  float rayShare(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, float light) const;
   void addBackground(const GatherPath& path, GatherWork& w) const;
   void traceShadows(GatherWork& w) const;
   void resolveUnsure(GatherWork& w) const;
@@ -49,6 +50,7 @@ class RayShader final : public SurfaceShader {
   const Voxels& voxels_;
   const RadianceField& field_;
   const SlotCache cache_;
+  const BrightPatches patches_;
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
   const RayScatter scatter_;

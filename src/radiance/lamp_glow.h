@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/sampler.h"
@@ -36,6 +37,7 @@ class LampGlow {
   LampGlow(std::vector<GlowPoint> points, float voxelSizeM);
 
   bool empty() const { return points_.empty(); }
+  std::span<const GlowPoint> points() const { return points_; }
   const GlowPoint& point(size_t index) const { return points_[index]; }
 
   // One point, chosen by what it could give without shadows to a surface at p with normal n, of what diffuse cones leave to points.

@@ -6,7 +6,9 @@
 #include "base/parallel.h"
 #include "radiance/cone_bounces.h"
 #include "radiance/direct_light.h"
+#include "radiance/hidden_light.h"
 #include "radiance/pyramid.h"
+#include "radiance/sun_bounce.h"
 #include "trace/lamp_light.h"
 
 namespace roomlight {
@@ -126,6 +128,7 @@ void LightCache::traceAllLinks(const Sources& from) {
   SkyGuideBuilder guide(from.voxels, from.lights.sky());
   if (from.progress.stop()) return;
   links_ = planLinks(from.voxels, paths_, settings_.links);
+  if (settings_.still && !settings_.layers) links_.hidden.resize(from.voxels.bricks.size());
   Steps steps(from.progress, 0, 0.5f, from.voxels.bricks.size());
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
@@ -156,6 +159,13 @@ void LightCache::traceDaylight(const Sources& from) {
   suns_ = sky_ = {};
   skyWays_.clear();
   if (from.lights.sunCount() > 0) suns_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
+  field_.sunPoints.clear();
+  if (settings_.still && !settings_.layers && !suns_.empty() && !from.progress.stop()) {
+    std::vector<Vec3> sun(from.voxels.slots.size());
+    suns_.addTo(from.voxels, Vec3(1), sun);
+    field_.sunPoints = sunPlaces(from.rays, from.lights, from.voxels, paths_, links_, settings_.seed, sun, field_.rays);
+    suns_ = SlotLight(from.voxels, sun);
+  }
   if (from.lights.sky().present()) {
     skyWays_.resize(from.voxels.slots.size());
     sky_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.sky(field_.guide, b, {}, skyWays_, lux); });
@@ -259,6 +269,12 @@ std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   for (const LampLight& l : lamps_) {
     if (!isBlack(l.lamp.intensityCd)) l.direct.addTo(voxels, l.lamp.intensityCd, direct_);
   }
+  holdSun(from);
+  if (!links_.hidden.empty()) {
+    std::vector<Vec3> hidden = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, settings_.seed, field_.rays);
+    smooth(links_, hidden);
+    for (size_t i = 0; i < hidden.size(); ++i) direct_[i] += hidden[i];
+  }
   std::vector<Vec3> near, far;
   for (const LitParticles& p : litParticles()) {
     near.resize(voxels.slots.size()), far.resize(voxels.slots.size());
@@ -268,6 +284,28 @@ std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   smooth(links_, far);
   for (size_t i = 0; i < far.size(); ++i) direct_[i] += far[i];
   return near;
+}
+
+// What the sun lights sends its light on by place: links start from what arrives.
+void LightCache::holdSun(const Sources& from) {
+  sunHeld_.clear();
+  if (field_.sunPoints.empty() || from.progress.stop()) return;
+  const Voxels& voxels = from.voxels;
+  std::vector<Vec3> sun(voxels.slots.size());
+  suns_.addTo(voxels, Vec3(1), sun);
+  const BrightPatches patches(from.rays, voxels, field_.sunPoints, 0, settings_.seed);
+  if (patches.empty()) return;
+  std::vector<Vec3> reflected(sun.size());
+  parallelFor(sun.size(), 8192, [&](size_t i) {
+    if (!patches.holds(static_cast<int64_t>(i))) sun[i] = {};
+    reflected[i] = voxels.slots[i].albedo * sun[i];
+  });
+  std::vector<Vec3> arrives = lightFrom(patches, from.rays, voxels, paths_, links_, reflected, settings_.seed, field_.rays);
+  smooth(links_, arrives);
+  parallelFor(sun.size(), 8192, [&](size_t i) {
+    direct_[i] = max(Vec3(0), direct_[i] - sun[i]) + arrives[i];
+  });
+  sunHeld_ = std::move(sun);
 }
 
 void LightCache::bounceOn(const Sources& from, int mostBounces, std::vector<Vec3>& near) {
@@ -289,7 +327,7 @@ void LightCache::fillField(const Sources& from, std::vector<Vec3>& near) {
   field_.irradianceLux.resize(voxels.slots.size());
   field_.glowShare.resize(near.size());
   parallelFor(voxels.slots.size(), 8192, [&](size_t i) {
-    const Vec3 e = direct_[i] + shared[i];
+    const Vec3 e = direct_[i] + shared[i] + (sunHeld_.empty() ? Vec3() : sunHeld_[i]);
     field_.irradianceLux[i] = e;
     if (settings_.pyramid) radiance[i] = voxels.slots[i].albedo * e / kPi;
     if (near.empty()) return;

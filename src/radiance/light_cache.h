@@ -114,6 +114,7 @@ class LightCache {
   void matchEmitters(const Sources& from);
   void matchLamps(const Sources& from);
   void solve(const Sources& from, int mostBounces);
+  void holdSun(const Sources& from);
   std::vector<Vec3> sumDirect(const Sources& from);
   void bounceOn(const Sources& from, int mostBounces, std::vector<Vec3>& near);
   int bouncesOfUpdate();
@@ -133,6 +134,7 @@ class LightCache {
   SkyWays skyWays_;  // empty: no sky
   std::vector<EmitterLight> emitters_;
   std::vector<LampLight> lamps_;
+  std::vector<Vec3> sunHeld_;            // straight from the sun, lx per slot, of slots whose reflection is sampled by place; not in direct_, for that has been passed on
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
   int mostAtOnce_ = 0;  // bounces, the last time
   bool settled_ = true;

@@ -93,6 +93,7 @@ Sampler wayOf(const SlotPaths& paths, LinkOf link, uint64_t seed) { return {path
 size_t Links::bytes() const {
   size_t sum = (first.size() + links.size()) * sizeof(uint32_t) + kin.size() * sizeof(Kin) + detours.size() * sizeof(detours[0]);
   for (const auto& d : detours) sum += d.capacity() * sizeof(Detour);
+  for (const auto& h : hidden) sum += h.capacity() * sizeof(HiddenPlace);
   return sum;
 }
 
@@ -180,6 +181,9 @@ void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std:
   std::vector<Arrival> ends;
   std::vector<HiddenReflection> hidden;
   paths.follow(rays, samplers, ends, &hidden);
+  if (!links.hidden.empty()) {
+    for (const HiddenReflection& h : hidden) links.hidden[brick].push_back({wanted[order[h.ray]].slot, h.p, h.n, h.left});
+  }
   noteDetours(voxels, brick, wanted, order, rays, ends, hidden, links.detours[brick]);
   for (size_t k = 0; k < ends.size(); ++k) {
     const Arrival& end = ends[k];

@@ -45,11 +45,18 @@ struct Detour {
   Bounds3 within;
 };
 
+// A surface on the way of a link that no slot stands for.
+struct HiddenPlace {
+  uint32_t slot;    // that the link belongs to
+  Vec3 p, n, left;  // left: share of what falls on it that goes along the link
+};
+
 struct Links {
   std::vector<uint32_t> first;  // per slot, and the end: where its links begin
   std::vector<Link> links;
   std::vector<Kin> kin;         // per slot
   std::vector<std::vector<Detour>> detours;  // per brick, in order of slots and links
+  std::vector<std::vector<HiddenPlace>> hidden;  // per brick, where they are kept
   size_t bytes() const;
   size_t count(size_t slot) const { return first[slot + 1] - first[slot]; }
 };

@@ -35,6 +35,8 @@ struct RadianceSettings {
   int maxBounces = 100;
   int bouncesAtOnce = 0;   // of an update: what is missing then follows with the next; 0: no limit
   bool emittersApart = false;  // emissive meshes one by one (up to 48), so that one can be dimmed or moved alone; more rays at first
+  bool still = false;      // for pictures of a scene that stays as it is: what the sun lights is kept as points, from which slots and pictures sample it, and places that no
+                           // slot stands for are lit as well; an update would do both anew
   bool pyramid = true;     // directional levels for cones; without them only what slots receive is known
   uint64_t seed = 0;
   std::shared_ptr<const LightLayers> layers;  // lights that are told apart; none: they are not
@@ -115,6 +117,7 @@ struct RadianceField {
   std::vector<float> sunLux;     // per slot: luminous irradiance straight from the sun, where there is one alone; else empty
   SkyGuide guide;
   LampGlow glow;
+  std::vector<GlowPoint> sunPoints;  // where the sun lights surfaces; empty unless asked for
   std::vector<float> glowShare;  // per slot: of the luminous irradiance whose reflection is glow; empty: none
   SlotLayers layers;
   int bounces = 0;               // done

@@ -14,7 +14,7 @@
 namespace roomlight::test {
 namespace {
 
-constexpr int kSamples = 128;
+constexpr int kSamples = 288;
 constexpr double kFalseAlarm = 1e-6;  // over all scenes, blocks and channels
 
 double limit() { return threshold(kFalseAlarm, goldenScenes().size() * 3 * (kGoldenWidth / kBlock * kGoldenHeight / kBlock + 1)); }
@@ -75,17 +75,23 @@ Errors errorsOf(const std::vector<Block>& golden, const Image& image) {
   return e;
 }
 
-TEST_P(Golden, coneAgreesWithinTolerance) {
+// The mean of four pictures: one alone is off by 3 to 5 % in blocks by chance.
+TEST_P(Golden, hybridAgreesWithinTolerance) {
+  constexpr int kPictures = 4;
   RenderSettings settings;
   settings.width = kGoldenWidth, settings.height = kGoldenHeight;
-  const Result<Rendered> r = render(g_.scene, g_.camera, settings);
-  ASSERT_TRUE(r.ok()) << r.error();
-  const Errors e = errorsOf(golden_, r.value().image);
+  Image mean(kGoldenWidth, kGoldenHeight);
+  for (; settings.seed < kPictures; ++settings.seed) {
+    const Result<Rendered> r = render(g_.scene, g_.camera, settings);
+    ASSERT_TRUE(r.ok()) << r.error();
+    for (size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] += r.value().image.pixels[i] / kPictures;
+  }
+  const Errors e = errorsOf(golden_, mean);
   const std::string figures = fmt::format("mean {:.2f} rms {:.2f} worst {:.2f} %", e.meanPercent, e.rmsPercent, e.worstPercent);
-  EXPECT_LT(std::abs(e.meanPercent), 3) << figures;
-  EXPECT_LT(e.rmsPercent, 5) << figures;
-  EXPECT_LT(e.worstPercent, 20) << figures;
-  if (HasFailure()) keepPicture(fmt::format("golden_{}_cone", g_.name), r.value().image, golden_);
+  EXPECT_LT(std::abs(e.meanPercent), 1.5) << figures;
+  EXPECT_LT(e.rmsPercent, 4) << figures;
+  EXPECT_LT(e.worstPercent, 15) << figures;
+  if (HasFailure()) keepPicture(fmt::format("golden_{}_hybrid", g_.name), mean, golden_);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, Golden, testing::Values(0, 1, 2), [](const auto& room) { return goldenScenes()[static_cast<size_t>(room.param)].name; });

@@ -80,12 +80,18 @@ TEST_F(Daylight, skiesHideAsMuchOfTheSunAsTheirCover) {
   for (const char* sky : {"1", "2", "5", "16", "\"overcast\""}) EXPECT_EQ(sunOf(sky), 0) << sky;
 }
 
-TEST_F(Daylight, nightIsDark) {
-  ASSERT_TRUE(apply(R"({"daylight": {"sky": "clear", "latitude": 48, "longitude": 11, "time": "2026-04-10T23:30+02:00"}})"));
-  EXPECT_TRUE(scene_.suns.empty());
-  EXPECT_FALSE(scene_.sky.present());
-  ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("below the horizon"), std::string::npos);
+// Twilight by Seidelmann's table (cie_sky.h); later the light of a night with some moon.
+TEST_F(Daylight, nightFallsAfterSunset) {
+  const auto skyAt = [&](const std::string& time) {
+    EXPECT_TRUE(apply(R"({"daylight": {"sky": "clear", "latitude": 48, "longitude": 11, "time": "2026-04-10T)" + time + R"(+02:00"}})")) << time;
+    EXPECT_TRUE(scene_.suns.empty()) << time;
+    EXPECT_TRUE(warnings_.empty()) << time;
+    return skyLux();
+  };
+  const double dusk = skyAt("20:20"), later = skyAt("20:40"), night = skyAt("23:30");
+  EXPECT_GT(dusk, 4 * later);
+  EXPECT_GT(later, 4 * night);
+  EXPECT_NEAR(night, kNightLux, 0.01 * kNightLux);
 }
 
 TEST_F(Daylight, theAllWeatherSkyHasTheLightThatWasMeasured) {

@@ -1,0 +1,42 @@
+#include "gather/fragments.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomlight {
+
+// Whether light on two surfaces may be filtered together, as the filter has it.
+bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition) {
+  constexpr float kFacing = 0.6f, kToleranceM = 0.02f, kSlope = 0.5f;
+  if (!(length(normal) > 0) || !(length(otherNormal) > 0)) return false;
+  const Vec3 n = normalize(normal), m = normalize(otherNormal), between = otherPosition - position;
+  const float off = std::max(std::abs(dot(n, between)), std::abs(dot(m, between))), along = std::sqrt(std::max(0.0f, lengthSquared(between) - off * off));
+  return dot(n, m) > kFacing && off < kToleranceM + kSlope * along;
+}
+
+void addFragments(const Fragments& fragments, const FilterInput& means, const std::vector<PixelCount>& counts, std::span<const Vec3> irradiance, Image& image) {
+  constexpr int kReach = 2;
+  for (const Fragment& f : fragments) {
+    const int x = static_cast<int>(f.pixel) % means.width, y = static_cast<int>(f.pixel) / means.width;
+    const Vec3 place = f.position / f.surface;
+    Vec3 sum;
+    float count = 0, brightest = 0;
+    for (int j = std::max(0, y - kReach); j <= std::min(means.height - 1, y + kReach); ++j) {
+      for (int i = std::max(0, x - kReach); i <= std::min(means.width - 1, x + kReach); ++i) {
+        const size_t other = static_cast<size_t>(j) * static_cast<size_t>(means.width) + static_cast<size_t>(i);
+        const FilterPixel& o = means.pixels[other];
+        if (o.surface > 0) brightest = std::max(brightest, luminance(irradiance[other]));
+        if (other == f.pixel || o.surface <= 0 || !onOneSheet(f.normal, place, o.normal, o.position)) continue;
+        const float weight = o.surface / static_cast<float>((i - x) * (i - x) + (j - y) * (j - y));
+        sum += irradiance[other] * weight, count += weight;
+      }
+    }
+    // What is seen in one pixel alone is known by a few rays: no brighter than what is around it.
+    Vec3 own = f.diffuse / max(f.albedo, Vec3(1e-3f));
+    own *= std::min(1.0f, brightest / std::max(luminance(own), 1e-20f));
+    const float inverse = 1 / static_cast<float>(std::max(1u, counts[f.pixel].rays));
+    image.pixels[f.pixel] += (count > 0 ? sum / count : own) * max(f.albedo, Vec3(0)) * inverse;
+  }
+}
+
+}  // namespace roomlight

@@ -1,0 +1,78 @@
+// What shines by reflection alone, small and bright: what lamps light beside them, and what the sun lights. Such light is sampled by place, since rays that gather seldom find it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "radiance/lamp_glow.h"
+#include "trace/ray_scene.h"
+#include "voxel/voxels.h"
+
+namespace roomlight {
+
+// Points of one brick's surfaces that face alike make a patch. Rays that each patch sends out tell how much of its light arrives in every brick of voxels; a place samples its brick's
+// patches by that. Rays that gather find the same light: both share it by multiple importance sampling (Veach 1997, power heuristic).
+class BrightPatches {
+ public:
+  BrightPatches() = default;
+  // `points`: of lamps' glow, and of slots that the sun lights (neither lamp nor emitter). `farM`: nearer than that gathering rays alone find what the sun lights.
+  BrightPatches(const RayScene& rays, const Voxels& voxels, std::span<const GlowPoint> points, float farM, uint64_t seed);
+
+  bool empty() const { return points_.empty(); }
+  const GlowPoint& point(size_t index) const { return points_[index]; }
+  static bool isSun(const GlowPoint& g) { return g.lamp < 0 && g.emitter < 0; }
+
+  // The side of a brick that knows what a place sees; -1: none.
+  int32_t sideAt(Vec3 p, Vec3 n) const;
+  // One point for a surface at p; `pdf` is 0 and `radiance` what arrives if nothing is in the way, divided by the density of its choice. Not shared yet.
+  GlowSample sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler) const;
+  // The part that points take of the light from one of them to p, whose side that is, where rays find it with a density per steradian.
+  float pointShare(size_t point, Vec3 p, int32_t side, float rayPdf) const;
+  // The part of what a slot reflects of `radianceCdM2` that rays take who find it so.
+  float rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side, float rayPdf) const;
+  bool holds(int64_t slot) const { return !patchOfSlot_.empty() && patchOfSlot_[static_cast<size_t>(slot)] >= 0; }
+  static constexpr size_t kSides = 6;
+  static int32_t sideOf(size_t brick, int face) { return static_cast<int32_t>(kSides * brick) + face; }
+  // Whether any patch lights a side but by chance.
+  bool reaches(int32_t side) const { return seenFrom(side) != nullptr; }
+  size_t bytes() const;
+
+ private:
+  static constexpr size_t kSeen = 24;
+  struct Patch {
+    uint32_t first, count;  // points
+    float fluxLm;
+  };
+  struct Seen {
+    uint32_t count = 0;
+    std::array<uint32_t, kSeen> patch;
+    std::array<float, kSeen> upTo;  // of chances; the last is 1
+    float chance(uint32_t p) const {
+      for (uint32_t i = 0; i < count; ++i) {
+        if (patch[i] == p) return upTo[i] - (i > 0 ? upTo[i - 1] : 0);
+      }
+      return 0;
+    }
+  };
+  const Seen* seenFrom(int32_t side) const { return side < 0 || seenOfSide_[static_cast<size_t>(side)] < 0 ? nullptr : &seen_[static_cast<size_t>(seenOfSide_[static_cast<size_t>(side)])]; }
+  void gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points);
+  std::vector<std::pair<uint32_t, uint32_t>> lights(const RayScene& rays, uint32_t patch, uint64_t seed) const;
+  void learn(const RayScene& rays, uint64_t seed);
+  uint32_t patchFor(int32_t side, float u) const;
+  float chanceOf(uint32_t patch, int32_t side) const;
+  float pointsDensity(uint32_t patch, float radianceCdM2, float distance, float cosLight, int32_t side) const;
+
+  const Voxels* voxels_ = nullptr;
+  std::vector<GlowPoint> points_;  // by patch
+  std::vector<uint32_t> patchOfPoint_;
+  std::vector<int32_t> patchOfSlot_;
+  std::vector<Patch> patches_;
+  std::vector<float> upTo_;  // of flux, all patches
+  std::vector<int32_t> seenOfSide_;  // of each brick's sides; -1: none but by chance
+  std::vector<Seen> seen_;
+  float farM_ = 0;
+};
+
+}  // namespace roomlight

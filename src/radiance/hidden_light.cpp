@@ -1,0 +1,75 @@
+#include "radiance/hidden_light.h"
+
+#include <atomic>
+
+#include "base/parallel.h"
+#include "radiance/surroundings.h"
+#include "trace/shadow_ray.h"
+
+namespace roomlight {
+namespace {
+
+class HiddenLight {
+ public:
+  HiddenLight(const Lights& lights, const Voxels& voxels, const SkyGuide& guide) : lights_(lights), voxels_(voxels), guide_(guide), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
+    for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
+  }
+
+  // Hands on a sample of each kind of light at a place.
+  template <class Take>
+  void at(const HiddenPlace& h, Sampler& sampler, const Take& take) const {
+    if (lights_.lampCount() > 0) {
+      const LightSample lamp = lights_.sampleLamps(h.p, sampler);
+      if (lamp.valid() && !besideLamps_[static_cast<size_t>(lamp.lamp)].contains(h.p)) take(lamp);
+    }
+    for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
+    if (lights_.hasEmitters()) {
+      const Vec2 u = sampler.next2();
+      const LightSample emitter = lights_.sampleEmitters(h.p, u, sampler.next1());
+      if (emitter.valid() && !besideEmitters_[static_cast<size_t>(emitter.emitter)].contains(h.p)) take(emitter);
+    }
+    if (lights_.sky().present()) {
+      const Vec2 u = sampler.next2();
+      take(sampleSkyGuided(guide_, guideAt(guide_, voxels_, h.p, h.n), lights_, u, sampler.next1()));
+    }
+  }
+
+ private:
+  const Lights& lights_;
+  const Voxels& voxels_;
+  const SkyGuide& guide_;
+  std::vector<LightSurroundings> besideLamps_;
+  const std::vector<LightSurroundings> besideEmitters_;
+};
+
+}  // namespace
+
+std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, uint64_t seed, uint64_t& rayCount) {
+  std::vector<Vec3> lux(voxels.slots.size());
+  if (links.hidden.empty()) return lux;
+  const HiddenLight hidden(lights, voxels, guide);
+  std::atomic<uint64_t> count = 0;
+  parallelFor(links.hidden.size(), 4, [&](size_t b) {
+    std::vector<Ray> asked;
+    std::vector<std::pair<uint32_t, Vec3>> of;
+    uint32_t number = 0;
+    for (const HiddenPlace& h : links.hidden[b]) {
+      Sampler sampler(paths.key(h.slot), number++, seed + 14);
+      const float perLink = 1 / static_cast<float>(links.count(h.slot));
+      hidden.at(h, sampler, [&](const LightSample& light) {
+        const float cosine = dot(light.wi, h.n);
+        if (!light.valid() || cosine <= 0) return;
+        asked.push_back(shadowRay(offsetOrigin(h.p, h.n), h.p, light));
+        of.emplace_back(h.slot, h.left * light.radiance * (cosine * perLink));
+      });
+    }
+    std::vector<Vec3> left(asked.size());
+    rays.transmittance(asked, left);
+    for (size_t i = 0; i < asked.size(); ++i) lux[of[i].first] += of[i].second * left[i];
+    count += asked.size();
+  });
+  rayCount += count;
+  return lux;
+}
+
+}  // namespace roomlight

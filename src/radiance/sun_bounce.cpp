@@ -1,0 +1,138 @@
+#include "radiance/sun_bounce.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "base/parallel.h"
+#include "trace/shadow_ray.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kSmallest = 0.1f;  // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
+constexpr uint32_t kSide = 4, kPlaces = kSide * kSide;  // where the sun is looked for on a slot
+constexpr uint32_t kSamples = 12, kFewSamples = 2;  // of a slot; where its brick sees no patch but by chance
+
+}  // namespace
+
+float litArea(const FaceSlot& slot, float h) { return std::clamp(slot.areaM2, kSmallest * h * h, h * h / std::max(0.577f, maxComponent(abs(slot.normal)))); }
+
+namespace {
+
+// The k-th of kPlaces places of a sheet that fills its voxel, clear of its surface.
+Vec3 placeOn(const Voxels& voxels, const FaceSlot& slot, uint32_t k, Vec2 jitter) {
+  const float h = voxels.voxelSizeM;
+  const int axis = slot.face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const Vec3 corner = (slot.position - voxels.origin) / h;
+  Vec3 p = slot.position;
+  p[u] = voxels.origin[u] + h * (std::floor(corner[u]) + (static_cast<float>(k % kSide) + jitter.x) / kSide);
+  p[v] = voxels.origin[v] + h * (std::floor(corner[v]) + (static_cast<float>(k / kSide) + jitter.y) / kSide);
+  p[axis] -= ((p[u] - slot.position[u]) * slot.normal[u] + (p[v] - slot.position[v]) * slot.normal[v]) / slot.normal[axis];
+  return offsetOrigin(p, slot.normal) + slot.normal * (0.01f * h);
+}
+
+bool fills(const FaceSlot& slot, float h) { return slot.areaM2 > 0.9f * h * h && std::abs(slot.normal[slot.face / 2]) > 0.9f; }
+
+}  // namespace
+
+std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux, uint64_t& rayCount) {
+  std::vector<uint8_t> asked(voxels.slots.size());
+  parallelFor(asked.size(), 8192, [&](size_t s) {
+    const auto& kin = links.kin[s];
+    asked[s] = paths.isSheet(s) && fills(voxels.slots[s], voxels.voxelSizeM) && (!isBlack(sunLux[s]) || std::any_of(kin.begin(), kin.end(), [&](uint32_t o) { return !isBlack(sunLux[o]); }));
+  });
+  std::vector<std::vector<GlowPoint>> ofBrick(voxels.bricks.size());
+  std::atomic<uint64_t> count = 0;
+  std::vector<Vec3> finer(sunLux.begin(), sunLux.end());
+  parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
+    const auto [first, last] = slotsOfBrick(voxels, b);
+    std::vector<Ray> way;
+    std::vector<Vec3> lux, left;
+    for (size_t s = first; s < last; ++s) {
+      const FaceSlot& slot = voxels.slots[s];
+      if (!asked[s]) {
+        // Among other things in its voxel rays do not always read the slot.
+        if (!paths.isSheet(s) || isBlack(sunLux[s])) continue;
+        const Vec3 radiance = slot.albedo * sunLux[s] / kPi, flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
+        for (uint32_t k = 0; k < SlotPaths::kPoints; ++k) ofBrick[b].push_back({paths.point(s, k), slot.normal, flux, static_cast<int64_t>(s), luminance(radiance)});
+        continue;
+      }
+      way.clear(), lux.clear();
+      for (uint32_t k = 0; k < kPlaces; ++k) {
+        Sampler sampler(paths.key(s), k, seed + 15);
+        const Vec2 jitter = sampler.next2();
+        const size_t sun = lights.sunCount() == 1 ? 0 : std::min(lights.sunCount() - 1, static_cast<size_t>(sampler.next1() * static_cast<float>(lights.sunCount())));
+        const LightSample light = lights.sampleSun(sun, sampler.next2());
+        const Vec3 p = placeOn(voxels, slot, k, jitter);
+        way.push_back(shadowRay(p, p, light));
+        lux.push_back(light.radiance * (std::max(0.0f, dot(light.wi, slot.normal)) * static_cast<float>(lights.sunCount())));
+      }
+      left.resize(way.size());
+      rays.transmittance(way, left);
+      count += way.size();
+      Vec3 mean;
+      for (uint32_t k = 0; k < kPlaces; ++k) mean += (lux[k] *= left[k]) / kPlaces;
+      finer[s] = mean;
+      const auto lit = std::count_if(lux.begin(), lux.end(), [](Vec3 v) { return !isBlack(v); });
+      const uint32_t step = lit == kPlaces ? kPlaces / SlotPaths::kPoints + 1 : 1;  // of one that is lit all over a few will do: 0, 5, 10 and 15 lie on a diagonal
+      const float radiance = luminance(slot.albedo * mean) / kPi;
+      for (uint32_t k = 0; k < kPlaces; k += step) {
+        const Vec3 flux = slot.albedo * (step > 1 ? mean * (kPlaces / static_cast<float>(SlotPaths::kPoints)) : lux[k]) * (slot.areaM2 / kPlaces);
+        if (!isBlack(flux)) ofBrick[b].push_back({way[k].origin, slot.normal, flux, static_cast<int64_t>(s), radiance});
+      }
+    }
+  });
+  std::copy(finer.begin(), finer.end(), sunLux.begin());
+  std::vector<GlowPoint> all;
+  for (const auto& of : ofBrick) all.insert(all.end(), of.begin(), of.end());
+  rayCount += count;
+  return all;
+}
+
+std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Links& links, std::span<const Vec3> reflectedLx, uint64_t seed, uint64_t& rayCount) {
+  std::vector<Vec3> lux(voxels.slots.size());
+  std::atomic<uint64_t> count = 0;
+  parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
+    const auto [first, last] = slotsOfBrick(voxels, b);
+    const auto sideOf = [&](size_t s) { return BrightPatches::sideOf(b, voxels.slots[s].face); };
+    const auto samplesOf = [&](size_t s) { return patches.reaches(sideOf(s)) ? kSamples : kFewSamples; };
+    // What links take of the light from slot j to slot s.
+    const auto linkShare = [&](size_t s, size_t j) {
+      const FaceSlot &to = voxels.slots[s], &from = voxels.slots[j];
+      const Vec3 way = from.position - to.position;
+      const float distance = std::max(length(way), 1e-6f), cosine = std::max(0.0f, dot(way, to.normal)) / distance, cosLight = -dot(way, from.normal) / distance;
+      const float perSample = static_cast<float>(links.count(s)) / static_cast<float>(samplesOf(s));
+      return patches.rayShare(static_cast<int64_t>(j), luminance(reflectedLx[j]) / kPi, distance, cosLight, sideOf(s), perSample * cosine / kPi);
+    };
+    std::vector<Ray> asked;
+    std::vector<std::pair<size_t, Vec3>> of;
+    for (size_t s = first; s < last; ++s) {
+      const uint32_t samples = samplesOf(s);
+      for (uint32_t k = 0; k < samples; ++k) {
+        const Vec3 p = paths.point(s, k + paths.key(s)), n = voxels.slots[s].normal;
+        Sampler sampler(paths.key(s), k, seed + 12);
+        const GlowSample g = patches.sample(p, n, sideOf(s), sampler);
+        if (!g.light.valid()) continue;
+        const float share = 1 - linkShare(s, static_cast<size_t>(patches.point(g.point).slot));
+        asked.push_back(shadowRay(p, p, g.light));
+        of.emplace_back(s, g.light.radiance * (share * dot(g.light.wi, n) / static_cast<float>(samples)));
+      }
+    }
+    for (size_t s = first; s < last; ++s) {
+      const auto own = std::span(links.links).subspan(links.first[s], links.count(s));
+      for (const Link& link : own) {
+        const size_t j = link.slot();
+        if (link.isDark() || !patches.holds(static_cast<int64_t>(j))) continue;
+        lux[s] += reflectedLx[j] * (link.left() * Link::kUnit * (link.isBent() ? 1 : linkShare(s, j)) / static_cast<float>(own.size()));
+      }
+    }
+    std::vector<Vec3> left(asked.size());
+    rays.transmittance(asked, left);
+    for (size_t i = 0; i < asked.size(); ++i) lux[of[i].first] += of[i].second * left[i];
+    count += asked.size();
+  });
+  rayCount += count;
+  return lux;
+}
+
+}  // namespace roomlight

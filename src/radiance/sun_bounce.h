@@ -1,0 +1,21 @@
+// What the sun lights, as points, and the light that slots get from it straight: by place, where links would find such patches by chance only.
+#pragma once
+
+#include <vector>
+
+#include "radiance/bright_patches.h"
+#include "radiance/links.h"
+#include "radiance/slot_paths.h"
+
+namespace roomlight {
+
+// Places that the suns light, with the flux they reflect, Lambertian. `sunLux`: per slot, known by few rays; of flat surfaces that fill their voxel it becomes known by 16.
+std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux, uint64_t& rayCount);
+
+// lx per slot that arrives from the patches, whose slots reflect `reflectedLx`: by samples of them and along links, which share it by multiple importance sampling.
+std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Links& links, std::span<const Vec3> reflectedLx, uint64_t seed, uint64_t& rayCount);
+
+// Area of a slot that light falls on, m²: surfaces behind the foremost take none, and a flat one fills no more of a voxel than this.
+float litArea(const FaceSlot& slot, float voxelSizeM);
+
+}  // namespace roomlight

@@ -1,0 +1,97 @@
+// What is bright by reflection, sampled by place: against sums over all places, and light found by it against light found by chance.
+#include "radiance/bright_patches.h"
+
+#include <gtest/gtest.h>
+
+#include "radiance/light_cache.h"
+#include "support/rooms.h"
+#include "voxel/voxelise.h"
+
+namespace roomlight {
+namespace {
+
+// A room that is open towards +z, where the sun comes in and falls on floor and wall; a table stands in it.
+struct SunnyRoom {
+  Scene scene;
+  Voxels voxels;
+  SunnyRoom() {
+    const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+    test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
+    scene.meshes.pop_back(), scene.instances.pop_back();
+    test::addBox(scene, {2.5f, 0, 1}, {3.5f, 0.7f, 2.5f}, wood);
+    Sun sun;
+    sun.toLight = normalize(Vec3{0.4f, 1, 0.9f}), sun.illuminanceLux = Vec3(50'000), sun.halfAngleRad = 0.0046f;
+    scene.suns = {sun};
+    VoxelSettings settings;
+    settings.voxelSizeM = 0.1f;
+    voxels = voxelise(scene, settings).voxels;
+  }
+};
+
+RadianceField lit(const SunnyRoom& room, bool still, int links, uint64_t seed) {
+  RadianceSettings settings;
+  settings.pyramid = false, settings.still = still, settings.links = links, settings.seed = seed, settings.residual = 1e-4f;
+  const RayScene rays(room.scene);
+  return illuminate(rays, Lights(room.scene), room.voxels, settings);
+}
+
+double flux(const SunnyRoom& room, const RadianceField& field) {
+  double sum = 0;
+  for (size_t i = 0; i < field.irradianceLux.size(); ++i) sum += static_cast<double>((luminance(field.irradianceLux[i]) - field.sunLux[i]) * room.voxels.slots[i].areaM2);
+  return sum;
+}
+
+TEST(BrightPatches, samplesAverageToTheSumOverAllPoints) {
+  const SunnyRoom room;
+  const RayScene rays(room.scene);
+  const RadianceField field = lit(room, true, 8, 1);
+  ASSERT_FALSE(field.sunPoints.empty());
+  const BrightPatches patches(rays, room.voxels, field.sunPoints, 0, 1);
+  const Vec3 p{0.001f, 1.2f, 2}, n{1, 0, 0};
+  double all = 0;
+  for (const GlowPoint& g : field.sunPoints) {
+    const Vec3 d = g.p - p;
+    const float cosSurface = dot(d, n), cosLight = -dot(d, g.n);
+    if (cosSurface > 0 && cosLight > 0) all += static_cast<double>(luminance(g.fluxLm) * cosSurface * cosLight / (kPi * lengthSquared(d) * lengthSquared(d)));
+  }
+  double sum = 0;
+  constexpr uint32_t kCount = 40'000;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    Sampler sampler(7, i, 3);
+    const GlowSample g = patches.sample(p, n, patches.sideAt(p, n), sampler);
+    if (g.light.valid()) sum += static_cast<double>(luminance(g.light.radiance) * dot(g.light.wi, n));
+  }
+  ASSERT_GT(all, 0);
+  EXPECT_NEAR(sum / kCount / all, 1, 0.02);
+}
+
+TEST(BrightPatches, pointsAndRaysShareAllOfTheLight) {
+  const SunnyRoom room;
+  const RayScene rays(room.scene);
+  const RadianceField field = lit(room, true, 8, 1);
+  const BrightPatches patches(rays, room.voxels, field.sunPoints, 0.2f, 1);
+  const Vec3 p{0.001f, 1.2f, 2}, n{1, 0, 0};
+  const int32_t side = patches.sideAt(p, n);
+  for (size_t i = 0; i < field.sunPoints.size(); i += 7) {
+    const GlowPoint& g = patches.point(i);
+    const Vec3 d = p - g.p;
+    const float distance = length(d), cosLight = dot(d, g.n) / distance;
+    if (cosLight <= 0.01f) continue;
+    const float byPoints = patches.pointShare(i, p, side, 0.2f), byRays = patches.rayShare(g.slot, g.radianceCdM2, distance, cosLight, side, 0.2f);
+    if (distance < 0.2f) {
+      EXPECT_EQ(byPoints, 0);
+    } else {
+      EXPECT_NEAR(byPoints + byRays, 1, 1e-3f);
+    }
+  }
+}
+
+TEST(BrightPatches, lightByPlaceIsThatFoundByChance) {
+  const SunnyRoom room;
+  double byPlace = 0, byChance = 0;
+  for (const uint64_t seed : {1u, 2u, 3u, 4u}) byPlace += flux(room, lit(room, true, 16, seed)) / 4, byChance += flux(room, lit(room, false, 128, seed)) / 4;
+  EXPECT_NEAR(byPlace / byChance, 1, 0.02);
+}
+
+}  // namespace
+}  // namespace roomlight
