@@ -17,9 +17,16 @@ constexpr float kByFlux = 0.1f;         // of samples, among all patches: keeps 
 constexpr size_t kRays = 512;           // that a patch sends out
 constexpr float kBeside = 0.1f;         // of what lights a brick's neighbours
 constexpr int kMostPanes = 6;
-constexpr uint32_t kCandidates = 8;
+constexpr uint32_t kCandidates = 4;
 constexpr float kTries = 16;            // samples that a choice among candidates is worth
 constexpr float kNudge = 0.05f;         // voxels
+
+// Of a way with density a, beside one with density b.
+float powerHeuristic(float a, float b) {
+  if (!(a > 0)) return 0;
+  const float ratio = b / a;
+  return 1 / (1 + ratio * ratio);
+}
 
 struct PatchKey {
   int x, y, z, face;
@@ -164,10 +171,10 @@ int32_t BrightPatches::sideAt(Vec3 p, Vec3 n) const {
   return -1;
 }
 
+// 0 where no patch's rays arrive: rays that gather are left to find what little there is.
 float BrightPatches::chanceOf(uint32_t patch, int32_t side) const {
-  const float byFlux = upTo_[patch] - (patch > 0 ? upTo_[patch - 1] : 0);
   const Seen* seen = seenFrom(side);
-  return seen ? kByFlux * byFlux + (1 - kByFlux) * seen->chance(patch) : byFlux;
+  return seen ? kByFlux * (upTo_[patch] - (patch > 0 ? upTo_[patch - 1] : 0)) + (1 - kByFlux) * seen->chance(patch) : 0;
 }
 
 // Per steradian at the place that looks: a point is chosen within its patch by flux.
@@ -181,19 +188,19 @@ float BrightPatches::pointShare(size_t point, Vec3 p, int32_t side, float rayPdf
   const float distance = length(d);
   if (isSun(g) && distance < farM_) return 0;
   const float points = pointsDensity(patchOfPoint_[point], g.radianceCdM2, distance, dot(d, g.n) / std::max(distance, 1e-12f), side);
-  return points * points / std::max(points * points + rayPdf * rayPdf, 1e-30f);
+  return 1 - powerHeuristic(rayPdf, points);
 }
 
 float BrightPatches::rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side, float rayPdf) const {
   const float points = pointsDensity(static_cast<uint32_t>(patchOfSlot_[static_cast<size_t>(slot)]), radianceCdM2, distance, cosLight, side);
-  return rayPdf * rayPdf / std::max(points * points + rayPdf * rayPdf, 1e-30f);
+  return powerHeuristic(rayPdf, points);
 }
 
 // By a number from 0 to 1.
 uint32_t BrightPatches::patchFor(int32_t side, float u) const {
   const Seen* seen = seenFrom(side);
-  if (!seen || u < kByFlux) {
-    const float choice = seen ? u / kByFlux : u;
+  if (u < kByFlux) {
+    const float choice = u / kByFlux;
     return static_cast<uint32_t>(std::min<ptrdiff_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin(), static_cast<ptrdiff_t>(upTo_.size()) - 1));
   }
   const float choice = (u - kByFlux) / (1 - kByFlux);
@@ -208,6 +215,7 @@ GlowSample BrightPatches::sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler)
     uint32_t point;
     float gives, upTo;  // without shadows; of weights
   };
+  if (!reaches(side)) return {};
   std::array<Candidate, kCandidates> candidates;
   const float first = sampler.next1();
   float sum = 0;

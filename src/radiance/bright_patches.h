@@ -24,7 +24,7 @@ class BrightPatches {
   const GlowPoint& point(size_t index) const { return points_[index]; }
   static bool isSun(const GlowPoint& g) { return g.lamp < 0 && g.emitter < 0; }
 
-  // The side of a brick that knows what a place sees; -1: none.
+  // The side of a brick that knows what a place sees; -1: none. Where no patch is seen no point is sampled.
   int32_t sideAt(Vec3 p, Vec3 n) const;
   // One point for a surface at p; `pdf` is 0 and `radiance` what arrives if nothing is in the way, divided by the density of its choice. Not shared yet.
   GlowSample sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler) const;
@@ -35,7 +35,7 @@ class BrightPatches {
   bool holds(int64_t slot) const { return !patchOfSlot_.empty() && patchOfSlot_[static_cast<size_t>(slot)] >= 0; }
   static constexpr size_t kSides = 6;
   static int32_t sideOf(size_t brick, int face) { return static_cast<int32_t>(kSides * brick) + face; }
-  // Whether any patch lights a side but by chance.
+  // Whether any patch is known to light a side.
   bool reaches(int32_t side) const { return seenFrom(side) != nullptr; }
   size_t bytes() const;
 
@@ -70,7 +70,7 @@ class BrightPatches {
   std::vector<int32_t> patchOfSlot_;
   std::vector<Patch> patches_;
   std::vector<float> upTo_;  // of flux, all patches
-  std::vector<int32_t> seenOfSide_;  // of each brick's sides; -1: none but by chance
+  std::vector<int32_t> seenOfSide_;  // of each brick's sides; -1: no patch
   std::vector<Seen> seen_;
   float farM_ = 0;
 };

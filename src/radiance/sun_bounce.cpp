@@ -11,7 +11,9 @@ namespace {
 
 constexpr float kSmallest = 0.1f;  // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr uint32_t kSide = 4, kPlaces = kSide * kSide;  // where the sun is looked for on a slot
-constexpr uint32_t kSamples = 12, kFewSamples = 2;  // of a slot; where its brick sees no patch but by chance
+constexpr uint32_t kDiagonal = kSide + 1;  // from one of SlotPaths::kPoints places to the next
+constexpr float kEven = 0.02f;
+constexpr uint32_t kSamples = 12;  // of a slot
 
 }  // namespace
 
@@ -36,10 +38,18 @@ bool fills(const FaceSlot& slot, float h) { return slot.areaM2 > 0.9f * h * h &&
 }  // namespace
 
 std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux, uint64_t& rayCount) {
-  std::vector<uint8_t> asked(voxels.slots.size());
-  parallelFor(asked.size(), 8192, [&](size_t s) {
-    const auto& kin = links.kin[s];
-    asked[s] = paths.isSheet(s) && fills(voxels.slots[s], voxels.voxelSizeM) && (!isBlack(sunLux[s]) || std::any_of(kin.begin(), kin.end(), [&](uint32_t o) { return !isBlack(sunLux[o]); }));
+  // How many places of each slot are asked: few amid others that are lit all over, none where no sun is near.
+  std::vector<uint8_t> places(voxels.slots.size());
+  parallelFor(places.size(), 8192, [&](size_t s) {
+    if (!paths.isSheet(s) || !fills(voxels.slots[s], voxels.voxelSizeM)) return;
+    const float own = luminance(sunLux[s]);
+    bool any = own > 0, even = own > 0;
+    for (const uint32_t o : links.kin[s]) {
+      const float other = luminance(sunLux[o]);
+      any = any || other > 0, even = even && std::abs(other - own) < kEven * own;
+    }
+    places[s] = even ? SlotPaths::kPoints : any ? kPlaces
+                                                : 0;
   });
   std::vector<std::vector<GlowPoint>> ofBrick(voxels.bricks.size());
   std::atomic<uint64_t> count = 0;
@@ -50,7 +60,7 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
     std::vector<Vec3> lux, left;
     for (size_t s = first; s < last; ++s) {
       const FaceSlot& slot = voxels.slots[s];
-      if (!asked[s]) {
+      if (places[s] == 0) {
         // Among other things in its voxel rays do not always read the slot.
         if (!paths.isSheet(s) || isBlack(sunLux[s])) continue;
         const Vec3 radiance = slot.albedo * sunLux[s] / kPi, flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
@@ -58,7 +68,8 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
         continue;
       }
       way.clear(), lux.clear();
-      for (uint32_t k = 0; k < kPlaces; ++k) {
+      for (uint32_t i = 0; i < places[s]; ++i) {
+        const uint32_t k = places[s] < kPlaces ? kDiagonal * i : i;
         Sampler sampler(paths.key(s), k, seed + 15);
         const Vec2 jitter = sampler.next2();
         const size_t sun = lights.sunCount() == 1 ? 0 : std::min(lights.sunCount() - 1, static_cast<size_t>(sampler.next1() * static_cast<float>(lights.sunCount())));
@@ -71,14 +82,14 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
       rays.transmittance(way, left);
       count += way.size();
       Vec3 mean;
-      for (uint32_t k = 0; k < kPlaces; ++k) mean += (lux[k] *= left[k]) / kPlaces;
+      for (size_t i = 0; i < lux.size(); ++i) mean += (lux[i] *= left[i]) / static_cast<float>(lux.size());
       finer[s] = mean;
-      const auto lit = std::count_if(lux.begin(), lux.end(), [](Vec3 v) { return !isBlack(v); });
-      const uint32_t step = lit == kPlaces ? kPlaces / SlotPaths::kPoints + 1 : 1;  // of one that is lit all over a few will do: 0, 5, 10 and 15 lie on a diagonal
-      const float radiance = luminance(slot.albedo * mean) / kPi;
-      for (uint32_t k = 0; k < kPlaces; k += step) {
-        const Vec3 flux = slot.albedo * (step > 1 ? mean * (kPlaces / static_cast<float>(SlotPaths::kPoints)) : lux[k]) * (slot.areaM2 / kPlaces);
-        if (!isBlack(flux)) ofBrick[b].push_back({way[k].origin, slot.normal, flux, static_cast<int64_t>(s), radiance});
+      const bool all = std::none_of(lux.begin(), lux.end(), [](Vec3 v) { return isBlack(v); });
+      const size_t step = all && lux.size() == kPlaces ? kDiagonal : 1;  // of one that is lit all over a few will do
+      const float radiance = luminance(slot.albedo * mean) / kPi, part = static_cast<float>(all ? SlotPaths::kPoints : lux.size());
+      for (size_t i = 0; i < lux.size(); i += step) {
+        const Vec3 flux = slot.albedo * (all ? mean : lux[i]) * (slot.areaM2 / part);
+        if (!isBlack(flux)) ofBrick[b].push_back({way[i].origin, slot.normal, flux, static_cast<int64_t>(s), radiance});
       }
     }
   });
@@ -95,27 +106,26 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
     const auto [first, last] = slotsOfBrick(voxels, b);
     const auto sideOf = [&](size_t s) { return BrightPatches::sideOf(b, voxels.slots[s].face); };
-    const auto samplesOf = [&](size_t s) { return patches.reaches(sideOf(s)) ? kSamples : kFewSamples; };
     // What links take of the light from slot j to slot s.
     const auto linkShare = [&](size_t s, size_t j) {
       const FaceSlot &to = voxels.slots[s], &from = voxels.slots[j];
       const Vec3 way = from.position - to.position;
       const float distance = std::max(length(way), 1e-6f), cosine = std::max(0.0f, dot(way, to.normal)) / distance, cosLight = -dot(way, from.normal) / distance;
-      const float perSample = static_cast<float>(links.count(s)) / static_cast<float>(samplesOf(s));
+      const float perSample = static_cast<float>(links.count(s)) / static_cast<float>(kSamples);
       return patches.rayShare(static_cast<int64_t>(j), luminance(reflectedLx[j]) / kPi, distance, cosLight, sideOf(s), perSample * cosine / kPi);
     };
     std::vector<Ray> asked;
     std::vector<std::pair<size_t, Vec3>> of;
     for (size_t s = first; s < last; ++s) {
-      const uint32_t samples = samplesOf(s);
-      for (uint32_t k = 0; k < samples; ++k) {
+      if (!patches.reaches(sideOf(s))) continue;
+      for (uint32_t k = 0; k < kSamples; ++k) {
         const Vec3 p = paths.point(s, k + paths.key(s)), n = voxels.slots[s].normal;
         Sampler sampler(paths.key(s), k, seed + 12);
         const GlowSample g = patches.sample(p, n, sideOf(s), sampler);
         if (!g.light.valid()) continue;
         const float share = 1 - linkShare(s, static_cast<size_t>(patches.point(g.point).slot));
         asked.push_back(shadowRay(p, p, g.light));
-        of.emplace_back(s, g.light.radiance * (share * dot(g.light.wi, n) / static_cast<float>(samples)));
+        of.emplace_back(s, g.light.radiance * (share * dot(g.light.wi, n) / static_cast<float>(kSamples)));
       }
     }
     for (size_t s = first; s < last; ++s) {

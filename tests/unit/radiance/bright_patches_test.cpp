@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "radiance/light_cache.h"
 #include "support/rooms.h"
 #include "voxel/voxelise.h"
@@ -82,6 +84,22 @@ TEST(BrightPatches, pointsAndRaysShareAllOfTheLight) {
       EXPECT_EQ(byPoints, 0);
     } else {
       EXPECT_NEAR(byPoints + byRays, 1, 1e-3f);
+    }
+  }
+}
+
+TEST(BrightPatches, sharesStayNumbersHoweverSmallAPatchIs) {
+  const SunnyRoom room;
+  const RayScene rays(room.scene);
+  const Vec3 p{0.001f, 1.2f, 2}, n{1, 0, 0};
+  for (const float flux : {1e-3f, 1e-20f, 1e-37f}) {
+    RadianceField field = lit(room, true, 8, 1);
+    for (GlowPoint& g : field.sunPoints) g.fluxLm = Vec3(flux);
+    const BrightPatches patches(rays, room.voxels, field.sunPoints, 0, 1);
+    const int32_t side = patches.sideAt(p, n);
+    for (const float rayPdf : {0.0f, 0.2f, 1e30f}) {
+      EXPECT_TRUE(std::isfinite(patches.pointShare(0, p, side, rayPdf))) << flux << ' ' << rayPdf;
+      EXPECT_TRUE(std::isfinite(patches.rayShare(patches.point(0).slot, patches.point(0).radianceCdM2, 2, 0.01f, side, rayPdf))) << flux << ' ' << rayPdf;
     }
   }
 }
