@@ -67,13 +67,22 @@ void print(const Report& r, const CompareOptions& o) {
                                    {"meanLuminanceErrorPercent", r.meanLuminanceErrorPercent},
                                    {"difference", o.difference}};
     if (r.mseBeyondNoise) json["mseBeyondNoise"] = *r.mseBeyondNoise;
-    if (r.noise) json["blotchesPercent"] = r.noise->blotchesPercent, json["grainPercent"] = r.noise->grainPercent;
+    if (r.noise) {
+      const bool judged = r.noise->judgedShare > 0;
+      json["blotchesPercent"] = judged ? nlohmann::ordered_json(r.noise->blotchesPercent) : nullptr;
+      json["grainPercent"] = judged ? nlohmann::ordered_json(r.noise->grainPercent) : nullptr;
+      json["judgedPercent"] = 100 * r.noise->judgedShare;
+    }
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return;
   }
   fmt::print("mse                        {:.6f}\n", r.mse);
   if (r.mseBeyondNoise) fmt::print("mseBeyondNoise             {:.6f}\n", *r.mseBeyondNoise);
-  if (r.noise) fmt::print("blotchesPercent            {:.2f}\ngrainPercent               {:.2f}\n", r.noise->blotchesPercent, r.noise->grainPercent);
+  if (r.noise && r.noise->judgedShare > 0) {
+    fmt::print("blotchesPercent            {:.2f}\ngrainPercent               {:.2f}\n", r.noise->blotchesPercent, r.noise->grainPercent);
+  } else if (r.noise) {
+    fmt::print("blotchesPercent            none: no pixel lies on a smooth surface\n");
+  }
   fmt::print("relMse                     {:.6f}\n", r.relMse);
   fmt::print("ssim                       {:.4f}\n", r.ssim);
   fmt::print("flip                       {:.4f}\n", r.flip);
@@ -91,22 +100,31 @@ int tell(const CompareOptions& o, const Result<AnyReport>& report, const MakePic
   return kOk;
 }
 
+Status checkBand(const CompareOptions& o) {
+  if (o.band.empty()) return Ok{};
+  if (o.second.empty()) return Error{"--band needs --second: the noise of a reference is told from two"};
+  if (!o.band.ends_with(".png")) return Error{fmt::format("{}: the picture of the band is a .png", o.band)};
+  if (o.band == o.difference) return Error{fmt::format("{}: is named twice; name another file for the band", o.band)};
+  return checkWritable(o.band);
+}
+
 int runCompare(CompareOptions o) {
   if (o.difference.empty()) o.difference = o.picture + ".difference.png";
   if (!o.difference.ends_with(".png")) return failed(fmt::format("{}: the difference picture is a .png", o.difference));
   if (o.difference == o.reference || o.difference == o.second || o.difference == o.picture) {
     return failed(fmt::format("{}: is named twice; name another file for the difference picture", o.difference));
   }
+  if (const Status s = checkBand(o); !s) return failed(s.error());
   Result<Pictures> pictures = readPictures(o);
   if (!pictures) return failed(pictures.error());
   const auto& [reference, second, picture, forDisplay] = pictures.value();
   if (forDisplay) return tell(o, compareShown(reference, picture), [&] { return differencePictureOfShown(reference, picture); });
   if (o.second.empty()) {
-    if (!o.band.empty()) return failed("--band needs --second: the noise of a reference is told from two");
     return tell(o, compare(reference, picture), [&] { return differencePicture(reference, picture); });
   }
   const Result<Report> report = compare(reference, second, picture);
   if (report && !o.band.empty()) {
+    if (const Status s = checkWritable(o.difference); !s) return failed(s.error());
     if (const Status s = writePng(o.band, bandPicture(*report.value().noise), {}); !s) return failed(s.error(), kFailed);
   }
   return tell(o, report, [&] { return differencePicture(meanOf(reference, second), picture); });

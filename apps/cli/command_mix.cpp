@@ -242,6 +242,7 @@ Registered addMix(CLI::App& program) {
   app->add_option("--sun", o->dials.sun, "Sunlight: 50%, off, ...");
   app->add_option("--sky", o->dials.sky, "Light of the sky: 50%, off, ...");
   addDisplayOptions(*app, o->display, ".png, .webp and .jpg");
+  app->remove_option(app->get_option("--local-exposure"));  // mixes have one exposure all over
   for (const char* name : {"--exposure", "--white-balance"}) {
     CLI::Option* option = app->get_option(name);
     option->description(fmt::format("{}. Automatic values are those of the unmixed picture, so that dimmed lamps look dimmed; {}: those of this mix", option->get_description(), kOfThisMix));

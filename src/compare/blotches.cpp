@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include "base/parallel.h"
 
@@ -75,19 +76,22 @@ Blotches blotches(const Image& reference, const Image& second, const Image& pict
   double sum = 0;
   for (const float v : r.values) sum += static_cast<double>(v);
   const float mean = static_cast<float>(sum / static_cast<double>(r.values.size())), least = std::max(kFloor * mean, 1e-20f);
-  std::vector<float> sorted = r.values;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const float brightest = kBright * sorted[sorted.size() / 2];
+  std::vector<float> lit;
+  std::copy_if(r.values.begin(), r.values.end(), std::back_inserter(lit), [](float v) { return v > 0; });
+  if (lit.empty()) return {0, 0, 0, map(r, [](size_t) { return kNotJudged; })};
+  std::nth_element(lit.begin(), lit.begin() + static_cast<ptrdiff_t>(lit.size() / 2), lit.end());
+  const float brightest = kBright * lit[lit.size() / 2];
   Plane all = map(r, [](size_t) { return 1.0f; });
   const Plane soft = Smoothed{all}(r, 2);
   const auto logarithm = [&](const Plane& of) { return map(of, [&](size_t i) { return std::log(std::max(of.values[i], 0.0f) + least); }); };
   const Plane edges = range(logarithm(soft), kReferenceReach), edgesSeen = range(logarithm(p), kPictureReach);
-  const Plane judged = map(r, [&](size_t i) { return edges.values[i] < kReferenceRange && edgesSeen.values[i] < kPictureRange && r.values[i] < brightest ? 1.0f : 0.0f; });
+  const Plane judged = map(r, [&](size_t i) { return edges.values[i] < kReferenceRange && edgesSeen.values[i] < kPictureRange && r.values[i] > 0 && r.values[i] < brightest ? 1.0f : 0.0f; });
   const auto error = [&](const Plane& of) { return map(r, [&](size_t i) { return std::clamp((p.values[i] - of.values[i]) / (r.values[i] + least), -1.0f, 1.0f); }); };
   const Smoothed smoothed{judged};
   const Plane e1 = error(one), e2 = error(two), fine1 = smoothed(e1, 1.5f), fine2 = smoothed(e2, 1.5f), middle1 = smoothed(e1, 4), middle2 = smoothed(e2, 4);
   const Plane band1 = minus(middle1, smoothed(e1, 32)), band2 = minus(middle2, smoothed(e2, 32));
-  return {rootOfProduct(band1, band2, judged), rootOfProduct(minus(fine1, middle1), minus(fine2, middle2), judged),
+  const double share = static_cast<double>(std::count(judged.values.begin(), judged.values.end(), 1.0f)) / static_cast<double>(judged.values.size());
+  return {rootOfProduct(band1, band2, judged), rootOfProduct(minus(fine1, middle1), minus(fine2, middle2), judged), share,
           map(r, [&](size_t i) { return judged.values[i] > 0 ? 0.5f * (band1.values[i] + band2.values[i]) : kNotJudged; })};
 }
 

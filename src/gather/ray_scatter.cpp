@@ -196,7 +196,7 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   Lobes f = v.value(wi);
   const float cosine = cosinePdf(v, wi), mixed = v.bsdf.pdf(wi);
   f.diffuse *= patches_.pointShare(g.point, v.s.p, v.side, v.apart || v.followed ? cosine : mixed);
-  f.specular *= v.clear ? 0 : patches_.pointShare(g.point, v.s.p, v.side, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
+  f.specular *= v.clear && v.apart ? 0 : patches_.pointShare(g.point, v.s.p, v.side, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
   Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
   // What can give little seldom sends a ray.
   const float worth = luminance(sum.diffuse + sum.specular) / (kLittle * w.expected[v.estimate]);

@@ -28,7 +28,7 @@ uint8_t kindOf(const Material& m) {
 BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings) {
   std::vector<GlowPoint> points(field.glow.points().begin(), field.glow.points().end());
   if (field.layers.empty()) points.insert(points.end(), field.sunPoints.begin(), field.sunPoints.end());
-  return BrightPatches(rays, voxels, points, settings.nearVoxels * voxels.voxelSizeM, settings.seed);
+  return BrightPatches(rays, voxels, points, field.glowShare, settings.nearVoxels * voxels.voxelSizeM, settings.seed);
 }
 
 }  // namespace
@@ -233,7 +233,7 @@ bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, G
     return true;
   }
   // Light beside lamps is in the cache alone.
-  const bool near = hit.t < settings_.nearVoxels * voxels_.voxelSizeM && (place.slot < 0 || field_.glowShare.empty() || field_.glowShare[static_cast<size_t>(place.slot)] == 0);
+  const bool near = length(p - path.from) < settings_.nearVoxels * voxels_.voxelSizeM && (place.slot < 0 || field_.glowShare.empty() || field_.glowShare[static_cast<size_t>(place.slot)] == 0);
   if (near || place.trust == Trust::None) return false;
   if (place.trust == Trust::Sure) {
     read(path, hit, place.slot, p, n, w);
@@ -260,10 +260,10 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
   const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
   Vec3 light = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[static_cast<size_t>(slot)] / kPi;
   const Vec3 even = light;
-  const float left = rayShare(path, hit, slot, p, n, luminance(even));
+  const float left = rayShare(path, slot, p, n, luminance(even));
   if (!field_.sunLux.empty() && field_.sunLux[static_cast<size_t>(slot)] > 0) light = max(Vec3(0), light + sunward(path, hit, slot));
   const Vec3 bent = light;
-  light = even * left + (light - even);
+  light = max(Vec3(0), even * left + (light - even));
   const Lobes added = w.add(path.estimate, path.factor, light, {});
   if (!w.layers || isBlack(added.diffuse + added.specular)) return;
   // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
@@ -273,15 +273,14 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
 }
 
 // The part of a slot's light that a ray takes which finds it; points of bright patches take the rest.
-float RayShader::rayShare(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, float light) const {
-  if (!(path.pdf > 0) || !patches_.holds(slot)) return 1;
-  const auto s = static_cast<size_t>(slot);
-  const float all = luminance(field_.irradianceLux[s]);
-  const bool near = hit.t < settings_.nearVoxels * voxels_.voxelSizeM;
-  const float sun = near || field_.sunPoints.empty() || !field_.layers.empty() || field_.sunLux.empty() ? 0 : field_.sunLux[s] / std::max(all, 1e-30f);
-  const float share = std::min(1.0f, sun + (field_.glowShare.empty() ? 0 : field_.glowShare[s]));
-  if (!(share > 0)) return 1;
-  return 1 - share * (1 - patches_.rayShare(slot, share * light, length(p - path.from), -dot(n, path.ray.direction), path.side, path.pdf));
+float RayShader::rayShare(const GatherPath& path, int64_t slot, Vec3 p, Vec3 n, float light) const {
+  if (!(path.pdf > 0) || patches_.empty()) return 1;
+  const auto i = static_cast<size_t>(slot);
+  const float distance = length(p - path.from), all = luminance(field_.irradianceLux[i]);
+  const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM;
+  const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, field_.sunLux[i] / std::max(all, 1e-30f)), glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
+  const auto leftToPoints = [&](float share) { return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction), path.side, path.pdf)) : 0; };
+  return std::max(0.0f, 1 - leftToPoints(sun) - leftToPoints(glow));
 }
 
 // Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its

@@ -34,7 +34,7 @@ class RayShader final : public SurfaceShader {
   void goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const;
   void read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const;
   Vec3 sunward(const GatherPath& path, const Hit& hit, int64_t slot) const;
-  float rayShare(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, float light) const;
+  float rayShare(const GatherPath& path, int64_t slot, Vec3 p, Vec3 n, float light) const;
   void addBackground(const GatherPath& path, GatherWork& w) const;
   void traceShadows(GatherWork& w) const;
   void resolveUnsure(GatherWork& w) const;

@@ -255,7 +255,8 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   }
   const size_t ceilingLamps = lamps.size();
   // Evening outdoors is dark but for lamps.
-  const bool overCamera = daylightReaches < kLeastDaylight && shareReached(rays, lamps, seen) < 0.05 && (indoors || !evening);
+  const bool ownLamps = std::any_of(rooms.begin(), rooms.end(), [&](const Room& room) { return isIn(room, camera.worldFromCamera.w) && hasLight(rays.scene(), room); });
+  const bool overCamera = !ownLamps && daylightReaches < kLeastDaylight && shareReached(rays, lamps, seen) < 0.05 && (indoors || !evening);
   if (overCamera) lamps.push_back(lampOverCamera(rays, seen, camera));
 
   AddedLight out;

@@ -72,6 +72,12 @@ int cameraInUse(const RayScene& rays, const OpenedHome& home, std::string& fault
   return static_cast<int>(home.fileCameras);
 }
 
+// As --camera takes it.
+std::string quotedOrNumber(const Scene& scene, size_t camera) {
+  const std::string& name = scene.cameras[camera].name;
+  return name.empty() ? fmt::format("{}", camera + 1) : fmt::format("'{}'", name);
+}
+
 void chooseCamera(const RayScene& rays, const OpenWish& wish, bool lightComes, OpenedHome& home) {
   Scene& scene = home.scene;
   home.fileCameras = scene.cameras.size();
@@ -84,7 +90,7 @@ void chooseCamera(const RayScene& rays, const OpenWish& wish, bool lightComes, O
       scene.cameras.push_back(std::move(c));
     }
   }
-  if (!fault.empty()) home.notes.push_back(fmt::format("the file's camera '{}' {}; '{}' is shown instead, --camera decides", scene.cameras.front().name, fault, defaultCamera(scene).name));
+  if (!fault.empty()) home.notes.push_back(fmt::format("the file's camera {} {}; {} is shown instead, --camera decides", quotedOrNumber(scene, 0), fault, quotedOrNumber(scene, static_cast<size_t>(scene.cameraInUse))));
 }
 
 // `decided`: a lighting file says what shines, even if that is nothing.

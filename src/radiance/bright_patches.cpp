@@ -34,32 +34,40 @@ struct PatchKey {
   bool operator<(const PatchKey& o) const { return tied() < o.tied(); }
 };
 
-PatchKey keyOf(const Voxels& voxels, const GlowPoint& g) {
-  // All points of a slot belong to one patch.
-  const Int3 v = voxels.voxelOf((g.slot >= 0 ? voxels.slots[static_cast<size_t>(g.slot)].position : g.p) - g.n * (kNudge * voxels.voxelSizeM));
+PatchKey keyAt(const Voxels& voxels, Vec3 p, Vec3 n, int face) {
+  const Int3 v = voxels.voxelOf(p - n * (kNudge * voxels.voxelSizeM));
   const auto brick = [](int i) { return (i >= 0 ? i : i - kBrickSize + 1) / kBrickSize; };
-  return {brick(v.x), brick(v.y), brick(v.z), g.slot >= 0 ? voxels.slots[static_cast<size_t>(g.slot)].face : dominantFace(g.n)};
+  return {brick(v.x), brick(v.y), brick(v.z), face};
 }
+
+// All points of a slot belong to one patch.
+PatchKey keyOf(const Voxels& voxels, int64_t slot) {
+  const FaceSlot& s = voxels.slots[static_cast<size_t>(slot)];
+  return keyAt(voxels, s.position, s.normal, s.face);
+}
+
+PatchKey keyOf(const Voxels& voxels, const GlowPoint& g) { return g.slot >= 0 ? keyOf(voxels, g.slot) : keyAt(voxels, g.p, g.n, dominantFace(g.n)); }
 
 }  // namespace
 
-BrightPatches::BrightPatches(const RayScene& rays, const Voxels& voxels, std::span<const GlowPoint> points, float farM, uint64_t seed) : voxels_(&voxels), farM_(farM) {
-  gatherPatches(voxels, points);
+BrightPatches::BrightPatches(const RayScene& rays, const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare, float farM, uint64_t seed) : voxels_(&voxels), farM_(farM) {
+  gatherPatches(voxels, points, glowShare);
   if (points_.empty()) return;
   learn(rays, seed);
 }
 
-void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points) {
+void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare) {
   std::map<PatchKey, std::vector<uint32_t>> byKey;
   for (uint32_t i = 0; i < points.size(); ++i) byKey[keyOf(voxels, points[i])].push_back(i);
   struct Found {
+    PatchKey key;
     std::vector<uint32_t> points;
     float fluxLm = 0;
     bool lamps = false;
   };
   std::vector<Found> found;
   for (auto& [key, of] : byKey) {
-    Found f;
+    Found f{key, {}};
     for (const uint32_t i : of) f.fluxLm += luminance(points[i].fluxLm), f.lamps = f.lamps || !isSun(points[i]);
     f.points = std::move(of);
     if (f.fluxLm > 0) found.push_back(std::move(f));
@@ -68,20 +76,28 @@ void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoin
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.lamps != b.lamps ? a.lamps : a.fluxLm > b.fluxLm; });
   const auto lamps = static_cast<size_t>(std::count_if(found.begin(), found.end(), [](const Found& f) { return f.lamps; }));
   found.resize(std::min(found.size(), lamps + kMostPatches));
-  patchOfSlot_.assign(voxels.slots.size(), -1);
-  float flux = 0;
+  patchOfSlot_.assign(voxels.slots.size(), -1), holdsSun_.assign(voxels.slots.size(), 0);
+  std::map<PatchKey, int32_t> patchOf;
   for (const Found& f : found) {
     Patch patch{static_cast<uint32_t>(points_.size()), static_cast<uint32_t>(f.points.size()), f.fluxLm};
     for (const uint32_t i : f.points) {
       const GlowPoint& g = points[i];
       points_.push_back(g);
       patchOfPoint_.push_back(static_cast<uint32_t>(patches_.size()));
-      if (g.slot >= 0) patchOfSlot_[static_cast<size_t>(g.slot)] = static_cast<int32_t>(patches_.size());
+      if (g.slot < 0) continue;
+      patchOfSlot_[static_cast<size_t>(g.slot)] = static_cast<int32_t>(patches_.size());
+      if (isSun(g)) holdsSun_[static_cast<size_t>(g.slot)] = 1;
     }
+    patchOf[f.key] = static_cast<int32_t>(patches_.size());
     patches_.push_back(patch);
-    upTo_.push_back(flux += f.fluxLm);
+    upTo_.push_back(fluxLm_ += f.fluxLm);
   }
-  for (float& v : upTo_) v /= flux;
+  for (float& v : upTo_) v /= fluxLm_;
+  for (size_t s = 0; s < glowShare.size(); ++s) {
+    if (!(glowShare[s] > 0) || patchOfSlot_[s] >= 0) continue;
+    const auto of = patchOf.find(keyOf(voxels, static_cast<int64_t>(s)));
+    if (of != patchOf.end()) patchOfSlot_[s] = of->second;
+  }
 }
 
 // Where rays arrive that a patch sends out, through panes: bricks with how many, in their order.
@@ -178,8 +194,14 @@ float BrightPatches::chanceOf(uint32_t patch, int32_t side) const {
 }
 
 // Per steradian at the place that looks: a point is chosen within its patch by flux.
-float BrightPatches::pointsDensity(uint32_t patch, float radianceCdM2, float distance, float cosLight, int32_t side) const {
-  return kTries * chanceOf(patch, side) * kPi * radianceCdM2 * distance * distance / (patches_[patch].fluxLm * std::max(cosLight, 1e-6f));
+float BrightPatches::pointsDensity(int32_t patch, float radianceCdM2, float distance, float cosLight, int32_t side) const {
+  return kTries * chancePerLumen(patch, side) * kPi * radianceCdM2 * distance * distance / std::max(cosLight, 1e-6f);
+}
+
+// Of a point in a patch, by its flux. Glow so faint that no point fell into its patch is stood for by all points.
+float BrightPatches::chancePerLumen(int32_t patch, int32_t side) const {
+  if (patch < 0) return reaches(side) ? kByFlux / fluxLm_ : 0;
+  return chanceOf(static_cast<uint32_t>(patch), side) / patches_[static_cast<size_t>(patch)].fluxLm;
 }
 
 float BrightPatches::pointShare(size_t point, Vec3 p, int32_t side, float rayPdf) const {
@@ -187,12 +209,12 @@ float BrightPatches::pointShare(size_t point, Vec3 p, int32_t side, float rayPdf
   const Vec3 d = p - g.p;
   const float distance = length(d);
   if (isSun(g) && distance < farM_) return 0;
-  const float points = pointsDensity(patchOfPoint_[point], g.radianceCdM2, distance, dot(d, g.n) / std::max(distance, 1e-12f), side);
+  const float points = pointsDensity(static_cast<int32_t>(patchOfPoint_[point]), g.radianceCdM2, distance, dot(d, g.n) / std::max(distance, 1e-12f), side);
   return 1 - powerHeuristic(rayPdf, points);
 }
 
 float BrightPatches::rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side, float rayPdf) const {
-  const float points = pointsDensity(static_cast<uint32_t>(patchOfSlot_[static_cast<size_t>(slot)]), radianceCdM2, distance, cosLight, side);
+  const float points = pointsDensity(patchOfSlot_[static_cast<size_t>(slot)], radianceCdM2, distance, cosLight, side);
   return powerHeuristic(rayPdf, points);
 }
 
@@ -246,7 +268,7 @@ GlowSample BrightPatches::sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler)
 }
 
 size_t BrightPatches::bytes() const {
-  return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t)) + patchOfSlot_.size() * sizeof(int32_t) + patches_.size() * sizeof(Patch) + seen_.size() * sizeof(Seen) + seenOfSide_.size() * sizeof(int32_t);
+  return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t)) + patchOfSlot_.size() * (sizeof(int32_t) + 1) + patches_.size() * sizeof(Patch) + seen_.size() * sizeof(Seen) + seenOfSide_.size() * sizeof(int32_t);
 }
 
 }  // namespace roomlight

@@ -17,8 +17,9 @@ namespace roomlight {
 class BrightPatches {
  public:
   BrightPatches() = default;
-  // `points`: of lamps' glow, and of slots that the sun lights (neither lamp nor emitter). `farM`: nearer than that gathering rays alone find what the sun lights.
-  BrightPatches(const RayScene& rays, const Voxels& voxels, std::span<const GlowPoint> points, float farM, uint64_t seed);
+  // `points`: of lamps' glow, and of slots that the sun lights (neither lamp nor emitter). `glowShare`: of what each slot reflects the part that the glow's points stand for, whether or not
+  // one of them lies on it; empty: none. `farM`: nearer than that gathering rays alone find what the sun lights.
+  BrightPatches(const RayScene& rays, const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare, float farM, uint64_t seed);
 
   bool empty() const { return points_.empty(); }
   const GlowPoint& point(size_t index) const { return points_[index]; }
@@ -32,7 +33,7 @@ class BrightPatches {
   float pointShare(size_t point, Vec3 p, int32_t side, float rayPdf) const;
   // The part of what a slot reflects of `radianceCdM2` that rays take who find it so.
   float rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side, float rayPdf) const;
-  bool holds(int64_t slot) const { return !patchOfSlot_.empty() && patchOfSlot_[static_cast<size_t>(slot)] >= 0; }
+  bool holdsSun(int64_t slot) const { return !holdsSun_.empty() && holdsSun_[static_cast<size_t>(slot)]; }
   static constexpr size_t kSides = 6;
   static int32_t sideOf(size_t brick, int face) { return static_cast<int32_t>(kSides * brick) + face; }
   // Whether any patch is known to light a side.
@@ -57,22 +58,24 @@ class BrightPatches {
     }
   };
   const Seen* seenFrom(int32_t side) const { return side < 0 || seenOfSide_[static_cast<size_t>(side)] < 0 ? nullptr : &seen_[static_cast<size_t>(seenOfSide_[static_cast<size_t>(side)])]; }
-  void gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points);
+  void gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare);
   std::vector<std::pair<uint32_t, uint32_t>> lights(const RayScene& rays, uint32_t patch, uint64_t seed) const;
   void learn(const RayScene& rays, uint64_t seed);
   uint32_t patchFor(int32_t side, float u) const;
   float chanceOf(uint32_t patch, int32_t side) const;
-  float pointsDensity(uint32_t patch, float radianceCdM2, float distance, float cosLight, int32_t side) const;
+  float chancePerLumen(int32_t patch, int32_t side) const;
+  float pointsDensity(int32_t patch, float radianceCdM2, float distance, float cosLight, int32_t side) const;
 
   const Voxels* voxels_ = nullptr;
   std::vector<GlowPoint> points_;  // by patch
   std::vector<uint32_t> patchOfPoint_;
-  std::vector<int32_t> patchOfSlot_;
+  std::vector<int32_t> patchOfSlot_;  // -1: none
+  std::vector<uint8_t> holdsSun_;     // per slot: points stand for what the sun lights there
   std::vector<Patch> patches_;
   std::vector<float> upTo_;  // of flux, all patches
   std::vector<int32_t> seenOfSide_;  // of each brick's sides; -1: no patch
   std::vector<Seen> seen_;
-  float farM_ = 0;
+  float farM_ = 0, fluxLm_ = 0;
 };
 
 }  // namespace roomlight

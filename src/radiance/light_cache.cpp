@@ -160,7 +160,7 @@ void LightCache::traceDaylight(const Sources& from) {
   skyWays_.clear();
   if (from.lights.sunCount() > 0) suns_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
   field_.sunPoints.clear();
-  if (settings_.still && !settings_.layers && !suns_.empty() && !from.progress.stop()) {
+  if (settings_.still && !settings_.layers && from.lights.sunCount() == 1 && !suns_.empty() && !from.progress.stop()) {
     std::vector<Vec3> sun(from.voxels.slots.size());
     suns_.addTo(from.voxels, Vec3(1), sun);
     field_.sunPoints = sunPlaces(from.rays, from.lights, from.voxels, paths_, links_, settings_.seed, sun, field_.rays);
@@ -293,11 +293,11 @@ void LightCache::holdSun(const Sources& from) {
   const Voxels& voxels = from.voxels;
   std::vector<Vec3> sun(voxels.slots.size());
   suns_.addTo(voxels, Vec3(1), sun);
-  const BrightPatches patches(from.rays, voxels, field_.sunPoints, 0, settings_.seed);
+  const BrightPatches patches(from.rays, voxels, field_.sunPoints, {}, 0, settings_.seed);
   if (patches.empty()) return;
   std::vector<Vec3> reflected(sun.size());
   parallelFor(sun.size(), 8192, [&](size_t i) {
-    if (!patches.holds(static_cast<int64_t>(i))) sun[i] = {};
+    if (!patches.holdsSun(static_cast<int64_t>(i))) sun[i] = {};
     reflected[i] = voxels.slots[i].albedo * sun[i];
   });
   std::vector<Vec3> arrives = lightFrom(patches, from.rays, voxels, paths_, links_, reflected, settings_.seed, field_.rays);

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "base/parallel.h"
+#include "scene/surface.h"
 #include "trace/shadow_ray.h"
 
 namespace roomlight {
@@ -38,10 +39,13 @@ bool fills(const FaceSlot& slot, float h) { return slot.areaM2 > 0.9f * h * h &&
 }  // namespace
 
 std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux, uint64_t& rayCount) {
+  // Rays always go on from polished metal.
+  const Scene& scene = rays.scene();
+  const auto isMetal = [&](size_t s) { return isPolishedMetal(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[voxels.slots[s].instance].mesh)].material)]); };
   // How many places of each slot are asked: few amid others that are lit all over, none where no sun is near.
   std::vector<uint8_t> places(voxels.slots.size());
   parallelFor(places.size(), 8192, [&](size_t s) {
-    if (!paths.isSheet(s) || !fills(voxels.slots[s], voxels.voxelSizeM)) return;
+    if (!paths.isSheet(s) || !fills(voxels.slots[s], voxels.voxelSizeM) || isMetal(s)) return;
     const float own = luminance(sunLux[s]);
     bool any = own > 0, even = own > 0;
     for (const uint32_t o : links.kin[s]) {
@@ -62,7 +66,7 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
       const FaceSlot& slot = voxels.slots[s];
       if (places[s] == 0) {
         // Among other things in its voxel rays do not always read the slot.
-        if (!paths.isSheet(s) || isBlack(sunLux[s])) continue;
+        if (!paths.isSheet(s) || isBlack(sunLux[s]) || isMetal(s)) continue;
         const Vec3 radiance = slot.albedo * sunLux[s] / kPi, flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
         for (uint32_t k = 0; k < SlotPaths::kPoints; ++k) ofBrick[b].push_back({paths.point(s, k), slot.normal, flux, static_cast<int64_t>(s), luminance(radiance)});
         continue;
@@ -132,7 +136,7 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
       const auto own = std::span(links.links).subspan(links.first[s], links.count(s));
       for (const Link& link : own) {
         const size_t j = link.slot();
-        if (link.isDark() || !patches.holds(static_cast<int64_t>(j))) continue;
+        if (link.isDark() || !patches.holdsSun(static_cast<int64_t>(j))) continue;
         lux[s] += reflectedLx[j] * (link.left() * Link::kUnit * (link.isBent() ? 1 : linkShare(s, j)) / static_cast<float>(own.size()));
       }
     }

@@ -50,6 +50,21 @@ TEST(Blotches, noiseOfReferencesDropsOut) {
   EXPECT_NEAR(mean, clean, 0.15);  // with one reference it is 1.4 times as much
 }
 
+// A thing before a void: what is black says nothing of what is lit.
+TEST(Blotches, areThoseOfWhatIsLit) {
+  Image reference = wall(), picture = rippled(48, 0.04f);
+  const double all = blotches(reference, reference, picture).blotchesPercent;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      if (y >= kSide / 3) reference.at(x, y) = picture.at(x, y) = {};
+    }
+  }
+  const Blotches found = blotches(reference, reference, picture);
+  EXPECT_NEAR(found.blotchesPercent, all, 0.3 * all);
+  EXPECT_NEAR(found.judgedShare, 0.3, 0.05);
+  EXPECT_EQ(blotches(Image(8, 8), Image(8, 8), Image(8, 8)).judgedShare, 0);
+}
+
 TEST(Blotches, edgesAndLampsAreNotJudged) {
   Image reference = wall(), picture = wall();
   for (int y = 100; y < 110; ++y) {

@@ -48,7 +48,7 @@ TEST(BrightPatches, samplesAverageToTheSumOverAllPoints) {
   const RayScene rays(room.scene);
   const RadianceField field = lit(room, true, 8, 1);
   ASSERT_FALSE(field.sunPoints.empty());
-  const BrightPatches patches(rays, room.voxels, field.sunPoints, 0, 1);
+  const BrightPatches patches(rays, room.voxels, field.sunPoints, {}, 0, 1);
   const Vec3 p{0.001f, 1.2f, 2}, n{1, 0, 0};
   double all = 0;
   for (const GlowPoint& g : field.sunPoints) {
@@ -71,7 +71,7 @@ TEST(BrightPatches, pointsAndRaysShareAllOfTheLight) {
   const SunnyRoom room;
   const RayScene rays(room.scene);
   const RadianceField field = lit(room, true, 8, 1);
-  const BrightPatches patches(rays, room.voxels, field.sunPoints, 0.2f, 1);
+  const BrightPatches patches(rays, room.voxels, field.sunPoints, {}, 0.2f, 1);
   const Vec3 p{0.001f, 1.2f, 2}, n{1, 0, 0};
   const int32_t side = patches.sideAt(p, n);
   for (size_t i = 0; i < field.sunPoints.size(); i += 7) {
@@ -95,7 +95,7 @@ TEST(BrightPatches, sharesStayNumbersHoweverSmallAPatchIs) {
   for (const float flux : {1e-3f, 1e-20f, 1e-37f}) {
     RadianceField field = lit(room, true, 8, 1);
     for (GlowPoint& g : field.sunPoints) g.fluxLm = Vec3(flux);
-    const BrightPatches patches(rays, room.voxels, field.sunPoints, 0, 1);
+    const BrightPatches patches(rays, room.voxels, field.sunPoints, {}, 0, 1);
     const int32_t side = patches.sideAt(p, n);
     for (const float rayPdf : {0.0f, 0.2f, 1e30f}) {
       EXPECT_TRUE(std::isfinite(patches.pointShare(0, p, side, rayPdf))) << flux << ' ' << rayPdf;
