@@ -183,14 +183,15 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
     const Vec3 emitted = left * s.emitted() * weight;
     sum.rest += emitted;
     if (const int32_t emitter = byLayer_ ? lights_.emitterOf(group.instance) : -1; emitter >= 0) byLayer_->add(pixel.index, LayerSums::kRest, layers_->ofEmitter[static_cast<size_t>(emitter)], emitted);
-    if (solid && !mirror && !layer.seen[i]) {
+    if (!mirror && !layer.seen[i]) {
       TileWork::Part& part = work.parts.back();
+      part.veil = !solid;
       part.normal += s.ns * weight, part.position += veiledPlace(s, layer.left[i]) * weight;
       part.roughness += m.roughness * weight, part.surface += weight;
     }
     work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(surface, static_cast<uint32_t>(j), static_cast<uint32_t>(std::max(most, shadings))), shadow, mirror});
   }
-  if (!keepsFragments_) addPlace(work.parts.back());
+  if (!keepsFragments_ && solid) addPlace(work.parts.back());
   if (!isBlack(through)) passOn(group, layer, through, solid, behind);
   if (mirror) reflectOn(group, layer, m, surface, sequence, behind);
 }
@@ -255,21 +256,25 @@ void PixelShader::addFragment(const TileWork::Part& part, std::span<const Surfac
 void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments) {
   const auto shadingsOf = [&](const TileWork::Part& part) { return light.subspan(part.first, part.count); };
   for (size_t begin = 0, end = 0; begin < work.parts.size(); begin = end) {
+    bool anySolid = false;
+    for (end = begin; end < work.parts.size() && work.parts[end].pixel.sum == work.parts[begin].pixel.sum; ++end) anySolid = anySolid || (!work.parts[end].veil && work.parts[end].surface > 0);
+    // A pane before the sky is the surface that the pixel shows.
+    const auto surfaceOf = [&](const TileWork::Part& part) { return part.veil && anySolid ? 0 : part.surface; };
     size_t most = begin;
-    for (end = begin; end < work.parts.size() && work.parts[end].pixel.sum == work.parts[begin].pixel.sum; ++end) {
-      if (work.parts[end].surface > work.parts[most].surface) most = end;
+    for (size_t i = begin; i < end; ++i) {
+      if (surfaceOf(work.parts[i]) > surfaceOf(work.parts[most])) most = i;
     }
     const FilterPixel& sum = *work.parts[begin].pixel.sum;
     const bool known = sum.surface > 0;
     const TileWork::Part& largest = work.parts[most];
-    const float surface = known ? sum.surface : std::max(largest.surface, 1e-6f);
+    const float surface = known ? sum.surface : std::max(surfaceOf(largest), 1e-6f);
     const Vec3 place = (known ? sum.position : largest.position) / surface, normal = known ? sum.normal : largest.normal;
     for (size_t i = begin; i < end; ++i) {
       const TileWork::Part& part = work.parts[i];
-      if (fragments && part.surface > 0 && !part.outshines && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
+      if (fragments && surfaceOf(part) > 0 && !part.outshines && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
         addFragment(part, shadingsOf(part), *fragments);
       } else {
-        if (fragments) addPlace(part);
+        if (fragments && surfaceOf(part) > 0) addPlace(part);
         addPart(part, shadingsOf(part));
       }
     }

@@ -56,6 +56,7 @@ struct TileWork {
     uint32_t gathers = 1, glossy = 1;  // what its diffuse and specular light counts for
     Vec3 normal{}, position{};   // sums over camera rays of what it lets nothing be seen behind
     float roughness = 0, surface = 0;
+    bool veil = false;       // lets most light through: a surface only where nothing solid is seen behind
     bool outshines = false;  // what else is seen in its pixel, which has more of it: not filtered with that
   };
   std::vector<Shading> shadings;
