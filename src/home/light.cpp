@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/lattice.h"
 #include "base/parallel.h"
@@ -210,6 +211,14 @@ double shareReached(const RayScene& rays, const std::vector<Json>& lamps, const 
   return seen.empty() ? 1 : static_cast<double>(reached) / static_cast<double>(seen.size());
 }
 
+// Of what is seen, in rooms with a lamp of their own.
+double shareWithLamps(const RayScene& rays, const std::vector<Room>& rooms, const std::vector<Seen>& seen) {
+  std::vector<Room> withLamps;
+  std::copy_if(rooms.begin(), rooms.end(), std::back_inserter(withLamps), [&](const Room& room) { return hasLight(rays.scene(), room); });
+  const auto isLit = [&](const Seen& s) { return std::any_of(withLamps.begin(), withLamps.end(), [&](const Room& room) { return isIn(room, s.p + s.n * 0.05f); }); };
+  return static_cast<double>(std::count_if(seen.begin(), seen.end(), isLit)) / static_cast<double>(std::max<size_t>(1, seen.size()));
+}
+
 std::string listed(bool daylight, bool dusk, size_t ceilingLamps, bool overCamera, bool ground) {
   std::vector<std::string> parts;
   if (daylight) parts.push_back("daylight");
@@ -255,8 +264,7 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   }
   const size_t ceilingLamps = lamps.size();
   // Evening outdoors is dark but for lamps.
-  const bool ownLamps = std::any_of(rooms.begin(), rooms.end(), [&](const Room& room) { return isIn(room, camera.worldFromCamera.w) && hasLight(rays.scene(), room); });
-  const bool overCamera = !ownLamps && daylightReaches < kLeastDaylight && shareReached(rays, lamps, seen) < 0.05 && (indoors || !evening);
+  const bool overCamera = daylightReaches < kLeastDaylight && shareReached(rays, lamps, seen) + shareWithLamps(rays, rooms, seen) < 0.05 && (indoors || !evening);
   if (overCamera) lamps.push_back(lampOverCamera(rays, seen, camera));
 
   AddedLight out;

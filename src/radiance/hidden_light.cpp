@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "base/parallel.h"
+#include "radiance/slot_samples.h"
 #include "radiance/surroundings.h"
 #include "trace/shadow_ray.h"
 
@@ -50,8 +51,7 @@ std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, cons
   const HiddenLight hidden(lights, voxels, guide);
   std::atomic<uint64_t> count = 0;
   parallelFor(links.hidden.size(), 4, [&](size_t b) {
-    std::vector<Ray> asked;
-    std::vector<std::pair<uint32_t, Vec3>> of;
+    SlotSamples samples;
     uint32_t number = 0;
     for (const HiddenPlace& h : links.hidden[b]) {
       Sampler sampler(paths.key(h.slot), number++, seed + 14);
@@ -59,14 +59,10 @@ std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, cons
       hidden.at(h, sampler, [&](const LightSample& light) {
         const float cosine = dot(light.wi, h.n);
         if (!light.valid() || cosine <= 0) return;
-        asked.push_back(shadowRay(offsetOrigin(h.p, h.n), h.p, light));
-        of.emplace_back(h.slot, h.left * light.radiance * (cosine * perLink));
+        samples.ask(h.slot, shadowRay(offsetOrigin(h.p, h.n), h.p, light), h.left * light.radiance * (cosine * perLink));
       });
     }
-    std::vector<Vec3> left(asked.size());
-    rays.transmittance(asked, left);
-    for (size_t i = 0; i < asked.size(); ++i) lux[of[i].first] += of[i].second * left[i];
-    count += asked.size();
+    count += samples.addTo(rays, lux);
   });
   rayCount += count;
   return lux;

@@ -8,11 +8,11 @@
 #include "base/parallel.h"
 #include "base/sampling.h"
 #include "radiance/attenuation.h"
-#include "radiance/sun_bounce.h"
 
 namespace roomlight {
 namespace {
 
+constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12, kChunk = 512;
 constexpr int kMostReflections = 64;
 constexpr size_t kFirstLook = 4;
@@ -32,6 +32,9 @@ size_t particlesFor(float sizeOfPoints, size_t sources) {
   const size_t each = std::clamp(kMostParticles / sources, kFewestPerSource, kMostPerSource);
   return static_cast<size_t>(static_cast<float>(each) * sizeOfPoints) / kChunk * kChunk;
 }
+
+// Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.
+float litArea(const FaceSlot& slot, float h) { return std::clamp(slot.areaM2, kSmallest * h * h, h * h / std::max(0.577f, maxComponent(abs(slot.normal)))); }
 
 class Particles {
  public:

@@ -4,23 +4,17 @@
 #include <atomic>
 
 #include "base/parallel.h"
+#include "radiance/slot_samples.h"
 #include "scene/surface.h"
 #include "trace/shadow_ray.h"
 
 namespace roomlight {
 namespace {
 
-constexpr float kSmallest = 0.1f;  // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr uint32_t kSide = 4, kPlaces = kSide * kSide;  // where the sun is looked for on a slot
 constexpr uint32_t kDiagonal = kSide + 1;  // from one of SlotPaths::kPoints places to the next
-constexpr float kEven = 0.02f;
+constexpr float kEven = 0.02f;     // of what the sun gives: neighbours that differ by less are lit alike
 constexpr uint32_t kSamples = 12;  // of a slot
-
-}  // namespace
-
-float litArea(const FaceSlot& slot, float h) { return std::clamp(slot.areaM2, kSmallest * h * h, h * h / std::max(0.577f, maxComponent(abs(slot.normal)))); }
-
-namespace {
 
 // The k-th of kPlaces places of a sheet that fills its voxel, clear of its surface.
 Vec3 placeOn(const Voxels& voxels, const FaceSlot& slot, uint32_t k, Vec2 jitter) {
@@ -41,7 +35,10 @@ bool fills(const FaceSlot& slot, float h) { return slot.areaM2 > 0.9f * h * h &&
 std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux, uint64_t& rayCount) {
   // Rays always go on from polished metal.
   const Scene& scene = rays.scene();
-  const auto isMetal = [&](size_t s) { return isPolishedMetal(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[voxels.slots[s].instance].mesh)].material)]); };
+  const auto isMetal = [&](size_t s) {
+    const Instance& instance = scene.instances[voxels.slots[s].instance];
+    return isPolishedMetal(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)]);
+  };
   // How many places of each slot are asked: few amid others that are lit all over, none where no sun is near.
   std::vector<uint8_t> places(voxels.slots.size());
   parallelFor(places.size(), 8192, [&](size_t s) {
@@ -76,11 +73,10 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
         const uint32_t k = places[s] < kPlaces ? kDiagonal * i : i;
         Sampler sampler(paths.key(s), k, seed + 15);
         const Vec2 jitter = sampler.next2();
-        const size_t sun = lights.sunCount() == 1 ? 0 : std::min(lights.sunCount() - 1, static_cast<size_t>(sampler.next1() * static_cast<float>(lights.sunCount())));
-        const LightSample light = lights.sampleSun(sun, sampler.next2());
+        const LightSample light = lights.sampleSun(0, sampler.next2());
         const Vec3 p = placeOn(voxels, slot, k, jitter);
         way.push_back(shadowRay(p, p, light));
-        lux.push_back(light.radiance * (std::max(0.0f, dot(light.wi, slot.normal)) * static_cast<float>(lights.sunCount())));
+        lux.push_back(light.radiance * std::max(0.0f, dot(light.wi, slot.normal)));
       }
       left.resize(way.size());
       rays.transmittance(way, left);
@@ -118,8 +114,7 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
       const float perSample = static_cast<float>(links.count(s)) / static_cast<float>(kSamples);
       return patches.rayShare(static_cast<int64_t>(j), luminance(reflectedLx[j]) / kPi, distance, cosLight, sideOf(s), perSample * cosine / kPi);
     };
-    std::vector<Ray> asked;
-    std::vector<std::pair<size_t, Vec3>> of;
+    SlotSamples samples;
     for (size_t s = first; s < last; ++s) {
       if (!patches.reaches(sideOf(s))) continue;
       for (uint32_t k = 0; k < kSamples; ++k) {
@@ -128,8 +123,7 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
         const GlowSample g = patches.sample(p, n, sideOf(s), sampler);
         if (!g.light.valid()) continue;
         const float share = 1 - linkShare(s, static_cast<size_t>(patches.point(g.point).slot));
-        asked.push_back(shadowRay(p, p, g.light));
-        of.emplace_back(s, g.light.radiance * (share * dot(g.light.wi, n) / static_cast<float>(kSamples)));
+        samples.ask(s, shadowRay(p, p, g.light), g.light.radiance * (share * dot(g.light.wi, n) / static_cast<float>(kSamples)));
       }
     }
     for (size_t s = first; s < last; ++s) {
@@ -140,10 +134,7 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
         lux[s] += reflectedLx[j] * (link.left() * Link::kUnit * (link.isBent() ? 1 : linkShare(s, j)) / static_cast<float>(own.size()));
       }
     }
-    std::vector<Vec3> left(asked.size());
-    rays.transmittance(asked, left);
-    for (size_t i = 0; i < asked.size(); ++i) lux[of[i].first] += of[i].second * left[i];
-    count += asked.size();
+    count += samples.addTo(rays, lux);
   });
   rayCount += count;
   return lux;

@@ -23,7 +23,12 @@ struct Lit {
   Voxelisation voxels;
   RadianceField field;
 
-  Lit(Scene s, float voxelSizeM) : scene(std::move(s)), rays(scene), lights(scene), voxels(voxelise(scene, {.voxelSizeM = voxelSizeM})), field(illuminate(rays, lights, voxels.voxels, {})) {}
+  static RadianceSettings still() {
+    RadianceSettings settings;
+    settings.still = true;  // as still pictures are lit
+    return settings;
+  }
+  Lit(Scene s, float voxelSizeM) : scene(std::move(s)), rays(scene), lights(scene), voxels(voxelise(scene, {.voxelSizeM = voxelSizeM})), field(illuminate(rays, lights, voxels.voxels, still())) {}
   Image hybrid(const Camera& camera, RayGatherSettings settings = small()) const { return gatherRays(rays, lights, voxels.voxels, field, camera, settings).image; }
   Image cone(const Camera& camera) const {
     GatherSettings settings;

@@ -95,6 +95,10 @@ TEST_F(CompareCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
                                                        {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("no/d.png")},
                                                        {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("d.exr")},
                                                        {"compare", path("reference.exr"), path("bright.exr"), "--difference", ""},
+                                                       {"compare", path("reference.exr"), path("bright.exr"), "--band", path("b.png")},
+                                                       {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band", path("bright.exr")},
+                                                       {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band", path("no/b.png")},
+                                                       {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band", path("b.png"), "--difference", path("b.png")},
                                                        {"compare", path("reference.exr")}};
   for (const auto& arguments : cases) {
     const ProgramRun run = runProgram(arguments);

@@ -84,6 +84,13 @@ TEST(AddedLight, inTheEveningIsLampsAndADarkSky) {
   EXPECT_EQ(scene.lamps.size(), 1u);
 }
 
+TEST(AddedLight, inTheEveningLeavesARoomsOwnLampsAlone) {
+  Scene room = test::furnishedRoom();
+  room.lamps.push_back(test::pointLamp({2, 2, 2}, 60));
+  const AddedLight light = added(room, Mood::Evening);
+  EXPECT_FALSE(light.document.contains("lamps")) << light.document.dump();
+}
+
 TEST(AddedLight, ofASinglePieceIsSunSkyAndAGroundToStandOn) {
   const Scene chair = test::chair();
   const AddedLight light = added(chair, Mood::Auto);

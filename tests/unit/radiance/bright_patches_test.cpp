@@ -104,6 +104,40 @@ TEST(BrightPatches, sharesStayNumbersHoweverSmallAPatchIs) {
   }
 }
 
+TEST(BrightPatches, raysLeaveLightToPointsBesideThem) {
+  const SunnyRoom room;
+  const RayScene rays(room.scene);
+  RadianceField field = lit(room, true, 8, 1);
+  // Every second point of lamps' glow alone: slots without a point of their own are stood for by those beside them.
+  std::vector<GlowPoint> points;
+  for (size_t i = 0; i < field.sunPoints.size(); ++i) {
+    if (field.sunPoints[i].slot / 2 % 2 == 0) points.push_back(field.sunPoints[i]), points.back().lamp = 0;
+  }
+  std::vector<float> glowShare(room.voxels.slots.size());
+  for (const GlowPoint& g : field.sunPoints) glowShare[static_cast<size_t>(g.slot)] = 1;
+  const BrightPatches patches(rays, room.voxels, points, glowShare, 0, 1);
+  const int32_t side = patches.sideAt({0.001f, 1.2f, 2}, {1, 0, 0});
+  ASSERT_TRUE(patches.reaches(side));
+  size_t without = 0;
+  for (const GlowPoint& g : field.sunPoints) {
+    if (g.slot / 2 % 2 == 0) continue;
+    ++without;
+    EXPECT_LT(patches.rayShare(g.slot, g.radianceCdM2, 2, 0.5f, side, 0.01f), 0.9f);
+    EXPECT_FALSE(patches.holdsSun(g.slot));
+  }
+  EXPECT_GT(without, 0u);
+}
+
+// With more than one sun rays find all of what they light, and so they do on polished metal.
+TEST(BrightPatches, areOfOneSunAndNotOnMetal) {
+  SunnyRoom room;
+  room.scene.suns.push_back(room.scene.suns[0]);
+  EXPECT_TRUE(lit(room, true, 8, 1).sunPoints.empty());
+  room.scene.suns.pop_back();
+  for (Material& m : room.scene.materials) m.metallic = 1, m.roughness = 0.1f;
+  EXPECT_TRUE(lit(room, true, 8, 1).sunPoints.empty());
+}
+
 TEST(BrightPatches, lightByPlaceIsThatFoundByChance) {
   const SunnyRoom room;
   double byPlace = 0, byChance = 0;
