@@ -20,6 +20,7 @@
 #include "interrupt.h"
 #include "json_output.h"
 #include "layers_file.h"
+#include "look/exposure.h"
 #include "measure/luminance_picture.h"
 #include "output_files.h"
 #include "scene/find_camera.h"
@@ -162,10 +163,12 @@ std::string panoramaXmp(int width, int height) {
       width, height);
 }
 
-Status writePicture(const std::string& out, const RenderPlan& plan, const Camera& camera, const Rendered& rendered, const White& white, float ev100, Metadata metadata) {
+Status writePicture(const std::string& out, const RenderPlan& plan, const Camera& camera, const Rendered& rendered, const White& white, float ev100, const std::vector<bool>& rooms, Metadata metadata) {
   const std::string extension = lowerExtension(out);
   if (extension == ".exr") return writeExr(out, rendered.image, metadata);
-  const Image display = displayed(unmixed(rendered.image, rendered.sights), plan.display, white, ev100);
+  Image light = unmixed(rendered.image, rendered.sights);
+  if (!rooms.empty()) holdGrounds(light, rooms, ev100);
+  const Image display = displayed(light, plan.display, white, ev100);
   const std::string xmp = camera.projection == Projection::Panorama ? panoramaXmp(display.width, display.height) : "";
   if (extension == ".jpg") return writeJpeg(out, drawn(display, rendered.sights, kSectionColour, kPaperColour), SIZE_MAX, xmp);
   if (!xmp.empty()) metadata["XML:com.adobe.xmp"] = xmp;
@@ -177,14 +180,15 @@ Status writePicture(const std::string& out, const RenderPlan& plan, const Camera
 }
 
 Status writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
-  const float ev100 = ev100Of(plan.display, pixelsOfRooms(scene, camera, rendered.image));
+  const std::vector<bool> rooms = roomMask(scene, camera, rendered.image.width, rendered.image.height);
+  const float ev100 = ev100Of(plan.display, rooms.empty() ? rendered.image : pixelsWhere(rendered.image, rooms, true));
   const White white = whiteOf(plan.display, rendered.lightColour);
   const Metadata metadata = metadataOfPicture(o, plan, camera, rendered, ev100, white);
   if (o.kind != "picture") return writeLuminance(o, rendered, metadata);
   std::optional<LayeredImage> layered;
   if (plan.settings.layers) layered = layeredImage(scene, camera, rendered, metadata);
   for (const std::string& out : o.outputs) {
-    const Status s = layered && lowerExtension(out) == ".exr" ? writeLayers(out, *layered) : writePicture(out, plan, camera, rendered, white, ev100, metadata);
+    const Status s = layered && lowerExtension(out) == ".exr" ? writeLayers(out, *layered) : writePicture(out, plan, camera, rendered, white, ev100, rooms, metadata);
     if (!s) return s;
   }
   return Ok{};

@@ -246,23 +246,22 @@ std::optional<float> shownFloorM(const Scene& scene, const Camera& camera) {
   return floor;
 }
 
-Image pixelsOfRooms(const Scene& scene, const Camera& camera, const Image& image) {
+std::vector<bool> roomMask(const Scene& scene, const Camera& camera, int width, int height) {
   const std::optional<float> floor = shownFloorM(scene, camera);
-  if (!floor) return image;
-  const CameraRays rays(camera, image.width, image.height);
-  Image out;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const Ray ray = rays.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-      if (!(ray.direction.y < 0)) continue;
-      const Vec3 p = ray.origin + ray.direction * ((*floor - ray.origin.y) / ray.direction.y);
-      const bool inside = std::any_of(scene.rooms.begin(), scene.rooms.end(), [&](const Room& r) { return std::abs(r.elevationM - *floor) < kLevelsApartM && contains(r.floor, {p.x, p.z}); });
-      if (inside) out.pixels.push_back(image.at(x, y));
-    }
+  if (!floor) return {};
+  const CameraRays rays(camera, width, height);
+  std::vector<bool> mask(static_cast<size_t>(width) * static_cast<size_t>(height));
+  for (size_t i = 0; i < mask.size(); ++i) {
+    const auto x = static_cast<float>(i % static_cast<size_t>(width)), y = static_cast<float>(i / static_cast<size_t>(width));
+    const Ray ray = rays.ray(x + 0.5f, y + 0.5f);
+    if (!(ray.direction.y < 0)) continue;
+    const auto at = [&](float elevationM) { return ray.origin + ray.direction * ((elevationM - ray.origin.y) / ray.direction.y); };
+    const Vec3 onFloor = at(*floor), onCut = at(camera.cutHeightM);  // between them a ray from above meets the walls of a room
+    mask[i] = std::any_of(scene.rooms.begin(), scene.rooms.end(), [&](const Room& r) {
+      return std::abs(r.elevationM - *floor) < kLevelsApartM && (contains(r.floor, {onFloor.x, onFloor.z}) || contains(r.floor, {onCut.x, onCut.z}));
+    });
   }
-  if (out.pixels.empty()) return image;
-  out.width = static_cast<int>(out.pixels.size()), out.height = 1;
-  return out;
+  return std::find(mask.begin(), mask.end(), true) == mask.end() ? std::vector<bool>() : mask;
 }
 
 }  // namespace roomlight

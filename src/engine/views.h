@@ -59,8 +59,7 @@ Vec2 middleOf(const Room& room);
 // Elevation of the floor that a cut camera shows: the highest of the rooms' that lies below the cut. None without a cut or rooms.
 std::optional<float> shownFloorM(const Scene& scene, const Camera& camera);
 
-// The pixels that show rooms, one after the other, of a camera that cuts a scene with rooms: what a plan is exposed by, instead of the garden
-// around it. All pixels of other pictures.
-Image pixelsOfRooms(const Scene& scene, const Camera& camera, const Image& image);
+// Whether each pixel shows a room or its walls, of a camera that cuts a scene with rooms: what a plan is exposed by, instead of the garden around it. Empty for other pictures.
+std::vector<bool> roomMask(const Scene& scene, const Camera& camera, int width, int height);
 
 }  // namespace roomlight

@@ -191,10 +191,11 @@ Json lampOverCamera(const RayScene& rays, const std::vector<Seen>& seen, const C
   return {{"name", "Lamp over the camera"}, {"type", "point"}, {"position", place(p)}, {"flux", fmt::format("{:.0f} lm", flux)}, {"temperature", "3000 K"}};
 }
 
-// Wide enough to end far away, as seen from around the scene.
-Json groundUnder(const Bounds3& b) {
+// Wide enough to end close to the horizon as the camera sees it.
+Json groundUnder(const Bounds3& b, const Camera& camera) {
   const float extent = maxComponent(b.size());
-  const float radius = std::clamp(8 * extent, 4.0f, std::max(60.0f, 3 * extent));
+  const float eyeHeight = camera.worldFromCamera.w.y - b.lo.y;
+  const float radius = std::clamp(std::max(8 * extent, 28 * eyeHeight), 4.0f, std::max(60.0f, 3 * extent));
   const auto fine = [](float v) { return std::round(static_cast<double>(v) * 1e6) / 1e6; };  // things may be small
   return {{"elevation", fine(b.lo.y - kUnderThings * extent)}, {"centre", {number(b.centre().x), number(b.centre().z)}}, {"radius", number(radius)}, {"reflectance", kGroundReflectance}};
 }
@@ -243,7 +244,7 @@ bool outdoorLightComesIn(const RayScene& rays, const std::vector<Room>& rooms, c
   return share > kLeastDaylight;
 }
 
-AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood) {
+AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood, const Json& ownGround) {
   const Sights sights = sightsOf(rays, camera);
   const std::vector<Seen>& seen = sights.surfaces;
   const bool indoors = isIndoors(rays, rooms, camera, sights), evening = mood == Mood::Evening;
@@ -277,9 +278,11 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   } else if (daylight) {
     j["daylight"] = daylightFrom(toSun, indoors ? "clear" : "intermediate");
   }
-  if (!indoors) j["ground"] = groundUnder(rays.bounds());
+  const bool addsGround = !indoors && ownGround.is_null();
+  if (addsGround) j["ground"] = groundUnder(rays.bounds(), camera);
+  if (j.contains("daylight") && !ownGround.is_null()) j["daylight"]["ground"] = ownGround;
   if (!lamps.empty()) j["lamps"] = lamps;
-  out.summary = listed(daylight, evening, ceilingLamps, overCamera, !indoors);
+  out.summary = listed(daylight, evening, ceilingLamps, overCamera, addsGround);
   return out;
 }
 

@@ -11,15 +11,15 @@ namespace roomlight::home {
 
 // What a scene's own light could give at the most.
 struct OwnLight {
-  bool lamps = false, outdoors = false;  // point, spot and area lamps; suns and a sky
-  double indoorLux = 0;                  // of lamps and shining surfaces alone
-  double meanLux = 0;                    // on surfaces, estimated: all the flux of lamps and shining surfaces over all surfaces, and the light outdoors
-  std::vector<std::string> farLamps;     // that stand so far outside the scene that they light nothing
+  bool lamps = false;                 // point, spot and area lamps
+  double indoorLux = 0, outdoorLux = 0;  // on surfaces, estimated: all the flux of lamps and shining surfaces over all surfaces; suns and sky
+  std::vector<std::string> farLamps;  // that stand so far outside the scene that they light nothing
 
-  bool shines = false;                   // anything at all
-
-  bool none() const { return !lamps && !outdoors && meanLux < 0.5; }
-  bool faint() const { return meanLux < 0.5; }
+  static constexpr double kFaintLux = 0.5;  // less than a full moon gives is no light to see a home by
+  double meanLux() const { return indoorLux + outdoorLux; }
+  bool outdoors() const { return outdoorLux >= kFaintLux; }
+  bool none() const { return !lamps && meanLux() < kFaintLux; }
+  bool faint() const { return meanLux() < kFaintLux; }
 };
 OwnLight ownLightOf(const Scene& scene);
 
@@ -40,6 +40,7 @@ struct AddedLight {
 
 // `camera`: what is looked at. `rooms`: those of the scene, or found in it. Indoors the sun stands where most of it comes in. Where all that
 // would leave the picture black, a lamp is added over the camera.
-AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood);
+// `ownGround`: reflectance of the home's own ground, as a `daylight` has it; null: there is none, and homes seen from outside get one.
+AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood, const nlohmann::ordered_json& ownGround = {});
 
 }  // namespace roomlight::home

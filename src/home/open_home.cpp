@@ -17,6 +17,8 @@
 namespace roomlight::home {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr size_t kMostNamed = 3;
 constexpr std::array kLightKeys = {"scene", "lamps", "sun", "sky", "daylight"};  // of lighting files
 
@@ -111,7 +113,7 @@ void tellOwnLight(const OwnLight& own, bool added, LightWish wish, OpenedHome& h
   if (own.none()) {
     home.warnings.push_back(wish == LightWish::None ? "there is no light" : "nothing in it shines; --light auto, the default of render, adds light");
   } else if (own.faint()) {
-    home.warnings.push_back(fmt::format("the light in it is next to nothing, about {:.1g} lx; --light day adds daylight", own.meanLux));
+    home.warnings.push_back(fmt::format("the light in it is next to nothing, about {:.1g} lx; --light day adds daylight", own.meanLux()));
   }
 }
 
@@ -124,10 +126,13 @@ Camera shownCamera(const OpenWish& wish, const OpenedHome& home) {
 void addLight(const RayScene& rays, const OpenWish& wish, const OwnLight& own, std::optional<Mood> mood, OpenedHome& home) {
   tellOwnLight(own, mood.has_value(), wish.light, home);
   if (!mood) return;
-  AddedLight light = lightFor(rays, home.scene.rooms, shownCamera(wish, home), *mood);
-  const bool hasSun = !home.scene.suns.empty() || home.scene.sky.present();
-  std::string why = hasSun ? "the sun and sky of the file do not come in: " : "no light in the file: ";
-  if (own.shines && !hasSun) why = fmt::format("the light in the file is next to nothing, about {:.1g} lx: ", own.meanLux);
+  AddedLight light = lightFor(rays, home.scene.rooms, shownCamera(wish, home), *mood, home.daylight.empty() ? Json() : Json::parse(home.daylight).at("ground"));
+  std::string why = "no light in the file: ";
+  if (own.outdoors()) {
+    why = "the sun and sky of the file do not come in: ";
+  } else if (own.meanLux() > 0) {
+    why = fmt::format("the light in the file is next to nothing, about {:.1g} lx: ", own.meanLux());
+  }
   if (*mood != Mood::Auto) why.clear();
   home.notes.push_back(fmt::format("{}added {}; --light or --lighting decides, --write-lighting FILE keeps it", why, light.summary));
   home.added = light.summary;
@@ -179,14 +184,11 @@ Result<OpenedHome> openHome(const OpenWish& wish) {
   {
     const RayScene rays(home.scene);
     if (home.scene.rooms.empty()) home.scene.rooms = findRooms(rays);
-    OwnLight own = ownLightOf(home.scene);
+    const OwnLight own = ownLightOf(home.scene);
     const bool decided = decidesLight(lighting);
     std::optional<Mood> mood = moodOf(wish.light, own, decided);
-    chooseCamera(rays, wish, own.outdoors || mood.has_value(), home);
-    if (wish.light == LightWish::Auto && !decided && !mood && !own.lamps && own.indoorLux < 0.5 && !outdoorLightComesIn(rays, home.scene.rooms, shownCamera(wish, home))) {
-      own.outdoors = false;
-      mood = Mood::Auto;
-    }
+    chooseCamera(rays, wish, own.outdoors() || mood.has_value(), home);
+    if (wish.light == LightWish::Auto && !decided && !mood && !own.lamps && own.indoorLux < 0.5 && !outdoorLightComesIn(rays, home.scene.rooms, shownCamera(wish, home))) mood = Mood::Auto;
     addLight(rays, wish, own, mood, home);
   }
   if (!home.lighting.is_null()) {

@@ -42,15 +42,9 @@ OwnLight ownLightOf(const Scene& scene) {
     own.lamps = true;
     fluxLm += cd * (lamp.kind == LampKind::Spot ? spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad)) : 4.0 * static_cast<double>(kPi));
   }
-  own.shines = fluxLm > 0;
-  own.meanLux = own.indoorLux = fluxLm / surfaceM2;
-  for (const Sun& sun : scene.suns) {
-    own.outdoors = own.outdoors || luminance(sun.illuminanceLux) > 0;
-    own.meanLux += static_cast<double>(luminance(sun.illuminanceLux)) * 0.3;
-  }
-  const double sky = meanSkyLuminance(scene.sky);
-  own.outdoors = own.outdoors || sky > 0;
-  own.meanLux += sky * static_cast<double>(kPi);
+  own.indoorLux = fluxLm / surfaceM2;
+  for (const Sun& sun : scene.suns) own.outdoorLux += static_cast<double>(luminance(sun.illuminanceLux)) * 0.3;
+  own.outdoorLux += meanSkyLuminance(scene.sky) * static_cast<double>(kPi);
   return own;
 }
 

@@ -86,15 +86,8 @@ DaylightLux cieLux(const JsonPlace& j, const When& when, int type) {
 
 double angleRad(Vec3 a, Vec3 b) { return std::acos(std::clamp(static_cast<double>(dot(a, b)), -1.0, 1.0)); }
 
-// A sun below the horizon makes the sky as one on it.
-Vec3 sunInSky(const When& when) {
-  const Vec3 level{when.toSun.x, 0, when.toSun.z};
-  if (when.toSun.y >= 0) return when.toSun;
-  return length(level) > 0 ? normalize(level) : Vec3{0, 0, -1};
-}
-
 SkyFunction cieSky(int type, const When& when) {
-  const Vec3 sun = sunInSky(when);
+  const Vec3 sun = sunInSky(when.toSun);
   const double zenithRad = angleRad(sun, {0, 1, 0});
   return [=](Vec3 d) { return cieSkyLuminance(type, static_cast<double>(d.y), angleRad(d, sun), zenithRad); };
 }
@@ -144,6 +137,12 @@ Vec3 colourOf(const JsonPlace& j, const char* key) {
 
 constexpr double kSunshineWm2 = 120;
 
+// A number, or red, green and blue.
+Vec3 groundReflectance(const JsonPlace& j) {
+  if (j.has("ground") && j["ground"].isArray()) return j["ground"].vector(0, 1);
+  return Vec3(static_cast<float>(j.number("ground", 0, 1, kGroundReflectance)));
+}
+
 // The two together, with the ground that they light.
 Daylight lit(const JsonPlace& j, const When& when, DaylightLux lux, const SkyFunction& luminance, bool clear) {
   Daylight out;
@@ -153,13 +152,12 @@ Daylight lit(const JsonPlace& j, const When& when, DaylightLux lux, const SkyFun
   out.sun.toLight = when.toSun;
   out.sun.illuminanceLux = sunColour * static_cast<float>(lux.sun);
   out.sun.halfAngleRad = static_cast<float>(rad(kSunDiameterDeg / 2));
-  const double reflectance = j.number("ground", 0, 1, kGroundReflectance);
-  const Vec3 groundLux = skyColour * static_cast<float>(lux.sky) + sunColour * static_cast<float>(lux.sun * std::sin(when.altitudeRad));
-  if (isBlack(groundLux)) return out;
+  const Vec3 levelSunLux = sunColour * static_cast<float>(lux.sun * std::max(std::sin(when.altitudeRad), 0.0));
+  if (lux.sky <= 0 && isBlack(levelSunLux)) return out;
   SkyColour colour(skyColour);
   colour.miredPerDecade = clear ? kClearSkyMiredPerDecade : 0;
-  colour.hazeRad = kHazeRad;
-  out.sky.image = skyImage(luminance, lux.sky, colour, groundLux * static_cast<float>(reflectance / std::numbers::pi));
+  out.sky.image = skyImage(luminance, lux.sky, colour);
+  paintGround(out.sky.image, groundReflectance(j), levelSunLux, kHazeRad);
   out.sky.horizonEdge = true;
   return out;
 }
@@ -170,7 +168,7 @@ Daylight perezDaylight(const JsonPlace& j, const When& when, const Measured& mea
     if (measured.irradiance.directNormal > 0) j.fail("direct light without any diffuse light is no sky; is one of the two missing?");
     return {};
   }
-  const Vec3 sun = sunInSky(when);
+  const Vec3 sun = sunInSky(when.toSun);
   const double outsideWm2 = kSolarConstant * (when.moment ? sunDistanceFactor(*when.moment) : 1);
   const PerezSky sky = perezSky(measured.irradiance, angleRad(sun, {0, 1, 0}), outsideWm2, measured.waterCm);
   const DaylightLux lux{measured.skyLux.value_or(sky.diffuseEfficacy * measured.irradiance.diffuseHorizontal),

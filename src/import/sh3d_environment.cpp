@@ -78,12 +78,6 @@ Image pictureSky(const Texture& picture, double xOffset, double skyLux, Vec3 tin
   return image;
 }
 
-void paintGround(Image& sky, Vec3 groundCdM2) {
-  for (int y = sky.height / 2; y < sky.height; ++y) {
-    for (int x = 0; x < sky.width; ++x) sky.at(x, y) = groundCdM2;
-  }
-}
-
 // For other times than the home's: like its own, but for its sky's picture and the hue of its sun.
 std::string daylightJson(const Home& home, int64_t wallSeconds, int offsetSeconds, Vec3 groundReflectance) {
   const Compass& compass = *home.compass;
@@ -93,8 +87,8 @@ std::string daylightJson(const Home& home, int64_t wallSeconds, int offsetSecond
   const auto second = static_cast<int>((wall - day).count());
   const int offset = std::abs(offsetSeconds) / 60;
   const Vec3 sky = hue(home.environment.skyColour.value_or(0xffffff)) * hue(home.environment.lightColour.value_or(0xffffff));
-  return fmt::format(R"({{"sky": "clear", "latitude": {:.6f}, "longitude": {:.6f}, "north": {:.4f}, "ground": {:.4f}, "color": [{:.5f}, {:.5f}, {:.5f}], "time": "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}"}})",
-                     *compass.latitudeRad * kDegrees, *compass.longitudeRad * kDegrees, std::remainder(-compass.northRad * kDegrees, 360.0), std::clamp(luminance(groundReflectance), 0.0f, 1.0f), sky.x, sky.y, sky.z,
+  return fmt::format(R"({{"sky": "clear", "latitude": {:.6f}, "longitude": {:.6f}, "north": {:.4f}, "ground": [{:.4f}, {:.4f}, {:.4f}], "color": [{:.5f}, {:.5f}, {:.5f}], "time": "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}"}})",
+                     *compass.latitudeRad * kDegrees, *compass.longitudeRad * kDegrees, std::remainder(-compass.northRad * kDegrees, 360.0), groundReflectance.x, groundReflectance.y, groundReflectance.z, sky.x, sky.y, sky.z,
                      static_cast<int>(date.year()), static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), second / 3600, second / 60 % 60, second % 60, offsetSeconds < 0 ? '-' : '+', offset / 60, offset % 60);
 }
 
@@ -114,7 +108,6 @@ std::string addDaylight(const Home& home, const Paints& paints, const std::strin
   const Moment moment = momentOf(wallSeconds, *offset);
   const SunPosition position = sunPosition(moment, *compass.latitudeRad * kDegrees, *compass.longitudeRad * kDegrees);
   std::string otherTimes = daylightJson(home, wallSeconds, *offset, groundReflectance);
-  if (position.altitudeRad <= 0) return otherTimes;
   Sun sun;
   sun.name = "sun";
   // North stands at that angle clockwise from the plan's up, -z: so -z bears the opposite angle.
@@ -123,25 +116,35 @@ std::string addDaylight(const Home& home, const Paints& paints, const std::strin
   const Vec3 tint = hue(home.environment.lightColour.value_or(0xffffff));
   sun.illuminanceLux = tint * (static_cast<float>(sunLux(moment, position.altitudeRad, sunExtinction(skyCover(kClearSky)))));
   const double skyLux = skyHorizontalLux(skyCover(kClearSky), position.altitudeRad);
-  const Vec3 toSun = sun.toLight;
-  const auto ground = [&](Vec3 skyColour) {
-    return (skyColour * static_cast<float>(skyLux) + sun.illuminanceLux * std::max(toSun.y, 0.0f)) * groundReflectance / kPi;
-  };
+  const Vec3 toSun = sunInSky(sun.toLight);
   const auto& use = home.environment.skyTexture;
   const Texture* picture = use ? paints.picture(use->image) : nullptr;
   if (picture) scene.sky.image = pictureSky(*picture, use->xOffset, skyLux, tint);
-  if (picture && scene.sky.image.width > 0) {
-    paintGround(scene.sky.image, ground(tint));
-  } else {
+  if (scene.sky.image.width == 0) {
     const Vec3 mixed = hue(home.environment.skyColour.value_or(0xffffff)) * tint, colour = mixed / luminance(mixed);
     const double zenithRad = angleRad(toSun, {0, 1, 0});
     SkyColour sky(colour);
-    sky.miredPerDecade = kClearSkyMiredPerDecade, sky.hazeRad = kHazeRad;
-    scene.sky.image = skyImage([=](Vec3 d) { return cieSkyLuminance(kClearSky, static_cast<double>(d.y), angleRad(d, toSun), zenithRad); }, skyLux, sky, ground(colour));
+    sky.miredPerDecade = kClearSkyMiredPerDecade;
+    scene.sky.image = skyImage([=](Vec3 d) { return cieSkyLuminance(kClearSky, static_cast<double>(d.y), angleRad(d, toSun), zenithRad); }, skyLux, sky);
   }
+  paintGround(scene.sky.image, groundReflectance, sun.illuminanceLux * std::max(sun.toLight.y, 0.0f), kHazeRad);
   scene.sky.horizonEdge = true;
-  scene.suns.push_back(std::move(sun));
+  if (position.altitudeRad > 0) scene.suns.push_back(std::move(sun));
   return otherTimes;
+}
+
+// Of the ground's material in the mean: what the ground is that the sky's lower half shows farther away.
+Vec3 meanReflectance(const Scene& scene, int material) {
+  const Material& m = scene.materials[static_cast<size_t>(material)];
+  if (m.baseColorTexture.texture < 0) return m.baseColor;
+  const Texture& t = scene.textures[static_cast<size_t>(m.baseColorTexture.texture)];
+  Vec3 sum;
+  const size_t texels = t.rgba.size() / 4;
+  for (size_t i = 0; i < texels; ++i) {
+    const uint8_t* texel = &t.rgba[4 * i];
+    sum += linearColour(static_cast<uint32_t>(texel[0]) << 16 | static_cast<uint32_t>(texel[1]) << 8 | texel[2]);
+  }
+  return texels > 0 ? m.baseColor * sum / static_cast<float>(texels) : m.baseColor;
 }
 
 // A rectangle around the home without the rooms that lie below it.
@@ -170,7 +173,7 @@ std::string addEnvironment(const Home& home, Paints& paints, const std::string& 
   ground.colour = env.groundColour.value_or(kUsualGround);
   ground.texture = env.groundTexture;
   const int material = paints.material(ground, "ground");
-  std::string daylight = addDaylight(home, paints, camera, linearColour(*ground.colour) * kWhiteReflectance, scene, warnings);
+  std::string daylight = addDaylight(home, paints, camera, meanReflectance(scene, material), scene, warnings);
   addGround(home, material, scene, object);
   return daylight;
 }

@@ -54,4 +54,27 @@ float lookedAtEv100(const Image& image) {
   return static_cast<float>(sum / weight - std::log2(kMiddleGrey * 1.2) - kVoidEv * empty);
 }
 
+Image pixelsWhere(const Image& image, const std::vector<bool>& mask, bool so) {
+  Image out;
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    if (mask[i] == so) out.pixels.push_back(image.pixels[i]);
+  }
+  out.width = static_cast<int>(out.pixels.size()), out.height = 1;
+  return out;
+}
+
+void holdGrounds(Image& image, const std::vector<bool>& rooms, float ev100) {
+  constexpr float kMostEv = 2.0f / 3;
+  Image grounds = pixelsWhere(image, rooms, false);
+  std::erase_if(grounds.pixels, [](Vec3 p) { return !(luminance(p) > 0); });
+  grounds.width = static_cast<int>(grounds.pixels.size());
+  if (grounds.width == 0) return;
+  const float over = lookedAtEv100(grounds) - ev100 - kMostEv;
+  if (!(over > 0)) return;
+  const float gain = std::exp2(-over);
+  for (size_t i = 0; i < rooms.size(); ++i) {
+    if (!rooms[i]) image.pixels[i] *= gain;
+  }
+}
+
 }  // namespace roomlight

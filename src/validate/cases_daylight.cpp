@@ -50,8 +50,8 @@ class Daylight {
   double luminance(Point d) const { return d.y > 0 ? scale_ * relativeLuminance(type_, d) : kGroundAlbedo * kHorizontalLux / pi; }
   Sky sky() const {
     Sky out;
-    out.image = skyImage([&](Vec3 d) { return relativeLuminance(type_, {static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)}); }, kHorizontalLux, Vec3(1),
-                         Vec3(static_cast<float>(kGroundAlbedo * kHorizontalLux / pi)));
+    out.image = skyImage([&](Vec3 d) { return relativeLuminance(type_, {static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)}); }, kHorizontalLux, Vec3(1));
+    paintGround(out.image, Vec3(static_cast<float>(kGroundAlbedo)), Vec3(0), 0);
     out.horizonEdge = true;
     return out;
   }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "import/sh3d_time_zone.h"
+#include "photometry/sky_image.h"
 #include "photometry/sun.h"
 #include "unit/import/sh3d_file.h"
 
@@ -51,13 +52,14 @@ TEST(Sh3dSky, northTurnsTheSunWithIt) {
   EXPECT_LT(scene.suns[0].toLight.x, -0.2f);
 }
 
-TEST(Sh3dSky, nightsAndUnknownPlacesHaveNoDaylight) {
+TEST(Sh3dSky, nightsHaveADarkSkyAndUnknownPlacesNone) {
   const Scene night = homeScene(homeAt("1718928000000", "timeZone='Etc/GMT-2'"), kObserver);  // midnight
   EXPECT_TRUE(night.suns.empty());
-  EXPECT_FALSE(night.sky.present());
+  EXPECT_NEAR(luminance(horizontalLux(night.sky.image)), 0.05, 0.001);
   const Result<Imported> nowhere = importHome(wallXml("w", 0, 0, 100, 0, 10));
   ASSERT_TRUE(nowhere.ok());
   EXPECT_TRUE(nowhere.value().scene.suns.empty());
+  EXPECT_FALSE(nowhere.value().scene.sky.present());
   ASSERT_EQ(nowhere.value().warnings.size(), 1u);
   EXPECT_NE(nowhere.value().warnings[0].find("no daylight"), std::string::npos);
 }

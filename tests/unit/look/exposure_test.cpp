@@ -40,6 +40,20 @@ TEST(LookedAt, theMiddleCountsMoreThanTheEdges) {
   EXPECT_GT(lookedAtEv100(image), lookedAtEv100(room(10, 10, 0)) + 0.16f + 0.05f);  // 16 % of the area
 }
 
+TEST(HeldGrounds, liePutAtMostTwoThirdsOfAStopAboveTheRooms) {
+  Image plan(20, 10);
+  std::vector<bool> rooms(plan.pixels.size());
+  for (size_t i = 0; i < plan.pixels.size(); ++i) rooms[i] = i % 20 < 10, plan.pixels[i] = rooms[i] ? Vec3(100) : Vec3(4000, 5000, 2000);
+  const float ev100 = lookedAtEv100(pixelsWhere(plan, rooms, true));
+  holdGrounds(plan, rooms, ev100);
+  EXPECT_EQ(plan.pixels[3], Vec3(100));
+  EXPECT_NEAR(lookedAtEv100(pixelsWhere(plan, rooms, false)), ev100 + 2.0f / 3, 0.01f);
+  EXPECT_NEAR(plan.pixels[15].y / plan.pixels[15].x, 1.25f, 1e-4f);
+  const Image before = plan;
+  holdGrounds(plan, rooms, ev100);
+  for (size_t i = 0; i < plan.pixels.size(); ++i) EXPECT_NEAR(plan.pixels[i].y, before.pixels[i].y, 1e-3f * before.pixels[i].y);
+}
+
 TEST(LocalExposure, leavesWhatIsEvenlyLit) {
   const float ev100 = std::log2(1 / 1.2f);
   Image grey = room(0.18f, 0.18f, 0);

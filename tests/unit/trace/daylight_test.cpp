@@ -38,7 +38,8 @@ SkyFunction cieSky(int type, Vec3 sun) {
 void expectTheSameLight(const SkyFunction& exact) {
   const double scale = 10'000 / horizontalIlluminance(exact), ground = 700;
   Sky sky;
-  sky.image = skyImage(exact, 10'000, Vec3(1), Vec3(static_cast<float>(ground)));
+  sky.image = skyImage(exact, 10'000, Vec3(1));
+  paintGround(sky.image, Vec3(static_cast<float>(ground * std::numbers::pi / 10'000)), Vec3(0), 0);
   sky.horizonEdge = true;
   const SkyDistribution picture(sky);
   for (const Vec3 n : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, -1}, Vec3{0, 0, 1}, normalize(Vec3{1, 1, 0})}) {
@@ -65,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(DirectOverDiffuse, PerezPicture, testing::Values(0, 0.2
 
 TEST(SkyPicture, hasAnEdgeAtTheHorizon) {
   Sky sky;
-  sky.image = skyImage([](Vec3) { return 1.0; }, 10'000, Vec3(1), Vec3(50));
+  sky.image = skyImage([](Vec3) { return 1.0; }, 10'000, Vec3(1));
+  paintGround(sky.image, Vec3(static_cast<float>(50 * std::numbers::pi / 10'000)), Vec3(0), 0);
   sky.horizonEdge = true;
   const SkyDistribution picture(sky);
   for (const float up : {1e-4f, 1e-3f, 0.005f}) {
