@@ -71,6 +71,8 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("estimates", s.hybrid.estimates, 1, 256);
     g.number("gatherEvery", s.hybrid.gatherEvery, 1, 16);
     g.number("nearVoxels", s.hybrid.nearVoxels, 0, 1000);
+    g.number("hitCellM", s.hybrid.hitCellM, -1, 10);
+    g.number("hitSamples", s.hybrid.hitSamples, 1, 4096);
     g.number("rayRoughness", s.hybrid.rayRoughness, 0, 1);
     g.number("filterPasses", s.hybrid.filterPasses, 0, 8);
   });

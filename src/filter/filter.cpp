@@ -11,10 +11,24 @@ namespace roomlight {
 namespace {
 
 constexpr int kSpecularPasses = 3;
-constexpr int kBand = 96;  // rows
+constexpr int kBand = 256;  // rows
+constexpr int kFar = 5;      // passes after which a lone bright line leaves copies of itself as far apart as the last pass looks; short passes after them take these away
+constexpr int kBack = 3;
+
+// How far each pass looks, in pixels.
+std::vector<int> stepsOf(int passes) {
+  std::vector<int> steps;
+  for (int k = 0; k < passes; ++k) steps.push_back(1 << k);
+  for (int k = passes > kFar ? kBack : 0; k-- > 0;) steps.push_back(1 << k);
+  return steps;
+}
 
 // Pixels to each side that all passes together look.
-int reachOf(int passes) { return 2 * (1 << std::max(0, passes - 1)) - 1 + passes; }
+int reachOf(int passes) {
+  int reach = 0;
+  for (const int step : stepsOf(passes)) reach += step + 1;
+  return reach;
+}
 
 // Kept from zero so that light can be divided by it.
 Vec3 divisor(Vec3 albedo) { return max(albedo, Vec3(1e-3f)); }
@@ -30,9 +44,9 @@ void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
     store(at + FilterRows::kNormal * pitch, pitch, p.surface > 0 ? p.normal : Vec3());
     store(at + FilterRows::kPosition * pitch, pitch, p.position);
     at[FilterRows::kRoughness * pitch] = p.roughness;
-    const Vec3 lights[kFilterLights] = {p.diffuse / divisor(p.albedo), p.sharp / divisor(p.albedo), p.specular};
-    const float variances[kFilterLights] = {p.diffuseVariance, p.sharpVariance, p.specularVariance};
-    const float weights[kFilterLights] = {p.weight * p.diffuseShare, p.weight, p.weight * p.specularShare};
+    const Vec3 lights[kFilterLights] = {p.diffuse / divisor(p.albedo), p.sharp / divisor(p.albedo), p.specular, p.rare / divisor(p.albedo)};
+    const float variances[kFilterLights] = {p.diffuseVariance, p.sharpVariance, p.specularVariance, 0};
+    const float weights[kFilterLights] = {p.weight * p.diffuseShare, p.weight, p.weight * p.specularShare, p.weight * p.diffuseShare};
     for (int k = 0; k < kFilterLights; ++k) {
       float* light = at + FilterRows::light(k, 0) * pitch;
       store(light, pitch, lights[k]);
@@ -51,9 +65,69 @@ void compose(std::span<const FilterPixel> pixels, const FilterRows& rows, const 
     Vec3 lights[kFilterLights];
     for (int k = 0; k < kFilterLights; ++k) lights[k] = fetch(at + FilterRows::light(k, pass.place[k]) * pitch, pitch);
     // Where the albedo was raised to divide by it, light that no surface reflected is kept.
-    *out++ = (p.surface > 0 ? (lights[0] + lights[1]) * divisor(p.albedo) : p.diffuse + p.sharp) + lights[2] + p.rest;
+    *out++ = (p.surface > 0 ? (lights[0] + lights[1] + lights[3]) * divisor(p.albedo) : p.diffuse + p.rare + p.sharp) + lights[2] + p.rest;
     ++at;
   }
+}
+
+// What is told besides the picture, where given.
+struct Also {
+  std::vector<Vec3>*once, *irradiance;
+  std::vector<float>* variance;
+};
+
+Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
+  const int w = input.width, h = input.height, farthest = 1 << std::max(0, passes - 1);
+  const auto pixelsOfRow = [&](int y) { return std::span(input.pixels).subspan(static_cast<size_t>(y) * static_cast<size_t>(w), static_cast<size_t>(w)); };
+  std::atomic<bool> sharp = false, rare = false;
+  parallelFor(input.pixels.size(), 65536, [&](size_t i) {
+    if (!isBlack(input.pixels[i].sharp)) sharp = true;
+    if (!isBlack(input.pixels[i].rare)) rare = true;
+  });
+  // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
+  // take far more memory than all else.
+  const int reach = reachOf(passes);
+  Image out(w, h);
+  if (also.once) also.once->resize(out.pixels.size());
+  if (also.irradiance) also.irradiance->resize(out.pixels.size());
+  if (also.variance) also.variance->resize(out.pixels.size());
+  for (int first = 0; first < h; first += kBand) {
+    const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
+    const auto rowCount = static_cast<size_t>(end - begin);
+    FilterRows rows(w, end - begin, farthest);
+    parallelFor(rowCount, 4, [&](size_t y) {
+      rows.clearMargins(static_cast<int>(y));
+      pack(pixelsOfRow(begin + static_cast<int>(y)), rows, static_cast<int>(y));
+    });
+    FilterPass pass;
+    const std::vector<int> steps = stepsOf(passes);
+    for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
+      pass.step = steps[static_cast<size_t>(k)];
+      pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses, pass.filter[3] = rare;
+      parallelFor(rowCount, 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
+      parallelFor(rowCount, 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });
+      for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
+      if (k > 0 || !also.once) continue;
+      parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
+        const int y = first + static_cast<int>(i);
+        const float* at = rows.line(FilterRows::light(0, pass.place[0]), y - begin);
+        for (int x = 0; x < w; ++x) (*also.once)[static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
+      });
+    }
+    parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
+      const int y = first + static_cast<int>(i);
+      compose(pixelsOfRow(y), rows, pass, y - begin, &out.at(0, y));
+      const size_t row = static_cast<size_t>(y) * static_cast<size_t>(w);
+      const float *at = rows.line(FilterRows::light(0, pass.place[0]), y - begin), *spread = rows.line(FilterRows::light(3, pass.place[3]), y - begin);
+      for (int x = 0; also.irradiance && x < w; ++x) (*also.irradiance)[row + static_cast<size_t>(x)] = fetch(at + x, rows.pitch()) + fetch(spread + x, rows.pitch());
+      for (int x = 0; also.variance && x < w; ++x) {
+        const auto of = [&](int k) { return rows.line(FilterRows::light(k, pass.place[k]) + FilterRows::kVariance, y - begin)[x]; };
+        const float albedo = luminance(divisor(input.pixels[row + static_cast<size_t>(x)].albedo));
+        (*also.variance)[row + static_cast<size_t>(x)] = albedo * albedo * (of(0) + of(1)) + of(2);
+      }
+    });
+  }
+  return out;
 }
 
 // With as many columns of the other side beside each edge as all passes reach.
@@ -74,55 +148,19 @@ Image filteredRound(const FilterInput& input, int passes) {
 
 Image composed(const FilterInput& input) {
   Image out(input.width, input.height);
-  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = input.pixels[i].diffuse + input.pixels[i].sharp + input.pixels[i].specular + input.pixels[i].rest;
+  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = input.pixels[i].diffuse + input.pixels[i].rare + input.pixels[i].sharp + input.pixels[i].specular + input.pixels[i].rest;
   return out;
 }
 
 Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3>* once, std::vector<Vec3>* irradiance) {
   if (wrap) return filteredRound(input, passes);
-  const int w = input.width, h = input.height, farthest = 1 << std::max(0, passes - 1);
-  const auto pixelsOfRow = [&](int y) { return std::span(input.pixels).subspan(static_cast<size_t>(y) * static_cast<size_t>(w), static_cast<size_t>(w)); };
-  std::atomic<bool> sharp = false;
-  parallelFor(input.pixels.size(), 65536, [&](size_t i) {
-    if (!isBlack(input.pixels[i].sharp)) sharp = true;
-  });
-  // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
-  // take far more memory than all else.
-  const int reach = reachOf(passes);
-  Image out(w, h);
-  if (once) once->resize(out.pixels.size());
-  if (irradiance) irradiance->resize(out.pixels.size());
-  for (int first = 0; first < h; first += kBand) {
-    const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
-    const auto rowCount = static_cast<size_t>(end - begin);
-    FilterRows rows(w, end - begin, farthest);
-    parallelFor(rowCount, 4, [&](size_t y) {
-      rows.clearMargins(static_cast<int>(y));
-      pack(pixelsOfRow(begin + static_cast<int>(y)), rows, static_cast<int>(y));
-    });
-    FilterPass pass;
-    for (int k = 0; k < passes; ++k) {
-      pass.step = 1 << k;
-      pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses;
-      parallelFor(rowCount, 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
-      parallelFor(rowCount, 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });
-      for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
-      if (k > 0 || !once) continue;
-      parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
-        const int y = first + static_cast<int>(i);
-        const float* at = rows.line(FilterRows::light(0, pass.place[0]), y - begin);
-        for (int x = 0; x < w; ++x) (*once)[static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
-      });
-    }
-    parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
-      const int y = first + static_cast<int>(i);
-      compose(pixelsOfRow(y), rows, pass, y - begin, &out.at(0, y));
-      if (!irradiance) return;
-      const float* at = rows.line(FilterRows::light(0, pass.place[0]), y - begin);
-      for (int x = 0; x < w; ++x) (*irradiance)[static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
-    });
-  }
-  return out;
+  return filteredFlat(input, passes, {once, irradiance, nullptr});
+}
+
+std::vector<float> varianceLeft(const FilterInput& input, int passes) {
+  std::vector<float> variance;
+  filteredFlat(input, passes, {nullptr, nullptr, &variance});
+  return variance;
 }
 
 }  // namespace roomlight

@@ -11,7 +11,8 @@ namespace roomlight {
 
 // Means over a pixel's samples.
 struct FilterPixel {
-  Vec3 diffuse, sharp, albedo, specular, rest;  // the picture is diffuse + sharp + specular + rest; albedo is of the first two
+  Vec3 diffuse, sharp, albedo, specular, rest;  // the picture is diffuse + rare + sharp + specular + rest; albedo is of the first three
+  Vec3 rare;  // diffuse light that single samples found far beyond what all should find: noise for the most part, spread as widely as surfaces allow
   float diffuseVariance = 0, sharpVariance = 0;  // of the luminance of diffuse / albedo and sharp / albedo, as means
   float specularVariance = 0;
   Vec3 normal, position;
@@ -34,5 +35,7 @@ Image composed(const FilterInput& input);  // without filtering
 // `once`, where given and unless it wraps: diffuse light over albedo after the first pass.
 // `irradiance`, likewise: diffuse light over albedo after all passes.
 Image filtered(const FilterInput& input, int passes, bool wrap = false, std::vector<Vec3>* once = nullptr, std::vector<Vec3>* irradiance = nullptr);
+// Variance of each pixel's luminance that is left after so many passes, were what each pass reads independent: two to four times too small.
+std::vector<float> varianceLeft(const FilterInput& input, int passes);
 
 }  // namespace roomlight

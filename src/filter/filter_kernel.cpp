@@ -1,6 +1,7 @@
 #include "filter/filter_kernel.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/filter_kernel.cpp"
@@ -17,7 +18,7 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 
 constexpr float kKernel[3] = {0.25f, 0.2f, 0.1f};   // of the pixel, of those beside it, of those at its corners
-constexpr float kSigmas[kFilterLights] = {2, 1, 2.5f};  // differences within so many standard deviations count as noise; sharp shadows differ where they should
+constexpr float kSigmas[kFilterLights] = {2, 1, 2.5f, 0};  // differences within so many standard deviations count as noise; sharp shadows differ where they should
 constexpr float kOwnNoise = 0.5f;          // of a pixel's own variance counts at least, so that an outlier is taken for one
 constexpr float kPlaneTolerance = 0.02f;   // metres off the tangent plane, and
 constexpr float kSlope = 0.5f;             // of the distance between the two points along it
@@ -26,6 +27,7 @@ constexpr float kNoSamples = 1e-6f;        // instead of a weight of zero
 constexpr float kUnseen = -1;              // where no pixel has samples yet: like everything
 constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
 constexpr float kSameRoughness = 0.1f;
+constexpr float kSameLevel = 0.125f;       // of the sum of two pixels' diffuse light: rare light spreads where that differs by no more
 
 V load(const float* p) { return hn::LoadU(D(), p); }
 V set(float v) { return hn::Set(D(), v); }
@@ -116,7 +118,7 @@ void findSeen(FilterRows& rows, const FilterPass& pass, int light, int y) {
 
 void prepare(FilterRows& rows, const FilterPass& pass, int y) {
   for (int k = 0; k < kFilterLights; ++k) {
-    if (!pass.filter[k]) continue;
+    if (!pass.filter[k] || k == 3) continue;
     findNoise(rows, pass, k, y);
     findSeen(rows, pass, k, y);
   }
@@ -143,10 +145,10 @@ struct Sum {
   }
 };
 
-template <bool kSharp, bool kSpecular>
+template <bool kSharp, bool kSpecular, bool kRare>
 void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
   const D d;
-  constexpr bool kUsed[kFilterLights] = {true, kSharp, kSpecular};
+  constexpr bool kUsed[kFilterLights] = {true, kSharp, kSpecular, kRare};
   const ptrdiff_t pitch = rows.pitch();
   const float* row = rows.line(0, y);
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
@@ -169,6 +171,14 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
         for (int k = 0; k < kFilterLights; ++k) {
           if (!kUsed[k]) continue;
           Sum& s = sums[k];
+          if (k == 3) {
+            // Its own noise tells nothing: what other diffuse light there is tells where it changes.
+            const V one = load(here + FilterRows::kSeen * pitch), two = load(there + FilterRows::kSeen * pitch);
+            const V apart = hn::Div(hn::Abs(hn::Sub(one, two)), hn::MulAdd(set(kSameLevel), hn::Add(hn::Max(one, hn::Zero(d)), hn::Max(two, hn::Zero(d))), set(1e-6f)));
+            const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
+            s.add(load3(at, pitch), hn::Zero(d), load(at + FilterRows::kWeight * pitch), hn::Mul(kernel, falloff(hn::Add(off, hn::Mul(apart, apart)))));
+            continue;
+          }
           // How far the light of two pixels differs, in units of their noise together: as seen from either, so that as much passes
           // from a bright spot to its surroundings as back.
           const V noise = hn::Sqrt(hn::Add(s.noise, load(there + (FilterRows::kNoise + k) * pitch)));
@@ -201,8 +211,12 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
 }
 
 void filterLights(FilterRows& rows, const FilterPass& pass, int y) {
-  if (pass.filter[1]) return pass.filter[2] ? filterPixels<true, true>(rows, pass, y) : filterPixels<true, false>(rows, pass, y);
-  return pass.filter[2] ? filterPixels<false, true>(rows, pass, y) : filterPixels<false, false>(rows, pass, y);
+  const auto of = [&](auto rare) {
+    constexpr bool kRare = decltype(rare)::value;
+    if (pass.filter[1]) return pass.filter[2] ? filterPixels<true, true, kRare>(rows, pass, y) : filterPixels<true, false, kRare>(rows, pass, y);
+    return pass.filter[2] ? filterPixels<false, true, kRare>(rows, pass, y) : filterPixels<false, false, kRare>(rows, pass, y);
+  };
+  return pass.filter[3] ? of(std::true_type()) : of(std::false_type());
 }
 
 }  // namespace

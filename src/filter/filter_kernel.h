@@ -6,7 +6,7 @@
 
 namespace roomlight {
 
-constexpr int kFilterLights = 3;  // diffuse, sharp, specular
+constexpr int kFilterLights = 4;  // diffuse, sharp, specular, rare
 
 // What the filter knows of a picture: rows of pixels, of each row one line of floats a quantity.
 class FilterRows {

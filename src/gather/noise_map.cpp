@@ -24,7 +24,7 @@ Look lookOf(const FilterPixel& sum, const PixelCount& count) {
   const FilterPixel p = meanOf(sum, count);
   Look l;
   l.normal = p.normal, l.position = p.position, l.surface = p.surface;
-  l.luminance = luminance(p.diffuse + p.sharp + p.specular + p.rest);
+  l.luminance = luminance(p.diffuse + p.rare + p.sharp + p.specular + p.rest);
   const float albedo = std::max(luminance(p.albedo), 1e-3f);
   l.variance = p.diffuseVariance * albedo * albedo + p.specularVariance;
   l.sharpVariance = p.sharpVariance * albedo * albedo;
@@ -42,7 +42,7 @@ bool onOneSurface(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPositi
   return dot(normal, otherNormal) >= kFacing && std::abs(dot(normal, between)) <= kPlane * length(between) + 1e-3f;
 }
 
-std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<PixelCount>& counts, float tolerance) {
+std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<PixelCount>& counts, const std::vector<float>& left, float tolerance) {
   const int width = sums.width, height = sums.height;
   std::vector<Look> looks(counts.size());
   std::vector<double> rows(static_cast<size_t>(height)), known(static_cast<size_t>(height));
@@ -80,7 +80,7 @@ std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<Pixe
       all = std::max(all, 1.0f), like = std::max(like, 1.0f);  // what is known of none is believed to be as it should
       level = level / all + dark;
       // The variance of a few pixels, each of few samples, may be too small by chance.
-      variance = std::max(variance / (like * like), around / (all * like)) + sharp / beside;
+      variance = left.empty() ? std::max(variance / (like * like), around / (all * like)) + sharp / beside : left[i];
       if (own.edge && high >= low) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
       out[i] = variance > tolerance * tolerance * level * level;
     }

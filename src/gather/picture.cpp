@@ -23,6 +23,12 @@ Rectangle tileAt(size_t index, int width, int height) {
   return {x, y, std::min(width, x + kTile), std::min(height, y + kTile)};
 }
 
+FilterInput meansOf(const FilterInput& sums, const std::vector<PixelCount>& counts) {
+  FilterInput out(sums.width, sums.height);
+  parallelFor(counts.size(), 4096, [&](size_t i) { out.pixels[i] = meanOf(sums.pixels[i], counts[i]); });
+  return out;
+}
+
 // What the filter is told of one layer: what pixels see is that of the whole, light and noise its own.
 FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>& counts, const LayerSums& sums, size_t layer) {
   FilterInput out(whole.width, whole.height);
@@ -66,7 +72,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     const bool chosen = first > 0 && settings.tolerance > 0;
     const auto most = static_cast<size_t>(first > 0 || !(settings.tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
     const size_t n = std::min(kRaysAtOnce, most - first);
-    const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, counts, settings.tolerance) : std::vector<uint8_t>();
+    const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, counts, settings.filterPasses > 0 ? varianceLeft(meansOf(sums, counts), settings.filterPasses) : std::vector<float>(), settings.tolerance) : std::vector<uint8_t>();
     const double chosenRays = static_cast<double>(n) * static_cast<double>(chosen ? std::count(noisy.begin(), noisy.end(), 1) : static_cast<std::ptrdiff_t>(counts.size()));
     if (chosenRays == 0) break;
     const double started = watch.seconds();

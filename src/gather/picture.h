@@ -18,6 +18,7 @@ struct PictureSettings {
   int gatherEvery = 1;      // pixels of which one gathers for all, a power of two, by as many times the estimates; the filter spreads what it finds
   int filterPasses = 5;     // of the filter that removes remaining noise (filter.h); 0: none
   float rayRoughness = 0.3f;  // reflections below this roughness get a ray of their own
+  bool rareApart = false;   // light that single rays find far beyond what all should find is filtered apart
   bool white = false;       // what the camera sees straight, or through panes, is whitened (scene/surface.h)
   bool orNothing = false;   // once progress says stop no picture is made; else the first pass is ended
   double timeLimitS = 0;    // no pass after the first is begun that would end later

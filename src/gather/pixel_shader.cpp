@@ -74,7 +74,7 @@ FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count) {
   const float inverse = 1 / static_cast<float>(std::max(1u, count.rays));
   const float diffuse = count.gathered == count.rays ? inverse : 1 / static_cast<float>(std::max(1u, count.gathered));
   const float specular = count.glossy == count.rays ? inverse : 1 / static_cast<float>(std::max(1u, count.glossy));
-  p.diffuse *= diffuse, p.sharp *= inverse, p.albedo *= inverse, p.specular *= specular, p.rest *= inverse;
+  p.diffuse *= diffuse, p.rare *= diffuse, p.sharp *= inverse, p.albedo *= inverse, p.specular *= specular, p.rest *= inverse;
   const float albedo = std::max(luminance(p.albedo), 1e-3f);
   p.diffuseVariance *= diffuse * diffuse / (albedo * albedo), p.sharpVariance *= inverse * inverse / (albedo * albedo);
   p.specularVariance *= specular * specular;
@@ -201,7 +201,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
 void PixelShader::findOutshining(TileWork& work, std::span<const SurfaceLight> light) const {
   const auto brightness = [&](const TileWork::Part& part) {
     float sum = 0;
-    for (const SurfaceLight& l : light.subspan(part.first, part.count)) sum += luminance(l.diffuse + l.sharp + l.specular);
+    for (const SurfaceLight& l : light.subspan(part.first, part.count)) sum += luminance(l.diffuse + l.rare + l.sharp + l.specular);
     return sum / static_cast<float>(part.count);
   };
   const auto rays = [](const TileWork::Part& part) { return part.weight * static_cast<float>(part.count); };
@@ -227,11 +227,12 @@ void PixelShader::addPlace(const TileWork::Part& part) {
 void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLight> shadings) {
   FilterPixel& sum = *part.pixel.sum;
   if (part.outshines) {
-    for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.sharp + l.specular) * part.weight, part.pixel.count->occlusion += l.occlusion * part.weight;
+    for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.rare + l.sharp + l.specular) * part.weight, part.pixel.count->occlusion += l.occlusion * part.weight;
     return;
   }
   for (const SurfaceLight& l : shadings) {
     sum.diffuse += part.left * l.diffuse * (part.weight * static_cast<float>(part.gathers));
+    sum.rare += part.left * l.rare * (part.weight * static_cast<float>(part.gathers));
     sum.sharp += part.left * l.sharp * part.weight;
     sum.albedo += part.left * l.albedo * part.weight;
     sum.specular += part.left * l.specular * (part.weight * static_cast<float>(part.glossy));
@@ -247,7 +248,7 @@ void PixelShader::addFragment(const TileWork::Part& part, std::span<const Surfac
   if (f == fragments.rend()) fragments.push_back({pixel, {}, {}, {}, {}}), f = fragments.rbegin();
   f->normal += part.normal, f->position += part.position, f->surface += part.surface;
   for (const SurfaceLight& l : shadings) {
-    f->diffuse += part.left * l.diffuse * part.weight, f->albedo += part.left * l.albedo * part.weight;
+    f->diffuse += part.left * (l.diffuse + l.rare) * part.weight, f->albedo += part.left * l.albedo * part.weight;
     part.pixel.sum->rest += part.left * (l.sharp + l.specular) * part.weight;
     part.pixel.count->occlusion += l.occlusion * part.weight;
   }

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "gather/hit_cache.h"
+#include "gather/hit_guide.h"
 #include "gather/shading.h"
 #include "trace/bsdf.h"
 
@@ -40,12 +42,28 @@ struct GatherVertex {
   bool leavesNear = false;  // light straight from lights it lies near is in the cache
   bool skyKnown = false, lampsKnown = false;
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
+  const GuideCones* cones = nullptr;  // that part of the rays which gather diffuse light follow
+
+  // Density of such rays, where that of unguided ones is known.
+  float guided(float pdf, Vec3 wi) const { return cones ? (1 - cones->share) * pdf + cones->share * cones->pdf(wi) : pdf; }
 
   Lobes value(Vec3 wi) const {
     if (first) return {glossOnly ? Vec3(0) : bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
     const Vec3 f = bsdf.evaluate(wi);
     return {factor.diffuse * f, factor.specular * f};
   }
+};
+
+// Where a gathering ray arrived that a cache could answer.
+struct HitArrival {
+  HitPlace at;
+  Hit hit;
+  Vec3 direction;
+  int64_t slot;
+  bool sure;         // nothing else lies in the slot's voxel
+  uint32_t shading;  // that the ray came from,
+  bool first;        // straight, to gather diffuse light,
+  float factor;      // luminous part of what it finds that reaches the eye
 };
 
 struct GatherWork {
@@ -60,12 +78,15 @@ struct GatherWork {
     Hit hit;
     int64_t slot;
     Vec3 p, n;
+    const HitCell* cell;  // in place of the slot, where there is one
   };
   // Per estimate; those of a shading follow one another.
   std::vector<Sampler> samplers;
   std::vector<Lobes> found;
   std::vector<float> most;  // luminance that a single path may add, by either lobe,
   std::vector<float> expected;  // and that all together should
+  std::vector<Vec3> rare;       // of `found`, what single diffuse finds have beyond `rareFrom` times that
+  float rareFrom = kInfinity;
   std::vector<GatherPath> paths, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
@@ -75,6 +96,7 @@ struct GatherWork {
   std::vector<Vec3> left;
   std::vector<Doubt> doubts;
   uint64_t rayCount = 0;
+  std::vector<HitArrival>* arrivals = nullptr;  // where given, rays tell only where they arrive: no light is asked for
   // Where light is kept in layers: sums of the shadings, the one of each estimate, and the part that the estimate has in it.
   LayerSums* layers = nullptr;
   const SlotLayers* slots = nullptr;
@@ -83,8 +105,12 @@ struct GatherWork {
   std::vector<float> part;
 
   void clear() {
-    samplers.clear(), found.clear(), most.clear(), expected.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
-    rayCount = 0, layers = nullptr, layersAlone = false;
+    samplers.clear(), found.clear(), most.clear(), expected.clear(), rare.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
+    rayCount = 0, layers = nullptr, layersAlone = false, arrivals = nullptr, rareFrom = kInfinity;
+  }
+  void arrive(const GatherPath& path, const Hit& hit, const HitPlace& at, int64_t slot, bool sure) {
+    const bool gathers = path.depth == 1 && !isBlack(path.factor.diffuse);
+    arrivals->push_back({at, hit, path.ray.direction, slot, sure, shadingOf[path.estimate], gathers, luminance(path.factor.diffuse + path.factor.specular)});
   }
   // `sure`: of a light that is sampled too, so that none of its samples stands for much.
   // Returns what was added.
@@ -94,6 +120,8 @@ struct GatherWork {
       return sure || l <= limit ? light : light * (limit / l);
     };
     const Lobes light{bounded(factor.diffuse * radiance, most[estimate]), bounded(factor.specular * radiance, most[estimate])};
+    const float diffuse = luminance(light.diffuse), usual = rareFrom * expected[estimate];
+    if (usual > 0 && diffuse > usual) rare[estimate] += light.diffuse * (1 - usual / diffuse);
     found[estimate].diffuse += light.diffuse;
     found[estimate].specular += light.specular;
     if (layers) addToLayers(estimate, light, origin);

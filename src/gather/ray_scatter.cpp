@@ -48,8 +48,10 @@ void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightO
 
 // Sends rays from a surface: to lights, and on to other surfaces.
 void RayScatter::from(const GatherVertex& v, GatherWork& w) const {
-  lightsAt(v, w);
-  if (!patches_.empty()) glowAt(v, w);
+  if (!w.arrivals) {
+    lightsAt(v, w);
+    if (!patches_.empty()) glowAt(v, w);
+  }
   gatherAt(v, w);
 }
 
@@ -61,10 +63,10 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
   if (light.pdf > 0) {
     // Rays that gather find the same lights; the two share them by multiple importance sampling.
     if (v.apart) {
-      f.diffuse *= misWeight(light.pdf, cosinePdf(v, light.wi));
+      f.diffuse *= misWeight(light.pdf, v.guided(cosinePdf(v, light.wi), light.wi));
       f.specular *= misWeight(light.pdf, v.bsdf.pdfSpecular(light.wi));
     } else {
-      const float weight = misWeight(light.pdf, v.followed ? cosinePdf(v, light.wi) : v.bsdf.pdf(light.wi));
+      const float weight = misWeight(light.pdf, v.guided(v.followed ? cosinePdf(v, light.wi) : v.bsdf.pdf(light.wi), light.wi));
       f.diffuse *= weight, f.specular *= weight;
     }
   }
@@ -194,7 +196,7 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   if (!g.light.valid() || dot(g.light.wi, v.s.ng) <= 0) return;
   const Vec3 wi = g.light.wi;
   Lobes f = v.value(wi);
-  const float cosine = cosinePdf(v, wi), mixed = v.bsdf.pdf(wi);
+  const float cosine = v.guided(cosinePdf(v, wi), wi), mixed = v.guided(v.bsdf.pdf(wi), wi);
   f.diffuse *= patches_.pointShare(g.point, v.s.p, v.side, v.apart || v.followed ? cosine : mixed);
   f.specular *= v.clear && v.apart ? 0 : patches_.pointShare(g.point, v.s.p, v.side, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
   Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
@@ -230,12 +232,18 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   }
   const bool diffuseOnly = v.apart || v.followed;
   const Vec2 u = sampler.next2();
+  const float choice = v.cones ? sampler.next1() : 1;
+  const bool guided = v.cones && choice < v.cones->share;
   if (!diffuseOnly) {
-    const BsdfSample b = v.bsdf.sample(u, sampler.next1());
-    if (b.valid() && !b.mirror) send(b.wi, {v.bsdf.evaluateDiffuse(b.wi) / b.pdf, v.bsdf.evaluateSpecular(b.wi) / b.pdf}, b.pdf, false, kSpread);
+    const BsdfSample b = guided ? BsdfSample{} : v.bsdf.sample(u, sampler.next1());
+    const Vec3 d = guided ? v.cones->sample(u, choice / v.cones->share) : b.wi;
+    if (guided || (b.valid() && !b.mirror)) {
+      const float pdf = v.guided(guided ? v.bsdf.pdf(d) : b.pdf, d);
+      send(d, {v.bsdf.evaluateDiffuse(d) / pdf, v.bsdf.evaluateSpecular(d) / pdf}, pdf, false, kSpread);
+    }
   } else if (!v.glossOnly && maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
-    const Vec3 local = sampleCosineHemisphere(u), d = Frame(v.s.ns).toWorld(local);
-    const float pdf = std::max(local.z, 1e-6f) / kPi;
+    const Vec3 d = guided ? v.cones->sample(u, choice / v.cones->share) : Frame(v.s.ns).toWorld(sampleCosineHemisphere(u));
+    const float pdf = v.guided(std::max(dot(d, v.s.ns), 1e-6f) / kPi, d);
     send(d, {v.bsdf.evaluateDiffuse(d) / pdf, Vec3(0)}, pdf, false, kSpread);
   }
   if (v.apart && maxComponent(v.bsdf.specularAlbedo()) > kNothing) {

@@ -8,6 +8,8 @@ namespace {
 
 constexpr int kDeepest = 8;      // vertices of a path, after which the cache is read whatever it is worth
 constexpr int kMostPanes = 16;
+constexpr float kRare = 4;        // times the light expected: what a single find has beyond that is rare
+constexpr float kNearCells = 2;   // what is hit nearer than that many cells is lit afresh
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
 enum Kind : uint8_t {
@@ -52,6 +54,7 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
 void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, GatherCounters& count) const {
   thread_local GatherWork w;
   w.clear();
+  w.rareFrom = settings_.rareApart && !layers ? kRare : kInfinity;
   w.layers = layers, w.slots = &field_.layers, w.layersAlone = layers && !work.empty() && work[0].lampsKnown;
   for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), w);
   traceShadows(w);
@@ -64,19 +67,22 @@ void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> sha
   size_t first = 0;
   for (size_t i = 0; i < work.size(); ++i) {
     const auto n = static_cast<size_t>(estimates(work[i]));
-    sumUp(std::span(w.found).subspan(first, n), light[i]);
+    sumUp(std::span(w.found).subspan(first, n), std::span(w.rare).subspan(first, n), light[i]);
     first += n;
   }
   count.rays += w.rayCount;
 }
 
 // The mean of estimates, and its variance from how they differ.
-void RayShader::sumUp(std::span<const Lobes> found, SurfaceLight& out) {
+void RayShader::sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, SurfaceLight& out) {
   const auto n = static_cast<float>(found.size());
   for (const Lobes& l : found) out.diffuse += l.diffuse / n, out.specular += l.specular / n;
+  for (const Vec3& r : rare) out.rare += r / n;
+  out.diffuse = max(out.diffuse - out.rare, Vec3(0));
   if (found.size() < 2) return;
-  for (const Lobes& l : found) {
-    const float d = luminance(l.diffuse - out.diffuse), s = luminance(l.specular - out.specular);
+  for (size_t i = 0; i < found.size(); ++i) {
+    const Lobes& l = found[i];
+    const float d = luminance(l.diffuse - rare[i] - out.diffuse), s = luminance(l.specular - out.specular);
     out.diffuseVariance += d * d / (n * (n - 1)), out.specularVariance += s * s / (n * (n - 1));
   }
 }
@@ -126,16 +132,38 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
   const int n = estimates(work);
   const float most = n > 0 ? kMost * luminance(bsdf.albedo()) * expectedRadiance(s) : 0;
   v.glossOnly = work.gathers == 0;
+  const GuideCones cones = n > 0 && !v.glossOnly && !toHits_.empty() ? toHits_.at(s.p, s.ng) : GuideCones{};
+  if (cones.share > 0) v.cones = &cones;
   for (int k = 0; k < n; ++k) {
     v.estimate = static_cast<uint32_t>(w.samplers.size());
     w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(n)));
     w.found.push_back({});
+    w.rare.push_back({});
     w.most.push_back(most);
     w.expected.push_back(most < kInfinity ? most / kMost : 0);
-    if (w.layers) w.shadingOf.push_back(index), w.part.push_back(1 / static_cast<float>(n));
+    if (w.layers || w.arrivals) w.shadingOf.push_back(index), w.part.push_back(1 / static_cast<float>(n));
     scatter_.from(v, w);
   }
   return out;
+}
+
+void RayShader::arrivals(std::span<const Shading> work, std::vector<HitArrival>& out, GatherCounters& count) const {
+  thread_local GatherWork w;
+  w.clear();
+  w.arrivals = &out;
+  const std::vector<Shadow> none(sharp_.count());
+  for (size_t i = 0; i < work.size(); ++i) start(work[i], static_cast<uint32_t>(i), none, w);
+  while (!w.next.empty()) {
+    w.paths.swap(w.next);
+    w.next.clear();
+    follow(w);
+  }
+  count.rays += w.rayCount;
+}
+
+float RayShader::found(const HitArrival& arrival) const {
+  if (const HitCell* cell = hits_.find(arrival.at)) return luminance(cell->radianceCdM2);
+  return arrival.slot < 0 ? 0 : luminance(cache_.radiance(arrival.slot));
 }
 
 // Of light that falls on a surface, by the cache. A path that finds far more than all paths together should is a rare one: what it
@@ -180,6 +208,7 @@ Vec3 RayShader::sunsAlong(const GatherPath& path) const {
 
 // Of a path that leaves the scene.
 void RayShader::addBackground(const GatherPath& path, GatherWork& w) const {
+  if (w.arrivals) return w.arrive(path, {}, {}, -1, false);
   const Vec3 sky = skyAlong(path), suns = sunsAlong(path), both = sky + suns;
   const Lobes light = w.add(path.estimate, path.factor, both, {}, path.depth == 1);
   if (!w.layers || isBlack(both)) return;
@@ -197,7 +226,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
     if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return;
   }
   const SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
-  if (kind & kShines) {
+  if ((kind & kShines) && !w.arrivals) {
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
       LightOrigin origin;
       if (w.layers) origin = LightOrigin::ofLayer(layerOf(hit.instance), scatter_.weightInLayer(path, s));
@@ -225,20 +254,35 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
   }
 }
 
-// Whether the light there comes from the cache, now or, if another ray must tell, later.
+// Whether the light there comes from a cache, now or, if another ray must tell, later.
 bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const {
   const SlotCache::Place place = cache_.find(p, n);
   if (path.depth >= kDeepest) {
-    if (place.slot >= 0) read(path, hit, place.slot, p, n, w);
+    if (place.slot >= 0 && !w.arrivals) read(path, hit, place.slot, p, n, w);
     return true;
   }
-  // Light beside lamps is in the cache alone.
-  const bool near = length(p - path.from) < settings_.nearVoxels * voxels_.voxelSizeM && (place.slot < 0 || field_.glowShare.empty() || field_.glowShare[static_cast<size_t>(place.slot)] == 0);
+  // Light beside lamps is in the slots alone.
+  const bool glows = shinesBesideLamps(place.slot);
+  const float distance = length(p - path.from);
+  if (w.arrivals) {
+    if (!glows && distance < kNearCells * settings_.hitCellM) return false;
+    if (!glows) w.arrive(path, hit, {p, n, hit.instance}, place.slot, place.trust == Trust::Sure);
+    return true;
+  }
+  if (const HitCell* cell = glows ? nullptr : hits_.find({p, n, hit.instance}); cell && distance >= kNearCells * cell->sizeM) {
+    if (cell->sure && place.trust == Trust::Sure) {
+      readCell(path, hit, *cell, p, n, w);
+    } else {
+      w.doubts.push_back({path, hit, place.slot, p, n, cell});
+    }
+    return true;
+  }
+  const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM && !glows;
   if (near || place.trust == Trust::None) return false;
   if (place.trust == Trust::Sure) {
     read(path, hit, place.slot, p, n, w);
   } else {
-    w.doubts.push_back({path, hit, place.slot, p, n});
+    w.doubts.push_back({path, hit, place.slot, p, n, nullptr});
   }
   return true;
 }
@@ -260,8 +304,9 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
   const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
   Vec3 light = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[static_cast<size_t>(slot)] / kPi;
   const Vec3 even = light;
-  const float left = rayShare(path, slot, p, n, luminance(even));
-  if (!field_.sunLux.empty() && field_.sunLux[static_cast<size_t>(slot)] > 0) light = max(Vec3(0), light + sunward(path, hit, slot));
+  const float sunLux = field_.sunLux.empty() ? 0 : field_.sunLux[static_cast<size_t>(slot)];
+  const float left = rayShare(path, slot, luminance(field_.irradianceLux[static_cast<size_t>(slot)]), sunLux, p, n, luminance(even));
+  if (sunLux > 0) light = max(Vec3(0), light + sunward(path, hit, sunLux, voxels_.slots[static_cast<size_t>(slot)].normal));
   const Vec3 bent = light;
   light = max(Vec3(0), even * left + (light - even));
   const Lobes added = w.add(path.estimate, path.factor, light, {});
@@ -272,36 +317,45 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
   if (!isBlack(ofSun)) w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun}, LightOrigin::ofLayer(field_.layers.lights->sun));
 }
 
+void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const {
+  Vec3 light = cell.radianceCdM2 * rayShare(path, cell.slot, cell.lux, cell.sunLux, p, n, luminance(cell.radianceCdM2));
+  if (cell.sunLux > 0) light = max(Vec3(0), light + sunward(path, hit, cell.sunLux, cell.normal));
+  w.add(path.estimate, path.factor, light, {});
+}
+
 // The part of a slot's light that a ray takes which finds it; points of bright patches take the rest.
-float RayShader::rayShare(const GatherPath& path, int64_t slot, Vec3 p, Vec3 n, float light) const {
-  if (!(path.pdf > 0) || patches_.empty()) return 1;
+float RayShader::rayShare(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const {
+  if (!(path.pdf > 0) || patches_.empty() || slot < 0) return 1;
   const auto i = static_cast<size_t>(slot);
-  const float distance = length(p - path.from), all = luminance(field_.irradianceLux[i]);
+  const float distance = length(p - path.from);
   const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM;
-  const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, field_.sunLux[i] / std::max(all, 1e-30f)), glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
+  const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, sunLux / std::max(lux, 1e-30f)), glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
   const auto leftToPoints = [&](float share) { return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction), path.side, path.pdf)) : 0; };
   return std::max(0.0f, 1 - leftToPoints(sun) - leftToPoints(glow));
 }
 
 // Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its
 // reflection by gloss and shading normals is not.
-Vec3 RayShader::sunward(const GatherPath& path, const Hit& hit, int64_t slot) const {
+Vec3 RayShader::sunward(const GatherPath& path, const Hit& hit, float sunLux, Vec3 normal) const {
   SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
   s.m.roughness = std::max(s.m.roughness, kSpread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
-  const float cosine = std::max(dot(voxels_.slots[static_cast<size_t>(slot)].normal, sunDirection_), 0.05f);
-  return sunColour_ * (field_.sunLux[static_cast<size_t>(slot)] * (bsdf.evaluate(sunDirection_) / cosine - bihemisphericalAlbedo(s.m) / kPi));
+  const float cosine = std::max(dot(normal, sunDirection_), 0.05f);
+  return sunColour_ * (sunLux * (bsdf.evaluate(sunDirection_) / cosine - bihemisphericalAlbedo(s.m) / kPi));
 }
 
 void RayShader::resolveUnsure(GatherWork& w) const {
   w.rays.clear();
-  for (const GatherWork::Doubt& d : w.doubts) w.rays.push_back(cache_.between(d.slot, d.p, d.n));
+  for (const GatherWork::Doubt& d : w.doubts) w.rays.push_back(d.cell ? HitCache::between(*d.cell, {d.p, d.n, d.hit.instance}) : cache_.between(d.slot, d.p, d.n));
   w.left.resize(w.rays.size());
   rays_.transmittance(w.rays, w.left);
   w.rayCount += w.rays.size();
   for (size_t i = 0; i < w.doubts.size(); ++i) {
     const GatherWork::Doubt& d = w.doubts[i];
-    if (luminance(w.left[i]) > 0.25f) {
+    const bool free = luminance(w.left[i]) > 0.25f;
+    if (free && d.cell) {
+      readCell(d.path, d.hit, *d.cell, d.p, d.n, w);
+    } else if (free) {
       read(d.path, d.hit, d.slot, d.p, d.n, w);
     } else {
       goOn(d.path, surfaceAt(rays_.scene(), d.hit, d.path.ray.direction), w);

@@ -18,14 +18,26 @@ class RayShader final : public SurfaceShader {
     shade(work, shadows, light, &layers, count);
   }
   const LightLayers* layers() const override { return field_.layers.lights.get(); }
+  // Adds where rays from these surfaces arrive, but for what lies beside lamps. No light is asked for.
+  void arrivals(std::span<const Shading> work, std::vector<HitArrival>& out, GatherCounters& count) const;
+  // From then on rays read it where it knows a place, and slots elsewhere.
+  void keep(HitCache hits) { hits_ = std::move(hits); }
+  const HitCache& hits() const { return hits_; }
+  // From then on part of them follows it.
+  void guideBy(HitGuide guide) { toHits_ = std::move(guide); }
+  // Luminance that a ray would read there.
+  float found(const HitArrival& arrival) const;
 
  private:
   bool apart(const Shading& work) const { return !work.followed && work.s.m.roughness < settings_.rayRoughness; }
-  int estimates(const Shading& work) const { return settings_.estimates * (work.gathers > 0 ? work.gathers : apart(work) ? 1
-                                                                                                                         : 0); }
+  int estimates(const Shading& work) const {
+    if (work.once) return 1;
+    return settings_.estimates * (work.gathers > 0 ? work.gathers : apart(work) ? 1
+                                                                                : 0);
+  }
   void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, GatherCounters& count) const;
   SurfaceLight start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const;
-  static void sumUp(std::span<const Lobes> found, SurfaceLight& out);
+  static void sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, SurfaceLight& out);
   void follow(GatherWork& w) const;
   float expectedRadiance(const SurfacePoint& s) const;
   float brightestAround(Vec3 p) const;
@@ -33,8 +45,10 @@ class RayShader final : public SurfaceShader {
   bool cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const;
   void goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const;
   void read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const;
-  Vec3 sunward(const GatherPath& path, const Hit& hit, int64_t slot) const;
-  float rayShare(const GatherPath& path, int64_t slot, Vec3 p, Vec3 n, float light) const;
+  void readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const;
+  Vec3 sunward(const GatherPath& path, const Hit& hit, float sunLux, Vec3 normal) const;
+  float rayShare(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const;
+  bool shinesBesideLamps(int64_t slot) const { return slot >= 0 && !field_.glowShare.empty() && field_.glowShare[static_cast<size_t>(slot)] > 0; }
   void addBackground(const GatherPath& path, GatherWork& w) const;
   void traceShadows(GatherWork& w) const;
   void resolveUnsure(GatherWork& w) const;
@@ -54,6 +68,8 @@ class RayShader final : public SurfaceShader {
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
   const RayScatter scatter_;
+  HitCache hits_;
+  HitGuide toHits_;
   float meanRadiance_ = 0, brightRadiance_ = 0;  // of all slots, did they reflect all light: the first a tenth of a mean that few bright ones hardly change
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know

@@ -24,12 +24,14 @@ struct Shading {
   int gathers = 1;       // times as many estimates as else; 0: of sharp lights, and of what smooth surfaces reflect, alone
   bool skyKnown = false; // what comes straight from the sky, through panes too, is left to the caller;
   bool lampsKnown = false; // so is what comes straight from lamps (shadeInLayers() alone, of meters, whose sum of all light is of no use then)
+  bool once = false;     // one estimate alone
 };
 
 // Light that a surface sends to the eye, in cd/m², without what it emits, what passes straight through it and, where that is
 // followed, its reflection of other surfaces, sky and lights of any size.
 struct SurfaceLight {
-  Vec3 diffuse;   // reflected by the Lambertian lobe: from all around, and
+  Vec3 diffuse;   // reflected by the Lambertian lobe: from all around,
+  Vec3 rare;      // the same, what single rays found far beyond what all should (of shaders that tell; else part of diffuse), and
   Vec3 sharp;     // from suns and lamps
   Vec3 albedo;    // of that lobe: (diffuse + sharp) / albedo is irradiance / pi
   Vec3 specular;  // reflected by the glossy lobe

@@ -44,6 +44,46 @@ TEST(Filter, keepsTexturesSharp) {
   }
 }
 
+// Single pixels hold as much as hundreds should: spread over the wall, and not onto another.
+TEST(Filter, spreadsRareLightOverItsSurfaceAlone) {
+  FilterInput in = noisyWall(128, 64, 10, 1);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 64; x < 128; ++x) in.at(x, y).normal = {-1, 0, 0};
+    for (int x = 0; x < 64; ++x) in.at(x, y).rare = (x * 7 + y * 13) % 97 == 0 ? Vec3(97) : Vec3();
+  }
+  const Image before = composed(in), after = filtered(in, 6);
+  const test::Moments lit = momentsOf(after, 0, 64), beside = momentsOf(after, 64, 128);
+  EXPECT_NEAR(lit.mean, momentsOf(before, 0, 64).mean, 0.02 * lit.mean);
+  EXPECT_LT(lit.variance, 0.01);
+  EXPECT_NEAR(beside.mean, 5, 0.05);
+}
+
+TEST(Filter, rareLightStopsWhereOtherLightDiffers) {
+  FilterInput in = noisyWall(128, 64, 10, 0);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) in.at(x, y).rare = Vec3(1);
+    for (int x = 64; x < 128; ++x) in.at(x, y).diffuse = Vec3(0.5f);
+  }
+  const Image after = filtered(in, 6);
+  EXPECT_NEAR(luminance(after.at(58, 32)), 6, 0.1f);
+  EXPECT_NEAR(luminance(after.at(70, 32)), 0.5f, 0.01f);
+}
+
+// Passes take what they read for independent, which it is less and less: what is told is a part of what is there, and falls with it.
+TEST(Filter, varianceLeftFollowsTheNoise) {
+  const auto told = [](float deviation, int passes) {
+    const std::vector<float> left = varianceLeft(noisyWall(97, 61, 10, deviation), passes);
+    double mean = 0;
+    for (const float v : left) mean += static_cast<double>(v) / static_cast<double>(left.size());
+    return mean;
+  };
+  const double found = momentsOf(filtered(noisyWall(97, 61, 10, 3), 3), 0, 97).variance;
+  EXPECT_GT(told(3, 3), found / 6);
+  EXPECT_LT(told(3, 3), found);
+  EXPECT_NEAR(told(3, 3) / told(1.5f, 3), 4, 0.5);
+  EXPECT_LT(told(3, 6), told(3, 3) / 4);
+}
+
 TEST(Filter, mixesNoLightOfWallsThatMeet) {
   FilterInput in = noisyWall(64, 32, 10, 2), dark = noisyWall(64, 32, 6, 2, 1);
   for (int y = 0; y < 32; ++y) {

@@ -1,0 +1,147 @@
+#include "gather/hit_cache.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "base/random.h"
+#include "voxel/voxels.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kLift = 0.1f;               // cells: for places to see one another along a bent surface
+constexpr Vec3 kShift{0.377f, 0.619f, 0.283f};  // cells: surfaces of homes stand on round coordinates, borders of cells do not
+
+// Indices of a list of keys, sorted by key and then by place in the list.
+std::vector<uint32_t> sortedBy(std::span<const uint64_t> keys) {
+  std::vector<uint32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
+  return order;
+}
+
+// Calls body(begin, end) for every run of equal keys.
+template <class Body>
+void forRuns(std::span<const uint64_t> keys, std::span<const uint32_t> order, Body&& body) {
+  for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && keys[order[end]] == keys[order[begin]]) ++end;
+    body(begin, end);
+  }
+}
+
+}  // namespace
+
+uint64_t HitCache::keyOf(const HitPlace& place, int level) const {
+  const float perMetre = 1 / (cellM_ * static_cast<float>(1 << level));
+  const Vec3 q = place.p * perMetre + kShift;
+  const auto whole = [](float v) { return static_cast<uint64_t>(static_cast<int64_t>(std::floor(v))) & 0x1fffff; };
+  const uint64_t cell = whole(q.x) | (whole(q.y) << 21) | (whole(q.z) << 42);
+  const uint64_t kind = (uint64_t{place.instance} << 8) | (static_cast<uint64_t>(dominantFace(place.n)) << 4) | static_cast<uint64_t>(level);
+  const uint64_t key = mix64(mix64(cell + 0x9e3779b97f4a7c15ull) ^ (kind * 0xd6e8feb86659fd93ull));
+  return key == 0 ? 1 : key;
+}
+
+std::vector<uint32_t> HitCache::chosen(std::span<const HitPlace> places, size_t most) const {
+  std::vector<uint64_t> keys(places.size());
+  for (size_t i = 0; i < keys.size(); ++i) keys[i] = keyOf(places[i], 0);
+  const std::vector<uint32_t> order = sortedBy(keys);
+  std::vector<uint32_t> out;
+  forRuns(keys, order, [&](size_t begin, size_t end) {
+    const size_t n = std::min(most, end - begin);
+    for (size_t k = 0; k < n; ++k) out.push_back(order[begin + k * (end - begin) / n]);  // from all over the picture
+  });
+  return out;
+}
+
+Ray HitCache::between(const HitCell& cell, const HitPlace& place) {
+  const Vec3 from = place.p + place.n * (kLift * cell.sizeM);
+  return {from, cell.place + cell.normal * (kLift * cell.sizeM) - from, 0, 1};
+}
+
+void HitCache::fill(const RayScene& rays, std::span<const LitHit> samples) {
+  cells_.clear(), keys_.clear();
+  std::vector<uint8_t> covered(samples.size());
+  for (int level = 0; level < kLevels; ++level) fillLevel(rays, samples, level, covered);
+  makeTable(keys_);
+}
+
+// Cells of one level, where finer ones leave samples over.
+void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, int level, std::vector<uint8_t>& covered) {
+  const size_t fewest = level + 1 < kLevels ? kFewest : 1;
+  std::vector<uint64_t> keys(samples.size());
+  for (size_t i = 0; i < keys.size(); ++i) keys[i] = keyOf(samples[i].at, level);
+  const std::vector<uint32_t> order = sortedBy(keys);
+  struct Run {
+    size_t begin, end;
+  };
+  std::vector<Run> runs;
+  forRuns(keys, order, [&](size_t begin, size_t end) {
+    bool all = true;
+    for (size_t k = begin; k < end; ++k) all = all && covered[order[k]];
+    if (!all && end - begin >= fewest) runs.push_back({begin, end});
+  });
+  const size_t firstCell = cells_.size();
+  std::vector<Ray> ways;
+  std::vector<Vec3> left;
+  for (const Run& run : runs) {
+    HitCell cell;
+    const LitHit& first = samples[order[run.begin]];
+    cell.place = first.at.p, cell.normal = first.at.n, cell.slot = first.slot;
+    cell.sizeM = cellM_ * static_cast<float>(1 << level);
+    cell.sure = cell.sizeM <= voxelM_;
+    for (size_t k = run.begin; k < run.end; ++k) cell.sure = cell.sure && samples[order[k]].sure;
+    if (!cell.sure) {
+      for (size_t k = run.begin; k < run.end; ++k) ways.push_back(between(cell, samples[order[k]].at));
+    }
+    cells_.push_back(cell);
+  }
+  left.resize(ways.size());
+  rays.transmittance(ways, left);
+  size_t way = 0, kept = firstCell;
+  for (size_t r = 0; r < runs.size(); ++r) {
+    HitCell cell = cells_[firstCell + r];
+    float n = 0;
+    std::vector<uint32_t> members;
+    for (size_t k = runs[r].begin; k < runs[r].end; ++k) {
+      if (!cell.sure && k != runs[r].begin && !(luminance(left[way + k - runs[r].begin]) > 0.25f)) continue;
+      const LitHit& s = samples[order[k]];
+      cell.radianceCdM2 += s.radianceCdM2, cell.lux += s.lux, cell.sunLux += s.sunLux, n += 1;
+      members.push_back(order[k]);
+    }
+    if (!cell.sure) way += runs[r].end - runs[r].begin;
+    if (members.size() < fewest) continue;
+    for (const uint32_t m : members) covered[m] = 1;
+    cell.radianceCdM2 = cell.radianceCdM2 / n, cell.lux /= n, cell.sunLux /= n;
+    cells_[kept++] = cell;
+    keys_.push_back(keys[order[runs[r].begin]]);
+  }
+  cells_.resize(kept);
+}
+
+void HitCache::makeTable(std::span<const uint64_t> keys) {
+  table_.assign(std::bit_ceil(std::max<size_t>(16, 2 * keys.size())), {});
+  for (size_t i = 0; i < keys.size(); ++i) insert(keys[i], static_cast<uint32_t>(i));
+}
+
+void HitCache::insert(uint64_t key, uint32_t cell) {
+  const size_t mask = table_.size() - 1;
+  size_t i = key & mask;
+  while (table_[i].key != 0 && table_[i].key != key) i = (i + 1) & mask;
+  table_[i] = {key, cell};
+}
+
+const HitCell* HitCache::find(const HitPlace& place) const {
+  if (cells_.empty()) return nullptr;
+  const size_t mask = table_.size() - 1;
+  for (int level = 0; level < kLevels; ++level) {
+    const uint64_t key = keyOf(place, level);
+    for (size_t i = key & mask; table_[i].key != 0; i = (i + 1) & mask) {
+      if (table_[i].key == key) return &cells_[table_[i].cell];
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace roomlight

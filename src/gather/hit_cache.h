@@ -1,0 +1,92 @@
+// Light that leaves the places where gathering rays of one camera arrive, finer than voxels and without their errors: a hashed grid of cells, filled from the very hits that rays of this
+// picture find, then only read (after the radiance caches of Boissé et al. 2023, "GI-1.0", and Binder et al. 2019, "Massively parallel path space filtering").
+//
+// A cell holds what the samples that fell into it send out on average. What lies hidden within furniture is never hit, so it counts for nothing, and the mean over all rays is right however
+// coarse the cells are. Places seldom hit share larger cells.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <vector>
+
+#include "trace/ray_scene.h"
+
+namespace roomlight {
+
+struct HitCell {
+  Vec3 radianceCdM2;   // as of a Lambertian surface, its albedo included
+  float lux = 0, sunLux = 0;  // luminous illuminance; that of the sun, where there is one alone
+  Vec3 place, normal;  // a surface point that the cell stands for
+  int64_t slot = -1;   // of the voxel there
+  float sizeM = 0;
+  bool sure = false;   // no other surface in its voxels parts one of its points from another that is sure, too
+};
+
+// Where a ray arrived.
+struct HitPlace {
+  Vec3 p, n;  // n: unit, on the side that is looked at
+  uint32_t instance = 0;
+};
+
+// One sample of the light there.
+struct LitHit {
+  HitPlace at;
+  Vec3 radianceCdM2;
+  float lux = 0, sunLux = 0;
+  int64_t slot = -1;
+  bool sure = false;
+};
+
+class HitCache {
+ public:
+  static constexpr int kLevels = 3;     // of cells, each twice as large as the one before
+  static constexpr size_t kFewest = 4;  // samples that a cell is made of, but for the largest cells
+
+  HitCache() = default;
+  // `voxelM`: larger cells reach beyond the voxels that samples are sure of.
+  HitCache(float cellM, float voxelM) : cellM_(cellM), voxelM_(voxelM) {}
+
+  bool empty() const { return cells_.empty(); }
+  float cellM() const { return cellM_; }
+  // Which of the places shall be lit: of those that share a cell at most `most`, in their order.
+  std::vector<uint32_t> chosen(std::span<const HitPlace> places, size_t most) const;
+  // From samples, of which one that no free way leads from to the first of its cell is left out. In their order, so that threads change nothing.
+  void fill(const RayScene& rays, std::span<const LitHit> samples);
+  // Null where no cell knows the place.
+  const HitCell* find(const HitPlace& place) const;
+  const HitCell& at(uint32_t cell) const { return cells_[cell]; }
+  uint32_t index(const HitCell* cell) const { return static_cast<uint32_t>(cell - cells_.data()); }
+  // Between a place and the one that a cell stands for, both a little before their surface: where nothing is in the way, the cell's light is that of the place.
+  static Ray between(const HitCell& cell, const HitPlace& place);
+  // Of the cell of a level around it, whether or not it holds anything; not 0.
+  uint64_t keyOf(const HitPlace& place, int level) const;
+  size_t bytes() const { return cells_.size() * sizeof(HitCell) + table_.size() * sizeof(Entry); }
+
+  void tell() const {
+    size_t n[3] = {}, su[3] = {};
+    for (auto& c : cells_) {
+      int l = c.sizeM > cellM_ * 3 ? 2 : c.sizeM > cellM_ * 1.5 ? 1
+                                                                : 0;
+      n[l]++;
+      su[l] += c.sure;
+    }
+    for (int l = 0; l < 3; l++) fprintf(stderr, "level %d: %zu cells, %zu sure\n", l, n[l], su[l]);
+  }
+
+ private:
+  struct Entry {
+    uint64_t key = 0;  // 0: none
+    uint32_t cell = 0;
+  };
+  void fillLevel(const RayScene& rays, std::span<const LitHit> samples, int level, std::vector<uint8_t>& covered);
+  void insert(uint64_t key, uint32_t cell);
+  void makeTable(std::span<const uint64_t> keys);
+
+  float cellM_ = 0.05f, voxelM_ = 0.1f;
+  std::vector<HitCell> cells_;
+  std::vector<uint64_t> keys_;
+  std::vector<Entry> table_;  // open addressing, a power of two
+};
+
+}  // namespace roomlight
