@@ -239,7 +239,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
     const Vec3 d = guided ? v.cones->sample(u, choice / v.cones->share) : b.wi;
     if (guided || (b.valid() && !b.mirror)) {
       const float pdf = v.guided(guided ? v.bsdf.pdf(d) : b.pdf, d);
-      send(d, {v.bsdf.evaluateDiffuse(d) / pdf, v.bsdf.evaluateSpecular(d) / pdf}, pdf, false, kSpread);
+      if (pdf > 0) send(d, {v.bsdf.evaluateDiffuse(d) / pdf, v.bsdf.evaluateSpecular(d) / pdf}, pdf, false, kSpread);
     }
   } else if (!v.glossOnly && maxComponent(v.bsdf.diffuseAlbedo()) > kNothing) {
     const Vec3 d = guided ? v.cones->sample(u, choice / v.cones->share) : Frame(v.s.ns).toWorld(sampleCosineHemisphere(u));

@@ -249,9 +249,10 @@ GlowSample BrightPatches::sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler)
     const GlowPoint& g = points_[c.point];
     const Vec3 d = g.p - p;
     const float d2 = lengthSquared(d), cosSurface = dot(d, n), cosLight = -dot(d, g.n);
-    if (!(cosSurface > 0 && cosLight > 0) || (isSun(g) && d2 < farM_ * farM_)) continue;
+    const float chance = chanceOf(patch, side);  // 0: drawn by rounding, of a patch without flux beside all others
+    if (!(chance > 0 && cosSurface > 0 && cosLight > 0) || (isSun(g) && d2 < farM_ * farM_)) continue;
     c.gives = luminance(g.fluxLm) * cosSurface * cosLight / (d2 * d2);
-    c.upTo = sum += c.gives * static_cast<float>(of.count) / chanceOf(patch, side);
+    c.upTo = sum += c.gives * static_cast<float>(of.count) / chance;
   }
   if (!(sum > 0)) return {};
   const float pick = sampler.next1() * sum;
