@@ -1,6 +1,7 @@
 #include "filter/filter.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <span>
 
@@ -14,6 +15,12 @@ constexpr int kSpecularPasses = 3;
 constexpr int kBand = 256;  // rows
 constexpr int kFar = 5;      // passes after which a lone bright line leaves copies of itself as far apart as the last pass looks; short passes after them take these away
 constexpr int kBack = 3;
+
+// What a pass reads is no longer independent: sums of squares of the passes' kernels taken one after the other over their product, where no weight stops.
+float correlatedAfter(int passes) {
+  constexpr std::array kRatio = {1.0f, 1.0f, 1.7f, 3.3f, 6.6f, 13.3f, 26.7f};
+  return kRatio[static_cast<size_t>(std::min<int>(passes, kRatio.size() - 1))];
+}
 
 // How far each pass looks, in pixels.
 std::vector<int> stepsOf(int passes) {
@@ -102,7 +109,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
     FilterPass pass;
     const std::vector<int> steps = stepsOf(passes);
     for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
-      pass.step = steps[static_cast<size_t>(k)];
+      pass.step = steps[static_cast<size_t>(k)], pass.correlated = correlatedAfter(k);
       pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses, pass.filter[3] = rare;
       parallelFor(rowCount, 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
       parallelFor(rowCount, 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });
@@ -123,7 +130,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
       for (int x = 0; also.variance && x < w; ++x) {
         const auto of = [&](int k) { return rows.line(FilterRows::light(k, pass.place[k]) + FilterRows::kVariance, y - begin)[x]; };
         const float albedo = luminance(divisor(input.pixels[row + static_cast<size_t>(x)].albedo));
-        (*also.variance)[row + static_cast<size_t>(x)] = albedo * albedo * (of(0) + of(1)) + of(2);
+        (*also.variance)[row + static_cast<size_t>(x)] = albedo * albedo * (correlatedAfter(passes) * of(0) + of(1)) + correlatedAfter(kSpecularPasses) * of(2);
       }
     });
   }

@@ -35,7 +35,7 @@ Image composed(const FilterInput& input);  // without filtering
 // `once`, where given and unless it wraps: diffuse light over albedo after the first pass.
 // `irradiance`, likewise: diffuse light over albedo after all passes.
 Image filtered(const FilterInput& input, int passes, bool wrap = false, std::vector<Vec3>* once = nullptr, std::vector<Vec3>* irradiance = nullptr);
-// Variance of each pixel's luminance that is left after so many passes, were what each pass reads independent: two to four times too small.
+// Variance of each pixel's luminance that is left after so many passes.
 std::vector<float> varianceLeft(const FilterInput& input, int passes);
 
 }  // namespace roomlight

@@ -85,7 +85,8 @@ void findNoise(FilterRows& rows, const FilterPass& pass, int light, int y) {
       sum = hn::Add(sum, hn::Add(hn::Add(load(line + x - 1), load(line + x)), load(line + x + 1)));
       for (int i = -1; i <= 1; ++i) sampled = hn::Add(sampled, hn::IfThenElseZero(hn::Gt(load(line + weights + x + i), hn::Zero(d)), set(1)));
     }
-    hn::StoreU(hn::Max(hn::Mul(sum, hn::Div(set(1), hn::Max(sampled, set(1)))), hn::Mul(load(own + x), set(kOwnNoise))), d, out + x);
+    const V found = hn::Max(hn::Mul(sum, hn::Div(set(1), hn::Max(sampled, set(1)))), hn::Mul(load(own + x), set(kOwnNoise)));
+    hn::StoreU(hn::Mul(found, set(pass.correlated)), d, out + x);
   }
 }
 
