@@ -11,6 +11,7 @@
 namespace roomlight::home {
 namespace {
 
+constexpr double kMostlyRoom = 0.4;  // of what is seen lies in rooms: seen through a window from outside, all around it is half
 constexpr int kAcross = 32, kDown = 18;
 constexpr int kAround = 64;
 constexpr double kClosedIn = 0.85;
@@ -41,7 +42,7 @@ Sights sightsOf(const RayScene& rays, const Camera& camera) {
 bool isIndoors(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, const Sights& sights) {
   const auto inRoom = [&](const Seen& s) { return std::any_of(rooms.begin(), rooms.end(), [&](const Room& r) { return isIn(r, s.p + s.n * 0.05f); }); };
   const auto& seen = sights.surfaces;
-  if (!seen.empty() && 2 * static_cast<size_t>(std::count_if(seen.begin(), seen.end(), inRoom)) > seen.size()) return true;
+  if (!seen.empty() && static_cast<double>(std::count_if(seen.begin(), seen.end(), inRoom)) > kMostlyRoom * static_cast<double>(seen.size())) return true;
   int met = 0;
   for (int i = 0; i < kAround; ++i) {
     const Vec3 d = sampleSphere(latticePoint(i, kAround));

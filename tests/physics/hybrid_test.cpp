@@ -148,7 +148,7 @@ Scene tableWithCup() {
 }
 
 constexpr int kWidth = 160, kHeight = 120;
-constexpr double kMeasuredBlotchesPercent = 2;
+constexpr double kMeasuredBlotchesPercent = 1.3;
 
 // Pixels within `radius` of where the camera sees one of the points.
 std::vector<bool> around(const Camera& camera, const std::vector<Vec3>& points, float radius) {
@@ -197,7 +197,7 @@ TEST(Hybrid, keepsContact) {
   test::record("Table with a cup, mse of the whole picture and where things touch", "whole picture", "hybrid", 0, all);
   test::record("Table with a cup, mse of the whole picture and where things touch", "within 6 pixels of contacts", "hybrid", 0, contact);
   EXPECT_LE(contact, 2 * all);
-  // Measured 0.0 %, and a third more at most; over three seeds, for one picture has blotches by chance.
+  // Measured 1.3 %, and a third more at most; over three seeds, for one picture has blotches by chance.
   double squares = 0;
   for (const uint64_t seed : {0, 1, 2}) {
     settings.seed = seed;
