@@ -15,6 +15,7 @@ constexpr int kSpecularPasses = 3;
 constexpr int kBand = 256;  // rows
 constexpr int kFar = 5;      // passes after which a lone bright line leaves copies of itself as far apart as the last pass looks; short passes after them take these away
 constexpr int kBack = 3;
+constexpr float kBelieved = 0.25f;  // of the noise there is: with all of it soft shadows went too
 
 // What a pass reads is no longer independent: sums of squares of the passes' kernels taken one after the other over their product, where no weight stops.
 float correlatedAfter(int passes) {
@@ -109,7 +110,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
     FilterPass pass;
     const std::vector<int> steps = stepsOf(passes);
     for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
-      pass.step = steps[static_cast<size_t>(k)], pass.correlated = correlatedAfter(k);
+      pass.step = steps[static_cast<size_t>(k)], pass.correlated = rare ? std::max(1.0f, kBelieved * correlatedAfter(k)) : 1;
       pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses, pass.filter[3] = rare;
       parallelFor(rowCount, 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
       parallelFor(rowCount, 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });

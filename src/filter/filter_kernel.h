@@ -38,7 +38,7 @@ class FilterRows {
 
 struct FilterPass {
   int step = 1;                     // pixels between neighbours
-  float correlated = 1;             // true variance over that which passes before made of independent pixels
+  float correlated = 1;             // times the noise that passes before made of independent pixels
   int place[kFilterLights] = {};    // where each light is read
   bool filter[kFilterLights] = {};  // and whether it is filtered
 };

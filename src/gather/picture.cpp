@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr size_t kTilesAtOnce = 4;
+constexpr float kUnfiltered = 4;  // times the tolerance where outliers hide what noise a filter leaves: that of single pixels is asked for
 
 Rectangle tileAt(size_t index, int width, int height) {
   const int tilesX = (width + kTile - 1) / kTile, x = static_cast<int>(index) % tilesX * kTile, y = static_cast<int>(index) / tilesX * kTile;
@@ -72,7 +73,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     const bool chosen = first > 0 && settings.tolerance > 0;
     const auto most = static_cast<size_t>(first > 0 || !(settings.tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
     const size_t n = std::min(kRaysAtOnce, most - first);
-    const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, counts, settings.filterPasses > 0 ? varianceLeft(meansOf(sums, counts), settings.filterPasses) : std::vector<float>(), settings.tolerance) : std::vector<uint8_t>();
+    const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, counts, settings.rareApart ? varianceLeft(meansOf(sums, counts), settings.filterPasses) : std::vector<float>(), settings.rareApart ? settings.tolerance : kUnfiltered * settings.tolerance) : std::vector<uint8_t>();
     const double chosenRays = static_cast<double>(n) * static_cast<double>(chosen ? std::count(noisy.begin(), noisy.end(), 1) : static_cast<std::ptrdiff_t>(counts.size()));
     if (chosenRays == 0) break;
     const double started = watch.seconds();

@@ -17,9 +17,10 @@ GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Vox
   RayGatherSettings use = settings;
   if (use.hitCellM == 0) use.hitCellM = std::clamp(voxels.voxelSizeM / kCellsAVoxel, kSmallestCellM, kLargestCellM);
   RayShader shader(rays, lights, voxels, field, use);
-  use.rareApart = use.filterPasses > 0 && !shader.layers();
+  const bool surveys = use.hitCellM > 0 && !shader.layers();
+  use.rareApart = surveys && use.filterPasses > 0;
   GatherCounters count;
-  if (use.hitCellM > 0 && !shader.layers()) surveyHits(rays, lights, shader, camera, use, voxels.voxelSizeM, progress, count);
+  if (surveys) surveyHits(rays, lights, shader, camera, use, voxels.voxelSizeM, progress, count);
   GatheredPicture picture = gatherPicture(rays, lights, shader, camera, use, progress);
   picture.rays += count.rays;
   return picture;

@@ -183,6 +183,7 @@ std::vector<Rendered> seeded(const Scene& scene, const std::string& technique, b
   std::vector<Rendered> out;
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
     RenderSettings s = settingsOf(technique, technique == "path" ? 64 : 0);
+    s.hybrid.hitCellM = -1;  // as layers are gathered
     s.seed = seed;
     out.push_back(rendered(scene, s, layers));
   }
