@@ -46,19 +46,21 @@ int triedPart(int width, int height) { return static_cast<int>(std::clamp(std::s
 
 GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather, const Progress& progress) {
   const Stopwatch watch;
+  const RayGather prepared(rays, lights, light.voxels, light.field, camera, gather, progress);
+  const double preparing = watch.seconds();
   RayGatherSettings small = gather;
   const int divisor = triedPart(gather.width, gather.height);
   small.width = (gather.width + divisor - 1) / divisor, small.height = (gather.height + divisor - 1) / divisor;
   small.samples = std::min(gather.samples, gather.firstSamples), small.tolerance = 0;
-  GatheredPicture tried = gatherRays(rays, lights, light.voxels, light.field, camera, small);
+  GatheredPicture tried = prepared.picture(small);
   const double smaller = static_cast<double>(gather.width) * gather.height / (static_cast<double>(small.width) * small.height);
-  const double took = watch.seconds(), first = took * smaller, left = seconds - took;
+  const double took = watch.seconds(), first = (took - preparing) * smaller, left = seconds - took;
   const double part = std::sqrt(std::min(1.0, std::max(0.0, left) / ((1 + kFilterShare) * first)));
   if (progress.stop() || (part < 1 && part < kHardlyLarger / divisor)) return tried;
   const auto shortened = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(part * pixels))); };
   gather.width = shortened(gather.width), gather.height = shortened(gather.height);
   gather.timeLimitS = std::max(1e-3, left - kFilterShare * part * part * first);
-  return gatherRays(rays, lights, light.voxels, light.field, camera, gather, progress);
+  return prepared.picture(gather, progress);
 }
 
 Image enlarged(const Image& image, int width, int height) {

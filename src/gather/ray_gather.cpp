@@ -10,20 +10,36 @@ namespace {
 
 constexpr float kCellsAVoxel = 2, kSmallestCellM = 0.02f, kLargestCellM = 0.06f;
 
+RayGatherSettings withCells(RayGatherSettings settings, float voxelM) {
+  if (settings.hitCellM == 0) settings.hitCellM = std::clamp(voxelM / kCellsAVoxel, kSmallestCellM, kLargestCellM);
+  return settings;
+}
+
 }  // namespace
+
+RayGather::RayGather(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const Camera& camera, const RayGatherSettings& settings, const Progress& progress)
+    : rays_(rays), lights_(lights), camera_(camera), settings_(withCells(settings, voxels.voxelSizeM)) {
+  shader_ = std::make_unique<RayShader>(rays_, lights_, voxels, field, settings_);
+  const bool surveys = settings_.hitCellM > 0 && !shader_->layers();
+  settings_.rareApart = surveys && settings_.filterPasses > 0;
+  if (!surveys) return;
+  GatherCounters count;
+  surveyHits(rays_, lights_, *shader_, camera_, settings_, voxels.voxelSizeM, progress, count);
+  surveyRays_ = count.rays;
+}
+
+RayGather::~RayGather() = default;
+
+GatheredPicture RayGather::picture(RayGatherSettings settings, const Progress& progress) const {
+  settings.rareApart = settings_.rareApart;
+  GatheredPicture picture = gatherPicture(rays_, lights_, *shader_, camera_, settings, progress);
+  picture.rays += surveyRays_;
+  return picture;
+}
 
 GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const Camera& camera,
                            const RayGatherSettings& settings, const Progress& progress) {
-  RayGatherSettings use = settings;
-  if (use.hitCellM == 0) use.hitCellM = std::clamp(voxels.voxelSizeM / kCellsAVoxel, kSmallestCellM, kLargestCellM);
-  RayShader shader(rays, lights, voxels, field, use);
-  const bool surveys = use.hitCellM > 0 && !shader.layers();
-  use.rareApart = surveys && use.filterPasses > 0;
-  GatherCounters count;
-  if (surveys) surveyHits(rays, lights, shader, camera, use, voxels.voxelSizeM, progress, count);
-  GatheredPicture picture = gatherPicture(rays, lights, shader, camera, use, progress);
-  picture.rays += count.rays;
-  return picture;
+  return RayGather(rays, lights, voxels, field, camera, settings, progress).picture(settings, progress);
 }
 
 }  // namespace roomlight

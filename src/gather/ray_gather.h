@@ -1,6 +1,8 @@
 // Technique `hybrid`: exact rays decide what every direction sees; the voxels are a cache of the light that leaves what they hit.
 #pragma once
 
+#include <memory>
+
 #include "gather/picture.h"
 #include "radiance/radiance_field.h"
 
@@ -11,7 +13,26 @@ struct RayGatherSettings : PictureSettings {
   int estimates = 2;        // per shading, a power of two: each a ray that gathers what surfaces reflect, and one to every kind of light
   float nearVoxels = 2;     // what is hit nearer than this is lit afresh, not read from the cache
   float hitCellM = 0;       // edge of the smallest cells of the cache of hits; 0: chosen by the voxels; below 0: no such cache
-  int hitSamples = 6;      // of the light on each cell, at most
+  int hitSamples = 6;       // of the light on each cell, at most
+};
+
+class RayShader;
+
+// What pictures of one camera share: what is bright, the cache of hits and the guide. Refers to all that it is made of.
+class RayGather {
+ public:
+  RayGather(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const Camera& camera, const RayGatherSettings& settings, const Progress& progress = {});
+  ~RayGather();
+  // Of that size, with so many samples; how they are taken is as prepared.
+  GatheredPicture picture(RayGatherSettings settings, const Progress& progress = {}) const;
+
+ private:
+  const RayScene& rays_;
+  const Lights& lights_;
+  const Camera& camera_;
+  RayGatherSettings settings_;
+  std::unique_ptr<RayShader> shader_;
+  uint64_t surveyRays_ = 0;
 };
 
 GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
