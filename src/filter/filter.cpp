@@ -78,59 +78,74 @@ void compose(std::span<const FilterPixel> pixels, const FilterRows& rows, const 
   }
 }
 
-// What is told besides the picture, where given.
+// What is told besides the picture, where given. `mean`, where given, makes pixels of sums.
 struct Also {
+  const std::function<FilterPixel(size_t)>* mean;
   std::vector<Vec3>*once, *irradiance;
   std::vector<float>* variance;
 };
 
 Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
   const int w = input.width, h = input.height, farthest = 1 << std::max(0, passes - 1);
-  const auto pixelsOfRow = [&](int y) { return std::span(input.pixels).subspan(static_cast<size_t>(y) * static_cast<size_t>(w), static_cast<size_t>(w)); };
+  const auto pixelsOfRow = [&](int y) {
+    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(w);
+    if (!also.mean) return std::span(input.pixels).subspan(row, static_cast<size_t>(w));
+    thread_local std::vector<FilterPixel> means;
+    means.resize(static_cast<size_t>(w));
+    for (size_t x = 0; x < means.size(); ++x) means[x] = (*also.mean)(row + x);
+    return std::span<const FilterPixel>(means);
+  };
   std::atomic<bool> sharp = false, rare = false;
   parallelFor(input.pixels.size(), 65536, [&](size_t i) {
     if (!isBlack(input.pixels[i].sharp)) sharp = true;
     if (!isBlack(input.pixels[i].rare)) rare = true;
   });
   // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
-  // take far more memory than all else.
+  // take far more memory than all else. A pass filters as many of these rows as those after it look at.
+  const std::vector<int> steps = stepsOf(passes);
   const int reach = reachOf(passes);
   Image out(w, h);
   if (also.once) also.once->resize(out.pixels.size());
   if (also.irradiance) also.irradiance->resize(out.pixels.size());
   if (also.variance) also.variance->resize(out.pixels.size());
+  FilterRows rows(w, std::min(h, kBand + 2 * reach), farthest);
+  int cleared = 0;  // rows whose margins are; passes leave them so
   for (int first = 0; first < h; first += kBand) {
     const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
-    const auto rowCount = static_cast<size_t>(end - begin);
-    FilterRows rows(w, end - begin, farthest);
-    parallelFor(rowCount, 4, [&](size_t y) {
-      rows.clearMargins(static_cast<int>(y));
-      pack(pixelsOfRow(begin + static_cast<int>(y)), rows, static_cast<int>(y));
+    rows.useRows(end - begin);
+    const auto forRows = [&](int beside, auto&& body) {
+      const int from = std::max(begin, first - beside), to = std::min(end, last + beside);
+      parallelFor(static_cast<size_t>(to - from), 4, [&](size_t i) { body(from - begin + static_cast<int>(i)); });
+    };
+    forRows(reach, [&](int y) {
+      if (y >= cleared) rows.clearMargins(y);
+      pack(pixelsOfRow(begin + y), rows, y);
     });
+    cleared = std::max(cleared, end - begin);
     FilterPass pass;
-    const std::vector<int> steps = stepsOf(passes);
+    int left = reach;
     for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
       pass.step = steps[static_cast<size_t>(k)], pass.correlated = rare ? std::max(1.0f, kBelieved * correlatedAfter(k)) : 1;
-      pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses, pass.filter[3] = rare;
-      parallelFor(rowCount, 4, [&](size_t y) { prepareRow(rows, pass, static_cast<int>(y)); });
-      parallelFor(rowCount, 4, [&](size_t y) { filterRow(rows, pass, static_cast<int>(y)); });
+      pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses, pass.filter[3] = rare && !also.variance;
+      forRows(left - 1, [&](int y) { prepareRow(rows, pass, y); });
+      left -= pass.step + 1;
+      forRows(left, [&](int y) { filterRow(rows, pass, y); });
       for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
       if (k > 0 || !also.once) continue;
-      parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
-        const int y = first + static_cast<int>(i);
-        const float* at = rows.line(FilterRows::light(0, pass.place[0]), y - begin);
-        for (int x = 0; x < w; ++x) (*also.once)[static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
+      forRows(0, [&](int y) {
+        const float* at = rows.line(FilterRows::light(0, pass.place[0]), y);
+        for (int x = 0; x < w; ++x) (*also.once)[static_cast<size_t>(begin + y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
       });
     }
-    parallelFor(static_cast<size_t>(last - first), 4, [&](size_t i) {
-      const int y = first + static_cast<int>(i);
-      compose(pixelsOfRow(y), rows, pass, y - begin, &out.at(0, y));
-      const size_t row = static_cast<size_t>(y) * static_cast<size_t>(w);
-      const float *at = rows.line(FilterRows::light(0, pass.place[0]), y - begin), *spread = rows.line(FilterRows::light(3, pass.place[3]), y - begin);
+    forRows(0, [&](int y) {
+      const size_t row = static_cast<size_t>(begin + y) * static_cast<size_t>(w);
+      const float *at = rows.line(FilterRows::light(0, pass.place[0]), y), *spread = rows.line(FilterRows::light(3, pass.place[3]), y);
+      const std::span<const FilterPixel> pixels = pixelsOfRow(begin + y);
+      if (!also.variance) compose(pixels, rows, pass, y, &out.at(0, begin + y));
       for (int x = 0; also.irradiance && x < w; ++x) (*also.irradiance)[row + static_cast<size_t>(x)] = fetch(at + x, rows.pitch()) + fetch(spread + x, rows.pitch());
       for (int x = 0; also.variance && x < w; ++x) {
-        const auto of = [&](int k) { return rows.line(FilterRows::light(k, pass.place[k]) + FilterRows::kVariance, y - begin)[x]; };
-        const float albedo = luminance(divisor(input.pixels[row + static_cast<size_t>(x)].albedo));
+        const auto of = [&](int k) { return rows.line(FilterRows::light(k, pass.place[k]) + FilterRows::kVariance, y)[x]; };
+        const float albedo = luminance(divisor(pixels[static_cast<size_t>(x)].albedo));
         (*also.variance)[row + static_cast<size_t>(x)] = albedo * albedo * (correlatedAfter(passes) * of(0) + of(1)) + correlatedAfter(kSpecularPasses) * of(2);
       }
     });
@@ -162,12 +177,12 @@ Image composed(const FilterInput& input) {
 
 Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3>* once, std::vector<Vec3>* irradiance) {
   if (wrap) return filteredRound(input, passes);
-  return filteredFlat(input, passes, {once, irradiance, nullptr});
+  return filteredFlat(input, passes, {nullptr, once, irradiance, nullptr});
 }
 
-std::vector<float> varianceLeft(const FilterInput& input, int passes) {
+std::vector<float> varianceLeft(const FilterInput& sums, int passes, const std::function<FilterPixel(size_t i)>& mean) {
   std::vector<float> variance;
-  filteredFlat(input, passes, {nullptr, nullptr, &variance});
+  filteredFlat(sums, passes, {&mean, nullptr, nullptr, &variance});
   return variance;
 }
 

@@ -3,6 +3,7 @@
 // 2012). About 0.14 s of one core for 960x540.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "base/image.h"
@@ -35,7 +36,7 @@ Image composed(const FilterInput& input);  // without filtering
 // `once`, where given and unless it wraps: diffuse light over albedo after the first pass.
 // `irradiance`, likewise: diffuse light over albedo after all passes.
 Image filtered(const FilterInput& input, int passes, bool wrap = false, std::vector<Vec3>* once = nullptr, std::vector<Vec3>* irradiance = nullptr);
-// Variance of each pixel's luminance that is left after so many passes.
-std::vector<float> varianceLeft(const FilterInput& input, int passes);
+// Variance of each pixel's luminance that is left after so many passes; `mean` makes pixel i's means of what `sums` has there.
+std::vector<float> varianceLeft(const FilterInput& sums, int passes, const std::function<FilterPixel(size_t i)>& mean);
 
 }  // namespace roomlight

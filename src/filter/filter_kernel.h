@@ -28,6 +28,8 @@ class FilterRows {
   float* line(int quantity, int y) { return begin_ + (static_cast<ptrdiff_t>(y) * kCount + quantity) * pitch_; }
   const float* line(int quantity, int y) const { return begin_ + (static_cast<ptrdiff_t>(y) * kCount + quantity) * pitch_; }
   void clearMargins(int y);
+  // Rows that are used from now on, no more than the constructor was told.
+  void useRows(int h) { height_ = h; }
 
  private:
   int width_, height_;

@@ -3,33 +3,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
+#include "base/parallel.h"
 #include "base/random.h"
+#include "base/sorted_keys.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
 namespace {
 
 constexpr float kLift = 0.1f;               // cells: for places to see one another along a bent surface
+constexpr size_t kGrain = 4096;             // keys
 constexpr Vec3 kShift{0.377f, 0.619f, 0.283f};  // cells: surfaces of homes stand on round coordinates, borders of cells do not
-
-// Indices of a list of keys, sorted by key and then by place in the list.
-std::vector<uint32_t> sortedBy(std::span<const uint64_t> keys) {
-  std::vector<uint32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
-  return order;
-}
-
-// Calls body(begin, end) for every run of equal keys.
-template <class Body>
-void forRuns(std::span<const uint64_t> keys, std::span<const uint32_t> order, Body&& body) {
-  for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    while (end < order.size() && keys[order[end]] == keys[order[begin]]) ++end;
-    body(begin, end);
-  }
-}
 
 }  // namespace
 
@@ -45,7 +30,7 @@ uint64_t HitCache::keyOf(const HitPlace& place, int level) const {
 
 std::vector<uint32_t> HitCache::chosen(std::span<const HitPlace> places, size_t most) const {
   std::vector<uint64_t> keys(places.size());
-  for (size_t i = 0; i < keys.size(); ++i) keys[i] = keyOf(places[i], 0);
+  parallelFor(keys.size(), kGrain, [&](size_t i) { keys[i] = keyOf(places[i], 0); });
   const std::vector<uint32_t> order = sortedBy(keys);
   std::vector<uint32_t> out;
   forRuns(keys, order, [&](size_t begin, size_t end) {
@@ -71,7 +56,7 @@ void HitCache::fill(const RayScene& rays, std::span<const LitHit> samples) {
 void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, int level, std::vector<uint8_t>& covered) {
   const size_t fewest = level + 1 < kLevels ? kFewest : 1;
   std::vector<uint64_t> keys(samples.size());
-  for (size_t i = 0; i < keys.size(); ++i) keys[i] = keyOf(samples[i].at, level);
+  parallelFor(keys.size(), kGrain, [&](size_t i) { keys[i] = keyOf(samples[i].at, level); });
   const std::vector<uint32_t> order = sortedBy(keys);
   struct Run {
     size_t begin, end;

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sampling.h"
+#include "base/sorted_keys.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
@@ -23,19 +23,8 @@ constexpr float kWider = 1.25f, kLeastRadiusM = 0.02f;  // than where rays arriv
 constexpr float kFilled = 0.5f;      // of a cluster's disc that surfaces fill
 constexpr float kMostSeen = 2;       // times as many rays as should arrive at a cluster
 constexpr float kDoubt = 1;          // rays that should arrive before it is doubted whether a cluster is seen
+constexpr size_t kGrain = 4096;      // keys
 constexpr Vec3 kShift{0.271f, 0.713f, 0.459f};
-
-// Calls body(run) for the indices of equal keys, in order.
-template <class Body>
-void forRuns(std::span<const uint64_t> keys, Body&& body) {
-  std::vector<uint32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
-  for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    while (end < order.size() && keys[order[end]] == keys[order[begin]]) ++end;
-    body(std::span<const uint32_t>(order).subspan(begin, end - begin));
-  }
-}
 
 float meanLight(std::span<const GuideRay> rays) {
   double weight = 0, light = 0;
@@ -68,10 +57,12 @@ uint64_t HitGuide::keyOf(Vec3 p, Vec3 n, float cellM) {
 // Cells in which rays of the whole picture arrive and find more than rays do on average.
 std::vector<HitGuide::Cluster> HitGuide::clustersOf(std::span<const GuideRay> rays, float cellM) {
   std::vector<uint64_t> keys(rays.size());
-  for (size_t i = 0; i < keys.size(); ++i) keys[i] = rays[i].arrives ? keyOf(rays[i].to, Vec3(0, 1, 0), cellM) : 0;
+  parallelFor(keys.size(), kGrain, [&](size_t i) { keys[i] = rays[i].arrives ? keyOf(rays[i].to, Vec3(0, 1, 0), cellM) : 0; });
   const float mean = meanLight(rays);
   std::vector<Cluster> out;
-  forRuns(keys, [&](std::span<const uint32_t> run) {
+  const std::vector<uint32_t> order = sortedBy(keys);
+  forRuns(keys, order, [&](size_t begin, size_t end) {
+    const auto run = std::span(order).subspan(begin, end - begin);
     if (keys[run[0]] == 0) return;
     Vec3 lo(kInfinity), hi(-kInfinity);
     float weight = 0, light = 0;
@@ -135,9 +126,11 @@ HitGuide::HitGuide(std::span<const GuideRay> rays, float regionM, float clusterM
   if (clusters.empty()) return;
   const float mean = meanLight(rays);
   std::vector<uint64_t> keys(rays.size()), keyOfRegion;
-  for (size_t i = 0; i < keys.size(); ++i) keys[i] = keyOf(rays[i].from, rays[i].normal, regionM_);
+  parallelFor(keys.size(), kGrain, [&](size_t i) { keys[i] = keyOf(rays[i].from, rays[i].normal, regionM_); });
   std::vector<std::vector<uint32_t>> runs;
-  forRuns(keys, [&](std::span<const uint32_t> run) {
+  const std::vector<uint32_t> order = sortedBy(keys);
+  forRuns(keys, order, [&](size_t begin, size_t end) {
+    const auto run = std::span(order).subspan(begin, end - begin);
     if (run.size() >= kFewest) runs.emplace_back(run.begin(), run.end()), keyOfRegion.push_back(keys[run[0]]);
   });
   regions_.resize(runs.size());

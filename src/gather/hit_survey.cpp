@@ -10,7 +10,7 @@ namespace roomlight {
 namespace {
 
 constexpr int kSurveyedPixels = 32768;  // about
-constexpr int kRaysAPixel = 16;
+constexpr int kRaysAPixel = 8;
 constexpr size_t kRows = 2;             // of surveyed pixels, at once
 constexpr float kRegionM = 0.6f;        // that a guide is learned for
 constexpr float kClusterM = 0.4f;      // of its targets

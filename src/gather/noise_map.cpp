@@ -1,5 +1,8 @@
 #include "gather/noise_map.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/parallel.h"
 
 namespace roomlight {
@@ -9,6 +12,7 @@ constexpr int kReach = 2;           // pixels to each side that a filter shares 
 constexpr float kFacing = 0.9f;     // cosine between normals, and
 constexpr float kPlane = 0.1f;      // slope off the tangent plane, of neighbours that are alike
 constexpr float kEdge = 0.1f;       // variance of coverage where one camera ray meets an edge, of contrast squared
+constexpr float kMostNeeded = 65535;  // rays
 constexpr float kDark = 0.02f;      // of the picture's mean: where noise is hardly seen
 
 struct Look {
@@ -42,7 +46,7 @@ bool onOneSurface(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPositi
   return dot(normal, otherNormal) >= kFacing && std::abs(dot(normal, between)) <= kPlane * length(between) + 1e-3f;
 }
 
-std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<PixelCount>& counts, const std::vector<float>& left, float tolerance) {
+std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts, const std::vector<float>& left, float tolerance) {
   const int width = sums.width, height = sums.height;
   std::vector<Look> looks(counts.size());
   std::vector<double> rows(static_cast<size_t>(height)), known(static_cast<size_t>(height));
@@ -57,7 +61,7 @@ std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<Pixe
   for (const double k : known) allKnown += k;
   for (const double r : rows) mean += r / std::max(1.0, allKnown);
   const float dark = kDark * static_cast<float>(mean);
-  std::vector<uint8_t> out(counts.size());
+  std::vector<uint16_t> out(counts.size());
   parallelFor(static_cast<size_t>(height), 4, [&](size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
@@ -74,6 +78,7 @@ std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<Pixe
           if (!o.known) continue;
           if (std::max(std::abs(dx), std::abs(dy)) <= 1) low = std::min(low, o.luminance), high = std::max(high, o.luminance);
           all += 1, around += o.variance, level += o.luminance;
+          if (!left.empty()) continue;
           if ((dx == 0 && dy == 0) || (own.surface > 0 && alike(own, o))) variance += o.variance, like += 1;
         }
       }
@@ -82,7 +87,8 @@ std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<Pixe
       // The variance of a few pixels, each of few samples, may be too small by chance.
       variance = left.empty() ? std::max(variance / (like * like), around / (all * like)) + sharp / beside : left[i];
       if (own.edge && high >= low) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
-      out[i] = variance > tolerance * tolerance * level * level;
+      const float allowed = tolerance * tolerance * level * level, rays = static_cast<float>(std::max(1u, counts[i].rays));
+      if (variance > allowed) out[i] = static_cast<uint16_t>(std::ceil(std::min(kMostNeeded, rays * (variance / std::max(allowed, 1e-30f) - 1))));
     }
   });
   return out;

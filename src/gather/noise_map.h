@@ -10,7 +10,8 @@ namespace roomlight {
 // Whether two pixels see one surface: by normals and places, the first pixel's being that of its tangent plane.
 bool onOneSurface(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition);
 
-// One flag a pixel. `tolerance`: relative standard error of luminance that may be left. `left`: variance of each pixel's luminance after the filter; empty: there is none.
-std::vector<uint8_t> noisyPixels(const FilterInput& sums, const std::vector<PixelCount>& counts, const std::vector<float>& left, float tolerance);
+// Of each pixel, how many more rays it needs beside those it had; 0: none. `tolerance`: relative standard error of luminance that may be left.
+// `left`: variance of each pixel's luminance after the filter; empty: there is none.
+std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts, const std::vector<float>& left, float tolerance);
 
 }  // namespace roomlight

@@ -17,17 +17,12 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr size_t kTilesAtOnce = 4;
+constexpr size_t kPlanned = 3;     // times the samples that a plan of further rays knew, it is made anew
 constexpr float kUnfiltered = 4;  // times the tolerance where outliers hide what noise a filter leaves: that of single pixels is asked for
 
 Rectangle tileAt(size_t index, int width, int height) {
   const int tilesX = (width + kTile - 1) / kTile, x = static_cast<int>(index) % tilesX * kTile, y = static_cast<int>(index) / tilesX * kTile;
   return {x, y, std::min(width, x + kTile), std::min(height, y + kTile)};
-}
-
-FilterInput meansOf(const FilterInput& sums, const std::vector<PixelCount>& counts) {
-  FilterInput out(sums.width, sums.height);
-  parallelFor(counts.size(), 4096, [&](size_t i) { out.pixels[i] = meanOf(sums.pixels[i], counts[i]); });
-  return out;
 }
 
 // What the filter is told of one layer: what pixels see is that of the whole, light and noise its own.
@@ -67,14 +62,22 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
   std::atomic<uint64_t> rayCount = 0, coneCount = 0;
   std::mutex reporting;
   const Stopwatch watch;
+  std::vector<uint16_t> needed;  // rays, as planned after so many samples
+  size_t planned = 0;
   double passSeconds = 0, passRays = 0;  // of the last
   while (result.samples < settings.samples) {
     const auto first = static_cast<size_t>(result.samples);
     const bool chosen = first > 0 && settings.tolerance > 0;
     const auto most = static_cast<size_t>(first > 0 || !(settings.tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
     const size_t n = std::min(kRaysAtOnce, most - first);
-    const std::vector<uint8_t> noisy = chosen ? noisyPixels(sums, counts, settings.rareApart ? varianceLeft(meansOf(sums, counts), settings.filterPasses) : std::vector<float>(), settings.rareApart ? settings.tolerance : kUnfiltered * settings.tolerance) : std::vector<uint8_t>();
-    const double chosenRays = static_cast<double>(n) * static_cast<double>(chosen ? std::count(noisy.begin(), noisy.end(), 1) : static_cast<std::ptrdiff_t>(counts.size()));
+    if (chosen && first > kPlanned * planned) {
+      const std::vector<float> left = settings.rareApart ? varianceLeft(sums, settings.filterPasses, [&](size_t i) { return meanOf(sums.pixels[i], counts[i]); }) : std::vector<float>();
+      needed = raysNeeded(sums, counts, left, settings.rareApart ? settings.tolerance : kUnfiltered * settings.tolerance);
+      planned = first;
+    }
+    const auto asks = [&](uint16_t rays) { return rays > first - planned; };
+    const auto pixels = chosen ? std::count_if(needed.begin(), needed.end(), asks) : static_cast<std::ptrdiff_t>(counts.size());
+    const double chosenRays = static_cast<double>(n) * static_cast<double>(pixels);
     if (chosenRays == 0) break;
     const double started = watch.seconds();
     if (settings.timeLimitS > 0 && first > 0 && started + passSeconds * chosenRays / passRays > settings.timeLimitS) break;
@@ -92,7 +95,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
         for (int y = r.y0; y < r.y1; ++y) {
           for (int x = r.x0; x < r.x1; ++x) {
             const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
-            if (chosen && !noisy[pixel]) continue;
+            if (chosen && !asks(needed[pixel])) continue;
             const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings.seed, every);
             pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, {&sums.pixels[pixel], &counts[pixel], static_cast<uint32_t>(pixel)}, work, count);
           }

@@ -236,6 +236,7 @@ GlowSample BrightPatches::sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler)
   struct Candidate {
     uint32_t point;
     float gives, upTo;  // without shadows; of weights
+    uint32_t patch;
   };
   if (!reaches(side)) return {};
   std::array<Candidate, kCandidates> candidates;
@@ -244,9 +245,14 @@ GlowSample BrightPatches::sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler)
   for (uint32_t i = 0; i < kCandidates; ++i) {
     const uint32_t patch = patchFor(side, (static_cast<float>(i) + (i == 0 ? first : sampler.fast1())) / kCandidates);
     const Patch& of = patches_[patch];
-    Candidate& c = candidates[i];
-    c = {of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count))), 0, sum};
+    candidates[i] = {of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count))), 0, 0, patch};
+    __builtin_prefetch(&points_[candidates[i].point]);
+  }
+  for (Candidate& c : candidates) {
+    const uint32_t patch = c.patch;
+    const Patch& of = patches_[patch];
     const GlowPoint& g = points_[c.point];
+    c.upTo = sum;
     const Vec3 d = g.p - p;
     const float d2 = lengthSquared(d), cosSurface = dot(d, n), cosLight = -dot(d, g.n);
     const float chance = chanceOf(patch, side);  // 0: drawn by rounding, of a patch without flux beside all others

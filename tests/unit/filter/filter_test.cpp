@@ -71,7 +71,8 @@ TEST(Filter, rareLightStopsWhereOtherLightDiffers) {
 
 TEST(Filter, varianceLeftFollowsTheNoise) {
   const auto told = [](float deviation, int passes) {
-    const std::vector<float> left = varianceLeft(noisyWall(97, 61, 10, deviation), passes);
+    const FilterInput wall = noisyWall(97, 61, 10, deviation);
+    const std::vector<float> left = varianceLeft(wall, passes, [&](size_t i) { return wall.pixels[i]; });
     double mean = 0;
     for (const float v : left) mean += static_cast<double>(v) / static_cast<double>(left.size());
     return mean;
