@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/parallel.h"
+#include "filter/detail.h"
 #include "filter/filter_kernel.h"
 
 namespace roomlight {
@@ -15,7 +16,6 @@ constexpr int kSpecularPasses = 3;
 constexpr int kBand = 256;  // rows
 constexpr int kFar = 5;      // passes after which a lone bright line leaves copies of itself as far apart as the last pass looks; short passes after them take these away
 constexpr int kBack = 3;
-constexpr float kBelieved = 0.25f;  // of the noise there is: with all of it soft shadows went too
 
 // What a pass reads is no longer independent: sums of squares of the passes' kernels taken one after the other over their product, where no weight stops.
 float correlatedAfter(int passes) {
@@ -32,9 +32,9 @@ std::vector<int> stepsOf(int passes) {
 }
 
 // Pixels to each side that all passes together look.
-int reachOf(int passes) {
+int reachOf(const std::vector<int>& steps) {
   int reach = 0;
-  for (const int step : stepsOf(passes)) reach += step + 1;
+  for (const int step : steps) reach += step + 1;
   return reach;
 }
 
@@ -61,6 +61,17 @@ void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
       light[FilterRows::kVariance * pitch] = variances[k];
       light[FilterRows::kWeight * pitch] = weights[k];
     }
+    ++at;
+  }
+}
+
+// Diffuse light of a row once more, after passes have changed it.
+void packDiffuse(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
+  const ptrdiff_t pitch = rows.pitch();
+  float* at = rows.line(FilterRows::light(0, 0), y);
+  for (const FilterPixel& p : pixels) {
+    store(at, pitch, p.diffuse / divisor(p.albedo));
+    at[FilterRows::kVariance * pitch] = p.diffuseVariance, at[FilterRows::kWeight * pitch] = p.weight * p.diffuseShare;
     ++at;
   }
 }
@@ -103,12 +114,13 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
   // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
   // take far more memory than all else. A pass filters as many of these rows as those after it look at.
   const std::vector<int> steps = stepsOf(passes);
-  const int reach = reachOf(passes);
+  const bool twice = rare && !also.variance;  // with doubt and without
+  const int pooled = twice ? reachOf(poolSteps()) : 0, reach = reachOf(steps) + pooled;
   Image out(w, h);
   if (also.once) also.once->resize(out.pixels.size());
   if (also.irradiance) also.irradiance->resize(out.pixels.size());
   if (also.variance) also.variance->resize(out.pixels.size());
-  FilterRows rows(w, std::min(h, kBand + 2 * reach), farthest);
+  FilterRows rows(w, std::min(h, kBand + 2 * reach), std::max(farthest, twice ? poolSteps().back() : 0));
   int cleared = 0;  // rows whose margins are; passes leave them so
   for (int first = 0; first < h; first += kBand) {
     const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
@@ -123,19 +135,36 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
     });
     cleared = std::max(cleared, end - begin);
     FilterPass pass;
-    int left = reach;
-    for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
-      pass.step = steps[static_cast<size_t>(k)], pass.correlated = rare ? std::max(1.0f, kBelieved * correlatedAfter(k)) : 1;
-      pass.filter[0] = true, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses, pass.filter[3] = rare && !also.variance;
-      forRows(left - 1, [&](int y) { prepareRow(rows, pass, y); });
-      left -= pass.step + 1;
-      forRows(left, [&](int y) { filterRow(rows, pass, y); });
-      for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
-      if (k > 0 || !also.once) continue;
-      forRows(0, [&](int y) {
-        const float* at = rows.line(FilterRows::light(0, pass.place[0]), y);
-        for (int x = 0; x < w; ++x) (*also.once)[static_cast<size_t>(begin + y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
-      });
+    const auto filterAll = [&](bool doubts, bool others, bool rares) {  // others: sharp and glossy light
+      int left = reach;
+      for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
+        pass.step = steps[static_cast<size_t>(k)], pass.correlated = doubts ? 1 : correlatedAfter(k);
+        pass.filter[0] = true, pass.filter[1] = sharp && others, pass.filter[2] = k < kSpecularPasses && others, pass.filter[3] = rare && rares;
+        forRows(left - 1, [&](int y) { prepareRow(rows, pass, y); });
+        left -= pass.step + 1;
+        forRows(left, [&](int y) { filterRow(rows, pass, y); });
+        for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
+        if (k > 0 || !also.once) continue;
+        forRows(0, [&](int y) {
+          const float* at = rows.line(FilterRows::light(0, pass.place[0]), y);
+          for (int x = 0; x < w; ++x) (*also.once)[static_cast<size_t>(begin + y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
+        });
+      }
+    };
+    filterAll(!also.variance, true, !twice && !also.variance);
+    if (twice) {
+      int left = pooled, place = 0;
+      forRows(left, [&](int y) { keepNarrow(rows, pass, y); });
+      forRows(reach, [&](int y) { packDiffuse(pixelsOfRow(begin + y), rows, y); });
+      pass.place[0] = 0;
+      filterAll(false, false, true);
+      forRows(left, [&](int y) { takeDetail(rows, pass, y); });
+      for (const int step : poolSteps()) {
+        left -= step + 1;
+        forRows(left, [&](int y) { poolRow(rows, step, place, y); });
+        place = 1 - place;
+      }
+      forRows(0, [&](int y) { addMeanDetail(rows, pass, place, y); });
     }
     forRows(0, [&](int y) {
       const size_t row = static_cast<size_t>(begin + y) * static_cast<size_t>(w);
@@ -155,7 +184,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
 
 // With as many columns of the other side beside each edge as all passes reach.
 Image filteredRound(const FilterInput& input, int passes) {
-  const int w = input.width, h = input.height, beside = reachOf(passes), wide = w + 2 * beside;
+  const int w = input.width, h = input.height, beside = reachOf(stepsOf(passes)) + reachOf(poolSteps()), wide = w + 2 * beside;
   FilterInput padded(wide, h);
   parallelFor(static_cast<size_t>(h), 4, [&](size_t y) {
     const size_t row = y * static_cast<size_t>(w);

@@ -211,6 +211,30 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
   }
 }
 
+void pool(FilterRows& rows, int step, int place, int y) {
+  const D d;
+  const ptrdiff_t pitch = rows.pitch(), from = FilterRows::pool(place) * pitch, to = FilterRows::pool(1 - place) * pitch;
+  float* row = rows.line(0, y);
+  for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
+    float* here = row + x;
+    const Place own = placeAt(here, pitch);
+    V total = set(kKernel[0]), sums[FilterRows::kPooled];
+    for (int q = 0; q < FilterRows::kPooled; ++q) sums[q] = hn::Mul(load(here + from + q * pitch), total);
+    for (int j = -1; j <= 1; ++j) {
+      if (y + j * step < 0 || y + j * step >= rows.height()) continue;
+      for (int i = -1; i <= 1; ++i) {
+        if (i == 0 && j == 0) continue;
+        const float* there = here + j * step * rows.rowPitch() + i * step;
+        const Place other = placeAt(there, pitch);
+        const V weight = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other))));
+        for (int q = 0; q < FilterRows::kPooled; ++q) sums[q] = hn::MulAdd(weight, load(there + from + q * pitch), sums[q]);
+        total = hn::Add(total, weight);
+      }
+    }
+    for (int q = 0; q < FilterRows::kPooled; ++q) hn::StoreU(hn::Div(sums[q], total), d, here + to + q * pitch);
+  }
+}
+
 void filterLights(FilterRows& rows, const FilterPass& pass, int y) {
   const auto of = [&](auto rare) {
     constexpr bool kRare = decltype(rare)::value;
@@ -231,6 +255,7 @@ namespace {
 
 HWY_EXPORT(prepare);
 HWY_EXPORT(filterLights);
+HWY_EXPORT(pool);
 constexpr ptrdiff_t kMostLanes = 16;  // the last vector of a line reaches so far beyond it
 
 }  // namespace
@@ -241,7 +266,7 @@ FilterRows::FilterRows(int w, int h, int margin)
 void FilterRows::clearMargins(int y) {
   for (int q = 0; q < kCount; ++q) {
     float* at = line(q, y);
-    const float value = q >= kLight && (q - kLight) % kParts == kWeight ? 1.0f : 0.0f;
+    const float value = q >= kLight && q < kNarrow && (q - kLight) % kParts == kWeight ? 1.0f : 0.0f;
     std::fill(at - margin_, at, value);
     std::fill(at + width_, at - margin_ + pitch_, value);
   }
@@ -254,6 +279,10 @@ void prepareRow(FilterRows& rows, const FilterPass& pass, int y) {
 void filterRow(FilterRows& rows, const FilterPass& pass, int y) {
   HWY_DYNAMIC_DISPATCH(filterLights)
   (rows, pass, y);
+}
+void poolRow(FilterRows& rows, int step, int place, int y) {
+  HWY_DYNAMIC_DISPATCH(pool)
+  (rows, step, place, y);
 }
 
 }  // namespace roomlight

@@ -14,8 +14,10 @@ class FilterRows {
   // Quantities. kSeen is the luminance by which pixels are compared. Each light has two places for its colour, variance and weight: a pass
   // reads one and writes the other.
   static constexpr int kNormal = 0, kPosition = 3, kRoughness = 6, kNoise = 7, kSeen = kNoise + kFilterLights, kLight = kSeen + kFilterLights, kVariance = 3, kWeight = 4, kParts = 5;
-  static constexpr int kCount = kLight + kFilterLights * 2 * kParts;
+  // Diffuse light as the narrow filter left it (detail.h), and what is pooled, in two places.
+  static constexpr int kNarrow = kLight + kFilterLights * 2 * kParts, kPool = kNarrow + 3, kPooled = 3, kCount = kPool + 2 * kPooled;
   static constexpr int light(int k, int place) { return kLight + (2 * k + place) * kParts; }
+  static constexpr int pool(int place) { return kPool + kPooled * place; }
 
   FilterRows(int w, int h, int margin);
   int width() const { return width_; }
@@ -51,5 +53,7 @@ struct FilterPass {
 void prepareRow(FilterRows& rows, const FilterPass& pass, int y);
 // Filters row y, by its neighbours `step` rows and pixels away.
 void filterRow(FilterRows& rows, const FilterPass& pass, int y);
+// Means of what is pooled over such neighbours that lie on one surface, from `place` to the other.
+void poolRow(FilterRows& rows, int step, int place, int y);
 
 }  // namespace roomlight
