@@ -9,6 +9,8 @@ namespace {
 constexpr int kDeepest = 8;      // vertices of a path, after which the cache is read whatever it is worth
 constexpr int kMostPanes = 16;
 constexpr float kRare = 4;        // times the light expected: what a single find has beyond that is rare
+constexpr float kFaint = 0.2f;    // of the light seen: less is a faint reflection, as a pane's
+constexpr float kFaintCells = 3;  // that such a reflection is taken from
 constexpr float kNearCells = 2;   // what is hit nearer than that many cells is lit afresh
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
@@ -25,6 +27,8 @@ uint8_t kindOf(const Material& m) {
   if (isPolishedMetal(m)) kind |= kMirrorKind;  // no part of the cache
   return kind;
 }
+
+bool isFaint(const GatherPath& path) { return luminance(path.factor.diffuse + path.factor.specular) < kFaint; }
 
 // Light in layers is told apart by the sun's own samples.
 BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings) {
@@ -221,7 +225,8 @@ void RayShader::addBackground(const GatherPath& path, GatherWork& w) const {
 void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) const {
   if (!hit.valid()) return addBackground(path, w);
   const uint8_t kind = kind_[hit.instance];
-  if (kind == 0 && !path.clear) {
+  const bool lit = path.clear && !isFaint(path);  // afresh, as the picture that is seen
+  if (kind == 0 && !lit) {
     const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
     if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return;
   }
@@ -234,7 +239,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
     }
   }
   if (!(kind & kClearKind)) {
-    if (path.clear || (kind & kMirrorKind) || !cached(path, hit, s.p, s.ng, w)) goOn(path, s, w);
+    if (lit || (kind & kMirrorKind) || !cached(path, hit, s.p, s.ng, w)) goOn(path, s, w);
     return;
   }
   // Through it or reflected, one of the two, in proportion.
@@ -249,7 +254,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
   } else if (q > 0) {
     const float stays = s.m.alpha / (1 - chance);
     after.factor = {path.factor.diffuse * stays, path.factor.specular * stays};
-    if (path.clear) return goOn(after, s, w);
+    if (lit) return goOn(after, s, w);
     if (!cached(after, hit, s.p, s.ng, w)) goOn(after, s, w);
   }
 }
@@ -261,6 +266,7 @@ bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, G
     if (place.slot >= 0 && !w.arrivals) read(path, hit, place.slot, p, n, w);
     return true;
   }
+  if (path.clear) return cachedFaintly(path, hit, p, n, w);
   // Light beside lamps is in the slots alone.
   const bool glows = shinesBesideLamps(place.slot);
   const float distance = length(p - path.from);
@@ -284,6 +290,26 @@ bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, G
   } else {
     w.doubts.push_back({path, hit, place.slot, p, n, nullptr});
   }
+  return true;
+}
+
+// Of what is seen faintly, as by night in a pane: cells around tell, each ray of another place, so that their edges do not show.
+bool RayShader::cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const {
+  const float distance = length(p - path.from);
+  if (w.arrivals) {
+    if (distance < kNearCells * settings_.hitCellM) return false;
+    const SlotCache::Place place = cache_.find(p, n);
+    w.arrive(path, hit, {p, n, hit.instance}, place.slot, place.trust == Trust::Sure);
+    return true;
+  }
+  const Frame plane(n);
+  Sampler& sampler = w.samplers[path.estimate];
+  const float u = sampler.fast1() - 0.5f, v = sampler.fast1() - 0.5f;
+  const HitCell* here = hits_.find({p, n, hit.instance});
+  if (!here || distance < kNearCells * here->sizeM) return false;
+  const Vec3 beside = p + (plane.toWorld({u, v, 0})) * (kFaintCells * here->sizeM);
+  const HitCell* cell = hits_.find({beside, n, hit.instance});
+  readCell(path, hit, cell ? *cell : *here, p, n, w);
   return true;
 }
 

@@ -43,6 +43,7 @@ class RayShader final : public SurfaceShader {
   float brightestAround(Vec3 p) const;
   void arrive(const GatherPath& path, const Hit& hit, GatherWork& w) const;
   bool cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const;
+  bool cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const;
   void goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const;
   void read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const;
   void readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const;
