@@ -13,7 +13,7 @@ namespace roomlight {
 namespace {
 
 constexpr float kLift = 0.1f;               // cells: for places to see one another along a bent surface
-constexpr size_t kGrain = 4096;             // keys
+constexpr size_t kKeysAtOnce = 4096;             // keys
 constexpr Vec3 kShift{0.377f, 0.619f, 0.283f};  // cells: surfaces of homes stand on round coordinates, borders of cells do not
 
 }  // namespace
@@ -30,7 +30,7 @@ uint64_t HitCache::keyOf(const HitPlace& place, int level) const {
 
 std::vector<uint32_t> HitCache::chosen(std::span<const HitPlace> places, size_t most) const {
   std::vector<uint64_t> keys(places.size());
-  parallelFor(keys.size(), kGrain, [&](size_t i) { keys[i] = keyOf(places[i], 0); });
+  parallelFor(keys.size(), kKeysAtOnce, [&](size_t i) { keys[i] = keyOf(places[i], 0); });
   const std::vector<uint32_t> order = sortedBy(keys);
   std::vector<uint32_t> out;
   forRuns(keys, order, [&](size_t begin, size_t end) {
@@ -56,7 +56,7 @@ void HitCache::fill(const RayScene& rays, std::span<const LitHit> samples) {
 void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, int level, std::vector<uint8_t>& covered) {
   const size_t fewest = level + 1 < kLevels ? kFewest : 1;
   std::vector<uint64_t> keys(samples.size());
-  parallelFor(keys.size(), kGrain, [&](size_t i) { keys[i] = keyOf(samples[i].at, level); });
+  parallelFor(keys.size(), kKeysAtOnce, [&](size_t i) { keys[i] = keyOf(samples[i].at, level); });
   const std::vector<uint32_t> order = sortedBy(keys);
   struct Run {
     size_t begin, end;

@@ -23,7 +23,7 @@ constexpr float kWider = 1.25f, kLeastRadiusM = 0.02f;  // than where rays arriv
 constexpr float kFilled = 0.5f;      // of a cluster's disc that surfaces fill
 constexpr float kMostSeen = 2;       // times as many rays as should arrive at a cluster
 constexpr float kDoubt = 1;          // rays that should arrive before it is doubted whether a cluster is seen
-constexpr size_t kGrain = 4096;      // keys
+constexpr size_t kKeysOfGuide = 4096;      // keys
 constexpr Vec3 kShift{0.271f, 0.713f, 0.459f};
 
 float meanLight(std::span<const GuideRay> rays) {
@@ -57,7 +57,7 @@ uint64_t HitGuide::keyOf(Vec3 p, Vec3 n, float cellM) {
 // Cells in which rays of the whole picture arrive and find more than rays do on average.
 std::vector<HitGuide::Cluster> HitGuide::clustersOf(std::span<const GuideRay> rays, float cellM) {
   std::vector<uint64_t> keys(rays.size());
-  parallelFor(keys.size(), kGrain, [&](size_t i) { keys[i] = rays[i].arrives ? keyOf(rays[i].to, Vec3(0, 1, 0), cellM) : 0; });
+  parallelFor(keys.size(), kKeysOfGuide, [&](size_t i) { keys[i] = rays[i].arrives ? keyOf(rays[i].to, Vec3(0, 1, 0), cellM) : 0; });
   const float mean = meanLight(rays);
   std::vector<Cluster> out;
   const std::vector<uint32_t> order = sortedBy(keys);
@@ -126,7 +126,7 @@ HitGuide::HitGuide(std::span<const GuideRay> rays, float regionM, float clusterM
   if (clusters.empty()) return;
   const float mean = meanLight(rays);
   std::vector<uint64_t> keys(rays.size()), keyOfRegion;
-  parallelFor(keys.size(), kGrain, [&](size_t i) { keys[i] = keyOf(rays[i].from, rays[i].normal, regionM_); });
+  parallelFor(keys.size(), kKeysOfGuide, [&](size_t i) { keys[i] = keyOf(rays[i].from, rays[i].normal, regionM_); });
   std::vector<std::vector<uint32_t>> runs;
   const std::vector<uint32_t> order = sortedBy(keys);
   forRuns(keys, order, [&](size_t begin, size_t end) {

@@ -75,7 +75,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
       needed = raysNeeded(sums, counts, left, settings.rareApart ? settings.tolerance : kUnfiltered * settings.tolerance);
       planned = first;
     }
-    const auto asks = [&](uint16_t rays) { return rays > first - planned; };
+    const auto asks = [&](uint16_t further) { return further > first - planned; };
     const auto pixels = chosen ? std::count_if(needed.begin(), needed.end(), asks) : static_cast<std::ptrdiff_t>(counts.size());
     const double chosenRays = static_cast<double>(n) * static_cast<double>(pixels);
     if (chosenRays == 0) break;

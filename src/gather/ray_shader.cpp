@@ -9,7 +9,7 @@ namespace {
 constexpr int kDeepest = 8;      // vertices of a path, after which the cache is read whatever it is worth
 constexpr int kMostPanes = 16;
 constexpr float kRare = 4;        // times the light expected: what a single find has beyond that is rare
-constexpr float kFaint = 0.2f;    // of the light seen: less is a faint reflection, as a pane's
+constexpr float kFaintShare = 0.2f;    // of the light seen: less is a faint reflection, as a pane's
 constexpr float kFaintCells = 3;  // that such a reflection is taken from
 constexpr float kNearCells = 2;   // what is hit nearer than that many cells is lit afresh
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
@@ -28,7 +28,7 @@ uint8_t kindOf(const Material& m) {
   return kind;
 }
 
-bool isFaint(const GatherPath& path) { return luminance(path.factor.diffuse + path.factor.specular) < kFaint; }
+bool isFaint(const GatherPath& path) { return luminance(path.factor.diffuse + path.factor.specular) < kFaintShare; }
 
 // Light in layers is told apart by the sun's own samples.
 BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings) {
