@@ -309,7 +309,13 @@ bool RayShader::cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Ve
   if (!here || distance < kNearCells * here->sizeM) return false;
   const Vec3 beside = p + (plane.toWorld({u, v, 0})) * (kFaintCells * here->sizeM);
   const HitCell* cell = hits_.find({beside, n, hit.instance});
-  readCell(path, hit, cell ? *cell : *here, p, n, w);
+  if (!cell) cell = here;
+  // Something may stand between the place and a cell beside it.
+  if (cell == here && cell->sure) {
+    readCell(path, hit, *cell, p, n, w);
+  } else {
+    w.doubts.push_back({path, hit, -1, p, n, cell});
+  }
   return true;
 }
 
