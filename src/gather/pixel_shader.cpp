@@ -14,6 +14,7 @@ constexpr float kBehind = -0.35f;     // cosine
 // What a veil or pane itself reflects is filtered with the surface behind it. The filter compares planes: a surface seen through something
 // lies as if this far behind where it is, in proportion to what is held back, and so apart from what is seen of it beside the veil.
 constexpr float kVeilM = 2;
+constexpr float kVeilRoughness = 1;  // before the sky: reflections of few samples are filtered as on what stands behind veils elsewhere
 constexpr float kOutshines = 16, kShadeM = 0.3f;  // times as bright as what fills most of a pixel, as far from a lamp as its shade may be
 constexpr float kPictureRoughness = 0.08f, kMirrorReflectance = 0.2f;  // smoother: reflects a picture, which has edges of its own; and brighter: a mirror
 
@@ -22,7 +23,7 @@ bool isUniform(const Material& m, const Mesh& mesh) {
          m.emissionTexture.texture < 0 && mesh.colors.empty() && mesh.colorAlphas.empty();
 }
 
-// What panes reflect is not filtered.
+// What panes reflect is seen by all rays.
 bool isPane(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && clear; }
 
 bool isBesideLamp(const Lights& lights, Vec3 p) {
@@ -187,7 +188,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
       TileWork::Part& part = work.parts.back();
       part.veil = !solid;
       part.normal += s.ns * weight, part.position += veiledPlace(s, layer.left[i]) * weight;
-      part.roughness += m.roughness * weight, part.surface += weight;
+      part.roughness += (solid ? m.roughness : kVeilRoughness) * weight, part.surface += weight;
     }
     work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(surface, static_cast<uint32_t>(j), static_cast<uint32_t>(std::max(most, shadings))), shadow, mirror});
   }
@@ -259,7 +260,7 @@ void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light,
   for (size_t begin = 0, end = 0; begin < work.parts.size(); begin = end) {
     bool anySolid = false;
     for (end = begin; end < work.parts.size() && work.parts[end].pixel.sum == work.parts[begin].pixel.sum; ++end) anySolid = anySolid || (!work.parts[end].veil && work.parts[end].surface > 0);
-    // A pane before the sky is the surface that the pixel shows.
+    // A pane before the sky is the surface that the pixel shows, with all panes behind it.
     const auto surfaceOf = [&](const TileWork::Part& part) { return part.veil && anySolid ? 0 : part.surface; };
     size_t most = begin;
     for (size_t i = begin; i < end; ++i) {
@@ -272,10 +273,10 @@ void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light,
     const Vec3 place = (known ? sum.position : largest.position) / surface, normal = known ? sum.normal : largest.normal;
     for (size_t i = begin; i < end; ++i) {
       const TileWork::Part& part = work.parts[i];
-      if (fragments && surfaceOf(part) > 0 && !part.outshines && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
+      if (fragments && surfaceOf(part) > 0 && !part.veil && !part.outshines && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
         addFragment(part, shadingsOf(part), *fragments);
       } else {
-        if (fragments && surfaceOf(part) > 0) addPlace(part);
+        if (fragments && surfaceOf(part) > 0 && (!part.veil || i == most)) addPlace(part);
         addPart(part, shadingsOf(part));
       }
     }
