@@ -108,7 +108,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
         } else {
           shader.shade(work.shadings, work.shadows, light, count);
         }
-        pixelShader.findOutshining(work, light);
+        if (!keepsFragments) pixelShader.findOutshining(work, light);
         PixelShader::add(work, light, keepsFragments ? &fragments[tile] : nullptr);
         if (layers) pixelShader.addLayers(work, light, layerLight);
         const size_t done = ++tilesDone;

@@ -6,7 +6,7 @@
 namespace roomlight {
 namespace {
 
-constexpr int kDeepest = 8;      // vertices of a path, after which the cache is read whatever it is worth
+constexpr int kDeepest = 3;      // vertices of a path, after which the cache is read whatever it is worth
 constexpr int kMostPanes = 16;
 constexpr float kRare = 4;        // times the light expected: what a single find has beyond that is rare
 constexpr float kFaintShare = 0.2f;    // of the light seen: less is a faint reflection, as a pane's
@@ -269,7 +269,8 @@ bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, G
   if (path.clear) return cachedFaintly(path, hit, p, n, w);
   // Light beside lamps is in the slots alone.
   const bool glows = shinesBesideLamps(place.slot);
-  const float distance = length(p - path.from);
+  // A cache tells too little of what is near what the eye sees; of light that gets there by way of other surfaces it tells enough.
+  const float distance = path.depth < 2 ? length(p - path.from) : kInfinity;
   if (w.arrivals) {
     if (!glows && distance < kNearCells * settings_.hitCellM) return false;
     if (!glows) w.arrive(path, hit, {p, n, hit.instance}, place.slot, place.trust == Trust::Sure);
