@@ -242,6 +242,16 @@ void DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> 
   renew(brick, samples, near, lux, findMarks, sample);
 }
 
+void DirectLight::lamps(size_t brick, std::span<Vec3> lux) {
+  const auto most = static_cast<uint32_t>(settings_.directSamples);
+  const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
+    Sampler sampler(paths_.key(s), k, settings_.seed + 5);
+    const LightSample light = lights_.sampleLamps(p, sampler);
+    return light.valid() && besideLamps_[static_cast<size_t>(light.lamp)].contains(voxels_.slots[s].position) ? LightSample{} : light;
+  };
+  trace(brick, {(most + 1) / 2, most}, {}, lux, sample);
+}
+
 void DirectLight::suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux) {
   const auto sampleOf = [&](size_t i) {
     return [this, i](size_t s, uint32_t k, Vec3) {

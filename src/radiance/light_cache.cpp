@@ -16,6 +16,7 @@ namespace {
 
 constexpr float kUnseen = 1e12f;   // cd/m²: of glow that no voxel shows, so that points take all of it
 constexpr size_t kDarkLamps = 16;  // kept
+constexpr size_t kMostApart = 32;  // lamps: every slot sends rays to each
 
 bool sameLight(const Lamp& a, const Lamp& b) {
   return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad &&
@@ -183,8 +184,16 @@ SlotLight LightCache::lightOfAll(const Sources& from, const std::function<void(s
 
 void LightCache::traceLamp(const Sources& from, LampLight& light) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
-  light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamp(light.lamp, b, {}, lux); });
+  if (lampsApart(from.lights)) light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamp(light.lamp, b, {}, lux); });
   light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
+  field_.rays += direct.rayCount();
+}
+
+bool LightCache::lampsApart(const Lights& lights) const { return !settings_.still || settings_.layers || lights.lampCount() <= kMostApart; }
+
+void LightCache::traceLampsTogether(const Sources& from) {
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  lampsTogether_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamps(b, lux); });
   field_.rays += direct.rayCount();
 }
 
@@ -207,11 +216,15 @@ ParticleLight LightCache::particlesFrom(const Sources& from, ParticleSource sour
   ParticleLight light = traceParticles(from.rays, from.voxels, paths_, source, settings_, from.progress);
   field_.rays += light.rays;
   light.few = fewParticles_;
+  if (settings_.still) light.trails = {};  // they tell what moved things change
   return light;
 }
 
 // What is known of lamps in the same place stays; the rest is traced.
 void LightCache::matchLamps(const Sources& from) {
+  const bool apart = lampsApart(from.lights), wereApart = lampsTogether_.empty();
+  if (apart != wereApart) lamps_.clear(), lampsTogether_ = {};
+  if (!apart) traceLampsTogether(from);
   std::vector<LampLight> next, dark;
   std::vector<uint8_t> used(lamps_.size(), 0);
   for (size_t i = 0; i < from.lights.lampCount(); ++i) {
@@ -262,7 +275,7 @@ void LightCache::solve(const Sources& from, int mostBounces) {
 std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   const Voxels& voxels = from.voxels;
   direct_.assign(voxels.slots.size(), {});
-  for (const SlotLight* light : {&suns_, &sky_, &emittersTogether_}) light->addTo(voxels, Vec3(1), direct_);
+  for (const SlotLight* light : {&suns_, &sky_, &lampsTogether_, &emittersTogether_}) light->addTo(voxels, Vec3(1), direct_);
   for (const EmitterLight& e : emitters_) {
     if (!isBlack(e.scale)) e.direct.addTo(voxels, e.scale, direct_);
   }
@@ -390,7 +403,7 @@ std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) con
 }
 
 size_t LightCache::bytes() const {
-  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + emittersTogether_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) + (direct_.size() + indirect_.size()) * sizeof(Vec3);
+  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + lampsTogether_.bytes() + emittersTogether_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) + (direct_.size() + indirect_.size()) * sizeof(Vec3);
   for (const LampLight& l : lamps_) sum += l.direct.bytes() + l.particles.bytes();
   for (const EmitterLight& e : emitters_) sum += e.direct.bytes() + e.particles.bytes();
   return sum;

@@ -48,6 +48,8 @@ class LightCache {
   std::vector<Vec3> sharpLux(const Voxels& voxels, std::span<const uint32_t> emissive = {}) const;
   // Whether the light of each emissive mesh is kept.
   bool emittersApart(const Lights& lights) const;
+  // Whether that of each lamp is. Where scenes stay as they are many are lit together.
+  bool lampsApart(const Lights& lights) const;
   RadianceField take() { return std::move(field_); }
   size_t bytes() const;  // beside the field
 
@@ -105,6 +107,7 @@ class LightCache {
   EmitterLight tracedEmitter(const Sources& from, size_t index, size_t small);
   static SlotLight lightOfAll(const Sources& from, const std::function<void(size_t brick, std::vector<Vec3>& lux)>& ofBrick);
   void traceLamp(const Sources& from, LampLight& light);
+  void traceLampsTogether(const Sources& from);
   ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
   ParticleLight particlesFrom(const Sources& from, ParticleSource source);
   void traceAllParticles(const Sources& from);
@@ -129,6 +132,7 @@ class LightCache {
   Links links_;
   std::vector<BrickMark> marks_;
   SlotLight suns_, sky_;
+  SlotLight lampsTogether_;                     // all, straight, where there are too many to keep them apart
   SlotLight emittersTogether_;                  // all, where there are too many to keep them apart
   std::vector<EmissiveMesh> knownTogether_;     // as they were then
   SkyWays skyWays_;  // empty: no sky

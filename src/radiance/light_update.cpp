@@ -133,6 +133,7 @@ void LightCache::updateFixedLights(const Sources& from, const Change& change) {
 }
 
 void LightCache::updateLamps(const Sources& from, const Change& change) {
+  if (!lampsApart(from.lights)) return;  // matchLamps() lights them together
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
   for (LampLight& light : lamps_) {
     light.direct = updated(from, light.direct, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.lamp(light.lamp, b, near, lux); });

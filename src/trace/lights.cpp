@@ -10,7 +10,7 @@
 namespace roomlight {
 namespace {
 
-constexpr size_t kRemembered = 64;
+constexpr size_t kRemembered = 64;  // lights that are weighed one by one; of more, groups are chosen first
 
 // Small triangles are sampled by area: cheaper, and exact enough for floats. Both sampling and density decide by this.
 bool samplesSolidAngle(float solidAngle) { return solidAngle > 1e-3f && solidAngle < 6.2f; }
@@ -44,6 +44,8 @@ void Lights::addAllLocal() {
   emitterOfInstance_.assign(scene_.instances.size(), -1);
   MeanEmission means(scene_);
   for (uint32_t i = 0; i < scene_.instances.size(); ++i) addEmitter(i, means);
+  const size_t lamps = lamps_.size(), all = lamps + emitters_.size();
+  lampTree_ = treeOf(0, lamps), emitterTree_ = treeOf(lamps, all), localTree_ = treeOf(0, all);
 }
 
 void Lights::addLamps() {
@@ -263,82 +265,86 @@ float Lights::pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) cons
   return t.share / t.areaM2 * d2 / std::max(cosLight, 1e-6f);
 }
 
-LightSample Lights::sampleLocal(Vec3 p, Vec2 u, float choice) const {
-  // Few homes have more lights than are remembered here; of the rest the importance is worked out twice.
-  float remembered[kRemembered];
-  const size_t count = lamps_.size() + emitters_.size();
-  const auto weigh = [&](size_t i) { return i < lamps_.size() ? importance(lampTerms_[i], p) : importance(emitters_[i - lamps_.size()], p); };
-  float total = 0;
-  for (size_t i = 0; i < count; ++i) {
-    const float w = weigh(i);
-    if (i < kRemembered) remembered[i] = w;
-    total += w;
+// One by one where there are few, by groups where there are many.
+LightTree::Choice Lights::choose(const Range& among, Vec3 p, float choice) const {
+  if (!among.tree.empty()) {
+    LightTree::Choice c = among.tree.choose(p, choice, [&](size_t i) { return localImportance(among.first + i, p); });
+    c.index += among.first;
+    return c;
   }
-  if (!(total > 0)) return {};
+  float remembered[kRemembered], total = 0;
+  for (size_t i = among.first; i < among.last; ++i) total += remembered[i - among.first] = localImportance(i, p);
   float v = choice * total;
-  for (size_t i = 0; i < count; ++i) {
-    const float w = i < kRemembered ? remembered[i] : weigh(i);
-    if (v >= w) {
-      v -= w;
-      continue;
-    }
-    if (i >= lamps_.size()) return sampleEmitter(emitters_[i - lamps_.size()], p, u, v / w, w / total);
-    LightSample s = sampleLamp(i, p, u);
-    s.radiance *= total / w;
-    return s;
+  for (size_t i = among.first; i < among.last; ++i) {
+    const float w = remembered[i - among.first];
+    if (v < w) return {i, w / total, v / w};
+    v -= w;
   }
   return {};
+}
+
+float Lights::chanceOf(const Range& among, size_t index, Vec3 p) const {
+  if (!among.tree.empty()) return among.tree.chance(index - among.first, p, [&](size_t i) { return localImportance(among.first + i, p); });
+  float total = 0;
+  for (size_t i = among.first; i < among.last; ++i) total += localImportance(i, p);
+  return total > 0 ? localImportance(index, p) / total : 0;
+}
+
+LightTree Lights::treeOf(size_t first, size_t last) const {
+  if (last - first <= kRemembered) return {};
+  std::vector<LightTree::Light> lights;
+  for (size_t i = first; i < last; ++i) {
+    LightTree::Light& l = lights.emplace_back();
+    if (i < lamps_.size()) {
+      const LampTerms& t = lampTerms_[i];
+      const Vec3 half(std::sqrt(t.radius2));
+      l.bounds = {t.position - half, t.position + half}, l.cd = t.intensityCd, l.axis = t.direction;
+      if (!t.web && t.cosOuter > -1) l.halfAngle = lamps_[i].outerConeRad;
+    } else {
+      const Emitter& e = emitters_[i - lamps_.size()];
+      l.bounds = e.bounds, l.cd = e.fluxLm / kPi;
+      if (!isBlack(e.normal)) l.axis = e.normal, l.halfAngle = 0.5f * kPi;
+    }
+  }
+  return LightTree(lights);
+}
+
+LightSample Lights::sampleLocal(Vec3 p, Vec2 u, float choice) const {
+  const LightTree::Choice c = choose(localRange(), p, choice);
+  if (!(c.chance > 0)) return {};
+  if (c.index >= lamps_.size()) return sampleEmitter(emitters_[c.index - lamps_.size()], p, u, c.rest, c.chance);
+  LightSample s = sampleLamp(c.index, p, u);
+  s.radiance *= 1 / c.chance;
+  return s;
 }
 
 float Lights::pdfLocal(Vec3 p, const SurfacePoint& q) const {
   const int32_t index = emitterOfInstance_[q.instance];
   if (index < 0) return 0;
-  float total = 0;
-  for (const LampTerms& lamp : lampTerms_) total += importance(lamp, p);
-  for (const Emitter& e : emitters_) total += importance(e, p);
-  const Emitter& e = emitters_[static_cast<size_t>(index)];
-  return total > 0 ? importance(e, p) / total * pdfInEmitter(e, p, q) : 0;
+  const float chance = chanceOf(localRange(), lamps_.size() + static_cast<size_t>(index), p);
+  return chance > 0 ? chance * pdfInEmitter(emitters_[static_cast<size_t>(index)], p, q) : 0;
 }
 
 LightSample Lights::sampleLamps(Vec3 p, Sampler& sampler) const {
   const float choice = sampler.next1();
   const Vec2 u = extendedLamps_ ? sampler.next2() : Vec2{};
-  float total = 0;
-  for (const LampTerms& lamp : lampTerms_) total += importance(lamp, p);
-  if (!(total > 0)) return {};
-  float v = choice * total;
-  for (size_t i = 0; i < lamps_.size(); ++i) {
-    const float w = importance(lampTerms_[i], p);
-    if (v < w || i + 1 == lamps_.size()) {
-      LightSample s = sampleLamp(i, p, u);
-      if (w > 0) s.radiance *= total / w;
-      return s;
-    }
-    v -= w;
-  }
-  return {};
+  const LightTree::Choice c = choose(lampRange(), p, choice);
+  if (!(c.chance > 0)) return {};
+  LightSample s = sampleLamp(c.index, p, u);
+  s.radiance *= 1 / c.chance;
+  return s;
 }
 
 LightSample Lights::sampleEmitters(Vec3 p, Vec2 u, float choice) const {
-  float total = 0;
-  for (const Emitter& e : emitters_) total += importance(e, p);
-  if (!(total > 0)) return {};
-  float v = choice * total;
-  for (const Emitter& e : emitters_) {
-    const float w = importance(e, p);
-    if (v < w) return sampleEmitter(e, p, u, v / w, w / total);
-    v -= w;
-  }
-  return {};
+  const LightTree::Choice c = choose(emitterRange(), p, choice);
+  return c.chance > 0 ? sampleEmitter(emitters_[c.index - lamps_.size()], p, u, c.rest, c.chance) : LightSample{};
 }
 
 float Lights::pdfEmitters(Vec3 p, const SurfacePoint& q) const {
   const int32_t index = emitterOfInstance_[q.instance];
   if (index < 0) return 0;
-  float total = 0;
-  for (const Emitter& e : emitters_) total += importance(e, p);
-  const Emitter& e = emitters_[static_cast<size_t>(index)];
-  return total > 0 ? importance(e, p) / total * pdfInEmitter(e, p, q) : 0;
+  const float chance = chanceOf(emitterRange(), lamps_.size() + static_cast<size_t>(index), p);
+  return chance > 0 ? chance * pdfInEmitter(emitters_[static_cast<size_t>(index)], p, q) : 0;
 }
 
 Bounds3 Lights::sunDirections(size_t index) const {

@@ -7,6 +7,7 @@
 #include "base/sampler.h"
 #include "scene/scene.h"
 #include "trace/lamp_light.h"
+#include "trace/light_tree.h"
 #include "trace/sky_distribution.h"
 #include "trace/surface_point.h"
 
@@ -117,6 +118,19 @@ class Lights {
     float radius2 = 0;           // m²; of an extended lamp
     bool shinesUp = true;        // of a web
   };
+  // All of a kind, or of both.
+  struct Range {
+    size_t first, last;
+    const LightTree& tree;  // empty where there are few
+  };
+  Range lampRange() const { return {0, lamps_.size(), lampTree_}; }
+  Range emitterRange() const { return {lamps_.size(), lamps_.size() + emitters_.size(), emitterTree_}; }
+  Range localRange() const { return {0, lamps_.size() + emitters_.size(), localTree_}; }
+  // One chosen by what each could give at p without shadows, and the chance. Lamps come first, then emissive meshes.
+  LightTree::Choice choose(const Range& among, Vec3 p, float choice) const;
+  float chanceOf(const Range& among, size_t index, Vec3 p) const;
+  float localImportance(size_t index, Vec3 p) const { return index < lamps_.size() ? importance(lampTerms_[index], p) : importance(emitters_[index - lamps_.size()], p); }
+  LightTree treeOf(size_t first, size_t last) const;
   void addAllLocal();
   void addEmitter(uint32_t instance, MeanEmission& means);
   float importance(const Emitter& e, Vec3 p) const;
@@ -138,6 +152,7 @@ class Lights {
   std::vector<Sun> suns_;
   std::vector<Emitter> emitters_;
   std::vector<int32_t> emitterOfInstance_;
+  LightTree lampTree_, emitterTree_, localTree_;
   SkyDistribution sky_;
   double emitterFluxLm_ = 0, lampFluxLm_ = 0;
   bool extendedLamps_ = false;
