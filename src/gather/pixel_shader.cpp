@@ -276,7 +276,7 @@ void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light,
       if (fragments && surfaceOf(part) > 0 && !part.veil && !part.outshines && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
         addFragment(part, shadingsOf(part), *fragments);
       } else {
-        if (fragments && surfaceOf(part) > 0 && (!part.veil || i == most)) addPlace(part);
+        if (fragments && surfaceOf(part) > 0 && (!part.veil || (i == most && (!known || onOneSheet(normal, place, part.normal, part.position / part.surface))))) addPlace(part);
         addPart(part, shadingsOf(part));
       }
     }

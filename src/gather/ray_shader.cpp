@@ -6,7 +6,8 @@
 namespace roomlight {
 namespace {
 
-constexpr int kDeepest = 3;      // vertices of a path, after which the cache is read whatever it is worth
+constexpr int kDeepest = 3;      // vertices of a path, after which the cache is read wherever it can be seen,
+constexpr int kMostVertices = 8;  // and after which paths that find none, between mirrors, end
 constexpr int kMostPanes = 16;
 constexpr float kRare = 4;        // times the light expected: what a single find has beyond that is rare
 constexpr float kFaintShare = 0.2f;    // of the light seen: less is a faint reflection, as a pane's
@@ -263,7 +264,12 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
 bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const {
   const SlotCache::Place place = cache_.find(p, n);
   if (path.depth >= kDeepest) {
-    if (place.slot >= 0 && !w.arrivals) read(path, hit, place.slot, p, n, w);
+    if (place.slot < 0 || w.arrivals) return true;
+    if (place.trust == Trust::Sure) {
+      read(path, hit, place.slot, p, n, w);
+    } else {
+      w.doubts.push_back({path, hit, place.slot, p, n, nullptr});
+    }
     return true;
   }
   if (path.clear) return cachedFaintly(path, hit, p, n, w);
@@ -322,7 +328,7 @@ bool RayShader::cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Ve
 
 // Lights the surface afresh.
 void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const {
-  if (path.depth >= kDeepest) return;
+  if (path.depth >= kMostVertices) return;
   // What a mirror throws on others is found by chance only, too rarely: it is spread (Kaplanyan & Dachsbacher 2013, path space
   // regularization).
   s.m.roughness = std::max(s.m.roughness, path.spread);
@@ -390,7 +396,7 @@ void RayShader::resolveUnsure(GatherWork& w) const {
       readCell(d.path, d.hit, *d.cell, d.p, d.n, w);
     } else if (free) {
       read(d.path, d.hit, d.slot, d.p, d.n, w);
-    } else {
+    } else if (d.path.depth < kDeepest) {
       goOn(d.path, surfaceAt(rays_.scene(), d.hit, d.path.ray.direction), w);
     }
   }

@@ -175,7 +175,6 @@ void DirectLight::trace(size_t brick, Samples samples, const Marks& marks, std::
   for (size_t s = first; s < last; ++s) {
     for (uint32_t k = 0; k < samples.first && markOf(s) != kAsItIs; ++k) collect(s, k);
   }
-  if (rays.empty()) return;
   const std::vector<int> voxelOf = voxelsOfSlots(voxels_, brick);
   std::vector<uint32_t> tried(last - first, samples.first);
   Shadows seen;
@@ -242,12 +241,12 @@ void DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> 
   renew(brick, samples, near, lux, findMarks, sample);
 }
 
-void DirectLight::lamps(size_t brick, std::span<Vec3> lux) {
+void DirectLight::lamps(std::span<const LightSurroundings> around, size_t brick, std::span<Vec3> lux) {
   const auto most = static_cast<uint32_t>(settings_.directSamples);
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     Sampler sampler(paths_.key(s), k, settings_.seed + 5);
     const LightSample light = lights_.sampleLamps(p, sampler);
-    return light.valid() && besideLamps_[static_cast<size_t>(light.lamp)].contains(voxels_.slots[s].position) ? LightSample{} : light;
+    return light.valid() && around[static_cast<size_t>(light.lamp)].contains(voxels_.slots[s].position) ? LightSample{} : light;
   };
   trace(brick, {(most + 1) / 2, most}, {}, lux, sample);
 }

@@ -15,16 +15,14 @@ namespace roomlight {
 class DirectLight {
  public:
   DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings)
-      : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), settings_(settings), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
-    for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
-  }
+      : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), settings_(settings), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {}
 
   // Illuminance in lx per channel of the slots of one brick, in one value per slot of the scene. Of a lamp for 1 cd. Of lamps and emissive
   // meshes less what their particles carry. Where `near` boxes are given only slots some of whose rays may cross one of them, and those beside
   // them whose rays depend on that, get another value: the same as if all were traced.
   void lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
-  // Of all lamps as one light, as bright as they are: fewer rays than one by one.
-  void lamps(size_t brick, std::span<Vec3> lux);
+  // Of all lamps as one light, as bright as they are: fewer rays than one by one. `around`: surroundings of each.
+  void lamps(std::span<const LightSurroundings> around, size_t brick, std::span<Vec3> lux);
   void suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   // `ways`: of its slots, written where all is traced and read where only what boxes concern is.
   void sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyWays& ways, std::span<Vec3> lux);
@@ -65,7 +63,6 @@ class DirectLight {
   const Voxels& voxels_;
   const SlotPaths& paths_;
   const RadianceSettings& settings_;
-  std::vector<LightSurroundings> besideLamps_;
   const std::vector<LightSurroundings> besideEmitters_;
   std::atomic<uint64_t> count_ = 0;
 };

@@ -183,17 +183,21 @@ SlotLight LightCache::lightOfAll(const Sources& from, const std::function<void(s
 }
 
 void LightCache::traceLamp(const Sources& from, LampLight& light) {
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
-  if (lampsApart(from.lights)) light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamp(light.lamp, b, {}, lux); });
+  if (lampsApart(from.lights)) {
+    DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+    light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamp(light.lamp, b, {}, lux); });
+    field_.rays += direct.rayCount();
+  }
   light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
-  field_.rays += direct.rayCount();
 }
 
 bool LightCache::lampsApart(const Lights& lights) const { return !settings_.still || settings_.layers || lights.lampCount() <= kMostApart; }
 
 void LightCache::traceLampsTogether(const Sources& from) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
-  lampsTogether_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamps(b, lux); });
+  std::vector<LightSurroundings> around;
+  for (size_t i = 0; i < from.lights.lampCount(); ++i) around.emplace_back(from.lights.lamp(i), from.voxels.voxelSizeM);
+  lampsTogether_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamps(around, b, lux); });
   field_.rays += direct.rayCount();
 }
 

@@ -25,6 +25,10 @@ void join(Vec3& axis, float& halfAngle, Vec3 otherAxis, float otherHalf) {
   }
   const float half = 0.5f * (between + halfAngle + otherHalf);
   const Vec3 across = otherAxis - axis * dot(axis, otherAxis);
+  if (!(length(across) > 1e-6f) && dot(axis, otherAxis) > 0) {
+    halfAngle = std::min(kPi, std::max(halfAngle, between + otherHalf));
+    return;
+  }
   if (half >= kPi || !(length(across) > 1e-6f)) {
     halfAngle = kPi;
     return;

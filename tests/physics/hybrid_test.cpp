@@ -132,6 +132,25 @@ std::vector<Leak> leaks() {
 }
 INSTANTIATE_TEST_SUITE_P(Walls, SealedRoom, testing::ValuesIn(leaks()));
 
+// Their backs share voxels and a facing with the lit side of the wall. A lamp of the room's own says what light is expected there: without any a leak is bounded to nothing.
+TEST(Hybrid, staysDarkBetweenThingsAndAThinWall) {
+  constexpr float kVoxelM = 0.12f;
+  Scene scene = twoRooms(0);
+  for (int i = 0; i < 8; ++i) {
+    const float z = 0.3f + 0.3f * static_cast<float>(i);
+    test::addBox(scene, {3.05f, 0.5f, z}, {3.06f, 1.8f, z + 0.2f}, 0);
+    test::addBox(scene, {3.08f, 0.5f, z + 0.15f}, {3.09f, 1.8f, z + 0.35f}, 0);
+  }
+  scene.lamps.push_back(test::pointLamp({4.5f, 2.2f, 1.6f}, 10));
+  const Camera camera = cameraAt({4.6f, 1.2f, 1.6f}, {3.0f, 1.2f, 1.6f});
+  scene.lamps[0].intensityCd = Vec3(0.01f);
+  const double alone = mean(Lit(scene, kVoxelM).hybrid(camera));
+  scene.lamps[0].intensityCd = Vec3(10'000);
+  const double beside = mean(Lit(scene, kVoxelM).hybrid(camera));
+  test::record("Slats 2 cm before a thin wall, with a thousand times the light behind it: luminance", "voxels of 12 cm", "hybrid", alone, beside);
+  EXPECT_NEAR(beside / alone, 1, 0.05);
+}
+
 // A table on legs of 2 cm with a cup on it, on the floor of a room with a window.
 Scene tableWithCup() {
   Scene scene;
