@@ -5,7 +5,6 @@
 
 namespace roomlight {
 
-// Whether light on two surfaces may be filtered together, as the filter has it.
 bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition) {
   constexpr float kFacing = 0.6f, kToleranceM = 0.02f, kSlope = 0.5f;
   if (!(length(normal) > 0) || !(length(otherNormal) > 0)) return false;

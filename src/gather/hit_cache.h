@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <span>
 #include <vector>
 
@@ -20,7 +19,7 @@ struct HitCell {
   Vec3 place, normal;  // a surface point that the cell stands for
   int64_t slot = -1;   // of the voxel there
   float sizeM = 0;
-  bool sure = false;   // no other surface in its voxels parts one of its points from another that is sure, too
+  bool sure = false;   // nothing else lies in its voxels: places in it need no ray to the cell's own
 };
 
 // Where a ray arrived.
@@ -48,31 +47,16 @@ class HitCache {
   HitCache(float cellM, float voxelM) : cellM_(cellM), voxelM_(voxelM) {}
 
   bool empty() const { return cells_.empty(); }
-  float cellM() const { return cellM_; }
   // Which of the places shall be lit: of those that share a cell at most `most`, in their order.
   std::vector<uint32_t> chosen(std::span<const HitPlace> places, size_t most) const;
-  // From samples, of which one that no free way leads from to the first of its cell is left out. In their order, so that threads change nothing.
+  // A sample that the cell's first sample cannot see is left out. The result does not depend on the number of threads.
   void fill(const RayScene& rays, std::span<const LitHit> samples);
   // Null where no cell knows the place.
   const HitCell* find(const HitPlace& place) const;
-  const HitCell& at(uint32_t cell) const { return cells_[cell]; }
-  uint32_t index(const HitCell* cell) const { return static_cast<uint32_t>(cell - cells_.data()); }
   // Between a place and the one that a cell stands for, both a little before their surface: where nothing is in the way, the cell's light is that of the place.
   static Ray between(const HitCell& cell, const HitPlace& place);
   // Of the cell of a level around it, whether or not it holds anything; not 0.
   uint64_t keyOf(const HitPlace& place, int level) const;
-  size_t bytes() const { return cells_.size() * sizeof(HitCell) + table_.size() * sizeof(Entry); }
-
-  void tell() const {
-    size_t n[3] = {}, su[3] = {};
-    for (auto& c : cells_) {
-      int l = c.sizeM > cellM_ * 3 ? 2 : c.sizeM > cellM_ * 1.5 ? 1
-                                                                : 0;
-      n[l]++;
-      su[l] += c.sure;
-    }
-    for (int l = 0; l < 3; l++) fprintf(stderr, "level %d: %zu cells, %zu sure\n", l, n[l], su[l]);
-  }
 
  private:
   struct Entry {

@@ -1,4 +1,4 @@
-// Where gathering rays should go more often than chance sends them: towards places that are bright beside how seldom rays find them, learned from where rays of few pixels arrived (after
+// Sends more gathering rays to bright places that cosine sampling finds too seldom, learned from where rays of few pixels arrived (after
 // Vévoda, Kondapaneni & Křivánek 2018, "Bayesian online regression for adaptive direct illumination sampling", and Müller, Gross & Novák 2017, "Practical path guiding"). Places, not
 // directions, are kept: so what is near is found from all over a region. Guides choose directions only, so they never bias.
 #pragma once
@@ -42,7 +42,6 @@ class HitGuide {
   bool empty() const { return regions_.empty(); }
   // What a point of a surface sees of its region's targets.
   GuideCones at(Vec3 p, Vec3 n) const;
-  size_t bytes() const { return regions_.size() * sizeof(Region) + table_.size() * sizeof(Entry); }
 
  private:
   struct Region {

@@ -136,8 +136,8 @@ void surveyHits(const RayScene& rays, const Lights& lights, RayShader& shader, c
   count.rays += rayCount;
   if (progress.stop()) return;
   cache.fill(rays, lit);
-  shader.keep(std::move(cache));
-  shader.guideBy(guideFrom(all, shader));
+  shader.setHitCache(std::move(cache));
+  shader.setGuide(guideFrom(all, shader));
 }
 
 }  // namespace roomlight

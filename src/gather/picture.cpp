@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr size_t kTilesAtOnce = 4;
-constexpr size_t kPlanned = 3;     // times the samples that a plan of further rays knew, it is made anew
+constexpr size_t kPlanned = 3;     // a plan of further rays is made anew once more than that many times the rays it knew were traced
 constexpr float kUnfiltered = 4;  // times the tolerance where outliers hide what noise a filter leaves: that of single pixels is asked for
 
 Rectangle tileAt(size_t index, int width, int height) {

@@ -273,7 +273,7 @@ void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light,
     const Vec3 place = (known ? sum.position : largest.position) / surface, normal = known ? sum.normal : largest.normal;
     for (size_t i = begin; i < end; ++i) {
       const TileWork::Part& part = work.parts[i];
-      if (fragments && surfaceOf(part) > 0 && !part.veil && !part.outshines && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
+      if (fragments && surfaceOf(part) > 0 && !part.veil && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
         addFragment(part, shadingsOf(part), *fragments);
       } else {
         if (fragments && surfaceOf(part) > 0 && (!part.veil || (i == most && (!known || onOneSheet(normal, place, part.normal, part.position / part.surface))))) addPlace(part);

@@ -54,7 +54,7 @@ struct TileWork {
     float weight;           // camera rays that each stands for
     bool turn;              // whether its pixel is one of those that gather for others
     uint32_t gathers = 1, glossy = 1;  // what its diffuse and specular light counts for
-    Vec3 normal{}, position{};   // sums over camera rays of what it lets nothing be seen behind
+    Vec3 normal{}, position{};   // sums over the camera rays that saw no solid surface before it; none of mirrors
     float roughness = 0, surface = 0;
     bool veil = false;       // lets most light through: a surface only where nothing solid is seen behind
     bool outshines = false;  // what else is seen in its pixel, which has more of it: not filtered with that

@@ -12,7 +12,7 @@ constexpr int kMostPanes = 16;
 constexpr float kRare = 4;        // times the light expected: what a single find has beyond that is rare
 constexpr float kFaintShare = 0.2f;    // of the light seen: less is a faint reflection, as a pane's
 constexpr float kFaintCells = 3;  // that such a reflection is taken from
-constexpr float kNearCells = 2;   // what is hit nearer than that many cells is lit afresh
+constexpr float kNearCells = 2;   // first hits nearer than that many cells read none: the slot if it may be read, else they are lit afresh
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
 enum Kind : uint8_t {
@@ -51,7 +51,7 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
     const float lux = luminance(field.irradianceLux[i]), areaM2 = voxels.slots[i].areaM2;
     sum += static_cast<double>(std::sqrt(lux) * areaM2), flux += static_cast<double>(lux * areaM2), area += static_cast<double>(areaM2);
   }
-  if (area > 0) meanRadiance_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi, brightRadiance_ = static_cast<float>(flux / area) / kPi;
+  if (area > 0) leastExpected_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi, meanRadiance_ = static_cast<float>(flux / area) / kPi;
   const Scene& scene = rays.scene();
   for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
 }
@@ -137,7 +137,7 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
   const int n = estimates(work);
   const float most = n > 0 ? kMost * luminance(bsdf.albedo()) * expectedRadiance(s) : 0;
   v.glossOnly = work.gathers == 0;
-  const GuideCones cones = n > 0 && !v.glossOnly && !toHits_.empty() ? toHits_.at(s.p, s.ng) : GuideCones{};
+  const GuideCones cones = n > 0 && !v.glossOnly && !guide_.empty() ? guide_.at(s.p, s.ng) : GuideCones{};
   if (cones.share > 0) v.cones = &cones;
   for (int k = 0; k < n; ++k) {
     v.estimate = static_cast<uint32_t>(w.samplers.size());
@@ -178,7 +178,7 @@ float RayShader::expectedRadiance(const SurfacePoint& s) const {
   const SlotCache::Place place = cache_.find(s.p, s.ng);
   if (place.slot < 0) return kInfinity;
   const float own = luminance(field_.irradianceLux[static_cast<size_t>(place.slot)]) / kPi;
-  return own >= brightRadiance_ ? own : std::max(meanRadiance_, brightestAround(s.p));
+  return own >= meanRadiance_ ? own : std::max(leastExpected_, brightestAround(s.p));
 }
 
 // Radiance of the brightest slot in the voxel of p and its neighbours, did it reflect all light: what faces p may be all that lights it.

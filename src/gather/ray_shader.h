@@ -21,10 +21,9 @@ class RayShader final : public SurfaceShader {
   // Adds where rays from these surfaces arrive, but for what lies beside lamps. No light is asked for.
   void arrivals(std::span<const Shading> work, std::vector<HitArrival>& out, GatherCounters& count) const;
   // From then on rays read it where it knows a place, and slots elsewhere.
-  void keep(HitCache hits) { hits_ = std::move(hits); }
-  const HitCache& hits() const { return hits_; }
+  void setHitCache(HitCache hits) { hits_ = std::move(hits); }
   // From then on part of them follows it.
-  void guideBy(HitGuide guide) { toHits_ = std::move(guide); }
+  void setGuide(HitGuide guide) { guide_ = std::move(guide); }
   // Luminance that a ray would read there.
   float found(const HitArrival& arrival) const;
 
@@ -70,8 +69,8 @@ class RayShader final : public SurfaceShader {
   const SharpLights sharp_;
   const RayScatter scatter_;
   HitCache hits_;
-  HitGuide toHits_;
-  float meanRadiance_ = 0, brightRadiance_ = 0;  // of all slots, did they reflect all light: the first a tenth of a mean that few bright ones hardly change
+  HitGuide guide_;
+  float meanRadiance_ = 0, leastExpected_ = 0;  // cd/m² of white surfaces: the mean over all slots, and the least that a place is expected to have
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
 };

@@ -33,7 +33,7 @@ struct SurfaceLight {
   Vec3 diffuse;   // reflected by the Lambertian lobe: from all around,
   Vec3 rare;      // the same, what single rays found far beyond what all should (of shaders that tell; else part of diffuse), and
   Vec3 sharp;     // from suns and lamps
-  Vec3 albedo;    // of that lobe: (diffuse + sharp) / albedo is irradiance / pi
+  Vec3 albedo;    // of that lobe: (diffuse + rare + sharp) / albedo is irradiance / pi
   Vec3 specular;  // reflected by the glossy lobe
   float sharpVariance = 0;  // of the luminance of `sharp`
   float diffuseVariance = 0, specularVariance = 0;  // of the others', where the shader took several samples; else 0

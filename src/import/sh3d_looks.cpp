@@ -4,11 +4,15 @@
 
 #include <algorithm>
 
+#include "scene/surface.h"
+
 namespace roomlight::importers::sh3d {
 namespace {
 
 constexpr const char *kPane = "sweethome3d_window_pane", *kMirror = "sweethome3d_window_mirror";
 constexpr float kMirrorReflectance = 0.9f;
+constexpr Glazing kClearGlass{1, 1.52f, 0.96f};  // 6 mm
+constexpr float kSeeThrough = 0.7f;  // opacity up to which an even material of a door or window is its glass
 
 Material pane() {
   Material m;
@@ -26,6 +30,10 @@ Material mirror() {
   return m;
 }
 
+bool isSeeThrough(const Material& m) {
+  return m.alphaMode == AlphaMode::Blend && m.alpha <= kSeeThrough && m.baseColorTexture.texture < 0 && isBlack(m.emission);
+}
+
 }  // namespace
 
 Look Looks::of(const Piece& piece, const std::string& group, int material) {
@@ -39,7 +47,15 @@ Look Looks::of(const Piece& piece, const std::string& group, int material) {
   for (const MaterialPaint& m : piece.materials) {
     if ((m.key.empty() ? m.name : m.key) == name) return painted(material, m.paint, m.shininessGiven);
   }
-  return painted(material, piece.paint, piece.shininessGiven);
+  const Look look = painted(material, piece.paint, piece.shininessGiven);
+  if (piece.kind != PieceKind::DoorOrWindow || look.material != material || !isSeeThrough(scene_.materials[static_cast<size_t>(material)])) return look;
+  const auto [entry, isNew] = made_.emplace(fmt::format("glass\n{}", material), static_cast<int>(scene_.materials.size()));
+  if (isNew) {
+    Material glass = scene_.materials[static_cast<size_t>(material)];
+    glaze(glass, kClearGlass);
+    scene_.materials.push_back(std::move(glass));
+  }
+  return {entry->second, false};
 }
 
 Look Looks::painted(int material, const Paint& paint, bool shininessGiven) {

@@ -8,7 +8,7 @@ namespace roomlight {
 namespace {
 
 constexpr float kLeast = 1e-4f;   // m²
-constexpr float kWide = 1.4f;        // radii: no farther from it a group is taken apart
+constexpr float kWide = 1.4f;        // a group is split while p is within that many of its radii
 constexpr float kSlack = 1e-3f;   // rad, for rounding
 
 // The smallest cone around two.
@@ -56,7 +56,7 @@ uint32_t LightTree::build(const std::vector<Light>& lights, uint32_t first, uint
   for (uint32_t i = first; i < first + count; ++i) {
     const Light& l = lights[order_[i]];
     bounds.add(l.bounds), centres.add(l.bounds.centre());
-    node.cd += l.cd;
+    node.cd += l.intensityCd;
     join(node.axis, node.halfAngle, l.axis, l.halfAngle);
   }
   node.centre = bounds.centre(), node.radius2 = 0.25f * lengthSquared(bounds.size());

@@ -15,14 +15,14 @@ class LightTree {
  public:
   struct Light {
     Bounds3 bounds;      // m
-    float cd;            // luminous intensity where it is strongest
-    Vec3 axis{0, 1, 0};  // unit: it shines to directions at most
-    float halfAngle = kPi;  // that far from it
+    float intensityCd;   // where it is strongest
+    Vec3 axis{0, 1, 0};  // unit
+    float halfAngle = kPi;  // rad: it shines only within this angle of the axis
   };
   struct Choice {
     size_t index = 0;
-    float chance = 0;  // 0: none, for nothing reaches the place from where was chosen
-    float rest = 0;    // of the random number, anew in [0, 1)
+    float chance = 0;  // 0: nothing chosen
+    float rest = 0;    // what is left of u, rescaled to [0, 1)
   };
 
   LightTree() = default;
@@ -71,7 +71,7 @@ class LightTree {
       cut.total += cut.weight[i] = node.right > 0 ? importance(node, p) : weightOfLeaf(node, weigh);
     }
   }
-  // The last of `count` weights that `u` of their sum reaches; what is left of it to u.
+  // Index of the weight in whose share of the sum u falls; rescales u to [0, 1) within that share.
   template <class At>
   static uint32_t pick(uint32_t count, float total, const At& weightAt, float& u) {
     float v = u * total;
@@ -96,7 +96,8 @@ LightTree::Choice LightTree::choose(Vec3 p, float u, const Weigh& weigh) const {
   Cut cut;
   weighCut(p, cut, weigh);
   if (!(cut.total > 0)) return {};
-  const uint32_t chosen = pick(cut.count, cut.total, [&](uint32_t i) { return cut.weight[i]; }, u);
+  const uint32_t chosen = pick(
+      cut.count, cut.total, [&](uint32_t i) { return cut.weight[i]; }, u);
   float chance = cut.weight[chosen] / cut.total;
   uint32_t at = cut.node[chosen];
   while (nodes_[at].right > 0) {
@@ -114,7 +115,8 @@ LightTree::Choice LightTree::choose(Vec3 p, float u, const Weigh& weigh) const {
   float total = 0;
   for (uint32_t i = 0; i < leaf.count; ++i) total += weights[i] = weigh(order_[leaf.first + i]);
   if (!(total > 0)) return {};
-  const uint32_t own = pick(leaf.count, total, [&](uint32_t i) { return weights[i]; }, u);
+  const uint32_t own = pick(
+      leaf.count, total, [&](uint32_t i) { return weights[i]; }, u);
   return {order_[leaf.first + own], chance * weights[own] / total, u};
 }
 

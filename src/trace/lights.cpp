@@ -10,7 +10,7 @@
 namespace roomlight {
 namespace {
 
-constexpr size_t kRemembered = 64;  // lights that are weighed one by one; of more, groups are chosen first
+constexpr size_t kMostOneByOne = 64;  // lights that are weighed one by one; of more, groups are chosen first
 
 // Small triangles are sampled by area: cheaper, and exact enough for floats. Both sampling and density decide by this.
 bool samplesSolidAngle(float solidAngle) { return solidAngle > 1e-3f && solidAngle < 6.2f; }
@@ -272,7 +272,7 @@ LightTree::Choice Lights::choose(const Range& among, Vec3 p, float choice) const
     c.index += among.first;
     return c;
   }
-  float remembered[kRemembered], total = 0;
+  float remembered[kMostOneByOne], total = 0;
   for (size_t i = among.first; i < among.last; ++i) total += remembered[i - among.first] = localImportance(i, p);
   float v = choice * total;
   for (size_t i = among.first; i < among.last; ++i) {
@@ -291,18 +291,18 @@ float Lights::chanceOf(const Range& among, size_t index, Vec3 p) const {
 }
 
 LightTree Lights::treeOf(size_t first, size_t last) const {
-  if (last - first <= kRemembered) return {};
+  if (last - first <= kMostOneByOne) return {};
   std::vector<LightTree::Light> lights;
   for (size_t i = first; i < last; ++i) {
     LightTree::Light& l = lights.emplace_back();
     if (i < lamps_.size()) {
       const LampTerms& t = lampTerms_[i];
       const Vec3 half(std::sqrt(t.radius2));
-      l.bounds = {t.position - half, t.position + half}, l.cd = t.intensityCd, l.axis = t.direction;
+      l.bounds = {t.position - half, t.position + half}, l.intensityCd = t.intensityCd, l.axis = t.direction;
       if (!t.web && t.cosOuter > -1) l.halfAngle = lamps_[i].outerConeRad;
     } else {
       const Emitter& e = emitters_[i - lamps_.size()];
-      l.bounds = e.bounds, l.cd = e.fluxLm / kPi;
+      l.bounds = e.bounds, l.intensityCd = e.fluxLm / kPi;
       if (!isBlack(e.normal)) l.axis = e.normal, l.halfAngle = 0.5f * kPi;
     }
   }

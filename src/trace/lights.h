@@ -118,7 +118,7 @@ class Lights {
     float radius2 = 0;           // m²; of an extended lamp
     bool shinesUp = true;        // of a web
   };
-  // All of a kind, or of both.
+  // Lamps, emissive meshes, or both, as indices into the list "lamps, then emissive meshes".
   struct Range {
     size_t first, last;
     const LightTree& tree;  // empty where there are few

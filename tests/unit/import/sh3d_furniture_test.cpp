@@ -227,6 +227,21 @@ TEST(Sh3dFurniture, coloursReplaceThoseOfTheModel) {
   EXPECT_EQ(keyed[1], Vec3(0, 0, 0.8f));
 }
 
+TEST(Sh3dFurniture, veilsInDoorsAndWindowsAreGlass) {
+  const ZipEntries model{{"1/wedge.obj", kWedge}, {"1/wedge.mtl", "newmtl red\nKd 0.8 0.8 0.8\nd 0.5\nnewmtl blue\nKd 0.8 0.8 0.8\nd 0.9\n"}};
+  const auto panes = [&](const std::string& kind, const std::string& inside) {
+    const Scene scene = pieceScene("", inside, model, kind);
+    std::vector<int> out;
+    for (const Instance& i : scene.instances) {
+      if (i.name == "piece") out.push_back(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].glazing.panes);
+    }
+    return out;
+  };
+  EXPECT_EQ(panes("doorOrWindow", ""), (std::vector{1, 0}));
+  EXPECT_EQ(panes("pieceOfFurniture", ""), (std::vector{0, 0}));
+  EXPECT_EQ(panes("doorOrWindow", "<material name='red' color='FFFFFFFF'/>"), (std::vector{0, 0}));
+}
+
 TEST(Sh3dFurniture, missingModelsAreBoxesWithAWarning) {
   const Result<Imported> imported = importHome(pieceXml(""), {});
   ASSERT_TRUE(imported.ok());

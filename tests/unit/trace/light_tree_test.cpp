@@ -62,7 +62,7 @@ struct Points {
     tree = LightTree(lights);
   }
   auto weigh(Vec3 p) const {
-    return [this, p](size_t i) { return lights[i].cd / std::max(lengthSquared(p - lights[i].bounds.lo), 1e-4f); };
+    return [this, p](size_t i) { return lights[i].intensityCd / std::max(lengthSquared(p - lights[i].bounds.lo), 1e-4f); };
   }
 };
 
