@@ -157,13 +157,15 @@ Metadata metadataOf(const MixOptions& o, const MixHome& home, const Mixture& mix
           {"roomlight.whiteGains", fmt::format("{:.4f} {:.4f} {:.4f}", shown.white.gains.x, shown.white.gains.y, shown.white.gains.z)}};
 }
 
-Status writeOutputs(const MixOptions& o, const MixHome& home, const Mixture& mixture, const ShownMix& shown, ProgressDisplay& display) {
+// Pictures to look at, or linear ones.
+Status writeOutputs(const MixOptions& o, bool linear, const MixHome& home, const Mixture& mixture, const ShownMix& shown, ProgressDisplay& display) {
   const Metadata metadata = metadataOf(o, home, mixture, shown);
   for (const std::string& out : o.outputs) {
+    if ((lowerExtension(out) == ".exr") != linear) continue;
     Stopwatch mixing;
     double mixMs = 0;
     Status s = Ok{};
-    if (lowerExtension(out) == ".exr") {
+    if (linear) {
       const Image image = linearMix(home, mixture.gains);
       mixMs = mixing.seconds() * 1e3;
       s = writeExr(out, image, metadata);
@@ -181,9 +183,9 @@ Status writeOutputs(const MixOptions& o, const MixHome& home, const Mixture& mix
 // What is left to be wrong once the layers are known; then the pictures.
 int workMix(const MixOptions& o, const Display& how, const FollowMix& follow, const std::optional<Blend>& blend) {
   ProgressDisplay display(o.quiet);
-  const Result<MixHome> opened = openLayers(o.file);
+  Result<MixHome> opened = openLayers(o.file);
   if (!opened) return failed(opened.error());
-  const MixHome& home = opened.value();
+  MixHome& home = opened.value();
   const Result<Mixture> mixture = mixtureOf(home.layers, o.dials);
   if (!mixture) return failed(mixture.error());
   const Result<std::map<size_t, std::string>> entities = entitiesOf(home, o.entities);
@@ -201,7 +203,9 @@ int workMix(const MixOptions& o, const Display& how, const FollowMix& follow, co
   if (o.list) fmt::print("{}", layerTable(home.layers));
   if (o.outputs.empty() && !switches) return kOk;
   const ShownMix shown = showMix(home, mixture.value(), how, follow);
-  if (const Status s = writeOutputs(o, home, mixture.value(), shown, display); !s) return failed(s.error(), kFailed);
+  if (const Status s = writeOutputs(o, true, home, mixture.value(), shown, display); !s) return failed(s.error(), kFailed);
+  retouch(home, shown.retouch);
+  if (const Status s = writeOutputs(o, false, home, mixture.value(), shown, display); !s) return failed(s.error(), kFailed);
   const Metadata metadata = metadataOf(o, home, mixture.value(), shown);
   const auto extension = [&](const char* usual) { return "." + (o.format.empty() ? std::string(usual) : o.format); };
   int code = kOk;
@@ -242,7 +246,6 @@ Registered addMix(CLI::App& program) {
   app->add_option("--sun", o->dials.sun, "Sunlight: 50%, off, ...");
   app->add_option("--sky", o->dials.sky, "Light of the sky: 50%, off, ...");
   addDisplayOptions(*app, o->display, ".png, .webp and .jpg");
-  app->remove_option(app->get_option("--local-exposure"));  // mixes have one exposure all over
   for (const char* name : {"--exposure", "--white-balance"}) {
     CLI::Option* option = app->get_option(name);
     option->description(fmt::format("{}. Automatic values are those of the unmixed picture, so that dimmed lamps look dimmed; {}: those of this mix", option->get_description(), kOfThisMix));

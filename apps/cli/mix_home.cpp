@@ -140,11 +140,26 @@ ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& dis
   ShownMix shown;
   Mixture unmixed;
   for (const LayerInfo& l : home.layers) unmixed.gains.push_back(Vec3(1)), unmixed.hues.push_back(l.colour);
-  shown.look.ev100 = ev100Of(display, display.ev100 ? Image() : linearMix(home, follow.exposure ? mixture.gains : unmixed.gains));
+  Image metered = linearMix(home, follow.exposure ? mixture.gains : unmixed.gains);
+  shown.look.ev100 = ev100Of(display, metered);
   shown.look.tone = display.tone;
   shown.white = whiteOf(display, lightColourOf(home, follow.white ? mixture : unmixed));
   shown.look.whiteBalance = matrixOf(shown.white);
+  for (Vec3& p : metered.pixels) p *= shown.white.gains;
+  shown.retouch = retouchOf(metered, display, shown.look.ev100);
   return shown;
+}
+
+void retouch(MixHome& home, const Retouch& by) {
+  if (by.gains.values.empty() && by.glare <= 0 && by.vignette <= 0) return;
+  std::vector<Vec3> alone(home.layers.size());
+  for (size_t i = 0; i < home.layers.size(); ++i) {
+    alone[i] = Vec3(1);
+    Image layer = mixLinear(home.stack, alone);
+    alone[i] = {};
+    retouch(layer, by);
+    setLayer(home.stack, i, layer);
+  }
 }
 
 Result<Assignment> splitAssignment(const std::string& option, const std::string& text) {

@@ -39,15 +39,18 @@ struct Mixture {
 };
 Result<Mixture> mixtureOf(const std::vector<LayerInfo>& layers, const DialOptions& options);
 
-// How a mix is shown: exposure and white are those of the unmixed picture where options do not fix them, or of this mix where that is wished, so that dimmed lamps look dimmed.
+// How a mix is shown: exposure, local exposure and white are those of the unmixed picture where options do not fix them, or of this mix where that is wished, so that dimmed lamps look dimmed.
 struct ShownMix {
   Look look;
   White white;
+  Retouch retouch;
 };
 struct FollowMix {
   bool exposure = false, white = false;
 };
 ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display, const FollowMix& follow);
+// Every layer with what the look does to places in it. Linear mixes have no meaning afterwards.
+void retouch(MixHome& home, const Retouch& by);
 
 // The name before the last '=', and what is behind it.
 struct Assignment {

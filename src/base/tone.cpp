@@ -14,14 +14,36 @@ constexpr std::pair<std::string_view, ToneCurve> kCurves[] = {{"neutral", ToneCu
                                                               {"filmic", ToneCurve::Filmic},
                                                               {"clip", ToneCurve::Clip}};
 
-Vec3 applyCurve(Vec3 color, ToneCurve curve) {
+// A run of pixels, a plane a primary: loops over it are vector code.
+constexpr size_t kRunPixels = 1024;
+struct Run {
+  alignas(64) float rgb[3][kRunPixels];
+};
+
+template <Vec3 (*Curve)(Vec3), bool kGraded>
+void mapRun(Run& run, float exposure, const Tone& tone) {
+  const float contrast = tone.contrast, saturation = tone.saturation;
+  float* __restrict r = run.rgb[0];
+  float* __restrict g = run.rgb[1];
+  float* __restrict b = run.rgb[2];
+  for (size_t i = 0; i < kRunPixels; ++i) {
+    const float x = r[i] * exposure, y = g[i] * exposure, z = b[i] * exposure;
+    const Vec3 lit{x < 0 ? 0.0f : x, y < 0 ? 0.0f : y, z < 0 ? 0.0f : z};  // what is not a number stays so
+    const Vec3 shown = Curve(kGraded ? curves::graded(lit, contrast, saturation) : lit);
+    r[i] = srgbEncode(shown.x), g[i] = srgbEncode(shown.y), b[i] = srgbEncode(shown.z);
+  }
+}
+
+using MapRun = void (*)(Run&, float, const Tone&);
+template <bool kGraded>
+MapRun mapRunOf(ToneCurve curve) {
   switch (curve) {
-    case ToneCurve::PbrNeutral: return curves::neutral(color);
-    case ToneCurve::AgX: return curves::agx(color);
-    case ToneCurve::Filmic: return curves::filmic(color);
+    case ToneCurve::PbrNeutral: return mapRun<curves::neutral, kGraded>;
+    case ToneCurve::AgX: return mapRun<curves::agx, kGraded>;
+    case ToneCurve::Filmic: return mapRun<curves::filmic, kGraded>;
     case ToneCurve::Clip: break;
   }
-  return color;
+  return mapRun<curves::clip, kGraded>;
 }
 
 }  // namespace
@@ -64,15 +86,19 @@ float srgbDecode(float encoded) {
   return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
 
-Image toneMap(const Image& image, float ev100, const Tone& tone) {
-  Image out(image.width, image.height);
+Image toneMap(Image image, float ev100, const Tone& tone) {
   const float exposure = exposureFromEv100(ev100);
-  parallelFor(image.pixels.size(), 16384, [&](size_t i) {
-    const Vec3 light = max(image.pixels[i] * exposure, Vec3(0));
-    const Vec3 v = applyCurve(tone.plain() ? light : curves::graded(light, tone.contrast, tone.saturation), tone.curve);
-    out.pixels[i] = {srgbEncode(v.x), srgbEncode(v.y), srgbEncode(v.z)};
+  const MapRun map = tone.plain() ? mapRunOf<false>(tone.curve) : mapRunOf<true>(tone.curve);
+  parallelFor((image.pixels.size() + kRunPixels - 1) / kRunPixels, 8, [&](size_t index) {
+    const size_t begin = index * kRunPixels, count = std::min(kRunPixels, image.pixels.size() - begin);
+    Run run{};
+    for (size_t i = 0; i < count; ++i) {
+      for (int c = 0; c < 3; ++c) run.rgb[c][i] = image.pixels[begin + i][c];
+    }
+    map(run, exposure, tone);
+    for (size_t i = 0; i < count; ++i) image.pixels[begin + i] = {run.rgb[0][i], run.rgb[1][i], run.rgb[2][i]};
   });
-  return out;
+  return image;
 }
 
 }  // namespace roomlight

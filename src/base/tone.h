@@ -40,7 +40,7 @@ float automaticEv100(const Image& luminanceImage);
 
 float srgbDecode(float encoded);  // of srgbEncode (base/tone_curves.h)
 
-// Exposed, tone-mapped and encoded copy, every channel in 0..1.
-Image toneMap(const Image& image, float ev100, const Tone& tone);
+// Exposed, tone-mapped and encoded, every channel in 0..1.
+Image toneMap(Image image, float ev100, const Tone& tone);
 
 }  // namespace roomlight

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/dither.h"
 #include "base/parallel.h"
@@ -69,14 +70,25 @@ float ev100Of(const Display& display, const Image& image) { return display.ev100
 
 Affine matrixOf(const White& white) { return {{white.gains.x, 0, 0}, {0, white.gains.y, 0}, {0, 0, white.gains.z}, {}}; }
 
+Retouch retouchOf(const Image& adapted, const Display& display, float ev100) {
+  Retouch r{{}, display.glare, display.vignette};
+  if (display.localExposure <= 0) return r;
+  const float meteredEv100 = display.ev100 ? ev100 : ev100 + display.brighterEv;  // about the metered grey: what the look adds stays
+  r.gains = display.quickLocalExposure ? quickLocalExposure(adapted, meteredEv100, display.localExposure) : localExposure(adapted, meteredEv100, display.localExposure);
+  return r;
+}
+
+void retouch(Image& image, const Retouch& by) {
+  parallelFor(by.gains.values.size(), 16384, [&](size_t i) { image.pixels[i] *= by.gains.values[i]; });
+  if (by.glare > 0) addGlare(image, by.glare);
+  if (by.vignette > 0) darkenCorners(image, by.vignette);
+}
+
 Image displayed(const Image& image, const Display& display, const White& white, float ev100) {
   Image adapted(image.width, image.height);
   parallelFor(image.pixels.size(), 16384, [&](size_t i) { adapted.pixels[i] = image.pixels[i] * white.gains; });
-  // About the metered grey: what the look adds stays.
-  if (display.localExposure > 0) exposeLocally(adapted, display.ev100 ? ev100 : ev100 + display.brighterEv, display.localExposure);
-  if (display.glare > 0) addGlare(adapted, display.glare);
-  if (display.vignette > 0) darkenCorners(adapted, display.vignette);
-  Image out = toneMap(adapted, ev100, display.tone);
+  retouch(adapted, retouchOf(adapted, display, ev100));
+  Image out = toneMap(std::move(adapted), ev100, display.tone);
   dither(out);
   return out;
 }

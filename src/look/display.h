@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/image.h"
+#include "base/plane.h"
 #include "base/tone.h"
 
 namespace roomlight {
@@ -18,6 +19,7 @@ struct Display {
   std::optional<double> whiteK;  // of what shall be white; none, and not automatic: no white balance
   std::optional<double> warmth;  // of automatic white: share of the light's own warmth that is kept, 0 to 1; none: kUsualWarmth and a little
   float localExposure = 0;       // 0: none, 1: shadows are opened by up to two stops and highlights held by up to five
+  bool quickLocalExposure = false;  // for frames
   float glare = 0;               // share of the light that the eye or lens scatters around what shines
   float vignette = 0;            // how much darker the corners are, 0 to 1
 };
@@ -30,6 +32,15 @@ struct White {
 // `lightColour`: of the light in the picture, black where it is not known. Light and reflectance are multiplied channel by channel in Rec.709, so gains in
 // the same space give surfaces the colours they have under D65. Light that is far from any white keeps its colour.
 White whiteOf(const Display& display, Vec3 lightColour);
+
+// What a look does to places of a picture before it is exposed as a whole: linear in light, so that it holds for each layer of a mix as for their sum.
+struct Retouch {
+  Plane gains;  // of local exposure, one a pixel; empty: none
+  float glare = 0, vignette = 0;
+};
+// `adapted`: white-balanced already; `ev100`: what it will be exposed by.
+Retouch retouchOf(const Image& adapted, const Display& display, float ev100);
+void retouch(Image& image, const Retouch& by);
 
 // A picture in cd/m², exposed, white-balanced, tone-mapped and encoded. Values carry a noise below the last of 8 bits, the same in every run, against bands.
 Image displayed(const Image& image, const Display& display, const White& white, float ev100);

@@ -1,5 +1,6 @@
 #include "look/local_exposure.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -63,24 +64,151 @@ Plane fused(const Exposures& exposures) {
   return sum;
 }
 
-}  // namespace
+// Where there is nothing, it asks for no exposure.
+float heldLight(float light) { return light > kLeast ? std::min(light, 1e4f) : kMiddleGrey; }
 
-void exposeLocally(Image& image, float ev100, float strength) {
+// Exposed for middle grey.
+Plane lightOf(const Image& image, float ev100) {
   const float exposure = exposureFromEv100(ev100);
   Plane light(image.width, image.height);
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    const float l = luminance(image.pixels[i]) * exposure;
-    light.values[i] = l > kLeast ? std::min(l, 1e4f) : kMiddleGrey;  // nothing there: it asks for no exposure
-  }
+  parallelFor(image.pixels.size(), 16384, [&](size_t i) { light.values[i] = heldLight(luminance(image.pixels[i]) * exposure); });
+  return light;
+}
+
+Plane fusedOf(const Plane& light, float strength) {
   Exposures exposures;
   parallelFor(exposures.size(), 1, [&](size_t i) { exposures[i] = exposureOf(light, kStops[i] * strength); });
-  const Plane value = fused(exposures);
-  const float most = std::exp2(kStops.front() * strength), least = std::exp2(kStops.back() * strength), before = lookedAtEv100(image);
-  parallelFor(image.pixels.size(), 16384, [&](size_t i) {
-    image.pixels[i] *= std::clamp(undone(std::clamp(value.values[i], 1e-4f, 0.999f)) / light.values[i], least, most);
+  return fused(exposures);
+}
+
+// What brings light to where it shall be shown.
+struct GainOf {
+  float most, least;
+  explicit GainOf(float strength) : most(std::exp2(kStops.front() * strength)), least(std::exp2(kStops.back() * strength)) {}
+  float operator()(float light, float wanted) const { return std::clamp(undone(std::clamp(wanted, 1e-4f, 0.999f)) / light, least, most); }
+};
+
+// What is looked at keeps its exposure.
+void keepMetered(const Image& before, Plane& gains) {
+  Image after(before.width, before.height);
+  for (size_t i = 0; i < before.pixels.size(); ++i) after.pixels[i] = before.pixels[i] * gains.values[i];
+  const float kept = std::exp2(lookedAtEv100(before) - lookedAtEv100(after));
+  for (float& g : gains.values) g *= kept;
+}
+
+// --- Frames: fused at a quarter of the size, and brought to pixels by what is a line within each window there (He, Sun & Tang 2013, "Guided image filtering";
+// He & Sun 2015, "Fast guided filter").
+
+constexpr int kQuarter = 4;
+constexpr int kWindow = 2;         // pixels of the small picture to either side
+constexpr float kEvenness = 2e-3f;  // variance of what counts as one surface
+
+Image quartered(const Image& image) {
+  Image out((image.width + kQuarter - 1) / kQuarter, (image.height + kQuarter - 1) / kQuarter);
+  parallelFor(static_cast<size_t>(out.height), 4, [&](size_t row) {
+    const int y0 = static_cast<int>(row) * kQuarter, y1 = std::min(y0 + kQuarter, image.height);
+    for (int x = 0; x < out.width; ++x) {
+      Vec3 sum;
+      const int x0 = x * kQuarter, x1 = std::min(x0 + kQuarter, image.width);
+      for (int y = y0; y < y1; ++y) {
+        for (int i = x0; i < x1; ++i) sum += image.at(i, y);
+      }
+      out.at(x, static_cast<int>(row)) = sum / static_cast<float>((x1 - x0) * (y1 - y0));
+    }
   });
-  const float kept = std::exp2(before - lookedAtEv100(image));
-  for (Vec3& p : image.pixels) p *= kept;
+  return out;
+}
+
+Plane windowMeans(const Plane& p) {
+  Plane across(p.width, p.height), out(p.width, p.height);
+  for (int y = 0; y < p.height; ++y) {
+    for (int x = 0; x < p.width; ++x) {
+      const int x0 = std::max(0, x - kWindow), x1 = std::min(p.width - 1, x + kWindow);
+      float sum = 0;
+      for (int i = x0; i <= x1; ++i) sum += p.at(i, y);
+      across.at(x, y) = sum / static_cast<float>(x1 - x0 + 1);
+    }
+  }
+  for (int y = 0; y < p.height; ++y) {
+    const int y0 = std::max(0, y - kWindow), y1 = std::min(p.height - 1, y + kWindow);
+    for (int i = y0; i <= y1; ++i) {
+      for (int x = 0; x < p.width; ++x) out.at(x, y) += across.at(x, i);
+    }
+    for (int x = 0; x < p.width; ++x) out.at(x, y) /= static_cast<float>(y1 - y0 + 1);
+  }
+  return out;
+}
+
+// Of what is wanted, as a line over what is there.
+struct Lines {
+  Plane slope, offset;
+};
+
+Lines linesOf(const Plane& there, const Plane& wanted) {
+  Plane squares(there.width, there.height), products(there.width, there.height);
+  for (size_t i = 0; i < there.values.size(); ++i) squares.values[i] = there.values[i] * there.values[i], products.values[i] = there.values[i] * wanted.values[i];
+  const Plane mean = windowMeans(there), meanWanted = windowMeans(wanted), meanSquare = windowMeans(squares), meanProduct = windowMeans(products);
+  Lines lines{Plane(there.width, there.height), Plane(there.width, there.height)};
+  for (size_t i = 0; i < there.values.size(); ++i) {
+    const float m = mean.values[i], variance = std::max(0.0f, meanSquare.values[i] - m * m);
+    lines.slope.values[i] = (meanProduct.values[i] - m * meanWanted.values[i]) / (variance + kEvenness);
+    lines.offset.values[i] = meanWanted.values[i] - lines.slope.values[i] * m;
+  }
+  return {windowMeans(lines.slope), windowMeans(lines.offset)};
+}
+
+// Where a pixel's middle lies in the small picture.
+struct Between {
+  int low, high;
+  float share;
+  Between(int i, int count) {
+    const float at = std::clamp((static_cast<float>(i) + 0.5f) / kQuarter - 0.5f, 0.0f, static_cast<float>(count - 1));
+    low = static_cast<int>(at), high = std::min(low + 1, count - 1), share = at - static_cast<float>(low);
+  }
+};
+
+}  // namespace
+
+Plane localExposure(const Image& image, float ev100, float strength) {
+  const Plane light = lightOf(image, ev100), wanted = fusedOf(light, strength);
+  const GainOf gainOf(strength);
+  Plane gains(image.width, image.height);
+  parallelFor(gains.values.size(), 16384, [&](size_t i) { gains.values[i] = gainOf(light.values[i], wanted.values[i]); });
+  keepMetered(image, gains);
+  return gains;
+}
+
+Plane quickLocalExposure(const Image& image, float ev100, float strength) {
+  if (image.pixels.empty()) return {};
+  const Image small = quartered(image);
+  const Plane light = lightOf(small, ev100), wanted = fusedOf(light, strength);
+  const GainOf gainOf(strength);
+  Plane there(small.width, small.height), metered(small.width, small.height);
+  for (size_t i = 0; i < light.values.size(); ++i) there.values[i] = shown(light.values[i]), metered.values[i] = gainOf(light.values[i], wanted.values[i]);
+  const float first = metered.values[0];
+  keepMetered(small, metered);
+  const float kept = metered.values[0] / first, exposure = exposureFromEv100(ev100);
+  const Lines lines = linesOf(there, wanted);
+  std::vector<Between> columns;
+  for (int x = 0; x < image.width; ++x) columns.emplace_back(x, small.width);
+  Plane gains(image.width, image.height);
+  parallelFor(static_cast<size_t>(image.height), 8, [&](size_t row) {
+    const int y = static_cast<int>(row);
+    const Between v(y, small.height);
+    std::vector<float> slopes(static_cast<size_t>(small.width)), offsets(slopes.size());
+    for (int x = 0; x < small.width; ++x) {
+      slopes[static_cast<size_t>(x)] = std::lerp(lines.slope.at(x, v.low), lines.slope.at(x, v.high), v.share);
+      offsets[static_cast<size_t>(x)] = std::lerp(lines.offset.at(x, v.low), lines.offset.at(x, v.high), v.share);
+    }
+    for (int x = 0; x < image.width; ++x) {
+      const Between& u = columns[static_cast<size_t>(x)];
+      const auto low = static_cast<size_t>(u.low), high = static_cast<size_t>(u.high);
+      const float slope = slopes[low] + u.share * (slopes[high] - slopes[low]), offset = offsets[low] + u.share * (offsets[high] - offsets[low]);
+      const float l = heldLight(luminance(image.at(x, y)) * exposure);
+      gains.at(x, y) = kept * gainOf(l, slope * shown(l) + offset);
+    }
+  });
+  return gains;
 }
 
 }  // namespace roomlight

@@ -49,7 +49,7 @@ const std::array<Colour, kColours>& colours() {
 
 Display displayOfFrames() {
   Display display = usualDisplay();
-  display.localExposure = 0;
+  display.quickLocalExposure = true;
   return display;
 }
 

@@ -11,7 +11,7 @@
 
 namespace roomlight::view {
 
-// The usual look, with one exposure all over: local exposure would follow late.
+// The usual look, its local exposure in little time.
 Display displayOfFrames();
 
 struct ViewDisplay {

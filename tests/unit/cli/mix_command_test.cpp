@@ -70,12 +70,27 @@ TEST(MixCommand, aFixedExposureShowsStatesAlike) {
   const TemporaryFolder folder;
   const auto layers = writeHome(folder);
   for (const char* name : {"c.png", "c.jpg", "c.webp"}) {
-    ASSERT_EQ(runProgram({"mix", layers, "--exposure", "5", "--tone", "clip", "--white-balance", "none", "-o", folder / name}).exitStatus, 0);
+    ASSERT_EQ(runProgram({"mix", layers, "--look", "technical", "--exposure", "5", "--tone", "clip", "--white-balance", "none", "-o", folder / name}).exitStatus, 0);
     EXPECT_GT(std::filesystem::file_size(folder / name), 30u);
   }
   const Image png = readImage(folder / "c.png").value();
   EXPECT_NEAR(png.at(1, 1).x, 11 * exposureFromEv100(5), 0.004f);
   EXPECT_EQ(readMetadata(folder / "c.png").value().at("roomlight.exposureEv100"), "5");
+}
+
+// Windows are held and corners opened as in the unmixed picture, by the same gain in every mix.
+TEST(MixCommand, localExposureIsThatOfTheUnmixedPicture) {
+  const TemporaryFolder folder;
+  const auto layers = writeHome(folder);
+  const auto shown = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"mix", layers.string(), "--look", "technical", "--exposure", "6", "--tone", "clip", "--white-balance", "none", "-o", (folder / "m.png").string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(runProgram({arguments.begin(), arguments.end()}).exitStatus, 0);
+    return readImage(folder / "m.png").value();
+  };
+  const Image plain = shown({}), local = shown({"--local-exposure", "1"}), half = shown({"--local-exposure", "1", "--lamp", "*=50%", "--sky", "50%"});
+  EXPECT_LT(local.at(14, 4).y / local.at(1, 4).y, 0.97f * plain.at(14, 4).y / plain.at(1, 4).y);
+  for (size_t i = 0; i < half.pixels.size(); ++i) ASSERT_NEAR(half.pixels[i].y, 0.5f * local.pixels[i].y, 0.003f);
 }
 
 TEST(MixCommand, listsLayers) {
