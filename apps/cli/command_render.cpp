@@ -179,19 +179,23 @@ Status writePicture(const std::string& out, const RenderPlan& plan, const Camera
   return writePng(out, drawn(display, rendered.sights, kSectionColour, std::nullopt), metadata, alpha);
 }
 
-Status writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
+// What pictures were exposed by.
+Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
   const std::vector<bool> rooms = roomMask(scene, camera, rendered.image.width, rendered.image.height);
   const float ev100 = ev100Of(plan.display, rooms.empty() ? rendered.image : pixelsWhere(rendered.image, rooms, true));
   const White white = whiteOf(plan.display, rendered.lightColour);
   const Metadata metadata = metadataOfPicture(o, plan, camera, rendered, ev100, white);
-  if (o.kind != "picture") return writeLuminance(o, rendered, metadata);
+  if (o.kind != "picture") {
+    const Status s = writeLuminance(o, rendered, metadata);
+    return s ? Result<float>(ev100) : Error{s.error()};
+  }
   std::optional<LayeredImage> layered;
   if (plan.settings.layers) layered = layeredImage(scene, camera, rendered, metadata);
   for (const std::string& out : o.outputs) {
     const Status s = layered && lowerExtension(out) == ".exr" ? writeLayers(out, *layered) : writePicture(out, plan, camera, rendered, white, ev100, rooms, metadata);
-    if (!s) return s;
+    if (!s) return Error{s.error()};
   }
-  return Ok{};
+  return ev100;
 }
 
 Status writeStats(const std::string& file, const RenderStats& stats, double totalMs) {
@@ -278,7 +282,7 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
   RenderStats writeStage;
   RenderProgress silent;
   Stages writing(silent, writeStage);
-  const Status written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, home.value().opened.scene, camera, rendered); });
+  const Result<float> written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, home.value().opened.scene, camera, rendered); });
   if (!written) return failed(written.error(), kFailed);
   rendered.stats.stages.push_back(writeStage.stages.front());
   for (const auto& [name, value] : rendered.stats.numbers) {
@@ -290,7 +294,10 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
   }
   display.lineOfEstimate();
   if (camera.projection == Projection::Orthographic) display.line(fmt::format("one pixel is {:.4g} m", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel()));
-  for (const std::string& out : o.outputs) display.line(fmt::format("wrote {}{}", out, rendered.complete ? "" : " (stopped early: the best so far)"));
+  for (const std::string& out : o.outputs) {
+    const std::string exposed = o.kind == "picture" && lowerExtension(out) != ".exr" ? fmt::format(", exposed for EV100 {:.1f}", written.value()) : "";
+    display.line(fmt::format("wrote {}{}{}", out, exposed, rendered.complete ? "" : " (stopped early: the best so far)"));
+  }
   return rendered.complete ? kOk : kInterrupted;
 }
 

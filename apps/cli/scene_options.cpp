@@ -46,7 +46,7 @@ void printOpened(const SceneOptions& o, const home::OpenedHome& home) {
 
 Status writeAddedLight(const SceneOptions& o, const home::OpenedHome& home) {
   if (o.writeLighting.empty()) return Ok{};
-  if (home.lighting.is_null()) return Error{fmt::format("--write-lighting {}: no light was added; the scene has its own (--light day or evening adds some)", o.writeLighting)};
+  if (home.lighting.is_null()) return Error{fmt::format("--write-lighting {}: no light was added; the scene has its own (--light day, evening or night adds some)", o.writeLighting)};
   return writeWhole(o.writeLighting, home.lighting.dump(2) + "\n");
 }
 

@@ -26,6 +26,8 @@ constexpr double kLatitudeDeg = 48, kLongitudeDeg = 11;
 constexpr int kAzimuths = 24;
 constexpr float kAltitudesDeg[] = {25, 35, 45, 55};
 constexpr double kSunShare = 0.12;            // of what is seen indoors, as much as is wished in the sun
+constexpr float kBlueHourDeg = -4;                // of the sun: the sky is about as bright as rooms are
+constexpr float kNightDeg = -9;                    // and hardly to be seen from a lit room
 constexpr double kGroundReflectance = 0.2;
 constexpr double kLeastDaylight = 0.003;      // share of sky or sun; below it are seams between walls
 constexpr double kLumenPerM2 = 100, kLeastLumen = 500, kMostLumen = 6000;
@@ -125,12 +127,13 @@ Json daylightFrom(Vec3 toSun, const char* sky) {
   return {{"sky", sky}, {"latitude", kLatitudeDeg}, {"longitude", kLongitudeDeg}, {"time", fmt::format("2026-06-10T{:02}:{:02}+02:00", bestMinute / 60, bestMinute % 60)}, {"north", std::round(north * 10) / 10}, {"ground", kGroundReflectance}};
 }
 
-// The glow of the sky is before the camera, to its left: the blue hour, when the sky is about as bright as rooms are.
-Vec3 sunAfterSunset(const Camera& camera) {
-  constexpr float kAltitude = -4 * kPi / 180, kAside = 50 * kPi / 180;
+// Below the horizon, so that the glow of the sky is before the camera, to its left.
+Vec3 sunAfterSunset(const Camera& camera, float altitudeDeg) {
+  constexpr float kAside = 50 * kPi / 180;
+  const float altitude = altitudeDeg * kPi / 180;
   const Vec3 ahead = -camera.worldFromCamera.z;
   const float bearing = std::atan2(ahead.x, -ahead.z) - kAside;
-  return {std::sin(bearing) * std::cos(kAltitude), std::sin(kAltitude), -std::cos(bearing) * std::cos(kAltitude)};
+  return {std::sin(bearing) * std::cos(altitude), std::sin(altitude), -std::cos(bearing) * std::cos(altitude)};
 }
 
 Json number(float v) { return std::round(static_cast<double>(v) * 1000) / 1000; }
@@ -247,11 +250,11 @@ bool outdoorLightComesIn(const RayScene& rays, const std::vector<Room>& rooms, c
 AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood, const Json& ownGround) {
   const Sights sights = sightsOf(rays, camera);
   const std::vector<Seen>& seen = sights.surfaces;
-  const bool indoors = isIndoors(rays, rooms, camera, sights), evening = mood == Mood::Evening;
+  const bool indoors = isIndoors(rays, rooms, camera, sights), dark = mood == Mood::Evening || mood == Mood::Night;
   const Vec3 overShoulder = sunOutdoors(rays, seen, camera);
-  const Vec3 toSun = evening || !indoors ? overShoulder : sunIndoors(rays, seen, overShoulder);
-  const double daylightReaches = evening ? 0 : shareOfSky(rays, seen) + shareLit(rays, seen, toSun);
-  bool daylight = !evening && (!indoors || daylightReaches > kLeastDaylight);
+  const Vec3 toSun = dark || !indoors ? overShoulder : sunIndoors(rays, seen, overShoulder);
+  const double daylightReaches = dark ? 0 : shareOfSky(rays, seen) + shareLit(rays, seen, toSun);
+  bool daylight = !dark && (!indoors || daylightReaches > kLeastDaylight);
 
   std::vector<Json> lamps;
   for (const Room& room : rooms) {
@@ -259,21 +262,21 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
     if (hasLight(rays.scene(), room)) continue;
     const std::optional<Vec3> p = lampPlace(rays, room);
     if (!p) continue;
-    const bool open = !evening && openness(rays, {p->x, room.elevationM + 0.5f * room.heightM, p->z}) > kLeastDaylight;
+    const bool open = !dark && openness(rays, {p->x, room.elevationM + 0.5f * room.heightM, p->z}) > kLeastDaylight;
     daylight = daylight || open;
     if (mood != Mood::Day || !open) lamps.push_back(ceilingLamp(room, *p));
   }
   const size_t ceilingLamps = lamps.size();
-  // Evening outdoors is dark but for lamps.
-  const bool overCamera = daylightReaches < kLeastDaylight && shareReached(rays, lamps, seen) + shareWithLamps(rays, rooms, seen) < 0.05 && (indoors || !evening);
+  // Evening and night outdoors are dark but for lamps.
+  const bool overCamera = daylightReaches < kLeastDaylight && shareReached(rays, lamps, seen) + shareWithLamps(rays, rooms, seen) < 0.05 && (indoors || !dark);
   if (overCamera) lamps.push_back(lampOverCamera(rays, seen, camera));
 
   AddedLight out;
   Json& j = out.document;
   j["version"] = 1;
   if (mood != Mood::Auto) j["scene"] = {{"suns", "off"}, {"sky", "off"}};
-  if (evening) {
-    j["daylight"] = daylightFrom(sunAfterSunset(camera), "clear");
+  if (dark) {
+    j["daylight"] = daylightFrom(sunAfterSunset(camera, mood == Mood::Night ? kNightDeg : kBlueHourDeg), "clear");
     j["daylight"]["temperature"] = "12000 K";
   } else if (daylight) {
     j["daylight"] = daylightFrom(toSun, indoors ? "clear" : "intermediate");
@@ -282,7 +285,7 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   if (addsGround) j["ground"] = groundUnder(rays.bounds(), camera);
   if (j.contains("daylight") && !ownGround.is_null()) j["daylight"]["ground"] = ownGround;
   if (!lamps.empty()) j["lamps"] = lamps;
-  out.summary = listed(daylight, evening, ceilingLamps, overCamera, addsGround);
+  out.summary = listed(daylight, dark, ceilingLamps, overCamera, addsGround);
   return out;
 }
 

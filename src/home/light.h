@@ -30,6 +30,7 @@ enum class Mood {
   Auto,     // rooms by daylight and a ceiling lamp each, all else by sun and sky
   Day,      // daylight; lamps only in rooms that it does not reach
   Evening,  // a ceiling lamp in each room and the last light of the sky
+  Night,    // the same under a sky that is all but dark
 };
 
 // Light for a scene, as a lighting file has it (docs/formats/lighting.md).

@@ -101,6 +101,7 @@ std::optional<Mood> moodOf(LightWish wish, const OwnLight& own, bool decided) {
     case LightWish::Auto: return own.none() && !decided ? std::optional(Mood::Auto) : std::nullopt;
     case LightWish::Day: return Mood::Day;
     case LightWish::Evening: return Mood::Evening;
+    case LightWish::Night: return Mood::Night;
     case LightWish::None:
     case LightWish::File: break;
   }
@@ -146,6 +147,7 @@ const std::vector<std::pair<std::string, std::string>>& lightWishes() {
   static const std::vector<std::pair<std::string, std::string>> names = {{"auto", "the file's own; where it has none, daylight and a ceiling lamp in each room are added"},
                                                                          {"day", "a clear day instead of the file's sun and sky"},
                                                                          {"evening", "the sky after sunset, and a lamp in each room that has none"},
+                                                                         {"night", "the same under a sky that is all but dark"},
                                                                          {"none", "no light but that of --lighting"},
                                                                          {"file", "only what the file holds"}};
   return names;

@@ -15,6 +15,7 @@ enum class LightWish {
   Auto,     // what the file has; where that is none, daylight and lamps are added
   Day,      // sun and sky of a clear day instead of the file's
   Evening,  // the sky after sunset, and lamps in rooms that have none
+  Night,    // a sky all but dark, and lamps likewise
   None,     // no light but that of a lighting file
   File,     // what the file has, even if that is none
 };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "mix/fold_case.h"
+#include "base/fold_case.h"
 
 namespace roomlight {
 namespace {

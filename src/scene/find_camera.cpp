@@ -1,23 +1,47 @@
 #include "scene/find_camera.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 
+#include "base/fold_case.h"
+#include "base/words.h"
+
 namespace roomlight {
+namespace {
+
+// The one camera whose name begins so, in capital or small letters; a whole name goes before a beginning. Null: none or several.
+const Camera* namedAlike(const std::vector<Camera>& cameras, const std::string& wanted) {
+  const std::u32string folded = foldedCase(wanted);
+  for (const bool whole : {true, false}) {
+    const Camera* found = nullptr;
+    size_t count = 0;
+    for (const Camera& c : cameras) {
+      const std::u32string name = foldedCase(c.name);
+      if (whole ? name == folded : name.starts_with(folded)) found = &c, ++count;
+    }
+    if (count > 0) return count == 1 ? found : nullptr;
+  }
+  return nullptr;
+}
+
+}  // namespace
 
 Result<Camera> findCamera(const Scene& scene, const std::string& wanted) {
   if (wanted.empty()) return defaultCamera(scene);
-  std::string names;
-  for (const Camera& c : scene.cameras) {
-    if (c.name == wanted) return c;
-    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", c.name);
-  }
+  const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(), [&](const Camera& c) { return c.name == wanted; });
+  if (named != scene.cameras.end()) return *named;
   size_t index = 0;
   const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
   if (code == std::errc() && end == wanted.data() + wanted.size() && index < scene.cameras.size()) return scene.cameras[index];
+  if (const Camera* alike = namedAlike(scene.cameras, wanted)) return *alike;
   if (scene.cameras.empty()) return Error{fmt::format("no camera '{}': the scene has none; leave --camera out to have one proposed", wanted)};
-  return Error{fmt::format("no camera '{}'; there are {}", wanted, names)};
+  std::vector<std::string> names;
+  std::string listed;
+  for (const Camera& c : scene.cameras) names.push_back(c.name), listed += fmt::format("{}'{}'", listed.empty() ? "" : ", ", c.name);
+  if (const std::string nearest = nearestWord(wanted, names); !nearest.empty()) return Error{fmt::format("no camera '{}'; did you mean '{}'? There are {}", wanted, nearest, listed)};
+  return Error{fmt::format("no camera '{}'; there are {}", wanted, listed)};
 }
 
 }  // namespace roomlight

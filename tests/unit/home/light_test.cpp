@@ -84,6 +84,15 @@ TEST(AddedLight, inTheEveningIsLampsAndADarkSky) {
   EXPECT_EQ(scene.lamps.size(), 1u);
 }
 
+TEST(AddedLight, byNightIsTheSameUnderADarkerSky) {
+  const Scene room = test::furnishedRoom();
+  const Scene evening = lit(room, added(room, Mood::Evening)), night = lit(room, added(room, Mood::Night));
+  EXPECT_TRUE(night.suns.empty());
+  EXPECT_EQ(night.lamps.size(), evening.lamps.size());
+  EXPECT_GT(luminance(night.sky.luminanceCdM2), 0);
+  EXPECT_LT(luminance(night.sky.luminanceCdM2), 0.02f * luminance(evening.sky.luminanceCdM2));
+}
+
 TEST(AddedLight, inTheEveningLeavesARoomsOwnLampsAlone) {
   Scene room = test::furnishedRoom();
   room.lamps.push_back(test::pointLamp({2, 2, 2}, 60));

@@ -1,4 +1,4 @@
-#include "mix/fold_case.h"
+#include "base/fold_case.h"
 
 #include <array>
 #include <cstdint>
