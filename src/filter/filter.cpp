@@ -93,7 +93,7 @@ void compose(std::span<const FilterPixel> pixels, const FilterRows& rows, const 
 struct Also {
   const std::function<FilterPixel(size_t)>* mean;
   std::vector<Vec3>*once, *irradiance;
-  std::vector<float>* variance;
+  FilteredLuminance* left;
 };
 
 Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
@@ -114,12 +114,12 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
   // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
   // take far more memory than all else. A pass filters as many of these rows as those after it look at.
   const std::vector<int> steps = stepsOf(passes);
-  const bool twice = rare && !also.variance;  // with doubt and without
+  const bool twice = rare && !also.left;  // with doubt and without
   const int pooled = twice ? reachOf(poolSteps()) : 0, reach = reachOf(steps) + pooled;
   Image out(w, h);
   if (also.once) also.once->resize(out.pixels.size());
   if (also.irradiance) also.irradiance->resize(out.pixels.size());
-  if (also.variance) also.variance->resize(out.pixels.size());
+  if (also.left) also.left->variance.resize(out.pixels.size()), also.left->luminance.resize(out.pixels.size());
   FilterRows rows(w, std::min(h, kBand + 2 * reach), std::max(farthest, twice ? poolSteps().back() : 0));
   int cleared = 0;  // rows whose margins are; passes leave them so
   for (int first = 0; first < h; first += kBand) {
@@ -151,7 +151,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
         });
       }
     };
-    filterAll(!also.variance, true, !twice && !also.variance);
+    filterAll(!also.left, true, !twice && !also.left);
     if (twice) {
       int left = pooled, place = 0;
       forRows(left, [&](int y) { keepNarrow(rows, pass, y); });
@@ -170,12 +170,16 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
       const size_t row = static_cast<size_t>(begin + y) * static_cast<size_t>(w);
       const float *at = rows.line(FilterRows::light(0, pass.place[0]), y), *spread = rows.line(FilterRows::light(3, pass.place[3]), y);
       const std::span<const FilterPixel> pixels = pixelsOfRow(begin + y);
-      if (!also.variance) compose(pixels, rows, pass, y, &out.at(0, begin + y));
+      if (!also.left) compose(pixels, rows, pass, y, &out.at(0, begin + y));
       for (int x = 0; also.irradiance && x < w; ++x) (*also.irradiance)[row + static_cast<size_t>(x)] = fetch(at + x, rows.pitch()) + fetch(spread + x, rows.pitch());
-      for (int x = 0; also.variance && x < w; ++x) {
+      for (int x = 0; also.left && x < w; ++x) {
+        const FilterPixel& p = pixels[static_cast<size_t>(x)];
+        const size_t i = row + static_cast<size_t>(x);
         const auto of = [&](int k) { return rows.line(FilterRows::light(k, pass.place[k]) + FilterRows::kVariance, y)[x]; };
-        const float albedo = luminance(divisor(pixels[static_cast<size_t>(x)].albedo));
-        (*also.variance)[row + static_cast<size_t>(x)] = albedo * albedo * (correlatedAfter(passes) * of(0) + of(1)) + correlatedAfter(kSpecularPasses) * of(2);
+        const auto light = [&](int k) { return fetch(rows.line(FilterRows::light(k, pass.place[k]), y) + x, rows.pitch()); };
+        const float albedo = luminance(divisor(p.albedo));
+        also.left->luminance[i] = luminance(divisor(p.albedo) * (light(0) + light(1)) + light(2) + p.rest);
+        also.left->variance[i] = albedo * albedo * (correlatedAfter(passes) * of(0) + of(1)) + correlatedAfter(kSpecularPasses) * of(2);
       }
     });
   }
@@ -209,10 +213,10 @@ Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3
   return filteredFlat(input, passes, {nullptr, once, irradiance, nullptr});
 }
 
-std::vector<float> varianceLeft(const FilterInput& sums, int passes, const std::function<FilterPixel(size_t i)>& mean) {
-  std::vector<float> variance;
-  filteredFlat(sums, passes, {&mean, nullptr, nullptr, &variance});
-  return variance;
+FilteredLuminance filteredLuminance(const FilterInput& sums, int passes, const std::function<FilterPixel(size_t i)>& mean) {
+  FilteredLuminance out;
+  filteredFlat(sums, passes, {&mean, nullptr, nullptr, &out});
+  return out;
 }
 
 }  // namespace roomlight

@@ -36,7 +36,11 @@ Image composed(const FilterInput& input);  // without filtering
 // `once`, where given and unless it wraps: diffuse light over albedo after the first pass.
 // `irradiance`, likewise: diffuse light over albedo after all passes.
 Image filtered(const FilterInput& input, int passes, bool wrap = false, std::vector<Vec3>* once = nullptr, std::vector<Vec3>* irradiance = nullptr);
-// Variance of each pixel's luminance that is left after so many passes; `mean` makes pixel i's means of what `sums` has there.
-std::vector<float> varianceLeft(const FilterInput& sums, int passes, const std::function<FilterPixel(size_t i)>& mean);
+// What is left after so many passes, a pixel each: its luminance without rare light, and the variance of that.
+struct FilteredLuminance {
+  std::vector<float> luminance, variance;
+};
+// `mean` makes pixel i's means of what `sums` has there.
+FilteredLuminance filteredLuminance(const FilterInput& sums, int passes, const std::function<FilterPixel(size_t i)>& mean);
 
 }  // namespace roomlight

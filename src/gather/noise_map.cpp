@@ -46,7 +46,8 @@ bool onOneSurface(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPositi
   return dot(normal, otherNormal) >= kFacing && std::abs(dot(normal, between)) <= kPlane * length(between) + 1e-3f;
 }
 
-std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts, const std::vector<float>& left, float tolerance) {
+std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts, const FilteredLuminance& left, float tolerance) {
+  const bool isFiltered = !left.variance.empty();
   const int width = sums.width, height = sums.height;
   std::vector<Look> looks(counts.size());
   std::vector<double> rows(static_cast<size_t>(height)), known(static_cast<size_t>(height));
@@ -73,19 +74,23 @@ std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<Pixe
         for (int dx = -kReach; dx <= kReach; ++dx) {
           const int qx = x + dx, qy = y + dy;
           if (qx < 0 || qy < 0 || qx >= width || qy >= height) continue;
-          const Look& o = looks[static_cast<size_t>(qy) * static_cast<size_t>(width) + static_cast<size_t>(qx)];
+          const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(width) + static_cast<size_t>(qx);
+          const Look& o = looks[q];
           if (std::max(std::abs(dx), std::abs(dy)) <= 1) sharp += o.sharpVariance, beside += 1;
           if (!o.known) continue;
-          if (std::max(std::abs(dx), std::abs(dy)) <= 1) low = std::min(low, o.luminance), high = std::max(high, o.luminance);
+          if (std::max(std::abs(dx), std::abs(dy)) <= 1) {
+            const float l = isFiltered ? left.luminance[q] : o.luminance;  // noise is no contrast
+            low = std::min(low, l), high = std::max(high, l);
+          }
           all += 1, around += o.variance, level += o.luminance;
-          if (!left.empty()) continue;
+          if (isFiltered) continue;
           if ((dx == 0 && dy == 0) || (own.surface > 0 && alike(own, o))) variance += o.variance, like += 1;
         }
       }
       all = std::max(all, 1.0f), like = std::max(like, 1.0f);  // what is known of none is believed to be as it should
       level = level / all + dark;
       // The variance of a few pixels, each of few samples, may be too small by chance.
-      variance = left.empty() ? std::max(variance / (like * like), around / (all * like)) + sharp / beside : left[i];
+      variance = isFiltered ? left.variance[i] : std::max(variance / (like * like), around / (all * like)) + sharp / beside;
       if (own.edge && high >= low) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
       const float allowed = tolerance * tolerance * level * level, rays = static_cast<float>(std::max(1u, counts[i].rays));
       if (variance > allowed) out[i] = static_cast<uint16_t>(std::ceil(std::min(kMostNeeded, rays * (variance / std::max(allowed, 1e-30f) - 1))));

@@ -11,7 +11,7 @@ namespace roomlight {
 bool onOneSurface(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition);
 
 // Of each pixel, how many more rays it needs beside those it had; 0: none. `tolerance`: relative standard error of luminance that may be left.
-// `left`: variance of each pixel's luminance after the filter; empty: there is none.
-std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts, const std::vector<float>& left, float tolerance);
+// `left`: of each pixel after the filter; empty: there is none.
+std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts, const FilteredLuminance& left, float tolerance);
 
 }  // namespace roomlight

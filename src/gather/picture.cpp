@@ -71,7 +71,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     const auto most = static_cast<size_t>(first > 0 || !(settings.tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
     const size_t n = std::min(kRaysAtOnce, most - first);
     if (chosen && first > kPlanned * planned) {
-      const std::vector<float> left = settings.rareApart ? varianceLeft(sums, settings.filterPasses, [&](size_t i) { return meanOf(sums.pixels[i], counts[i]); }) : std::vector<float>();
+      const FilteredLuminance left = settings.rareApart ? filteredLuminance(sums, settings.filterPasses, [&](size_t i) { return meanOf(sums.pixels[i], counts[i]); }) : FilteredLuminance();
       needed = raysNeeded(sums, counts, left, settings.rareApart ? settings.tolerance : kUnfiltered * settings.tolerance);
       planned = first;
     }

@@ -16,6 +16,9 @@ constexpr float kBehind = -0.35f;     // cosine
 constexpr float kVeilM = 2;
 constexpr float kVeilRoughness = 1;  // before the sky: reflections of few samples are filtered as on what stands behind veils elsewhere
 constexpr float kOutshines = 16, kShadeM = 0.3f;  // times as bright as what fills most of a pixel, as far from a lamp as its shade may be
+constexpr float kBehindPanes = 0.999f;  // of the light left: a pane stands before
+constexpr float kLeastChance = 0.25f;  // of cloth behind cloth to be lit
+constexpr float kGlint = 1e-4f;       // of a bidirectional reflectance, where a white wall has .32: less is not seen of a lamp in a pane
 constexpr float kPictureRoughness = 0.08f, kMirrorReflectance = 0.2f;  // smoother: reflects a picture, which has edges of its own; and brighter: a mirror
 
 bool isUniform(const Material& m, const Mesh& mesh) {
@@ -137,8 +140,16 @@ MaterialSample PixelShader::meanMaterial(const Group& group, const Layer& layer,
   return mean;
 }
 
-// Of all sharp lights, seen from every ray of the group. Returns where they begin in `out`.
-uint32_t PixelShader::shadows(const Group& group, const Layer& layer, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const {
+// Whether any ray of the group could see a light that stands there in a smooth surface.
+bool PixelShader::glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight) {
+  for (size_t i = 0; i < group.count; ++i) {
+    if (luminance(Bsdf(m, group.ng, group.ng, -layer.ray[group.member[i]].direction).evaluate(toLight)) > kGlint) return true;
+  }
+  return false;
+}
+
+// Of all sharp lights, seen from every ray of the group; of a `smooth` surface only of those that it could show. Returns where they begin in `out`.
+uint32_t PixelShader::shadows(const Group& group, const Layer& layer, const MaterialSample* smooth, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const {
   const auto begin = static_cast<uint32_t>(out.size());
   out.resize(begin + sharp_.count());
   if (sharp_.count() == 0) return begin;
@@ -151,7 +162,8 @@ uint32_t PixelShader::shadows(const Group& group, const Layer& layer, uint32_t s
   for (size_t i = 0; i < group.count; ++i) u[i] = sequence.forShadow(surface, static_cast<uint32_t>(i)).next2();
   for (size_t l = 0; l < sharp_.count(); ++l) {
     // No normal of the group, nor a shading normal worth the name, faces a light so far behind.
-    if (dot(sharp_.sample(l, group.p, u[0]).wi, group.ng) < kBehind) continue;
+    const Vec3 toLight = sharp_.sample(l, group.p, u[0]).wi;
+    if (dot(toLight, group.ng) < kBehind || (smooth && !glints(group, layer, *smooth, toLight))) continue;
     out[begin + l] = sharp_.shadow(l, std::span(points).first(group.count), std::span(u).first(group.count));
     count.rays += group.count;
   }
@@ -170,20 +182,32 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
 
   const size_t most = std::max(std::min(static_cast<size_t>(settings_.fewestShadings), rays), rays / static_cast<size_t>(settings_.raysPerShading));
   const bool mirror = isMirror(m, !isBlack(through));
-  const size_t shadings = isPane(m, !isBlack(through)) ? group.count : (group.count * most + rays - 1) / rays;
+  const bool pane = isPane(m, !isBlack(through));
+  // What panes reflect is a picture: every ray shows its own of it, at first. Panes behind others show the same again.
+  const bool further = pixel.count->rays > 0 && settings_.tolerance > 0 && !byLayer_;  // the first pass told what there is
+  const bool hind = luminance(layer.left[group.member[0]]) < kBehindPanes;
+  const size_t raysPerPane = (further ? 2 : 1) * (hind ? 2 : 1);
+  const size_t shadings = pane ? (group.count + raysPerPane - 1) / raysPerPane : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
-  const uint32_t shadow = shadows(group, layer, surface, sequence, work.shadows, count);
+  // Of cloth behind cloth little light comes through: few are lit for all.
+  const float chance = !byLayer_ && hind && !pane && !isBlack(through) ? std::clamp(luminance(layer.left[group.member[0]]), kLeastChance, 1.0f) : 1.0f;
+  const bool isLit = chance >= 1 || sequence.forShadow(surface, 0).fast1() < chance;
+  const uint32_t shadow = !isLit ? 0 : shadows(group, layer, pane && material.normalTexture.texture < 0 ? &m : nullptr, surface, sequence, work.shadows, count);
   Vec3 left;
   for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
 
   FilterPixel& sum = *pixel.sum;
-  work.parts.push_back({pixel, static_cast<uint32_t>(work.shadings.size()), static_cast<uint32_t>(shadings), left * m.alpha, weight, sequence.gathers()});
+  if (isLit) work.parts.push_back({pixel, static_cast<uint32_t>(work.shadings.size()), static_cast<uint32_t>(shadings), left * m.alpha, weight, sequence.gathers()});
   for (size_t j = 0; j < shadings; ++j) {
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
     const Vec3 emitted = left * s.emitted() * weight;
     sum.rest += emitted;
     if (const int32_t emitter = byLayer_ ? lights_.emitterOf(group.instance) : -1; emitter >= 0) byLayer_->add(pixel.index, LayerSums::kRest, layers_->ofEmitter[static_cast<size_t>(emitter)], emitted);
+    if (!isLit) {
+      sum.albedo += left * m.alpha * Bsdf(s.m, s.ns, s.ng, -layer.ray[i].direction).diffuseAlbedo() * weight;
+      continue;
+    }
     if (!mirror && !layer.seen[i]) {
       TileWork::Part& part = work.parts.back();
       part.veil = !solid;
@@ -191,8 +215,10 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
       part.roughness += (solid ? m.roughness : kVeilRoughness) * weight, part.surface += weight;
     }
     work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(surface, static_cast<uint32_t>(j), static_cast<uint32_t>(std::max(most, shadings))), shadow, mirror});
+    work.shadings.back().once = work.parts.back().once = (further || pane || chance < 1) && weight <= (pane ? 4 : 1);
   }
-  if (!keepsFragments_ && solid) addPlace(work.parts.back());
+  if (isLit) work.parts.back().chance = chance;
+  if (!keepsFragments_ && solid && isLit) addPlace(work.parts.back());
   if (!isBlack(through)) passOn(group, layer, through, solid, behind);
   if (mirror) reflectOn(group, layer, m, surface, sequence, behind);
 }
@@ -231,12 +257,13 @@ void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLig
     for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.rare + l.sharp + l.specular) * part.weight, part.pixel.count->occlusion += l.occlusion * part.weight;
     return;
   }
+  const float weight = part.weight / part.chance;
   for (const SurfaceLight& l : shadings) {
-    sum.diffuse += part.left * l.diffuse * (part.weight * static_cast<float>(part.gathers));
-    sum.rare += part.left * l.rare * (part.weight * static_cast<float>(part.gathers));
-    sum.sharp += part.left * l.sharp * part.weight;
+    sum.diffuse += part.left * l.diffuse * (weight * static_cast<float>(part.gathers));
+    sum.rare += part.left * l.rare * (weight * static_cast<float>(part.gathers));
+    sum.sharp += part.left * l.sharp * weight;
     sum.albedo += part.left * l.albedo * part.weight;
-    sum.specular += part.left * l.specular * (part.weight * static_cast<float>(part.glossy));
+    sum.specular += part.left * l.specular * (weight * static_cast<float>(part.glossy));
     part.pixel.count->occlusion += l.occlusion * part.weight;
   }
   addVariance(shadings, part);
@@ -250,7 +277,7 @@ void PixelShader::addFragment(const TileWork::Part& part, std::span<const Surfac
   f->normal += part.normal, f->position += part.position, f->surface += part.surface;
   for (const SurfaceLight& l : shadings) {
     f->diffuse += part.left * (l.diffuse + l.rare) * part.weight, f->albedo += part.left * l.albedo * part.weight;
-    part.pixel.sum->rest += part.left * (l.sharp + l.specular) * part.weight;
+    part.pixel.sum->rest += part.left * (l.sharp + l.specular) * (part.weight / part.chance);
     part.pixel.count->occlusion += l.occlusion * part.weight;
   }
 }
@@ -345,17 +372,22 @@ void PixelShader::addBackground(Vec3 left, Vec3 direction, PixelSum pixel) const
 void PixelShader::addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part) {
   FilterPixel& sum = *part.pixel.sum;
   const Vec3 left = part.left;
-  const float ofDiffuse = part.weight * static_cast<float>(part.gathers), ofSpecular = part.weight * static_cast<float>(part.glossy);
+  const float weight = part.weight / part.chance, ofDiffuse = weight * static_cast<float>(part.gathers), ofSpecular = weight * static_cast<float>(part.glossy);
   float diffuse = 0, albedo = 0, specular = 0, shadows = 0;
   for (const SurfaceLight& l : light) {
     diffuse += luminance(left * l.diffuse), albedo += luminance(left * l.albedo), specular += luminance(left * l.specular);
     shadows += l.sharpVariance;
   }
   const float n = static_cast<float>(light.size());
-  sum.sharpVariance += lengthSquared(left) / 3 * shadows * n * part.weight * part.weight;
+  sum.sharpVariance += lengthSquared(left) / 3 * shadows * n * weight * weight;
   if (light.size() < 2) {
     const float l2 = luminance(left) * luminance(left), diffuse2 = l2 * ofDiffuse * ofDiffuse, specular2 = l2 * ofSpecular * ofSpecular;
     for (const SurfaceLight& l : light) sum.diffuseVariance += l.diffuseVariance * diffuse2, sum.specularVariance += l.specularVariance * specular2;
+    if (!part.once) return;
+    // A single estimate: how far it is off what is known by now.
+    const float known = luminance(sum.diffuse) / std::max(luminance(sum.albedo), 1e-6f), off = diffuse - albedo * known;
+    const float offSpecular = specular - luminance(sum.specular) / static_cast<float>(std::max(1u, part.pixel.count->glossy));
+    sum.diffuseVariance += off * off * ofDiffuse * ofDiffuse, sum.specularVariance += offSpecular * offSpecular * ofSpecular * ofSpecular;
     return;
   }
   const float diffuse2 = ofDiffuse * ofDiffuse * n / (n - 1), specular2 = ofSpecular * ofSpecular * n / (n - 1), irradiance = diffuse / std::max(albedo, 1e-6f);

@@ -57,6 +57,8 @@ struct TileWork {
     Vec3 normal{}, position{};   // sums over the camera rays that saw no solid surface before it; none of mirrors
     float roughness = 0, surface = 0;
     bool veil = false;       // lets most light through: a surface only where nothing solid is seen behind
+    bool once = false;       // lit by single estimates
+    float chance = 1;        // of being lit at all: what is found stands for those that were not
     bool outshines = false;  // what else is seen in its pixel, which has more of it: not filtered with that
   };
   std::vector<Shading> shadings;
@@ -84,7 +86,8 @@ class PixelShader {
   struct Group;
   Group* groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const;
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
-  uint32_t shadows(const Group& group, const Layer& layer, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
+  static bool glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight);
+  uint32_t shadows(const Group& group, const Layer& layer, const MaterialSample* smooth, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
   void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addPlace(const TileWork::Part& part);
   static void addFragment(const TileWork::Part& part, std::span<const SurfaceLight> shadings, Fragments& fragments);

@@ -72,7 +72,7 @@ TEST(Filter, rareLightStopsWhereOtherLightDiffers) {
 TEST(Filter, varianceLeftFollowsTheNoise) {
   const auto told = [](float deviation, int passes) {
     const FilterInput wall = noisyWall(97, 61, 10, deviation);
-    const std::vector<float> left = varianceLeft(wall, passes, [&](size_t i) { return wall.pixels[i]; });
+    const std::vector<float> left = filteredLuminance(wall, passes, [&](size_t i) { return wall.pixels[i]; }).variance;
     double mean = 0;
     for (const float v : left) mean += static_cast<double>(v) / static_cast<double>(left.size());
     return mean;
