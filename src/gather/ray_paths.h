@@ -25,6 +25,7 @@ struct GatherPath {
   uint8_t depth, panes;
   bool clear;     // what it meets is seen clearly
   bool skyKnown;  // the sky, if the ray sees it, is counted elsewhere
+  bool inGlow;      // of light that surfaces beside a lamp throw on one another `from` has its part already
   bool leavesNear;  // what reaches `from` straight from a light that this lies near is in the cache
   bool lampsKnown;  // straight from lamps to `from`, too, is counted elsewhere
   float spread;   // roughness that surfaces have for it at least
@@ -41,6 +42,7 @@ struct GatherVertex {
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
   bool leavesNear = false;  // light straight from lights it lies near is in the cache
   bool skyKnown = false, lampsKnown = false;
+  bool inGlow = false;  // points stand for what it reflects of lamps that it lies near, straight from them or not (LampGlow)
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
   const GuideCones* cones = nullptr;  // that part of the rays which gather diffuse light follow
 

@@ -1,5 +1,7 @@
 #include "gather/ray_scatter.h"
 
+#include <algorithm>
+
 #include "base/sampling.h"
 #include "radiance/sky_guide.h"
 #include "trace/shadow_ray.h"
@@ -190,10 +192,20 @@ bool RayScatter::isCached(const GatherPath& path, uint32_t instance) const {
   return path.leavesNear && emitter >= 0 && besideEmitters_[static_cast<size_t>(emitter)].contains(path.from);
 }
 
+// Whether p lies in the surroundings of the lamp or emissive mesh whose light the point reflects.
+bool RayScatter::isBeside(const GlowPoint& point, Vec3 p) const {
+  return (point.lamp >= 0 && besideLamps_[static_cast<size_t>(point.lamp)].contains(p)) || (point.emitter >= 0 && besideEmitters_[static_cast<size_t>(point.emitter)].contains(p));
+}
+
+bool RayScatter::isBesideAny(Vec3 p) const {
+  const auto contains = [&](const LightSurroundings& s) { return s.contains(p); };
+  return std::any_of(besideLamps_.begin(), besideLamps_.end(), contains) || std::any_of(besideEmitters_.begin(), besideEmitters_.end(), contains);
+}
+
 // Light that bright patches reflect, as far as gathering rays leave it to points of them.
 void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   const GlowSample g = patches_.sample(v.s.p, v.s.ns, v.side, w.samplers[v.estimate]);
-  if (!g.light.valid() || dot(g.light.wi, v.s.ng) <= 0) return;
+  if (!g.light.valid() || dot(g.light.wi, v.s.ng) <= 0 || (v.inGlow && isBeside(patches_.point(g.point), v.s.p))) return;
   const Vec3 wi = g.light.wi;
   Lobes f = v.value(wi);
   const float cosine = v.guided(cosinePdf(v, wi), wi), mixed = v.guided(v.bsdf.pdf(wi), wi);
@@ -219,7 +231,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -17,6 +17,7 @@ class RayScatter {
   void from(const GatherVertex& v, GatherWork& w) const;
   // Whether light straight from the emissive mesh of an instance to where the path came from is in the cache.
   bool isCached(const GatherPath& path, uint32_t instance) const;
+  bool isBesideAny(Vec3 p) const;  // lamp or small emissive mesh
   // What light of an emissive mesh, found where a path ends, weighs in its layer relative to the picture: layers sample each apart.
   float weightInLayer(const GatherPath& path, const SurfacePoint& s) const;
 
@@ -30,6 +31,7 @@ class RayScatter {
   void lampsOfMeterAt(const GatherVertex& v, uint64_t reach, GatherWork& w) const;
   LightSample sampleLayer(size_t layer, Vec3 p, bool withLamps, bool withEmitters, Sampler& sampler) const;
   bool leavesToCache(const GatherVertex& v, const LightSample& light) const;
+  bool isBeside(const GlowPoint& point, Vec3 p) const;
   void glowAt(const GatherVertex& v, GatherWork& w) const;
   void gatherAt(const GatherVertex& v, GatherWork& w) const;
 

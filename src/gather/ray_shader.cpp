@@ -52,6 +52,7 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
     sum += static_cast<double>(std::sqrt(lux) * areaM2), flux += static_cast<double>(lux * areaM2), area += static_cast<double>(areaM2);
   }
   if (area > 0) leastExpected_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi, meanRadiance_ = static_cast<float>(flux / area) / kPi;
+  if (!field.glowShare.empty()) markGlow();
   const Scene& scene = rays.scene();
   for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
 }
@@ -326,6 +327,31 @@ bool RayShader::cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Ve
   return true;
 }
 
+// Bricks with slots that shine beside lamps, and those around them.
+void RayShader::markGlow() {
+  glowBricks_.assign(voxels_.bricks.size(), 0);
+  for (const SurfaceVoxel& voxel : voxels_.voxels) {
+    const auto end = voxel.firstSlot + static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+    for (uint32_t slot = voxel.firstSlot; slot < end; ++slot) {
+      if (!shinesBesideLamps(slot)) continue;
+      const Int3 v = voxels_.voxelOf(voxels_.slots[slot].position);
+      for (int k = 0; k < 27; ++k) {
+        const int32_t brick = voxels_.brickAt({v.x / kBrickSize + k % 3 - 1, v.y / kBrickSize + k / 3 % 3 - 1, v.z / kBrickSize + k / 9 - 1});
+        if (brick >= 0) glowBricks_[static_cast<size_t>(brick)] = 1;
+      }
+    }
+  }
+}
+
+// Whether points stand for all that it reflects of a lamp which it lies near: what comes by way of other surfaces there, too.
+bool RayShader::isInGlow(const SurfacePoint& s) const {
+  const Int3 v = voxels_.voxelOf(s.p);
+  const int32_t brick = voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
+  if (glowBricks_.empty() || (brick >= 0 && !glowBricks_[static_cast<size_t>(brick)])) return false;
+  // The slot found may be another one than that which took the light there.
+  return shinesBesideLamps(cache_.find(s.p, s.ng).slot) || scatter_.isBesideAny(s.p);
+}
+
 // Lights the surface afresh.
 void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const {
   if (path.depth >= kMostVertices) return;
@@ -334,7 +360,9 @@ void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) cons
   s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  scatter_.from({s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), patches_.sideAt(s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear}, w);
+  GatherVertex v{s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), patches_.sideAt(s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear};
+  v.inGlow = !path.clear && !isPolishedMetal(*s.material) && isInGlow(s);
+  scatter_.from(v, w);
 }
 
 // What the points of LampGlow give is left to them.
@@ -370,7 +398,7 @@ float RayShader::rayShare(const GatherPath& path, int64_t slot, float lux, float
   const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM;
   const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, sunLux / std::max(lux, 1e-30f)), glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
   const auto leftToPoints = [&](float share) { return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction), path.side, path.pdf)) : 0; };
-  return std::max(0.0f, 1 - leftToPoints(sun) - leftToPoints(glow));
+  return std::max(0.0f, 1 - leftToPoints(sun) - (path.inGlow ? glow : leftToPoints(glow)));
 }
 
 // Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its

@@ -48,6 +48,8 @@ class RayShader final : public SurfaceShader {
   void readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const;
   Vec3 sunward(const GatherPath& path, const Hit& hit, float sunLux, Vec3 normal) const;
   float rayShare(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const;
+  void markGlow();
+  bool isInGlow(const SurfacePoint& s) const;
   bool shinesBesideLamps(int64_t slot) const { return slot >= 0 && !field_.glowShare.empty() && field_.glowShare[static_cast<size_t>(slot)] > 0; }
   void addBackground(const GatherPath& path, GatherWork& w) const;
   void traceShadows(GatherWork& w) const;
@@ -73,6 +75,7 @@ class RayShader final : public SurfaceShader {
   float meanRadiance_ = 0, leastExpected_ = 0;  // cd/m² of white surfaces: the mean over all slots, and the least that a place is expected to have
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
+  std::vector<uint8_t> glowBricks_;  // per brick: holds slots that shine beside lamps, or lies beside one that does
 };
 
 }  // namespace roomlight
