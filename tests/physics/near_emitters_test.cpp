@@ -58,8 +58,9 @@ TEST_P(Bulb, inAShadeKeepsItsFlux) {
 }
 INSTANTIATE_TEST_SUITE_P(Voxels, Bulb, testing::Values(0.03f, 0.06f, 0.1f));
 
-std::vector<MeterReading> readings(const Scene& scene, const char* technique, const std::vector<SurfaceElement>& elements) {
+std::vector<MeterReading> readings(const Scene& scene, const char* technique, const std::vector<SurfaceElement>& elements, float voxelSizeM = 0) {
   RenderSettings settings;
+  settings.voxel.voxelSizeM = voxelSizeM;
   settings.technique = technique;
   RenderStats stats;
   const RenderProgress quiet;
@@ -88,6 +89,27 @@ TEST(TableLamp, hybridReadsWhatPathReads) {
 TEST(TableLamp, hybridReadsOfABulbWhatPathReadsOfAPoint) {
   const std::vector<SurfaceElement> elements{{{1.3f, 0.75f, 0.9f}, {0, 1, 0}}, {{3, 0.85f, 2}, {0, 1, 0}}, {{2, 2.52f, 3}, {0, -1, 0}}, {{2, 1.2f, 3.5f}, {0, 0, -1}}, {{0.001f, 1.1f, 0.7f}, {1, 0, 0}}};
   expectSame("path with a point", elements, readings(test::tableLamp(false), "path", elements), readings(test::tableLamp(true), "hybrid", elements));
+}
+
+// A bulb in a white shade under a ceiling; the shade's outside is another surface some millimetres away, so that a voxel as large as those of homes holds both. Most of the light comes by way of
+// the white inside, a good part of it more than once.
+TEST(Pendant, hybridReadsWhatPathReads) {
+  Scene scene;
+  const int wall = test::addMaterial(scene, test::lambertian(0.5f)), bulb = test::addMaterial(scene, test::lambertian(0, 10000)), outside = test::addMaterial(scene, test::lambertian(0.3f)),
+            inside = test::addMaterial(scene, test::lambertian(0.95f));
+  const Vec3 place{2.07f, 1.6f, 1.53f};
+  test::addRoom(scene, {0, 0, 0}, {4.03f, 2.57f, 3.01f}, std::vector<int>(6, wall));
+  test::addSphere(scene, place + Vec3{0, 0.1f, 0}, 0.03f, bulb);
+  for (const float step : {0.0f, 0.1f, 0.2f}) {  // wider towards its foot
+    const Vec3 foot = place + Vec3{0, step, 0};
+    test::addTube(scene, foot, 0.21f - 0.4f * step, 0.1f, inside);
+    test::addTube(scene, foot, 0.216f - 0.4f * step, 0.1f, outside);
+  }
+  test::addBox(scene, place + Vec3{-0.09f, 0.04f, -0.09f}, place + Vec3{0.09f, 0.045f, 0.09f}, outside);  // against glare
+  test::addBox(scene, place + Vec3{-0.14f, 0.3f, -0.14f}, place + Vec3{0.14f, 0.32f, 0.14f}, inside);
+  test::addBox(scene, {1.3f, 0.7f, 1}, {2.8f, 0.75f, 2}, wall);
+  const std::vector<SurfaceElement> elements{{{2.0f, 0.75f, 1.5f}, {0, 1, 0}}, {{1.4f, 0.75f, 1.2f}, {0, 1, 0}}, {{0.5f, 0, 2.2f}, {0, 1, 0}}};
+  expectSame("white shade, path", elements, readings(scene, "path", elements), readings(scene, "hybrid", elements, 0.12f));
 }
 
 }  // namespace
