@@ -179,7 +179,7 @@ Status writePicture(const std::string& out, const RenderPlan& plan, const Camera
   return writePng(out, drawn(display, rendered.sights, kSectionColour, std::nullopt), metadata, alpha);
 }
 
-// What pictures were exposed by.
+// Writes all outputs; returns the EV100 that they are exposed for.
 Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
   const std::vector<bool> rooms = roomMask(scene, camera, rendered.image.width, rendered.image.height);
   const float ev100 = ev100Of(plan.display, rooms.empty() ? rendered.image : pixelsWhere(rendered.image, rooms, true));
@@ -318,7 +318,7 @@ Registered addRender(CLI::App& program) {
   CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
   addSceneOptions(*app, *o, "SCENE");
   app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2), .png or .jpg (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--camera", o->camera, "Name of a camera in the scene, or its number from 0");
+  app->add_option("--camera", o->camera, "Name of a camera in the scene (capital or small letters; its beginning where only one fits), or its number from 0");
   addViewOptions(*app, o->view);
   app->add_option("--size", o->size, "Width and height in pixels, for example 960x540; views other than camera choose their own");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));

@@ -140,7 +140,8 @@ ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& dis
   ShownMix shown;
   Mixture unmixed;
   for (const LayerInfo& l : home.layers) unmixed.gains.push_back(Vec3(1)), unmixed.hues.push_back(l.colour);
-  Image metered = linearMix(home, follow.exposure ? mixture.gains : unmixed.gains);
+  const bool looks = !display.ev100 || display.localExposure > 0;
+  Image metered = looks ? linearMix(home, follow.exposure ? mixture.gains : unmixed.gains) : Image();
   shown.look.ev100 = ev100Of(display, metered);
   shown.look.tone = display.tone;
   shown.white = whiteOf(display, lightColourOf(home, follow.white ? mixture : unmixed));

@@ -39,7 +39,7 @@ struct Mixture {
 };
 Result<Mixture> mixtureOf(const std::vector<LayerInfo>& layers, const DialOptions& options);
 
-// How a mix is shown: exposure, local exposure and white are those of the unmixed picture where options do not fix them, or of this mix where that is wished, so that dimmed lamps look dimmed.
+// How a mix is shown. Exposure and white are those of the unmixed picture where options do not fix them, or of this mix where that is wished; local exposure follows the same picture as exposure.
 struct ShownMix {
   Look look;
   White white;
@@ -49,7 +49,7 @@ struct FollowMix {
   bool exposure = false, white = false;
 };
 ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display, const FollowMix& follow);
-// Every layer with what the look does to places in it. Linear mixes have no meaning afterwards.
+// Applies local exposure, glare and vignette to every layer in place. Write linear (.exr) mixes before: afterwards the layers no longer hold cd/m².
 void retouch(MixHome& home, const Retouch& by);
 
 // The name before the last '=', and what is behind it.

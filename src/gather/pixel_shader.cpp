@@ -16,8 +16,8 @@ constexpr float kBehind = -0.35f;     // cosine
 constexpr float kVeilM = 2;
 constexpr float kVeilRoughness = 1;  // before the sky: reflections of few samples are filtered as on what stands behind veils elsewhere
 constexpr float kOutshines = 16, kShadeM = 0.3f;  // times as bright as what fills most of a pixel, as far from a lamp as its shade may be
-constexpr float kBehindPanes = 0.999f;  // of the light left: a pane stands before
-constexpr float kLeastChance = 0.25f;  // of cloth behind cloth to be lit
+constexpr float kUnobstructed = 0.999f;  // of the light left: below, something stands before
+constexpr float kLeastSurvival = 0.25f;  // probability that cloth behind cloth is lit
 constexpr float kGlint = 1e-4f;       // of a bidirectional reflectance, where a white wall has .32: less is not seen of a lamp in a pane
 constexpr float kPictureRoughness = 0.08f, kMirrorReflectance = 0.2f;  // smoother: reflects a picture, which has edges of its own; and brighter: a mirror
 
@@ -185,13 +185,13 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   const bool pane = isPane(m, !isBlack(through));
   // What panes reflect is a picture: every ray shows its own of it, at first. Panes behind others show the same again.
   const bool further = pixel.count->rays > 0 && settings_.tolerance > 0 && !byLayer_;  // the first pass told what there is
-  const bool hind = luminance(layer.left[group.member[0]]) < kBehindPanes;
+  const bool hind = luminance(layer.left[group.member[0]]) < kUnobstructed;
   const size_t raysPerPane = (further ? 2 : 1) * (hind ? 2 : 1);
   const size_t shadings = pane ? (group.count + raysPerPane - 1) / raysPerPane : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
   // Of cloth behind cloth little light comes through: few are lit for all.
-  const float chance = !byLayer_ && hind && !pane && !isBlack(through) ? std::clamp(luminance(layer.left[group.member[0]]), kLeastChance, 1.0f) : 1.0f;
-  const bool isLit = chance >= 1 || sequence.forShadow(surface, 0).fast1() < chance;
+  const float survival = !byLayer_ && hind && !pane && !isBlack(through) ? std::clamp(luminance(layer.left[group.member[0]]), kLeastSurvival, 1.0f) : 1.0f;
+  const bool isLit = survival >= 1 || sequence.forShadow(surface, 0).fast1() < survival;
   const uint32_t shadow = !isLit ? 0 : shadows(group, layer, pane && material.normalTexture.texture < 0 ? &m : nullptr, surface, sequence, work.shadows, count);
   Vec3 left;
   for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
@@ -215,9 +215,9 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
       part.roughness += (solid ? m.roughness : kVeilRoughness) * weight, part.surface += weight;
     }
     work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(surface, static_cast<uint32_t>(j), static_cast<uint32_t>(std::max(most, shadings))), shadow, mirror});
-    work.shadings.back().once = work.parts.back().once = (further || pane || chance < 1) && weight <= (pane ? 4 : 1);
+    work.shadings.back().once = work.parts.back().once = (further || pane || survival < 1) && weight <= (pane ? 4 : 1);
   }
-  if (isLit) work.parts.back().chance = chance;
+  if (isLit) work.parts.back().survival = survival;
   if (!keepsFragments_ && solid && isLit) addPlace(work.parts.back());
   if (!isBlack(through)) passOn(group, layer, through, solid, behind);
   if (mirror) reflectOn(group, layer, m, surface, sequence, behind);
@@ -257,7 +257,7 @@ void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLig
     for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.rare + l.sharp + l.specular) * part.weight, part.pixel.count->occlusion += l.occlusion * part.weight;
     return;
   }
-  const float weight = part.weight / part.chance;
+  const float weight = part.weight / part.survival;
   for (const SurfaceLight& l : shadings) {
     sum.diffuse += part.left * l.diffuse * (weight * static_cast<float>(part.gathers));
     sum.rare += part.left * l.rare * (weight * static_cast<float>(part.gathers));
@@ -277,7 +277,7 @@ void PixelShader::addFragment(const TileWork::Part& part, std::span<const Surfac
   f->normal += part.normal, f->position += part.position, f->surface += part.surface;
   for (const SurfaceLight& l : shadings) {
     f->diffuse += part.left * (l.diffuse + l.rare) * part.weight, f->albedo += part.left * l.albedo * part.weight;
-    part.pixel.sum->rest += part.left * (l.sharp + l.specular) * (part.weight / part.chance);
+    part.pixel.sum->rest += part.left * (l.sharp + l.specular) * (part.weight / part.survival);
     part.pixel.count->occlusion += l.occlusion * part.weight;
   }
 }
@@ -372,7 +372,7 @@ void PixelShader::addBackground(Vec3 left, Vec3 direction, PixelSum pixel) const
 void PixelShader::addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part) {
   FilterPixel& sum = *part.pixel.sum;
   const Vec3 left = part.left;
-  const float weight = part.weight / part.chance, ofDiffuse = weight * static_cast<float>(part.gathers), ofSpecular = weight * static_cast<float>(part.glossy);
+  const float weight = part.weight / part.survival, ofDiffuse = weight * static_cast<float>(part.gathers), ofSpecular = weight * static_cast<float>(part.glossy);
   float diffuse = 0, albedo = 0, specular = 0, shadows = 0;
   for (const SurfaceLight& l : light) {
     diffuse += luminance(left * l.diffuse), albedo += luminance(left * l.albedo), specular += luminance(left * l.specular);

@@ -58,7 +58,7 @@ struct TileWork {
     float roughness = 0, surface = 0;
     bool veil = false;       // lets most light through: a surface only where nothing solid is seen behind
     bool once = false;       // lit by single estimates
-    float chance = 1;        // of being lit at all: what is found stands for those that were not
+    float survival = 1;      // probability that it was lit at all: what is found stands for those that were not
     bool outshines = false;  // what else is seen in its pixel, which has more of it: not filtered with that
   };
   std::vector<Shading> shadings;

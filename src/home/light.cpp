@@ -26,8 +26,8 @@ constexpr double kLatitudeDeg = 48, kLongitudeDeg = 11;
 constexpr int kAzimuths = 24;
 constexpr float kAltitudesDeg[] = {25, 35, 45, 55};
 constexpr double kSunShare = 0.12;            // of what is seen indoors, as much as is wished in the sun
-constexpr float kBlueHourDeg = -4;                // of the sun: the sky is about as bright as rooms are
-constexpr float kNightDeg = -9;                    // and hardly to be seen from a lit room
+constexpr float kBlueHourDeg = -4;                // altitude of the sun at which the sky is about as bright as lit rooms
+constexpr float kNightDeg = -9;                   // and at which it is hardly seen from one
 constexpr double kGroundReflectance = 0.2;
 constexpr double kLeastDaylight = 0.003;      // share of sky or sun; below it are seams between walls
 constexpr double kLumenPerM2 = 100, kLeastLumen = 500, kMostLumen = 6000;
@@ -223,10 +223,10 @@ double shareWithLamps(const RayScene& rays, const std::vector<Room>& rooms, cons
   return static_cast<double>(std::count_if(seen.begin(), seen.end(), isLit)) / static_cast<double>(std::max<size_t>(1, seen.size()));
 }
 
-std::string listed(bool daylight, bool dusk, size_t ceilingLamps, bool overCamera, bool ground) {
+std::string listed(bool daylight, const char* darkSky, size_t ceilingLamps, bool overCamera, bool ground) {
   std::vector<std::string> parts;
   if (daylight) parts.push_back("daylight");
-  if (dusk) parts.push_back("the sky after sunset");
+  if (darkSky) parts.push_back(darkSky);
   if (ceilingLamps > 0) parts.push_back(ceilingLamps == 1 ? "a ceiling lamp" : fmt::format("{} ceiling lamps", ceilingLamps));
   if (overCamera) parts.push_back("a lamp over the camera");
   if (ground) parts.push_back("a ground");
@@ -285,7 +285,7 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   if (addsGround) j["ground"] = groundUnder(rays.bounds(), camera);
   if (j.contains("daylight") && !ownGround.is_null()) j["daylight"]["ground"] = ownGround;
   if (!lamps.empty()) j["lamps"] = lamps;
-  out.summary = listed(daylight, dark, ceilingLamps, overCamera, addsGround);
+  out.summary = listed(daylight, !dark ? nullptr : mood == Mood::Night ? "a night sky" : "the sky after sunset", ceilingLamps, overCamera, addsGround);
   return out;
 }
 

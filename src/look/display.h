@@ -19,7 +19,7 @@ struct Display {
   std::optional<double> whiteK;  // of what shall be white; none, and not automatic: no white balance
   std::optional<double> warmth;  // of automatic white: share of the light's own warmth that is kept, 0 to 1; none: kUsualWarmth and a little
   float localExposure = 0;       // 0: none, 1: shadows are opened by up to two stops and highlights held by up to five
-  bool quickLocalExposure = false;  // for frames
+  bool quickLocalExposure = false;  // approximate but fast; for frames of view
   float glare = 0;               // share of the light that the eye or lens scatters around what shines
   float vignette = 0;            // how much darker the corners are, 0 to 1
 };

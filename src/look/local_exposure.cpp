@@ -100,8 +100,8 @@ void keepMetered(const Image& before, Plane& gains) {
 // He & Sun 2015, "Fast guided filter").
 
 constexpr int kQuarter = 4;
-constexpr int kWindow = 2;         // pixels of the small picture to either side
-constexpr float kEvenness = 2e-3f;  // variance of what counts as one surface
+constexpr int kRadius = 2;          // pixels of the small picture to either side
+constexpr float kEpsilon = 2e-3f;  // regularisation: the variance of what counts as one surface
 
 Image quartered(const Image& image) {
   Image out((image.width + kQuarter - 1) / kQuarter, (image.height + kQuarter - 1) / kQuarter);
@@ -119,18 +119,18 @@ Image quartered(const Image& image) {
   return out;
 }
 
-Plane windowMeans(const Plane& p) {
+Plane boxFiltered(const Plane& p) {
   Plane across(p.width, p.height), out(p.width, p.height);
   for (int y = 0; y < p.height; ++y) {
     for (int x = 0; x < p.width; ++x) {
-      const int x0 = std::max(0, x - kWindow), x1 = std::min(p.width - 1, x + kWindow);
+      const int x0 = std::max(0, x - kRadius), x1 = std::min(p.width - 1, x + kRadius);
       float sum = 0;
       for (int i = x0; i <= x1; ++i) sum += p.at(i, y);
       across.at(x, y) = sum / static_cast<float>(x1 - x0 + 1);
     }
   }
   for (int y = 0; y < p.height; ++y) {
-    const int y0 = std::max(0, y - kWindow), y1 = std::min(p.height - 1, y + kWindow);
+    const int y0 = std::max(0, y - kRadius), y1 = std::min(p.height - 1, y + kRadius);
     for (int i = y0; i <= y1; ++i) {
       for (int x = 0; x < p.width; ++x) out.at(x, y) += across.at(x, i);
     }
@@ -139,29 +139,29 @@ Plane windowMeans(const Plane& p) {
   return out;
 }
 
-// Of what is wanted, as a line over what is there.
-struct Lines {
+// Of the target, as a line over the guide.
+struct GuidedCoefficients {
   Plane slope, offset;
 };
 
-Lines linesOf(const Plane& there, const Plane& wanted) {
-  Plane squares(there.width, there.height), products(there.width, there.height);
-  for (size_t i = 0; i < there.values.size(); ++i) squares.values[i] = there.values[i] * there.values[i], products.values[i] = there.values[i] * wanted.values[i];
-  const Plane mean = windowMeans(there), meanWanted = windowMeans(wanted), meanSquare = windowMeans(squares), meanProduct = windowMeans(products);
-  Lines lines{Plane(there.width, there.height), Plane(there.width, there.height)};
-  for (size_t i = 0; i < there.values.size(); ++i) {
+GuidedCoefficients guidedCoefficients(const Plane& guide, const Plane& target) {
+  Plane squares(guide.width, guide.height), products(guide.width, guide.height);
+  for (size_t i = 0; i < guide.values.size(); ++i) squares.values[i] = guide.values[i] * guide.values[i], products.values[i] = guide.values[i] * target.values[i];
+  const Plane mean = boxFiltered(guide), meanWanted = boxFiltered(target), meanSquare = boxFiltered(squares), meanProduct = boxFiltered(products);
+  GuidedCoefficients lines{Plane(guide.width, guide.height), Plane(guide.width, guide.height)};
+  for (size_t i = 0; i < guide.values.size(); ++i) {
     const float m = mean.values[i], variance = std::max(0.0f, meanSquare.values[i] - m * m);
-    lines.slope.values[i] = (meanProduct.values[i] - m * meanWanted.values[i]) / (variance + kEvenness);
+    lines.slope.values[i] = (meanProduct.values[i] - m * meanWanted.values[i]) / (variance + kEpsilon);
     lines.offset.values[i] = meanWanted.values[i] - lines.slope.values[i] * m;
   }
-  return {windowMeans(lines.slope), windowMeans(lines.offset)};
+  return {boxFiltered(lines.slope), boxFiltered(lines.offset)};
 }
 
 // Where a pixel's middle lies in the small picture.
-struct Between {
+struct BilinearTap {
   int low, high;
   float share;
-  Between(int i, int count) {
+  BilinearTap(int i, int count) {
     const float at = std::clamp((static_cast<float>(i) + 0.5f) / kQuarter - 0.5f, 0.0f, static_cast<float>(count - 1));
     low = static_cast<int>(at), high = std::min(low + 1, count - 1), share = at - static_cast<float>(low);
   }
@@ -188,20 +188,20 @@ Plane quickLocalExposure(const Image& image, float ev100, float strength) {
   const float first = metered.values[0];
   keepMetered(small, metered);
   const float kept = metered.values[0] / first, exposure = exposureFromEv100(ev100);
-  const Lines lines = linesOf(there, wanted);
-  std::vector<Between> columns;
+  const GuidedCoefficients lines = guidedCoefficients(there, wanted);
+  std::vector<BilinearTap> columns;
   for (int x = 0; x < image.width; ++x) columns.emplace_back(x, small.width);
   Plane gains(image.width, image.height);
   parallelFor(static_cast<size_t>(image.height), 8, [&](size_t row) {
     const int y = static_cast<int>(row);
-    const Between v(y, small.height);
+    const BilinearTap v(y, small.height);
     std::vector<float> slopes(static_cast<size_t>(small.width)), offsets(slopes.size());
     for (int x = 0; x < small.width; ++x) {
       slopes[static_cast<size_t>(x)] = std::lerp(lines.slope.at(x, v.low), lines.slope.at(x, v.high), v.share);
       offsets[static_cast<size_t>(x)] = std::lerp(lines.offset.at(x, v.low), lines.offset.at(x, v.high), v.share);
     }
     for (int x = 0; x < image.width; ++x) {
-      const Between& u = columns[static_cast<size_t>(x)];
+      const BilinearTap& u = columns[static_cast<size_t>(x)];
       const auto low = static_cast<size_t>(u.low), high = static_cast<size_t>(u.high);
       const float slope = slopes[low] + u.share * (slopes[high] - slopes[low]), offset = offsets[low] + u.share * (offsets[high] - offsets[low]);
       const float l = heldLight(luminance(image.at(x, y)) * exposure);

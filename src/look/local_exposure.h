@@ -10,7 +10,7 @@ namespace roomlight {
 // (Mertens, Kautz & Van Reeth 2007, "Exposure fusion"), on luminance alone, so that colours keep their hue. What is looked at, as `lookedAtEv100` meters it, keeps its exposure.
 Plane localExposure(const Image& image, float ev100, float strength);
 
-// The same for frames, in a sixth of the time: fused at a quarter of the size and brought to pixels along their edges.
+// The same for frames, faster: computed at a quarter of the width and height and upsampled along edges.
 Plane quickLocalExposure(const Image& image, float ev100, float strength);
 
 }  // namespace roomlight

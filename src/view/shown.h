@@ -11,7 +11,7 @@
 
 namespace roomlight::view {
 
-// The usual look, its local exposure in little time.
+// The usual look, with the fast local exposure.
 Display displayOfFrames();
 
 struct ViewDisplay {

@@ -67,7 +67,7 @@ TEST_F(LightOption, decidesWhatShines) {
   EXPECT_NE(evening.err.find("the sky after sunset and a ceiling lamp"), std::string::npos) << evening.err;
   const ProgramRun wrong = render({"-o", path("dawn.png"), "--light", "dawn"});
   EXPECT_EQ(wrong.exitStatus, 2);
-  EXPECT_NE(wrong.err.find("auto, day, evening, none, file"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("auto, day, evening, night, none, file"), std::string::npos) << wrong.err;
   EXPECT_FALSE(std::filesystem::exists(path("dawn.png")));
 }
 

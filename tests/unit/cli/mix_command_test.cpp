@@ -160,7 +160,7 @@ TEST(MixCommand, onlyNamesLampsWithCommas) {
   EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps").size(), 2u);
 }
 
-// Local exposure is of whole pictures, not of mixes; the technical look has none.
+// The technical look has no local exposure, so that picture and mix can be compared pixel by pixel; the technical look has none.
 TEST(MixCommand, plansShowSectionsAndBackdropAsTheirRenderDoes) {
   const TemporaryFolder folder;
   const auto room = testing::writeRoom(folder);

@@ -69,12 +69,12 @@ TEST(Filter, rareLightStopsWhereOtherLightDiffers) {
   EXPECT_NEAR(luminance(after.at(70, 32)), 0.5f, 0.01f);
 }
 
-TEST(Filter, varianceLeftFollowsTheNoise) {
+TEST(Filter, varianceOfFilteredLuminanceFollowsTheNoise) {
   const auto told = [](float deviation, int passes) {
     const FilterInput wall = noisyWall(97, 61, 10, deviation);
-    const std::vector<float> left = filteredLuminance(wall, passes, [&](size_t i) { return wall.pixels[i]; }).variance;
+    const std::vector<float> variance = filteredLuminance(wall, passes, [&](size_t i) { return wall.pixels[i]; }).variance;
     double mean = 0;
-    for (const float v : left) mean += static_cast<double>(v) / static_cast<double>(left.size());
+    for (const float v : variance) mean += static_cast<double>(v) / static_cast<double>(variance.size());
     return mean;
   };
   const double found = momentsOf(filtered(noisyWall(97, 61, 10, 3), 3), 0, 97).variance;
@@ -82,6 +82,15 @@ TEST(Filter, varianceLeftFollowsTheNoise) {
   EXPECT_LT(told(3, 3), found * 2);
   EXPECT_NEAR(told(3, 3) / told(1.5f, 3), 4, 0.5);
   EXPECT_LT(told(3, 6), told(3, 3) / 3);
+}
+
+TEST(Filter, filteredLuminanceIsThatOfThePicture) {
+  const FilterInput wall = noisyWall(97, 61, 10, 3);
+  const std::vector<float> found = filteredLuminance(wall, 5, [&](size_t i) { return wall.pixels[i]; }).luminance;
+  const Image shown = filtered(wall, 5);
+  double a = 0, b = 0;
+  for (size_t i = 0; i < found.size(); ++i) a += static_cast<double>(found[i]), b += static_cast<double>(luminance(shown.pixels[i]));
+  EXPECT_NEAR(a, b, 0.01 * b);
 }
 
 TEST(Filter, mixesNoLightOfWallsThatMeet) {
