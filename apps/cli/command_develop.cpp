@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <sstream>
 
 #include "base/image_io.h"
 #include "commands.h"
@@ -24,11 +23,8 @@ struct DevelopOptions {
 Vec3 lightColourOf(const std::vector<std::string>& files) {
   for (size_t i = files.size(); i-- > 0;) {
     const Result<Metadata> metadata = readMetadata(files[i]);
-    const auto found = metadata ? metadata.value().find(kLightColourKey) : Metadata::const_iterator();
-    if (!metadata || found == metadata.value().end()) continue;
-    std::istringstream text(found->second);
-    Vec3 colour;
-    if (text >> colour.x >> colour.y >> colour.z) return colour;
+    const std::optional<Vec3> colour = metadata ? lightColourIn(metadata.value()) : std::nullopt;
+    if (colour) return *colour;
   }
   return {};
 }

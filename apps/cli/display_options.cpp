@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "arguments.h"
 #include "console.h"
 #include "look/exposure.h"
@@ -65,6 +67,14 @@ Result<Display> readDisplay(const DisplayOptions& o) {
   display.localExposure = o.localExposure.value_or(display.localExposure);
   display.glare = o.glare.value_or(display.glare), display.vignette = o.vignette.value_or(display.vignette);
   return display;
+}
+
+std::optional<Vec3> lightColourIn(const Metadata& metadata) {
+  const auto found = metadata.find(kLightColourKey);
+  if (found == metadata.end()) return std::nullopt;
+  std::istringstream text(found->second);
+  Vec3 colour;
+  return text >> colour.x >> colour.y >> colour.z ? std::optional(colour) : std::nullopt;
 }
 
 }  // namespace roomlight::cli

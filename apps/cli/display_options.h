@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "base/image_io.h"
 #include "look/display.h"
 
 namespace roomlight::cli {
@@ -21,5 +22,8 @@ struct DisplayOptions {
 
 void addDisplayOptions(CLI::App& command, DisplayOptions& options, const std::string& ofWhat);
 Result<Display> readDisplay(const DisplayOptions& options);
+
+// Of the light in a picture, as render wrote it; none: it does not say.
+std::optional<Vec3> lightColourIn(const Metadata& metadata);
 
 }  // namespace roomlight::cli

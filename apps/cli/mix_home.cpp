@@ -89,7 +89,7 @@ Result<MixHome> openLayers(const std::string& file) {
   Result<std::vector<LayerInfo>> layers = layersFromJson(text->second, fmt::format("{}: {}", file, kLayersKey));
   if (!layers) return Error{layers.error()};
   const auto isSights = [](const PictureLayer& l) { return l.channel == kSightsChannel; };
-  MixHome home{std::move(layers).value(), {}, {}};
+  MixHome home{std::move(layers).value(), {}, {}, lightColourIn(picture.metadata)};
   if (const auto found = std::find_if(picture.layers.begin(), picture.layers.end(), isSights); found != picture.layers.end()) {
     for (const Vec3 p : found->image.pixels) {
       const bool shares = p.x >= 0 && p.y >= 0 && p.x + p.y <= 1.001f;
@@ -144,8 +144,9 @@ ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& dis
   Image metered = looks ? linearMix(home, follow.exposure ? mixture.gains : unmixed.gains) : Image();
   shown.look.ev100 = ev100Of(display, metered);
   shown.look.tone = display.tone;
-  shown.white = whiteOf(display, lightColourOf(home, follow.white ? mixture : unmixed));
+  shown.white = whiteOf(display, follow.white ? lightColourOf(home, mixture) : home.lightColour.value_or(lightColourOf(home, unmixed)));
   shown.look.whiteBalance = matrixOf(shown.white);
+  if (looks && !home.sights.section.empty()) metered = mixLinear(home.stack, follow.exposure ? mixture.gains : unmixed.gains);  // as layers are, without sections and backdrop
   for (Vec3& p : metered.pixels) p *= shown.white.gains;
   shown.retouch = retouchOf(metered, display, shown.look.ev100);
   return shown;

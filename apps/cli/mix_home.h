@@ -20,6 +20,7 @@ struct MixHome {
   std::vector<LayerInfo> layers;  // in the file's order, as those of the stack
   LayerStack stack;            // of what is left of each pixel beside sections and backdrop
   Sights sights;
+  std::optional<Vec3> lightColour;  // of the unmixed picture
 };
 // The mix as the file has it: light of whole pixels.
 Image linearMix(const MixHome& home, std::span<const Vec3> gains);

@@ -141,9 +141,11 @@ MaterialSample PixelShader::meanMaterial(const Group& group, const Layer& layer,
 }
 
 // Whether any ray of the group could see a light that stands there in a smooth surface.
-bool PixelShader::glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight) {
+bool PixelShader::glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight) const {
   for (size_t i = 0; i < group.count; ++i) {
-    if (luminance(Bsdf(m, group.ng, group.ng, -layer.ray[group.member[i]].direction).evaluate(toLight)) > kGlint) return true;
+    const size_t k = group.member[i];
+    const SurfacePoint s = surfaceAt(rays_.scene(), layer.hit[k], layer.ray[k].direction, m);
+    if (luminance(Bsdf(s.m, s.ns, s.ng, -layer.ray[k].direction).evaluate(toLight)) > kGlint) return true;
   }
   return false;
 }
@@ -185,40 +187,40 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   const bool pane = isPane(m, !isBlack(through));
   // What panes reflect is a picture: every ray shows its own of it, at first. Panes behind others show the same again.
   const bool further = pixel.count->rays > 0 && settings_.tolerance > 0 && !byLayer_;  // the first pass told what there is
-  const bool hind = luminance(layer.left[group.member[0]]) < kUnobstructed;
+  Vec3 left;
+  for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
+  const bool hind = luminance(left) < kUnobstructed;
   const size_t raysPerPane = (further ? 2 : 1) * (hind ? 2 : 1);
   const size_t shadings = pane ? (group.count + raysPerPane - 1) / raysPerPane : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
   // Of cloth behind cloth little light comes through: few are lit for all.
-  const float survival = !byLayer_ && hind && !pane && !isBlack(through) ? std::clamp(luminance(layer.left[group.member[0]]), kLeastSurvival, 1.0f) : 1.0f;
+  const float survival = !byLayer_ && settings_.gatherEvery <= 1 && hind && !pane && !isBlack(through) ? std::clamp(luminance(left), kLeastSurvival, 1.0f) : 1.0f;
   const bool isLit = survival >= 1 || sequence.forShadow(surface, 0).fast1() < survival;
-  const uint32_t shadow = !isLit ? 0 : shadows(group, layer, pane && material.normalTexture.texture < 0 ? &m : nullptr, surface, sequence, work.shadows, count);
-  Vec3 left;
-  for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
+  const uint32_t shadow = !isLit ? 0 : shadows(group, layer, pane ? &m : nullptr, surface, sequence, work.shadows, count);
 
   FilterPixel& sum = *pixel.sum;
-  if (isLit) work.parts.push_back({pixel, static_cast<uint32_t>(work.shadings.size()), static_cast<uint32_t>(shadings), left * m.alpha, weight, sequence.gathers()});
+  work.parts.push_back({pixel, static_cast<uint32_t>(work.shadings.size()), isLit ? static_cast<uint32_t>(shadings) : 0, left * m.alpha, weight, sequence.gathers()});
   for (size_t j = 0; j < shadings; ++j) {
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
     const Vec3 emitted = left * s.emitted() * weight;
     sum.rest += emitted;
     if (const int32_t emitter = byLayer_ ? lights_.emitterOf(group.instance) : -1; emitter >= 0) byLayer_->add(pixel.index, LayerSums::kRest, layers_->ofEmitter[static_cast<size_t>(emitter)], emitted);
-    if (!isLit) {
-      sum.albedo += left * m.alpha * Bsdf(s.m, s.ns, s.ng, -layer.ray[i].direction).diffuseAlbedo() * weight;
-      continue;
-    }
     if (!mirror && !layer.seen[i]) {
       TileWork::Part& part = work.parts.back();
       part.veil = !solid;
       part.normal += s.ns * weight, part.position += veiledPlace(s, layer.left[i]) * weight;
       part.roughness += (solid ? m.roughness : kVeilRoughness) * weight, part.surface += weight;
     }
+    if (!isLit) {
+      work.parts.back().unlitAlbedo += left * m.alpha * Bsdf(s.m, s.ns, s.ng, -layer.ray[i].direction).diffuseAlbedo() * weight;
+      continue;
+    }
     work.shadings.push_back({s, -layer.ray[i].direction, sequence.forShading(surface, static_cast<uint32_t>(j), static_cast<uint32_t>(std::max(most, shadings))), shadow, mirror});
     work.shadings.back().once = work.parts.back().once = (further || pane || survival < 1) && weight <= (pane ? 4 : 1);
   }
-  if (isLit) work.parts.back().survival = survival;
-  if (!keepsFragments_ && solid && isLit) addPlace(work.parts.back());
+  work.parts.back().survival = survival;
+  if (!keepsFragments_ && solid) addPlace(work.parts.back());
   if (!isBlack(through)) passOn(group, layer, through, solid, behind);
   if (mirror) reflectOn(group, layer, m, surface, sequence, behind);
 }
@@ -229,7 +231,7 @@ void PixelShader::findOutshining(TileWork& work, std::span<const SurfaceLight> l
   const auto brightness = [&](const TileWork::Part& part) {
     float sum = 0;
     for (const SurfaceLight& l : light.subspan(part.first, part.count)) sum += luminance(l.diffuse + l.rare + l.sharp + l.specular);
-    return sum / static_cast<float>(part.count);
+    return part.count > 0 ? sum / static_cast<float>(part.count) : 0;
   };
   const auto rays = [](const TileWork::Part& part) { return part.weight * static_cast<float>(part.count); };
   for (size_t begin = 0, end = 0; begin < work.parts.size(); begin = end) {
@@ -237,7 +239,7 @@ void PixelShader::findOutshining(TileWork& work, std::span<const SurfaceLight> l
     for (end = begin; end < work.parts.size() && work.parts[end].pixel.sum == work.parts[begin].pixel.sum; ++end) {
       if (rays(work.parts[end]) > rays(work.parts[most])) most = end;
     }
-    if (end - begin < 2) continue;
+    if (end - begin < 2 || work.parts[most].count == 0) continue;
     const float usual = brightness(work.parts[most]);
     for (size_t i = begin; i < end; ++i) {
       TileWork::Part& part = work.parts[i];
@@ -253,20 +255,21 @@ void PixelShader::addPlace(const TileWork::Part& part) {
 
 void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLight> shadings) {
   FilterPixel& sum = *part.pixel.sum;
+  const float weight = part.weight / part.survival;
   if (part.outshines) {
-    for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.rare + l.sharp + l.specular) * part.weight, part.pixel.count->occlusion += l.occlusion * part.weight;
+    for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.rare + l.sharp + l.specular) * weight, part.pixel.count->occlusion += l.occlusion * weight;
     return;
   }
-  const float weight = part.weight / part.survival;
+  addVariance(shadings, part);
+  sum.albedo += part.unlitAlbedo;
   for (const SurfaceLight& l : shadings) {
     sum.diffuse += part.left * l.diffuse * (weight * static_cast<float>(part.gathers));
     sum.rare += part.left * l.rare * (weight * static_cast<float>(part.gathers));
     sum.sharp += part.left * l.sharp * weight;
     sum.albedo += part.left * l.albedo * part.weight;
     sum.specular += part.left * l.specular * (weight * static_cast<float>(part.glossy));
-    part.pixel.count->occlusion += l.occlusion * part.weight;
+    part.pixel.count->occlusion += l.occlusion * weight;
   }
-  addVariance(shadings, part);
 }
 
 // What is no part of the surface that fills most of the pixel. Shadows and reflections on it stay as they are.
@@ -274,11 +277,12 @@ void PixelShader::addFragment(const TileWork::Part& part, std::span<const Surfac
   const uint32_t pixel = part.pixel.index;
   auto f = std::find_if(fragments.rbegin(), fragments.rend(), [&](const Fragment& o) { return o.pixel == pixel; });
   if (f == fragments.rend()) fragments.push_back({pixel, {}, {}, {}, {}}), f = fragments.rbegin();
-  f->normal += part.normal, f->position += part.position, f->surface += part.surface;
+  f->normal += part.normal, f->position += part.position, f->surface += part.surface, f->albedo += part.unlitAlbedo;
+  const float weight = part.weight / part.survival;
   for (const SurfaceLight& l : shadings) {
-    f->diffuse += part.left * (l.diffuse + l.rare) * part.weight, f->albedo += part.left * l.albedo * part.weight;
-    part.pixel.sum->rest += part.left * (l.sharp + l.specular) * (part.weight / part.survival);
-    part.pixel.count->occlusion += l.occlusion * part.weight;
+    f->diffuse += part.left * (l.diffuse + l.rare) * weight, f->albedo += part.left * l.albedo * part.weight;
+    part.pixel.sum->rest += part.left * (l.sharp + l.specular) * weight;
+    part.pixel.count->occlusion += l.occlusion * weight;
   }
 }
 
@@ -379,12 +383,19 @@ void PixelShader::addVariance(std::span<const SurfaceLight> light, const TileWor
     shadows += l.sharpVariance;
   }
   const float n = static_cast<float>(light.size());
+  if (part.survival < 1) {  // what is lit stands for what is not, too
+    const float unlit = 1 - part.survival;
+    float sharp = 0;
+    for (const SurfaceLight& l : light) sharp += luminance(left * l.sharp);
+    sum.diffuseVariance += unlit * diffuse * diffuse * ofDiffuse * ofDiffuse, sum.specularVariance += unlit * specular * specular * ofSpecular * ofSpecular;
+    sum.sharpVariance += unlit * sharp * sharp * weight * weight;
+  }
   sum.sharpVariance += lengthSquared(left) / 3 * shadows * n * weight * weight;
   if (light.size() < 2) {
     const float l2 = luminance(left) * luminance(left), diffuse2 = l2 * ofDiffuse * ofDiffuse, specular2 = l2 * ofSpecular * ofSpecular;
     for (const SurfaceLight& l : light) sum.diffuseVariance += l.diffuseVariance * diffuse2, sum.specularVariance += l.specularVariance * specular2;
     if (!part.once) return;
-    // A single estimate: how far it is off what is known by now.
+    // A single estimate: how far it is off what was known before, if anything was.
     const float known = luminance(sum.diffuse) / std::max(luminance(sum.albedo), 1e-6f), off = diffuse - albedo * known;
     const float offSpecular = specular - luminance(sum.specular) / static_cast<float>(std::max(1u, part.pixel.count->glossy));
     sum.diffuseVariance += off * off * ofDiffuse * ofDiffuse, sum.specularVariance += offSpecular * offSpecular * ofSpecular * ofSpecular;

@@ -58,7 +58,8 @@ struct TileWork {
     float roughness = 0, surface = 0;
     bool veil = false;       // lets most light through: a surface only where nothing solid is seen behind
     bool once = false;       // lit by single estimates
-    float survival = 1;      // probability that it was lit at all: what is found stands for those that were not
+    float survival = 1;      // probability that it was lit at all: what is found stands for those that were not; unlit parts have no shadings
+    Vec3 unlitAlbedo{};      // sum over the camera rays of an unlit part
     bool outshines = false;  // what else is seen in its pixel, which has more of it: not filtered with that
   };
   std::vector<Shading> shadings;
@@ -86,7 +87,7 @@ class PixelShader {
   struct Group;
   Group* groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const;
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
-  static bool glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight);
+  bool glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight) const;
   uint32_t shadows(const Group& group, const Layer& layer, const MaterialSample* smooth, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
   void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addPlace(const TileWork::Part& part);

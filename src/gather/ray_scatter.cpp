@@ -1,7 +1,5 @@
 #include "gather/ray_scatter.h"
 
-#include <algorithm>
-
 #include "base/sampling.h"
 #include "radiance/sky_guide.h"
 #include "trace/shadow_ray.h"
@@ -195,11 +193,6 @@ bool RayScatter::isCached(const GatherPath& path, uint32_t instance) const {
 // Whether p lies in the surroundings of the lamp or emissive mesh whose light the point reflects.
 bool RayScatter::isBeside(const GlowPoint& point, Vec3 p) const {
   return (point.lamp >= 0 && besideLamps_[static_cast<size_t>(point.lamp)].contains(p)) || (point.emitter >= 0 && besideEmitters_[static_cast<size_t>(point.emitter)].contains(p));
-}
-
-bool RayScatter::isBesideAny(Vec3 p) const {
-  const auto contains = [&](const LightSurroundings& s) { return s.contains(p); };
-  return std::any_of(besideLamps_.begin(), besideLamps_.end(), contains) || std::any_of(besideEmitters_.begin(), besideEmitters_.end(), contains);
 }
 
 // Light that bright patches reflect, as far as gathering rays leave it to points of them.

@@ -17,7 +17,6 @@ class RayScatter {
   void from(const GatherVertex& v, GatherWork& w) const;
   // Whether light straight from the emissive mesh of an instance to where the path came from is in the cache.
   bool isCached(const GatherPath& path, uint32_t instance) const;
-  bool isBesideAny(Vec3 p) const;  // lamp or small emissive mesh
   // What light of an emissive mesh, found where a path ends, weighs in its layer relative to the picture: layers sample each apart.
   float weightInLayer(const GatherPath& path, const SurfacePoint& s) const;
 

@@ -12,6 +12,7 @@ constexpr int kMostPanes = 16;
 constexpr float kRare = 4;        // times the light expected: what a single find has beyond that is rare
 constexpr float kFaintShare = 0.2f;    // of the light seen: less is a faint reflection, as a pane's
 constexpr float kFaintCells = 3;  // that such a reflection is taken from
+constexpr float kAlike = 0.5f;     // cosine between normals of a place and of a slot that may have taken its light
 constexpr float kNearCells = 2;   // first hits nearer than that many cells read none: the slot if it may be read, else they are lit afresh
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
@@ -348,8 +349,18 @@ bool RayShader::isInGlow(const SurfacePoint& s) const {
   const Int3 v = voxels_.voxelOf(s.p);
   const int32_t brick = voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
   if (glowBricks_.empty() || (brick >= 0 && !glowBricks_[static_cast<size_t>(brick)])) return false;
+  if (shinesBesideLamps(cache_.find(s.p, s.ng).slot)) return true;
   // The slot found may be another one than that which took the light there.
-  return shinesBesideLamps(cache_.find(s.p, s.ng).slot) || scatter_.isBesideAny(s.p);
+  for (int i = 0; i < 27; ++i) {
+    const int64_t found = voxels_.voxelAt({v.x + i % 3 - 1, v.y + i / 3 % 3 - 1, v.z + i / 9 - 1});
+    if (found < 0) continue;
+    const SurfaceVoxel& voxel = voxels_.voxels[static_cast<size_t>(found)];
+    const auto end = voxel.firstSlot + static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+    for (uint32_t slot = voxel.firstSlot; slot < end; ++slot) {
+      if (shinesBesideLamps(slot) && dot(voxels_.slots[slot].normal, s.ng) > kAlike) return true;
+    }
+  }
+  return false;
 }
 
 // Lights the surface afresh.

@@ -285,7 +285,9 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   if (addsGround) j["ground"] = groundUnder(rays.bounds(), camera);
   if (j.contains("daylight") && !ownGround.is_null()) j["daylight"]["ground"] = ownGround;
   if (!lamps.empty()) j["lamps"] = lamps;
-  out.summary = listed(daylight, !dark ? nullptr : mood == Mood::Night ? "a night sky" : "the sky after sunset", ceilingLamps, overCamera, addsGround);
+  out.summary = listed(daylight, !dark ? nullptr : mood == Mood::Night ? "a night sky"
+                                                                       : "the sky after sunset",
+                       ceilingLamps, overCamera, addsGround);
   return out;
 }
 

@@ -11,19 +11,18 @@
 namespace roomlight {
 namespace {
 
-// The one camera whose name begins so, in capital or small letters; a whole name goes before a beginning. Null: none or several.
-const Camera* namedAlike(const std::vector<Camera>& cameras, const std::string& wanted) {
+// Cameras whose names are or, where none is, begin so, in capital or small letters.
+std::vector<const Camera*> namedAlike(const std::vector<Camera>& cameras, const std::string& wanted) {
   const std::u32string folded = foldedCase(wanted);
   for (const bool whole : {true, false}) {
-    const Camera* found = nullptr;
-    size_t count = 0;
+    std::vector<const Camera*> found;
     for (const Camera& c : cameras) {
       const std::u32string name = foldedCase(c.name);
-      if (whole ? name == folded : name.starts_with(folded)) found = &c, ++count;
+      if (whole ? name == folded : name.starts_with(folded)) found.push_back(&c);
     }
-    if (count > 0) return count == 1 ? found : nullptr;
+    if (!found.empty()) return found;
   }
-  return nullptr;
+  return {};
 }
 
 }  // namespace
@@ -35,7 +34,13 @@ Result<Camera> findCamera(const Scene& scene, const std::string& wanted) {
   size_t index = 0;
   const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
   if (code == std::errc() && end == wanted.data() + wanted.size() && index < scene.cameras.size()) return scene.cameras[index];
-  if (const Camera* alike = namedAlike(scene.cameras, wanted)) return *alike;
+  const std::vector<const Camera*> alike = namedAlike(scene.cameras, wanted);
+  if (alike.size() == 1) return *alike.front();
+  if (alike.size() > 1) {
+    std::string several;
+    for (const Camera* c : alike) several += fmt::format("{}'{}'", several.empty() ? "" : ", ", c->name);
+    return Error{fmt::format("camera '{}' may be any of {}", wanted, several)};
+  }
   if (scene.cameras.empty()) return Error{fmt::format("no camera '{}': the scene has none; leave --camera out to have one proposed", wanted)};
   std::vector<std::string> names;
   std::string listed;
