@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "base/dither.h"
 #include "base/parallel.h"
 #include "base/simd.h"
 #include "base/tone_curves.h"
@@ -34,9 +35,20 @@ void sumRun(const LayerStack& stack, std::span<const Vec3> gains, size_t run, Pl
   }
 }
 
+// Of each pixel of a run, to be added before a value is cut to a byte.
+void ditherRun(const LayerStack& stack, size_t run, float* __restrict noise) {
+  const size_t width = static_cast<size_t>(stack.width), begin = run * kTilePixels;
+  for (size_t i = 0; i < kTilePixels;) {
+    const size_t x = (begin + i) % width, count = std::min(kTilePixels - i, width - x);
+    const int y = static_cast<int>((begin + i) / width);
+    for (size_t k = 0; k < count; ++k) noise[i + k] = ditherAt(static_cast<int>(x + k), y);
+    i += count;
+  }
+}
+
 // Exposure is in the matrix.
 template <Vec3 (*Curve)(Vec3), bool kGraded>
-void showRun(const Planes& light, const Affine& matrix, const Tone& tone, uint8_t* __restrict out) {
+void showRun(const Planes& light, const Affine& matrix, const Tone& tone, const float* __restrict noise, uint8_t* __restrict out) {
   const float contrast = tone.contrast, saturation = tone.saturation;
   const float* __restrict r = light.rgb[0];
   const float* __restrict g = light.rgb[1];
@@ -45,13 +57,13 @@ void showRun(const Planes& light, const Affine& matrix, const Tone& tone, uint8_
     const Vec3 v = matrix.vector({r[i], g[i], b[i]});
     const Vec3 lit{v.x > 0 ? v.x : 0.0f, v.y > 0 ? v.y : 0.0f, v.z > 0 ? v.z : 0.0f};
     const Vec3 shown = Curve(kGraded ? curves::graded(lit, contrast, saturation) : lit);
-    out[3 * i] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.x) * 255 + 0.5f));
-    out[3 * i + 1] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.y) * 255 + 0.5f));
-    out[3 * i + 2] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.z) * 255 + 0.5f));
+    out[3 * i] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.x) * 255 + noise[i]));
+    out[3 * i + 1] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.y) * 255 + noise[i]));
+    out[3 * i + 2] = static_cast<uint8_t>(static_cast<int>(srgbEncode(shown.z) * 255 + noise[i]));
   }
 }
 
-using ShowRun = void (*)(const Planes&, const Affine&, const Tone&, uint8_t* __restrict);
+using ShowRun = void (*)(const Planes&, const Affine&, const Tone&, const float* __restrict, uint8_t* __restrict);
 template <bool kGraded>
 ShowRun showRunOf(ToneCurve curve) {
   switch (curve) {
@@ -88,8 +100,10 @@ ByteImage mixDisplay(const LayerStack& stack, std::span<const Vec3> gains, const
   parallelFor(stack.runCount(), kRunsAtOnce, [&](size_t run) {
     Planes sum;
     uint8_t bytes[3 * kTilePixels];
+    float noise[kTilePixels];
     sumRun(stack, gains, run, sum);
-    show(sum, matrix, look.tone, bytes);
+    ditherRun(stack, run, noise);
+    show(sum, matrix, look.tone, noise, bytes);
     std::copy_n(bytes, 3 * pixelsOfRun(stack, run), out.samples.data() + 3 * run * kTilePixels);
   });
   return out;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/dither.h"
 #include "unit/mix/layers.h"
 
 namespace roomlight {
@@ -48,7 +49,7 @@ TEST(Mixer, packingIsBelowOneFiveHundredTwelfthOfADisplayStep) {
   }
 }
 
-TEST(Mixer, bytesAreThoseOfTheToneMappedMix) {
+TEST(Mixer, bytesAreThoseOfTheToneMappedMixDithered) {
   const std::vector<Image> pictures = somePictures(kWidth, kHeight);
   const LayerStack stack = stackOf(pictures);
   const std::vector<Vec3> gains(4, Vec3(1));
@@ -60,7 +61,7 @@ TEST(Mixer, bytesAreThoseOfTheToneMappedMix) {
     const ByteImage bytes = mixDisplay(stack, gains, {4, tone, balance});
     ASSERT_EQ(bytes.samples.size(), 3 * expected.pixels.size());
     for (size_t i = 0; i < bytes.samples.size(); ++i) {
-      ASSERT_NEAR(static_cast<float>(bytes.samples[i]), expected.pixels[i / 3][static_cast<int>(i % 3)] * 255, 0.501f) << toneCurveName(tone.curve);
+      ASSERT_NEAR(static_cast<float>(bytes.samples[i]), expected.pixels[i / 3][static_cast<int>(i % 3)] * 255 - 0.5f + ditherAt(static_cast<int>(i / 3) % kWidth, static_cast<int>(i / 3) / kWidth), 0.501f) << toneCurveName(tone.curve);
     }
   }
 }
