@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "base/result.h"
 #include "base/image_io.h"
+#include "base/result.h"
 #include "look/display.h"
 
 namespace roomlight::cli {

@@ -147,12 +147,12 @@ struct GuidedCoefficients {
 GuidedCoefficients guidedCoefficients(const Plane& guide, const Plane& target) {
   Plane squares(guide.width, guide.height), products(guide.width, guide.height);
   for (size_t i = 0; i < guide.values.size(); ++i) squares.values[i] = guide.values[i] * guide.values[i], products.values[i] = guide.values[i] * target.values[i];
-  const Plane mean = boxFiltered(guide), meanWanted = boxFiltered(target), meanSquare = boxFiltered(squares), meanProduct = boxFiltered(products);
+  const Plane mean = boxFiltered(guide), meanTarget = boxFiltered(target), meanSquare = boxFiltered(squares), meanProduct = boxFiltered(products);
   GuidedCoefficients lines{Plane(guide.width, guide.height), Plane(guide.width, guide.height)};
   for (size_t i = 0; i < guide.values.size(); ++i) {
     const float m = mean.values[i], variance = std::max(0.0f, meanSquare.values[i] - m * m);
-    lines.slope.values[i] = (meanProduct.values[i] - m * meanWanted.values[i]) / (variance + kEpsilon);
-    lines.offset.values[i] = meanWanted.values[i] - lines.slope.values[i] * m;
+    lines.slope.values[i] = (meanProduct.values[i] - m * meanTarget.values[i]) / (variance + kEpsilon);
+    lines.offset.values[i] = meanTarget.values[i] - lines.slope.values[i] * m;
   }
   return {boxFiltered(lines.slope), boxFiltered(lines.offset)};
 }
@@ -181,14 +181,14 @@ Plane localExposure(const Image& image, float ev100, float strength) {
 Plane quickLocalExposure(const Image& image, float ev100, float strength) {
   if (image.pixels.empty()) return {};
   const Image small = quartered(image);
-  const Plane light = lightOf(small, ev100), wanted = fusedOf(light, strength);
+  const Plane light = lightOf(small, ev100), target = fusedOf(light, strength);
   const GainOf gainOf(strength);
-  Plane there(small.width, small.height), metered(small.width, small.height);
-  for (size_t i = 0; i < light.values.size(); ++i) there.values[i] = shown(light.values[i]), metered.values[i] = gainOf(light.values[i], wanted.values[i]);
+  Plane guide(small.width, small.height), metered(small.width, small.height);
+  for (size_t i = 0; i < light.values.size(); ++i) guide.values[i] = shown(light.values[i]), metered.values[i] = gainOf(light.values[i], target.values[i]);
   const float first = metered.values[0];
   keepMetered(small, metered);
   const float kept = metered.values[0] / first, exposure = exposureFromEv100(ev100);
-  const GuidedCoefficients lines = guidedCoefficients(there, wanted);
+  const GuidedCoefficients lines = guidedCoefficients(guide, target);
   std::vector<BilinearTap> columns;
   for (int x = 0; x < image.width; ++x) columns.emplace_back(x, small.width);
   Plane gains(image.width, image.height);
