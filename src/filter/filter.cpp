@@ -6,8 +6,8 @@
 #include <span>
 
 #include "base/parallel.h"
-#include "filter/detail.h"
 #include "filter/filter_kernel.h"
+#include "filter/levels.h"
 
 namespace roomlight {
 namespace {
@@ -16,6 +16,8 @@ constexpr int kSpecularPasses = 3;
 constexpr int kBand = 256;  // rows
 constexpr int kFar = 5;      // passes after which a lone bright line leaves copies of itself as far apart as the last pass looks; short passes after them take these away
 constexpr int kBack = 3;
+constexpr int kNoiseReach = 3;  // pixels
+constexpr int kFarthestPool = 32;  // pixels: powers of levels are pooled over their step and twice that, but over no more
 
 // What a pass reads is no longer independent: sums of squares of the passes' kernels taken one after the other over their product, where no weight stops.
 float correlatedAfter(int passes) {
@@ -65,15 +67,10 @@ void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
   }
 }
 
-// Diffuse light of a row once more, after passes have changed it.
-void packDiffuse(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
-  const ptrdiff_t pitch = rows.pitch();
-  float* at = rows.line(FilterRows::light(0, 0), y);
-  for (const FilterPixel& p : pixels) {
-    store(at, pitch, p.diffuse / divisor(p.albedo));
-    at[FilterRows::kVariance * pitch] = p.diffuseVariance, at[FilterRows::kWeight * pitch] = p.weight * p.diffuseShare;
-    ++at;
-  }
+// Instead of the variance of a row's diffuse light, draws of its noise.
+void packNoise(std::span<const FilterPixel> pixels, FilterRows& rows, int y, size_t firstPixel) {
+  float* noise = rows.line(FilterRows::light(0, 0) + FilterRows::kVariance, y);
+  for (size_t x = 0; x < pixels.size(); ++x) noise[x] = drawnNoise(pixels[x].diffuseVariance, firstPixel + x);
 }
 
 // A row of the picture.
@@ -114,13 +111,14 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
   // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
   // take far more memory than all else. A pass filters as many of these rows as those after it look at.
   const std::vector<int> steps = stepsOf(passes);
-  const bool twice = rare && !also.left;  // with doubt and without
-  const int pooled = twice ? reachOf(poolSteps()) : 0, reach = reachOf(steps) + pooled;
+  const bool levels = rare;  // variances without outliers
+  const int around = levels && also.left ? kNoiseReach : 0;  // rows whose noise tells that of a pixel
+  const int pooled = levels ? 2 * farthest + around : 0, reach = reachOf(steps) + pooled;
   Image out(w, h);
   if (also.once) also.once->resize(out.pixels.size());
   if (also.irradiance) also.irradiance->resize(out.pixels.size());
   if (also.left) also.left->variance.resize(out.pixels.size()), also.left->luminance.resize(out.pixels.size());
-  FilterRows rows(w, std::min(h, kBand + 2 * reach), std::max(farthest, twice ? poolSteps().back() : 0));
+  FilterRows rows(w, std::min(h, kBand + 2 * reach), farthest);
   int cleared = 0;  // rows whose margins are; passes leave them so
   for (int first = 0; first < h; first += kBand) {
     const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
@@ -131,40 +129,51 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
     };
     forRows(reach, [&](int y) {
       if (y >= cleared) rows.clearMargins(y);
-      pack(pixelsOfRow(begin + y), rows, y);
+      const std::span<const FilterPixel> pixels = pixelsOfRow(begin + y);
+      pack(pixels, rows, y);
+      if (levels) packNoise(pixels, rows, y, static_cast<size_t>(begin + y) * static_cast<size_t>(w));
     });
     cleared = std::max(cleared, end - begin);
     FilterPass pass;
-    const auto filterAll = [&](bool doubts, bool others, bool rares) {  // others: sharp and glossy light
-      int left = reach;
-      for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
-        pass.step = steps[static_cast<size_t>(k)], pass.correlated = doubts ? 1 : correlatedAfter(k);
-        pass.filter[0] = true, pass.filter[1] = sharp && others, pass.filter[2] = k < kSpecularPasses && others, pass.filter[3] = rare && rares;
-        forRows(left - 1, [&](int y) { prepareRow(rows, pass, y); });
-        left -= pass.step + 1;
-        forRows(left, [&](int y) { filterRow(rows, pass, y); });
-        for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
-        if (k > 0 || !also.once) continue;
-        forRows(0, [&](int y) {
-          const float* at = rows.line(FilterRows::light(0, pass.place[0]), y);
-          for (int x = 0; x < w; ++x) (*also.once)[static_cast<size_t>(begin + y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
-        });
+    pass.levels = levels;
+    if (levels) {
+      forRows(around, [&](int y) {
+        for (int c = 0; c < 4; ++c) std::fill_n(rows.line(FilterRows::kKept + c, y), w, 0.0f);
+      });
+    }
+    int left = reach;
+    for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
+      pass.step = steps[static_cast<size_t>(k)], pass.correlated = also.left ? correlatedAfter(k) : 1;
+      pass.filter[0] = !levels || k < passes, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses, pass.filter[3] = rare && !also.left;
+      forRows(left - 1, [&](int y) { prepareRow(rows, pass, y); });
+      left -= pass.step + 1;
+      forRows(left, [&](int y) { filterRow(rows, pass, y); });
+      if (levels && pass.filter[0]) {
+        const int wide = pass.step < kFarthestPool ? 2 * pass.step : pass.step, pool = pass.step + wide;
+        const auto poolTwice = [&](int beside) {
+          forRows(beside + wide, [&](int y) { poolRow(rows, pass.step, 0, y); });
+          forRows(beside, [&](int y) { poolRow(rows, wide, 1, y); });
+        };
+        forRows(around + (hasOutliers(k) ? 2 : 1) * pool, [&](int y) { takePower(rows, pass.place[0], y); });
+        if (hasOutliers(k)) {
+          poolTwice(around + pool);
+          forRows(around + pool, [&](int y) { boundPower(rows, pass.place[0], y); });
+        }
+        poolTwice(around);
+        forRows(around, [&](int y) { keepLevel(rows, k, pass.place[0], y); });
       }
-    };
-    filterAll(!also.left, true, !twice && !also.left);
-    if (twice) {
-      int left = pooled, place = 0;
-      forRows(left, [&](int y) { keepNarrow(rows, pass, y); });
-      forRows(reach, [&](int y) { packDiffuse(pixelsOfRow(begin + y), rows, y); });
-      pass.place[0] = 0;
-      filterAll(false, false, true);
-      forRows(left, [&](int y) { takeDetail(rows, pass, y); });
-      for (const int step : poolSteps()) {
-        left -= step + 1;
-        forRows(left, [&](int y) { poolRow(rows, step, place, y); });
-        place = 1 - place;
-      }
-      forRows(0, [&](int y) { addMeanDetail(rows, pass, place, y); });
+      for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
+      if (k > 0 || !also.once) continue;
+      forRows(0, [&](int y) {
+        const float* at = rows.line(FilterRows::light(0, pass.place[0]), y);
+        for (int x = 0; x < w; ++x) (*also.once)[static_cast<size_t>(begin + y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = fetch(at + x, rows.pitch());
+      });
+    }
+    if (levels) forRows(around, [&](int y) { addKept(rows, pass.place[0], y); });
+    if (around > 0) {
+      forRows(around, [&](int y) { takeNoise(rows, pass.place[0], y); });
+      forRows(2, [&](int y) { poolRow(rows, 1, 0, y); });
+      forRows(0, [&](int y) { poolRow(rows, 2, 1, y); });
     }
     forRows(0, [&](int y) {
       const size_t row = static_cast<size_t>(begin + y) * static_cast<size_t>(w);
@@ -179,7 +188,8 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
         const auto light = [&](int k) { return fetch(rows.line(FilterRows::light(k, pass.place[k]), y) + x, rows.pitch()); };
         const float albedo = luminance(divisor(p.albedo));
         also.left->luminance[i] = luminance(divisor(p.albedo) * (light(0) + light(1)) + light(2) + p.rest);
-        also.left->variance[i] = albedo * albedo * (correlatedAfter(passes) * of(0) + of(1)) + correlatedAfter(kSpecularPasses) * of(2);
+        const float diffuse = levels ? rows.line(FilterRows::pool(0), y)[x] : correlatedAfter(passes) * of(0);
+        also.left->variance[i] = albedo * albedo * (diffuse + of(1)) + correlatedAfter(kSpecularPasses) * of(2);
       }
     });
   }
@@ -188,7 +198,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
 
 // With as many columns of the other side beside each edge as all passes reach.
 Image filteredRound(const FilterInput& input, int passes) {
-  const int w = input.width, h = input.height, beside = reachOf(stepsOf(passes)) + reachOf(poolSteps()), wide = w + 2 * beside;
+  const int w = input.width, h = input.height, beside = reachOf(stepsOf(passes)) + (2 << std::max(0, passes - 1)), wide = w + 2 * beside;
   FilterInput padded(wide, h);
   parallelFor(static_cast<size_t>(h), 4, [&](size_t y) {
     const size_t row = y * static_cast<size_t>(w);

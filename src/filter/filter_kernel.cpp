@@ -18,6 +18,7 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 
 constexpr float kKernel[3] = {0.25f, 0.2f, 0.1f};   // of the pixel, of those beside it, of those at its corners
+constexpr float kSmooth[3] = {0.25f, 0.125f, 0.0625f};  // the same of levels: hats, twice as wide each
 constexpr float kSigmas[kFilterLights] = {2, 1, 2.5f, 0};  // differences within so many standard deviations count as noise; sharp shadows differ where they should
 constexpr float kOwnNoise = 0.5f;          // of a pixel's own variance counts at least, so that an outlier is taken for one
 constexpr float kPlaneTolerance = 0.02f;   // metres off the tangent plane, and
@@ -27,6 +28,7 @@ constexpr float kNoSamples = 1e-6f;        // instead of a weight of zero
 constexpr float kUnseen = -1;              // where no pixel has samples yet: like everything
 constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
 constexpr float kSameRoughness = 0.1f;
+constexpr int kFinestSeen = 2;             // pixels: coarser levels of diffuse light no longer tell rare light where it changes
 constexpr float kSameLevel = 0.125f;       // of the sum of two pixels' diffuse light: rare light spreads where that differs by no more
 
 V load(const float* p) { return hn::LoadU(D(), p); }
@@ -120,6 +122,10 @@ void findSeen(FilterRows& rows, const FilterPass& pass, int light, int y) {
 void prepare(FilterRows& rows, const FilterPass& pass, int y) {
   for (int k = 0; k < kFilterLights; ++k) {
     if (!pass.filter[k] || k == 3) continue;
+    if (k == 0 && pass.levels) {
+      if (pass.step <= kFinestSeen) findSeen(rows, pass, k, y);
+      continue;
+    }
     findNoise(rows, pass, k, y);
     findSeen(rows, pass, k, y);
   }
@@ -138,6 +144,19 @@ struct Sum {
     light = {hn::Mul(c.x, total), hn::Mul(c.y, total), hn::Mul(c.z, total)};
     variance = hn::Mul(v, hn::Mul(total, total));
   }
+  // By surfaces alone.
+  static Sum ofLevel(const V3& c, V drawn, V w) {
+    Sum s;
+    s.own = c, s.ownVariance = drawn, s.ownWeight = w, s.kernel = set(kSmooth[0]), s.total = hn::Mul(w, s.kernel);
+    s.light = {hn::Mul(c.x, s.total), hn::Mul(c.y, s.total), hn::Mul(c.z, s.total)}, s.variance = hn::Mul(drawn, s.total);
+    return s;
+  }
+  void addLevel(const V3& c, V drawn, V samples, V share) {
+    const V weight = hn::Mul(samples, share);
+    light = {hn::MulAdd(c.x, weight, light.x), hn::MulAdd(c.y, weight, light.y), hn::MulAdd(c.z, weight, light.z)};
+    variance = hn::MulAdd(drawn, weight, variance);
+    total = hn::Add(total, weight), kernel = hn::Add(kernel, share);
+  }
   void add(const V3& c, V v, V samples, V share) {
     const V weight = hn::Mul(samples, share);
     light = {hn::MulAdd(c.x, weight, light.x), hn::MulAdd(c.y, weight, light.y), hn::MulAdd(c.z, weight, light.z)};
@@ -146,10 +165,12 @@ struct Sum {
   }
 };
 
-template <bool kSharp, bool kSpecular, bool kRare>
+enum Diffuse { kNone, kByNoise, kByLevels };
+
+template <Diffuse kDiffuse, bool kSharp, bool kSpecular, bool kRare>
 void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
   const D d;
-  constexpr bool kUsed[kFilterLights] = {true, kSharp, kSpecular, kRare};
+  constexpr bool kUsed[kFilterLights] = {kDiffuse != kNone, kSharp, kSpecular, kRare};
   const ptrdiff_t pitch = rows.pitch();
   const float* row = rows.line(0, y);
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
@@ -160,6 +181,10 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
     for (int k = 0; k < kFilterLights; ++k) {
       if (!kUsed[k]) continue;
       const float* at = here + FilterRows::light(k, pass.place[k]) * pitch;
+      if (k == 0 && kDiffuse == kByLevels) {
+        sums[k] = Sum::ofLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch));
+        continue;
+      }
       sums[k] = Sum(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), load(here + (FilterRows::kSeen + k) * pitch), load(here + (FilterRows::kNoise + k) * pitch));
     }
     for (int j = -1; j <= 1; ++j) {
@@ -168,10 +193,15 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
         if (i == 0 && j == 0) continue;
         const float* there = here + j * pass.step * rows.rowPitch() + i * pass.step;
         const Place other = placeAt(there, pitch);
-        const V kernel = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), likeness(dot(own.n, other.n))), off = offPlane(own, other);
+        const V facing = likeness(dot(own.n, other.n)), kernel = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), facing), off = offPlane(own, other);
         for (int k = 0; k < kFilterLights; ++k) {
           if (!kUsed[k]) continue;
           Sum& s = sums[k];
+          if (k == 0 && kDiffuse == kByLevels) {
+            const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
+            s.addLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), hn::Mul(hn::Mul(set(kSmooth[std::abs(i) + std::abs(j)]), facing), falloff(off)));
+            continue;
+          }
           if (k == 3) {
             // Its own noise tells nothing: what other diffuse light there is tells where it changes.
             const V one = load(here + FilterRows::kSeen * pitch), two = load(there + FilterRows::kSeen * pitch);
@@ -205,7 +235,8 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
       hn::StoreU(hn::IfThenElse(kept, s.own.x, hn::Mul(s.light.x, inverse)), d, at);
       hn::StoreU(hn::IfThenElse(kept, s.own.y, hn::Mul(s.light.y, inverse)), d, at + pitch);
       hn::StoreU(hn::IfThenElse(kept, s.own.z, hn::Mul(s.light.z, inverse)), d, at + 2 * pitch);
-      hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, hn::Mul(inverse, inverse))), d, at + FilterRows::kVariance * pitch);
+      const V spread = k == 0 && kDiffuse == kByLevels ? inverse : hn::Mul(inverse, inverse);
+      hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, spread)), d, at + FilterRows::kVariance * pitch);
       hn::StoreU(hn::IfThenElse(kept, s.ownWeight, hn::Div(s.total, s.kernel)), d, at + FilterRows::kWeight * pitch);
     }
   }
@@ -235,13 +266,16 @@ void pool(FilterRows& rows, int step, int place, int y) {
   }
 }
 
+template <Diffuse kDiffuse, bool kRare>
+void filterOthers(FilterRows& rows, const FilterPass& pass, int y) {
+  if (pass.filter[1]) return pass.filter[2] ? filterPixels<kDiffuse, true, true, kRare>(rows, pass, y) : filterPixels<kDiffuse, true, false, kRare>(rows, pass, y);
+  return pass.filter[2] ? filterPixels<kDiffuse, false, true, kRare>(rows, pass, y) : filterPixels<kDiffuse, false, false, kRare>(rows, pass, y);
+}
+
 void filterLights(FilterRows& rows, const FilterPass& pass, int y) {
-  const auto of = [&](auto rare) {
-    constexpr bool kRare = decltype(rare)::value;
-    if (pass.filter[1]) return pass.filter[2] ? filterPixels<true, true, kRare>(rows, pass, y) : filterPixels<true, false, kRare>(rows, pass, y);
-    return pass.filter[2] ? filterPixels<false, true, kRare>(rows, pass, y) : filterPixels<false, false, kRare>(rows, pass, y);
-  };
-  return pass.filter[3] ? of(std::true_type()) : of(std::false_type());
+  if (!pass.filter[0]) return pass.filter[3] ? filterOthers<kNone, true>(rows, pass, y) : filterOthers<kNone, false>(rows, pass, y);
+  if (pass.levels) return pass.filter[3] ? filterOthers<kByLevels, true>(rows, pass, y) : filterOthers<kByLevels, false>(rows, pass, y);
+  return pass.filter[3] ? filterOthers<kByNoise, true>(rows, pass, y) : filterOthers<kByNoise, false>(rows, pass, y);
 }
 
 }  // namespace
@@ -266,7 +300,7 @@ FilterRows::FilterRows(int w, int h, int margin)
 void FilterRows::clearMargins(int y) {
   for (int q = 0; q < kCount; ++q) {
     float* at = line(q, y);
-    const float value = q >= kLight && q < kNarrow && (q - kLight) % kParts == kWeight ? 1.0f : 0.0f;
+    const float value = q >= kLight && q < kKept && (q - kLight) % kParts == kWeight ? 1.0f : 0.0f;
     std::fill(at - margin_, at, value);
     std::fill(at + width_, at - margin_ + pitch_, value);
   }

@@ -14,8 +14,8 @@ class FilterRows {
   // Quantities. kSeen is the luminance by which pixels are compared. Each light has two places for its colour, variance and weight: a pass
   // reads one and writes the other.
   static constexpr int kNormal = 0, kPosition = 3, kRoughness = 6, kNoise = 7, kSeen = kNoise + kFilterLights, kLight = kSeen + kFilterLights, kVariance = 3, kWeight = 4, kParts = 5;
-  // Diffuse light as the narrow filter left it (detail.h), and what is pooled, in two places.
-  static constexpr int kNarrow = kLight + kFilterLights * 2 * kParts, kPool = kNarrow + 3, kPooled = 3, kCount = kPool + 2 * kPooled;
+  // Of diffuse light by levels (levels.h): what of them is kept so far, its noise, and what is pooled, in two places.
+  static constexpr int kKept = kLight + kFilterLights * 2 * kParts, kKeptNoise = kKept + 3, kPool = kKeptNoise + 1, kPooled = 3, kCount = kPool + 2 * kPooled;
   static constexpr int light(int k, int place) { return kLight + (2 * k + place) * kParts; }
   static constexpr int pool(int place) { return kPool + kPooled * place; }
 
@@ -45,6 +45,7 @@ struct FilterPass {
   float correlated = 1;             // times the noise that passes before made of independent pixels
   int place[kFilterLights] = {};    // where each light is read
   bool filter[kFilterLights] = {};  // and whether it is filtered
+  bool levels = false;              // diffuse light by surfaces alone; kVariance holds one draw of its noise then
 };
 
 // Makes row y ready to be compared with others. Noise: means of a light's variance over 3 x 3 pixels, for the variance of single pixels

@@ -14,13 +14,13 @@ namespace {
 
 constexpr float kLift = 0.1f;               // cells: for places to see one another along a bent surface
 constexpr size_t kKeysAtOnce = 4096;             // keys
-constexpr Vec3 kShift{0.377f, 0.619f, 0.283f};  // cells: surfaces of homes stand on round coordinates, borders of cells do not
+constexpr Vec3 kShift{0.377f, 0.619f, 0.283f};  // smallest cells: surfaces of homes stand on round coordinates, borders of cells do not
 
 }  // namespace
 
 uint64_t HitCache::keyOf(const HitPlace& place, int level) const {
   const float perMetre = 1 / (cellM_ * static_cast<float>(1 << level));
-  const Vec3 q = place.p * perMetre + kShift;
+  const Vec3 q = (place.p + kShift * cellM_) * perMetre;  // cells of a level are parts of those of the next
   const auto whole = [](float v) { return static_cast<uint64_t>(static_cast<int64_t>(std::floor(v))) & 0x1fffff; };
   const uint64_t cell = whole(q.x) | (whole(q.y) << 21) | (whole(q.z) << 42);
   const uint64_t kind = (uint64_t{place.instance} << 8) | (static_cast<uint64_t>(dominantFace(place.n)) << 4) | static_cast<uint64_t>(level);
@@ -28,14 +28,14 @@ uint64_t HitCache::keyOf(const HitPlace& place, int level) const {
   return key == 0 ? 1 : key;
 }
 
-std::vector<uint32_t> HitCache::chosen(std::span<const HitPlace> places, size_t most) const {
+std::vector<HitCache::Chosen> HitCache::chosen(std::span<const HitPlace> places, size_t most) const {
   std::vector<uint64_t> keys(places.size());
   parallelFor(keys.size(), kKeysAtOnce, [&](size_t i) { keys[i] = keyOf(places[i], 0); });
   const std::vector<uint32_t> order = sortedBy(keys);
-  std::vector<uint32_t> out;
+  std::vector<Chosen> out;
   forRuns(keys, order, [&](size_t begin, size_t end) {
     const size_t n = std::min(most, end - begin);
-    for (size_t k = 0; k < n; ++k) out.push_back(order[begin + k * (end - begin) / n]);  // from all over the picture
+    for (size_t k = 0; k < n; ++k) out.push_back({order[begin + k * (end - begin) / n], static_cast<float>(end - begin) / static_cast<float>(n)});  // from all over the picture
   });
   return out;
 }
@@ -92,13 +92,14 @@ void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, 
     for (size_t k = runs[r].begin; k < runs[r].end; ++k) {
       if (!cell.sure && k != runs[r].begin && !(luminance(left[way + k - runs[r].begin]) > 0.25f)) continue;
       const LitHit& s = samples[order[k]];
-      cell.radianceCdM2 += s.radianceCdM2, cell.lux += s.lux, cell.sunLux += s.sunLux, n += 1;
+      const Vec3 sent = s.even + s.rare + s.sharp;
+      cell.radianceCdM2 += s.albedo * sent, cell.ownCdM2 += s.albedo * s.own, cell.lux += kPi * luminance(sent), cell.sunLux += s.sunLux, n += 1;
       members.push_back(order[k]);
     }
     if (!cell.sure) way += runs[r].end - runs[r].begin;
     if (members.size() < fewest) continue;
     for (const uint32_t m : members) covered[m] = 1;
-    cell.radianceCdM2 = cell.radianceCdM2 / n, cell.lux /= n, cell.sunLux /= n;
+    cell.radianceCdM2 = cell.radianceCdM2 / n, cell.ownCdM2 = cell.ownCdM2 / n, cell.lux /= n, cell.sunLux /= n;
     cells_[kept++] = cell;
     keys_.push_back(keys[order[runs[r].begin]]);
   }

@@ -15,6 +15,7 @@ namespace roomlight {
 
 struct HitCell {
   Vec3 radianceCdM2;   // as of a Lambertian surface, its albedo included
+  Vec3 ownCdM2;        // the same, of its samples alone
   float lux = 0, sunLux = 0;  // luminous illuminance; that of the sun, where there is one alone
   Vec3 place, normal;  // a surface point that the cell stands for
   int64_t slot = -1;   // of the voxel there
@@ -31,8 +32,11 @@ struct HitPlace {
 // One sample of the light there.
 struct LitHit {
   HitPlace at;
-  Vec3 radianceCdM2;
-  float lux = 0, sunLux = 0;
+  Vec3 albedo;             // radiances below are as of a white surface
+  Vec3 even, rare, sharp;  // as SurfaceLight has them, the first two told by neighbours, too
+  Vec3 own;                // the three as they were found
+  float sunLux = 0;
+  float rays = 1;  // that it stands for
   int64_t slot = -1;
   bool sure = false;
 };
@@ -46,9 +50,14 @@ class HitCache {
   // `voxelM`: larger cells reach beyond the voxels that samples are sure of.
   HitCache(float cellM, float voxelM) : cellM_(cellM), voxelM_(voxelM) {}
 
+  float cellM() const { return cellM_; }
   bool empty() const { return cells_.empty(); }
-  // Which of the places shall be lit: of those that share a cell at most `most`, in their order.
-  std::vector<uint32_t> chosen(std::span<const HitPlace> places, size_t most) const;
+  // Which of the places shall be lit: of those that share a cell at most `most`, in their order; and how many places each stands for.
+  struct Chosen {
+    uint32_t place;
+    float rays;
+  };
+  std::vector<Chosen> chosen(std::span<const HitPlace> places, size_t most) const;
   // A sample that the cell's first sample cannot see is left out. The result does not depend on the number of threads.
   void fill(const RayScene& rays, std::span<const LitHit> samples);
   // Null where no cell knows the place.

@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "base/parallel.h"
+#include "gather/hit_smoothing.h"
 #include "gather/pixel_rays.h"
 #include "gather/pixel_shader.h"
 
@@ -92,8 +93,8 @@ void surveyHits(const RayScene& rays, const Lights& lights, RayShader& shader, c
   for (uint32_t i = 0; i < all.hits.size(); ++i) {
     if (all.hits[i].hit.valid()) places.push_back(all.hits[i].at), placeOf.push_back(i);
   }
-  std::vector<uint32_t> chosen = cache.chosen(places, static_cast<size_t>(settings.hitSamples));
-  for (uint32_t& c : chosen) c = placeOf[c];
+  std::vector<HitCache::Chosen> chosen = cache.chosen(places, static_cast<size_t>(settings.hitSamples));
+  for (HitCache::Chosen& c : chosen) c.place = placeOf[c.place];
   const Scene& scene = rays.scene();
   const SharpLights sharp(rays, lights);
   const size_t suns = lights.sunCount(), firstSun = sharp.count() - suns;
@@ -105,14 +106,14 @@ void surveyHits(const RayScene& rays, const Lights& lights, RayShader& shader, c
     std::vector<Shading> work;
     std::vector<Shadow> shadows;
     for (size_t i = begin; i < end; ++i) {
-      const HitArrival& a = all.hits[chosen[i]];
+      const HitArrival& a = all.hits[chosen[i].place];
       SurfacePoint s = surfaceAt(scene, a.hit, a.direction);
-      const Vec3 albedo = bihemisphericalAlbedo(s.m), origin = offsetOrigin(s.p, s.ng);
+      const Vec3 origin = offsetOrigin(s.p, s.ng);
+      LitHit& out = lit[i];
+      out.at = a.at, out.slot = a.slot, out.sure = a.sure, out.rays = chosen[i].rays, out.albedo = bihemisphericalAlbedo(s.m);
       s.m = MaterialSample{};
       s.m.baseColor = Vec3(1);
-      LitHit& out = lit[i];
-      out.at = a.at, out.slot = a.slot, out.sure = a.sure, out.radianceCdM2 = albedo;
-      Sampler sampler(mix64(chosen[i] + kLightKey), 0, settings.seed);
+      Sampler sampler(mix64(chosen[i].place + kLightKey), 0, settings.seed);
       const auto firstShadow = static_cast<uint32_t>(shadows.size());
       for (size_t l = 0; l < sharp.count(); ++l) {
         const Vec2 u = sampler.next2();
@@ -128,13 +129,14 @@ void surveyHits(const RayScene& rays, const Lights& lights, RayShader& shader, c
     std::vector<SurfaceLight> light(work.size());
     shader.shade(work, shadows, light, own);
     for (size_t i = begin; i < end; ++i) {
-      const Vec3 sent = light[i - begin].diffuse + light[i - begin].rare + light[i - begin].sharp;
-      lit[i].radianceCdM2 *= sent, lit[i].lux = kPi * luminance(sent);
+      const SurfaceLight& l = light[i - begin];
+      lit[i].even = l.diffuse, lit[i].rare = l.rare, lit[i].sharp = l.sharp, lit[i].own = l.diffuse + l.rare + l.sharp;
     }
     rayCount += own.rays;
   });
   count.rays += rayCount;
   if (progress.stop()) return;
+  smoothLight(rays, cache, lit);
   cache.fill(rays, lit);
   shader.setHitCache(std::move(cache));
   shader.setGuide(guideFrom(all, shader));

@@ -9,7 +9,7 @@
 namespace roomlight {
 
 struct RayGatherSettings : PictureSettings {
-  RayGatherSettings() { samples = 20, firstSamples = 4, tolerance = 0.03f, raysPerShading = 2, fewestShadings = 1, filterPasses = 6; }
+  RayGatherSettings() { samples = 20, firstSamples = 4, tolerance = 0.05f, raysPerShading = 2, fewestShadings = 1, filterPasses = 6; }
   int estimates = 2;        // per shading, a power of two: each a ray that gathers what surfaces reflect, and one to every kind of light
   float nearVoxels = 2;     // what is hit nearer than this is lit afresh, not read from the cache
   float hitCellM = 0;       // edge of the smallest cells of the cache of hits; 0: chosen by the voxels; below 0: no such cache

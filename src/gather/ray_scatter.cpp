@@ -11,7 +11,7 @@ constexpr float kNothing = 1e-4f;
 constexpr float kPictureShare = 1.0f / 64;  // of layers' light from lamps comes from the picture's own samples: where it has light they have, too
 constexpr float kOften = 0.25f;             // of the strongest lamp's light: what gives as much is always asked
 constexpr float kDoubt = 0.125f;            // chance to ask a layer that seems not to reach a place
-constexpr float kLittle = 0.15f, kSeldom = 0.25f;  // of the light expected; chance to ask all the same
+constexpr float kLittle = 0.15f, kSeldom = 1.0f / 16;  // of the light expected; chance to ask all the same
 constexpr float kNudge = 0.05f;             // voxels
 constexpr uint64_t kLayerKey = 0x1a7e25;    // other random numbers than the picture's
 
@@ -71,7 +71,16 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
     }
   }
   const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
-  if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), sum, origin, layersOnly);
+  const float weight = w.layers ? 1 : askingWeight(sum, v.estimate, w);  // what gives the picture little may be all that a layer has
+  if (weight > 0 && (!isBlack(sum.diffuse) || !isBlack(sum.specular))) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), {sum.diffuse * weight, sum.specular * weight}, origin, layersOnly);
+}
+
+// What can give little beside the light expected seldom sends a ray, which counts for more then; 0: none.
+float RayScatter::askingWeight(const Lobes& light, uint32_t estimate, GatherWork& w) {
+  const float worth = luminance(light.diffuse + light.specular) / (kLittle * w.expected[estimate]);
+  if (!(worth < 1)) return 1;
+  const float chance = std::max(worth, kSeldom);
+  return w.samplers[estimate].fast1() < chance ? 1 / chance : 0;
 }
 
 void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
@@ -205,13 +214,9 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   f.diffuse *= patches_.pointShare(g.point, v.s.p, v.side, v.apart || v.followed ? cosine : mixed);
   f.specular *= v.clear && v.apart ? 0 : patches_.pointShare(g.point, v.s.p, v.side, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
   Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  // What can give little seldom sends a ray.
-  const float worth = luminance(sum.diffuse + sum.specular) / (kLittle * w.expected[v.estimate]);
-  if (worth < 1) {
-    const float chance = std::max(worth, kSeldom);
-    if (w.samplers[v.estimate].fast1() >= chance) return;
-    sum.diffuse = sum.diffuse / chance, sum.specular = sum.specular / chance;
-  }
+  const float weight = askingWeight(sum, v.estimate, w);
+  if (!(weight > 0)) return;
+  sum.diffuse *= weight, sum.specular *= weight;
   const GlowPoint& point = patches_.point(g.point);
   const LightLayers* layers = field_.layers.lights.get();
   const int32_t layer = !layers || BrightPatches::isSun(point) ? -1 : point.lamp >= 0 ? layers->ofLamp[static_cast<size_t>(point.lamp)]

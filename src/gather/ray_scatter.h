@@ -23,6 +23,7 @@ class RayScatter {
  private:
   static float cosinePdf(const GatherVertex& v, Vec3 wi);
   void lightsAt(const GatherVertex& v, GatherWork& w) const;
+  static float askingWeight(const Lobes& light, uint32_t estimate, GatherWork& w);
   void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly, GatherWork& w) const;
   // Whether layers' lamps are sampled for what the camera sees: else each of them is asked by whoever wants its light.
   bool asksLamps(bool lampsKnown) const { return sampleLamps_ && !lampsKnown; }

@@ -1,5 +1,6 @@
 #include "gather/ray_shader.h"
 
+#include "base/parallel.h"
 #include "base/sampling.h"
 #include "radiance/sky_guide.h"
 
@@ -53,6 +54,7 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
     sum += static_cast<double>(std::sqrt(lux) * areaM2), flux += static_cast<double>(lux * areaM2), area += static_cast<double>(areaM2);
   }
   if (area > 0) leastExpected_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi, meanRadiance_ = static_cast<float>(flux / area) / kPi;
+  findBrightest();
   if (!field.glowShare.empty()) markGlow();
   const Scene& scene = rays.scene();
   for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
@@ -183,18 +185,40 @@ float RayShader::expectedRadiance(const SurfacePoint& s) const {
   return own >= meanRadiance_ ? own : std::max(leastExpected_, brightestAround(s.p));
 }
 
-// Radiance of the brightest slot in the voxel of p and its neighbours, did it reflect all light: what faces p may be all that lights it.
+void RayShader::findBrightest() {
+  std::vector<float> own(voxels_.voxels.size());
+  parallelFor(own.size(), 8192, [&](size_t v) {
+    const SurfaceVoxel& voxel = voxels_.voxels[v];
+    const auto end = voxel.firstSlot + static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+    for (uint32_t slot = voxel.firstSlot; slot < end; ++slot) own[v] = std::max(own[v], luminance(field_.irradianceLux[slot]) / kPi);
+  });
+  brightest_ = own;
+  parallelFor(voxels_.bricks.size(), 64, [&](size_t b) {
+    const Int3 brick = voxels_.bricks[b].coord;
+    for (int i = 0; i < kBrickSize * kBrickSize * kBrickSize; ++i) {
+      const Int3 at{brick.x * kBrickSize + i % kBrickSize, brick.y * kBrickSize + i / kBrickSize % kBrickSize, brick.z * kBrickSize + i / (kBrickSize * kBrickSize)};
+      const int64_t voxel = voxels_.voxelAt(at);
+      if (voxel < 0) continue;
+      float most = own[static_cast<size_t>(voxel)];
+      for (int k = 0; k < 27; ++k) {
+        const int64_t beside = voxels_.voxelAt({at.x + k % 3 - 1, at.y + k / 3 % 3 - 1, at.z + k / 9 - 1});
+        if (beside >= 0) most = std::max(most, own[static_cast<size_t>(beside)]);
+      }
+      brightest_[static_cast<size_t>(voxel)] = most;
+    }
+  });
+}
+
+// Of the slots around p: what faces it may be all that lights it.
 float RayShader::brightestAround(Vec3 p) const {
   const Int3 at = voxels_.voxelOf(p);
+  if (const int64_t voxel = voxels_.voxelAt(at); voxel >= 0) return brightest_[static_cast<size_t>(voxel)];
   float most = 0;
   for (int i = 0; i < 27; ++i) {
-    const int64_t found = voxels_.voxelAt({at.x + i % 3 - 1, at.y + i / 3 % 3 - 1, at.z + i / 9 - 1});
-    if (found < 0) continue;
-    const SurfaceVoxel& voxel = voxels_.voxels[static_cast<size_t>(found)];
-    const auto count = static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
-    for (uint32_t k = voxel.firstSlot; k < voxel.firstSlot + count; ++k) most = std::max(most, luminance(field_.irradianceLux[k]));
+    const int64_t beside = voxels_.voxelAt({at.x + i % 3 - 1, at.y + i / 3 % 3 - 1, at.z + i / 9 - 1});
+    if (beside >= 0) most = std::max(most, brightest_[static_cast<size_t>(beside)]);
   }
-  return most / kPi;
+  return most;
 }
 
 Vec3 RayShader::skyAlong(const GatherPath& path) const {
@@ -396,7 +420,8 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
 }
 
 void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const {
-  Vec3 light = cell.radianceCdM2 * rayShare(path, cell.slot, cell.lux, cell.sunLux, p, n, luminance(cell.radianceCdM2));
+  const Vec3 even = path.clear ? cell.ownCdM2 : cell.radianceCdM2;  // in a picture noise is filtered, light told by what lies beside would be seen
+  Vec3 light = even * rayShare(path, cell.slot, cell.lux, cell.sunLux, p, n, luminance(even));
   if (cell.sunLux > 0) light = max(Vec3(0), light + sunward(path, hit, cell.sunLux, cell.normal));
   w.add(path.estimate, path.factor, light, {});
 }

@@ -40,6 +40,7 @@ class RayShader final : public SurfaceShader {
   void follow(GatherWork& w) const;
   float expectedRadiance(const SurfacePoint& s) const;
   float brightestAround(Vec3 p) const;
+  void findBrightest();
   void arrive(const GatherPath& path, const Hit& hit, GatherWork& w) const;
   bool cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const;
   bool cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const;
@@ -74,6 +75,7 @@ class RayShader final : public SurfaceShader {
   HitGuide guide_;
   float meanRadiance_ = 0, leastExpected_ = 0;  // cd/m² of white surfaces: the mean over all slots, and the least that a place is expected to have
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
+  std::vector<float> brightest_;  // per voxel, cd/m²: of its slots and those of its neighbours, did they reflect all light
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
   std::vector<uint8_t> glowBricks_;  // per brick: holds slots that shine beside lamps, or lies beside one that does
 };

@@ -13,7 +13,7 @@ HitPlace onFloor(float x, float z, uint32_t instance = 0) { return {{x, 0, z}, {
 
 LitHit lit(const HitPlace& at, float radiance, bool sure = true) {
   LitHit hit;
-  hit.at = at, hit.radianceCdM2 = Vec3(radiance), hit.lux = kPi * radiance, hit.sure = sure;
+  hit.at = at, hit.albedo = Vec3(1), hit.even = hit.own = Vec3(radiance), hit.sure = sure;
   return hit;
 }
 
@@ -82,9 +82,10 @@ TEST(HitCache, choosesAtMostSoManyOfACell) {
   const HitCache cache(kCellM, kVoxelM);
   std::vector<HitPlace> places(100, onFloor(0, 0));
   places.resize(103, onFloor(1, 0));
-  const std::vector<uint32_t> chosen = cache.chosen(places, 10);
+  const std::vector<HitCache::Chosen> chosen = cache.chosen(places, 10);
   EXPECT_EQ(chosen.size(), 13u);
-  EXPECT_EQ(std::count_if(chosen.begin(), chosen.end(), [](uint32_t i) { return i >= 100; }), 3);
+  EXPECT_EQ(std::count_if(chosen.begin(), chosen.end(), [](const HitCache::Chosen& c) { return c.place >= 100; }), 3);
+  for (const HitCache::Chosen& c : chosen) EXPECT_FLOAT_EQ(c.rays, c.place < 100 ? 10 : 1);
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+// Diffuse light by levels: what a smooth picture of its surfaces shows, and what each finer level adds to that. Levels are means by surfaces alone (hats, twice as wide each: the à-trous
+// wavelet transform, Starck & Murtagh 1994), so noise goes through them as through any linear filter, and one draw of it tells how much of a level it makes up around a pixel. As much of each
+// level is kept as stands out of that (Wiener's gain): clouds of noise go at every size; slopes, soft shadows and contacts stay.
+#pragma once
+
+#include "filter/filter_kernel.h"
+
+namespace roomlight {
+
+// Level 0 is what single pixels add. Of the finest the power of single pixels has to be bounded.
+bool hasOutliers(int level);
+// A draw of noise of that variance, the same whenever it is drawn for that pixel.
+float drawnNoise(float variance, size_t pixel);
+// Power of a level in row y, and of the noise in it, for pooling. `place` has the picture that it is part of, the other place what is smoother.
+void takePower(FilterRows& rows, int place, int y);
+// The power once more, of each pixel no more than a few times the noise pooled around it.
+void boundPower(FilterRows& rows, int place, int y);
+// Adds what stands out of noise there to what is kept. Pooled powers are in the first pool.
+void keepLevel(FilterRows& rows, int level, int place, int y);
+// Puts all that is kept on top of the smoothest picture, at `place`.
+void addKept(FilterRows& rows, int place, int y);
+// The square of the noise left then, for pooling.
+void takeNoise(FilterRows& rows, int place, int y);
+
+}  // namespace roomlight

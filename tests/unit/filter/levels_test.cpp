@@ -1,0 +1,119 @@
+// Filtering where rare light is apart, so that variances have no outliers: by levels.
+#include "filter/levels.h"
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "noisy_wall.h"
+
+namespace roomlight {
+namespace {
+
+using test::momentsOf;
+using test::noisyWall;
+
+constexpr int kWidth = 192, kHeight = 128, kPasses = 6;
+
+// Light on a wall, with noise of that part of it. Rare light of next to nothing.
+template <class Light>
+FilterInput wallWith(Light&& light, float noise, uint64_t seed = 0) {
+  FilterInput in = noisyWall(kWidth, kHeight, 0, 0);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      FilterPixel& p = in.at(x, y);
+      Rng rng(static_cast<uint64_t>(y) * 65536 + static_cast<uint64_t>(x), 1, seed);
+      const float l = light(x, y);
+      p.diffuse = p.albedo * (l * std::max(0.0f, 1 + noise * test::gaussian(rng)));
+      p.diffuseVariance = l * l * noise * noise, p.rare = Vec3(1e-6f);
+    }
+  }
+  return in;
+}
+
+// Root mean square of the relative error over pixels that `judged` takes.
+template <class Light, class Judged>
+double errorOf(const Image& image, Light&& light, Judged&& judged) {
+  double sum = 0, count = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (!judged(x, y)) continue;
+      const double off = static_cast<double>(luminance(image.at(x, y)) / (0.5f * light(x, y))) - 1;
+      sum += off * off, count += 1;
+    }
+  }
+  return std::sqrt(sum / count);
+}
+bool inside(int x, int y) { return x >= 16 && y >= 16 && x < kWidth - 16 && y < kHeight - 16; }
+
+TEST(Levels, wallsComeOutClean) {
+  const auto light = [](int, int) { return 10.0f; };
+  const Image after = filtered(wallWith(light, 0.4f), kPasses);
+  EXPECT_LT(errorOf(after, light, inside), 0.015);
+  EXPECT_NEAR(momentsOf(after, 0, kWidth).mean, 5, 0.03);
+}
+
+TEST(Levels, softShadowsStay) {
+  const auto light = [](int x, int y) { return 10 + 4 * std::sin(0.12f * static_cast<float>(x)) + 0.02f * static_cast<float>(y); };
+  EXPECT_LT(errorOf(filtered(wallWith(light, 0.4f), kPasses), light, inside), 0.05);
+  EXPECT_LT(errorOf(filtered(wallWith(light, 0.05f), kPasses), light, inside), 0.015);
+}
+
+TEST(Levels, edgesOfLightStay) {
+  const auto light = [](int x, int) { return x < kWidth / 2 ? 10.0f : 2.0f; };
+  const Image after = filtered(wallWith(light, 0.1f), kPasses);
+  EXPECT_LT(errorOf(after, light, [](int x, int y) { return inside(x, y) && std::abs(x - kWidth / 2) > 6; }), 0.04);
+  EXPECT_LT(errorOf(after, light, [](int x, int y) { return inside(x, y) && std::abs(x - kWidth / 2) > 1 && std::abs(x - kWidth / 2) <= 6; }), 0.1);
+}
+
+// Pixels far brighter than their variance tells.
+TEST(Levels, outliersAreSpread) {
+  const auto light = [](int, int) { return 10.0f; };
+  FilterInput in = wallWith(light, 0.2f);
+  for (int y = 10; y < kHeight; y += 20) {
+    for (int x = 10; x < kWidth; x += 20) in.at(x, y).diffuse += Vec3(10);
+  }
+  const Image before = composed(in), after = filtered(in, kPasses);
+  for (int y = 30; y < kHeight - 20; y += 20) {
+    for (int x = 30; x < kWidth - 20; x += 20) EXPECT_LT(luminance(after.at(x, y)), 5.75f) << x << ' ' << y;
+  }
+  EXPECT_NEAR(momentsOf(after, 0, kWidth).mean, momentsOf(before, 0, kWidth).mean, 0.01);
+}
+
+TEST(Levels, aContactStaysBesideAWall) {
+  // A thing a metre before the wall: its pixels are another surface.
+  const auto light = [](int x, int) { return x < 60 ? 40.0f : 10.0f; };
+  FilterInput in = wallWith(light, 0.3f);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < 60; ++x) in.at(x, y).position.z = 1;
+  }
+  const Image after = filtered(in, kPasses);
+  EXPECT_LT(errorOf(after, light, [](int x, int y) { return inside(x, y) && std::abs(x - 60) < 8; }), 0.06);
+}
+
+TEST(Levels, theNoiseLeftIsTold) {
+  const auto light = [](int x, int) { return x < kWidth / 2 ? 10.0f : 2.0f; };
+  const FilterInput in = wallWith(light, 0.3f);
+  const FilteredLuminance left = filteredLuminance(in, kPasses, [&](size_t i) { return in.pixels[i]; });
+  double told = 0, found = 0;
+  constexpr int kSeeds = 6;
+  for (uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Image a = filtered(wallWith(light, 0.3f, 2 * seed), kPasses), b = filtered(wallWith(light, 0.3f, 2 * seed + 1), kPasses);
+    for (size_t i = 0; i < a.pixels.size(); ++i) {
+      const double off = static_cast<double>(luminance(a.pixels[i]) - luminance(b.pixels[i]));
+      found += off * off / 2 / kSeeds;
+    }
+  }
+  for (const float v : left.variance) told += static_cast<double>(v);
+  EXPECT_GT(told, found / 1.5);
+  EXPECT_LT(told, found * 1.5);
+}
+
+TEST(Levels, theSameBitsWithAnyNumberOfThreads) {
+  const FilterInput in = wallWith([](int x, int y) { return 5 + 0.01f * static_cast<float>(x * y % 97); }, 0.3f);
+  Image one;
+  withThreads(1, [&] { one = filtered(in, kPasses); });
+  EXPECT_EQ(one.pixels, filtered(in, kPasses).pixels);
+}
+
+}  // namespace
+}  // namespace roomlight
