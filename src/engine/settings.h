@@ -25,7 +25,7 @@ struct RenderSettings {
   int width = 960, height = 540;
   int samples = 0;         // per pixel; 0: the technique's default, or no limit where time or noise ends the work
   double timeLimitS = 0;   // be done after this long, but not before every pixel has light; 0: no limit
-  double noiseLevel = 0;   // technique "path": stop when the mean relative standard error is below this; 0: never
+  double noiseLevel = 0;   // technique "path": stop when the mean relative standard error is below this; "hybrid": rays go on where a pixel's is above; 0: never
   uint64_t seed = 0;
   bool layers = false;      // techniques "hybrid" and "path": the light of every lamp, emissive mesh, sun and sky apart as well
   bool layersByRoom = false;  // and lamps of a room together

@@ -31,6 +31,7 @@ Result<Picture> renderHybrid(const Scene& scene, const Camera& camera, const Ren
   }
 
   tellNumbers(light, result, stages);
+  if (result.noiseLeft >= 0) stages.number("noiseLeft", result.noiseLeft);
   stages.number("pixelsGathered", static_cast<double>(gathered));
   // Paths see the sky as it is, with its sun in it.
   if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, Lights(scene), camera, settings, left(), stages, result.image);

@@ -165,7 +165,9 @@ struct Sum {
   }
 };
 
-enum Diffuse { kNone, kByNoise, kByLevels };
+enum Diffuse { kNone,
+               kByNoise,
+               kByLevels };
 
 template <Diffuse kDiffuse, bool kSharp, bool kSpecular, bool kRare>
 void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/split.h"
 #include "filter/filter.h"
+#include "gather/noise_left.h"
 #include "gather/noise_map.h"
 #include "gather/pixel_rays.h"
 #include "gather/sparse_gather.h"
@@ -64,6 +65,8 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
   const Stopwatch watch;
   std::vector<uint16_t> needed;  // rays, as planned after so many samples
   size_t planned = 0;
+  FilteredLuminance left;  // as the last plan found it, after so many rays
+  std::vector<uint32_t> raysThen;
   double passSeconds = 0, passRays = 0;  // of the last
   while (result.samples < settings.samples) {
     const auto first = static_cast<size_t>(result.samples);
@@ -71,8 +74,10 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     const auto most = static_cast<size_t>(first > 0 || !(settings.tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
     const size_t n = std::min(kRaysAtOnce, most - first);
     if (chosen && first > kPlanned * planned) {
-      const FilteredLuminance left = settings.rareApart ? filteredLuminance(sums, settings.filterPasses, [&](size_t i) { return meanOf(sums.pixels[i], counts[i]); }) : FilteredLuminance();
+      left = settings.rareApart ? filteredLuminance(sums, settings.filterPasses, [&](size_t i) { return meanOf(sums.pixels[i], counts[i]); }) : FilteredLuminance();
       needed = raysNeeded(sums, counts, left, settings.rareApart ? settings.tolerance : kUnfiltered * settings.tolerance);
+      raysThen.clear();
+      for (const PixelCount& c : counts) raysThen.push_back(c.rays);
       planned = first;
     }
     const auto asks = [&](uint16_t further) { return further > first - planned; };
@@ -125,6 +130,11 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     if (progress.stop()) break;
   }
   if (settings.orNothing && progress.stop()) return {};
+  if (!left.variance.empty()) {
+    std::vector<uint32_t> raysNow;
+    for (const PixelCount& c : counts) raysNow.push_back(c.rays);
+    result.noiseLeft = noiseLeft(left, raysThen, raysNow);
+  }
   if (std::any_of(counts.begin(), counts.end(), [](const PixelCount& c) { return c.occlusion > 0; })) result.occlusion = Image(w, h);
   parallelFor(counts.size(), 4096, [&](size_t i) {
     sums.pixels[i] = meanOf(sums.pixels[i], counts[i]);

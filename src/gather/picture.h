@@ -30,6 +30,7 @@ struct GatheredPicture {
   Image occlusion;    // mean ambient occlusion, 0 open to 1 closed, in every channel; empty where nothing is closed, or the technique does not ask
   std::vector<Image> layers;  // where the shader keeps light apart: their sum is `image`
   int samples = 0;
+  double noiseLeft = -1;  // noise_left.h; below 0: not known, for no further rays were planned by what the filter left
   uint64_t rays = 0, cones = 0;
   size_t layerBytes = 0;  // taken by sums of layers while they were added up
 };

@@ -115,5 +115,19 @@ TEST(TimeLimit, enlargedPicturesKeepTheirPlace) {
   for (int x = 2; x < 14; ++x) EXPECT_NEAR(large.at(x, 3).x, (static_cast<float>(x) + 0.5f) / 4 - 0.5f, 1e-5) << x;
 }
 
+// A room lit by way of a white ceiling alone.
+TEST(NoiseLevel, raysGoOnUntilNoMoreNoiseIsLeft) {
+  LitRoom room;
+  room.scene.lamps[0].position = {2.8f, 2.55f, 1.5f};
+  RenderSettings settings = small(0);
+  settings.noiseLevel = 0.1;
+  const Rendered rough = render(room.scene, room.camera, settings).value();
+  settings.noiseLevel = 0.01;
+  const Rendered fine = render(room.scene, room.camera, settings).value();
+  EXPECT_GT(number(fine, "rays"), 1.5 * number(rough, "rays"));
+  ASSERT_GE(number(rough, "noiseLeft"), 0);
+  EXPECT_LT(number(fine, "noiseLeft"), 0.02);
+}
+
 }  // namespace
 }  // namespace roomlight
