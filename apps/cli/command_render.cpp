@@ -325,7 +325,7 @@ Registered addRender(CLI::App& program) {
   app->add_option("--quality", o->quality, listed("How much is done for a picture, if nothing else says so:", qualities()));
   app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");
   app->add_option("--time-limit", o->timeLimitS, "Be done this many seconds after loading, with the best picture for that; every pixel has light in any case");
-  app->add_option("--noise-level", o->noiseLevel, "Stop when the mean relative error per pixel is below this, for example 0.02 (techniques hybrid and path)");
+  app->add_option("--noise-level", o->noiseLevel, "Stop when noise is below this part of the light, for example 0.02: of the mean over pixels (technique path), of every pixel (hybrid)");
   app->add_flag("--layers", o->layers, "The light of every lamp, emissive mesh, sun and sky apart: .exr with a layer for each, which add up to the picture (docs/formats/layers.md)");
   app->add_option("--layer-groups", o->layerGroups, "name: lamps of one name, or of one group in the lighting file, are one layer (the default); room: those of one room are");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same picture");

@@ -33,6 +33,16 @@ std::vector<int> stepsOf(int passes) {
   return steps;
 }
 
+// Powers of a level are pooled over its own step and then over this one.
+int secondPool(int step) { return step < kFarthestPool ? 2 * step : step; }
+
+// Pixels to each side that powers of any level are pooled over; where single pixels are bounded the noise is pooled before.
+int poolReachOf(int passes) {
+  int reach = 0;
+  for (int k = 0; k < passes; ++k) reach = std::max(reach, (hasOutliers(k) ? 2 : 1) * ((1 << k) + secondPool(1 << k)));
+  return reach;
+}
+
 // Pixels to each side that all passes together look.
 int reachOf(const std::vector<int>& steps) {
   int reach = 0;
@@ -67,10 +77,16 @@ void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
   }
 }
 
+// A picture with columns of its other side beside each edge.
+struct Round {
+  size_t beside = 0, width = 0;  // columns, and those of the picture; 0: it has none beside it
+  size_t columnOf(size_t x) const { return width == 0 ? x : (x + width * (1 + beside / width) - beside) % width; }
+};
+
 // Instead of the variance of a row's diffuse light, draws of its noise.
-void packNoise(std::span<const FilterPixel> pixels, FilterRows& rows, int y, size_t firstPixel) {
+void packNoise(std::span<const FilterPixel> pixels, FilterRows& rows, int y, size_t firstPixel, const Round& round) {
   float* noise = rows.line(FilterRows::light(0, 0) + FilterRows::kVariance, y);
-  for (size_t x = 0; x < pixels.size(); ++x) noise[x] = drawnNoise(pixels[x].diffuseVariance, firstPixel + x);
+  for (size_t x = 0; x < pixels.size(); ++x) noise[x] = drawnNoise(pixels[x].diffuseVariance, firstPixel + round.columnOf(x));
 }
 
 // A row of the picture.
@@ -91,6 +107,7 @@ struct Also {
   const std::function<FilterPixel(size_t)>* mean;
   std::vector<Vec3>*once, *irradiance;
   FilteredLuminance* left;
+  Round round = {};
 };
 
 Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
@@ -113,12 +130,12 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
   const std::vector<int> steps = stepsOf(passes);
   const bool levels = rare;  // variances without outliers
   const int around = levels && also.left ? kNoiseReach : 0;  // rows whose noise tells that of a pixel
-  const int pooled = levels ? 2 * farthest + around : 0, reach = reachOf(steps) + pooled;
+  const int pooled = levels ? poolReachOf(passes) + around : 0, reach = reachOf(steps) + pooled, margin = levels ? std::max(secondPool(farthest), around) : farthest;
   Image out(w, h);
   if (also.once) also.once->resize(out.pixels.size());
   if (also.irradiance) also.irradiance->resize(out.pixels.size());
   if (also.left) also.left->variance.resize(out.pixels.size()), also.left->luminance.resize(out.pixels.size());
-  FilterRows rows(w, std::min(h, kBand + 2 * reach), farthest);
+  FilterRows rows(w, std::min(h, kBand + 2 * reach), margin);
   int cleared = 0;  // rows whose margins are; passes leave them so
   for (int first = 0; first < h; first += kBand) {
     const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach), last = std::min(h, first + kBand);
@@ -131,7 +148,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
       if (y >= cleared) rows.clearMargins(y);
       const std::span<const FilterPixel> pixels = pixelsOfRow(begin + y);
       pack(pixels, rows, y);
-      if (levels) packNoise(pixels, rows, y, static_cast<size_t>(begin + y) * static_cast<size_t>(w));
+      if (levels) packNoise(pixels, rows, y, static_cast<size_t>(begin + y) * static_cast<size_t>(w), also.round);
     });
     cleared = std::max(cleared, end - begin);
     FilterPass pass;
@@ -149,7 +166,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
       left -= pass.step + 1;
       forRows(left, [&](int y) { filterRow(rows, pass, y); });
       if (levels && pass.filter[0]) {
-        const int wide = pass.step < kFarthestPool ? 2 * pass.step : pass.step, pool = pass.step + wide;
+        const int wide = secondPool(pass.step), pool = pass.step + wide;
         const auto poolTwice = [&](int beside) {
           forRows(beside + wide, [&](int y) { poolRow(rows, pass.step, 0, y); });
           forRows(beside, [&](int y) { poolRow(rows, wide, 1, y); });
@@ -198,13 +215,13 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
 
 // With as many columns of the other side beside each edge as all passes reach.
 Image filteredRound(const FilterInput& input, int passes) {
-  const int w = input.width, h = input.height, beside = reachOf(stepsOf(passes)) + (2 << std::max(0, passes - 1)), wide = w + 2 * beside;
+  const int w = input.width, h = input.height, beside = reachOf(stepsOf(passes)) + poolReachOf(passes), wide = w + 2 * beside;
   FilterInput padded(wide, h);
   parallelFor(static_cast<size_t>(h), 4, [&](size_t y) {
     const size_t row = y * static_cast<size_t>(w);
     for (int x = 0; x < wide; ++x) padded.at(x, static_cast<int>(y)) = input.pixels[row + static_cast<size_t>(((x - beside) % w + w) % w)];
   });
-  const Image all = filtered(padded, passes);
+  const Image all = filteredFlat(padded, passes, {nullptr, nullptr, nullptr, nullptr, {static_cast<size_t>(beside), static_cast<size_t>(w)}});
   Image out(w, h);
   for (int y = 0; y < h; ++y) std::copy_n(&all.at(beside, y), w, &out.at(0, y));
   return out;

@@ -208,8 +208,9 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
             // Its own noise tells nothing: what other diffuse light there is tells where it changes.
             const V one = load(here + FilterRows::kSeen * pitch), two = load(there + FilterRows::kSeen * pitch);
             const V apart = hn::Div(hn::Abs(hn::Sub(one, two)), hn::MulAdd(set(kSameLevel), hn::Add(hn::Max(one, hn::Zero(d)), hn::Max(two, hn::Zero(d))), set(1e-6f)));
+            const V level = hn::IfThenElseZero(hn::Ge(hn::Min(one, two), hn::Zero(d)), hn::Mul(apart, apart));  // unseen: like everything
             const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-            s.add(load3(at, pitch), hn::Zero(d), load(at + FilterRows::kWeight * pitch), hn::Mul(kernel, falloff(hn::Add(off, hn::Mul(apart, apart)))));
+            s.add(load3(at, pitch), hn::Zero(d), load(at + FilterRows::kWeight * pitch), hn::Mul(kernel, falloff(hn::Add(off, level))));
             continue;
           }
           // How far the light of two pixels differs, in units of their noise together: as seen from either, so that as much passes

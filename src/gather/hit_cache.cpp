@@ -93,13 +93,13 @@ void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, 
       if (!cell.sure && k != runs[r].begin && !(luminance(left[way + k - runs[r].begin]) > 0.25f)) continue;
       const LitHit& s = samples[order[k]];
       const Vec3 sent = s.even + s.rare + s.sharp;
-      cell.radianceCdM2 += s.albedo * sent, cell.ownCdM2 += s.albedo * s.own, cell.lux += kPi * luminance(sent), cell.sunLux += s.sunLux, n += 1;
+      cell.radianceCdM2 += s.albedo * sent, cell.ownCdM2 += s.albedo * s.own, cell.lux += kPi * luminance(sent), cell.ownLux += kPi * luminance(s.own), cell.sunLux += s.sunLux, n += 1;
       members.push_back(order[k]);
     }
     if (!cell.sure) way += runs[r].end - runs[r].begin;
     if (members.size() < fewest) continue;
     for (const uint32_t m : members) covered[m] = 1;
-    cell.radianceCdM2 = cell.radianceCdM2 / n, cell.ownCdM2 = cell.ownCdM2 / n, cell.lux /= n, cell.sunLux /= n;
+    cell.radianceCdM2 = cell.radianceCdM2 / n, cell.ownCdM2 = cell.ownCdM2 / n, cell.lux /= n, cell.ownLux /= n, cell.sunLux /= n;
     cells_[kept++] = cell;
     keys_.push_back(keys[order[runs[r].begin]]);
   }

@@ -16,7 +16,7 @@ namespace roomlight {
 struct HitCell {
   Vec3 radianceCdM2;   // as of a Lambertian surface, its albedo included
   Vec3 ownCdM2;        // the same, of its samples alone
-  float lux = 0, sunLux = 0;  // luminous illuminance; that of the sun, where there is one alone
+  float lux = 0, ownLux = 0, sunLux = 0;  // luminous illuminance, as of either; that of the sun, where there is one alone
   Vec3 place, normal;  // a surface point that the cell stands for
   int64_t slot = -1;   // of the voxel there
   float sizeM = 0;

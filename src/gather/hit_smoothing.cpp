@@ -64,7 +64,7 @@ void Smoothing::findClusters() {
       }
     });
     std::vector<Vec3> left(ways.size());
-    rays.transmittance(ways, left);
+    parallelRanges(ways.size(), kAtOnce, [&](size_t begin, size_t end) { rays.transmittance(std::span(ways).subspan(begin, end - begin), std::span(left).subspan(begin, end - begin)); });
     for (size_t i = 0; i < who.size(); ++i) {
       if (!(luminance(left[i]) > 0.25f)) cluster[who[i]] = c + 1;
     }
@@ -143,6 +143,8 @@ void Smoothing::refine(int level) {
   };
   struct Parent {
     size_t begin, end;  // nodes
+    float weight = 0, mean = 0;
+    double signal = 0, freedom = 0;  // how far its cells are off one another beyond noise, and how free they are to be
   };
   std::vector<Node> nodes;
   std::vector<Parent> parents;
@@ -158,19 +160,28 @@ void Smoothing::refine(int level) {
     node.mean = node.mean / node.weight;
     const float known = luminance(even[order[begin]]), off = std::clamp(luminance(node.mean) - known, -known, 2 * known);
     node.off2 = off * off, node.noise = variance[order[begin]] * known * known * squares / (node.weight * node.weight);
-    signal += static_cast<double>(node.weight * (node.off2 - node.noise)), all += static_cast<double>(node.weight * known * known);
     if (parents.empty() || larger[order[nodes[parents.back().begin].begin]] != larger[order[begin]]) parents.push_back({nodes.size(), nodes.size()});
     nodes.push_back(node);
-    parents.back().end = nodes.size();
+    parents.back().end = nodes.size(), parents.back().weight += node.weight, parents.back().mean += node.weight * luminance(node.mean);
   });
+  for (Parent& parent : parents) {
+    const float known = luminance(even[order[nodes[parent.begin].begin]]);
+    double signalAlone = 0;
+    for (size_t c = parent.begin; c < parent.end; ++c) {
+      // A mean that holds the cell itself differs from it by less.
+      const Node& node = nodes[c];
+      const float off = luminance(node.mean) - parent.mean / parent.weight, free = 1 - node.weight / parent.weight;
+      signalAlone += static_cast<double>(node.weight * (off * off - free * node.noise));
+      parent.signal += static_cast<double>(node.weight * (off * off - kChance * free * node.noise)), parent.freedom += static_cast<double>(node.weight * free);
+    }
+    signal += signalAlone, all += parent.freedom * static_cast<double>(known * known);
+  }
   const float spread2 = all > 0 ? std::clamp(static_cast<float>(signal / all), kLeastSpread * kLeastSpread, kMostSpread * kMostSpread) : 0;
   parallelFor(parents.size(), 64, [&](size_t i) {
     const Parent& parent = parents[i];
     const Vec3 whole = even[order[nodes[parent.begin].begin]];
     // As much as all cells of this level differ, or as those of the same larger one do.
-    double own = 0, weightOfAll = 0;
-    for (size_t c = parent.begin; c < parent.end; ++c) own += static_cast<double>(nodes[c].weight * (nodes[c].off2 - kChance * nodes[c].noise)), weightOfAll += static_cast<double>(nodes[c].weight);
-    const float known = luminance(whole), prior = std::max(spread2 * known * known, static_cast<float>(own / weightOfAll));
+    const float known = luminance(whole), own = parent.freedom > 0 ? static_cast<float>(parent.signal / parent.freedom) : 0, prior = std::max(spread2 * known * known, own);
     Vec3 sum;
     float weight = 0;
     for (size_t c = parent.begin; c < parent.end; ++c) {

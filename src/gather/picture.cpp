@@ -134,6 +134,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     std::vector<uint32_t> raysNow;
     for (const PixelCount& c : counts) raysNow.push_back(c.rays);
     result.noiseLeft = noiseLeft(left, raysThen, raysNow);
+    left = {}, raysThen = {};
   }
   if (std::any_of(counts.begin(), counts.end(), [](const PixelCount& c) { return c.occlusion > 0; })) result.occlusion = Image(w, h);
   parallelFor(counts.size(), 4096, [&](size_t i) {

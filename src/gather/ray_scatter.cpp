@@ -214,7 +214,7 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   f.diffuse *= patches_.pointShare(g.point, v.s.p, v.side, v.apart || v.followed ? cosine : mixed);
   f.specular *= v.clear && v.apart ? 0 : patches_.pointShare(g.point, v.s.p, v.side, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
   Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  const float weight = askingWeight(sum, v.estimate, w);
+  const float weight = w.layers ? 1 : askingWeight(sum, v.estimate, w);
   if (!(weight > 0)) return;
   sum.diffuse *= weight, sum.specular *= weight;
   const GlowPoint& point = patches_.point(g.point);

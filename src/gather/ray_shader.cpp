@@ -186,7 +186,8 @@ float RayShader::expectedRadiance(const SurfacePoint& s) const {
 }
 
 void RayShader::findBrightest() {
-  std::vector<float> own(voxels_.voxels.size());
+  std::vector<float>& own = ownBrightest_;
+  own.resize(voxels_.voxels.size());
   parallelFor(own.size(), 8192, [&](size_t v) {
     const SurfaceVoxel& voxel = voxels_.voxels[v];
     const auto end = voxel.firstSlot + static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
@@ -216,7 +217,7 @@ float RayShader::brightestAround(Vec3 p) const {
   float most = 0;
   for (int i = 0; i < 27; ++i) {
     const int64_t beside = voxels_.voxelAt({at.x + i % 3 - 1, at.y + i / 3 % 3 - 1, at.z + i / 9 - 1});
-    if (beside >= 0) most = std::max(most, brightest_[static_cast<size_t>(beside)]);
+    if (beside >= 0) most = std::max(most, ownBrightest_[static_cast<size_t>(beside)]);
   }
   return most;
 }
@@ -421,7 +422,7 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
 
 void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const {
   const Vec3 even = path.clear ? cell.ownCdM2 : cell.radianceCdM2;  // in a picture noise is filtered, light told by what lies beside would be seen
-  Vec3 light = even * rayShare(path, cell.slot, cell.lux, cell.sunLux, p, n, luminance(even));
+  Vec3 light = even * rayShare(path, cell.slot, path.clear ? cell.ownLux : cell.lux, cell.sunLux, p, n, luminance(even));
   if (cell.sunLux > 0) light = max(Vec3(0), light + sunward(path, hit, cell.sunLux, cell.normal));
   w.add(path.estimate, path.factor, light, {});
 }

@@ -75,7 +75,7 @@ class RayShader final : public SurfaceShader {
   HitGuide guide_;
   float meanRadiance_ = 0, leastExpected_ = 0;  // cd/m² of white surfaces: the mean over all slots, and the least that a place is expected to have
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
-  std::vector<float> brightest_;  // per voxel, cd/m²: of its slots and those of its neighbours, did they reflect all light
+  std::vector<float> ownBrightest_, brightest_;  // per voxel, cd/m²: of its slots, did they reflect all light, and with those of its neighbours
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
   std::vector<uint8_t> glowBricks_;  // per brick: holds slots that shine beside lamps, or lies beside one that does
 };

@@ -115,5 +115,61 @@ TEST(Levels, theSameBitsWithAnyNumberOfThreads) {
   EXPECT_EQ(one.pixels, filtered(in, kPasses).pixels);
 }
 
+// Whatever the passes, and however the picture is cut into bands.
+TEST(Levels, everyNumberOfPassesCleansWithinThePicture) {
+  double before = 1;
+  for (int passes = 1; passes <= 7; ++passes) {
+    FilterInput tall = noisyWall(24, 600, 0, 0);
+    for (size_t i = 0; i < tall.pixels.size(); ++i) {
+      FilterPixel& p = tall.pixels[i];
+      Rng rng(i, 2, 0);
+      p.diffuse = p.albedo * (10 * std::max(0.0f, 1 + 0.3f * test::gaussian(rng))), p.diffuseVariance = 9, p.rare = Vec3(1e-6f);
+    }
+    const Image after = filtered(tall, passes);
+    double square = 0;
+    for (const Vec3& p : after.pixels) square += std::pow(static_cast<double>(luminance(p)) / 5 - 1, 2) / static_cast<double>(after.pixels.size());
+    EXPECT_LT(square, before) << passes;
+    before = 1.1 * square;
+    const FilteredLuminance left = filteredLuminance(tall, passes, [&](size_t k) { return tall.pixels[k]; });
+    double told = 0;
+    for (const float v : left.variance) told += static_cast<double>(v) / static_cast<double>(left.variance.size());
+    EXPECT_LT(told, 2.25) << passes;  // of single pixels
+    EXPECT_GT(told, 0) << passes;
+  }
+  EXPECT_LT(before, 0.002);
+}
+
+// One pixel in sixteen has samples, rare light among them: the others take both from their surface.
+TEST(Levels, unsampledPixelsGetRareLightToo) {
+  FilterInput in = wallWith([](int, int) { return 10.0f; }, 0);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      FilterPixel& p = in.at(x, y);
+      if (x % 4 == 1 && y % 4 == 2) {
+        p.rare = Vec3(2);
+      } else {
+        p.diffuse = p.rare = {}, p.diffuseVariance = p.diffuseShare = 0;
+      }
+    }
+  }
+  const Image after = filtered(in, kPasses);
+  for (int y = 16; y < kHeight - 16; ++y) {
+    for (int x = 16; x < kWidth - 16; ++x) EXPECT_NEAR(luminance(after.at(x, y)), 7, 0.1f) << x << ' ' << y;
+  }
+}
+
+// A panorama turned: draws of noise go with their columns, so nothing is seen of the seam.
+TEST(Levels, aPanoramaHasNoSeam) {
+  FilterInput in = wallWith([](int, int) { return 10.0f; }, 0.3f);
+  for (FilterPixel& p : in.pixels) p.position = {};
+  const Image after = filtered(in, kPasses, true);
+  double across = 0, elsewhere = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    across += std::pow(static_cast<double>(luminance(after.at(0, y)) - luminance(after.at(kWidth - 1, y))), 2);
+    elsewhere += std::pow(static_cast<double>(luminance(after.at(kWidth / 2, y)) - luminance(after.at(kWidth / 2 - 1, y))), 2);
+  }
+  EXPECT_LT(across, 4 * elsewhere + 1e-3);
+}
+
 }  // namespace
 }  // namespace roomlight
