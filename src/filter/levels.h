@@ -7,11 +7,14 @@
 
 namespace roomlight {
 
-// Level 0 is what single pixels add. Of the finest the power of single pixels has to be bounded.
+// Called by filter.cpp after each pass: takePower, pooling; of levels with outliers boundPower, pooling; keepLevel. After the last pass addKept; takeNoise, pooling. `place`: which of the two places
+// of diffuse light holds the finer picture; the other holds the smoother one.
+//
+// Level 0 is what single pixels add. In the finest single pixels may be outliers, so their power is bounded.
 bool hasOutliers(int level);
-// A draw of noise of that variance, the same whenever it is drawn for that pixel.
+// Plus or minus the root of `variance`, by a hash of the pixel: the same each time.
 float drawnNoise(float variance, size_t pixel);
-// Power of a level in row y, and of the noise in it, for pooling. `place` has the picture that it is part of, the other place what is smoother.
+// Power of a level in row y, and of the noise in it, for pooling.
 void takePower(FilterRows& rows, int place, int y);
 // The power once more, of each pixel no more than a few times the noise pooled around it.
 void boundPower(FilterRows& rows, int place, int y);

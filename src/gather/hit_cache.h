@@ -1,7 +1,7 @@
 // Light that leaves the places where gathering rays of one camera arrive, finer than voxels and without their errors: a hashed grid of cells, filled from the very hits that rays of this
 // picture find, then only read (after the radiance caches of Boissé et al. 2023, "GI-1.0", and Binder et al. 2019, "Massively parallel path space filtering").
 //
-// A cell holds what the samples that fell into it send out on average. What lies hidden within furniture is never hit, so it counts for nothing, and the mean over all rays is right however
+// A cell holds the mean of what its samples send out, as found and as told by their neighbours (hit_smoothing.h). What lies hidden within furniture is never hit, so it counts for nothing, and the mean over all rays is right however
 // coarse the cells are. Places seldom hit share larger cells.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace roomlight {
 
 struct HitCell {
   Vec3 radianceCdM2;   // as of a Lambertian surface, its albedo included
-  Vec3 ownCdM2;        // the same, of its samples alone
+  Vec3 ownCdM2;        // the same, as its samples found it: for what panes show, where light told by what lies beside would be seen
   float lux = 0, ownLux = 0, sunLux = 0;  // luminous illuminance, as of either; that of the sun, where there is one alone
   Vec3 place, normal;  // a surface point that the cell stands for
   int64_t slot = -1;   // of the voxel there
@@ -33,7 +33,7 @@ struct HitPlace {
 struct LitHit {
   HitPlace at;
   Vec3 albedo;             // radiances below are as of a white surface
-  Vec3 even, rare, sharp;  // as SurfaceLight has them, the first two told by neighbours, too
+  Vec3 even, rare, sharp;  // SurfaceLight's diffuse, rare and sharp light; smoothLight() changes the first two
   Vec3 own;                // the three as they were found
   float sunLux = 0;
   float rays = 1;  // that it stands for

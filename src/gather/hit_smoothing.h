@@ -8,7 +8,7 @@
 
 namespace roomlight {
 
-// Changes the diffuse light of all samples. Of what shares a largest cell only what has a free way to the same place is put together. The result does not depend on the number of threads.
+// Changes `even` and `rare` of all samples. Of what shares a largest cell only what has a free way to the same place is put together. The result does not depend on the number of threads.
 void smoothLight(const RayScene& rays, const HitCache& cells, std::span<LitHit> samples);
 
 }  // namespace roomlight
