@@ -11,7 +11,7 @@ namespace roomlight {
 namespace {
 
 constexpr int kTop = 4;                // level of the largest cells, each twice as large as the one below
-constexpr int kNear = 1;               // level of cells whose samples are lit alike
+constexpr int kAlikeLevel = 1;               // level of cells whose samples are lit alike
 constexpr int kAround = 2;             // level of cells whose mean bounds their samples,
 constexpr float kRareHere = 3;         // to so many times that,
 constexpr size_t kFewest = 6;          // where there are as many samples
@@ -94,7 +94,7 @@ void Smoothing::startAtTop() {
   even.resize(samples.size()), variance.resize(samples.size());
   // Of samples so near to one another that they should agree: squares of how far they are off their mean, and how many of them are free to be.
   std::vector<float> square(samples.size()), freedom(samples.size());
-  const std::vector<uint64_t> near = keysOf(kNear);
+  const std::vector<uint64_t> near = keysOf(kAlikeLevel);
   const std::vector<uint32_t> nearOrder = sortedBy(near);
   forRuns(near, nearOrder, [&](size_t begin, size_t end) {
     Vec3 sum;
