@@ -28,7 +28,7 @@ constexpr float kNoSamples = 1e-6f;        // instead of a weight of zero
 constexpr float kUnseen = -1;              // where no pixel has samples yet: like everything
 constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
 constexpr float kSameRoughness = 0.1f;
-constexpr int kFinestSeen = 2;             // pixels: coarser levels of diffuse light no longer tell rare light where it changes
+constexpr int kFinestSeen = 8;             // pixels: coarser levels of diffuse light no longer tell rare light where it changes
 constexpr float kSameLevel = 0.125f;       // of the sum of two pixels' diffuse light: rare light spreads where that differs by no more
 
 V load(const float* p) { return hn::LoadU(D(), p); }
