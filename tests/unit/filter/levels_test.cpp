@@ -158,18 +158,6 @@ TEST(Levels, unsampledPixelsGetRareLightToo) {
   }
 }
 
-// A pixel that found rare light has more of the other, too, up to what counts as rare: the rest does not stay there as a speck.
-TEST(Levels, rareLightSpreadsFromBrightPixels) {
-  FilterInput in = wallWith([](int, int) { return 10.0f; }, 0.2f);
-  for (int y = 10; y < kHeight; y += 20) {
-    for (int x = 10; x < kWidth; x += 20) in.at(x, y).diffuse = Vec3(30), in.at(x, y).rare = Vec3(100);
-  }
-  const Image after = filtered(in, kPasses);
-  for (int y = 30; y < kHeight - 20; y += 20) {
-    for (int x = 30; x < kWidth - 20; x += 20) EXPECT_LT(luminance(after.at(x, y)), 1.5f * luminance(after.at(x + 10, y + 10))) << x << ' ' << y;
-  }
-}
-
 // A panorama turned: draws of noise go with their columns, so nothing is seen of the seam.
 TEST(Levels, aPanoramaHasNoSeam) {
   FilterInput in = wallWith([](int, int) { return 10.0f; }, 0.3f);
