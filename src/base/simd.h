@@ -28,6 +28,10 @@ inline Float4 operator/(Float4 a, Float4 b) { return Float4(_mm_div_ps(a.v, b.v)
 inline Float4 operator&(Float4 a, Float4 b) { return Float4(_mm_and_ps(a.v, b.v)); }
 inline Float4 min(Float4 a, Float4 b) { return Float4(_mm_min_ps(a.v, b.v)); }
 inline Float4 max(Float4 a, Float4 b) { return Float4(_mm_max_ps(a.v, b.v)); }
+inline Float4 sqrt(Float4 a) { return Float4(_mm_sqrt_ps(a.v)); }
+inline Float4 operator|(Float4 a, Float4 b) { return Float4(_mm_or_ps(a.v, b.v)); }
+// Lanes of `yes` where every bit of `which` is set, of `no` where none is.
+inline Float4 select(Float4 which, Float4 yes, Float4 no) { return Float4(_mm_or_ps(_mm_and_ps(which.v, yes.v), _mm_andnot_ps(which.v, no.v))); }
 // Comparisons set every bit of the lanes where they hold; never of a NaN.
 inline Float4 operator<(Float4 a, Float4 b) { return Float4(_mm_cmplt_ps(a.v, b.v)); }
 inline Float4 operator<=(Float4 a, Float4 b) { return Float4(_mm_cmple_ps(a.v, b.v)); }

@@ -64,6 +64,7 @@ void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
     store(at + FilterRows::kNormal * pitch, pitch, p.surface > 0 ? p.normal : Vec3());
     store(at + FilterRows::kPosition * pitch, pitch, p.position);
     at[FilterRows::kRoughness * pitch] = p.roughness;
+    at[FilterRows::open(0) * pitch] = p.open;
     const Vec3 lights[kFilterLights] = {p.diffuse / divisor(p.albedo), p.sharp / divisor(p.albedo), p.specular, p.rare / divisor(p.albedo)};
     const float variances[kFilterLights] = {p.diffuseVariance, p.sharpVariance, p.specularVariance, 0};
     const float weights[kFilterLights] = {p.weight * p.diffuseShare, p.weight, p.weight * p.specularShare, p.weight * p.diffuseShare};

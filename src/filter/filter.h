@@ -18,6 +18,7 @@ struct FilterPixel {
   float specularVariance = 0;
   Vec3 normal, position;
   float roughness = 0;
+  float open = 1;         // 0..1: how open it is to what lies near, a mean always; equal everywhere: not known
   float surface = 0;  // 0..1: share of samples that saw a surface
   float weight = 1;   // samples that the pixel stands for among its neighbours,
   float diffuseShare = 1, specularShare = 1;  // and how many times as many of these lights; 0: none, its neighbours tell

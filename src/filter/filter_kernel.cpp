@@ -138,6 +138,7 @@ struct Sum {
   V ownVariance, ownWeight, seen, noise;
   V3 light;
   V variance, total, kernel;
+  V open;
 
   Sum() = default;
   Sum(const V3& c, V v, V w, V s, V n) : own(c), ownVariance(v), ownWeight(w), seen(s), noise(n), total(hn::Mul(w, set(kKernel[0]))), kernel(set(kKernel[0])) {
@@ -145,16 +146,16 @@ struct Sum {
     variance = hn::Mul(v, hn::Mul(total, total));
   }
   // By surfaces alone.
-  static Sum ofLevel(const V3& c, V drawn, V w) {
+  static Sum ofLevel(const V3& c, V drawn, V w, V openness) {
     Sum s;
     s.own = c, s.ownVariance = drawn, s.ownWeight = w, s.kernel = set(kSmooth[0]), s.total = hn::Mul(w, s.kernel);
-    s.light = {hn::Mul(c.x, s.total), hn::Mul(c.y, s.total), hn::Mul(c.z, s.total)}, s.variance = hn::Mul(drawn, s.total);
+    s.light = {hn::Mul(c.x, s.total), hn::Mul(c.y, s.total), hn::Mul(c.z, s.total)}, s.variance = hn::Mul(drawn, s.total), s.open = hn::Mul(openness, s.total);
     return s;
   }
-  void addLevel(const V3& c, V drawn, V samples, V share) {
+  void addLevel(const V3& c, V drawn, V openness, V samples, V share) {
     const V weight = hn::Mul(samples, share);
     light = {hn::MulAdd(c.x, weight, light.x), hn::MulAdd(c.y, weight, light.y), hn::MulAdd(c.z, weight, light.z)};
-    variance = hn::MulAdd(drawn, weight, variance);
+    variance = hn::MulAdd(drawn, weight, variance), open = hn::MulAdd(openness, weight, open);
     total = hn::Add(total, weight), kernel = hn::Add(kernel, share);
   }
   void add(const V3& c, V v, V samples, V share) {
@@ -184,7 +185,7 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
       if (!kUsed[k]) continue;
       const float* at = here + FilterRows::light(k, pass.place[k]) * pitch;
       if (k == 0 && kDiffuse == kByLevels) {
-        sums[k] = Sum::ofLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch));
+        sums[k] = Sum::ofLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), load(here + FilterRows::open(pass.place[0]) * pitch));
         continue;
       }
       sums[k] = Sum(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), load(here + (FilterRows::kSeen + k) * pitch), load(here + (FilterRows::kNoise + k) * pitch));
@@ -201,7 +202,7 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
           Sum& s = sums[k];
           if (k == 0 && kDiffuse == kByLevels) {
             const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-            s.addLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), hn::Mul(hn::Mul(set(kSmooth[std::abs(i) + std::abs(j)]), facing), falloff(off)));
+            s.addLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(there + FilterRows::open(pass.place[0]) * pitch), load(at + FilterRows::kWeight * pitch), hn::Mul(hn::Mul(set(kSmooth[std::abs(i) + std::abs(j)]), facing), falloff(off)));
             continue;
           }
           if (k == 3) {
@@ -238,6 +239,7 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
       hn::StoreU(hn::IfThenElse(kept, s.own.x, hn::Mul(s.light.x, inverse)), d, at);
       hn::StoreU(hn::IfThenElse(kept, s.own.y, hn::Mul(s.light.y, inverse)), d, at + pitch);
       hn::StoreU(hn::IfThenElse(kept, s.own.z, hn::Mul(s.light.z, inverse)), d, at + 2 * pitch);
+      if (k == 0 && kDiffuse == kByLevels) hn::StoreU(hn::Mul(s.open, inverse), d, rows.line(FilterRows::open(1 - pass.place[0]), y) + x);
       const V spread = k == 0 && kDiffuse == kByLevels ? inverse : hn::Mul(inverse, inverse);
       hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, spread)), d, at + FilterRows::kVariance * pitch);
       hn::StoreU(hn::IfThenElse(kept, s.ownWeight, hn::Div(s.total, s.kernel)), d, at + FilterRows::kWeight * pitch);

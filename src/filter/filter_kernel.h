@@ -15,8 +15,9 @@ class FilterRows {
   // reads one and writes the other.
   static constexpr int kNormal = 0, kPosition = 3, kRoughness = 6, kNoise = 7, kSeen = kNoise + kFilterLights, kLight = kSeen + kFilterLights, kVariance = 3, kWeight = 4, kParts = 5;
   // Of diffuse light by levels (levels.h): what of them is kept so far, its noise, and what is pooled, in two places.
-  static constexpr int kKept = kLight + kFilterLights * 2 * kParts, kKeptNoise = kKept + 3, kPool = kKeptNoise + 1, kPooled = 3, kCount = kPool + 2 * kPooled;
+  static constexpr int kKept = kLight + kFilterLights * 2 * kParts, kKeptNoise = kKept + 3, kPool = kKeptNoise + 1, kPooled = 5, kOpen = kPool + 2 * kPooled, kCount = kOpen + 2;
   static constexpr int light(int k, int place) { return kLight + (2 * k + place) * kParts; }
+  static constexpr int open(int place) { return kOpen + place; }
   static constexpr int pool(int place) { return kPool + kPooled * place; }
 
   FilterRows(int w, int h, int margin);

@@ -4,14 +4,16 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "base/vec.h"
 
 namespace roomlight {
 namespace {
 
 constexpr int kFinestLevels = 2;
-constexpr int kBounded = 0, kNoise = 1, kPower = 2;  // what is pooled
+constexpr int kBounded = 0, kNoise = 1, kPower = 2, kCross = 3, kOpen2 = 4;  // what is pooled
 constexpr int kColours = 3, kDrawn = 3;  // parts of diffuse light: its colour, then its drawn noise
 constexpr float kFine = 2, kCoarse = 1.1f;  // times the noise that a level is believed to hold: in single pixels it is seen at once, and told by fewer of them
+constexpr float kExplained = 0.1f;          // times that noise as well: what openness tells of a level is pooled from many pixels and holds little of theirs
 constexpr float kMostOfPixel = 6;           // times the noise around: more is an outlier
 // Of the noise that independent pixels would leave in each level, as variance. Pixels of a block share one well-distributed sequence (gather/pixel_shader), so the wider a level the less
 // there is. Measured on walls of the sample homes, eight seeds.
@@ -21,14 +23,15 @@ const float* partOf(const FilterRows& rows, int place, int part, int y) { return
 
 float noisePart(int level) { return kOfIndependent[std::min(level, static_cast<int>(std::size(kOfIndependent)) - 1)]; }
 
-// Calls body(x, d, n) with what a level adds to the smoother one, in luminance and in drawn noise.
+// Calls body(x, d, n, a) with what a level adds to the smoother one, in luminance, in drawn noise and in openness.
 template <class Body>
 void forLevel(const FilterRows& rows, int place, int y, Body&& body) {
   const float *fine[kColours + 1], *smooth[kColours + 1];
   for (int c = 0; c <= kColours; ++c) fine[c] = partOf(rows, place, c, y), smooth[c] = partOf(rows, 1 - place, c, y);
+  const float *open = rows.line(FilterRows::open(place), y), *smoothOpen = rows.line(FilterRows::open(1 - place), y);
   for (int x = 0; x < rows.width(); ++x) {
     const float d = 0.2126f * (fine[0][x] - smooth[0][x]) + 0.7152f * (fine[1][x] - smooth[1][x]) + 0.0722f * (fine[2][x] - smooth[2][x]);
-    body(x, d, fine[kDrawn][x] - smooth[kDrawn][x]);
+    body(x, d, fine[kDrawn][x] - smooth[kDrawn][x], open[x] - smoothOpen[x]);
   }
 }
 
@@ -39,37 +42,53 @@ bool hasOutliers(int level) { return level <= kFinestLevels; }
 float drawnNoise(float variance, size_t pixel) { return mix64(pixel + 0x9e3779b97f4a7c15ull) & 1 ? std::sqrt(variance) : -std::sqrt(variance); }
 
 void takePower(FilterRows& rows, int place, int y) {
-  float *bounded = rows.line(FilterRows::pool(0) + kBounded, y), *noise = rows.line(FilterRows::pool(0) + kNoise, y), *power = rows.line(FilterRows::pool(0) + kPower, y);
+  float* pooled[FilterRows::kPooled];
+  for (int q = 0; q < FilterRows::kPooled; ++q) pooled[q] = rows.line(FilterRows::pool(0) + q, y);
   const float* weight = partOf(rows, place, FilterRows::kWeight, y);
-  forLevel(rows, place, y, [&](int x, float d, float n) {
+  forLevel(rows, place, y, [&](int x, float d, float n, float a) {
     const float known = weight[x] > 0 ? 1.0f : 0.0f;
-    bounded[x] = power[x] = known * d * d, noise[x] = known * n * n;
+    pooled[kBounded][x] = pooled[kPower][x] = known * d * d, pooled[kNoise][x] = known * n * n;
+    pooled[kCross][x] = known * d * a, pooled[kOpen2][x] = known * a * a;
   });
 }
 
 void boundPower(FilterRows& rows, int place, int y) {
-  float *bounded = rows.line(FilterRows::pool(0) + kBounded, y), *power = rows.line(FilterRows::pool(0) + kPower, y);
-  const float *noise = rows.line(FilterRows::pool(0) + kNoise, y), *weight = partOf(rows, place, FilterRows::kWeight, y);
-  forLevel(rows, place, y, [&](int x, float d, float) {
-    power[x] = weight[x] > 0 ? d * d : 0;
-    bounded[x] = noise[x] > 0 ? std::min(power[x], kMostOfPixel * noise[x]) : power[x];
+  float* pooled[FilterRows::kPooled];
+  for (int q = 0; q < FilterRows::kPooled; ++q) pooled[q] = rows.line(FilterRows::pool(0) + q, y);
+  const float* weight = partOf(rows, place, FilterRows::kWeight, y);
+  forLevel(rows, place, y, [&](int x, float d, float, float a) {
+    const bool known = weight[x] > 0;
+    const float power = known ? d * d : 0, most = kMostOfPixel * pooled[kNoise][x];
+    const bool outlier = most > 0 && power > most;
+    pooled[kPower][x] = power, pooled[kBounded][x] = outlier ? most : power;
+    pooled[kCross][x] = known ? a * (outlier ? std::copysign(std::sqrt(most), d) : d) : 0, pooled[kOpen2][x] = known ? a * a : 0;
   });
 }
 
 void keepLevel(FilterRows& rows, int level, int place, int y) {
-  const float *bounded = rows.line(FilterRows::pool(0) + kBounded, y), *noise = rows.line(FilterRows::pool(0) + kNoise, y), *power = rows.line(FilterRows::pool(0) + kPower, y);
+  const float* pooled[FilterRows::kPooled];
+  for (int q = 0; q < FilterRows::kPooled; ++q) pooled[q] = rows.line(FilterRows::pool(0) + q, y);
   const float* weight = partOf(rows, place, FilterRows::kWeight, y);
   const bool outliers = hasOutliers(level);
-  const float doubt = (outliers ? kFine : kCoarse) * noisePart(level);
-  for (int c = 0; c <= kColours; ++c) {
-    const float *fine = partOf(rows, place, c, y), *smooth = partOf(rows, 1 - place, c, y);
-    float* kept = rows.line(FilterRows::kKept + c, y);
-    for (int x = 0; x < rows.width(); ++x) {
-      const float believed = doubt * noise[x];
-      if (!(bounded[x] > believed) || !(weight[x] > 0)) continue;
-      // As much as stands out, once it is no work of single pixels.
-      const float sure = outliers ? std::min(1.0f, bounded[x] / std::max(believed, 1e-30f) - 1) : 1;
-      kept[x] += sure * (1 - believed / power[x]) * (fine[x] - smooth[x]);
+  const float ofIndependent = noisePart(level), doubt = (outliers ? kFine : kCoarse) * ofIndependent;
+  const float *fine[kColours + 1], *smooth[kColours + 1];
+  float* kept[kColours + 1];
+  for (int c = 0; c <= kColours; ++c) fine[c] = partOf(rows, place, c, y), smooth[c] = partOf(rows, 1 - place, c, y), kept[c] = rows.line(FilterRows::kKept + c, y);
+  const float *open = rows.line(FilterRows::open(place), y), *smoothOpen = rows.line(FilterRows::open(1 - place), y);
+  for (int x = 0; x < rows.width(); ++x) {
+    if (!(weight[x] > 0)) continue;
+    // What openness tells of it.
+    const float explained = pooled[kOpen2][x] > 1e-12f ? pooled[kCross][x] * pooled[kCross][x] / pooled[kOpen2][x] : 0, doubted = kExplained * ofIndependent * pooled[kNoise][x];
+    const float trust = explained > doubted ? 1 - doubted / explained : 0;
+    const float told = trust > 0 ? trust * pooled[kCross][x] / pooled[kOpen2][x] * (open[x] - smoothOpen[x]) : 0;
+    const float around = luminance(Vec3{smooth[0][x], smooth[1][x], smooth[2][x]}), ratio = around > 0 ? told / around : 0;
+    const float believed = doubt * pooled[kNoise][x];
+    // As much as stands out, once it is no work of single pixels.
+    const float bounded = pooled[kBounded][x], sure = outliers ? std::min(1.0f, bounded / std::max(believed, 1e-30f) - 1) : 1;
+    const float gain = bounded > believed ? sure * (1 - believed / pooled[kPower][x]) : 0;
+    for (int c = 0; c <= kColours; ++c) {
+      const float part = c < kColours ? ratio * smooth[c][x] : 0;
+      kept[c][x] += part + gain * (fine[c][x] - smooth[c][x] - part);
     }
   }
 }

@@ -93,7 +93,7 @@ void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, 
       if (!cell.sure && k != runs[r].begin && !(luminance(left[way + k - runs[r].begin]) > 0.25f)) continue;
       const LitHit& s = samples[order[k]];
       const Vec3 sent = s.even + s.rare + s.sharp;
-      cell.radianceCdM2 += s.albedo * sent, cell.ownCdM2 += s.albedo * s.own, cell.lux += kPi * luminance(sent), cell.ownLux += kPi * luminance(s.own), cell.sunLux += s.sunLux, n += 1;
+      cell.radianceCdM2 += s.albedo * sent, cell.ownCdM2 += s.own, cell.lux += kPi * luminance(sent), cell.ownLux += kPi * luminance(s.own), cell.sunLux += s.sunLux, n += 1;
       members.push_back(order[k]);
     }
     if (!cell.sure) way += runs[r].end - runs[r].begin;

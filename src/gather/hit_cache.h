@@ -15,7 +15,7 @@ namespace roomlight {
 
 struct HitCell {
   Vec3 radianceCdM2;   // as of a Lambertian surface, its albedo included
-  Vec3 ownCdM2;        // the same, as its samples found it: for what panes show, where light told by what lies beside would be seen
+  Vec3 ownCdM2;        // the same of a white surface, as its samples found it: for what panes show, where light told by what lies beside would be seen
   float lux = 0, ownLux = 0, sunLux = 0;  // luminous illuminance, as of either; that of the sun, where there is one alone
   Vec3 place, normal;  // a surface point that the cell stands for
   int64_t slot = -1;   // of the voxel there

@@ -10,6 +10,7 @@
 #include "filter/filter.h"
 #include "gather/noise_left.h"
 #include "gather/noise_map.h"
+#include "gather/openness.h"
 #include "gather/pixel_rays.h"
 #include "gather/sparse_gather.h"
 
@@ -125,6 +126,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
       rayCount += count.rays;
       coneCount += count.cones;
     });
+    if (first == 0 && settings.rareApart) rayCount += findOpenness(rays, pixelRays.camera(), settings.seed, sums);
     result.samples += static_cast<int>(n);
     passSeconds = watch.seconds() - started, passRays = chosenRays;
     if (progress.stop()) break;

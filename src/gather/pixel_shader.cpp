@@ -230,7 +230,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
 void PixelShader::findOutshining(TileWork& work, std::span<const SurfaceLight> light) const {
   const auto brightness = [&](const TileWork::Part& part) {
     float sum = 0;
-    for (const SurfaceLight& l : light.subspan(part.first, part.count)) sum += luminance(l.diffuse + l.rare + l.sharp + l.specular);
+    for (const SurfaceLight& l : light.subspan(part.first, part.count)) sum += luminance(l.diffuse + l.rare + l.sharp + l.specular + l.mirrored);
     return part.count > 0 ? sum / static_cast<float>(part.count) : 0;
   };
   const auto rays = [](const TileWork::Part& part) { return part.weight * static_cast<float>(part.count); };
@@ -257,7 +257,7 @@ void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLig
   FilterPixel& sum = *part.pixel.sum;
   const float weight = part.weight / part.survival;
   if (part.outshines) {
-    for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.rare + l.sharp + l.specular) * weight, part.pixel.count->occlusion += l.occlusion * weight;
+    for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.rare + l.sharp + l.specular + l.mirrored) * weight, part.pixel.count->occlusion += l.occlusion * weight;
     return;
   }
   addVariance(shadings, part);
@@ -268,6 +268,7 @@ void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLig
     sum.sharp += part.left * l.sharp * weight;
     sum.albedo += part.left * l.albedo * part.weight;
     sum.specular += part.left * l.specular * (weight * static_cast<float>(part.glossy));
+    sum.rest += part.left * l.mirrored * weight;
     part.pixel.count->occlusion += l.occlusion * weight;
   }
 }
@@ -281,7 +282,7 @@ void PixelShader::addFragment(const TileWork::Part& part, std::span<const Surfac
   const float weight = part.weight / part.survival;
   for (const SurfaceLight& l : shadings) {
     f->diffuse += part.left * (l.diffuse + l.rare) * weight, f->albedo += part.left * l.albedo * part.weight;
-    part.pixel.sum->rest += part.left * (l.sharp + l.specular) * weight;
+    part.pixel.sum->rest += part.left * (l.sharp + l.specular + l.mirrored) * weight;
     part.pixel.count->occlusion += l.occlusion * weight;
   }
 }

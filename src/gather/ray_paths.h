@@ -89,6 +89,7 @@ struct GatherWork {
   std::vector<float> expected;  // and that all together should
   std::vector<Vec3> rare;       // of `found`, what single diffuse finds have beyond `rareFrom` times that
   float rareFrom = kInfinity;
+  std::vector<Vec3> mirrored;   // of `found`, emission seen as a picture
   std::vector<GatherPath> paths, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
@@ -107,7 +108,7 @@ struct GatherWork {
   std::vector<float> part;
 
   void clear() {
-    samplers.clear(), found.clear(), most.clear(), expected.clear(), rare.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
+    samplers.clear(), found.clear(), most.clear(), expected.clear(), rare.clear(), mirrored.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
     rayCount = 0, layers = nullptr, layersAlone = false, arrivals = nullptr, rareFrom = kInfinity;
   }
   void arrive(const GatherPath& path, const Hit& hit, const HitPlace& at, int64_t slot, bool sure) {

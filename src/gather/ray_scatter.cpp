@@ -71,13 +71,13 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
     }
   }
   const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
-  const float weight = w.layers ? 1 : askingWeight(sum, v.estimate, w);  // what gives the picture little may be all that a layer has
+  const float weight = w.layers ? 1 : askingWeight(sum, light.emitter >= 0 ? emitterSamples(v.depth) : 1, v.estimate, w);  // what gives the picture little may be all that a layer has
   if (weight > 0 && (!isBlack(sum.diffuse) || !isBlack(sum.specular))) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), {sum.diffuse * weight, sum.specular * weight}, origin, layersOnly);
 }
 
-// What can give little beside the light expected seldom sends a ray, which counts for more then; 0: none.
-float RayScatter::askingWeight(const Lobes& light, uint32_t estimate, GatherWork& w) {
-  const float worth = luminance(light.diffuse + light.specular) / (kLittle * w.expected[estimate]);
+// What can give little beside the light expected seldom sends a ray, which counts for more then; 0: none. `likeIt`: samples that share a kind of light.
+float RayScatter::askingWeight(const Lobes& light, size_t likeIt, uint32_t estimate, GatherWork& w) {
+  const float worth = static_cast<float>(likeIt) * luminance(light.diffuse + light.specular) / (kLittle * w.expected[estimate]);
   if (!(worth < 1)) return 1;
   const float chance = std::max(worth, kSeldom);
   return w.samplers[estimate].fast1() < chance ? 1 / chance : 0;
@@ -91,18 +91,24 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   const auto take = [&](const LightSample& light, int32_t layer, float weight = 1) { takeLight(v, light, LightOrigin::ofLayer(layer, weight), false, w); };
   const auto takeLocal = [&](const LightSample& light) { take(light, layers ? layers->of(light) : -1, asksLayers && (v.first || light.lamp >= 0) ? kPictureShare : 1); };
   if (v.first) {
-    if (sampleLamps_ && !v.lampsKnown) takeLocal(lights_.sampleLamps(v.s.p, sampler));
+    if (sampleLamps_ && !v.lampsKnown) takeLocal(field_.seen.sampleLamps(lights_, v.s.p, v.side, sampler));
   } else {
     if (lights_.lampCount() > 0 && !(asksLayers && w.layersAlone)) {
-      const LightSample lamp = lights_.sampleLamps(v.s.p, sampler);
+      const LightSample lamp = field_.seen.sampleLamps(lights_, v.s.p, v.side, sampler);
       if (!leavesToCache(v, lamp)) takeLocal(lamp);
     }
     for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()), layers ? layers->sun : -1);
   }
   if (lights_.hasEmitters()) {
-    const Vec2 u = sampler.next2();
-    const LightSample light = lights_.sampleEmitters(v.s.p, u, sampler.next1());
-    if (!leavesToCache(v, light)) takeLocal(light);
+    const size_t n = emitterSamples(v.depth);
+    std::array<Vec2, kEmitterSamples> u;
+    std::array<LightSample, kEmitterSamples> some;
+    const float choice = sampler.next1();
+    for (size_t k = 0; k < n; ++k) u[k] = sampler.next2();
+    field_.seen.sampleEmitters(lights_, v.s.p, v.side, std::span(u).first(n), choice, std::span(some).first(n));
+    for (size_t k = 0; k < n; ++k) {
+      if (!leavesToCache(v, some[k])) takeLocal(some[k]);
+    }
   }
   if (lights_.sky().present() && !v.skyKnown) {
     const Vec2 u = sampler.next2();
@@ -127,8 +133,12 @@ void RayScatter::layersAt(const GatherVertex& v, GatherWork& w) const {
       if (sampler.fast1() >= kDoubt) continue;
       weight /= kDoubt;
     }
-    const LightSample light = sampleLayer(l, v.s.p, lamps, v.first, sampler);
-    if (v.first || !leavesToCache(v, light)) takeLight(v, light, LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
+    const int n = layerSamples(v.depth);
+    for (int k = 0; k < n; ++k) {
+      LightSample light = sampleLayer(l, v.s.p, lamps, v.first, sampler);
+      light.radiance *= 1 / static_cast<float>(n), light.pdf *= static_cast<float>(n);
+      if (v.first || !leavesToCache(v, light)) takeLight(v, light, LightOrigin::ofLayer(static_cast<int32_t>(l), weight), true, w);
+    }
   }
 }
 
@@ -173,6 +183,8 @@ LightSample RayScatter::sampleLayer(size_t layer, Vec3 p, bool withLamps, bool w
   return light;
 }
 
+float RayScatter::pdfEmitters(const GatherPath& path, const SurfacePoint& s) const { return static_cast<float>(emitterSamples(path.depth - 1)) * field_.seen.pdfEmitters(lights_, path.from, path.side, s); }
+
 float RayScatter::weightInLayer(const GatherPath& path, const SurfacePoint& s) const {
   const int32_t emitter = lights_.emitterOf(s.instance);
   if (emitter < 0 || path.pdf <= 0 || path.depth > 1) return 1;
@@ -181,8 +193,8 @@ float RayScatter::weightInLayer(const GatherPath& path, const SurfacePoint& s) c
   for (const uint32_t i : m.lamps) total += asksLamps(path.lampsKnown) ? lights_.lampImportance(i, path.from) : 0;
   for (const uint32_t i : m.emitters) total += lights_.emitterImportance(i, path.from);
   const auto index = static_cast<size_t>(emitter);
-  const float pdf = total > 0 ? lights_.emitterImportance(index, path.from) / total * lights_.pdfEmitter(index, path.from, s) : 0;
-  const float own = misWeight(path.pdf, pdf), inPicture = misWeight(path.pdf, lights_.pdfEmitters(path.from, s));
+  const float pdf = total > 0 ? static_cast<float>(layerSamples(path.depth - 1)) * lights_.emitterImportance(index, path.from) / total * lights_.pdfEmitter(index, path.from, s) : 0;
+  const float own = misWeight(path.pdf, pdf), inPicture = misWeight(path.pdf, pdfEmitters(path, s));
   return kPictureShare + (1 - kPictureShare) * own / std::max(inPicture, 1e-20f);
 }
 
@@ -214,7 +226,7 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   f.diffuse *= patches_.pointShare(g.point, v.s.p, v.side, v.apart || v.followed ? cosine : mixed);
   f.specular *= v.clear && v.apart ? 0 : patches_.pointShare(g.point, v.s.p, v.side, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
   Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  const float weight = w.layers ? 1 : askingWeight(sum, v.estimate, w);
+  const float weight = w.layers ? 1 : askingWeight(sum, 1, v.estimate, w);
   if (!(weight > 0)) return;
   sum.diffuse *= weight, sum.specular *= weight;
   const GlowPoint& point = patches_.point(g.point);

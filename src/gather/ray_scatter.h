@@ -2,6 +2,8 @@
 // 1997, power heuristic).
 #pragma once
 
+#include <array>
+
 #include "gather/ray_paths.h"
 #include "radiance/bright_patches.h"
 #include "radiance/surroundings.h"
@@ -17,13 +19,19 @@ class RayScatter {
   void from(const GatherVertex& v, GatherWork& w) const;
   // Whether light straight from the emissive mesh of an instance to where the path came from is in the cache.
   bool isCached(const GatherPath& path, uint32_t instance) const;
+  // Density with which samples of emissive meshes where the path came from, all together, would have chosen its way to s.
+  float pdfEmitters(const GatherPath& path, const SurfacePoint& s) const;
   // What light of an emissive mesh, found where a path ends, weighs in its layer relative to the picture: layers sample each apart.
   float weightInLayer(const GatherPath& path, const SurfacePoint& s) const;
 
  private:
+  static constexpr size_t kEmitterSamples = 4;  // of what the camera sees,
+  static constexpr int kLayerSamples = 2;       // and of each layer there
+  static size_t emitterSamples(int depth) { return depth == 0 ? kEmitterSamples : 1; }
+  static int layerSamples(int depth) { return depth == 0 ? kLayerSamples : 1; }
   static float cosinePdf(const GatherVertex& v, Vec3 wi);
   void lightsAt(const GatherVertex& v, GatherWork& w) const;
-  static float askingWeight(const Lobes& light, uint32_t estimate, GatherWork& w);
+  static float askingWeight(const Lobes& light, size_t likeIt, uint32_t estimate, GatherWork& w);
   void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly, GatherWork& w) const;
   // Whether layers' lamps are sampled for what the camera sees: else each of them is asked by whoever wants its light.
   bool asksLamps(bool lampsKnown) const { return sampleLamps_ && !lampsKnown; }

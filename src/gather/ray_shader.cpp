@@ -76,22 +76,23 @@ void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> sha
   size_t first = 0;
   for (size_t i = 0; i < work.size(); ++i) {
     const auto n = static_cast<size_t>(estimates(work[i]));
-    sumUp(std::span(w.found).subspan(first, n), std::span(w.rare).subspan(first, n), light[i]);
+    sumUp(std::span(w.found).subspan(first, n), std::span(w.rare).subspan(first, n), std::span(w.mirrored).subspan(first, n), light[i]);
     first += n;
   }
   count.rays += w.rayCount;
 }
 
 // The mean of estimates, and its variance from how they differ.
-void RayShader::sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, SurfaceLight& out) {
+void RayShader::sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, std::span<const Vec3> mirrored, SurfaceLight& out) {
   const auto n = static_cast<float>(found.size());
   for (const Lobes& l : found) out.diffuse += l.diffuse / n, out.specular += l.specular / n;
   for (const Vec3& r : rare) out.rare += r / n;
-  out.diffuse = max(out.diffuse - out.rare, Vec3(0));
+  for (const Vec3& m : mirrored) out.mirrored += m / n;
+  out.diffuse = max(out.diffuse - out.rare, Vec3(0)), out.specular = max(out.specular - out.mirrored, Vec3(0));
   if (found.size() < 2) return;
   for (size_t i = 0; i < found.size(); ++i) {
     const Lobes& l = found[i];
-    const float d = luminance(l.diffuse - rare[i] - out.diffuse), s = luminance(l.specular - out.specular);
+    const float d = luminance(l.diffuse - rare[i] - out.diffuse), s = luminance(l.specular - mirrored[i] - out.specular);
     out.diffuseVariance += d * d / (n * (n - 1)), out.specularVariance += s * s / (n * (n - 1));
   }
 }
@@ -116,7 +117,7 @@ void RayShader::follow(GatherWork& w) const {
 SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const {
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
-  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), patches_.sideAt(s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
+  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), brickSideAt(voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
   v.skyKnown = work.skyKnown, v.lampsKnown = work.lampsKnown;
   SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
@@ -148,6 +149,7 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
     w.samplers.push_back(sampler.split(static_cast<uint32_t>(k), static_cast<uint32_t>(n)));
     w.found.push_back({});
     w.rare.push_back({});
+    w.mirrored.push_back({});
     w.most.push_back(most);
     w.expected.push_back(most < kInfinity ? most / kMost : 0);
     if (w.layers || w.arrivals) w.shadingOf.push_back(index), w.part.push_back(1 / static_cast<float>(n));
@@ -263,7 +265,8 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
       LightOrigin origin;
       if (w.layers) origin = LightOrigin::ofLayer(layerOf(hit.instance), scatter_.weightInLayer(path, s));
-      w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, lights_.pdfEmitters(path.from, s)) : 1), origin, path.depth == 1);
+      const Lobes added = w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1);
+      if (path.clear && path.depth == 1 && settings_.rareApart && !w.layers) w.mirrored[path.estimate] += added.specular;
     }
   }
   if (!(kind & kClearKind)) {
@@ -396,7 +399,7 @@ void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) cons
   s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  GatherVertex v{s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), patches_.sideAt(s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear};
+  GatherVertex v{s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear};
   v.inGlow = !path.clear && !isPolishedMetal(*s.material) && isInGlow(s);
   scatter_.from(v, w);
 }
@@ -421,7 +424,8 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
 }
 
 void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const {
-  const Vec3 even = path.clear ? cell.ownCdM2 : cell.radianceCdM2;  // in a picture noise is filtered, light told by what lies beside would be seen
+  // In a picture noise is filtered, light told by what lies beside would be seen, and so is a texture.
+  const Vec3 even = path.clear ? bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * cell.ownCdM2 : cell.radianceCdM2;
   Vec3 light = even * rayShare(path, cell.slot, path.clear ? cell.ownLux : cell.lux, cell.sunLux, p, n, luminance(even));
   if (cell.sunLux > 0) light = max(Vec3(0), light + sunward(path, hit, cell.sunLux, cell.normal));
   w.add(path.estimate, path.factor, light, {});

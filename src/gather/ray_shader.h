@@ -36,7 +36,7 @@ class RayShader final : public SurfaceShader {
   }
   void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, GatherCounters& count) const;
   SurfaceLight start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const;
-  static void sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, SurfaceLight& out);
+  static void sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, std::span<const Vec3> mirrored, SurfaceLight& out);
   void follow(GatherWork& w) const;
   float expectedRadiance(const SurfacePoint& s) const;
   float brightestAround(Vec3 p) const;

@@ -34,7 +34,8 @@ struct SurfaceLight {
   Vec3 rare;      // the same, what single rays found far beyond what all should (of shaders that tell; else part of diffuse), and
   Vec3 sharp;     // from suns and lamps
   Vec3 albedo;    // of that lobe: (diffuse + rare + sharp) / albedo is irradiance / pi
-  Vec3 specular;  // reflected by the glossy lobe
+  Vec3 specular;  // reflected by the glossy lobe, but for
+  Vec3 mirrored;  // what shines by itself and is seen as a picture in a smooth surface (of shaders that tell; else part of specular): no noise, however bright beside what is around
   float sharpVariance = 0;  // of the luminance of `sharp`
   float diffuseVariance = 0, specularVariance = 0;  // of the others', where the shader took several samples; else 0
   float occlusion = 0;

@@ -119,7 +119,7 @@ std::vector<std::pair<uint32_t, uint32_t>> BrightPatches::lights(const RayScene&
     for (size_t i = 0; i < way.size(); ++i) {
       if (!hits[i].valid()) continue;
       const Vec3 d = way[i].direction, p = way[i].origin + d * hits[i].t, g = normalize(hits[i].ng), n = dot(g, d) < 0 ? g : -g;
-      if (const int32_t b = sideAt(p, n); b >= 0) bricks.push_back(static_cast<uint32_t>(b));
+      if (const int32_t b = brickSideAt(*voxels_, p, n); b >= 0) bricks.push_back(static_cast<uint32_t>(b));
       if (letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[hits[i].instance].mesh)].material)])) way[on++] = {offsetOrigin(p, -n), d, 0, kInfinity};
     }
     way.resize(on);
@@ -141,18 +141,18 @@ void BrightPatches::learn(const RayScene& rays, uint64_t seed) {
     uint32_t patch;
     float fluxLm;
   };
-  std::vector<std::vector<Arrives>> byBrick(kSides * voxels_->bricks.size());
+  std::vector<std::vector<Arrives>> byBrick(kBrickSides * voxels_->bricks.size());
   for (uint32_t p = 0; p < patches_.size(); ++p) {
     for (const auto& [brick, count] : lit[p]) byBrick[brick].push_back({p, patches_[p].fluxLm * static_cast<float>(count) / static_cast<float>(kRays)});
   }
   std::vector<Seen> found(byBrick.size());
   parallelFor(found.size(), 64, [&](size_t b) {
     std::vector<Arrives> all = byBrick[b];
-    const Int3 c = voxels_->bricks[b / kSides].coord;
+    const Int3 c = voxels_->bricks[b / kBrickSides].coord;
     for (int k = 0; k < 27; ++k) {
       const int32_t n = k == 13 ? -1 : voxels_->brickAt({c.x + k % 3 - 1, c.y + k / 3 % 3 - 1, c.z + k / 9 - 1});
       if (n < 0) continue;
-      for (const Arrives& a : byBrick[kSides * static_cast<size_t>(n) + b % kSides]) all.push_back({a.patch, kBeside * a.fluxLm});
+      for (const Arrives& a : byBrick[kBrickSides * static_cast<size_t>(n) + b % kBrickSides]) all.push_back({a.patch, kBeside * a.fluxLm});
     }
     std::sort(all.begin(), all.end(), [](const Arrives& x, const Arrives& y) { return x.patch < y.patch; });
     std::vector<Arrives> sums;
@@ -176,21 +176,12 @@ void BrightPatches::learn(const RayScene& rays, uint64_t seed) {
   }
 }
 
-int32_t BrightPatches::sideAt(Vec3 p, Vec3 n) const {
-  if (points_.empty()) return -1;
-  for (const float nudge : {-kNudge, kNudge}) {
-    const Int3 v = voxels_->voxelOf(p + n * (nudge * voxels_->voxelSizeM));
-    if (v.x < 0 || v.y < 0 || v.z < 0) continue;
-    const int32_t b = voxels_->brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
-    if (b >= 0) return sideOf(static_cast<size_t>(b), dominantFace(n));
-  }
-  return -1;
-}
-
 // 0 where no patch's rays arrive: rays that gather are left to find what little there is.
 float BrightPatches::chanceOf(uint32_t patch, int32_t side) const {
+  const float byFlux = upTo_[patch] - (patch > 0 ? upTo_[patch - 1] : 0);
+  if (side < 0) return byFlux;
   const Seen* seen = seenFrom(side);
-  return seen ? kByFlux * (upTo_[patch] - (patch > 0 ? upTo_[patch - 1] : 0)) + (1 - kByFlux) * seen->chance(patch) : 0;
+  return seen ? kByFlux * byFlux + (1 - kByFlux) * seen->chance(patch) : 0;
 }
 
 // Per steradian at the place that looks: a point is chosen within its patch by flux.
@@ -200,7 +191,7 @@ float BrightPatches::pointsDensity(int32_t patch, float radianceCdM2, float dist
 
 // Of a point in a patch, by its flux. Glow so faint that no point fell into its patch is stood for by all points.
 float BrightPatches::chancePerLumen(int32_t patch, int32_t side) const {
-  if (patch < 0) return reaches(side) ? kByFlux / fluxLm_ : 0;
+  if (patch < 0) return reaches(side) ? (side < 0 ? 1 : kByFlux) / fluxLm_ : 0;
   return chanceOf(static_cast<uint32_t>(patch), side) / patches_[static_cast<size_t>(patch)].fluxLm;
 }
 
@@ -221,8 +212,9 @@ float BrightPatches::rayShare(int64_t slot, float radianceCdM2, float distance, 
 // By a number from 0 to 1.
 uint32_t BrightPatches::patchFor(int32_t side, float u) const {
   const Seen* seen = seenFrom(side);
-  if (u < kByFlux) {
-    const float choice = u / kByFlux;
+  const float byFlux = side < 0 ? 1 : kByFlux;
+  if (u < byFlux) {
+    const float choice = u / byFlux;
     return static_cast<uint32_t>(std::min<ptrdiff_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin(), static_cast<ptrdiff_t>(upTo_.size()) - 1));
   }
   const float choice = (u - kByFlux) / (1 - kByFlux);

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "radiance/brick_side.h"
 #include "radiance/lamp_glow.h"
 #include "trace/ray_scene.h"
-#include "voxel/voxels.h"
 
 namespace roomlight {
 
@@ -25,19 +25,15 @@ class BrightPatches {
   const GlowPoint& point(size_t index) const { return points_[index]; }
   static bool isSun(const GlowPoint& g) { return g.lamp < 0 && g.emitter < 0; }
 
-  // The side of a brick that knows what a place sees; -1: none. Where no patch is seen no point is sampled.
-  int32_t sideAt(Vec3 p, Vec3 n) const;
-  // One point for a surface at p; `pdf` is 0 and `radiance` what arrives if nothing is in the way, divided by the density of its choice. Not shared yet.
+  // One point for a surface at p on that side of a brick, none where no patch is seen, any where there is no brick (-1), as in the air; `pdf` is 0 and `radiance` what arrives if nothing is in the way, divided by the density of its choice. Not shared yet.
   GlowSample sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler) const;
   // The part that points take of the light from one of them to p, whose side that is, where rays find it with a density per steradian.
   float pointShare(size_t point, Vec3 p, int32_t side, float rayPdf) const;
   // The part of what a slot reflects of `radianceCdM2` that rays take who find it so.
   float rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side, float rayPdf) const;
   bool holdsSun(int64_t slot) const { return !holdsSun_.empty() && holdsSun_[static_cast<size_t>(slot)]; }
-  static constexpr size_t kSides = 6;
-  static int32_t sideOf(size_t brick, int face) { return static_cast<int32_t>(kSides * brick) + face; }
   // Whether any patch is known to light a side.
-  bool reaches(int32_t side) const { return seenFrom(side) != nullptr; }
+  bool reaches(int32_t side) const { return (side < 0 && !points_.empty()) || seenFrom(side) != nullptr; }
   size_t bytes() const;
 
  private:
@@ -57,7 +53,7 @@ class BrightPatches {
       return 0;
     }
   };
-  const Seen* seenFrom(int32_t side) const { return side < 0 || seenOfSide_[static_cast<size_t>(side)] < 0 ? nullptr : &seen_[static_cast<size_t>(seenOfSide_[static_cast<size_t>(side)])]; }
+  const Seen* seenFrom(int32_t side) const { return side < 0 || points_.empty() || seenOfSide_[static_cast<size_t>(side)] < 0 ? nullptr : &seen_[static_cast<size_t>(seenOfSide_[static_cast<size_t>(side)])]; }
   void gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare);
   std::vector<std::pair<uint32_t, uint32_t>> lights(const RayScene& rays, uint32_t patch, uint64_t seed) const;
   void learn(const RayScene& rays, uint64_t seed);

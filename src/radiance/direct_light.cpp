@@ -245,7 +245,7 @@ void DirectLight::lamps(std::span<const LightSurroundings> around, size_t brick,
   const auto most = static_cast<uint32_t>(settings_.directSamples);
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     Sampler sampler(paths_.key(s), k, settings_.seed + 5);
-    const LightSample light = lights_.sampleLamps(p, sampler);
+    const LightSample light = seen_.sampleLamps(lights_, p, brickSide(brick, voxels_.slots[s].face), sampler);
     return light.valid() && around[static_cast<size_t>(light.lamp)].contains(voxels_.slots[s].position) ? LightSample{} : light;
   };
   trace(brick, {(most + 1) / 2, most}, {}, lux, sample);
@@ -301,7 +301,7 @@ void DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::spa
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     Sampler sampler(paths_.key(s), k, settings_.seed + 3);
     const Vec2 u = sampler.next2();
-    const LightSample light = lights_.sampleEmitters(p, u, sampler.next1());
+    const LightSample light = seen_.sampleEmitters(lights_, p, brickSide(brick, voxels_.slots[s].face), u, sampler.next1());
     return light.valid() && besideEmitters_[static_cast<size_t>(light.emitter)].contains(voxels_.slots[s].position) ? LightSample{} : light;
   };
   const auto findMarks = [&](Marks& marks) {

@@ -14,8 +14,8 @@ namespace roomlight {
 // What part of direct light, traced brick by brick.
 class DirectLight {
  public:
-  DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings)
-      : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), settings_(settings), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {}
+  DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const SeenLights& seen, const RadianceSettings& settings)
+      : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), seen_(seen), settings_(settings), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {}
 
   // Illuminance in lx per channel of the slots of one brick, in one value per slot of the scene. Of a lamp for 1 cd. Of lamps and emissive
   // meshes less what their particles carry. Where `near` boxes are given only slots some of whose rays may cross one of them, and those beside
@@ -62,6 +62,7 @@ class DirectLight {
   const Lights& lights_;
   const Voxels& voxels_;
   const SlotPaths& paths_;
+  const SeenLights& seen_;
   const RadianceSettings& settings_;
   const std::vector<LightSurroundings> besideEmitters_;
   std::atomic<uint64_t> count_ = 0;

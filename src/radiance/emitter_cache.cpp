@@ -26,7 +26,7 @@ size_t LightCache::smallEmitters(const Sources& from) {
 bool LightCache::emittersApart(const Lights& lights) const { return settings_.emittersApart && lights.emitterCount() <= kMostApart; }
 
 void LightCache::traceEmittersTogether(const Sources& from) {
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   emittersTogether_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.emitters(b, {}, lux); });
   field_.rays += direct.rayCount();
 }
@@ -34,7 +34,7 @@ void LightCache::traceEmittersTogether(const Sources& from) {
 LightCache::EmitterLight LightCache::tracedEmitter(const Sources& from, size_t index, size_t small) {
   EmitterLight light{{from.rays.scene(), from.lights.emitterInstance(index)}, Vec3(1), static_cast<int32_t>(index), {}, {}};
   if (emittersApart(from.lights)) {
-    DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+    DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
     light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.emitter(index, b, {}, lux); });
     field_.rays += direct.rayCount();
   }
@@ -48,7 +48,7 @@ void LightCache::addEmitter(const Sources& from, size_t index, std::vector<Vec3>
     const auto light = std::find_if(emitters_.begin(), emitters_.end(), [&](const EmitterLight& e) { return e.index == static_cast<int32_t>(index); });
     return light->direct.addTo(from.voxels, light->scale, lux);
   }
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   lightOfAll(from, [&](size_t b, std::vector<Vec3>& own) { direct.emitter(index, b, {}, own); }).addTo(from.voxels, Vec3(1), lux);
   field_.rays += direct.rayCount();
 }
@@ -88,7 +88,7 @@ void LightCache::updateEmitters(const Sources& from, const Change& change) {
   std::erase_if(emitters_, [&](const EmitterLight& e) {
     return std::none_of(now.begin(), now.end(), [&](const EmissiveMesh& m) { return m.shinesLike(e.mesh); });
   });
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   for (EmitterLight& light : emitters_) {
     light.index = from.lights.emitterOf(light.mesh.instance);
     const auto index = static_cast<size_t>(light.index);

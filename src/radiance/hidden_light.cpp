@@ -12,21 +12,22 @@ namespace {
 
 class HiddenLight {
  public:
-  HiddenLight(const Lights& lights, const Voxels& voxels, const SkyGuide& guide) : lights_(lights), voxels_(voxels), guide_(guide), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
+  HiddenLight(const Lights& lights, const Voxels& voxels, const SkyGuide& guide, const SeenLights& seen) : lights_(lights), voxels_(voxels), guide_(guide), seen_(seen), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
     for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
   }
 
   // Hands on a sample of each kind of light at a place.
   template <class Take>
   void at(const HiddenPlace& h, Sampler& sampler, const Take& take) const {
+    const int32_t side = brickSideAt(voxels_, h.p, h.n);
     if (lights_.lampCount() > 0) {
-      const LightSample lamp = lights_.sampleLamps(h.p, sampler);
+      const LightSample lamp = seen_.sampleLamps(lights_, h.p, side, sampler);
       if (lamp.valid() && !besideLamps_[static_cast<size_t>(lamp.lamp)].contains(h.p)) take(lamp);
     }
     for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
     if (lights_.hasEmitters()) {
       const Vec2 u = sampler.next2();
-      const LightSample emitter = lights_.sampleEmitters(h.p, u, sampler.next1());
+      const LightSample emitter = seen_.sampleEmitters(lights_, h.p, side, u, sampler.next1());
       if (emitter.valid() && !besideEmitters_[static_cast<size_t>(emitter.emitter)].contains(h.p)) take(emitter);
     }
     if (lights_.sky().present()) {
@@ -39,16 +40,17 @@ class HiddenLight {
   const Lights& lights_;
   const Voxels& voxels_;
   const SkyGuide& guide_;
+  const SeenLights& seen_;
   std::vector<LightSurroundings> besideLamps_;
   const std::vector<LightSurroundings> besideEmitters_;
 };
 
 }  // namespace
 
-std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, uint64_t seed, uint64_t& rayCount) {
+std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, uint64_t seed, uint64_t& rayCount) {
   std::vector<Vec3> lux(voxels.slots.size());
   if (links.hidden.empty()) return lux;
-  const HiddenLight hidden(lights, voxels, guide);
+  const HiddenLight hidden(lights, voxels, guide, seen);
   std::atomic<uint64_t> count = 0;
   parallelFor(links.hidden.size(), 4, [&](size_t b) {
     SlotSamples samples;

@@ -9,6 +9,6 @@
 namespace roomlight {
 
 // Lights that fall straight on hidden places along links go on to these links' slots: lx per slot, of all lights together. What particles bring near lamps is left out.
-std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, uint64_t seed, uint64_t& rayCount);
+std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, uint64_t seed, uint64_t& rayCount);
 
 }  // namespace roomlight

@@ -3,7 +3,7 @@
 namespace roomlight {
 
 size_t RadianceField::bytes() const {
-  size_t sum = irradianceLux.size() * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]) + glow.bytes() + layers.bytes() + glowShare.size() * sizeof(float);
+  size_t sum = irradianceLux.size() * sizeof(Vec3) + guide.cdf.size() * sizeof(guide.cdf[0]) + seen.bytes() + glow.bytes() + layers.bytes() + glowShare.size() * sizeof(float);
   for (const RadianceLevel& level : levels) {
     sum += level.brickIndex.size() * sizeof(int32_t) + level.bricks.size() * sizeof(Brick) + level.planes.size() * (sizeof(DirectionalPlanes) + sizeof(DirectionalLight));
   }

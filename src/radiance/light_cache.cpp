@@ -60,6 +60,7 @@ LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels&
   traceAllLinks(from);
   progress.at(0.5f);
   traceDaylight(from);
+  learnLights(from);
   matchEmitters(from);
   matchLamps(from);
   progress.at(0.8f);
@@ -73,6 +74,7 @@ void LightCache::relight(const RayScene& rays, const Lights& lights, const Voxel
   field_.rays = 0;
   fewParticles_ = settings_.bouncesAtOnce > 0;
   paths_.refer(rays, voxels);
+  learnLights(from);
   matchEmitters(from);
   matchLamps(from);
   progress.at(0.5f);
@@ -111,6 +113,7 @@ void LightCache::followDaylight(const RayScene& rays, const Lights& lights, cons
   paths_.refer(rays, voxels);
   findGuide(from);
   traceDaylight(from);
+  learnLights(from);
   matchEmitters(from);
   matchLamps(from);
   progress.at(0.5f);
@@ -154,9 +157,15 @@ void LightCache::findGuide(const Sources& from) {
   field_.guide = guide.finish(from.progress);
 }
 
+// What is seen of lamps and emissive meshes. Where things move it would change with them, and with it the random choices of all that sees them.
+void LightCache::learnLights(const Sources& from) {
+  field_.seen = {};
+  if (settings_.still && !from.progress.stop()) field_.seen = SeenLights(from.rays, from.lights, from.voxels, paths_, settings_.seed, field_.rays);
+}
+
 // Suns and sky.
 void LightCache::traceDaylight(const Sources& from) {
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   suns_ = sky_ = {};
   skyWays_.clear();
   if (from.lights.sunCount() > 0) suns_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
@@ -184,7 +193,7 @@ SlotLight LightCache::lightOfAll(const Sources& from, const std::function<void(s
 
 void LightCache::traceLamp(const Sources& from, LampLight& light) {
   if (lampsApart(from.lights)) {
-    DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+    DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
     light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamp(light.lamp, b, {}, lux); });
     field_.rays += direct.rayCount();
   }
@@ -194,7 +203,7 @@ void LightCache::traceLamp(const Sources& from, LampLight& light) {
 bool LightCache::lampsApart(const Lights& lights) const { return !settings_.still || settings_.layers || lights.lampCount() <= kMostApart; }
 
 void LightCache::traceLampsTogether(const Sources& from) {
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   std::vector<LightSurroundings> around;
   for (size_t i = 0; i < from.lights.lampCount(); ++i) around.emplace_back(from.lights.lamp(i), from.voxels.voxelSizeM);
   lampsTogether_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamps(around, b, lux); });
@@ -288,7 +297,7 @@ std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   }
   holdSun(from);
   if (!links_.hidden.empty()) {
-    std::vector<Vec3> hidden = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, settings_.seed, field_.rays);
+    std::vector<Vec3> hidden = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, field_.seen, settings_.seed, field_.rays);
     smooth(links_, hidden);
     for (size_t i = 0; i < hidden.size(); ++i) direct_[i] += hidden[i];
   }

@@ -101,6 +101,7 @@ class LightCache {
   void updateLamps(const Sources& from, const Change& change);
   void findGuide(const Sources& from);
   void traceDaylight(const Sources& from);
+  void learnLights(const Sources& from);
   static size_t smallEmitters(const Sources& from);
   void traceEmittersTogether(const Sources& from);
   void addEmitter(const Sources& from, size_t index, std::vector<Vec3>& lux);

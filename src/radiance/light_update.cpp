@@ -67,6 +67,7 @@ void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels
   if (progress.stop()) return;
   updateLinks(from, paths, change);
   paths_ = paths;
+  learnLights(from);
   progress.at(0.5f);
   updateFixedLights(from, change);
   updateEmitters(from, change);
@@ -117,7 +118,7 @@ SlotLight LightCache::updated(const Sources& from, const SlotLight& before, cons
 }
 
 void LightCache::updateFixedLights(const Sources& from, const Change& change) {
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   if (from.lights.sunCount() > 0) {
     suns_ = updated(from, suns_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.suns(b, near, lux); });
   }
@@ -134,7 +135,7 @@ void LightCache::updateFixedLights(const Sources& from, const Change& change) {
 
 void LightCache::updateLamps(const Sources& from, const Change& change) {
   if (!lampsApart(from.lights)) return;  // matchLamps() lights them together
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, settings_);
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   for (LampLight& light : lamps_) {
     light.direct = updated(from, light.direct, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.lamp(light.lamp, b, near, lux); });
   }

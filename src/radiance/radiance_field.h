@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "radiance/lamp_glow.h"
+#include "radiance/seen_lights.h"
 #include "radiance/slot_layers.h"
 #include "trace/lights.h"
 #include "trace/ray_scene.h"
@@ -116,6 +117,7 @@ struct RadianceField {
   std::vector<Vec3> irradianceLux;    // per slot of Voxels: direct and indirect, per channel
   std::vector<float> sunLux;     // per slot: luminous irradiance straight from the sun, where there is one alone; else empty
   SkyGuide guide;
+  SeenLights seen;               // of pictures of a scene that stays as it is
   LampGlow glow;
   std::vector<GlowPoint> sunPoints;  // where the sun lights surfaces; empty unless asked for
   std::vector<float> glowShare;  // per slot: of the luminous irradiance whose reflection is glow; empty: none

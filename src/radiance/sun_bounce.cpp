@@ -105,7 +105,7 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
   std::atomic<uint64_t> count = 0;
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
     const auto [first, last] = slotsOfBrick(voxels, b);
-    const auto sideOf = [&](size_t s) { return BrightPatches::sideOf(b, voxels.slots[s].face); };
+    const auto sideOf = [&](size_t s) { return brickSide(b, voxels.slots[s].face); };
     // What links take of the light from slot j to slot s.
     const auto linkShare = [&](size_t s, size_t j) {
       const FaceSlot &to = voxels.slots[s], &from = voxels.slots[j];

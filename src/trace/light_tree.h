@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "base/weighted_choice.h"
 
 namespace roomlight {
 
@@ -45,7 +46,6 @@ class LightTree {
   };
   static constexpr uint32_t kLeaf = 8;      // lights that are weighed one by one
   static constexpr uint32_t kMostCut = 48;  // groups that are weighed beside one another
-  static constexpr float kBelowOne = 0x1.fffffep-1f;
   // Nodes that hold all lights, large ones only far from p.
   struct Cut {
     std::array<uint32_t, kMostCut> node;
@@ -71,21 +71,6 @@ class LightTree {
       cut.total += cut.weight[i] = node.right > 0 ? importance(node, p) : weightOfLeaf(node, weigh);
     }
   }
-  // Index of the weight in whose share of the sum u falls; rescales u to [0, 1) within that share.
-  template <class At>
-  static uint32_t pick(uint32_t count, float total, const At& weightAt, float& u) {
-    float v = u * total;
-    uint32_t last = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-      const float w = weightAt(i);
-      if (!(w > 0)) continue;
-      last = i;
-      if (v < w) break;
-      v -= w;
-    }
-    u = std::clamp(v / weightAt(last), 0.0f, kBelowOne);
-    return last;
-  }
 
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_, placeOf_, leafOf_;  // placeOf_: of a light, in order_
@@ -96,8 +81,8 @@ LightTree::Choice LightTree::choose(Vec3 p, float u, const Weigh& weigh) const {
   Cut cut;
   weighCut(p, cut, weigh);
   if (!(cut.total > 0)) return {};
-  const uint32_t chosen = pick(
-      cut.count, cut.total, [&](uint32_t i) { return cut.weight[i]; }, u);
+  const size_t chosen = chooseByWeight(
+      cut.count, cut.total, [&](size_t i) { return cut.weight[i]; }, u);
   float chance = cut.weight[chosen] / cut.total;
   uint32_t at = cut.node[chosen];
   while (nodes_[at].right > 0) {
@@ -115,8 +100,8 @@ LightTree::Choice LightTree::choose(Vec3 p, float u, const Weigh& weigh) const {
   float total = 0;
   for (uint32_t i = 0; i < leaf.count; ++i) total += weights[i] = weigh(order_[leaf.first + i]);
   if (!(total > 0)) return {};
-  const uint32_t own = pick(
-      leaf.count, total, [&](uint32_t i) { return weights[i]; }, u);
+  const size_t own = chooseByWeight(
+      leaf.count, total, [&](size_t i) { return weights[i]; }, u);
   return {order_[leaf.first + own], chance * weights[own] / total, u};
 }
 

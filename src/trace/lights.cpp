@@ -104,26 +104,43 @@ void Lights::addEmitter(uint32_t index, MeanEmission& means) {
     if (e.triangles.empty()) e.centre = v.a;
     e.bounds.add(v.a), e.bounds.add(v.b), e.bounds.add(v.c);
     flux += lm, e.areaM2 += area;
-    e.slotOfTriangle[t] = static_cast<int32_t>(e.triangles.size());
     e.triangles.push_back({t, lm, area, v, n});
-    e.cdf.push_back(static_cast<float>(flux));
   }
   if (e.triangles.empty()) return;
   for (EmitterTriangle& t : e.triangles) t.share /= static_cast<float>(flux);
-  for (float& end : e.cdf) end /= static_cast<float>(flux);
+  takePieces(e);
   e.centre = e.bounds.centre();
-  e.radius2 = 0.25f * lengthSquared(e.bounds.size());
   e.normal = flat ? normal : Vec3(0);
   e.fluxLm = static_cast<float>(flux);
   emitterFluxLm_ += flux;
   emitterOfInstance_[index] = static_cast<int32_t>(emitters_.size());
+  emitterTerms_.push_back({e.centre, e.normal, e.fluxLm / kPi, 0.0625f * lengthSquared(e.bounds.size()) + 1e-6f});
   emitters_.push_back(std::move(e));
 }
 
-float Lights::importance(const Emitter& e, Vec3 p) const {
+void Lights::takePieces(Emitter& e) {
+  std::vector<EmitterPieces::Part> parts;
+  for (const EmitterTriangle& t : e.triangles) {
+    Bounds3 bounds;
+    bounds.add(t.v.a), bounds.add(t.v.b), bounds.add(t.v.c);
+    parts.push_back({bounds, t.normal, t.share});
+  }
+  e.pieces = EmitterPieces(parts, e.doubleSided);
+  std::vector<EmitterTriangle> ordered;
+  double sum = 0;
+  for (const uint32_t i : e.pieces.order()) {
+    e.slotOfTriangle[e.triangles[i].triangle] = static_cast<int32_t>(ordered.size());
+    ordered.push_back(e.triangles[i]);
+    e.cdf.push_back(static_cast<float>(sum += static_cast<double>(e.triangles[i].share)));
+  }
+  e.triangles = std::move(ordered);
+}
+
+float Lights::importance(const EmitterTerms& e, Vec3 p) {
   // Nothing reaches a point behind a flat one-sided emitter; the margin keeps points in its plane.
-  if (!isBlack(e.normal) && dot(p - e.centre, e.normal) < -1e-3f) return 0;
-  return e.fluxLm / (kPi * std::max(lengthSquared(p - e.centre), 0.25f * e.radius2 + 1e-6f));
+  const Vec3 d = p - e.centre;
+  if (!isBlack(e.normal) && dot(d, e.normal) < -1e-3f) return 0;
+  return e.cd / std::max(lengthSquared(d), e.least2);
 }
 
 float Lights::importance(const LampTerms& lamp, Vec3 p) const {
@@ -215,8 +232,13 @@ LightRay Lights::sampleEmitterRay(size_t index, Sampler& sampler) const {
 }
 
 LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {
-  const EmitterTriangle& t = chosenTriangle(e, choice);
-  return sampleOnTriangle(e, t, chance * t.share, p, u);
+  const EmitterPieces::Choice piece = e.pieces.choose(p, choice);
+  if (!(piece.chance > 0)) return {};
+  const float before = piece.first > 0 ? e.cdf[piece.first - 1] : 0, end = e.cdf[piece.first + piece.count - 1];
+  const auto begin = e.cdf.begin() + piece.first;
+  const auto at = std::min<size_t>(static_cast<size_t>(std::upper_bound(begin, begin + piece.count, before + piece.rest * (end - before)) - begin), piece.count - 1);
+  const EmitterTriangle& t = e.triangles[piece.first + at];
+  return sampleOnTriangle(e, t, chance * piece.chance * t.share / piece.share, p, u);
 }
 
 LightSample Lights::sampleOnTriangle(const Emitter& e, const EmitterTriangle& t, float chance, Vec3 p, Vec2 u) const {
@@ -258,11 +280,12 @@ float Lights::pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) cons
   const EmitterTriangle& t = e.triangles[static_cast<size_t>(slot)];
   const TriangleVertices& v = t.v;
   const float solidAngle = triangleSolidAngle(p, v.a, v.b, v.c);
-  if (samplesSolidAngle(solidAngle)) return t.share / solidAngle;
+  const float chance = t.share * e.pieces.chanceOverShare(static_cast<uint32_t>(slot), p);
+  if (samplesSolidAngle(solidAngle)) return chance / solidAngle;
   const Vec3 d = q.p - p;
   const float d2 = lengthSquared(d);
   const float cosLight = std::abs(dot(q.ng, d)) / std::sqrt(std::max(d2, 1e-12f));
-  return t.share / t.areaM2 * d2 / std::max(cosLight, 1e-6f);
+  return chance / t.areaM2 * d2 / std::max(cosLight, 1e-6f);
 }
 
 // One by one where there are few, by groups where there are many.
@@ -335,15 +358,21 @@ LightSample Lights::sampleLamps(Vec3 p, Sampler& sampler) const {
   return s;
 }
 
+LightTree::Choice Lights::chooseEmitter(Vec3 p, float choice) const {
+  LightTree::Choice c = choose(emitterRange(), p, choice);
+  if (c.chance > 0) c.index -= lamps_.size();
+  return c;
+}
+
 LightSample Lights::sampleEmitters(Vec3 p, Vec2 u, float choice) const {
-  const LightTree::Choice c = choose(emitterRange(), p, choice);
-  return c.chance > 0 ? sampleEmitter(emitters_[c.index - lamps_.size()], p, u, c.rest, c.chance) : LightSample{};
+  const LightTree::Choice c = chooseEmitter(p, choice);
+  return c.chance > 0 ? sampleEmitter(emitters_[c.index], p, u, c.rest, c.chance) : LightSample{};
 }
 
 float Lights::pdfEmitters(Vec3 p, const SurfacePoint& q) const {
   const int32_t index = emitterOfInstance_[q.instance];
   if (index < 0) return 0;
-  const float chance = chanceOf(emitterRange(), lamps_.size() + static_cast<size_t>(index), p);
+  const float chance = chanceOfEmitter(static_cast<size_t>(index), p);
   return chance > 0 ? chance * pdfInEmitter(emitters_[static_cast<size_t>(index)], p, q) : 0;
 }
 

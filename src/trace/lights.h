@@ -6,6 +6,7 @@
 
 #include "base/sampler.h"
 #include "scene/scene.h"
+#include "trace/emitter_pieces.h"
 #include "trace/lamp_light.h"
 #include "trace/light_tree.h"
 #include "trace/sky_distribution.h"
@@ -44,6 +45,11 @@ class Lights {
   LightSample sampleLocal(Vec3 p, Vec2 u, float choice) const;
   // Density with which sampleLocal(p) would have chosen the direction to point q of an emissive triangle.
   float pdfLocal(Vec3 p, const SurfacePoint& q) const;
+  // One of the lamps, or of the emissive meshes, by what each could give at p without shadows; and the chance with which a certain one is chosen.
+  LightTree::Choice chooseLamp(Vec3 p, float choice) const { return choose(lampRange(), p, choice); }
+  float chanceOfLamp(size_t index, Vec3 p) const { return chanceOf(lampRange(), index, p); }
+  LightTree::Choice chooseEmitter(Vec3 p, float choice) const;
+  float chanceOfEmitter(size_t index, Vec3 p) const { return chanceOf(emitterRange(), lamps_.size() + index, p); }
   // All point and spot lamps one by one (no emissive meshes).
   size_t lampCount() const { return lamps_.size(); }
   const Lamp& lamp(size_t index) const { return lamps_[index]; }
@@ -66,7 +72,7 @@ class Lights {
   // A point of one triangle of it, chosen with that chance; dark where the triangle does not shine towards p.
   LightSample sampleEmitterTriangle(size_t index, size_t triangle, float chance, Vec3 p, Vec2 u) const { return sampleOnTriangle(emitters_[index], emitters_[index].triangles[triangle], chance, p, u); }
   float pdfEmitter(size_t index, Vec3 p, const SurfacePoint& q) const { return pdfInEmitter(emitters_[index], p, q); }
-  float emitterImportance(size_t index, Vec3 p) const { return importance(emitters_[index], p); }
+  float emitterImportance(size_t index, Vec3 p) const { return importance(emitterTerms_[index], p); }
   float lampImportance(size_t index, Vec3 p) const { return importance(lampTerms_[index], p); }
   // Emissive meshes one by one: each is all of one instance that emits.
   size_t emitterCount() const { return emitters_.size(); }
@@ -99,15 +105,20 @@ class Lights {
     uint32_t instance;
     Vec3 centre, normal;  // normal: of a flat one-sided emitter, else zero
     Bounds3 bounds;
-    float radius2 = 0;
     float areaM2 = 0;
     float fluxLm = 0;
     bool doubleSided = false;
     bool even = true;     // emits the same everywhere
     Vec3 emission;        // if so
-    std::vector<EmitterTriangle> triangles;
-    std::vector<float> cdf;               // upper ends of their shares
+    EmitterPieces pieces;
+    std::vector<EmitterTriangle> triangles;  // by piece
+    std::vector<float> cdf;                  // upper ends of their shares
     std::vector<int32_t> slotOfTriangle;  // mesh triangle -> index into triangles, -1: does not emit
+  };
+  struct EmitterTerms {  // of emitters_[i], worked out once
+    Vec3 centre, normal;  // normal: zero unless it lies in a plane and shines to one side
+    float cd;             // its flux over pi
+    float least2;         // m2, of the distance at least
   };
   struct LampTerms {  // of lamps_[i], worked out once
     Vec3 position, direction;
@@ -129,11 +140,11 @@ class Lights {
   // One chosen by what each could give at p without shadows, and the chance. Lamps come first, then emissive meshes.
   LightTree::Choice choose(const Range& among, Vec3 p, float choice) const;
   float chanceOf(const Range& among, size_t index, Vec3 p) const;
-  float localImportance(size_t index, Vec3 p) const { return index < lamps_.size() ? importance(lampTerms_[index], p) : importance(emitters_[index - lamps_.size()], p); }
+  float localImportance(size_t index, Vec3 p) const { return index < lamps_.size() ? importance(lampTerms_[index], p) : importance(emitterTerms_[index - lamps_.size()], p); }
   LightTree treeOf(size_t first, size_t last) const;
   void addAllLocal();
   void addEmitter(uint32_t instance, MeanEmission& means);
-  float importance(const Emitter& e, Vec3 p) const;
+  static float importance(const EmitterTerms& e, Vec3 p);
   float importance(const LampTerms& lamp, Vec3 p) const;
   float webImportance(const LampTerms& lamp, Vec3 p) const;
   void addLamps();
@@ -141,6 +152,7 @@ class Lights {
   LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;
   LightSample sampleOnTriangle(const Emitter& e, const EmitterTriangle& t, float chance, Vec3 p, Vec2 u) const;
   float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
+  static void takePieces(Emitter& e);
   static const EmitterTriangle& chosenTriangle(const Emitter& e, float choice);
   Vec3 emissionAt(const Emitter& e, const EmitterTriangle& t, Vec2 b) const;
 
@@ -151,6 +163,7 @@ class Lights {
   std::vector<LampTerms> lampTerms_;
   std::vector<Sun> suns_;
   std::vector<Emitter> emitters_;
+  std::vector<EmitterTerms> emitterTerms_;  // of each
   std::vector<int32_t> emitterOfInstance_;
   LightTree lampTree_, emitterTree_, localTree_;
   SkyDistribution sky_;

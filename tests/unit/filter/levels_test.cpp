@@ -52,6 +52,33 @@ TEST(Levels, wallsComeOutClean) {
   EXPECT_NEAR(momentsOf(after, 0, kWidth).mean, 5, 0.03);
 }
 
+// A dark line, narrower than noise lets see, where openness shows one too.
+TEST(Levels, contactsStayWhereOpennessTellsOfThem) {
+  const auto line = [](int x, int) { return x >= 94 && x < 98 ? 1.0f : 0.0f; };
+  const auto light = [&](int x, int y) { return 10 - 6 * line(x, y); };
+  const auto onLine = [&](int x, int y) { return inside(x, y) && line(x, y) > 0; };
+  FilterInput wall = wallWith(light, 0.8f);
+  const auto beside = [&](int x, int y) { return inside(x, y) && std::abs(x - 96) > 16; };
+  const Image blurred = filtered(wall, kPasses);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) wall.at(x, y).open = 1 - 0.5f * line(x, y);
+  }
+  const Image told = filtered(wall, kPasses);
+  EXPECT_LT(errorOf(told, light, onLine), 0.5 * errorOf(blurred, light, onLine));
+  EXPECT_LT(errorOf(told, light, beside), 1.1 * errorOf(blurred, light, beside));
+}
+
+// Where light has nothing to do with it openness adds nothing, noisy as it is itself.
+TEST(Levels, opennessThatTellsNothingDoesNoHarm) {
+  const auto light = [](int, int) { return 10.0f; };
+  FilterInput wall = wallWith(light, 0.4f);
+  for (size_t i = 0; i < wall.pixels.size(); ++i) {
+    Rng rng(i, 2, 7);
+    wall.pixels[i].open = (i / 16 % 2 ? 0.5f : 0.9f) + 0.1f * test::gaussian(rng);
+  }
+  EXPECT_LT(errorOf(filtered(wall, kPasses), light, inside), 0.025);
+}
+
 TEST(Levels, softShadowsStay) {
   const auto light = [](int x, int y) { return 10 + 4 * std::sin(0.12f * static_cast<float>(x)) + 0.02f * static_cast<float>(y); };
   EXPECT_LT(errorOf(filtered(wallWith(light, 0.4f), kPasses), light, inside), 0.05);
