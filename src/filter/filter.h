@@ -10,6 +10,8 @@
 
 namespace roomlight {
 
+constexpr float kMirrorRoughness = 0.08f;  // reflections of smoother surfaces are pictures, not light: they are left alone
+
 // Means over a pixel's samples.
 struct FilterPixel {
   Vec3 diffuse, sharp, albedo, specular, rest;  // the picture is diffuse + rare + sharp + specular + rest; albedo is of the first three

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "filter/filter.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/filter_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -26,7 +28,6 @@ constexpr float kSlope = 0.5f;             // of the distance between the two po
 constexpr float kLeastFacing = 0.3f;       // cosine between normals
 constexpr float kNoSamples = 1e-6f;        // instead of a weight of zero
 constexpr float kUnseen = -1;              // where no pixel has samples yet: like everything
-constexpr float kMirrorRoughness = 0.08f;  // reflections below this are pictures, not light
 constexpr float kSameRoughness = 0.1f;
 constexpr int kFinestSeen = 8;             // pixels: coarser levels of diffuse light no longer tell rare light where it changes
 constexpr float kSameLevel = 0.125f;       // of the sum of two pixels' diffuse light: rare light spreads where that differs by no more

@@ -14,6 +14,8 @@ constexpr int kBounded = 0, kNoise = 1, kPower = 2, kCross = 3, kOpen2 = 4;  // 
 constexpr int kColours = 3, kDrawn = 3;  // parts of diffuse light: its colour, then its drawn noise
 constexpr float kFine = 2, kCoarse = 1.1f;  // times the noise that a level is believed to hold: in single pixels it is seen at once, and told by fewer of them
 constexpr float kExplained = 0.1f;          // times that noise as well: what openness tells of a level is pooled from many pixels and holds little of theirs
+constexpr float kOwnPart = 0.03f;          // of what is pooled around a pixel is its own
+constexpr float kLeastOpen2 = 8e-4f;       // what openness differs by more is believed to tell something
 constexpr float kMostOfPixel = 6;           // times the noise around: more is an outlier
 // Of the noise that independent pixels would leave in each level, as variance. Pixels of a block share one well-distributed sequence (gather/pixel_shader), so the wider a level the less
 // there is. Measured on walls of the sample homes, eight seeds.
@@ -77,12 +79,14 @@ void keepLevel(FilterRows& rows, int level, int place, int y) {
   const float *open = rows.line(FilterRows::open(place), y), *smoothOpen = rows.line(FilterRows::open(1 - place), y);
   for (int x = 0; x < rows.width(); ++x) {
     if (!(weight[x] > 0)) continue;
-    // What openness tells of it.
-    const float explained = pooled[kOpen2][x] > 1e-12f ? pooled[kCross][x] * pooled[kCross][x] / pooled[kOpen2][x] : 0, doubted = kExplained * ofIndependent * pooled[kNoise][x];
-    const float trust = explained > doubted ? 1 - doubted / explained : 0;
-    const float told = trust > 0 ? trust * pooled[kCross][x] / pooled[kOpen2][x] * (open[x] - smoothOpen[x]) : 0;
+    // What openness tells of it, by how light follows it on other pixels around: by its own, a lone pixel would explain itself.
+    const float noise = pooled[kNoise][x], most = std::sqrt(kMostOfPixel * noise), a = open[x] - smoothOpen[x];
+    const float d = luminance(Vec3{fine[0][x] - smooth[0][x], fine[1][x] - smooth[1][x], fine[2][x] - smooth[2][x]}), bound = outliers && most > 0 ? std::clamp(d, -most, most) : d;
+    const float cross = pooled[kCross][x] - kOwnPart * a * bound, open2 = std::max(0.0f, pooled[kOpen2][x] - kOwnPart * a * a) + kLeastOpen2;
+    const float explained = cross * cross / open2, doubted = kExplained * ofIndependent * noise;
+    const float told = explained > doubted ? (1 - doubted / explained) * cross / open2 * a : 0;
     const float around = luminance(Vec3{smooth[0][x], smooth[1][x], smooth[2][x]}), ratio = around > 0 ? told / around : 0;
-    const float believed = doubt * pooled[kNoise][x];
+    const float believed = doubt * noise;
     // As much as stands out, once it is no work of single pixels.
     const float bounded = pooled[kBounded][x], sure = outliers ? std::min(1.0f, bounded / std::max(believed, 1e-30f) - 1) : 1;
     const float gain = bounded > believed ? sure * (1 - believed / pooled[kPower][x]) : 0;

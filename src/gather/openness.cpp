@@ -15,13 +15,6 @@ constexpr float kLiftPixels = 0.25f;
 constexpr float kNearestPixels = 2, kFarthestPixels = 64;  // reaches of rays, on a logarithmic scale
 constexpr uint32_t kOpenPass = 0x0be4;                 // other random numbers than light has
 
-// Width of a pixel at p.
-float footprintM(const CameraRays& camera, int x, int y, Vec3 p) {
-  const Ray a = camera.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), b = camera.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 1.5f);
-  const float t = length(p - a.origin);
-  return length(a.origin + a.direction * t - b.origin - b.direction * t);
-}
-
 }  // namespace
 
 uint64_t findOpenness(const RayScene& rays, const CameraRays& camera, uint64_t seed, FilterInput& sums) {
@@ -35,7 +28,7 @@ uint64_t findOpenness(const RayScene& rays, const CameraRays& camera, uint64_t s
       const FilterPixel& pixel = sums.at(x, y);
       if (!(pixel.surface > 0) || isBlack(pixel.normal)) continue;
       const Vec3 p = pixel.position / pixel.surface, n = normalize(pixel.normal);
-      const float step = footprintM(camera, x, y, p);
+      const float step = camera.pixelWidthM(x, y, p);
       const PixelSequence sequence(x, y, kOpenPass, seed);
       const Frame frame(n);
       for (uint32_t k = 0; k < kRaysAPixel; ++k) {

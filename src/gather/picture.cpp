@@ -126,9 +126,9 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
       rayCount += count.rays;
       coneCount += count.cones;
     });
-    if (first == 0 && settings.rareApart) rayCount += findOpenness(rays, pixelRays.camera(), settings.seed, sums);
     result.samples += static_cast<int>(n);
     passSeconds = watch.seconds() - started, passRays = chosenRays;
+    if (first == 0 && settings.rareApart && !(settings.orNothing && progress.stop())) rayCount += findOpenness(rays, pixelRays.camera(), settings.seed, sums);
     if (progress.stop()) break;
   }
   if (settings.orNothing && progress.stop()) return {};

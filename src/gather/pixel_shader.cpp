@@ -19,7 +19,7 @@ constexpr float kOutshines = 16, kShadeM = 0.3f;  // times as bright as what fil
 constexpr float kUnobstructed = 0.999f;  // of the light left: below, something stands before
 constexpr float kLeastSurvival = 0.25f;  // probability that cloth behind cloth is lit
 constexpr float kGlint = 1e-4f;       // of a bidirectional reflectance, where a white wall has .32: less is not seen of a lamp in a pane
-constexpr float kPictureRoughness = 0.08f, kMirrorReflectance = 0.2f;  // smoother: reflects a picture, which has edges of its own; and brighter: a mirror
+constexpr float kMirrorReflectance = 0.2f;  // brighter, and smooth: a mirror
 
 bool isUniform(const Material& m, const Mesh& mesh) {
   return m.baseColorTexture.texture < 0 && m.metallicRoughnessTexture.texture < 0 && m.transmissionTexture.texture < 0 &&
@@ -27,7 +27,7 @@ bool isUniform(const Material& m, const Mesh& mesh) {
 }
 
 // What panes reflect is seen by all rays.
-bool isPane(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && clear; }
+bool isPane(const MaterialSample& m, bool clear) { return m.roughness < kMirrorRoughness && clear; }
 
 bool isBesideLamp(const Lights& lights, Vec3 p) {
   for (size_t i = 0; i < lights.lampCount(); ++i) {
@@ -55,7 +55,7 @@ uint32_t turn(uint32_t pass, uint32_t every) {
 
 }  // namespace
 
-bool isMirror(const MaterialSample& m, bool clear) { return m.roughness < kPictureRoughness && !clear && luminance(m.f0) > kMirrorReflectance; }
+bool isMirror(const MaterialSample& m, bool clear) { return m.roughness < kMirrorRoughness && !clear && luminance(m.f0) > kMirrorReflectance; }
 Vec3 veiledPlace(const SurfacePoint& s, Vec3 left) { return s.p + s.ns * (kVeilM * (1 - std::min(1.0f, luminance(left)))); }
 
 PixelSequence::PixelSequence(int x, int y, uint32_t pass, uint64_t seed, uint32_t every) : seed_(seed) {

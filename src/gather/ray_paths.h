@@ -28,6 +28,7 @@ struct GatherPath {
   bool inGlow;      // of light that surfaces beside a lamp throw on one another `from` has its part already
   bool leavesNear;  // what reaches `from` straight from a light that this lies near is in the cache
   bool lampsKnown;  // straight from lamps to `from`, too, is counted elsewhere
+  bool picture;     // seen by the camera in a surface as smooth as a mirror
   float spread;   // roughness that surfaces have for it at least
 };
 

@@ -1,6 +1,7 @@
 #include "gather/ray_scatter.h"
 
 #include "base/sampling.h"
+#include "filter/filter.h"
 #include "radiance/sky_guide.h"
 #include "trace/shadow_ray.h"
 
@@ -241,7 +242,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, v.first && clear && v.s.m.roughness < kMirrorRoughness, spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -266,7 +266,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
       LightOrigin origin;
       if (w.layers) origin = LightOrigin::ofLayer(layerOf(hit.instance), scatter_.weightInLayer(path, s));
       const Lobes added = w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1);
-      if (path.clear && path.depth == 1 && settings_.rareApart && !w.layers) w.mirrored[path.estimate] += added.specular;
+      if (path.picture && path.depth == 1 && settings_.rareApart && !w.layers) w.mirrored[path.estimate] += added.specular;
     }
   }
   if (!(kind & kClearKind)) {

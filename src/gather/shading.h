@@ -35,7 +35,7 @@ struct SurfaceLight {
   Vec3 sharp;     // from suns and lamps
   Vec3 albedo;    // of that lobe: (diffuse + rare + sharp) / albedo is irradiance / pi
   Vec3 specular;  // reflected by the glossy lobe, but for
-  Vec3 mirrored;  // what shines by itself and is seen as a picture in a smooth surface (of shaders that tell; else part of specular): no noise, however bright beside what is around
+  Vec3 mirrored;  // what shines by itself and is seen as a picture in what is as smooth as a mirror (of shaders that tell; else part of specular): no noise, however bright beside what is around
   float sharpVariance = 0;  // of the luminance of `sharp`
   float diffuseVariance = 0, specularVariance = 0;  // of the others', where the shader took several samples; else 0
   float occlusion = 0;

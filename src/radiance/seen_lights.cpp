@@ -11,12 +11,12 @@
 namespace roomlight {
 namespace {
 
-constexpr size_t kOneByOne = 256;      // lights of which each is looked at; of more as many are drawn
+constexpr size_t kOneByOne = 256, kDrawn = 128;  // lights of which each is looked at; of more so many are drawn
 constexpr uint32_t kRays = 8, kFewRays = 2;
 constexpr float kMatters = 0.01f, kHardly = 1e-4f;  // of what all could give a side: lights that could give more send kRays, and kFewRays
 constexpr float kFloor = 0.03f;        // a light that no ray found gives that part of what it could
 constexpr float kUntried = 0.25f;      // and one that no ray looked for
-constexpr float kOthers = 0.05f;       // of samples, where lists leave lights out
+constexpr float kOthers = 0.05f, kWorthIt = 0.5f;  // of samples at least, where lists leave lights out; a list that holds less than half of the light is none
 
 struct Lamps {
   static constexpr uint64_t kKey = 17;
@@ -45,7 +45,8 @@ class Candidates {
     uint32_t light;
     float could = 0, found = 0, asked = 0;  // without shadows at three places; by rays, and what these could have found
     bool tried = false;
-    float part() const { return tried ? std::max(found, kFloor * asked) / std::max(asked, 1e-30f) : kUntried; }
+    // Nothing was asked of a spot that shines on other places of the side.
+    float part() const { return tried && asked > 0 ? std::max(found, kFloor * asked) / asked : kUntried; }
   };
 
   template <class Kind>
@@ -53,10 +54,11 @@ class Candidates {
     const size_t n = slots.size();
     const Vec3 at[] = {voxels.slots[slots[0]].position, voxels.slots[slots[n / 2]].position, voxels.slots[slots[n - 1]].position};
     std::vector<uint32_t> lights;
-    if (kind.count() <= kOneByOne) {
+    const bool drawn = kind.count() > kOneByOne;
+    if (!drawn) {
       for (uint32_t i = 0; i < kind.count(); ++i) lights.push_back(i);
     } else {
-      for (size_t k = 0; k < kOneByOne; ++k) {
+      for (size_t k = 0; k < kDrawn; ++k) {
         const LightTree::Choice c = kind.choose(at[k % 3], sampler.fast1());
         if (c.chance > 0) lights.push_back(static_cast<uint32_t>(c.index));
       }
@@ -68,12 +70,18 @@ class Candidates {
       for (const Vec3 p : at) one.could += kind.importance(i, p);
     }
     std::sort(all.begin(), all.end(), [](const One& a, const One& b) { return a.could != b.could ? a.could > b.could : a.light < b.light; });
+    float whole = 0;
+    for (const One& one : all) whole += one.could;
     all.resize(std::min(all.size(), most));
     for (const One& one : all) total += one.could;
+    float listed = 0;
+    for (const One& one : all) listed += !drawn ? one.could / std::max(whole, 1e-30f) : kind.chance(one.light, at[1]);
+    others = std::max(1 - listed, kOthers);
+    if (listed < kWorthIt) all.clear();
   }
 
   std::vector<One> all;
-  float total = 0;
+  float total = 0, others = 0;  // what those in the list could give; the part that others could: of samples, for them
 };
 
 }  // namespace
@@ -83,6 +91,7 @@ SeenLights::Table SeenLights::learn(const RayScene& rays, const Voxels& voxels, 
   Table table;
   if (kind.count() < 2) return table;  // nothing to choose
   std::vector<std::vector<Seen>> found(kBrickSides * voxels.bricks.size());
+  table.others.assign(kind.count() > kMost ? found.size() : 0, 1);
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
     std::array<std::vector<uint32_t>, kBrickSides> slots;
     const auto [first, last] = slotsOfBrick(voxels, b);
@@ -114,6 +123,7 @@ SeenLights::Table SeenLights::learn(const RayScene& rays, const Voxels& voxels, 
       rays.transmittance(ways, left);
       count += ways.size();
       for (size_t i = 0; i < ways.size(); ++i) gives[i].first->found += gives[i].second * luminance(left[i]);
+      if (!table.others.empty()) table.others[kBrickSides * b + face] = candidates.others;
       for (const Candidates::One& one : candidates.all) found[kBrickSides * b + face].push_back({one.light, one.part()});
     }
   });
@@ -122,7 +132,6 @@ SeenLights::Table SeenLights::learn(const RayScene& rays, const Voxels& voxels, 
     table.seen.insert(table.seen.end(), list.begin(), list.end());
   }
   table.first.push_back(static_cast<uint32_t>(table.seen.size()));
-  table.complete = kind.count() <= kMost;
   return table;
 }
 
@@ -139,8 +148,7 @@ SeenLights::Weighed SeenLights::weigh(const Table& table, const Kind& kind, Vec3
   w.seen = table.of(side);
   if (w.seen.empty()) return w;
   for (size_t i = 0; i < w.seen.size(); ++i) w.sum += w.own[i] = w.seen[i].part * kind.importance(w.seen[i].light, p);
-  w.others = table.complete ? 0 : w.sum > 0 ? kOthers
-                                            : 1;
+  w.others = table.othersOf(side, w.sum);
   return w;
 }
 
@@ -171,8 +179,7 @@ float SeenLights::chance(const Table& table, const Kind& kind, size_t light, Vec
     sum += w;
     if (s.light == light) own = w;
   }
-  const float others = table.complete ? 0 : sum > 0 ? kOthers
-                                                    : 1;
+  const float others = table.othersOf(side, sum);
   if (own < 0) return others > 0 ? others * kind.chance(light, p) : 0;
   return sum > 0 ? (1 - others) * own / sum : 0;
 }

@@ -39,13 +39,16 @@ class SeenLights {
   struct Table {
     std::vector<uint32_t> first;  // of each side, into `seen`; one more at the end
     std::vector<Seen> seen;
-    bool complete = true;  // no list leaves a light out
+    std::vector<float> others;   // chance of each side to choose among all lights; empty: no list leaves any out
     std::span<const Seen> of(int32_t side) const {
       if (side < 0 || static_cast<size_t>(side) + 1 >= first.size()) return {};
       const auto from = first[static_cast<size_t>(side)], to = first[static_cast<size_t>(side) + 1];
       return std::span(seen).subspan(from, to - from);
     }
-    size_t bytes() const { return first.size() * sizeof(first[0]) + seen.size() * sizeof(seen[0]); }
+    // `sum`: of what those in the list give.
+    float othersOf(int32_t side, float sum) const { return others.empty() ? 0 : sum > 0 ? others[static_cast<size_t>(side)]
+                                                                                        : 1; }
+    size_t bytes() const { return others.size() * sizeof(float) + first.size() * sizeof(first[0]) + seen.size() * sizeof(seen[0]); }
   };
   template <class Kind>
   static Table learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, uint64_t seed, std::atomic<uint64_t>& count);

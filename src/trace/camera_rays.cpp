@@ -126,6 +126,11 @@ double CameraRays::solidAngleSr(int x, int y) const {
   return (std::cos(pi * row / rows) - std::cos(pi * std::min(rows, row + 1) / rows)) * 2 * pi / w;
 }
 
+float CameraRays::pixelWidthM(int x, int y, Vec3 place) const {
+  const double sr = solidAngleSr(x, y);
+  return sr > 0 ? static_cast<float>(std::sqrt(sr)) * length(place - camera_.worldFromCamera.w) : metresPerPixel();
+}
+
 Sight sightOf(const RayScene& scene, const Camera& camera, const Ray& ray) {
   if (camera.cutHeightM < kInfinity && std::abs(ray.origin.y - camera.cutHeightM) < 1e-4f * std::max(1.0f, std::abs(camera.cutHeightM)) && insideBody(scene, ray.origin)) return Sight::Section;
   return camera.emptyBackdrop && !scene.intersect(ray).valid() ? Sight::Backdrop : Sight::Scene;

@@ -33,6 +33,8 @@ class CameraRays {
   bool wraps() const;
   // Width of a pixel in the scene; orthographic cameras only.
   float metresPerPixel() const { return 2 * halfHeight_ / static_cast<float>(height_); }
+  // Width of a pixel at a place that it sees, m.
+  float pixelWidthM(int x, int y, Vec3 place) const;
   // Solid angle of a pixel seen from the camera, sr; 0 for orthographic ones.
   double solidAngleSr(int x, int y) const;
 

@@ -57,12 +57,14 @@ EmitterPieces::Piece EmitterPieces::pieceOf(std::span<const Part> parts, uint32_
   Piece piece{};
   Bounds3 bounds;
   Vec3 axis;
+  double share = 0;
   for (uint32_t i = first; i < first + count; ++i) {
     const Part& part = parts[order_[i]];
     bounds.add(part.bounds);
     axis += part.normal * part.share;
-    piece.share += part.share;
+    share += static_cast<double>(part.share);
   }
+  piece.share = static_cast<float>(share);
   piece.centre = bounds.centre(), piece.radius2 = 0.25f * lengthSquared(bounds.size());
   piece.first = first, piece.count = count;
   piece.axis = lengthSquared(axis) > 1e-12f * piece.share * piece.share ? normalize(axis) : parts[order_[first]].normal;
@@ -91,7 +93,7 @@ bool EmitterPieces::split(std::span<const Part> parts, size_t which) {
     return x < y || (x == y && a < b);
   });
   uint32_t left = 0;
-  for (float sum = 0; left < whole.count - 1 && (left == 0 || sum < 0.5f * whole.share); ++left) sum += parts[begin[left]].share;
+  for (double sum = 0; left < whole.count - 1 && (left == 0 || sum < 0.5 * static_cast<double>(whole.share)); ++left) sum += static_cast<double>(parts[begin[left]].share);
   pieces_[which] = pieceOf(parts, whole.first, left);
   pieces_.push_back(pieceOf(parts, whole.first + left, whole.count - left));
   return true;

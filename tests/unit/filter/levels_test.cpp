@@ -64,7 +64,7 @@ TEST(Levels, contactsStayWhereOpennessTellsOfThem) {
     for (int x = 0; x < kWidth; ++x) wall.at(x, y).open = 1 - 0.5f * line(x, y);
   }
   const Image told = filtered(wall, kPasses);
-  EXPECT_LT(errorOf(told, light, onLine), 0.5 * errorOf(blurred, light, onLine));
+  EXPECT_LT(errorOf(told, light, onLine), 0.6 * errorOf(blurred, light, onLine));
   EXPECT_LT(errorOf(told, light, beside), 1.1 * errorOf(blurred, light, beside));
 }
 
@@ -77,6 +77,19 @@ TEST(Levels, opennessThatTellsNothingDoesNoHarm) {
     wall.pixels[i].open = (i / 16 % 2 ? 0.5f : 0.9f) + 0.1f * test::gaussian(rng);
   }
   EXPECT_LT(errorOf(filtered(wall, kPasses), light, inside), 0.025);
+}
+
+// A pixel whose short rays meet something by chance must not explain its own noise.
+TEST(Levels, lonePixelsOfOpennessLeaveNoSpecks) {
+  const auto light = [](int, int) { return 10.0f; };
+  const auto lone = [](int x, int y) { return (x + 57 * y) % 211 == 0; };
+  const auto onLone = [&](int x, int y) { return inside(x, y) && lone(x, y); };
+  FilterInput wall = wallWith(light, 0.8f);
+  const double before = errorOf(filtered(wall, kPasses), light, onLone);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) wall.at(x, y).open = lone(x, y) ? 0.875f : 1;
+  }
+  EXPECT_LT(errorOf(filtered(wall, kPasses), light, onLone), 1.15 * before);
 }
 
 TEST(Levels, softShadowsStay) {

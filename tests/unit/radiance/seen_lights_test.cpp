@@ -68,6 +68,47 @@ TEST(SeenLights, samplesAverageToAllLights) {
   }
 }
 
+// Spots and a sheet that light a small part of a brick, which rays from elsewhere in it say nothing of.
+TEST(SeenLights, whatFewPlacesSeeIsNotLost) {
+  TwoRooms rooms(0);
+  for (const float x : {0.5f, 1.1f, 1.7f, 2.3f}) {
+    Lamp spot = test::pointLamp({x, 2.45f, 2.0f}, 100);
+    spot.kind = LampKind::Spot, spot.innerConeRad = 0.2f, spot.outerConeRad = 0.3f;
+    rooms.scene.lamps.push_back(spot);
+  }
+  const Known known(rooms);
+  for (float x = 0.05f; x < 3; x += 0.1f) {
+    const Vec3 p{x, 0.001f, 2.0f};
+    const int32_t side = brickSideAt(rooms.voxels, p, kUp);
+    double all = 0, sampled = 0;
+    for (size_t i = 0; i < known.lights.lampCount(); ++i) all += lux(known.lights.sampleLamp(i, p, {}), kUp);
+    for (uint32_t k = 0; k < kSamples / 8; ++k) {
+      Sampler sampler(3, k, 0);
+      sampled += lux(known.seen.sampleLamps(known.lights, p, side, sampler), kUp) / (kSamples / 8);
+    }
+    EXPECT_NEAR(sampled, all, 0.05 * all) << x;
+  }
+}
+
+// Many lamps of which a list holds few: what it leaves out has its share of the samples.
+TEST(SeenLights, manyLampsHaveNoMoreNoiseThanUnseen) {
+  TwoRooms rooms(0);
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 20; ++k) rooms.scene.lamps.push_back(test::pointLamp({0.1f + 0.14f * static_cast<float>(i), 2.4f, 0.1f + 0.19f * static_cast<float>(k)}, 100));
+  }
+  const Known known(rooms);
+  const Vec3 p{0.6f, 0.001f, 0.9f};
+  const int32_t side = brickSideAt(rooms.voxels, p, kUp);
+  double seen = 0, seen2 = 0, blind = 0, blind2 = 0;
+  for (uint32_t k = 0; k < kSamples; ++k) {
+    Sampler a(3, k, 0), b(3, k, 0);
+    const double s = lux(known.seen.sampleLamps(known.lights, p, side, a), kUp), u = lux(known.lights.sampleLamps(p, b), kUp);
+    seen += s, seen2 += s * s, blind += u, blind2 += u * u;
+  }
+  EXPECT_NEAR(seen, blind, 0.02 * blind);
+  EXPECT_LT(seen2 / kSamples - std::pow(seen / kSamples, 2), 2 * (blind2 / kSamples - std::pow(blind / kSamples, 2)));
+}
+
 TEST(SeenLights, densityIsThatOfTheChoice) {
   for (const int perRoom : {3, 40}) {
     const TwoRooms rooms(perRoom);

@@ -162,5 +162,22 @@ TEST(CameraRays, roomsInsideOutAreNotFilled) {
   EXPECT_FALSE(insideBody(RayScene(scene), {1.5f, 1.2f, 1.5f}));
 }
 
+// A pixel's width where it sees something, also from above a cut, across a stereo pair's halves and without perspective.
+TEST(CameraRays, pixelWidths) {
+  Camera camera;
+  camera.worldFromCamera.w = {0, 2, 0};
+  camera.yFovRad = 1;
+  const CameraRays perspective(camera, 64, 64);
+  EXPECT_NEAR(perspective.pixelWidthM(32, 32, {0, 2, -3}), 3 * 2 * std::tan(0.5f) / 64, 1e-3f);
+  camera.cutHeightM = 1.5f;
+  EXPECT_NEAR(CameraRays(camera, 64, 64).pixelWidthM(32, 32, {0, 2, -3}), 3 * 2 * std::tan(0.5f) / 64, 1e-3f);
+  camera.projection = Projection::StereoPanorama;
+  const CameraRays stereo(camera, 512, 512);
+  for (const int y : {127, 128, 383}) EXPECT_NEAR(stereo.pixelWidthM(10, y, {0, 2, -1.5f}), 1.5f * 2 * kPi / 512, 2e-3f) << y;
+  camera.projection = Projection::Orthographic;
+  const CameraRays flat(camera, 64, 64);
+  EXPECT_EQ(flat.pixelWidthM(3, 4, {0, 0, -7}), flat.metresPerPixel());
+}
+
 }  // namespace
 }  // namespace roomlight
