@@ -1,6 +1,7 @@
 #include "filter/levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/random.h"
@@ -10,7 +11,7 @@ namespace roomlight {
 namespace {
 
 constexpr int kFinestLevels = 2;
-constexpr int kBounded = 0, kNoise = 1, kPower = 2, kCross = 3, kOpen2 = 4;  // what is pooled
+constexpr size_t kBounded = 0, kNoise = 1, kPower = 2, kCross = 3, kOpen2 = 4;  // what is pooled
 constexpr int kColours = 3, kDrawn = 3;  // parts of diffuse light: its colour, then its drawn noise
 constexpr float kFine = 2, kCoarse = 1.1f;  // times the noise that a level is believed to hold: in single pixels it is seen at once, and told by fewer of them
 constexpr float kExplained = 0.1f;          // times that noise as well: what openness tells of a level is pooled from many pixels and holds little of theirs
@@ -24,6 +25,13 @@ constexpr float kOfIndependent[] = {1, 0.9f, 0.85f, 0.75f, 0.65f, 0.4f};
 const float* partOf(const FilterRows& rows, int place, int part, int y) { return rows.line(FilterRows::light(0, place) + part, y); }
 
 float noisePart(int level) { return kOfIndependent[std::min(level, static_cast<int>(std::size(kOfIndependent)) - 1)]; }
+
+using Pooled = std::array<float*, FilterRows::kPooled>;
+Pooled pooledOf(FilterRows& rows, int y) {
+  Pooled out;
+  for (int q = 0; q < FilterRows::kPooled; ++q) out[static_cast<size_t>(q)] = rows.line(FilterRows::pool(0) + q, y);
+  return out;
+}
 
 // Calls body(x, d, n, a) with what a level adds to the smoother one, in luminance, in drawn noise and in openness.
 template <class Body>
@@ -44,8 +52,7 @@ bool hasOutliers(int level) { return level <= kFinestLevels; }
 float drawnNoise(float variance, size_t pixel) { return mix64(pixel + 0x9e3779b97f4a7c15ull) & 1 ? std::sqrt(variance) : -std::sqrt(variance); }
 
 void takePower(FilterRows& rows, int place, int y) {
-  float* pooled[FilterRows::kPooled];
-  for (int q = 0; q < FilterRows::kPooled; ++q) pooled[q] = rows.line(FilterRows::pool(0) + q, y);
+  const Pooled pooled = pooledOf(rows, y);
   const float* weight = partOf(rows, place, FilterRows::kWeight, y);
   forLevel(rows, place, y, [&](int x, float d, float n, float a) {
     const float known = weight[x] > 0 ? 1.0f : 0.0f;
@@ -55,8 +62,7 @@ void takePower(FilterRows& rows, int place, int y) {
 }
 
 void boundPower(FilterRows& rows, int place, int y) {
-  float* pooled[FilterRows::kPooled];
-  for (int q = 0; q < FilterRows::kPooled; ++q) pooled[q] = rows.line(FilterRows::pool(0) + q, y);
+  const Pooled pooled = pooledOf(rows, y);
   const float* weight = partOf(rows, place, FilterRows::kWeight, y);
   forLevel(rows, place, y, [&](int x, float d, float, float a) {
     const bool known = weight[x] > 0;
@@ -68,8 +74,7 @@ void boundPower(FilterRows& rows, int place, int y) {
 }
 
 void keepLevel(FilterRows& rows, int level, int place, int y) {
-  const float* pooled[FilterRows::kPooled];
-  for (int q = 0; q < FilterRows::kPooled; ++q) pooled[q] = rows.line(FilterRows::pool(0) + q, y);
+  const Pooled pooled = pooledOf(rows, y);
   const float* weight = partOf(rows, place, FilterRows::kWeight, y);
   const bool outliers = hasOutliers(level);
   const float ofIndependent = noisePart(level), doubt = (outliers ? kFine : kCoarse) * ofIndependent;

@@ -1,6 +1,7 @@
 #include "gather/ray_scatter.h"
 
 #include "base/sampling.h"
+#include "base/weighted_choice.h"
 #include "filter/filter.h"
 #include "radiance/sky_guide.h"
 #include "trace/shadow_ray.h"
@@ -174,12 +175,10 @@ LightSample RayScatter::sampleLayer(size_t layer, Vec3 p, bool withLamps, bool w
   for (size_t i = 0; i < count; ++i) total += weigh(i);
   if (!(total > 0)) return {};
   const Vec2 u = sampler.next2();
-  float choice = sampler.next1() * total;
-  size_t i = 0;
-  for (; i + 1 < count && choice >= weigh(i); ++i) choice -= weigh(i);
-  const float own = weigh(i), chance = own / total;
-  if (!(own > 0)) return {};
-  LightSample light = i < m.lamps.size() ? lights_.sampleLamp(m.lamps[i], p, u) : lights_.sampleEmitter(m.emitters[i - m.lamps.size()], p, u, std::clamp(choice / own, 0.0f, 1.0f));
+  float rest = sampler.next1();
+  const size_t i = chooseByWeight(count, total, weigh, rest);
+  const float chance = weigh(i) / total;
+  LightSample light = i < m.lamps.size() ? lights_.sampleLamp(m.lamps[i], p, u) : lights_.sampleEmitter(m.emitters[i - m.lamps.size()], p, u, rest);
   light.radiance *= 1 / chance, light.pdf *= chance;
   return light;
 }

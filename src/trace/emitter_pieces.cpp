@@ -41,15 +41,13 @@ EmitterPieces::EmitterPieces(std::span<const Part> parts, bool twice) : order_(p
   for (size_t i = 0; i < pieces_.size() && pieces_.size() < kMost;) {
     if (!split(parts, i)) ++i;
   }
+  pieceOf_.resize(parts.size());
   for (size_t k = 0; k < pieces_.size(); ++k) {
     const Piece& piece = pieces_[k];
+    std::fill_n(pieceOf_.begin() + piece.first, piece.count, static_cast<uint8_t>(k));
     Lanes& l = lanes_;
     l.x[k] = piece.centre.x, l.y[k] = piece.centre.y, l.z[k] = piece.centre.z, l.axisX[k] = piece.axis.x, l.axisY[k] = piece.axis.y, l.axisZ[k] = piece.axis.z;
     l.radius2[k] = piece.radius2, l.cosHalf[k] = piece.cosHalf, l.sinHalf[k] = piece.sinHalf, l.share[k] = piece.share;
-  }
-  pieceOf_.resize(parts.size());
-  for (size_t k = 0; k < pieces_.size(); ++k) {
-    std::fill_n(pieceOf_.begin() + pieces_[k].first, pieces_[k].count, static_cast<uint8_t>(k));
   }
 }
 

@@ -297,13 +297,10 @@ LightTree::Choice Lights::choose(const Range& among, Vec3 p, float choice) const
   }
   float remembered[kMostOneByOne], total = 0;
   for (size_t i = among.first; i < among.last; ++i) total += remembered[i - among.first] = localImportance(i, p);
-  float v = choice * total;
-  for (size_t i = among.first; i < among.last; ++i) {
-    const float w = remembered[i - among.first];
-    if (v < w) return {i, w / total, v / w};
-    v -= w;
-  }
-  return {};
+  if (!(total > 0)) return {};
+  const size_t i = chooseByWeight(
+      among.last - among.first, total, [&](size_t k) { return remembered[k]; }, choice);
+  return {among.first + i, remembered[i] / total, choice};
 }
 
 float Lights::chanceOf(const Range& among, size_t index, Vec3 p) const {
