@@ -113,8 +113,10 @@ TEST_F(SaveLighting, homesWithoutAFileSaveWhatWasChanged) {
 // Light that was added is part of what is saved, after what the file says.
 TEST_F(SaveLighting, ofAddedLight) {
   const ViewHome home = open("light.json", home::LightWish::Evening);
-  const auto saved = json::parse(lightingFile(home, home.atStart()));
-  EXPECT_FALSE(saved["sky"].is_null());
+  const json saved = json::parse(lightingFile(home, home.atStart()));
+  ASSERT_TRUE(saved.contains("daylight"));
+  EXPECT_GT(saved["daylight"].at("time").get<std::string>().substr(11, 5), "20:00");  // not the file's noon
+  EXPECT_EQ(saved.at("scene"), json({{"suns", "off"}, {"sky", "off"}}));
   roomlight::testing::writeFile(folder_ / "saved.json", saved.dump());
   expectSameLight(sceneIn(home, home.atStart()).value(), rendered("saved.json"));
 }
