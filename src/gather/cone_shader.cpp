@@ -1,6 +1,7 @@
 #include "gather/cone_shader.h"
 
 #include "base/sampling.h"
+#include "radiance/slot_lookup.h"
 
 namespace roomlight {
 namespace {

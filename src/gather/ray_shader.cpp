@@ -304,15 +304,15 @@ bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, G
   }
   if (path.clear) return cachedFaintly(path, hit, p, n, w);
   // Light beside lamps is in the slots alone.
-  const bool glows = shinesBesideLamps(place.slot);
+  const bool glows = shinesBesideLamps(place.slot), inGlow = glows || isInGlow(p, n);
   // A cache tells too little of what is near what the eye sees; of light that gets there by way of other surfaces it tells enough.
   const float distance = path.depth < 2 ? length(p - path.from) : kInfinity;
   if (w.arrivals) {
     if (!glows && distance < kNearCells * settings_.hitCellM) return false;
-    if (!glows) w.arrive(path, hit, {p, n, hit.instance}, place.slot, place.trust == Trust::Sure);
+    if (!inGlow) w.arrive(path, hit, {p, n, hit.instance}, place.slot, place.trust == Trust::Sure);
     return true;
   }
-  if (const HitCell* cell = glows ? nullptr : hits_.find({p, n, hit.instance}); cell && distance >= kNearCells * cell->sizeM) {
+  if (const HitCell* cell = inGlow ? nullptr : hits_.find({p, n, hit.instance}); cell && distance >= kNearCells * cell->sizeM) {
     if (cell->sure && place.trust == Trust::Sure) {
       readCell(path, hit, *cell, p, n, w);
     } else {
@@ -373,11 +373,11 @@ void RayShader::markGlow() {
 }
 
 // Whether points stand for all that it reflects of a lamp which it lies near: what comes by way of other surfaces there, too.
-bool RayShader::isInGlow(const SurfacePoint& s) const {
-  const Int3 v = voxels_.voxelOf(s.p);
+bool RayShader::isInGlow(Vec3 p, Vec3 n) const {
+  const Int3 v = voxels_.voxelOf(p);
   const int32_t brick = voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
   if (glowBricks_.empty() || (brick >= 0 && !glowBricks_[static_cast<size_t>(brick)])) return false;
-  if (shinesBesideLamps(cache_.find(s.p, s.ng).slot)) return true;
+  if (shinesBesideLamps(cache_.find(p, n).slot)) return true;
   // The slot found may be another one than that which took the light there.
   for (int i = 0; i < 27; ++i) {
     const int64_t found = voxels_.voxelAt({v.x + i % 3 - 1, v.y + i / 3 % 3 - 1, v.z + i / 9 - 1});
@@ -385,7 +385,7 @@ bool RayShader::isInGlow(const SurfacePoint& s) const {
     const SurfaceVoxel& voxel = voxels_.voxels[static_cast<size_t>(found)];
     const auto end = voxel.firstSlot + static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
     for (uint32_t slot = voxel.firstSlot; slot < end; ++slot) {
-      if (shinesBesideLamps(slot) && dot(voxels_.slots[slot].normal, s.ng) > kAlike) return true;
+      if (shinesBesideLamps(slot) && dot(voxels_.slots[slot].normal, n) > kAlike) return true;
     }
   }
   return false;
@@ -400,7 +400,7 @@ void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) cons
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
   GatherVertex v{s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear};
-  v.inGlow = !path.clear && !isPolishedMetal(*s.material) && isInGlow(s);
+  v.inGlow = !path.clear && !isPolishedMetal(*s.material) && isInGlow(s.p, s.ng);
   scatter_.from(v, w);
 }
 

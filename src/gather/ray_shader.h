@@ -50,7 +50,7 @@ class RayShader final : public SurfaceShader {
   Vec3 sunward(const GatherPath& path, const Hit& hit, float sunLux, Vec3 normal) const;
   float rayShare(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const;
   void markGlow();
-  bool isInGlow(const SurfacePoint& s) const;
+  bool isInGlow(Vec3 p, Vec3 n) const;
   bool shinesBesideLamps(int64_t slot) const { return slot >= 0 && !field_.glowShare.empty() && field_.glowShare[static_cast<size_t>(slot)] > 0; }
   void addBackground(const GatherPath& path, GatherWork& w) const;
   void traceShadows(GatherWork& w) const;

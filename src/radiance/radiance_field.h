@@ -133,7 +133,4 @@ struct RadianceField {
 RadianceField illuminate(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings,
                          const Progress& progress = {});
 
-// Slot of Voxels that a point of a surface belongs to: the face of its voxel nearest to `normal`; -1 where voxels hold nothing.
-int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal);
-
 }  // namespace roomlight

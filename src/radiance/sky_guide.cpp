@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "radiance/slot_lookup.h"
 
 namespace roomlight {
 namespace {
@@ -105,14 +106,8 @@ SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carri
 
 int32_t guideAt(const SkyGuide& guides, const Voxels& voxels, Vec3 p, Vec3 n) {
   if (guides.guideOfBrick.empty()) return -1;
-  for (const float nudge : {-0.02f, 0.02f, 0.5f}) {
-    const Int3 v = voxels.voxelOf(p + n * (nudge * voxels.voxelSizeM));
-    if (v.x < 0 || v.y < 0 || v.z < 0) continue;
-    const int32_t b = voxels.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
-    const int32_t guide = b < 0 ? -1 : guides.guideOfBrick[static_cast<size_t>(b)][static_cast<size_t>(dominantFace(n))];
-    if (guide >= 0) return guide;
-  }
-  return -1;
+  const int32_t b = brickAtSurface(voxels, p, n);
+  return b < 0 ? -1 : guides.guideOfBrick[static_cast<size_t>(b)][static_cast<size_t>(dominantFace(n))];
 }
 
 namespace {

@@ -1,13 +1,13 @@
 #include "radiance/slot_cache.h"
 
 #include "base/parallel.h"
+#include "radiance/slot_lookup.h"
 
 namespace roomlight {
 namespace {
 
 constexpr float kLift = 0.1f;       // voxels: for places to see one another along a bent surface
 constexpr float kOffPlane = 0.35f;  // voxels: beyond, a place belongs to another surface
-constexpr float kOnPlane = 0.05f;   // voxels: within, it belongs to the slot's own sheet and not to one close behind
 constexpr float kOpposite = -0.95f; // cosine between the normals of a sheet's two sides
 
 // One sheet and nothing else: no surface in its voxel parts one of its places from another.
@@ -53,18 +53,17 @@ int64_t SlotCache::slotOf(const SurfaceVoxel& voxel, Vec3 n) const {
 
 SlotCache::Place SlotCache::find(Vec3 p, Vec3 n) const {
   const Vec3 q = (p - voxels_.origin) * perMetre_;
-  // Rounding may put a point of a surface into the neighbouring voxel: look a little to both sides as well.
-  for (const float nudge : {0.0f, 0.02f, -0.02f, 0.3f, -0.3f}) {
-    const Vec3 at = q + n * nudge;
-    const int64_t found = voxels_.voxelAt({static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), static_cast<int>(std::floor(at.z))});
-    const int64_t slot = found < 0 ? -1 : slotOf(voxels_.voxels[static_cast<size_t>(found)], n);
-    if (slot < 0) continue;
+  const auto offPlane = [&](int64_t slot) {
     const Record& r = records_[static_cast<size_t>(slot)];
-    const float off = std::abs(dot(q, r.normal()) - r.offset);
-    return {slot, off > kOffPlane ? Trust::None : r.alone && off < kOnPlane ? Trust::Sure
-                                                                            : Trust::Unsure};
-  }
-  return {};
+    return std::abs(dot(q, r.normal()) - r.offset);
+  };
+  const SlotFound found = lookAround(q, n, [&](Int3 at) {
+    const int64_t voxel = voxels_.voxelAt(at), slot = voxel < 0 ? -1 : slotOf(voxels_.voxels[static_cast<size_t>(voxel)], n);
+    return SlotFound{slot, slot >= 0 && offPlane(slot) < kOnPlane};
+  });
+  if (found.slot < 0) return {};
+  if (found.onPlane && records_[static_cast<size_t>(found.slot)].alone) return {found.slot, Trust::Sure};
+  return {found.slot, offPlane(found.slot) > kOffPlane ? Trust::None : Trust::Unsure};
 }
 
 void SlotCache::prefetch(std::span<const Vec3> points) const {

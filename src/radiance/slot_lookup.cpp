@@ -1,4 +1,4 @@
-#include "radiance/radiance_field.h"
+#include "radiance/slot_lookup.h"
 
 namespace roomlight {
 namespace {
@@ -17,18 +17,30 @@ int64_t bestSlot(const Voxels& voxels, const SurfaceVoxel& voxel, Vec3 normal) {
   return best;
 }
 
+SlotFound slotIn(const Voxels& voxels, Int3 voxel, Vec3 p, Vec3 normal) {
+  const int64_t record = voxels.voxelAt(voxel);
+  const int64_t slot = record < 0 ? -1 : bestSlot(voxels, voxels.voxels[static_cast<size_t>(record)], normal);
+  if (slot < 0) return {};
+  const FaceSlot& found = voxels.slots[static_cast<size_t>(slot)];
+  return {slot, std::abs(dot(p - found.position, found.normal)) < kOnPlane * voxels.voxelSizeM};
+}
+
 }  // namespace
 
 int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal) {
-  // Rounding may put a point of a surface into the neighbouring voxel: look a little to both sides as well.
-  const float nudges[] = {0, 0.02f, -0.02f, 0.3f, -0.3f};
-  for (const float nudge : nudges) {
-    const int64_t record = voxels.voxelAt(voxels.voxelOf(p + normal * (nudge * voxels.voxelSizeM)));
-    if (record < 0) continue;
-    const int64_t slot = bestSlot(voxels, voxels.voxels[static_cast<size_t>(record)], normal);
-    if (slot >= 0) return slot;
-  }
-  return -1;
+  return lookAround((p - voxels.origin) / voxels.voxelSizeM, normal, [&](Int3 at) { return slotIn(voxels, at, p, normal); }).slot;
+}
+
+int32_t brickAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal) {
+  const auto brickAround = [&](Int3 v) { return v.x < 0 || v.y < 0 || v.z < 0 ? -1 : voxels.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize}); };
+  int32_t brick = -1;
+  const auto look = [&](Int3 at) {
+    const SlotFound found = slotIn(voxels, at, p, normal);
+    if (found.onPlane || (found.slot >= 0 && brick < 0)) brick = brickAround(at);
+    return found;
+  };
+  lookAround((p - voxels.origin) / voxels.voxelSizeM, normal, look);
+  return brick < 0 ? brickAround(voxels.voxelOf(p)) : brick;
 }
 
 }  // namespace roomlight

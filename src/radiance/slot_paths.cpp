@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/sampling.h"
-#include "radiance/radiance_field.h"
+#include "radiance/slot_lookup.h"
 #include "voxel/lattice.h"
 
 namespace roomlight {
