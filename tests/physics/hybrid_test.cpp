@@ -277,6 +277,47 @@ TEST(Hybrid, hiddenSlotDoesNotDarken) {
   EXPECT_NEAR(measured, expected, 0.1 * expected);
 }
 
+// A room whose surfaces lie on borders of voxels, ground close below its floor, open to the sun.
+TEST(Hybrid, surfacesOnBordersOfVoxelsAreLitAsOthers) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+  test::addRoom(scene, {0, 0, 0}, {4, 2.4f, 4.8f}, std::vector<int>(6, white));
+  scene.meshes.pop_back(), scene.instances.pop_back();
+  test::addRectangle(scene, {-8, -0.01f, -8}, {0, 0, 20}, {20, 0, 0}, white);
+  test::addBox(scene, {2.4f, 0, 0.8f}, {3.2f, 0.8f, 2.4f}, wood);
+  Sun sun;
+  sun.toLight = normalize(Vec3{0.4f, 1, 0.9f}), sun.illuminanceLux = Vec3(50'000), sun.halfAngleRad = 0.0046f;
+  scene.suns = {sun};
+  const Lit lit(std::move(scene), 0.1f);
+  const Camera camera = cameraAt({3.4f, 1.5f, 4.2f}, {1.2f, 1.3f, 0});
+  PathSettings path;
+  path.width = path.height = 48, path.samples = 1024;
+  const double expected = mean(pathTrace(lit.rays, lit.lights, camera, path).image), measured = mean(lit.hybrid(camera));
+  test::record("Room on the lattice in the sun, mean luminance, cd/m²", "ground 1 cm below its floor", "hybrid", expected, measured);
+  EXPECT_NEAR(measured, expected, 0.02 * expected);
+}
+
+// A lamp with a shade of two sheets over a table: what the shade's inside reflects is found once, by points or by what is hit, not by both.
+TEST(Hybrid, insideOfAShadeIsCountedOnce) {
+  Scene scene;
+  const int grey = test::addMaterial(scene, test::lambertian(0.6f)), metal = test::addMaterial(scene, test::lambertian(0.8f));
+  test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4.03f, 2.53f, 3.53f}, std::vector<int>(6, grey));
+  test::addBox(scene, {1.2f, 0.7f, 1.1f}, {2.8f, 0.74f, 2.1f}, grey);
+  for (const float radius : {0.155f, 0.165f}) test::addTube(scene, {2.02f, 1.5f, 1.6f}, radius, 0.24f, metal);
+  test::addBox(scene, {1.86f, 1.735f, 1.44f}, {2.18f, 1.745f, 1.76f}, metal);
+  test::addSphere(scene, {2.02f, 1.68f, 1.6f}, 0.03f, test::addMaterial(scene, test::lambertian(0.5f, 30000)));
+  Camera camera = cameraAt({3.4f, 1.6f, 3.0f}, {2, 0.74f, 1.6f});
+  camera.yFovRad = 0.4f;
+  PathSettings path;
+  path.width = path.height = 48, path.samples = 1024;
+  const double expected = mean(pathTrace(RayScene(scene), Lights(scene), camera, path).image);
+  for (const float voxelM : {0.07f, 0.1f, 0.13f}) {
+    const double measured = mean(Lit(scene, voxelM).hybrid(camera));
+    test::record("Table under a lamp with a shade, mean luminance, cd/m²", fmt::format("voxels of {} m", voxelM), "hybrid", expected, measured);
+    EXPECT_NEAR(measured, expected, 0.02 * expected) << voxelM;
+  }
+}
+
 // The same picture whatever the number of threads.
 TEST(Hybrid, sameBitsWithAnyNumberOfThreads) {
   const Lit lit(twoRooms(0.1f), 0.1f);
