@@ -222,7 +222,7 @@ TEST(Relight, followsEmissiveMeshesThatAreLitTogether) {
   home.emission(home.panel) = Vec3(50);
   cache.relight(rays, Lights(home.scene), home.voxels());
   EXPECT_GT(cache.field().rays, 0u);
-  expectSame(cache, lit(home), 2e-3f);
+  expectSame(cache, lit(home), 3e-3f);  // half floats: 6e-4 a bounce at albedo 0.7 are 2e-3 of either
 }
 
 // Rays alone or together find the same light.
