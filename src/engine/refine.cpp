@@ -82,11 +82,11 @@ class Refinement {
 
 }  // namespace
 
-void refineByPath(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings, double seconds, Stages& stages, Image& picture) {
+bool refineByPath(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings, double seconds, Stages& stages, Image& picture) {
   const Stopwatch watch;
   const double pass = std::isfinite(seconds) ? secondsOfAPass(rays, lights, camera, pathSettings(settings)) : 0;
   const double left = seconds - watch.seconds();
-  if ((kFewestSamples + kBlendInPasses) * pass > left) return;
+  if ((kFewestSamples + kBlendInPasses) * pass > left) return false;
   Refinement refinement(rays, lights, camera, settings, left, pass, stages, picture);
   stages.run("refine", [&](const Progress& progress) { return refinement.run(progress), true; });
   if (refinement.improved()) {
@@ -96,6 +96,7 @@ void refineByPath(const RayScene& rays, const Lights& lights, const Camera& came
   }
   stages.number("pathSamples", refinement.tracer().samples());
   stages.number("pathRays", static_cast<double>(refinement.tracer().rays()));
+  return refinement.improved();
 }
 
 }  // namespace roomlight

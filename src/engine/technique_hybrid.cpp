@@ -12,6 +12,7 @@ Result<Picture> renderHybrid(const Scene& scene, const Camera& camera, const Ren
   const bool limited = settings.timeLimitS > 0;
   const auto left = [&] { return limited ? std::max(0.0, settings.timeLimitS - watch.seconds()) : std::numeric_limits<double>::infinity(); };
   StageSettings<RayGatherSettings> use = hybridStages(settings);
+  use.gather.tellsError = true, use.gather.untilMse = settings.blendUntilMse;
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
@@ -31,10 +32,12 @@ Result<Picture> renderHybrid(const Scene& scene, const Camera& camera, const Ren
   }
 
   tellNumbers(light, result, stages);
-  if (result.noiseLeft >= 0) stages.number("noiseLeft", result.noiseLeft);
   stages.number("pixelsGathered", static_cast<double>(gathered));
+  if (result.error.relative >= 0) stages.estimate(result.error.relative, result.error.srgbMse);
+  const bool isGoodEnough = settings.blendUntilMse > 0 && result.error.srgbMse >= 0 && result.error.srgbMse <= settings.blendUntilMse;
   // Paths see the sky as it is, with its sun in it.
-  if (settings.blend && (limited || settings.blendUntilMse > 0) && !stages.cancelled()) refineByPath(rays, Lights(scene), camera, settings, left(), stages, result.image);
+  const bool told = settings.blend && (limited || settings.blendUntilMse > 0) && !isGoodEnough && !stages.cancelled() && refineByPath(rays, Lights(scene), camera, settings, left(), stages, result.image);
+  if (!told && result.error.relative >= 0) stages.number("estimatedError", result.error.relative), stages.number("estimatedMse", result.error.srgbMse);
   // What paths put right of the whole is put right of all its parts.
   splitLike(result.image, result.layers);
   return finished(rays, camera, std::move(result.image), described(layers.value().get(), std::move(result.layers)));

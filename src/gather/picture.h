@@ -22,7 +22,15 @@ struct PictureSettings {
   bool white = false;       // what the camera sees straight, or through panes, is whitened (scene/surface.h)
   bool orNothing = false;   // once progress says stop no picture is made; else the first pass is ended
   double timeLimitS = 0;    // no pass after the first is begun that would end later
+  bool tellsError = false;  // estimates what error is left
+  double untilMse = 0;     // and, where above 0, goes on until that is no larger, or all samples are taken
   uint64_t seed = 0;
+};
+
+// Estimates of what a picture is off by, below 0: not known.
+struct ErrorLeft {
+  double relative = -1;  // root mean square over pixels, relative to their luminance (dark ones: to a twentieth of the mean)
+  double srgbMse = -1;   // as compare's mse: exposed automatically and encoded as sRGB
 };
 
 struct GatheredPicture {
@@ -30,7 +38,7 @@ struct GatheredPicture {
   Image occlusion;    // mean ambient occlusion, 0 open to 1 closed, in every channel; empty where nothing is closed, or the technique does not ask
   std::vector<Image> layers;  // where the shader keeps light apart: their sum is `image`
   int samples = 0;
-  double noiseLeft = -1;  // noise_left.h; below 0: not known, for no further rays were planned by what the filter left
+  ErrorLeft error;  // where it was to be told (error_probes.h)
   uint64_t rays = 0, cones = 0;
   size_t layerBytes = 0;  // taken by sums of layers while they were added up
 };
