@@ -46,137 +46,205 @@ FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>
   return out;
 }
 
-}  // namespace
+class Gathering {
+ public:
+  Gathering(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, const Progress& progress)
+      : rays_(rays),
+        shader_(shader),
+        settings_(settings),
+        progress_(progress),
+        width_(settings.width),
+        height_(settings.height),
+        tiles_(static_cast<size_t>((width_ + kTile - 1) / kTile) * static_cast<size_t>((height_ + kTile - 1) / kTile)),
+        every_(settings.filterPasses > 0 ? std::bit_floor(static_cast<uint32_t>(settings.gatherEvery)) : 1u),
+        layers_(shader.layers()),
+        pixelRays_(rays, camera, settings),
+        keepsFragments_(settings.filterPasses > 0 && every_ == 1 && !layers_ && !pixelRays_.camera().wraps()),
+        byLayer_(layers_ ? layers_->size() : 0),
+        pixelShader_(rays, lights, settings, keepsFragments_, layers_, layers_ ? &byLayer_ : nullptr),
+        sums_(width_, height_),
+        counts_(sums_.pixels.size()),
+        fragments_(keepsFragments_ ? tiles_ : 0),
+        tolerance_(settings.tolerance) {
+    byLayer_.resize(counts_.size());
+  }
 
-GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings,
-                              const Progress& progress) {
-  const int w = settings.width, h = settings.height;
-  const PixelRays pixelRays(rays, camera, settings);
-  const auto every = settings.filterPasses > 0 ? std::bit_floor(static_cast<uint32_t>(settings.gatherEvery)) : 1u;
-  const LightLayers* layers = shader.layers();
-  LayerSums byLayer(layers ? layers->size() : 0);
-  byLayer.resize(static_cast<size_t>(w) * static_cast<size_t>(h));
-  const bool keepsFragments = settings.filterPasses > 0 && every == 1 && !layers && !pixelRays.camera().wraps();
-  const PixelShader pixelShader(rays, lights, settings, keepsFragments, layers, layers ? &byLayer : nullptr);
-  GatheredPicture result;
-  FilterInput sums(w, h);
-  std::vector<PixelCount> counts(sums.pixels.size());
-  const size_t tiles = static_cast<size_t>((w + kTile - 1) / kTile) * static_cast<size_t>((h + kTile - 1) / kTile);
-  std::vector<Fragments> fragments(keepsFragments ? tiles : 0);
-  std::atomic<uint64_t> rayCount = 0, coneCount = 0;
-  std::mutex reporting;
-  const Stopwatch watch;
-  std::vector<uint16_t> needed;  // rays, as planned after so many samples
-  size_t planned = 0;
-  float tolerance = settings.tolerance;
-  double passSeconds = 0, passRays = 0;  // of the last
-  bool late = false;
-  const auto aimReached = [&] {  // how far
-    return result.error.srgbMse > 0 ? static_cast<float>(std::min(1.0, settings.untilMse / result.error.srgbMse)) : 0.0f;
-  };
-  const auto gather = [&] {  // until no pixel needs more, or there is no time
-    while (result.samples < settings.samples) {
-      const auto first = static_cast<size_t>(result.samples);
-      const bool chosen = first > 0 && tolerance > 0;
-      const auto most = static_cast<size_t>(first > 0 || !(tolerance > 0) ? settings.samples : std::min(settings.samples, settings.firstSamples));
+  // Pass by pass, until no pixel needs more rays or there is no time.
+  void gather() {
+    while (result_.samples < settings_.samples) {
+      const auto first = static_cast<size_t>(result_.samples);
+      const bool chosen = first > 0 && tolerance_ > 0;
+      if (chosen && first > kPlanned * planned_) plan(first);
+      const auto most = static_cast<size_t>(first > 0 || !(tolerance_ > 0) ? settings_.samples : std::min(settings_.samples, settings_.firstSamples));
       const size_t n = std::min(kRaysAtOnce, most - first);
-      if (chosen && first > kPlanned * planned) {
-        const FilteredLuminance left = settings.rareApart ? filteredLuminance(sums, settings.filterPasses, [&](size_t i) { return meanOf(sums.pixels[i], counts[i]); }) : FilteredLuminance();
-        needed = raysNeeded(sums, counts, left, settings.rareApart ? tolerance : kUnfiltered * tolerance);
-        planned = first;
-      }
-      const auto asks = [&](uint16_t further) { return further > first - planned; };
-      const auto pixels = chosen ? std::count_if(needed.begin(), needed.end(), asks) : static_cast<std::ptrdiff_t>(counts.size());
-      const double chosenRays = static_cast<double>(n) * static_cast<double>(pixels);
-      if (chosenRays == 0) return;
-      const double started = watch.seconds();
-      if (settings.timeLimitS > 0 && first > 0 && started + passSeconds * chosenRays / passRays > settings.timeLimitS) return void(late = true);
-      std::atomic<size_t> tilesDone = 0;
-      parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {
-        GatherCounters count;
-        TileWork work;
-        std::vector<SurfaceLight> light;
-        LayerSums layerLight(layers ? layers->size() : 0);
-        std::array<Ray, kRaysAtOnce> some;
-        for (size_t tile = begin; tile < end; ++tile) {
-          if (progress.stop() && (first > 0 || settings.orNothing)) return;
-          work.clear();
-          const Rectangle r = tileAt(tile, w, h);
-          for (int y = r.y0; y < r.y1; ++y) {
-            for (int x = r.x0; x < r.x1; ++x) {
-              const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
-              if (chosen && !asks(needed[pixel])) continue;
-              const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings.seed, every);
-              pixelShader.see(pixelRays.at(x, y, first, n, some), sequence, {&sums.pixels[pixel], &counts[pixel], static_cast<uint32_t>(pixel)}, work, count);
-            }
-          }
-          if (every > 1) gatherSparsely(work, r, every, settings.rayRoughness, static_cast<uint32_t>(n), sums);
-          light.resize(work.shadings.size());
-          if (layers) {
-            layerLight.resize(work.shadings.size());
-            shader.shadeInLayers(work.shadings, work.shadows, light, layerLight, count);
-          } else {
-            shader.shade(work.shadings, work.shadows, light, count);
-          }
-          if (!keepsFragments) pixelShader.findOutshining(work, light);
-          PixelShader::add(work, light, keepsFragments ? &fragments[tile] : nullptr);
-          if (layers) pixelShader.addLayers(work, light, layerLight);
-          const size_t done = ++tilesDone;
-          if (done % 64 == 0 && reporting.try_lock()) {
-            progress.at(std::max(aimReached(), (static_cast<float>(first) + static_cast<float>(n) * static_cast<float>(done) / static_cast<float>(tiles)) / static_cast<float>(settings.samples)));
-            reporting.unlock();
-          }
-        }
-        rayCount += count.rays;
-        coneCount += count.cones;
-      });
-      result.samples += static_cast<int>(n);
-      passSeconds = watch.seconds() - started, passRays = chosenRays;
-      if (first == 0 && settings.rareApart && !(settings.orNothing && progress.stop())) rayCount += findOpenness(rays, pixelRays.camera(), settings.seed, sums);
-      if (progress.stop()) return;
+      const auto asks = [&](size_t pixel) { return !chosen || needed_[pixel] > first - planned_; };
+      size_t pixels = 0;
+      for (size_t i = 0; i < counts_.size(); ++i) pixels += asks(i);
+      const double passRays = static_cast<double>(n) * static_cast<double>(pixels);
+      if (passRays == 0) return;
+      const double started = watch_.seconds();
+      late_ = settings_.timeLimitS > 0 && first > 0 && started + secondsOfARay_ * passRays > settings_.timeLimitS;
+      if (late_) return;
+      pass(first, n, asks);
+      result_.samples += static_cast<int>(n);
+      secondsOfARay_ = (watch_.seconds() - started) / passRays;
+      if (isGivenUp()) return;
+      if (first == 0 && settings_.rareApart) rayCount_ += findOpenness(rays_, pixelRays_.camera(), settings_.seed, sums_);
+      if (progress_.stop()) return;
     }
-  };
+  }
+
   // The picture of all samples so far. What it is made of is changed to means over each pixel's.
-  const auto compose = [&](FilterInput& means) {
-    if (std::any_of(counts.begin(), counts.end(), [](const PixelCount& c) { return c.occlusion > 0; })) result.occlusion = Image(w, h);
-    parallelFor(counts.size(), 4096, [&](size_t i) {
-      means.pixels[i] = meanOf(means.pixels[i], counts[i]);
-      if (!result.occlusion.pixels.empty()) result.occlusion.pixels[i] = Vec3(counts[i].occlusion / static_cast<float>(std::max(1u, counts[i].rays)));
+  void compose(FilterInput& means) {
+    if (std::any_of(counts_.begin(), counts_.end(), [](const PixelCount& c) { return c.occlusion > 0; })) result_.occlusion = Image(width_, height_);
+    parallelFor(counts_.size(), 4096, [&](size_t i) {
+      means.pixels[i] = meanOf(means.pixels[i], counts_[i]);
+      if (!result_.occlusion.pixels.empty()) result_.occlusion.pixels[i] = Vec3(counts_[i].occlusion / static_cast<float>(std::max(1u, counts_[i].rays)));
     });
     std::vector<Vec3> irradiance;
-    result.image = settings.filterPasses > 0 ? filtered(means, settings.filterPasses, pixelRays.camera().wraps(), nullptr, keepsFragments ? &irradiance : nullptr) : composed(means);
-    parallelFor(fragments.size(), 16, [&](size_t t) { addFragments(fragments[t], means, counts, irradiance, result.image); });
-  };
-  const bool hasAim = settings.untilMse > 0 && !layers;
+    result_.image = settings_.filterPasses > 0 ? filtered(means, settings_.filterPasses, pixelRays_.camera().wraps(), nullptr, keepsFragments_ ? &irradiance : nullptr) : composed(means);
+    parallelFor(fragments_.size(), 16, [&](size_t t) { addFragments(fragments_[t], means, counts_, irradiance, result_.image); });
+  }
+  void composeForGood() {
+    compose(sums_);
+    if (layers_) composeLayers();
+  }
+  void composeForNow() {
+    FilterInput means = sums_;
+    compose(means);
+  }
+
+  bool isGivenUp() const { return settings_.orNothing && progress_.stop(); }
+  bool isLate() const { return late_; }
+  bool hasAim() const { return settings_.untilMse > 0 && !layers_; }
+  bool mayGoOn() const { return hasAim() && !late_ && !progress_.stop() && result_.samples < settings_.samples && tolerance_ > kFinest; }
+  // From now on less noise may be left.
+  void askForMore() { tolerance_ *= kFiner, planned_ = 0; }
+
+  GatheredPicture result() {
+    result_.rays += rayCount_;
+    result_.cones = coneCount_;
+    return std::move(result_);
+  }
+  GatheredPicture& picture() { return result_; }
+
+ private:
+  void plan(size_t first) {
+    const FilteredLuminance left = settings_.rareApart ? filteredLuminance(sums_, settings_.filterPasses, [&](size_t i) { return meanOf(sums_.pixels[i], counts_[i]); }) : FilteredLuminance();
+    needed_ = raysNeeded(sums_, counts_, left, settings_.rareApart ? tolerance_ : kUnfiltered * tolerance_);
+    planned_ = first;
+  }
+
+  // Rays `first` to `first` + n of all pixels that ask for them.
+  template <class Asks>
+  void pass(size_t first, size_t n, const Asks& asks) {
+    std::atomic<size_t> done = 0;
+    parallelRanges(tiles_, kTilesAtOnce, [&](size_t begin, size_t end) {
+      GatherCounters count;
+      TileWork work;
+      std::vector<SurfaceLight> light;
+      LayerSums layerLight(layers_ ? layers_->size() : 0);
+      for (size_t tile = begin; tile < end; ++tile) {
+        if (progress_.stop() && (first > 0 || settings_.orNothing)) return;
+        work.clear();
+        see(tile, first, n, asks, work, count);
+        shade(tile, work, light, layerLight, count);
+        report(first, n, ++done);
+      }
+      rayCount_ += count.rays;
+      coneCount_ += count.cones;
+    });
+  }
+
+  template <class Asks>
+  void see(size_t tile, size_t first, size_t n, const Asks& asks, TileWork& work, GatherCounters& count) {
+    const Rectangle r = tileAt(tile, width_, height_);
+    std::array<Ray, kRaysAtOnce> some;
+    for (int y = r.y0; y < r.y1; ++y) {
+      for (int x = r.x0; x < r.x1; ++x) {
+        const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
+        if (!asks(pixel)) continue;
+        const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings_.seed, every_);
+        pixelShader_.see(pixelRays_.at(x, y, first, n, some), sequence, {&sums_.pixels[pixel], &counts_[pixel], static_cast<uint32_t>(pixel)}, work, count);
+      }
+    }
+    if (every_ > 1) gatherSparsely(work, r, every_, settings_.rayRoughness, static_cast<uint32_t>(n), sums_);
+  }
+
+  void shade(size_t tile, TileWork& work, std::vector<SurfaceLight>& light, LayerSums& layerLight, GatherCounters& count) {
+    light.resize(work.shadings.size());
+    if (layers_) {
+      layerLight.resize(work.shadings.size());
+      shader_.shadeInLayers(work.shadings, work.shadows, light, layerLight, count);
+    } else {
+      shader_.shade(work.shadings, work.shadows, light, count);
+    }
+    if (!keepsFragments_) pixelShader_.findOutshining(work, light);
+    PixelShader::add(work, light, keepsFragments_ ? &fragments_[tile] : nullptr);
+    if (layers_) pixelShader_.addLayers(work, light, layerLight);
+  }
+
+  void report(size_t first, size_t n, size_t tilesDone) {
+    if (tilesDone % 64 != 0 || !reporting_.try_lock()) return;
+    const float bySamples = (static_cast<float>(first) + static_cast<float>(n) * static_cast<float>(tilesDone) / static_cast<float>(tiles_)) / static_cast<float>(settings_.samples);
+    const float byError = result_.error.srgbMse > 0 ? static_cast<float>(std::min(1.0, settings_.untilMse / result_.error.srgbMse)) : 0;
+    progress_.at(std::max(bySamples, byError));
+    reporting_.unlock();
+  }
+
+  void composeLayers() {
+    for (size_t l = 0; l < layers_->size(); ++l) {
+      const FilterInput input = inputOfLayer(sums_, counts_, byLayer_, l);
+      result_.layers.push_back(settings_.filterPasses > 0 ? filtered(input, settings_.filterPasses, pixelRays_.camera().wraps()) : composed(input));
+    }
+    splitLike(result_.image, result_.layers);
+    result_.layerBytes = byLayer_.bytes();
+  }
+
+  const RayScene& rays_;
+  const SurfaceShader& shader_;
+  const PictureSettings& settings_;
+  const Progress& progress_;
+  const int width_, height_;
+  const size_t tiles_;
+  const uint32_t every_;  // pixels of which one gathers
+  const LightLayers* const layers_;
+  const PixelRays pixelRays_;
+  const bool keepsFragments_;
+  LayerSums byLayer_;
+  const PixelShader pixelShader_;
+  FilterInput sums_;
+  std::vector<PixelCount> counts_;
+  std::vector<Fragments> fragments_;  // of each tile
+  float tolerance_;
+  std::vector<uint16_t> needed_;  // rays, as planned after so many samples
+  size_t planned_ = 0;
+  const Stopwatch watch_;
+  double secondsOfARay_ = 0;  // in the last pass
+  bool late_ = false;         // the next pass would end after the limit
+  std::atomic<uint64_t> rayCount_ = 0, coneCount_ = 0;
+  std::mutex reporting_;
+  GatheredPicture result_;
+};
+
+}  // namespace
+
+GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, const Progress& progress) {
+  Gathering gathering(rays, lights, shader, camera, settings, progress);
   std::optional<ErrorProbes> probes;
   for (;;) {
-    gather();
-    if (settings.orNothing && progress.stop()) return {};
-    const bool mayGoOn = hasAim && !late && !progress.stop() && result.samples < settings.samples && tolerance > kFinest;
-    if (mayGoOn) {
-      FilterInput means = sums;
-      compose(means);
-    } else {
-      compose(sums);
+    gathering.gather();
+    if (gathering.isGivenUp()) return {};
+    const bool mayGoOn = gathering.mayGoOn();
+    mayGoOn ? gathering.composeForNow() : gathering.composeForGood();
+    GatheredPicture& picture = gathering.picture();
+    if ((settings.tellsError || gathering.hasAim()) && !shader.layers() && !gathering.isLate()) {
+      if (!probes) picture.rays += probes.emplace(rays, lights, shader, camera, settings, gathering.hasAim(), progress).rays();
+      picture.error = probes->of(picture.image);
     }
-    if ((settings.tellsError || hasAim) && !layers && !late) {
-      if (!probes) probes.emplace(rays, lights, shader, camera, settings, hasAim, progress);
-      result.error = probes->of(result.image);
-    }
-    if (!mayGoOn || progress.stop() || result.error.srgbMse <= settings.untilMse) break;
-    tolerance *= kFiner, planned = 0;
+    if (!mayGoOn || progress.stop() || picture.error.srgbMse <= settings.untilMse) return gathering.result();
+    gathering.askForMore();
   }
-  if (layers) {
-    for (size_t l = 0; l < layers->size(); ++l) {
-      const FilterInput input = inputOfLayer(sums, counts, byLayer, l);
-      result.layers.push_back(settings.filterPasses > 0 ? filtered(input, settings.filterPasses, pixelRays.camera().wraps()) : composed(input));
-    }
-    splitLike(result.image, result.layers);
-    result.layerBytes = byLayer.bytes();
-  }
-  result.rays = rayCount + (probes ? probes->rays() : 0);
-  result.cones = coneCount;
-  return result;
 }
 
 }  // namespace roomlight
