@@ -6,7 +6,7 @@ namespace {
 // Rays decide what is seen, so voxels may be coarser than cones need them: a third of the slots, and no more error.
 constexpr float kCoarser = 1.5f;
 constexpr int kDefaultSamples = 256;  // of path
-constexpr int kMostForError = 256;    // of hybrid, until no more error is left than asked
+constexpr int kMostForNoise = 256;    // of hybrid, until no pixel has more noise than asked
 constexpr int kNoLimit = 1 << 24;
 
 // Size, samples and seed of all techniques in the settings of one.
@@ -26,8 +26,10 @@ StageSettings<RayGatherSettings> hybridStages(const RenderSettings& settings) {
   out.radiance.pyramid = false;
   out.radiance.still = true;
   applyPictureSettings(settings, out.gather);
-  if (settings.noiseLevel > 0) out.gather.tolerance = static_cast<float>(settings.noiseLevel);
-  if (settings.samples == 0 && (settings.noiseLevel > 0 || settings.blendUntilMse > 0)) out.gather.samples = kMostForError;
+  if (settings.noiseLevel > 0) {
+    out.gather.tolerance = static_cast<float>(settings.noiseLevel);
+    if (settings.samples == 0) out.gather.samples = kMostForNoise;
+  }
   return out;
 }
 
