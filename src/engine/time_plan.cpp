@@ -48,9 +48,8 @@ GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights&
   const Stopwatch watch;
   const RayGather prepared(rays, lights, light.voxels, light.field, camera, gather, progress);
   const double preparing = watch.seconds();
-  gather.untilMse = 0;  // time ends it
+  gather.untilMse = 0, gather.tellsError = false;  // time ends it, and is for the picture
   RayGatherSettings small = gather;
-  small.tellsError = false;
   const int divisor = triedPart(gather.width, gather.height);
   small.width = (gather.width + divisor - 1) / divisor, small.height = (gather.height + divisor - 1) / divisor;
   small.samples = std::min(gather.samples, gather.firstSamples), small.tolerance = 0;

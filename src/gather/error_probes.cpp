@@ -15,14 +15,16 @@ constexpr size_t kOneIn = 32, kFewestPixels = 512, kMostPixels = 4096;
 constexpr int kFewest = 4, kMost = 8, kClosely = 16;  // shadings of each of the two samples: the fewer the noisier the estimate, and there is no need to know a rough picture's error well
 constexpr size_t kRaysOfShading = 2;
 constexpr size_t kAtOnce = 16;                   // probes
+constexpr size_t kFewestKnown = 16;              // pixels: of fewer nothing can be told
 constexpr uint64_t kProbeKey = 0x9e0be5;         // other random numbers than the picture has
 constexpr float kDarkest = 0.05f;                // of the mean luminance: below it errors count as absolute
 constexpr float kMostRelative = 1, kMostEncoded = 0.5f;  // that a sample may differ by: single ones are far beyond what a picture can be off by
 constexpr float kLinear = 0.0031308f;            // sRGB: below it encoded values are linear
 
-// How fast the encoded value changes with an exposed one; nothing is seen beyond white.
-float slopeOfEncoding(float exposed) {
-  if (exposed >= 1) return 0;
+// How fast the encoded value changes from an exposed one towards another; nothing is seen beyond white.
+float slopeOfEncoding(float exposed, float towards) {
+  if (exposed >= 1 && towards >= 1) return 0;
+  if (exposed >= 1 || towards >= 1) return (1 - srgbEncode(std::min(exposed, towards))) / std::max(std::abs(towards - exposed), 1e-6f);
   return exposed <= kLinear ? 12.92f : 1.055f / 2.4f * std::pow(exposed, 1 / 2.4f - 1);
 }
 
@@ -32,6 +34,7 @@ float bounded(float v, float most) { return std::clamp(v, -most, most); }
 class MeanSquare {
  public:
   void add(double v) { sum_ += v, squares_ += v * v, ++n_; }
+  size_t count() const { return n_; }
   double value() const {
     const double n = static_cast<double>(n_), mean = sum_ / n;
     return std::max(mean, std::sqrt(std::max(0.0, squares_ / n - mean * mean) / n));
@@ -49,8 +52,11 @@ ErrorProbes::ErrorProbes(const RayScene& rays, const Lights& lights, const Surfa
   const size_t count = std::min(pixels, std::clamp(pixels / kOneIn, kFewestPixels, kMostPixels));
   const auto shadings = static_cast<uint32_t>(closely ? kClosely : std::clamp(settings.samples / 2, kFewest, kMost));
   PictureSettings own = settings;
-  own.seed = mix64(settings.seed ^ kProbeKey), own.samples = static_cast<int>(2 * shadings * kRaysOfShading);
-  const PixelRays pixelRays(rays, camera, own);
+  own.seed = mix64(settings.seed ^ kProbeKey), own.samples = static_cast<int>(shadings * kRaysOfShading);
+  // Parts of one well-distributed set would not be independent.
+  PictureSettings other = own;
+  other.seed = mix64(own.seed);
+  const PixelRays places[2] = {{rays, camera, own}, {rays, camera, other}};
   const PixelShader pixelShader(rays, lights, own, false);
   probes_.resize(count);
   std::atomic<uint64_t> rayCount = 0;
@@ -68,9 +74,9 @@ ErrorProbes::ErrorProbes(const RayScene& rays, const Lights& lights, const Surfa
       probes_[i].pixel = static_cast<uint32_t>(pixel);
       const int x = static_cast<int>(pixel % static_cast<size_t>(settings.width)), y = static_cast<int>(pixel / static_cast<size_t>(settings.width));
       for (uint32_t k = 0; k < 2 * shadings; ++k) {
-        const size_t sum = 2 * (i - begin) + k / shadings;
+        const size_t which = k / shadings, sum = 2 * (i - begin) + which;
         std::array<Ray, kRaysAtOnce> some;
-        pixelShader.see(pixelRays.at(x, y, kRaysOfShading * k, kRaysOfShading, some), PixelSequence(x, y, k, own.seed), {&sums[sum], &counts[sum], static_cast<uint32_t>(pixel)}, work, counters);
+        pixelShader.see(places[which].at(x, y, kRaysOfShading * (k % shadings), kRaysOfShading, some), PixelSequence(x, y, k, own.seed), {&sums[sum], &counts[sum], static_cast<uint32_t>(pixel)}, work, counters);
       }
     }
     light.resize(work.shadings.size());
@@ -96,15 +102,17 @@ ErrorLeft ErrorProbes::of(const Image& picture) const {
   MeanSquare relative, encoded;
   for (const Probe& probe : probes_) {
     const Vec3 p = picture.pixels[probe.pixel], a = p - probe.sample[0], b = p - probe.sample[1];
+    if (!isFinite(a) || !isFinite(b)) continue;
     const float level = std::max(0.0f, luminance(p)) + darkest;
     relative.add(static_cast<double>(bounded(luminance(a) / level, kMostRelative) * bounded(luminance(b) / level, kMostRelative)));
     double square = 0;
     for (int c = 0; c < 3; ++c) {
-      const float slope = exposure * slopeOfEncoding(p[c] * exposure);
+      const float slope = exposure * slopeOfEncoding(p[c] * exposure, (probe.sample[0][c] + probe.sample[1][c]) / 2 * exposure);
       square += static_cast<double>(bounded(slope * a[c], kMostEncoded) * bounded(slope * b[c], kMostEncoded)) / 3;
     }
     encoded.add(square);
   }
+  if (encoded.count() < kFewestKnown) return {};
   return {std::sqrt(relative.value()), encoded.value()};
 }
 

@@ -15,7 +15,7 @@ class ErrorProbes {
  public:
   // `closely`: for pictures whose error shall be small.
   ErrorProbes(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, bool closely, const Progress& progress);
-  // Of a picture of the same size; nothing is known of one without pixels.
+  // Of a picture of the same size; nothing is known of one of a few pixels.
   ErrorLeft of(const Image& picture) const;
   uint64_t rays() const { return rays_; }
 

@@ -69,12 +69,15 @@ class Gathering {
     byLayer_.resize(counts_.size());
   }
 
-  // Pass by pass, until no pixel needs more rays or there is no time.
+  // Pass by pass, until no pixel needs more rays, there is no time, or the error is to be looked at.
   void gather() {
     while (result_.samples < settings_.samples) {
       const auto first = static_cast<size_t>(result_.samples);
       const bool chosen = first > 0 && tolerance_ > 0;
-      if (chosen && first > kPlanned * planned_) plan(first);
+      if (chosen && first > kPlanned * planned_) {
+        if (hasAim() && planned_ > 0) return;  // a look at the error, before more is planned
+        plan(first);
+      }
       const auto most = static_cast<size_t>(first > 0 || !(tolerance_ > 0) ? settings_.samples : std::min(settings_.samples, settings_.firstSamples));
       const size_t n = std::min(kRaysAtOnce, most - first);
       const auto asks = [&](size_t pixel) { return !chosen || needed_[pixel] > first - planned_; };

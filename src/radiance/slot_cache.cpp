@@ -59,11 +59,11 @@ SlotCache::Place SlotCache::find(Vec3 p, Vec3 n) const {
   };
   const SlotFound found = lookAround(q, n, [&](Int3 at) {
     const int64_t voxel = voxels_.voxelAt(at), slot = voxel < 0 ? -1 : slotOf(voxels_.voxels[static_cast<size_t>(voxel)], n);
-    return SlotFound{slot, slot >= 0 && offPlane(slot) < kOnPlane};
+    return slot < 0 ? SlotFound{} : SlotFound{slot, offPlane(slot)};
   });
   if (found.slot < 0) return {};
-  if (found.onPlane && records_[static_cast<size_t>(found.slot)].alone) return {found.slot, Trust::Sure};
-  return {found.slot, offPlane(found.slot) > kOffPlane ? Trust::None : Trust::Unsure};
+  if (found.off < kOnPlane && records_[static_cast<size_t>(found.slot)].alone) return {found.slot, Trust::Sure};
+  return {found.slot, found.off > kOffPlane ? Trust::None : Trust::Unsure};
 }
 
 void SlotCache::prefetch(std::span<const Vec3> points) const {

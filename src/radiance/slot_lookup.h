@@ -7,33 +7,30 @@
 
 namespace roomlight {
 
-// What looking at one voxel found: a slot, -1: none, and whether the point lies on its plane.
+// What looking at one voxel found: a slot, -1: none, and how far off its plane the point lies, in voxels.
 struct SlotFound {
   int64_t slot = -1;
-  bool onPlane = false;
+  float off = kInfinity;
 };
 
-// Looks at the voxel around q, in voxels from the lattice's origin, and at those a little before and behind it along n, until one holds a slot on whose plane q lies; else the first slot found.
+// Looks at the voxel around q, in voxels from the lattice's origin, and at those a little before and behind it along n: the slot on whose plane q lies, or to which it lies nearest.
 // `look` (SlotFound of Int3) is asked.
 template <class Look>
 SlotFound lookAround(Vec3 q, Vec3 n, Look&& look) {
-  constexpr float kRounding = 0.02f, kBeside = 0.3f;
+  constexpr float kRounding = 0.02f, kBeside = 0.3f, kSamePlane = 0.002f;
   const auto voxelAround = [](Vec3 at) { return Int3{static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), static_cast<int>(std::floor(at.z))}; };
   const Int3 own = voxelAround(q);
-  const SlotFound here = look(own);
-  if (here.onPlane) return here;
-  SlotFound first = here;
+  SlotFound best = look(own);
   for (const float nudge : {kRounding, -kRounding}) {
+    if (best.off < kSamePlane) return best;
     const Int3 voxel = voxelAround(q + n * nudge);
     if (voxel == own) continue;
-    const SlotFound found = look(voxel);
-    if (found.onPlane) return found;
-    if (first.slot < 0) first = found;
+    if (const SlotFound found = look(voxel); found.off < best.off) best = found;
   }
   for (const float nudge : {kBeside, -kBeside}) {
-    if (first.slot < 0) first = look(voxelAround(q + n * nudge));
+    if (best.slot < 0) best = look(voxelAround(q + n * nudge));
   }
-  return first;
+  return best;
 }
 
 constexpr float kOnPlane = 0.05f;  // voxels: within, a point belongs to the slot's own sheet and not to one close behind

@@ -80,15 +80,29 @@ TEST(TimeLimit, timeThatIsLeftPutsThePictureRight) {
 TEST(TimeLimit, withoutOneAPictureGoesOnUntilItsErrorIsSmall) {
   const LitRoom room;
   RenderSettings settings = small(0);
-  settings.blendUntilMse = 0.0005;
+  settings.samples = 1, settings.blendUntilMse = 1e-5;  // one sample leaves more
   int estimates = 0;
   RenderProgress progress;
   progress.estimate = [&](double relativeError, double) { estimates += relativeError > 0; };
   const Rendered rendered = render(room.scene, room.camera, settings, progress).value();
   EXPECT_GT(estimates, 0);
   EXPECT_LE(number(rendered, "estimatedMse"), settings.blendUntilMse);
+  EXPECT_GT(number(rendered, "pathSamples"), 1);
   settings.blend = false;
   EXPECT_EQ(number(render(room.scene, room.camera, settings).value(), "pathSamples"), -1);
+}
+
+// Rays go on as long as more error is estimated, without a path.
+TEST(ErrorAim, raysGoOnUntilTheErrorIsSmall) {
+  const LitRoom room;
+  RenderSettings settings = small(0);
+  settings.blend = false, settings.blendUntilMse = 0.1;
+  const Rendered rough = render(room.scene, room.camera, settings).value();
+  settings.blendUntilMse = 1e-9;
+  const Rendered fine = render(room.scene, room.camera, settings).value();
+  EXPECT_LT(number(rough, "samples"), 64);
+  EXPECT_GT(number(fine, "samples"), number(rough, "samples"));
+  EXPECT_GT(number(fine, "rays"), 1.2 * number(rough, "rays"));
 }
 
 TEST(TimeLimit, whatIsStoppedWhileItIsPutRightIsKept) {
@@ -98,9 +112,11 @@ TEST(TimeLimit, whatIsStoppedWhileItIsPutRightIsKept) {
   std::atomic<bool> cancelled = false;
   RenderProgress progress;
   progress.cancelled = &cancelled;
-  progress.estimate = [&](double, double) { cancelled = true; };
+  int estimates = 0;
+  progress.estimate = [&](double, double) { cancelled = ++estimates > 1; };  // the first is that of the gathered picture
   const Rendered rendered = render(room.scene, room.camera, settings, progress).value();
   EXPECT_FALSE(rendered.complete);
+  EXPECT_GT(number(rendered, "pathSamples"), 1);
   EXPECT_TRUE(isPicture(rendered.image));
 }
 

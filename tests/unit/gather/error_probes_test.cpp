@@ -64,6 +64,40 @@ TEST_F(Probes, tellsByHowMuchAPictureIsOff) {
 // Encoded, 18 % grey exposed as the mean of an even picture becomes 0.461; a tenth more, 0.481.
 TEST_F(Probes, tellsTheErrorOfWhatIsEncoded) { EXPECT_NEAR(std::sqrt(errorOf(even(22), true).srgbMse), 0.0195, 0.002); }
 
+// Of a picture of single samples, and of one of many: what probes differ by among themselves is no error.
+TEST(ErrorOfNoise, isToldThroughTheNoiseOfProbes) {
+  Scene scene;
+  const int wall = test::addMaterial(scene, test::lambertian(0.6f));
+  test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4, 2.6f, 3}, std::vector<int>(6, wall));
+  test::addBox(scene, {1, 0, 1}, {1.6f, 0.9f, 1.6f}, wall);
+  test::addBox(scene, {0.5f, 2.2f, 1}, {0.6f, 2.3f, 1.1f}, test::addMaterial(scene, test::lambertian(0, 5000)));
+  Camera camera;
+  camera.worldFromCamera.w = {2, 1.3f, 2.8f};
+  const RayScene rays(scene);
+  const Lights lights(scene);
+  const Voxels voxels = voxelise(scene, {.voxelSizeM = 0.1f}).voxels;
+  const RadianceField field = illuminate(rays, lights, voxels, {});
+  RayGatherSettings settings;
+  settings.width = 96, settings.height = 64, settings.hitCellM = -1, settings.filterPasses = 0, settings.tolerance = 0;
+  const RayShader shader(rays, lights, voxels, field, settings);
+  const auto picture = [&](int samples, uint64_t seed) {
+    RayGatherSettings some = settings;
+    some.samples = samples, some.seed = seed;
+    return gatherPicture(rays, lights, shader, camera, some, {}).image;
+  };
+  const Image few = picture(1, 5), many = picture(128, 6);
+  double mean = 0, squares = 0;
+  for (const Vec3& p : many.pixels) mean += static_cast<double>(luminance(p)) / static_cast<double>(many.pixels.size());
+  for (size_t i = 0; i < many.pixels.size(); ++i) {
+    const double level = static_cast<double>(luminance(few.pixels[i])) + 0.05 * mean, off = std::clamp(static_cast<double>(luminance(few.pixels[i] - many.pixels[i])) / level, -1.0, 1.0);
+    squares += off * off / static_cast<double>(many.pixels.size());
+  }
+  const ErrorProbes probes(rays, lights, shader, camera, settings, true, {});
+  EXPECT_GT(std::sqrt(squares), 0.05);
+  EXPECT_NEAR(probes.of(few).relative, std::sqrt(squares), 0.25 * std::sqrt(squares));
+  EXPECT_LT(probes.of(many).relative, 0.3 * std::sqrt(squares));
+}
+
 TEST_F(Probes, knowsNothingOfAPictureWithoutPixels) { EXPECT_LT(errorOf(Image()).relative, 0); }
 
 }  // namespace
