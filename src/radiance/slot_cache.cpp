@@ -53,17 +53,18 @@ int64_t SlotCache::slotOf(const SurfaceVoxel& voxel, Vec3 n) const {
 
 SlotCache::Place SlotCache::find(Vec3 p, Vec3 n) const {
   const Vec3 q = (p - voxels_.origin) * perMetre_;
+  const float onPlane = onPlaneM(voxels_.voxelSizeM) * perMetre_;
   const auto offPlane = [&](int64_t slot) {
     const Record& r = records_[static_cast<size_t>(slot)];
     return std::abs(dot(q, r.normal()) - r.offset);
   };
   const SlotFound found = lookAround(q, n, [&](Int3 at) {
     const int64_t voxel = voxels_.voxelAt(at), slot = voxel < 0 ? -1 : slotOf(voxels_.voxels[static_cast<size_t>(voxel)], n);
-    return slot < 0 ? SlotFound{} : SlotFound{slot, offPlane(slot)};
+    return SlotFound{slot, slot >= 0 && offPlane(slot) < onPlane};
   });
   if (found.slot < 0) return {};
-  if (found.off < kOnPlane && records_[static_cast<size_t>(found.slot)].alone) return {found.slot, Trust::Sure};
-  return {found.slot, found.off > kOffPlane ? Trust::None : Trust::Unsure};
+  if (found.onPlane && records_[static_cast<size_t>(found.slot)].alone) return {found.slot, Trust::Sure};
+  return {found.slot, offPlane(found.slot) > kOffPlane ? Trust::None : Trust::Unsure};
 }
 
 void SlotCache::prefetch(std::span<const Vec3> points) const {

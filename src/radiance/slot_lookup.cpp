@@ -22,7 +22,7 @@ SlotFound slotIn(const Voxels& voxels, Int3 voxel, Vec3 p, Vec3 normal) {
   const int64_t slot = record < 0 ? -1 : bestSlot(voxels, voxels.voxels[static_cast<size_t>(record)], normal);
   if (slot < 0) return {};
   const FaceSlot& found = voxels.slots[static_cast<size_t>(slot)];
-  return {slot, std::abs(dot(p - found.position, found.normal)) / voxels.voxelSizeM};
+  return {slot, std::abs(dot(p - found.position, found.normal)) < onPlaneM(voxels.voxelSizeM)};
 }
 
 }  // namespace
@@ -34,10 +34,9 @@ int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal) {
 int32_t brickAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal) {
   const auto brickAround = [&](Int3 v) { return v.x < 0 || v.y < 0 || v.z < 0 ? -1 : voxels.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize}); };
   int32_t brick = -1;
-  float nearest = kInfinity;
   const auto look = [&](Int3 at) {
     const SlotFound found = slotIn(voxels, at, p, normal);
-    if (found.off < nearest) nearest = found.off, brick = brickAround(at);
+    if (found.onPlane || (found.slot >= 0 && brick < 0)) brick = brickAround(at);
     return found;
   };
   lookAround((p - voxels.origin) / voxels.voxelSizeM, normal, look);

@@ -2,38 +2,45 @@
 // side, and what is found there may be another surface close behind.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/vec.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
 
-// What looking at one voxel found: a slot, -1: none, and how far off its plane the point lies, in voxels.
+// What looking at one voxel found: a slot, -1: none, and whether the point lies on its plane.
 struct SlotFound {
   int64_t slot = -1;
-  float off = kInfinity;
+  bool onPlane = false;
 };
 
-// Looks at the voxel around q, in voxels from the lattice's origin, and at those a little before and behind it along n: the slot on whose plane q lies, or to which it lies nearest.
+// Looks at the voxel around q, in voxels from the lattice's origin, and at those a little before and behind it along n, until one holds a slot on whose plane q lies; else the first slot found.
 // `look` (SlotFound of Int3) is asked.
 template <class Look>
 SlotFound lookAround(Vec3 q, Vec3 n, Look&& look) {
-  constexpr float kRounding = 0.02f, kBeside = 0.3f, kSamePlane = 0.002f;
+  constexpr float kRounding = 0.02f, kBeside = 0.3f;
   const auto voxelAround = [](Vec3 at) { return Int3{static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), static_cast<int>(std::floor(at.z))}; };
   const Int3 own = voxelAround(q);
-  SlotFound best = look(own);
+  const SlotFound here = look(own);
+  if (here.onPlane) return here;
+  SlotFound first = here;
   for (const float nudge : {kRounding, -kRounding}) {
-    if (best.off < kSamePlane) return best;
     const Int3 voxel = voxelAround(q + n * nudge);
     if (voxel == own) continue;
-    if (const SlotFound found = look(voxel); found.off < best.off) best = found;
+    const SlotFound found = look(voxel);
+    if (found.onPlane) return found;
+    if (first.slot < 0) first = found;
   }
   for (const float nudge : {kBeside, -kBeside}) {
-    if (best.slot < 0) best = look(voxelAround(q + n * nudge));
+    if (first.slot < 0) first = look(voxelAround(q + n * nudge));
   }
-  return best;
+  return first;
 }
 
-constexpr float kOnPlane = 0.05f;  // voxels: within, a point belongs to the slot's own sheet and not to one close behind
+// Metres off a slot's plane within which a point belongs to its own sheet and not to one close behind.
+inline float onPlaneM(float voxelSizeM) { return std::min(0.05f * voxelSizeM, 0.005f); }
 
 // Slot of Voxels that a point of a surface belongs to: the face of its voxel nearest to `normal`; -1 where voxels hold nothing.
 int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal);
