@@ -19,13 +19,13 @@ constexpr size_t kFewestKnown = 16;              // pixels: of fewer nothing can
 constexpr uint64_t kProbeKey = 0x9e0be5;         // other random numbers than the picture has
 constexpr float kDarkest = 0.05f;                // of the mean luminance: below it errors count as absolute
 constexpr float kMostRelative = 1, kMostEncoded = 0.5f;  // that a sample may differ by: single ones are far beyond what a picture can be off by
-constexpr float kLinear = 0.0031308f;            // sRGB: below it encoded values are linear
+constexpr float kStep = 1e-3f;                   // of exposed values, for a slope
 
 // How fast the encoded value changes from an exposed one towards another; nothing is seen beyond white.
 float slopeOfEncoding(float exposed, float towards) {
   if (exposed >= 1 && towards >= 1) return 0;
   if (exposed >= 1 || towards >= 1) return (1 - srgbEncode(std::min(exposed, towards))) / std::max(std::abs(towards - exposed), 1e-6f);
-  return exposed <= kLinear ? 12.92f : 1.055f / 2.4f * std::pow(exposed, 1 / 2.4f - 1);
+  return (srgbEncode(exposed + kStep) - srgbEncode(exposed)) / kStep;
 }
 
 float bounded(float v, float most) { return std::clamp(v, -most, most); }

@@ -28,9 +28,6 @@ Vec3 placeOn(const Voxels& voxels, const FaceSlot& slot, uint32_t k, Vec2 jitter
   return offsetOrigin(p, slot.normal) + slot.normal * (0.01f * h);
 }
 
-// Of what lies in it on top of one another only the uppermost is lit.
-float litAreaM2(const FaceSlot& slot, float h) { return std::min(slot.areaM2, h * h / std::max(std::abs(slot.normal[slot.face / 2]), 0.1f)); }
-
 bool fills(const FaceSlot& slot, float h) { return slot.areaM2 > 0.9f * h * h && std::abs(slot.normal[slot.face / 2]) > 0.9f; }
 
 }  // namespace
@@ -67,7 +64,7 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
       if (places[s] == 0) {
         // Among other things in its voxel rays do not always read the slot.
         if (!paths.isSheet(s) || isBlack(sunLux[s]) || isMetal(s)) continue;
-        const Vec3 radiance = slot.albedo * sunLux[s] / kPi, flux = radiance * (kPi * litAreaM2(slot, voxels.voxelSizeM) / static_cast<float>(SlotPaths::kPoints));
+        const Vec3 radiance = slot.albedo * sunLux[s] / kPi, flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
         for (uint32_t k = 0; k < SlotPaths::kPoints; ++k) ofBrick[b].push_back({paths.point(s, k), slot.normal, flux, static_cast<int64_t>(s), luminance(radiance)});
         continue;
       }
@@ -91,7 +88,7 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
       const size_t step = all && lux.size() == kPlaces ? kDiagonal : 1;  // of one that is lit all over a few will do
       const float radiance = luminance(slot.albedo * mean) / kPi, part = static_cast<float>(all ? SlotPaths::kPoints : lux.size());
       for (size_t i = 0; i < lux.size(); i += step) {
-        const Vec3 flux = slot.albedo * (all ? mean : lux[i]) * (litAreaM2(slot, voxels.voxelSizeM) / part);
+        const Vec3 flux = slot.albedo * (all ? mean : lux[i]) * (slot.areaM2 / part);
         if (!isBlack(flux)) ofBrick[b].push_back({way[i].origin, slot.normal, flux, static_cast<int64_t>(s), radiance});
       }
     }

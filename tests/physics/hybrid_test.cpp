@@ -57,6 +57,13 @@ double mean(const Image& image) {
   return sum / static_cast<double>(image.pixels.size());
 }
 
+// Of a picture as small as those of hybrid, by paths.
+double meanByPath(const RayScene& rays, const Lights& lights, const Camera& camera, int samples) {
+  PathSettings path;
+  path.width = path.height = 48, path.samples = samples;
+  return mean(pathTrace(rays, lights, camera, path).image);
+}
+
 // Every wall emits 10 and reflects rho.
 Lit furnace(float rho) {
   Scene scene;
@@ -248,9 +255,7 @@ class HybridLuminaire : public testing::TestWithParam<bool> {};
 TEST_P(HybridLuminaire, agreesWithPath) {
   const Lit lit(webRoom(GetParam()), 0.06f);
   const Camera camera = cameraAt({2.8f, 1.5f, 3.0f}, {1.2f, 0.8f, 1.2f});
-  PathSettings path;
-  path.width = path.height = 48, path.samples = 512;
-  const double expected = mean(pathTrace(lit.rays, lit.lights, camera, path).image), measured = mean(lit.hybrid(camera)), cone = mean(lit.cone(camera));
+  const double expected = meanByPath(lit.rays, lit.lights, camera, 512), measured = mean(lit.hybrid(camera)), cone = mean(lit.cone(camera));
   test::record("Room lit by a photometric web, mean luminance, cd/m²", GetParam() ? "as large as its opening" : "as a point", "hybrid", expected, measured);
   test::record("Room lit by a photometric web, mean luminance, cd/m²", GetParam() ? "as large as its opening" : "as a point", "cone", expected, cone);
   EXPECT_NEAR(measured, expected, 0.01 * expected);
@@ -270,9 +275,7 @@ TEST(Hybrid, hiddenSlotDoesNotDarken) {
   const Lit lit(std::move(scene), 0.5f);
   Camera camera = cameraAt({3.6f, 1, 1.3f}, {1.8f, 0.425f, 1.25f});
   camera.yFovRad = 0.06f;
-  PathSettings path;
-  path.width = path.height = 48, path.samples = 256;
-  const double expected = mean(pathTrace(lit.rays, lit.lights, camera, path).image), measured = mean(lit.hybrid(camera));
+  const double expected = meanByPath(lit.rays, lit.lights, camera, 256), measured = mean(lit.hybrid(camera));
   test::record("Face above one hidden in a block, mean luminance, cd/m²", "voxels of 0.5 m", "hybrid", expected, measured);
   EXPECT_NEAR(measured, expected, 0.1 * expected);
 }
@@ -290,9 +293,7 @@ TEST(Hybrid, surfacesOnBordersOfVoxelsAreLitAsOthers) {
   scene.suns = {sun};
   const Lit lit(std::move(scene), 0.1f);
   const Camera camera = cameraAt({3.4f, 1.5f, 4.2f}, {1.2f, 1.3f, 0});
-  PathSettings path;
-  path.width = path.height = 48, path.samples = 1024;
-  const double expected = mean(pathTrace(lit.rays, lit.lights, camera, path).image), measured = mean(lit.hybrid(camera));
+  const double expected = meanByPath(lit.rays, lit.lights, camera, 1024), measured = mean(lit.hybrid(camera));
   test::record("Room on the lattice in the sun, mean luminance, cd/m²", "ground 1 cm below its floor", "hybrid", expected, measured);
   EXPECT_NEAR(measured, expected, 0.02 * expected);
 }
@@ -308,9 +309,7 @@ TEST(Hybrid, insideOfAShadeIsCountedOnce) {
   test::addSphere(scene, {2.02f, 1.68f, 1.6f}, 0.03f, test::addMaterial(scene, test::lambertian(0.5f, 30000)));
   Camera camera = cameraAt({3.4f, 1.6f, 3.0f}, {2, 0.74f, 1.6f});
   camera.yFovRad = 0.4f;
-  PathSettings path;
-  path.width = path.height = 48, path.samples = 1024;
-  const double expected = mean(pathTrace(RayScene(scene), Lights(scene), camera, path).image);
+  const double expected = meanByPath(RayScene(scene), Lights(scene), camera, 1024);
   for (const float voxelM : {0.07f, 0.1f, 0.13f}) {
     const double measured = mean(Lit(scene, voxelM).hybrid(camera));
     test::record("Table under a lamp with a shade, mean luminance, cd/m²", fmt::format("voxels of {} m", voxelM), "hybrid", expected, measured);
