@@ -1,10 +1,14 @@
 // Techniques `hybrid` and `cone` as lit scenes: voxels and the light in them, kept up to date.
+#include <mutex>
+
 #include "engine/layers.h"
 #include "engine/lit_techniques.h"
 #include "engine/technique_settings.h"
 #include "gather/cone_shader.h"
 #include "gather/frame.h"
+#include "gather/hit_survey.h"
 #include "gather/meters.h"
+#include "gather/ray_gather.h"
 #include "gather/ray_shader.h"
 #include "radiance/light_cache.h"
 #include "radiance/slot_snapshot.h"
@@ -14,6 +18,27 @@ namespace roomlight {
 namespace {
 
 constexpr size_t kMostEdited = 8;  // each takes a ray of a pixel of quick frames
+constexpr int kWorthSurvey = 4;    // samples of a picture that is worth to find out first where its rays arrive
+
+// What still pictures of the camera that asked last share.
+class LastView {
+ public:
+  // Made anew for another camera or size if that is `worth` it; null if not, and where `make` returns null.
+  template <class Make>
+  std::shared_ptr<const RayGather> of(const Camera& camera, int width, int height, bool worth, const Make& make) {
+    const std::lock_guard lock(mutex_);
+    const bool isKnown = gather_ && width == width_ && height == height_ && seeTheSame(gather_->camera(), camera);
+    if (isKnown || !worth) return isKnown ? gather_ : nullptr;
+    width_ = width, height_ = height, gather_ = make();
+    return gather_;
+  }
+  void forget() { gather_ = {}; }
+
+ private:
+  std::mutex mutex_;
+  int width_ = 0, height_ = 0;
+  std::shared_ptr<const RayGather> gather_;
+};
 
 template <class Shader, class Settings>
 class VoxelScene final : public LitScene {
@@ -22,6 +47,7 @@ class VoxelScene final : public LitScene {
     radiance_.still = false;  // what changes is followed by links
     if (const auto layers = wantedLayers(scene, lights(), settings)) radiance_.layers = layers.value();
     voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, use.voxel); });
+    if constexpr (kByRays) gather_ = withCells(gather_, voxels_.voxels.voxelSizeM);
     stages.run("illuminate", [&](const Progress& p) {
       light_.emplace(rays(), lights(), voxels_.voxels, radiance_, p);
       return true;
@@ -29,16 +55,25 @@ class VoxelScene final : public LitScene {
     makeShader(stages);
   }
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
-    return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
+    return withSurvey(elements, progress, [&](const SurfaceShader& shader) { return measureIlluminance(rays(), lights(), shader, elements, settings, progress); });
   }
   LayeredReadings illuminanceInLayers(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
     if (!shader_ || !shader_->layers()) return {};
-    return measureInLayers(rays(), lights(), *shader_, elements, settings, progress);
+    return withSurvey(elements, progress, [&](const SurfaceShader& shader) { return measureInLayers(rays(), lights(), shader, elements, settings, progress); });
   }
   const LightLayers* layers() const override { return shader_ ? shader_->layers() : nullptr; }
   Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
     if (!shader_) return {};
-    return gatherView(rays(), lights(), *shader_, camera, asked(gather_, wish), wish.history, progress);
+    const Settings use = asked(gather_, wish);
+    if constexpr (kByRays) {
+      const bool worth = !wish.history && use.samples >= kWorthSurvey;
+      const auto prepared = last_.of(camera, use.width, use.height, worth, [&]() -> std::shared_ptr<const RayGather> {
+        auto made = std::make_shared<const RayGather>(rays(), lights(), *shader_, camera, sized(gather_, use.width, use.height), progress);
+        return progress.stop() ? nullptr : made;
+      });
+      if (prepared && !wish.history) return prepared->picture(use, progress).image;
+    }
+    return gatherView(rays(), lights(), *shader_, camera, use, wish.history, progress);
   }
   std::shared_ptr<const SlotSnapshot> snapshot() const override {
     std::vector<uint32_t> edited = light_->emittersApart(lights()) ? edited_ : std::vector<uint32_t>();
@@ -47,9 +82,22 @@ class VoxelScene final : public LitScene {
   }
 
  private:
+  static constexpr bool kByRays = std::is_same_v<Shader, RayShader>;
+
+  // Meters read the light that arrives from where their own rays do.
+  template <class Read>
+  auto withSurvey(std::span<const SurfaceElement> elements, const Progress& progress, const Read& read) const {
+    if constexpr (kByRays) {
+      if (gather_.hitCellM > 0 && !elements.empty()) {
+        const HitSurvey survey = surveyHits(rays(), lights(), *shader_, elements, gather_, progress);
+        return read(SurveyedShader(*shader_, survey));
+      }
+    }
+    return read(*shader_);
+  }
   // What voxels know of emission light does not ask: it follows when something moves.
   void relight(const SceneChange& change, Stages& stages) override {
-    shader_.reset();
+    shader_.reset(), last_.forget();
     noteEdited(change);
     glow_.insert(glow_.end(), change.glow.begin(), change.glow.end());
     const std::vector<uint32_t>& moved = change.moved;
@@ -91,12 +139,13 @@ class VoxelScene final : public LitScene {
   }
 
   RadianceSettings radiance_;
-  const Settings gather_;
+  Settings gather_;
   Voxelisation voxels_;
   std::vector<uint32_t> edited_;  // emissive meshes, the last time
   std::vector<uint32_t> glow_;  // instances that shine otherwise than voxels know
   std::optional<LightCache> light_;
   std::optional<Shader> shader_;
+  mutable LastView last_;  // refers to the shader
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ Result<Picture> renderHybrid(const Scene& scene, const Camera& camera, const Ren
   const auto left = [&] { return limited ? std::max(0.0, settings.timeLimitS - watch.seconds()) : std::numeric_limits<double>::infinity(); };
   StageSettings<RayGatherSettings> use = hybridStages(settings);
   use.gather.tellsError = true, use.gather.untilMse = settings.blendUntilMse;
-  if (settings.blendUntilMse > 0 && use.gather.tolerance > 0 && settings.samples == 0 && !settings.layers) use.gather.samples = std::max(use.gather.samples, kMostForError);
+  if (settings.blendUntilMse > 0 && use.gather.tolerance > 0 && settings.samples == 0) use.gather.samples = std::max(use.gather.samples, kMostForError);
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });

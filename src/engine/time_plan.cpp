@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
+#include "gather/ray_shader.h"
 
 namespace roomlight {
 namespace {
@@ -46,7 +47,9 @@ int triedPart(int width, int height) { return static_cast<int>(std::clamp(std::s
 
 GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather, const Progress& progress) {
   const Stopwatch watch;
-  const RayGather prepared(rays, lights, light.voxels, light.field, camera, gather, progress);
+  gather = withCells(gather, light.voxels.voxelSizeM);
+  const RayShader shader(rays, lights, light.voxels, light.field, gather);
+  const RayGather prepared(rays, lights, shader, camera, gather, progress);
   const double preparing = watch.seconds();
   gather.untilMse = 0, gather.tellsError = false;  // time ends it, and is for the picture
   RayGatherSettings small = gather;

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sorted_keys.h"
+#include "gather/hit_layers.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
@@ -45,15 +46,15 @@ Ray HitCache::between(const HitCell& cell, const HitPlace& place) {
   return {from, cell.place + cell.normal * (kLift * cell.sizeM) - from, 0, 1};
 }
 
-void HitCache::fill(const RayScene& rays, std::span<const LitHit> samples) {
-  cells_.clear(), keys_.clear();
+void HitCache::fill(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers) {
+  cells_.clear(), keys_.clear(), shares_.clear();
   std::vector<uint8_t> covered(samples.size());
-  for (int level = 0; level < kLevels; ++level) fillLevel(rays, samples, level, covered);
+  for (int level = 0; level < kLevels; ++level) fillLevel(rays, samples, layers, level, covered);
   makeTable(keys_);
 }
 
 // Cells of one level, where finer ones leave samples over.
-void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, int level, std::vector<uint8_t>& covered) {
+void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers, int level, std::vector<uint8_t>& covered) {
   const size_t fewest = level + 1 < kLevels ? kFewest : 1;
   std::vector<uint64_t> keys(samples.size());
   parallelFor(keys.size(), kKeysAtOnce, [&](size_t i) { keys[i] = keyOf(samples[i].at, level); });
@@ -100,6 +101,7 @@ void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, 
     if (members.size() < fewest) continue;
     for (const uint32_t m : members) covered[m] = 1;
     cell.radianceCdM2 = cell.radianceCdM2 / n, cell.ownCdM2 = cell.ownCdM2 / n, cell.lux /= n, cell.ownLux /= n, cell.sunLux /= n;
+    if (layers) cell.shares = static_cast<uint32_t>(shares_.size()), layers->addShares(samples, members, shares_);
     cells_[kept++] = cell;
     keys_.push_back(keys[order[runs[r].begin]]);
   }

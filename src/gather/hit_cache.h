@@ -20,6 +20,7 @@ struct HitCell {
   Vec3 place, normal;  // a surface point that the cell stands for
   int64_t slot = -1;   // of the voxel there
   float sizeM = 0;
+  uint32_t shares = 0;  // see HitCache::shares()
   bool sure = false;   // nothing else lies in its voxels: places in it need no ray to the cell's own
 };
 
@@ -37,9 +38,12 @@ struct LitHit {
   Vec3 own;                // the three as they were found
   float sunLux = 0;
   float rays = 1;  // that it stands for
+  uint32_t number = 0;  // of the sample, in HitLayers
   int64_t slot = -1;
   bool sure = false;
 };
+
+class HitLayers;
 
 class HitCache {
  public:
@@ -58,8 +62,10 @@ class HitCache {
     float rays;
   };
   std::vector<Chosen> chosen(std::span<const HitPlace> places, size_t most) const;
-  // A sample that the cell's first sample cannot see is left out. The result does not depend on the number of threads.
-  void fill(const RayScene& rays, std::span<const LitHit> samples);
+  // A sample that the cell's first sample cannot see is left out. The result does not depend on the number of threads. `layers`, where given: whose the samples' light is.
+  void fill(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers = nullptr);
+  // Of a cell's light, as SlotLayers::at(); only of cells filled with layers.
+  const uint16_t* shares(const HitCell& cell) const { return shares_.data() + cell.shares; }
   // Null where no cell knows the place.
   const HitCell* find(const HitPlace& place) const;
   // Between a place and the one that a cell stands for, both a little before their surface: where nothing is in the way, the cell's light is that of the place.
@@ -72,13 +78,14 @@ class HitCache {
     uint64_t key = 0;  // 0: none
     uint32_t cell = 0;
   };
-  void fillLevel(const RayScene& rays, std::span<const LitHit> samples, int level, std::vector<uint8_t>& covered);
+  void fillLevel(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers, int level, std::vector<uint8_t>& covered);
   void insert(uint64_t key, uint32_t cell);
   void makeTable(std::span<const uint64_t> keys);
 
   float cellM_ = 0.05f, voxelM_ = 0.1f;
   std::vector<HitCell> cells_;
   std::vector<uint64_t> keys_;
+  std::vector<uint16_t> shares_;  // half floats, of cells one after the other
   std::vector<Entry> table_;  // open addressing, a power of two
 };
 

@@ -1,18 +1,24 @@
 #include "gather/hit_survey.h"
 
+#include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "base/parallel.h"
+#include "gather/hit_layers.h"
 #include "gather/hit_smoothing.h"
+#include "gather/meters.h"
 #include "gather/pixel_rays.h"
 #include "gather/pixel_shader.h"
+#include "gather/ray_shader.h"
 
 namespace roomlight {
 namespace {
 
 constexpr int kSurveyedPixels = 32768;  // about
 constexpr int kRaysAPixel = 8;
-constexpr size_t kRows = 2;             // of surveyed pixels, at once
+constexpr size_t kMostOfElement = 4096; // rays from one element of a meter
+constexpr size_t kParts = 2;            // at once: rows of surveyed pixels, or elements
 constexpr float kRegionM = 0.6f;        // that a guide is learned for
 constexpr float kClusterM = 0.4f;      // of its targets
 constexpr size_t kBatch = 256;          // places lit at once
@@ -35,111 +41,175 @@ struct Arrivals {
   };
   std::vector<HitArrival> hits;
   std::vector<Origin> origins;
+  void add(const Arrivals& more) {
+    for (HitArrival hit : more.hits) hit.shading += static_cast<uint32_t>(origins.size()), hits.push_back(hit);
+    origins.insert(origins.end(), more.origins.begin(), more.origins.end());
+  }
 };
 
-Arrivals arrivalsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, GatherCounters& count) {
-  const RayGatherSettings few = surveySettings(settings);
-  const PixelRays pixelRays(rays, camera, few);
-  const PixelShader pixelShader(rays, lights, few, false);
-  std::vector<Arrivals> byRow(static_cast<size_t>(few.height));
+Arrivals arrivalsFrom(const RayShader& shader, std::span<const Shading> shadings, GatherCounters& count) {
+  Arrivals out;
+  shader.arrivals(shadings, out.hits, count);
+  for (const Shading& s : shadings) out.origins.push_back({s.s.p, s.s.ng});
+  return out;
+}
+
+// Of parts that are made by many threads, in their order.
+template <class Make>
+Arrivals arrivalsOfParts(size_t parts, const Make& make, uint64_t& rays) {
+  std::vector<Arrivals> some(parts);
   std::atomic<uint64_t> rayCount = 0;
-  parallelRanges(byRow.size(), kRows, [&](size_t begin, size_t end) {
+  parallelRanges(parts, kParts, [&](size_t begin, size_t end) {
     GatherCounters own;
-    TileWork work;
-    for (size_t y = begin; y < end; ++y) {
-      work.clear();
-      std::vector<FilterPixel> sums(static_cast<size_t>(few.width));
-      std::vector<PixelCount> counts(sums.size());
-      for (int x = 0; x < few.width; ++x) {
-        std::array<Ray, kRaysAtOnce> some;
-        const PixelSequence sequence(x, static_cast<int>(y), 0, few.seed);
-        pixelShader.see(pixelRays.at(x, static_cast<int>(y), 0, 1, some), sequence, {&sums[static_cast<size_t>(x)], &counts[static_cast<size_t>(x)], static_cast<uint32_t>(x)}, work, own);
-      }
-      for (Shading& s : work.shadings) s.gathers = std::max(1, kRaysAPixel / settings.estimates), s.firstShadow = 0;
-      shader.arrivals(work.shadings, byRow[y].hits, own);
-      for (const Shading& s : work.shadings) byRow[y].origins.push_back({s.s.p, s.s.ng});
-    }
+    for (size_t i = begin; i < end; ++i) some[i] = make(i, own);
     rayCount += own.rays;
   });
-  count.rays += rayCount;
+  rays += rayCount;
   Arrivals all;
-  for (Arrivals& row : byRow) {
-    for (HitArrival& hit : row.hits) hit.shading += static_cast<uint32_t>(all.origins.size());
-    all.hits.insert(all.hits.end(), row.hits.begin(), row.hits.end());
-    all.origins.insert(all.origins.end(), row.origins.begin(), row.origins.end());
-  }
+  for (const Arrivals& part : some) all.add(part);
   return all;
 }
 
-HitGuide guideFrom(const Arrivals& all, const RayShader& shader) {
+Arrivals arrivalsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, uint64_t& rayCount) {
+  const RayGatherSettings few = surveySettings(settings);
+  const PixelRays pixelRays(rays, camera, few);
+  const PixelShader pixelShader(rays, lights, few, false);
+  const auto row = [&](size_t y, GatherCounters& count) {
+    thread_local TileWork work;
+    work.clear();
+    std::vector<FilterPixel> sums(static_cast<size_t>(few.width));
+    std::vector<PixelCount> counts(sums.size());
+    for (int x = 0; x < few.width; ++x) {
+      std::array<Ray, kRaysAtOnce> some;
+      const PixelSequence sequence(x, static_cast<int>(y), 0, few.seed);
+      pixelShader.see(pixelRays.at(x, static_cast<int>(y), 0, 1, some), sequence, {&sums[static_cast<size_t>(x)], &counts[static_cast<size_t>(x)], static_cast<uint32_t>(x)}, work, count);
+    }
+    for (Shading& s : work.shadings) s.gathers = std::max(1, kRaysAPixel / settings.estimates), s.firstShadow = 0;
+    return arrivalsFrom(shader, work.shadings, count);
+  };
+  return arrivalsOfParts(static_cast<size_t>(few.height), row, rayCount);
+}
+
+Arrivals arrivalsOf(const RayShader& shader, std::span<const SurfaceElement> elements, const RayGatherSettings& settings, uint64_t& rayCount) {
+  constexpr size_t kAll = size_t{kSurveyedPixels} * kRaysAPixel;
+  const size_t asked = std::min<size_t>(elements.size(), kSurveyedPixels), each = std::clamp<size_t>(kAll / std::max<size_t>(1, asked), kRaysAPixel, kMostOfElement) / static_cast<size_t>(settings.estimates);
+  const auto raysOf = [&](size_t i, GatherCounters& count) {
+    const size_t element = i * elements.size() / asked;
+    Shading s{whitePatch(elements[element]), elements[element].normal, Sampler(mix64(element + kLightKey), 0, settings.seed ^ kSurveyKey), 0, false};
+    s.gathers = static_cast<int>(std::max<size_t>(1, each));
+    return arrivalsFrom(shader, {&s, 1}, count);
+  };
+  return arrivalsOfParts(asked, raysOf, rayCount);
+}
+
+HitGuide guideFrom(const Arrivals& all, const RayShader& shader, const HitCache& hits) {
   std::vector<GuideRay> rays;
   for (const HitArrival& a : all.hits) {
     if (!a.first) continue;
     const Arrivals::Origin& from = all.origins[a.shading];
     GuideRay ray{from.p, from.n, a.hit.valid(), a.at.p, a.factor, 0};
-    if (ray.arrives) ray.light = a.factor * shader.found(a);
+    if (ray.arrives) ray.light = a.factor * shader.found(a, hits);
     rays.push_back(ray);
   }
   return HitGuide(rays, kRegionM, kClusterM);
 }
 
-}  // namespace
+// The light of places where rays arrive, one sample each.
+class LitPlaces {
+ public:
+  LitPlaces(const RayScene& rays, const Lights& lights, const RayShader& shader, const RayGatherSettings& settings)
+      : rays_(rays), shader_(shader), settings_(settings), sharp_(rays, lights), suns_(lights.sunCount()) {}
 
-void surveyHits(const RayScene& rays, const Lights& lights, RayShader& shader, const Camera& camera, const RayGatherSettings& settings, float voxelM, const Progress& progress, GatherCounters& count) {
-  HitCache cache(settings.hitCellM, voxelM);
-  const Arrivals all = arrivalsOf(rays, lights, shader, camera, settings, count);
+  void light(const Arrivals& all, std::span<const HitCache::Chosen> chosen, std::span<LitHit> lit, HitLayers* layers, GatherCounters& count) const {
+    std::vector<Shading> work;
+    std::vector<Shadow> shadows;
+    for (size_t i = 0; i < chosen.size(); ++i) work.push_back(prepared(all.hits[chosen[i].place], chosen[i], lit[i], shadows));
+    count.rays += shadows.size();
+    std::vector<SurfaceLight> light(work.size());
+    LayerSums apart(layers ? shader_.layers()->size() : 0);
+    if (layers) apart.resize(work.size());
+    shader_.shade(work, shadows, light, layers ? &apart : nullptr, nullptr, count);
+    for (size_t i = 0; i < lit.size(); ++i) {
+      const SurfaceLight& l = light[i];
+      lit[i].even = l.diffuse, lit[i].rare = l.rare, lit[i].sharp = l.sharp, lit[i].own = l.diffuse + l.rare + l.sharp;
+      if (layers) layers->take(lit[i].number, apart, i);
+    }
+  }
+
+ private:
+  Shading prepared(const HitArrival& a, const HitCache::Chosen& chosen, LitHit& out, std::vector<Shadow>& shadows) const {
+    SurfacePoint s = surfaceAt(rays_.scene(), a.hit, a.direction);
+    const Vec3 origin = offsetOrigin(s.p, s.ng);
+    out.at = a.at, out.slot = a.slot, out.sure = a.sure, out.rays = chosen.rays, out.albedo = bihemisphericalAlbedo(s.m);
+    s.m = MaterialSample{};
+    s.m.baseColor = Vec3(1);
+    Sampler sampler(mix64(chosen.place + kLightKey), 0, settings_.seed);
+    const auto firstShadow = static_cast<uint32_t>(shadows.size());
+    for (size_t l = 0; l < sharp_.count(); ++l) {
+      const Vec2 u = sampler.next2();
+      shadows.push_back(sharp_.shadow(l, {&origin, 1}, {&u, 1}));
+      if (l + suns_ < sharp_.count() || suns_ != 1) continue;
+      const LightSample sun = sharp_.sample(l, s.p, u);
+      out.sunLux = luminance(sun.radiance * shadows.back().left) * std::max(0.0f, dot(sun.wi, s.ns));
+    }
+    Shading shading{s, -a.direction, sampler, firstShadow, false};
+    shading.once = true;
+    return shading;
+  }
+
+  const RayScene& rays_;
+  const RayShader& shader_;
+  const RayGatherSettings& settings_;
+  const SharpLights sharp_;
+  const size_t suns_;
+};
+
+HitSurvey surveyOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Arrivals& all, const RayGatherSettings& settings, const Progress& progress) {
+  HitSurvey out{HitCache(settings.hitCellM, shader.voxelM()), {}, 0};
   std::vector<HitPlace> places;
   std::vector<uint32_t> placeOf;
   for (uint32_t i = 0; i < all.hits.size(); ++i) {
     if (all.hits[i].hit.valid()) places.push_back(all.hits[i].at), placeOf.push_back(i);
   }
-  std::vector<HitCache::Chosen> chosen = cache.chosen(places, static_cast<size_t>(settings.hitSamples));
+  std::vector<HitCache::Chosen> chosen = out.hits.chosen(places, static_cast<size_t>(settings.hitSamples));
   for (HitCache::Chosen& c : chosen) c.place = placeOf[c.place];
-  const Scene& scene = rays.scene();
-  const SharpLights sharp(rays, lights);
-  const size_t suns = lights.sunCount(), firstSun = sharp.count() - suns;
   std::vector<LitHit> lit(chosen.size());
+  for (uint32_t i = 0; i < lit.size(); ++i) lit[i].number = i;
+  std::optional<HitLayers> layers;
+  if (shader.layers()) layers.emplace(shader.layers()->size(), lit.size());
+  const LitPlaces lighting(rays, lights, shader, settings);
   std::atomic<uint64_t> rayCount = 0;
   parallelRanges(chosen.size(), kBatch, [&](size_t begin, size_t end) {
     if (progress.stop()) return;
     GatherCounters own;
-    std::vector<Shading> work;
-    std::vector<Shadow> shadows;
-    for (size_t i = begin; i < end; ++i) {
-      const HitArrival& a = all.hits[chosen[i].place];
-      SurfacePoint s = surfaceAt(scene, a.hit, a.direction);
-      const Vec3 origin = offsetOrigin(s.p, s.ng);
-      LitHit& out = lit[i];
-      out.at = a.at, out.slot = a.slot, out.sure = a.sure, out.rays = chosen[i].rays, out.albedo = bihemisphericalAlbedo(s.m);
-      s.m = MaterialSample{};
-      s.m.baseColor = Vec3(1);
-      Sampler sampler(mix64(chosen[i].place + kLightKey), 0, settings.seed);
-      const auto firstShadow = static_cast<uint32_t>(shadows.size());
-      for (size_t l = 0; l < sharp.count(); ++l) {
-        const Vec2 u = sampler.next2();
-        shadows.push_back(sharp.shadow(l, {&origin, 1}, {&u, 1}));
-        if (l < firstSun || suns != 1) continue;
-        const LightSample sun = sharp.sample(l, s.p, u);
-        out.sunLux = luminance(sun.radiance * shadows.back().left) * std::max(0.0f, dot(sun.wi, s.ns));
-      }
-      work.push_back({s, -a.direction, sampler, firstShadow, false});
-      work.back().once = true;
-    }
-    own.rays += shadows.size();
-    std::vector<SurfaceLight> light(work.size());
-    shader.shade(work, shadows, light, own);
-    for (size_t i = begin; i < end; ++i) {
-      const SurfaceLight& l = light[i - begin];
-      lit[i].even = l.diffuse, lit[i].rare = l.rare, lit[i].sharp = l.sharp, lit[i].own = l.diffuse + l.rare + l.sharp;
-    }
+    lighting.light(all, std::span(chosen).subspan(begin, end - begin), std::span(lit).subspan(begin, end - begin), layers ? &*layers : nullptr, own);
     rayCount += own.rays;
   });
-  count.rays += rayCount;
-  if (progress.stop()) return;
-  smoothLight(rays, cache, lit);
-  cache.fill(rays, lit);
-  shader.setHitCache(std::move(cache));
-  shader.setGuide(guideFrom(all, shader));
+  out.rays = rayCount;
+  if (progress.stop()) return out;
+  if (layers) layers->share(out.hits, lit);
+  smoothLight(rays, out.hits, lit);
+  out.hits.fill(rays, lit, layers ? &*layers : nullptr);
+  out.guide = guideFrom(all, shader, out.hits);
+  return out;
+}
+
+}  // namespace
+
+HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress) {
+  uint64_t rayCount = 0;
+  const Arrivals all = arrivalsOf(rays, lights, shader, camera, settings, rayCount);
+  HitSurvey out = surveyOf(rays, lights, shader, all, settings, progress);
+  out.rays += rayCount;
+  return out;
+}
+
+HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, std::span<const SurfaceElement> elements, const RayGatherSettings& settings, const Progress& progress) {
+  uint64_t rayCount = 0;
+  const Arrivals all = arrivalsOf(shader, elements, settings, rayCount);
+  HitSurvey out = surveyOf(rays, lights, shader, all, settings, progress);
+  out.rays += rayCount;
+  return out;
 }
 
 }  // namespace roomlight

@@ -1,11 +1,28 @@
-// Fills the cache of hits for one camera: rays of few pixels tell where gathering rays of its picture arrive, and samples of the light there are taken.
+// Finds where gathering rays arrive, and lights these places: what the cache of hits and the guide are made of.
 #pragma once
 
-#include "gather/ray_shader.h"
+#include <span>
+
+#include "base/progress.h"
+#include "gather/hit_cache.h"
+#include "gather/hit_guide.h"
+#include "scene/scene.h"
 
 namespace roomlight {
 
-// Hands both to the shader: the cache, and the guide towards what is bright in it. Counts its rays in `count`. Does neither once progress says stop.
-void surveyHits(const RayScene& rays, const Lights& lights, RayShader& shader, const Camera& camera, const RayGatherSettings& settings, float voxelM, const Progress& progress, GatherCounters& count);
+class Lights;
+class RayShader;
+struct RayGatherSettings;
+struct SurfaceElement;
+
+struct HitSurvey {
+  HitCache hits;
+  HitGuide guide;
+  uint64_t rays = 0;
+};
+
+// Of rays from what a camera sees, or from elements that light is measured on. Where light is kept in layers, so it is in the cells. Without cells if cancelled.
+HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress);
+HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, std::span<const SurfaceElement> elements, const RayGatherSettings& settings, const Progress& progress);
 
 }  // namespace roomlight

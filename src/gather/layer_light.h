@@ -11,24 +11,25 @@
 
 namespace roomlight {
 
-// Of what a sample of light comes from: a layer, a slot's shares, or nothing that is known.
+// Of what a sample of light comes from: a layer, the shares of a slot or a cell, or nothing that is known.
 struct LightOrigin {
   int32_t layer = -1;
-  int64_t slot = -1;
+  const uint16_t* shares = nullptr;  // as SlotLayers has them
   float weight = 1;   // of the light in its layer, where layers sample it otherwise than the picture
-  float glow = 0;     // of the slot's light in the picture, what lamps beside it have lost to LampGlow
-  static LightOrigin ofSlot(int64_t slot, float glow = 0) { return {-1, slot, 1, glow}; }
-  static LightOrigin ofLayer(int32_t layer, float weight = 1) { return {layer, -1, weight, 0}; }
+  float glow = 0, sun = 0;  // of the light that has these shares, what points have taken of it: of layer `glowOf`, and of the sun
+  int32_t glowOf = -1;
+  static LightOrigin ofLayer(int32_t layer, float weight = 1) { return {layer, nullptr, weight, 0, 0, -1}; }
 };
 
 // Sums for many things, each with kParts kinds of light (and variances), each of three channels of `stride` layers.
 class LayerSums {
  public:
   enum Part : size_t { kDiffuse,
+                       kRare,
                        kSharp,
                        kSpecular,
                        kRest,
-                       kVariance,  // of the luminance of the first three
+                       kVariance,  // of the luminance of diffuse, sharp and specular light
                        kParts };
   LayerSums() = default;
   // `together`: of all things one sum, as the first.
@@ -55,10 +56,10 @@ class LayerSums {
       for (size_t i = 0; i < stride_; i += 4) fma(fromHalf4(shares + i), l, Float4::load(v + i)).store(v + i);
     }
   }
-  // Adds `factor` times what another has of a thing.
-  void addFrom(size_t thing, Part part, const LayerSums& other, size_t otherThing, Vec3 factor) {
+  // Adds `factor` times what another has of a thing, of a part of it.
+  void addFrom(size_t thing, Part part, Part otherPart, const LayerSums& other, size_t otherThing, Vec3 factor) {
     float* v = at(thing, part);
-    const float* o = other.at(otherThing, part);
+    const float* o = other.at(otherThing, otherPart);
     for (int c = 0; c < 3; ++c, v += stride_, o += stride_) {
       const Float4 f(factor[c]);
       for (size_t i = 0; i < stride_; i += 4) fma(Float4::load(o + i), f, Float4::load(v + i)).store(v + i);

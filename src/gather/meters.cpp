@@ -15,15 +15,6 @@ constexpr int kBatch = 64;                // samples of a meter in layers at onc
 constexpr int kPlaces = 2;                // on extended lamps, a batch
 constexpr float kOfStrongest = 0.03f;      // of light on a meter: layers weaker than that need not be surer than it
 
-// An ideal white Lambertian surface reflects 1 / pi of what falls on it.
-SurfacePoint whitePatch(const SurfaceElement& element) {
-  SurfacePoint s;
-  s.p = element.position;
-  s.ng = s.smooth = s.ns = element.normal;
-  s.m.baseColor = Vec3(1);
-  return s;
-}
-
 // Samples of one element, ready to be shaded.
 struct MeterSamples {
   std::vector<Shading> shadings;
@@ -110,10 +101,18 @@ void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const S
   sums.resize(samples.shadings.size());
   GatherCounters counters;
   shader.shadeInLayers(samples.shadings, samples.shadows, light, sums, counters);
-  for (size_t l = 0; l < means.size(); ++l) means[l] += (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / kBatch);
+  for (size_t l = 0; l < means.size(); ++l) means[l] += (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kRare, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / kBatch);
 }
 
 }  // namespace
+
+SurfacePoint whitePatch(const SurfaceElement& element) {
+  SurfacePoint s;
+  s.p = element.position;
+  s.ng = s.smooth = s.ns = element.normal;
+  s.m.baseColor = Vec3(1);
+  return s;
+}
 
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
                                              const MeterSettings& settings, const Progress& progress) {
@@ -125,7 +124,7 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
     light.assign(samples.shadings.size(), {});
     GatherCounters counters;
     shader.shade(samples.shadings, samples.shadows, light, counters);
-    for (size_t k = 0; k < light.size(); ++k) lux[k] += (light[k].diffuse + light[k].sharp) * kPi;
+    for (size_t k = 0; k < light.size(); ++k) lux[k] += (light[k].diffuse + light[k].rare + light[k].sharp) * kPi;
   };
   return readMeters(rays, lights, elements, settings, sample, progress);
 }

@@ -37,7 +37,7 @@ FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>
     p = whole.pixels[i];
     const auto per = [](uint32_t n) { return 1 / static_cast<float>(std::max(1u, n)); };
     const float inverse = per(counts[i].rays), diffuse = per(counts[i].gathered), specular = per(counts[i].glossy), albedo = std::max(luminance(p.albedo), 1e-3f);
-    p.diffuse = sums.get(i, LayerSums::kDiffuse, layer) * diffuse, p.sharp = sums.get(i, LayerSums::kSharp, layer) * inverse;
+    p.diffuse = sums.get(i, LayerSums::kDiffuse, layer) * diffuse, p.rare = sums.get(i, LayerSums::kRare, layer) * diffuse, p.sharp = sums.get(i, LayerSums::kSharp, layer) * inverse;
     p.specular = sums.get(i, LayerSums::kSpecular, layer) * specular, p.rest = sums.get(i, LayerSums::kRest, layer) * inverse;
     const Vec3 variance = sums.get(i, LayerSums::kVariance, layer);
     p.diffuseVariance = variance.x * diffuse * diffuse / (albedo * albedo), p.sharpVariance = variance.y * inverse * inverse / (albedo * albedo);
@@ -59,7 +59,7 @@ class Gathering {
         every_(settings.filterPasses > 0 ? std::bit_floor(static_cast<uint32_t>(settings.gatherEvery)) : 1u),
         layers_(shader.layers()),
         pixelRays_(rays, camera, settings),
-        keepsFragments_(settings.filterPasses > 0 && every_ == 1 && !layers_ && !pixelRays_.camera().wraps()),
+        keepsFragments_(settings.filterPasses > 0 && every_ == 1 && !pixelRays_.camera().wraps()),
         byLayer_(layers_ ? layers_->size() : 0),
         pixelShader_(rays, lights, settings, keepsFragments_, layers_, layers_ ? &byLayer_ : nullptr),
         sums_(width_, height_),
@@ -119,7 +119,7 @@ class Gathering {
 
   bool isGivenUp() const { return settings_.orNothing && progress_.stop(); }
   bool isLate() const { return late_; }
-  bool hasAim() const { return settings_.untilMse > 0 && !layers_; }
+  bool hasAim() const { return settings_.untilMse > 0; }
   bool mayGoOn() const { return hasAim() && !late_ && !progress_.stop() && result_.samples < settings_.samples && tolerance_ > kFinest; }
   // From now on less noise may be left.
   void askForMore() { tolerance_ *= kFiner, planned_ = 0; }
@@ -241,7 +241,7 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     const bool mayGoOn = gathering.mayGoOn();
     mayGoOn ? gathering.composeForNow() : gathering.composeForGood();
     GatheredPicture& picture = gathering.picture();
-    if ((settings.tellsError || gathering.hasAim()) && !shader.layers() && !gathering.isLate()) {
+    if ((settings.tellsError || gathering.hasAim()) && !gathering.isLate()) {
       if (!probes) picture.rays += probes.emplace(rays, lights, shader, camera, settings, gathering.hasAim(), progress).rays();
       picture.error = probes->of(picture.image);
     }

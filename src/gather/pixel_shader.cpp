@@ -194,7 +194,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
   const size_t shadings = pane ? (group.count + raysPerPane - 1) / raysPerPane : (group.count * most + rays - 1) / rays;
   const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
   // Of cloth behind cloth little light comes through: few are lit for all.
-  const float survival = !byLayer_ && settings_.gatherEvery <= 1 && hind && !pane && !isBlack(through) ? std::clamp(luminance(left), kLeastSurvival, 1.0f) : 1.0f;
+  const float survival = settings_.gatherEvery <= 1 && hind && !pane && !isBlack(through) ? std::clamp(luminance(left), kLeastSurvival, 1.0f) : 1.0f;
   const bool isLit = survival >= 1 || sequence.forShadow(surface, 0).fast1() < survival;
   const uint32_t shadow = !isLit ? 0 : shadows(group, layer, pane ? &m : nullptr, surface, sequence, work.shadows, count);
 
@@ -243,7 +243,7 @@ void PixelShader::findOutshining(TileWork& work, std::span<const SurfaceLight> l
     const float usual = brightness(work.parts[most]);
     for (size_t i = begin; i < end; ++i) {
       TileWork::Part& part = work.parts[i];
-      part.outshines = i != most && brightness(part) > kOutshines * usual && isBesideLamp(lights_, work.shadings[part.first].s.p);
+      part.apart = i != most && brightness(part) > kOutshines * usual && isBesideLamp(lights_, work.shadings[part.first].s.p);
     }
   }
 }
@@ -256,7 +256,7 @@ void PixelShader::addPlace(const TileWork::Part& part) {
 void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLight> shadings) {
   FilterPixel& sum = *part.pixel.sum;
   const float weight = part.weight / part.survival;
-  if (part.outshines) {
+  if (part.apart) {
     for (const SurfaceLight& l : shadings) sum.rest += part.left * (l.diffuse + l.rare + l.sharp + l.specular + l.mirrored) * weight, part.pixel.count->occlusion += l.occlusion * weight;
     return;
   }
@@ -287,7 +287,7 @@ void PixelShader::addFragment(const TileWork::Part& part, std::span<const Surfac
   }
 }
 
-void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments) {
+void PixelShader::add(TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments) {
   const auto shadingsOf = [&](const TileWork::Part& part) { return light.subspan(part.first, part.count); };
   for (size_t begin = 0, end = 0; begin < work.parts.size(); begin = end) {
     bool anySolid = false;
@@ -304,8 +304,9 @@ void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light,
     const float surface = known ? sum.surface : std::max(surfaceOf(largest), 1e-6f);
     const Vec3 place = (known ? sum.position : largest.position) / surface, normal = known ? sum.normal : largest.normal;
     for (size_t i = begin; i < end; ++i) {
-      const TileWork::Part& part = work.parts[i];
+      TileWork::Part& part = work.parts[i];
       if (fragments && surfaceOf(part) > 0 && !part.veil && !onOneSheet(normal, place, part.normal, part.position / part.surface)) {
+        part.apart = true;
         addFragment(part, shadingsOf(part), *fragments);
       } else {
         if (fragments && surfaceOf(part) > 0 && (!part.veil || (i == most && (!known || onOneSheet(normal, place, part.normal, part.position / part.surface))))) addPlace(part);
@@ -315,31 +316,35 @@ void PixelShader::add(const TileWork& work, std::span<const SurfaceLight> light,
   }
 }
 
-// As addVariance() has it for all light, for each layer. Of one shading alone its parts are as uncertain as the whole.
+// As addVariance() has it for all light, for each layer; before its light is added.
 void PixelShader::addVarianceOfLayers(const TileWork::Part& part, std::span<const SurfaceLight> whole, const LayerSums& light) const {
-  const float n = static_cast<float>(part.count), between = n > 1 ? n / (n - 1) : 0;
-  const float ofDiffuse = part.weight * static_cast<float>(part.gathers), ofSpecular = part.weight * static_cast<float>(part.glossy);
+  if (part.count == 0) return;
+  const float n = static_cast<float>(part.count), weight = part.weight / part.survival, unlit = 1 - part.survival;
+  const float ofDiffuse = weight * static_cast<float>(part.gathers), ofSpecular = weight * static_cast<float>(part.glossy);
+  const auto shadings = whole.subspan(part.first, part.count);
   float albedo = 0;
-  for (uint32_t s = part.first; s < part.first + part.count; ++s) albedo += luminance(part.left * whole[s].albedo);
+  for (const SurfaceLight& s : shadings) albedo += luminance(part.left * s.albedo);
+  const float albedoBefore = luminance(part.pixel.sum->albedo) - albedo * part.weight, glossyBefore = static_cast<float>(std::max(1u, part.pixel.count->glossy));
   for (size_t l = 0; l < layers_->size(); ++l) {
-    float diffuse = 0, specular = 0;
+    const auto lightOf = [&](size_t s, LayerSums::Part lobe) { return luminance(part.left * light.get(part.first + s, lobe, l)); };
+    float diffuse = 0, specular = 0, sharp = 0;
+    for (size_t s = 0; s < shadings.size(); ++s) diffuse += lightOf(s, LayerSums::kDiffuse), specular += lightOf(s, LayerSums::kSpecular), sharp += lightOf(s, LayerSums::kSharp);
     Vec3 variance;
-    for (uint32_t s = part.first; s < part.first + part.count && n > 1; ++s) {
-      diffuse += luminance(part.left * light.get(s, LayerSums::kDiffuse, l)), specular += luminance(part.left * light.get(s, LayerSums::kSpecular, l));
-    }
-    const float irradiance = diffuse / std::max(albedo, 1e-6f);
-    for (uint32_t s = part.first; s < part.first + part.count; ++s) {
-      const SurfaceLight& all = whole[s];
-      const float d = luminance(part.left * light.get(s, LayerSums::kDiffuse, l)), g = luminance(part.left * light.get(s, LayerSums::kSpecular, l));
-      const float sharp = luminance(light.get(s, LayerSums::kSharp, l)) / std::max(luminance(all.sharp), 1e-20f);
-      variance.y += lengthSquared(part.left) / 3 * all.sharpVariance * sharp * sharp * n * part.weight * part.weight;
-      if (n > 1) {
-        const float offDiffuse = d - luminance(part.left * all.albedo) * irradiance, offSpecular = g - specular / n;
-        variance.x += offDiffuse * offDiffuse * between * ofDiffuse * ofDiffuse, variance.z += offSpecular * offSpecular * between * ofSpecular * ofSpecular;
-      } else {
-        const float relDiffuse = d / std::max(luminance(all.diffuse), 1e-20f), relSpecular = g / std::max(luminance(all.specular), 1e-20f);
-        variance.x += all.diffuseVariance * relDiffuse * relDiffuse * ofDiffuse * ofDiffuse, variance.z += all.specularVariance * relSpecular * relSpecular * ofSpecular * ofSpecular;
-      }
+    if (unlit > 0) variance += Vec3{diffuse * diffuse * ofDiffuse * ofDiffuse, sharp * sharp * weight * weight, specular * specular * ofSpecular * ofSpecular} * unlit;
+    // Of one shading alone parts are as uncertain as the whole, or, if that is a single estimate, by how far they are off what was known before.
+    const float between = n > 1 ? n / (n - 1) : part.once ? 1.0f : 0.0f;
+    const float irradiance = n > 1 ? diffuse / std::max(albedo, 1e-6f) : luminance(byLayer_->get(part.pixel.index, LayerSums::kDiffuse, l)) / std::max(albedoBefore, 1e-6f);
+    const float usualSpecular = n > 1 ? specular / n : luminance(byLayer_->get(part.pixel.index, LayerSums::kSpecular, l)) / glossyBefore;
+    for (size_t s = 0; s < shadings.size(); ++s) {
+      const SurfaceLight& all = shadings[s];
+      const float d = lightOf(s, LayerSums::kDiffuse), g = lightOf(s, LayerSums::kSpecular);
+      const float ofSharp = luminance(light.get(part.first + s, LayerSums::kSharp, l)) / std::max(luminance(all.sharp), 1e-20f);
+      variance.y += lengthSquared(part.left) / 3 * all.sharpVariance * ofSharp * ofSharp * n * weight * weight;
+      const float offDiffuse = d - luminance(part.left * all.albedo) * irradiance, offSpecular = g - usualSpecular;
+      variance.x += offDiffuse * offDiffuse * between * ofDiffuse * ofDiffuse, variance.z += offSpecular * offSpecular * between * ofSpecular * ofSpecular;
+      if (n > 1) continue;
+      const float relDiffuse = d / std::max(luminance(all.diffuse), 1e-20f), relSpecular = g / std::max(luminance(all.specular), 1e-20f);
+      variance.x += all.diffuseVariance * relDiffuse * relDiffuse * ofDiffuse * ofDiffuse, variance.z += all.specularVariance * relSpecular * relSpecular * ofSpecular * ofSpecular;
     }
     byLayer_->add(part.pixel.index, LayerSums::kVariance, static_cast<int32_t>(l), variance);
   }
@@ -347,21 +352,18 @@ void PixelShader::addVarianceOfLayers(const TileWork::Part& part, std::span<cons
 
 void PixelShader::addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const {
   for (const TileWork::Part& part : work.parts) {
-    const Vec3 sharp = part.left * part.weight, diffuse = sharp * static_cast<float>(part.gathers), specular = sharp * static_cast<float>(part.glossy);
-    if (part.outshines) {
-      for (size_t s = part.first; s < part.first + part.count; ++s) {
-        for (const auto lobe : {LayerSums::kDiffuse, LayerSums::kSharp, LayerSums::kSpecular}) {
-          for (size_t l = 0; l < layers_->size(); ++l) byLayer_->add(part.pixel.index, LayerSums::kRest, static_cast<int32_t>(l), sharp * light.get(s, lobe, l));
-        }
-      }
+    const Vec3 once = part.left * (part.weight / part.survival), diffuse = once * static_cast<float>(part.gathers), specular = once * static_cast<float>(part.glossy);
+    const auto add = [&](LayerSums::Part to, LayerSums::Part lobe, Vec3 factor) {
+      for (size_t s = part.first; s < part.first + part.count; ++s) byLayer_->addFrom(part.pixel.index, to, lobe, light, s, factor);
+    };
+    add(LayerSums::kRest, LayerSums::kRest, once);
+    if (part.apart) {
+      for (const auto lobe : {LayerSums::kDiffuse, LayerSums::kRare, LayerSums::kSharp, LayerSums::kSpecular}) add(LayerSums::kRest, lobe, once);
       continue;
     }
-    for (size_t s = part.first; s < part.first + part.count; ++s) {
-      byLayer_->addFrom(part.pixel.index, LayerSums::kDiffuse, light, s, diffuse);
-      byLayer_->addFrom(part.pixel.index, LayerSums::kSharp, light, s, sharp);
-      byLayer_->addFrom(part.pixel.index, LayerSums::kSpecular, light, s, specular);
-    }
     addVarianceOfLayers(part, whole, light);
+    add(LayerSums::kDiffuse, LayerSums::kDiffuse, diffuse), add(LayerSums::kRare, LayerSums::kRare, diffuse);
+    add(LayerSums::kSharp, LayerSums::kSharp, once), add(LayerSums::kSpecular, LayerSums::kSpecular, specular);
   }
 }
 

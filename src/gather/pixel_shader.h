@@ -60,7 +60,7 @@ struct TileWork {
     bool once = false;       // lit by single estimates
     float survival = 1;      // probability that it was lit at all: what is found stands for those that were not; unlit parts have no shadings
     Vec3 unlitAlbedo{};      // sum over the camera rays of an unlit part
-    bool outshines = false;  // what else is seen in its pixel, which has more of it: not filtered with that
+    bool apart = false;      // not filtered with what fills most of its pixel: another surface, or what outshines that
   };
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
@@ -77,8 +77,8 @@ class PixelShader {
   void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work, GatherCounters& count) const;
   // Marks parts that outshine their pixels.
   void findOutshining(TileWork& work, std::span<const SurfaceLight> light) const;
-  // Adds the light of everything in `work` to its pixels, but for what `fragments`, where given, take.
-  static void add(const TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments);
+  // Adds the light of everything in `work` to its pixels, but for what `fragments`, where given, take: such parts are marked.
+  static void add(TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments);
   // The same by layers, of which `light` has one thing for each shading.
   void addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const;
 

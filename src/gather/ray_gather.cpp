@@ -10,36 +10,41 @@ namespace {
 
 constexpr float kCellsAVoxel = 2, kSmallestCellM = 0.02f, kLargestCellM = 0.06f;
 
+}  // namespace
+
 RayGatherSettings withCells(RayGatherSettings settings, float voxelM) {
   if (settings.hitCellM == 0) settings.hitCellM = std::clamp(voxelM / kCellsAVoxel, kSmallestCellM, kLargestCellM);
   return settings;
 }
 
-}  // namespace
+void SurveyedShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const { shader_.shade(work, shadows, light, nullptr, &survey_, count); }
 
-RayGather::RayGather(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const Camera& camera, const RayGatherSettings& settings, const Progress& progress)
-    : rays_(rays), lights_(lights), camera_(camera), settings_(withCells(settings, voxels.voxelSizeM)) {
-  shader_ = std::make_unique<RayShader>(rays_, lights_, voxels, field, settings_);
-  const bool surveys = settings_.hitCellM > 0 && !shader_->layers();
-  settings_.rareApart = surveys && settings_.filterPasses > 0;
-  if (!surveys) return;
-  GatherCounters count;
-  surveyHits(rays_, lights_, *shader_, camera_, settings_, voxels.voxelSizeM, progress, count);
-  surveyRays_ = count.rays;
+void SurveyedShader::shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums& layers, GatherCounters& count) const {
+  shader_.shade(work, shadows, light, &layers, &survey_, count);
+}
+
+const LightLayers* SurveyedShader::layers() const { return shader_.layers(); }
+
+RayGather::RayGather(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress)
+    : rays_(rays), lights_(lights), shader_(shader), camera_(camera) {
+  if (settings.hitCellM > 0) survey_ = std::make_unique<HitSurvey>(surveyHits(rays_, lights_, shader_, camera_, settings, progress));
 }
 
 RayGather::~RayGather() = default;
 
 GatheredPicture RayGather::picture(RayGatherSettings settings, const Progress& progress) const {
-  settings.rareApart = settings_.rareApart;
-  GatheredPicture picture = gatherPicture(rays_, lights_, *shader_, camera_, settings, progress);
-  picture.rays += surveyRays_;
+  settings.rareApart = survey_ && settings.filterPasses > 0;
+  if (!survey_) return gatherPicture(rays_, lights_, shader_, camera_, settings, progress);
+  GatheredPicture picture = gatherPicture(rays_, lights_, SurveyedShader(shader_, *survey_), camera_, settings, progress);
+  picture.rays += survey_->rays;
   return picture;
 }
 
 GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const Camera& camera,
                            const RayGatherSettings& settings, const Progress& progress) {
-  return RayGather(rays, lights, voxels, field, camera, settings, progress).picture(settings, progress);
+  const RayGatherSettings use = withCells(settings, voxels.voxelSizeM);
+  const RayShader shader(rays, lights, voxels, field, use);
+  return RayGather(rays, lights, shader, camera, use, progress).picture(use, progress);
 }
 
 }  // namespace roomlight

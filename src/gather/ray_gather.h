@@ -17,22 +17,40 @@ struct RayGatherSettings : PictureSettings {
 };
 
 class RayShader;
+struct HitSurvey;
 
-// What pictures of one camera share: what is bright, the cache of hits and the guide. Refers to all that it is made of.
+// Settings with the size of cells that suits voxels of that edge.
+RayGatherSettings withCells(RayGatherSettings settings, float voxelM);
+
+// RayShader with what a survey found of the places where rays of one camera, or of meters, arrive. Refers to both.
+class SurveyedShader final : public SurfaceShader {
+ public:
+  SurveyedShader(const RayShader& shader, const HitSurvey& survey) : shader_(shader), survey_(survey) {}
+  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const override;
+  void shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums& layers, GatherCounters& count) const override;
+  const LightLayers* layers() const override;
+
+ private:
+  const RayShader& shader_;
+  const HitSurvey& survey_;
+};
+
+// What pictures of one camera share: the cache of hits and the guide. Refers to all that it is made of but the camera.
 class RayGather {
  public:
-  RayGather(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const Camera& camera, const RayGatherSettings& settings, const Progress& progress = {});
+  // `settings` as the shader has them.
+  RayGather(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress = {});
   ~RayGather();
+  const Camera& camera() const { return camera_; }
   // Of that size, with so many samples; how they are taken is as prepared.
   GatheredPicture picture(RayGatherSettings settings, const Progress& progress = {}) const;
 
  private:
   const RayScene& rays_;
   const Lights& lights_;
-  const Camera& camera_;
-  RayGatherSettings settings_;
-  std::unique_ptr<RayShader> shader_;
-  uint64_t surveyRays_ = 0;
+  const RayShader& shader_;
+  const Camera camera_;
+  std::unique_ptr<HitSurvey> survey_;  // null: there is none
 };
 
 GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,

@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "gather/hit_cache.h"
-#include "gather/hit_guide.h"
+#include "gather/hit_survey.h"
 #include "gather/shading.h"
 #include "trace/bsdf.h"
 
@@ -100,38 +99,46 @@ struct GatherWork {
   std::vector<Vec3> left;
   std::vector<Doubt> doubts;
   uint64_t rayCount = 0;
+  const HitSurvey* survey = nullptr;            // what is known of places where rays arrive; never null while rays are sent
   std::vector<HitArrival>* arrivals = nullptr;  // where given, rays tell only where they arrive: no light is asked for
   // Where light is kept in layers: sums of the shadings, the one of each estimate, and the part that the estimate has in it.
   LayerSums* layers = nullptr;
-  const SlotLayers* slots = nullptr;
+  const LightLayers* lightLayers = nullptr;
   bool layersAlone = false;  // for meters: nobody wants the sum of all light
   std::vector<uint32_t> shadingOf;
   std::vector<float> part;
 
   void clear() {
     samplers.clear(), found.clear(), most.clear(), expected.clear(), rare.clear(), mirrored.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
-    rayCount = 0, layers = nullptr, layersAlone = false, arrivals = nullptr, rareFrom = kInfinity;
+    rayCount = 0, layers = nullptr, layersAlone = false, survey = nullptr, arrivals = nullptr, rareFrom = kInfinity;
   }
   void arrive(const GatherPath& path, const Hit& hit, const HitPlace& at, int64_t slot, bool sure) {
     const bool gathers = path.depth == 1 && !isBlack(path.factor.diffuse);
     arrivals->push_back({at, hit, path.ray.direction, slot, sure, shadingOf[path.estimate], gathers, luminance(path.factor.diffuse + path.factor.specular)});
   }
+  struct Added {
+    Lobes light;
+    float rare;  // part of the diffuse light
+  };
   // `sure`: of a light that is sampled too, so that none of its samples stands for much.
-  // Returns what was added.
-  Lobes add(uint32_t estimate, const Lobes& factor, Vec3 radiance, const LightOrigin& origin, bool sure = false) {
+  Added add(uint32_t estimate, const Lobes& factor, Vec3 radiance, const LightOrigin& origin, bool sure = false) {
     const auto bounded = [&](Vec3 light, float limit) {
       const float l = luminance(light);
       return sure || l <= limit ? light : light * (limit / l);
     };
     const Lobes light{bounded(factor.diffuse * radiance, most[estimate]), bounded(factor.specular * radiance, most[estimate])};
     const float diffuse = luminance(light.diffuse), usual = rareFrom * expected[estimate];
-    if (usual > 0 && diffuse > usual) rare[estimate] += light.diffuse * (1 - usual / diffuse);
+    const float beyond = usual > 0 && diffuse > usual ? 1 - usual / diffuse : 0;
+    if (beyond > 0) rare[estimate] += light.diffuse * beyond;
     found[estimate].diffuse += light.diffuse;
     found[estimate].specular += light.specular;
-    if (layers) addToLayers(estimate, light, origin);
-    return light;
+    if (layers) addToLayers(estimate, light, origin, beyond);
+    return {light, beyond};
   }
-  void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin);
+  // Of what was added: emission seen as a picture.
+  void takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
+  // Of its diffuse light `rare` is.
+  void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin, float rare = 0);
   void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin, bool layersOnly = false) {
     shadowRays.push_back(ray), shadowed.push_back({estimate, sure, layersOnly, light, origin});
   }

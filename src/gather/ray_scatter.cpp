@@ -28,24 +28,29 @@ RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const Radianc
   for (uint32_t i = 0; i < lights.emitterCount(); ++i) members_[static_cast<size_t>(layers.ofEmitter[i])].emitters.push_back(i);
 }
 
-void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin) {
+void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin, float rare) {
   const float by = part[estimate] * origin.weight;
   const size_t shading = shadingOf[estimate];
-  const bool isGlossy = !isBlack(light.specular);
-  if (origin.slot < 0) {
-    layers->add(shading, LayerSums::kDiffuse, origin.layer, light.diffuse * by);
-    if (isGlossy) layers->add(shading, LayerSums::kSpecular, origin.layer, light.specular * by);
-    return;
-  }
-  // Without glow the rest of the light is more; of that each layer has its share, less the glow of its own lamps.
-  const uint16_t* shares = slots->at(static_cast<size_t>(origin.slot));
-  const float whole = by / std::max(1 - origin.glow, 1e-3f), lost = -whole * origin.glow;
-  const int32_t glowOf = origin.glow > 0 ? slots->glowOf[static_cast<size_t>(origin.slot)] : -1;
-  layers->addShares(shading, LayerSums::kDiffuse, shares, light.diffuse * whole);
-  layers->add(shading, LayerSums::kDiffuse, glowOf, light.diffuse * lost);
-  if (!isGlossy) return;
-  layers->addShares(shading, LayerSums::kSpecular, shares, light.specular * whole);
-  layers->add(shading, LayerSums::kSpecular, glowOf, light.specular * lost);
+  const auto addTo = [&](LayerSums::Part lobe, Vec3 l) {
+    if (isBlack(l)) return;
+    if (!origin.shares) return layers->add(shading, lobe, origin.layer, l * by);
+    // Without what points have taken the rest of the light is more; of that each layer has its share, less what was taken of it.
+    const Vec3 whole = l * (by / std::max(1 - origin.glow - origin.sun, 1e-3f));
+    layers->addShares(shading, lobe, origin.shares, whole);
+    if (origin.glow > 0) layers->add(shading, lobe, origin.glowOf, whole * -origin.glow);
+    if (origin.sun > 0) layers->add(shading, lobe, lightLayers->sun, whole * -origin.sun);
+  };
+  addTo(LayerSums::kDiffuse, light.diffuse * (1 - rare));
+  if (rare > 0) addTo(LayerSums::kRare, light.diffuse * rare);
+  addTo(LayerSums::kSpecular, light.specular);
+}
+
+void GatherWork::takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigin& origin) {
+  mirrored[estimate] += specular;
+  if (!layers) return;
+  const Vec3 light = specular * (part[estimate] * origin.weight);
+  layers->add(shadingOf[estimate], LayerSums::kSpecular, origin.layer, -light);
+  layers->add(shadingOf[estimate], LayerSums::kRest, origin.layer, light);
 }
 
 // Sends rays from a surface: to lights, and on to other surfaces.
@@ -216,6 +221,11 @@ bool RayScatter::isBeside(const GlowPoint& point, Vec3 p) const {
   return (point.lamp >= 0 && besideLamps_[static_cast<size_t>(point.lamp)].contains(p)) || (point.emitter >= 0 && besideEmitters_[static_cast<size_t>(point.emitter)].contains(p));
 }
 
+int32_t RayScatter::layerOf(const LightLayers& layers, const GlowPoint& point) {
+  if (BrightPatches::isSun(point)) return layers.sun;
+  return point.lamp >= 0 ? layers.ofLamp[static_cast<size_t>(point.lamp)] : layers.ofEmitter[static_cast<size_t>(point.emitter)];
+}
+
 // Light that bright patches reflect, as far as gathering rays leave it to points of them.
 void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   const GlowSample g = patches_.sample(v.s.p, v.s.ns, v.side, w.samplers[v.estimate]);
@@ -231,8 +241,7 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   sum.diffuse *= weight, sum.specular *= weight;
   const GlowPoint& point = patches_.point(g.point);
   const LightLayers* layers = field_.layers.lights.get();
-  const int32_t layer = !layers || BrightPatches::isSun(point) ? -1 : point.lamp >= 0 ? layers->ofLamp[static_cast<size_t>(point.lamp)]
-                                                                                      : layers->ofEmitter[static_cast<size_t>(point.emitter)];
+  const int32_t layer = layers ? layerOf(*layers, point) : -1;
   if (!isBlack(sum.diffuse) || !isBlack(sum.specular)) w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, g.light), sum, LightOrigin::ofLayer(layer));
 }
 

@@ -40,6 +40,7 @@ class RayScatter {
   LightSample sampleLayer(size_t layer, Vec3 p, bool withLamps, bool withEmitters, Sampler& sampler) const;
   bool leavesToCache(const GatherVertex& v, const LightSample& light) const;
   bool isBeside(const GlowPoint& point, Vec3 p) const;
+  static int32_t layerOf(const LightLayers& layers, const GlowPoint& point);
   void glowAt(const GatherVertex& v, GatherWork& w) const;
   void gatherAt(const GatherVertex& v, GatherWork& w) const;
 

@@ -33,10 +33,9 @@ uint8_t kindOf(const Material& m) {
 
 bool isFaint(const GatherPath& path) { return luminance(path.factor.diffuse + path.factor.specular) < kFaintShare; }
 
-// Light in layers is told apart by the sun's own samples.
 BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings) {
   std::vector<GlowPoint> points(field.glow.points().begin(), field.glow.points().end());
-  if (field.layers.empty()) points.insert(points.end(), field.sunPoints.begin(), field.sunPoints.end());
+  points.insert(points.end(), field.sunPoints.begin(), field.sunPoints.end());
   return BrightPatches(rays, voxels, points, field.glowShare, settings.nearVoxels * voxels.voxelSizeM, settings.seed);
 }
 
@@ -60,11 +59,12 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
   for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
 }
 
-void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, GatherCounters& count) const {
+void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, const HitSurvey* survey, GatherCounters& count) const {
+  static const HitSurvey kNone;
   thread_local GatherWork w;
   w.clear();
-  w.rareFrom = settings_.rareApart && !layers ? kRare : kInfinity;
-  w.layers = layers, w.slots = &field_.layers, w.layersAlone = layers && !work.empty() && work[0].lampsKnown;
+  w.survey = survey ? survey : &kNone, w.rareFrom = survey ? kRare : kInfinity;
+  w.layers = layers, w.lightLayers = field_.layers.lights.get(), w.layersAlone = layers && !work.empty() && work[0].lampsKnown;
   for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), w);
   traceShadows(w);
   while (!w.next.empty()) {
@@ -142,7 +142,7 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
   const int n = estimates(work);
   const float most = n > 0 ? kMost * luminance(bsdf.albedo()) * expectedRadiance(s) : 0;
   v.glossOnly = work.gathers == 0;
-  const GuideCones cones = n > 0 && !v.glossOnly && !guide_.empty() ? guide_.at(s.p, s.ng) : GuideCones{};
+  const GuideCones cones = n > 0 && !v.glossOnly && !w.survey->guide.empty() ? w.survey->guide.at(s.p, s.ng) : GuideCones{};
   if (cones.share > 0) v.cones = &cones;
   for (int k = 0; k < n; ++k) {
     v.estimate = static_cast<uint32_t>(w.samplers.size());
@@ -161,7 +161,8 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
 void RayShader::arrivals(std::span<const Shading> work, std::vector<HitArrival>& out, GatherCounters& count) const {
   thread_local GatherWork w;
   w.clear();
-  w.arrivals = &out;
+  static const HitSurvey kNone;
+  w.arrivals = &out, w.survey = &kNone;
   const std::vector<Shadow> none(sharp_.count());
   for (size_t i = 0; i < work.size(); ++i) start(work[i], static_cast<uint32_t>(i), none, w);
   while (!w.next.empty()) {
@@ -172,8 +173,8 @@ void RayShader::arrivals(std::span<const Shading> work, std::vector<HitArrival>&
   count.rays += w.rayCount;
 }
 
-float RayShader::found(const HitArrival& arrival) const {
-  if (const HitCell* cell = hits_.find(arrival.at)) return luminance(cell->radianceCdM2);
+float RayShader::found(const HitArrival& arrival, const HitCache& hits) const {
+  if (const HitCell* cell = hits.find(arrival.at)) return luminance(cell->radianceCdM2);
   return arrival.slot < 0 ? 0 : luminance(cache_.radiance(arrival.slot));
 }
 
@@ -244,11 +245,11 @@ Vec3 RayShader::sunsAlong(const GatherPath& path) const {
 void RayShader::addBackground(const GatherPath& path, GatherWork& w) const {
   if (w.arrivals) return w.arrive(path, {}, {}, -1, false);
   const Vec3 sky = skyAlong(path), suns = sunsAlong(path), both = sky + suns;
-  const Lobes light = w.add(path.estimate, path.factor, both, {}, path.depth == 1);
+  const auto [light, rare] = w.add(path.estimate, path.factor, both, {}, path.depth == 1);
   if (!w.layers || isBlack(both)) return;
   const Vec3 ofSky = sky / max(both, Vec3(1e-20f)), ofSuns = suns / max(both, Vec3(1e-20f));
-  w.addToLayers(path.estimate, {light.diffuse * ofSky, light.specular * ofSky}, LightOrigin::ofLayer(field_.layers.lights->sky));
-  w.addToLayers(path.estimate, {light.diffuse * ofSuns, light.specular * ofSuns}, LightOrigin::ofLayer(field_.layers.lights->sun));
+  w.addToLayers(path.estimate, {light.diffuse * ofSky, light.specular * ofSky}, LightOrigin::ofLayer(field_.layers.lights->sky), rare);
+  w.addToLayers(path.estimate, {light.diffuse * ofSuns, light.specular * ofSuns}, LightOrigin::ofLayer(field_.layers.lights->sun), rare);
 }
 
 // What a path finds where its ray ends, and how it goes on from there.
@@ -265,8 +266,8 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
       LightOrigin origin;
       if (w.layers) origin = LightOrigin::ofLayer(layerOf(hit.instance), scatter_.weightInLayer(path, s));
-      const Lobes added = w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1);
-      if (path.picture && path.depth == 1 && settings_.rareApart && !w.layers) w.mirrored[path.estimate] += added.specular;
+      const Lobes added = w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1).light;
+      if (path.picture && path.depth == 1) w.takeMirrored(path.estimate, added.specular, origin);
     }
   }
   if (!(kind & kClearKind)) {
@@ -312,7 +313,7 @@ bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, G
     if (!inGlow) w.arrive(path, hit, {p, n, hit.instance}, place.slot, place.trust == Trust::Sure);
     return true;
   }
-  if (const HitCell* cell = inGlow ? nullptr : hits_.find({p, n, hit.instance}); cell && distance >= kNearCells * cell->sizeM) {
+  if (const HitCell* cell = inGlow ? nullptr : w.survey->hits.find({p, n, hit.instance}); cell && distance >= kNearCells * cell->sizeM) {
     if (cell->sure && place.trust == Trust::Sure) {
       readCell(path, hit, *cell, p, n, w);
     } else {
@@ -342,10 +343,10 @@ bool RayShader::cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Ve
   const Frame plane(n);
   Sampler& sampler = w.samplers[path.estimate];
   const float u = sampler.fast1() - 0.5f, v = sampler.fast1() - 0.5f;
-  const HitCell* here = hits_.find({p, n, hit.instance});
+  const HitCell* here = w.survey->hits.find({p, n, hit.instance});
   if (!here || distance < kNearCells * here->sizeM) return false;
   const Vec3 beside = p + (plane.toWorld({u, v, 0})) * (kFaintCells * here->sizeM);
-  const HitCell* cell = hits_.find({beside, n, hit.instance});
+  const HitCell* cell = w.survey->hits.find({beside, n, hit.instance});
   if (!cell) cell = here;
   // Something may stand between the place and a cell beside it.
   if (cell == here && cell->sure) {
@@ -407,39 +408,42 @@ void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) cons
 // What the points of LampGlow give is left to them.
 void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const {
   // The slot's albedo is that of what does not let light through, of the instance that has most of it.
+  const auto i = static_cast<size_t>(slot);
   const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
-  Vec3 light = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[static_cast<size_t>(slot)] / kPi;
-  const Vec3 even = light;
-  const float sunLux = field_.sunLux.empty() ? 0 : field_.sunLux[static_cast<size_t>(slot)];
-  const float left = rayShare(path, slot, luminance(field_.irradianceLux[static_cast<size_t>(slot)]), sunLux, p, n, luminance(even));
-  if (sunLux > 0) light = max(Vec3(0), light + sunward(path, hit, sunLux, voxels_.slots[static_cast<size_t>(slot)].normal));
-  const Vec3 bent = light;
-  light = max(Vec3(0), even * left + (light - even));
-  const Lobes added = w.add(path.estimate, path.factor, light, {});
-  if (!w.layers || isBlack(added.diffuse + added.specular)) return;
-  // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
-  const Vec3 ofEven = even / max(bent, Vec3(1e-20f)), ofSun = Vec3(1) - ofEven;
-  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven}, LightOrigin::ofSlot(slot, 1 - left));
-  if (!isBlack(ofSun)) w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun}, LightOrigin::ofLayer(field_.layers.lights->sun));
+  const Vec3 even = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[i] / kPi;
+  const float sunLux = field_.sunLux.empty() ? 0 : field_.sunLux[i];
+  const LeftToPoints points = leftToPoints(path, slot, luminance(field_.irradianceLux[i]), sunLux, p, n, luminance(even));
+  const SlotLayers& layers = field_.layers;
+  addCached(path, hit, even, sunLux, voxels_.slots[i].normal, points, w.layers ? layers.at(i) : nullptr, w.layers && points.glow > 0 ? layers.glowOf[i] : -1, w);
 }
 
 void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const {
   // In a picture noise is filtered, light told by what lies beside would be seen, and so is a texture.
   const Vec3 even = path.clear ? bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * cell.ownCdM2 : cell.radianceCdM2;
-  Vec3 light = even * rayShare(path, cell.slot, path.clear ? cell.ownLux : cell.lux, cell.sunLux, p, n, luminance(even));
-  if (cell.sunLux > 0) light = max(Vec3(0), light + sunward(path, hit, cell.sunLux, cell.normal));
-  w.add(path.estimate, path.factor, light, {});
+  const LeftToPoints points = leftToPoints(path, cell.slot, path.clear ? cell.ownLux : cell.lux, cell.sunLux, p, n, luminance(even));
+  addCached(path, hit, even, cell.sunLux, cell.normal, points, w.layers ? w.survey->hits.shares(cell) : nullptr, -1, w);
 }
 
-// The part of a slot's light that a ray takes which finds it; points of bright patches take the rest.
-float RayShader::rayShare(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const {
-  if (!(path.pdf > 0) || patches_.empty() || slot < 0) return 1;
+// Light that a cache has of a place: `even` as it is spread evenly, of which points take their part, and what the sun's differs from that.
+void RayShader::addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal, const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const {
+  const Vec3 ofRay = even * points.ray(), bent = sunLux > 0 ? max(Vec3(0), even + sunward(path, hit, sunLux, normal)) : even;
+  const Vec3 light = max(Vec3(0), ofRay + (bent - even));
+  const auto [added, rare] = w.add(path.estimate, path.factor, light, {});
+  if (!w.layers || isBlack(added.diffuse + added.specular)) return;
+  // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
+  const Vec3 ofEven = ofRay / max(light, Vec3(1e-20f)), ofSun = Vec3(1) - ofEven;
+  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven}, {-1, shares, 1, points.glow, points.sun, glowOf}, rare);
+  if (!isBlack(ofSun)) w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun}, LightOrigin::ofLayer(field_.layers.lights->sun), rare);
+}
+
+RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const {
+  if (!(path.pdf > 0) || patches_.empty() || slot < 0) return {};
   const auto i = static_cast<size_t>(slot);
   const float distance = length(p - path.from);
   const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM;
   const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, sunLux / std::max(lux, 1e-30f)), glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
-  const auto leftToPoints = [&](float share) { return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction), path.side, path.pdf)) : 0; };
-  return std::max(0.0f, 1 - leftToPoints(sun) - (path.inGlow ? glow : leftToPoints(glow)));
+  const auto left = [&](float share) { return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction), path.side, path.pdf)) : 0; };
+  return {path.inGlow ? glow : left(glow), left(sun)};
 }
 
 // Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its

@@ -12,20 +12,19 @@ class RayShader final : public SurfaceShader {
  public:
   RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings);
   void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const override {
-    shade(work, shadows, light, nullptr, count);
+    shade(work, shadows, light, nullptr, nullptr, count);
   }
   void shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums& layers, GatherCounters& count) const override {
-    shade(work, shadows, light, &layers, count);
+    shade(work, shadows, light, &layers, nullptr, count);
   }
+  // Where a survey is given, rays read its cells where these know a place, slots elsewhere, and part of the rays follows its guide; light found far beyond what is expected is told apart.
+  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, const HitSurvey* survey, GatherCounters& count) const;
+  float voxelM() const { return voxels_.voxelSizeM; }
   const LightLayers* layers() const override { return field_.layers.lights.get(); }
   // Adds where rays from these surfaces arrive, but for what lies beside lamps. No light is asked for.
   void arrivals(std::span<const Shading> work, std::vector<HitArrival>& out, GatherCounters& count) const;
-  // From then on rays read it where it knows a place, and slots elsewhere.
-  void setHitCache(HitCache hits) { hits_ = std::move(hits); }
-  // From then on part of them follows it.
-  void setGuide(HitGuide guide) { guide_ = std::move(guide); }
   // Luminance that a ray would read there.
-  float found(const HitArrival& arrival) const;
+  float found(const HitArrival& arrival, const HitCache& hits) const;
 
  private:
   bool apart(const Shading& work) const { return !work.followed && work.s.m.roughness < settings_.rayRoughness; }
@@ -34,7 +33,6 @@ class RayShader final : public SurfaceShader {
     return settings_.estimates * (work.gathers > 0 ? work.gathers : apart(work) ? 1
                                                                                 : 0);
   }
-  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, GatherCounters& count) const;
   SurfaceLight start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const;
   static void sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, std::span<const Vec3> mirrored, SurfaceLight& out);
   void follow(GatherWork& w) const;
@@ -48,7 +46,13 @@ class RayShader final : public SurfaceShader {
   void read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 p, Vec3 n, GatherWork& w) const;
   void readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const;
   Vec3 sunward(const GatherPath& path, const Hit& hit, float sunLux, Vec3 normal) const;
-  float rayShare(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const;
+  // Parts of a slot's light that a ray which finds it leaves to points of bright patches.
+  struct LeftToPoints {
+    float glow = 0, sun = 0;
+    float ray() const { return std::max(0.0f, 1 - glow - sun); }
+  };
+  LeftToPoints leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const;
+  void addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal, const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const;
   void markGlow();
   bool isInGlow(Vec3 p, Vec3 n) const;
   bool shinesBesideLamps(int64_t slot) const { return slot >= 0 && !field_.glowShare.empty() && field_.glowShare[static_cast<size_t>(slot)] > 0; }
@@ -71,8 +75,6 @@ class RayShader final : public SurfaceShader {
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
   const RayScatter scatter_;
-  HitCache hits_;
-  HitGuide guide_;
   float meanRadiance_ = 0, leastExpected_ = 0;  // cd/m² of white surfaces: the mean over all slots, and the least that a place is expected to have
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
   std::vector<float> ownBrightest_, brightest_;  // per voxel, cd/m²: of its slots, did they reflect all light, and with those of its neighbours

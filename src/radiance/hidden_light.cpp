@@ -16,23 +16,23 @@ class HiddenLight {
     for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
   }
 
-  // Hands on a sample of each kind of light at a place.
+  // Hands on a sample of each kind of light at a place, and the layer it belongs to, if there are `layers`.
   template <class Take>
-  void at(const HiddenPlace& h, Sampler& sampler, const Take& take) const {
+  void at(const HiddenPlace& h, const LightLayers* layers, Sampler& sampler, const Take& take) const {
     const int32_t side = brickSideAt(voxels_, h.p, h.n);
     if (lights_.lampCount() > 0) {
       const LightSample lamp = seen_.sampleLamps(lights_, h.p, side, sampler);
-      if (lamp.valid() && !besideLamps_[static_cast<size_t>(lamp.lamp)].contains(h.p)) take(lamp);
+      if (lamp.valid() && !besideLamps_[static_cast<size_t>(lamp.lamp)].contains(h.p)) take(lamp, layers ? layers->of(lamp) : -1);
     }
-    for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()));
+    for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()), layers ? layers->sun : -1);
     if (lights_.hasEmitters()) {
       const Vec2 u = sampler.next2();
       const LightSample emitter = seen_.sampleEmitters(lights_, h.p, side, u, sampler.next1());
-      if (emitter.valid() && !besideEmitters_[static_cast<size_t>(emitter.emitter)].contains(h.p)) take(emitter);
+      if (emitter.valid() && !besideEmitters_[static_cast<size_t>(emitter.emitter)].contains(h.p)) take(emitter, layers ? layers->of(emitter) : -1);
     }
     if (lights_.sky().present()) {
       const Vec2 u = sampler.next2();
-      take(sampleSkyGuided(guide_, guideAt(guide_, voxels_, h.p, h.n), lights_, u, sampler.next1()));
+      take(sampleSkyGuided(guide_, guideAt(guide_, voxels_, h.p, h.n), lights_, u, sampler.next1()), layers ? layers->sky : -1);
     }
   }
 
@@ -47,7 +47,7 @@ class HiddenLight {
 
 }  // namespace
 
-std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, uint64_t seed, uint64_t& rayCount) {
+std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, uint64_t seed, uint64_t& rayCount, const OneLayer* only) {
   std::vector<Vec3> lux(voxels.slots.size());
   if (links.hidden.empty()) return lux;
   const HiddenLight hidden(lights, voxels, guide, seen);
@@ -58,9 +58,9 @@ std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, cons
     for (const HiddenPlace& h : links.hidden[b]) {
       Sampler sampler(paths.key(h.slot), number++, seed + 14);
       const float perLink = 1 / static_cast<float>(links.count(h.slot));
-      hidden.at(h, sampler, [&](const LightSample& light) {
+      hidden.at(h, only ? &only->layers : nullptr, sampler, [&](const LightSample& light, int32_t layer) {
         const float cosine = dot(light.wi, h.n);
-        if (!light.valid() || cosine <= 0) return;
+        if (!light.valid() || cosine <= 0 || (only && layer != only->layer)) return;
         samples.ask(h.slot, shadowRay(offsetOrigin(h.p, h.n), h.p, light), h.left * light.radiance * (cosine * perLink));
       });
     }

@@ -2,6 +2,7 @@
 #include "base/half.h"
 #include "base/parallel.h"
 #include "radiance/bounces_together.h"
+#include "radiance/hidden_light.h"
 #include "radiance/light_cache.h"
 
 namespace roomlight {
@@ -44,6 +45,16 @@ LightCache::LayerDirect LightCache::directOf(const Sources& from, const LightLay
   });
   smooth(links_, far);
   add(out.all, far);
+  if (layer == layers.sun && !sunHeld_.empty()) {
+    out.held = sunHeld_;
+    parallelFor(out.all.size(), 8192, [&](size_t i) { out.all[i] = max(Vec3(0), out.all[i] - sunHeld_[i]) + sunArrives_[i]; });
+  }
+  if (!links_.hidden.empty()) {
+    const OneLayer one{layers, layer};
+    std::vector<Vec3> hidden = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, field_.seen, settings_.seed, field_.rays, &one);
+    smooth(links_, hidden);
+    add(out.all, hidden);
+  }
   return out;
 }
 
@@ -59,17 +70,17 @@ void LightCache::splitIntoLayers(const Sources& from, const Bounces& like) {
   std::vector<float> mostGlow(out.glowOf.size(), 0);
   for (size_t begin = 0; begin < layers.size() && !from.progress.stop(); begin += kTogether) {
     const size_t count = std::min(kTogether, layers.size() - begin);
-    std::vector<std::vector<Vec3>> direct, near, indirect(count);
+    std::vector<std::vector<Vec3>> direct, near, held, indirect(count);
     for (size_t k = 0; k < count; ++k) {
       const size_t l = begin + k;
       LayerDirect light = directOf(from, layers, static_cast<int32_t>(l));
       for (size_t b = 0; b < voxels.bricks.size(); ++b) out.reach[b] |= static_cast<uint64_t>(light.straight[b]) << l;
-      direct.push_back(std::move(light.all)), near.push_back(std::move(light.near));
+      direct.push_back(std::move(light.all)), near.push_back(std::move(light.near)), held.push_back(std::move(light.held));
     }
     bounceTogether(voxels, links_, direct, indirect, like, from.progress);
     for (size_t k = 0; k < count; ++k) {
       smooth(links_, indirect[k]);
-      keepShares(begin + k, direct[k], indirect[k], near[k], mostGlow);
+      keepShares(begin + k, direct[k], indirect[k], near[k], held[k], mostGlow);
     }
     from.progress.at(0.9f + 0.1f * static_cast<float>(begin + count) / static_cast<float>(layers.size()));
   }
@@ -86,10 +97,10 @@ void LightCache::splitIntoLayers(const Sources& from, const Bounces& like) {
 }
 
 // Of one layer, relative to the light there is.
-void LightCache::keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, std::vector<float>& mostGlow) {
+void LightCache::keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, const std::vector<Vec3>& held, std::vector<float>& mostGlow) {
   SlotLayers& out = field_.layers;
   parallelFor(direct.size(), 8192, [&](size_t s) {
-    const Vec3 glow = near.empty() ? Vec3(0) : near[s], all = direct[s] + indirect[s] + glow;
+    const Vec3 glow = near.empty() ? Vec3(0) : near[s], all = direct[s] + indirect[s] + glow + (held.empty() ? Vec3(0) : held[s]);
     uint16_t* at = &out.shares[s * out.slotSize() + layer];
     for (int c = 0; c < 3; ++c) {
       const float whole = field_.irradianceLux[s][c];

@@ -132,7 +132,7 @@ void LightCache::traceAllLinks(const Sources& from) {
   SkyGuideBuilder guide(from.voxels, from.lights.sky());
   if (from.progress.stop()) return;
   links_ = planLinks(from.voxels, paths_, settings_.links);
-  if (settings_.still && !settings_.layers) links_.hidden.resize(from.voxels.bricks.size());
+  if (settings_.still) links_.hidden.resize(from.voxels.bricks.size());
   Steps steps(from.progress, 0, 0.5f, from.voxels.bricks.size());
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
@@ -170,7 +170,7 @@ void LightCache::traceDaylight(const Sources& from) {
   skyWays_.clear();
   if (from.lights.sunCount() > 0) suns_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
   field_.sunPoints.clear();
-  if (settings_.still && !settings_.layers && from.lights.sunCount() == 1 && !suns_.empty() && !from.progress.stop()) {
+  if (settings_.still && from.lights.sunCount() == 1 && !suns_.empty() && !from.progress.stop()) {
     std::vector<Vec3> sun(from.voxels.slots.size());
     suns_.addTo(from.voxels, Vec3(1), sun);
     field_.sunPoints = sunPlaces(from.rays, from.lights, from.voxels, paths_, links_, settings_.seed, sun, field_.rays);
@@ -314,7 +314,7 @@ std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
 
 // What the sun lights sends its light on by place: links start from what arrives.
 void LightCache::holdSun(const Sources& from) {
-  sunHeld_.clear();
+  sunHeld_.clear(), sunArrives_.clear();
   if (field_.sunPoints.empty() || from.progress.stop()) return;
   const Voxels& voxels = from.voxels;
   std::vector<Vec3> sun(voxels.slots.size());
@@ -326,10 +326,10 @@ void LightCache::holdSun(const Sources& from) {
     if (!patches.holdsSun(static_cast<int64_t>(i))) sun[i] = {};
     reflected[i] = voxels.slots[i].albedo * sun[i];
   });
-  std::vector<Vec3> arrives = lightFrom(patches, from.rays, voxels, paths_, links_, reflected, settings_.seed, field_.rays);
-  smooth(links_, arrives);
+  sunArrives_ = lightFrom(patches, from.rays, voxels, paths_, links_, reflected, settings_.seed, field_.rays);
+  smooth(links_, sunArrives_);
   parallelFor(sun.size(), 8192, [&](size_t i) {
-    direct_[i] = max(Vec3(0), direct_[i] - sun[i]) + arrives[i];
+    direct_[i] = max(Vec3(0), direct_[i] - sun[i]) + sunArrives_[i];
   });
   sunHeld_ = std::move(sun);
 }

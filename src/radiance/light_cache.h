@@ -77,6 +77,7 @@ class LightCache {
   };
   struct LayerDirect {
     std::vector<Vec3> all, near;    // lx per slot, as in direct_; near: empty where there is none
+    std::vector<Vec3> held;         // of the sun, as sunHeld_; else empty
     std::vector<uint8_t> straight;  // per brick: whether any comes straight
   };
   // Traces a light in a brick: all of it, or what boxes have to do with (see DirectLight).
@@ -123,7 +124,7 @@ class LightCache {
   void bounceOn(const Sources& from, int mostBounces, std::vector<Vec3>& near);
   int bouncesOfUpdate();
   void splitIntoLayers(const Sources& from, const Bounces& like);
-  void keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, std::vector<float>& mostGlow);
+  void keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, const std::vector<Vec3>& held, std::vector<float>& mostGlow);
   LayerDirect directOf(const Sources& from, const LightLayers& layers, int32_t layer);
   void fillField(const Sources& from, std::vector<Vec3>& near);
   std::vector<GlowPoint> glowPoints(const std::vector<Vec3>& glow) const;
@@ -140,6 +141,7 @@ class LightCache {
   std::vector<EmitterLight> emitters_;
   std::vector<LampLight> lamps_;
   std::vector<Vec3> sunHeld_;            // straight from the sun, lx per slot, of slots whose reflection is sampled by place; not in direct_, for that has been passed on
+  std::vector<Vec3> sunArrives_;         // what they have sent on: in direct_
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
   int mostAtOnce_ = 0;  // bounces, the last time
   bool settled_ = true;
