@@ -6,7 +6,6 @@
 #include "engine/technique_settings.h"
 #include "gather/cone_shader.h"
 #include "gather/frame.h"
-#include "gather/hit_survey.h"
 #include "gather/meters.h"
 #include "gather/ray_gather.h"
 #include "gather/ray_shader.h"
@@ -43,8 +42,8 @@ class LastView {
 template <class Shader, class Settings>
 class VoxelScene final : public LitScene {
  public:
-  VoxelScene(const Scene& scene, const RenderSettings& settings, const StageSettings<Settings>& use, Stages& stages) : LitScene(scene, true, stages), radiance_(use.radiance), gather_(use.gather) {
-    radiance_.still = false;  // what changes is followed by links
+  VoxelScene(const Scene& scene, const RenderSettings& settings, const StageSettings<Settings>& use, bool still, Stages& stages) : LitScene(scene, true, stages), radiance_(use.radiance), gather_(use.gather) {
+    radiance_.still = still;
     if (const auto layers = wantedLayers(scene, lights(), settings)) radiance_.layers = layers.value();
     voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, use.voxel); });
     if constexpr (kByRays) gather_ = withCells(gather_, voxels_.voxels.voxelSizeM);
@@ -55,23 +54,24 @@ class VoxelScene final : public LitScene {
     makeShader(stages);
   }
   std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
-    return withSurvey(elements, progress, [&](const SurfaceShader& shader) { return measureIlluminance(rays(), lights(), shader, elements, settings, progress); });
+    return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
   }
   LayeredReadings illuminanceInLayers(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
     if (!shader_ || !shader_->layers()) return {};
-    return withSurvey(elements, progress, [&](const SurfaceShader& shader) { return measureInLayers(rays(), lights(), shader, elements, settings, progress); });
+    return measureInLayers(rays(), lights(), *shader_, elements, settings, progress);
   }
   const LightLayers* layers() const override { return shader_ ? shader_->layers() : nullptr; }
   Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
     if (!shader_) return {};
     const Settings use = asked(gather_, wish);
     if constexpr (kByRays) {
-      const bool worth = !wish.history && use.samples >= kWorthSurvey;
-      const auto prepared = last_.of(camera, use.width, use.height, worth, [&]() -> std::shared_ptr<const RayGather> {
-        auto made = std::make_shared<const RayGather>(rays(), lights(), *shader_, camera, sized(gather_, use.width, use.height), progress);
-        return progress.stop() ? nullptr : made;
-      });
-      if (prepared && !wish.history) return prepared->picture(use, progress).image;
+      if (!wish.history) {
+        const auto prepared = last_.of(camera, use.width, use.height, use.samples >= kWorthSurvey, [&]() -> std::shared_ptr<const RayGather> {
+          auto made = std::make_shared<const RayGather>(rays(), lights(), *shader_, camera, sized(gather_, use.width, use.height), progress);
+          return progress.stop() ? nullptr : made;
+        });
+        if (prepared) return prepared->picture(use, progress).image;
+      }
     }
     return gatherView(rays(), lights(), *shader_, camera, use, wish.history, progress);
   }
@@ -84,17 +84,6 @@ class VoxelScene final : public LitScene {
  private:
   static constexpr bool kByRays = std::is_same_v<Shader, RayShader>;
 
-  // Meters read the light that arrives from where their own rays do.
-  template <class Read>
-  auto withSurvey(std::span<const SurfaceElement> elements, const Progress& progress, const Read& read) const {
-    if constexpr (kByRays) {
-      if (gather_.hitCellM > 0 && !elements.empty()) {
-        const HitSurvey survey = surveyHits(rays(), lights(), *shader_, elements, gather_, progress);
-        return read(SurveyedShader(*shader_, survey));
-      }
-    }
-    return read(*shader_);
-  }
   // What voxels know of emission light does not ask: it follows when something moves.
   void relight(const SceneChange& change, Stages& stages) override {
     shader_.reset(), last_.forget();
@@ -150,9 +139,9 @@ class VoxelScene final : public LitScene {
 
 }  // namespace
 
-std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages) {
-  if (settings.technique == "cone") return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, settings, coneStages(settings), stages);
-  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, settings, hybridStages(settings), stages);
+std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, bool still, Stages& stages) {
+  if (settings.technique == "cone") return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, settings, coneStages(settings), false, stages);
+  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, settings, hybridStages(settings), still, stages);
 }
 
 }  // namespace roomlight

@@ -214,17 +214,41 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
   return out;
 }
 
-// With as many columns of the other side beside each edge as all passes reach.
-Image filteredRound(const FilterInput& input, int passes) {
-  const int w = input.width, h = input.height, beside = reachOf(stepsOf(passes)) + poolReachOf(passes), wide = w + 2 * beside;
-  FilterInput padded(wide, h);
-  parallelFor(static_cast<size_t>(h), 4, [&](size_t y) {
-    const size_t row = y * static_cast<size_t>(w);
-    for (int x = 0; x < wide; ++x) padded.at(x, static_cast<int>(y)) = input.pixels[row + static_cast<size_t>(((x - beside) % w + w) % w)];
-  });
-  const Image all = filteredFlat(padded, passes, {nullptr, nullptr, nullptr, nullptr, {static_cast<size_t>(beside), static_cast<size_t>(w)}});
-  Image out(w, h);
-  for (int y = 0; y < h; ++y) std::copy_n(&all.at(beside, y), w, &out.at(0, y));
+// A picture with as many columns of its other side beside each edge as all passes reach.
+class RoundPicture {
+ public:
+  RoundPicture(const FilterInput& input, int passes, const std::function<FilterPixel(size_t)>* mean) : w_(input.width), beside_(reachOf(stepsOf(passes)) + poolReachOf(passes)), padded_(w_ + 2 * beside_, input.height) {
+    parallelFor(static_cast<size_t>(input.height), 4, [&](size_t y) {
+      for (int x = 0; x < padded_.width; ++x) {
+        const size_t i = y * static_cast<size_t>(w_) + static_cast<size_t>(((x - beside_) % w_ + w_) % w_);
+        padded_.at(x, static_cast<int>(y)) = mean ? (*mean)(i) : input.pixels[i];
+      }
+    });
+  }
+  const FilterInput& padded() const { return padded_; }
+  Round round() const { return {static_cast<size_t>(beside_), static_cast<size_t>(w_)}; }
+  // The picture's own columns of such rows.
+  template <class T>
+  std::vector<T> own(const std::vector<T>& all) const {
+    std::vector<T> out;
+    for (int y = 0; y < padded_.height; ++y) {
+      const auto row = all.begin() + static_cast<ptrdiff_t>(y) * padded_.width + beside_;
+      out.insert(out.end(), row, row + w_);
+    }
+    return out;
+  }
+
+ private:
+  const int w_, beside_;
+  FilterInput padded_;
+};
+
+Image filteredRound(const FilterInput& input, int passes, std::vector<Vec3>* irradiance) {
+  const RoundPicture round(input, passes, nullptr);
+  const Image all = filteredFlat(round.padded(), passes, {nullptr, nullptr, irradiance, nullptr, round.round()});
+  if (irradiance) *irradiance = round.own(*irradiance);
+  Image out(input.width, input.height);
+  out.pixels = round.own(all.pixels);
   return out;
 }
 
@@ -236,15 +260,20 @@ Image composed(const FilterInput& input) {
   return out;
 }
 
-Image filtered(const FilterInput& input, int passes, bool wrap, std::vector<Vec3>* once, std::vector<Vec3>* irradiance) {
-  if (wrap) return filteredRound(input, passes);
+Image filtered(const FilterInput& input, int passes, std::vector<Vec3>* once, std::vector<Vec3>* irradiance) {
+  if (input.wraps) return filteredRound(input, passes, irradiance);
   return filteredFlat(input, passes, {nullptr, once, irradiance, nullptr});
 }
 
 FilteredLuminance filteredLuminance(const FilterInput& sums, int passes, const std::function<FilterPixel(size_t i)>& mean) {
   FilteredLuminance out;
-  filteredFlat(sums, passes, {&mean, nullptr, nullptr, &out});
-  return out;
+  if (!sums.wraps) {
+    filteredFlat(sums, passes, {&mean, nullptr, nullptr, &out});
+    return out;
+  }
+  const RoundPicture round(sums, passes, &mean);
+  filteredFlat(round.padded(), passes, {nullptr, nullptr, nullptr, &out, round.round()});
+  return {round.own(out.luminance), round.own(out.variance)};
 }
 
 }  // namespace roomlight

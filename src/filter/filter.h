@@ -28,6 +28,7 @@ struct FilterPixel {
 
 struct FilterInput {
   int width = 0, height = 0;
+  bool wraps = false;  // the picture goes on at its other side, as panoramas do
   std::vector<FilterPixel> pixels;
   FilterInput(int w, int h) : width(w), height(h), pixels(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
   FilterPixel& at(int x, int y) { return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)]; }
@@ -35,10 +36,9 @@ struct FilterInput {
 
 Image composed(const FilterInput& input);  // without filtering
 // Pass k looks 2^k pixels far. Diffuse light is filtered as irradiance, so textures stay sharp; mirrors are left alone.
-// `wrap`: the picture goes on at its other side, as panoramas do.
 // `once`, where given and unless it wraps: diffuse light over albedo after the first pass.
-// `irradiance`, likewise: diffuse light over albedo after all passes.
-Image filtered(const FilterInput& input, int passes, bool wrap = false, std::vector<Vec3>* once = nullptr, std::vector<Vec3>* irradiance = nullptr);
+// `irradiance`, where given: diffuse light over albedo after all passes.
+Image filtered(const FilterInput& input, int passes, std::vector<Vec3>* once = nullptr, std::vector<Vec3>* irradiance = nullptr);
 // What is left after so many passes, a pixel each: its luminance without rare light, and the variance of that.
 struct FilteredLuminance {
   std::vector<float> luminance, variance;

@@ -96,7 +96,6 @@ class FrameMaker {
   }
   void make(int x0, int y0, GatherCounters& count) const;
   bool leftStale() const { return stale_; }  // pixels
-  bool wraps() const { return pixelRays_.camera().wraps(); }
 
  private:
   bool passPane(Sight& sight) const;
@@ -384,7 +383,7 @@ Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShade
     return {};
   }
   std::vector<Vec3> smooth;
-  Image out = use.filterPasses > 0 ? filtered(history.pixels(), use.filterPasses, maker.wraps(), &smooth) : composed(history.pixels());
+  Image out = use.filterPasses > 0 ? filtered(history.pixels(), use.filterPasses, &smooth) : composed(history.pixels());
   history.end(smooth, maker.leftStale());
   return out;
 }

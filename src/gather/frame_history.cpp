@@ -68,6 +68,7 @@ void FrameHistory::begin(const Camera& camera, int width, int height, const Ligh
   if (camera_) before_.emplace(*camera_, width, height), beforeEye_ = camera_->worldFromCamera.w;
   camera_ = camera;
   const CameraRays rays(camera, width, height);
+  pixels_->wraps = rays.wraps();
   const Ray a = rays.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)), b = rays.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height) + 1);
   pixelSlope_ = length(b.direction - a.direction), pixelM_ = camera.projection == Projection::Orthographic ? length(b.origin - a.origin) : 0;
   eye_ = camera.worldFromCamera.w;

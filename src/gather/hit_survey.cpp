@@ -7,7 +7,6 @@
 #include "base/parallel.h"
 #include "gather/hit_layers.h"
 #include "gather/hit_smoothing.h"
-#include "gather/meters.h"
 #include "gather/pixel_rays.h"
 #include "gather/pixel_shader.h"
 #include "gather/ray_shader.h"
@@ -17,8 +16,7 @@ namespace {
 
 constexpr int kSurveyedPixels = 32768;  // about
 constexpr int kRaysAPixel = 8;
-constexpr size_t kMostOfElement = 4096; // rays from one element of a meter
-constexpr size_t kParts = 2;            // at once: rows of surveyed pixels, or elements
+constexpr size_t kRows = 2;             // of surveyed pixels, at once
 constexpr float kRegionM = 0.6f;        // that a guide is learned for
 constexpr float kClusterM = 0.4f;      // of its targets
 constexpr size_t kBatch = 256;          // places lit at once
@@ -47,35 +45,13 @@ struct Arrivals {
   }
 };
 
-Arrivals arrivalsFrom(const RayShader& shader, std::span<const Shading> shadings, GatherCounters& count) {
-  Arrivals out;
-  shader.arrivals(shadings, out.hits, count);
-  for (const Shading& s : shadings) out.origins.push_back({s.s.p, s.s.ng});
-  return out;
-}
-
-// Of parts that are made by many threads, in their order.
-template <class Make>
-Arrivals arrivalsOfParts(size_t parts, const Make& make, uint64_t& rays) {
-  std::vector<Arrivals> some(parts);
-  std::atomic<uint64_t> rayCount = 0;
-  parallelRanges(parts, kParts, [&](size_t begin, size_t end) {
-    GatherCounters own;
-    for (size_t i = begin; i < end; ++i) some[i] = make(i, own);
-    rayCount += own.rays;
-  });
-  rays += rayCount;
-  Arrivals all;
-  for (const Arrivals& part : some) all.add(part);
-  return all;
-}
-
-Arrivals arrivalsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, uint64_t& rayCount) {
+Arrivals arrivalsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, uint64_t& allRays) {
   const RayGatherSettings few = surveySettings(settings);
   const PixelRays pixelRays(rays, camera, few);
   const PixelShader pixelShader(rays, lights, few, false);
-  const auto row = [&](size_t y, GatherCounters& count) {
-    thread_local TileWork work;
+  std::vector<Arrivals> byRow(static_cast<size_t>(few.height));
+  std::atomic<uint64_t> rayCount = 0;
+  const auto arriveFrom = [&](size_t y, TileWork& work, GatherCounters& count) {
     work.clear();
     std::vector<FilterPixel> sums(static_cast<size_t>(few.width));
     std::vector<PixelCount> counts(sums.size());
@@ -85,21 +61,19 @@ Arrivals arrivalsOf(const RayScene& rays, const Lights& lights, const RayShader&
       pixelShader.see(pixelRays.at(x, static_cast<int>(y), 0, 1, some), sequence, {&sums[static_cast<size_t>(x)], &counts[static_cast<size_t>(x)], static_cast<uint32_t>(x)}, work, count);
     }
     for (Shading& s : work.shadings) s.gathers = std::max(1, kRaysAPixel / settings.estimates), s.firstShadow = 0;
-    return arrivalsFrom(shader, work.shadings, count);
+    shader.arrivals(work.shadings, byRow[y].hits, count);
+    for (const Shading& s : work.shadings) byRow[y].origins.push_back({s.s.p, s.s.ng});
   };
-  return arrivalsOfParts(static_cast<size_t>(few.height), row, rayCount);
-}
-
-Arrivals arrivalsOf(const RayShader& shader, std::span<const SurfaceElement> elements, const RayGatherSettings& settings, uint64_t& rayCount) {
-  constexpr size_t kAll = size_t{kSurveyedPixels} * kRaysAPixel;
-  const size_t asked = std::min<size_t>(elements.size(), kSurveyedPixels), each = std::clamp<size_t>(kAll / std::max<size_t>(1, asked), kRaysAPixel, kMostOfElement) / static_cast<size_t>(settings.estimates);
-  const auto raysOf = [&](size_t i, GatherCounters& count) {
-    const size_t element = i * elements.size() / asked;
-    Shading s{whitePatch(elements[element]), elements[element].normal, Sampler(mix64(element + kLightKey), 0, settings.seed ^ kSurveyKey), 0, false};
-    s.gathers = static_cast<int>(std::max<size_t>(1, each));
-    return arrivalsFrom(shader, {&s, 1}, count);
-  };
-  return arrivalsOfParts(asked, raysOf, rayCount);
+  parallelRanges(byRow.size(), kRows, [&](size_t begin, size_t end) {
+    GatherCounters own;
+    TileWork work;
+    for (size_t y = begin; y < end; ++y) arriveFrom(y, work, own);
+    rayCount += own.rays;
+  });
+  allRays += rayCount;
+  Arrivals all;
+  for (const Arrivals& row : byRow) all.add(row);
+  return all;
 }
 
 HitGuide guideFrom(const Arrivals& all, const RayShader& shader, const HitCache& hits) {
@@ -199,14 +173,6 @@ HitSurvey surveyOf(const RayScene& rays, const Lights& lights, const RayShader& 
 HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress) {
   uint64_t rayCount = 0;
   const Arrivals all = arrivalsOf(rays, lights, shader, camera, settings, rayCount);
-  HitSurvey out = surveyOf(rays, lights, shader, all, settings, progress);
-  out.rays += rayCount;
-  return out;
-}
-
-HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, std::span<const SurfaceElement> elements, const RayGatherSettings& settings, const Progress& progress) {
-  uint64_t rayCount = 0;
-  const Arrivals all = arrivalsOf(shader, elements, settings, rayCount);
   HitSurvey out = surveyOf(rays, lights, shader, all, settings, progress);
   out.rays += rayCount;
   return out;

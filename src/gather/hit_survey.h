@@ -1,8 +1,6 @@
 // Finds where gathering rays arrive, and lights these places: what the cache of hits and the guide are made of.
 #pragma once
 
-#include <span>
-
 #include "base/progress.h"
 #include "gather/hit_cache.h"
 #include "gather/hit_guide.h"
@@ -13,7 +11,6 @@ namespace roomlight {
 class Lights;
 class RayShader;
 struct RayGatherSettings;
-struct SurfaceElement;
 
 struct HitSurvey {
   HitCache hits;
@@ -21,8 +18,7 @@ struct HitSurvey {
   uint64_t rays = 0;
 };
 
-// Of rays from what a camera sees, or from elements that light is measured on. Where light is kept in layers, so it is in the cells. Without cells if cancelled.
+// Of rays from what a camera sees. Where light is kept in layers, so it is in the cells. Without cells if cancelled.
 HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress);
-HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, std::span<const SurfaceElement> elements, const RayGatherSettings& settings, const Progress& progress);
 
 }  // namespace roomlight

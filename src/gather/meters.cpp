@@ -15,6 +15,15 @@ constexpr int kBatch = 64;                // samples of a meter in layers at onc
 constexpr int kPlaces = 2;                // on extended lamps, a batch
 constexpr float kOfStrongest = 0.03f;      // of light on a meter: layers weaker than that need not be surer than it
 
+// An ideal white Lambertian surface reflects 1 / pi of what falls on it.
+SurfacePoint whitePatch(const SurfaceElement& element) {
+  SurfacePoint s;
+  s.p = element.position;
+  s.ng = s.smooth = s.ns = element.normal;
+  s.m.baseColor = Vec3(1);
+  return s;
+}
+
 // Samples of one element, ready to be shaded.
 struct MeterSamples {
   std::vector<Shading> shadings;
@@ -105,14 +114,6 @@ void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const S
 }
 
 }  // namespace
-
-SurfacePoint whitePatch(const SurfaceElement& element) {
-  SurfacePoint s;
-  s.p = element.position;
-  s.ng = s.smooth = s.ns = element.normal;
-  s.m.baseColor = Vec3(1);
-  return s;
-}
 
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
                                              const MeterSettings& settings, const Progress& progress) {

@@ -8,9 +8,6 @@
 
 namespace roomlight {
 
-// An ideal white Lambertian surface there: it reflects 1 / pi of what falls on it.
-SurfacePoint whitePatch(const SurfaceElement& element);
-
 // A reading for each element, as readMeters() has it.
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
                                              const MeterSettings& settings, const Progress& progress = {});

@@ -46,6 +46,32 @@ bool onOneSurface(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPositi
   return dot(normal, otherNormal) >= kFacing && std::abs(dot(normal, between)) <= kPlane * length(between) + 1e-3f;
 }
 
+FilterPixel meanBeside(const FilterInput& sums, const std::vector<PixelCount>& counts, size_t i) {
+  constexpr float kLeastAlbedo = 1e-3f;
+  const int w = sums.width, x = static_cast<int>(i) % w, y = static_cast<int>(i) / w;
+  FilterPixel own = meanOf(sums.pixels[i], counts[i]);
+  if (!(own.surface > 0)) return own;
+  FilterPixel sum;
+  sum.weight = 0;
+  float count = 0;
+  for (const auto [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
+    const int qx = sums.wraps ? (x + dx + w) % w : x + dx, qy = y + dy;
+    if (qx < 0 || qy < 0 || qx >= w || qy >= sums.height) continue;
+    const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(w) + static_cast<size_t>(qx);
+    const FilterPixel o = meanOf(sums.pixels[q], counts[q]);
+    if (!(o.surface > 0) || !onOneSurface(own.normal, own.position, o.normal, o.position)) continue;
+    const Vec3 albedo = max(o.albedo, Vec3(kLeastAlbedo));
+    sum.diffuse += o.diffuse / albedo, sum.rare += o.rare / albedo, sum.sharp += o.sharp / albedo, sum.specular += o.specular, sum.rest += o.rest;
+    sum.diffuseVariance += o.diffuseVariance, sum.sharpVariance += o.sharpVariance, sum.specularVariance += o.specularVariance, sum.weight += o.weight;
+    count += 1;
+  }
+  if (count == 0) return own;
+  const Vec3 albedo = max(own.albedo, Vec3(kLeastAlbedo)) / count;
+  own.diffuse = sum.diffuse * albedo, own.rare = sum.rare * albedo, own.sharp = sum.sharp * albedo, own.specular = sum.specular / count, own.rest = sum.rest / count;
+  own.diffuseVariance = sum.diffuseVariance / count, own.sharpVariance = sum.sharpVariance / count, own.specularVariance = sum.specularVariance / count, own.weight = sum.weight / count;
+  return own;
+}
+
 std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts, const FilteredLuminance& left, float tolerance) {
   const bool isFiltered = !left.variance.empty();
   const int width = sums.width, height = sums.height;
@@ -72,7 +98,7 @@ std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<Pixe
       float variance = 0, like = 0, around = 0, all = 0, level = 0, sharp = 0, beside = 0, low = kInfinity, high = 0;
       for (int dy = -kReach; dy <= kReach; ++dy) {
         for (int dx = -kReach; dx <= kReach; ++dx) {
-          const int qx = x + dx, qy = y + dy;
+          const int qx = sums.wraps ? (x + dx + width) % width : x + dx, qy = y + dy;
           if (qx < 0 || qy < 0 || qx >= width || qy >= height) continue;
           const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(width) + static_cast<size_t>(qx);
           const Look& o = looks[q];
@@ -82,8 +108,11 @@ std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<Pixe
             const float l = isFiltered ? left.luminance[q] : o.luminance;  // noise is no contrast
             low = std::min(low, l), high = std::max(high, l);
           }
+          if (isFiltered) {
+            if (q != i) all += 1, level += o.luminance;
+            continue;
+          }
           all += 1, around += o.variance, level += o.luminance;
-          if (isFiltered) continue;
           if ((dx == 0 && dy == 0) || (own.surface > 0 && alike(own, o))) variance += o.variance, like += 1;
         }
       }

@@ -32,6 +32,7 @@ Rectangle tileAt(size_t index, int width, int height) {
 // What the filter is told of one layer: what pixels see is that of the whole, light and noise its own.
 FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>& counts, const LayerSums& sums, size_t layer) {
   FilterInput out(whole.width, whole.height);
+  out.wraps = whole.wraps;
   parallelFor(counts.size(), 4096, [&](size_t i) {
     FilterPixel& p = out.pixels[i];
     p = whole.pixels[i];
@@ -59,13 +60,14 @@ class Gathering {
         every_(settings.filterPasses > 0 ? std::bit_floor(static_cast<uint32_t>(settings.gatherEvery)) : 1u),
         layers_(shader.layers()),
         pixelRays_(rays, camera, settings),
-        keepsFragments_(settings.filterPasses > 0 && every_ == 1 && !pixelRays_.camera().wraps()),
+        keepsFragments_(settings.filterPasses > 0 && every_ == 1),
         byLayer_(layers_ ? layers_->size() : 0),
         pixelShader_(rays, lights, settings, keepsFragments_, layers_, layers_ ? &byLayer_ : nullptr),
         sums_(width_, height_),
         counts_(sums_.pixels.size()),
         fragments_(keepsFragments_ ? tiles_ : 0),
         tolerance_(settings.tolerance) {
+    sums_.wraps = pixelRays_.camera().wraps();
     byLayer_.resize(counts_.size());
   }
 
@@ -105,7 +107,7 @@ class Gathering {
       if (!result_.occlusion.pixels.empty()) result_.occlusion.pixels[i] = Vec3(counts_[i].occlusion / static_cast<float>(std::max(1u, counts_[i].rays)));
     });
     std::vector<Vec3> irradiance;
-    result_.image = settings_.filterPasses > 0 ? filtered(means, settings_.filterPasses, pixelRays_.camera().wraps(), nullptr, keepsFragments_ ? &irradiance : nullptr) : composed(means);
+    result_.image = settings_.filterPasses > 0 ? filtered(means, settings_.filterPasses, nullptr, keepsFragments_ ? &irradiance : nullptr) : composed(means);
     parallelFor(fragments_.size(), 16, [&](size_t t) { addFragments(fragments_[t], means, counts_, irradiance, result_.image); });
   }
   void composeForGood() {
@@ -133,9 +135,26 @@ class Gathering {
 
  private:
   void plan(size_t first) {
-    const FilteredLuminance left = settings_.rareApart ? filteredLuminance(sums_, settings_.filterPasses, [&](size_t i) { return meanOf(sums_.pixels[i], counts_[i]); }) : FilteredLuminance();
-    needed_ = raysNeeded(sums_, counts_, left, settings_.rareApart ? tolerance_ : kUnfiltered * tolerance_);
+    if (settings_.rareApart) {
+      planByOthers();
+    } else {
+      needed_ = raysNeeded(sums_, counts_, {}, kUnfiltered * tolerance_);
+    }
     planned_ = first;
+  }
+
+  // By what the filter leaves where a pixel has what those beside it found: were it to ask for more rays because it found much itself, pixels that are bright by chance would get more than dark ones, and
+  // the picture be too dark. So once for each colour of a chequerboard.
+  void planByOthers() {
+    const auto colourOf = [&](size_t i) { return (i / static_cast<size_t>(width_) + i % static_cast<size_t>(width_)) % 2; };
+    needed_.assign(counts_.size(), 0);
+    for (size_t colour = 0; colour < 2; ++colour) {
+      const FilteredLuminance left = filteredLuminance(sums_, settings_.filterPasses, [&](size_t i) { return colourOf(i) == colour ? meanBeside(sums_, counts_, i) : meanOf(sums_.pixels[i], counts_[i]); });
+      const std::vector<uint16_t> needed = raysNeeded(sums_, counts_, left, tolerance_);
+      for (size_t i = 0; i < needed.size(); ++i) {
+        if (colourOf(i) == colour) needed_[i] = needed[i];
+      }
+    }
   }
 
   // Rays `first` to `first` + n of all pixels that ask for them.
@@ -198,7 +217,7 @@ class Gathering {
   void composeLayers() {
     for (size_t l = 0; l < layers_->size(); ++l) {
       const FilterInput input = inputOfLayer(sums_, counts_, byLayer_, l);
-      result_.layers.push_back(settings_.filterPasses > 0 ? filtered(input, settings_.filterPasses, pixelRays_.camera().wraps()) : composed(input));
+      result_.layers.push_back(settings_.filterPasses > 0 ? filtered(input, settings_.filterPasses) : composed(input));
     }
     splitLike(result_.image, result_.layers);
     result_.layerBytes = byLayer_.bytes();

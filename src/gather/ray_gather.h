@@ -22,7 +22,7 @@ struct HitSurvey;
 // Settings with the size of cells that suits voxels of that edge.
 RayGatherSettings withCells(RayGatherSettings settings, float voxelM);
 
-// RayShader with what a survey found of the places where rays of one camera, or of meters, arrive. Refers to both.
+// RayShader with what a survey found of the places where rays of one camera arrive. Refers to both.
 class SurveyedShader final : public SurfaceShader {
  public:
   SurveyedShader(const RayShader& shader, const HitSurvey& survey) : shader_(shader), survey_(survey) {}

@@ -47,24 +47,24 @@ class HiddenLight {
 
 }  // namespace
 
-std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, uint64_t seed, uint64_t& rayCount, const OneLayer* only) {
-  std::vector<Vec3> lux(voxels.slots.size());
+std::vector<std::vector<Vec3>> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, const LightLayers* layers, uint64_t seed,
+                                             uint64_t& rayCount) {
+  std::vector<std::vector<Vec3>> lux(layers ? layers->size() : 1, std::vector<Vec3>(voxels.slots.size()));
   if (links.hidden.empty()) return lux;
   const HiddenLight hidden(lights, voxels, guide, seen);
   std::atomic<uint64_t> count = 0;
   parallelFor(links.hidden.size(), 4, [&](size_t b) {
-    SlotSamples samples;
+    std::vector<SlotSamples> samples(lux.size());
     uint32_t number = 0;
     for (const HiddenPlace& h : links.hidden[b]) {
       Sampler sampler(paths.key(h.slot), number++, seed + 14);
       const float perLink = 1 / static_cast<float>(links.count(h.slot));
-      hidden.at(h, only ? &only->layers : nullptr, sampler, [&](const LightSample& light, int32_t layer) {
+      hidden.at(h, layers, sampler, [&](const LightSample& light, int32_t layer) {
         const float cosine = dot(light.wi, h.n);
-        if (!light.valid() || cosine <= 0 || (only && layer != only->layer)) return;
-        samples.ask(h.slot, shadowRay(offsetOrigin(h.p, h.n), h.p, light), h.left * light.radiance * (cosine * perLink));
+        if (light.valid() && cosine > 0) samples[static_cast<size_t>(std::max(0, layer))].ask(h.slot, shadowRay(offsetOrigin(h.p, h.n), h.p, light), h.left * light.radiance * (cosine * perLink));
       });
     }
-    count += samples.addTo(rays, lux);
+    for (size_t l = 0; l < lux.size(); ++l) count += samples[l].addTo(rays, lux[l]);
   });
   rayCount += count;
   return lux;

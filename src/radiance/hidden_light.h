@@ -8,13 +8,8 @@
 
 namespace roomlight {
 
-struct OneLayer {
-  const LightLayers& layers;
-  int32_t layer;
-};
-
-// Lights that fall straight on hidden places along links go on to these links' slots: lx per slot, of all lights together, or, where given, of one layer's. What particles bring near lamps is left out.
-std::vector<Vec3> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, uint64_t seed, uint64_t& rayCount,
-                                const OneLayer* only = nullptr);
+// Lights that fall straight on hidden places along links go on to these links' slots: lx per slot, of all lights together or, where layers are given, of each layer apart. What particles bring near lamps is left out.
+std::vector<std::vector<Vec3>> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, const LightLayers* layers, uint64_t seed,
+                                             uint64_t& rayCount);
 
 }  // namespace roomlight

@@ -1,8 +1,9 @@
 // LightCache::splitIntoLayers: whose the light on slots is.
+#include <utility>
+
 #include "base/half.h"
 #include "base/parallel.h"
 #include "radiance/bounces_together.h"
-#include "radiance/hidden_light.h"
 #include "radiance/light_cache.h"
 
 namespace roomlight {
@@ -49,12 +50,7 @@ LightCache::LayerDirect LightCache::directOf(const Sources& from, const LightLay
     out.held = sunHeld_;
     parallelFor(out.all.size(), 8192, [&](size_t i) { out.all[i] = max(Vec3(0), out.all[i] - sunHeld_[i]) + sunArrives_[i]; });
   }
-  if (!links_.hidden.empty()) {
-    const OneLayer one{layers, layer};
-    std::vector<Vec3> hidden = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, field_.seen, settings_.seed, field_.rays, &one);
-    smooth(links_, hidden);
-    add(out.all, hidden);
-  }
+  if (!hidden_.empty()) add(out.all, std::exchange(hidden_[static_cast<size_t>(layer)], {}));
   return out;
 }
 

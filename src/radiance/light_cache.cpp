@@ -297,9 +297,12 @@ std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   }
   holdSun(from);
   if (!links_.hidden.empty()) {
-    std::vector<Vec3> hidden = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, field_.seen, settings_.seed, field_.rays);
-    smooth(links_, hidden);
-    for (size_t i = 0; i < hidden.size(); ++i) direct_[i] += hidden[i];
+    hidden_ = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, field_.seen, settings_.layers.get(), settings_.seed, field_.rays);
+    for (std::vector<Vec3>& hidden : hidden_) {
+      smooth(links_, hidden);
+      for (size_t i = 0; i < hidden.size(); ++i) direct_[i] += hidden[i];
+    }
+    if (!settings_.layers) hidden_.clear();
   }
   std::vector<Vec3> near, far;
   for (const LitParticles& p : litParticles()) {

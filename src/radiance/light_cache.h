@@ -141,6 +141,7 @@ class LightCache {
   std::vector<EmitterLight> emitters_;
   std::vector<LampLight> lamps_;
   std::vector<Vec3> sunHeld_;            // straight from the sun, lx per slot, of slots whose reflection is sampled by place; not in direct_, for that has been passed on
+  std::vector<std::vector<Vec3>> hidden_;  // of each layer, what it lights of hidden places, as lightOfHidden(); until it is told apart
   std::vector<Vec3> sunArrives_;         // what they have sent on: in direct_
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
   int mostAtOnce_ = 0;  // bounces, the last time

@@ -150,6 +150,7 @@ std::vector<Image> PathTracer::layers() const {
 
 FilterInput PathTracer::features() const {
   FilterInput out(state_->settings.width, state_->settings.height);
+  out.wraps = state_->cameraRays.wraps();
   parallelFor(state_->pixels.size(), 16384, [&](size_t i) { out.pixels[i] = state_->pixels[i].mean(samples()); });
   return out;
 }
@@ -172,7 +173,7 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
     if (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS) break;
     if (settings.noiseLevel > 0 && tracer.samples() >= 16 && tracer.samples() % 8 == 0 && tracer.noise() <= settings.noiseLevel) break;
   }
-  return {settings.filter ? filtered(tracer.features(), kFilterPasses, CameraRays(camera, settings.width, settings.height).wraps()) : tracer.mean(), tracer.variance(), tracer.layers(), tracer.samples(), tracer.noise(), tracer.rays()};
+  return {settings.filter ? filtered(tracer.features(), kFilterPasses) : tracer.mean(), tracer.variance(), tracer.layers(), tracer.samples(), tracer.noise(), tracer.rays()};
 }
 
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
