@@ -81,9 +81,7 @@ void LitScene::update(const SceneChange& change, Stages& stages) {
   relight(change, stages);
 }
 
-namespace {
-
-Result<std::unique_ptr<LitScene>> lit(const Scene& scene, const RenderSettings& settings, bool still, Stages& stages, const Camera* camera) {
+Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera) {
   if (const Status status = checkSettings(settings); !status) return Error{status.error()};
   std::unique_ptr<LitScene> out;
   if (settings.technique == "path") {
@@ -91,7 +89,7 @@ Result<std::unique_ptr<LitScene>> lit(const Scene& scene, const RenderSettings& 
   } else if (settings.technique == "photon") {
     out = std::make_unique<PhotonScene>(scene, settings, stages);
   } else if (settings.technique == "hybrid" || settings.technique == "cone") {
-    out = lightByVoxels(scene, settings, still, stages);
+    out = lightByVoxels(scene, settings, stages);
   } else if (settings.technique == "vxgi") {
     out = lightByVxgi(scene, settings, stages, camera);
   } else if (settings.technique == "lpv") {
@@ -102,11 +100,5 @@ Result<std::unique_ptr<LitScene>> lit(const Scene& scene, const RenderSettings& 
   if (stages.cancelled()) return std::unique_ptr<LitScene>();
   return out;
 }
-
-}  // namespace
-
-Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera) { return lit(scene, settings, false, stages, camera); }
-
-Result<std::unique_ptr<LitScene>> lightStillScene(const Scene& scene, const RenderSettings& settings, Stages& stages) { return lit(scene, settings, true, stages, nullptr); }
 
 }  // namespace roomlight

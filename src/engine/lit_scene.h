@@ -94,7 +94,5 @@ class LitScene {
 // Refers to the scene, which must be validated and stay where it is. `camera`, where given, is the first to be looked from; otherwise light
 // is found for the whole scene at once. Errors: an unknown technique, settings out of range. Null if cancelled.
 Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera = nullptr);
-// The same of a scene that stays as it is, as for meters: by `hybrid` what the sun lights sends its light on by place, and what is seen of lamps is learned, as for a picture. Updates would do that anew.
-Result<std::unique_ptr<LitScene>> lightStillScene(const Scene& scene, const RenderSettings& settings, Stages& stages);
 
 }  // namespace roomlight
