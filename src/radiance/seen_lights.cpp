@@ -11,17 +11,19 @@
 namespace roomlight {
 namespace {
 
-constexpr size_t kOneByOne = 256, kDrawn = 128;  // lights of which each is looked at; of more so many are drawn
 constexpr uint32_t kRays = 8, kFewRays = 2;
 constexpr float kMatters = 0.01f, kHardly = 1e-4f;  // of what all could give a side: lights that could give more send kRays, and kFewRays
 constexpr float kFloor = 0.03f;        // a light that no ray found gives that part of what it could
 constexpr float kUntried = 0.25f;      // and one that no ray looked for
-constexpr float kOthers = 0.05f, kWorthIt = 0.5f;  // of samples at least, where lists leave lights out; a list that holds less than half of the light is none
+constexpr uint32_t kDraws = 128;       // rays of a side to lights drawn among many
+constexpr float kLikeParent = 4;       // draws: so much a group's parent tells of what is seen of it
+constexpr float kMixed = 2;        // draws: groups that are seen in part are taken apart while they have more of these seen and hidden
 
 struct Lamps {
   static constexpr uint64_t kKey = 17;
   const Lights& lights;
   size_t count() const { return lights.lampCount(); }
+  const LightTree& tree() const { return lights.lampTree(); }
   float importance(size_t i, Vec3 p) const { return lights.lampImportance(i, p); }
   LightSample sample(size_t i, Vec3 p, Vec2 u, float) const { return lights.sampleLamp(i, p, u); }
   LightTree::Choice choose(Vec3 p, float choice) const { return lights.chooseLamp(p, choice); }
@@ -32,107 +34,191 @@ struct Emitters {
   static constexpr uint64_t kKey = 18;
   const Lights& lights;
   size_t count() const { return lights.emitterCount(); }
+  const LightTree& tree() const { return lights.emitterTree(); }
   float importance(size_t i, Vec3 p) const { return lights.emitterImportance(i, p); }
   LightSample sample(size_t i, Vec3 p, Vec2 u, float choice) const { return lights.sampleEmitter(i, p, u, choice); }
   LightTree::Choice choose(Vec3 p, float choice) const { return lights.chooseEmitter(p, choice); }
   float chance(size_t i, Vec3 p) const { return lights.chanceOfEmitter(i, p); }
 };
 
-// Lights that one side might see.
-class Candidates {
- public:
-  struct One {
-    uint32_t light;
-    float could = 0, found = 0, asked = 0;  // without shadows at three places; by rays, and what these could have found
-    bool tried = false;
-    // Nothing was asked of a spot that shines on other places of the side.
-    float part() const { return tried && asked > 0 ? std::max(found, kFloor * asked) / asked : kUntried; }
-  };
+// What one of the listed could give at p without shadows.
+template <class Kind>
+float couldGive(const Kind& kind, uint32_t which, Vec3 p) {
+  if (kind.tree().empty()) return kind.importance(which, p);
+  return kind.tree().weight(which, p, [&](size_t i) { return kind.importance(i, p); });
+}
 
-  template <class Kind>
-  Candidates(const Kind& kind, const Voxels& voxels, std::span<const uint32_t> slots, size_t most, Sampler& sampler) {
-    const size_t n = slots.size();
-    const Vec3 at[] = {voxels.slots[slots[0]].position, voxels.slots[slots[n / 2]].position, voxels.slots[slots[n - 1]].position};
-    std::vector<uint32_t> lights;
-    const bool drawn = kind.count() > kOneByOne;
-    if (!drawn) {
-      for (uint32_t i = 0; i < kind.count(); ++i) lights.push_back(i);
-    } else {
-      for (size_t k = 0; k < kDrawn; ++k) {
-        const LightTree::Choice c = kind.choose(at[k % 3], sampler.fast1());
-        if (c.chance > 0) lights.push_back(static_cast<uint32_t>(c.index));
-      }
-      std::sort(lights.begin(), lights.end());
-      lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
-    }
-    for (const uint32_t i : lights) {
-      One& one = all.emplace_back(One{i});
-      for (const Vec3 p : at) one.could += kind.importance(i, p);
-    }
-    std::sort(all.begin(), all.end(), [](const One& a, const One& b) { return a.could != b.could ? a.could > b.could : a.light < b.light; });
-    float whole = 0;
-    for (const One& one : all) whole += one.could;
-    all.resize(std::min(all.size(), most));
-    for (const One& one : all) total += one.could;
-    float listed = 0;
-    for (const One& one : all) listed += !drawn ? one.could / std::max(whole, 1e-30f) : kind.chance(one.light, at[1]);
-    others = std::max(1 - listed, kOthers);
-    if (listed < kWorthIt) all.clear();
+// Shadow rays of one side, traced together.
+class Looks {
+ public:
+  // Of a light sample of `light` that could give `could` there and was chosen with a chance; dark ones need no ray.
+  void add(uint32_t light, float could, const LightSample& sample, Vec3 p, Vec3 n, float chance) {
+    Look& look = looks_.emplace_back(Look{light, could / chance, 0, -1});
+    const float cosine = dot(sample.wi, n);
+    if (!sample.valid() || cosine <= 0) return;
+    look.found = luminance(sample.radiance) * cosine / chance, look.ray = static_cast<int32_t>(ways_.size());
+    ways_.push_back(shadowRay(p, p, sample));
+  }
+  // take(light, asked, found)
+  template <class Take>
+  void finish(const RayScene& rays, std::atomic<uint64_t>& count, const Take& take) {
+    left_.resize(ways_.size());
+    rays.transmittance(ways_, left_);
+    count += ways_.size();
+    for (const Look& l : looks_) take(l.light, l.asked, l.ray < 0 ? 0 : l.found * luminance(left_[static_cast<size_t>(l.ray)]));
+    looks_.clear(), ways_.clear();
   }
 
-  std::vector<One> all;
-  float total = 0, others = 0;  // what those in the list could give; the part that others could: of samples, for them
+ private:
+  struct Look {
+    uint32_t light;
+    float asked, found;
+    int32_t ray;  // -1: none
+  };
+  std::vector<Look> looks_;
+  std::vector<Ray> ways_;
+  std::vector<Vec3> left_;
+};
+
+// The k-th of n places on slots of a side.
+struct PlaceOnSide {
+  PlaceOnSide(const Voxels& voxels, const SlotPaths& paths, std::span<const uint32_t> slots, uint32_t k, uint32_t n, Sampler& sampler) {
+    const uint32_t s = slots[std::min(slots.size() - 1, static_cast<size_t>((static_cast<float>(k) + sampler.fast1()) / static_cast<float>(n) * static_cast<float>(slots.size())))];
+    p = paths.point(s, k), normal = voxels.slots[s].normal;
+  }
+  Vec3 p, normal;
 };
 
 }  // namespace
 
-template <class Kind>
+// Few lights: each is looked for.
+class SeenLights::Singles {
+ public:
+  template <class Kind>
+  explicit Singles(const Kind& kind) : ones_(kind.count()) {}
+
+  template <class Kind>
+  void look(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, std::span<const uint32_t> slots, Sampler& sampler, std::atomic<uint64_t>& count) {
+    float total = 0;
+    for (size_t i = 0; i < ones_.size(); ++i) {
+      ones_[i] = {};
+      for (const size_t s : {size_t{0}, slots.size() / 2, slots.size() - 1}) ones_[i].could += kind.importance(i, voxels.slots[slots[s]].position);
+      total += ones_[i].could;
+    }
+    for (uint32_t i = 0; i < ones_.size(); ++i) {
+      const uint32_t tries = ones_[i].could > kMatters * total ? kRays : ones_[i].could > kHardly * total ? kFewRays
+                                                                                                          : 0;
+      for (uint32_t k = 0; k < tries; ++k) {
+        const PlaceOnSide at(voxels, paths, slots, k, tries, sampler);
+        const Vec2 u{sampler.fast1(), sampler.fast1()};
+        looks_.add(i, kind.importance(i, at.p), kind.sample(i, at.p, u, sampler.fast1()), at.p, at.normal, 1);
+      }
+    }
+    looks_.finish(rays, count, [&](uint32_t i, float asked, float found) { ones_[i].asked += asked, ones_[i].found += found; });
+  }
+  void list(std::vector<Seen>& out) const {
+    for (uint32_t i = 0; i < ones_.size(); ++i) out.push_back({i, ones_[i].part()});
+  }
+
+ private:
+  struct One {
+    float could = 0, found = 0, asked = 0;  // without shadows at three places; by rays, and what these could have found
+    // Nothing was asked of a spot that shines on other places of the side.
+    float part() const { return asked > 0 ? std::max(found, kFloor * asked) / asked : kUntried; }
+  };
+  std::vector<One> ones_;
+  Looks looks_;
+};
+
+// Many lights: some are drawn, and what is found of them tells what is seen of the groups that hold them.
+class SeenLights::Groups {
+ public:
+  template <class Kind>
+  explicit Groups(const Kind& kind) : tree_(kind.tree()), found_(tree_.nodeCount()) {}
+
+  template <class Kind>
+  void look(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, std::span<const uint32_t> slots, Sampler& sampler, std::atomic<uint64_t>& count) {
+    found_.assign(found_.size(), {});
+    side_ = {};
+    for (const uint32_t s : slots) side_.add(voxels.slots[s].position);
+    for (uint32_t k = 0; k < kDraws; ++k) {
+      const PlaceOnSide at(voxels, paths, slots, k, kDraws, sampler);
+      const LightTree::Choice c = kind.choose(at.p, sampler.fast1());
+      const Vec2 u{sampler.fast1(), sampler.fast1()};
+      if (c.chance > 0) looks_.add(static_cast<uint32_t>(c.index), kind.importance(c.index, at.p), kind.sample(c.index, at.p, u, c.rest), at.p, at.normal, c.chance);
+    }
+    looks_.finish(rays, count, [&](uint32_t light, float asked, float found) {
+      for (uint32_t node = tree_.leafOf(light);; node = tree_.parent(node)) {
+        found_[node].asked += asked, found_[node].found += found;
+        if (node == 0) break;
+      }
+    });
+  }
+
+  // Those apart that are near, then those that are seen in part.
+  void list(std::vector<Seen>& out) const {
+    const float perDraw = std::max(found_[0].asked / static_cast<float>(kDraws), 1e-30f);
+    std::vector<Group> groups{group(0, kUntried, perDraw)};
+    while (groups.size() < kMost) {
+      const auto most = std::max_element(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.worth < b.worth; });
+      if (!(most->worth > 0)) break;
+      const Group apart = *most;
+      *most = group(tree_.left(apart.node), apart.part, perDraw);
+      groups.push_back(group(tree_.right(apart.node), apart.part, perDraw));
+    }
+    for (const Group& g : groups) out.push_back({g.node, std::max(g.part, kFloor)});
+  }
+
+ private:
+  struct Found {
+    float asked = 0, found = 0;
+  };
+  struct Group {
+    uint32_t node;
+    float part, worth;  // to take it apart; 0: none
+  };
+  Group group(uint32_t node, float partOfParent, float perDraw) const {
+    const float asked = found_[node].asked / perDraw, found = found_[node].found / perDraw;
+    const float part = (found + kLikeParent * partOfParent) / (asked + kLikeParent), mixed = asked * part * std::max(0.0f, 1 - part);
+    if (tree_.isLeaf(node)) return {node, part, 0};
+    if (tree_.isWide(node, side_)) return {node, part, static_cast<float>(kDraws) + asked};
+    return {node, part, mixed > kMixed ? mixed : 0};
+  }
+
+  const LightTree& tree_;
+  std::vector<Found> found_;  // of each node
+  Bounds3 side_;
+  Looks looks_;
+};
+
+template <class Learner, class Kind>
 SeenLights::Table SeenLights::learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, uint64_t seed, std::atomic<uint64_t>& count) {
-  Table table;
-  if (kind.count() < 2) return table;  // nothing to choose
   std::vector<std::vector<Seen>> found(kBrickSides * voxels.bricks.size());
-  table.others.assign(kind.count() > kMost ? found.size() : 0, 1);
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
     std::array<std::vector<uint32_t>, kBrickSides> slots;
     const auto [first, last] = slotsOfBrick(voxels, b);
     for (size_t s = first; s < last; ++s) slots[voxels.slots[s].face].push_back(static_cast<uint32_t>(s));
-    std::vector<Ray> ways;
-    std::vector<std::pair<Candidates::One*, float>> gives;
-    std::vector<Vec3> left;
+    Learner learner(kind);
     for (size_t face = 0; face < kBrickSides; ++face) {
       if (slots[face].empty()) continue;
       Sampler sampler(paths.key(slots[face][0]), 0, seed + Kind::kKey);
-      Candidates candidates(kind, voxels, slots[face], kMost, sampler);
-      ways.clear(), gives.clear();
-      for (Candidates::One& one : candidates.all) {
-        const uint32_t tries = one.could > kMatters * candidates.total ? kRays : one.could > kHardly * candidates.total ? kFewRays
-                                                                                                                        : 0;
-        one.tried = tries > 0;
-        for (uint32_t k = 0; k < tries; ++k) {
-          const uint32_t s = slots[face][std::min(slots[face].size() - 1, static_cast<size_t>((static_cast<float>(k) + sampler.fast1()) / static_cast<float>(tries) * static_cast<float>(slots[face].size())))];
-          const Vec3 p = paths.point(s, k);
-          one.asked += kind.importance(one.light, p);
-          const Vec2 u{sampler.fast1(), sampler.fast1()};
-          const LightSample light = kind.sample(one.light, p, u, sampler.fast1());
-          const float cosine = dot(light.wi, voxels.slots[s].normal);
-          if (!light.valid() || cosine <= 0) continue;
-          ways.push_back(shadowRay(p, p, light)), gives.emplace_back(&one, luminance(light.radiance) * cosine);
-        }
-      }
-      left.resize(ways.size());
-      rays.transmittance(ways, left);
-      count += ways.size();
-      for (size_t i = 0; i < ways.size(); ++i) gives[i].first->found += gives[i].second * luminance(left[i]);
-      if (!table.others.empty()) table.others[kBrickSides * b + face] = candidates.others;
-      for (const Candidates::One& one : candidates.all) found[kBrickSides * b + face].push_back({one.light, one.part()});
+      learner.look(rays, voxels, paths, kind, slots[face], sampler, count);
+      learner.list(found[kBrickSides * b + face]);
     }
   });
+  Table table;
   for (const auto& list : found) {
     table.first.push_back(static_cast<uint32_t>(table.seen.size()));
     table.seen.insert(table.seen.end(), list.begin(), list.end());
   }
   table.first.push_back(static_cast<uint32_t>(table.seen.size()));
   return table;
+}
+
+template <class Kind>
+SeenLights::Table SeenLights::learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, uint64_t seed, std::atomic<uint64_t>& count) {
+  if (kind.count() < 2) return {};  // nothing to choose
+  return kind.tree().empty() ? learn<Singles>(rays, voxels, paths, kind, seed, count) : learn<Groups>(rays, voxels, paths, kind, seed, count);
 }
 
 SeenLights::SeenLights(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, uint64_t seed, uint64_t& rayCount) {
@@ -146,42 +232,32 @@ template <class Kind>
 SeenLights::Weighed SeenLights::weigh(const Table& table, const Kind& kind, Vec3 p, int32_t side) {
   Weighed w;
   w.seen = table.of(side);
-  if (w.seen.empty()) return w;
-  for (size_t i = 0; i < w.seen.size(); ++i) w.sum += w.own[i] = w.seen[i].part * kind.importance(w.seen[i].light, p);
-  w.others = table.othersOf(side, w.sum);
+  for (size_t i = 0; i < w.seen.size(); ++i) w.sum += w.own[i] = w.seen[i].part * couldGive(kind, w.seen[i].which, p);
   return w;
 }
 
 template <class Kind>
 LightTree::Choice SeenLights::choose(const Weighed& w, const Kind& kind, Vec3 p, float choice) {
-  if (choice < w.others) {
-    LightTree::Choice c = kind.choose(p, w.seen.empty() ? choice : choice / w.others);
-    for (const Seen& s : w.seen) {
-      if (s.light == c.index) return {};
-    }
-    c.chance *= w.others;
-    return c;
-  }
+  if (w.seen.empty()) return kind.choose(p, choice);
   if (!(w.sum > 0)) return {};
-  float rest = std::min((choice - w.others) / (1 - w.others), kBelowOne);
   const size_t chosen = chooseByWeight(
-      w.seen.size(), w.sum, [&](size_t i) { return w.own[i]; }, rest);
-  return {w.seen[chosen].light, (1 - w.others) * w.own[chosen] / w.sum, rest};
+      w.seen.size(), w.sum, [&](size_t i) { return w.own[i]; }, choice);
+  const uint32_t which = w.seen[chosen].which;
+  LightTree::Choice c = kind.tree().empty() ? LightTree::Choice{which, 1, choice} : kind.tree().chooseIn(which, p, choice, [&](size_t i) { return kind.importance(i, p); });
+  c.chance *= w.own[chosen] / w.sum;
+  return c;
 }
 
 template <class Kind>
 float SeenLights::chance(const Table& table, const Kind& kind, size_t light, Vec3 p, int32_t side) {
-  const auto seen = table.of(side);
-  if (seen.empty()) return kind.chance(light, p);
-  float sum = 0, own = -1;
-  for (const Seen& s : seen) {
-    const float w = s.part * kind.importance(s.light, p);
-    sum += w;
-    if (s.light == light) own = w;
-  }
-  const float others = table.othersOf(side, sum);
-  if (own < 0) return others > 0 ? others * kind.chance(light, p) : 0;
-  return sum > 0 ? (1 - others) * own / sum : 0;
+  const Weighed w = weigh(table, kind, p, side);
+  if (w.seen.empty()) return kind.chance(light, p);
+  if (!(w.sum > 0)) return 0;
+  const LightTree& tree = kind.tree();
+  const auto holds = [&](const Seen& s) { return tree.empty() ? s.which == light : tree.holds(s.which, light); };
+  const auto at = static_cast<size_t>(std::find_if(w.seen.begin(), w.seen.end(), holds) - w.seen.begin());
+  const float within = tree.empty() ? 1 : tree.chanceIn(w.seen[at].which, light, p, [&](size_t i) { return kind.importance(i, p); });
+  return within * w.own[at] / w.sum;
 }
 
 LightSample SeenLights::sampleLamps(const Lights& lights, Vec3 p, int32_t side, Sampler& sampler) const {

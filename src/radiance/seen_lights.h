@@ -1,5 +1,6 @@
 // Which lamps and emissive meshes light a place: each is chosen by what it could give there without shadows, times what shadow rays from the same side of the same brick
-// found of that (after Vévoda, Kondapaneni & Křivánek 2018, "Bayesian online regression for adaptive direct illumination sampling"; learned once, not on the way).
+// found of that (after Vévoda, Kondapaneni & Křivánek 2018, "Bayesian online regression for adaptive direct illumination sampling"; learned once, not on the way). Of many lights groups
+// are known, nodes of their tree.
 #pragma once
 
 #include <array>
@@ -31,31 +32,31 @@ class SeenLights {
   size_t bytes() const { return lamps_.bytes() + emitters_.bytes(); }
 
  private:
-  static constexpr size_t kMost = 24;  // lights of a side; others are chosen as if nothing were known of them
+  static constexpr size_t kMost = Lights::kMostOneByOne;  // that are weighed for a sample
   struct Seen {
-    uint32_t light;
-    float part;  // of what it could give without shadows
+    uint32_t which;  // a light, or, where there is a tree, one of its nodes
+    float part;      // of what it could give without shadows
   };
   struct Table {
     std::vector<uint32_t> first;  // of each side, into `seen`; one more at the end
-    std::vector<Seen> seen;
-    std::vector<float> others;   // chance of each side to choose among all lights; empty: no list leaves any out
+    std::vector<Seen> seen;       // together all lights; none of sides without slots
     std::span<const Seen> of(int32_t side) const {
       if (side < 0 || static_cast<size_t>(side) + 1 >= first.size()) return {};
       const auto from = first[static_cast<size_t>(side)], to = first[static_cast<size_t>(side) + 1];
       return std::span(seen).subspan(from, to - from);
     }
-    // `sum`: of what those in the list give.
-    float othersOf(int32_t side, float sum) const { return others.empty() ? 0 : sum > 0 ? others[static_cast<size_t>(side)]
-                                                                                        : 1; }
-    size_t bytes() const { return others.size() * sizeof(float) + first.size() * sizeof(first[0]) + seen.size() * sizeof(seen[0]); }
+    size_t bytes() const { return first.size() * sizeof(first[0]) + seen.size() * sizeof(seen[0]); }
   };
+  class Singles;
+  class Groups;
+  template <class Learner, class Kind>
+  static Table learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, uint64_t seed, std::atomic<uint64_t>& count);
   template <class Kind>
   static Table learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, uint64_t seed, std::atomic<uint64_t>& count);
   struct Weighed {
     std::span<const Seen> seen;
     std::array<float, kMost> own;
-    float sum = 0, others = 1;  // chance to choose among all lights, and to take what is not in the list
+    float sum = 0;
   };
   template <class Kind>
   static Weighed weigh(const Table& table, const Kind& kind, Vec3 p, int32_t side);

@@ -81,6 +81,11 @@ uint32_t LightTree::build(const std::vector<Light>& lights, uint32_t first, uint
   return at;
 }
 
+bool LightTree::isWide(uint32_t node, const Bounds3& from) const {
+  const Vec3 c = nodes_[node].centre;
+  return kWide * kWide * nodes_[node].radius2 > lengthSquared(c - max(from.lo, min(from.hi, c)));
+}
+
 float LightTree::importance(const Node& node, Vec3 p) const {
   const Vec3 d = p - node.centre;
   const float d2 = lengthSquared(d);

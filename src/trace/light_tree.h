@@ -36,6 +36,27 @@ class LightTree {
   template <class Weigh>
   float chance(size_t index, Vec3 p, const Weigh& weigh) const;
 
+  // For who chooses among groups by what more is known of them: nodes are numbered from 0, which holds all.
+  size_t nodeCount() const { return nodes_.size(); }
+  bool isLeaf(uint32_t node) const { return nodes_[node].right == 0; }
+  uint32_t left(uint32_t node) const { return node + 1; }  // of nodes that are no leaves
+  uint32_t right(uint32_t node) const { return nodes_[node].right; }
+  uint32_t parent(uint32_t node) const { return nodes_[node].parent; }
+  uint32_t leafOf(size_t index) const { return leafOf_[index]; }
+  bool holds(uint32_t node, size_t index) const { return placeOf_[index] - nodes_[node].first < nodes_[node].count; }
+  // Whether it is seen from somewhere within `from` under so wide an angle that one weight says little of all its lights.
+  bool isWide(uint32_t node, const Bounds3& from) const;
+  // What its lights could give at p.
+  template <class Weigh>
+  float weight(uint32_t node, Vec3 p, const Weigh& weigh) const {
+    return isLeaf(node) ? weightOfLeaf(nodes_[node], weigh) : importance(nodes_[node], p);
+  }
+  // One of its lights alone, and the chance of that.
+  template <class Weigh>
+  Choice chooseIn(uint32_t node, Vec3 p, float u, const Weigh& weigh) const;
+  template <class Weigh>
+  float chanceIn(uint32_t node, size_t index, Vec3 p, const Weigh& weigh) const;
+
  private:
   struct Node {
     Vec3 centre, axis;
@@ -66,10 +87,7 @@ class LightTree {
   template <class Weigh>
   void weighCut(Vec3 p, Cut& cut, const Weigh& weigh) const {
     cutAt(p, cut);
-    for (uint32_t i = 0; i < cut.count; ++i) {
-      const Node& node = nodes_[cut.node[i]];
-      cut.total += cut.weight[i] = node.right > 0 ? importance(node, p) : weightOfLeaf(node, weigh);
-    }
+    for (uint32_t i = 0; i < cut.count; ++i) cut.total += cut.weight[i] = weight(cut.node[i], p, weigh);
   }
 
   std::vector<Node> nodes_;
@@ -77,15 +95,9 @@ class LightTree {
 };
 
 template <class Weigh>
-LightTree::Choice LightTree::choose(Vec3 p, float u, const Weigh& weigh) const {
-  Cut cut;
-  weighCut(p, cut, weigh);
-  if (!(cut.total > 0)) return {};
-  const size_t chosen = chooseByWeight(
-      cut.count, cut.total, [&](size_t i) { return cut.weight[i]; }, u);
-  float chance = cut.weight[chosen] / cut.total;
-  uint32_t at = cut.node[chosen];
-  while (nodes_[at].right > 0) {
+LightTree::Choice LightTree::chooseIn(uint32_t at, Vec3 p, float u, const Weigh& weigh) const {
+  float chance = 1;
+  while (!isLeaf(at)) {
     const float share = shareOfLeft(at, p);
     if (share < 0) return {};
     if (u < share) {
@@ -106,16 +118,11 @@ LightTree::Choice LightTree::choose(Vec3 p, float u, const Weigh& weigh) const {
 }
 
 template <class Weigh>
-float LightTree::chance(size_t index, Vec3 p, const Weigh& weigh) const {
+float LightTree::chanceIn(uint32_t node, size_t index, Vec3 p, const Weigh& weigh) const {
   const float own = weigh(index), ofLeaf = own > 0 ? weightOfLeaf(nodes_[leafOf_[index]], weigh) : 0;
   if (!(ofLeaf > 0)) return 0;
-  Cut cut;
-  weighCut(p, cut, weigh);
-  const auto holds = [&](uint32_t at) { return placeOf_[index] >= nodes_[at].first && placeOf_[index] < nodes_[at].first + nodes_[at].count; };
-  uint32_t top = 0;
-  while (!holds(cut.node[top])) ++top;
-  float chance = own / ofLeaf * cut.weight[top] / cut.total;
-  for (uint32_t at = leafOf_[index]; at != cut.node[top];) {
+  float chance = own / ofLeaf;
+  for (uint32_t at = leafOf_[index]; at != node;) {
     const uint32_t parent = nodes_[at].parent;
     const float share = shareOfLeft(parent, p);
     if (share < 0) return 0;
@@ -123,6 +130,28 @@ float LightTree::chance(size_t index, Vec3 p, const Weigh& weigh) const {
     at = parent;
   }
   return chance;
+}
+
+template <class Weigh>
+LightTree::Choice LightTree::choose(Vec3 p, float u, const Weigh& weigh) const {
+  Cut cut;
+  weighCut(p, cut, weigh);
+  if (!(cut.total > 0)) return {};
+  const size_t chosen = chooseByWeight(
+      cut.count, cut.total, [&](size_t i) { return cut.weight[i]; }, u);
+  Choice c = chooseIn(cut.node[chosen], p, u, weigh);
+  c.chance *= cut.weight[chosen] / cut.total;
+  return c;
+}
+
+template <class Weigh>
+float LightTree::chance(size_t index, Vec3 p, const Weigh& weigh) const {
+  if (!(weigh(index) > 0)) return 0;
+  Cut cut;
+  weighCut(p, cut, weigh);
+  uint32_t top = 0;
+  while (!holds(cut.node[top], index)) ++top;
+  return cut.total > 0 ? chanceIn(cut.node[top], index, p, weigh) * cut.weight[top] / cut.total : 0;
 }
 
 }  // namespace roomlight

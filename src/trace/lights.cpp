@@ -10,8 +10,6 @@
 namespace roomlight {
 namespace {
 
-constexpr size_t kMostOneByOne = 64;  // lights that are weighed one by one; of more, groups are chosen first
-
 // Small triangles are sampled by area: cheaper, and exact enough for floats. Both sampling and density decide by this.
 bool samplesSolidAngle(float solidAngle) { return solidAngle > 1e-3f && solidAngle < 6.2f; }
 

@@ -50,6 +50,10 @@ class Lights {
   float chanceOfLamp(size_t index, Vec3 p) const { return chanceOf(lampRange(), index, p); }
   LightTree::Choice chooseEmitter(Vec3 p, float choice) const;
   float chanceOfEmitter(size_t index, Vec3 p) const { return chanceOf(emitterRange(), lamps_.size() + index, p); }
+  // Groups of lamps and of emissive meshes, whose numbers are as everywhere here; empty where there are at most kMostOneByOne.
+  static constexpr size_t kMostOneByOne = 64;
+  const LightTree& lampTree() const { return lampTree_; }
+  const LightTree& emitterTree() const { return emitterTree_; }
   // All point and spot lamps one by one (no emissive meshes).
   size_t lampCount() const { return lamps_.size(); }
   const Lamp& lamp(size_t index) const { return lamps_[index]; }
