@@ -192,11 +192,9 @@ SlotLight LightCache::lightOfAll(const Sources& from, const std::function<void(s
 }
 
 void LightCache::traceLamp(const Sources& from, LampLight& light) {
-  if (lampsApart(from.lights)) {
-    DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
-    light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamp(light.lamp, b, {}, lux); });
-    field_.rays += direct.rayCount();
-  }
+  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
+  light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamp(light.lamp, b, {}, lux); });
+  field_.rays += direct.rayCount();
   light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
 }
 
@@ -207,7 +205,8 @@ void LightCache::traceLampsTogether(const Sources& from) {
   std::vector<LightSurroundings> around;
   for (size_t i = 0; i < from.lights.lampCount(); ++i) around.emplace_back(from.lights.lamp(i), from.voxels.voxelSizeM);
   lampsTogether_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamps(around, b, lux); });
-  field_.rays += direct.rayCount();
+  lampParticles_ = traceLampParticles(from.rays, from.lights, from.voxels, paths_, settings_, from.progress);
+  field_.rays += direct.rayCount() + lampParticles_.rays;
 }
 
 ParticleSource LightCache::particlesOfLamp(const Sources& from, const Lamp& lamp) const {
@@ -216,15 +215,7 @@ ParticleSource LightCache::particlesOfLamp(const Sources& from, const Lamp& lamp
 
 // None where there is no surface near the source.
 ParticleLight LightCache::particlesFrom(const Sources& from, ParticleSource source) {
-  std::atomic<bool> any = false;
-  parallelFor(from.voxels.bricks.size(), 16, [&](size_t b) {
-    if (any || !source.around.touches(boundsOfBrick(from.voxels, b))) return;
-    const auto [first, last] = slotsOfBrick(from.voxels, b);
-    for (size_t s = first; s < last && !any; ++s) {
-      if (source.around.contains(from.voxels.slots[s].position)) any = true;
-    }
-  });
-  if (!any || from.progress.stop()) return {};
+  if (from.progress.stop() || !hasSurfaces(from.voxels, source.around)) return {};
   if (fewParticles_) source.takeFewer();
   ParticleLight light = traceParticles(from.rays, from.voxels, paths_, source, settings_, from.progress);
   field_.rays += light.rays;
@@ -235,9 +226,11 @@ ParticleLight LightCache::particlesFrom(const Sources& from, ParticleSource sour
 
 // What is known of lamps in the same place stays; the rest is traced.
 void LightCache::matchLamps(const Sources& from) {
-  const bool apart = lampsApart(from.lights), wereApart = lampsTogether_.empty();
-  if (apart != wereApart) lamps_.clear(), lampsTogether_ = {};
-  if (!apart) traceLampsTogether(from);
+  lampsTogether_ = {}, lampParticles_ = {};
+  if (!lampsApart(from.lights)) {
+    lamps_.clear();
+    return traceLampsTogether(from);
+  }
   std::vector<LampLight> next, dark;
   std::vector<uint8_t> used(lamps_.size(), 0);
   for (size_t i = 0; i < from.lights.lampCount(); ++i) {
@@ -392,6 +385,7 @@ std::vector<LightCache::LitParticles> LightCache::litParticles() const {
   std::vector<LitParticles> out;
   for (const EmitterLight& e : emitters_) out.push_back({&e.particles, e.scale, -1, e.index});
   for (size_t i = 0; i < lamps_.size(); ++i) out.push_back({&lamps_[i].particles, lamps_[i].lamp.intensityCd, static_cast<int32_t>(i), -1});
+  out.push_back({&lampParticles_, Vec3(1), -1, -1});
   std::erase_if(out, [](const LitParticles& p) { return p.particles->near.empty() || isBlack(p.scale); });
   return out;
 }
@@ -407,7 +401,7 @@ std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) con
   float carry = 0.5f;
   for (const LitParticles& p : sources) {
     for (GlowPoint g : p.particles->points) {
-      g.lamp = p.lamp, g.emitter = p.emitter;
+      if (p.lamp >= 0 || p.emitter >= 0) g.lamp = p.lamp, g.emitter = p.emitter;
       g.fluxLm *= p.scale;
       const float copies = luminance(g.fluxLm) * kGlowPoints / fluxLm;
       g.fluxLm = g.fluxLm / copies;
@@ -419,7 +413,7 @@ std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) con
 }
 
 size_t LightCache::bytes() const {
-  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + lampsTogether_.bytes() + emittersTogether_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) + (direct_.size() + indirect_.size()) * sizeof(Vec3);
+  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + lampsTogether_.bytes() + lampParticles_.bytes() + emittersTogether_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) + (direct_.size() + indirect_.size()) * sizeof(Vec3);
   for (const LampLight& l : lamps_) sum += l.direct.bytes() + l.particles.bytes();
   for (const EmitterLight& e : emitters_) sum += e.direct.bytes() + e.particles.bytes();
   return sum;

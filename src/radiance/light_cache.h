@@ -135,6 +135,7 @@ class LightCache {
   std::vector<BrickMark> marks_;
   SlotLight suns_, sky_;
   SlotLight lampsTogether_;                     // all, straight, where there are too many to keep them apart
+  ParticleLight lampParticles_;                 // and what their particles leave
   SlotLight emittersTogether_;                  // all, where there are too many to keep them apart
   std::vector<EmissiveMesh> knownTogether_;     // as they were then
   SkyWays skyWays_;  // empty: no sky

@@ -13,9 +13,10 @@ namespace roomlight {
 namespace {
 
 constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
-constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12, kChunk = 512;
+constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12, kChunk = 512, kFewestTogether = 2 * kChunk;
 constexpr int kMostReflections = 64;
 constexpr size_t kFirstLook = 4;
+constexpr size_t kLampsAtOnce = 64;  // of which trails are in memory
 constexpr float kAwayM = 1000;   // of what leaves the scene
 constexpr float kWithin = 2;     // voxels: so far at most from a slot's place lie hits on the surface it stands for
 
@@ -33,13 +34,19 @@ size_t particlesFor(float sizeOfPoints, size_t sources) {
   return static_cast<size_t>(static_cast<float>(each) * sizeOfPoints) / kChunk * kChunk;
 }
 
+// Of each of many lamps that are lit together: those beside one place send theirs to the same slots.
+size_t particlesTogether(size_t lamps) { return std::clamp(kMostParticles / lamps, kFewestTogether, kMostPerSource) / kChunk * kChunk; }
+
 // Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.
 float litArea(const FaceSlot& slot, float h) { return std::clamp(slot.areaM2, kSmallest * h * h, h * h / std::max(0.577f, maxComponent(abs(slot.normal)))); }
 
 class Particles {
  public:
+  // `pointLm`: luminous flux that a point stands for.
+  Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, float pointLm)
+      : rays_(rays), voxels_(voxels), paths_(paths), source_(source), settings_(settings), pointLm_(pointLm) {}
   Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings)
-      : rays_(rays), voxels_(voxels), paths_(paths), source_(source), settings_(settings), pointLm_(source.fluxLm / std::min(kGlowPoints, static_cast<float>(source.particles))) {}
+      : Particles(rays, voxels, paths, source, settings, source.fluxLm / std::min(kGlowPoints, static_cast<float>(source.particles))) {}
 
   // Some of a chunk step by step together, so that they can be traced together. Added to `trail`.
   void trace(size_t chunk, std::span<const uint16_t> which, ParticleTrail& trail) const {
@@ -126,15 +133,29 @@ class Particles {
   const float pointLm_;
 };
 
-// What the trails hold together. In order, so that sums do not depend on threads.
-void addUp(const Voxels& voxels, ParticleLight& light) {
-  std::vector<Vec3> near(voxels.slots.size()), far(voxels.slots.size());
-  light.points.clear();
-  for (const ParticleTrail& trail : light.trails) {
-    for (const ParticleTrail::Point& p : trail.points) light.points.push_back(p.glow);
-    for (const ParticleTrail::Deposit& d : trail.deposits) (d.near ? near : far)[d.slot] += d.fluxLm / litArea(voxels.slots[d.slot], voxels.voxelSizeM);
+// What trails hold together. In order, so that sums do not depend on threads.
+class Sums {
+ public:
+  explicit Sums(const Voxels& voxels) : voxels_(voxels), near_(voxels.slots.size()), far_(voxels.slots.size()) {}
+  void add(const ParticleTrail& trail, Vec3 scale, int32_t lamp, std::vector<GlowPoint>& points) {
+    for (const ParticleTrail::Point& p : trail.points) {
+      GlowPoint& g = points.emplace_back(p.glow);
+      g.fluxLm *= scale, g.lamp = lamp;
+    }
+    for (const ParticleTrail::Deposit& d : trail.deposits) (d.near ? near_ : far_)[d.slot] += d.fluxLm * scale / litArea(voxels_.slots[d.slot], voxels_.voxelSizeM);
   }
-  light.near = SlotLight(voxels, near), light.far = SlotLight(voxels, far);
+  void finish(ParticleLight& light) const { light.near = SlotLight(voxels_, near_), light.far = SlotLight(voxels_, far_); }
+
+ private:
+  const Voxels& voxels_;
+  std::vector<Vec3> near_, far_;
+};
+
+void addUp(const Voxels& voxels, ParticleLight& light) {
+  Sums sums(voxels);
+  light.points.clear();
+  for (const ParticleTrail& trail : light.trails) sums.add(trail, Vec3(1), -1, light.points);
+  sums.finish(light);
 }
 
 // What of a trail stays: the numbers of particles that do not are left in `again`.
@@ -230,6 +251,60 @@ ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const S
   addUp(voxels, light);
   light.rays = source.particles;
   light.fluxLm = source.fluxLm;
+  return light;
+}
+
+bool hasSurfaces(const Voxels& voxels, const LightSurroundings& around) {
+  const Bounds3 box = around.bounds();
+  const auto brickOf = [&](Vec3 p) {
+    const Vec3 q = (p - voxels.origin) / (voxels.voxelSizeM * kBrickSize);
+    const auto within = [](float x, int dim) { return static_cast<int>(std::clamp(std::floor(x), 0.0f, static_cast<float>(dim - 1))); };
+    return Int3{within(q.x, voxels.brickDims.x), within(q.y, voxels.brickDims.y), within(q.z, voxels.brickDims.z)};
+  };
+  const Int3 lo = brickOf(box.lo), hi = brickOf(box.hi);
+  for (int z = lo.z; z <= hi.z; ++z) {
+    for (int y = lo.y; y <= hi.y; ++y) {
+      for (int x = lo.x; x <= hi.x; ++x) {
+        const int32_t b = voxels.brickAt({x, y, z});
+        if (b < 0 || !around.touches(boundsOfBrick(voxels, static_cast<size_t>(b)))) continue;
+        const auto [first, last] = slotsOfBrick(voxels, static_cast<size_t>(b));
+        for (size_t s = first; s < last; ++s) {
+          if (around.contains(voxels.slots[s].position)) return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress) {
+  struct Lit {
+    int32_t lamp;
+    ParticleSource source;
+  };
+  std::vector<Lit> lit;
+  ParticleLight light;
+  const auto luminous = [&](const Lit& one) { return luminance(lights.lamp(static_cast<size_t>(one.lamp)).intensityCd); };
+  for (size_t i = 0; i < lights.lampCount(); ++i) {
+    Lit one{static_cast<int32_t>(i), particlesOf(lights.lamp(i), 1, voxels.voxelSizeM)};
+    if (!hasSurfaces(voxels, one.source.around)) continue;
+    one.source.particles = particlesTogether(lights.lampCount());
+    light.fluxLm += luminous(one) * one.source.fluxLm, light.rays += one.source.particles;
+    lit.push_back(std::move(one));
+  }
+  std::array<uint16_t, kChunk> all;
+  std::iota(all.begin(), all.end(), uint16_t{0});
+  Sums sums(voxels);
+  for (size_t first = 0; first < lit.size() && !progress.stop(); first += kLampsAtOnce) {
+    const std::span<const Lit> some = std::span(lit).subspan(first, std::min(kLampsAtOnce, lit.size() - first));
+    std::vector<ParticleTrail> trails(some.size());
+    parallelFor(some.size(), 1, [&](size_t k) {
+      const Particles particles(rays, voxels, paths, some[k].source, settings, light.fluxLm / (kGlowPoints * luminous(some[k])));
+      for (size_t chunk = 0; chunk < some[k].source.particles / kChunk; ++chunk) particles.trace(chunk, all, trails[k]);
+    });
+    for (size_t k = 0; k < some.size(); ++k) sums.add(trails[k], lights.lamp(static_cast<size_t>(some[k].lamp)).intensityCd, some[k].lamp, light.points);
+  }
+  sums.finish(light);
   return light;
 }
 

@@ -29,6 +29,9 @@ struct ParticleSource {
 ParticleSource particlesOf(const Lamp& lamp, size_t lamps, float voxelSizeM);
 ParticleSource particlesOf(const Lights& lights, size_t emitter, size_t emitters, float voxelSizeM);
 
+// Whether there is any surface in its surroundings: else it needs no particles.
+bool hasSurfaces(const Voxels& voxels, const LightSurroundings& around);
+
 // What some particles of a source left behind, and where they went. Each knows whose it is.
 struct ParticleTrail {
   struct Deposit {
@@ -68,6 +71,9 @@ constexpr float kGlowPoints = 32768;  // that stand for a flux like that of all 
 
 // Ends early, with a part of the light, once `progress` says stop.
 ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Progress& progress);
+
+// Of lamps that are lit together, each as bright as it is: few particles of each. Points tell whose they are; there are no trails.
+ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress);
 
 // After instances have moved, of the same source where it was: particles that came near `places`, where these were and are, are traced
 // again, and those that left something on slots that are gone.

@@ -46,8 +46,13 @@ bool LightSurroundings::contains(Vec3 p) const {
 }
 
 bool LightSurroundings::touches(const Bounds3& box) const {
-  const float reach = std::max(near_, far_) + length(half_);
+  const float reach = reachM();
   return lengthSquared(position_ - max(box.lo, min(box.hi, position_))) < reach * reach;
+}
+
+Bounds3 LightSurroundings::bounds() const {
+  const Vec3 reach(reachM());
+  return {position_ - reach, position_ + reach};
 }
 
 // Surface of all that lies within reach of a box (Steiner's formula), over that of a sphere.

@@ -16,11 +16,14 @@ class LightSurroundings {
   bool contains(Vec3 p) const;
   // Whether it may contain anything of the box.
   bool touches(const Bounds3& box) const;
+  // Holds all of it.
+  Bounds3 bounds() const;
   // How many times as large it is as that of a point.
   float sizeOfPoints() const;
 
  private:
   Vec3 toSource(Vec3 p) const;
+  float reachM() const { return std::max(near_, far_) + length(half_); }
 
   Vec3 position_, direction_{0, 0, 1}, acrossC0_{1, 0, 0}, acrossC90_{0, 1, 0};  // unit
   Vec3 half_;                  // m; of an extended lamp's opening or the box, along acrossC0_, acrossC90_ and direction_
