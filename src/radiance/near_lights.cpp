@@ -13,7 +13,7 @@ namespace roomlight {
 namespace {
 
 constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
-constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12, kChunk = 512, kFewestTogether = 2 * kChunk;
+constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12, kChunk = 512, kFewestTogether = kChunk;
 constexpr int kMostReflections = 64;
 constexpr size_t kFirstLook = 4;
 constexpr size_t kLampsAtOnce = 64;  // of which trails are in memory

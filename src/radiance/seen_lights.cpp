@@ -6,15 +6,13 @@
 
 #include "base/parallel.h"
 #include "base/weighted_choice.h"
-#include "trace/shadow_ray.h"
+#include "trace/light_looks.h"
 
 namespace roomlight {
 namespace {
 
 constexpr uint32_t kRays = 8, kFewRays = 2;
 constexpr float kMatters = 0.01f, kHardly = 1e-4f;  // of what all could give a side: lights that could give more send kRays, and kFewRays
-constexpr float kFloor = 0.03f;        // a light that no ray found gives that part of what it could
-constexpr float kUntried = 0.25f;      // and one that no ray looked for
 constexpr uint32_t kDraws = 128;       // rays of a side to lights drawn among many
 constexpr float kLikeParent = 4;       // draws: so much a group's parent tells of what is seen of it
 constexpr float kMixed = 2;        // draws: groups that are seen in part are taken apart while they have more of these seen and hidden
@@ -48,38 +46,6 @@ float couldGive(const Kind& kind, uint32_t which, Vec3 p) {
   return kind.tree().weight(which, p, [&](size_t i) { return kind.importance(i, p); });
 }
 
-// Shadow rays of one side, traced together.
-class Looks {
- public:
-  // Of a light sample of `light` that could give `could` there and was chosen with a chance; dark ones need no ray.
-  void add(uint32_t light, float could, const LightSample& sample, Vec3 p, Vec3 n, float chance) {
-    Look& look = looks_.emplace_back(Look{light, could / chance, 0, -1});
-    const float cosine = dot(sample.wi, n);
-    if (!sample.valid() || cosine <= 0) return;
-    look.found = luminance(sample.radiance) * cosine / chance, look.ray = static_cast<int32_t>(ways_.size());
-    ways_.push_back(shadowRay(p, p, sample));
-  }
-  // take(light, asked, found)
-  template <class Take>
-  void finish(const RayScene& rays, std::atomic<uint64_t>& count, const Take& take) {
-    left_.resize(ways_.size());
-    rays.transmittance(ways_, left_);
-    count += ways_.size();
-    for (const Look& l : looks_) take(l.light, l.asked, l.ray < 0 ? 0 : l.found * luminance(left_[static_cast<size_t>(l.ray)]));
-    looks_.clear(), ways_.clear();
-  }
-
- private:
-  struct Look {
-    uint32_t light;
-    float asked, found;
-    int32_t ray;  // -1: none
-  };
-  std::vector<Look> looks_;
-  std::vector<Ray> ways_;
-  std::vector<Vec3> left_;
-};
-
 // The k-th of n places on slots of a side.
 struct PlaceOnSide {
   PlaceOnSide(const Voxels& voxels, const SlotPaths& paths, std::span<const uint32_t> slots, uint32_t k, uint32_t n, Sampler& sampler) {
@@ -99,35 +65,31 @@ class SeenLights::Singles {
 
   template <class Kind>
   void look(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, std::span<const uint32_t> slots, Sampler& sampler, std::atomic<uint64_t>& count) {
+    std::vector<float> could(ones_.size());  // at three places
     float total = 0;
     for (size_t i = 0; i < ones_.size(); ++i) {
       ones_[i] = {};
-      for (const size_t s : {size_t{0}, slots.size() / 2, slots.size() - 1}) ones_[i].could += kind.importance(i, voxels.slots[slots[s]].position);
-      total += ones_[i].could;
+      for (const size_t s : {size_t{0}, slots.size() / 2, slots.size() - 1}) could[i] += kind.importance(i, voxels.slots[slots[s]].position);
+      total += could[i];
     }
     for (uint32_t i = 0; i < ones_.size(); ++i) {
-      const uint32_t tries = ones_[i].could > kMatters * total ? kRays : ones_[i].could > kHardly * total ? kFewRays
-                                                                                                          : 0;
+      const uint32_t tries = could[i] > kMatters * total ? kRays : could[i] > kHardly * total ? kFewRays
+                                                                                              : 0;
       for (uint32_t k = 0; k < tries; ++k) {
         const PlaceOnSide at(voxels, paths, slots, k, tries, sampler);
         const Vec2 u{sampler.fast1(), sampler.fast1()};
-        looks_.add(i, kind.importance(i, at.p), kind.sample(i, at.p, u, sampler.fast1()), at.p, at.normal, 1);
+        looks_.add(i, kind.importance(i, at.p), kind.sample(i, at.p, u, sampler.fast1()), at.p, at.normal);
       }
     }
-    looks_.finish(rays, count, [&](uint32_t i, float asked, float found) { ones_[i].asked += asked, ones_[i].found += found; });
+    count += looks_.finish(rays, [&](uint32_t i, float asked, float found) { ones_[i].add(asked, found); });
   }
   void list(std::vector<Seen>& out) const {
     for (uint32_t i = 0; i < ones_.size(); ++i) out.push_back({i, ones_[i].part()});
   }
 
  private:
-  struct One {
-    float could = 0, found = 0, asked = 0;  // without shadows at three places; by rays, and what these could have found
-    // Nothing was asked of a spot that shines on other places of the side.
-    float part() const { return asked > 0 ? std::max(found, kFloor * asked) / asked : kUntried; }
-  };
-  std::vector<One> ones_;
-  Looks looks_;
+  std::vector<LightLook> ones_;
+  LightLooks looks_;
 };
 
 // Many lights: some are drawn, and what is found of them tells what is seen of the groups that hold them.
@@ -147,9 +109,9 @@ class SeenLights::Groups {
       const Vec2 u{sampler.fast1(), sampler.fast1()};
       if (c.chance > 0) looks_.add(static_cast<uint32_t>(c.index), kind.importance(c.index, at.p), kind.sample(c.index, at.p, u, c.rest), at.p, at.normal, c.chance);
     }
-    looks_.finish(rays, count, [&](uint32_t light, float asked, float found) {
+    count += looks_.finish(rays, [&](uint32_t light, float asked, float found) {
       for (uint32_t node = tree_.leafOf(light);; node = tree_.parent(node)) {
-        found_[node].asked += asked, found_[node].found += found;
+        found_[node].add(asked, found);
         if (node == 0) break;
       }
     });
@@ -158,7 +120,7 @@ class SeenLights::Groups {
   // Those apart that are near, then those that are seen in part.
   void list(std::vector<Seen>& out) const {
     const float perDraw = std::max(found_[0].asked / static_cast<float>(kDraws), 1e-30f);
-    std::vector<Group> groups{group(0, kUntried, perDraw)};
+    std::vector<Group> groups{group(0, LightLook::kUntried, perDraw)};
     while (groups.size() < kMost) {
       const auto most = std::max_element(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.worth < b.worth; });
       if (!(most->worth > 0)) break;
@@ -166,13 +128,10 @@ class SeenLights::Groups {
       *most = group(tree_.left(apart.node), apart.part, perDraw);
       groups.push_back(group(tree_.right(apart.node), apart.part, perDraw));
     }
-    for (const Group& g : groups) out.push_back({g.node, std::max(g.part, kFloor)});
+    for (const Group& g : groups) out.push_back({g.node, std::max(g.part, LightLook::kFloor)});
   }
 
  private:
-  struct Found {
-    float asked = 0, found = 0;
-  };
   struct Group {
     uint32_t node;
     float part, worth;  // to take it apart; 0: none
@@ -186,9 +145,9 @@ class SeenLights::Groups {
   }
 
   const LightTree& tree_;
-  std::vector<Found> found_;  // of each node
+  std::vector<LightLook> found_;  // of each node
   Bounds3 side_;
-  Looks looks_;
+  LightLooks looks_;
 };
 
 template <class Learner, class Kind>

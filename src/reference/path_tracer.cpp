@@ -22,19 +22,24 @@ constexpr double kMostLightVertices = 1 << 20;
 // samples, that it stays below theirs.
 constexpr size_t kFewestLightPaths = 1024, kMostMeterLightPaths = 1 << 17;
 
+// From the camera, to where lights are looked for before the picture.
+constexpr int kPixelsPerLearningPath = 16;
+constexpr size_t kFewestLearningPaths = 1024, kMostLearningPaths = 1 << 15;
+
 constexpr int kFilterPasses = 5;
 
 }  // namespace
 
 struct PathTracer::State {
   State(const RayScene& r, const Lights& l, const Camera& c, const PathSettings& s, bool withFeatures)
-      : rays(r), lights(l), cameraRays(c, s.width, s.height), settings(s), vertices(r, l), sum(s.width, s.height), squares(s.width, s.height), pixels(withFeatures ? sum.pixels.size() : 0), layerSums(s.layers ? sum.pixels.size() * s.layers->size() : 0) {}
+      : rays(r), lights(l), cameraRays(c, s.width, s.height), settings(s), vertices(r, l), visible(l), sum(s.width, s.height), squares(s.width, s.height), pixels(withFeatures ? sum.pixels.size() : 0), layerSums(s.layers ? sum.pixels.size() * s.layers->size() : 0) {}
 
   const RayScene& rays;
   const Lights& lights;
   CameraRays cameraRays;
   PathSettings settings;
   LightVertices vertices;
+  VisibleLights visible;
   // Running sums per pixel.
   Image sum, squares;
   std::vector<PixelSums> pixels;
@@ -42,6 +47,9 @@ struct PathTracer::State {
   int samples = 0;
   std::atomic<uint64_t> rayCount = 0;
 
+  void learnLights() {
+    if (samples == 0 && visible.cellCount() == 0) visible.learn(rays, cameraRays, settings.width, settings.height, std::clamp(static_cast<size_t>(settings.width * settings.height / kPixelsPerLearningPath), kFewestLearningPaths, kMostLearningPaths), settings.seed);
+  }
   void traceLightPaths() {
     if (!settings.lightPaths || !vertices.lightRays().any()) return;
     const int paths = std::clamp(settings.width * settings.height / kPixelsPerLightPath, 1024, kMostLightPaths);
@@ -62,8 +70,9 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
   // Whole passes only are kept.
   Image fresh(w, h);
   std::vector<FilterPixel> seen(st.pixels.size());
+  st.learnLights();
   st.traceLightPaths();
-  const PathWalk walk(st.rays, st.lights, &st.vertices, st.settings.white);
+  const PathWalk walk(st.rays, st.lights, st.visible, &st.vertices, st.settings.white);
   const int tilesX = (w + kTile - 1) / kTile, tilesY = (h + kTile - 1) / kTile;
   std::atomic<int> tilesDone = 0;
   std::mutex reporting;
@@ -103,7 +112,7 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
 }
 
 int PathTracer::samples() const { return state_->samples; }
-uint64_t PathTracer::rays() const { return state_->rayCount + state_->vertices.rayCount(); }
+uint64_t PathTracer::rays() const { return state_->rayCount + state_->vertices.rayCount() + state_->visible.rayCount(); }
 
 Image PathTracer::mean() const {
   Image out = state_->sum;
@@ -179,11 +188,12 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
 std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
                                              const Progress& progress) {
   LightVertices vertices(rays, lights);
+  const VisibleLights visible(lights);
   const auto prepare = [&](uint32_t round, size_t samples) {
     if (vertices.lightRays().any()) vertices.trace(static_cast<int>(std::clamp<size_t>(samples, kFewestLightPaths, kMostMeterLightPaths)), round, settings.seed);
   };
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
-    const PathWalk walk(rays, lights, &vertices);
+    const PathWalk walk(rays, lights, visible, &vertices);
     uint64_t rayCount = 0;
     for (int i = 0; i < count; ++i) {
       Sampler sampler(meter, static_cast<uint32_t>(first + i), settings.seed);

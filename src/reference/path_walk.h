@@ -4,6 +4,7 @@
 #include "base/sampler.h"
 #include "filter/filter.h"
 #include "reference/light_vertices.h"
+#include "reference/visible_lights.h"
 #include "trace/light_layers.h"
 #include "trace/surfaces.h"
 
@@ -21,9 +22,10 @@ struct PathLayers {
 class PathWalk {
  public:
   // vertices: of light paths to connect to, or null.
+  // visible: of these lights, by which they are chosen.
   // white: what is seen first, or through panes, is whitened (scene/surface.h).
-  PathWalk(const RayScene& rays, const Lights& lights, const LightVertices* vertices = nullptr, bool white = false)
-      : rays_(rays), lights_(lights), surfaces_(rays.surfaces()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr), white_(white) {}
+  PathWalk(const RayScene& rays, const Lights& lights, const VisibleLights& visible, const LightVertices* vertices = nullptr, bool white = false)
+      : rays_(rays), lights_(lights), visible_(visible), surfaces_(rays.surfaces()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr), white_(white) {}
 
   // Towards the ray's origin, cd/m²; added to `layers` as well, if there are.
   Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, PathLayers* layers = nullptr) const;
@@ -49,12 +51,13 @@ class PathWalk {
   template <bool kParts>
   Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const;
   template <bool kParts>
-  Vec3 direct(const SurfacePoint& s, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo = true) const;
+  Vec3 direct(const SurfacePoint& s, int32_t cell, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo = true) const;
   template <bool kParts>
   Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const;
 
   const RayScene& rays_;
   const Lights& lights_;
+  const VisibleLights& visible_;
   const Surfaces& surfaces_;
   const LightVertices* vertices_;
   const bool white_;

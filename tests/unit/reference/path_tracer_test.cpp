@@ -54,7 +54,8 @@ TEST(PathFeatures, PartsMakeTheWholeAndTellWhatIsSeen) {
     const Lights lights(room.scene);
     LightVertices vertices(rays, lights);
     vertices.trace(1000, 0, 1);
-    const PathWalk walk(rays, lights, &vertices);
+    const VisibleLights visible(lights);
+    const PathWalk walk(rays, lights, visible, &vertices);
     const CameraRays cameraRays(room.camera, 32, 32);
     uint64_t count = 0;
     int seen = 0;

@@ -1,0 +1,169 @@
+#include "reference/visible_lights.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+
+#include "base/parallel.h"
+#include "base/weighted_choice.h"
+#include "trace/bsdf.h"
+#include "trace/surfaces.h"
+
+namespace roomlight {
+namespace {
+
+constexpr float kCellM = 0.4f, kOffM = 0.137f;  // floors and walls stand on round coordinates, which shall be within cells
+constexpr int kMostVertices = 8;
+constexpr uint32_t kRays = 16, kFewRays = 4;
+constexpr float kMatters = 0.01f, kHardly = 1e-4f;  // of what all could give: lights that could give more send kRays, and kFewRays
+constexpr size_t kMostLights = Lights::kMostOneByOne, kPathsAtOnce = 256, kMostPlaces = 64;  // of a cell
+constexpr uint64_t kPathKey = uint64_t{1} << 41, kLookKey = uint64_t{1} << 42;  // other random numbers than those of pixels and light paths
+
+int faceOf(Vec3 n) {
+  const Vec3 a = abs(n);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1
+                                                             : 2;
+  return 2 * axis + (n[axis] < 0 ? 1 : 0);
+}
+
+}  // namespace
+
+uint64_t VisibleLights::keyOf(Vec3 p, Vec3 n) {
+  const auto part = [](float x) { return static_cast<uint64_t>(static_cast<int64_t>(std::floor((x + kOffM) / kCellM)) & 0xfffff); };
+  return (part(p.x) | part(p.y) << 20 | part(p.z) << 40) * 8 + static_cast<uint64_t>(faceOf(n)) + 1;
+}
+
+void VisibleLights::add(uint64_t key, int32_t cell) {
+  size_t i = mix64(key) & (table_.size() - 1);
+  while (table_[i].key != 0) i = (i + 1) & (table_.size() - 1);
+  table_[i] = {key, cell};
+}
+
+int32_t VisibleLights::cellAt(Vec3 p, Vec3 n) const {
+  if (table_.empty()) return -1;
+  const uint64_t key = keyOf(p, n);
+  for (size_t i = mix64(key) & (table_.size() - 1); table_[i].key != 0; i = (i + 1) & (table_.size() - 1)) {
+    if (table_[i].key == key) return table_[i].cell;
+  }
+  return -1;
+}
+
+float VisibleLights::importance(size_t light, Vec3 p) const {
+  const size_t lamps = lights_.lampCount();
+  return light < lamps ? lights_.lampImportance(light, p) : lights_.emitterImportance(light - lamps, p);
+}
+
+LightSample VisibleLights::sampleOne(size_t light, Vec3 p, Vec2 u, float choice) const {
+  const size_t lamps = lights_.lampCount();
+  return light < lamps ? lights_.sampleLamp(light, p, u) : lights_.sampleEmitter(light - lamps, p, u, choice);
+}
+
+// Where it comes to, not what it carries.
+void VisibleLights::follow(const RayScene& rays, Ray ray, Sampler& sampler, std::vector<Place>& out, uint64_t& rayCount) {
+  for (int k = 0; k < kMostVertices; ++k) {
+    const Hit hit = rays.intersect(ray);
+    ++rayCount;
+    if (!hit.valid()) return;
+    const SurfacePoint s = rays.surfaces().at(hit, ray.direction);
+    const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
+    if (!bsdf.isMirrorOnly()) out.push_back({offsetOrigin(s.p, s.ng), s.ng, keyOf(s.p, s.ng)});
+    if ((s.m.alpha < 1 || s.m.transmission > 0) && sampler.fast1() < 0.5f) {
+      ray.origin = offsetOrigin(s.p, -s.ng), ray.tMin = 0;
+      continue;
+    }
+    const Vec2 u{sampler.fast1(), sampler.fast1()};
+    const BsdfSample next = bsdf.sample(u, sampler.fast1());
+    if (!next.valid() || dot(next.wi, s.ng) <= 0 || sampler.fast1() >= maxComponent(next.weight)) return;
+    ray = {offsetOrigin(s.p, s.ng), next.wi, 0, kInfinity};
+  }
+}
+
+// Returns how many rays that took.
+size_t VisibleLights::look(const RayScene& rays, std::span<const Place> places, uint64_t seed, std::span<float> part) const {
+  const size_t count = part.size();
+  std::array<float, kMostLights> could{};
+  std::array<LightLook, kMostLights> found;
+  float total = 0;
+  for (size_t i = 0; i < count; ++i) {
+    for (const size_t k : {size_t{0}, places.size() / 2, places.size() - 1}) could[i] += importance(i, places[k].p);
+    total += could[i];
+  }
+  Sampler sampler(kLookKey + places[0].key, 0, seed);
+  LightLooks looks;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t tries = could[i] > kMatters * total ? kRays : could[i] > kHardly * total ? kFewRays
+                                                                                            : 0;
+    for (uint32_t k = 0; k < tries; ++k) {
+      const Place& at = places[(k * places.size() / tries + static_cast<size_t>(sampler.fast1() * static_cast<float>(places.size()))) % places.size()];
+      const Vec2 u{sampler.fast1(), sampler.fast1()};
+      looks.add(i, importance(i, at.p), sampleOne(i, at.p, u, sampler.fast1()), at.p, at.n);
+    }
+  }
+  const size_t traced = looks.finish(rays, [&](uint32_t i, float a, float f) { found[i].add(a, f); });
+  for (size_t i = 0; i < count; ++i) part[i] = found[i].part();
+  return traced;
+}
+
+void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed) {
+  const size_t lights = lightCount();
+  if (lights < 2 || lights > kMostLights) return;
+  struct Some {
+    std::vector<Place> places;
+    uint64_t rays = 0;
+  };
+  std::vector<Some> parts((paths + kPathsAtOnce - 1) / kPathsAtOnce);
+  parallelFor(parts.size(), 1, [&](size_t part) {
+    for (size_t i = part * kPathsAtOnce; i < std::min(paths, (part + 1) * kPathsAtOnce); ++i) {
+      Sampler sampler(kPathKey + i, 0, seed);
+      const float x = sampler.fast1() * static_cast<float>(w), y = sampler.fast1() * static_cast<float>(h);
+      const Ray ray = camera.seeing(rays, x, y);
+      if (ray.tMax > 0) follow(rays, ray, sampler, parts[part].places, parts[part].rays);
+    }
+  });
+  std::vector<Place> all;
+  for (const Some& some : parts) all.insert(all.end(), some.places.begin(), some.places.end()), rayCount_ += some.rays;
+  std::stable_sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.key < b.key; });
+  std::vector<size_t> first;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (i == 0 || all[i].key != all[i - 1].key) first.push_back(i);
+  }
+  part_.resize(first.size() * lights);
+  table_.assign(std::bit_ceil(2 * first.size() + 2), {});
+  std::atomic<uint64_t> traced = 0;
+  parallelFor(first.size(), 16, [&](size_t c) {
+    const size_t end = c + 1 < first.size() ? first[c + 1] : all.size();
+    traced += look(rays, std::span(all).subspan(first[c], std::min(kMostPlaces, end - first[c])), seed, std::span(part_).subspan(c * lights, lights));
+  });
+  rayCount_ += traced;
+  for (size_t c = 0; c < first.size(); ++c) add(all[first[c]].key, static_cast<int32_t>(c));
+}
+
+LightSample VisibleLights::sample(Vec3 p, int32_t cell, Vec2 u, float choice) const {
+  if (cell < 0) return lights_.sampleLocal(p, u, choice);
+  const size_t count = lightCount();
+  const float* part = &part_[static_cast<size_t>(cell) * count];
+  std::array<float, kMostLights> weight;
+  float total = 0;
+  for (size_t i = 0; i < count; ++i) total += weight[i] = part[i] * importance(i, p);
+  if (!(total > 0)) return {};
+  const size_t chosen = chooseByWeight(
+      count, total, [&](size_t i) { return weight[i]; }, choice);
+  const float chance = weight[chosen] / total;
+  LightSample s = sampleOne(chosen, p, u, choice);
+  s.radiance *= 1 / chance, s.pdf *= chance;
+  return s;
+}
+
+float VisibleLights::pdf(Vec3 p, int32_t cell, const SurfacePoint& q) const {
+  if (cell < 0) return lights_.pdfLocal(p, q);
+  const int32_t emitter = lights_.emitterOf(q.instance);
+  if (emitter < 0) return 0;
+  const size_t count = lightCount(), own = lights_.lampCount() + static_cast<size_t>(emitter);
+  const float* part = &part_[static_cast<size_t>(cell) * count];
+  float total = 0;
+  for (size_t i = 0; i < count; ++i) total += part[i] * importance(i, p);
+  return total > 0 ? part[own] * importance(own, p) / total * lights_.pdfEmitter(static_cast<size_t>(emitter), p, q) : 0;
+}
+
+}  // namespace roomlight
