@@ -56,7 +56,7 @@ struct PathWalk::State {
   Ray ray;
   Vec3 throughput{1, 1, 1};
   Vec3 lastPoint;          // where the ray was scattered last, for the density of light sampling there
-  int32_t lastCell = -1;   // of VisibleLights
+  std::span<const float> lastVisible;  // parts of the lights there
   float lastPdf = 0;       // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
   bool skyKnown = false;   // the sky, if the ray sees it, is counted already
   PathLayers* layers = nullptr;
@@ -132,7 +132,7 @@ Vec3 PathWalk::illuminanceButSky(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& ray
   s.ng = s.ns = n;
   s.m.baseColor = Vec3(1);
   const Bsdf bsdf(s.m, n, n, n);
-  Vec3 sum = direct<false>(s, -1, bsdf, 1, sampler, rayCount, nullptr, {}, false);
+  Vec3 sum = direct<false>(s, {}, bsdf, 1, sampler, rayCount, nullptr, {}, false);
   if (vertices_) {
     Candidates candidates;
     candidates.draw(vertices_->all(), sampler);
@@ -172,14 +172,14 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     if (white_ && scattered == 0) s.m = whitened(s.m);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const int32_t emitter = lights_.emitterOf(s.instance);
-      const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, visible_.pdf(path.lastPoint, path.lastCell, s)) : 1;
+      const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, lights_.pdfLocal(path.lastPoint, s, path.lastVisible)) : 1;
       const Vec3 light = path.throughput * emitted * (vertices_ && vertices_->lightRays().leaveEmitter(emitter) ? w * path.lampShare : w);
       sum += light;
       if (path.layers && emitter >= 0) path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
       if constexpr (Record::kOn) record.add(light);
     }
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
-    const int32_t cell = visible_.cellAt(s.p, s.ng);
+    const std::span<const float> visible = visible_.partsAt(s.p, s.ng);
     float lampShare = path.lampShare;
     if (vertices_ && path.lastPdf > 0 && LightVertices::connects(bsdf)) {
       const float inverse2 = 1 / std::max(lengthSquared(s.p - path.lastPoint), 1e-12f);
@@ -194,7 +194,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
       if constexpr (Record::kOn) {
         record.see(s, bsdf, path.throughput);
         Parts parts;
-        here = direct<true>(s, cell, bsdf, lampShare, sampler, rayCount, &parts, apart);
+        here = direct<true>(s, visible, bsdf, lampShare, sampler, rayCount, &parts, apart);
         if (vertices_) {
           Vec3 diffuse;
           here += connected<true>(s, bsdf, candidates, sampler, rayCount, &diffuse, apartConnected) * lampShare;
@@ -203,7 +203,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
         record.add(path.throughput * here, {path.throughput * parts.diffuse, path.throughput * parts.sharp});
       }
     } else {
-      here = direct<false>(s, cell, bsdf, lampShare, sampler, rayCount, nullptr, apart);
+      here = direct<false>(s, visible, bsdf, lampShare, sampler, rayCount, nullptr, apart);
       if (vertices_ && !bsdf.isMirrorOnly()) here += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr, apartConnected) * lampShare;
       if constexpr (Record::kOn) record.add(path.throughput * here * s.m.alpha);
     }
@@ -218,7 +218,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     }
     path.throughput *= next.weight;
     path.lastPdf = next.mirror ? 0 : next.pdf;
-    path.lastPoint = s.p, path.lastCell = cell;
+    path.lastPoint = s.p, path.lastVisible = visible;
     path.skyKnown = false;
     path.ray = {offsetOrigin(s.p, s.ng), next.wi, 0, kInfinity};
     path.lampShare = lampShare;
@@ -275,11 +275,11 @@ Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const Light
 }
 
 template <bool kParts>
-Vec3 PathWalk::direct(const SurfacePoint& s, int32_t cell, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo) const {
+Vec3 PathWalk::direct(const SurfacePoint& s, std::span<const float> visible, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo) const {
   Vec3 sum, local, sun, sky;
   if (lights_.hasLocal()) {
     const Vec2 u = sampler.next2();
-    const LightSample light = visible_.sample(s.p, cell, u, sampler.next1());
+    const LightSample light = lights_.sampleLocal(s.p, u, sampler.next1(), visible);
     const float left = vertices_ && vertices_->lightRays().leave(light) ? lampShare : 1;
     const Vec3 value = contribution<kParts>(s, bsdf, light, rayCount, &local) * left;
     sum += value;

@@ -6,7 +6,6 @@
 #include <bit>
 
 #include "base/parallel.h"
-#include "base/weighted_choice.h"
 #include "trace/bsdf.h"
 #include "trace/surfaces.h"
 
@@ -40,13 +39,13 @@ void VisibleLights::add(uint64_t key, int32_t cell) {
   table_[i] = {key, cell};
 }
 
-int32_t VisibleLights::cellAt(Vec3 p, Vec3 n) const {
-  if (table_.empty()) return -1;
+std::span<const float> VisibleLights::partsAt(Vec3 p, Vec3 n) const {
+  if (table_.empty()) return {};
   const uint64_t key = keyOf(p, n);
   for (size_t i = mix64(key) & (table_.size() - 1); table_[i].key != 0; i = (i + 1) & (table_.size() - 1)) {
-    if (table_[i].key == key) return table_[i].cell;
+    if (table_[i].key == key) return std::span(part_).subspan(static_cast<size_t>(table_[i].cell) * lightCount(), lightCount());
   }
-  return -1;
+  return {};
 }
 
 float VisibleLights::importance(size_t light, Vec3 p) const {
@@ -137,33 +136,6 @@ void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w,
   });
   rayCount_ += traced;
   for (size_t c = 0; c < first.size(); ++c) add(all[first[c]].key, static_cast<int32_t>(c));
-}
-
-LightSample VisibleLights::sample(Vec3 p, int32_t cell, Vec2 u, float choice) const {
-  if (cell < 0) return lights_.sampleLocal(p, u, choice);
-  const size_t count = lightCount();
-  const float* part = &part_[static_cast<size_t>(cell) * count];
-  std::array<float, kMostLights> weight;
-  float total = 0;
-  for (size_t i = 0; i < count; ++i) total += weight[i] = part[i] * importance(i, p);
-  if (!(total > 0)) return {};
-  const size_t chosen = chooseByWeight(
-      count, total, [&](size_t i) { return weight[i]; }, choice);
-  const float chance = weight[chosen] / total;
-  LightSample s = sampleOne(chosen, p, u, choice);
-  s.radiance *= 1 / chance, s.pdf *= chance;
-  return s;
-}
-
-float VisibleLights::pdf(Vec3 p, int32_t cell, const SurfacePoint& q) const {
-  if (cell < 0) return lights_.pdfLocal(p, q);
-  const int32_t emitter = lights_.emitterOf(q.instance);
-  if (emitter < 0) return 0;
-  const size_t count = lightCount(), own = lights_.lampCount() + static_cast<size_t>(emitter);
-  const float* part = &part_[static_cast<size_t>(cell) * count];
-  float total = 0;
-  for (size_t i = 0; i < count; ++i) total += part[i] * importance(i, p);
-  return total > 0 ? part[own] * importance(own, p) / total * lights_.pdfEmitter(static_cast<size_t>(emitter), p, q) : 0;
 }
 
 }  // namespace roomlight

@@ -19,11 +19,8 @@ class VisibleLights {
   // By `paths` from the camera of a picture of w x h pixels. Not where there are too few lights to choose, or too many for cells to list.
   void learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed);
 
-  // That of a surface at p with unit normal n on its seen side; -1: nothing is known there.
-  int32_t cellAt(Vec3 p, Vec3 n) const;
-  // As Lights::sampleLocal and pdfLocal, for a place in that cell.
-  LightSample sample(Vec3 p, int32_t cell, Vec2 u, float choice) const;
-  float pdf(Vec3 p, int32_t cell, const SurfacePoint& q) const;
+  // At a surface at p with unit normal n on its seen side: the part of each light that arrives, as Lights::sampleLocal wants it. Empty: nothing is known there.
+  std::span<const float> partsAt(Vec3 p, Vec3 n) const;
   size_t cellCount() const { return lightCount() > 0 ? part_.size() / lightCount() : 0; }
   uint64_t rayCount() const { return rayCount_; }
 

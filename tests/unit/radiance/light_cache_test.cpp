@@ -400,6 +400,47 @@ TEST(Update, bouncesFewAtOnceGoOnUntilTheyAreSettled) {
   expectSame(cache, lit(home), 3e-3f);
 }
 
+// Lit together lamps are chosen among, and their particles are few and kept together: the same light as each for itself.
+TEST(LightCache, manyLampsTogetherGiveTheSameLight) {
+  Home home;
+  home.scene.lamps.clear();
+  for (int i = 0; i < 80; ++i) {
+    home.scene.lamps.push_back(test::pointLamp({0.2f + 0.4f * static_cast<float>(i % 10), 2.3f, 0.3f + 0.6f * static_cast<float>(i / 10)}, 5));
+    home.scene.lamps.back().intensityCd *= Vec3(1, 0.9f, i % 2 ? 0.2f : 0.9f);
+  }
+  double flux[2] = {}, glow[2] = {};
+  std::vector<std::vector<Vec3>> lux;
+  for (const bool together : {false, true}) {
+    RadianceSettings settings = exact();
+    settings.still = together;
+    for (const int threads : {1, 3}) {
+      withThreads(threads, [&] {
+        const LightCache cache = lit(home, settings);
+        EXPECT_EQ(cache.lampsApart(Lights(home.scene)), !together);
+        lux.push_back(cache.field().irradianceLux);
+        if (threads > 1) return;
+        for (size_t s = 0; s < lux.back().size(); ++s) flux[together] += static_cast<double>(luminance(lux.back()[s]) * home.voxels().slots[s].areaM2);
+        for (const GlowPoint& g : cache.field().glow.points()) {
+          glow[together] += static_cast<double>(luminance(g.fluxLm));
+          EXPECT_GE(g.lamp, 0);
+        }
+      });
+    }
+  }
+  EXPECT_NEAR(flux[1] / flux[0], 1, 0.01);
+  EXPECT_NEAR(glow[1] / glow[0], 1, 0.02);
+  EXPECT_TRUE(lux[2] == lux[3]);
+}
+
+TEST(HasSurfaces, onlyBesideThem) {
+  const Home home;
+  const auto has = [&](Vec3 at) { return hasSurfaces(home.voxels(), LightSurroundings(test::pointLamp(at, 1), home.voxels().voxelSizeM)); };
+  EXPECT_TRUE(has({0.3f, 1.5f, 3}));
+  EXPECT_TRUE(has({2, 2.3f, 4}));
+  EXPECT_FALSE(has({2, 1.3f, 4}));
+  EXPECT_FALSE(has({20, 1.3f, 4}));
+}
+
 TEST(LightCache, sameBitsWithAnyNumberOfThreads) {
   std::vector<std::vector<Vec3>> results;
   for (const int threads : {1, 2}) {

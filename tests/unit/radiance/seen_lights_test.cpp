@@ -127,19 +127,44 @@ TEST(SeenLights, densityIsThatOfTheChoice) {
 }
 
 TEST(SeenLights, whatAWallHidesIsSeldomChosen) {
-  const TwoRooms rooms(3);
-  const Known known(rooms);
-  // Beside the wall, where lights of the other room are as near.
-  const Vec3 p{2.9f, 0.001f, 2};
-  const int32_t side = brickSideAt(rooms.voxels, p, kUp);
-  int other = 0, otherBlindly = 0;
-  for (uint32_t k = 0; k < 1000; ++k) {
-    Sampler sampler(5, k, 0), same(5, k, 0);
-    other += known.seen.sampleLamps(known.lights, p, side, sampler).lamp >= 3 ? 1 : 0;
-    otherBlindly += known.lights.sampleLamps(p, same).lamp >= 3 ? 1 : 0;
+  for (const int perRoom : {3, 40}) {
+    const TwoRooms rooms(perRoom);
+    const Known known(rooms);
+    // Beside the wall, where lights of the other room are as near.
+    const Vec3 p{2.9f, 0.001f, 2};
+    const int32_t side = brickSideAt(rooms.voxels, p, kUp);
+    int other = 0, otherBlindly = 0;
+    for (uint32_t k = 0; k < 1000; ++k) {
+      Sampler sampler(5, k, 0), same(5, k, 0);
+      other += known.seen.sampleLamps(known.lights, p, side, sampler).lamp >= perRoom ? 1 : 0;
+      otherBlindly += known.lights.sampleLamps(p, same).lamp >= perRoom ? 1 : 0;
+    }
+    EXPECT_GT(otherBlindly, 300) << perRoom;
+    EXPECT_LT(other, otherBlindly / 3) << perRoom;
   }
-  EXPECT_GT(otherBlindly, 300);
-  EXPECT_LT(other, otherBlindly / 3);
+}
+
+// Of each lamp, as samples are divided by it.
+TEST(SeenLights, chancesAreThoseOfTheChoiceAndAddUpToAll) {
+  for (const int perRoom : {3, 40}) {
+    const TwoRooms rooms(perRoom);
+    const Known known(rooms);
+    const int32_t side = brickSideAt(rooms.voxels, kPlace, kUp);
+    std::vector<double> chance(known.lights.lampCount()), chosen(chance.size());
+    for (uint32_t k = 0; k < kSamples; ++k) {
+      Sampler sampler(3, k, 0);
+      const LightSample s = known.seen.sampleLamps(known.lights, kPlace, side, sampler);
+      const auto i = static_cast<size_t>(s.lamp);
+      chosen[i] += 1.0 / kSamples;
+      chance[i] = static_cast<double>(luminance(known.lights.sampleLamp(i, kPlace, {}).radiance) / luminance(s.radiance));
+    }
+    double sum = 0;
+    for (size_t i = 0; i < chance.size(); ++i) {
+      EXPECT_NEAR(chosen[i], chance[i], 0.01) << perRoom << ' ' << i;
+      sum += chance[i];
+    }
+    EXPECT_NEAR(sum, 1, 0.005) << perRoom;
+  }
 }
 
 TEST(SeenLights, knowsNothingOffTheSurfaces) {
