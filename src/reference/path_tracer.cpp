@@ -47,8 +47,10 @@ struct PathTracer::State {
   int samples = 0;
   std::atomic<uint64_t> rayCount = 0;
 
-  void learnLights() {
-    if (samples == 0 && visible.cellCount() == 0) visible.learn(rays, cameraRays, settings.width, settings.height, std::clamp(static_cast<size_t>(settings.width * settings.height / kPixelsPerLearningPath), kFewestLearningPaths, kMostLearningPaths), settings.seed);
+  void learnLights(const std::function<bool()>& stopped) {
+    if (samples > 0 || visible.cellCount() > 0) return;
+    const size_t paths = std::clamp(static_cast<size_t>(settings.width * settings.height / kPixelsPerLearningPath), kFewestLearningPaths, kMostLearningPaths);
+    visible.learn(rays, cameraRays, settings.width, settings.height, paths, settings.seed, stopped);
   }
   void traceLightPaths() {
     if (!settings.lightPaths || !vertices.lightRays().any()) return;
@@ -70,7 +72,7 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
   // Whole passes only are kept.
   Image fresh(w, h);
   std::vector<FilterPixel> seen(st.pixels.size());
-  st.learnLights();
+  st.learnLights(stopped);
   st.traceLightPaths();
   const PathWalk walk(st.rays, st.lights, st.visible, &st.vertices, st.settings.white);
   const int tilesX = (w + kTile - 1) / kTile, tilesY = (h + kTile - 1) / kTile;

@@ -104,7 +104,7 @@ size_t VisibleLights::look(const RayScene& rays, std::span<const Place> places, 
   return traced;
 }
 
-void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed) {
+void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed, const std::function<bool()>& stopped) {
   const size_t lights = lightCount();
   if (lights < 2 || lights > kMostLights) return;
   struct Some {
@@ -113,6 +113,7 @@ void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w,
   };
   std::vector<Some> parts((paths + kPathsAtOnce - 1) / kPathsAtOnce);
   parallelFor(parts.size(), 1, [&](size_t part) {
+    if (stopped()) return;
     for (size_t i = part * kPathsAtOnce; i < std::min(paths, (part + 1) * kPathsAtOnce); ++i) {
       Sampler sampler(kPathKey + i, 0, seed);
       const float x = sampler.fast1() * static_cast<float>(w), y = sampler.fast1() * static_cast<float>(h);
@@ -131,10 +132,12 @@ void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w,
   table_.assign(std::bit_ceil(2 * first.size() + 2), {});
   std::atomic<uint64_t> traced = 0;
   parallelFor(first.size(), 16, [&](size_t c) {
+    if (stopped()) return;
     const size_t end = c + 1 < first.size() ? first[c + 1] : all.size();
     traced += look(rays, std::span(all).subspan(first[c], std::min(kMostPlaces, end - first[c])), seed, std::span(part_).subspan(c * lights, lights));
   });
   rayCount_ += traced;
+  if (stopped()) return part_.clear(), table_.clear();
   for (size_t c = 0; c < first.size(); ++c) add(all[first[c]].key, static_cast<int32_t>(c));
 }
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "trace/camera_rays.h"
@@ -16,8 +18,9 @@ class VisibleLights {
  public:
   // Refers to the lights. Knows nothing: they are chosen without shadows.
   explicit VisibleLights(const Lights& lights) : lights_(lights) {}
-  // By `paths` from the camera of a picture of w x h pixels. Not where there are too few lights to choose, or too many for cells to list.
-  void learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed);
+  // By `paths` from the camera of a picture of w x h pixels. Not where there are too few lights to choose, or too many for cells to list. Knows nothing as before once `stopped` says so.
+  void learn(
+      const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed, const std::function<bool()>& stopped = [] { return false; });
 
   // At a surface at p with unit normal n on its seen side: the part of each light that arrives, as Lights::sampleLocal wants it. Empty: nothing is known there.
   std::span<const float> partsAt(Vec3 p, Vec3 n) const;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -125,6 +126,17 @@ TEST(VisibleLights, sameBitsWithAnyNumberOfThreads) {
   std::vector<Image> images;
   for (const int threads : {1, 4}) withThreads(threads, [&] { images.push_back(pathTrace(rays, lights, rooms.camera, settings).image); });
   EXPECT_TRUE(images[0].pixels == images[1].pixels);
+}
+
+TEST(VisibleLights, knowNothingOnceStopped) {
+  const TwoRooms rooms;
+  const RayScene rays(rooms.scene);
+  const Lights lights(rooms.scene);
+  VisibleLights visible(lights);
+  std::atomic<int> asked = 0;
+  visible.learn(rays, CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight, 4000, 1, [&] { return ++asked > 10; });
+  EXPECT_EQ(visible.cellCount(), 0u);
+  EXPECT_TRUE(visible.partsAt(kPlace, kUp).empty());
 }
 
 TEST(VisibleLights, knowNothingOfOneLightOrOfMoreThanCellsList) {
