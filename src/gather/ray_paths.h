@@ -18,8 +18,7 @@ struct GatherPath {
   Lobes factor;
   Vec3 from;      // where its direction was chosen,
   float pdf;      // and with which density; 0: no light was sampled for it
-  int32_t guide;  // that sky samples there followed
-  int32_t side;  // of a brick, that samples of bright patches there followed
+  int32_t side;  // of a brick, that samples of lights, sky and bright patches there followed
   uint32_t estimate;
   uint8_t depth, panes;
   bool clear;     // what it meets is seen clearly
@@ -36,7 +35,7 @@ struct GatherVertex {
   const SurfacePoint& s;
   const Bsdf& bsdf;
   Lobes factor;
-  int32_t guide, side;
+  int32_t side;
   uint32_t estimate;
   uint8_t depth;
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own

@@ -119,7 +119,7 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
   }
   if (lights_.sky().present() && !v.skyKnown) {
     const Vec2 u = sampler.next2();
-    take(sampleSkyGuided(field_.guide, v.guide, lights_, u, sampler.next1()), layers ? layers->sky : -1);
+    take(sampleSkyGuided(field_.guide, guideOfSide(field_.guide, v.side), lights_, u, sampler.next1()), layers ? layers->sky : -1);
   }
 }
 
@@ -233,8 +233,9 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 wi = g.light.wi;
   Lobes f = v.value(wi);
   const float cosine = v.guided(cosinePdf(v, wi), wi), mixed = v.guided(v.bsdf.pdf(wi), wi);
-  f.diffuse *= patches_.pointShare(g.point, v.s.p, v.side, v.apart || v.followed ? cosine : mixed);
-  f.specular *= v.clear && v.apart ? 0 : patches_.pointShare(g.point, v.s.p, v.side, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
+  const float density = patches_.densityAt(g.point, v.s.p, v.side);
+  f.diffuse *= BrightPatches::pointShare(density, v.apart || v.followed ? cosine : mixed);
+  f.specular *= v.clear && v.apart ? 0 : BrightPatches::pointShare(density, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
   Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
   const float weight = w.layers ? 1 : askingWeight(sum, 1, v.estimate, w);
   if (!(weight > 0)) return;
@@ -250,7 +251,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.guide, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, v.first && clear && v.s.m.roughness < kMirrorRoughness, spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, v.first && clear && v.s.m.roughness < kMirrorRoughness, spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -117,7 +117,7 @@ void RayShader::follow(GatherWork& w) const {
 SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const {
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
-  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, guideAt(field_.guide, voxels_, s.p, s.ng), brickSideAt(voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
+  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, brickSideAt(voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
   v.skyKnown = work.skyKnown, v.lampsKnown = work.lampsKnown;
   SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
@@ -227,8 +227,8 @@ float RayShader::brightestAround(Vec3 p) const {
 
 Vec3 RayShader::skyAlong(const GatherPath& path) const {
   if (!lights_.sky().present() || path.skyKnown) return {};
-  const Vec3 d = path.ray.direction;
-  return lights_.sky().radiance(d) * (path.pdf > 0 ? misWeight(path.pdf, pdfSkyGuided(field_.guide, path.guide, lights_, d)) : 1);
+  const Vec2 uv = lights_.sky().toUv(path.ray.direction);
+  return lights_.sky().radianceAt(uv) * (path.pdf > 0 ? misWeight(path.pdf, pdfSkyGuided(field_.guide, guideOfSide(field_.guide, path.side), lights_, uv)) : 1);
 }
 
 Vec3 RayShader::sunsAlong(const GatherPath& path) const {
@@ -357,27 +357,44 @@ bool RayShader::cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Ve
   return true;
 }
 
-// Bricks with slots that shine beside lamps, and those around them.
+// Voxels with slots that shine beside lamps, and those around them.
 void RayShader::markGlow() {
-  glowBricks_.assign(voxels_.bricks.size(), 0);
-  for (const SurfaceVoxel& voxel : voxels_.voxels) {
-    const auto end = voxel.firstSlot + static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
-    for (uint32_t slot = voxel.firstSlot; slot < end; ++slot) {
-      if (!shinesBesideLamps(slot)) continue;
-      const Int3 v = voxels_.voxelOf(voxels_.slots[slot].position);
-      for (int k = 0; k < 27; ++k) {
-        const int32_t brick = voxels_.brickAt({v.x / kBrickSize + k % 3 - 1, v.y / kBrickSize + k / 3 % 3 - 1, v.z / kBrickSize + k / 9 - 1});
-        if (brick >= 0) glowBricks_[static_cast<size_t>(brick)] = 1;
+  nearGlow_.assign(voxels_.bricks.size(), {});
+  for (const Brick& brick : voxels_.bricks) {
+    size_t record = brick.firstVoxel;
+    for (int z = 0; z < kBrickSize; ++z) {
+      for (uint64_t bits = brick.occupied[static_cast<size_t>(z)]; bits; bits &= bits - 1, ++record) {
+        const SurfaceVoxel& voxel = voxels_.voxels[record];
+        const auto end = voxel.firstSlot + static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+        bool shines = false;
+        for (uint32_t slot = voxel.firstSlot; slot < end; ++slot) shines = shines || shinesBesideLamps(slot);
+        const int bit = std::countr_zero(bits);
+        if (shines) markAround({kBrickSize * brick.coord.x + bit % kBrickSize, kBrickSize * brick.coord.y + bit / kBrickSize, kBrickSize * brick.coord.z + z});
       }
     }
   }
 }
 
+void RayShader::markAround(Int3 voxel) {
+  for (int k = 0; k < 27; ++k) {
+    const Int3 v{voxel.x + k % 3 - 1, voxel.y + k / 3 % 3 - 1, voxel.z + k / 9 - 1};
+    const int32_t brick = v.x < 0 || v.y < 0 || v.z < 0 ? -1 : voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
+    if (brick >= 0) nearGlow_[static_cast<size_t>(brick)][static_cast<size_t>(v.z % kBrickSize)] |= uint64_t{1} << (v.x % kBrickSize + kBrickSize * (v.y % kBrickSize));
+  }
+}
+
+// False where no slot around p shines beside lamps.
+bool RayShader::mayBeInGlow(Int3 v) const {
+  if (nearGlow_.empty()) return false;
+  if (v.x < 0 || v.y < 0 || v.z < 0) return true;
+  const int32_t brick = voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
+  return brick < 0 || (nearGlow_[static_cast<size_t>(brick)][static_cast<size_t>(v.z % kBrickSize)] >> (v.x % kBrickSize + kBrickSize * (v.y % kBrickSize)) & 1);
+}
+
 // Whether points stand for all that it reflects of a lamp which it lies near: what comes by way of other surfaces there, too.
 bool RayShader::isInGlow(Vec3 p, Vec3 n) const {
   const Int3 v = voxels_.voxelOf(p);
-  const int32_t brick = voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
-  if (glowBricks_.empty() || (brick >= 0 && !glowBricks_[static_cast<size_t>(brick)])) return false;
+  if (!mayBeInGlow(v)) return false;
   if (shinesBesideLamps(cache_.find(p, n).slot)) return true;
   // The slot found may be another one than that which took the light there.
   for (int i = 0; i < 27; ++i) {
@@ -400,7 +417,7 @@ void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) cons
   s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  GatherVertex v{s, bsdf, path.factor, guideAt(field_.guide, voxels_, s.p, s.ng), brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear};
+  GatherVertex v{s, bsdf, path.factor, brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear};
   v.inGlow = !path.clear && !isPolishedMetal(*s.material) && isInGlow(s.p, s.ng);
   scatter_.from(v, w);
 }

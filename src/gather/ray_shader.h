@@ -54,6 +54,8 @@ class RayShader final : public SurfaceShader {
   LeftToPoints leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const;
   void addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal, const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const;
   void markGlow();
+  void markAround(Int3 voxel);
+  bool mayBeInGlow(Int3 voxel) const;
   bool isInGlow(Vec3 p, Vec3 n) const;
   bool shinesBesideLamps(int64_t slot) const { return slot >= 0 && !field_.glowShare.empty() && field_.glowShare[static_cast<size_t>(slot)] > 0; }
   void addBackground(const GatherPath& path, GatherWork& w) const;
@@ -79,7 +81,7 @@ class RayShader final : public SurfaceShader {
   Vec3 sunDirection_, sunColour_;  // where there is one alone; of luminance 1
   std::vector<float> ownBrightest_, brightest_;  // per voxel, cd/m²: of its slots, did they reflect all light, and with those of its neighbours
   std::vector<uint8_t> kind_;  // per instance: what about its surfaces the cache does not know
-  std::vector<uint8_t> glowBricks_;  // per brick: holds slots that shine beside lamps, or lies beside one that does
+  std::vector<std::array<uint64_t, kBrickSize>> nearGlow_;  // per brick and layer of it, bit x + 8 y: in that voxel or one beside it a slot shines beside lamps
 };
 
 }  // namespace roomlight

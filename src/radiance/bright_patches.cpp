@@ -83,6 +83,7 @@ void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoin
     for (const uint32_t i : f.points) {
       const GlowPoint& g = points[i];
       points_.push_back(g);
+      terms_.push_back({g.p, g.n, luminance(g.fluxLm), isSun(g)});
       patchOfPoint_.push_back(static_cast<uint32_t>(patches_.size()));
       if (g.slot < 0) continue;
       patchOfSlot_[static_cast<size_t>(g.slot)] = static_cast<int32_t>(patches_.size());
@@ -165,8 +166,11 @@ void BrightPatches::learn(const RayScene& rays, uint64_t seed) {
     float sum = 0, upTo = 0;
     for (const Arrives& a : sums) sum += a.fluxLm;
     Seen& seen = found[b];
-    for (const Arrives& a : sums) seen.patch[seen.count] = a.patch, seen.upTo[seen.count++] = (upTo += a.fluxLm) / sum;
-    if (seen.count > 0) seen.upTo[seen.count - 1] = 1;
+    seen.patch.fill(Seen::kNone), seen.upTo.fill(1), seen.upTo[0] = 0;
+    for (const Arrives& a : sums) {
+      seen.patch[static_cast<size_t>(seen.count)] = a.patch;
+      if (++seen.count < static_cast<int32_t>(sums.size())) seen.upTo[static_cast<size_t>(seen.count)] = (upTo += a.fluxLm) / sum;
+    }
   });
   seenOfSide_.assign(found.size(), -1);
   for (size_t b = 0; b < found.size(); ++b) {
@@ -178,10 +182,9 @@ void BrightPatches::learn(const RayScene& rays, uint64_t seed) {
 
 // 0 where no patch's rays arrive: rays that gather are left to find what little there is.
 float BrightPatches::chanceOf(uint32_t patch, int32_t side) const {
-  const float byFlux = upTo_[patch] - (patch > 0 ? upTo_[patch - 1] : 0);
-  if (side < 0) return byFlux;
+  if (side < 0) return byFlux(patch);
   const Seen* seen = seenFrom(side);
-  return seen ? kByFlux * byFlux + (1 - kByFlux) * seen->chance(patch) : 0;
+  return seen ? kByFlux * byFlux(patch) + (1 - kByFlux) * seen->chance(patch) : 0;
 }
 
 // Per steradian at the place that looks: a point is chosen within its patch by flux.
@@ -195,62 +198,61 @@ float BrightPatches::chancePerLumen(int32_t patch, int32_t side) const {
   return chanceOf(static_cast<uint32_t>(patch), side) / patches_[static_cast<size_t>(patch)].fluxLm;
 }
 
-float BrightPatches::pointShare(size_t point, Vec3 p, int32_t side, float rayPdf) const {
+float BrightPatches::densityAt(size_t point, Vec3 p, int32_t side) const {
   const GlowPoint& g = points_[point];
   const Vec3 d = p - g.p;
   const float distance = length(d);
   if (isSun(g) && distance < farM_) return 0;
-  const float points = pointsDensity(static_cast<int32_t>(patchOfPoint_[point]), g.radianceCdM2, distance, dot(d, g.n) / std::max(distance, 1e-12f), side);
-  return 1 - powerHeuristic(rayPdf, points);
+  return pointsDensity(static_cast<int32_t>(patchOfPoint_[point]), g.radianceCdM2, distance, dot(d, g.n) / std::max(distance, 1e-12f), side);
 }
+
+float BrightPatches::pointShare(float density, float rayPdf) { return 1 - powerHeuristic(rayPdf, density); }
 
 float BrightPatches::rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side, float rayPdf) const {
   const float points = pointsDensity(patchOfSlot_[static_cast<size_t>(slot)], radianceCdM2, distance, cosLight, side);
   return powerHeuristic(rayPdf, points);
 }
 
-// By a number from 0 to 1.
-uint32_t BrightPatches::patchFor(int32_t side, float u) const {
-  const Seen* seen = seenFrom(side);
-  const float byFlux = side < 0 ? 1 : kByFlux;
-  if (u < byFlux) {
-    const float choice = u / byFlux;
-    return static_cast<uint32_t>(std::min<ptrdiff_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin(), static_cast<ptrdiff_t>(upTo_.size()) - 1));
+// By a number from 0 to 1, with its chance. `seen`: null where all are possible.
+BrightPatches::Choice BrightPatches::patchFor(const Seen* seen, float u) const {
+  const float share = seen ? kByFlux : 1;
+  if (u < share) {
+    const float choice = u / share;
+    const auto patch = static_cast<uint32_t>(std::min<ptrdiff_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin(), static_cast<ptrdiff_t>(upTo_.size()) - 1));
+    return {patch, share * byFlux(patch) + (seen ? (1 - kByFlux) * seen->chance(patch) : 0)};
   }
-  const float choice = (u - kByFlux) / (1 - kByFlux);
-  uint32_t i = 0;
-  while (i + 1 < seen->count && seen->upTo[i] <= choice) ++i;
-  return seen->patch[i];
+  const int32_t i = seen->chosen((u - kByFlux) / (1 - kByFlux));
+  const uint32_t patch = seen->patch[static_cast<size_t>(i)];
+  return {patch, kByFlux * byFlux(patch) + (1 - kByFlux) * seen->chanceOf(i)};
 }
 
 // Candidates are drawn by what lights the brick, one of them by what it could give here (resampled importance sampling, Talbot et al. 2005).
 GlowSample BrightPatches::sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler) const {
   struct Candidate {
     uint32_t point;
+    float perPoint;     // points of its patch over the patch's chance
     float gives, upTo;  // without shadows; of weights
-    uint32_t patch;
   };
   if (!reaches(side)) return {};
+  const Seen* seen = seenFrom(side);
   std::array<Candidate, kCandidates> candidates;
   const float first = sampler.next1();
-  float sum = 0;
   for (uint32_t i = 0; i < kCandidates; ++i) {
-    const uint32_t patch = patchFor(side, (static_cast<float>(i) + (i == 0 ? first : sampler.fast1())) / kCandidates);
-    const Patch& of = patches_[patch];
-    candidates[i] = {of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count))), 0, 0, patch};
-    __builtin_prefetch(&points_[candidates[i].point]);
+    const Choice choice = patchFor(seen, (static_cast<float>(i) + (i == 0 ? first : sampler.fast1())) / kCandidates);
+    const Patch& of = patches_[choice.patch];
+    // Chance 0: drawn by rounding, of a patch without flux beside all others.
+    candidates[i] = {of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count))), choice.chance > 0 ? static_cast<float>(of.count) / choice.chance : 0, 0, 0};
+    __builtin_prefetch(&terms_[candidates[i].point]);
   }
+  float sum = 0;
   for (Candidate& c : candidates) {
-    const uint32_t patch = c.patch;
-    const Patch& of = patches_[patch];
-    const GlowPoint& g = points_[c.point];
+    const Terms& g = terms_[c.point];
     c.upTo = sum;
     const Vec3 d = g.p - p;
     const float d2 = lengthSquared(d), cosSurface = dot(d, n), cosLight = -dot(d, g.n);
-    const float chance = chanceOf(patch, side);  // 0: drawn by rounding, of a patch without flux beside all others
-    if (!(chance > 0 && cosSurface > 0 && cosLight > 0) || (isSun(g) && d2 < farM_ * farM_)) continue;
-    c.gives = luminance(g.fluxLm) * cosSurface * cosLight / (d2 * d2);
-    c.upTo = sum += c.gives * static_cast<float>(of.count) / chance;
+    if (!(c.perPoint > 0 && cosSurface > 0 && cosLight > 0) || (g.sun && d2 < farM_ * farM_)) continue;
+    c.gives = g.lm * cosSurface * cosLight / (d2 * d2);
+    c.upTo = sum += c.gives * c.perPoint;
   }
   if (!(sum > 0)) return {};
   const float pick = sampler.next1() * sum;
@@ -267,7 +269,7 @@ GlowSample BrightPatches::sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler)
 }
 
 size_t BrightPatches::bytes() const {
-  return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t)) + patchOfSlot_.size() * (sizeof(int32_t) + 1) + patches_.size() * sizeof(Patch) + seen_.size() * sizeof(Seen) + seenOfSide_.size() * sizeof(int32_t);
+  return points_.size() * (sizeof(points_[0]) + sizeof(terms_[0]) + sizeof(uint32_t)) + patchOfSlot_.size() * (sizeof(int32_t) + 1) + patches_.size() * sizeof(Patch) + seen_.size() * sizeof(Seen) + seenOfSide_.size() * sizeof(int32_t);
 }
 
 }  // namespace roomlight

@@ -1,6 +1,7 @@
 // What shines by reflection alone, small and bright: what lamps light beside them, and what the sun lights. Such light is sampled by place, since rays that gather seldom find it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -27,8 +28,10 @@ class BrightPatches {
 
   // One point for a surface at p on that side of a brick, none where no patch is seen, any where there is no brick (-1), as in the air; `pdf` is 0 and `radiance` what arrives if nothing is in the way, divided by the density of its choice. Not shared yet.
   GlowSample sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler) const;
-  // The part that points take of the light from one of them to p, whose side that is, where rays find it with a density per steradian.
-  float pointShare(size_t point, Vec3 p, int32_t side, float rayPdf) const;
+  // Per steradian at p, whose side that is, with which points stand for the light from one of them; 0: nearer than rays leave it to points.
+  float densityAt(size_t point, Vec3 p, int32_t side) const;
+  // The part that points of that density take of the light, where rays find it with another.
+  static float pointShare(float density, float rayPdf);
   // The part of what a slot reflects of `radianceCdM2` that rays take who find it so.
   float rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side, float rayPdf) const;
   bool holdsSun(int64_t slot) const { return !holdsSun_.empty() && holdsSun_[static_cast<size_t>(slot)]; }
@@ -43,27 +46,46 @@ class BrightPatches {
     float fluxLm;
   };
   struct Seen {
-    uint32_t count = 0;
-    std::array<uint32_t, kSeen> patch;
-    std::array<float, kSeen> upTo;  // of chances; the last is 1
+    static constexpr uint32_t kNone = ~0u;
+    int32_t count = 0;
+    std::array<uint32_t, kSeen> patch;     // kNone after the last
+    std::array<float, kSeen + 1> upTo;     // of chances: before each; from the end of the last on 1
+    // All are looked at, eight at a time, whichever it is.
     float chance(uint32_t p) const {
-      for (uint32_t i = 0; i < count; ++i) {
-        if (patch[i] == p) return upTo[i] - (i > 0 ? upTo[i - 1] : 0);
-      }
-      return 0;
+      int32_t at = -1;
+      for (int32_t i = 0; i < static_cast<int32_t>(kSeen); ++i) at = std::max(at, patch[static_cast<size_t>(i)] == p ? i : -1);
+      return at < 0 ? 0 : chanceOf(at);
     }
+    float chanceOf(int32_t i) const { return upTo[static_cast<size_t>(i) + 1] - upTo[static_cast<size_t>(i)]; }
+    int32_t chosen(float choice) const {
+      int32_t i = 0;
+      for (size_t k = 1; k <= kSeen; ++k) i += upTo[k] <= choice;
+      return std::min(i, count - 1);
+    }
+  };
+  // What a choice among points looks at, in half a cache line.
+  struct alignas(32) Terms {
+    Vec3 p, n;
+    float lm;
+    bool sun;
   };
   const Seen* seenFrom(int32_t side) const { return side < 0 || points_.empty() || seenOfSide_[static_cast<size_t>(side)] < 0 ? nullptr : &seen_[static_cast<size_t>(seenOfSide_[static_cast<size_t>(side)])]; }
   void gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare);
   std::vector<std::pair<uint32_t, uint32_t>> lights(const RayScene& rays, uint32_t patch, uint64_t seed) const;
   void learn(const RayScene& rays, uint64_t seed);
-  uint32_t patchFor(int32_t side, float u) const;
+  struct Choice {
+    uint32_t patch;
+    float chance;
+  };
+  Choice patchFor(const Seen* seen, float u) const;
+  float byFlux(uint32_t patch) const { return upTo_[patch] - (patch > 0 ? upTo_[patch - 1] : 0); }
   float chanceOf(uint32_t patch, int32_t side) const;
   float chancePerLumen(int32_t patch, int32_t side) const;
   float pointsDensity(int32_t patch, float radianceCdM2, float distance, float cosLight, int32_t side) const;
 
   const Voxels* voxels_ = nullptr;
   std::vector<GlowPoint> points_;  // by patch
+  std::vector<Terms> terms_;       // of points_
   std::vector<uint32_t> patchOfPoint_;
   std::vector<int32_t> patchOfSlot_;  // -1: none
   std::vector<uint8_t> holdsSun_;     // per slot: points stand for what the sun lights there

@@ -3,18 +3,31 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "radiance/slot_lookup.h"
 
 namespace roomlight {
 namespace {
 
 constexpr float kUnguidedShare = 0.1f;  // keeps every direction possible
 constexpr int kX = SkyDistribution::kBlocksX, kY = SkyDistribution::kBlocksY, kBlocks = SkyDistribution::kBlocks;
-using Cdf = std::array<float, kBlocks>;
+using Cdf = SkyGuide::Cdf;
 
 float shareOf(const Cdf& cdf, int block) {
   const auto b = static_cast<size_t>(block);
-  return cdf[b] - (b ? cdf[b - 1] : 0.0f);
+  return cdf.blocks[b] - (b ? cdf.blocks[b - 1] : 0.0f);
+}
+
+// How many of them are not above v; they rise.
+template <int kCount>
+int countUpTo(const float* ends, float v) {
+  int n = 0;
+  for (int i = 0; i < kCount; ++i) n += ends[i] <= v;
+  return n;
+}
+
+// The block in whose share v in [0, 1) falls.
+int blockFor(const Cdf& cdf, float v) {
+  const int row = std::min(countUpTo<kY>(cdf.rows.data(), v), kY - 1);
+  return row * kX + std::min(countUpTo<kX>(&cdf.blocks[static_cast<size_t>(row * kX)], v), kX - 1);
 }
 
 }  // namespace
@@ -62,10 +75,11 @@ bool SkyGuideBuilder::density(const Blocks& tries, Cdf& cdf) const {
       tried += w * t.tried;
     }
     running += sky_.blockShare(i) * open / tried;
-    cdf[static_cast<size_t>(i)] = running;
+    cdf.blocks[static_cast<size_t>(i)] = running;
   }
   if (!(running > 0)) return false;
-  for (float& v : cdf) v /= running;
+  for (float& v : cdf.blocks) v /= running;
+  for (size_t y = 0; y < cdf.rows.size(); ++y) cdf.rows[y] = cdf.blocks[(y + 1) * kX - 1];
   return true;
 }
 
@@ -105,15 +119,13 @@ SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carri
 }
 
 int32_t guideAt(const SkyGuide& guides, const Voxels& voxels, Vec3 p, Vec3 n) {
-  if (guides.guideOfBrick.empty()) return -1;
-  const int32_t b = brickAtSurface(voxels, p, n);
-  return b < 0 ? -1 : guides.guideOfBrick[static_cast<size_t>(b)][static_cast<size_t>(dominantFace(n))];
+  return guides.guideOfBrick.empty() ? -1 : guideOfSide(guides, brickSideAt(voxels, p, n));
 }
 
 namespace {
 
-float pdfAt(const SkyGuide& guides, int32_t guide, const SkyDistribution& sky, Vec2 uv) {
-  const float plain = sky.pdfAt(uv);
+// From that of the sky alone.
+float guidedPdf(const SkyGuide& guides, int32_t guide, const SkyDistribution& sky, Vec2 uv, float plain) {
   if (guide < 0) return plain;
   const int block = sky.blockAt(uv);
   const float share = sky.blockShare(block);
@@ -122,7 +134,7 @@ float pdfAt(const SkyGuide& guides, int32_t guide, const SkyDistribution& sky, V
 
 }  // namespace
 
-float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d) { return pdfAt(guides, guide, lights.sky(), lights.sky().toUv(d)); }
+float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 uv) { return guidedPdf(guides, guide, lights.sky(), uv, lights.sky().pdfAt(uv)); }
 
 LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) {
   const SkyDistribution& sky = lights.sky();
@@ -130,12 +142,9 @@ LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights&
   if (guide < 0 || choice < kUnguidedShare) {
     found = sky.sample(u);
   } else {
-    const Cdf& cdf = guides.cdf[static_cast<size_t>(guide)];
-    const float v = (choice - kUnguidedShare) / (1 - kUnguidedShare);
-    const auto it = std::upper_bound(cdf.begin(), cdf.end(), v);
-    found = sky.sampleBlock(std::min(static_cast<int>(it - cdf.begin()), kBlocks - 1), u);
+    found = sky.sampleBlock(blockFor(guides.cdf[static_cast<size_t>(guide)], (choice - kUnguidedShare) / (1 - kUnguidedShare)), u);
   }
-  const float pdf = pdfAt(guides, guide, sky, found.uv);
+  const float pdf = guidedPdf(guides, guide, sky, found.uv, found.pdf);
   if (!(pdf > 0)) return {};
   LightSample s;
   s.wi = found.d;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "radiance/brick_side.h"
 #include "radiance/carried.h"
 #include "radiance/radiance_field.h"
 
@@ -21,7 +22,7 @@ class SkyGuideBuilder {
   };
   using Blocks = std::array<Tries, SkyDistribution::kBlocks>;
   Blocks around(size_t brick, size_t face) const;
-  bool density(const Blocks& tries, std::array<float, SkyDistribution::kBlocks>& cdf) const;
+  bool density(const Blocks& tries, SkyGuide::Cdf& cdf) const;
   const Voxels& voxels_;
   const SkyDistribution& sky_;
   std::vector<std::array<std::unique_ptr<Blocks>, 6>> blocks_;  // per brick and face; null: no slot
@@ -34,11 +35,16 @@ SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carri
 // `radiance` is divided by the density.
 LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice);
 
-// Density with which sampleSkyGuided chooses direction d, per steradian.
-float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d);
+// Density with which sampleSkyGuided chooses the direction of a place in the sky's map, per steradian.
+float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 uv);
+inline float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d) { return pdfSkyGuided(guides, guide, lights, lights.sky().toUv(d)); }
 
 // The guide that serves a surface at p with unit normal n: of its own brick, or where the surface lies on the border of bricks
 // of the one on the other side; -1 where neither saw sky.
 int32_t guideAt(const SkyGuide& guides, const Voxels& voxels, Vec3 p, Vec3 n);
+// The same for who knows the side of a brick that it lies on (brickSideAt); -1: none.
+inline int32_t guideOfSide(const SkyGuide& guides, int32_t side) {
+  return side < 0 || guides.guideOfBrick.empty() ? -1 : guides.guideOfBrick[static_cast<size_t>(side) / kBrickSides][static_cast<size_t>(side) % kBrickSides];
+}
 
 }  // namespace roomlight

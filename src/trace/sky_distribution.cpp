@@ -13,17 +13,27 @@ constexpr double kSpotShare = 0.05, kSpotContrast = 0.02;
 constexpr float kSpotRad = 0.06f;
 
 Vec3 texel(const Image& image, int x, int y) {
-  x = (x % image.width + image.width) % image.width;
+  x = x < 0 ? x + image.width : x >= image.width ? x - image.width
+                                                 : x;
   y = std::clamp(y, 0, image.height - 1);
   return image.at(x, y);
 }
+
+// How many values of an increasing table of a few are not above v.
+int countUpTo(const float* ends, int count, float v) {
+  int n = 0;
+  for (int i = 0; i < count; ++i) n += ends[i] <= v;
+  return n;
+}
+
+// Where v lies between two values (0..1).
+float placeWithin(float begin, float end, float v) { return end > begin ? std::clamp((v - begin) / (end - begin), 0.0f, 0.999999f) : 0.5f; }
 
 // Index of the cell of an increasing table in which v falls, and where in it (0..1).
 int findCell(const float* cdf, int count, float v, float& within) {
   const float* it = std::upper_bound(cdf, cdf + count + 1, v);
   const int i = std::clamp(static_cast<int>(it - cdf) - 1, 0, count - 1);
-  const float w = cdf[i + 1] - cdf[i];
-  within = w > 0 ? std::clamp((v - cdf[i]) / w, 0.0f, 0.999999f) : 0.5f;
+  within = placeWithin(cdf[i], cdf[i + 1], v);
   return i;
 }
 
@@ -193,6 +203,13 @@ void SkyDistribution::tabulate(const std::vector<double>& weights, double total)
       blockRows_[static_cast<size_t>(block * high + y % high)] += share;
     }
   }
+  const auto high = static_cast<size_t>(height_ / kBlocksY);
+  for (size_t block = 0; block < static_cast<size_t>(kBlocks); ++block) {
+    float* rowEnds = &blockRows_[block * high];
+    for (size_t y = 1; y < high; ++y) rowEnds[y] += rowEnds[y - 1];
+    const float whole = rowEnds[high - 1];
+    for (size_t y = 0; y < high; ++y) rowEnds[y] = whole > 0 ? rowEnds[y] / whole : static_cast<float>(y + 1) / static_cast<float>(high);
+  }
 }
 
 Vec2 SkyDistribution::toUv(Vec3 d) const {
@@ -245,30 +262,20 @@ Vec3 SkyDistribution::directionIn(int column, int row, float dx, float dy) const
 
 SkyDistribution::Sample SkyDistribution::inCell(int column, int row, float dx, float dy) const {
   const Vec2 uv{(static_cast<float>(column) + dx) / static_cast<float>(width_), (static_cast<float>(row) + dy) / static_cast<float>(height_)};
-  return {directionIn(column, row, dx, dy), cells_[static_cast<size_t>(row) * width_ + column] / solidAngleAt(std::sin(kPi * uv.y)), uv};
+  const Vec3 d = directionIn(column, row, dx, dy);
+  return {d, cells_[static_cast<size_t>(row) * width_ + column] / solidAngleAt(std::sqrt(d.x * d.x + d.z * d.z)), uv};
 }
 
 SkyDistribution::Sample SkyDistribution::sampleBlock(int block, Vec2 u) const {
   const int rows = height_ / kBlocksY, columns = width_ / kBlocksX;
-  const int y0 = block / kBlocksX * rows, x0 = block % kBlocksX * columns;
-  const auto at = [&](int row, int column) { return cells_[static_cast<size_t>(row) * width_ + column]; };
-  const float* rowShares = &blockRows_[static_cast<size_t>(block) * static_cast<size_t>(rows)];
-  // Walks to the row, then to the cell, in which u falls; what is left of u lands inside it.
-  float v = u.y * blockShare(block), share = 0;
-  int row = y0;
-  for (;; ++row) {
-    share = rowShares[row - y0];
-    if (v < share || row + 1 == y0 + rows) break;
-    v -= share;
-  }
-  const float dy = share > 0 ? std::clamp(v / share, 0.0f, 0.999999f) : 0.5f;
-  v = u.x * share;
-  int column = x0;
-  for (; v >= at(row, column) && column + 1 < x0 + columns; ++column) v -= at(row, column);
-  const float cell = at(row, column);
-  Sample out = inCell(column, row, cell > 0 ? std::clamp(v / cell, 0.0f, 0.999999f) : 0.5f, dy);
-  out.pdf = blockShare(block) > 0 ? out.pdf / blockShare(block) : 0;
-  return out;
+  const float* rowEnds = &blockRows_[static_cast<size_t>(block) * static_cast<size_t>(rows)];
+  const int y = countUpTo(rowEnds, rows - 1, u.y), row = block / kBlocksX * rows + y;
+  const float dy = placeWithin(y > 0 ? rowEnds[y - 1] : 0, rowEnds[y], u.y);
+  const int x0 = block % kBlocksX * columns;
+  const float* ends = &columnCdf_[static_cast<size_t>(row) * (width_ + 1) + x0];
+  const float v = ends[0] + u.x * (ends[columns] - ends[0]);
+  const int x = countUpTo(ends + 1, columns - 1, v);
+  return inCell(x0 + x, row, placeWithin(ends[x], ends[x + 1], v), dy);
 }
 
 int SkyDistribution::blockAt(Vec2 uv) const {

@@ -37,8 +37,8 @@ class SkyDistribution {
   Bounds3 spotDirections() const;  // a box that holds all unit directions of it
   Vec3 spotRadiance(Vec3 d, float& pdf) const;  // cd/m² and density of sampleSpot() there; 0 outside
 
-  // The sphere in kBlocks parts of the map, for callers that know which of them are worth while. `pdf` of a sample is the
-  // density inside its block: pdf(d) / blockShare(block).
+  // The sphere in kBlocks parts of the map, for callers that know which of them are worth while. `pdf` of a sample is that of
+  // sample(): blockShare(block) times the density inside its block.
   static constexpr int kBlocksX = 32, kBlocksY = 16, kBlocks = kBlocksX * kBlocksY;
   int blockOf(Vec3 d) const { return blockAt(toUv(d)); }
   int blockAt(Vec2 uv) const;
@@ -70,7 +70,7 @@ class SkyDistribution {
   std::vector<float> rowCdf_;    // height + 1
   std::vector<float> columnCdf_; // (width + 1) per row
   std::vector<float> blockShare_;
-  std::vector<float> blockRows_;  // per block: shares of its rows of cells
+  std::vector<float> blockRows_;  // per block: up to the end of each of its rows of cells, the last 1
   std::vector<SpotCell> spot_;
 };
 

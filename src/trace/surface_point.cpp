@@ -9,6 +9,28 @@ Vec3 unit(Vec3 v) {
   return l2 > 1e-30f && l2 < 1e30f ? v / std::sqrt(l2) : normalize(v / maxComponent(abs(v)));
 }
 
+// What place and normals are worked out from.
+struct PlacedTriangle {
+  PlacedTriangle(const Scene& scene, const Hit& hit) : instance(scene.instances[hit.instance]), mesh(scene.meshes[static_cast<size_t>(instance.mesh)]) {
+    const uint32_t* i = &mesh.indices[size_t{3} * hit.triangle];
+    const Vec3 a = mesh.positions[i[0]], b = mesh.positions[i[1]], c = mesh.positions[i[2]];
+    // Barycentric interpolation of the vertices is closer to the surface than origin + t * direction.
+    p = instance.worldFromObject.point(a * (1 - hit.b1 - hit.b2) + b * hit.b1 + c * hit.b2);
+    objectNormal = unit(cross(b - a, c - a));
+    // The cofactor matrix points backwards under a mirroring transform; front is what it is in object space (glTF 2.0, 3.7.4).
+    mirrors = instance.worldFromObject.determinant() < 0;
+  }
+  SurfacePlace seenAlong(Vec3 direction, const Scene& scene) const {
+    const Vec3 n = unit(instance.worldFromObject.normal(objectNormal)) * (mirrors ? -1.0f : 1.0f);
+    const bool front = dot(n, direction) < 0;
+    return {p, front ? n : -n, front, &scene.materials[static_cast<size_t>(mesh.material)]};
+  }
+  const Instance& instance;
+  const Mesh& mesh;
+  Vec3 p, objectNormal;
+  bool mirrors;
+};
+
 }  // namespace
 
 TriangleVertices worldTriangle(const Scene& scene, uint32_t instanceIndex, uint32_t triangle) {
@@ -23,42 +45,21 @@ MaterialSample materialAt(const Scene& scene, const Hit& hit) {
   return materialAt(scene, scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)], {hit.triangle, hit.b1, hit.b2});
 }
 
-SurfacePlace placeAt(const Scene& scene, const Hit& hit, Vec3 direction) {
-  const Instance& instance = scene.instances[hit.instance];
-  const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-  const Affine& m = instance.worldFromObject;
-  const uint32_t* i = &mesh.indices[size_t{3} * hit.triangle];
-  const Vec3 a = mesh.positions[i[0]], b = mesh.positions[i[1]], c = mesh.positions[i[2]];
-  SurfacePlace s;
-  s.material = &scene.materials[static_cast<size_t>(mesh.material)];
-  // Barycentric interpolation of the vertices is closer to the surface than origin + t * direction.
-  s.p = m.point(a * (1 - hit.b1 - hit.b2) + b * hit.b1 + c * hit.b2);
-  // The cofactor matrix points backwards under a mirroring transform; front is what it is in object space (glTF 2.0, 3.7.4).
-  s.ng = unit(m.normal(unit(cross(b - a, c - a)))) * (m.determinant() < 0 ? -1.0f : 1.0f);
-  s.front = dot(s.ng, direction) < 0;
-  if (!s.front) s.ng = -s.ng;
-  return s;
-}
+SurfacePlace placeAt(const Scene& scene, const Hit& hit, Vec3 direction) { return PlacedTriangle(scene, hit).seenAlong(direction, scene); }
 
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) { return surfaceAt(scene, hit, direction, materialAt(scene, hit)); }
 
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material) {
-  const SurfacePlace place = placeAt(scene, hit, direction);
-  const Instance& instance = scene.instances[hit.instance];
-  const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-  const Affine& m = instance.worldFromObject;
-  const uint32_t* i = &mesh.indices[size_t{3} * hit.triangle];
-  const Vec3 a = mesh.positions[i[0]], b = mesh.positions[i[1]], c = mesh.positions[i[2]];
-  const Vec3 objectNormal = unit(cross(b - a, c - a));
-
+  const PlacedTriangle triangle(scene, hit);
+  const SurfacePlace place = triangle.seenAlong(direction, scene);
   SurfacePoint s;
   s.p = place.p, s.ng = place.ng, s.front = place.front;
   s.m = material;
   s.instance = hit.instance;
   s.triangle = hit.triangle;
   s.material = place.material;
-  s.ns = unit(m.normal(shadingNormalAt(scene, mesh, {hit.triangle, hit.b1, hit.b2}, objectNormal)));
-  if ((m.determinant() < 0) == s.front) s.ns = -s.ns;
+  s.ns = unit(triangle.instance.worldFromObject.normal(shadingNormalAt(scene, triangle.mesh, {hit.triangle, hit.b1, hit.b2}, triangle.objectNormal)));
+  if (triangle.mirrors == s.front) s.ns = -s.ns;
   s.smooth = s.ns;
   s.ns = bentNormal(s.ns, s.ng, direction);
   return s;

@@ -82,7 +82,7 @@ TEST(BrightPatches, pointsAndRaysShareAllOfTheLight) {
     const Vec3 d = p - g.p;
     const float distance = length(d), cosLight = dot(d, g.n) / distance;
     if (cosLight <= 0.01f) continue;
-    const float byPoints = patches.pointShare(i, p, side, 0.2f), byRays = patches.rayShare(g.slot, g.radianceCdM2, distance, cosLight, side, 0.2f);
+    const float byPoints = BrightPatches::pointShare(patches.densityAt(i, p, side), 0.2f), byRays = patches.rayShare(g.slot, g.radianceCdM2, distance, cosLight, side, 0.2f);
     if (distance < 0.2f) {
       EXPECT_EQ(byPoints, 0);
     } else {
@@ -101,7 +101,7 @@ TEST(BrightPatches, sharesStayNumbersHoweverSmallAPatchIs) {
     const BrightPatches patches(rays, room.voxels, field.sunPoints, {}, 0, 1);
     const int32_t side = brickSideAt(room.voxels, p, n);
     for (const float rayPdf : {0.0f, 0.2f, 1e30f}) {
-      EXPECT_TRUE(std::isfinite(patches.pointShare(0, p, side, rayPdf))) << flux << ' ' << rayPdf;
+      EXPECT_TRUE(std::isfinite(BrightPatches::pointShare(patches.densityAt(0, p, side), rayPdf))) << flux << ' ' << rayPdf;
       EXPECT_TRUE(std::isfinite(patches.rayShare(patches.point(0).slot, patches.point(0).radianceCdM2, 2, 0.01f, side, rayPdf))) << flux << ' ' << rayPdf;
     }
   }
