@@ -1,6 +1,7 @@
 #include "gather/hit_cache.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -130,6 +131,18 @@ const HitCell* HitCache::find(const HitPlace& place) const {
     }
   }
   return nullptr;
+}
+
+void HitCache::prefetch(std::span<const HitPlace> places) const {
+  if (cells_.empty()) return;
+  const size_t mask = table_.size() - 1;
+  constexpr size_t kAtOnce = 64;
+  std::array<const Entry*, kAtOnce> entry;
+  for (; !places.empty(); places = places.subspan(std::min(kAtOnce, places.size()))) {
+    const size_t n = std::min(kAtOnce, places.size());
+    for (size_t i = 0; i < n; ++i) __builtin_prefetch(entry[i] = &table_[keyOf(places[i], 0) & mask]);
+    for (size_t i = 0; i < n; ++i) __builtin_prefetch(&cells_[entry[i]->cell]);
+  }
 }
 
 }  // namespace roomlight

@@ -68,6 +68,8 @@ class HitCache {
   const uint16_t* shares(const HitCell& cell) const { return shares_.data() + cell.shares; }
   // Null where no cell knows the place.
   const HitCell* find(const HitPlace& place) const;
+  // Has what find() reads fetched into the processor's cache.
+  void prefetch(std::span<const HitPlace> places) const;
   // Between a place and the one that a cell stands for, both a little before their surface: where nothing is in the way, the cell's light is that of the place.
   static Ray between(const HitCell& cell, const HitPlace& place);
   // Of the cell of a level around it, whether or not it holds anything; not 0.

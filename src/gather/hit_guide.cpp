@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/simd.h"
 #include "base/sampling.h"
 #include "base/sorted_keys.h"
 #include "voxel/voxels.h"
@@ -35,9 +36,13 @@ float meanLight(std::span<const GuideRay> rays) {
 }  // namespace
 
 float GuideCones::pdf(Vec3 d) const {
-  float sum = 0;
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) sum += d.x * x[i] + d.y * y[i] + d.z * z[i] >= cosMost[i] ? density[i] : 0.0f;
-  return sum;
+  const Float8 dx(d.x), dy(d.y), dz(d.z);
+  Float8 sum;
+  for (size_t i = 0; i < static_cast<size_t>(count); i += 8) {
+    const Float8 cosine = dx * Float8::load(&x[i]) + dy * Float8::load(&y[i]) + dz * Float8::load(&z[i]);
+    sum = sum + ((Float8::load(&cosMost[i]) <= cosine) & Float8::load(&density[i]));
+  }
+  return dot(sum.low() + sum.high(), Float4(1));
 }
 
 Vec3 GuideCones::sample(Vec2 u, float choice) const {
@@ -171,6 +176,7 @@ GuideCones HitGuide::at(Vec3 p, Vec3 n) const {
     out.upTo[k] /= sum;
     out.density[k] /= sum * 2 * kPi * (1 - out.cosMost[k]);
   }
+  for (size_t k = static_cast<size_t>(out.count); k % 8 != 0; ++k) out.x[k] = out.y[k] = out.z[k] = out.density[k] = 0, out.cosMost[k] = 1;  // none, for whole steps of eight
   return out;
 }
 

@@ -21,11 +21,6 @@ constexpr float kLeastSurvival = 0.25f;  // probability that cloth behind cloth 
 constexpr float kGlint = 1e-4f;       // of a bidirectional reflectance, where a white wall has .32: less is not seen of a lamp in a pane
 constexpr float kMirrorReflectance = 0.2f;  // brighter, and smooth: a mirror
 
-bool isUniform(const Material& m, const Mesh& mesh) {
-  return m.baseColorTexture.texture < 0 && m.metallicRoughnessTexture.texture < 0 && m.transmissionTexture.texture < 0 &&
-         m.emissionTexture.texture < 0 && mesh.colors.empty() && mesh.colorAlphas.empty();
-}
-
 // What panes reflect is seen by all rays.
 bool isPane(const MaterialSample& m, bool clear) { return m.roughness < kMirrorRoughness && clear; }
 

@@ -92,7 +92,9 @@ struct GatherWork {
   std::vector<GatherPath> paths, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
-  std::vector<Vec3> places;
+  std::vector<Vec3> places;        // where rays arrived: all,
+  std::vector<HitPlace> cells;     // those that a cell may know (normals of any length), and
+  std::vector<Hit> surfaces;       // those whose surface is looked at
   std::vector<Ray> shadowRays;
   std::vector<Shadowed> shadowed;
   std::vector<Vec3> left;

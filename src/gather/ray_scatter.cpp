@@ -15,6 +15,7 @@ constexpr float kOften = 0.25f;             // of the strongest lamp's light: wh
 constexpr float kDoubt = 0.125f;            // chance to ask a layer that seems not to reach a place
 constexpr float kLittle = 0.15f, kSeldom = 1.0f / 16;  // of the light expected; chance to ask all the same
 constexpr float kNudge = 0.05f;             // voxels
+constexpr float kUnguided = 10;             // times its mean: the most that a sample of the sky stands for, of those that no guide leads
 constexpr uint64_t kLayerKey = 0x1a7e25;    // other random numbers than the picture's
 
 }  // namespace
@@ -55,10 +56,12 @@ void GatherWork::takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigi
 
 // Sends rays from a surface: to lights, and on to other surfaces.
 void RayScatter::from(const GatherVertex& v, GatherWork& w) const {
-  if (!w.arrivals) {
-    lightsAt(v, w);
-    if (!patches_.empty()) glowAt(v, w);
-  }
+  if (w.arrivals) return gatherAt(v, w);
+  // What is drawn from large tables is fetched from memory while other light is asked for.
+  const DrawnSky sky = drawSky(v, w);
+  const BrightPatches::Candidates patches = patches_.draw(v.side, w.samplers[v.estimate]);
+  lightsAt(v, sky, w);
+  glowAt(v, patches, w);
   gatherAt(v, w);
 }
 
@@ -78,19 +81,20 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
     }
   }
   const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
-  const float weight = w.layers ? 1 : askingWeight(sum, light.emitter >= 0 ? emitterSamples(v.depth) : 1, v.estimate, w);  // what gives the picture little may be all that a layer has
+  const float likeIt = light.emitter >= 0 ? static_cast<float>(emitterSamples(v.depth)) : 1;  // samples that share a kind of light
+  const float weight = w.layers ? 1 : askingWeight(likeIt * luminance(sum.diffuse + sum.specular), v.estimate, w);  // what gives the picture little may be all that a layer has
   if (weight > 0 && (!isBlack(sum.diffuse) || !isBlack(sum.specular))) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), {sum.diffuse * weight, sum.specular * weight}, origin, layersOnly);
 }
 
-// What can give little beside the light expected seldom sends a ray, which counts for more then; 0: none. `likeIt`: samples that share a kind of light.
-float RayScatter::askingWeight(const Lobes& light, size_t likeIt, uint32_t estimate, GatherWork& w) {
-  const float worth = static_cast<float>(likeIt) * luminance(light.diffuse + light.specular) / (kLittle * w.expected[estimate]);
+// What can give little beside the light expected is seldom asked for, and counts for more then; 0: not now. `most`: luminance that it could give.
+float RayScatter::askingWeight(float most, uint32_t estimate, GatherWork& w) {
+  const float worth = most / (kLittle * w.expected[estimate]);
   if (!(worth < 1)) return 1;
   const float chance = std::max(worth, kSeldom);
   return w.samplers[estimate].fast1() < chance ? 1 / chance : 0;
 }
 
-void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
+void RayScatter::lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork& w) const {
   Sampler& sampler = w.samplers[v.estimate];
   const LightLayers* layers = field_.layers.lights.get();
   const bool asksLayers = w.layers && v.depth <= 1;
@@ -117,10 +121,25 @@ void RayScatter::lightsAt(const GatherVertex& v, GatherWork& w) const {
       if (!leavesToCache(v, some[k])) takeLocal(some[k]);
     }
   }
-  if (lights_.sky().present() && !v.skyKnown) {
-    const Vec2 u = sampler.next2();
-    take(sampleSkyGuided(field_.guide, guideOfSide(field_.guide, v.side), lights_, u, sampler.next1()), layers ? layers->sky : -1);
+  if (!(sky.weight > 0)) return;
+  LightSample light = skyLight(lights_, sky.sample);
+  light.radiance *= sky.weight;
+  take(light, layers ? layers->sky : -1);
+}
+
+// Seldom where the sky can give little beside the light expected, as by night: the draw itself, from large tables, costs as much as a ray.
+RayScatter::DrawnSky RayScatter::drawSky(const GatherVertex& v, GatherWork& w) const {
+  if (!lights_.sky().present() || v.skyKnown) return {};
+  Sampler& sampler = w.samplers[v.estimate];
+  DrawnSky out{{}, 1};
+  if (!w.layers) {
+    const float white = 4 * kUnguided * luminance(lights_.sky().mean());  // cd/m², of a white surface that all the sky lights
+    out.weight = askingWeight(white * luminance(v.bsdf.albedo() * (v.first ? Vec3(1) : v.factor.diffuse + v.factor.specular)), v.estimate, w);
+    if (!(out.weight > 0)) return {};
   }
+  const Vec2 u = sampler.next2();
+  out.sample = drawSkyGuided(field_.guide, guideOfSide(field_.guide, v.side), lights_, u, sampler.next1());
+  return out;
 }
 
 // A sample of each layer's lamps and emissive meshes for what the camera sees, and of its lamps for what is lit afresh right behind that, where the picture itself
@@ -227,8 +246,9 @@ int32_t RayScatter::layerOf(const LightLayers& layers, const GlowPoint& point) {
 }
 
 // Light that bright patches reflect, as far as gathering rays leave it to points of them.
-void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
-  const GlowSample g = patches_.sample(v.s.p, v.s.ns, v.side, w.samplers[v.estimate]);
+void RayScatter::glowAt(const GatherVertex& v, const BrightPatches::Candidates& drawn, GatherWork& w) const {
+  if (drawn.count == 0) return;
+  const GlowSample g = patches_.choose(drawn, v.s.p, v.s.ns, w.samplers[v.estimate]);
   if (!g.light.valid() || dot(g.light.wi, v.s.ng) <= 0 || (v.inGlow && isBeside(patches_.point(g.point), v.s.p))) return;
   const Vec3 wi = g.light.wi;
   Lobes f = v.value(wi);
@@ -237,7 +257,7 @@ void RayScatter::glowAt(const GatherVertex& v, GatherWork& w) const {
   f.diffuse *= BrightPatches::pointShare(density, v.apart || v.followed ? cosine : mixed);
   f.specular *= v.clear && v.apart ? 0 : BrightPatches::pointShare(density, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
   Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
-  const float weight = w.layers ? 1 : askingWeight(sum, 1, v.estimate, w);
+  const float weight = w.layers ? 1 : askingWeight(luminance(sum.diffuse + sum.specular), v.estimate, w);
   if (!(weight > 0)) return;
   sum.diffuse *= weight, sum.specular *= weight;
   const GlowPoint& point = patches_.point(g.point);

@@ -29,9 +29,14 @@ class RayScatter {
   static constexpr int kLayerSamples = 2;       // and of each layer there
   static size_t emitterSamples(int depth) { return depth == 0 ? kEmitterSamples : 1; }
   static int layerSamples(int depth) { return depth == 0 ? kLayerSamples : 1; }
+  struct DrawnSky {
+    SkyDistribution::Sample sample;
+    float weight = 0;  // 0: none was drawn
+  };
   static float cosinePdf(const GatherVertex& v, Vec3 wi);
-  void lightsAt(const GatherVertex& v, GatherWork& w) const;
-  static float askingWeight(const Lobes& light, size_t likeIt, uint32_t estimate, GatherWork& w);
+  void lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork& w) const;
+  DrawnSky drawSky(const GatherVertex& v, GatherWork& w) const;
+  static float askingWeight(float most, uint32_t estimate, GatherWork& w);
   void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly, GatherWork& w) const;
   // Whether layers' lamps are sampled for what the camera sees: else each of them is asked by whoever wants its light.
   bool asksLamps(bool lampsKnown) const { return sampleLamps_ && !lampsKnown; }
@@ -41,7 +46,7 @@ class RayScatter {
   bool leavesToCache(const GatherVertex& v, const LightSample& light) const;
   bool isBeside(const GlowPoint& point, Vec3 p) const;
   static int32_t layerOf(const LightLayers& layers, const GlowPoint& point);
-  void glowAt(const GatherVertex& v, GatherWork& w) const;
+  void glowAt(const GatherVertex& v, const BrightPatches::Candidates& drawn, GatherWork& w) const;
   void gatherAt(const GatherVertex& v, GatherWork& w) const;
 
   const Lights& lights_;

@@ -104,13 +104,28 @@ void RayShader::follow(GatherWork& w) const {
   w.hits.resize(w.rays.size());
   rays_.intersect(w.rays, w.hits);
   w.rayCount += w.rays.size();
-  w.places.clear();
-  for (size_t i = 0; i < w.rays.size(); ++i) {
-    if (w.hits[i].valid()) w.places.push_back(w.rays[i].origin + w.rays[i].direction * w.hits[i].t);
-  }
-  cache_.prefetch(w.places);
+  prefetch(w);
   for (size_t i = 0; i < w.paths.size(); ++i) arrive(w.paths[i], w.hits[i], w);
   resolveUnsure(w);
+}
+
+// What is read where rays arrived: of the caches, or of the surface itself.
+void RayShader::prefetch(GatherWork& w) const {
+  w.places.clear(), w.cells.clear(), w.surfaces.clear();
+  for (size_t i = 0; i < w.rays.size(); ++i) {
+    const Hit& hit = w.hits[i];
+    if (!hit.valid()) continue;
+    const Vec3 d = w.rays[i].direction, p = w.rays[i].origin + d * hit.t;
+    w.places.push_back(p);
+    if (kind_[hit.instance] == 0 && !w.paths[i].clear) {
+      w.cells.push_back({p, dot(hit.ng, d) < 0 ? hit.ng : -hit.ng, hit.instance});
+    } else {
+      w.surfaces.push_back(hit);
+    }
+  }
+  prefetchSurfaces(rays_.scene(), w.surfaces);
+  cache_.prefetch(w.places);
+  hits_.prefetch(w.cells);
 }
 
 // Sends out everything that lights a surface, and returns what is known at once.

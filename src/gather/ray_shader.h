@@ -36,6 +36,7 @@ class RayShader final : public SurfaceShader {
   SurfaceLight start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const;
   static void sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, std::span<const Vec3> mirrored, SurfaceLight& out);
   void follow(GatherWork& w) const;
+  void prefetch(GatherWork& w) const;
   float expectedRadiance(const SurfacePoint& s) const;
   float brightestAround(Vec3 p) const;
   void findBrightest();

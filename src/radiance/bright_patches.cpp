@@ -17,7 +17,6 @@ constexpr float kByFlux = 0.1f;         // of samples, among all patches: keeps 
 constexpr size_t kRays = 512;           // that a patch sends out
 constexpr float kBeside = 0.1f;         // of what lights a brick's neighbours
 constexpr int kMostPanes = 6;
-constexpr uint32_t kCandidates = 4;
 constexpr float kTries = 16;            // samples that a choice among candidates is worth
 constexpr float kNudge = 0.05f;         // voxels
 
@@ -82,8 +81,7 @@ void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoin
     Patch patch{static_cast<uint32_t>(points_.size()), static_cast<uint32_t>(f.points.size()), f.fluxLm};
     for (const uint32_t i : f.points) {
       const GlowPoint& g = points[i];
-      points_.push_back(g);
-      terms_.push_back({g.p, g.n, luminance(g.fluxLm), isSun(g)});
+      points_.push_back({g});
       patchOfPoint_.push_back(static_cast<uint32_t>(patches_.size()));
       if (g.slot < 0) continue;
       patchOfSlot_[static_cast<size_t>(g.slot)] = static_cast<int32_t>(patches_.size());
@@ -226,50 +224,51 @@ BrightPatches::Choice BrightPatches::patchFor(const Seen* seen, float u) const {
   return {patch, kByFlux * byFlux(patch) + (1 - kByFlux) * seen->chanceOf(i)};
 }
 
-// Candidates are drawn by what lights the brick, one of them by what it could give here (resampled importance sampling, Talbot et al. 2005).
-GlowSample BrightPatches::sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler) const {
-  struct Candidate {
-    uint32_t point;
-    float perPoint;     // points of its patch over the patch's chance
-    float gives, upTo;  // without shadows; of weights
-  };
-  if (!reaches(side)) return {};
+BrightPatches::Candidates BrightPatches::draw(int32_t side, Sampler& sampler) const {
+  Candidates out;
+  if (!reaches(side)) return out;
   const Seen* seen = seenFrom(side);
-  std::array<Candidate, kCandidates> candidates;
   const float first = sampler.next1();
-  for (uint32_t i = 0; i < kCandidates; ++i) {
-    const Choice choice = patchFor(seen, (static_cast<float>(i) + (i == 0 ? first : sampler.fast1())) / kCandidates);
+  for (out.count = 0; out.count < Candidates::kMost; ++out.count) {
+    const Choice choice = patchFor(seen, (static_cast<float>(out.count) + (out.count == 0 ? first : sampler.fast1())) / static_cast<float>(Candidates::kMost));
     const Patch& of = patches_[choice.patch];
+    const uint32_t point = of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count)));
+    __builtin_prefetch(&points_[point]);
     // Chance 0: drawn by rounding, of a patch without flux beside all others.
-    candidates[i] = {of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count))), choice.chance > 0 ? static_cast<float>(of.count) / choice.chance : 0, 0, 0};
-    __builtin_prefetch(&terms_[candidates[i].point]);
+    out.point[out.count] = point, out.perPoint[out.count] = choice.chance > 0 ? static_cast<float>(of.count) / choice.chance : 0;
   }
+  return out;
+}
+
+// Resampled importance sampling (Talbot et al. 2005).
+GlowSample BrightPatches::choose(const Candidates& candidates, Vec3 p, Vec3 n, Sampler& sampler) const {
+  std::array<float, Candidates::kMost> gives{}, upTo;  // without shadows; of weights
   float sum = 0;
-  for (Candidate& c : candidates) {
-    const Terms& g = terms_[c.point];
-    c.upTo = sum;
+  for (size_t i = 0; i < candidates.count; ++i) {
+    const GlowPoint& g = points_[candidates.point[i]];
+    upTo[i] = sum;
     const Vec3 d = g.p - p;
     const float d2 = lengthSquared(d), cosSurface = dot(d, n), cosLight = -dot(d, g.n);
-    if (!(c.perPoint > 0 && cosSurface > 0 && cosLight > 0) || (g.sun && d2 < farM_ * farM_)) continue;
-    c.gives = g.lm * cosSurface * cosLight / (d2 * d2);
-    c.upTo = sum += c.gives * c.perPoint;
+    if (!(candidates.perPoint[i] > 0 && cosSurface > 0 && cosLight > 0) || (isSun(g) && d2 < farM_ * farM_)) continue;
+    gives[i] = luminance(g.fluxLm) * cosSurface * cosLight / (d2 * d2);
+    upTo[i] = sum += gives[i] * candidates.perPoint[i];
   }
   if (!(sum > 0)) return {};
   const float pick = sampler.next1() * sum;
-  uint32_t k = 0;
-  while (k + 1 < kCandidates && (candidates[k].upTo <= pick || !(candidates[k].gives > 0))) ++k;
-  if (!(candidates[k].gives > 0)) return {};
-  const GlowPoint& g = points_[candidates[k].point];
+  size_t k = 0;
+  while (k + 1 < candidates.count && (upTo[k] <= pick || !(gives[k] > 0))) ++k;
+  if (!(gives[k] > 0)) return {};
+  const GlowPoint& g = points_[candidates.point[k]];
   const Vec3 d = g.p - p;
   const float d2 = lengthSquared(d), distance = std::sqrt(d2), cosLight = -dot(d, g.n) / distance;
   GlowSample out;
-  out.point = candidates[k].point;
-  out.light = {d / distance, distance, g.fluxLm * (cosLight / (kPi * d2) * (sum / (kCandidates * candidates[k].gives))), 0};
+  out.point = candidates.point[k];
+  out.light = {d / distance, distance, g.fluxLm * (cosLight / (kPi * d2) * (sum / (static_cast<float>(Candidates::kMost) * gives[k]))), 0};
   return out;
 }
 
 size_t BrightPatches::bytes() const {
-  return points_.size() * (sizeof(points_[0]) + sizeof(terms_[0]) + sizeof(uint32_t)) + patchOfSlot_.size() * (sizeof(int32_t) + 1) + patches_.size() * sizeof(Patch) + seen_.size() * sizeof(Seen) + seenOfSide_.size() * sizeof(int32_t);
+  return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t)) + patchOfSlot_.size() * (sizeof(int32_t) + 1) + patches_.size() * sizeof(Patch) + seen_.size() * sizeof(Seen) + seenOfSide_.size() * sizeof(int32_t);
 }
 
 }  // namespace roomlight

@@ -27,7 +27,16 @@ class BrightPatches {
   static bool isSun(const GlowPoint& g) { return g.lamp < 0 && g.emitter < 0; }
 
   // One point for a surface at p on that side of a brick, none where no patch is seen, any where there is no brick (-1), as in the air; `pdf` is 0 and `radiance` what arrives if nothing is in the way, divided by the density of its choice. Not shared yet.
-  GlowSample sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler) const;
+  GlowSample sample(Vec3 p, Vec3 n, int32_t side, Sampler& sampler) const { return choose(draw(side, sampler), p, n, sampler); }
+  // The same in two steps, between which what the second reads is fetched from memory: candidates drawn by what lights the side, and one of them by what it could give at p.
+  struct Candidates {
+    static constexpr size_t kMost = 4;
+    size_t count = 0;  // kMost or 0
+    std::array<uint32_t, kMost> point;
+    std::array<float, kMost> perPoint;  // points of its patch over the patch's chance
+  };
+  Candidates draw(int32_t side, Sampler& sampler) const;
+  GlowSample choose(const Candidates& candidates, Vec3 p, Vec3 n, Sampler& sampler) const;
   // Per steradian at p, whose side that is, with which points stand for the light from one of them; 0: nearer than rays leave it to points.
   float densityAt(size_t point, Vec3 p, int32_t side) const;
   // The part that points of that density take of the light, where rays find it with another.
@@ -63,12 +72,7 @@ class BrightPatches {
       return std::min(i, count - 1);
     }
   };
-  // What a choice among points looks at, in half a cache line.
-  struct alignas(32) Terms {
-    Vec3 p, n;
-    float lm;
-    bool sun;
-  };
+  struct alignas(64) Point : GlowPoint {};  // in one cache line
   const Seen* seenFrom(int32_t side) const { return side < 0 || points_.empty() || seenOfSide_[static_cast<size_t>(side)] < 0 ? nullptr : &seen_[static_cast<size_t>(seenOfSide_[static_cast<size_t>(side)])]; }
   void gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare);
   std::vector<std::pair<uint32_t, uint32_t>> lights(const RayScene& rays, uint32_t patch, uint64_t seed) const;
@@ -84,8 +88,7 @@ class BrightPatches {
   float pointsDensity(int32_t patch, float radianceCdM2, float distance, float cosLight, int32_t side) const;
 
   const Voxels* voxels_ = nullptr;
-  std::vector<GlowPoint> points_;  // by patch
-  std::vector<Terms> terms_;       // of points_
+  std::vector<Point> points_;  // by patch
   std::vector<uint32_t> patchOfPoint_;
   std::vector<int32_t> patchOfSlot_;  // -1: none
   std::vector<uint8_t> holdsSun_;     // per slot: points stand for what the sun lights there

@@ -234,11 +234,15 @@ void SeenLights::sampleEmitters(const Lights& lights, Vec3 p, int32_t side, std:
   const Emitters kind{lights};
   const Weighed weighed = weigh(emitters_, kind, p, side);
   const auto n = static_cast<float>(u.size());
+  // Choices rise, so samples of one mesh follow one another.
+  EmitterPieces::Weights pieces;
+  size_t of = lights.emitterCount();
   for (size_t k = 0; k < u.size(); ++k) {
     const LightTree::Choice c = choose(weighed, kind, p, std::min((choice + static_cast<float>(k)) / n, kBelowOne));
     out[k] = {};
     if (!(c.chance > 0)) continue;
-    out[k] = lights.sampleEmitter(c.index, p, u[k], c.rest);
+    if (c.index != of) of = c.index, pieces = lights.emitterPieces(of, p);
+    out[k] = lights.sampleEmitter(of, pieces, p, u[k], c.rest);
     out[k].radiance *= 1 / (c.chance * n), out[k].pdf *= c.chance * n;
   }
 }

@@ -78,6 +78,7 @@ bool SkyGuideBuilder::density(const Blocks& tries, Cdf& cdf) const {
     cdf.blocks[static_cast<size_t>(i)] = running;
   }
   if (!(running > 0)) return false;
+  cdf.open = running;
   for (float& v : cdf.blocks) v /= running;
   for (size_t y = 0; y < cdf.rows.size(); ++y) cdf.rows[y] = cdf.blocks[(y + 1) * kX - 1];
   return true;
@@ -136,7 +137,7 @@ float guidedPdf(const SkyGuide& guides, int32_t guide, const SkyDistribution& sk
 
 float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 uv) { return guidedPdf(guides, guide, lights.sky(), uv, lights.sky().pdfAt(uv)); }
 
-LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) {
+SkyDistribution::Sample drawSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) {
   const SkyDistribution& sky = lights.sky();
   SkyDistribution::Sample found;
   if (guide < 0 || choice < kUnguidedShare) {
@@ -144,13 +145,20 @@ LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights&
   } else {
     found = sky.sampleBlock(blockFor(guides.cdf[static_cast<size_t>(guide)], (choice - kUnguidedShare) / (1 - kUnguidedShare)), u);
   }
-  const float pdf = guidedPdf(guides, guide, sky, found.uv, found.pdf);
-  if (!(pdf > 0)) return {};
+  sky.prefetch(found.uv);
+  found.pdf = guidedPdf(guides, guide, sky, found.uv, found.pdf);
+  return found;
+}
+
+LightSample skyLight(const Lights& lights, const SkyDistribution::Sample& drawn) {
+  if (!(drawn.pdf > 0)) return {};
   LightSample s;
-  s.wi = found.d;
-  s.pdf = pdf;
-  s.radiance = sky.radianceAt(found.uv) / pdf;
+  s.wi = drawn.d;
+  s.pdf = drawn.pdf;
+  s.radiance = lights.sky().radianceAt(drawn.uv) / drawn.pdf;
   return s;
 }
+
+LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) { return skyLight(lights, drawSkyGuided(guides, guide, lights, u, choice)); }
 
 }  // namespace roomlight

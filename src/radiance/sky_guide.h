@@ -34,6 +34,9 @@ SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carri
 // A sky direction for a surface: by `guide` (an index into SkyGuide::cdf), or where that is -1 by the sky's own brightness.
 // `radiance` is divided by the density.
 LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice);
+// The same in two steps, between which the light that the second reads is fetched from memory.
+SkyDistribution::Sample drawSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice);
+LightSample skyLight(const Lights& lights, const SkyDistribution::Sample& drawn);
 
 // Density with which sampleSkyGuided chooses the direction of a place in the sky's map, per steradian.
 float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 uv);

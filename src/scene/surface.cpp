@@ -37,6 +37,32 @@ int wrapTexel(int i, int size, Wrap wrap) {
   }
 }
 
+// What a bilinear look-up reads.
+struct Texels {
+  std::array<const uint8_t*, 4> at;  // RGBA
+  std::array<float, 4> weight;
+
+  Texels(const Texture& texture, Vec2 uv) {
+    // Far coordinates carry no sub-texel information any more; the clamp keeps the conversion to int defined.
+    const float x = std::clamp(uv.x * static_cast<float>(texture.width), -1e8f, 1e8f) - 0.5f;
+    const float y = std::clamp(uv.y * static_cast<float>(texture.height), -1e8f, 1e8f) - 0.5f;
+    const float fx = std::floor(x), fy = std::floor(y);
+    const int x0 = static_cast<int>(fx), y0 = static_cast<int>(fy);
+    const float wx = x - fx, wy = y - fy;
+    const int columns[2] = {wrapTexel(x0, texture.width, texture.wrapU), wrapTexel(x0 + 1, texture.width, texture.wrapU)};
+    const int rows[2] = {wrapTexel(y0, texture.height, texture.wrapV), wrapTexel(y0 + 1, texture.height, texture.wrapV)};
+    for (size_t k = 0; k < 4; ++k) {
+      weight[k] = ((k & 1) ? wx : 1 - wx) * ((k >> 1) ? wy : 1 - wy);
+      at[k] = &texture.rgba[4 * (static_cast<size_t>(rows[k >> 1]) * static_cast<size_t>(texture.width) + static_cast<size_t>(columns[k & 1]))];
+    }
+  }
+  float alpha() const {
+    float sum = 0;
+    for (size_t k = 0; k < 4; ++k) sum += static_cast<float>(at[k][3]) * (weight[k] / 255.0f);
+    return sum;
+  }
+};
+
 Rgba textureAt(const Scene& scene, const TextureRef& ref, const VertexValues& values, bool srgb) {
   return sampleTexture(scene.textures[static_cast<size_t>(ref.texture)], transformUv(ref, values.uv[ref.uvSet]), srgb);
 }
@@ -65,26 +91,21 @@ Vec2 transformUv(const TextureRef& ref, Vec2 uv) {
 }
 
 Rgba sampleTexture(const Texture& texture, Vec2 uv, bool srgb) {
-  // Far coordinates carry no sub-texel information any more; the clamp keeps the conversion to int defined.
-  const float x = std::clamp(uv.x * static_cast<float>(texture.width), -1e8f, 1e8f) - 0.5f;
-  const float y = std::clamp(uv.y * static_cast<float>(texture.height), -1e8f, 1e8f) - 0.5f;
-  const float fx = std::floor(x), fy = std::floor(y);
-  const int x0 = static_cast<int>(fx), y0 = static_cast<int>(fy);
-  const float wx = x - fx, wy = y - fy;
   const auto& decode = srgbTable();
-  const int columns[2] = {wrapTexel(x0, texture.width, texture.wrapU), wrapTexel(x0 + 1, texture.width, texture.wrapU)};
-  const int rows[2] = {wrapTexel(y0, texture.height, texture.wrapV), wrapTexel(y0 + 1, texture.height, texture.wrapV)};
-  Rgba sum{{0, 0, 0}, 0};
-  for (int k = 0; k < 4; ++k) {
-    const int tx = columns[k & 1], ty = rows[k >> 1];
-    const float w = ((k & 1) ? wx : 1 - wx) * ((k >> 1) ? wy : 1 - wy);
-    const uint8_t* t = &texture.rgba[4 * (static_cast<size_t>(ty) * static_cast<size_t>(texture.width) + static_cast<size_t>(tx))];
+  const Texels texels(texture, uv);
+  Rgba sum{{0, 0, 0}, texels.alpha()};
+  for (size_t k = 0; k < 4; ++k) {
+    const uint8_t* t = texels.at[k];
     const Vec3 rgb = srgb ? Vec3{decode[t[0]], decode[t[1]], decode[t[2]]}
                           : Vec3{static_cast<float>(t[0]), static_cast<float>(t[1]), static_cast<float>(t[2])} * (1 / 255.0f);
-    sum.rgb += rgb * w;
-    sum.a += static_cast<float>(t[3]) * (w / 255.0f);
+    sum.rgb += rgb * texels.weight[k];
   }
   return sum;
+}
+
+bool isUniform(const Material& m, const Mesh& mesh) {
+  return m.baseColorTexture.texture < 0 && m.metallicRoughnessTexture.texture < 0 && m.transmissionTexture.texture < 0 &&
+         m.emissionTexture.texture < 0 && mesh.colors.empty() && mesh.colorAlphas.empty();
 }
 
 float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
@@ -92,7 +113,10 @@ float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
   if (material.alphaMode == AlphaMode::Opaque) return 1;
   float alpha = material.alpha;
   if (!mesh.colorAlphas.empty()) alpha *= interpolate(mesh.colorAlphas, mesh, p);
-  if (material.baseColorTexture.texture >= 0) alpha *= textureAt(scene, material.baseColorTexture, vertexValuesAt(mesh, p), true).a;
+  if (material.baseColorTexture.texture >= 0) {
+    const TextureRef& ref = material.baseColorTexture;
+    alpha *= Texels(scene.textures[static_cast<size_t>(ref.texture)], transformUv(ref, vertexValuesAt(mesh, p).uv[ref.uvSet])).alpha();
+  }
   return alphaByMode(material, alpha);
 }
 
@@ -116,7 +140,8 @@ float texelsOn(const Scene& scene, const Mesh& mesh, uint32_t triangle, const Te
 }
 
 MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
-  return materialAt(scene, scene.materials[static_cast<size_t>(mesh.material)], vertexValuesAt(mesh, p));
+  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+  return materialAt(scene, material, isUniform(material, mesh) ? VertexValues{} : vertexValuesAt(mesh, p));
 }
 
 MaterialSample materialAt(const Scene& scene, const Material& material, const VertexValues& values) {
@@ -259,6 +284,12 @@ Vec3 straightTransmittance(const Material& material, const MaterialSample& m, fl
     }
   }
   return through * m.alpha + Vec3(1 - m.alpha);
+}
+
+Vec3 straightTransmittance(const Scene& scene, const Mesh& mesh, TrianglePoint p, float cosTheta) {
+  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+  if (material.glazing.panes == 0 && material.transmission <= 0) return Vec3(1 - alphaAt(scene, mesh, p));
+  return straightTransmittance(material, materialAt(scene, mesh, p), cosTheta);
 }
 
 }  // namespace roomlight

@@ -45,6 +45,8 @@ VertexValues vertexValuesAt(const Mesh& mesh, TrianglePoint p);
 MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p);
 MaterialSample materialAt(const Scene& scene, const Material& material, const VertexValues& values);
 float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p);  // only the alpha, cheaper
+// The same values all over a mesh: neither textures nor colours of vertices.
+bool isUniform(const Material& m, const Mesh& mesh);
 
 // Interpolated shading normal in object space, normal map applied; unit. `geometric` is the unit face normal, used
 // where the mesh has no normals.
@@ -75,6 +77,8 @@ bool isPolishedMetal(const Material& m);
 // reflection on both sides leaves, times `transmission` and what alpha leaves open; of a window what its glazing lets through.
 // Zero for an opaque surface.
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta);
+// At a point of a mesh: of what has gaps alone only these are looked up.
+Vec3 straightTransmittance(const Scene& scene, const Mesh& mesh, TrianglePoint p, float cosTheta);
 
 // The same, known to be nothing at a look at the sample.
 inline Vec3 passing(const MaterialSample& m, const Material& material, float cosTheta) {

@@ -97,8 +97,10 @@ bool EmitterPieces::split(std::span<const Part> parts, size_t which) {
   return true;
 }
 
-// What each could give; 0 only where none of it shines towards p. Returns the sum.
-float EmitterPieces::weights(Vec3 p, std::array<float, kMost>& out) const {
+// 0 only where none of a piece shines towards p.
+EmitterPieces::Weights EmitterPieces::weights(Vec3 p) const {
+  Weights out;
+  if (pieces_.size() == 1) return out;
   const Lanes& l = lanes_;
   Float4 sum;
   for (size_t i = 0; i < pieces_.size(); i += 4) {
@@ -118,29 +120,27 @@ float EmitterPieces::weights(Vec3 p, std::array<float, kMost>& out) const {
       shines = select(zero < best, best + Float4(kGrazing), zero);
     }
     const Float4 weight = lane(l.share) * shines / nearest2;
-    weight.store(out.data() + i);
+    weight.store(out.own.data() + i);
     sum = sum + weight;
   }
-  return dot(sum, Float4(1));
+  out.sum = dot(sum, Float4(1));
+  return out;
 }
 
-EmitterPieces::Choice EmitterPieces::choose(Vec3 p, float u) const {
+EmitterPieces::Choice EmitterPieces::choose(const Weights& weights, float u) const {
   if (pieces_.size() == 1) return {0, pieces_[0].count, 1, pieces_[0].share, u};
-  std::array<float, kMost> own;
-  const float sum = weights(p, own);
-  if (!(sum > 0)) return {};
+  if (!(weights.sum > 0)) return {};
   const size_t chosen = chooseByWeight(
-      pieces_.size(), sum, [&](size_t i) { return own[i]; }, u);
+      pieces_.size(), weights.sum, [&](size_t i) { return weights.own[i]; }, u);
   const Piece& piece = pieces_[chosen];
-  return {piece.first, piece.count, own[chosen] / sum, piece.share, u};
+  return {piece.first, piece.count, weights.own[chosen] / weights.sum, piece.share, u};
 }
 
 float EmitterPieces::chanceOverShare(uint32_t part, Vec3 p) const {
   const size_t k = pieceOf_[part];
   if (pieces_.size() == 1) return 1 / pieces_[0].share;
-  std::array<float, kMost> own;
-  const float sum = weights(p, own);
-  return sum > 0 ? own[k] / (sum * pieces_[k].share) : 0;
+  const Weights of = weights(p);
+  return of.sum > 0 ? of.own[k] / (of.sum * pieces_[k].share) : 0;
 }
 
 }  // namespace roomlight

@@ -30,8 +30,14 @@ class EmitterPieces {
   EmitterPieces(std::span<const Part> parts, bool twice);
   // Parts by piece: the numbers they had.
   const std::vector<uint32_t>& order() const { return order_; }
-  // One piece for a place, `u` in [0, 1), by what each could give there without shadows.
-  Choice choose(Vec3 p, float u) const;
+  // What each could give a place without shadows; where there is one alone that is not asked.
+  struct Weights {
+    std::array<float, kMost> own;
+    float sum = 1;
+  };
+  Weights weights(Vec3 p) const;
+  // One piece by them, `u` in [0, 1).
+  Choice choose(const Weights& weights, float u) const;
   // Chance with which choose(p) chooses the piece of a part over the piece's share of the flux. `part`: its place in order().
   float chanceOverShare(uint32_t part, Vec3 p) const;
 
@@ -44,7 +50,6 @@ class EmitterPieces {
   };
   Piece pieceOf(std::span<const Part> parts, uint32_t first, uint32_t count) const;
   bool split(std::span<const Part> parts, size_t which);
-  float weights(Vec3 p, std::array<float, kMost>& out) const;
 
   // The same, one array a quantity; pieces that are not there have no share.
   struct Lanes {

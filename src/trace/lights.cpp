@@ -229,8 +229,8 @@ LightRay Lights::sampleEmitterRay(size_t index, Sampler& sampler) const {
   return ray;
 }
 
-LightSample Lights::sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {
-  const EmitterPieces::Choice piece = e.pieces.choose(p, choice);
+LightSample Lights::sampleEmitter(const Emitter& e, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice, float chance) const {
+  const EmitterPieces::Choice piece = e.pieces.choose(pieces, choice);
   if (!(piece.chance > 0)) return {};
   const float before = piece.first > 0 ? e.cdf[piece.first - 1] : 0, end = e.cdf[piece.first + piece.count - 1];
   const auto begin = e.cdf.begin() + piece.first;

@@ -73,7 +73,10 @@ class Lights {
   LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
   float pdfEmitters(Vec3 p, const SurfacePoint& q) const;
   // The same of one alone, as if there were no other, and what its light at p could be without shadows, for choosing.
-  LightSample sampleEmitter(size_t index, Vec3 p, Vec2 u, float choice) const { return sampleEmitter(emitters_[index], p, u, choice, 1); }
+  LightSample sampleEmitter(size_t index, Vec3 p, Vec2 u, float choice) const { return sampleEmitter(index, emitterPieces(index, p), p, u, choice); }
+  // For several samples of it at one place: what its pieces could give there.
+  EmitterPieces::Weights emitterPieces(size_t index, Vec3 p) const { return emitters_[index].pieces.weights(p); }
+  LightSample sampleEmitter(size_t index, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice) const { return sampleEmitter(emitters_[index], pieces, p, u, choice, 1); }
   // A point of one triangle of it, chosen with that chance; dark where the triangle does not shine towards p.
   LightSample sampleEmitterTriangle(size_t index, size_t triangle, float chance, Vec3 p, Vec2 u) const { return sampleOnTriangle(emitters_[index], emitters_[index].triangles[triangle], chance, p, u); }
   float pdfEmitter(size_t index, Vec3 p, const SurfacePoint& q) const { return pdfInEmitter(emitters_[index], p, q); }
@@ -155,7 +158,8 @@ class Lights {
   float webImportance(const LampTerms& lamp, Vec3 p) const;
   void addLamps();
   LightRay lampRay(size_t index, Vec2 u, float chance, Sampler& sampler) const;
-  LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const;
+  LightSample sampleEmitter(const Emitter& e, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice, float chance) const;
+  LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const { return sampleEmitter(e, e.pieces.weights(p), p, u, choice, chance); }
   LightSample sampleOnTriangle(const Emitter& e, const EmitterTriangle& t, float chance, Vec3 p, Vec2 u) const;
   float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
   static void takePieces(Emitter& e);

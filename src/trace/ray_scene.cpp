@@ -57,7 +57,6 @@ void filterIntersect(const RTCFilterFunctionNArguments* args) {
 void filterOccluded(const RTCFilterFunctionNArguments* args) {
   const auto* tag = static_cast<const GeometryTag*>(args->geometryUserPtr);
   const auto* query = reinterpret_cast<const Query*>(args->context);
-  const Material& material = tag->scene->materials[static_cast<size_t>(tag->mesh->material)];
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] != -1) continue;
@@ -69,9 +68,8 @@ void filterOccluded(const RTCFilterFunctionNArguments* args) {
     const Vec3 ng{RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)};
     const Vec3 d{RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)};
     const float cosTheta = std::abs(dot(ng, d)) / std::sqrt(lengthSquared(ng) * lengthSquared(d));
-    const MaterialSample m = materialAt(*tag->scene, *tag->mesh, p);
     Vec3& left = query->left[RTCRayN_id(args->ray, n, i)];
-    left *= straightTransmittance(material, m, cosTheta);
+    left *= straightTransmittance(*tag->scene, *tag->mesh, p, cosTheta);
     if (!isBlack(left)) args->valid[i] = 0;
   }
 }

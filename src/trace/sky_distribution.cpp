@@ -246,6 +246,14 @@ Vec3 SkyDistribution::radianceAt(Vec2 uv) const {
   return lerp(top, bottom, y - fy);
 }
 
+void SkyDistribution::prefetch(Vec2 uv) const {
+  const Image& image = sky_.image;
+  if (image.width == 0) return;
+  const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(image.width) - 0.5f), 0, image.width - 1);
+  const int y = std::clamp(static_cast<int>(uv.y * static_cast<float>(image.height) - 0.5f), 0, image.height - 1);
+  __builtin_prefetch(&image.at(x, y)), __builtin_prefetch(&image.at(x, std::min(y + 1, image.height - 1)));
+}
+
 SkyDistribution::Sample SkyDistribution::sample(Vec2 u) const {
   float dy, dx;
   const int row = findCell(rowCdf_.data(), height_, u.y, dy);

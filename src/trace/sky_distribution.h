@@ -18,6 +18,8 @@ class SkyDistribution {
   bool sampled() const { return sky_.image.width > 0 && present_; }
   Vec3 radiance(Vec3 d) const { return radianceAt(toUv(d)); }  // cd/m² along unit world direction d; image bilinear
   Vec3 radianceAt(Vec2 uv) const;  // for a place in the map: (0, 0) is its upper left corner
+  // Has what radianceAt() reads fetched into the processor's cache.
+  void prefetch(Vec2 uv) const;
   Vec3 mean() const { return mean_; }  // over the sphere
 
   struct Sample {

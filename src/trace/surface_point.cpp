@@ -45,6 +45,20 @@ MaterialSample materialAt(const Scene& scene, const Hit& hit) {
   return materialAt(scene, scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)], {hit.triangle, hit.b1, hit.b2});
 }
 
+void prefetchSurfaces(const Scene& scene, std::span<const Hit> hits) {
+  const auto meshOf = [&](const Hit& hit) -> const Mesh& { return scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)]; };
+  for (const Hit& hit : hits) __builtin_prefetch(&meshOf(hit).indices[size_t{3} * hit.triangle]);
+  for (const Hit& hit : hits) {
+    const Mesh& mesh = meshOf(hit);
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t vertex = mesh.indices[size_t{3} * hit.triangle + k];
+      __builtin_prefetch(&mesh.positions[vertex]);
+      if (!mesh.normals.empty()) __builtin_prefetch(&mesh.normals[vertex]);
+      if (!mesh.uv[0].empty()) __builtin_prefetch(&mesh.uv[0][vertex]);
+    }
+  }
+}
+
 SurfacePlace placeAt(const Scene& scene, const Hit& hit, Vec3 direction) { return PlacedTriangle(scene, hit).seenAlong(direction, scene); }
 
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) { return surfaceAt(scene, hit, direction, materialAt(scene, hit)); }

@@ -1,6 +1,8 @@
 // What a ray found, ready for shading: position, normals that face the ray, material values.
 #pragma once
 
+#include <span>
+
 #include "scene/surface.h"
 #include "trace/ray_scene.h"
 
@@ -33,6 +35,8 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction);
 // With material values from elsewhere.
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material);
 MaterialSample materialAt(const Scene& scene, const Hit& hit);
+// Has what these read of triangles fetched into the processor's cache: what many hits need comes at once, not one after the other.
+void prefetchSurfaces(const Scene& scene, std::span<const Hit> hits);
 // A shading normal that a ray sees from behind would reflect into the surface: bent to just above grazing.
 Vec3 bentNormal(Vec3 ns, Vec3 ng, Vec3 direction);
 

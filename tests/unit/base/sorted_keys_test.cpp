@@ -22,6 +22,20 @@ TEST(SortedKeys, keepTheOrderOfEqualOnes) {
   }
 }
 
+// Spread over all 64 bits, and all but one within a few.
+TEST(SortedKeys, takeKeysOfAnySize) {
+  for (const int bits : {64, 8}) {
+    std::vector<uint64_t> keys(20000);
+    for (size_t i = 0; i < keys.size(); ++i) keys[i] = mix64(i) >> (64 - bits);
+    keys[777] = ~uint64_t{0}, keys[778] = 0;
+    const std::vector<uint32_t> order = sortedBy(keys);
+    for (size_t i = 1; i < order.size(); ++i) {
+      const uint64_t a = keys[order[i - 1]], b = keys[order[i]];
+      ASSERT_TRUE(a < b || (a == b && order[i - 1] < order[i])) << bits << ' ' << i;
+    }
+  }
+}
+
 TEST(SortedKeys, runsHoldEqualKeys) {
   const std::vector<uint64_t> keys{7, 3, 7, 7, 3, 9};
   std::vector<size_t> lengths;

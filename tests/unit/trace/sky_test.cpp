@@ -59,6 +59,24 @@ TEST(Sky, sunApartIsSeenWhereItIs) {
   }
 }
 
+// Blocks together are the whole sky, each sample with the density that its direction has in it.
+TEST(Sky, blocksAreDrawnWithTheDensityThatIsTold) {
+  const Sky image = skyWithSun(2e5f);
+  const SkyDistribution sky(image);
+  constexpr uint32_t kSamples = 64;
+  Vec3 sum;
+  for (int block = 0; block < SkyDistribution::kBlocks; ++block) {
+    for (uint32_t i = 0; i < kSamples; ++i) {
+      const SkyDistribution::Sample s = sky.sampleBlock(block, Sampler(static_cast<uint64_t>(block), i, 7).next2());
+      ASSERT_EQ(sky.blockAt(s.uv), block);
+      ASSERT_NEAR(s.pdf, sky.pdfAt(s.uv), 1e-3f * s.pdf) << block;
+      sum += sky.radianceAt(s.uv) * (sky.blockShare(block) / (s.pdf * static_cast<float>(kSamples)));
+    }
+  }
+  const Vec3 whole = sky.mean() * (4 * kPi);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], whole[c], 5e-3f * whole[c]) << c;
+}
+
 TEST(Sky, cloudsAreNoSun) {
   Scene scene;
   scene.sky = skyWithSun(9000);
