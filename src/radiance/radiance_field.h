@@ -110,7 +110,7 @@ struct SkyGuide {
   struct Cdf {
     std::array<float, SkyDistribution::kBlocksY> rows;
     std::array<float, SkyDistribution::kBlocks> blocks;  // ends at 1
-    float open = 0;  // part of all the sky's light that gets there
+    bool operator==(const Cdf&) const = default;
   };
   std::vector<std::array<int32_t, 6>> guideOfBrick;  // per base brick and face, -1: no sky seen
   std::vector<Cdf> cdf;

@@ -78,7 +78,6 @@ bool SkyGuideBuilder::density(const Blocks& tries, Cdf& cdf) const {
     cdf.blocks[static_cast<size_t>(i)] = running;
   }
   if (!(running > 0)) return false;
-  cdf.open = running;
   for (float& v : cdf.blocks) v /= running;
   for (size_t y = 0; y < cdf.rows.size(); ++y) cdf.rows[y] = cdf.blocks[(y + 1) * kX - 1];
   return true;

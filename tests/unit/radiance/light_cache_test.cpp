@@ -358,9 +358,7 @@ TEST(FollowDaylight, equalsASceneLitAnew) {
     const RayScene rays(home.scene);
     cache.followDaylight(rays, Lights(home.scene), home.voxels());
     const LightCache fresh = lit(home);
-    const auto &guides = cache.field().guide.cdf, &freshGuides = fresh.field().guide.cdf;
-    ASSERT_EQ(guides.size(), freshGuides.size());
-    for (size_t i = 0; i < guides.size(); ++i) EXPECT_EQ(guides[i].blocks, freshGuides[i].blocks) << i;
+    EXPECT_EQ(cache.field().guide.cdf, fresh.field().guide.cdf);
     EXPECT_EQ(cache.field().sunLux, fresh.field().sunLux);
     EXPECT_LT(cache.field().rays, first.field().rays * 7 / 10);
     expectSame(cache, fresh, 3e-3f);
