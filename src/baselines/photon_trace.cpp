@@ -18,12 +18,6 @@ constexpr int kLongestPath = 4096;    // no physics but a loop between perfect m
 constexpr float kLeastAlbedo = 1e-4f;
 constexpr uint64_t kFirstKey = uint64_t{5} << 40;  // other random numbers than pixels and importons have
 
-// Flux spreads by the true surface, but scattering sees the shading normal (Veach 1997, 5.3): what a path coming the other way would find.
-float shadingCorrection(const SurfacePoint& s, Vec3 wi, Vec3 wo) {
-  const float below = std::max(dot(s.ng, wi), 1e-6f) * std::max(dot(s.ns, wo), 1e-6f);
-  return std::max(dot(s.ns, wi), 0.0f) * std::max(dot(s.ng, wo), 0.0f) / below;
-}
-
 }  // namespace
 
 // Which photons are asked for.

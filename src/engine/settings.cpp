@@ -73,6 +73,7 @@ void visitMembers(Visitor& v, Settings& s) {
     g.number("nearVoxels", s.hybrid.nearVoxels, 0, 1000);
     g.number("hitCellM", s.hybrid.hitCellM, -1, 10);
     g.number("hitSamples", s.hybrid.hitSamples, 1, 4096);
+    g.number("causticPhotons", s.hybrid.causticPhotons, 0, 1 << 26);
     g.number("rayRoughness", s.hybrid.rayRoughness, 0, 1);
     g.number("filterPasses", s.hybrid.filterPasses, 0, 8);
   });

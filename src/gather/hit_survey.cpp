@@ -91,8 +91,8 @@ HitGuide guideFrom(const Arrivals& all, const RayShader& shader, const HitCache&
 // The light of places where rays arrive, one sample each.
 class LitPlaces {
  public:
-  LitPlaces(const RayScene& rays, const Lights& lights, const RayShader& shader, const RayGatherSettings& settings)
-      : rays_(rays), shader_(shader), settings_(settings), sharp_(rays, lights), suns_(lights.sunCount()) {}
+  LitPlaces(const RayScene& rays, const Lights& lights, const RayShader& shader, const HitSurvey& known, const RayGatherSettings& settings)
+      : rays_(rays), shader_(shader), known_(known), settings_(settings), sharp_(rays, lights), suns_(lights.sunCount()) {}
 
   void light(const Arrivals& all, std::span<const HitCache::Chosen> chosen, std::span<LitHit> lit, HitLayers* layers, GatherCounters& count) const {
     std::vector<Shading> work;
@@ -102,7 +102,7 @@ class LitPlaces {
     std::vector<SurfaceLight> light(work.size());
     LayerSums apart(layers ? shader_.layers()->size() : 0);
     if (layers) apart.resize(work.size());
-    shader_.shade(work, shadows, light, layers ? &apart : nullptr, nullptr, count);
+    shader_.shade(work, shadows, light, layers ? &apart : nullptr, &known_, count);
     for (size_t i = 0; i < lit.size(); ++i) {
       const SurfaceLight& l = light[i];
       lit[i].even = l.diffuse, lit[i].rare = l.rare, lit[i].sharp = l.sharp, lit[i].own = l.diffuse + l.rare + l.sharp;
@@ -133,13 +133,26 @@ class LitPlaces {
 
   const RayScene& rays_;
   const RayShader& shader_;
+  const HitSurvey& known_;  // so far: photons
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
   const size_t suns_;
 };
 
-HitSurvey surveyOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Arrivals& all, const RayGatherSettings& settings, const Progress& progress) {
-  HitSurvey out{HitCache(settings.hitCellM, shader.voxelM()), {}, 0};
+CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Arrivals& all, const RayGatherSettings& settings, uint64_t& rayCount) {
+  if (settings.causticPhotons <= 0) return {};
+  std::vector<Vec3> seen;
+  for (const Arrivals::Origin& o : all.origins) seen.push_back(o.p);
+  return CausticMap(traceCausticPhotons(rays, lights, seen, static_cast<size_t>(settings.causticPhotons), settings.seed, rayCount), shader.layers());
+}
+
+}  // namespace
+
+HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress) {
+  HitSurvey out{HitCache(settings.hitCellM, shader.voxelM()), {}, {}, 0};
+  const Arrivals all = arrivalsOf(rays, lights, shader, camera, settings, out.rays);
+  out.caustics = causticsOf(rays, lights, shader, all, settings, out.rays);
+  if (progress.stop()) return out;
   std::vector<HitPlace> places;
   std::vector<uint32_t> placeOf;
   for (uint32_t i = 0; i < all.hits.size(); ++i) {
@@ -151,7 +164,7 @@ HitSurvey surveyOf(const RayScene& rays, const Lights& lights, const RayShader& 
   for (uint32_t i = 0; i < lit.size(); ++i) lit[i].number = i;
   std::optional<HitLayers> layers;
   if (shader.layers()) layers.emplace(shader.layers()->size(), lit.size());
-  const LitPlaces lighting(rays, lights, shader, settings);
+  const LitPlaces lighting(rays, lights, shader, out, settings);
   std::atomic<uint64_t> rayCount = 0;
   parallelRanges(chosen.size(), kBatch, [&](size_t begin, size_t end) {
     if (progress.stop()) return;
@@ -159,22 +172,12 @@ HitSurvey surveyOf(const RayScene& rays, const Lights& lights, const RayShader& 
     lighting.light(all, std::span(chosen).subspan(begin, end - begin), std::span(lit).subspan(begin, end - begin), layers ? &*layers : nullptr, own);
     rayCount += own.rays;
   });
-  out.rays = rayCount;
+  out.rays += rayCount;
   if (progress.stop()) return out;
   if (layers) layers->share(out.hits, lit);
   smoothLight(rays, out.hits, lit);
   out.hits.fill(rays, lit, layers ? &*layers : nullptr);
   out.guide = guideFrom(all, shader, out.hits);
-  return out;
-}
-
-}  // namespace
-
-HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress) {
-  uint64_t rayCount = 0;
-  const Arrivals all = arrivalsOf(rays, lights, shader, camera, settings, rayCount);
-  HitSurvey out = surveyOf(rays, lights, shader, all, settings, progress);
-  out.rays += rayCount;
   return out;
 }
 

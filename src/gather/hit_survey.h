@@ -1,7 +1,8 @@
-// Finds where gathering rays arrive, and lights these places: what the cache of hits and the guide are made of.
+// Finds where gathering rays arrive, and lights these places: what the cache of hits and the guide are made of. Photons of polished surfaces are sent to where the camera looks.
 #pragma once
 
 #include "base/progress.h"
+#include "gather/caustic_map.h"
 #include "gather/hit_cache.h"
 #include "gather/hit_guide.h"
 #include "scene/scene.h"
@@ -15,6 +16,7 @@ struct RayGatherSettings;
 struct HitSurvey {
   HitCache hits;
   HitGuide guide;
+  CausticMap caustics;  // of photons, where there are any: rays leave to them what they stand for
   uint64_t rays = 0;
 };
 

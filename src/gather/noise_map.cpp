@@ -54,7 +54,7 @@ FilterPixel meanBeside(const FilterInput& sums, const std::vector<PixelCount>& c
   FilterPixel sum;
   sum.weight = 0;
   float count = 0;
-  for (const auto [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
+  for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
     const int qx = sums.wraps ? (x + dx + w) % w : x + dx, qy = y + dy;
     if (qx < 0 || qy < 0 || qx >= w || qy >= sums.height) continue;
     const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(w) + static_cast<size_t>(qx);

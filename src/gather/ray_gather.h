@@ -13,6 +13,7 @@ struct RayGatherSettings : PictureSettings {
   int estimates = 2;        // per shading, a power of two: each a ray that gathers what surfaces reflect, and one to every kind of light
   float nearVoxels = 2;     // what is hit nearer than this is lit afresh, not read from the cache
   float hitCellM = 0;       // edge of the smallest cells of the cache of hits; 0: chosen by the voxels; below 0: no such cache
+  int causticPhotons = 1 << 17;  // of what polished surfaces throw on others; 0: rays are left to find it
   int hitSamples = 6;       // of the light on each cell, at most
 };
 

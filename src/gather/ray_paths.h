@@ -26,6 +26,7 @@ struct GatherPath {
   bool inGlow;      // of light that surfaces beside a lamp throw on one another `from` has its part already
   bool leavesNear;  // what reaches `from` straight from a light that this lies near is in the cache
   bool lampsKnown;  // straight from lamps to `from`, too, is counted elsewhere
+  bool causticsKnown;  // of what its diffuse part finds photons have brought the light straight from suns, lamps and emissive meshes, once polished surfaces have reflected it
   bool picture;     // seen by the camera in a surface as smooth as a mirror
   float spread;   // roughness that surfaces have for it at least
 };
@@ -42,6 +43,7 @@ struct GatherVertex {
   bool leavesNear = false;  // light straight from lights it lies near is in the cache
   bool skyKnown = false, lampsKnown = false;
   bool inGlow = false;  // points stand for what it reflects of lamps that it lies near, straight from them or not (LampGlow)
+  bool causticsKnown = false;  // photons have brought what polished surfaces throw on the first; of later vertices: they are such surfaces
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
   const GuideCones* cones = nullptr;  // that part of the rays which gather diffuse light follow
 
@@ -54,6 +56,9 @@ struct GatherVertex {
     return {factor.diffuse * f, factor.specular * f};
   }
 };
+
+// Of a path's light that photons may have brought, what they have not: it came from a light, by polished surfaces alone, to that whose diffuse lobe began the path.
+inline Lobes withoutCaustics(const Lobes& factor, bool known) { return {known ? Vec3(0) : factor.diffuse, factor.specular}; }
 
 // Where a gathering ray arrived that a cache could answer.
 struct HitArrival {
@@ -138,8 +143,8 @@ struct GatherWork {
   }
   // Of what was added: emission seen as a picture.
   void takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
-  // Of its diffuse light `rare` is.
-  void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin, float rare = 0);
+  // `rareShare`: of its diffuse light.
+  void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin, float rareShare = 0);
   void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin, bool layersOnly = false) {
     shadowRays.push_back(ray), shadowed.push_back({estimate, sure, layersOnly, light, origin});
   }

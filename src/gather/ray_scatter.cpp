@@ -29,7 +29,7 @@ RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const Radianc
   for (uint32_t i = 0; i < lights.emitterCount(); ++i) members_[static_cast<size_t>(layers.ofEmitter[i])].emitters.push_back(i);
 }
 
-void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin, float rare) {
+void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin, float rareShare) {
   const float by = part[estimate] * origin.weight;
   const size_t shading = shadingOf[estimate];
   const auto addTo = [&](LayerSums::Part lobe, Vec3 l) {
@@ -41,8 +41,8 @@ void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightO
     if (origin.glow > 0) layers->add(shading, lobe, origin.glowOf, whole * -origin.glow);
     if (origin.sun > 0) layers->add(shading, lobe, lightLayers->sun, whole * -origin.sun);
   };
-  addTo(LayerSums::kDiffuse, light.diffuse * (1 - rare));
-  if (rare > 0) addTo(LayerSums::kRare, light.diffuse * rare);
+  addTo(LayerSums::kDiffuse, light.diffuse * (1 - rareShare));
+  if (rareShare > 0) addTo(LayerSums::kRare, light.diffuse * rareShare);
   addTo(LayerSums::kSpecular, light.specular);
 }
 
@@ -98,8 +98,10 @@ void RayScatter::lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork
   Sampler& sampler = w.samplers[v.estimate];
   const LightLayers* layers = field_.layers.lights.get();
   const bool asksLayers = w.layers && v.depth <= 1;
-  if (asksLayers) layersAt(v, w);
-  const auto take = [&](const LightSample& light, int32_t layer, float weight = 1) { takeLight(v, light, LightOrigin::ofLayer(layer, weight), false, w); };
+  GatherVertex local = v;  // for suns, lamps and emissive meshes
+  if (!v.first) local.factor = withoutCaustics(v.factor, v.causticsKnown);
+  if (asksLayers) layersAt(local, w);
+  const auto take = [&](const LightSample& light, int32_t layer, float weight = 1) { takeLight(local, light, LightOrigin::ofLayer(layer, weight), false, w); };
   const auto takeLocal = [&](const LightSample& light) { take(light, layers ? layers->of(light) : -1, asksLayers && (v.first || light.lamp >= 0) ? kPictureShare : 1); };
   if (v.first) {
     if (sampleLamps_ && !v.lampsKnown) takeLocal(field_.seen.sampleLamps(lights_, v.s.p, v.side, sampler));
@@ -124,7 +126,7 @@ void RayScatter::lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork
   if (!(sky.weight > 0)) return;
   LightSample light = skyLight(lights_, sky.sample);
   light.radiance *= sky.weight;
-  take(light, layers ? layers->sky : -1);
+  takeLight(v, light, LightOrigin::ofLayer(layers ? layers->sky : -1), false, w);
 }
 
 // Seldom where the sky can give little beside the light expected, as by night: the draw itself, from large tables, costs as much as a ray.
@@ -257,6 +259,7 @@ void RayScatter::glowAt(const GatherVertex& v, const BrightPatches::Candidates& 
   f.diffuse *= BrightPatches::pointShare(density, v.apart || v.followed ? cosine : mixed);
   f.specular *= v.clear && v.apart ? 0 : BrightPatches::pointShare(density, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
   Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
+  if (v.first && v.causticsKnown && patches_.point(g.point).onMetal) sum.diffuse = {};
   const float weight = w.layers ? 1 : askingWeight(luminance(sum.diffuse + sum.specular), v.estimate, w);
   if (!(weight > 0)) return;
   sum.diffuse *= weight, sum.specular *= weight;
@@ -271,7 +274,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, v.first && clear && v.s.m.roughness < kMirrorRoughness, spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, v.causticsKnown, v.first && clear && v.s.m.roughness < kMirrorRoughness, spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -125,7 +125,7 @@ void RayShader::prefetch(GatherWork& w) const {
   }
   prefetchSurfaces(rays_.scene(), w.surfaces);
   cache_.prefetch(w.places);
-  hits_.prefetch(w.cells);
+  w.survey->hits.prefetch(w.cells);
 }
 
 // Sends out everything that lights a surface, and returns what is known at once.
@@ -134,8 +134,10 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
   GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, brickSideAt(voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
   v.skyKnown = work.skyKnown, v.lampsKnown = work.lampsKnown;
+  v.causticsKnown = !w.survey->caustics.empty() && s.material && !throwsLight(*s.material);
   SurfaceLight out;
   out.albedo = bsdf.diffuseAlbedo();
+  if (v.causticsKnown && !w.arrivals && !isBlack(out.albedo)) out.sharp += addCaustics(s, bsdf, index, w);
   Sampler sampler = work.sampler;
   for (size_t i = 0; i < sharp_.count(); ++i) {
     const LightSample light = sharp_.sample(i, s.p, sampler.next2());
@@ -171,6 +173,18 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
     scatter_.from(v, w);
   }
   return out;
+}
+
+// What photons bring is reflected by the diffuse lobe, as if all came from one side.
+Vec3 RayShader::addCaustics(const SurfacePoint& s, const Bsdf& bsdf, uint32_t index, GatherWork& w) {
+  constexpr float kGrazing = 0.05f;
+  thread_local std::vector<Vec3> byLayer;
+  byLayer.assign(w.layers ? w.lightLayers->size() : 0, {});
+  const CausticMap::Light caustic = w.survey->caustics.at(s.p, s.ng, byLayer);
+  if (isBlack(caustic.lux)) return {};
+  const Vec3 reflected = bsdf.evaluateDiffuse(caustic.from) / std::max(kGrazing, dot(s.ng, caustic.from));
+  for (size_t l = 0; l < byLayer.size(); ++l) w.layers->add(index, LayerSums::kSharp, static_cast<int32_t>(l), reflected * byLayer[l]);
+  return reflected * caustic.lux;
 }
 
 void RayShader::arrivals(std::span<const Shading> work, std::vector<HitArrival>& out, GatherCounters& count) const {
@@ -259,12 +273,9 @@ Vec3 RayShader::sunsAlong(const GatherPath& path) const {
 // Of a path that leaves the scene.
 void RayShader::addBackground(const GatherPath& path, GatherWork& w) const {
   if (w.arrivals) return w.arrive(path, {}, {}, -1, false);
-  const Vec3 sky = skyAlong(path), suns = sunsAlong(path), both = sky + suns;
-  const auto [light, rare] = w.add(path.estimate, path.factor, both, {}, path.depth == 1);
-  if (!w.layers || isBlack(both)) return;
-  const Vec3 ofSky = sky / max(both, Vec3(1e-20f)), ofSuns = suns / max(both, Vec3(1e-20f));
-  w.addToLayers(path.estimate, {light.diffuse * ofSky, light.specular * ofSky}, LightOrigin::ofLayer(field_.layers.lights->sky), rare);
-  w.addToLayers(path.estimate, {light.diffuse * ofSuns, light.specular * ofSuns}, LightOrigin::ofLayer(field_.layers.lights->sun), rare);
+  const LightLayers* layers = w.layers ? field_.layers.lights.get() : nullptr;
+  w.add(path.estimate, path.factor, skyAlong(path), LightOrigin::ofLayer(layers ? layers->sky : -1), path.depth == 1);
+  if (const Vec3 suns = sunsAlong(path); !isBlack(suns)) w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), suns, LightOrigin::ofLayer(layers ? layers->sun : -1), path.depth == 1);
 }
 
 // What a path finds where its ray ends, and how it goes on from there.
@@ -281,7 +292,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
       LightOrigin origin;
       if (w.layers) origin = LightOrigin::ofLayer(layerOf(hit.instance), scatter_.weightInLayer(path, s));
-      const Lobes added = w.add(path.estimate, path.factor, emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1).light;
+      const Lobes added = w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1).light;
       if (path.picture && path.depth == 1) w.takeMirrored(path.estimate, added.specular, origin);
     }
   }
@@ -301,8 +312,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
   } else if (q > 0) {
     const float stays = s.m.alpha / (1 - chance);
     after.factor = {path.factor.diffuse * stays, path.factor.specular * stays};
-    if (lit) return goOn(after, s, w);
-    if (!cached(after, hit, s.p, s.ng, w)) goOn(after, s, w);
+    if (lit || (path.causticsKnown && throwsLight(*s.material)) || !cached(after, hit, s.p, s.ng, w)) goOn(after, s, w);
   }
 }
 
@@ -433,6 +443,7 @@ void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) cons
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
   GatherVertex v{s, bsdf, path.factor, brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear};
+  v.causticsKnown = path.causticsKnown && throwsLight(*s.material);
   v.inGlow = !path.clear && !isPolishedMetal(*s.material) && isInGlow(s.p, s.ng);
   scatter_.from(v, w);
 }

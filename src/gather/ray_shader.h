@@ -35,6 +35,7 @@ class RayShader final : public SurfaceShader {
   }
   SurfaceLight start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const;
   static void sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, std::span<const Vec3> mirrored, SurfaceLight& out);
+  static Vec3 addCaustics(const SurfacePoint& s, const Bsdf& bsdf, uint32_t index, GatherWork& w);
   void follow(GatherWork& w) const;
   void prefetch(GatherWork& w) const;
   float expectedRadiance(const SurfacePoint& s) const;

@@ -17,6 +17,7 @@ struct GlowPoint {
   Vec3 fluxLm;         // reflected, Lambertian; all points have the same luminous flux
   int64_t slot;        // that stands for the surface, -1: none, and
   float radianceCdM2;  // the luminance that it shows cones
+  bool onMetal = false;  // polished
   int32_t lamp = -1, emitter = -1;  // whose light it reflects, one of the two (see Lights)
 };
 

@@ -78,7 +78,7 @@ class Particles {
     std::vector<Bounds3> bent(hidden.empty() ? 0 : rays.size());
     for (const HiddenReflection& h : hidden) {
       bent[h.ray].add(h.p);
-      if (source_.around.contains(h.p) && !isLeftToRays(*h.material)) reflectedAt(h.p, h.n, flights[h.ray].fluxLm * h.left, -1, flights[h.ray].particle, samplers[h.ray], trail);
+      if (source_.around.contains(h.p) && !isLeftToRays(*h.material)) reflectedAt(h.p, h.n, *h.material, flights[h.ray].fluxLm * h.left, -1, flights[h.ray].particle, samplers[h.ray], trail);
     }
     size_t live = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
@@ -99,7 +99,7 @@ class Particles {
       if (!carriedOn) continue;
       const Vec3 albedo = paths_.albedo(end);
       Sampler sampler = samplers[i];
-      reflectedAt(place.p, place.ng, flux * albedo, end.slot, flights[i].particle, sampler, trail);
+      reflectedAt(place.p, place.ng, *place.material, flux * albedo, end.slot, flights[i].particle, sampler, trail);
       const float survive = std::min(0.95f, maxComponent(albedo));
       if (sampler.next1() >= survive) continue;
       rays[live] = {offsetOrigin(place.p, place.ng), Frame(place.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
@@ -120,9 +120,9 @@ class Particles {
   bool isLeftToRays(const Material& m) const { return source_.isSurface && isPolishedMetal(m); }
 
   // As many points as the flux asks for on average, each of `pointLm_`.
-  void reflectedAt(Vec3 p, Vec3 n, Vec3 flux, int64_t slot, uint16_t particle, Sampler& sampler, ParticleTrail& trail) const {
+  void reflectedAt(Vec3 p, Vec3 n, const Material& material, Vec3 flux, int64_t slot, uint16_t particle, Sampler& sampler, ParticleTrail& trail) const {
     const float luminous = luminance(flux), copies = std::floor(luminous / pointLm_ + sampler.fast1());
-    for (float k = 0; k < copies; ++k) trail.points.push_back({{offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0, -1, -1}, particle});
+    for (float k = 0; k < copies; ++k) trail.points.push_back({{offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0, isPolishedMetal(material), -1, -1}, particle});
   }
 
   const RayScene& rays_;

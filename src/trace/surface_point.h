@@ -40,6 +40,12 @@ void prefetchSurfaces(const Scene& scene, std::span<const Hit> hits);
 // A shading normal that a ray sees from behind would reflect into the surface: bent to just above grazing.
 Vec3 bentNormal(Vec3 ns, Vec3 ng, Vec3 direction);
 
+// Flux spreads by the true surface, but scattering sees the shading normal (Veach 1997, 5.3): what a path coming the other way would find.
+inline float shadingCorrection(const SurfacePoint& s, Vec3 wi, Vec3 wo) {
+  const float below = std::max(dot(s.ng, wi), 1e-6f) * std::max(dot(s.ns, wo), 1e-6f);
+  return std::max(dot(s.ns, wi), 0.0f) * std::max(dot(s.ng, wo), 0.0f) / below;
+}
+
 // World positions of a triangle's vertices.
 struct TriangleVertices {
   Vec3 a, b, c;
