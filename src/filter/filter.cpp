@@ -131,7 +131,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
   const std::vector<int> steps = stepsOf(passes);
   const bool levels = rare;  // variances without outliers
   const int around = levels && also.left ? kNoiseReach : 0;  // rows whose noise tells that of a pixel
-  const int pooled = levels ? poolReachOf(passes) + around : 0, reach = reachOf(steps) + pooled, margin = levels ? std::max(secondPool(farthest), around) : farthest;
+  const int pooled = levels ? poolReachOf(passes) + around : 0, reach = reachOf(steps) + pooled + (levels ? kCompanyReach : 0), margin = levels ? std::max({secondPool(farthest), around, kCompanyReach}) : farthest;
   Image out(w, h);
   if (also.once) also.once->resize(out.pixels.size());
   if (also.irradiance) also.irradiance->resize(out.pixels.size());
@@ -160,6 +160,11 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
       });
     }
     int left = reach;
+    if (levels) {
+      left -= kCompanyReach;
+      forRows(left, [&](int y) { findCompany(rows, y); });
+      forRows(left, [&](int y) { leaveLonely(rows, y); });
+    }
     for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
       pass.step = steps[static_cast<size_t>(k)], pass.correlated = also.left ? correlatedAfter(k) : 1;
       pass.filter[0] = !levels || k < passes, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses, pass.filter[3] = rare && !also.left;
@@ -217,7 +222,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
 // A picture with as many columns of its other side beside each edge as all passes reach.
 class RoundPicture {
  public:
-  RoundPicture(const FilterInput& input, int passes, const std::function<FilterPixel(size_t)>* mean) : w_(input.width), beside_(reachOf(stepsOf(passes)) + poolReachOf(passes)), padded_(w_ + 2 * beside_, input.height) {
+  RoundPicture(const FilterInput& input, int passes, const std::function<FilterPixel(size_t)>* mean) : w_(input.width), beside_(reachOf(stepsOf(passes)) + poolReachOf(passes) + kCompanyReach), padded_(w_ + 2 * beside_, input.height) {
     parallelFor(static_cast<size_t>(input.height), 4, [&](size_t y) {
       for (int x = 0; x < padded_.width; ++x) {
         const size_t i = y * static_cast<size_t>(w_) + static_cast<size_t>(((x - beside_) % w_ + w_) % w_);

@@ -30,6 +30,7 @@ constexpr float kNoSamples = 1e-6f;        // instead of a weight of zero
 constexpr float kUnseen = -1;              // where no pixel has samples yet: like everything
 constexpr float kSameRoughness = 0.1f;
 constexpr int kFinestSeen = 8;             // pixels: coarser levels of diffuse light no longer tell rare light where it changes
+constexpr float kCompany = 2;              // so many around must show the same surface
 constexpr float kSameLevel = 0.125f;       // of the sum of two pixels' diffuse light: rare light spreads where that differs by no more
 
 V load(const float* p) { return hn::LoadU(D(), p); }
@@ -248,6 +249,36 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
   }
 }
 
+// How much of the pixels around shows the same surface, into the line of what is seen.
+void takeCompany(FilterRows& rows, int y) {
+  const D d;
+  const float* row = rows.line(0, y);
+  float* out = rows.line(FilterRows::kSeen, y);
+  for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
+    const float* here = row + x;
+    const Place own = placeAt(here, rows.pitch());
+    V sum = hn::Zero(d);
+    for (int j = -kCompanyReach; j <= kCompanyReach; ++j) {
+      if (y + j < 0 || y + j >= rows.height()) continue;
+      for (int i = -kCompanyReach; i <= kCompanyReach; ++i) {
+        if (i == 0 && j == 0) continue;
+        const Place other = placeAt(here + j * rows.rowPitch() + i, rows.pitch());
+        sum = hn::Add(sum, hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other))));
+      }
+    }
+    hn::StoreU(sum, d, out + x);
+  }
+}
+
+void dropLonely(FilterRows& rows, int y) {
+  const D d;
+  const float* company = rows.line(FilterRows::kSeen, y);
+  for (int c = 0; c < 3; ++c) {
+    float* normal = rows.line(FilterRows::kNormal + c, y);
+    for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) hn::StoreU(hn::IfThenElseZero(hn::Ge(load(company + x), set(kCompany)), load(normal + x)), d, normal + x);
+  }
+}
+
 void pool(FilterRows& rows, int step, int place, int y) {
   const D d;
   const ptrdiff_t pitch = rows.pitch(), from = FilterRows::pool(place) * pitch, to = FilterRows::pool(1 - place) * pitch;
@@ -296,6 +327,8 @@ namespace {
 HWY_EXPORT(prepare);
 HWY_EXPORT(filterLights);
 HWY_EXPORT(pool);
+HWY_EXPORT(takeCompany);
+HWY_EXPORT(dropLonely);
 constexpr ptrdiff_t kMostLanes = 16;  // the last vector of a line reaches so far beyond it
 
 }  // namespace
@@ -319,6 +352,14 @@ void prepareRow(FilterRows& rows, const FilterPass& pass, int y) {
 void filterRow(FilterRows& rows, const FilterPass& pass, int y) {
   HWY_DYNAMIC_DISPATCH(filterLights)
   (rows, pass, y);
+}
+void findCompany(FilterRows& rows, int y) {
+  HWY_DYNAMIC_DISPATCH(takeCompany)
+  (rows, y);
+}
+void leaveLonely(FilterRows& rows, int y) {
+  HWY_DYNAMIC_DISPATCH(dropLonely)
+  (rows, y);
 }
 void poolRow(FilterRows& rows, int step, int place, int y) {
   HWY_DYNAMIC_DISPATCH(pool)

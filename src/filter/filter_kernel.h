@@ -49,6 +49,11 @@ struct FilterPass {
   bool levels = false;              // diffuse light by surfaces alone; kVariance holds one draw of its noise then
 };
 
+// Pixels whose surface hardly any pixel near them shows keep their light for themselves: far ones that lie on what its plane could be on are other things, and a bright one would leave copies of itself all over
+// the picture. findCompany() of all rows first, then leaveLonely(), before any pass.
+constexpr int kCompanyReach = 2;  // pixels
+void findCompany(FilterRows& rows, int y);
+void leaveLonely(FilterRows& rows, int y);
 // Makes row y ready to be compared with others. Noise: means of a light's variance over 3 x 3 pixels, for the variance of single pixels
 // is itself noise. What is seen of diffuse light: means over the 3 x 3 pixels as far as they lie on one surface, because single
 // pixels that differ by noise would keep their difference (as patches are compared by Rousselle et al. 2012). Pixels of weight 0 tell nothing of either.

@@ -67,7 +67,7 @@ void CausticMap::visitCells(Vec3 p, int level, const Runs& runs, const Visit& vi
 }
 
 // So that about as many others lie within every disc.
-std::vector<float> CausticMap::radii(std::span<const CausticPhoton> photons) {
+std::vector<float> CausticMap::radii(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least) {
   std::vector<uint64_t> keys;
   const size_t few = (photons.size() + kEvery - 1) / kEvery;
   for (int level = 0; level < kLevels; ++level) {
@@ -98,14 +98,14 @@ std::vector<float> CausticMap::radii(std::span<const CausticPhoton> photons) {
       break;
     }
     radius *= std::sqrt(std::max(1.0f, luminance(own.fluxLm) / bright));
-    out[i] = std::clamp(radius, kLeastRadiusM, 0.5f * cellM(kLevels - 1));
+    out[i] = std::min(std::max({radius, kLeastRadiusM, least ? least(own.p) : 0}), 0.5f * cellM(kLevels - 1));
   });
   return out;
 }
 
-CausticMap::CausticMap(std::span<const CausticPhoton> photons, const LightLayers* layers) {
+CausticMap::CausticMap(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least, const LightLayers* layers) {
   if (photons.empty()) return;
-  const std::vector<float> radius = radii(photons);
+  const std::vector<float> radius = radii(photons, least);
   std::vector<uint64_t> keys(photons.size());
   parallelFor(keys.size(), 4096, [&](size_t i) {
     int level = 0;

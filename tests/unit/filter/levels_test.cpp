@@ -198,6 +198,27 @@ TEST(Levels, unsampledPixelsGetRareLightToo) {
   }
 }
 
+// A bulb of one pixel before a wall: no pixel beside it shows its surface, far ones lie where its plane might be. It leaves no copies of itself 16 pixels away.
+TEST(Levels, aLonelyBrightPixelStaysWhereItIs) {
+  const auto light = [](int, int) { return 2.0f; };
+  FilterInput in = wallWith(light, 0.1f);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) in.at(x, y).position = Vec3{0.01f * static_cast<float>(x), -0.01f * static_cast<float>(y), 0}, in.at(x, y).normal = {0, 0, 1};
+  }
+  FilterPixel& bulb = in.at(kWidth / 2, kHeight / 2);
+  bulb.position.z = 0.2f;
+  const Image without = filtered(in, kPasses);
+  bulb.diffuse = bulb.albedo * 2000.0f, bulb.rare = bulb.albedo * 2000.0f;
+  const Image after = filtered(in, kPasses);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (x == kWidth / 2 && y == kHeight / 2) continue;
+      ASSERT_NEAR(luminance(after.at(x, y)), luminance(without.at(x, y)), 0.02f) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(luminance(after.at(kWidth / 2, kHeight / 2)), 1500);
+}
+
 // A panorama turned: draws of noise go with their columns, so nothing is seen of the seam.
 TEST(Levels, aPanoramaHasNoSeam) {
   FilterInput in = wallWith([](int, int) { return 10.0f; }, 0.3f);
