@@ -129,7 +129,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
   // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once would
   // take far more memory than all else. A pass filters as many of these rows as those after it look at.
   const std::vector<int> steps = stepsOf(passes);
-  const bool levels = rare;  // variances without outliers
+  const bool levels = rare || input.byLevels;
   const int around = levels && also.left ? kNoiseReach : 0;  // rows whose noise tells that of a pixel
   const int pooled = levels ? poolReachOf(passes) + around : 0, reach = reachOf(steps) + pooled + (levels ? kCompanyReach : 0), margin = levels ? std::max({secondPool(farthest), around, kCompanyReach}) : farthest;
   Image out(w, h);
@@ -223,6 +223,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
 class RoundPicture {
  public:
   RoundPicture(const FilterInput& input, int passes, const std::function<FilterPixel(size_t)>* mean) : w_(input.width), beside_(reachOf(stepsOf(passes)) + poolReachOf(passes) + kCompanyReach), padded_(w_ + 2 * beside_, input.height) {
+    padded_.byLevels = input.byLevels;
     parallelFor(static_cast<size_t>(input.height), 4, [&](size_t y) {
       for (int x = 0; x < padded_.width; ++x) {
         const size_t i = y * static_cast<size_t>(w_) + static_cast<size_t>(((x - beside_) % w_ + w_) % w_);

@@ -28,7 +28,8 @@ struct FilterPixel {
 
 struct FilterInput {
   int width = 0, height = 0;
-  bool wraps = false;  // the picture goes on at its other side, as panoramas do
+  bool wraps = false;     // the picture goes on at its other side, as panoramas do
+  bool byLevels = false;  // no outliers are in the variance of diffuse light (as where rare light is apart): it is filtered by levels
   std::vector<FilterPixel> pixels;
   FilterInput(int w, int h) : width(w), height(h), pixels(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
   FilterPixel& at(int x, int y) { return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)]; }

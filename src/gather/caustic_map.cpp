@@ -23,6 +23,11 @@ constexpr float kBright = 4;         // times the mean flux: brighter photons ar
 
 float cellM(int level) { return kSmallestM * static_cast<float>(1 << level); }
 
+int32_t layerOf(const CausticPhoton& photon, const LightLayers& layers) {
+  if (photon.lamp >= 0) return layers.ofLamp[static_cast<size_t>(photon.lamp)];
+  return photon.emitter >= 0 ? layers.ofEmitter[static_cast<size_t>(photon.emitter)] : layers.sun;
+}
+
 float sum(Float8 v) {
   std::array<float, 8> lanes;
   v.store(lanes.data());
@@ -103,9 +108,24 @@ std::vector<float> CausticMap::radii(std::span<const CausticPhoton> photons, con
   return out;
 }
 
+// Radii of all, those of each layer by their own density: a dim lamp's photons are few.
+std::vector<float> CausticMap::radiiByLayer(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least, const LightLayers& layers) {
+  std::vector<uint64_t> keys;
+  for (const CausticPhoton& photon : photons) keys.push_back(static_cast<uint64_t>(layerOf(photon, layers) + 1));
+  const std::vector<uint32_t> order = sortedBy(keys);
+  std::vector<float> out(photons.size());
+  forRuns(keys, order, [&](size_t begin, size_t end) {
+    std::vector<CausticPhoton> some;
+    for (size_t k = begin; k < end; ++k) some.push_back(photons[order[k]]);
+    const std::vector<float> own = radii(some, least);
+    for (size_t k = begin; k < end; ++k) out[order[k]] = own[k - begin];
+  });
+  return out;
+}
+
 CausticMap::CausticMap(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least, const LightLayers* layers) {
   if (photons.empty()) return;
-  const std::vector<float> radius = radii(photons, least);
+  const std::vector<float> radius = layers ? radiiByLayer(photons, least, *layers) : radii(photons, least);
   std::vector<uint64_t> keys(photons.size());
   parallelFor(keys.size(), 4096, [&](size_t i) {
     int level = 0;
@@ -118,8 +138,7 @@ CausticMap::CausticMap(std::span<const CausticPhoton> photons, const std::functi
   layer_.resize(layers ? photons.size() + kLanes : 0);
   parallelFor(photons.size(), 4096, [&](size_t k) {
     const CausticPhoton& photon = photons[order[k]];
-    if (layers) layer_[k] = static_cast<int8_t>(photon.lamp >= 0 ? layers->ofLamp[static_cast<size_t>(photon.lamp)] : photon.emitter >= 0 ? layers->ofEmitter[static_cast<size_t>(photon.emitter)]
-                                                                                                                                         : layers->sun);
+    if (layers) layer_[k] = static_cast<int8_t>(layerOf(photon, *layers));
     const float r2 = radius[order[k]] * radius[order[k]];
     const Vec3 lux = photon.fluxLm * (2 / (kPi * r2));  // Epanechnikov's kernel: 2 / (pi r²) (1 - d²/r²)
     x_[k] = photon.p.x, y_[k] = photon.p.y, z_[k] = photon.p.z, nx_[k] = photon.n.x, ny_[k] = photon.n.y, nz_[k] = photon.n.z;

@@ -50,6 +50,7 @@ class CausticMap {
   template <class Visit>
   static void visitCells(Vec3 p, int level, const Runs& runs, const Visit& visit);
   static std::vector<float> radii(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least);
+  static std::vector<float> radiiByLayer(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least, const LightLayers& layers);
   void addToLayers(Float8 weight, size_t i, std::span<Vec3> byLayer) const;
   void markLevels(std::span<const CausticPhoton> photons, std::span<const float> radius);
 

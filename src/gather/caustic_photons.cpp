@@ -98,7 +98,7 @@ struct Flight {
 
 class CausticTracer {
  public:
-  CausticTracer(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, uint64_t seed) : rays_(rays), lights_(lights), seed_(seed), pieces_(Pieces(rays.scene(), lights).pieces) {
+  CausticTracer(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, bool apart, uint64_t seed) : rays_(rays), lights_(lights), seed_(seed), apart_(apart), pieces_(Pieces(rays.scene(), lights).pieces) {
     for (const Vec3 p : seen) seen_.insert(cellOf(p));
     const size_t most = std::max(kClusterPieces, (pieces_.size() + kClusters - 1) / kClusters);
     for (size_t i = 0; i < pieces_.size(); ++i) {
@@ -143,11 +143,27 @@ class CausticTracer {
 
   size_t sourceCount() const { return lights_.sunCount() + 2; }
 
+  // Half of the lamps and emissive meshes by what they could give at p, half evenly where their light is told apart: else a dim one would be known by few photons.
   LightSample sampleOf(size_t source, Vec3 p, Sampler& sampler) const {
     if (source < lights_.sunCount()) return lights_.sampleSun(source, sampler.next2());
-    if (source == lights_.sunCount()) return lights_.lampCount() > 0 ? lights_.sampleLamps(p, sampler) : LightSample{};
+    const bool lamps = source == lights_.sunCount();
+    const size_t count = lamps ? lights_.lampCount() : lights_.emitterCount();
+    if (count == 0) return {};
+    const float evenly = apart_ ? 0.5f : 0, choice = sampler.next1();
+    LightTree::Choice chosen;
+    if (choice < evenly) {
+      chosen.index = std::min(count - 1, static_cast<size_t>(choice / evenly * static_cast<float>(count)));
+      chosen.chance = lamps ? lights_.chanceOfLamp(chosen.index, p) : lights_.chanceOfEmitter(chosen.index, p);
+    } else {
+      const float rest = (choice - evenly) / (1 - evenly);
+      chosen = lamps ? lights_.chooseLamp(p, rest) : lights_.chooseEmitter(p, rest);
+      if (!(chosen.chance > 0)) return {};
+    }
+    const float chance = (1 - evenly) * chosen.chance + evenly / static_cast<float>(count);
     const Vec2 u = sampler.next2();
-    return lights_.hasEmitters() ? lights_.sampleEmitters(p, u, sampler.next1()) : LightSample{};
+    LightSample light = lamps ? lights_.sampleLamp(chosen.index, p, u) : lights_.sampleEmitter(chosen.index, p, u, sampler.next1());
+    light.radiance *= 1 / chance;
+    return light;
   }
 
   // lm on a piece, about, if nothing stands between.
@@ -180,7 +196,8 @@ class CausticTracer {
   bool start(const Source& source, size_t cluster, Vec2 u, Flight& flight, Ray& shadow) const {
     const size_t first = first_[cluster], n = first_[cluster + 1] - first;
     const auto all = static_cast<float>(source.clusters[cluster].potential);
-    const size_t i = first + chooseByWeight(n, all, [&](size_t k) { return source.weight[first + k]; }, u.x);
+    const size_t i = first + chooseByWeight(
+                                 n, all, [&](size_t k) { return source.weight[first + k]; }, u.x);
     const Piece& piece = pieces_[i];
     const Vec2 on = sampleTriangle(u);
     const auto mixed = [&](float a, float b, float c) { return a + (b - a) * on.x + (c - a) * on.y; };
@@ -324,6 +341,7 @@ class CausticTracer {
   const RayScene& rays_;
   const Lights& lights_;
   const uint64_t seed_;
+  const bool apart_;
   const std::vector<Piece> pieces_;
   std::vector<size_t> first_;  // piece of each cluster, and one past all
   std::unordered_set<uint64_t> seen_;
@@ -338,8 +356,8 @@ bool throwsLight(const Material& m) {
   return isPolishedMetal(m) || m.glazing.panes > 0 || (m.transmission > 0 && m.roughness < kPolished);
 }
 
-std::vector<CausticPhoton> traceCausticPhotons(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, size_t count, uint64_t seed, uint64_t& rayCount) {
-  CausticTracer tracer(rays, lights, seen, seed);
+std::vector<CausticPhoton> traceCausticPhotons(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, size_t count, bool apart, uint64_t seed, uint64_t& rayCount) {
+  CausticTracer tracer(rays, lights, seen, apart, seed);
   std::vector<CausticPhoton> photons = tracer.trace(count);
   rayCount += tracer.rayCount();
   return photons;

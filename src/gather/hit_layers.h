@@ -1,5 +1,4 @@
-// Whose the light of places is where gathering rays arrive, for cells of light in layers. Single samples tell little of it, so what is not straight from suns and lamps is shared among layers as by all
-// samples around.
+// Whose the light of places is where gathering rays arrive, for cells of light in layers. The soft light of each layer is told by neighbours, as that of all together is.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +12,21 @@ namespace roomlight {
 
 class HitLayers {
  public:
-  HitLayers(size_t layers, size_t samples) : layers_(layers), stride_(layerStride(layers)), sharp_(samples * size()), soft_(samples * size()) {}
+  HitLayers(size_t layers, size_t samples) : layers_(layers), stride_(layerStride(layers)), samples_(samples), light_(2 * layers * samples) {}
   // Light of sample `number`, thing `thing` of the sums. May be called by many threads, for different samples.
   void take(uint32_t number, const LayerSums& sums, size_t thing);
-  // Of all samples, before their light is smoothed. Those of one cell, four times as large as the smallest, count as many rays as they stand for.
-  void share(const HitCache& cells, std::span<const LitHit> samples);
-  // Appends the shares of what these samples send out together: three channels, each a stride of layers.
+  // Smoothes each layer's light of the samples (hit_smoothing.h), which are as they were found. Those of one layer count as many rays as the samples do.
+  void smooth(const RayScene& rays, const HitCache& cells, std::span<const LitHit> samples);
+  // Appends the shares of what these samples send out together, half floats: three channels, each a stride of layers.
   void addShares(std::span<const LitHit> samples, std::span<const uint32_t> members, std::vector<uint16_t>& out) const;
 
  private:
-  size_t size() const { return 3 * stride_; }
+  Vec3& soft(size_t layer, size_t number) { return light_[layer * samples_ + number]; }
+  Vec3& sharp(size_t layer, size_t number) { return light_[(layers_ + layer) * samples_ + number]; }
+  Vec3 all(size_t layer, size_t number) const { return light_[layer * samples_ + number] + light_[(layers_ + layer) * samples_ + number]; }
 
-  size_t layers_, stride_;
-  std::vector<uint16_t> sharp_, soft_;  // half floats: per sample the shares of its light, three channels each
+  size_t layers_, stride_, samples_;
+  std::vector<Vec3> light_;  // soft of each layer, then sharp
 };
 
 }  // namespace roomlight

@@ -19,7 +19,7 @@ constexpr int kRaysAPixel = 8;
 constexpr size_t kRows = 2;             // of surveyed pixels, at once
 constexpr float kRegionM = 0.6f;        // that a guide is learned for
 constexpr float kClusterM = 0.4f;      // of its targets
-constexpr float kPhotonPixels = 1.5f;   // radius of a photon's disc, at least
+constexpr float kPhotonPixels = 0.0f;   // radius of a photon's disc, at least
 constexpr size_t kBatch = 256;          // places lit at once
 constexpr uint64_t kSurveyKey = 0x5e7e11, kLightKey = 0x5e7e12;  // other random numbers than pixels have
 
@@ -146,7 +146,7 @@ CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShade
   for (const Arrivals::Origin& o : all.origins) seen.push_back(o.p);
   const CameraRays pixels(camera, settings.width, settings.height);
   const auto least = [&](Vec3 p) { return kPhotonPixels * pixels.pixelWidthM(settings.width / 2, settings.height / 2, p); };
-  return CausticMap(traceCausticPhotons(rays, lights, seen, static_cast<size_t>(settings.causticPhotons), settings.seed, rayCount), least, shader.layers());
+  return CausticMap(traceCausticPhotons(rays, lights, seen, static_cast<size_t>(settings.causticPhotons), shader.layers() != nullptr, settings.seed, rayCount), least, shader.layers());
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader
   });
   out.rays += rayCount;
   if (progress.stop()) return out;
-  if (layers) layers->share(out.hits, lit);
+  if (layers) layers->smooth(rays, out.hits, lit);
   smoothLight(rays, out.hits, lit);
   out.hits.fill(rays, lit, layers ? &*layers : nullptr);
   out.guide = guideFrom(all, shader, out.hits);

@@ -24,8 +24,7 @@ struct LightOrigin {
 // Sums for many things, each with kParts kinds of light (and variances), each of three channels of `stride` layers.
 class LayerSums {
  public:
-  enum Part : size_t { kDiffuse,
-                       kRare,
+  enum Part : size_t { kDiffuse,  // rare light, too
                        kSharp,
                        kSpecular,
                        kRest,

@@ -110,7 +110,7 @@ void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const S
   sums.resize(samples.shadings.size());
   GatherCounters counters;
   shader.shadeInLayers(samples.shadings, samples.shadows, light, sums, counters);
-  for (size_t l = 0; l < means.size(); ++l) means[l] += (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kRare, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / kBatch);
+  for (size_t l = 0; l < means.size(); ++l) means[l] += (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / kBatch);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>
     p = whole.pixels[i];
     const auto per = [](uint32_t n) { return 1 / static_cast<float>(std::max(1u, n)); };
     const float inverse = per(counts[i].rays), diffuse = per(counts[i].gathered), specular = per(counts[i].glossy), albedo = std::max(luminance(p.albedo), 1e-3f);
-    p.diffuse = sums.get(i, LayerSums::kDiffuse, layer) * diffuse, p.rare = sums.get(i, LayerSums::kRare, layer) * diffuse, p.sharp = sums.get(i, LayerSums::kSharp, layer) * inverse;
+    p.diffuse = sums.get(i, LayerSums::kDiffuse, layer) * diffuse, p.rare = {}, p.sharp = sums.get(i, LayerSums::kSharp, layer) * inverse;
     p.specular = sums.get(i, LayerSums::kSpecular, layer) * specular, p.rest = sums.get(i, LayerSums::kRest, layer) * inverse;
     const Vec3 variance = sums.get(i, LayerSums::kVariance, layer);
     p.diffuseVariance = variance.x * diffuse * diffuse / (albedo * albedo), p.sharpVariance = variance.y * inverse * inverse / (albedo * albedo);
@@ -67,7 +67,7 @@ class Gathering {
         counts_(sums_.pixels.size()),
         fragments_(keepsFragments_ ? tiles_ : 0),
         tolerance_(settings.tolerance) {
-    sums_.wraps = pixelRays_.camera().wraps();
+    sums_.wraps = pixelRays_.camera().wraps(), sums_.byLevels = settings.rareApart;
     byLayer_.resize(counts_.size());
   }
 

@@ -327,7 +327,8 @@ void PixelShader::addVarianceOfLayers(const TileWork::Part& part, std::span<cons
     Vec3 variance;
     if (unlit > 0) variance += Vec3{diffuse * diffuse * ofDiffuse * ofDiffuse, sharp * sharp * weight * weight, specular * specular * ofSpecular * ofSpecular} * unlit;
     // Of one shading alone parts are as uncertain as the whole, or, if that is a single estimate, by how far they are off what was known before.
-    const float between = n > 1 ? n / (n - 1) : part.once ? 1.0f : 0.0f;
+    const float between = n > 1 ? n / (n - 1) : part.once ? 1.0f
+                                                          : 0.0f;
     const float irradiance = n > 1 ? diffuse / std::max(albedo, 1e-6f) : luminance(byLayer_->get(part.pixel.index, LayerSums::kDiffuse, l)) / std::max(albedoBefore, 1e-6f);
     const float usualSpecular = n > 1 ? specular / n : luminance(byLayer_->get(part.pixel.index, LayerSums::kSpecular, l)) / glossyBefore;
     for (size_t s = 0; s < shadings.size(); ++s) {
@@ -353,12 +354,11 @@ void PixelShader::addLayers(const TileWork& work, std::span<const SurfaceLight> 
     };
     add(LayerSums::kRest, LayerSums::kRest, once);
     if (part.apart) {
-      for (const auto lobe : {LayerSums::kDiffuse, LayerSums::kRare, LayerSums::kSharp, LayerSums::kSpecular}) add(LayerSums::kRest, lobe, once);
+      for (const auto lobe : {LayerSums::kDiffuse, LayerSums::kSharp, LayerSums::kSpecular}) add(LayerSums::kRest, lobe, once);
       continue;
     }
     addVarianceOfLayers(part, whole, light);
-    add(LayerSums::kDiffuse, LayerSums::kDiffuse, diffuse), add(LayerSums::kRare, LayerSums::kRare, diffuse);
-    add(LayerSums::kSharp, LayerSums::kSharp, once), add(LayerSums::kSpecular, LayerSums::kSpecular, specular);
+    add(LayerSums::kDiffuse, LayerSums::kDiffuse, diffuse), add(LayerSums::kSharp, LayerSums::kSharp, once), add(LayerSums::kSpecular, LayerSums::kSpecular, specular);
   }
 }
 

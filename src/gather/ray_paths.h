@@ -122,29 +122,23 @@ struct GatherWork {
     const bool gathers = path.depth == 1 && !isBlack(path.factor.diffuse);
     arrivals->push_back({at, hit, path.ray.direction, slot, sure, shadingOf[path.estimate], gathers, luminance(path.factor.diffuse + path.factor.specular)});
   }
-  struct Added {
-    Lobes light;
-    float rare;  // part of the diffuse light
-  };
-  // `sure`: of a light that is sampled too, so that none of its samples stands for much.
-  Added add(uint32_t estimate, const Lobes& factor, Vec3 radiance, const LightOrigin& origin, bool sure = false) {
+  // `sure`: of a light that is sampled too, so that none of its samples stands for much. Returns what was added.
+  Lobes add(uint32_t estimate, const Lobes& factor, Vec3 radiance, const LightOrigin& origin, bool sure = false) {
     const auto bounded = [&](Vec3 light, float limit) {
       const float l = luminance(light);
       return sure || l <= limit ? light : light * (limit / l);
     };
     const Lobes light{bounded(factor.diffuse * radiance, most[estimate]), bounded(factor.specular * radiance, most[estimate])};
     const float diffuse = luminance(light.diffuse), usual = rareFrom * expected[estimate];
-    const float beyond = usual > 0 && diffuse > usual ? 1 - usual / diffuse : 0;
-    if (beyond > 0) rare[estimate] += light.diffuse * beyond;
+    if (usual > 0 && diffuse > usual) rare[estimate] += light.diffuse * (1 - usual / diffuse);
     found[estimate].diffuse += light.diffuse;
     found[estimate].specular += light.specular;
-    if (layers) addToLayers(estimate, light, origin, beyond);
-    return {light, beyond};
+    if (layers) addToLayers(estimate, light, origin);
+    return light;
   }
   // Of what was added: emission seen as a picture.
   void takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
-  // `rareShare`: of its diffuse light.
-  void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin, float rareShare = 0);
+  void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin);
   void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin, bool layersOnly = false) {
     shadowRays.push_back(ray), shadowed.push_back({estimate, sure, layersOnly, light, origin});
   }

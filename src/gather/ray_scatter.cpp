@@ -29,7 +29,7 @@ RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const Radianc
   for (uint32_t i = 0; i < lights.emitterCount(); ++i) members_[static_cast<size_t>(layers.ofEmitter[i])].emitters.push_back(i);
 }
 
-void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin, float rareShare) {
+void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin) {
   const float by = part[estimate] * origin.weight;
   const size_t shading = shadingOf[estimate];
   const auto addTo = [&](LayerSums::Part lobe, Vec3 l) {
@@ -41,8 +41,7 @@ void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightO
     if (origin.glow > 0) layers->add(shading, lobe, origin.glowOf, whole * -origin.glow);
     if (origin.sun > 0) layers->add(shading, lobe, lightLayers->sun, whole * -origin.sun);
   };
-  addTo(LayerSums::kDiffuse, light.diffuse * (1 - rareShare));
-  if (rareShare > 0) addTo(LayerSums::kRare, light.diffuse * rareShare);
+  addTo(LayerSums::kDiffuse, light.diffuse);
   addTo(LayerSums::kSpecular, light.specular);
 }
 

@@ -292,7 +292,7 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
       LightOrigin origin;
       if (w.layers) origin = LightOrigin::ofLayer(layerOf(hit.instance), scatter_.weightInLayer(path, s));
-      const Lobes added = w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1).light;
+      const Lobes added = w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1);
       if (path.picture && path.depth == 1) w.takeMirrored(path.estimate, added.specular, origin);
     }
   }
@@ -471,12 +471,12 @@ void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& 
 void RayShader::addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal, const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const {
   const Vec3 ofRay = even * points.ray(), bent = sunLux > 0 ? max(Vec3(0), even + sunward(path, hit, sunLux, normal)) : even;
   const Vec3 light = max(Vec3(0), ofRay + (bent - even));
-  const auto [added, rare] = w.add(path.estimate, path.factor, light, {});
+  const Lobes added = w.add(path.estimate, path.factor, light, {});
   if (!w.layers || isBlack(added.diffuse + added.specular)) return;
   // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
   const Vec3 ofEven = ofRay / max(light, Vec3(1e-20f)), ofSun = Vec3(1) - ofEven;
-  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven}, {-1, shares, 1, points.glow, points.sun, glowOf}, rare);
-  if (!isBlack(ofSun)) w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun}, LightOrigin::ofLayer(field_.layers.lights->sun), rare);
+  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven}, {-1, shares, 1, points.glow, points.sun, glowOf});
+  if (!isBlack(ofSun)) w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun}, LightOrigin::ofLayer(field_.layers.lights->sun));
 }
 
 RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const {

@@ -55,7 +55,7 @@ RenderSettings small(const std::string& technique) {
   s.samples = 8;  // what is learned of the sky may differ, and with it noise
   s.voxel.voxelSizeM = 0.15f;
   s.radiance.residual = 1e-5f;
-  s.hybrid.tolerance = 0;
+  s.hybrid.tolerance = 0, s.hybrid.hitCellM = -1;  // cells are found anew for each picture
   s.vxgi.resolution = 32, s.vxgi.levels = 2;
   s.lpv.cells = 16, s.lpv.coarseCells = 0, s.lpv.mapSize = 64;
   s.photon.photons = 20000, s.photon.causticPhotons = 0, s.photon.importons = 1000;
