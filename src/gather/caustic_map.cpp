@@ -72,7 +72,7 @@ void CausticMap::visitCells(Vec3 p, int level, const Runs& runs, const Visit& vi
 }
 
 // So that about as many others lie within every disc.
-std::vector<float> CausticMap::radii(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least) {
+std::vector<float> CausticMap::radii(std::span<const CausticPhoton> photons) {
   std::vector<uint64_t> keys;
   const size_t few = (photons.size() + kEvery - 1) / kEvery;
   for (int level = 0; level < kLevels; ++level) {
@@ -103,13 +103,13 @@ std::vector<float> CausticMap::radii(std::span<const CausticPhoton> photons, con
       break;
     }
     radius *= std::sqrt(std::max(1.0f, luminance(own.fluxLm) / bright));
-    out[i] = std::min(std::max({radius, kLeastRadiusM, least ? least(own.p) : 0}), 0.5f * cellM(kLevels - 1));
+    out[i] = std::clamp(radius, kLeastRadiusM, 0.5f * cellM(kLevels - 1));
   });
   return out;
 }
 
 // Radii of all, those of each layer by their own density: a dim lamp's photons are few.
-std::vector<float> CausticMap::radiiByLayer(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least, const LightLayers& layers) {
+std::vector<float> CausticMap::radiiByLayer(std::span<const CausticPhoton> photons, const LightLayers& layers) {
   std::vector<uint64_t> keys;
   for (const CausticPhoton& photon : photons) keys.push_back(static_cast<uint64_t>(layerOf(photon, layers) + 1));
   const std::vector<uint32_t> order = sortedBy(keys);
@@ -117,15 +117,15 @@ std::vector<float> CausticMap::radiiByLayer(std::span<const CausticPhoton> photo
   forRuns(keys, order, [&](size_t begin, size_t end) {
     std::vector<CausticPhoton> some;
     for (size_t k = begin; k < end; ++k) some.push_back(photons[order[k]]);
-    const std::vector<float> own = radii(some, least);
+    const std::vector<float> own = radii(some);
     for (size_t k = begin; k < end; ++k) out[order[k]] = own[k - begin];
   });
   return out;
 }
 
-CausticMap::CausticMap(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least, const LightLayers* layers) {
+CausticMap::CausticMap(std::span<const CausticPhoton> photons, const LightLayers* layers) {
   if (photons.empty()) return;
-  const std::vector<float> radius = layers ? radiiByLayer(photons, least, *layers) : radii(photons, least);
+  const std::vector<float> radius = layers ? radiiByLayer(photons, *layers) : radii(photons);
   std::vector<uint64_t> keys(photons.size());
   parallelFor(keys.size(), 4096, [&](size_t i) {
     int level = 0;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,8 +15,8 @@ namespace roomlight {
 class CausticMap {
  public:
   CausticMap() = default;
-  // The same for any number of threads. `least`: m, of radii at a place, so that no pixel there shows a single photon. `layers`, where given: that light is told apart by.
-  explicit CausticMap(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least = {}, const LightLayers* layers = nullptr);
+  // The same for any number of threads. `layers`, where given: that light is told apart by.
+  explicit CausticMap(std::span<const CausticPhoton> photons, const LightLayers* layers = nullptr);
 
   bool empty() const { return x_.empty(); }
   size_t bytes() const;
@@ -49,8 +48,8 @@ class CausticMap {
   static uint64_t keyOf(Vec3 cell, int level);
   template <class Visit>
   static void visitCells(Vec3 p, int level, const Runs& runs, const Visit& visit);
-  static std::vector<float> radii(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least);
-  static std::vector<float> radiiByLayer(std::span<const CausticPhoton> photons, const std::function<float(Vec3)>& least, const LightLayers& layers);
+  static std::vector<float> radii(std::span<const CausticPhoton> photons);
+  static std::vector<float> radiiByLayer(std::span<const CausticPhoton> photons, const LightLayers& layers);
   void addToLayers(Float8 weight, size_t i, std::span<Vec3> byLayer) const;
   void markLevels(std::span<const CausticPhoton> photons, std::span<const float> radius);
 

@@ -19,7 +19,6 @@ constexpr int kRaysAPixel = 8;
 constexpr size_t kRows = 2;             // of surveyed pixels, at once
 constexpr float kRegionM = 0.6f;        // that a guide is learned for
 constexpr float kClusterM = 0.4f;      // of its targets
-constexpr float kPhotonPixels = 0.0f;   // radius of a photon's disc, at least
 constexpr size_t kBatch = 256;          // places lit at once
 constexpr uint64_t kSurveyKey = 0x5e7e11, kLightKey = 0x5e7e12;  // other random numbers than pixels have
 
@@ -140,13 +139,11 @@ class LitPlaces {
   const size_t suns_;
 };
 
-CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Arrivals& all, const Camera& camera, const RayGatherSettings& settings, uint64_t& rayCount) {
+CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Arrivals& all, const RayGatherSettings& settings, uint64_t& rayCount) {
   if (settings.causticPhotons <= 0) return {};
   std::vector<Vec3> seen;
   for (const Arrivals::Origin& o : all.origins) seen.push_back(o.p);
-  const CameraRays pixels(camera, settings.width, settings.height);
-  const auto least = [&](Vec3 p) { return kPhotonPixels * pixels.pixelWidthM(settings.width / 2, settings.height / 2, p); };
-  return CausticMap(traceCausticPhotons(rays, lights, seen, static_cast<size_t>(settings.causticPhotons), shader.layers() != nullptr, settings.seed, rayCount), least, shader.layers());
+  return CausticMap(traceCausticPhotons(rays, lights, seen, static_cast<size_t>(settings.causticPhotons), shader.layers() != nullptr, settings.seed, rayCount), shader.layers());
 }
 
 }  // namespace
@@ -154,7 +151,7 @@ CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShade
 HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress) {
   HitSurvey out{HitCache(settings.hitCellM, shader.voxelM()), {}, {}, 0};
   const Arrivals all = arrivalsOf(rays, lights, shader, camera, settings, out.rays);
-  out.caustics = causticsOf(rays, lights, shader, all, camera, settings, out.rays);
+  out.caustics = causticsOf(rays, lights, shader, all, settings, out.rays);
   if (progress.stop()) return out;
   std::vector<HitPlace> places;
   std::vector<uint32_t> placeOf;
