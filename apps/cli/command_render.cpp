@@ -30,8 +30,11 @@
 namespace roomlight::cli {
 namespace {
 
+constexpr const char* kAllCameras = "all";
+
 struct RenderOptions : SettingsOptions, SceneOptions {
-  std::string camera, kind = "picture", stats;
+  std::vector<std::string> cameras;
+  std::string kind = "picture", stats;
   DisplayOptions display;
   std::vector<std::string> outputs;
   std::optional<double> timeLimitS, noiseLevel;
@@ -40,6 +43,7 @@ struct RenderOptions : SettingsOptions, SceneOptions {
   std::optional<std::string> layerGroups;
   bool quiet = false;
   ViewOptions view;
+  bool allCameras() const { return cameras.size() == 1 && cameras.front() == kAllCameras; }
 };
 
 // Everything that can be known to be wrong before any work is done.
@@ -90,9 +94,10 @@ Result<RenderPlan> planRender(const RenderOptions& o) {
   if (const Status status = applyLayerGroups(o, s); !status) return Error{status.error()};
   s.voxel.voxelSizeM = o.voxelSizeM.value_or(s.voxel.voxelSizeM);
   if (const Status status = checkSettings(s); !status) return Error{status.error()};
-  Result<home::OpenWish> open = readSceneOptions(o, o.camera);
+  Result<home::OpenWish> open = readSceneOptions(o, o.cameras.empty() || o.allCameras() ? "" : o.cameras.front());
   if (!open) return Error{open.error()};
   plan.open = std::move(open.value());
+  plan.open.allCameras = o.allCameras() || o.cameras.size() > 1;
   const Result<Display> display = readDisplay(o.display);
   if (!display) return Error{display.error()};
   plan.display = display.value();
@@ -102,7 +107,7 @@ Result<RenderPlan> planRender(const RenderOptions& o) {
   }
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
   if (s.layers && s.technique != "hybrid" && s.technique != "path") return Error{fmt::format("--layers: technique {} does not keep lamps apart; use hybrid or path", s.technique)};
-  const Result<ViewWish> view = readViewWish(o.view, !o.camera.empty());
+  const Result<ViewWish> view = readViewWish(o.view, !o.cameras.empty());
   if (!view) return Error{view.error()};
   plan.view = view.value();
   const RenderSettings usual;
@@ -138,12 +143,19 @@ Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const
   return metadata;
 }
 
+// A picture, and the files it goes into.
+struct Shot {
+  Camera camera;
+  std::vector<std::string> outputs;
+  std::string stats;
+};
+
 // How bright things are: .exr in cd/m², .png in grey up to a round luminance or in false colours.
-Status writeLuminance(const RenderOptions& o, const Rendered& rendered, Metadata metadata) {
+Status writeLuminance(const RenderOptions& o, const Shot& shot, const Rendered& rendered, Metadata metadata) {
   const LightScale scale = luminanceScale(rendered.image);
   metadata["roomlight.lowCdM2"] = fmt::format("{:g}", scale.low);
   metadata["roomlight.highCdM2"] = fmt::format("{:g}", scale.high);
-  for (const std::string& out : o.outputs) {
+  for (const std::string& out : shot.outputs) {
     const bool exr = lowerExtension(out) == ".exr";
     const Status s = exr                       ? writeExr(out, luminanceOnly(rendered.image), metadata)
                      : o.kind == "falsecolour" ? writePng(out, falseColourPicture(rendered.image, scale), metadata)
@@ -180,18 +192,19 @@ Status writePicture(const std::string& out, const RenderPlan& plan, const Camera
 }
 
 // Writes all outputs; returns the EV100 that they are exposed for.
-Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Camera& camera, Rendered& rendered) {
+Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Shot& shot, Rendered& rendered) {
+  const Camera& camera = shot.camera;
   const std::vector<bool> rooms = roomMask(scene, camera, rendered.image.width, rendered.image.height);
   const float ev100 = ev100Of(plan.display, rooms.empty() ? rendered.image : pixelsWhere(rendered.image, rooms, true));
   const White white = whiteOf(plan.display, rendered.lightColour);
   const Metadata metadata = metadataOfPicture(o, plan, camera, rendered, ev100, white);
   if (o.kind != "picture") {
-    const Status s = writeLuminance(o, rendered, metadata);
+    const Status s = writeLuminance(o, shot, rendered, metadata);
     return s ? Result<float>(ev100) : Error{s.error()};
   }
   std::optional<LayeredImage> layered;
   if (plan.settings.layers) layered = layeredImage(scene, camera, rendered, metadata);
-  for (const std::string& out : o.outputs) {
+  for (const std::string& out : shot.outputs) {
     const Status s = layered && lowerExtension(out) == ".exr" ? writeLayers(out, *layered) : writePicture(out, plan, camera, rendered, white, ev100, rooms, metadata);
     if (!s) return Error{s.error()};
   }
@@ -207,25 +220,26 @@ Status writeStats(const std::string& file, const RenderStats& stats, double tota
 // What is rendered: the scene under its light, and from where.
 struct HomeInView {
   home::OpenedHome opened;
-  Camera camera;
+  std::vector<Camera> cameras;
 };
 
-// Of large scenes the part whose light comes to the camera. The reference sees everything, layers name every lamp, and plans see all rooms.
+// Of large scenes the part whose light comes to the cameras. The reference sees everything, layers name every lamp, and plans see all rooms.
 std::optional<Scene> partInReach(const HomeInView& home, const RenderPlan& plan) {
-  if (plan.settings.technique == "path" || plan.settings.layers || home.camera.projection == Projection::Orthographic || home.camera.cutHeightM < kInfinity) return std::nullopt;
-  return home::withinReach(RayScene(home.opened.scene), home.camera);
+  if (plan.settings.technique == "path" || plan.settings.layers) return std::nullopt;
+  if (std::any_of(home.cameras.begin(), home.cameras.end(), [](const Camera& c) { return c.projection == Projection::Orthographic || c.cutHeightM < kInfinity; })) return std::nullopt;
+  return home::withinReach(RayScene(home.opened.scene), home.cameras);
 }
 
 // Of the camera's view: what a first picture is judged by.
-void addView(const HomeInView& home, RenderStats& stats) {
-  const RayScene rays(home.opened.scene);
-  const home::Sights sights = home::sightsOf(rays, home.camera);
+void addView(const Scene& scene, const Camera& camera, RenderStats& stats) {
+  const RayScene rays(scene);
+  const home::Sights sights = home::sightsOf(rays, camera);
   stats.numbers.emplace_back("view.surfaceShare", sights.share(0, kInfinity));
   stats.numbers.emplace_back("view.halfToTenMetresShare", sights.share(0.5f, 10));
-  stats.numbers.emplace_back("view.indoors", home::isIndoors(rays, home.opened.scene.rooms, home.camera, sights) ? 1 : 0);
+  stats.numbers.emplace_back("view.indoors", home::isIndoors(rays, scene.rooms, camera, sights) ? 1 : 0);
 }
 
-// What a Sweet HomeInView 3D home says of its photo, where neither options nor settings say how large and how well: its first two qualities are
+// What a Sweet Home 3D home says of its photo, where neither options nor settings say how large and how well: its first two qualities are
 // without ray tracing, the last is for keeping.
 void applyPhoto(const RenderOptions& o, const PhotoWish& photo, RenderPlan& plan) {
   RenderSettings& s = plan.settings;
@@ -238,26 +252,91 @@ void applyPhoto(const RenderOptions& o, const PhotoWish& photo, RenderPlan& plan
   s.voxel.voxelSizeM = voxelSizeM;
 }
 
+// Those asked for, each once; the default one where none is.
+Result<std::vector<Camera>> camerasOf(const RenderOptions& o, const Scene& scene) {
+  if (o.allCameras() && std::none_of(scene.cameras.begin(), scene.cameras.end(), [](const Camera& c) { return c.name == kAllCameras; })) {
+    return scene.cameras.empty() ? std::vector<Camera>{defaultCamera(scene)} : scene.cameras;
+  }
+  std::vector<Camera> out;
+  for (const std::string& name : o.cameras.empty() ? std::vector<std::string>{""} : o.cameras) {
+    const Result<Camera> camera = findCamera(scene, name);
+    if (!camera) return Error{camera.error()};
+    if (std::none_of(out.begin(), out.end(), [&](const Camera& c) { return c.name == camera.value().name && seeTheSame(c, camera.value()); })) out.push_back(camera.value());
+  }
+  return out;
+}
+
 Result<HomeInView> loadHomeInView(const RenderOptions& o, RenderPlan& plan) {
   Result<home::OpenedHome> opened = home::openHome(plan.open);
   if (!opened) return Error{opened.error()};
   HomeInView out{std::move(opened.value()), {}};
   const Scene& scene = out.opened.scene;
-  const Result<Camera> camera = findCamera(scene, o.camera);
-  if (!camera) return Error{fmt::format("{}: {}", o.scene, camera.error())};
+  const Result<std::vector<Camera>> cameras = camerasOf(o, scene);
+  if (!cameras) return Error{fmt::format("{}: {}", o.scene, cameras.error())};
   if (out.opened.photo) applyPhoto(o, *out.opened.photo, plan);
-  const Result<Viewed> viewed = makeView(scene, scene.rooms, camera.value(), !o.camera.empty() || out.opened.placed(), {plan.settings.width, plan.settings.height}, plan.view);
-  if (!viewed) return Error{fmt::format("{}: {}", o.scene, viewed.error())};
-  out.camera = viewed.value().camera;
-  plan.settings.width = viewed.value().width, plan.settings.height = viewed.value().height;
+  Viewed last;
+  for (const Camera& camera : cameras.value()) {
+    const Result<Viewed> viewed = makeView(scene, scene.rooms, camera, !o.cameras.empty() || out.opened.placed(), {plan.settings.width, plan.settings.height}, plan.view);
+    if (!viewed) return Error{fmt::format("{}: {}", o.scene, viewed.error())};
+    last = viewed.value();
+    out.cameras.push_back(last.camera);
+  }
+  plan.settings.width = last.width, plan.settings.height = last.height;  // the same for all
   if (const Status s = checkSettings(plan.settings); !s) return Error{s.error()};
   if (const Status s = writeAddedLight(o, out.opened); !s) return Error{s.error()};
   return out;
 }
 
-// "render" with everything checked; stages of loading come first in the statistics.
+Result<std::vector<Shot>> shotsOf(const RenderOptions& o, const std::vector<Camera>& cameras) {
+  std::vector<std::string> names;
+  for (const Camera& c : cameras) names.push_back(c.name.empty() ? std::to_string(names.size()) : c.name);
+  std::vector<Shot> shots;
+  for (const Camera& c : cameras) shots.push_back({c, {}, {}});
+  for (const std::string& out : o.outputs) {
+    const std::vector<std::string> files = filesNamedAfter(out, names);
+    for (size_t i = 0; i < files.size(); ++i) shots[i].outputs.push_back(files[i]);
+  }
+  if (!o.stats.empty()) {
+    const std::vector<std::string> files = filesNamedAfter(o.stats, names);
+    for (size_t i = 0; i < files.size(); ++i) shots[i].stats = files[i];
+  }
+  if (shots.size() == 1) return shots;
+  for (const Shot& shot : shots) {
+    for (const std::string& out : shot.outputs) {
+      if (const Status s = checkWritable(out); !s) return Error{s.error()};
+    }
+  }
+  return shots;
+}
+
+// Writes what was rendered and says so; returns the exit status.
+int keepPicture(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Shot& shot, Rendered& rendered, const Stopwatch& total, ProgressDisplay& display) {
+  // The times inside a picture cannot hold the time it takes to write it; the statistics can.
+  RenderStats writeStage;
+  RenderProgress silent;
+  Stages writing(silent, writeStage);
+  const Result<float> written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, scene, shot, rendered); });
+  if (!written) return failed(written.error(), kFailed);
+  rendered.stats.stages.push_back(writeStage.stages.front());
+  for (const auto& [name, value] : rendered.stats.numbers) {
+    if (name == "brokenPixels" && value > 0) printWarnings({fmt::format("{} pixels are negative or not finite: a defect, please report it", value)});
+  }
+  if (!shot.stats.empty()) {
+    addView(scene, shot.camera, rendered.stats);
+    if (const Status s = writeStats(shot.stats, rendered.stats, total.seconds() * 1e3); !s) return failed(s.error(), kFailed);
+  }
+  display.lineOfEstimate();
+  if (shot.camera.projection == Projection::Orthographic) display.line(fmt::format("one pixel is {:.4g} m", CameraRays(shot.camera, rendered.image.width, rendered.image.height).metresPerPixel()));
+  for (const std::string& out : shot.outputs) {
+    const std::string exposed = o.kind == "picture" && lowerExtension(out) != ".exr" ? fmt::format(", exposed for EV100 {:.1f}", written.value()) : "";
+    display.line(fmt::format("wrote {}{}{}", out, exposed, rendered.complete ? "" : " (stopped early: the best so far)"));
+  }
+  return rendered.complete ? kOk : kInterrupted;
+}
+
+// "render" with everything checked; stages of loading come first in the statistics of the first picture.
 int workRender(const RenderOptions& o, RenderPlan plan) {
-  const Stopwatch total;
+  std::optional<Stopwatch> watch(std::in_place);  // of the picture under way
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), [&](double relativeError, double mse) { display.estimate(relativeError, mse); }};
   RenderStats loadStats;
@@ -265,40 +344,28 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
 
   Result<HomeInView> home = loading.run("load", [&](const Progress&) { return loadHomeInView(o, plan); });
   if (!home) return failed(home.error());
-  const Camera& camera = home.value().camera;
+  const Scene& scene = home.value().opened.scene;
+  const Result<std::vector<Shot>> shots = shotsOf(o, home.value().cameras);
+  if (!shots) return failed(shots.error());
   if (!o.quiet) printOpened(o, home.value().opened);
-  const auto noPicture = [] { return failed("interrupted before there was a picture; nothing was written", kInterrupted); };
+  bool any = false;
+  const auto noPicture = [&] { return failed(any ? "interrupted; pictures of the other cameras were not begun" : "interrupted before there was a picture; nothing was written", kInterrupted); };
   if (interrupted()) return noPicture();
 
   const std::optional<Scene> part = loading.run("reach", [&](const Progress&) { return partInReach(home.value(), plan); });
-  if (part) display.line(fmt::format("of {} triangles those are used whose light comes to the camera: {}", home.value().opened.scene.triangleCount(), part->triangleCount()));
-  Result<Rendered> result = render(part ? *part : home.value().opened.scene, camera, plan.settings, progress);
-  if (!result) return failed(result.error());
-  Rendered& rendered = result.value();
-  if (rendered.image.pixels.empty()) return noPicture();
-  rendered.stats.stages.insert(rendered.stats.stages.begin(), loadStats.stages.begin(), loadStats.stages.end());
-
-  // The times inside a picture cannot hold the time it takes to write it; the statistics can.
-  RenderStats writeStage;
-  RenderProgress silent;
-  Stages writing(silent, writeStage);
-  const Result<float> written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, home.value().opened.scene, camera, rendered); });
-  if (!written) return failed(written.error(), kFailed);
-  rendered.stats.stages.push_back(writeStage.stages.front());
-  for (const auto& [name, value] : rendered.stats.numbers) {
-    if (name == "brokenPixels" && value > 0) printWarnings({fmt::format("{} pixels are negative or not finite: a defect, please report it", value)});
+  if (part) display.line(fmt::format("of {} triangles those are used whose light comes to the camera{}: {}", scene.triangleCount(), shots.value().size() > 1 ? "s" : "", part->triangleCount()));
+  Result<Renderer> renderer = Renderer::of(part ? *part : scene, plan.settings);
+  if (!renderer) return failed(renderer.error());
+  for (const Shot& shot : shots.value()) {
+    if (any) watch.emplace();
+    Result<Rendered> rendered = renderer.value().picture(shot.camera, progress);
+    if (!rendered) return failed(rendered.error());
+    if (rendered.value().image.pixels.empty()) return noPicture();
+    if (!any) rendered.value().stats.stages.insert(rendered.value().stats.stages.begin(), loadStats.stages.begin(), loadStats.stages.end());
+    any = true;
+    if (const int status = keepPicture(o, plan, scene, shot, rendered.value(), *watch, display); status != kOk) return status;
   }
-  if (!o.stats.empty()) {
-    addView(home.value(), rendered.stats);
-    if (const Status s = writeStats(o.stats, rendered.stats, total.seconds() * 1e3); !s) return failed(s.error(), kFailed);
-  }
-  display.lineOfEstimate();
-  if (camera.projection == Projection::Orthographic) display.line(fmt::format("one pixel is {:.4g} m", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel()));
-  for (const std::string& out : o.outputs) {
-    const std::string exposed = o.kind == "picture" && lowerExtension(out) != ".exr" ? fmt::format(", exposed for EV100 {:.1f}", written.value()) : "";
-    display.line(fmt::format("wrote {}{}{}", out, exposed, rendered.complete ? "" : " (stopped early: the best so far)"));
-  }
-  return rendered.complete ? kOk : kInterrupted;
+  return kOk;
 }
 
 int runRender(const RenderOptions& o) {
@@ -318,7 +385,7 @@ Registered addRender(CLI::App& program) {
   CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
   addSceneOptions(*app, *o, "SCENE");
   app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2), .png or .jpg (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--camera", o->camera, "Name of a camera in the scene (capital or small letters; its beginning where only one fits), or its number from 0");
+  app->add_option("--camera", o->cameras, "Name of a camera in the scene (capital or small letters; its beginning where only one fits), or its number from 0; repeated, or all: a picture of each, named after it, from light that is found once")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   addViewOptions(*app, o->view);
   app->add_option("--size", o->size, "Width and height in pixels, for example 960x540; views other than camera choose their own");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
@@ -340,6 +407,7 @@ Registered addRender(CLI::App& program) {
       "Ctrl-C ends the work and keeps the best picture so far, if there is one (exit status 130); a second one ends at once.\n"
       "Examples:\n"
       "  roomlight render flat.glb -o flat.png\n"
+      "  roomlight render flat.glb --camera Kitchen --camera Bath -o flat.png      # flat_Kitchen.png, flat_Bath.png\n"
       "  roomlight render flat.glb --technique path --time-limit 60 -o flat.exr -o flat.png --stats flat.json");
   return {app, [o] { return runRender(*o); }};
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -28,6 +29,24 @@ Status checkWritable(const std::filesystem::path& file) {
   close(handle);
   unlink(probe.c_str());
   return Ok{};
+}
+
+std::vector<std::string> filesNamedAfter(const std::string& file, const std::vector<std::string>& things) {
+  if (things.size() == 1) return {file};
+  const std::filesystem::path path(file);
+  std::vector<std::string> names, files;
+  for (const std::string& thing : things) {
+    std::string plain;
+    for (const char c : thing) {
+      const bool odd = static_cast<unsigned char>(c) <= ' ' || c == '\x7f' || std::strchr("/\\:*?\"<>|", c);
+      plain += odd ? '_' : c;
+    }
+    std::string name = plain;
+    for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number) name = fmt::format("{}_{}", plain, number);
+    names.push_back(name);
+    files.push_back((path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), name, path.extension().string())).string());
+  }
+  return files;
 }
 
 Result<std::string> readTextFile(const std::filesystem::path& file) {

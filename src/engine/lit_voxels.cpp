@@ -65,7 +65,7 @@ class VoxelScene final : public LitScene {
     if (!shader_) return {};
     const Settings use = asked(gather_, wish);
     if constexpr (kByRays) {
-      if (!wish.history) {
+      if (!wish.history || use.samples >= kWorthSurvey) {
         const auto prepared = last_.of(camera, use.width, use.height, use.samples >= kWorthSurvey, [&]() -> std::shared_ptr<const RayGather> {
           auto made = std::make_shared<const RayGather>(rays(), lights(), *shader_, camera, sized(gather_, use.width, use.height), progress);
           return progress.stop() ? nullptr : made;

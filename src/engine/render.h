@@ -1,6 +1,7 @@
 // One entry for every technique: scene, camera, settings in; picture and what it cost out.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,22 @@ struct RenderProgress {
   std::function<void(double relativeError, double srgbMse)> estimate;
 };
 
-// Errors: an unknown technique, settings out of range. `scene` must be validated.
+// Pictures of one scene, one after the other. Techniques `hybrid` and `cone` find light in voxels with the first, and keep it.
+class Renderer {
+ public:
+  // Errors: an unknown technique, settings out of range. `scene` must be validated; it is referred to.
+  static Result<Renderer> of(const Scene& scene, const RenderSettings& settings);
+  Renderer(Renderer&&) noexcept;
+  ~Renderer();
+  Result<Rendered> picture(const Camera& camera, const RenderProgress& progress = {});
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+// One picture. Errors: as Renderer::of.
 Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                         const RenderProgress& progress = {});
 

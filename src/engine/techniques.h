@@ -1,5 +1,7 @@
-// One function a technique; the table in render.cpp names them.
+// What each technique makes of a scene; the table in render.cpp names them.
 #pragma once
+
+#include <functional>
 
 #include "engine/sights.h"
 #include "engine/stages.h"
@@ -15,8 +17,14 @@ struct Picture {
 // With what is seen in it.
 Picture finished(const RayScene& rays, const Camera& camera, Image image, std::vector<RenderedLayer> layers);
 
-Result<Picture> renderHybrid(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
-Result<Picture> renderCone(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
+// Makes the picture of any camera. What pictures of one scene share is found with the first and kept.
+using PictureOf = std::function<Result<Picture>(const Camera& camera, Stages& stages)>;
+
+// Refer to scene and settings.
+PictureOf picturesByRays(const Scene& scene, const RenderSettings& settings);
+PictureOf picturesByCones(const Scene& scene, const RenderSettings& settings);
+
+// Techniques whose work begins at the camera: all of it for one picture.
 Result<Picture> renderVxgi(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Result<Picture> renderLpv(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);
 Result<Picture> renderPhoton(const Scene& scene, const Camera& camera, const RenderSettings& settings, Stages& stages);

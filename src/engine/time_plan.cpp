@@ -45,10 +45,8 @@ VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights&
 
 int triedPart(int width, int height) { return static_cast<int>(std::clamp(std::sqrt(static_cast<double>(width) * height / kTriedPixels), 1.0, static_cast<double>(kTriedPart))); }
 
-GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather, const Progress& progress) {
+GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, RayGatherSettings gather, const Progress& progress) {
   const Stopwatch watch;
-  gather = withCells(gather, light.voxels.voxelSizeM);
-  const RayShader shader(rays, lights, light.voxels, light.field, gather);
   const RayGather prepared(rays, lights, shader, camera, gather, progress);
   const double preparing = watch.seconds();
   gather.untilMse = 0, gather.tellsError = false;  // time ends it, and is for the picture

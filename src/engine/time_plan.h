@@ -16,8 +16,8 @@ VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights&
 int triedPart(int width, int height);
 
 // A picture of the settings' size, or of as much fewer pixels as it takes to have all of them once within `seconds`. Tries a small
-// picture first, which may be the one returned.
-GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelLight& light, const Camera& camera, RayGatherSettings gather, const Progress& progress);
+// picture first, which may be the one returned. `gather` as the shader has them.
+GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, RayGatherSettings gather, const Progress& progress);
 
 // A picture of width x height, from one of fewer pixels.
 Image enlarged(const Image& image, int width, int height);

@@ -122,8 +122,7 @@ void tracePath(const RayScene& rays, const std::vector<Vec3>& lights, const Ray&
   }
 }
 
-Cells reached(const RayScene& rays, const Camera& camera) {
-  Cells cells(rays.bounds());
+void markReached(const RayScene& rays, const Camera& camera, Cells& cells) {
   const CameraRays through(camera, kAcross, kDown);
   const std::vector<Vec3> lights = lightsOf(rays.scene());
   std::vector<std::vector<Vec3>> rows(kDown);
@@ -137,8 +136,6 @@ Cells reached(const RayScene& rays, const Camera& camera) {
     for (const Vec3 p : row) cells.mark(cells.at(p));
   }
   cells.mark(cells.at(camera.worldFromCamera.w));
-  cells.widen();
-  return cells;
 }
 
 struct Kept {
@@ -190,10 +187,12 @@ Mesh partOf(const Mesh& mesh, const std::vector<uint32_t>& triangles) {
 
 }  // namespace
 
-std::optional<Scene> withinReach(const RayScene& rays, const Camera& camera) {
+std::optional<Scene> withinReach(const RayScene& rays, std::span<const Camera> cameras) {
   const Scene& scene = rays.scene();
   if (maxComponent(rays.bounds().size()) < kHomeM) return std::nullopt;
-  const Cells cells = reached(rays, camera);
+  Cells cells(rays.bounds());
+  for (const Camera& camera : cameras) markReached(rays, camera, cells);
+  cells.widen();
   std::vector<Kept> kept(scene.instances.size());
   parallelFor(kept.size(), 1, [&](size_t i) { kept[i] = keptOf(scene, scene.instances[i], cells); });
   double keptM2 = 0, allM2 = 0;

@@ -56,7 +56,7 @@ struct PathWalk::State {
   Ray ray;
   Vec3 throughput{1, 1, 1};
   Vec3 lastPoint;          // where the ray was scattered last, for the density of light sampling there
-  std::span<const float> lastVisible;  // parts of the lights there
+  std::span<const LightPart> lastVisible;  // parts of the lights there
   float lastPdf = 0;       // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
   bool skyKnown = false;   // the sky, if the ray sees it, is counted already
   PathLayers* layers = nullptr;
@@ -172,14 +172,14 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     if (white_ && scattered == 0) s.m = whitened(s.m);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const int32_t emitter = lights_.emitterOf(s.instance);
-      const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, lights_.pdfLocal(path.lastPoint, s, path.lastVisible)) : 1;
+      const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, pdfLocal(lights_, path.lastVisible, path.lastPoint, s)) : 1;
       const Vec3 light = path.throughput * emitted * (vertices_ && vertices_->lightRays().leaveEmitter(emitter) ? w * path.lampShare : w);
       sum += light;
       if (path.layers && emitter >= 0) path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
       if constexpr (Record::kOn) record.add(light);
     }
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
-    const std::span<const float> visible = visible_.partsAt(s.p, s.ng);
+    const std::span<const LightPart> visible = visible_.partsAt(s.p, s.ng);
     float lampShare = path.lampShare;
     if (vertices_ && path.lastPdf > 0 && LightVertices::connects(bsdf)) {
       const float inverse2 = 1 / std::max(lengthSquared(s.p - path.lastPoint), 1e-12f);
@@ -275,11 +275,11 @@ Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const Light
 }
 
 template <bool kParts>
-Vec3 PathWalk::direct(const SurfacePoint& s, std::span<const float> visible, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo) const {
+Vec3 PathWalk::direct(const SurfacePoint& s, std::span<const LightPart> visible, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo) const {
   Vec3 sum, local, sun, sky;
   if (lights_.hasLocal()) {
     const Vec2 u = sampler.next2();
-    const LightSample light = lights_.sampleLocal(s.p, u, sampler.next1(), visible);
+    const LightSample light = sampleLocal(lights_, visible, s.p, u, sampler.next1());
     const float left = vertices_ && vertices_->lightRays().leave(light) ? lampShare : 1;
     const Vec3 value = contribution<kParts>(s, bsdf, light, rayCount, &local) * left;
     sum += value;

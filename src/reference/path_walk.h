@@ -51,7 +51,7 @@ class PathWalk {
   template <bool kParts>
   Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const;
   template <bool kParts>
-  Vec3 direct(const SurfacePoint& s, std::span<const float> visible, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo = true) const;
+  Vec3 direct(const SurfacePoint& s, std::span<const LightPart> visible, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo = true) const;
   template <bool kParts>
   Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const;
 

@@ -1,12 +1,12 @@
 #include "reference/visible_lights.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 
 #include "base/parallel.h"
 #include "trace/bsdf.h"
+#include "trace/light_parts_learner.h"
 #include "trace/surfaces.h"
 
 namespace roomlight {
@@ -14,9 +14,7 @@ namespace {
 
 constexpr float kCellM = 0.4f, kOffM = 0.137f;  // floors and walls stand on round coordinates, which shall be within cells
 constexpr int kMostVertices = 8;
-constexpr uint32_t kRays = 16, kFewRays = 4;
-constexpr float kMatters = 0.01f, kHardly = 1e-4f;  // of what all could give: lights that could give more send kRays, and kFewRays
-constexpr size_t kMostLights = Lights::kMostOneByOne, kPathsAtOnce = 256, kMostPlaces = 64;  // of a cell
+constexpr size_t kPathsAtOnce = 256, kCellsAtOnce = 16, kMostPlaces = 64;  // of a cell
 constexpr uint64_t kPathKey = uint64_t{1} << 41, kLookKey = uint64_t{1} << 42;  // other random numbers than those of pixels and light paths
 
 int faceOf(Vec3 n) {
@@ -33,29 +31,19 @@ uint64_t VisibleLights::keyOf(Vec3 p, Vec3 n) {
   return (part(p.x) | part(p.y) << 20 | part(p.z) << 40) * 8 + static_cast<uint64_t>(faceOf(n)) + 1;
 }
 
-void VisibleLights::add(uint64_t key, int32_t cell) {
+void VisibleLights::add(uint64_t key, uint32_t cell) {
   size_t i = mix64(key) & (table_.size() - 1);
   while (table_[i].key != 0) i = (i + 1) & (table_.size() - 1);
   table_[i] = {key, cell};
 }
 
-std::span<const float> VisibleLights::partsAt(Vec3 p, Vec3 n) const {
+std::span<const LightPart> VisibleLights::partsAt(Vec3 p, Vec3 n) const {
   if (table_.empty()) return {};
   const uint64_t key = keyOf(p, n);
   for (size_t i = mix64(key) & (table_.size() - 1); table_[i].key != 0; i = (i + 1) & (table_.size() - 1)) {
-    if (table_[i].key == key) return std::span(part_).subspan(static_cast<size_t>(table_[i].cell) * lightCount(), lightCount());
+    if (table_[i].key == key) return std::span(parts_).subspan(first_[table_[i].cell], first_[table_[i].cell + 1] - first_[table_[i].cell]);
   }
   return {};
-}
-
-float VisibleLights::importance(size_t light, Vec3 p) const {
-  const size_t lamps = lights_.lampCount();
-  return light < lamps ? lights_.lampImportance(light, p) : lights_.emitterImportance(light - lamps, p);
-}
-
-LightSample VisibleLights::sampleOne(size_t light, Vec3 p, Vec2 u, float choice) const {
-  const size_t lamps = lights_.lampCount();
-  return light < lamps ? lights_.sampleLamp(light, p, u) : lights_.sampleEmitter(light - lamps, p, u, choice);
 }
 
 // Where it comes to, not what it carries.
@@ -78,35 +66,26 @@ void VisibleLights::follow(const RayScene& rays, Ray ray, Sampler& sampler, std:
   }
 }
 
-// Returns how many rays that took.
-size_t VisibleLights::look(const RayScene& rays, std::span<const Place> places, uint64_t seed, std::span<float> part) const {
-  const size_t count = part.size();
-  std::array<float, kMostLights> could{};
-  std::array<LightLook, kMostLights> found;
-  float total = 0;
-  for (size_t i = 0; i < count; ++i) {
-    for (const size_t k : {size_t{0}, places.size() / 2, places.size() - 1}) could[i] += importance(i, places[k].p);
-    total += could[i];
+// Where paths came to in one cell.
+struct VisibleLights::PlacesInCell {
+  static constexpr uint32_t kRays = 16, kFewRays = 4;
+  std::span<const Place> places;
+
+  size_t size() const { return places.size(); }
+  Vec3 position(size_t k) const { return places[k].p; }
+  Bounds3 bounds() const {
+    Bounds3 out;
+    for (const Place& at : places) out.add(at.p);
+    return out;
   }
-  Sampler sampler(kLookKey + places[0].key, 0, seed);
-  LightLooks looks;
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t tries = could[i] > kMatters * total ? kRays : could[i] > kHardly * total ? kFewRays
-                                                                                            : 0;
-    for (uint32_t k = 0; k < tries; ++k) {
-      const Place& at = places[(k * places.size() / tries + static_cast<size_t>(sampler.fast1() * static_cast<float>(places.size()))) % places.size()];
-      const Vec2 u{sampler.fast1(), sampler.fast1()};
-      looks.add(i, importance(i, at.p), sampleOne(i, at.p, u, sampler.fast1()), at.p, at.n);
-    }
+  const Place& draw(uint32_t k, uint32_t n, Sampler& sampler) const {
+    return places[(k * places.size() / n + static_cast<size_t>(sampler.fast1() * static_cast<float>(places.size()))) % places.size()];
   }
-  const size_t traced = looks.finish(rays, [&](uint32_t i, float a, float f) { found[i].add(a, f); });
-  for (size_t i = 0; i < count; ++i) part[i] = found[i].part();
-  return traced;
-}
+};
 
 void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed, const std::function<bool()>& stopped) {
-  const size_t lights = lightCount();
-  if (lights < 2 || lights > kMostLights) return;
+  const LocalChoice kind{lights_};
+  if (kind.count() < 2) return;
   struct Some {
     std::vector<Place> places;
     uint64_t rays = 0;
@@ -128,17 +107,29 @@ void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w,
   for (size_t i = 0; i < all.size(); ++i) {
     if (i == 0 || all[i].key != all[i - 1].key) first.push_back(i);
   }
-  part_.resize(first.size() * lights);
-  table_.assign(std::bit_ceil(2 * first.size() + 2), {});
+  std::vector<std::vector<LightPart>> found(first.size());
   std::atomic<uint64_t> traced = 0;
-  parallelFor(first.size(), 16, [&](size_t c) {
+  parallelFor((first.size() + kCellsAtOnce - 1) / kCellsAtOnce, 1, [&](size_t some) {
     if (stopped()) return;
-    const size_t end = c + 1 < first.size() ? first[c + 1] : all.size();
-    traced += look(rays, std::span(all).subspan(first[c], std::min(kMostPlaces, end - first[c])), seed, std::span(part_).subspan(c * lights, lights));
+    withPartsLearner(kind, [&](auto& learner) {
+      for (size_t c = some * kCellsAtOnce; c < std::min(first.size(), (some + 1) * kCellsAtOnce); ++c) {
+        const size_t end = c + 1 < first.size() ? first[c + 1] : all.size();
+        const std::span<const Place> places = std::span(all).subspan(first[c], std::min(kMostPlaces, end - first[c]));
+        Sampler sampler(kLookKey + places[0].key, 0, seed);
+        traced += learner.look(rays, kind, PlacesInCell{places}, sampler);
+        learner.list(found[c]);
+      }
+    });
   });
   rayCount_ += traced;
-  if (stopped()) return part_.clear(), table_.clear();
-  for (size_t c = 0; c < first.size(); ++c) add(all[first[c]].key, static_cast<int32_t>(c));
+  if (stopped()) return forget();
+  table_.assign(std::bit_ceil(2 * first.size() + 2), {});
+  first_ = {0};
+  for (size_t c = 0; c < first.size(); ++c) {
+    add(all[first[c]].key, static_cast<uint32_t>(c));
+    parts_.insert(parts_.end(), found[c].begin(), found[c].end());
+    first_.push_back(static_cast<uint32_t>(parts_.size()));
+  }
 }
 
 }  // namespace roomlight

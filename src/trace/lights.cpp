@@ -287,25 +287,25 @@ float Lights::pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) cons
 }
 
 // One by one where there are few, by groups where there are many.
-LightTree::Choice Lights::choose(const Range& among, Vec3 p, float choice, std::span<const float> parts) const {
+LightTree::Choice Lights::choose(const Range& among, Vec3 p, float choice) const {
   if (!among.tree.empty()) {
     LightTree::Choice c = among.tree.choose(p, choice, [&](size_t i) { return localImportance(among.first + i, p); });
     c.index += among.first;
     return c;
   }
   float remembered[kMostOneByOne], total = 0;
-  for (size_t i = among.first; i < among.last; ++i) total += remembered[i - among.first] = localImportance(i, p, parts);
+  for (size_t i = among.first; i < among.last; ++i) total += remembered[i - among.first] = localImportance(i, p);
   if (!(total > 0)) return {};
   const size_t i = chooseByWeight(
       among.last - among.first, total, [&](size_t k) { return remembered[k]; }, choice);
   return {among.first + i, remembered[i] / total, choice};
 }
 
-float Lights::chanceOf(const Range& among, size_t index, Vec3 p, std::span<const float> parts) const {
+float Lights::chanceOf(const Range& among, size_t index, Vec3 p) const {
   if (!among.tree.empty()) return among.tree.chance(index - among.first, p, [&](size_t i) { return localImportance(among.first + i, p); });
   float total = 0;
-  for (size_t i = among.first; i < among.last; ++i) total += localImportance(i, p, parts);
-  return total > 0 ? localImportance(index, p, parts) / total : 0;
+  for (size_t i = among.first; i < among.last; ++i) total += localImportance(i, p);
+  return total > 0 ? localImportance(index, p) / total : 0;
 }
 
 LightTree Lights::treeOf(size_t first, size_t last) const {
@@ -325,22 +325,6 @@ LightTree Lights::treeOf(size_t first, size_t last) const {
     }
   }
   return LightTree(lights);
-}
-
-LightSample Lights::sampleLocal(Vec3 p, Vec2 u, float choice, std::span<const float> parts) const {
-  const LightTree::Choice c = choose(localRange(), p, choice, parts);
-  if (!(c.chance > 0)) return {};
-  if (c.index >= lamps_.size()) return sampleEmitter(emitters_[c.index - lamps_.size()], p, u, c.rest, c.chance);
-  LightSample s = sampleLamp(c.index, p, u);
-  s.radiance *= 1 / c.chance;
-  return s;
-}
-
-float Lights::pdfLocal(Vec3 p, const SurfacePoint& q, std::span<const float> parts) const {
-  const int32_t index = emitterOfInstance_[q.instance];
-  if (index < 0) return 0;
-  const float chance = chanceOf(localRange(), lamps_.size() + static_cast<size_t>(index), p, parts);
-  return chance > 0 ? chance * pdfInEmitter(emitters_[static_cast<size_t>(index)], p, q) : 0;
 }
 
 LightSample Lights::sampleLamps(Vec3 p, Sampler& sampler) const {

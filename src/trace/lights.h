@@ -41,20 +41,20 @@ class Lights {
   Lights(Lights&&) = default;
   Lights(const Lights&) = delete;
 
-  // One sample among lamps and emissive meshes, chosen by what each could give at p without shadows, times the part of that which arrives, as far as that is known: `parts` are of lamps, then of emissive
-  // meshes, all above 0, where there are at most kMostOneByOne; or empty.
-  LightSample sampleLocal(Vec3 p, Vec2 u, float choice, std::span<const float> parts = {}) const;
-  // Density with which sampleLocal(p) would have chosen the direction to point q of an emissive triangle.
-  float pdfLocal(Vec3 p, const SurfacePoint& q, std::span<const float> parts = {}) const;
-  // One of the lamps, or of the emissive meshes, by what each could give at p without shadows; and the chance with which a certain one is chosen.
+  // One of the lamps, of the emissive meshes, or of both (lamps first), by what each could give at p without shadows; and the chance with which a certain one is chosen.
   LightTree::Choice chooseLamp(Vec3 p, float choice) const { return choose(lampRange(), p, choice); }
   float chanceOfLamp(size_t index, Vec3 p) const { return chanceOf(lampRange(), index, p); }
   LightTree::Choice chooseEmitter(Vec3 p, float choice) const;
   float chanceOfEmitter(size_t index, Vec3 p) const { return chanceOf(emitterRange(), lamps_.size() + index, p); }
-  // Groups of lamps and of emissive meshes, whose numbers are as everywhere here; empty where there are at most kMostOneByOne.
+  LightTree::Choice chooseLocal(Vec3 p, float choice) const { return choose(localRange(), p, choice); }
+  float chanceOfLocal(size_t index, Vec3 p) const { return chanceOf(localRange(), index, p); }
+  size_t localCount() const { return lamps_.size() + emitters_.size(); }
+  float localImportance(size_t index, Vec3 p) const { return index < lamps_.size() ? importance(lampTerms_[index], p) : importance(emitterTerms_[index - lamps_.size()], p); }
+  // Groups of lamps, of emissive meshes and of both, whose numbers are as everywhere here; empty where there are at most kMostOneByOne.
   static constexpr size_t kMostOneByOne = 64;
   const LightTree& lampTree() const { return lampTree_; }
   const LightTree& emitterTree() const { return emitterTree_; }
+  const LightTree& localTree() const { return localTree_; }
   // All point and spot lamps one by one (no emissive meshes).
   size_t lampCount() const { return lamps_.size(); }
   const Lamp& lamp(size_t index) const { return lamps_[index]; }
@@ -146,10 +146,8 @@ class Lights {
   Range emitterRange() const { return {lamps_.size(), lamps_.size() + emitters_.size(), emitterTree_}; }
   Range localRange() const { return {0, lamps_.size() + emitters_.size(), localTree_}; }
   // One chosen by what each could give at p without shadows, and the chance. Lamps come first, then emissive meshes.
-  LightTree::Choice choose(const Range& among, Vec3 p, float choice, std::span<const float> parts = {}) const;
-  float chanceOf(const Range& among, size_t index, Vec3 p, std::span<const float> parts = {}) const;
-  float localImportance(size_t index, Vec3 p) const { return index < lamps_.size() ? importance(lampTerms_[index], p) : importance(emitterTerms_[index - lamps_.size()], p); }
-  float localImportance(size_t index, Vec3 p, std::span<const float> parts) const { return parts.empty() ? localImportance(index, p) : parts[index] * localImportance(index, p); }
+  LightTree::Choice choose(const Range& among, Vec3 p, float choice) const;
+  float chanceOf(const Range& among, size_t index, Vec3 p) const;
   LightTree treeOf(size_t first, size_t last) const;
   void addAllLocal();
   void addEmitter(uint32_t instance, MeanEmission& means);

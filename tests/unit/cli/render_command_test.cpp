@@ -121,6 +121,26 @@ TEST_F(RenderCommand, camerasGoByNameOrNumber) {
   EXPECT_FALSE(front.pixels == back.pixels);
 }
 
+TEST_F(RenderCommand, severalCamerasMakeAPictureEach) {
+  const auto only = [&](const char* camera, const char* name) { EXPECT_EQ(render({"-o", path(name), "--camera", camera}).exitStatus, 0); };
+  only("Front", "f.exr"), only("Back", "b.exr");
+  const ProgramRun both = render({"-o", path("p.exr"), "-o", path("p.png"), "--stats", path("s.json"), "--camera", "Back", "--camera", "front", "--camera", "1"});
+  ASSERT_EQ(both.exitStatus, 0) << both.err;
+  EXPECT_TRUE(picture("p_Front.exr").pixels == picture("f.exr").pixels) << "as one by one";
+  EXPECT_TRUE(picture("p_Back.exr").pixels == picture("b.exr").pixels);
+  EXPECT_TRUE(std::filesystem::exists(path("p_Front.png")) && std::filesystem::exists(path("p_Back.png")));
+  EXPECT_FALSE(std::filesystem::exists(path("p.exr")) || std::filesystem::exists(path("p_Back_2.exr")));
+  const auto lit = [&](const char* stats) {
+    const Json json = Json::parse(readFile(path(stats)));
+    return std::any_of(json["stages"].begin(), json["stages"].end(), [](const Json& s) { return s["name"] == "illuminate"; });
+  };
+  EXPECT_TRUE(lit("s_Back.json"));
+  EXPECT_FALSE(lit("s_Front.json")) << "light is found once";
+  const ProgramRun all = render({"-o", path("a.png"), "--camera", "all"});
+  ASSERT_EQ(all.exitStatus, 0) << all.err;
+  EXPECT_TRUE(std::filesystem::exists(path("a_Front.png")) && std::filesystem::exists(path("a_Back.png")));
+}
+
 TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
   const auto meanLuminance = [&](const std::string& lamps, const std::string& name) {
     writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");

@@ -34,7 +34,7 @@ Camera inTheFirst() {
 TEST(Reach, leavesOutRoomsThatNoLightComesFrom) {
   const Scene row = rowOfRooms(30);
   const RayScene rays(row);
-  const std::optional<Scene> near = withinReach(rays, inTheFirst());
+  const std::optional<Scene> near = withinReach(rays, {{inTheFirst()}});
   ASSERT_TRUE(near);
   EXPECT_LT(near->instances.size(), row.instances.size() / 5);
   EXPECT_LT(near->lamps.size(), 5u);
@@ -52,7 +52,7 @@ TEST(Reach, keepsLampsInMidAir) {
   Scene row = rowOfRooms(30);
   row.lamps[0].position = {2.5f, 1.3f, 3};
   const RayScene rays(row);
-  const std::optional<Scene> near = withinReach(rays, inTheFirst());
+  const std::optional<Scene> near = withinReach(rays, {{inTheFirst()}});
   ASSERT_TRUE(near);
   EXPECT_TRUE(std::any_of(near->lamps.begin(), near->lamps.end(), [](const Lamp& l) { return l.position.z == 3; }));
 }
@@ -60,7 +60,7 @@ TEST(Reach, keepsLampsInMidAir) {
 TEST(Reach, leavesHomesWhole) {
   const Scene home = rowOfRooms(3);
   const RayScene rays(home);
-  EXPECT_FALSE(withinReach(rays, inTheFirst()));
+  EXPECT_FALSE(withinReach(rays, {{inTheFirst()}}));
 }
 
 // Buildings whose walls are one mesh are cut too.
@@ -77,7 +77,7 @@ TEST(Reach, cutsMeshes) {
   row.meshes = {all};
   row.instances = {{"building", 0, 0, {}}};
   const RayScene rays(row);
-  const std::optional<Scene> near = withinReach(rays, inTheFirst());
+  const std::optional<Scene> near = withinReach(rays, {{inTheFirst()}});
   ASSERT_TRUE(near);
   EXPECT_LT(near->triangleCount(), triangles / 5);
   EXPECT_LT(near->meshes[0].positions.size(), all.positions.size() / 5);

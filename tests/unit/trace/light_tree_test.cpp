@@ -5,7 +5,7 @@
 #include "base/random.h"
 #include "support/light_densities.h"
 #include "support/rooms.h"
-#include "trace/lights.h"
+#include "trace/light_parts.h"
 
 namespace roomlight {
 namespace {
@@ -122,7 +122,7 @@ TEST(LightTree, oneOfManyLampsStandsForAll) {
     for (size_t i = 0; i < lights.lampCount(); ++i) all += static_cast<double>(luminance(lights.sampleLamp(i, p, {}).radiance));
     constexpr int kTries = 200000;
     for (int t = 0; t < kTries; ++t) {
-      const LightSample s = lights.sampleLocal(p, {0.5f, 0.5f}, (static_cast<float>(t) + 0.5f) / kTries);
+      const LightSample s = sampleLocal(lights, {}, p, {0.5f, 0.5f}, (static_cast<float>(t) + 0.5f) / kTries);
       if (s.valid()) sum += static_cast<double>(luminance(s.radiance)) / kTries;
     }
     EXPECT_NEAR(sum / all, 1, 0.01) << k;
@@ -135,7 +135,7 @@ TEST(LightTree, choosesWhatIsNear) {
   const Lights lights(scene);
   const Vec3 p = scene.lamps[0].position - Vec3{0, 0.02f, 0};
   int near = 0;
-  for (int t = 0; t < 1000; ++t) near += lights.sampleLocal(p, {0.5f, 0.5f}, (static_cast<float>(t) + 0.5f) / 1000).lamp == 0 ? 1 : 0;
+  for (int t = 0; t < 1000; ++t) near += sampleLocal(lights, {}, p, {0.5f, 0.5f}, (static_cast<float>(t) + 0.5f) / 1000).lamp == 0 ? 1 : 0;
   EXPECT_GT(near, 800);
 }
 

@@ -1,4 +1,4 @@
-#include "trace/lights.h"
+#include "trace/light_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(Lights, aSpotIsChosenHoweverClose) {
   lamp.kind = LampKind::Spot, lamp.direction = {0, 0, -1}, lamp.innerConeRad = 0.2f, lamp.outerConeRad = 0.8f, lamp.intensityCd = Vec3(10);
   scene.lamps.push_back(lamp);
   const Lights lights(scene);
-  for (const float z : {0.002f, 0.005f, 0.02f}) EXPECT_NEAR(luminance(lights.sampleLocal({0, 0, -z}, {0.5f, 0.5f}, 0.5f).radiance) * z * z, 10, 0.01f) << z;
+  for (const float z : {0.002f, 0.005f, 0.02f}) EXPECT_NEAR(luminance(sampleLocal(lights, {}, {0, 0, -z}, {0.5f, 0.5f}, 0.5f).radiance) * z * z, 10, 0.01f) << z;
 }
 
 // Rays of a lamp land as densely as lampDensity says: both follow the web.
@@ -102,7 +102,7 @@ TEST(Lights, anExtendedLampIsTheMeanOverItsPlaces) {
     for (int i = 0; i < kSamples; ++i) {
       Sampler sampler(static_cast<uint64_t>(i), 0, 3);
       const Vec2 u = sampler.next2();
-      const auto v = static_cast<double>(luminance(lights.sampleLocal(p, u, sampler.next1()).radiance));
+      const auto v = static_cast<double>(luminance(sampleLocal(lights, {}, p, u, sampler.next1()).radiance));
       sum += v / kSamples, squares += v * v / kSamples;
     }
     EXPECT_NEAR(sum, exact, 4 * std::sqrt((squares - sum * sum) / kSamples) + 2e-3 * exact) << p.x;
