@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/sampling.h"
+#include "base/weighted_choice.h"
 
 namespace roomlight {
 namespace {
@@ -230,7 +231,8 @@ BrightPatches::Candidates BrightPatches::draw(int32_t side, Sampler& sampler) co
   const Seen* seen = seenFrom(side);
   const float first = sampler.next1();
   for (out.count = 0; out.count < Candidates::kMost; ++out.count) {
-    const Choice choice = patchFor(seen, (static_cast<float>(out.count) + (out.count == 0 ? first : sampler.fast1())) / static_cast<float>(Candidates::kMost));
+    const float u = (static_cast<float>(out.count) + (out.count == 0 ? first : sampler.fast1())) / static_cast<float>(Candidates::kMost);
+    const Choice choice = patchFor(seen, std::min(u, kBelowOne));  // rounding makes 1 of it now and then
     const Patch& of = patches_[choice.patch];
     const uint32_t point = of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count)));
     __builtin_prefetch(&points_[point]);

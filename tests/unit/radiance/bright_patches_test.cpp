@@ -107,6 +107,26 @@ TEST(BrightPatches, sharesStayNumbersHoweverSmallAPatchIs) {
   }
 }
 
+// The last of four parts with the highest number below 1 rounds to 1, where nothing is known of the place as where something is.
+TEST(BrightPatches, aNumberThatRoundsToOneChoosesThePatchBefore) {
+  const SunnyRoom room;
+  const RayScene rays(room.scene);
+  const RadianceField field = lit(room, true, 8, 1);
+  const BrightPatches patches(rays, room.voxels, field.sunPoints, {}, 0, 1);
+  const Sampler highest(7, 14695416, 3);
+  Sampler numbers = highest;
+  numbers.next1();
+  for (int i = 0; i < 5; ++i) numbers.fast1();
+  ASSERT_EQ(3 + numbers.fast1(), 4);
+  const Vec3 p{0.001f, 1.2f, 2}, n{1, 0, 0};
+  for (const int32_t side : {brickSideAt(room.voxels, p, n), -1}) {
+    Sampler sampler = highest;
+    const BrightPatches::Candidates drawn = patches.draw(side, sampler);
+    ASSERT_EQ(drawn.count, BrightPatches::Candidates::kMost);
+    for (const uint32_t point : drawn.point) EXPECT_LT(point, field.sunPoints.size());
+  }
+}
+
 TEST(BrightPatches, raysLeaveLightToPointsBesideThem) {
   const SunnyRoom room;
   const RayScene rays(room.scene);
