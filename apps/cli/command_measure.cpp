@@ -162,7 +162,7 @@ Status measureDaylight(const MeasurePlan& plan, MeasuredHome& home, Measurements
   std::vector<Lamp> lamps = home.scene.lamps;
   std::vector<Material> materials = home.scene.materials;
   lightByOvercastSky(home.scene, home.meters.groundReflectance);
-  const Result<std::unique_ptr<LitScene>> lit = lightScene(home.scene, plan.render, stages);
+  const Result<std::unique_ptr<LitScene>> lit = lightScene(home.scene, plan.render, stages, {.changes = false});
   if (!lit) return Error{lit.error()};
   if (lit.value()) addDaylight(m, *lit.value(), plan.measure.meters, stages);
   home.scene.lamps = std::move(lamps);
@@ -180,7 +180,7 @@ int workMeasure(const MeasureOptions& o, const MeasurePlan& plan) {
   Result<MeasuredHome> home = stages.run("load", [&](const Progress&) { return loadHomeToMeasure(o, plan); });
   if (!home) return failed(home.error());
   if (interrupted()) return stopped();
-  Result<std::unique_ptr<LitScene>> lit = lightScene(home.value().scene, plan.render, stages);
+  Result<std::unique_ptr<LitScene>> lit = lightScene(home.value().scene, plan.render, stages, {.changes = false});
   if (!lit) return failed(lit.error());
   if (!lit.value()) return stopped();
   Measurements m = measure(*lit.value(), home.value().meters, plan.measure, stages);

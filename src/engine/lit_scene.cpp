@@ -81,7 +81,7 @@ void LitScene::update(const SceneChange& change, Stages& stages) {
   relight(change, stages);
 }
 
-Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera) {
+Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const LitUse& use) {
   if (const Status status = checkSettings(settings); !status) return Error{status.error()};
   std::unique_ptr<LitScene> out;
   if (settings.technique == "path") {
@@ -89,11 +89,11 @@ Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSet
   } else if (settings.technique == "photon") {
     out = std::make_unique<PhotonScene>(scene, settings, stages);
   } else if (settings.technique == "hybrid" || settings.technique == "cone") {
-    out = lightByVoxels(scene, settings, stages);
+    out = lightByVoxels(scene, settings, stages, use.changes);
   } else if (settings.technique == "vxgi") {
-    out = lightByVxgi(scene, settings, stages, camera);
+    out = lightByVxgi(scene, settings, stages, use.camera);
   } else if (settings.technique == "lpv") {
-    out = lightByLpv(scene, settings, stages, camera);
+    out = lightByLpv(scene, settings, stages, use.camera);
   } else {
     return Error{fmt::format("technique: unknown name '{}'", settings.technique)};
   }

@@ -91,8 +91,13 @@ class LitScene {
   SceneRays base_;
 };
 
-// Refers to the scene, which must be validated and stay where it is. `camera`, where given, is the first to be looked from; otherwise light
-// is found for the whole scene at once. Errors: an unknown technique, settings out of range. Null if cancelled.
-Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera = nullptr);
+// What a lit scene is for.
+struct LitUse {
+  bool changes = true;             // there will be updates; without them `hybrid` also lights places that its voxels know nothing of (radiance/hidden_light.h), and looks for lights where they are seen
+  const Camera* camera = nullptr;  // the first to be looked from; none: light is found for the whole scene at once
+};
+
+// Refers to the scene, which must be validated and stay where it is. Errors: an unknown technique, settings out of range. Null if cancelled.
+Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const LitUse& use = {});
 
 }  // namespace roomlight

@@ -5,7 +5,7 @@
 
 namespace roomlight {
 
-std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages);  // hybrid and cone
+std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages, bool changes);  // hybrid and cone
 std::unique_ptr<LitScene> lightByVxgi(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera);
 std::unique_ptr<LitScene> lightByLpv(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera);
 

@@ -42,8 +42,8 @@ class LastView {
 template <class Shader, class Settings>
 class VoxelScene final : public LitScene {
  public:
-  VoxelScene(const Scene& scene, const RenderSettings& settings, const StageSettings<Settings>& use, Stages& stages) : LitScene(scene, true, stages), radiance_(use.radiance), gather_(use.gather) {
-    radiance_.still = false;  // what changes is followed by links
+  VoxelScene(const Scene& scene, const RenderSettings& settings, const StageSettings<Settings>& use, bool changes, Stages& stages) : LitScene(scene, true, stages), radiance_(use.radiance), gather_(use.gather) {
+    radiance_.still = !changes;  // what changes is followed by links
     if (const auto layers = wantedLayers(scene, lights(), settings)) radiance_.layers = layers.value();
     voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, use.voxel); });
     if constexpr (kByRays) gather_ = withCells(gather_, voxels_.voxels.voxelSizeM);
@@ -139,9 +139,9 @@ class VoxelScene final : public LitScene {
 
 }  // namespace
 
-std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages) {
-  if (settings.technique == "cone") return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, settings, coneStages(settings), stages);
-  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, settings, hybridStages(settings), stages);
+std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages, bool changes) {
+  if (settings.technique == "cone") return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, settings, coneStages(settings), changes, stages);
+  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, settings, hybridStages(settings), changes, stages);
 }
 
 }  // namespace roomlight

@@ -148,7 +148,7 @@ Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& s
   for (size_t c = 0; c < study.conditions.size(); ++c) {
     const Result<Scene> scene = litBy(home, study, study.conditions[c].daylight, lampsOf(study, candidates, model, design, c), true);
     if (!scene) return Error{scene.error()};
-    const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, stages);
+    const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, stages, {.changes = false});
     if (!lit) return Error{lit.error()};
     if (!lit.value()) return std::optional<Certificate>();
     Certificate::OfCondition r;

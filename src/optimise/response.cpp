@@ -72,7 +72,7 @@ Status addBase(Task& t, const Condition& condition) {
   const Result<Scene> scene = litBy(t.home, t.study, condition.daylight, json::array(), true);
   if (!scene) return Error{scene.error()};
   if (hasLight(scene.value())) {
-    const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), t.settings.render, t.stages);
+    const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), t.settings.render, t.stages, {.changes = false});
     if (!lit) return Error{lit.error()};
     if (!lit.value()) return Ok{};
     const auto readings = t.stages.run("meters: " + condition.name, [&](const Progress& p) { return lit.value()->illuminance(t.meters.elements, fullMeters(t.settings.render.seed), p); });
@@ -104,7 +104,7 @@ Status addGroup(Task& t, size_t first, size_t count) {
   if (!scene) return Error{scene.error()};
   RenderSettings render = t.settings.render;
   render.technique = "hybrid", render.layers = true;
-  const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, t.stages);
+  const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, t.stages, {.changes = false});
   if (!lit) return Error{lit.error()};
   if (!lit.value()) return Ok{};
   const LightLayers* layers = lit.value()->layers();

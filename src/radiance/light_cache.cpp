@@ -55,7 +55,7 @@ class Steps {
 }  // namespace
 
 LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress)
-    : settings_(settings), paths_(rays, voxels, settings.seed, progress) {
+    : settings_(settings), paths_(rays, voxels, settings.seed, progress, settings.still) {
   const Sources from{rays, lights, voxels, progress};
   traceAllLinks(from);
   progress.at(0.5f);

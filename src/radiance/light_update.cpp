@@ -63,7 +63,7 @@ void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels
   const Change change{carried, places};
   fewParticles_ = settings_.bouncesAtOnce > 0;
   field_.rays = 0;
-  const SlotPaths paths(rays, voxels, settings_.seed, progress, &paths_, &carried);
+  const SlotPaths paths(rays, voxels, settings_.seed, progress, settings_.still, &paths_, &carried);
   if (progress.stop()) return;
   updateLinks(from, paths, change);
   paths_ = paths;

@@ -12,7 +12,7 @@ constexpr int kMostPanes = 16;          // surfaces a ray goes through or on fro
 constexpr float kLift = 0.1f;           // voxels; how far points are lifted to see one another along a bent surface
 constexpr float kProbeHeight = 0.3f;    // voxels
 constexpr float kLeastProbe = 0.02f;    // voxels
-constexpr float kHiddenBehind = 0.15f;  // voxels; surfaces further behind a slot's place are not lit as it is
+constexpr float kHiddenBehind = 0.15f, kStrictlyBehind = 0.05f;  // voxels; surfaces further behind a slot's place are not lit as it is
 constexpr float kNothingLeft = 0.03f;
 constexpr float kOneSheet = 1.1f;       // of the area with which a plane fills the voxel: more is more than one
 
@@ -52,8 +52,8 @@ std::pair<size_t, size_t> slotsOfBrick(const Voxels& voxels, size_t brick) {
   return {slotBegin(firstVoxel), slotBegin(end)};
 }
 
-SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, const SlotPaths* before, const Carried* carried)
-    : rays_(&rays), voxels_(&voxels), points_(voxels.slots.size()), key_(voxels.slots.size()), sheet_(voxels.slots.size()), free_(voxels.slots.size()) {
+SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict, const SlotPaths* before, const Carried* carried)
+    : rays_(&rays), voxels_(&voxels), behind_(strict ? kStrictlyBehind : kHiddenBehind), points_(voxels.slots.size()), key_(voxels.slots.size()), sheet_(voxels.slots.size()), free_(voxels.slots.size()) {
   for (const Instance& i : rays.scene().instances) clear_.push_back(letsLightThrough(rays.scene().materials[static_cast<size_t>(rays.scene().meshes[static_cast<size_t>(i.mesh)].material)]));
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
     if (progress.stop()) return;
@@ -235,7 +235,7 @@ void SlotPaths::follow(std::span<const Ray> rays, std::span<Sampler> samplers, s
       }
       const auto s = static_cast<size_t>(m.slot);
       const FaceSlot& slot = voxels_->slots[s];
-      if (dot(slot.position - m.p, slot.normal) > kHiddenBehind * voxels_->voxelSizeM) {
+      if (dot(slot.position - m.p, slot.normal) > behind_ * voxels_->voxelSizeM) {
         reflect(m);
       } else if (sheet_[s]) {
         arrive(m);

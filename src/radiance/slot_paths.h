@@ -42,10 +42,11 @@ class SlotPaths {
   static constexpr uint32_t kPoints = 4;
 
   SlotPaths() = default;
-  // Of no use once `progress` says stop. Refers to rays and voxels.
-  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress) : SlotPaths(rays, voxels, seed, progress, nullptr, nullptr) {}
+  // Of no use once `progress` says stop. Refers to rays and voxels. `strict`: surfaces a little behind a slot's place are none of its, for who lights those by themselves (hidden_light.h); else their
+  // light would be lost, and the slot's stands for it.
+  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict = false) : SlotPaths(rays, voxels, seed, progress, strict, nullptr, nullptr) {}
   // Where bricks are carried from `before` what was found there stands.
-  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, const SlotPaths* before, const Carried* carried);
+  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict, const SlotPaths* before, const Carried* carried);
 
   // The same scene and voxels, wherever they are now.
   void refer(const RayScene& rays, const Voxels& voxels) { rays_ = &rays, voxels_ = &voxels; }
@@ -90,6 +91,7 @@ class SlotPaths {
 
   const RayScene* rays_ = nullptr;
   const Voxels* voxels_ = nullptr;
+  float behind_ = 0;  // voxels: further behind a slot's place surfaces are hidden
   std::vector<uint8_t> clear_;  // per instance: lets light through somewhere
   std::vector<std::array<Vec3, kPoints>> points_;  // per slot, like those below
   std::vector<uint32_t> key_;

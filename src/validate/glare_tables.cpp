@@ -101,7 +101,7 @@ Result<std::vector<GlareRow>> validateGlare(const std::string& technique, bool b
     RenderProgress quiet;
     quiet.cancelled = progress.cancelled;
     Stages stages(quiet, stats);
-    const Result<std::unique_ptr<LitScene>> lit = lightScene(setUp.scene, render, stages);
+    const Result<std::unique_ptr<LitScene>> lit = lightScene(setUp.scene, render, stages, {.changes = false});
     if (!lit) return Error{lit.error()};
     if (progress.stop()) break;
     GlarePlan plan;

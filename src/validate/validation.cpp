@@ -86,7 +86,7 @@ Result<std::vector<ValidationRow>> measured(const ValidationCase& of, const std:
   RenderProgress quiet;
   quiet.cancelled = progress.cancelled;
   Stages stages(quiet, stats);
-  const Result<std::unique_ptr<LitScene>> lit = lightScene(of.scene, render, stages);
+  const Result<std::unique_ptr<LitScene>> lit = lightScene(of.scene, render, stages, {.changes = false});
   if (!lit) return Error{lit.error()};
   if (progress.stop()) return std::vector<ValidationRow>();
   return judged(of, technique, values(of, *lit.value(), settings, progress));

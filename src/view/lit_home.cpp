@@ -14,7 +14,7 @@ Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder:
   out->scene = std::move(scene).value();
   RenderStats stats;
   Stages stages(progress, stats);
-  Result<std::unique_ptr<LitScene>> lit = lightScene(out->scene, work.settings, stages, work.camera ? &*work.camera : nullptr);
+  Result<std::unique_ptr<LitScene>> lit = lightScene(out->scene, work.settings, stages, {true, work.camera ? &*work.camera : nullptr});
   if (!lit) return Error{lit.error()};
   if (!lit.value() || stages.cancelled()) return std::unique_ptr<LitHome>();
   out->lit = std::move(lit.value());

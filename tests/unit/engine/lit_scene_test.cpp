@@ -125,7 +125,7 @@ TEST_P(LitSceneUpdate, aHiddenThingIsGone) {
 TEST_P(LitSceneUpdate, anEyeOutsideKeepsTheLight) {
   Home home;
   const Camera above = test::cameraAt({2, 8, 2});
-  const auto lit = std::move(lightScene(home.scene, small(GetParam()), stages_, &above).value());
+  const auto lit = std::move(lightScene(home.scene, small(GetParam()), stages_, {true, &above}).value());
   const size_t done = stats_.stages.size();
   lit->lookFrom(above, stages_);
   EXPECT_EQ(stats_.stages.size(), done);
@@ -150,7 +150,7 @@ TEST_P(LitSceneUpdate, canBeCancelledAtAnyTime) {
     progress.cancelled = &cancelled;
     Stages stages(progress, stats_);
     std::thread first = later(seconds * i / kTimes);
-    const auto lit = lightScene(home.scene, small(GetParam()), stages, &camera_);
+    const auto lit = lightScene(home.scene, small(GetParam()), stages, {true, &camera_});
     first.join();
     ASSERT_TRUE(lit.ok());
     const auto other = open(home.scene);
