@@ -43,7 +43,7 @@ struct RenderOptions : SettingsOptions, SceneOptions {
   std::optional<std::string> layerGroups;
   bool quiet = false;
   ViewOptions view;
-  bool allCameras() const { return cameras.size() == 1 && cameras.front() == kAllCameras; }
+  bool allCameras() const { return std::find(cameras.begin(), cameras.end(), kAllCameras) != cameras.end(); }
 };
 
 // Everything that can be known to be wrong before any work is done.
@@ -97,7 +97,8 @@ Result<RenderPlan> planRender(const RenderOptions& o) {
   Result<home::OpenWish> open = readSceneOptions(o, o.cameras.empty() || o.allCameras() ? "" : o.cameras.front());
   if (!open) return Error{open.error()};
   plan.open = std::move(open.value());
-  plan.open.allCameras = o.allCameras() || o.cameras.size() > 1;
+  plan.open.allCameras = o.allCameras();
+  if (!o.allCameras() && o.cameras.size() > 1) plan.open.moreCameras.assign(o.cameras.begin() + 1, o.cameras.end());
   const Result<Display> display = readDisplay(o.display);
   if (!display) return Error{display.error()};
   plan.display = display.value();
@@ -283,13 +284,20 @@ Result<HomeInView> loadHomeInView(const RenderOptions& o, RenderPlan& plan) {
   }
   plan.settings.width = last.width, plan.settings.height = last.height;  // the same for all
   if (const Status s = checkSettings(plan.settings); !s) return Error{s.error()};
-  if (const Status s = writeAddedLight(o, out.opened); !s) return Error{s.error()};
   return out;
 }
 
-Result<std::vector<Shot>> shotsOf(const RenderOptions& o, const std::vector<Camera>& cameras) {
+// Its name, or its number in the scene.
+std::string nameInFiles(const Scene& scene, const Camera& camera) {
+  if (!camera.name.empty()) return camera.name;
+  const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(), [&](const Camera& c) { return c.name.empty() && seeTheSame(c, camera); });
+  return std::to_string(same - scene.cameras.begin());
+}
+
+// With names of files that differ from one another and from what is read, and can be written.
+Result<std::vector<Shot>> shotsOf(const RenderOptions& o, const Scene& scene, const std::vector<Camera>& cameras) {
   std::vector<std::string> names;
-  for (const Camera& c : cameras) names.push_back(c.name.empty() ? std::to_string(names.size()) : c.name);
+  for (const Camera& c : cameras) names.push_back(nameInFiles(scene, c));
   std::vector<Shot> shots;
   for (const Camera& c : cameras) shots.push_back({c, {}, {}});
   for (const std::string& out : o.outputs) {
@@ -301,12 +309,21 @@ Result<std::vector<Shot>> shotsOf(const RenderOptions& o, const std::vector<Came
     for (size_t i = 0; i < files.size(); ++i) shots[i].stats = files[i];
   }
   if (shots.size() == 1) return shots;
+  std::vector<std::string> files = {o.scene, o.lighting, o.settingsFile, o.writeLighting};
   for (const Shot& shot : shots) {
-    for (const std::string& out : shot.outputs) {
-      if (const Status s = checkWritable(out); !s) return Error{s.error()};
-    }
+    files.insert(files.end(), shot.outputs.begin(), shot.outputs.end());
+    if (!shot.stats.empty()) files.push_back(shot.stats);
+  }
+  if (const Status s = checkDistinct(files); !s) return Error{s.error()};
+  for (size_t i = 4; i < files.size(); ++i) {
+    if (const Status s = checkWritable(files[i]); !s) return Error{s.error()};
   }
   return shots;
+}
+
+// What all pictures have of the first camera.
+void tellSharedLight(const RenderOptions& o, const home::OpenedHome& opened, const Camera& first, ProgressDisplay& display) {
+  if (!opened.added.empty() || (!opened.daylight.empty() && o.lighting.empty())) display.line(fmt::format("all pictures have the light of the first, '{}': {}", first.name, opened.added.empty() ? "its time of day" : "what was added"));
 }
 
 // Writes what was rendered and says so; returns the exit status.
@@ -345,9 +362,11 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
   Result<HomeInView> home = loading.run("load", [&](const Progress&) { return loadHomeInView(o, plan); });
   if (!home) return failed(home.error());
   const Scene& scene = home.value().opened.scene;
-  const Result<std::vector<Shot>> shots = shotsOf(o, home.value().cameras);
+  const Result<std::vector<Shot>> shots = shotsOf(o, scene, home.value().cameras);
   if (!shots) return failed(shots.error());
+  if (const Status s = writeAddedLight(o, home.value().opened); !s) return failed(s.error());
   if (!o.quiet) printOpened(o, home.value().opened);
+  if (shots.value().size() > 1) tellSharedLight(o, home.value().opened, home.value().cameras.front(), display);
   bool any = false;
   const auto noPicture = [&] { return failed(any ? "interrupted; pictures of the other cameras were not begun" : "interrupted before there was a picture; nothing was written", kInterrupted); };
   if (interrupted()) return noPicture();
@@ -357,6 +376,7 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
   Result<Renderer> renderer = Renderer::of(part ? *part : scene, plan.settings);
   if (!renderer) return failed(renderer.error());
   for (const Shot& shot : shots.value()) {
+    if (interrupted()) return noPicture();
     if (any) watch.emplace();
     Result<Rendered> rendered = renderer.value().picture(shot.camera, progress);
     if (!rendered) return failed(rendered.error());

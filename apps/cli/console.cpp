@@ -87,6 +87,7 @@ void ProgressDisplay::estimate(double relativeError, double srgbMse) {
 
 void ProgressDisplay::lineOfEstimate() {
   if (!estimate_.empty()) line(estimate_);
+  estimate_.clear();  // of the picture that is done
 }
 
 void ProgressDisplay::report(const std::string& stage, float fraction) {

@@ -85,7 +85,8 @@ void chooseCamera(const RayScene& rays, const OpenWish& wish, bool lightComes, O
   home.fileCameras = scene.cameras.size();
   std::string fault;
   scene.cameraInUse = cameraInUse(rays, home, fault);
-  const bool unknown = !wish.camera.empty() && !findCamera(scene, wish.camera);
+  const auto isUnknown = [&](const std::string& name) { return !name.empty() && !findCamera(scene, name); };
+  const bool unknown = isUnknown(wish.camera) || std::any_of(wish.moreCameras.begin(), wish.moreCameras.end(), isUnknown);
   if (wish.allCameras || unknown || !home.placed()) {
     for (Camera& c : proposeCameras(rays, home.scene.rooms, lightComes)) {
       if (findCamera(scene, c.name) && home.fileCameras > 0) c.name += " (proposed)";  // the file's goes by the name

@@ -30,6 +30,7 @@ struct OpenWish {
   std::optional<float> metresPerUnit;     // none: guessed where the file does not know
   LightWish light = LightWish::Auto;
   std::string camera;                     // that will be asked for, by name or number; empty: the default one
+  std::vector<std::string> moreCameras;   // likewise
   bool allCameras = false;                // proposals also where the file has a camera that will do
 };
 

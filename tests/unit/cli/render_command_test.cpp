@@ -136,6 +136,11 @@ TEST_F(RenderCommand, severalCamerasMakeAPictureEach) {
   };
   EXPECT_TRUE(lit("s_Back.json"));
   EXPECT_FALSE(lit("s_Front.json")) << "light is found once";
+  // Names are checked as they will be, with the camera's.
+  writeFile(path("l_Back.json"), R"({"lamps": []})");
+  const ProgramRun over = render({"-o", path("l.png"), "--stats", path("l.json"), "--lighting", path("l_Back.json"), "--camera", "Front", "--camera", "Back"});
+  EXPECT_EQ(over.exitStatus, 2) << over.err;
+  EXPECT_EQ(readFile(path("l_Back.json")), R"({"lamps": []})");
   const ProgramRun all = render({"-o", path("a.png"), "--camera", "all"});
   ASSERT_EQ(all.exitStatus, 0) << all.err;
   EXPECT_TRUE(std::filesystem::exists(path("a_Front.png")) && std::filesystem::exists(path("a_Back.png")));
