@@ -57,12 +57,17 @@ void store(float* line, ptrdiff_t pitch, Vec3 v) { line[0] = v.x, line[pitch] = 
 Vec3 fetch(const float* line, ptrdiff_t pitch) { return {line[0], line[pitch], line[2 * pitch]}; }
 
 // Writes a row of pixels into its lines.
-void pack(std::span<const FilterPixel> pixels, FilterRows& rows, int y) {
+void pack(std::span<const FilterPixel> pixels, const ReflectedPlace* reflected, FilterRows& rows, int y) {
   const ptrdiff_t pitch = rows.pitch();
   float* at = rows.line(0, y);
   for (const FilterPixel& p : pixels) {
     store(at + FilterRows::kNormal * pitch, pitch, p.surface > 0 ? p.normal : Vec3());
     store(at + FilterRows::kPosition * pitch, pitch, p.position);
+    const bool shows = reflected && reflected->weight > 0 && length(reflected->normal) > 0;
+    store(at + FilterRows::kReflected * pitch, pitch, shows ? normalize(reflected->normal) : p.surface > 0 ? p.normal
+                                                                                                           : Vec3());
+    store(at + (FilterRows::kReflected + 3) * pitch, pitch, shows ? reflected->position / reflected->weight : p.position);
+    if (reflected) ++reflected;
     at[FilterRows::kRoughness * pitch] = p.roughness;
     at[FilterRows::open(0) * pitch] = p.open;
     const Vec3 lights[kFilterLights] = {p.diffuse / divisor(p.albedo), p.sharp / divisor(p.albedo), p.specular, p.rare / divisor(p.albedo)};
@@ -148,7 +153,7 @@ Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
     forRows(reach, [&](int y) {
       if (y >= cleared) rows.clearMargins(y);
       const std::span<const FilterPixel> pixels = pixelsOfRow(begin + y);
-      pack(pixels, rows, y);
+      pack(pixels, input.reflected.empty() ? nullptr : &input.reflected[static_cast<size_t>(begin + y) * static_cast<size_t>(w)], rows, y);
       if (levels) packNoise(pixels, rows, y, static_cast<size_t>(begin + y) * static_cast<size_t>(w), also.round);
     });
     cleared = std::max(cleared, end - begin);
@@ -224,10 +229,12 @@ class RoundPicture {
  public:
   RoundPicture(const FilterInput& input, int passes, const std::function<FilterPixel(size_t)>* mean) : w_(input.width), beside_(reachOf(stepsOf(passes)) + poolReachOf(passes) + kCompanyReach), padded_(w_ + 2 * beside_, input.height) {
     padded_.byLevels = input.byLevels;
+    if (!input.reflected.empty()) padded_.reflected.resize(padded_.pixels.size());
     parallelFor(static_cast<size_t>(input.height), 4, [&](size_t y) {
       for (int x = 0; x < padded_.width; ++x) {
         const size_t i = y * static_cast<size_t>(w_) + static_cast<size_t>(((x - beside_) % w_ + w_) % w_);
         padded_.at(x, static_cast<int>(y)) = mean ? (*mean)(i) : input.pixels[i];
+        if (!input.reflected.empty()) padded_.reflected[y * static_cast<size_t>(padded_.width) + static_cast<size_t>(x)] = input.reflected[i];
       }
     });
   }

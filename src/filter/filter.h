@@ -26,11 +26,19 @@ struct FilterPixel {
   float diffuseShare = 1, specularShare = 1;  // and how many times as many of these lights; 0: none, its neighbours tell
 };
 
+// What a pixel shows of other things in panes: what these reflect is filtered as surfaces themselves are.
+struct ReflectedPlace {  // sums of unit normals and places, and of what they weigh
+  Vec3 normal, position;
+  float weight = 0;
+  void add(const ReflectedPlace& other, float by) { normal += other.normal * by, position += other.position * by, weight += other.weight * by; }
+};
+
 struct FilterInput {
   int width = 0, height = 0;
   bool wraps = false;     // the picture goes on at its other side, as panoramas do
   bool byLevels = false;  // no outliers are in the variance of diffuse light (as where rare light is apart): it is filtered by levels
   std::vector<FilterPixel> pixels;
+  std::vector<ReflectedPlace> reflected;  // of each pixel; may be empty
   FilterInput(int w, int h) : width(w), height(h), pixels(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
   FilterPixel& at(int x, int y) { return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)]; }
 };

@@ -53,6 +53,7 @@ V falloff(V x) {
 struct Place {
   V3 n, p;
 };
+Place reflectedAt(const float* pixel, ptrdiff_t pitch) { return {load3(pixel + FilterRows::kReflected * pitch, pitch), load3(pixel + (FilterRows::kReflected + 3) * pitch, pitch)}; }
 Place placeAt(const float* pixel, ptrdiff_t pitch) { return {load3(pixel + FilterRows::kNormal * pitch, pitch), load3(pixel + FilterRows::kPosition * pitch, pitch)}; }
 
 // How far two places are off each other's tangent plane, in tolerances. These grow with the distance along the plane, so that what hangs before a
@@ -181,6 +182,7 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
     const float* here = row + x;
     const Place own = placeAt(here, pitch);
+    const Place ownReflected = kSpecular ? reflectedAt(here, pitch) : own;
     const V roughness = load(here + FilterRows::kRoughness * pitch);
     Sum sums[kFilterLights];
     for (int k = 0; k < kFilterLights; ++k) {
@@ -221,7 +223,13 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
           const V noise = hn::Sqrt(hn::Add(s.noise, load(there + (FilterRows::kNoise + k) * pitch)));
           const V seen = load(there + (FilterRows::kSeen + k) * pitch);
           const V between = hn::IfThenElseZero(hn::Ge(hn::Min(seen, s.seen), hn::Zero(d)), hn::Abs(hn::Sub(seen, s.seen)));
-          V weight = hn::Mul(kernel, falloff(hn::Add(off, hn::Div(between, hn::MulAdd(set(kSigmas[k]), noise, set(1e-6f))))));
+          V apart = off, like = kernel;
+          if (k == 2) {
+            const Place reflected = reflectedAt(there, pitch);
+            apart = hn::Max(off, offPlane(ownReflected, reflected));
+            like = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), hn::Min(facing, likeness(dot(ownReflected.n, reflected.n))));
+          }
+          V weight = hn::Mul(like, falloff(hn::Add(apart, hn::Div(between, hn::MulAdd(set(kSigmas[k]), noise, set(1e-6f))))));
           if (k == 2) {
             const V r = load(there + FilterRows::kRoughness * pitch);
             const auto alike = hn::And(hn::Ge(r, set(kMirrorRoughness)), hn::Le(hn::Abs(hn::Sub(r, roughness)), set(kSameRoughness)));

@@ -14,8 +14,9 @@ class FilterRows {
   // Quantities. kSeen is the luminance by which pixels are compared. Each light has two places for its colour, variance and weight: a pass
   // reads one and writes the other.
   static constexpr int kNormal = 0, kPosition = 3, kRoughness = 6, kNoise = 7, kSeen = kNoise + kFilterLights, kLight = kSeen + kFilterLights, kVariance = 3, kWeight = 4, kParts = 5;
+  // kReflected: normal and place of what is seen in panes, else those of the pixel.
   // Of diffuse light by levels (levels.h): what of them is kept so far, its noise, and what is pooled, in two places.
-  static constexpr int kKept = kLight + kFilterLights * 2 * kParts, kKeptNoise = kKept + 3, kPool = kKeptNoise + 1, kPooled = 5, kOpen = kPool + 2 * kPooled, kCount = kOpen + 2;
+  static constexpr int kKept = kLight + kFilterLights * 2 * kParts, kKeptNoise = kKept + 3, kPool = kKeptNoise + 1, kPooled = 5, kOpen = kPool + 2 * kPooled, kReflected = kOpen + 2, kCount = kReflected + 6;
   static constexpr int light(int k, int place) { return kLight + (2 * k + place) * kParts; }
   static constexpr int open(int place) { return kOpen + place; }
   static constexpr int pool(int place) { return kPool + kPooled * place; }

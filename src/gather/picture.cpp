@@ -32,7 +32,7 @@ Rectangle tileAt(size_t index, int width, int height) {
 // What the filter is told of one layer: what pixels see is that of the whole, light and noise its own.
 FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>& counts, const LayerSums& sums, size_t layer) {
   FilterInput out(whole.width, whole.height);
-  out.wraps = whole.wraps;
+  out.wraps = whole.wraps, out.reflected = whole.reflected;
   parallelFor(counts.size(), 4096, [&](size_t i) {
     FilterPixel& p = out.pixels[i];
     p = whole.pixels[i];
@@ -69,6 +69,7 @@ class Gathering {
         tolerance_(settings.tolerance) {
     sums_.wraps = pixelRays_.camera().wraps(), sums_.byLevels = settings.rareApart;
     byLayer_.resize(counts_.size());
+    if (settings_.filterPasses > 0) sums_.reflected.resize(counts_.size());
   }
 
   // Pass by pass, until no pixel needs more rays, there is no time, or the error is to be looked at.
@@ -187,7 +188,7 @@ class Gathering {
         const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
         if (!asks(pixel)) continue;
         const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings_.seed, every_);
-        pixelShader_.see(pixelRays_.at(x, y, first, n, some), sequence, {&sums_.pixels[pixel], &counts_[pixel], static_cast<uint32_t>(pixel)}, work, count);
+        pixelShader_.see(pixelRays_.at(x, y, first, n, some), sequence, {&sums_.pixels[pixel], &counts_[pixel], static_cast<uint32_t>(pixel), sums_.reflected.empty() ? nullptr : &sums_.reflected[pixel]}, work, count);
       }
     }
     if (every_ > 1) gatherSparsely(work, r, every_, settings_.rayRoughness, static_cast<uint32_t>(n), sums_);

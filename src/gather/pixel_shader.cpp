@@ -264,6 +264,7 @@ void PixelShader::addPart(const TileWork::Part& part, std::span<const SurfaceLig
     sum.albedo += part.left * l.albedo * part.weight;
     sum.specular += part.left * l.specular * (weight * static_cast<float>(part.glossy));
     sum.rest += part.left * l.mirrored * weight;
+    if (part.pixel.reflected) part.pixel.reflected->add(l.reflected, luminance(part.left) * weight);
     part.pixel.count->occlusion += l.occlusion * weight;
   }
 }

@@ -36,6 +36,7 @@ struct PixelSum {  // variances are of the sums
   FilterPixel* sum;
   PixelCount* count;
   uint32_t index;  // of the pixel, in sums by layers
+  ReflectedPlace* reflected = nullptr;
 };
 FilterPixel meanOf(const FilterPixel& sum, const PixelCount& count);
 

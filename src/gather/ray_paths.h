@@ -1,6 +1,7 @@
 // What the two halves of technique hybrid's shading hand to one another: RayScatter sends rays from surfaces, RayShader follows them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "gather/hit_survey.h"
@@ -47,6 +48,8 @@ struct GatherVertex {
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
   const GuideCones* cones = nullptr;  // that part of the rays which gather diffuse light follow
 
+  // Whether what its glossy lobe reflects is seen as a picture.
+  bool picture() const { return first && clear && s.m.roughness < kMirrorRoughness; }
   // Density of such rays, where that of unguided ones is known.
   float guided(float pdf, Vec3 wi) const { return cones ? (1 - cones->share) * pdf + cones->share * cones->pdf(wi) : pdf; }
 
@@ -75,7 +78,7 @@ struct HitArrival {
 struct GatherWork {
   struct Shadowed {
     uint32_t estimate;
-    bool sure, layersOnly;
+    bool sure, layersOnly, mirrored;  // mirrored: by what is as smooth as a mirror, from what the camera sees in it
     Lobes light;
     LightOrigin origin;
   };
@@ -111,7 +114,8 @@ struct GatherWork {
   LayerSums* layers = nullptr;
   const LightLayers* lightLayers = nullptr;
   bool layersAlone = false;  // for meters: nobody wants the sum of all light
-  std::vector<uint32_t> shadingOf;
+  std::vector<uint32_t> shadingOf;  // of each estimate
+  std::span<SurfaceLight> shaded;   // light of the shadings
   std::vector<float> part;
 
   void clear() {
@@ -136,11 +140,17 @@ struct GatherWork {
     if (layers) addToLayers(estimate, light, origin);
     return light;
   }
+  // What a path's first ray shows of other things.
+  void show(const GatherPath& path, Vec3 p, Vec3 n) {
+    if (!path.picture || path.depth != 1 || arrivals) return;
+    shaded[shadingOf[path.estimate]].reflected.add({n, p, 1}, luminance(path.factor.specular));
+  }
   // Of what was added: emission seen as a picture.
   void takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
+  void takeMirroredOfLayer(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
   void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin);
-  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin, bool layersOnly = false) {
-    shadowRays.push_back(ray), shadowed.push_back({estimate, sure, layersOnly, light, origin});
+  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin, bool layersOnly = false, bool isMirrored = false) {
+    shadowRays.push_back(ray), shadowed.push_back({estimate, sure, layersOnly, isMirrored, light, origin});
   }
 };
 

@@ -47,7 +47,10 @@ void GatherWork::addToLayers(uint32_t estimate, const Lobes& light, const LightO
 
 void GatherWork::takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigin& origin) {
   mirrored[estimate] += specular;
-  if (!layers) return;
+  if (layers) takeMirroredOfLayer(estimate, specular, origin);
+}
+
+void GatherWork::takeMirroredOfLayer(uint32_t estimate, Vec3 specular, const LightOrigin& origin) {
   const Vec3 light = specular * (part[estimate] * origin.weight);
   layers->add(shadingOf[estimate], LayerSums::kSpecular, origin.layer, -light);
   layers->add(shadingOf[estimate], LayerSums::kRest, origin.layer, light);
@@ -82,7 +85,7 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
   const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
   const float likeIt = light.emitter >= 0 ? static_cast<float>(emitterSamples(v.depth)) : 1;  // samples that share a kind of light
   const float weight = w.layers ? 1 : askingWeight(likeIt * luminance(sum.diffuse + sum.specular), v.estimate, w);  // what gives the picture little may be all that a layer has
-  if (weight > 0 && (!isBlack(sum.diffuse) || !isBlack(sum.specular))) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), {sum.diffuse * weight, sum.specular * weight}, origin, layersOnly);
+  if (weight > 0 && (!isBlack(sum.diffuse) || !isBlack(sum.specular))) w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), {sum.diffuse * weight, sum.specular * weight}, origin, layersOnly, v.picture() && light.emitter >= 0);
 }
 
 // What can give little beside the light expected is seldom asked for, and counts for more then; 0: not now. `most`: luminance that it could give.
@@ -273,7 +276,7 @@ void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {
   const Vec3 origin = offsetOrigin(v.s.p, v.s.ng);
   const auto send = [&](Vec3 d, const Lobes& factor, float pdf, bool clear, float spread) {
     if (dot(d, v.s.ng) <= 0 || std::max(maxComponent(factor.diffuse), maxComponent(factor.specular)) < kNothing) return;
-    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, v.causticsKnown, v.first && clear && v.s.m.roughness < kMirrorRoughness, spread});
+    w.next.push_back({{origin, d, 0, kInfinity}, factor, v.s.p, pdf, v.side, v.estimate, static_cast<uint8_t>(v.depth + 1), 0, clear, v.skyKnown, v.inGlow, v.leavesNear && !isPolishedMetal(*v.s.material), v.lampsKnown, v.causticsKnown, clear && v.picture(), spread});
   };
   if (!v.first) {
     const Vec2 u = sampler.next2();

@@ -15,6 +15,7 @@ constexpr float kFaintShare = 0.2f;    // of the light seen: less is a faint ref
 constexpr float kFaintCells = 3;  // that such a reflection is taken from
 constexpr float kAlike = 0.5f;     // cosine between normals of a place and of a slot that may have taken its light
 constexpr float kNearCells = 2;   // first hits nearer than that many cells read none: the slot if it may be read, else they are lit afresh
+constexpr float kFarM = 1000;    // away: what panes show of the sky
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
 enum Kind : uint8_t {
@@ -63,7 +64,7 @@ void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> sha
   static const HitSurvey kNone;
   thread_local GatherWork w;
   w.clear();
-  w.survey = survey ? survey : &kNone, w.rareFrom = survey ? kRare : kInfinity;
+  w.shaded = light, w.survey = survey ? survey : &kNone, w.rareFrom = survey ? kRare : kInfinity;
   w.layers = layers, w.lightLayers = field_.layers.lights.get(), w.layersAlone = layers && !work.empty() && work[0].lampsKnown;
   for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), w);
   traceShadows(w);
@@ -85,14 +86,16 @@ void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> sha
 // The mean of estimates, and its variance from how they differ.
 void RayShader::sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, std::span<const Vec3> mirrored, SurfaceLight& out) {
   const auto n = static_cast<float>(found.size());
-  for (const Lobes& l : found) out.diffuse += l.diffuse / n, out.specular += l.specular / n;
-  for (const Vec3& r : rare) out.rare += r / n;
-  for (const Vec3& m : mirrored) out.mirrored += m / n;
-  out.diffuse = max(out.diffuse - out.rare, Vec3(0)), out.specular = max(out.specular - out.mirrored, Vec3(0));
+  Lobes mean;
+  for (size_t i = 0; i < found.size(); ++i) {
+    mean.diffuse += (found[i].diffuse - rare[i]) / n, mean.specular += (found[i].specular - mirrored[i]) / n;
+    out.rare += rare[i] / n, out.mirrored += mirrored[i] / n;
+  }
+  out.diffuse += max(mean.diffuse, Vec3(0)), out.specular += max(mean.specular, Vec3(0));
   if (found.size() < 2) return;
   for (size_t i = 0; i < found.size(); ++i) {
     const Lobes& l = found[i];
-    const float d = luminance(l.diffuse - rare[i] - out.diffuse), s = luminance(l.specular - mirrored[i] - out.specular);
+    const float d = luminance(l.diffuse - rare[i] - mean.diffuse), s = luminance(l.specular - mirrored[i] - mean.specular);
     out.diffuseVariance += d * d / (n * (n - 1)), out.specularVariance += s * s / (n * (n - 1));
   }
 }
@@ -146,12 +149,12 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
     if (light.pdf > 0) f.specular *= misWeight(light.pdf, bsdf.pdfSpecular(light.wi));
     const Lobes arrives{f.diffuse * light.radiance * shadows[i].left, f.specular * light.radiance * shadows[i].left};
     out.sharp += arrives.diffuse;
-    out.specular += arrives.specular;
+    (v.picture() ? out.mirrored : out.specular) += arrives.specular;
     if (w.layers) {
       const LightLayers& layers = *field_.layers.lights;
       const int32_t layer = light.lamp >= 0 ? layers.ofLamp[static_cast<size_t>(light.lamp)] : layers.sun;
       w.layers->add(index, LayerSums::kSharp, layer, arrives.diffuse);
-      w.layers->add(index, LayerSums::kSpecular, layer, arrives.specular);
+      w.layers->add(index, v.picture() ? LayerSums::kRest : LayerSums::kSpecular, layer, arrives.specular);
     }
     const float l = luminance(f.diffuse * light.radiance);
     out.sharpVariance += l * l * shadows[i].variance;
@@ -169,7 +172,8 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
     w.mirrored.push_back({});
     w.most.push_back(most);
     w.expected.push_back(most < kInfinity ? most / kMost : 0);
-    if (w.layers || w.arrivals) w.shadingOf.push_back(index), w.part.push_back(1 / static_cast<float>(n));
+    w.shadingOf.push_back(index);
+    if (w.layers) w.part.push_back(1 / static_cast<float>(n));
     scatter_.from(v, w);
   }
   return out;
@@ -280,14 +284,18 @@ void RayShader::addBackground(const GatherPath& path, GatherWork& w) const {
 
 // What a path finds where its ray ends, and how it goes on from there.
 void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) const {
-  if (!hit.valid()) return addBackground(path, w);
+  if (!hit.valid()) {
+    w.show(path, path.ray.origin + path.ray.direction * kFarM, -path.ray.direction);
+    return addBackground(path, w);
+  }
   const uint8_t kind = kind_[hit.instance];
   const bool lit = path.clear && !isFaint(path);  // afresh, as the picture that is seen
   if (kind == 0 && !lit) {
     const Vec3 d = path.ray.direction, n = normalize(dot(hit.ng, d) < 0 ? hit.ng : -hit.ng);
-    if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return;
+    if (cached(path, hit, path.ray.origin + d * hit.t, n, w)) return w.show(path, path.ray.origin + d * hit.t, n);
   }
   const SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
+  if (!(kind & kClearKind)) w.show(path, s.p, s.ng);
   if ((kind & kShines) && !w.arrivals) {
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
       LightOrigin origin;
@@ -526,9 +534,12 @@ void RayShader::traceShadows(GatherWork& w) const {
   for (size_t i = 0; i < w.shadowed.size(); ++i) {
     const GatherWork::Shadowed& s = w.shadowed[i];
     if (s.layersOnly) {
-      w.addToLayers(s.estimate, {s.light.diffuse * w.left[i], s.light.specular * w.left[i]}, s.origin);
+      const Lobes light{s.light.diffuse * w.left[i], s.light.specular * w.left[i]};
+      w.addToLayers(s.estimate, light, s.origin);
+      if (s.mirrored) w.takeMirroredOfLayer(s.estimate, light.specular, s.origin);
     } else {
-      w.add(s.estimate, s.light, w.left[i], s.origin, s.sure);
+      const Lobes added = w.add(s.estimate, s.light, w.left[i], s.origin, s.sure);
+      if (s.mirrored) w.takeMirrored(s.estimate, added.specular, s.origin);
     }
   }
   w.shadowRays.clear(), w.shadowed.clear();

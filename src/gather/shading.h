@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/sampler.h"
+#include "filter/filter.h"
 #include "gather/layer_light.h"
 #include "gather/sharp_lights.h"
 #include "trace/surface_point.h"
@@ -36,6 +37,7 @@ struct SurfaceLight {
   Vec3 albedo;    // of that lobe: (diffuse + rare + sharp) / albedo is irradiance / pi
   Vec3 specular;  // reflected by the glossy lobe, but for
   Vec3 mirrored;  // what shines by itself and is seen as a picture in what is as smooth as a mirror (of shaders that tell; else part of specular): no noise, however bright beside what is around
+  ReflectedPlace reflected;  // what is seen as a picture in it, where the shader tells
   float sharpVariance = 0;  // of the luminance of `sharp`
   float diffuseVariance = 0, specularVariance = 0;  // of the others', where the shader took several samples; else 0
   float occlusion = 0;

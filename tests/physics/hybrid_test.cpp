@@ -479,6 +479,45 @@ TEST(Hybrid, polishedSheetOverASunlitFloor) {
   EXPECT_NEAR(measured, expected, 0.03 * expected);
 }
 
+// By night, in a pane: a card beside a bulb stands out from the wall behind it as it does without the filter.
+TEST(Hybrid, panesShowBrightThingsAsSharpAsTheyAre) {
+  Scene scene;
+  const int grey = test::addMaterial(scene, test::lambertian(0.5f)), black = test::addMaterial(scene, test::lambertian(0.002f));
+  test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4, 2.4f, 4}, std::vector<int>(6, grey));
+  test::addRectangle(scene, {0, 0, 0.1f}, {4, 0, 0}, {0, 2.4f, 0}, black);
+  Material glass;
+  glass.metallic = 0, glass.roughness = 0, glass.transmission = 1;
+  test::addRectangle(scene, {1, 0.4f, 0.5f}, {2, 0, 0}, {0, 1.6f, 0}, test::addMaterial(scene, glass));
+  test::addBox(scene, {2.2f, 1.3f, 3.4f}, {2.4f, 1.5f, 3.42f}, grey);
+  test::addSphere(scene, {2.3f, 1.42f, 3.3f}, 0.01f, test::addMaterial(scene, test::lambertian(0, 100'000)));
+  Camera camera = cameraAt({2, 1.3f, 2.4f}, {2.15f, 1.36f, 0.5f});
+  camera.yFovRad = 0.35f;
+  const Lit lit(std::move(scene), 0.12f);
+  RayGatherSettings settings;
+  settings.width = settings.height = 96;
+  const Image shown = lit.hybrid(camera, settings);
+  settings.filterPasses = 0, settings.samples = 16, settings.tolerance = 0;
+  const Image plain = lit.hybrid(camera, settings);
+  // What is as bright as the card, and pixels beside that.
+  const float bright = 2 * static_cast<float>(mean(plain));
+  const auto isBright = [&](int x, int y) { return luminance(plain.at(std::clamp(x, 0, 95), std::clamp(y, 0, 95))) > bright; };
+  double wall = 0, expected = 0;
+  int beside = 0;
+  for (int y = 8; y < 88; ++y) {
+    for (int x = 8; x < 88; ++x) {
+      int near = 0, touching = 0;
+      for (int j = -6; j <= 6; ++j) {
+        for (int i = -6; i <= 6; ++i) near += isBright(x + i, y + j), touching += std::max(std::abs(i), std::abs(j)) <= 1 && isBright(x + i, y + j);
+      }
+      if (near == 0 || touching > 0) continue;
+      wall += static_cast<double>(luminance(shown.at(x, y))), expected += static_cast<double>(luminance(plain.at(x, y))), ++beside;
+    }
+  }
+  ASSERT_GT(beside, 50);
+  test::record("Wall seen in a pane by night beside a bright card, luminance, cd/m²", "6 pixels around", "hybrid", expected / beside, wall / beside);
+  EXPECT_NEAR(wall, expected, 0.1 * expected);
+}
+
 // The same picture whatever the number of threads.
 TEST(Hybrid, sameBitsWithAnyNumberOfThreads) {
   const Lit lit(twoRooms(0.1f), 0.1f);

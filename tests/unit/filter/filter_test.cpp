@@ -107,6 +107,26 @@ TEST(Filter, mixesNoLightOfWallsThatMeet) {
   EXPECT_LT(momentsOf(after, 32, 64).variance, 0.05);
 }
 
+// One pane, in which two walls are seen: what it shows of one stays with that.
+TEST(Filter, mixesNoReflectionsOfDifferentThings) {
+  FilterInput in = noisyWall(64, 32, 10, 0);
+  in.reflected.resize(in.pixels.size());
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      Rng rng(static_cast<uint64_t>(64 * y + x), 0, 7);
+      FilterPixel& p = in.at(x, y);
+      p.diffuse = {}, p.specular = Vec3(std::max(0.0f, (x < 32 ? 5.0f : 3.0f) + 2 * test::gaussian(rng))), p.specularVariance = 4;
+      in.reflected[static_cast<size_t>(64 * y + x)] = {Vec3{0, 0, 2}, Vec3{p.position.x, p.position.y, x < 32 ? 1.0f : 3.0f} * 2, 2};
+    }
+  }
+  const Image after = filtered(in, 5);
+  EXPECT_NEAR(momentsOf(after, 28, 32).mean, 5, 0.3);
+  EXPECT_NEAR(momentsOf(after, 32, 36).mean, 3, 0.3);
+  EXPECT_LT(momentsOf(after, 0, 32).variance, 0.4);
+  in.reflected.clear();
+  EXPECT_LT(momentsOf(filtered(in, 5), 28, 32).mean, 4.7);
+}
+
 // A lamp's shade a metre before the wall, facing the same way, hot and as noisy: nothing of it reaches the wall.
 TEST(Filter, mixesNoLightOfWhatHangsBeforeAWall) {
   FilterInput in = noisyWall(64, 64, 10, 2);
