@@ -14,7 +14,7 @@
 namespace roomlight {
 namespace {
 
-constexpr float kMostShare = 0.75f;  // of rays that follow a guide
+constexpr float kMostShare = 0.3f;  // of rays that follow a guide
 constexpr size_t kFewest = 8;       // rays that a region learns from
 constexpr float kLeastShare = 0.05f;
 constexpr float kNarrowest = 0.01f, kWidest = 0.8f;      // sine of a cone's half angle: nearer targets are left to chance

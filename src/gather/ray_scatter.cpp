@@ -20,7 +20,7 @@ constexpr uint64_t kLayerKey = 0x1a7e25;    // other random numbers than the pic
 
 }  // namespace
 
-RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, const BrightPatches& patches, bool sampleLamps) : lights_(lights), voxels_(voxels), field_(field), patches_(patches), sampleLamps_(sampleLamps), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
+RayScatter::RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, const BrightPatches& patches, const SunGloss& sunGloss, bool sampleLamps) : lights_(lights), voxels_(voxels), field_(field), patches_(patches), sunGloss_(sunGloss), sampleLamps_(sampleLamps), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
   for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
   if (field.layers.empty()) return;
   const LightLayers& layers = *field.layers.lights;
@@ -260,7 +260,9 @@ void RayScatter::glowAt(const GatherVertex& v, const BrightPatches::Candidates& 
   const float density = patches_.densityAt(g.point, v.s.p, v.side);
   f.diffuse *= BrightPatches::pointShare(density, v.apart || v.followed ? cosine : mixed);
   f.specular *= v.clear && v.apart ? 0 : BrightPatches::pointShare(density, v.apart ? v.bsdf.pdfSpecular(wi) : mixed);
-  Lobes sum{f.diffuse * g.light.radiance, f.specular * g.light.radiance};
+  if (isBlack(f.diffuse) && isBlack(f.specular)) return;
+  const Vec3 radiance = g.light.radiance * sunGloss_.at(g.point, -wi);
+  Lobes sum{f.diffuse * radiance, f.specular * radiance};
   if (v.first && v.causticsKnown && patches_.point(g.point).onMetal) sum.diffuse = {};
   const float weight = w.layers ? 1 : askingWeight(luminance(sum.diffuse + sum.specular), v.estimate, w);
   if (!(weight > 0)) return;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "gather/ray_paths.h"
+#include "gather/sun_gloss.h"
 #include "radiance/bright_patches.h"
 #include "radiance/surroundings.h"
 #include "radiance/radiance_field.h"
@@ -14,7 +15,7 @@ namespace roomlight {
 class RayScatter {
  public:
   // `sampleLamps`: lamps are too many for each to cast its own shadow on what the camera sees.
-  RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, const BrightPatches& patches, bool sampleLamps);
+  RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, const BrightPatches& patches, const SunGloss& sunGloss, bool sampleLamps);
   // Adds its shadow rays and paths to `w`.
   void from(const GatherVertex& v, GatherWork& w) const;
   // Whether light straight from the emissive mesh of an instance to where the path came from is in the cache.
@@ -53,6 +54,7 @@ class RayScatter {
   const Voxels& voxels_;
   const RadianceField& field_;
   const BrightPatches& patches_;
+  const SunGloss& sunGloss_;
   const bool sampleLamps_;
   // Lights of a layer that are sampled from there on: lamps, if they are at all, and emissive meshes.
   struct Members {

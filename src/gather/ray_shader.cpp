@@ -43,10 +43,11 @@ BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const Radian
 }  // namespace
 
 RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
-    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), patches_(patchesOf(rays, voxels, field, settings)), settings_(settings), sharp_(rays, lights), scatter_(lights, voxels, field, patches_, lights.lampCount() + lights.sunCount() > sharp_.count()) {
+    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), patches_(patchesOf(rays, voxels, field, settings)), settings_(settings), sharp_(rays, lights), scatter_(lights, voxels, field, patches_, sunGloss_, lights.lampCount() + lights.sunCount() > sharp_.count()) {
   if (lights.sunCount() == 1) {
     const LightSample sun = lights.sampleSun(0, {0.5f, 0.5f});
     sunDirection_ = sun.wi, sunColour_ = sun.radiance / luminance(sun.radiance);
+    sunGloss_ = SunGloss(rays, patches_, sunDirection_);
   }
   double sum = 0, flux = 0, area = 0;
   for (size_t i = 0; i < voxels.slots.size(); ++i) {
@@ -477,8 +478,8 @@ void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& 
 
 // Light that a cache has of a place: `even` as it is spread evenly, of which points take their part, and what the sun's differs from that.
 void RayShader::addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal, const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const {
-  const Vec3 ofRay = even * points.ray(), bent = sunLux > 0 ? max(Vec3(0), even + sunward(path, hit, sunLux, normal)) : even;
-  const Vec3 light = max(Vec3(0), ofRay + (bent - even));
+  const Vec3 ofRay = even * points.ray(), bent = sunLux > 0 ? max(-even, sunward(path, hit, sunLux, normal)) : Vec3(0);
+  const Vec3 light = max(Vec3(0), ofRay + bent * (1 - points.ofSun));
   const Lobes added = w.add(path.estimate, path.factor, light, {});
   if (!w.layers || isBlack(added.diffuse + added.specular)) return;
   // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
@@ -494,17 +495,13 @@ RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, int64_t 
   const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM;
   const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, sunLux / std::max(lux, 1e-30f)), glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
   const auto left = [&](float share) { return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction), path.side, path.pdf)) : 0; };
-  return {path.inGlow ? glow : left(glow), left(sun)};
+  const float leftOfSun = left(sun);
+  return {path.inGlow ? glow : left(glow), leftOfSun, sun > 0 ? leftOfSun / sun : 0};
 }
 
-// Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it: the sun's illuminance is cached, its
-// reflection by gloss and shading normals is not.
+// Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it.
 Vec3 RayShader::sunward(const GatherPath& path, const Hit& hit, float sunLux, Vec3 normal) const {
-  SurfacePoint s = surfaceAt(rays_.scene(), hit, path.ray.direction);
-  s.m.roughness = std::max(s.m.roughness, kSpread);
-  const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
-  const float cosine = std::max(dot(normal, sunDirection_), 0.05f);
-  return sunColour_ * (sunLux * (bsdf.evaluate(sunDirection_) / cosine - bihemisphericalAlbedo(s.m) / kPi));
+  return sunColour_ * (sunLux * SunGloss::bend(surfaceAt(rays_.scene(), hit, path.ray.direction), normal, sunDirection_, -path.ray.direction));
 }
 
 void RayShader::resolveUnsure(GatherWork& w) const {

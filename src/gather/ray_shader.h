@@ -50,7 +50,8 @@ class RayShader final : public SurfaceShader {
   Vec3 sunward(const GatherPath& path, const Hit& hit, float sunLux, Vec3 normal) const;
   // Parts of a slot's light that a ray which finds it leaves to points of bright patches.
   struct LeftToPoints {
-    float glow = 0, sun = 0;
+    float glow = 0, sun = 0;  // of all its light,
+    float ofSun = 0;          // and of what the sun gives it
     float ray() const { return std::max(0.0f, 1 - glow - sun); }
   };
   LeftToPoints leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const;
@@ -76,6 +77,7 @@ class RayShader final : public SurfaceShader {
   const RadianceField& field_;
   const SlotCache cache_;
   const BrightPatches patches_;
+  SunGloss sunGloss_;
   const RayGatherSettings& settings_;
   const SharpLights sharp_;
   const RayScatter scatter_;

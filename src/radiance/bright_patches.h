@@ -23,6 +23,7 @@ class BrightPatches {
   BrightPatches(const RayScene& rays, const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare, float farM, uint64_t seed);
 
   bool empty() const { return points_.empty(); }
+  size_t pointCount() const { return points_.size(); }
   const GlowPoint& point(size_t index) const { return points_[index]; }
   static bool isSun(const GlowPoint& g) { return g.lamp < 0 && g.emitter < 0; }
 

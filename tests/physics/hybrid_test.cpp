@@ -479,6 +479,27 @@ TEST(Hybrid, polishedSheetOverASunlitFloor) {
   EXPECT_NEAR(measured, expected, 0.03 * expected);
 }
 
+// A varnished floor in the sun, and the wall on which it glints.
+TEST(Hybrid, sunGlintsOfAFloorReachTheWall) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.6f));
+  test::addRoom(scene, {0, 0, 0}, {4, 2.4f, 4}, std::vector<int>(6, white));
+  scene.instances.erase(scene.instances.begin() + 1);  // the eastern wall
+  Material varnish;
+  varnish.metallic = 0, varnish.roughness = 0.4f, varnish.baseColor = Vec3(0.15f);
+  test::addRectangle(scene, {0, 0.02f, 0}, {0, 0, 4}, {4, 0, 0}, test::addMaterial(scene, varnish));
+  Sun sun;
+  sun.toLight = normalize(Vec3{1, 0.55f, 0.02f}), sun.illuminanceLux = Vec3(50'000), sun.halfAngleRad = 0.0046f;
+  scene.suns = {sun};
+  // The sun comes over the eastern wall.
+  Camera camera = cameraAt({3.6f, 1.2f, 2}, {0, 0.7f, 2});
+  camera.yFovRad = 0.5f;
+  const Lit lit(std::move(scene), 0.08f);
+  const double expected = meanByPath(lit.rays, lit.lights, camera, 1024), measured = mean(lit.hybrid(camera));
+  test::record("Wall on which a varnished floor in the sun glints, mean luminance, cd/m²", "roughness 0.4", "hybrid", expected, measured);
+  EXPECT_NEAR(measured, expected, 0.02 * expected);
+}
+
 // By night, in a pane: a card beside a bulb stands out from the wall behind it as it does without the filter.
 TEST(Hybrid, panesShowBrightThingsAsSharpAsTheyAre) {
   Scene scene;
