@@ -22,7 +22,8 @@ std::vector<std::filesystem::path> homeFiles() {
     if (std::filesystem::exists(file, ignored)) files.push_back(file);
   }
   std::sort(files.begin(), files.end());
-  if (files.empty()) fmt::print("no homes in {}: set ROOMLIGHT_SCENES to a folder of <name>/scene.glb\n", folder.string());
+  if (files.empty())
+    fmt::print("no homes in {}: set ROOMLIGHT_SCENES to a folder of <name>/scene.glb\n", folder.string());
   return files;
 }
 

@@ -20,8 +20,8 @@ struct Home {
 
 using HomeBenchmark = std::function<void(benchmark::State&, const Home&)>;
 
-// Runs each named benchmark on every home, one home in memory at a time; without homes it says so and succeeds. Homes are
-// lit by an even sky and a lamp of 1000 lm in the middle.
+// Runs each named benchmark on every home, one home in memory at a time; without homes it says so and succeeds. Homes
+// are lit by an even sky and a lamp of 1000 lm in the middle.
 int runOnHomes(int argc, char** argv, const std::vector<std::pair<std::string, HomeBenchmark>>& benchmarks);
 
 // Seconds of processor time of this process: ratios of it hold on a busy machine too.

@@ -50,5 +50,9 @@ void relightHome(benchmark::State& state, const Home& home, bool moves) {
 
 int main(int argc, char** argv) {
   using namespace roomlight::bench;
-  return runOnHomes(argc, argv, {{"illuminate", illuminateHome}, {"lampColoured", [](benchmark::State& state, const Home& home) { relightHome(state, home, false); }}, {"lampMoved", [](benchmark::State& state, const Home& home) { relightHome(state, home, true); }}});
+  return runOnHomes(
+      argc, argv,
+      {{"illuminate", illuminateHome},
+       {"lampColoured", [](benchmark::State& state, const Home& home) { relightHome(state, home, false); }},
+       {"lampMoved", [](benchmark::State& state, const Home& home) { relightHome(state, home, true); }}});
 }

@@ -14,4 +14,6 @@ void importHome(benchmark::State& state, const Home& home) {
 }  // namespace
 }  // namespace roomlight::bench
 
-int main(int argc, char** argv) { return roomlight::bench::runOnHomes(argc, argv, {{"import", roomlight::bench::importHome}}); }
+int main(int argc, char** argv) {
+  return roomlight::bench::runOnHomes(argc, argv, {{"import", roomlight::bench::importHome}});
+}

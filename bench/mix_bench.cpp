@@ -1,5 +1,5 @@
-// A mix of 14 layers at 1920x1080, to bytes for a screen: the arguments are threads. Beside it what memory allows (the same bytes summed), and
-// the sum alone of layers kept as 32-bit and as half floats. Needs no home.
+// A mix of 14 layers at 1920x1080, to bytes for a screen: the arguments are threads. Beside it what memory allows (the
+// same bytes summed), and the sum alone of layers kept as 32-bit and as half floats. Needs no home.
 #include <benchmark/benchmark.h>
 
 #include <random>
@@ -85,7 +85,8 @@ void sumOf(benchmark::State& state, Add&& add) {
   onThreads(state, static_cast<double>(kept.size() * sizeof(Stored)), [&] {
     parallelFor(kRuns, 8, [&](size_t run) {
       float sum[kTile] = {};
-      for (size_t layer = 0; layer < kLayers; ++layer) add(sum, kept.data() + (run * kLayers + layer) * kTile, kTile, 0.1f * static_cast<float>(layer));
+      for (size_t layer = 0; layer < kLayers; ++layer)
+        add(sum, kept.data() + (run * kLayers + layer) * kTile, kTile, 0.1f * static_cast<float>(layer));
       benchmark::DoNotOptimize(sum);
     });
   });
@@ -105,7 +106,9 @@ void asHalves(benchmark::State& state) {
   });
 }
 
-void configure(benchmark::internal::Benchmark* b) { b->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime(); }
+void configure(benchmark::internal::Benchmark* b) {
+  b->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+}
 BENCHMARK_CAPTURE(display, neutral, ToneCurve::PbrNeutral)->Apply(configure);
 BENCHMARK_CAPTURE(display, agx, ToneCurve::AgX)->Apply(configure);
 BENCHMARK_CAPTURE(display, filmic, ToneCurve::Filmic)->Apply(configure);

@@ -1,4 +1,5 @@
-// The figures of docs/measured/search.md, as Markdown (scripts/measure_search). Usage: search_table [SEEDS]; 10 by default.
+// The figures of docs/measured/search.md, as Markdown (scripts/measure_search). Usage: search_table [SEEDS]; 10 by
+ // default.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,11 +25,14 @@ double median(std::vector<double> values) {
   return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-double volumeOf(const TestProblem& test, const State& state) { return hypervolume(state.archive.objectives, test.reference); }
+double volumeOf(const TestProblem& test, const State& state) {
+  return hypervolume(state.archive.objectives, test.reference);
+}
 
 void hypervolumes(uint64_t seeds) {
   fmt::print("## Hypervolume after 20,000 evaluations\n\nMedian, and lowest to highest, of {} seeds.\n\n", seeds);
-  fmt::print("| problem | limit | asked | method | median | lowest | highest | s |\n|---|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| problem | limit | asked | method | median | lowest | highest | s |\n|---|---|---|---|---|---|---|---|\n");
   for (const TestProblem& test : {zdt1(), zdt2(), zdt3(), dtlz2(), mixedZdt1(), lampRow()}) {
     for (const MethodInfo& row : methodTable()) {
       if (row.method == Method::hybrid && !test.problem.polish) continue;
@@ -39,9 +43,10 @@ void hypervolumes(uint64_t seeds) {
         volumes.push_back(volumeOf(test, state)), times.push_back(state.seconds);
       }
       const auto figure = [](double v) { return v > 0 ? fmt::format("{:.4f}", v) : std::string("–"); };
-      fmt::print("| {} | {} | {} | {} | {:.4f} | {:.4f} | {:.4f} | {:.2f} |\n", test.name, figure(test.bestHypervolume), figure(test.askedHypervolume),
-                 row.name, median(volumes),
-                 *std::min_element(volumes.begin(), volumes.end()), *std::max_element(volumes.begin(), volumes.end()), median(times));
+      fmt::print("| {} | {} | {} | {} | {:.4f} | {:.4f} | {:.4f} | {:.2f} |\n", test.name, figure(test.bestHypervolume),
+                 figure(test.askedHypervolume), row.name, median(volumes),
+                 *std::min_element(volumes.begin(), volumes.end()), *std::max_element(volumes.begin(), volumes.end()),
+                 median(times));
       std::fflush(stdout);
     }
   }
@@ -63,37 +68,46 @@ std::optional<Effort> effortFor(const TestProblem& test, const Settings& setting
 
 void hybridAgainstPlain(uint64_t seeds) {
   fmt::print("\n## Hybrid against NSGA-II without polish\n\n");
-  fmt::print("How much the hybrid needs for the hypervolume that `nsga2` reaches in 20,000 evaluations with the same seed.\n\n");
-  fmt::print("| problem | evaluations, median | highest | share of 20,000 | time, median | share of nsga2's |\n|---|---|---|---|---|---|\n");
+  fmt::print(
+      "How much the hybrid needs for the hypervolume that `nsga2` reaches in 20,000 evaluations with the same "
+      "seed.\n\n");
+  fmt::print(
+      "| problem | evaluations, median | highest | share of 20,000 | time, median | share of nsga2's "
+      "|\n|---|---|---|---|---|---|\n");
   for (const TestProblem& test : {mixedZdt1(), lampRow()}) {
     std::vector<double> evaluations, times, shares;
     for (uint64_t seed = 1; seed <= seeds; ++seed) {
       State plain = start(test.problem, {.method = Method::nsga2, .seed = seed, .evaluations = 20'000});
       run(test.problem, plain);
-      const auto effort = effortFor(test, {.method = Method::hybrid, .seed = seed, .evaluations = 40'000}, volumeOf(test, plain));
-      evaluations.push_back(effort ? effort->evaluations : INFINITY), times.push_back(effort ? effort->seconds : INFINITY);
+      const auto effort =
+          effortFor(test, {.method = Method::hybrid, .seed = seed, .evaluations = 40'000}, volumeOf(test, plain));
+      evaluations.push_back(effort ? effort->evaluations : INFINITY),
+          times.push_back(effort ? effort->seconds : INFINITY);
       shares.push_back(times.back() / plain.seconds);
     }
     fmt::print("| {} | {:.0f} | {:.0f} | {:.2f} | {:.3f} s | {:.2f} |\n", test.name, median(evaluations),
-               *std::max_element(evaluations.begin(), evaluations.end()), median(evaluations) / 20'000,
-               median(times), median(shares));
+               *std::max_element(evaluations.begin(), evaluations.end()), median(evaluations) / 20'000, median(times),
+               median(shares));
   }
 }
 
 void overhead() {
   fmt::print("\n## What the search itself costs\n\n");
-  fmt::print("Microseconds a design with 100,000 evaluations, those of the test problem (under a microsecond) included.\n\n");
+  fmt::print(
+      "Microseconds a design with 100,000 evaluations, those of the test problem (under a microsecond) included.\n\n");
   fmt::print("| problem | population | method | µs |\n|---|---|---|---|\n");
   for (const TestProblem& test : {zdt1(), dtlz2(), lampRow()})
     for (const size_t population : {size_t{100}, size_t{400}})
       for (const MethodInfo& row : methodTable()) {
         State state = start(test.problem, {.method = row.method, .evaluations = 100'000, .population = population});
         run(test.problem, state);
-        fmt::print("| {} | {} | {} | {:.1f} |\n", test.name, population, row.name, 1e6 * state.seconds / static_cast<double>(state.evaluations));
+        fmt::print("| {} | {} | {} | {:.1f} |\n", test.name, population, row.name,
+                   1e6 * state.seconds / static_cast<double>(state.evaluations));
       }
 }
 
-// Lamps in a grid over points in a grid, light by the inverse square; a target everywhere that full power reaches 1.5 times.
+// Lamps in a grid over points in a grid, light by the inverse square; a target everywhere that full power reaches 1.5
+// times.
 LinearProgram dimmingProblem(size_t lamps, size_t points, uint64_t seed) {
   Rng rng(0, 0, seed);
   LinearProgram p;
@@ -117,8 +131,12 @@ LinearProgram dimmingProblem(size_t lamps, size_t points, uint64_t seed) {
 }
 
 void dimming() {
-  fmt::print("\n## Dimming\n\nLeast watts for a lux target at every point (linear program), and bounded least squares to the same target from x = 0.5.\n\n");
-  fmt::print("| lamps | points | linear program, ms | least squares, µs | violation of its optimality |\n|---|---|---|---|---|\n");
+  fmt::print(
+      "\n## Dimming\n\nLeast watts for a lux target at every point (linear program), and bounded least squares to the "
+      "same target from x = 0.5.\n\n");
+  fmt::print(
+      "| lamps | points | linear program, ms | least squares, µs | violation of its optimality "
+      "|\n|---|---|---|---|---|\n");
   for (const auto& [lamps, points] : {std::pair<size_t, size_t>{8, 50}, {20, 100}, {40, 500}, {60, 2000}}) {
     std::vector<double> linearMs, squaresUs;
     double violation = 0;
@@ -136,7 +154,8 @@ void dimming() {
       }
       squaresUs.push_back(1e6 * squares.seconds() / kRepeats);
     }
-    fmt::print("| {} | {} | {:.2f} | {:.1f} | {:.0e} |\n", lamps, points, median(linearMs), median(squaresUs), violation);
+    fmt::print("| {} | {} | {:.2f} | {:.1f} | {:.0e} |\n", lamps, points, median(linearMs), median(squaresUs),
+               violation);
   }
 }
 

@@ -1,6 +1,6 @@
-// What roomlight leaves of Embree's speed: the same rays through bare Embree calls in a loop here and through RayScene, and
-// the rays of the path tracer with all its shading. One thread; each `..Percent` is of the bare rate by processor time,
-// measured in turns so that a busy machine disturbs both alike.
+// What roomlight leaves of Embree's speed: the same rays through bare Embree calls in a loop here and through RayScene,
+// and the rays of the path tracer with all its shading. One thread; each `..Percent` is of the bare rate by processor
+// time, measured in turns so that a busy machine disturbs both alike.
 #include <embree3/rtcore.h>
 
 #include <random>
@@ -20,7 +20,8 @@ constexpr int kWidth = 480, kHeight = 270;
 class BareScene {
  public:
   explicit BareScene(const Scene& scene) : device_(rtcNewDevice(nullptr)), top_(rtcNewScene(device_)) {
-    for (const Instance& instance : scene.instances) add(scene.meshes[static_cast<size_t>(instance.mesh)], instance.worldFromObject);
+    for (const Instance& instance : scene.instances)
+      add(scene.meshes[static_cast<size_t>(instance.mesh)], instance.worldFromObject);
     rtcCommitScene(top_);
   }
   ~BareScene() {
@@ -32,8 +33,18 @@ class BareScene {
 
   float trace(const Ray& ray, RTCIntersectContext& context) const {
     RTCRayHit r;
-    r.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.tMin, ray.direction.x, ray.direction.y, ray.direction.z,
-             0, ray.tMax, 0xffffffffu, 0, 0};
+    r.ray = {ray.origin.x,
+             ray.origin.y,
+             ray.origin.z,
+             ray.tMin,
+             ray.direction.x,
+             ray.direction.y,
+             ray.direction.z,
+             0,
+             ray.tMax,
+             0xffffffffu,
+             0,
+             0};
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(top_, &context, &r);
@@ -44,9 +55,11 @@ class BareScene {
   void add(const Mesh& mesh, const Affine& transform) {
     if (mesh.triangleCount() == 0) return;
     RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions.size()));
+    auto* vertices = static_cast<Vec3*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), mesh.positions.size()));
     std::transform(mesh.positions.begin(), mesh.positions.end(), vertices, [&](Vec3 p) { return transform.point(p); });
-    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangleCount()));
+    auto* indices = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangleCount()));
     std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
     rtcCommitGeometry(g);
     rtcAttachGeometry(top_, g);
@@ -61,7 +74,8 @@ std::vector<Ray> primaryRays(const Camera& camera) {
   const CameraRays through(camera, kWidth, kHeight);
   std::vector<Ray> rays;
   for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) rays.push_back(through.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+    for (int x = 0; x < kWidth; ++x)
+      rays.push_back(through.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
   }
   return rays;
 }
@@ -145,7 +159,8 @@ void path(benchmark::State& state, const Home& home) {
     withThreads(1, [&] { traced += static_cast<double>(pathTrace(scene, lights, home.camera, settings).rays); });
     pathS += cpuSeconds() - start;
   }
-  const double bareRate = static_cast<double>(rays.size()) * static_cast<double>(state.iterations()) / bareS, pathRate = traced / pathS;
+  const double bareRate = static_cast<double>(rays.size()) * static_cast<double>(state.iterations()) / bareS,
+               pathRate = traced / pathS;
   state.counters["bareMraysPerS"] = bareRate / 1e6;
   state.counters["pathMraysPerS"] = pathRate / 1e6;
   state.counters["pathPercent"] = 100 * pathRate / bareRate;

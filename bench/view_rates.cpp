@@ -1,5 +1,7 @@
-// What somebody in front of `roomlight view` gets: frames a second while walking, while a thing and a lamp are moved, and how far the light is 0.3 s after they have. A session
-// without network, told what a browser would tell it and acknowledging every frame at once; JPEG included. JSON on standard output. scripts/measure_view runs it on the sample homes.
+// What somebody in front of `roomlight view` gets: frames a second while walking, while a thing and a lamp are moved,
+// and how far the light is 0.3 s after they have. A session without network, told what a browser would tell it and
+// acknowledging every frame at once; JPEG included. JSON on standard output. scripts/measure_view runs it on the sample
+// homes.
 #include <fmt/format.h>
 #include <turbojpeg.h>
 
@@ -45,7 +47,10 @@ T valueAt(const std::string& bytes, size_t at) {
 class Browser {
  public:
   explicit Browser(view::ViewHome home, const RenderSettings& settings)
-      : session_(std::move(home), settings, {[this](view::Connection, const std::string& text) { hear(text); }, [this](view::Connection, const std::string& bytes) { see(bytes); }, [](const std::string& line) { fmt::print(stderr, "{}\n", line); }}) {
+      : session_(std::move(home), settings,
+                 {[this](view::Connection, const std::string& text) { hear(text); },
+                  [this](view::Connection, const std::string& bytes) { see(bytes); },
+                  [](const std::string& line) { fmt::print(stderr, "{}\n", line); }}) {
     session_.open(1, "");
   }
   void say(const json& message) { session_.receive(1, message.dump()); }
@@ -86,9 +91,11 @@ class Browser {
   void see(const std::string& bytes) {
     Frame f;
     f.at = Clock::now();
-    f.number = valueAt<uint32_t>(bytes, 4), f.width = valueAt<uint16_t>(bytes, 8), f.height = valueAt<uint16_t>(bytes, 10), f.flags = valueAt<uint8_t>(bytes, 13);
+    f.number = valueAt<uint32_t>(bytes, 4), f.width = valueAt<uint16_t>(bytes, 8),
+    f.height = valueAt<uint16_t>(bytes, 10), f.flags = valueAt<uint8_t>(bytes, 13);
     f.revision = valueAt<uint32_t>(bytes, 20), f.samples = valueAt<uint32_t>(bytes, 24);
-    f.ev100 = valueAt<float>(bytes, 32), f.latencyMs = valueAt<float>(bytes, 44), f.pictureMs = valueAt<float>(bytes, 48);
+    f.ev100 = valueAt<float>(bytes, 32), f.latencyMs = valueAt<float>(bytes, 44),
+    f.pictureMs = valueAt<float>(bytes, 48);
     f.jpeg = bytes.substr(view::kFrameHeaderBytes);
     session_.receive(1, json{{"type", "ack"}, {"frame", f.number}}.dump());
     const std::lock_guard lock(mutex_);
@@ -113,7 +120,8 @@ Image linear(const std::string& jpeg) {
   tjDecompress2(reader.get(), bytes, jpeg.size(), pixels.data(), width, 0, height, TJPF_RGB, 0);
   Image out(width, height);
   for (size_t i = 0; i < out.pixels.size(); ++i) {
-    for (int c = 0; c < 3; ++c) out.pixels[i][c] = srgbDecode(static_cast<float>(pixels[3 * i + static_cast<size_t>(c)]) / 255);
+    for (int c = 0; c < 3; ++c)
+      out.pixels[i][c] = srgbDecode(static_cast<float>(pixels[3 * i + static_cast<size_t>(c)]) / 255);
   }
   return out;
 }
@@ -125,7 +133,8 @@ double difference(const Image& a, const Image& b) {
     double sum = 0;
     int count = 0;
     for (int j = y * image.height / kDown; j < (y + 1) * image.height / kDown; ++j) {
-      for (int i = x * image.width / kAcross; i < (x + 1) * image.width / kAcross; ++i) sum += static_cast<double>(luminance(image.at(i, j))), ++count;
+      for (int i = x * image.width / kAcross; i < (x + 1) * image.width / kAcross; ++i)
+        sum += static_cast<double>(luminance(image.at(i, j))), ++count;
     }
     return sum / std::max(1, count);
   };
@@ -154,8 +163,16 @@ json ratesOf(const std::vector<Frame>& frames) {
   for (const Frame& f : frames) sizes.emplace_back(f.width, f.height);
   std::sort(sizes.begin(), sizes.end());
   std::sort(apart.begin(), apart.end()), std::sort(latency.begin(), latency.end());
-  const auto at = [](const std::vector<double>& v, double share) { return v.empty() ? 0 : v[std::min(v.size() - 1, static_cast<size_t>(share * static_cast<double>(v.size())))]; };
-  return {{"frames", frames.size()}, {"medianFps", 1e3 / at(apart, 0.5)}, {"worstFps", 1e3 / at(apart, 0.99)}, {"size", fmt::format("{}x{}", sizes[sizes.size() / 2].first, sizes[sizes.size() / 2].second)}, {"whole", static_cast<double>(whole) / static_cast<double>(frames.size())}, {"pictureMs", picture}, {"latencyMs", at(latency, 0.5)}};
+  const auto at = [](const std::vector<double>& v, double share) {
+    return v.empty() ? 0 : v[std::min(v.size() - 1, static_cast<size_t>(share * static_cast<double>(v.size())))];
+  };
+  return {{"frames", frames.size()},
+          {"medianFps", 1e3 / at(apart, 0.5)},
+          {"worstFps", 1e3 / at(apart, 0.99)},
+          {"size", fmt::format("{}x{}", sizes[sizes.size() / 2].first, sizes[sizes.size() / 2].second)},
+          {"whole", static_cast<double>(whole) / static_cast<double>(frames.size())},
+          {"pictureMs", picture},
+          {"latencyMs", at(latency, 0.5)}};
 }
 
 // One line a frame: when it came, its size, what it took.
@@ -164,13 +181,15 @@ void keepFrames(const std::string& file, const std::vector<Frame>& frames) {
   out << "ms,width,height,flags,pictureMs,latencyMs,bytes\n";
   for (const Frame& f : frames) {
     const double ms = std::chrono::duration<double, std::milli>(f.at - frames.front().at).count();
-    out << fmt::format("{:.1f},{},{},{},{:.1f},{:.1f},{}\n", ms, f.width, f.height, f.flags, f.pictureMs, f.latencyMs, f.jpeg.size());
+    out << fmt::format("{:.1f},{},{},{},{:.1f},{:.1f},{}\n", ms, f.width, f.height, f.flags, f.pictureMs, f.latencyMs,
+                       f.jpeg.size());
   }
 }
 
 void sleepUntil(Clock::time_point at) { std::this_thread::sleep_until(at); }
 
-// Tells something sixty times a second and returns the frames that came meanwhile, without those of the first half second.
+// Tells something sixty times a second and returns the frames that came meanwhile, without those of the first half
+// second.
 template <class Tell>
 std::vector<Frame> during(Browser& browser, double seconds, Tell tell) {
   const auto start = Clock::now();
@@ -187,7 +206,10 @@ json vec(Vec3 v) { return {v.x, v.y, v.z}; }
 
 json cameraMessage(const Camera& camera) {
   const Affine& m = camera.worldFromCamera;
-  return {{"type", "camera"}, {"position", vec(m.w)}, {"direction", vec(-m.z)}, {"verticalFov", camera.yFovRad * 180 / kPi}};
+  return {{"type", "camera"},
+          {"position", vec(m.w)},
+          {"direction", vec(-m.z)},
+          {"verticalFov", camera.yFovRad * 180 / kPi}};
 }
 
 bool isSettledLight(const Frame& f) { return !f.behind(); }
@@ -210,10 +232,16 @@ json afterJump(Browser& browser, json edit, uint32_t& id, const std::string& kee
     std::ofstream(keep + "_300ms.jpg", std::ios::binary) << shown.jpeg;
     std::ofstream(keep + "_settled.jpg", std::ios::binary) << good.jpeg;
   }
-  return {{"frames", soon.size()}, {"firstMs", soon.front().latencyMs}, {"lightS", lightS}, {"offLightPercent", difference(at300, linear(light.jpeg))}, {"offSettledPercent", difference(at300, settled)}, {"quickOffSettledPercent", difference(linear(light.jpeg), settled)}};
+  return {{"frames", soon.size()},
+          {"firstMs", soon.front().latencyMs},
+          {"lightS", lightS},
+          {"offLightPercent", difference(at300, linear(light.jpeg))},
+          {"offSettledPercent", difference(at300, settled)},
+          {"quickOffSettledPercent", difference(linear(light.jpeg), settled)}};
 }
 
-int run(const std::string& homeFile, const std::string& lighting, const std::string& walkFile, double seconds, const std::string& keep) {
+int run(const std::string& homeFile, const std::string& lighting, const std::string& walkFile, double seconds,
+        const std::string& keep) {
   Result<view::OpenedView> home = view::openHome({.scene = homeFile, .lighting = lighting});
   if (!home) return fmt::print(stderr, "{}\n", home.error()), 1;
   std::optional<Walk> walk;
@@ -222,7 +250,8 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
     if (!read) return fmt::print(stderr, "{}\n", read.error()), 1;
     walk = std::move(read).value();
   }
-  const RenderSettings settings = settingsFromJson(R"({"quality": "draft"})", "settings").value();  // for shorter waits: quick frames are the same
+  const RenderSettings settings =
+      settingsFromJson(R"({"quality": "draft"})", "settings").value();  // for shorter waits: quick frames are the same
   const Stopwatch opening;
   Browser browser(std::move(home.value().home), settings);
   const json welcome = browser.welcome();
@@ -246,11 +275,15 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
 
   // The movable thing, and the lamp, nearest to what the camera looks at.
   const Vec3 eye = first.worldFromCamera.w, ahead = eye - first.worldFromCamera.z * 2.5f;
-  const auto distanceTo = [&](const json& p) { return length(Vec3(p[0].get<float>(), p[1].get<float>(), p[2].get<float>()) - ahead); };
+  const auto distanceTo = [&](const json& p) {
+    return length(Vec3(p[0].get<float>(), p[1].get<float>(), p[2].get<float>()) - ahead);
+  };
   json thing, lamp;
   for (const json& o : welcome["objects"]) {
     if (!o["movable"].get<bool>()) continue;
-    const json middle = {(o["low"][0].get<float>() + o["high"][0].get<float>()) / 2, (o["low"][1].get<float>() + o["high"][1].get<float>()) / 2, (o["low"][2].get<float>() + o["high"][2].get<float>()) / 2};
+    const json middle = {(o["low"][0].get<float>() + o["high"][0].get<float>()) / 2,
+                         (o["low"][1].get<float>() + o["high"][1].get<float>()) / 2,
+                         (o["low"][2].get<float>() + o["high"][2].get<float>()) / 2};
     const float size = o["high"][0].get<float>() - o["low"][0].get<float>();
     if (size < 0.3f || size > 1.2f) continue;
     if (thing.is_null() || distanceTo(middle) < distanceTo(thing["middle"])) thing = o, thing["middle"] = middle;
@@ -265,7 +298,8 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
       if (lamp.is_null() || distanceTo(l["position"]) < distanceTo(lamp["position"])) lamp = l;
     }
   }
-  // One exposure for all, half a stop darker than the automatic one, and no tone curve, so that pictures of different light can be compared.
+  // One exposure for all, half a stop darker than the automatic one, and no tone curve, so that pictures of different
+  // light can be compared.
   browser.say({{"type", "display"}, {"exposure", rested.ev100 + 0.5f}, {"curve", "clip"}, {"whiteBalance", "none"}});
   browser.wait(isSettledLight);
   const auto moving = [&](const char* name, const json& what, bool isLamp) {
@@ -274,14 +308,17 @@ int run(const std::string& homeFile, const std::string& lighting, const std::str
       json m = {{"type", "edit"}, {"id", ++id}, {"gesture", "drag"}};
       if (isLamp && what["object"].is_null()) {
         m["target"] = what["id"];
-        m["position"] = {what["position"][0].get<float>() + by.x, what["position"][1].get<float>() + by.y, what["position"][2].get<float>() + by.z};
+        m["position"] = {what["position"][0].get<float>() + by.x, what["position"][1].get<float>() + by.y,
+                         what["position"][2].get<float>() + by.z};
       } else {
         m["target"] = isLamp ? what["object"] : what["id"];
         m["move"] = vec(by);
       }
       return m;
     };
-    const auto circle = [&](double s) { return Vec3(0.3f * static_cast<float>(std::sin(2 * s)), 0, 0.3f * static_cast<float>(1 - std::cos(2 * s))); };
+    const auto circle = [&](double s) {
+      return Vec3(0.3f * static_cast<float>(std::sin(2 * s)), 0, 0.3f * static_cast<float>(1 - std::cos(2 * s)));
+    };
     json& of = out[name];
     const std::vector<Frame> moved = during(browser, seconds, [&](double s) { browser.say(edit(circle(s))); });
     of = ratesOf(moved);

@@ -31,7 +31,9 @@ void updateOne(benchmark::State& state, const Home& home) {
   Voxelisation v = voxelise(scene, settings());
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) order.push_back(i);
-  const auto triangles = [&](uint32_t i) { return scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount(); };
+  const auto triangles = [&](uint32_t i) {
+    return scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount();
+  };
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return triangles(a) < triangles(b); });
   const uint32_t mover = order[order.size() / 2];
   float step = kVoxelSizeM;
@@ -48,5 +50,6 @@ void updateOne(benchmark::State& state, const Home& home) {
 }  // namespace roomlight::bench
 
 int main(int argc, char** argv) {
-  return roomlight::bench::runOnHomes(argc, argv, {{"voxelise", roomlight::bench::fromScratch}, {"update", roomlight::bench::updateOne}});
+  return roomlight::bench::runOnHomes(
+      argc, argv, {{"voxelise", roomlight::bench::fromScratch}, {"update", roomlight::bench::updateOne}});
 }

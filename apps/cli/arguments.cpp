@@ -15,7 +15,8 @@ Result<Size> parseSize(const std::string& option, const std::string& text) {
   const size_t x = text.find('x');
   const int width = parseNumber<int>(std::string_view(text).substr(0, x)).value_or(-1);
   const int height = x == std::string::npos ? -1 : parseNumber<int>(std::string_view(text).substr(x + 1)).value_or(-1);
-  if (width < 0 || height < 0) return Error{fmt::format("{} {}: write WIDTHxHEIGHT, for example 960x540", option, text)};
+  if (width < 0 || height < 0)
+    return Error{fmt::format("{} {}: write WIDTHxHEIGHT, for example 960x540", option, text)};
   return Size{width, height};
 }
 
@@ -52,7 +53,8 @@ std::string lowerExtension(const std::filesystem::path& file) {
   return e;
 }
 
-Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape, std::initializer_list<size_t> counts) {
+Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape,
+                                     std::initializer_list<size_t> counts) {
   std::vector<float> numbers;
   for (size_t begin = 0; begin <= text.size();) {
     const size_t end = std::min(text.find(',', begin), text.size());
@@ -61,7 +63,8 @@ Result<std::vector<float>> parseList(const std::string& option, const std::strin
     numbers.push_back(*value);
     begin = end + 1;
   }
-  if (std::find(counts.begin(), counts.end(), numbers.size()) == counts.end()) return Error{fmt::format("{} {}: write {}", option, text, shape)};
+  if (std::find(counts.begin(), counts.end(), numbers.size()) == counts.end())
+    return Error{fmt::format("{} {}: write {}", option, text, shape)};
   return numbers;
 }
 
@@ -69,7 +72,8 @@ Status checkDistinct(const std::vector<std::string>& files) {
   std::set<std::filesystem::path> seen;
   for (const std::string& file : files) {
     std::error_code ignored;
-    if (!file.empty() && !seen.insert(std::filesystem::weakly_canonical(file, ignored)).second) return Error{fmt::format("{}: is named twice; name different files", file)};
+    if (!file.empty() && !seen.insert(std::filesystem::weakly_canonical(file, ignored)).second)
+      return Error{fmt::format("{}: is named twice; name different files", file)};
   }
   return Ok{};
 }
@@ -84,7 +88,8 @@ Status checkTechnique(const std::string& wanted) {
 }
 
 std::string listed(std::string text, const std::vector<std::pair<std::string, std::string>>& choices) {
-  for (const auto& [name, explanation] : choices) text += fmt::format(" {} ({}){}", name, explanation, name == choices.back().first ? "" : ";");
+  for (const auto& [name, explanation] : choices)
+    text += fmt::format(" {} ({}){}", name, explanation, name == choices.back().first ? "" : ";");
   return text;
 }
 

@@ -23,7 +23,8 @@ std::optional<T> parseNumber(std::string_view text) {
 }
 
 // Numbers between commas, as many as one of `counts` says, none above a million. `shape`: what to write, for the error.
-Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape, std::initializer_list<size_t> counts);
+Result<std::vector<float>> parseList(const std::string& option, const std::string& text, const std::string& shape,
+                                     std::initializer_list<size_t> counts);
 
 // "960x540"; anything from 0 to what an int holds.
 struct Size {

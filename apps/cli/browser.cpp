@@ -21,7 +21,8 @@ void spawnQuietly(const std::string& program, std::string argument) {
   char* argv[] = {name.data(), argument.data(), nullptr};
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
   pid_t child = 0;
   // It hands the page to the desktop and ends by itself.
   if (posix_spawnp(&child, program.c_str(), &files, nullptr, argv, environ) == 0) waitpid(child, nullptr, WNOHANG);
@@ -37,7 +38,10 @@ BrowserPage::BrowserPage(const std::string& link) {
   if (code || !mkdtemp(pattern.data())) return;  // a folder of the owner's alone
   folder_ = pattern;
   const std::filesystem::path file = folder_ / "open.html";
-  std::ofstream(file) << fmt::format("<!doctype html><meta charset=\"utf-8\"><title>roomlight</title><meta http-equiv=\"refresh\" content=\"0;url={}\"><a href=\"{}\">Open the home</a>\n", link, link);
+  std::ofstream(file) << fmt::format(
+      "<!doctype html><meta charset=\"utf-8\"><title>roomlight</title><meta http-equiv=\"refresh\" "
+      "content=\"0;url={}\"><a href=\"{}\">Open the home</a>\n",
+      link, link);
   spawnQuietly("xdg-open", file.string());
 }
 

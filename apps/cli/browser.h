@@ -6,8 +6,8 @@
 
 namespace roomlight::cli {
 
-// Asks the desktop (xdg-open) to open the link, through a file that only its owner can read: arguments of programs are seen by all users,
-// and the link holds a secret. Without a desktop nothing happens. The file goes with the object.
+// Asks the desktop (xdg-open) to open the link, through a file that only its owner can read: arguments of programs are
+// seen by all users, and the link holds a secret. Without a desktop nothing happens. The file goes with the object.
 class BrowserPage {
  public:
   explicit BrowserPage(const std::string& link);

@@ -43,7 +43,8 @@ bool drain(int pipe, std::string& text) {
   }
 }
 
-// Not posix_spawn, which cannot ask for the signal of the parent's death. Between fork and exec only what is safe in a copy of a process that has threads.
+// Not posix_spawn, which cannot ask for the signal of the parent's death. Between fork and exec only what is safe in a
+// copy of a process that has threads.
 [[noreturn]] void becomeProgram(char* const* argv, int said, [[maybe_unused]] pid_t parent) {
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -65,7 +66,8 @@ std::filesystem::path thisProgram() {
 
 Status runThisProgram(const std::vector<std::string>& arguments, const std::atomic<bool>* cancelled) {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) return Error{fmt::format("a process cannot be started: {}", std::strerror(errno))};
+  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0)
+    return Error{fmt::format("a process cannot be started: {}", std::strerror(errno))};
   std::vector<std::string> words = {thisProgram().string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -94,9 +96,12 @@ Status runThisProgram(const std::vector<std::string>& arguments, const std::atom
   close(ends[0]);
   if (told) return Error{"interrupted"};
   if (ended < 0) return Error{fmt::format("a process was lost: {}", std::strerror(errno))};
-  if (WIFSIGNALED(status)) return Error{fmt::format("the process was killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
+  if (WIFSIGNALED(status))
+    return Error{
+        fmt::format("the process was killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
   if (WEXITSTATUS(status) == kNotStarted) return Error{"a process cannot be started"};
-  if (WEXITSTATUS(status) != 0) return Error{said.empty() ? fmt::format("the process ended with status {}", WEXITSTATUS(status)) : lastLine(said)};
+  if (WEXITSTATUS(status) != 0)
+    return Error{said.empty() ? fmt::format("the process ended with status {}", WEXITSTATUS(status)) : lastLine(said)};
   return Ok{};
 }
 

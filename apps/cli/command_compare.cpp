@@ -25,7 +25,8 @@ struct Pictures {
 
 Result<Pictures> readPictures(const CompareOptions& o) {
   Pictures read;
-  const std::pair<const std::string*, Image*> files[] = {{&o.reference, &read.reference}, {&o.second, &read.second}, {&o.picture, &read.picture}};
+  const std::pair<const std::string*, Image*> files[] = {
+      {&o.reference, &read.reference}, {&o.second, &read.second}, {&o.picture, &read.picture}};
   for (const auto& [file, image] : files) {
     if (file->empty()) continue;
     const Result<bool> forDisplay = isForDisplay(*file);
@@ -34,19 +35,25 @@ Result<Pictures> readPictures(const CompareOptions& o) {
     if (forDisplay.value() != read.forDisplay) {
       const std::string& linear = read.forDisplay ? *file : o.reference;
       const std::string& shown = read.forDisplay ? o.reference : *file;
-      return Error{fmt::format("{} holds linear light and {} a tone-mapped picture: no figure compares them; give two .exr, or two of .png and .jpg", linear, shown)};
+      return Error{
+          fmt::format("{} holds linear light and {} a tone-mapped picture: no figure compares them; give two .exr, or "
+                      "two of .png and .jpg",
+                      linear, shown)};
     }
     Result<Image> one = readImage(*file);
     if (!one) return Error{one.error()};
     *image = std::move(one).value();
   }
-  if (read.forDisplay && !o.second.empty()) return Error{fmt::format("--second {}: the noise of a reference is told from two linear ones; give .exr", o.second)};
+  if (read.forDisplay && !o.second.empty())
+    return Error{
+        fmt::format("--second {}: the noise of a reference is told from two linear ones; give .exr", o.second)};
   return read;
 }
 
 void print(const ShownReport& r, const CompareOptions& o) {
   if (o.json) {
-    const nlohmann::ordered_json json = {{"space", "display"}, {"mse", r.mse}, {"ssim", r.ssim}, {"flip", r.flip}, {"difference", o.difference}};
+    const nlohmann::ordered_json json = {
+        {"space", "display"}, {"mse", r.mse}, {"ssim", r.ssim}, {"flip", r.flip}, {"difference", o.difference}};
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return;
   }
@@ -54,7 +61,9 @@ void print(const ShownReport& r, const CompareOptions& o) {
   fmt::print("ssim                       {:.4f}\n", r.ssim);
   fmt::print("flip                       {:.4f}\n", r.flip);
   fmt::print("difference picture         {}\n", o.difference);
-  fmt::print("of the pictures as shown: what is tone-mapped no longer tells how much light there was; give two .exr for that\n");
+  fmt::print(
+      "of the pictures as shown: what is tone-mapped no longer tells how much light there was; give two .exr for "
+      "that\n");
 }
 
 void print(const Report& r, const CompareOptions& o) {
@@ -79,7 +88,8 @@ void print(const Report& r, const CompareOptions& o) {
   fmt::print("mse                        {:.6f}\n", r.mse);
   if (r.mseBeyondNoise) fmt::print("mseBeyondNoise             {:.6f}\n", *r.mseBeyondNoise);
   if (r.noise && r.noise->judgedShare > 0) {
-    fmt::print("blotchesPercent            {:.2f}\ngrainPercent               {:.2f}\n", r.noise->blotchesPercent, r.noise->grainPercent);
+    fmt::print("blotchesPercent            {:.2f}\ngrainPercent               {:.2f}\n", r.noise->blotchesPercent,
+               r.noise->grainPercent);
   } else if (r.noise) {
     fmt::print("blotchesPercent            none: no pixel lies on a smooth surface\n");
   }
@@ -94,7 +104,8 @@ template <class AnyReport, class MakePicture>
 int tell(const CompareOptions& o, const Result<AnyReport>& report, const MakePicture& differenceOf) {
   if (!report) return failed(fmt::format("{}, {}: {}", o.reference, o.picture, report.error()));
   if (const Status s = checkWritable(o.difference); !s) return failed(s.error());
-  const Status written = writePng(o.difference, differenceOf(), {{"roomlight.reference", o.reference}, {"roomlight.picture", o.picture}});
+  const Status written =
+      writePng(o.difference, differenceOf(), {{"roomlight.reference", o.reference}, {"roomlight.picture", o.picture}});
   if (!written) return failed(written.error(), kFailed);
   print(report.value(), o);
   return kOk;
@@ -118,14 +129,16 @@ int runCompare(CompareOptions o) {
   Result<Pictures> pictures = readPictures(o);
   if (!pictures) return failed(pictures.error());
   const auto& [reference, second, picture, forDisplay] = pictures.value();
-  if (forDisplay) return tell(o, compareShown(reference, picture), [&] { return differencePictureOfShown(reference, picture); });
+  if (forDisplay)
+    return tell(o, compareShown(reference, picture), [&] { return differencePictureOfShown(reference, picture); });
   if (o.second.empty()) {
     return tell(o, compare(reference, picture), [&] { return differencePicture(reference, picture); });
   }
   const Result<Report> report = compare(reference, second, picture);
   if (report && !o.band.empty()) {
     if (const Status s = checkWritable(o.difference); !s) return failed(s.error());
-    if (const Status s = writePng(o.band, bandPicture(*report.value().noise), {}); !s) return failed(s.error(), kFailed);
+    if (const Status s = writePng(o.band, bandPicture(*report.value().noise), {}); !s)
+      return failed(s.error(), kFailed);
   }
   return tell(o, report, [&] { return differencePicture(meanOf(reference, second), picture); });
 }
@@ -135,16 +148,20 @@ int runCompare(CompareOptions o) {
 Registered addCompare(CLI::App& program) {
   const auto o = std::make_shared<CompareOptions>();
   CLI::App* app = program.add_subcommand("compare", "Measure how far a picture is from a reference");
-  app->add_option("REFERENCE", o->reference, "Picture taken as true: .exr or .hdr; or, to compare what is shown, .png or .jpg")->required();
+  app->add_option("REFERENCE", o->reference,
+                  "Picture taken as true: .exr or .hdr; or, to compare what is shown, .png or .jpg")
+      ->required();
   app->add_option("PICTURE", o->picture, "Picture to judge, of the same size and kind")->required();
   app->add_option("--second", o->second, "A second reference with another seed; figures are against the mean of both");
   app->add_flag("--json", o->json, "Print JSON");
-  app->add_option("--band", o->band, "With --second: where blotches are, red 5 % too bright, blue 5 % too dark, as .png");
+  app->add_option("--band", o->band,
+                  "With --second: where blotches are, red 5 % too bright, blue 5 % too dark, as .png");
   app->add_option("--difference", o->difference, "Where the difference picture goes (default: PICTURE.difference.png)");
   app->footer(
       "mse: mean squared difference after one exposure for both, taken from the reference, clipped to 0-1 and encoded\n"
       "as sRGB. relMse: on linear values, relative to the reference. Both are 0 for equal pictures, ssim is 1.\n"
-      "blotchesPercent and grainPercent, with --second: relative error on smooth surfaces between 4 and 32 pixels and between 1.5 and 4.\n"
+      "blotchesPercent and grainPercent, with --second: relative error on smooth surfaces between 4 and 32 pixels and "
+      "between 1.5 and 4.\n"
       "mseBeyondNoise, with --second: mse without what the references' own noise adds to it.\n"
       "Example:\n"
       "  roomlight compare reference.exr cone.exr --json --difference difference.png");

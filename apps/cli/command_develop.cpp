@@ -33,18 +33,25 @@ int runDevelop(const DevelopOptions& o) {
   const Result<Display> display = readDisplay(o.display);
   if (!display) return failed(display.error());
   const bool jpeg = o.output.ends_with(".jpg");
-  if (!jpeg && !o.output.ends_with(".png")) return failed(fmt::format("{}: unknown kind of picture; use .png or .jpg", o.output));
+  if (!jpeg && !o.output.ends_with(".png"))
+    return failed(fmt::format("{}: unknown kind of picture; use .png or .jpg", o.output));
   if (const Status s = checkWritable(o.output); !s) return failed(s.error());
   std::vector<Image> pictures;
   for (const std::string& file : o.pictures) {
     const Result<bool> finished = isForDisplay(file);
     if (!finished) return failed(finished.error());
-    if (finished.value()) return failed(fmt::format("{}: is exposed and tone-mapped already; develop takes linear pictures, such as render writes with -o picture.exr", file));
+    if (finished.value())
+      return failed(
+          fmt::format("{}: is exposed and tone-mapped already; develop takes linear pictures, such as render writes "
+                      "with -o picture.exr",
+                      file));
     Result<Image> read = readImage(file);
     if (!read) return failed(read.error());
     pictures.push_back(std::move(read).value());
     const Image &first = pictures.front(), &last = pictures.back();
-    if (last.height != first.height) return failed(fmt::format("{}: has {} rows, {} has {}; name pictures of one height", file, last.height, o.pictures.front(), first.height));
+    if (last.height != first.height)
+      return failed(fmt::format("{}: has {} rows, {} has {}; name pictures of one height", file, last.height,
+                                o.pictures.front(), first.height));
   }
   const float ev100 = ev100Of(display.value(), pictures.back());
   const White white = whiteOf(display.value(), lightColourOf(o.pictures));
@@ -59,7 +66,8 @@ int runDevelop(const DevelopOptions& o) {
     }
     left += p.width;
   }
-  const Status written = jpeg ? writeJpeg(o.output, out, static_cast<size_t>(o.mostKilobytes) * 1000) : writePng(o.output, out, {{"roomlight.exposureEv100", fmt::format("{}", ev100)}});
+  const Status written = jpeg ? writeJpeg(o.output, out, static_cast<size_t>(o.mostKilobytes) * 1000)
+                              : writePng(o.output, out, {{"roomlight.exposureEv100", fmt::format("{}", ev100)}});
   return written ? kOk : failed(written.error(), kFailed);
 }
 
@@ -67,12 +75,17 @@ int runDevelop(const DevelopOptions& o) {
 
 Registered addDevelop(CLI::App& program) {
   const auto o = std::make_shared<DevelopOptions>();
-  CLI::App* app = program.add_subcommand("develop", "Expose, balance and tone-map .exr pictures alike, by the last one, side by side");
-  app->add_option("PICTURE", o->pictures, "Linear pictures of one height: .exr or .hdr")->required()->check(CLI::ExistingFile);
+  CLI::App* app = program.add_subcommand(
+      "develop", "Expose, balance and tone-map .exr pictures alike, by the last one, side by side");
+  app->add_option("PICTURE", o->pictures, "Linear pictures of one height: .exr or .hdr")
+      ->required()
+      ->check(CLI::ExistingFile);
   app->add_option("-o,--output", o->output, "Picture: .png or .jpg")->required();
   o->display.look = "technical";
   addDisplayOptions(*app, o->display, "they");
-  app->add_option("--most-kilobytes", o->mostKilobytes, "Size that a .jpg shall not exceed")->check(CLI::Range(1, 1000000))->capture_default_str();
+  app->add_option("--most-kilobytes", o->mostKilobytes, "Size that a .jpg shall not exceed")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   app->footer(
       "Example:\n"
       "  roomlight develop hybrid.exr path.exr reference.exr -o strip.jpg");

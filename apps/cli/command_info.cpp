@@ -27,15 +27,9 @@ Json vector(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
 // As the file says.
 Json webJson(const PhotometricWeb& web) {
-  return {{"name", web.name},
-          {"manufacturer", web.manufacturer},
-          {"format", web.format},
-          {"fileFluxLm", web.fluxLm},
-          {"statedFluxLm", web.statedFluxLm},
-          {"peakCd", web.peakCd},
-          {"watts", web.watts},
-          {"openingM", {web.sizeC0M, web.sizeC90M}},
-          {"round", web.round}};
+  return {{"name", web.name},         {"manufacturer", web.manufacturer},        {"format", web.format},
+          {"fileFluxLm", web.fluxLm}, {"statedFluxLm", web.statedFluxLm},        {"peakCd", web.peakCd},
+          {"watts", web.watts},       {"openingM", {web.sizeC0M, web.sizeC90M}}, {"round", web.round}};
 }
 
 Json lampJson(const Lamp& lamp) {
@@ -75,8 +69,9 @@ Json objectsJson(const Scene& scene) {
   return out;
 }
 
-const char* kindName(LayerKind kind) { return kind == LayerKind::Lamp ? "lamp" : kind == LayerKind::Group ? "group"
-                                                                                                          : "mesh"; }
+const char* kindName(LayerKind kind) {
+  return kind == LayerKind::Lamp ? "lamp" : kind == LayerKind::Group ? "group" : "mesh";
+}
 
 // What people switch, as render --layers tells it apart: lamps, groups of lamps, shining meshes.
 Json lightsJson(const Scene& scene) {
@@ -87,7 +82,10 @@ Json lightsJson(const Scene& scene) {
   for (const LightLayer& l : layers.value().layers) {
     if (l.kind == LayerKind::Sun || l.kind == LayerKind::Sky) continue;
     const int room = roomAt(scene, l.position);
-    out.push_back({{"name", l.name}, {"kind", kindName(l.kind)}, {"fluxLm", luminance(l.fluxLm)}, {"positionM", vector(l.position)}});
+    out.push_back({{"name", l.name},
+                   {"kind", kindName(l.kind)},
+                   {"fluxLm", luminance(l.fluxLm)},
+                   {"positionM", vector(l.position)}});
     out.back()["room"] = room >= 0 ? Json(scene.rooms[static_cast<size_t>(room)].name) : Json();
   }
   return out;
@@ -100,8 +98,13 @@ Json roomsJson(const Scene& scene) {
   for (const Room& room : scene.rooms) {
     size_t level = 0;
     for (size_t i = 0; i < levels.size(); ++i) level = room.elevationM >= levels[i].elevationM - 1e-3f ? i : level;
-    rooms.push_back({{"name", room.name}, {"areaM2", home::areaM2(room)}, {"elevationM", room.elevationM}, {"heightM", room.heightM}, {"level", level}});
-    const auto lamps = std::count_if(luminaires.begin(), luminaires.end(), [&](const Luminaire& l) { return home::isIn(room, l.position); });
+    rooms.push_back({{"name", room.name},
+                     {"areaM2", home::areaM2(room)},
+                     {"elevationM", room.elevationM},
+                     {"heightM", room.heightM},
+                     {"level", level}});
+    const auto lamps = std::count_if(luminaires.begin(), luminaires.end(),
+                                     [&](const Luminaire& l) { return home::isIn(room, l.position); });
     rooms.back()["lamps"] = lamps;
   }
   return rooms;
@@ -114,10 +117,16 @@ Json describe(const home::OpenedHome& home) {
   for (const Material& m : scene.materials) emissive += isBlack(m.emission) ? 0 : 1;
   Json lamps = Json::array(), suns = Json::array(), cameras = Json::array();
   for (const Lamp& lamp : scene.lamps) lamps.push_back(lampJson(lamp));
-  for (const Sun& sun : scene.suns) suns.push_back({{"name", sun.name}, {"illuminanceLux", luminance(sun.illuminanceLux)}, {"toLight", vector(sun.toLight)}});
+  for (const Sun& sun : scene.suns)
+    suns.push_back(
+        {{"name", sun.name}, {"illuminanceLux", luminance(sun.illuminanceLux)}, {"toLight", vector(sun.toLight)}});
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     const Camera& c = scene.cameras[i];
-    cameras.push_back({{"name", c.name}, {"kind", c.projection == Projection::Orthographic ? "orthographic" : "perspective"}, {"positionM", vector(c.worldFromCamera.w)}, {"proposed", i >= home.fileCameras}, {"default", static_cast<int>(i) == scene.cameraInUse}});
+    cameras.push_back({{"name", c.name},
+                       {"kind", c.projection == Projection::Orthographic ? "orthographic" : "perspective"},
+                       {"positionM", vector(c.worldFromCamera.w)},
+                       {"proposed", i >= home.fileCameras},
+                       {"default", static_cast<int>(i) == scene.cameraInUse}});
     if (c.projection == Projection::Perspective) cameras.back()["verticalAngleDeg"] = c.yFovRad * 180 / kPi;
   }
   return {{"triangles", scene.triangleCount()},
@@ -149,11 +158,15 @@ std::string shown(const Json& name) {
 }
 
 void printObjects(const Json& objects) {
-  fmt::print("objects            {}\n  {:>9} {:>11} {:>11}  {:<24}  name\n", objects.size(), "triangles", "area m2", "volume m3", "size m");
+  fmt::print("objects            {}\n  {:>9} {:>11} {:>11}  {:<24}  name\n", objects.size(), "triangles", "area m2",
+             "volume m3", "size m");
   for (const Json& o : objects) {
-    const auto low = o["boundsM"]["low"].get<std::vector<double>>(), high = o["boundsM"]["high"].get<std::vector<double>>();
-    fmt::print("  {:>9} {:>11.4f} {:>11.4f}  {:<24}  {}\n", o["triangles"].get<size_t>(), o["areaM2"].get<double>(), o["volumeM3"].get<double>(),
-               fmt::format("{:.3f} x {:.3f} x {:.3f}", high[0] - low[0], high[1] - low[1], high[2] - low[2]), shown(o["name"]));
+    const auto low = o["boundsM"]["low"].get<std::vector<double>>(),
+               high = o["boundsM"]["high"].get<std::vector<double>>();
+    fmt::print("  {:>9} {:>11.4f} {:>11.4f}  {:<24}  {}\n", o["triangles"].get<size_t>(), o["areaM2"].get<double>(),
+               o["volumeM3"].get<double>(),
+               fmt::format("{:.3f} x {:.3f} x {:.3f}", high[0] - low[0], high[1] - low[1], high[2] - low[2]),
+               shown(o["name"]));
   }
 }
 
@@ -162,14 +175,16 @@ void printLamps(const Json& j) {
   for (const Json& lamp : j["lamps"]) {
     if (lamp["kind"] == "photometric") {
       const Json& web = lamp["web"];
-      fmt::print("  photometric {}: {:.6g} lm, peak {:.6g} cd, as {}; {}, {}\n", shown(lamp["name"]), lamp["fluxLm"].get<double>(), lamp["intensityCd"].get<double>(),
-                 lamp["as"].get<std::string>(), web["format"].get<std::string>(), shown(web["name"]));
+      fmt::print("  photometric {}: {:.6g} lm, peak {:.6g} cd, as {}; {}, {}\n", shown(lamp["name"]),
+                 lamp["fluxLm"].get<double>(), lamp["intensityCd"].get<double>(), lamp["as"].get<std::string>(),
+                 web["format"].get<std::string>(), shown(web["name"]));
       continue;
     }
     const bool area = lamp["kind"] == "area";
-    fmt::print("  {} {}: {}\n", lamp["kind"].get<std::string>(), shown(lamp["name"]),
-               area ? fmt::format("{:.6g} cd/m2, {:.6g} lm", lamp["luminanceCdM2"].get<double>(), lamp["fluxLm"].get<double>())
-                    : fmt::format("{:.6g} cd", lamp["intensityCd"].get<double>()));
+    fmt::print(
+        "  {} {}: {}\n", lamp["kind"].get<std::string>(), shown(lamp["name"]),
+        area ? fmt::format("{:.6g} cd/m2, {:.6g} lm", lamp["luminanceCdM2"].get<double>(), lamp["fluxLm"].get<double>())
+             : fmt::format("{:.6g} cd", lamp["intensityCd"].get<double>()));
   }
   // Lamps that are meshes, and what is switched together.
   if (j["lights"].is_null()) {
@@ -178,7 +193,9 @@ void printLamps(const Json& j) {
   }
   fmt::print("{:<18} {}\n", "lights", j["lights"].size());
   for (const Json& light : j["lights"]) {
-    fmt::print("  {} {}: {:.6g} lm{}\n", light["kind"].get<std::string>(), shown(light["name"]), light["fluxLm"].get<double>(), light["room"].is_null() ? "" : fmt::format(", room {}", shown(light["room"])));
+    fmt::print("  {} {}: {:.6g} lm{}\n", light["kind"].get<std::string>(), shown(light["name"]),
+               light["fluxLm"].get<double>(),
+               light["room"].is_null() ? "" : fmt::format(", room {}", shown(light["room"])));
   }
 }
 
@@ -186,22 +203,28 @@ void printHome(const Json& j) {
   for (const char* key : {"triangles", "meshes", "instances", "materials", "emissiveMaterials", "textures"}) {
     fmt::print("{:<18} {}\n", key, j[key].get<size_t>());
   }
-  const auto low = j["boundsM"]["low"].get<std::vector<double>>(), high = j["boundsM"]["high"].get<std::vector<double>>();
-  fmt::print("{:<18} {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f}) to ({:.2f}, {:.2f}, {:.2f})\n", "bounds", high[0] - low[0],
-             high[1] - low[1], high[2] - low[2], low[0], low[1], low[2], high[0], high[1], high[2]);
+  const auto low = j["boundsM"]["low"].get<std::vector<double>>(),
+             high = j["boundsM"]["high"].get<std::vector<double>>();
+  fmt::print("{:<18} {:.2f} x {:.2f} x {:.2f} m, from ({:.2f}, {:.2f}, {:.2f}) to ({:.2f}, {:.2f}, {:.2f})\n", "bounds",
+             high[0] - low[0], high[1] - low[1], high[2] - low[2], low[0], low[1], low[2], high[0], high[1], high[2]);
   printLamps(j);
   fmt::print("{:<18} {}\n", "suns", j["suns"].size());
-  for (const Json& sun : j["suns"]) fmt::print("  {}: {:.6g} lx\n", shown(sun["name"]), sun["illuminanceLux"].get<double>());
+  for (const Json& sun : j["suns"])
+    fmt::print("  {}: {:.6g} lx\n", shown(sun["name"]), sun["illuminanceLux"].get<double>());
   fmt::print("{:<18} {}\n", "sky", j["sky"].get<bool>() ? "yes" : "no");
   fmt::print("{:<18} {}, on {} levels\n", "rooms", j["rooms"].size(), j["levels"].get<size_t>());
   for (const Json& r : j["rooms"]) {
-    fmt::print("  {}: {:.1f} m2, {:.2f} m high, level {} at {:.2f} m, lamps {}\n", shown(r["name"]), r["areaM2"].get<double>(), r["heightM"].get<double>(), r["level"].get<size_t>(), r["elevationM"].get<double>(), r["lamps"].get<long>());
+    fmt::print("  {}: {:.1f} m2, {:.2f} m high, level {} at {:.2f} m, lamps {}\n", shown(r["name"]),
+               r["areaM2"].get<double>(), r["heightM"].get<double>(), r["level"].get<size_t>(),
+               r["elevationM"].get<double>(), r["lamps"].get<long>());
   }
   fmt::print("{:<18} {}\n", "cameras", j["cameras"].size());
   size_t index = 0;
   for (const Json& c : j["cameras"]) {
     const auto at = c["positionM"].get<std::vector<double>>();
-    fmt::print("  {} {}: {} at ({:.2f}, {:.2f}, {:.2f}){}{}\n", index++, shown(c["name"]), c["kind"].get<std::string>(), at[0], at[1], at[2], c["proposed"].get<bool>() ? ", proposed" : "", c["default"].get<bool>() ? ", shown by default" : "");
+    fmt::print("  {} {}: {} at ({:.2f}, {:.2f}, {:.2f}){}{}\n", index++, shown(c["name"]), c["kind"].get<std::string>(),
+               at[0], at[1], at[2], c["proposed"].get<bool>() ? ", proposed" : "",
+               c["default"].get<bool>() ? ", shown by default" : "");
   }
 }
 
@@ -219,9 +242,14 @@ int showPhotometricFile(const InfoOptions& o) {
     return kOk;
   }
   const PhotometricWeb& w = *web.value();
-  fmt::print("{:<18} {}\n{:<18} {}\n{:<18} {}\n", "luminaire", shown(j["name"]), "manufacturer", shown(j["manufacturer"]), "format", w.format);
-  fmt::print("{:<18} {:.6g} lm\n{:<18} {}\n{:<18} {:.6g} cd\n", "flux", w.fluxLm, "stated flux", w.statedFluxLm > 0 ? fmt::format("{:.6g} lm", w.statedFluxLm) : "none", "peak", w.peakCd);
-  fmt::print("{:<18} {}\n", "opening", w.hasOpening() ? fmt::format("{:.4g} m along C0, {:.4g} m along C90, {}", w.sizeC0M, w.sizeC90M, w.round ? "round" : "rectangular") : "none");
+  fmt::print("{:<18} {}\n{:<18} {}\n{:<18} {}\n", "luminaire", shown(j["name"]), "manufacturer",
+             shown(j["manufacturer"]), "format", w.format);
+  fmt::print("{:<18} {:.6g} lm\n{:<18} {}\n{:<18} {:.6g} cd\n", "flux", w.fluxLm, "stated flux",
+             w.statedFluxLm > 0 ? fmt::format("{:.6g} lm", w.statedFluxLm) : "none", "peak", w.peakCd);
+  fmt::print("{:<18} {}\n", "opening",
+             w.hasOpening() ? fmt::format("{:.4g} m along C0, {:.4g} m along C90, {}", w.sizeC0M, w.sizeC90M,
+                                          w.round ? "round" : "rectangular")
+                            : "none");
   printWarnings(files.warnings());
   return kOk;
 }

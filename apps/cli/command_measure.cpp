@@ -56,7 +56,8 @@ Result<PointPlan> parsePoint(const std::string& text, size_t number) {
 }
 
 Result<GlarePlan> parseEye(const MeasureOptions& o) {
-  const Result<std::vector<float>> eye = parseList("--eye", o.eye, "x,y,z in metres", {3}), view = parseList("--view", o.view, "x,y,z, the direction looked along", {3});
+  const Result<std::vector<float>> eye = parseList("--eye", o.eye, "x,y,z in metres", {3}),
+                                   view = parseList("--view", o.view, "x,y,z, the direction looked along", {3});
   if (!eye) return Error{eye.error()};
   if (!view) return Error{view.error()};
   GlarePlan glare;
@@ -73,7 +74,8 @@ Result<double> parseTolerance(const std::string& text) {
   const bool percent = text.ends_with('%');
   const auto value = parseNumber<double>(std::string_view(text).substr(0, text.size() - (percent ? 1 : 0)));
   const double tolerance = value.value_or(0) / (percent ? 100 : 1);
-  if (!value || !(tolerance >= 1e-4 && tolerance <= 0.5)) return Error{fmt::format("--tolerance {}: write a relative error from 0.01% to 50%", text)};
+  if (!value || !(tolerance >= 1e-4 && tolerance <= 0.5))
+    return Error{fmt::format("--tolerance {}: write a relative error from 0.01% to 50%", text)};
   return tolerance;
 }
 
@@ -144,8 +146,19 @@ Result<MeasuredHome> loadHomeToMeasure(const MeasureOptions& o, const MeasurePla
 }
 
 // All of them, even if one cannot be written; the first error.
-Status writeMeasureReports(const MeasureOptions& o, const MeasurePlan& plan, const Measurements& m, const MeasuredHome& home, const ReportPicture& picture) {
-  const ReportHeader header{o.scene, o.lighting, o.meters, plan.render.technique, plan.render.quality, version(), plan.measure.meters.tolerance, today(), picture.jpeg, picture.title, home.addedLight};
+Status writeMeasureReports(const MeasureOptions& o, const MeasurePlan& plan, const Measurements& m,
+                           const MeasuredHome& home, const ReportPicture& picture) {
+  const ReportHeader header{o.scene,
+                            o.lighting,
+                            o.meters,
+                            plan.render.technique,
+                            plan.render.quality,
+                            version(),
+                            plan.measure.meters.tolerance,
+                            today(),
+                            picture.jpeg,
+                            picture.title,
+                            home.addedLight};
   Status first = Ok{};
   const auto write = [&](const std::string& file, const auto& text) {
     if (file.empty()) return;
@@ -172,10 +185,13 @@ Status measureDaylight(const MeasurePlan& plan, MeasuredHome& home, Measurements
 
 int workMeasure(const MeasureOptions& o, const MeasurePlan& plan) {
   ProgressDisplay display(o.quiet);
-  const RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
+  const RenderProgress progress{
+      [&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
   RenderStats stats;
   Stages stages(progress, stats);
-  const auto stopped = [] { return failed("interrupted before everything was measured; nothing was written", kInterrupted); };
+  const auto stopped = [] {
+    return failed("interrupted before everything was measured; nothing was written", kInterrupted);
+  };
 
   Result<MeasuredHome> home = stages.run("load", [&](const Progress&) { return loadHomeToMeasure(o, plan); });
   if (!home) return failed(home.error());
@@ -187,7 +203,9 @@ int workMeasure(const MeasureOptions& o, const MeasurePlan& plan) {
   lit.value().reset();
   if (interrupted()) return stopped();
   ReportPicture picture;
-  if (!o.html.empty() && !o.noPicture) picture = stages.run("picture", [&](const Progress&) { return pictureFor(home.value().scene, plan.render.threads); });
+  if (!o.html.empty() && !o.noPicture)
+    picture =
+        stages.run("picture", [&](const Progress&) { return pictureFor(home.value().scene, plan.render.threads); });
   if (o.daylightFactor) {
     if (const Status s = measureDaylight(plan, home.value(), m, stages); !s) return failed(s.error());
     if (interrupted()) return stopped();
@@ -217,18 +235,28 @@ Registered addMeasure(CLI::App& program) {
   const auto o = std::make_shared<MeasureOptions>();
   CLI::App* app = program.add_subcommand("measure", "Light a scene and hold light meters into it");
   addSceneOptions(*app, *o, "SCENE");
-  app->add_option("--meters", o->meters, "Meter file: rooms, grids, points, spot meters and eyes (docs/formats/meters.md); without it, every room");
-  app->add_option("--point", o->points, "Incident meter at x,y,z, or x,y,z,nx,ny,nz for a receptor that does not face up; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option(
+      "--meters", o->meters,
+      "Meter file: rooms, grids, points, spot meters and eyes (docs/formats/meters.md); without it, every room");
+  app->add_option("--point", o->points,
+                  "Incident meter at x,y,z, or x,y,z,nx,ny,nz for a receptor that does not face up; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--eye", o->eye, "Where glare (UGR) is judged: x,y,z");
   app->add_option("--view", o->view, "Direction that eye looks along: x,y,z");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
   app->add_option("--quality", o->quality, listed("How much is done, if nothing else says so:", qualities()));
-  app->add_option("--tolerance", o->tolerance, "Relative standard error at which a meter is read")->capture_default_str();
+  app->add_option("--tolerance", o->tolerance, "Relative standard error at which a meter is read")
+      ->capture_default_str();
   app->add_option("--json", o->json, "Write all readings to this JSON file");
   app->add_option("--csv", o->csv, "Write all readings to this table, one line each");
-  app->add_option("--html", o->html, "Write a report for printing to this HTML file: a picture, plans, targets by room, false-colour maps, a luminaire schedule");
+  app->add_option("--html", o->html,
+                  "Write a report for printing to this HTML file: a picture, plans, targets by room, false-colour "
+                  "maps, a luminaire schedule");
   app->add_flag("--no-picture", o->noPicture, "Leave the picture out of the report; it takes some seconds");
-  app->add_flag("--daylight-factor", o->daylightFactor, "Measure grids and points a second time, under a CIE overcast sky alone, as a share of the light outdoors");
+  app->add_flag(
+      "--daylight-factor", o->daylightFactor,
+      "Measure grids and points a second time, under a CIE overcast sky alone, as a share of the light outdoors");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same readings");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_flag("--quiet", o->quiet, "Only the table and errors");

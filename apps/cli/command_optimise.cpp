@@ -34,7 +34,8 @@ class SearchLine {
   void show(const char* method, const search::State& s, double hypervolume, bool last) {
     if (quiet_ || (!last && watch_.seconds() - at_ < (terminal_ ? 0.3 : 10) && shown_)) return;
     at_ = watch_.seconds(), shown_ = true;
-    fmt::print(stderr, "{}{}: {:3.0f} %  {} evaluations, {} designs on the front, hypervolume {:.4f}{}{}", terminal_ ? "\r\x1b[K" : "", method, 100 * search::fractionDone(s), s.evaluations, s.archive.size(),
+    fmt::print(stderr, "{}{}: {:3.0f} %  {} evaluations, {} designs on the front, hypervolume {:.4f}{}{}",
+               terminal_ ? "\r\x1b[K" : "", method, 100 * search::fractionDone(s), s.evaluations, s.archive.size(),
                hypervolume, last ? "" : fmt::format(", {:.0f} s left", search::secondsLeft(s)), terminal_ ? "" : "\n");
     std::fflush(stderr);
     if (last) end();
@@ -53,7 +54,10 @@ class SearchLine {
 
 void printFront(const optimise::Report& report) {
   fmt::print("{:<10}", "design");
-  for (const optimise::Objective o : report.model.objectives) fmt::print("{:>22}", fmt::format("{} {}", infoOf(o).name, o == optimise::Objective::Cost ? report.study.catalogue.currency : infoOf(o).unit));
+  for (const optimise::Objective o : report.model.objectives)
+    fmt::print("{:>22}",
+               fmt::format("{} {}", infoOf(o).name,
+                           o == optimise::Objective::Cost ? report.study.catalogue.currency : infoOf(o).unit));
   fmt::print("{:>10}{:>8}\n", "fittings", "W");
   for (const optimise::Proposed& d : report.designs) {
     fmt::print("{:<10}", d.name);
@@ -65,12 +69,18 @@ void printFront(const optimise::Report& report) {
 int workOptimise(const OptimiseOptions& o, const optimise::RunWish& wish) {
   ProgressDisplay display(o.quiet);
   SearchLine searching(o.quiet);
-  const RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
+  const RenderProgress progress{
+      [&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), {}};
   RenderStats stats;
   Stages stages(progress, stats);
-  const auto stopped = [] { return failed("interrupted; started again with the same folder, it goes on", kInterrupted); };
-  optimise::Run run(wish, {[&](const std::string& line) { display.line(line); }, [](const std::string& warning) { printWarnings({warning}); },
-                           [&](const char* method, const search::State& s, double hypervolume, bool last) { searching.show(method, s, hypervolume, last); }});
+  const auto stopped = [] {
+    return failed("interrupted; started again with the same folder, it goes on", kInterrupted);
+  };
+  optimise::Run run(wish, {[&](const std::string& line) { display.line(line); },
+                           [](const std::string& warning) { printWarnings({warning}); },
+                           [&](const char* method, const search::State& s, double hypervolume, bool last) {
+                             searching.show(method, s, hypervolume, last);
+                           }});
   const Status read = stages.run("load", [&](const Progress&) { return run.read(); });
   if (!read) return failed(read.error());
   if (run.stopped()) return stopped();
@@ -91,7 +101,8 @@ int workOptimise(const OptimiseOptions& o, const optimise::RunWish& wish) {
 // What the command line asks for.
 Result<optimise::RunWish> wishOf(const OptimiseOptions& o) {
   optimise::RunWish wish;
-  wish.home = o.home, wish.metresPerUnit = o.metresPerUnit, wish.study = o.study, wish.folder = o.folder, wish.seconds = o.seconds, wish.certified = o.certify, wish.stop = &interrupted();
+  wish.home = o.home, wish.metresPerUnit = o.metresPerUnit, wish.study = o.study, wish.folder = o.folder,
+  wish.seconds = o.seconds, wish.certified = o.certify, wish.stop = &interrupted();
   if (o.evaluations) wish.evaluations = static_cast<size_t>(*o.evaluations);
   if (!o.quality.empty()) {
     if (const Status s = applyQuality(o.quality, wish.render); !s) return Error{"--" + s.error()};
@@ -129,19 +140,30 @@ int runOptimise(const OptimiseOptions& o) {
 
 Registered addOptimise(CLI::App& program) {
   const auto o = std::make_shared<OptimiseOptions>();
-  CLI::App* app = program.add_subcommand("optimise", "Propose lighting: places, kinds, aims and dimming of lamps on the best trade-offs between goals");
+  CLI::App* app = program.add_subcommand(
+      "optimise", "Propose lighting: places, kinds, aims and dimming of lamps on the best trade-offs between goals");
   app->add_option("HOME", o->home, "Home or room: " + supportedFiles())->required();
-  app->add_option("STUDY", o->study, "Study file: goals, places, catalogue, limits (docs/formats/optimise.md)")->required();
-  app->add_option("-o,--output", o->folder, "Folder for index.html, front.csv and lighting files; what it holds of the same inputs is not found again")->required();
+  app->add_option("STUDY", o->study, "Study file: goals, places, catalogue, limits (docs/formats/optimise.md)")
+      ->required();
+  app->add_option(
+         "-o,--output", o->folder,
+         "Folder for index.html, front.csv and lighting files; what it holds of the same inputs is not found again")
+      ->required();
   std::vector<std::pair<std::string, std::string>> methods;
   for (const search::MethodInfo& m : search::methodTable()) methods.emplace_back(m.name, m.summary);
   app->add_option("--method", o->method, listed("How designs are searched:", methods));
-  app->add_option("--baseline", o->baselines, "Search by this method too, with as many evaluations, and tell its hypervolume; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--baseline", o->baselines,
+                  "Search by this method too, with as many evaluations, and tell its hypervolume; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--evaluations", o->evaluations, "Instead of the study's")->check(CLI::Range(100, 1000000000));
   app->add_option("--seconds", o->seconds, "End the search after so long; 0: never")->check(CLI::Range(0.0, 1e6));
-  app->add_option("--certify", o->certify, "Designs that are solved in full, instead of the study's")->check(CLI::Range(0, 1000));
+  app->add_option("--certify", o->certify, "Designs that are solved in full, instead of the study's")
+      ->check(CLI::Range(0, 1000));
   app->add_option("--quality", o->quality, listed("How much is done for light:", qualities()));
-  app->add_option("--metres-per-unit", o->metresPerUnit, "Length of the home's unit in metres; without it the file's, or guessed")->check(CLI::Range(1e-9, 1e6));
+  app->add_option("--metres-per-unit", o->metresPerUnit,
+                  "Length of the home's unit in metres; without it the file's, or guessed")
+      ->check(CLI::Range(1e-9, 1e6));
   app->add_option("--seed", o->seed, "Instead of the study's; the same seed gives the same front");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_flag("--quiet", o->quiet, "Only the table and errors");

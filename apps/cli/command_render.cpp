@@ -57,9 +57,13 @@ struct RenderPlan {
 Status checkRenderOutputs(const RenderOptions& o) {
   for (const std::string& out : o.outputs) {
     const std::string e = lowerExtension(out);
-    if (e != ".exr" && e != ".png" && e != ".jpg") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr, .png or .jpg", out, e)};
-    if (e == ".jpg" && o.kind != "picture") return Error{fmt::format("{}: .jpg would blur what can be read off the colours; use .png", out)};
-    if (e == ".exr" && o.kind == "falsecolour") return Error{fmt::format("{}: false colours are for looking at; use .png, or --output-kind luminance for .exr", out)};
+    if (e != ".exr" && e != ".png" && e != ".jpg")
+      return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr, .png or .jpg", out, e)};
+    if (e == ".jpg" && o.kind != "picture")
+      return Error{fmt::format("{}: .jpg would blur what can be read off the colours; use .png", out)};
+    if (e == ".exr" && o.kind == "falsecolour")
+      return Error{
+          fmt::format("{}: false colours are for looking at; use .png, or --output-kind luminance for .exr", out)};
     if (const Status s = checkWritable(out); !s) return s;
   }
   if (!o.stats.empty()) {
@@ -73,12 +77,14 @@ Status checkRenderOutputs(const RenderOptions& o) {
 Status applyLayerGroups(const RenderOptions& o, RenderSettings& settings) {
   if (o.layerGroups) {
     if (!o.layers) return Error{"--layer-groups goes with --layers"};
-    if (*o.layerGroups != "name" && *o.layerGroups != "room") return Error{fmt::format("--layer-groups {}: write name or room", *o.layerGroups)};
+    if (*o.layerGroups != "name" && *o.layerGroups != "room")
+      return Error{fmt::format("--layer-groups {}: write name or room", *o.layerGroups)};
     settings.layersByRoom = *o.layerGroups == "room";
   }
   if (!settings.layers) return Ok{};
   if (o.kind != "picture") return Error{fmt::format("--output-kind {}: is of one picture; leave out --layers", o.kind)};
-  const bool any = std::any_of(o.outputs.begin(), o.outputs.end(), [](const std::string& out) { return lowerExtension(out) == ".exr"; });
+  const bool any = std::any_of(o.outputs.begin(), o.outputs.end(),
+                               [](const std::string& out) { return lowerExtension(out) == ".exr"; });
   return any ? Status(Ok{}) : Error{"--layers: layers are written into .exr; add -o FILE.exr"};
 }
 
@@ -102,12 +108,16 @@ Result<RenderPlan> planRender(const RenderOptions& o) {
   const Result<Display> display = readDisplay(o.display);
   if (!display) return Error{display.error()};
   plan.display = display.value();
-  if (o.kind != "picture" && o.kind != "luminance" && o.kind != "falsecolour") return Error{fmt::format("--output-kind {}: write picture, luminance or falsecolour", o.kind)};
+  if (o.kind != "picture" && o.kind != "luminance" && o.kind != "falsecolour")
+    return Error{fmt::format("--output-kind {}: write picture, luminance or falsecolour", o.kind)};
   if (o.kind != "picture" && o.display != DisplayOptions()) {
-    return Error{fmt::format("--output-kind {} has a scale of luminance instead of --look, --exposure and the like; leave them out", o.kind)};
+    return Error{fmt::format(
+        "--output-kind {} has a scale of luminance instead of --look, --exposure and the like; leave them out",
+        o.kind)};
   }
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
-  if (s.layers && s.technique != "hybrid" && s.technique != "path") return Error{fmt::format("--layers: technique {} does not keep lamps apart; use hybrid or path", s.technique)};
+  if (s.layers && s.technique != "hybrid" && s.technique != "path")
+    return Error{fmt::format("--layers: technique {} does not keep lamps apart; use hybrid or path", s.technique)};
   const Result<ViewWish> view = readViewWish(o.view, !o.cameras.empty());
   if (!view) return Error{view.error()};
   plan.view = view.value();
@@ -122,7 +132,8 @@ std::string dump(const nlohmann::ordered_json& json, int indent) {
 
 std::string toText(Vec3 v) { return fmt::format("{:.4f} {:.4f} {:.4f}", v.x, v.y, v.z); }
 
-Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const Camera& camera, const Rendered& rendered, float ev100, const White& white) {
+Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const Camera& camera,
+                           const Rendered& rendered, float ev100, const White& white) {
   auto times = nlohmann::ordered_json::object();
   for (const StageStats& s : rendered.stats.stages) times[s.name] = s.timeMs;
   Metadata metadata = {{"roomlight.version", version()},
@@ -139,7 +150,9 @@ Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const
                        {"roomlight.whiteGains", toText(white.gains)},
                        {kLightColourKey, toText(rendered.lightColour)},
                        {"roomlight.complete", rendered.complete ? "true" : "false"}};
-  if (camera.projection == Projection::Orthographic) metadata["roomlight.metresPerPixel"] = fmt::format("{}", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel());
+  if (camera.projection == Projection::Orthographic)
+    metadata["roomlight.metresPerPixel"] =
+        fmt::format("{}", CameraRays(camera, rendered.image.width, rendered.image.height).metresPerPixel());
   if (camera.cutHeightM < kInfinity) metadata["roomlight.cutHeightM"] = fmt::format("{}", camera.cutHeightM);
   return metadata;
 }
@@ -169,21 +182,26 @@ Status writeLuminance(const RenderOptions& o, const Shot& shot, const Rendered& 
 // What viewers know panoramas by (Google's Photo Sphere XMP metadata).
 std::string panoramaXmp(int width, int height) {
   return fmt::format(
-      "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?><x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
-      "<rdf:Description rdf:about=\"\" xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" GPano:ProjectionType=\"equirectangular\" GPano:UsePanoramaViewer=\"True\" "
-      "GPano:FullPanoWidthPixels=\"{0}\" GPano:FullPanoHeightPixels=\"{1}\" GPano:CroppedAreaImageWidthPixels=\"{0}\" GPano:CroppedAreaImageHeightPixels=\"{1}\" "
+      "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?><x:xmpmeta "
+      "xmlns:x=\"adobe:ns:meta/\"><rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
+      "<rdf:Description rdf:about=\"\" xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\" "
+      "GPano:ProjectionType=\"equirectangular\" GPano:UsePanoramaViewer=\"True\" "
+      "GPano:FullPanoWidthPixels=\"{0}\" GPano:FullPanoHeightPixels=\"{1}\" GPano:CroppedAreaImageWidthPixels=\"{0}\" "
+      "GPano:CroppedAreaImageHeightPixels=\"{1}\" "
       "GPano:CroppedAreaLeftPixels=\"0\" GPano:CroppedAreaTopPixels=\"0\"/></rdf:RDF></x:xmpmeta><?xpacket end=\"w\"?>",
       width, height);
 }
 
-Status writePicture(const std::string& out, const RenderPlan& plan, const Camera& camera, const Rendered& rendered, const White& white, float ev100, const std::vector<bool>& rooms, Metadata metadata) {
+Status writePicture(const std::string& out, const RenderPlan& plan, const Camera& camera, const Rendered& rendered,
+                    const White& white, float ev100, const std::vector<bool>& rooms, Metadata metadata) {
   const std::string extension = lowerExtension(out);
   if (extension == ".exr") return writeExr(out, rendered.image, metadata);
   Image light = unmixed(rendered.image, rendered.sights);
   if (!rooms.empty()) holdGrounds(light, rooms, ev100);
   const Image display = displayed(light, plan.display, white, ev100);
   const std::string xmp = camera.projection == Projection::Panorama ? panoramaXmp(display.width, display.height) : "";
-  if (extension == ".jpg") return writeJpeg(out, drawn(display, rendered.sights, kSectionColour, kPaperColour), SIZE_MAX, xmp);
+  if (extension == ".jpg")
+    return writeJpeg(out, drawn(display, rendered.sights, kSectionColour, kPaperColour), SIZE_MAX, xmp);
   if (!xmp.empty()) metadata["XML:com.adobe.xmp"] = xmp;
   std::vector<float> alpha;
   if (camera.emptyBackdrop) {
@@ -193,7 +211,8 @@ Status writePicture(const std::string& out, const RenderPlan& plan, const Camera
 }
 
 // Writes all outputs; returns the EV100 that they are exposed for.
-Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Shot& shot, Rendered& rendered) {
+Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Shot& shot,
+                            Rendered& rendered) {
   const Camera& camera = shot.camera;
   const std::vector<bool> rooms = roomMask(scene, camera, rendered.image.width, rendered.image.height);
   const float ev100 = ev100Of(plan.display, rooms.empty() ? rendered.image : pixelsWhere(rendered.image, rooms, true));
@@ -206,7 +225,9 @@ Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, cons
   std::optional<LayeredImage> layered;
   if (plan.settings.layers) layered = layeredImage(scene, camera, rendered, metadata);
   for (const std::string& out : shot.outputs) {
-    const Status s = layered && lowerExtension(out) == ".exr" ? writeLayers(out, *layered) : writePicture(out, plan, camera, rendered, white, ev100, rooms, metadata);
+    const Status s = layered && lowerExtension(out) == ".exr"
+                         ? writeLayers(out, *layered)
+                         : writePicture(out, plan, camera, rendered, white, ev100, rooms, metadata);
     if (!s) return Error{s.error()};
   }
   return ev100;
@@ -215,7 +236,8 @@ Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, cons
 Status writeStats(const std::string& file, const RenderStats& stats, double totalMs) {
   auto numbers = nlohmann::ordered_json::object();
   for (const auto& [name, value] : stats.numbers) numbers[name] = value;
-  return writeWhole(file, dump({{"stages", stagesJson(stats.stages)}, {"numbers", numbers}, {"totalMs", totalMs}}, 2) + "\n");
+  return writeWhole(file,
+                    dump({{"stages", stagesJson(stats.stages)}, {"numbers", numbers}, {"totalMs", totalMs}}, 2) + "\n");
 }
 
 // What is rendered: the scene under its light, and from where.
@@ -224,10 +246,13 @@ struct HomeInView {
   std::vector<Camera> cameras;
 };
 
-// Of large scenes the part whose light comes to the cameras. The reference sees everything, layers name every lamp, and plans see all rooms.
+// Of large scenes the part whose light comes to the cameras. The reference sees everything, layers name every lamp, and
+// plans see all rooms.
 std::optional<Scene> partInReach(const HomeInView& home, const RenderPlan& plan) {
   if (plan.settings.technique == "path" || plan.settings.layers) return std::nullopt;
-  if (std::any_of(home.cameras.begin(), home.cameras.end(), [](const Camera& c) { return c.projection == Projection::Orthographic || c.cutHeightM < kInfinity; })) return std::nullopt;
+  if (std::any_of(home.cameras.begin(), home.cameras.end(),
+                  [](const Camera& c) { return c.projection == Projection::Orthographic || c.cutHeightM < kInfinity; }))
+    return std::nullopt;
   return home::withinReach(RayScene(home.opened.scene), home.cameras);
 }
 
@@ -240,29 +265,30 @@ void addView(const Scene& scene, const Camera& camera, RenderStats& stats) {
   stats.numbers.emplace_back("view.indoors", home::isIndoors(rays, scene.rooms, camera, sights) ? 1 : 0);
 }
 
-// What a Sweet Home 3D home says of its photo, where neither options nor settings say how large and how well: its first two qualities are
-// without ray tracing, the last is for keeping.
+// What a Sweet Home 3D home says of its photo, where neither options nor settings say how large and how well: its first
+// two qualities are without ray tracing, the last is for keeping.
 void applyPhoto(const RenderOptions& o, const PhotoWish& photo, RenderPlan& plan) {
   RenderSettings& s = plan.settings;
   if (!plan.view.size) s.width = photo.widthPx, s.height = photo.heightPx;
   if (!o.quality.empty() || !o.settingsFile.empty()) return;
   const float voxelSizeM = s.voxel.voxelSizeM;
-  applyQuality(photo.quality < 2 ? "draft" : photo.quality == 2 ? "good"
-                                                                : "best",
-               s);
+  applyQuality(photo.quality < 2 ? "draft" : photo.quality == 2 ? "good" : "best", s);
   s.voxel.voxelSizeM = voxelSizeM;
 }
 
 // Those asked for, each once; the default one where none is.
 Result<std::vector<Camera>> camerasOf(const RenderOptions& o, const Scene& scene) {
-  if (o.allCameras() && std::none_of(scene.cameras.begin(), scene.cameras.end(), [](const Camera& c) { return c.name == kAllCameras; })) {
+  if (o.allCameras() &&
+      std::none_of(scene.cameras.begin(), scene.cameras.end(), [](const Camera& c) { return c.name == kAllCameras; })) {
     return scene.cameras.empty() ? std::vector<Camera>{defaultCamera(scene)} : scene.cameras;
   }
   std::vector<Camera> out;
   for (const std::string& name : o.cameras.empty() ? std::vector<std::string>{""} : o.cameras) {
     const Result<Camera> camera = findCamera(scene, name);
     if (!camera) return Error{camera.error()};
-    if (std::none_of(out.begin(), out.end(), [&](const Camera& c) { return c.name == camera.value().name && seeTheSame(c, camera.value()); })) out.push_back(camera.value());
+    if (std::none_of(out.begin(), out.end(),
+                     [&](const Camera& c) { return c.name == camera.value().name && seeTheSame(c, camera.value()); }))
+      out.push_back(camera.value());
   }
   return out;
 }
@@ -277,7 +303,8 @@ Result<HomeInView> loadHomeInView(const RenderOptions& o, RenderPlan& plan) {
   if (out.opened.photo) applyPhoto(o, *out.opened.photo, plan);
   Viewed last;
   for (const Camera& camera : cameras.value()) {
-    const Result<Viewed> viewed = makeView(scene, scene.rooms, camera, !o.cameras.empty() || out.opened.placed(), {plan.settings.width, plan.settings.height}, plan.view);
+    const Result<Viewed> viewed = makeView(scene, scene.rooms, camera, !o.cameras.empty() || out.opened.placed(),
+                                           {plan.settings.width, plan.settings.height}, plan.view);
     if (!viewed) return Error{fmt::format("{}: {}", o.scene, viewed.error())};
     last = viewed.value();
     out.cameras.push_back(last.camera);
@@ -290,7 +317,8 @@ Result<HomeInView> loadHomeInView(const RenderOptions& o, RenderPlan& plan) {
 // Its name, or its number in the scene.
 std::string nameInFiles(const Scene& scene, const Camera& camera) {
   if (!camera.name.empty()) return camera.name;
-  const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(), [&](const Camera& c) { return c.name.empty() && seeTheSame(c, camera); });
+  const auto same = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                 [&](const Camera& c) { return c.name.empty() && seeTheSame(c, camera); });
   return std::to_string(same - scene.cameras.begin());
 }
 
@@ -322,31 +350,43 @@ Result<std::vector<Shot>> shotsOf(const RenderOptions& o, const Scene& scene, co
 }
 
 // What all pictures have of the first camera.
-void tellSharedLight(const RenderOptions& o, const home::OpenedHome& opened, const Camera& first, ProgressDisplay& display) {
-  if (!opened.added.empty() || (!opened.daylight.empty() && o.lighting.empty())) display.line(fmt::format("all pictures have the light of the first, '{}': {}", first.name, opened.added.empty() ? "its time of day" : "what was added"));
+void tellSharedLight(const RenderOptions& o, const home::OpenedHome& opened, const Camera& first,
+                     ProgressDisplay& display) {
+  if (!opened.added.empty() || (!opened.daylight.empty() && o.lighting.empty()))
+    display.line(fmt::format("all pictures have the light of the first, '{}': {}", first.name,
+                             opened.added.empty() ? "its time of day" : "what was added"));
 }
 
 // Writes what was rendered and says so; returns the exit status.
-int keepPicture(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Shot& shot, Rendered& rendered, const Stopwatch& total, ProgressDisplay& display) {
+int keepPicture(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Shot& shot,
+                Rendered& rendered, const Stopwatch& total, ProgressDisplay& display) {
   // The times inside a picture cannot hold the time it takes to write it; the statistics can.
   RenderStats writeStage;
   RenderProgress silent;
   Stages writing(silent, writeStage);
-  const Result<float> written = writing.run("write", [&](const Progress&) { return writePictures(o, plan, scene, shot, rendered); });
+  const Result<float> written =
+      writing.run("write", [&](const Progress&) { return writePictures(o, plan, scene, shot, rendered); });
   if (!written) return failed(written.error(), kFailed);
   rendered.stats.stages.push_back(writeStage.stages.front());
   for (const auto& [name, value] : rendered.stats.numbers) {
-    if (name == "brokenPixels" && value > 0) printWarnings({fmt::format("{} pixels are negative or not finite: a defect, please report it", value)});
+    if (name == "brokenPixels" && value > 0)
+      printWarnings({fmt::format("{} pixels are negative or not finite: a defect, please report it", value)});
   }
   if (!shot.stats.empty()) {
     addView(scene, shot.camera, rendered.stats);
-    if (const Status s = writeStats(shot.stats, rendered.stats, total.seconds() * 1e3); !s) return failed(s.error(), kFailed);
+    if (const Status s = writeStats(shot.stats, rendered.stats, total.seconds() * 1e3); !s)
+      return failed(s.error(), kFailed);
   }
   display.lineOfEstimate();
-  if (shot.camera.projection == Projection::Orthographic) display.line(fmt::format("one pixel is {:.4g} m", CameraRays(shot.camera, rendered.image.width, rendered.image.height).metresPerPixel()));
+  if (shot.camera.projection == Projection::Orthographic)
+    display.line(fmt::format("one pixel is {:.4g} m",
+                             CameraRays(shot.camera, rendered.image.width, rendered.image.height).metresPerPixel()));
   for (const std::string& out : shot.outputs) {
-    const std::string exposed = o.kind == "picture" && lowerExtension(out) != ".exr" ? fmt::format(", exposed for EV100 {:.1f}", written.value()) : "";
-    display.line(fmt::format("wrote {}{}{}", out, exposed, rendered.complete ? "" : " (stopped early: the best so far)"));
+    const std::string exposed = o.kind == "picture" && lowerExtension(out) != ".exr"
+                                    ? fmt::format(", exposed for EV100 {:.1f}", written.value())
+                                    : "";
+    display.line(
+        fmt::format("wrote {}{}{}", out, exposed, rendered.complete ? "" : " (stopped early: the best so far)"));
   }
   return rendered.complete ? kOk : kInterrupted;
 }
@@ -355,7 +395,8 @@ int keepPicture(const RenderOptions& o, const RenderPlan& plan, const Scene& sce
 int workRender(const RenderOptions& o, RenderPlan plan) {
   std::optional<Stopwatch> watch(std::in_place);  // of the picture under way
   ProgressDisplay display(o.quiet);
-  RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(), [&](double relativeError, double mse) { display.estimate(relativeError, mse); }};
+  RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &interrupted(),
+                          [&](double relativeError, double mse) { display.estimate(relativeError, mse); }};
   RenderStats loadStats;
   Stages loading(progress, loadStats);
 
@@ -368,11 +409,18 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
   if (!o.quiet) printOpened(o, home.value().opened);
   if (shots.value().size() > 1) tellSharedLight(o, home.value().opened, home.value().cameras.front(), display);
   bool any = false;
-  const auto noPicture = [&] { return failed(any ? "interrupted; pictures of the other cameras were not begun" : "interrupted before there was a picture; nothing was written", kInterrupted); };
+  const auto noPicture = [&] {
+    return failed(any ? "interrupted; pictures of the other cameras were not begun"
+                      : "interrupted before there was a picture; nothing was written",
+                  kInterrupted);
+  };
   if (interrupted()) return noPicture();
 
-  const std::optional<Scene> part = loading.run("reach", [&](const Progress&) { return partInReach(home.value(), plan); });
-  if (part) display.line(fmt::format("of {} triangles those are used whose light comes to the camera{}: {}", scene.triangleCount(), shots.value().size() > 1 ? "s" : "", part->triangleCount()));
+  const std::optional<Scene> part =
+      loading.run("reach", [&](const Progress&) { return partInReach(home.value(), plan); });
+  if (part)
+    display.line(fmt::format("of {} triangles those are used whose light comes to the camera{}: {}",
+                             scene.triangleCount(), shots.value().size() > 1 ? "s" : "", part->triangleCount()));
   Result<Renderer> renderer = Renderer::of(part ? *part : scene, plan.settings);
   if (!renderer) return failed(renderer.error());
   for (const Shot& shot : shots.value()) {
@@ -381,9 +429,12 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
     Result<Rendered> rendered = renderer.value().picture(shot.camera, progress);
     if (!rendered) return failed(rendered.error());
     if (rendered.value().image.pixels.empty()) return noPicture();
-    if (!any) rendered.value().stats.stages.insert(rendered.value().stats.stages.begin(), loadStats.stages.begin(), loadStats.stages.end());
+    if (!any)
+      rendered.value().stats.stages.insert(rendered.value().stats.stages.begin(), loadStats.stages.begin(),
+                                           loadStats.stages.end());
     any = true;
-    if (const int status = keepPicture(o, plan, scene, shot, rendered.value(), *watch, display); status != kOk) return status;
+    if (const int status = keepPicture(o, plan, scene, shot, rendered.value(), *watch, display); status != kOk)
+      return status;
   }
   return kOk;
 }
@@ -404,27 +455,49 @@ Registered addRender(CLI::App& program) {
   const auto o = std::make_shared<RenderOptions>();
   CLI::App* app = program.add_subcommand("render", "Light a scene and write the picture");
   addSceneOptions(*app, *o, "SCENE");
-  app->add_option("-o,--output", o->outputs, "Picture: .exr (linear, cd/m2), .png or .jpg (tone-mapped); may be repeated")->required()->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app->add_option("--camera", o->cameras, "Name of a camera in the scene (capital or small letters; its beginning where only one fits), or its number from 0; repeated, or all: a picture of each, named after it, from light that is found once")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("-o,--output", o->outputs,
+                  "Picture: .exr (linear, cd/m2), .png or .jpg (tone-mapped); may be repeated")
+      ->required()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--camera", o->cameras,
+                  "Name of a camera in the scene (capital or small letters; its beginning where only one fits), or its "
+                  "number from 0; repeated, or all: a picture of each, named after it, from light that is found once")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   addViewOptions(*app, o->view);
-  app->add_option("--size", o->size, "Width and height in pixels, for example 960x540; views other than camera choose their own");
+  app->add_option("--size", o->size,
+                  "Width and height in pixels, for example 960x540; views other than camera choose their own");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
-  app->add_option("--quality", o->quality, listed("How much is done for a picture, if nothing else says so:", qualities()));
+  app->add_option("--quality", o->quality,
+                  listed("How much is done for a picture, if nothing else says so:", qualities()));
   app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");
-  app->add_option("--time-limit", o->timeLimitS, "Be done this many seconds after loading, with the best picture for that; every pixel has light in any case");
-  app->add_option("--noise-level", o->noiseLevel, "Stop when noise is below this part of the light, for example 0.02: of the mean over pixels (technique path), of every pixel (hybrid)");
-  app->add_flag("--layers", o->layers, "The light of every lamp, emissive mesh, sun and sky apart: .exr with a layer for each, which add up to the picture (docs/formats/layers.md)");
-  app->add_option("--layer-groups", o->layerGroups, "name: lamps of one name, or of one group in the lighting file, are one layer (the default); room: those of one room are");
+  app->add_option(
+      "--time-limit", o->timeLimitS,
+      "Be done this many seconds after loading, with the best picture for that; every pixel has light in any case");
+  app->add_option("--noise-level", o->noiseLevel,
+                  "Stop when noise is below this part of the light, for example 0.02: of the mean over pixels "
+                  "(technique path), of every pixel (hybrid)");
+  app->add_flag("--layers", o->layers,
+                "The light of every lamp, emissive mesh, sun and sky apart: .exr with a layer for each, which add up "
+                "to the picture (docs/formats/layers.md)");
+  app->add_option("--layer-groups", o->layerGroups,
+                  "name: lamps of one name, or of one group in the lighting file, are one layer (the default); room: "
+                  "those of one room are");
   app->add_option("--seed", o->seed, "Random seed; the same seed gives the same picture");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_option("--voxel-size", o->voxelSizeM, "Edge of a voxel in metres; 0: chosen from the memory budget");
   addDisplayOptions(*app, o->display, ".png");
-  app->add_option("--output-kind", o->kind, "picture; luminance: .exr in cd/m2 without colour, .png in grey; or falsecolour: .png in colours that tell luminance, with a legend")->capture_default_str();
+  app->add_option("--output-kind", o->kind,
+                  "picture; luminance: .exr in cd/m2 without colour, .png in grey; or falsecolour: .png in colours "
+                  "that tell luminance, with a legend")
+      ->capture_default_str();
   app->add_option("--settings", o->settingsFile, "JSON with settings; options given here go first");
   app->add_option("--stats", o->stats, "Write time and memory of each stage to this JSON file");
   app->add_flag("--quiet", o->quiet, "Only errors");
   app->footer(
-      "Ctrl-C ends the work and keeps the best picture so far, if there is one (exit status 130); a second one ends at once.\n"
+      "Ctrl-C ends the work and keeps the best picture so far, if there is one (exit status 130); a second one ends at "
+      "once.\n"
       "Examples:\n"
       "  roomlight render flat.glb -o flat.png\n"
       "  roomlight render flat.glb --camera Kitchen --camera Bath -o flat.png      # flat_Kitchen.png, flat_Bath.png\n"

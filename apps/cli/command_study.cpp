@@ -41,16 +41,20 @@ Status readSize(const std::string& option, const std::string& text, int& width, 
   const Result<Size> size = parseSize(option, text);
   if (!size) return Error{size.error()};
   width = size.value().width, height = size.value().height;
-  if (std::min(width, height) < kLeastPixels || std::max(width, height) > kMostPixels) return Error{fmt::format("{} {}: from {} to {} pixels either way", option, text, kLeastPixels, kMostPixels)};
+  if (std::min(width, height) < kLeastPixels || std::max(width, height) > kMostPixels)
+    return Error{fmt::format("{} {}: from {} to {} pixels either way", option, text, kLeastPixels, kMostPixels)};
   return Ok{};
 }
 
 // NAME=picture.exr,SECONDS or NAME@SCENE/LIGHT=picture.exr,SECONDS.
 Result<ExternalPicture> readExternal(const std::string& text) {
   const size_t equals = text.find('='), comma = text.rfind(',');
-  const auto seconds = comma == std::string::npos ? std::nullopt : parseNumber<double>(std::string_view(text).substr(comma + 1));
-  if (equals == std::string::npos || equals == 0 || comma == std::string::npos || comma < equals + 2 || !seconds || !(*seconds > 0) || !std::isfinite(*seconds)) {
-    return Error{fmt::format("--external {}: write NAME=picture.exr,SECONDS or NAME@SCENE/LIGHT=picture.exr,SECONDS", text)};
+  const auto seconds =
+      comma == std::string::npos ? std::nullopt : parseNumber<double>(std::string_view(text).substr(comma + 1));
+  if (equals == std::string::npos || equals == 0 || comma == std::string::npos || comma < equals + 2 || !seconds ||
+      !(*seconds > 0) || !std::isfinite(*seconds)) {
+    return Error{
+        fmt::format("--external {}: write NAME=picture.exr,SECONDS or NAME@SCENE/LIGHT=picture.exr,SECONDS", text)};
   }
   ExternalPicture e{text.substr(0, equals), {}, {}, text.substr(equals + 1, comma - equals - 1), *seconds};
   if (const size_t at = e.name.find('@'); at != std::string::npos) {
@@ -61,7 +65,8 @@ Result<ExternalPicture> readExternal(const std::string& text) {
     e.name.resize(at);
   }
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(e.file, ignored)) return Error{fmt::format("--external {}: {}: no such file", e.name, e.file.string())};
+  if (!std::filesystem::is_regular_file(e.file, ignored))
+    return Error{fmt::format("--external {}: {}: no such file", e.name, e.file.string())};
   return e;
 }
 
@@ -70,7 +75,8 @@ Status narrow(const StudyOptions& o, StudyPlan& plan) {
   if (!o.techniques.empty()) {
     std::vector<StudyTechnique> kept;
     for (const std::string& wanted : o.techniques) {
-      const auto found = std::find_if(plan.techniques.begin(), plan.techniques.end(), [&](const StudyTechnique& t) { return t.name == wanted; });
+      const auto found = std::find_if(plan.techniques.begin(), plan.techniques.end(),
+                                      [&](const StudyTechnique& t) { return t.name == wanted; });
       std::string names;
       for (const StudyTechnique& t : plan.techniques) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", t.name);
       if (found == plan.techniques.end()) return Error{fmt::format("--technique {}: there are {}", wanted, names)};
@@ -79,7 +85,9 @@ Status narrow(const StudyOptions& o, StudyPlan& plan) {
     plan.techniques = kept;
   }
   for (StudyScene& s : plan.scenes) {
-    std::erase_if(s.lights, [&](const StudyLight& light) { return (s.name + "/" + light.name).find(o.only) == std::string::npos; });
+    std::erase_if(s.lights, [&](const StudyLight& light) {
+      return (s.name + "/" + light.name).find(o.only) == std::string::npos;
+    });
   }
   std::erase_if(plan.scenes, [](const StudyScene& s) { return s.lights.empty(); });
   if (plan.scenes.empty()) return Error{fmt::format("--only {}: no SCENE/LIGHT holds this", o.only)};
@@ -107,18 +115,21 @@ Result<StudySettings> settingsOf(const StudyOptions& o) {
   s.reference.mostS = o.referenceSeconds;
   s.reference.roundS = std::clamp(s.reference.mostS / 8, 0.5, 30.0);
   if (const Status status = readSize("--size", o.size, s.width, s.height); !status) return Error{status.error()};
-  if (const Status status = readSize("--walk-size", o.walkSize, s.walkWidth, s.walkHeight); !status) return Error{status.error()};
+  if (const Status status = readSize("--walk-size", o.walkSize, s.walkWidth, s.walkHeight); !status)
+    return Error{status.error()};
   for (const std::string& text : o.externals) {
     const Result<ExternalPicture> e = readExternal(text);
     if (!e) return Error{e.error()};
     s.externals.push_back(e.value());
   }
-  s.program = fmt::format("roomlight {} {}, {} threads of {}", version(), contentHash(thisProgram()), std::thread::hardware_concurrency(), firstValue("/proc/cpuinfo", "model name"));
+  s.program = fmt::format("roomlight {} {}, {} threads of {}", version(), contentHash(thisProgram()),
+                          std::thread::hardware_concurrency(), firstValue("/proc/cpuinfo", "model name"));
   return s;
 }
 
 StudyHeader headerOf(const StudySettings& s, const StudyPlan& plan, double loadBefore) {
-  const double memoryMiB = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1048576;
+  const double memoryMiB =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1048576;
   StudyHeader h;
   h.about = {{"program", s.program},
              {"memory", fmt::format("{:.1f} GiB", memoryMiB / 1024)},
@@ -128,7 +139,8 @@ StudyHeader headerOf(const StudySettings& s, const StudyPlan& plan, double loadB
              {"longest point", fmt::format("{:g} s", s.mostSeconds)},
              {"references", fmt::format("until a noise of {:g} or {:g} s", s.reference.noiseMse, s.reference.mostS)},
              {"frames", fmt::format("{} of {}x{}, one sample a pixel", s.walkFrames, s.walkWidth, s.walkHeight)}};
-  for (const StudyTechnique& t : plan.techniques) h.techniques.emplace_back(t.name, fmt::format("technique {}, settings {}", t.technique, t.settings));
+  for (const StudyTechnique& t : plan.techniques)
+    h.techniques.emplace_back(t.name, fmt::format("technique {}, settings {}", t.technique, t.settings));
   return h;
 }
 
@@ -138,7 +150,12 @@ class Programs {
   Programs(std::filesystem::path folder, int walkFrames) : folder_(std::move(folder)), walkFrames_(walkFrames) {}
 
   Result<RenderCost> render(const StudyRender& r) const {
-    std::vector<std::string> words = {"render", r.scene.string(), "--size", fmt::format("{}x{}", r.width, r.height), "--technique", r.technique, "--samples", fmt::format("{}", r.samples), "--seed", fmt::format("{}", r.seed), "-o", r.picture.string()};
+    std::vector<std::string> words = {"render",      r.scene.string(),
+                                      "--size",      fmt::format("{}x{}", r.width, r.height),
+                                      "--technique", r.technique,
+                                      "--samples",   fmt::format("{}", r.samples),
+                                      "--seed",      fmt::format("{}", r.seed),
+                                      "-o",          r.picture.string()};
     if (r.timeLimitS > 0) words.insert(words.end(), {"--time-limit", fmt::format("{}", r.timeLimitS)});
     if (!r.camera.empty()) words.insert(words.end(), {"--camera", r.camera});
     const Result<nlohmann::json> stats = run(words, r.lighting, r.settings);
@@ -157,11 +174,18 @@ class Programs {
   }
 
   Result<WalkCost> walk(const StudyWalk& w) const {
-    const std::vector<std::string> words = {"walk", w.scene.string(), "--walk", w.walk.string(), "--size", fmt::format("{}x{}", w.width, w.height), "--technique", w.technique, "--samples", "1", "--frames", fmt::format("{}", walkFrames_), "--in-a-row"};
+    const std::vector<std::string> words = {"walk",        w.scene.string(),
+                                            "--walk",      w.walk.string(),
+                                            "--size",      fmt::format("{}x{}", w.width, w.height),
+                                            "--technique", w.technique,
+                                            "--samples",   "1",
+                                            "--frames",    fmt::format("{}", walkFrames_),
+                                            "--in-a-row"};
     const Result<nlohmann::json> stats = run(words, w.lighting, w.settings);
     if (!stats) return Error{stats.error()};
     const nlohmann::json& j = stats.value();
-    return WalkCost{static_cast<int>(j["frames"].size()), j["framesPerSecond"].get<double>(), medianOfFrames(j["frames"], "updateMs"), medianOfFrames(j["frames"], "pictureMs")};
+    return WalkCost{static_cast<int>(j["frames"].size()), j["framesPerSecond"].get<double>(),
+                    medianOfFrames(j["frames"], "updateMs"), medianOfFrames(j["frames"], "pictureMs")};
   }
 
  private:
@@ -171,7 +195,8 @@ class Programs {
     for (size_t i = frames.size() > 1 ? 1 : 0; i < frames.size(); ++i) values.push_back(frames[i][key].get<double>());
     return medianOf(std::move(values));
   }
-  Result<nlohmann::json> run(std::vector<std::string> words, const std::filesystem::path& lighting, const std::string& settings) const {
+  Result<nlohmann::json> run(std::vector<std::string> words, const std::filesystem::path& lighting,
+                             const std::string& settings) const {
     const std::filesystem::path settingsFile = folder_ / "settings.json", stats = folder_ / "stats.json";
     std::error_code ignored;
     std::filesystem::remove(stats, ignored);
@@ -202,9 +227,11 @@ class Line {
   void show(const std::string& now, double done, double left) {
     if (quiet_ || (now == last_ && !terminal_)) return;
     last_ = now;
-    const std::string time = left < 0 ? "" : left < 90 ? fmt::format(", {:.0f} s left", left)
-                                                       : fmt::format(", {:.0f} min left", left / 60);
-    fmt::print(stderr, "{}{:3.0f} %{}  {}{}", terminal_ ? "\r\x1b[K" : "", 100 * done, time, now, terminal_ ? "" : "\n");
+    const std::string time = left < 0    ? ""
+                             : left < 90 ? fmt::format(", {:.0f} s left", left)
+                                         : fmt::format(", {:.0f} min left", left / 60);
+    fmt::print(stderr, "{}{:3.0f} %{}  {}{}", terminal_ ? "\r\x1b[K" : "", 100 * done, time, now,
+               terminal_ ? "" : "\n");
     std::fflush(stderr);
   }
 
@@ -243,23 +270,31 @@ Status checkExternals(const StudyPlan& plan, const StudySettings& settings) {
     size_t meant = 0;
     for (const StudyScene& s : plan.scenes) {
       for (const StudyLight& light : s.lights) {
-        if ((e.scene.empty() || e.scene == s.name) && (e.light.empty() || e.light == light.name)) ++meant, view = s.name + "/" + light.name;
+        if ((e.scene.empty() || e.scene == s.name) && (e.light.empty() || e.light == light.name))
+          ++meant, view = s.name + "/" + light.name;
       }
     }
-    if (meant != 1) return Error{fmt::format("--external {}: is of {} of the study's {} views; write NAME@SCENE/LIGHT=...", e.name, meant, views)};
-    if (taken.contains(e.name) || !taken.insert(e.name + "@" + view).second) return Error{fmt::format("--external {}: the name is taken in {}", e.name, view)};
+    if (meant != 1)
+      return Error{fmt::format("--external {}: is of {} of the study's {} views; write NAME@SCENE/LIGHT=...", e.name,
+                               meant, views)};
+    if (taken.contains(e.name) || !taken.insert(e.name + "@" + view).second)
+      return Error{fmt::format("--external {}: the name is taken in {}", e.name, view)};
     const Result<Image> image = readImage(e.file);
     if (!image) return Error{image.error()};
     if (image.value().width != settings.width || image.value().height != settings.height) {
-      return Error{fmt::format("--external {}: is {}x{}, the study {}x{}; give --size", e.name, image.value().width, image.value().height, settings.width, settings.height)};
+      return Error{fmt::format("--external {}: is {}x{}, the study {}x{}; give --size", e.name, image.value().width,
+                               image.value().height, settings.width, settings.height)};
     }
     const std::vector<Vec3>& pixels = image.value().pixels;
-    if (!std::all_of(pixels.begin(), pixels.end(), [](Vec3 p) { return isFinite(p); })) return Error{fmt::format("--external {}: {}: holds values that are not finite", e.name, e.file.string())};
+    if (!std::all_of(pixels.begin(), pixels.end(), [](Vec3 p) { return isFinite(p); }))
+      return Error{fmt::format("--external {}: {}: holds values that are not finite", e.name, e.file.string())};
   }
   return Ok{};
 }
 
-std::string whyNothing(const StudyResults& results) { return results.remarks.empty() ? "the plan has no picture and no walk for its techniques" : results.remarks.front(); }
+std::string whyNothing(const StudyResults& results) {
+  return results.remarks.empty() ? "the plan has no picture and no walk for its techniques" : results.remarks.front();
+}
 
 int runStudyCommand(StudyOptions o, const CLI::App& app) {
   interrupted();
@@ -267,7 +302,8 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
   Result<StudyPlan> plan = readStudyFile(o.plan);
   if (!plan) return failed(plan.error());
   for (const char* out : {"study.html", "study.json", "study.csv", "study.md"}) {
-    if (const Status s = checkDistinct({o.plan, (std::filesystem::path(o.folder) / out).string()}); !s) return failed(s.error());
+    if (const Status s = checkDistinct({o.plan, (std::filesystem::path(o.folder) / out).string()}); !s)
+      return failed(s.error());
   }
   if (const Status s = narrow(o, plan.value()); !s) return failed(s.error());
   const Result<StudySettings> settings = settingsOf(o);
@@ -275,7 +311,8 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
   if (const Status s = checkExternals(plan.value(), settings.value()); !s) return failed(s.error());
   double load = 0;
   getloadavg(&load, 1);
-  if (load > 0.7 && !o.quiet) printWarnings({fmt::format("the machine is busy (load {:.1f}): times will be longer than they need be", load)});
+  if (load > 0.7 && !o.quiet)
+    printWarnings({fmt::format("the machine is busy (load {:.1f}): times will be longer than they need be", load)});
 
   const std::filesystem::path folder = o.folder;
   const Result<RunStore> store = RunStore::open(folder / "runs");
@@ -284,12 +321,14 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
   if (const Status s = checkWalks(plan.value(), store.value(), settings.value().program); !s) return failed(s.error());
   const StudyHeader header = headerOf(settings.value(), plan.value(), load);
   const Programs programs(store.value().folder(), settings.value().walkFrames);
-  const StudyTools tools{[&](const StudyRender& r) { return programs.render(r); }, [&](const StudyWalk& w) { return programs.walk(w); }};
+  const StudyTools tools{[&](const StudyRender& r) { return programs.render(r); },
+                         [&](const StudyWalk& w) { return programs.walk(w); }};
   Status written = Ok{};
   Result<StudyResults> results = Error{""};
   {
     Line line(o.quiet);
-    const StudyProgress progress{[&](const std::string& now, double done, double left) { line.show(now, done, left); }, &interrupted()};
+    const StudyProgress progress{[&](const std::string& now, double done, double left) { line.show(now, done, left); },
+                                 &interrupted()};
     results = runStudy(plan.value(), settings.value(), store.value(), tools, progress, [&](const StudyResults& soFar) {
       if (written) written = writeStudyReports(folder, header, soFar);
     });
@@ -300,8 +339,10 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
     if (!o.quiet) fmt::print("{:<7} {}: {}\n", v.met ? "met" : "missed", v.asked, v.measured);
   }
   if (!o.quiet) fmt::print("wrote {}\n", (folder / "study.html").string());
-  if (!results.value().complete) return failed("interrupted; started again with the same folder, the study goes on", kInterrupted);
-  if (nothingMeasured(results.value())) return failed("nothing could be measured: " + whyNothing(results.value()), kFailed);
+  if (!results.value().complete)
+    return failed("interrupted; started again with the same folder, the study goes on", kInterrupted);
+  if (nothingMeasured(results.value()))
+    return failed("nothing could be measured: " + whyNothing(results.value()), kFailed);
   return kOk;
 }
 
@@ -309,18 +350,34 @@ int runStudyCommand(StudyOptions o, const CLI::App& app) {
 
 Registered addStudy(CLI::App& program) {
   const auto o = std::make_shared<StudyOptions>();
-  CLI::App* app = program.add_subcommand("study", "Compare techniques: error, time, frames a second and memory, on scenes in several lights");
+  CLI::App* app = program.add_subcommand(
+      "study", "Compare techniques: error, time, frames a second and memory, on scenes in several lights");
   app->add_option("PLAN", o->plan, "Study file: scenes, lights, walks, techniques (docs/formats/study.md)")->required();
-  app->add_option("-o,--output", o->folder, "Folder for study.html, .json, .csv, .md and all pictures; what it holds of the same is not measured again")->required();
-  app->add_option("--technique", o->techniques, "Only this one of the plan's, by its name; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option(
+         "-o,--output", o->folder,
+         "Folder for study.html, .json, .csv, .md and all pictures; what it holds of the same is not measured again")
+      ->required();
+  app->add_option("--technique", o->techniques, "Only this one of the plan's, by its name; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--only", o->only, "Only where SCENE/LIGHT holds this text");
-  app->add_option("--runs", o->runs, "Runs of every picture, in turn with the others; the median time counts")->capture_default_str()->check(CLI::Range(1, 100));
+  app->add_option("--runs", o->runs, "Runs of every picture, in turn with the others; the median time counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100));
   app->add_option("--size", o->size, "Of pictures")->capture_default_str();
   app->add_option("--walk-size", o->walkSize, "Of frames")->capture_default_str();
-  app->add_option("--walk-frames", o->walkFrames, "Of every walk: the first of them")->capture_default_str()->check(CLI::Range(1, 1000000));
-  app->add_option("--most-seconds", o->mostSeconds, "A picture that would take longer ends the curve")->capture_default_str()->check(CLI::Range(0.1, 1e6));
-  app->add_option("--reference-seconds", o->referenceSeconds, "For the references of one view, at most")->capture_default_str()->check(CLI::Range(1.0, 1e6));
-  app->add_option("--external", o->externals, "NAME=picture.exr,SECONDS of another renderer, linear and of the same view and size; NAME@SCENE/LIGHT=... where there are several; may be repeated")
+  app->add_option("--walk-frames", o->walkFrames, "Of every walk: the first of them")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app->add_option("--most-seconds", o->mostSeconds, "A picture that would take longer ends the curve")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1e6));
+  app->add_option("--reference-seconds", o->referenceSeconds, "For the references of one view, at most")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1e6));
+  app->add_option("--external", o->externals,
+                  "NAME=picture.exr,SECONDS of another renderer, linear and of the same view and size; "
+                  "NAME@SCENE/LIGHT=... where there are several; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_flag("--quick", o->quick, "Two scenes in their first light, small: whether all works, in minutes");

@@ -30,16 +30,20 @@ void printValidation(const Validation& v) {
   fmt::print("{:<24} {:<7} {:<38} {:>10} {:>10} {:>9}\n", "case", "by", "worst place", "expected", "got", "error");
   for (size_t i = 0; i < v.rows.size();) {
     size_t worst = i, end = i;
-    for (; end < v.rows.size() && v.rows[end].technique == v.rows[i].technique && v.rows[end].name == v.rows[i].name; ++end) {
+    for (; end < v.rows.size() && v.rows[end].technique == v.rows[i].technique && v.rows[end].name == v.rows[i].name;
+         ++end) {
       if (std::abs(v.rows[end].error) > std::abs(v.rows[worst].error)) worst = end;
     }
     const ValidationRow& r = v.rows[worst];
-    fmt::print("{:<24} {:<7} {:<38} {:>10.5g} {:>10.5g} {:>+7.2f} {}{}\n", r.name, r.technique, r.place, r.expected, r.got, r.error, r.errorUnit, r.pass ? "" : "  MISSED");
+    fmt::print("{:<24} {:<7} {:<38} {:>10.5g} {:>10.5g} {:>+7.2f} {}{}\n", r.name, r.technique, r.place, r.expected,
+               r.got, r.error, r.errorUnit, r.pass ? "" : "  MISSED");
     i = end;
   }
   for (const ValidationSummary& s : v.techniques) {
-    fmt::print("{}: {} of {} places met ({:g} %{}; glare ratings {:g})", s.technique, s.passed, s.places, s.allowedPercent, s.technique == "cone" ? " of the sum over a case" : "", kAllowedUgr);
-    fmt::print("{}\n", s.worstPlace.empty() ? "" : fmt::format("; largest error {:+.2f} %, {}", s.worstPercent, s.worstPlace));
+    fmt::print("{}: {} of {} places met ({:g} %{}; glare ratings {:g})", s.technique, s.passed, s.places,
+               s.allowedPercent, s.technique == "cone" ? " of the sum over a case" : "", kAllowedUgr);
+    fmt::print("{}\n",
+               s.worstPlace.empty() ? "" : fmt::format("; largest error {:+.2f} %, {}", s.worstPercent, s.worstPlace));
   }
 }
 
@@ -65,13 +69,15 @@ int runValidate(const ValidateOptions& o) {
   Result<Validation> v = Error{""};
   withThreads(o.threads, [&] { v = validateTechniques(settings, progress); });
   if (!v) return failed(v.error());
-  if (v.value().complete && v.value().rows.empty()) return failed(fmt::format("--case: no case's name holds '{}'", o.only));
+  if (v.value().complete && v.value().rows.empty())
+    return failed(fmt::format("--case: no case's name holds '{}'", o.only));
   if (!o.quiet) printValidation(v.value());
   if (!o.json.empty()) {
     if (const Status s = writeWhole(o.json, validationJson(v.value())); !s) return failed(s.error(), kFailed);
   }
   if (!o.html.empty()) {
-    if (const Status s = writeWhole(o.html, validationHtml(v.value(), version())); !s) return failed(s.error(), kFailed);
+    if (const Status s = writeWhole(o.html, validationHtml(v.value(), version())); !s)
+      return failed(s.error(), kFailed);
   }
   if (!v.value().complete) return failed("interrupted; what was measured so far is above", kInterrupted);
   return v.value().pass() ? kOk : kFailed;
@@ -81,8 +87,11 @@ int runValidate(const ValidateOptions& o) {
 
 Registered addValidate(CLI::App& program) {
   const auto o = std::make_shared<ValidateOptions>();
-  CLI::App* app = program.add_subcommand("validate", "Measure scenes whose light is known, by every technique, and judge the result");
-  app->add_option("--technique", o->techniques, "Only this technique; may be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::App* app = program.add_subcommand(
+      "validate", "Measure scenes whose light is known, by every technique, and judge the result");
+  app->add_option("--technique", o->techniques, "Only this technique; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--case", o->only, "Only cases whose name holds this, such as 5.11");
   app->add_flag("--brief", o->brief, "Every third place, with more noise");
   app->add_option("--json", o->json, "Write all values to this file");
@@ -90,7 +99,9 @@ Registered addValidate(CLI::App& program) {
   app->add_option("--seed", o->seed, "Random seed");
   app->add_option("--threads", o->threads, "Threads; 0: all cores")->check(CLI::Range(0, 1024));
   app->add_flag("--quiet", o->quiet, "Only errors; the exit status tells: 0 all met, 1 some missed");
-  app->footer("Cases: closed forms, furnaces, CIE 171:2006 (docs/methods/validation.md).\nExample:\n  roomlight validate --html validation.html");
+  app->footer(
+      "Cases: closed forms, furnaces, CIE 171:2006 (docs/methods/validation.md).\nExample:\n  roomlight validate "
+      "--html validation.html");
   return {app, [o] { return runValidate(*o); }};
 }
 

@@ -55,7 +55,8 @@ int runView(const ViewOptions& o) {
   Result<home::OpenWish> open = readSceneOptions(o);
   if (!open) return failed(open.error());
   open.value().allCameras = true;
-  Result<server::StaticFiles> page = server::readStaticFiles(o.viewer.empty() ? viewerFolder() : std::filesystem::path(o.viewer));
+  Result<server::StaticFiles> page =
+      server::readStaticFiles(o.viewer.empty() ? viewerFolder() : std::filesystem::path(o.viewer));
   if (!page) return failed(page.error());
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &stop, {}};
@@ -71,13 +72,17 @@ int runView(const ViewOptions& o) {
   std::optional<BrowserPage> shown;
   server::Served tell;
   tell.listening = [&](const std::string& link) {
-    if (o.address != "127.0.0.1" && o.address != "::1") printWarnings({fmt::format("--address {}: everybody who can reach it and has the link may look and change; nothing is encrypted", o.address)});
+    if (o.address != "127.0.0.1" && o.address != "::1")
+      printWarnings({fmt::format(
+          "--address {}: everybody who can reach it and has the link may look and change; nothing is encrypted",
+          o.address)});
     fmt::print("{}\n", link);
     std::fflush(stdout);
     if (!o.noOpen) shown.emplace(link);
   };
   tell.failed = [](const std::string& line) { printError(line); };
-  const Status served = server::serveHome(std::move(home.value().home), settings.value(), options, std::move(page).value(), tell, stop);
+  const Status served =
+      server::serveHome(std::move(home.value().home), settings.value(), options, std::move(page).value(), tell, stop);
   return served ? kOk : failed(served.error());
 }
 
@@ -89,14 +94,18 @@ Registered addView(CLI::App& program) {
   addSceneOptions(*app, *o, "HOME");
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
   app->add_option("--quality", o->quality, listed("How fine the light is kept:", qualities()));
-  app->add_option("--port", o->port, "Port to listen on; 0: any that is free")->capture_default_str()->check(CLI::Range(0, 65535));
-  app->add_option("--address", o->address, "Address to listen on; anything but this machine's own lets others in")->capture_default_str();
+  app->add_option("--port", o->port, "Port to listen on; 0: any that is free")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  app->add_option("--address", o->address, "Address to listen on; anything but this machine's own lets others in")
+      ->capture_default_str();
   app->add_option("--viewer", o->viewer, "Folder of the built page");
   app->add_flag("--no-open", o->noOpen, "Print the link only, open no browser");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");
   app->add_flag("--quiet", o->quiet, "Only the link and errors");
   app->footer(
-      "Prints the link of the page and opens it. The link holds a secret: whoever has it may look and change while the program runs.\n"
+      "Prints the link of the page and opens it. The link holds a secret: whoever has it may look and change while the "
+      "program runs.\n"
       "Ctrl-C ends it.\n"
       "Example: roomlight view flat.glb --lighting evening.json");
   return {app, [o] { return runView(*o); }};

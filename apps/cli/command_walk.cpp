@@ -50,7 +50,8 @@ Result<std::string> frameFile(const std::string& pattern, int number) {
   const size_t percent = pattern.find('%'), d = percent == std::string::npos ? percent : pattern.find('d', percent);
   const std::string digits = d == std::string::npos ? "" : pattern.substr(percent + 1, d - percent - 1);
   const auto width = digits.empty() ? std::optional(0) : parseNumber<int>(digits);
-  if (d == std::string::npos || !width || *width < 0 || *width > 9 || pattern.find('%', d) != std::string::npos) return Error{fmt::format("{}: has no place for the frame's number; write it as in frame_%03d.png", pattern)};
+  if (d == std::string::npos || !width || *width < 0 || *width > 9 || pattern.find('%', d) != std::string::npos)
+    return Error{fmt::format("{}: has no place for the frame's number; write it as in frame_%03d.png", pattern)};
   return fmt::format("{}{:0{}}{}", pattern.substr(0, percent), number, *width, pattern.substr(d + 1));
 }
 
@@ -59,7 +60,8 @@ Status checkFiles(const WalkOptions& o) {
     const Result<std::string> first = frameFile(o.output, 0);
     if (!first) return Error{first.error()};
     const std::string e = lowerExtension(first.value());
-    if (e != ".exr" && e != ".png" && e != ".jpg") return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr, .png or .jpg", o.output, e)};
+    if (e != ".exr" && e != ".png" && e != ".jpg")
+      return Error{fmt::format("{}: unknown kind of picture '{}'; use .exr, .png or .jpg", o.output, e)};
     if (const Status s = checkWritable(first.value()); !s) return s;
   }
   if (!o.stats.empty()) {
@@ -94,7 +96,11 @@ class FrameWriter {
 
 std::string statsJson(const RenderSettings& settings, const WalkFrames& result) {
   auto frames = nlohmann::ordered_json::array();
-  for (const WalkFrame& f : result.frames) frames.push_back({{"updateMs", f.updateMs}, {"updateCpuMs", f.updateCpuMs}, {"pictureMs", f.pictureMs}, {"pictureCpuMs", f.pictureCpuMs}});
+  for (const WalkFrame& f : result.frames)
+    frames.push_back({{"updateMs", f.updateMs},
+                      {"updateCpuMs", f.updateCpuMs},
+                      {"pictureMs", f.pictureMs},
+                      {"pictureCpuMs", f.pictureCpuMs}});
   const nlohmann::ordered_json json = {{"technique", settings.technique},
                                        {"width", settings.width},
                                        {"height", settings.height},
@@ -115,7 +121,8 @@ void printResult(const WalkFrames& result) {
   fmt::print("framesPerCpuSecond  {:.2f}\n", result.framesPerCpuSecond());
   fmt::print("updateMs            {:.1f}\n", update / n);
   fmt::print("pictureMs           {:.1f}\n", picture / n);
-  for (const StageStats& s : result.stages) fmt::print("  {:<17} {:.1f} ms, {:.1f} ms of processor time a frame\n", s.name, s.timeMs / n, s.cpuMs / n);
+  for (const StageStats& s : result.stages)
+    fmt::print("  {:<17} {:.1f} ms, {:.1f} ms of processor time a frame\n", s.name, s.timeMs / n, s.cpuMs / n);
 }
 
 int workWalk(const WalkOptions& o, const WalkPlan& plan) {
@@ -150,7 +157,8 @@ int workWalk(const WalkOptions& o, const WalkPlan& plan) {
   if (!result) return failed(result.error(), unwritten.empty() ? kBadInput : kFailed);
   if (result.value().frames.empty()) return failed("interrupted before there was a picture", kInterrupted);
   if (!o.stats.empty()) {
-    if (const Status s = writeWhole(o.stats, statsJson(plan.settings, result.value())); !s) return failed(s.error(), kFailed);
+    if (const Status s = writeWhole(o.stats, statsJson(plan.settings, result.value())); !s)
+      return failed(s.error(), kFailed);
   }
   printResult(result.value());
   return result.value().complete ? kOk : kInterrupted;
@@ -173,9 +181,12 @@ int runWalk(const WalkOptions& o) {
 
 Registered addWalk(CLI::App& program) {
   const auto o = std::make_shared<WalkOptions>();
-  CLI::App* app = program.add_subcommand("walk", "Walk through a home in which things move, and tell how many frames a second that makes");
+  CLI::App* app = program.add_subcommand(
+      "walk", "Walk through a home in which things move, and tell how many frames a second that makes");
   addSceneOptions(*app, *o, "SCENE");
-  app->add_option("--walk", o->walk, "Walk file: the camera's way, what moves, which lamps are dimmed (docs/formats/walk.md)")->required();
+  app->add_option("--walk", o->walk,
+                  "Walk file: the camera's way, what moves, which lamps are dimmed (docs/formats/walk.md)")
+      ->required();
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
   app->add_option("--quality", o->quality, listed("How much is done, if nothing else says so:", qualities()));
   app->add_option("--size", o->size, "Width and height of a frame in pixels, by default 960x540");
@@ -191,7 +202,8 @@ Registered addWalk(CLI::App& program) {
   app->add_flag("--quiet", o->quiet, "Only results and errors");
   app->footer(
       "Ctrl-C ends the walk and tells of the frames so far (exit status 130).\n"
-      "Example: roomlight walk flat.sh3d --walk flat_walk.json --lighting flat_day.json --size 480x270 -o frames/frame_%03d.png");
+      "Example: roomlight walk flat.sh3d --walk flat_walk.json --lighting flat_day.json --size 480x270 -o "
+      "frames/frame_%03d.png");
   return {app, [o] { return runWalk(*o); }};
 }
 

@@ -50,7 +50,8 @@ void printWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& w : once(warnings)) fmt::print(stderr, "warning: {}\n", oneLine(w));
 }
 
-void printFindings(const std::vector<std::string>& warnings, const std::vector<std::string>& faults, size_t faultCount, bool verbose) {
+void printFindings(const std::vector<std::string>& warnings, const std::vector<std::string>& faults, size_t faultCount,
+                   bool verbose) {
   std::vector<std::string> shown = once(warnings);
   const size_t all = shown.size();
   // One more line than a cut list would have is no reason to cut.
@@ -59,8 +60,10 @@ void printFindings(const std::vector<std::string>& warnings, const std::vector<s
   for (const std::string& w : shown) fmt::print(stderr, "warning: {}\n", oneLine(w));
   if (cut) fmt::print(stderr, "warning: and {} more; --verbose lists them\n", all - shown.size());
   if (faultCount == 0) return;
-  fmt::print(stderr, "{} small {} in models mended{}\n", faultCount, faultCount == 1 ? "fault" : "faults", verbose ? ":" : "; --verbose lists them");
-  for (const std::string& f : verbose ? once(faults) : std::vector<std::string>()) fmt::print(stderr, "  {}\n", oneLine(f));
+  fmt::print(stderr, "{} small {} in models mended{}\n", faultCount, faultCount == 1 ? "fault" : "faults",
+             verbose ? ":" : "; --verbose lists them");
+  for (const std::string& f : verbose ? once(faults) : std::vector<std::string>())
+    fmt::print(stderr, "  {}\n", oneLine(f));
 }
 
 void printNotes(const std::vector<std::string>& notes) {
@@ -106,9 +109,10 @@ void ProgressDisplay::report(const std::string& stage, float fraction) {
   lastDrawnS_ = elapsed;
   const int filled = static_cast<int>(fraction * kBarWidth);
   // No guess before there is something to guess from.
-  const std::string left = fraction > 0.01f && elapsed > 0.5 ? duration(elapsed * (1 / static_cast<double>(fraction) - 1)) + " left" : "";
-  fmt::print(stderr, "\r\x1b[K{:<12} [{:#>{}}{:.>{}}] {:3.0f} %  {}{}{}", stage, "", filled, "", kBarWidth - filled, fraction * 100, left, left.empty() || estimate_.empty() ? "" : ", ",
-             estimate_);
+  const std::string left =
+      fraction > 0.01f && elapsed > 0.5 ? duration(elapsed * (1 / static_cast<double>(fraction) - 1)) + " left" : "";
+  fmt::print(stderr, "\r\x1b[K{:<12} [{:#>{}}{:.>{}}] {:3.0f} %  {}{}{}", stage, "", filled, "", kBarWidth - filled,
+             fraction * 100, left, left.empty() || estimate_.empty() ? "" : ", ", estimate_);
   std::fflush(stderr);
   barShown_ = true;
 }

@@ -15,10 +15,11 @@ void printError(const std::string& message);
 int failed(const std::string& message, int status = kBadInput);
 // "warning: ..." once each, in the order in which they came first.
 void printWarnings(const std::vector<std::string>& warnings);
-// What was found in a scene's files: the first kMostWarnings warnings, and how many small faults were mended; with `verbose` all of them.
-// `faults` are kinds, `faultCount` is how many of all kinds there were.
+// What was found in a scene's files: the first kMostWarnings warnings, and how many small faults were mended; with
+// `verbose` all of them. `faults` are kinds, `faultCount` is how many of all kinds there were.
 constexpr size_t kMostWarnings = 8;
-void printFindings(const std::vector<std::string>& warnings, const std::vector<std::string>& faults, size_t faultCount, bool verbose);
+void printFindings(const std::vector<std::string>& warnings, const std::vector<std::string>& faults, size_t faultCount,
+                   bool verbose);
 
 // "note: ..." each: what was guessed or added for the user.
 void printNotes(const std::vector<std::string>& notes);

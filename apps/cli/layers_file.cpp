@@ -14,7 +14,8 @@
 namespace roomlight::cli {
 namespace {
 
-constexpr double kNearlyWhite = 0.02;  // distance in CIE 1931 x, y from the white of a temperature that still counts as one
+constexpr double kNearlyWhite =
+    0.02;  // distance in CIE 1931 x, y from the white of a temperature that still counts as one
 
 const char* kindOf(LayerKind kind) {
   switch (kind) {
@@ -34,10 +35,14 @@ Json rgb(Vec3 v) { return {v.x, v.y, v.z}; }
 std::optional<double> kelvinOf(Vec3 colour) {
   const double k = nearestWhiteK(colour);
   // CIE 1931 XYZ of linear Rec.709 (IEC 61966-2-1).
-  const double x = 0.4124 * colour.x + 0.3576 * colour.y + 0.1805 * colour.z, y = 0.2126 * colour.x + 0.7152 * colour.y + 0.0722 * colour.z, z = 0.0193 * colour.x + 0.1192 * colour.y + 0.9505 * colour.z;
+  const double x = 0.4124 * colour.x + 0.3576 * colour.y + 0.1805 * colour.z,
+               y = 0.2126 * colour.x + 0.7152 * colour.y + 0.0722 * colour.z,
+               z = 0.0193 * colour.x + 0.1192 * colour.y + 0.9505 * colour.z;
   const double sum = x + y + z;
   const Vec2 white = whiteChromaticity(k);
-  if (!(sum > 0) || std::hypot(x / sum - static_cast<double>(white.x), y / sum - static_cast<double>(white.y)) > kNearlyWhite) return {};
+  if (!(sum > 0) ||
+      std::hypot(x / sum - static_cast<double>(white.x), y / sum - static_cast<double>(white.y)) > kNearlyWhite)
+    return {};
   return std::round(k);
 }
 
@@ -47,7 +52,8 @@ bool isOfView(const Scene& scene, const Camera& camera, int room) {
   return !floor || (room >= 0 && std::abs(scene.rooms[static_cast<size_t>(room)].elevationM - *floor) < kLevelsApartM);
 }
 
-Json layerJson(const LightLayer& light, const std::string& channel, const Scene& scene, const Camera& camera, const Image& picture) {
+Json layerJson(const LightLayer& light, const std::string& channel, const Scene& scene, const Camera& camera,
+               const Image& picture) {
   const float flux = luminance(light.fluxLm);
   const Vec3 colour = flux > 0 ? light.fluxLm / flux : Vec3(1);
   const std::optional<double> kelvin = kelvinOf(colour);
@@ -57,10 +63,12 @@ Json layerJson(const LightLayer& light, const std::string& channel, const Scene&
   if (!isLocal(light)) return j;
   j["fluxLm"] = flux;
   const int room = roomAt(scene, light.position);
-  if (room >= 0 && !scene.rooms[static_cast<size_t>(room)].name.empty()) j["room"] = scene.rooms[static_cast<size_t>(room)].name;
+  if (room >= 0 && !scene.rooms[static_cast<size_t>(room)].name.empty())
+    j["room"] = scene.rooms[static_cast<size_t>(room)].name;
   j["position"] = rgb(light.position);
   const std::optional<Vec2> at = CameraRays(camera, picture.width, picture.height).pixelOf(light.position);
-  if (at && isOfView(scene, camera, room)) j["pixel"] = {at->x / static_cast<float>(picture.width), at->y / static_cast<float>(picture.height)};
+  if (at && isOfView(scene, camera, room))
+    j["pixel"] = {at->x / static_cast<float>(picture.width), at->y / static_cast<float>(picture.height)};
   return j;
 }
 
@@ -73,15 +81,17 @@ LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& re
   int lamps = 0, meshes = 0;
   for (RenderedLayer& layer : rendered.layers) {
     const LayerKind kind = layer.light.kind;
-    const std::string channel = !isLocal(layer.light) ? kindOf(kind) : kind == LayerKind::Mesh ? fmt::format("mesh_{:02}", ++meshes)
-                                                                                               : fmt::format("lamp_{:02}", ++lamps);
+    const std::string channel = !isLocal(layer.light)     ? kindOf(kind)
+                                : kind == LayerKind::Mesh ? fmt::format("mesh_{:02}", ++meshes)
+                                                          : fmt::format("lamp_{:02}", ++lamps);
     list.push_back(layerJson(layer.light, channel, scene, camera, whole));
     out.layers.push_back({channel, std::move(layer.image)});
   }
   Json all{{"version", 1}, {"camera", camera.name}, {"layers", list}};
   if (!rendered.sights.section.empty()) {
     Image shares(whole.width, whole.height);
-    for (size_t i = 0; i < shares.pixels.size(); ++i) shares.pixels[i] = {rendered.sights.section[i], rendered.sights.backdrop[i], 0};
+    for (size_t i = 0; i < shares.pixels.size(); ++i)
+      shares.pixels[i] = {rendered.sights.section[i], rendered.sights.backdrop[i], 0};
     all["sights"] = kSightsChannel;
     out.layers.push_back({kSightsChannel, std::move(shares)});
   }

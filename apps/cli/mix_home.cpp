@@ -20,7 +20,8 @@ void apply(const Dial& dial, Dial& onto) {
   if (dial.tint) onto.tint = dial.tint;
 }
 
-Status applyToKind(const std::vector<LayerInfo>& layers, const std::string& kind, const std::optional<std::string>& text, std::vector<Dial>& dials) {
+Status applyToKind(const std::vector<LayerInfo>& layers, const std::string& kind,
+                   const std::optional<std::string>& text, std::vector<Dial>& dials) {
   if (!text) return Ok{};
   const Result<Dial> dial = parseDial(*text);
   if (!dial) return Error{fmt::format("--{} {}", kind, dial.error())};
@@ -48,7 +49,8 @@ Status applyToLamps(const std::vector<LayerInfo>& layers, const std::string& tex
 
 Vec3 lightColourOf(const MixHome& home, const Mixture& mixture) {
   Vec3 sum;
-  for (size_t i = 0; i < home.layers.size(); ++i) sum += mixture.hues[i] * luminance(home.stack.meanRgb[i] * mixture.gains[i]);
+  for (size_t i = 0; i < home.layers.size(); ++i)
+    sum += mixture.hues[i] * luminance(home.stack.meanRgb[i] * mixture.gains[i]);
   return sum;
 }
 
@@ -56,7 +58,8 @@ Vec3 lightColourOf(const MixHome& home, const Mixture& mixture) {
 
 Image linearMix(const MixHome& home, std::span<const Vec3> gains) {
   Image mixed = mixLinear(home.stack, gains);
-  for (size_t i = 0; i < home.sights.section.size(); ++i) mixed.pixels[i] *= 1 - home.sights.section[i] - home.sights.backdrop[i];
+  for (size_t i = 0; i < home.sights.section.size(); ++i)
+    mixed.pixels[i] *= 1 - home.sights.section[i] - home.sights.backdrop[i];
   return mixed;
 }
 
@@ -64,15 +67,18 @@ ByteImage displayMix(const MixHome& home, std::span<const Vec3> gains, const Loo
   ByteImage mixed = mixDisplay(home.stack, gains, look);
   const Sights& sights = home.sights;
   if (sights.section.empty()) return mixed;
-  const bool alpha = transparent && std::any_of(sights.backdrop.begin(), sights.backdrop.end(), [](float b) { return b > 0; });
+  const bool alpha =
+      transparent && std::any_of(sights.backdrop.begin(), sights.backdrop.end(), [](float b) { return b > 0; });
   ByteImage out(mixed.width, mixed.height, alpha ? 4 : 3);
   const size_t channels = alpha ? 4 : 3;
   parallelFor(mixed.pixelCount(), 16384, [&](size_t i) {
     const float cut = sights.section[i], nothing = sights.backdrop[i], solid = 1 - nothing;
     for (size_t c = 0; c < 3; ++c) {
-      const float inside = static_cast<float>(mixed.samples[3 * i + c]) * std::max(0.0f, solid - cut) + 255 * kSectionColour[static_cast<int>(c)] * cut;
-      const float shown = !alpha ? inside + 255 * kPaperColour[static_cast<int>(c)] * nothing : solid > 0 ? inside / solid
-                                                                                                          : 255;
+      const float inside = static_cast<float>(mixed.samples[3 * i + c]) * std::max(0.0f, solid - cut) +
+                           255 * kSectionColour[static_cast<int>(c)] * cut;
+      const float shown = !alpha      ? inside + 255 * kPaperColour[static_cast<int>(c)] * nothing
+                          : solid > 0 ? inside / solid
+                                      : 255;
       out.samples[channels * i + c] = static_cast<uint8_t>(std::clamp(shown + 0.5f, 0.0f, 255.0f));
     }
     if (alpha) out.samples[channels * i + 3] = static_cast<uint8_t>(solid * 255 + 0.5f);
@@ -85,27 +91,38 @@ Result<MixHome> openLayers(const std::string& file) {
   if (!read) return Error{read.error()};
   LayeredImage& picture = read.value();
   const auto text = picture.metadata.find(kLayersKey);
-  if (text == picture.metadata.end()) return Error{fmt::format("{}: does not say what its layers are ({}); make it by render --layers", file, kLayersKey)};
+  if (text == picture.metadata.end())
+    return Error{
+        fmt::format("{}: does not say what its layers are ({}); make it by render --layers", file, kLayersKey)};
   Result<std::vector<LayerInfo>> layers = layersFromJson(text->second, fmt::format("{}: {}", file, kLayersKey));
   if (!layers) return Error{layers.error()};
   const auto isSights = [](const PictureLayer& l) { return l.channel == kSightsChannel; };
   MixHome home{std::move(layers).value(), {}, {}, lightColourIn(picture.metadata)};
-  if (const auto found = std::find_if(picture.layers.begin(), picture.layers.end(), isSights); found != picture.layers.end()) {
+  if (const auto found = std::find_if(picture.layers.begin(), picture.layers.end(), isSights);
+      found != picture.layers.end()) {
     for (const Vec3 p : found->image.pixels) {
       const bool shares = p.x >= 0 && p.y >= 0 && p.x + p.y <= 1.001f;
-      if (!shares) return Error{fmt::format("{}: layer '{}' must hold shares of pixels from 0 to 1", file, kSightsChannel)};
+      if (!shares)
+        return Error{fmt::format("{}: layer '{}' must hold shares of pixels from 0 to 1", file, kSightsChannel)};
       home.sights.section.push_back(p.x), home.sights.backdrop.push_back(p.y);
     }
     picture.layers.erase(found);
   }
   home.stack = makeLayerStack(picture.whole.width, picture.whole.height, picture.layers.size());
   picture.whole = {};
-  if (home.layers.size() != picture.layers.size()) return Error{fmt::format("{}: tells of {} layers and holds {}; render it again", file, home.layers.size(), picture.layers.size())};
+  if (home.layers.size() != picture.layers.size())
+    return Error{fmt::format("{}: tells of {} layers and holds {}; render it again", file, home.layers.size(),
+                             picture.layers.size())};
   for (size_t i = 0; i < home.layers.size(); ++i) {
-    const auto layer = std::find_if(picture.layers.begin(), picture.layers.end(), [&](const PictureLayer& l) { return l.channel == home.layers[i].channel; });
-    if (layer == picture.layers.end()) return Error{fmt::format("{}: has no channels {}.R, .G and .B; render it again", file, home.layers[i].channel)};
-    const bool sound = std::all_of(layer->image.pixels.begin(), layer->image.pixels.end(), [](Vec3 p) { return isFinite(p) && minComponent(p) >= 0; });
-    if (!sound) return Error{fmt::format("{}: layer '{}' has light that is negative or not a finite number", file, home.layers[i].name)};
+    const auto layer = std::find_if(picture.layers.begin(), picture.layers.end(),
+                                    [&](const PictureLayer& l) { return l.channel == home.layers[i].channel; });
+    if (layer == picture.layers.end())
+      return Error{fmt::format("{}: has no channels {}.R, .G and .B; render it again", file, home.layers[i].channel)};
+    const bool sound = std::all_of(layer->image.pixels.begin(), layer->image.pixels.end(),
+                                   [](Vec3 p) { return isFinite(p) && minComponent(p) >= 0; });
+    if (!sound)
+      return Error{
+          fmt::format("{}: layer '{}' has light that is negative or not a finite number", file, home.layers[i].name)};
     setLayer(home.stack, i, unmixed(layer->image, home.sights));
     layer->image = {};
   }
@@ -144,9 +161,12 @@ ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& dis
   Image metered = looks ? linearMix(home, follow.exposure ? mixture.gains : unmixed.gains) : Image();
   shown.look.ev100 = ev100Of(display, metered);
   shown.look.tone = display.tone;
-  shown.white = whiteOf(display, follow.white ? lightColourOf(home, mixture) : home.lightColour.value_or(lightColourOf(home, unmixed)));
+  shown.white = whiteOf(
+      display, follow.white ? lightColourOf(home, mixture) : home.lightColour.value_or(lightColourOf(home, unmixed)));
   shown.look.whiteBalance = matrixOf(shown.white);
-  if (looks && !home.sights.section.empty()) metered = mixLinear(home.stack, follow.exposure ? mixture.gains : unmixed.gains);  // as layers are, without sections and backdrop
+  if (looks && !home.sights.section.empty())
+    metered = mixLinear(
+        home.stack, follow.exposure ? mixture.gains : unmixed.gains);  // as layers are, without sections and backdrop
   for (Vec3& p : metered.pixels) p *= shown.white.gains;
   shown.retouch = retouchOf(metered, display, shown.look.ev100);
   return shown;
@@ -166,23 +186,28 @@ void retouch(MixHome& home, const Retouch& by) {
 
 Result<Assignment> splitAssignment(const std::string& option, const std::string& text) {
   const size_t equals = text.rfind('=');
-  if (equals == std::string::npos || equals == 0) return Error{fmt::format("{} {}: write NAME=VALUE, for example \"Sofa lamp\"=60%", option, text)};
+  if (equals == std::string::npos || equals == 0)
+    return Error{fmt::format("{} {}: write NAME=VALUE, for example \"Sofa lamp\"=60%", option, text)};
   return Assignment{text.substr(0, equals), text.substr(equals + 1)};
 }
 
 std::string layerTable(const std::vector<LayerInfo>& layers) {
   size_t widest = 4;
   for (const LayerInfo& l : layers) widest = std::max(widest, l.name.size());
-  std::string table = fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", "name", widest, "kind", "colour", "flux", "linear RGB", "room");
+  std::string table = fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", "name", widest, "kind", "colour", "flux",
+                                  "linear RGB", "room");
   for (const LayerInfo& l : layers) {
-    const std::string kelvin = l.kelvin ? fmt::format("{:.0f} K", *l.kelvin) : "-", flux = l.fluxLm ? fmt::format("{:.0f} lm", *l.fluxLm) : "-";
+    const std::string kelvin = l.kelvin ? fmt::format("{:.0f} K", *l.kelvin) : "-",
+                      flux = l.fluxLm ? fmt::format("{:.0f} lm", *l.fluxLm) : "-";
     const std::string rgb = fmt::format("{:.3f} {:.3f} {:.3f}", l.colour.x, l.colour.y, l.colour.z);
-    table += fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", l.name, widest, l.kind, kelvin, flux, rgb, l.room.empty() ? "-" : l.room);
+    table += fmt::format("{:<{}}  {:<5}  {:>8}  {:>8}  {:<18}  {}\n", l.name, widest, l.kind, kelvin, flux, rgb,
+                         l.room.empty() ? "-" : l.room);
   }
   return table;
 }
 
-Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata, float webpQuality) {
+Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata,
+                  float webpQuality) {
   const std::string e = lowerExtension(file);
   if (e == ".webp") return writeWebp(file, image, webpQuality);
   if (e == ".jpg") return writeJpeg(file, image, std::numeric_limits<size_t>::max());

@@ -24,7 +24,8 @@ struct MixHome {
 };
 // The mix as the file has it: light of whole pixels.
 Image linearMix(const MixHome& home, std::span<const Vec3> gains);
-// As it is looked at: sections drawn in, over paper; with `transparent` an empty backdrop is the picture's fourth channel instead.
+// As it is looked at: sections drawn in, over paper; with `transparent` an empty backdrop is the picture's fourth
+// channel instead.
 ByteImage displayMix(const MixHome& home, std::span<const Vec3> gains, const Look& look, bool transparent);
 
 Result<MixHome> openLayers(const std::string& file);
@@ -40,7 +41,8 @@ struct Mixture {
 };
 Result<Mixture> mixtureOf(const std::vector<LayerInfo>& layers, const DialOptions& options);
 
-// How a mix is shown. Exposure and white are those of the unmixed picture where options do not fix them, or of this mix where that is wished; local exposure follows the same picture as exposure.
+// How a mix is shown. Exposure and white are those of the unmixed picture where options do not fix them, or of this mix
+// where that is wished; local exposure follows the same picture as exposure.
 struct ShownMix {
   Look look;
   White white;
@@ -50,7 +52,8 @@ struct FollowMix {
   bool exposure = false, white = false;
 };
 ShownMix showMix(const MixHome& home, const Mixture& mixture, const Display& display, const FollowMix& follow);
-// Applies local exposure, glare and vignette to every layer in place. Write linear (.exr) mixes before: afterwards the layers no longer hold cd/m².
+// Applies local exposure, glare and vignette to every layer in place. Write linear (.exr) mixes before: afterwards the
+// layers no longer hold cd/m².
 void retouch(MixHome& home, const Retouch& by);
 
 // The name before the last '=', and what is behind it.
@@ -62,6 +65,7 @@ Result<Assignment> splitAssignment(const std::string& option, const std::string&
 std::string layerTable(const std::vector<LayerInfo>& layers);
 
 // By the extension: .png, .webp or .jpg.
-Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata, float webpQuality);
+Status writeBytes(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata,
+                  float webpQuality);
 
 }  // namespace roomlight::cli

@@ -14,7 +14,8 @@ struct StatesJob {
   std::string extension;  // .png, .webp or .jpg
 };
 // Exit status of the program; errors are told. Ctrl-C ends it between two pictures.
-int writeStates(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const StatesJob& job, ProgressDisplay& display);
+int writeStates(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata,
+                const StatesJob& job, ProgressDisplay& display);
 
 struct OverlaysJob {
   std::filesystem::path folder;
@@ -24,7 +25,8 @@ struct OverlaysJob {
   bool dimmed = false;
   std::map<size_t, std::string> entities;  // by layer
 };
-int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata, const OverlaysJob& job, ProgressDisplay& display);
+int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix& shown, const Metadata& metadata,
+                  const OverlaysJob& job, ProgressDisplay& display);
 
 // The card's second file, "plan.yaml" -> "plan_sensors.yaml".
 std::filesystem::path sensorsFileOf(const std::filesystem::path& cardFile);

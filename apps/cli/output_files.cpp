@@ -21,7 +21,8 @@ constexpr uintmax_t kLargestTextBytes = 64u << 20;
 
 Status checkWritable(const std::filesystem::path& file) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) return Error{fmt::format("{}: is a folder; name a file", file.string())};
+  if (std::filesystem::is_directory(file, ignored))
+    return Error{fmt::format("{}: is a folder; name a file", file.string())};
   // Trying is the only test that knows of read-only disks, rights and names that are too long.
   const std::filesystem::path probe = unfinishedName(file);
   const int handle = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -42,9 +43,11 @@ std::vector<std::string> filesNamedAfter(const std::string& file, const std::vec
       plain += odd ? '_' : c;
     }
     std::string name = plain;
-    for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number) name = fmt::format("{}_{}", plain, number);
+    for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number)
+      name = fmt::format("{}_{}", plain, number);
     names.push_back(name);
-    files.push_back((path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), name, path.extension().string())).string());
+    files.push_back(
+        (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), name, path.extension().string())).string());
   }
   return files;
 }
@@ -52,7 +55,8 @@ std::vector<std::string> filesNamedAfter(const std::string& file, const std::vec
 Result<std::string> readTextFile(const std::filesystem::path& file) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code)) return Error{fmt::format("{}: no such file", file.string())};
-  if (std::filesystem::file_size(file, code) > kLargestTextBytes) return Error{fmt::format("{}: larger than 64 MiB", file.string())};
+  if (std::filesystem::file_size(file, code) > kLargestTextBytes)
+    return Error{fmt::format("{}: larger than 64 MiB", file.string())};
   std::ifstream in(file, std::ios::binary);
   if (!in) return Error{fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno))};
   return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -12,7 +12,8 @@ namespace roomlight::cli {
 // Could this file be written? Leaves no trace.
 Status checkWritable(const std::filesystem::path& file);
 
-// `file` with a name of each of `things` before its extension, such as home_Kitchen.png; of one thing alone the file itself. Slashes, blanks and what no file should have become _, and what is there already gets a number.
+// `file` with a name of each of `things` before its extension, such as home_Kitchen.png; of one thing alone the file
+// itself. Slashes, blanks and what no file should have become _, and what is there already gets a number.
 std::vector<std::string> filesNamedAfter(const std::string& file, const std::vector<std::string>& things);
 
 Result<std::string> readTextFile(const std::filesystem::path& file);

@@ -33,8 +33,8 @@ ReportPicture pictureFor(const Scene& scene, int threads) {
   if (!rendered || rendered.value().image.pixels.empty()) return {};
   const Image& image = rendered.value().image;
   const Display display = usualDisplay();
-  Result<std::string> jpeg =
-      encodeJpeg(displayed(image, display, whiteOf(display, rendered.value().lightColour), ev100Of(display, image)), kJpegQuality);
+  Result<std::string> jpeg = encodeJpeg(
+      displayed(image, display, whiteOf(display, rendered.value().lightColour), ev100Of(display, image)), kJpegQuality);
   if (!jpeg) return {};
   return {std::move(jpeg.value()), camera.name.empty()
                                        ? "View of the home, exposed for the eye"
@@ -45,8 +45,8 @@ std::string today() {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   localtime_r(&now, &local);
-  static constexpr const char* kMonths[] = {"January", "February", "March", "April", "May", "June",
-                                            "July", "August", "September", "October", "November", "December"};
+  static constexpr const char* kMonths[] = {"January", "February", "March",     "April",   "May",      "June",
+                                            "July",    "August",   "September", "October", "November", "December"};
   return fmt::format("{} {} {}", local.tm_mday, kMonths[local.tm_mon], local.tm_year + 1900);
 }
 

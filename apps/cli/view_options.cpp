@@ -14,12 +14,17 @@ Result<Vec3> parsePlace(const std::string& option, const std::string& text) {
 }
 
 Status checkCombination(const ViewOptions& o, View view, bool cameraNamed) {
-  const bool above = view == View::Top || view == View::Plan, around = view == View::Panorama || view == View::Stereo, camera = view == View::Camera;
-  const auto useless = [&](const char* option, const char* where) { return Error{fmt::format("{}: is of no use with --view {}; it goes with {}", option, o.view, where)}; };
+  const bool above = view == View::Top || view == View::Plan, around = view == View::Panorama || view == View::Stereo,
+             camera = view == View::Camera;
+  const auto useless = [&](const char* option, const char* where) {
+    return Error{fmt::format("{}: is of no use with --view {}; it goes with {}", option, o.view, where)};
+  };
   if (o.cutM && around) return useless("--cut", "camera, top and plan");
-  if (!o.level.empty() && (around || (camera && !o.cutM))) return useless("--level", "top and plan, and with camera where there is a --cut");
+  if (!o.level.empty() && (around || (camera && !o.cutM)))
+    return useless("--level", "top and plan, and with camera where there is a --cut");
   if (!o.room.empty() && camera) return useless("--room", "top, plan, panorama and stereo");
-  if (!o.room.empty() && !o.level.empty()) return Error{"--room and --level: a room is on its own level; give one of them"};
+  if (!o.room.empty() && !o.level.empty())
+    return Error{"--room and --level: a room is on its own level; give one of them"};
   if (o.metresPerPixel && view != View::Plan) return useless("--metres-per-pixel", "plan");
   if (o.fovDeg && view != View::Camera && view != View::Top) return useless("--fov", "camera and top");
   if (!o.eye.empty() && above) return useless("--eye", "camera, panorama and stereo");
@@ -34,15 +39,25 @@ Status checkCombination(const ViewOptions& o, View view, bool cameraNamed) {
 }  // namespace
 
 void addViewOptions(CLI::App& app, ViewOptions& o) {
-  app.add_option("--view", o.view, "camera; top: from above, cut open; plan: the same without perspective; panorama: all around, 2:1; stereo: two of them for headsets, left eye on top")->capture_default_str();
-  app.add_option("--cut", o.cutM, "Metres above the level's floor above which nothing is seen, though it gives and takes light; top and plan: just under the ceiling");
-  app.add_option("--level", o.level, "Storey shown by top and plan: its number from 0, the lowest; default: at the ground");
-  app.add_option("--room", o.room, "top and plan: only this room; panorama and stereo: from its middle. Name, or number from 0");
+  app.add_option("--view", o.view,
+                 "camera; top: from above, cut open; plan: the same without perspective; panorama: all around, 2:1; "
+                 "stereo: two of them for headsets, left eye on top")
+      ->capture_default_str();
+  app.add_option("--cut", o.cutM,
+                 "Metres above the level's floor above which nothing is seen, though it gives and takes light; top and "
+                 "plan: just under the ceiling");
+  app.add_option("--level", o.level,
+                 "Storey shown by top and plan: its number from 0, the lowest; default: at the ground");
+  app.add_option("--room", o.room,
+                 "top and plan: only this room; panorama and stereo: from its middle. Name, or number from 0");
   app.add_option("--eye", o.eye, "x,y,z in metres: look from there instead of from a camera of the scene");
   app.add_option("--target", o.target, "x,y,z in metres: what --eye looks at");
   app.add_option("--fov", o.fovDeg, "Full vertical angle in degrees, of camera and top");
-  app.add_option("--metres-per-pixel", o.metresPerPixel, "Scale of a plan; without --size the picture is as large as the home needs");
-  app.add_option("--backdrop", o.backdrop, "What is seen beside the home: sky, or none (transparent in .png); default: none for top and plan, else sky");
+  app.add_option("--metres-per-pixel", o.metresPerPixel,
+                 "Scale of a plan; without --size the picture is as large as the home needs");
+  app.add_option(
+      "--backdrop", o.backdrop,
+      "What is seen beside the home: sky, or none (transparent in .png); default: none for top and plan, else sky");
 }
 
 Result<ViewWish> readViewWish(const ViewOptions& o, bool cameraNamed) {
@@ -52,13 +67,17 @@ Result<ViewWish> readViewWish(const ViewOptions& o, bool cameraNamed) {
   ViewWish wish;
   wish.view = view.value();
   wish.level = o.level, wish.room = o.room;
-  if (o.cutM && !(*o.cutM > 0 && *o.cutM <= 1000)) return Error{fmt::format("--cut {}: write metres above the floor, above 0 and at most 1000", *o.cutM)};
+  if (o.cutM && !(*o.cutM > 0 && *o.cutM <= 1000))
+    return Error{fmt::format("--cut {}: write metres above the floor, above 0 and at most 1000", *o.cutM)};
   wish.cutM = o.cutM;
-  if (o.metresPerPixel && !(*o.metresPerPixel >= 1e-4f && *o.metresPerPixel <= 10)) return Error{fmt::format("--metres-per-pixel {}: write 0.0001 to 10", *o.metresPerPixel)};
+  if (o.metresPerPixel && !(*o.metresPerPixel >= 1e-4f && *o.metresPerPixel <= 10))
+    return Error{fmt::format("--metres-per-pixel {}: write 0.0001 to 10", *o.metresPerPixel)};
   wish.metresPerPixel = o.metresPerPixel;
-  if (o.fovDeg && !(*o.fovDeg >= 1 && *o.fovDeg <= 170)) return Error{fmt::format("--fov {}: write degrees from 1 to 170", *o.fovDeg)};
+  if (o.fovDeg && !(*o.fovDeg >= 1 && *o.fovDeg <= 170))
+    return Error{fmt::format("--fov {}: write degrees from 1 to 170", *o.fovDeg)};
   if (o.fovDeg) wish.yFovRad = *o.fovDeg * kPi / 180;
-  if (!o.backdrop.empty() && o.backdrop != "sky" && o.backdrop != "none") return Error{fmt::format("--backdrop {}: write sky or none", o.backdrop)};
+  if (!o.backdrop.empty() && o.backdrop != "sky" && o.backdrop != "none")
+    return Error{fmt::format("--backdrop {}: write sky or none", o.backdrop)};
   if (!o.backdrop.empty()) wish.emptyBackdrop = o.backdrop == "none";
   if (!o.eye.empty()) {
     const Result<Vec3> eye = parsePlace("--eye", o.eye);

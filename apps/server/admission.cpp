@@ -25,7 +25,8 @@ std::string randomToken() {
 
 bool sameSecret(std::string_view a, std::string_view b) {
   unsigned differs = a.size() == b.size() ? 0 : 1;
-  for (size_t i = 0; i < b.size(); ++i) differs |= static_cast<unsigned char>(i < a.size() ? a[i] : 0) ^ static_cast<unsigned char>(b[i]);
+  for (size_t i = 0; i < b.size(); ++i)
+    differs |= static_cast<unsigned char>(i < a.size() ? a[i] : 0) ^ static_cast<unsigned char>(b[i]);
   return differs == 0;
 }
 
@@ -35,12 +36,17 @@ bool isOwnHost(std::string_view host, uint16_t port, bool loopbackOnly) {
   host.remove_suffix(tail.size());
   if (host == "localhost" || host == "127.0.0.1" || host == "[::1]") return true;
   if (loopbackOnly || host.empty()) return false;
-  const auto only = [](std::string_view text, std::string_view allowed) { return !text.empty() && text.find_first_not_of(allowed) == std::string_view::npos; };
-  if (host.front() == '[') return host.back() == ']' && only(host.substr(1, host.size() - 2), "0123456789abcdefABCDEF:.");
+  const auto only = [](std::string_view text, std::string_view allowed) {
+    return !text.empty() && text.find_first_not_of(allowed) == std::string_view::npos;
+  };
+  if (host.front() == '[')
+    return host.back() == ']' && only(host.substr(1, host.size() - 2), "0123456789abcdefABCDEF:.");
   return only(host, "0123456789.");
 }
 
-bool isOwnOrigin(std::string_view origin, std::string_view host) { return origin.starts_with("http://") && origin.substr(7) == host; }
+bool isOwnOrigin(std::string_view origin, std::string_view host) {
+  return origin.starts_with("http://") && origin.substr(7) == host;
+}
 
 std::string_view queryValue(std::string_view query, std::string_view key) {
   while (!query.empty()) {

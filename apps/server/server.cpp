@@ -38,7 +38,9 @@ constexpr int kLastLooks = 50;
 constexpr size_t kMostWaiting = 4096, kMostWaitingBytes = 64 << 20;  // a browser that takes nothing more is let go
 
 // What may not be handled through exceptions ends here.
-asio::redirect_error_t<asio::use_awaitable_t<>> into(error_code& code) { return asio::redirect_error(asio::use_awaitable, code); }
+asio::redirect_error_t<asio::use_awaitable_t<>> into(error_code& code) {
+  return asio::redirect_error(asio::use_awaitable, code);
+}
 
 struct Target {
   std::string path, query;
@@ -60,12 +62,15 @@ void addSafety(http::response<Body>& response, const std::string& host) {
   response.set("Cross-Origin-Opener-Policy", "same-origin");
   response.set("Cross-Origin-Resource-Policy", "same-origin");
   response.set("Content-Security-Policy",
-               fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; style-src-attr 'unsafe-inline'; img-src 'self' blob: data:; font-src 'self'; "
-                           "manifest-src 'self'; connect-src 'self' ws://{}; worker-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+               fmt::format("default-src 'none'; script-src 'self'; style-src 'self'; style-src-attr 'unsafe-inline'; "
+                           "img-src 'self' blob: data:; font-src 'self'; "
+                           "manifest-src 'self'; connect-src 'self' ws://{}; worker-src 'self' blob:; base-uri 'none'; "
+                           "form-action 'none'; frame-ancestors 'none'",
                            host));
 }
 
-http::response<http::string_body> textResponse(const Request& request, http::status status, const std::string& body, const std::string& host) {
+http::response<http::string_body> textResponse(const Request& request, http::status status, const std::string& body,
+                                               const std::string& host) {
   http::response<http::string_body> response(status, request.version());
   response.set(http::field::content_type, "text/plain; charset=utf-8");
   addSafety(response, host);
@@ -92,7 +97,8 @@ struct Peer {
 }  // namespace
 
 struct Server::State {
-  State(const Options& o, StaticFiles p, Handlers h) : options(o), page(std::move(p)), handlers(std::move(h)), acceptor(context) {}
+  State(const Options& o, StaticFiles p, Handlers h)
+      : options(o), page(std::move(p)), handlers(std::move(h)), acceptor(context) {}
 
   const Options options;
   const StaticFiles page;
@@ -107,7 +113,8 @@ struct Server::State {
   asio::awaitable<void> acceptAll();
   asio::awaitable<void> serve(tcp::socket socket);
   asio::awaitable<bool> answer(beast::tcp_stream& stream, const Request& request);
-  asio::awaitable<bool> sendFile(beast::tcp_stream& stream, const Request& request, const Target& target, const std::string& host);
+  asio::awaitable<bool> sendFile(beast::tcp_stream& stream, const Request& request, const Target& target,
+                                 const std::string& host);
   asio::awaitable<void> talk(tcp::socket socket, Request request);
   asio::awaitable<void> readAll(Connection number, std::shared_ptr<Peer> peer);
   asio::awaitable<void> writeAll(std::shared_ptr<Peer> peer);
@@ -140,7 +147,8 @@ std::string Server::State::refusal(const Request& request, const Target& target)
   const bool hasOrigin = request.find(http::field::origin) != request.end();
   if ((live || hasOrigin) && !isOwnOrigin(text(request[http::field::origin]), host)) return "wrong origin";
   const bool secret = live || target.path.starts_with("/files/");
-  if (secret && !sameSecret(queryValue(target.query, "token"), options.token)) return "wrong token; use the link that roomlight view printed";
+  if (secret && !sameSecret(queryValue(target.query, "token"), options.token))
+    return "wrong token; use the link that roomlight view printed";
   return {};
 }
 
@@ -155,7 +163,8 @@ asio::awaitable<void> Server::State::serve(tcp::socket socket) {
     co_await http::async_read_header(stream, buffer, parser, into(code));
     if (code) break;
     const Target target = targetOf(parser.get());
-    if (websocket::is_upgrade(parser.get()) && target.path == "/live" && refusal(parser.get(), target).empty() && peers.size() < options.mostWindows) {
+    if (websocket::is_upgrade(parser.get()) && target.path == "/live" && refusal(parser.get(), target).empty() &&
+        peers.size() < options.mostWindows) {
       stream.expires_never();
       co_await talk(stream.release_socket(), parser.release());
       co_return;
@@ -173,12 +182,14 @@ asio::awaitable<bool> Server::State::answer(beast::tcp_stream& stream, const Req
   http::response<http::string_body> response;
   const auto file = page.find(target.path);
   if (const std::string refused = refusal(request, target); !refused.empty()) {
-    response = textResponse(request, http::status::forbidden, refused, fmt::format("127.0.0.1:{}", acceptor.local_endpoint().port()));
+    response = textResponse(request, http::status::forbidden, refused,
+                            fmt::format("127.0.0.1:{}", acceptor.local_endpoint().port()));
   } else if (request.method() != http::verb::get && request.method() != http::verb::head) {
     response = textResponse(request, http::status::method_not_allowed, "only GET", host);
   } else if (target.path == "/live") {
     const bool full = websocket::is_upgrade(request);
-    response = textResponse(request, full ? http::status::service_unavailable : http::status::upgrade_required, full ? "too many windows are open" : "this is for WebSockets", host);
+    response = textResponse(request, full ? http::status::service_unavailable : http::status::upgrade_required,
+                            full ? "too many windows are open" : "this is for WebSockets", host);
   } else if (target.path.starts_with("/files/")) {
     co_return co_await sendFile(stream, request, target, host);
   } else if (file == page.end()) {
@@ -197,9 +208,11 @@ asio::awaitable<bool> Server::State::answer(beast::tcp_stream& stream, const Req
   co_return !code && response.keep_alive();
 }
 
-asio::awaitable<bool> Server::State::sendFile(beast::tcp_stream& stream, const Request& request, const Target& target, const std::string& host) {
+asio::awaitable<bool> Server::State::sendFile(beast::tcp_stream& stream, const Request& request, const Target& target,
+                                              const std::string& host) {
   const std::string id = target.path.substr(std::string_view("/files/").size());
-  const std::optional<HeldFile> file = handlers.findFile && request.method() == http::verb::get ? handlers.findFile(id) : std::nullopt;
+  const std::optional<HeldFile> file =
+      handlers.findFile && request.method() == http::verb::get ? handlers.findFile(id) : std::nullopt;
   error_code code;
   if (!file) {
     auto response = textResponse(request, http::status::not_found, "no such file, or it was fetched already", host);
@@ -258,7 +271,8 @@ asio::awaitable<void> Server::State::readAll(Connection number, std::shared_ptr<
     const bool fast = !rate.allow(std::chrono::steady_clock::now());
     if (fast || !peer->stream.got_text()) {
       // The writer closes, once what it is sending is sent.
-      peer->closing = fast ? websocket::close_reason(websocket::close_code::policy_error, "too many messages") : websocket::close_reason(websocket::close_code::unknown_data, "text messages only");
+      peer->closing = fast ? websocket::close_reason(websocket::close_code::policy_error, "too many messages")
+                           : websocket::close_reason(websocket::close_code::unknown_data, "text messages only");
       peer->wake.cancel();
       while (!code) {  // until the other side has closed too
         buffer.consume(buffer.size());
@@ -354,7 +368,9 @@ void Server::stop() {
 }
 
 void Server::send(Connection to, std::string message, bool binary) {
-  asio::post(state_->context, [this, to, message = std::move(message), binary]() mutable { state_->enqueue(to, std::move(message), binary); });
+  asio::post(state_->context, [this, to, message = std::move(message), binary]() mutable {
+    state_->enqueue(to, std::move(message), binary);
+  });
 }
 
 }  // namespace roomlight::server

@@ -1,5 +1,5 @@
-// HTTP and WebSockets for the page of `roomlight view` (docs/formats/view.md): who may connect, what is served, how fast anybody may talk.
-// Knows nothing of homes.
+// HTTP and WebSockets for the page of `roomlight view` (docs/formats/view.md): who may connect, what is served, how
+// fast anybody may talk. Knows nothing of homes.
 #pragma once
 
 #include <atomic>

@@ -17,7 +17,8 @@ struct StaticFile {
 // By path from the root, "/index.html"; "/" is the same page.
 using StaticFiles = std::map<std::string, StaticFile>;
 
-// All regular files below the folder of kinds that a page has; links are not followed. Errors: there is no index.html, or more than 64 MiB.
+// All regular files below the folder of kinds that a page has; links are not followed. Errors: there is no index.html,
+// or more than 64 MiB.
 Result<StaticFiles> readStaticFiles(const std::filesystem::path& folder);
 
 }  // namespace roomlight::server

@@ -15,14 +15,17 @@ constexpr std::chrono::milliseconds kLookAgain{50};
 std::string linkTo(const Options& o, uint16_t port) {
   const bool v6 = o.address.find(':') != std::string::npos;
   const bool any = o.address == "0.0.0.0" || o.address == "::";
-  return fmt::format("http://{}:{}/#{}", any ? "127.0.0.1" : v6 ? fmt::format("[{}]", o.address)
-                                                                : o.address,
+  return fmt::format("http://{}:{}/#{}",
+                     any  ? "127.0.0.1"
+                     : v6 ? fmt::format("[{}]", o.address)
+                          : o.address,
                      port, o.token);
 }
 
 }  // namespace
 
-Status serveHome(view::ViewHome home, const RenderSettings& settings, Options options, StaticFiles page, const Served& tell, const std::atomic<bool>& stop) {
+Status serveHome(view::ViewHome home, const RenderSettings& settings, Options options, StaticFiles page,
+                 const Served& tell, const std::atomic<bool>& stop) {
   if (options.token.empty()) options.token = randomToken();
   view::Session* session = nullptr;
   Handlers handlers;

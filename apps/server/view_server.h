@@ -14,6 +14,7 @@ struct Served {
 };
 
 // Until `stop` becomes true. Errors: nobody can listen there.
-Status serveHome(view::ViewHome home, const RenderSettings& settings, Options options, StaticFiles page, const Served& tell, const std::atomic<bool>& stop);
+Status serveHome(view::ViewHome home, const RenderSettings& settings, Options options, StaticFiles page,
+                 const Served& tell, const std::atomic<bool>& stop);
 
 }  // namespace roomlight::server

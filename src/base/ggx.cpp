@@ -89,7 +89,8 @@ AlbedoTerms ggxDirectionalAlbedo(float cosTheta, float roughness) {
   const Node r = tableNode(roughness, kRoughnesses), c = tableNode(cosTheta, kCosines);
   const AlbedoTerms* low = table.directional[r.index];
   const AlbedoTerms* high = table.directional[r.index + 1];
-  return mix(mix(low[c.index], low[c.index + 1], c.fraction), mix(high[c.index], high[c.index + 1], c.fraction), r.fraction);
+  return mix(mix(low[c.index], low[c.index + 1], c.fraction), mix(high[c.index], high[c.index + 1], c.fraction),
+             r.fraction);
 }
 
 AlbedoTerms ggxHemisphericalAlbedo(float roughness) {

@@ -48,7 +48,10 @@ std::string htmlEscaped(const std::string& text) {
 }
 
 std::string htmlPage(const std::string& title, const std::string& style, const std::string& body) {
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" + htmlEscaped(title) + "</title>\n<style>" + kStyle + style + "</style></head>\n<body><main>\n" + body + "</main></body></html>\n";
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+         "content=\"width=device-width\"><title>" +
+         htmlEscaped(title) + "</title>\n<style>" + kStyle + style + "</style></head>\n<body><main>\n" + body +
+         "</main></body></html>\n";
 }
 
 std::string base64(std::span<const char> bytes) {

@@ -6,10 +6,12 @@
 
 namespace roomlight {
 
-// Text fit for HTML and SVG, between tags and in attributes with double or single quotes; control characters become spaces.
+// Text fit for HTML and SVG, between tags and in attributes with double or single quotes; control characters become
+// spaces.
 std::string htmlEscaped(const std::string& text);
 
-// A whole page that needs nothing else: `body` in one column, in the style that all reports share; `style` comes after that. `title` is text.
+// A whole page that needs nothing else: `body` in one column, in the style that all reports share; `style` comes after
+// that. `title` is text.
 std::string htmlPage(const std::string& title, const std::string& style, const std::string& body);
 
 // RFC 4648, with padding: what a data: URI takes.

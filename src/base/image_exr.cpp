@@ -52,7 +52,8 @@ Image readExr(const std::filesystem::path& file) {
   for (int c = 0; c < (grey ? 1 : 3); ++c) {
     const Imf::Channel* channel = channels.findChannel(names[c]);
     if (!channel) throw std::runtime_error(std::string("has no channel ") + names[c] + "; R, G and B (or Y) are read");
-    if (channel->xSampling != 1 || channel->ySampling != 1) throw std::runtime_error("subsampled channels are not read");
+    if (channel->xSampling != 1 || channel->ySampling != 1)
+      throw std::runtime_error("subsampled channels are not read");
     frame.insert(names[c], sliceAt(window, &image.pixels.front()[c], image.width));
   }
   in.setFrameBuffer(frame);
@@ -68,7 +69,8 @@ Metadata readExrMetadata(const std::filesystem::path& file) {
   Imf::InputFile in(file.c_str());
   Metadata metadata;
   for (auto i = in.header().begin(); i != in.header().end(); ++i) {
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute())) metadata[i.name()] = text->value();
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
+      metadata[i.name()] = text->value();
   }
   return metadata;
 }

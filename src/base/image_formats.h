@@ -23,7 +23,8 @@ Metadata readExrMetadata(const std::filesystem::path& file);
 void writeLayers(const std::filesystem::path& file, const LayeredImage& image);
 LayeredImage readLayers(const std::filesystem::path& file);
 
-void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha);
+void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata,
+              std::span<const float> alpha);
 void writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata);
 void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp);
 void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp);

@@ -99,11 +99,12 @@ void formats::checkSize(int64_t width, int64_t height, uint64_t fileBytes) {
   constexpr uint64_t kMostPixelsPerByte = 1032 * 8;
   if (width < 1 || height < 1) throw std::runtime_error("header claims a picture without pixels");
   if (width > kLargestEdge || height > kLargestEdge || width * height > kMostPixels) {
-    throw std::runtime_error(fmt::format("header claims {} x {} pixels; at most 65536 a side and 134 million in all are read",
-                                         width, height));
+    throw std::runtime_error(fmt::format(
+        "header claims {} x {} pixels; at most 65536 a side and 134 million in all are read", width, height));
   }
   if (static_cast<uint64_t>(width * height) / kMostPixelsPerByte > fileBytes) {
-    throw std::runtime_error(fmt::format("header claims {} x {} pixels, more than {} bytes can hold", width, height, fileBytes));
+    throw std::runtime_error(
+        fmt::format("header claims {} x {} pixels, more than {} bytes can hold", width, height, fileBytes));
   }
 }
 
@@ -111,7 +112,8 @@ Status writeExr(const std::filesystem::path& file, const Image& image, const Met
   return writeAtomically(file, [&](const auto& temporary) { formats::writeExr(temporary, image, metadata); });
 }
 
-Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha) {
+Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata,
+                std::span<const float> alpha) {
   return writeAtomically(file, [&](const auto& temporary) { formats::writePng(temporary, encoded, metadata, alpha); });
 }
 
@@ -125,7 +127,8 @@ Status writeLayers(const std::filesystem::path& file, const LayeredImage& image)
 
 Result<LayeredImage> readLayers(const std::filesystem::path& file) {
   return guarded<LayeredImage>(file, [&] {
-    if (formatOf(file) != Format::Exr) throw std::runtime_error("no OpenEXR file; layers are written by render --layers");
+    if (formatOf(file) != Format::Exr)
+      throw std::runtime_error("no OpenEXR file; layers are written by render --layers");
     return formats::readLayers(file);
   });
 }

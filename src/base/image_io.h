@@ -17,14 +17,17 @@ using Metadata = std::map<std::string, std::string>;
 
 // Linear values, 32-bit float, ZIP compressed. Written to a temporary name beside the file and renamed.
 Status writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata);
-// Values already display-encoded (0..1, sRGB); clipped and rounded to 8 bits. `alpha`: opacity of each pixel, 0..1, whose colour is not
-// multiplied by it; empty: all opaque.
-Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha = {});
-// The same as JPEG: as good as fits into so many bytes, or as bad as is still a picture. `xmp`: metadata as an XMP packet; may be empty.
-Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp = {});
+// Values already display-encoded (0..1, sRGB); clipped and rounded to 8 bits. `alpha`: opacity of each pixel, 0..1,
+// whose colour is not multiplied by it; empty: all opaque.
+Status writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata,
+                std::span<const float> alpha = {});
+// The same as JPEG: as good as fits into so many bytes, or as bad as is still a picture. `xmp`: metadata as an XMP
+// packet; may be empty.
+Status writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes,
+                 const std::string& xmp = {});
 
-// Pictures of bytes as they are. JPEG takes three channels only. WebP: quality 0 to 100, of colour alone, alpha is always exact;
-// kLossless: every byte comes back, but for colours where alpha is 0.
+// Pictures of bytes as they are. JPEG takes three channels only. WebP: quality 0 to 100, of colour alone, alpha is
+// always exact; kLossless: every byte comes back, but for colours where alpha is 0.
 constexpr float kLossless = 101;
 Status writePng(const std::filesystem::path& file, const ByteImage& image, const Metadata& metadata);
 Status writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes);
@@ -36,7 +39,8 @@ Status writeWebp(const std::filesystem::path& file, const ByteImage& image, floa
 
 // EXR (linear), Radiance .hdr (linear), PNG or JPEG (decoded from sRGB to linear), by content.
 Result<Image> readImage(const std::filesystem::path& file);
-// Whether it holds what a display shows (PNG, JPEG), exposed and tone-mapped for good, rather than linear light; by content.
+// Whether it holds what a display shows (PNG, JPEG), exposed and tone-mapped for good, rather than linear light; by
+// content.
 Result<bool> isForDisplay(const std::filesystem::path& file);
 Result<Metadata> readMetadata(const std::filesystem::path& file);
 

@@ -17,14 +17,16 @@ std::string compressed(const ByteImage& image, int quality) {
   const std::unique_ptr<void, int (*)(tjhandle)> compressor(tjInitCompress(), tjDestroy);
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
-  const bool done = compressor && tjCompress2(compressor.get(), image.samples.data(), image.width, 0, image.height, TJPF_RGB, &bytes, &size, TJSAMP_420, quality, TJFLAG_ACCURATEDCT) == 0;
+  const bool done = compressor && tjCompress2(compressor.get(), image.samples.data(), image.width, 0, image.height,
+                                              TJPF_RGB, &bytes, &size, TJSAMP_420, quality, TJFLAG_ACCURATEDCT) == 0;
   const std::string out = done ? std::string(reinterpret_cast<const char*>(bytes), size) : std::string();
   tjFree(bytes);
   if (!done) throw std::runtime_error("too large for JPEG");
   return out;
 }
 
-// A packet as the APP1 segment of XMP part 3, 1.1.3: marker, length, name with its zero, packet; behind the first segment, JFIF's.
+// A packet as the APP1 segment of XMP part 3, 1.1.3: marker, length, name with its zero, packet; behind the first
+// segment, JFIF's.
 void insertXmp(std::string& jpeg, const std::string& xmp) {
   static constexpr char kName[] = "http://ns.adobe.com/xap/1.0/";
   const size_t length = 2 + sizeof kName + xmp.size();
@@ -42,15 +44,21 @@ std::string encodeJpeg(const ByteImage& image, int quality) { return compressed(
 Image readJpeg(std::span<const uint8_t> bytes) {
   const std::unique_ptr<void, int (*)(tjhandle)> decoder(tjInitDecompress(), tjDestroy);
   int width = 0, height = 0, subsampling = 0, colours = 0;
-  if (!decoder || tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &width, &height, &subsampling, &colours) != 0) throw std::runtime_error("a damaged JPEG file");
-  if (colours == TJCS_CMYK || colours == TJCS_YCCK) throw std::runtime_error("a JPEG file of printing colours (CMYK) is not read");
+  if (!decoder ||
+      tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &width, &height, &subsampling, &colours) != 0)
+    throw std::runtime_error("a damaged JPEG file");
+  if (colours == TJCS_CMYK || colours == TJCS_YCCK)
+    throw std::runtime_error("a JPEG file of printing colours (CMYK) is not read");
   // A few bits may stand for thousands of empty blocks of 64 pixels.
   checkSize(width, height, 64 * uint64_t{bytes.size()});
   std::vector<uint8_t> samples(3 * static_cast<size_t>(width) * static_cast<size_t>(height));
-  if (tjDecompress2(decoder.get(), bytes.data(), bytes.size(), samples.data(), width, 0, height, TJPF_RGB, TJFLAG_ACCURATEDCT) != 0) throw std::runtime_error("a damaged JPEG file");
+  if (tjDecompress2(decoder.get(), bytes.data(), bytes.size(), samples.data(), width, 0, height, TJPF_RGB,
+                    TJFLAG_ACCURATEDCT) != 0)
+    throw std::runtime_error("a damaged JPEG file");
   Image image(width, height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
-    for (int c = 0; c < 3; ++c) image.pixels[i][c] = srgbDecode(static_cast<float>(samples[3 * i + static_cast<size_t>(c)]) / 255);
+    for (int c = 0; c < 3; ++c)
+      image.pixels[i][c] = srgbDecode(static_cast<float>(samples[3 * i + static_cast<size_t>(c)]) / 255);
   }
   return image;
 }
@@ -64,7 +72,9 @@ ByteImage bytesOf(const Image& encoded) {
   return image;
 }
 
-void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) { formats::writeJpeg(file, bytesOf(encoded), mostBytes, xmp); }
+void writeJpeg(const std::filesystem::path& file, const Image& encoded, size_t mostBytes, const std::string& xmp) {
+  formats::writeJpeg(file, bytesOf(encoded), mostBytes, xmp);
+}
 
 void writeJpeg(const std::filesystem::path& file, const ByteImage& image, size_t mostBytes, const std::string& xmp) {
   std::string bytes;

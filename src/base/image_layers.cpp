@@ -19,7 +19,8 @@ namespace roomlight::formats {
 namespace {
 
 constexpr const char* kNames[] = {"R", "G", "B"};
-constexpr int kCompression = 1;  // floats with noise in them hardly shrink further; higher levels take several times as long
+constexpr int kCompression =
+    1;  // floats with noise in them hardly shrink further; higher levels take several times as long
 constexpr uint64_t kMostFloats = uint64_t{1} << 32;
 
 Imf::Slice slice(const Imath::Box2i& window, const Image& image, int channel) {
@@ -35,13 +36,16 @@ int useThreads() {
 }
 
 bool isName(const std::string& channel) {
-  return !channel.empty() && std::all_of(channel.begin(), channel.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; });
+  return !channel.empty() && std::all_of(channel.begin(), channel.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
 }
 
 bool isRead(const Imf::Channel* channel) { return channel && channel->xSampling == 1 && channel->ySampling == 1; }
 
 bool isComplete(const Imf::ChannelList& channels, const std::string& prefix) {
-  return std::all_of(std::begin(kNames), std::end(kNames), [&](const char* name) { return isRead(channels.findChannel(prefix + name)); });
+  return std::all_of(std::begin(kNames), std::end(kNames),
+                     [&](const char* name) { return isRead(channels.findChannel(prefix + name)); });
 }
 
 }  // namespace
@@ -55,16 +59,19 @@ void writeLayers(const std::filesystem::path& file, const LayeredImage& image) {
   for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
   Imf::FrameBuffer frame;
   const auto add = [&](const std::string& prefix, const Image& layer) {
-    if (layer.width != whole.width || layer.height != whole.height) throw std::runtime_error("layers of different sizes cannot be written");
+    if (layer.width != whole.width || layer.height != whole.height)
+      throw std::runtime_error("layers of different sizes cannot be written");
     for (int c = 0; c < 3; ++c) {
-      if (header.channels().findChannel(prefix + kNames[c])) throw std::runtime_error(fmt::format("two layers are called '{}'", prefix));
+      if (header.channels().findChannel(prefix + kNames[c]))
+        throw std::runtime_error(fmt::format("two layers are called '{}'", prefix));
       header.channels().insert(prefix + kNames[c], Imf::Channel(Imf::FLOAT));
       frame.insert(prefix + kNames[c], slice(header.dataWindow(), layer, c));
     }
   };
   add("", whole);
   for (const PictureLayer& layer : image.layers) {
-    if (!isName(layer.channel)) throw std::runtime_error(fmt::format("'{}' is no name for a layer: letters, digits and _ alone", layer.channel));
+    if (!isName(layer.channel))
+      throw std::runtime_error(fmt::format("'{}' is no name for a layer: letters, digits and _ alone", layer.channel));
     add(layer.channel + ".", layer.image);
   }
   Imf::OutputFile out(file.c_str(), header, useThreads());
@@ -89,7 +96,9 @@ LayeredImage readLayers(const std::filesystem::path& file) {
   }
   if (image.layers.empty()) throw std::runtime_error("has no layers: it was not written by render --layers");
   const auto floats = static_cast<uint64_t>(width * height) * 3 * (image.layers.size() + 1);
-  if (floats > kMostFloats) throw std::runtime_error(fmt::format("header claims {} layers of {} x {} pixels, more than is read", image.layers.size(), width, height));
+  if (floats > kMostFloats)
+    throw std::runtime_error(fmt::format("header claims {} layers of {} x {} pixels, more than is read",
+                                         image.layers.size(), width, height));
   Imf::FrameBuffer frame;
   const auto add = [&](const std::string& prefix, Image& into) {
     into = Image(static_cast<int>(width), static_cast<int>(height));
@@ -100,7 +109,8 @@ LayeredImage readLayers(const std::filesystem::path& file) {
   in.setFrameBuffer(frame);
   in.readPixels(window.min.y, window.max.y);
   for (auto i = in.header().begin(); i != in.header().end(); ++i) {
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute())) image.metadata[i.name()] = text->value();
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
+      image.metadata[i.name()] = text->value();
   }
   return image;
 }

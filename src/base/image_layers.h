@@ -1,5 +1,5 @@
-// Pictures that add up: one OpenEXR file with the light of every lamp apart. Channels R, G, B hold the whole picture, <channel>.R, .G and .B
-// a layer each; all 32-bit float, linear, in the picture's unit, ZIP compressed.
+// Pictures that add up: one OpenEXR file with the light of every lamp apart. Channels R, G, B hold the whole picture,
+// <channel>.R, .G and .B a layer each; all 32-bit float, linear, in the picture's unit, ZIP compressed.
 #pragma once
 
 #include <filesystem>

@@ -39,7 +39,8 @@ void readBytes(png_structp png, png_bytep out, size_t n) {
   bytes->left -= n;
 }
 
-bool writeTo(std::FILE* out, const ByteImage& image, png_bytep* rows, png_textp texts, int textCount, Failure& failure) {
+bool writeTo(std::FILE* out, const ByteImage& image, png_bytep* rows, png_textp texts, int textCount,
+             Failure& failure) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, onError, onWarning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   if (!info || setjmp(png_jmpbuf(png))) {
@@ -48,7 +49,8 @@ bool writeTo(std::FILE* out, const ByteImage& image, png_bytep* rows, png_textp 
   }
   png_init_io(png, out);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-               image.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+               image.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_text(png, info, texts, textCount);
   png_set_rows(png, info, rows);
@@ -75,7 +77,8 @@ bool readTexts(Bytes& bytes, std::vector<uint8_t>& row, Metadata& metadata, Fail
   png_textp texts = nullptr;
   const int count = png_get_text(png, info, &texts, nullptr);
   for (int i = 0; i < count; ++i) {
-    const size_t length = texts[i].compression >= PNG_ITXT_COMPRESSION_NONE ? texts[i].itxt_length : texts[i].text_length;
+    const size_t length =
+        texts[i].compression >= PNG_ITXT_COMPRESSION_NONE ? texts[i].itxt_length : texts[i].text_length;
     metadata[texts[i].key].assign(texts[i].text, length);
   }
   png_destroy_read_struct(&png, &info, nullptr);
@@ -99,7 +102,8 @@ bool readRgba(Bytes& bytes, png_uint_32 width, png_uint_32 height, uint8_t* rgba
   png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
   const int passes = png_set_interlace_handling(png);
   png_read_update_info(png, info);
-  if (png_get_image_width(png, info) != width || png_get_image_height(png, info) != height || png_get_rowbytes(png, info) != size_t{4} * width) {
+  if (png_get_image_width(png, info) != width || png_get_image_height(png, info) != height ||
+      png_get_rowbytes(png, info) != size_t{4} * width) {
     png_error(png, "the size changes inside the file");
   }
   for (int pass = 0; pass < passes; ++pass) {
@@ -111,7 +115,8 @@ bool readRgba(Bytes& bytes, png_uint_32 width, png_uint_32 height, uint8_t* rgba
 
 }  // namespace
 
-void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata, std::span<const float> alpha) {
+void writePng(const std::filesystem::path& file, const Image& encoded, const Metadata& metadata,
+              std::span<const float> alpha) {
   if (encoded.width < 1 || encoded.height < 1) throw std::runtime_error("a picture without pixels cannot be written");
   const auto eightBits = [](float v) { return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f)); };
   ByteImage bytes(encoded.width, encoded.height, alpha.empty() ? 3 : 4);
@@ -143,7 +148,8 @@ void writePng(const std::filesystem::path& file, const ByteImage& image, const M
   if (!out) throw std::runtime_error(std::string("cannot be written: ") + std::strerror(errno));
   const bool written = writeTo(out, image, rows.data(), texts.data(), static_cast<int>(texts.size()), failure);
   if (std::fclose(out) != 0 || !written) {
-    throw std::runtime_error(std::string("cannot be written: ") + (failure.message[0] ? failure.message : std::strerror(errno)));
+    throw std::runtime_error(std::string("cannot be written: ") +
+                             (failure.message[0] ? failure.message : std::strerror(errno)));
   }
 }
 
@@ -172,13 +178,16 @@ Image readPng(std::span<const uint8_t> bytes) {
 
 // The header chunk comes first: length, "IHDR", width, height, all big-endian; bits a channel, kind of colour.
 PngSize readPngSize(std::span<const uint8_t> bytes) {
-  if (bytes.size() < 26 || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0) throw std::runtime_error("the PNG file has no header");
+  if (bytes.size() < 26 || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0)
+    throw std::runtime_error("the PNG file has no header");
   const png_uint_32 width = png_get_uint_32(bytes.data() + 16), height = png_get_uint_32(bytes.data() + 20);
   const int depth = bytes[24], kind = bytes[25];
-  if (width > PNG_UINT_31_MAX || height > PNG_UINT_31_MAX || depth < 1 || depth > 16) throw std::runtime_error("the PNG header is damaged");
-  const int channels = kind == PNG_COLOR_TYPE_RGB ? 3 : kind == PNG_COLOR_TYPE_RGB_ALPHA ? 4
-                                                    : kind == PNG_COLOR_TYPE_GRAY_ALPHA  ? 2
-                                                                                         : 1;
+  if (width > PNG_UINT_31_MAX || height > PNG_UINT_31_MAX || depth < 1 || depth > 16)
+    throw std::runtime_error("the PNG header is damaged");
+  const int channels = kind == PNG_COLOR_TYPE_RGB          ? 3
+                       : kind == PNG_COLOR_TYPE_RGB_ALPHA  ? 4
+                       : kind == PNG_COLOR_TYPE_GRAY_ALPHA ? 2
+                                                           : 1;
   return {static_cast<int>(width), static_cast<int>(height), channels * depth};
 }
 
@@ -186,7 +195,8 @@ std::vector<uint8_t> readPngTexels(std::span<const uint8_t> bytes, const PngSize
   std::vector<uint8_t> rgba(size_t{4} * static_cast<size_t>(size.width) * static_cast<size_t>(size.height));
   Bytes source{bytes.data(), bytes.size()};
   Failure failure;
-  if (!readRgba(source, static_cast<png_uint_32>(size.width), static_cast<png_uint_32>(size.height), rgba.data(), failure)) {
+  if (!readRgba(source, static_cast<png_uint_32>(size.width), static_cast<png_uint_32>(size.height), rgba.data(),
+                failure)) {
     throw std::runtime_error(failure.message);
   }
   return rgba;

@@ -11,13 +11,12 @@ namespace roomlight {
 
 void parallelRanges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
   if (count == 0) return;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain ? grain : 1),
-                    [&](const tbb::blocked_range<size_t>& r) {
-                      // Embree asks for flush-to-zero; set in every thread so that results never depend on which ran.
-                      _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-                      _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-                      body(r.begin(), r.end());
-                    });
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain ? grain : 1), [&](const tbb::blocked_range<size_t>& r) {
+    // Embree asks for flush-to-zero; set in every thread so that results never depend on which ran.
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+    body(r.begin(), r.end());
+  });
 }
 
 void withThreads(int threads, const std::function<void()>& work) {

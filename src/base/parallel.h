@@ -21,7 +21,8 @@ void parallelFor(size_t count, size_t grain, Body&& body) {
 // Runs work() with at most `threads` threads in every parallel loop inside; 0 means all cores.
 void withThreads(int threads, const std::function<void()>& work);
 
-// The same for work that nobody waits for: loops started elsewhere go first, and the calling thread gives way to others from then on.
+// The same for work that nobody waits for: loops started elsewhere go first, and the calling thread gives way to others
+// from then on.
 void inBackground(int threads, const std::function<void()>& work);
 
 // How many threads a loop started here would use.

@@ -1,5 +1,6 @@
-// parallel.h over plain threads, in place of parallel.cpp under the thread sanitizer: it cannot see how oneTBB, a package built
-// without it, hands work over, and would take every loop for a race. Here it sees all, and only threads' start and end order it.
+// parallel.h over plain threads, in place of parallel.cpp under the thread sanitizer: it cannot see how oneTBB, a
+// package built without it, hands work over, and would take every loop for a race. Here it sees all, and only threads'
+// start and end order it.
 #include <pmmintrin.h>
 
 #include <algorithm>
@@ -31,7 +32,8 @@ void parallelRanges(size_t count, size_t grain, const std::function<void(size_t,
     _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
     const bool outer = std::exchange(gInLoop, true);
     try {
-      for (size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < ranges;) body(i * step, std::min(count, (i + 1) * step));
+      for (size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < ranges;)
+        body(i * step, std::min(count, (i + 1) * step));
     } catch (...) {
       const std::lock_guard lock(failing);
       if (!failure) failure = std::current_exception();
@@ -59,6 +61,8 @@ void inBackground(int threads, const std::function<void()>& work) {
   withThreads(threads, work);
 }
 
-int threadCount() { return gMostThreads > 0 ? gMostThreads : std::max(2, static_cast<int>(std::thread::hardware_concurrency())); }
+int threadCount() {
+  return gMostThreads > 0 ? gMostThreads : std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 }  // namespace roomlight

@@ -25,8 +25,8 @@ inline uint32_t laineKarras(uint32_t v, uint32_t seed) {  // Owen's scrambling o
   return v ^ v * 0x8d22f6e6u;
 }
 inline uint32_t owenScramble(uint32_t v, uint32_t seed) { return reverseBits(laineKarras(reverseBits(v), seed)); }
-// Second dimension of Sobol's sequence from the first, which is the reversed index: Pascal's triangle modulo 2, applied in
-// five steps (Ahmed 2024).
+// Second dimension of Sobol's sequence from the first, which is the reversed index: Pascal's triangle modulo 2, applied
+// in five steps (Ahmed 2024).
 inline uint32_t sobolSecond(uint32_t first) {
   first ^= first << 16;
   first ^= (first & 0x00ff00ffu) << 8;
@@ -38,13 +38,15 @@ inline uint32_t sobolSecond(uint32_t first) {
 
 class Sampler {
  public:
-  Sampler(uint64_t pixel, uint32_t sample, uint64_t seed) : rng_(pixel, sample, seed), reversedSample_(detail::reverseBits(sample)) {
+  Sampler(uint64_t pixel, uint32_t sample, uint64_t seed)
+      : rng_(pixel, sample, seed), reversedSample_(detail::reverseBits(sample)) {
     key_ = static_cast<uint32_t>(mix64(pixel * 0x9e3779b97f4a7c15ull + seed));
   }
   Vec2 next2() {
     if (dimension_ >= kStratifiedPairs) return rng_.uniform2();
     const uint32_t key = nextKey(), first = firstOf(key);
-    return {toUnit(scrambleFirst(first, key)), toUnit(detail::owenScramble(detail::sobolSecond(first), mix32(key ^ 0x63d83595u)))};
+    return {toUnit(scrambleFirst(first, key)),
+            toUnit(detail::owenScramble(detail::sobolSecond(first), mix32(key ^ 0x63d83595u)))};
   }
   float next1() {
     if (dimension_ >= kStratifiedPairs) return rng_.uniform();
@@ -72,7 +74,9 @@ class Sampler {
   static constexpr uint32_t kStratifiedPairs = 24;
   uint32_t nextKey() { return mix32(key_ + 0x9e3779b9u * ++dimension_); }
   uint32_t firstOf(uint32_t key) const { return detail::laineKarras(reversedSample_, key); }
-  static uint32_t scrambleFirst(uint32_t first, uint32_t key) { return detail::owenScramble(first, mix32(key ^ 0xa511e9b3u)); }
+  static uint32_t scrambleFirst(uint32_t first, uint32_t key) {
+    return detail::owenScramble(first, mix32(key ^ 0xa511e9b3u));
+  }
   static float toUnit(uint32_t v) { return static_cast<float>(v >> 8) * 0x1p-24f; }
   Rng rng_;
   uint32_t key_, reversedSample_, dimension_ = 0;

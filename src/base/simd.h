@@ -1,5 +1,6 @@
-// Four and eight floats at once. All vector instructions of the program but the filter's are here and in base/half.h: with AVX2, FMA and F16C (x86-64-v3) a function is one or two
-// of them, without it does the same in SSE2, which every x86-64 has; fma() then rounds twice. Loads and stores need no alignment.
+// Four and eight floats at once. All vector instructions of the program but the filter's are here and in base/half.h:
+// with AVX2, FMA and F16C (x86-64-v3) a function is one or two of them, without it does the same in SSE2, which every
+// x86-64 has; fma() then rounds twice. Loads and stores need no alignment.
 #pragma once
 
 #include <immintrin.h>
@@ -31,7 +32,9 @@ inline Float4 max(Float4 a, Float4 b) { return Float4(_mm_max_ps(a.v, b.v)); }
 inline Float4 sqrt(Float4 a) { return Float4(_mm_sqrt_ps(a.v)); }
 inline Float4 operator|(Float4 a, Float4 b) { return Float4(_mm_or_ps(a.v, b.v)); }
 // Lanes of `yes` where every bit of `which` is set, of `no` where none is.
-inline Float4 select(Float4 which, Float4 yes, Float4 no) { return Float4(_mm_or_ps(_mm_and_ps(which.v, yes.v), _mm_andnot_ps(which.v, no.v))); }
+inline Float4 select(Float4 which, Float4 yes, Float4 no) {
+  return Float4(_mm_or_ps(_mm_and_ps(which.v, yes.v), _mm_andnot_ps(which.v, no.v)));
+}
 // Comparisons set every bit of the lanes where they hold; never of a NaN.
 inline Float4 operator<(Float4 a, Float4 b) { return Float4(_mm_cmplt_ps(a.v, b.v)); }
 inline Float4 operator<=(Float4 a, Float4 b) { return Float4(_mm_cmple_ps(a.v, b.v)); }
@@ -64,10 +67,13 @@ inline __m128 select(__m128i which, __m128i yes, __m128i no) {
   return _mm_castsi128_ps(_mm_or_si128(_mm_and_si128(which, yes), _mm_andnot_si128(which, no)));
 }
 
-// 16-bit floats in the low halves of the lanes. Denormal ones become normal floats, which do not fall to modes that flush denormals.
+// 16-bit floats in the low halves of the lanes. Denormal ones become normal floats, which do not fall to modes that
+// flush denormals.
 inline __m128 fromHalf(__m128i h) {
-  const __m128i sign = _mm_slli_epi32(_mm_and_si128(h, _mm_set1_epi32(0x8000)), 16), rest = _mm_and_si128(h, _mm_set1_epi32(0x7fff));
-  const __m128i isSmall = _mm_cmplt_epi32(rest, _mm_set1_epi32(0x400)), isInfinite = _mm_cmpgt_epi32(rest, _mm_set1_epi32(0x7bff));
+  const __m128i sign = _mm_slli_epi32(_mm_and_si128(h, _mm_set1_epi32(0x8000)), 16),
+                rest = _mm_and_si128(h, _mm_set1_epi32(0x7fff));
+  const __m128i isSmall = _mm_cmplt_epi32(rest, _mm_set1_epi32(0x400)),
+                isInfinite = _mm_cmpgt_epi32(rest, _mm_set1_epi32(0x7bff));
   const __m128i small = _mm_castps_si128(_mm_mul_ps(_mm_cvtepi32_ps(rest), _mm_set1_ps(0x1p-24f)));
   const __m128i rebased = _mm_add_epi32(_mm_slli_epi32(rest, 13), _mm_set1_epi32(112 << 23));
   const __m128i normal = _mm_add_epi32(rebased, _mm_and_si128(isInfinite, _mm_set1_epi32(112 << 23)));
@@ -78,9 +84,11 @@ inline __m128 fromHalf(__m128i h) {
 inline __m128i toHalf(__m128 v) {
   const __m128i bits = _mm_castps_si128(v), rest = _mm_and_si128(bits, _mm_set1_epi32(0x7fffffff));
   const __m128i sign = _mm_and_si128(_mm_srli_epi32(bits, 16), _mm_set1_epi32(0x8000));
-  const __m128i isSmall = _mm_cmplt_epi32(rest, _mm_set1_epi32(113 << 23)), isLarge = _mm_cmpgt_epi32(rest, _mm_set1_epi32((143 << 23) - 1));
+  const __m128i isSmall = _mm_cmplt_epi32(rest, _mm_set1_epi32(113 << 23)),
+                isLarge = _mm_cmpgt_epi32(rest, _mm_set1_epi32((143 << 23) - 1));
   const __m128i isNan = _mm_cmpgt_epi32(rest, _mm_set1_epi32(0x7f800000));
-  const __m128i small = _mm_cvtps_epi32(_mm_mul_ps(_mm_castsi128_ps(_mm_and_si128(isSmall, rest)), _mm_set1_ps(0x1p24f)));
+  const __m128i small =
+      _mm_cvtps_epi32(_mm_mul_ps(_mm_castsi128_ps(_mm_and_si128(isSmall, rest)), _mm_set1_ps(0x1p24f)));
   const __m128i odd = _mm_and_si128(_mm_srli_epi32(rest, 13), _mm_set1_epi32(1));
   const __m128i rounded = _mm_add_epi32(_mm_add_epi32(rest, odd), _mm_set1_epi32(0xfff - (112 << 23)));
   const __m128i infinite = _mm_or_si128(_mm_set1_epi32(0x7c00), _mm_and_si128(isNan, _mm_set1_epi32(0x200)));
@@ -142,7 +150,9 @@ inline Float8 max(Float8 a, Float8 b) { return Float8(_mm256_max_ps(a.v, b.v)); 
 inline Float8 fma(Float8 a, Float8 b, Float8 c) { return Float8(_mm256_fmadd_ps(a.v, b.v, c.v)); }
 inline unsigned topBits(Float8 a) { return static_cast<unsigned>(_mm256_movemask_ps(a.v)); }
 
-inline Float8 fromHalf8(const uint16_t* from) { return Float8(_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)))); }
+inline Float8 fromHalf8(const uint16_t* from) {
+  return Float8(_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+}
 inline void toHalf8(Float8 a, uint16_t* to) {
   _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_cvtps_ph(a.v, _MM_FROUND_TO_NEAREST_INT));
 }
@@ -188,20 +198,26 @@ inline unsigned topBits(Float8 a) { return topBits(a.a) | topBits(a.b) << 4; }
 inline Float8 fromHalf8(const uint16_t* from) { return {fromHalf4(from), fromHalf4(from + 4)}; }
 inline void toHalf8(Float8 a, uint16_t* to) { toHalf4(a.a, to), toHalf4(a.b, to + 4); }
 inline Float8 fromBytes(const int8_t* from) {
-  const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)), words = _mm_unpacklo_epi8(bytes, bytes);
+  const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)),
+                words = _mm_unpacklo_epi8(bytes, bytes);
   return {Float4(_mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(words, words), 24))),
           Float4(_mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpackhi_epi16(words, words), 24)))};
 }
 inline Float8 fromBytes(const uint8_t* from) {
-  const __m128i zero = _mm_setzero_si128(), words = _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)), zero);
-  return {Float4(_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero))), Float4(_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero)))};
+  const __m128i zero = _mm_setzero_si128(),
+                words = _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)), zero);
+  return {Float4(_mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero))),
+          Float4(_mm_cvtepi32_ps(_mm_unpackhi_epi16(words, zero)))};
 }
 // The 24 bits after the sign of floats that are not negative.
 inline Float8 fromTopBits(const uint16_t* high16, const uint8_t* low8) {
   const __m128i zero = _mm_setzero_si128(), h = _mm_loadu_si128(reinterpret_cast<const __m128i*>(high16));
   const __m128i l = _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(low8)), zero);
-  const auto joined = [](__m128i high, __m128i low) { return Float4(_mm_castsi128_ps(_mm_or_si128(_mm_slli_epi32(high, 15), _mm_slli_epi32(low, 7)))); };
-  return {joined(_mm_unpacklo_epi16(h, zero), _mm_unpacklo_epi16(l, zero)), joined(_mm_unpackhi_epi16(h, zero), _mm_unpackhi_epi16(l, zero))};
+  const auto joined = [](__m128i high, __m128i low) {
+    return Float4(_mm_castsi128_ps(_mm_or_si128(_mm_slli_epi32(high, 15), _mm_slli_epi32(low, 7))));
+  };
+  return {joined(_mm_unpacklo_epi16(h, zero), _mm_unpacklo_epi16(l, zero)),
+          joined(_mm_unpackhi_epi16(h, zero), _mm_unpackhi_epi16(l, zero))};
 }
 
 #endif

@@ -31,7 +31,8 @@ std::vector<uint32_t> sortedBy(std::span<const uint64_t> keys) {
   std::vector<Keyed> keyed(n);
   std::vector<uint32_t> at(begin.begin(), begin.end() - 1);
   for (size_t i = 0; i < n; ++i) keyed[at[keys[i] >> shift]++] = {keys[i], static_cast<uint32_t>(i)};
-  parallelFor(at.size(), kBucketsAtOnce, [&](size_t b) { std::sort(keyed.begin() + begin[b], keyed.begin() + begin[b + 1]); });
+  parallelFor(at.size(), kBucketsAtOnce,
+              [&](size_t b) { std::sort(keyed.begin() + begin[b], keyed.begin() + begin[b + 1]); });
   std::vector<uint32_t> order(n);
   parallelFor(n, kFewest, [&](size_t i) { order[i] = keyed[i].second; });
   return order;

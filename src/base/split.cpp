@@ -38,7 +38,8 @@ void splitLike(const Image& whole, std::vector<Image>& parts) {
     for (size_t k = 0; k < parts.size(); ++k) {
       Vec3& p = parts[k].pixels[i];
       const float share = white > 0 ? (p.x + p.y + p.z) / white : shares[k];
-      for (int c = 0; c < 3; ++c) p[c] = squares[c] > 0 ? p[c] * std::max(kLeast, 1 + missing[c] * p[c] / squares[c]) : all[c] * share;
+      for (int c = 0; c < 3; ++c)
+        p[c] = squares[c] > 0 ? p[c] * std::max(kLeast, 1 + missing[c] * p[c] / squares[c]) : all[c] * share;
       after += p;
     }
     for (Image& part : parts) {

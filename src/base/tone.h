@@ -23,7 +23,8 @@ struct Tone {
   float contrast = 1;    // exponent of luminance about middle grey
   float saturation = 1;  // factor of what differs from grey
   Tone() = default;
-  Tone(ToneCurve c, float withContrast = 1, float withSaturation = 1) : curve(c), contrast(withContrast), saturation(withSaturation) {}
+  Tone(ToneCurve c, float withContrast = 1, float withSaturation = 1)
+      : curve(c), contrast(withContrast), saturation(withSaturation) {}
   bool plain() const { return contrast == 1 && saturation == 1; }
 };
 

@@ -1,4 +1,5 @@
-// The tone curves themselves, inline and without branches: loops over pixels become vector code. In: exposed linear light, not negative.
+// The tone curves themselves, inline and without branches: loops over pixels become vector code. In: exposed linear
+ // light, not negative.
 #pragma once
 
 #include "base/fast_math.h"
@@ -36,7 +37,8 @@ inline Vec3 graded(Vec3 color, float contrast, float saturation) {
   return {v.x > 0 ? v.x : 0.0f, v.y > 0 ? v.y : 0.0f, v.z > 0 ? v.z : 0.0f};
 }
 
-// Khronos PBR Neutral Tone Mapper, specification 1.0: colours below 0.8 keep hue and saturation, highlights roll off to white.
+// Khronos PBR Neutral Tone Mapper, specification 1.0: colours below 0.8 keep hue and saturation, highlights roll off to
+// white.
 inline Vec3 neutral(Vec3 color) {
   constexpr float kStartCompression = 0.8f - 0.04f, kDesaturation = 0.15f;
   const float x = smallest(color);
@@ -68,8 +70,7 @@ inline Vec3 agx(Vec3 color) {
                       {0, 0, 0}};
   const auto contrast = [](float v) {
     const float ev = fastLog2(v > 1e-10f ? v : 1e-10f);
-    const float held = ev < kMinEv ? kMinEv : ev > kMaxEv ? kMaxEv
-                                                          : ev;
+    const float held = ev < kMinEv ? kMinEv : ev > kMaxEv ? kMaxEv : ev;
     return agxContrast((held - kMinEv) / (kMaxEv - kMinEv));
   };
   const Vec3 v = inset.vector(color);
@@ -79,7 +80,8 @@ inline Vec3 agx(Vec3 color) {
   return {linear(w.x), linear(w.y), linear(w.z)};
 }
 
-// Narkowicz 2015, "ACES Filmic Tone Mapping Curve", of the largest channel; the others keep their ratio to it, and towards the shoulder all of them go to white.
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve", of the largest channel; the others keep their ratio to it, and
+// towards the shoulder all of them go to white.
 inline Vec3 filmic(Vec3 color) {
   constexpr float kShoulder = 0.7f;
   const float brightest = largest(color), x = brightest > 1e-6f ? brightest : 1e-6f;

@@ -9,7 +9,8 @@ namespace roomlight {
 // The largest float below 1.
 constexpr float kBelowOne = 0x1.fffffep-1f;
 
-// Index of the weight in whose share of `total`, the sum of all and above 0, `u` in [0, 1) falls; never of a weight of 0. Rescales u to [0, 1) within that share.
+// Index of the weight in whose share of `total`, the sum of all and above 0, `u` in [0, 1) falls; never of a weight of
+// 0. Rescales u to [0, 1) within that share.
 template <class WeightAt>
 size_t chooseByWeight(size_t count, float total, const WeightAt& weightAt, float& u) {
   float v = u * total;

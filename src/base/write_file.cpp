@@ -14,7 +14,9 @@ std::filesystem::path unfinishedName(std::filesystem::path file) {
   return file;
 }
 
-Error cannotWrite(const std::filesystem::path& file, int errorNumber) { return {fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errorNumber))}; }
+Error cannotWrite(const std::filesystem::path& file, int errorNumber) {
+  return {fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errorNumber))};
+}
 
 Status writeWhole(const std::filesystem::path& file, std::string_view bytes) {
   const std::filesystem::path part = unfinishedName(file);

@@ -13,7 +13,8 @@ struct LpvSettings : PictureSettings {
   LpvSettings() { rayRoughness = 0.1f; }
   int cells = 32;            // along the longest edge of the fine grid, which holds the room
   int coarseCells = 64;      // of the coarse one, which holds the home
-  float coarseReach = 1.5f;  // how far that goes beyond the room on every side, in longest edges of the room, if the home does
+  float coarseReach =
+      1.5f;  // how far that goes beyond the room on every side, in longest edges of the room, if the home does
   int steps = 16;            // of propagation
   int mapSize = 512;         // of a light's reflective shadow map: mapSize² rays
   int mostMaps = 32;         // more lamps and emissive meshes than these share the rays of so many
@@ -30,7 +31,8 @@ struct VirtualLight {
   Vec3 p, n, fluxLm;
 };
 
-// What rays from all lights meet first, panes apart: map by map handed to `take`. Of suns what falls on `home`. Returns how many rays were traced.
+// What rays from all lights meet first, panes apart: map by map handed to `take`. Of suns what falls on `home`. Returns
+// how many rays were traced.
 uint64_t traceShadowMaps(const RayScene& rays, const Lights& lights, const Bounds3& home, const LpvSettings& settings,
                          const std::function<void(std::span<const VirtualLight>)>& take, const Progress& progress = {});
 
@@ -56,14 +58,15 @@ class LpvLevel {
 
 struct LpvLight {
   std::vector<LpvLevel> levels;  // the finest first
-  Voxels voxels;                 // where surfels come from, and
-  SkyGuide guide;                // where they see the sky
+  Voxels voxels;  // where surfels come from, and
+  SkyGuide guide;  // where they see the sky
   size_t virtualLights = 0, surfels = 0;
   uint64_t rays = 0;
 };
 
 // `room` is what the fine grid shall hold. Once `progress` says stop it ends soon, with part of the light.
-LpvLight lightLpv(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings, const Progress& progress = {});
+LpvLight lightLpv(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings,
+                  const Progress& progress = {});
 
 // Irradiance / pi, cd/m², on a surface at p with unit normals ng (true) and ns (for shading).
 Vec3 lpvIrradiance(const LpvLight& light, Vec3 p, Vec3 ng, Vec3 ns, const LpvSettings& settings);

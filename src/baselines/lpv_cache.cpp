@@ -14,7 +14,8 @@ namespace {
 constexpr float kSmallestM = 1e-3f;   // of cells
 constexpr float kCoarser = 2;         // as large at least are coarse cells
 constexpr int kSurveyRays = 4;   // a surfel, to learn where the sky is seen
-constexpr float kSurfelCells = 0.5f;  // edge of the voxels that surfels come from, in cells of the fine grid: two in every cell, wherever the grid lies
+constexpr float kSurfelCells = 0.5f;  // edge of the voxels that surfels come from, in cells of the fine grid: two in
+ // every cell, wherever the grid lies
 
 Bounds3 homeAround(const Bounds3& scene, const Bounds3& room, float reach) {
   const Vec3 far(reach * maxComponent(room.size()));
@@ -30,7 +31,8 @@ void inject(std::span<const VirtualLight> lights, LpvGrid& grid) {
   }
 }
 
-// Into the layer around a grid: what comes in from outside, as the coarser level has it. The same radiance is as much intensity as a cell is large.
+// Into the layer around a grid: what comes in from outside, as the coarser level has it. The same radiance is as much
+// intensity as a cell is large.
 void surround(LpvGrid& grid, const LpvLevel& coarser) {
   const LpvLattice& lattice = grid.lattice();
   const float ratio = lattice.cellM / coarser.lattice().cellM, scale = ratio * ratio;
@@ -52,8 +54,12 @@ void surround(LpvGrid& grid, const LpvLevel& coarser) {
 
 }  // namespace
 
-LpvCache::LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings, const Progress& progress)
-    : settings_(settings), room_(room), home_(homeAround(rays.bounds(), room, settings.coarseReach)), fine_(latticeAround(room, settings.cells, kSmallestM)) {
+LpvCache::LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings,
+                   const Progress& progress)
+    : settings_(settings),
+      room_(room),
+      home_(homeAround(rays.bounds(), room, settings.coarseReach)),
+      fine_(latticeAround(room, settings.cells, kSmallestM)) {
   VoxelSettings voxel;
   voxel.voxelSizeM = kSurfelCells * fine_.cellM;
   voxels_ = voxelise(rays.scene(), voxel);
@@ -79,10 +85,15 @@ LpvLight LpvCache::take() {
   return std::move(light_);
 }
 
-// Sides that materials show, and the sky's light on them: of those in bricks that are carried what crosses none of the changed places stays.
-void LpvCache::followVoxels(const RayScene& rays, const Lights& lights, const Carried& carried, std::span<const Bounds3> places, const Progress& progress) {
+// Sides that materials show, and the sky's light on them: of those in bricks that are carried what crosses none of the
+// changed places stays.
+void LpvCache::followVoxels(const RayScene& rays, const Lights& lights, const Carried& carried,
+                            std::span<const Bounds3> places, const Progress& progress) {
   const Voxels& voxels = voxels_.voxels;
-  if (lights.sky().present()) light_.guide = carriedGuide(light_.guide, surveySky(rays, lights, voxels, &carried, kSurveyRays, settings_.seed, light_.rays, progress), carried);
+  if (lights.sky().present())
+    light_.guide = carriedGuide(
+        light_.guide, surveySky(rays, lights, voxels, &carried, kSurveyRays, settings_.seed, light_.rays, progress),
+        carried);
   light_.voxels = voxels;  // for guideAt
   shown_ = shownSides(rays, voxels);
   std::vector<UnderSky> now(lights.sky().present() ? voxels.slots.size() : 0);
@@ -99,7 +110,8 @@ void LpvCache::followVoxels(const RayScene& rays, const Lights& lights, const Ca
         UnderSky& before = underSky_[carried.firstOld[b] + (s - first)];
         const FaceSlot& slot = voxels.slots[s];
         inFront(slot, places, voxels.voxelSizeM, ahead);
-        for (const SkyWay way : before.ways) anew = anew || (!ahead.empty() && crosses({slot.position, way.direction(), 0, kInfinity}, ahead, reach));
+        for (const SkyWay way : before.ways)
+          anew = anew || (!ahead.empty() && crosses({slot.position, way.direction(), 0, kInfinity}, ahead, reach));
         if (!anew) now[s] = std::move(before);
       }
       if (anew) now[s] = askSky(rays, lights, s), ++asked;
@@ -140,7 +152,8 @@ void LpvCache::light(const RayScene& rays, const Lights& lights, const Progress&
   light_.surfels = surfels.size(), light_.virtualLights = 0;
   light_.levels.clear();
   std::vector<LpvGrid> grids{LpvGrid(fine_)};
-  if (settings_.coarseCells > 0) grids.emplace_back(latticeAround(home_, settings_.coarseCells, kCoarser * fine_.cellM));
+  if (settings_.coarseCells > 0)
+    grids.emplace_back(latticeAround(home_, settings_.coarseCells, kCoarser * fine_.cellM));
   progress.at(0.3f);
 
   const auto take = [&](std::span<const VirtualLight> found) {
@@ -152,14 +165,16 @@ void LpvCache::light(const RayScene& rays, const Lights& lights, const Progress&
   progress.at(0.7f);
 
   for (size_t i = grids.size(); i-- > 0 && !progress.stop();) {
-    LpvGeometry geometry = settings_.geometry ? LpvGeometry(grids[i].lattice(), surfels) : LpvGeometry(grids[i].lattice());
+    LpvGeometry geometry =
+        settings_.geometry ? LpvGeometry(grids[i].lattice(), surfels) : LpvGeometry(grids[i].lattice());
     if (!light_.levels.empty()) surround(grids[i], light_.levels.front());
     const LpvGrid light = propagate(grids[i], geometry, settings_.steps, settings_.bounces);
     light_.levels.emplace(light_.levels.begin(), light, std::move(geometry));
   }
 }
 
-LpvLight lightLpv(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings, const Progress& progress) {
+LpvLight lightLpv(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings,
+                  const Progress& progress) {
   return LpvCache(rays, lights, room, settings, progress).take();
 }
 

@@ -1,5 +1,6 @@
-// Light of technique `lpv` that is kept up to date. Maps, injection and propagation are done anew, as in every frame of that method; what stays
-// of things that do not move are the voxels that its surfels come from, and what these get from the sky.
+// Light of technique `lpv` that is kept up to date. Maps, injection and propagation are done anew, as in every frame of
+// that method; what stays of things that do not move are the voxels that its surfels come from, and what these get from
+// the sky.
 #pragma once
 
 #include <vector>
@@ -15,7 +16,8 @@ namespace roomlight {
 class LpvCache {
  public:
   // `room` is what the fine grid shall hold. Once `progress` says stop it ends soon, with part of the light.
-  LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings, const Progress& progress = {});
+  LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const LpvSettings& settings,
+           const Progress& progress = {});
 
   // `rays` and `lights` are of the scene as it is now; suns and sky are as before.
   void update(const RayScene& rays, const Lights& lights, const SceneChange& change, const Progress& progress = {});
@@ -30,7 +32,8 @@ class LpvCache {
     Vec3 fluxLm;
     std::vector<SkyWay> ways;
   };
-  void followVoxels(const RayScene& rays, const Lights& lights, const Carried& carried, std::span<const Bounds3> places, const Progress& progress);
+  void followVoxels(const RayScene& rays, const Lights& lights, const Carried& carried, std::span<const Bounds3> places,
+                    const Progress& progress);
   UnderSky askSky(const RayScene& rays, const Lights& lights, size_t slot) const;
   void light(const RayScene& rays, const Lights& lights, const Progress& progress);
 
@@ -39,7 +42,7 @@ class LpvCache {
   LpvLattice fine_;
   Voxelisation voxels_;
   std::vector<BrickMark> marks_;
-  std::vector<uint8_t> shown_;      // per slot
+  std::vector<uint8_t> shown_;  // per slot
   std::vector<UnderSky> underSky_;  // per slot; empty: no sky
   LpvLight light_;
 };

@@ -15,9 +15,13 @@ LpvLattice latticeAround(const Bounds3& box, int cells, float smallestM) {
   LpvLattice out;
   const Vec3 size = box.size();
   out.cellM = std::max(smallestM, maxComponent(size) / static_cast<float>(cells - 2));
-  const auto along = [&](float s) { return std::clamp(static_cast<int>(std::ceil(s / out.cellM - 1e-3f)) + 2, 3, cells); };
+  const auto along = [&](float s) {
+    return std::clamp(static_cast<int>(std::ceil(s / out.cellM - 1e-3f)) + 2, 3, cells);
+  };
   out.cells = {along(size.x), along(size.y), along(size.z)};
-  out.corner = box.centre() - Vec3{static_cast<float>(out.cells.x), static_cast<float>(out.cells.y), static_cast<float>(out.cells.z)} * (0.5f * out.cellM);
+  out.corner = box.centre() -
+               Vec3{static_cast<float>(out.cells.x), static_cast<float>(out.cells.y), static_cast<float>(out.cells.z)} *
+                   (0.5f * out.cellM);
   return out;
 }
 
@@ -27,7 +31,8 @@ LpvGeometry::LpvGeometry(const LpvLattice& lattice, std::span<const Surfel> surf
   const float perSide = 1 / (lattice.cellM * lattice.cellM);
   for (const Surfel& s : surfels) {
     const Vec3 q = lattice.local(s.p) + Vec3(0.5f);
-    const Int3 c{static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)), static_cast<int>(std::floor(q.z))};
+    const Int3 c{static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)),
+                 static_cast<int>(std::floor(q.z))};
     if (c.x < 0 || c.y < 0 || c.z < 0 || c.x > n.x || c.y > n.y || c.z > n.z) continue;
     Corner& corner = corners_[cornerIndex(c)][static_cast<size_t>(dominantFace(s.n))];
     const float area = s.areaM2 * perSide;
@@ -88,7 +93,9 @@ float LpvGeometry::passes(Vec3 p, Vec3 d) const {
 // Between a cell and its neighbour: in the middle of the side that they share.
 void LpvGeometry::meet(Int3 cell, int side, std::vector<Mirror>& mirrors) {
   const Vec3 to = faceDirection(side);
-  if (!lattice_.contains({cell.x + static_cast<int>(to.x), cell.y + static_cast<int>(to.y), cell.z + static_cast<int>(to.z)})) return;
+  if (!lattice_.contains(
+          {cell.x + static_cast<int>(to.x), cell.y + static_cast<int>(to.y), cell.z + static_cast<int>(to.z)}))
+    return;
   const std::array<Corner, 6> here = between(lattice_.local(lattice_.centre(cell) + to * (0.5f * lattice_.cellM)));
   const size_t index = lattice_.index(cell);
   std::array<float, 6> by{};
@@ -105,7 +112,8 @@ void LpvGeometry::meet(Int3 cell, int side, std::vector<Mirror>& mirrors) {
   const auto which = static_cast<size_t>(std::max_element(by.begin(), by.end()) - by.begin());
   if (by[which] == 0 || lattice_.isBorder(cell)) return;
   const Vec3 n = here[which].normal;
-  mirrors.push_back({static_cast<uint32_t>(index), side, lengthSquared(n) > 0 ? normalize(n) : -to, here[which].albedo / here[which].area});
+  mirrors.push_back({static_cast<uint32_t>(index), side, lengthSquared(n) > 0 ? normalize(n) : -to,
+                     here[which].albedo / here[which].area});
 }
 
 }  // namespace roomlight

@@ -5,9 +5,8 @@
 namespace roomlight {
 namespace {
 
-// The sphere around a cell's middle is shared out among the far walls of its six neighbours. Integrated by the midpoint rule over each wall; what
-// that lacks of
-// the whole sphere is put right in proportion.
+// The sphere around a cell's middle is shared out among the far walls of its six neighbours. Integrated by the midpoint
+// rule over each wall; what that lacks of the whole sphere is put right in proportion.
 std::array<LpvWall, kLpvWalls> makeWalls() {
   constexpr int kAcross = 64;
   std::array<LpvWall, kLpvWalls> walls{};
@@ -20,13 +19,19 @@ std::array<LpvWall, kLpvWalls> makeWalls() {
       const Frame frame(n);
       double sr = 0, x = 0, y = 0, z = 0;
       for (int i = 0; i < kAcross * kAcross; ++i) {
-        const Vec3 p = middle + frame.t * ((static_cast<float>(i % kAcross) + 0.5f) / kAcross - 0.5f) + frame.b * ((static_cast<float>(i / kAcross) + 0.5f) / kAcross - 0.5f);
+        const Vec3 p = middle + frame.t * ((static_cast<float>(i % kAcross) + 0.5f) / kAcross - 0.5f) +
+                       frame.b * ((static_cast<float>(i / kAcross) + 0.5f) / kAcross - 0.5f);
         const Vec3 d = normalize(p);
         const double part = static_cast<double>(dot(d, n) / lengthSquared(p)) / (kAcross * kAcross);
-        sr += part, x += part * static_cast<double>(d.x), y += part * static_cast<double>(d.y), z += part * static_cast<double>(d.z);
+        sr += part, x += part * static_cast<double>(d.x), y += part * static_cast<double>(d.y),
+            z += part * static_cast<double>(d.z);
       }
       const Vec3 sum{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-      walls[count++] = {side, wall, {kSh0 * static_cast<float>(sr), kSh1 * sum.x, kSh1 * sum.y, kSh1 * sum.z}, static_cast<float>(sr), normalize(sum)};
+      walls[count++] = {side,
+                        wall,
+                        {kSh0 * static_cast<float>(sr), kSh1 * sum.x, kSh1 * sum.y, kSh1 * sum.z},
+                        static_cast<float>(sr),
+                        normalize(sum)};
       sphere += sr;
     }
   }
@@ -43,18 +48,19 @@ struct Row {
   size_t first, count;
 };
 
-// Four harmonics go below zero where a clamped cosine does not. That part is left out, and the rest made smaller by as much: by what factor, so that
-// a cell passes on just what
-// it holds.
+// Four harmonics go below zero where a clamped cosine does not. That part is left out, and the rest made smaller by as
+// much: by what factor, so that a cell passes on just what it holds.
 void findScales(const LpvGrid& light, int channel, Row row, float* scale) {
-  const float *c0 = light.plane(channel, 0) + row.first, *cx = light.plane(channel, 1) + row.first, *cy = light.plane(channel, 2) + row.first, *cz = light.plane(channel, 3) + row.first;
+  const float *c0 = light.plane(channel, 0) + row.first, *cx = light.plane(channel, 1) + row.first,
+              *cy = light.plane(channel, 2) + row.first, *cz = light.plane(channel, 3) + row.first;
   std::array<float, 128> all{}, above{};
   for (size_t from = 0; from < row.count; from += all.size()) {
     const size_t n = std::min(all.size(), row.count - from);
     all.fill(0), above.fill(0);
     for (const LpvWall& w : lpvWalls()) {
       for (size_t i = 0; i < n; ++i) {
-        const float flux = w.weight[0] * c0[from + i] + w.weight[1] * cx[from + i] + w.weight[2] * cy[from + i] + w.weight[3] * cz[from + i];
+        const float flux = w.weight[0] * c0[from + i] + w.weight[1] * cx[from + i] + w.weight[2] * cy[from + i] +
+                           w.weight[3] * cz[from + i];
         all[i] += flux;
         above[i] += flux > 0 ? flux : 0;
       }
@@ -64,13 +70,16 @@ void findScales(const LpvGrid& light, int channel, Row row, float* scale) {
 }
 
 // From the neighbours on all sides into a row.
-void collect(const LpvGrid& light, const LpvGeometry& geometry, const std::vector<float>& scales, int channel, Row row, LpvGrid& out) {
+void collect(const LpvGrid& light, const LpvGeometry& geometry, const std::vector<float>& scales, int channel, Row row,
+             LpvGrid& out) {
   const Int3 n = light.lattice().padded();
   const std::array<std::ptrdiff_t, 3> stride{1, n.x, static_cast<std::ptrdiff_t>(n.x) * n.y};
   float* o0 = out.plane(channel, 0) + row.first;
   for (const LpvWall& w : lpvWalls()) {
-    const auto first = static_cast<size_t>(static_cast<std::ptrdiff_t>(row.first) - (w.side & 1 ? -1 : 1) * stride[static_cast<size_t>(w.side / 2)]);
-    const float *c0 = light.plane(channel, 0) + first, *cx = light.plane(channel, 1) + first, *cy = light.plane(channel, 2) + first, *cz = light.plane(channel, 3) + first;
+    const auto first = static_cast<size_t>(static_cast<std::ptrdiff_t>(row.first) -
+                                           (w.side & 1 ? -1 : 1) * stride[static_cast<size_t>(w.side / 2)]);
+    const float *c0 = light.plane(channel, 0) + first, *cx = light.plane(channel, 1) + first,
+                *cy = light.plane(channel, 2) + first, *cz = light.plane(channel, 3) + first;
     const float *scale = &scales[first], *passes = geometry.passes(static_cast<int>(&w - lpvWalls().data()));
     float* o1 = out.plane(channel, 1 + w.wall / 2) + row.first;
     const float lobe0 = kCosine0 / kPi, lobe1 = (w.wall & 1 ? -kCosine1 : kCosine1) / kPi;
@@ -78,7 +87,8 @@ void collect(const LpvGrid& light, const LpvGeometry& geometry, const std::vecto
     const auto pass = [&](auto share) {
 #pragma GCC ivdep
       for (size_t i = 0; i < row.count; ++i) {
-        const float flux = a0 * c0[i] + ax * cx[i] + ay * cy[i] + az * cz[i], passed = (flux > 0 ? flux : 0) * scale[i] * share(i);
+        const float flux = a0 * c0[i] + ax * cx[i] + ay * cy[i] + az * cz[i],
+                    passed = (flux > 0 ? flux : 0) * scale[i] * share(i);
         o0[i] += lobe0 * passed;
         o1[i] += lobe1 * passed;
       }
@@ -92,7 +102,8 @@ void collect(const LpvGrid& light, const LpvGeometry& geometry, const std::vecto
 }
 
 // What is stopped on its way out of a cell goes back into it, about the normal of what stopped it.
-void sendBack(const LpvGrid& light, const LpvGeometry& geometry, const std::array<std::vector<float>, 3>& scales, int z, LpvGrid& out) {
+void sendBack(const LpvGrid& light, const LpvGeometry& geometry, const std::array<std::vector<float>, 3>& scales, int z,
+              LpvGrid& out) {
   for (const LpvGeometry::Mirror& m : geometry.mirrors(z)) {
     Vec3 flux;
     for (int k = 5 * m.side; k < 5 * m.side + 5; ++k) {
@@ -114,11 +125,14 @@ LpvGrid step(const LpvGrid& light, const LpvGeometry& geometry, bool reflect) {
   std::array<std::vector<float>, 3> scales;
   const auto layers = static_cast<size_t>(n.z), layer = static_cast<size_t>(n.x) * static_cast<size_t>(n.y);
   for (std::vector<float>& s : scales) s.resize(light.lattice().paddedCount());
-  parallelFor(3 * layers, 1, [&](size_t i) { findScales(light, static_cast<int>(i / layers), {i % layers * layer, layer}, scales[i / layers].data()); });
+  parallelFor(3 * layers, 1, [&](size_t i) {
+    findScales(light, static_cast<int>(i / layers), {i % layers * layer, layer}, scales[i / layers].data());
+  });
   parallelFor(3 * (layers - 2), 1, [&](size_t i) {
     const size_t channel = i / (layers - 2), z = i % (layers - 2) + 1;
     for (int y = 1; y < n.y - 1; ++y) {
-      collect(light, geometry, scales[channel], static_cast<int>(channel), {light.lattice().index({1, y, static_cast<int>(z)}), static_cast<size_t>(n.x - 2)}, out);
+      collect(light, geometry, scales[channel], static_cast<int>(channel),
+              {light.lattice().index({1, y, static_cast<int>(z)}), static_cast<size_t>(n.x - 2)}, out);
     }
   });
   if (reflect) parallelFor(layers, 1, [&](size_t z) { sendBack(light, geometry, scales, static_cast<int>(z), out); });
@@ -166,7 +180,8 @@ Vec3 LpvGrid::fluxLm() const {
   for (int z = 1; z <= n.z; ++z) {
     for (int y = 1; y <= n.y; ++y) {
       for (int x = 1; x <= n.x; ++x) {
-        for (int c = 0; c < 3; ++c) sum[static_cast<size_t>(c)] += static_cast<double>(plane(c, 0)[lattice_.index({x, y, z})]);
+        for (int c = 0; c < 3; ++c)
+          sum[static_cast<size_t>(c)] += static_cast<double>(plane(c, 0)[lattice_.index({x, y, z})]);
       }
     }
   }

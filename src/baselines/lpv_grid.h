@@ -1,6 +1,6 @@
-// Light propagation volumes: light in a grid of cells, each with what leaves it as an intensity in four spherical harmonics a colour,
-// passed on from cell to cell (Kaplanyan & Dachsbacher 2010, "Cascaded Light Propagation Volumes for Real-Time Indirect Illumination").
-// docs/methods/lpv.md
+// Light propagation volumes: light in a grid of cells, each with what leaves it as an intensity in four spherical
+// harmonics a colour, passed on from cell to cell (Kaplanyan & Dachsbacher 2010, "Cascaded Light Propagation Volumes
+// for Real-Time Indirect Illumination"). docs/methods/lpv.md
 #pragma once
 
 #include <array>
@@ -17,16 +17,19 @@ using LpvIntensity = std::array<std::array<float, 4>, 3>;
 constexpr float kSh0 = 0.28209479f, kSh1 = 0.48860251f;
 constexpr float kCosine0 = 0.88622693f, kCosine1 = 1.02332671f;
 
-// Structure of arrays: coefficient by coefficient of channel by channel, cell after cell. One layer of cells around those of the lattice belongs to
-// it:
-// nothing is passed on to them, but what they hold is passed on.
+// Structure of arrays: coefficient by coefficient of channel by channel, cell after cell. One layer of cells around
+// those of the lattice belongs to it: nothing is passed on to them, but what they hold is passed on.
 class LpvGrid {
  public:
   explicit LpvGrid(const LpvLattice& lattice) : lattice_(lattice), values_(12 * lattice.paddedCount()) {}
 
   const LpvLattice& lattice() const { return lattice_; }
-  float* plane(int channel, int coefficient) { return &values_[static_cast<size_t>(4 * channel + coefficient) * lattice_.paddedCount()]; }
-  const float* plane(int channel, int coefficient) const { return &values_[static_cast<size_t>(4 * channel + coefficient) * lattice_.paddedCount()]; }
+  float* plane(int channel, int coefficient) {
+    return &values_[static_cast<size_t>(4 * channel + coefficient) * lattice_.paddedCount()];
+  }
+  const float* plane(int channel, int coefficient) const {
+    return &values_[static_cast<size_t>(4 * channel + coefficient) * lattice_.paddedCount()];
+  }
   size_t bytes() const { return values_.size() * sizeof(float); }
 
   // A Lambertian reflection of `fluxLm` about unit n, into a cell (counted with the layer around).
@@ -42,9 +45,8 @@ class LpvGrid {
   std::vector<float> values_;
 };
 
-// What a cell passes on: through its side `side` (in the order of faceDirection()) to the wall `wall` of the cell behind. `weight` integrates the
-// harmonics over the solid
-// angle of that wall, seen from the cell's middle.
+// What a cell passes on: through its side `side` (in the order of faceDirection()) to the wall `wall` of the cell
+// behind. `weight` integrates the harmonics over the solid angle of that wall, seen from the cell's middle.
 struct LpvWall {
   int side, wall;
   std::array<float, 4> weight;
@@ -55,8 +57,8 @@ constexpr int kLpvWalls = 30;
 // Together they are the whole sphere.
 const std::array<LpvWall, kLpvWalls>& lpvWalls();
 
-// The sum of `light` and all that `steps` steps make of it. `reflect`: what geometry stops goes on from it, less what it absorbs; else all of it ends
-// there.
+// The sum of `light` and all that `steps` steps make of it. `reflect`: what geometry stops goes on from it, less what
+// it absorbs; else all of it ends there.
 LpvGrid propagate(const LpvGrid& light, const LpvGeometry& geometry, int steps, bool reflect);
 
 }  // namespace roomlight

@@ -58,14 +58,17 @@ Map sunMap(const Lights& lights, size_t sun, const Bounds3& scene, const Bounds3
   const Frame frame(to);
   Vec3 lo(kInfinity), hi(-kInfinity);
   for (int i = 0; i < 8; ++i) {
-    const Vec3 corner{i & 1 ? home.hi.x : home.lo.x, i & 2 ? home.hi.y : home.lo.y, i & 4 ? home.hi.z : home.lo.z}, q = frame.toLocal(corner);
+    const Vec3 corner{i & 1 ? home.hi.x : home.lo.x, i & 2 ? home.hi.y : home.lo.y, i & 4 ? home.hi.z : home.lo.z},
+        q = frame.toLocal(corner);
     lo = min(lo, q), hi = max(hi, q);
   }
   const float beyond = length(scene.size()) + length(home.centre() - scene.centre());
-  return {lights.lampCount() + lights.emitterCount() + sun, static_cast<size_t>(size) * static_cast<size_t>(size), [=, &lights](size_t i, Sampler& sampler) {
+  return {lights.lampCount() + lights.emitterCount() + sun, static_cast<size_t>(size) * static_cast<size_t>(size),
+          [=, &lights](size_t i, Sampler& sampler) {
             const auto n = static_cast<size_t>(size);
             const Vec2 inTexel = sampler.next2();
-            const float u = (static_cast<float>(i % n) + inTexel.x) / static_cast<float>(size), v = (static_cast<float>(i / n) + inTexel.y) / static_cast<float>(size);
+            const float u = (static_cast<float>(i % n) + inTexel.x) / static_cast<float>(size),
+                        v = (static_cast<float>(i / n) + inTexel.y) / static_cast<float>(size);
             const LightSample light = lights.sampleSun(sun, sampler.next2());
             const Vec3 p = frame.toWorld({lerp(lo.x, hi.x, u), lerp(lo.y, hi.y, v), 0.5f * (lo.z + hi.z)});
             // Disc suns: every place sees the whole disc, so rays through a place come from all over it.
@@ -79,12 +82,14 @@ uint64_t traceShadowMaps(const RayScene& rays, const Lights& lights, const Bound
                          const std::function<void(std::span<const VirtualLight>)>& take, const Progress& progress) {
   const size_t lamps = lights.lampCount(), local = lamps + lights.emitterCount(), all = local + lights.sunCount();
   const auto texels = static_cast<size_t>(settings.mapSize) * static_cast<size_t>(settings.mapSize);
-  const size_t each = std::max<size_t>(1, std::min(texels, texels * static_cast<size_t>(settings.mostMaps) / std::max<size_t>(1, local)));
+  const size_t each = std::max<size_t>(
+      1, std::min(texels, texels * static_cast<size_t>(settings.mostMaps) / std::max<size_t>(1, local)));
   uint64_t count = 0;
   for (size_t i = 0; i < all && !progress.stop(); ++i) {
     Map map = i < local ? Map{i, each, {}} : sunMap(lights, i - local, rays.bounds(), home, settings.mapSize);
     if (i < lamps) map.start = [&](size_t, Sampler& sampler) { return lights.sampleLampRay(i, sampler); };
-    if (i >= lamps && i < local) map.start = [&](size_t, Sampler& sampler) { return lights.sampleEmitterRay(i - lamps, sampler); };
+    if (i >= lamps && i < local)
+      map.start = [&](size_t, Sampler& sampler) { return lights.sampleEmitterRay(i - lamps, sampler); };
     take(trace(rays, map, settings.seed, count));
     progress.at(static_cast<float>(i + 1) / static_cast<float>(all));
   }

@@ -16,11 +16,13 @@ ImportonStart importonsFrom(const Camera& camera, int width, int height) {
 ImportonStart importonsFrom(std::span<const SurfaceElement> elements) {
   return [elements](uint32_t index, Sampler& sampler) {
     const SurfaceElement& e = elements[index % elements.size()];
-    return Ray{offsetOrigin(e.position, e.normal), Frame(e.normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
+    return Ray{offsetOrigin(e.position, e.normal), Frame(e.normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0,
+               kInfinity};
   };
 }
 
-GatheredPicture gatherPhotons(const RayScene& rays, const Lights& lights, const PhotonLight& light, const Camera& camera, const PhotonSettings& settings, const Progress& progress) {
+GatheredPicture gatherPhotons(const RayScene& rays, const Lights& lights, const PhotonLight& light,
+                              const Camera& camera, const PhotonSettings& settings, const Progress& progress) {
   return gatherPicture(rays, lights, PhotonShader(rays, lights, light, settings), camera, settings, progress);
 }
 

@@ -11,6 +11,7 @@ namespace roomlight {
 ImportonStart importonsFrom(const Camera& camera, int width, int height);
 ImportonStart importonsFrom(std::span<const SurfaceElement> elements);
 
-GatheredPicture gatherPhotons(const RayScene& rays, const Lights& lights, const PhotonLight& light, const Camera& camera, const PhotonSettings& settings, const Progress& progress = {});
+GatheredPicture gatherPhotons(const RayScene& rays, const Lights& lights, const PhotonLight& light,
+                              const Camera& camera, const PhotonSettings& settings, const Progress& progress = {});
 
 }  // namespace roomlight

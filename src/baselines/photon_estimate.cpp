@@ -35,10 +35,13 @@ float kernelMean(PhotonKernel kernel) {
 }
 
 // Where rays along the surface start.
-Vec3 lifted(Vec3 p, Vec3 n, float radiusM) { return offsetOrigin(p, n) + n * std::min(kLiftOfRadius * radiusM, kLargestLiftM); }
+Vec3 lifted(Vec3 p, Vec3 n, float radiusM) {
+  return offsetOrigin(p, n) + n * std::min(kLiftOfRadius * radiusM, kLargestLiftM);
+}
 
-// Which part of the disc of radius r around p is the surface that p lies on. Rays along the surface find the walls that end it: what lies behind the
-// line between the ends of two of them is not seen. Rays down to it find where it just stops.
+// Which part of the disc of radius r around p is the surface that p lies on. Rays along the surface find the walls that
+// end it: what lies behind the line between the ends of two of them is not seen. Rays down to it find where it just
+// stops.
 class SurfaceDisc {
  public:
   SurfaceDisc(const RayScene& rays, Vec3 p, Vec3 n, float radiusM, const PhotonSettings& settings, uint64_t& rayCount)
@@ -54,7 +57,8 @@ class SurfaceDisc {
     rays.intersect(std::span(out).first(count_), std::span(hits).first(count_));
     rayCount += count_;
     for (size_t i = 0; i < count_; ++i) {
-      const float angle = 2 * kPi * static_cast<float>(i) / static_cast<float>(count_), d = hits[i].valid() ? hits[i].t : reach;
+      const float angle = 2 * kPi * static_cast<float>(i) / static_cast<float>(count_),
+                  d = hits[i].valid() ? hits[i].t : reach;
       walls_ = walls_ || hits[i].valid();
       corner_[i] = {d * std::cos(angle), d * std::sin(angle)};
     }
@@ -74,12 +78,15 @@ class SurfaceDisc {
     std::array<Ray, kProbesPerRay * kMostEdgeRays> down;
     std::array<Hit, kProbesPerRay * kMostEdgeRays> hits;
     std::array<float, kProbesPerRay * kMostEdgeRays> weight;
-    const uint32_t turned = mix32(static_cast<uint32_t>(mix64(static_cast<uint64_t>(std::bit_cast<uint32_t>(p.x)) * 3 + std::bit_cast<uint32_t>(p.y) * 5ull + std::bit_cast<uint32_t>(p.z) * 7ull)));
+    const uint32_t turned =
+        mix32(static_cast<uint32_t>(mix64(static_cast<uint64_t>(std::bit_cast<uint32_t>(p.x)) * 3 +
+                                          std::bit_cast<uint32_t>(p.y) * 5ull + std::bit_cast<uint32_t>(p.z) * 7ull)));
     const float first = static_cast<float>(turned >> 8) * 0x1p-24f * 2 * kPi;
     size_t used = 0;
     float all = 0, found = 0;
     for (size_t i = 0; i < probes; ++i) {
-      const float t2 = (static_cast<float>(i) + 0.5f) / static_cast<float>(probes), angle = first + kGoldenAngleRad * static_cast<float>(i);
+      const float t2 = (static_cast<float>(i) + 0.5f) / static_cast<float>(probes),
+                  angle = first + kGoldenAngleRad * static_cast<float>(i);
       const Vec3 offset = (frame_.t * std::cos(angle) + frame_.b * std::sin(angle)) * (std::sqrt(t2) * radiusM);
       const float w = kernelAt(settings.kernel, t2);
       all += w;
@@ -96,7 +103,9 @@ class SurfaceDisc {
   bool walls() const { return walls_; }
 
  private:
-  bool isSurface(const Hit& hit) const { return hit.valid() && std::abs(dot(hit.ng, frame_.n)) > 0.7f * length(hit.ng); }
+  bool isSurface(const Hit& hit) const {
+    return hit.valid() && std::abs(dot(hit.ng, frame_.n)) > 0.7f * length(hit.ng);
+  }
   Frame frame_;
   size_t count_;
   Vec3 lifted_;
@@ -113,7 +122,10 @@ PhotonIrradiance PhotonEstimate::at(Vec3 p, Vec3 n, uint64_t& rayCount, int64_t 
   const auto lights = [&](uint32_t i) { return i != self && dot(map_.direction(i), n) > 0; };
   map_.nearest(query, nearest_, near, [&](uint32_t i, Vec3) { return lights(i); });
   if (near.empty()) return {{}, settings_.largestRadiusM};
-  const auto farthest = [&] { return std::max_element(near.begin(), near.end(), [](NearPhoton a, NearPhoton b) { return a.distance2 < b.distance2; }); };
+  const auto farthest = [&] {
+    return std::max_element(near.begin(), near.end(),
+                            [](NearPhoton a, NearPhoton b) { return a.distance2 < b.distance2; });
+  };
   const bool full = near.size() == nearest_ && nearest_ > 1;
   float radius2 = full ? farthest()->distance2 : settings_.largestRadiusM * settings_.largestRadiusM;
   if (!(radius2 > 0)) return {};
@@ -129,12 +141,14 @@ PhotonIrradiance PhotonEstimate::at(Vec3 p, Vec3 n, uint64_t& rayCount, int64_t 
   // The farthest only tells how far the others may lie: with it the mean would be too large by 1 / k.
   Vec3 flux;
   for (const NearPhoton photon : near) {
-    if (!full || photon.distance2 < radius2) flux += map_.fluxLm(photon.index) * kernelAt(settings_.kernel, photon.distance2 / radius2);
+    if (!full || photon.distance2 < radius2)
+      flux += map_.fluxLm(photon.index) * kernelAt(settings_.kernel, photon.distance2 / radius2);
   }
   return {flux / (kPi * radius2 * kernelMean(settings_.kernel) * share), radiusM, walls};
 }
 
-IrradianceCache::IrradianceCache(const PhotonMap& map, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount, const Progress& progress) {
+IrradianceCache::IrradianceCache(const PhotonMap& map, const PhotonEstimate& estimate, const PhotonSettings& settings,
+                                 uint64_t& rayCount, const Progress& progress) {
   constexpr size_t kAtOnce = 64, kBatch = 16384;
   const auto every = static_cast<size_t>(settings.irradianceEvery);
   const size_t count = (map.size() + every - 1) / every;
@@ -161,7 +175,8 @@ IrradianceCache::IrradianceCache(const PhotonMap& map, const PhotonEstimate& est
   for (const uint32_t i : order) reach_.push_back(reach[i]);
 }
 
-PhotonIrradiance IrradianceCache::at(Vec3 p, Vec3 n, const RayScene& rays, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount) const {
+PhotonIrradiance IrradianceCache::at(Vec3 p, Vec3 n, const RayScene& rays, const PhotonEstimate& estimate,
+                                     const PhotonSettings& settings, uint64_t& rayCount) const {
   thread_local std::vector<NearPhoton> near;
   places_.nearest({p, n, settings.flatness, 0.7f, settings.largestRadiusM}, 1, near);
   if (near.empty()) return estimate.at(p, n, rayCount);

@@ -13,12 +13,15 @@ struct PhotonIrradiance {
   bool walls = false;    // end the surface within it
 };
 
-// The k nearest photons on the surface around a place, weighted by the kernel, over the part of their disc that is surface. `rayCount` counts rays.
+// The k nearest photons on the surface around a place, weighted by the kernel, over the part of their disc that is
+// surface. `rayCount` counts rays.
 class PhotonEstimate {
  public:
   // Refers to all of them.
-  PhotonEstimate(const RayScene& rays, const PhotonMap& map, int nearest, const PhotonSettings& settings) : rays_(rays), map_(map), nearest_(static_cast<size_t>(nearest)), settings_(settings) {}
-  // At p on a surface of unit geometric normal n. `self`: a photon of the map that is asked about its own place, and does not count; -1: none.
+  PhotonEstimate(const RayScene& rays, const PhotonMap& map, int nearest, const PhotonSettings& settings)
+      : rays_(rays), map_(map), nearest_(static_cast<size_t>(nearest)), settings_(settings) {}
+  // At p on a surface of unit geometric normal n. `self`: a photon of the map that is asked about its own place, and
+// does not count; -1: none.
   PhotonIrradiance at(Vec3 p, Vec3 n, uint64_t& rayCount, int64_t self = -1) const;
 
  private:
@@ -32,9 +35,11 @@ class PhotonEstimate {
 class IrradianceCache {
  public:
   IrradianceCache() = default;
-  IrradianceCache(const PhotonMap& map, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount, const Progress& progress);
+  IrradianceCache(const PhotonMap& map, const PhotonEstimate& estimate, const PhotonSettings& settings,
+                  uint64_t& rayCount, const Progress& progress);
   // Where none is as near as the photons that it was made of, or a wall stands between, `estimate` works it out.
-  PhotonIrradiance at(Vec3 p, Vec3 n, const RayScene& rays, const PhotonEstimate& estimate, const PhotonSettings& settings, uint64_t& rayCount) const;
+  PhotonIrradiance at(Vec3 p, Vec3 n, const RayScene& rays, const PhotonEstimate& estimate,
+                      const PhotonSettings& settings, uint64_t& rayCount) const;
   size_t bytes() const { return places_.bytes() + reach_.size() * sizeof(Reach); }
   size_t size() const { return places_.size(); }
 

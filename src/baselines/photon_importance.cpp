@@ -23,7 +23,9 @@ struct PhotonImportance::Part {
   uint64_t rays = 0;
 };
 
-PhotonImportance::PhotonImportance(const RayScene& rays, const Lights& lights, const ImportonStart& start, int count, uint64_t seed) : suns_(lights.sunCount()) {
+PhotonImportance::PhotonImportance(const RayScene& rays, const Lights& lights, const ImportonStart& start, int count,
+                                   uint64_t seed)
+    : suns_(lights.sunCount()) {
   const auto paths = static_cast<size_t>(count);
   std::vector<Part> parts((paths + kPathsAtOnce - 1) / kPathsAtOnce);
   parallelFor(parts.size(), 1, [&](size_t k) {
@@ -67,7 +69,8 @@ void PhotonImportance::follow(const RayScene& rays, const Lights& lights, Ray ra
     const SurfacePoint s = rays.surfaces().at(hit, ray.direction);
     const Vec3 wo = -ray.direction;
     const Bsdf bsdf(s.m, s.ns, s.ng, wo);
-    const float through = luminance(passing(s.m, *s.material, dot(s.ns, wo))), back = luminance(bsdf.albedo()) * s.m.alpha;
+    const float through = luminance(passing(s.m, *s.material, dot(s.ns, wo))),
+                back = luminance(bsdf.albedo()) * s.m.alpha;
     if (sampler.next1() * (through + back) < through) {
       ray.origin = offsetOrigin(s.p, -s.ng);
       continue;
@@ -88,7 +91,8 @@ void PhotonImportance::follow(const RayScene& rays, const Lights& lights, Ray ra
     }
     const Vec2 u = sampler.next2();
     const BsdfSample next = bsdf.sample(u, sampler.next1());
-    if (!next.valid() || dot(next.wi, s.ng) <= 0 || sampler.next1() >= std::min(0.98f, maxComponent(next.weight))) return;
+    if (!next.valid() || dot(next.wi, s.ng) <= 0 || sampler.next1() >= std::min(0.98f, maxComponent(next.weight)))
+      return;
     ray = {clear, next.wi, 0, kInfinity};
   }
 }

@@ -1,5 +1,5 @@
-// Where photons are of use: paths from where light is asked for (importons, Peter & Pietrek 1998) mark the places they come by and
-// how these see suns and sky.
+// Where photons are of use: paths from where light is asked for (importons, Peter & Pietrek 1998) mark the places they
+// come by and how these see suns and sky.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,8 @@ class PhotonImportance {
  public:
   PhotonImportance(const RayScene& rays, const Lights& lights, const ImportonStart& start, int count, uint64_t seed);
 
-  // How many paths came by, per place of about a metre; next to such places a little; 0: photons there would be seen by nobody.
+  // How many paths came by, per place of about a metre; next to such places a little; 0: photons there would be seen by
+  // nobody.
   float at(Vec3 p) const;
   const std::vector<SkyProbe>& skyProbes() const { return sky_; }
   const std::vector<SunProbe>& sunProbes(size_t sun) const { return suns_[sun]; }

@@ -18,7 +18,8 @@ Progress partOf(const Progress& progress, float begin, float end) {
 
 }  // namespace
 
-PhotonLight lightPhotons(const RayScene& rays, const Lights& lights, const ImportonStart& start, const PhotonSettings& settings, const Progress& progress) {
+PhotonLight lightPhotons(const RayScene& rays, const Lights& lights, const ImportonStart& start,
+                         const PhotonSettings& settings, const Progress& progress) {
   PhotonLight out;
   const PhotonImportance importance(rays, lights, start, settings.importons, settings.seed);
   out.rays = importance.rays();
@@ -34,7 +35,8 @@ PhotonLight lightPhotons(const RayScene& rays, const Lights& lights, const Impor
   out.global = keep(tracer.global(settings.finalGather == 0, partOf(progress, 0, 0.3f)));
   out.caustic = keep(tracer.caustics(partOf(progress, 0.3f, 0.5f)));
   if (settings.finalGather > 0) {
-    out.irradiance = IrradianceCache(out.global, PhotonEstimate(rays, out.global, settings.nearest, settings), settings, out.rays, partOf(progress, 0.5f, 1));
+    out.irradiance = IrradianceCache(out.global, PhotonEstimate(rays, out.global, settings.nearest, settings), settings,
+                                     out.rays, partOf(progress, 0.5f, 1));
   }
   return out;
 }

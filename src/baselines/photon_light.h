@@ -1,4 +1,5 @@
-// What technique `photon` knows of a scene's light before it draws: photon maps, irradiance at photons, where the sky is seen.
+// What technique `photon` knows of a scene's light before it draws: photon maps, irradiance at photons, where the sky
+ // is seen.
 #pragma once
 
 #include "baselines/photon_estimate.h"
@@ -16,6 +17,7 @@ struct PhotonLight {
 };
 
 // For what `start` asks about. Refers to nothing afterwards. Stopped early it is of no use.
-PhotonLight lightPhotons(const RayScene& rays, const Lights& lights, const ImportonStart& start, const PhotonSettings& settings, const Progress& progress = {});
+PhotonLight lightPhotons(const RayScene& rays, const Lights& lights, const ImportonStart& start,
+                         const PhotonSettings& settings, const Progress& progress = {});
 
 }  // namespace roomlight

@@ -20,7 +20,8 @@ uint32_t packFlux(Vec3 flux) {
   if (largest * std::ldexp(1.0f, 8 - exponent) >= 255.5f) ++exponent;
   const float scale = std::ldexp(1.0f, 8 - exponent);
   const auto part = [&](float v) { return static_cast<uint32_t>(std::lround(std::max(0.0f, v) * scale)); };
-  return part(flux.x) | part(flux.y) << 8 | part(flux.z) << 16 | static_cast<uint32_t>(std::clamp(exponent + kExponentBias, 1, 255)) << 24;
+  return part(flux.x) | part(flux.y) << 8 | part(flux.z) << 16 |
+         static_cast<uint32_t>(std::clamp(exponent + kExponentBias, 1, 255)) << 24;
 }
 
 Vec3 unpackFlux(uint32_t v) {
@@ -58,8 +59,7 @@ int longestAxis(const Place* begin, const Place* end) {
   Bounds3 bounds;
   for (const Place* i = begin; i < end; ++i) bounds.add(i->p);
   const Vec3 size = bounds.size();
-  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1
-                                                                     : 2;
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
 }  // namespace
@@ -79,8 +79,9 @@ PhotonMap::PhotonMap(std::span<const Photon> photons, std::vector<uint32_t>* ord
       const uint32_t begin = borders[k], end = borders[k + 1], middle = begin + (end - begin) / 2;
       Place* const first = places.data();
       const int axis = longestAxis(first + begin, first + end);
-      std::nth_element(first + begin, first + middle, first + end,
-                       [axis](const Place& a, const Place& b) { return a.p[axis] < b.p[axis] || (a.p[axis] == b.p[axis] && a.index < b.index); });
+      std::nth_element(first + begin, first + middle, first + end, [axis](const Place& a, const Place& b) {
+        return a.p[axis] < b.p[axis] || (a.p[axis] == b.p[axis] && a.index < b.index);
+      });
       nodes_[count - 1 + k] = {places[middle].p[axis], axis};
       next[2 * k] = begin, next[2 * k + 1] = middle;
     });

@@ -1,5 +1,5 @@
-// Photons in a balanced kd-tree (Jensen 2001, chapter 6), 20 bytes each: places in three arrays that are tested eight at a time, leaves of
-// at most sixteen.
+// Photons in a balanced kd-tree (Jensen 2001, chapter 6), 20 bytes each: places in three arrays that are tested eight
+// at a time, leaves of at most sixteen.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ struct Photon {
   Vec3 n;       // unit geometric normal on the side it arrived at
 };
 
-// Where photons are looked for: in an ellipsoid around p as flat as `flatness` says along n, on surfaces that look n's way.
+// Where photons are looked for: in an ellipsoid around p as flat as `flatness` says along n, on surfaces that look n's
+// way.
 struct PhotonQuery {
   Vec3 p, n;
   float flatness = 4;         // distance along n counts so many times
@@ -45,15 +46,16 @@ class PhotonMap {
   Vec3 direction(size_t i) const;  // wi
   Vec3 normal(size_t i) const;
 
-  // The k nearest, in no order; fewer where there are no more. `accepts(index, offset from q.p)` decides on what else they must satisfy.
+  // The k nearest, in no order; fewer where there are no more. `accepts(index, offset from q.p)` decides on what else
+  // they must satisfy.
   template <class Accepts>
   void nearest(const PhotonQuery& q, size_t k, std::vector<NearPhoton>& out, Accepts&& accepts) const;
   void nearest(const PhotonQuery& q, size_t k, std::vector<NearPhoton>& out) const;
 
  private:
   struct Rest {
-    uint32_t flux;         // three mantissas of 8 bits, shared exponent (Ward 1991)
-    uint16_t wi, n;        // octahedral (Meyer et al. 2010)
+    uint32_t flux;  // three mantissas of 8 bits, shared exponent (Ward 1991)
+    uint16_t wi, n;  // octahedral (Meyer et al. 2010)
   };
   struct Node {
     float split = 0;
@@ -69,7 +71,7 @@ class PhotonMap {
   std::vector<float> x_, y_, z_;  // with seven more at the end, for loads of eight
   std::vector<Rest> rest_;
   std::vector<Node> nodes_;  // children of i are 2 i + 1 and 2 i + 2
-  int levels_ = 0;           // of inner nodes
+  int levels_ = 0;  // of inner nodes
   static constexpr size_t kLanes = 8;
 };
 

@@ -14,9 +14,10 @@ void PhotonMap::nearest(const PhotonQuery& q, size_t k, std::vector<NearPhoton>&
   float radius2 = q.radiusM * q.radiusM;
   const size_t most = 2 * k;  // kept before the farther half is dropped
   const auto shrink = [&] {
-    std::nth_element(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(k) - 1, out.end(), [](NearPhoton a, NearPhoton b) {
-      return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.index < b.index);
-    });
+    std::nth_element(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(k) - 1, out.end(),
+                     [](NearPhoton a, NearPhoton b) {
+                       return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.index < b.index);
+                     });
     out.resize(k);
     radius2 = out.back().distance2;
   };

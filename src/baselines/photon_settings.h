@@ -17,15 +17,18 @@ struct PhotonSettings : PictureSettings {
   int nearest = 120;            // photons in an estimate of the global map,
   int causticNearest = 60;      // and of the caustic map
   PhotonKernel kernel = PhotonKernel::Epanechnikov;
-  float flatness = 4;           // distances along the surface's normal count so many times: photons of other surfaces stay out
-  float largestRadiusM = 1;     // of an estimate; where fewer photons lie within, those count
-  int edgeRays = 16;            // rays around an estimate's place that tell which part of its disc is surface; 0: all of it is taken for surface
-  int finalGather = 4;          // rays per shading that gather what the global map says where they arrive; 0: the map is seen directly
-  int irradianceEvery = 4;      // with final gathering: photons of which one has its irradiance worked out before (Christensen 1999)
-  float nearRadii = 1;          // gathering rays shorter than so many radii of the estimate they would read gather once more
-  int rouletteDepth = 5;        // reflections before Russian roulette
-  int importons = 32768;        // paths from the camera that tell where photons are of use
-  float mostEmitted = 32;       // photons sent out for one that is kept, at most
+  float flatness = 4;  // distances along the surface's normal count so many times: photons of other surfaces stay out
+  float largestRadiusM = 1;  // of an estimate; where fewer photons lie within, those count
+  int edgeRays = 16;  // rays around an estimate's place that tell which part of its disc is surface; 0: all of it is
+                      // taken for surface
+  int finalGather =
+      4;  // rays per shading that gather what the global map says where they arrive; 0: the map is seen directly
+  int irradianceEvery =
+      4;  // with final gathering: photons of which one has its irradiance worked out before (Christensen 1999)
+  float nearRadii = 1;  // gathering rays shorter than so many radii of the estimate they would read gather once more
+  int rouletteDepth = 5;  // reflections before Russian roulette
+  int importons = 32768;  // paths from the camera that tell where photons are of use
+  float mostEmitted = 32;  // photons sent out for one that is kept, at most
 };
 
 }  // namespace roomlight

@@ -15,8 +15,13 @@ constexpr float kLeastChance = 0.1f;
 
 }  // namespace
 
-PhotonShader::PhotonShader(const RayScene& rays, const Lights& lights, const PhotonLight& light, const PhotonSettings& settings)
-    : DirectShader(rays, lights, light.survey.voxels, light.survey.guide, settings.rayRoughness), light_(light), settings_(settings), global_(rays, light.global, settings.nearest, settings), caustic_(rays, light.caustic, settings.causticNearest, settings) {}
+PhotonShader::PhotonShader(const RayScene& rays, const Lights& lights, const PhotonLight& light,
+                           const PhotonSettings& settings)
+    : DirectShader(rays, lights, light.survey.voxels, light.survey.guide, settings.rayRoughness),
+      light_(light),
+      settings_(settings),
+      global_(rays, light.global, settings.nearest, settings),
+      caustic_(rays, light.caustic, settings.causticNearest, settings) {}
 
 // What other surfaces send: all but what comes straight from lights and sky.
 Vec3 PhotonShader::indirect(const SurfacePoint& s, Sampler& sampler, GatherCounters& count, float&) const {
@@ -26,7 +31,8 @@ Vec3 PhotonShader::indirect(const SurfacePoint& s, Sampler& sampler, GatherCount
 }
 
 // Rough lobes reflect little beside the diffuse one: what maps say of them is asked for in proportion.
-Vec3 PhotonShader::glossy(const SurfacePoint& s, Vec3, const BsdfSample& r, Sampler& sampler, GatherCounters& count) const {
+Vec3 PhotonShader::glossy(const SurfacePoint& s, Vec3, const BsdfSample& r, Sampler& sampler,
+                          GatherCounters& count) const {
   const float chance = std::clamp(luminance(r.weight), kLeastChance, 1.0f);
   const bool asked = sampler.next1() < chance;
   Vec3 sum = asked ? causticsAt(s, count) / chance : Vec3(0);
@@ -36,7 +42,8 @@ Vec3 PhotonShader::glossy(const SurfacePoint& s, Vec3, const BsdfSample& r, Samp
   return sum + arriving(ray, rays_.intersect(ray), 0, sampler, count);
 }
 
-Vec3 PhotonShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler, GatherCounters& count) const {
+Vec3 PhotonShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler,
+                                       GatherCounters& count) const {
   if (settings_.finalGather == 0) return DirectShader::reflectedIrradiance(s, direction, from, sampler, count);
   return light_.irradiance.at(s.p, s.ng, rays_, global_, settings_, count.rays).lux;
 }
@@ -58,7 +65,8 @@ Vec3 PhotonShader::gathered(const SurfacePoint& s, int rays, int depth, Sampler&
     size_t used = 0;
     for (int i = 0; i < n; ++i) {
       // A shifted lattice: strata within the shading; the sampler spreads the shadings of a pixel.
-      const float x = shift.x + static_cast<float>(first + i) / static_cast<float>(rays), y = shift.y + 0.61803399f * static_cast<float>(first + i);
+      const float x = shift.x + static_cast<float>(first + i) / static_cast<float>(rays),
+                  y = shift.y + 0.61803399f * static_cast<float>(first + i);
       const Vec3 d = frame.toWorld(sampleCosineHemisphere({x - std::floor(x), y - std::floor(y)}));
       if (dot(d, s.ng) > 0) ray[used++] = {offsetOrigin(s.p, s.ng), d, 0, kInfinity};
     }
@@ -69,8 +77,9 @@ Vec3 PhotonShader::gathered(const SurfacePoint& s, int rays, int depth, Sampler&
   return sum / static_cast<float>(rays);
 }
 
-// What surfaces along a ray send back by their diffuse and rough lobes, through panes and smooth surfaces too. Lights and sky are not in it: those
-// seen straight are sampled where the ray started, those seen in smooth surfaces are caustics.
+// What surfaces along a ray send back by their diffuse and rough lobes, through panes and smooth surfaces too. Lights
+// and sky are not in it: those seen straight are sampled where the ray started, those seen in smooth surfaces are
+// caustics.
 Vec3 PhotonShader::arriving(Ray ray, Hit hit, int depth, Sampler& sampler, GatherCounters& count) const {
   Vec3 sum, left(1);
   float distance = 0;
@@ -82,9 +91,12 @@ Vec3 PhotonShader::arriving(Ray ray, Hit hit, int depth, Sampler& sampler, Gathe
     const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
     const bool smooth = s.m.roughness < settings_.rayRoughness;
     const Vec3 rho = smooth ? bsdf.diffuseAlbedo() : bihemisphericalAlbedo(s.m);
-    if (maxComponent(rho) > 1e-4f) sum += left * rho * lit(s, ray.direction, distance, depth, sampler, count) * (s.m.alpha / kPi);
-    const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, ray.direction))), mirrored = smooth ? bsdf.specularAlbedo() * s.m.alpha : Vec3(0);
-    const float pThrough = luminance(left * through), pMirrored = luminance(left * mirrored), survive = std::min(1.0f, 2 * (pThrough + pMirrored));
+    if (maxComponent(rho) > 1e-4f)
+      sum += left * rho * lit(s, ray.direction, distance, depth, sampler, count) * (s.m.alpha / kPi);
+    const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, ray.direction))),
+               mirrored = smooth ? bsdf.specularAlbedo() * s.m.alpha : Vec3(0);
+    const float pThrough = luminance(left * through), pMirrored = luminance(left * mirrored),
+                survive = std::min(1.0f, 2 * (pThrough + pMirrored));
     if (!(survive > 0)) break;
     const float u = sampler.next1(), split = survive * pThrough / (pThrough + pMirrored);
     if (u >= survive) break;
@@ -101,9 +113,10 @@ Vec3 PhotonShader::arriving(Ray ray, Hit hit, int depth, Sampler& sampler, Gathe
   return sum;
 }
 
-// Illuminance, lx, where a gathering ray arrives after so many metres. Next to where it started the map is too coarse: there light is worked out
-// once more.
-Vec3 PhotonShader::lit(const SurfacePoint& s, Vec3 direction, float distanceM, int depth, Sampler& sampler, GatherCounters& count) const {
+// Illuminance, lx, where a gathering ray arrives after so many metres. Next to where it started the map is too coarse:
+// there light is worked out once more.
+Vec3 PhotonShader::lit(const SurfacePoint& s, Vec3 direction, float distanceM, int depth, Sampler& sampler,
+                       GatherCounters& count) const {
   const PhotonIrradiance known = light_.irradiance.at(s.p, s.ng, rays_, global_, settings_, count.rays);
   if (depth >= kMostGathers || distanceM >= settings_.nearRadii * known.radiusM) return known.lux;
   SurfacePoint white = s;
@@ -111,7 +124,8 @@ Vec3 PhotonShader::lit(const SurfacePoint& s, Vec3 direction, float distanceM, i
   white.m.baseColor = Vec3(1);
   const Bsdf bsdf(white.m, s.ns, s.ng, -direction);
   float unused = 0;
-  const Vec3 direct = soft(white, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse + sharp(white, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
+  const Vec3 direct = soft(white, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse +
+                      sharp(white, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
   return (direct + gathered(s, 1, depth + 1, sampler, count) + causticsAt(s, count)) * kPi;
 }
 

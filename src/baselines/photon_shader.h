@@ -12,11 +12,14 @@ class PhotonShader final : public DirectShader {
 
  private:
   Vec3 indirect(const SurfacePoint& s, Sampler& sampler, GatherCounters& count, float& occlusion) const override;
-  Vec3 glossy(const SurfacePoint& s, Vec3 wo, const BsdfSample& r, Sampler& sampler, GatherCounters& count) const override;
-  Vec3 reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler, GatherCounters& count) const override;
+  Vec3 glossy(const SurfacePoint& s, Vec3 wo, const BsdfSample& r, Sampler& sampler,
+              GatherCounters& count) const override;
+  Vec3 reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler,
+                           GatherCounters& count) const override;
   Vec3 gathered(const SurfacePoint& s, int rays, int depth, Sampler& sampler, GatherCounters& count) const;
   Vec3 arriving(Ray ray, Hit hit, int depth, Sampler& sampler, GatherCounters& count) const;
-  Vec3 lit(const SurfacePoint& s, Vec3 direction, float distanceM, int depth, Sampler& sampler, GatherCounters& count) const;
+  Vec3 lit(const SurfacePoint& s, Vec3 direction, float distanceM, int depth, Sampler& sampler,
+           GatherCounters& count) const;
   Vec3 causticsAt(const SurfacePoint& s, GatherCounters& count) const;
 
   const PhotonLight& light_;

@@ -13,7 +13,8 @@ SurfacePieces piecesFor(const Scene& scene, const Lights& lights) {
 
 }  // namespace
 
-PhotonSources::PhotonSources(const RayScene& rays, const Lights& lights, const PhotonImportance& importance, const SkySurvey& survey)
+PhotonSources::PhotonSources(const RayScene& rays, const Lights& lights, const PhotonImportance& importance,
+                             const SkySurvey& survey)
     : rays_(rays), lights_(lights), survey_(survey), pieces_(piecesFor(rays.scene(), lights)) {
   std::vector<PieceChoice::Found> found;
   for (size_t i = 0; i < lights.sunCount(); ++i) {
@@ -35,7 +36,8 @@ PhotonStart PhotonSources::sample(size_t source, Sampler& sampler, uint64_t& ray
   source -= lights_.lampCount();
   if (source < lights_.emitterCount()) return {lights_.sampleEmitterRay(source, sampler)};
   source -= lights_.emitterCount();
-  const double choice = static_cast<double>(sampler.next1()) + 0x1p-24 * static_cast<double>(sampler.fast1());  // finer than a float
+  const double choice =
+      static_cast<double>(sampler.next1()) + 0x1p-24 * static_cast<double>(sampler.fast1());  // finer than a float
   const Vec2 u = sampler.next2(), direction = sampler.next2();
   const bool sun = source < suns_.size();
   const PieceChoice::Place place = (sun ? suns_[source] : *sky_).sample(choice, u);
@@ -44,7 +46,8 @@ PhotonStart PhotonSources::sample(size_t source, Sampler& sampler, uint64_t& ray
   return arriving(place, sampleSkyGuided(survey_.guide, guide, lights_, direction, sampler.next1()), rayCount);
 }
 
-PhotonStart PhotonSources::arriving(const PieceChoice::Place& place, const LightSample& light, uint64_t& rayCount) const {
+PhotonStart PhotonSources::arriving(const PieceChoice::Place& place, const LightSample& light,
+                                    uint64_t& rayCount) const {
   PhotonStart start;
   start.arrives = true;
   const float cosine = dot(light.wi, place.n);

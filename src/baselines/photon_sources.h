@@ -1,5 +1,5 @@
-// Photons leave every light by its flux: lamps and emissive meshes from where they are, suns and the sky from where their light first meets
-// surfaces that are of use.
+// Photons leave every light by its flux: lamps and emissive meshes from where they are, suns and the sky from where
+// their light first meets surfaces that are of use.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,15 @@ namespace roomlight {
 
 struct PhotonStart {
   LightRay ray;
-  bool arrives = false;  // it starts right before the first surface that scatters it: what passes straight through that is counted elsewhere
+  bool arrives = false;  // it starts right before the first surface that scatters it: what passes straight through that
+                         // is counted elsewhere
 };
 
 class PhotonSources {
  public:
   // `survey` tells where the sky is seen. Refers to all but the importance.
-  PhotonSources(const RayScene& rays, const Lights& lights, const PhotonImportance& importance, const SkySurvey& survey);
+  PhotonSources(const RayScene& rays, const Lights& lights, const PhotonImportance& importance,
+                const SkySurvey& survey);
 
   // Lamps, emissive meshes, suns, the sky.
   size_t count() const { return lights_.lampCount() + lights_.emitterCount() + suns_.size() + (sky_ ? 1 : 0); }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kLongestM = 1.5f;
 constexpr int kMostCuts = 5;  // a triangle has at most 4^5 pieces
-// Of the light found in a cell so much counts there, the rest around it; and of all chances so much goes to places of use and to all places alike,
-// whatever was found.
+// Of the light found in a cell so much counts there, the rest around it; and of all chances so much goes to places of
+// use and to all places alike, whatever was found.
 constexpr double kHere = 0.9, kOfUse = 0.05, kAnywhere = 0.01;
 
 }  // namespace
@@ -39,14 +39,18 @@ void SurfacePieces::add(Vec3 a, Vec3 b, Vec3 c, int cuts) {
   add(a, ab, ca, cuts - 1), add(ab, b, bc, cuts - 1), add(ca, bc, c, cuts - 1), add(ab, bc, ca, cuts - 1);
 }
 
-PieceChoice::PieceChoice(const SurfacePieces& pieces, const PhotonImportance& importance, const std::vector<Found>& found) : pieces_(&pieces) {
+PieceChoice::PieceChoice(const SurfacePieces& pieces, const PhotonImportance& importance,
+                         const std::vector<Found>& found)
+    : pieces_(&pieces) {
   struct Cell {
     double light = 0, areaM2 = 0;
   };
   std::unordered_map<uint64_t, Cell> cells;
   for (const Found& f : found) {
     const PhotonCell c = PhotonCell::of(f.p);
-    for (int k = 0; k < 27; ++k) cells[c.around(k).key(dominantFace(f.n))].light += static_cast<double>(f.light) * (k == 13 ? kHere : (1 - kHere) / 26);
+    for (int k = 0; k < 27; ++k)
+      cells[c.around(k).key(dominantFace(f.n))].light +=
+          static_cast<double>(f.light) * (k == 13 ? kHere : (1 - kHere) / 26);
   }
   const std::vector<SurfacePieces::Piece>& all = pieces.all();
   std::vector<uint64_t> keys(2 * all.size());
@@ -72,7 +76,8 @@ PieceChoice::PieceChoice(const SurfacePieces& pieces, const PhotonImportance& im
     const SurfacePieces::Piece& piece = all[side / 2];
     double perM2 = kAnywhere / area;
     if (ofUse > 0 && importance.at((piece.a + piece.b + piece.c) / 3) > 0) perM2 += ofUse / areaOfUse;
-    if (const auto cell = cells.find(keys[side]); cell != cells.end() && learned > 0) perM2 += learned * cell->second.light / (light * cell->second.areaM2);
+    if (const auto cell = cells.find(keys[side]); cell != cells.end() && learned > 0)
+      perM2 += learned * cell->second.light / (light * cell->second.areaM2);
     upTo_[side] = sum += perM2 * static_cast<double>(piece.areaM2);
   }
   for (double& v : upTo_) v /= sum;
@@ -80,7 +85,8 @@ PieceChoice::PieceChoice(const SurfacePieces& pieces, const PhotonImportance& im
 
 PieceChoice::Place PieceChoice::sample(double choice, Vec2 u) const {
   if (upTo_.empty()) return {};
-  const size_t side = std::min(static_cast<size_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin()), upTo_.size() - 1);
+  const size_t side = std::min(
+      static_cast<size_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin()), upTo_.size() - 1);
   const SurfacePieces::Piece& piece = pieces_->all()[side / 2];
   const Vec2 b = sampleTriangle(u);
   Place place;

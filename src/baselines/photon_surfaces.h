@@ -1,5 +1,5 @@
-// Surfaces cut into pieces of about a metre, to start photons of suns and the sky on: where their light arrives first is chosen, then the
-// direction it comes from. So windows need not be found from outside.
+// Surfaces cut into pieces of about a metre, to start photons of suns and the sky on: where their light arrives first
+// is chosen, then the direction it comes from. So windows need not be found from outside.
 #pragma once
 
 #include <unordered_map>

@@ -25,8 +25,9 @@ struct PhotonTracer::Wish {
   bool direct, caustic, indirect;
   int count;
   uint64_t key;
-  bool keeps(PhotonKind kind) const { return kind == PhotonKind::Direct ? direct : kind == PhotonKind::Caustic ? caustic
-                                                                                                               : indirect; }
+  bool keeps(PhotonKind kind) const {
+    return kind == PhotonKind::Direct ? direct : kind == PhotonKind::Caustic ? caustic : indirect;
+  }
 };
 
 struct PhotonTracer::Source {
@@ -35,7 +36,8 @@ struct PhotonTracer::Source {
   uint64_t count = 0;  // to be sent out
 };
 
-PhotonTracer::PhotonTracer(const RayScene& rays, const Lights& lights, const PhotonImportance& importance, const SkySurvey& survey, const PhotonSettings& settings)
+PhotonTracer::PhotonTracer(const RayScene& rays, const Lights& lights, const PhotonImportance& importance,
+                           const SkySurvey& survey, const PhotonSettings& settings)
     : rays_(rays), importance_(importance), settings_(settings), sources_(rays, lights, importance, survey) {}
 
 TracedPhotons PhotonTracer::global(bool indirectOnly, const Progress& progress) const {
@@ -48,7 +50,8 @@ TracedPhotons PhotonTracer::caustics(const Progress& progress) const {
 
 // Returns the number of rays traced. keep(photon, importance) is called where one is of use.
 template <class Keep>
-uint64_t PhotonTracer::follow(const PhotonStart& start, float share, const Wish& wish, Sampler& sampler, Keep&& keep) const {
+uint64_t PhotonTracer::follow(const PhotonStart& start, float share, const Wish& wish, Sampler& sampler,
+                              Keep&& keep) const {
   Ray ray{start.ray.origin, start.ray.direction, 0, kInfinity};
   Vec3 flux = start.ray.fluxLm * share;
   bool specular = false, diffuse = false;
@@ -62,13 +65,13 @@ uint64_t PhotonTracer::follow(const PhotonStart& start, float share, const Wish&
     const Vec3 wi = -ray.direction;
     const Bsdf bsdf(s.m, s.ns, s.ng, wi);
     const bool smooth = s.m.roughness < settings_.rayRoughness;
-    const PhotonKind kind = diffuse ? PhotonKind::Indirect : specular ? PhotonKind::Caustic
-                                                                      : PhotonKind::Direct;
+    const PhotonKind kind = diffuse ? PhotonKind::Indirect : specular ? PhotonKind::Caustic : PhotonKind::Direct;
     if (wish.keeps(kind) && maxComponent(smooth ? bsdf.diffuseAlbedo() : bsdf.albedo()) * s.m.alpha > kLeastAlbedo) {
       if (const float importance = importance_.at(s.p); importance > 0) keep(Photon{s.p, flux, wi, s.ng}, importance);
     }
     // Thin glass and blended alpha, as for paths from the camera.
-    const float through = luminance(passing(s.m, *s.material, dot(s.ns, wi))), back = luminance(bsdf.albedo()) * s.m.alpha;
+    const float through = luminance(passing(s.m, *s.material, dot(s.ns, wi))),
+                back = luminance(bsdf.albedo()) * s.m.alpha;
     if (!(through + back > 0)) break;
     const float chance = through / (through + back);
     if (chance > 0 && sampler.next1() < chance) {
@@ -107,7 +110,8 @@ uint64_t PhotonTracer::follow(const PhotonStart& start, float share, const Wish&
   return rayCount;
 }
 
-// A few pilots of every source tell what it is good for; photons go where flux times importance is, so that all kept are worth about the same.
+// A few pilots of every source tell what it is good for; photons go where flux times importance is, so that all kept
+// are worth about the same.
 std::vector<PhotonTracer::Source> PhotonTracer::plan(const Wish& wish, uint64_t& rayCount) const {
   std::vector<Source> sources(sources_.count());
   const size_t pilots = sources.size() > kManySources ? kFewPilots : kPilots;
@@ -117,10 +121,11 @@ std::vector<PhotonTracer::Source> PhotonTracer::plan(const Wish& wish, uint64_t&
     for (size_t k = 0; k < pilots; ++k) {
       Sampler sampler(wish.key + i + (uint64_t{1} << 32), static_cast<uint32_t>(k), settings_.seed);
       const PhotonStart start = sources_.sample(i, sampler, rays[i]);
-      rays[i] += follow(start, 1 / static_cast<float>(pilots), wish, sampler, [&](const Photon& photon, float importance) {
-        source.score += static_cast<double>(luminance(photon.fluxLm) * importance);
-        source.keptEach += 1 / static_cast<double>(pilots);
-      });
+      rays[i] +=
+          follow(start, 1 / static_cast<float>(pilots), wish, sampler, [&](const Photon& photon, float importance) {
+            source.score += static_cast<double>(luminance(photon.fluxLm) * importance);
+            source.keptEach += 1 / static_cast<double>(pilots);
+          });
     }
   });
   for (const uint64_t n : rays) rayCount += n;
@@ -129,11 +134,13 @@ std::vector<PhotonTracer::Source> PhotonTracer::plan(const Wish& wish, uint64_t&
   const double n = static_cast<double>(sources.size());
   double kept = 0;
   for (Source& s : sources) {
-    s.score = sum > 0 ? (1 - static_cast<double>(kFloorShare)) * s.score / sum + static_cast<double>(kFloorShare) / n : 1 / n;
+    s.score =
+        sum > 0 ? (1 - static_cast<double>(kFloorShare)) * s.score / sum + static_cast<double>(kFloorShare) / n : 1 / n;
     kept += s.score * s.keptEach;
   }
   // Where pilots found nothing there may be nothing.
-  const double most = (kept > 0 ? static_cast<double>(settings_.mostEmitted) : 1.0) * wish.count, emitted = std::min(most, wish.count / std::max(kept, 1e-9));
+  const double most = (kept > 0 ? static_cast<double>(settings_.mostEmitted) : 1.0) * wish.count,
+               emitted = std::min(most, wish.count / std::max(kept, 1e-9));
   for (Source& s : sources) s.count = static_cast<uint64_t>(std::ceil(emitted * s.score));
   return sources;
 }
@@ -152,7 +159,8 @@ TracedPhotons PhotonTracer::trace(const Wish& wish, const Progress& progress) co
   std::vector<Part> parts;
   for (size_t i = 0; i < sources.size(); ++i) {
     const uint64_t n = sources[i].count;
-    for (uint64_t first = 0; first < n; first += kPathsAtOnce) parts.push_back({i, first, std::min<uint64_t>(n, first + kPathsAtOnce), 1 / static_cast<float>(n), {}});
+    for (uint64_t first = 0; first < n; first += kPathsAtOnce)
+      parts.push_back({i, first, std::min<uint64_t>(n, first + kPathsAtOnce), 1 / static_cast<float>(n), {}});
     out.emitted += n;
   }
   for (size_t done = 0; done < parts.size(); done += kPartsAtOnce) {
@@ -162,7 +170,8 @@ TracedPhotons PhotonTracer::trace(const Wish& wish, const Progress& progress) co
       for (uint64_t path = part.first; path < part.end; ++path) {
         Sampler sampler(wish.key + part.source, static_cast<uint32_t>(path), settings_.seed);
         const PhotonStart start = sources_.sample(part.source, sampler, part.rays);
-        part.rays += follow(start, part.share, wish, sampler, [&](const Photon& photon, float) { part.photons.push_back(photon); });
+        part.rays += follow(start, part.share, wish, sampler,
+                            [&](const Photon& photon, float) { part.photons.push_back(photon); });
       }
     });
     progress.at(static_cast<float>(done) / static_cast<float>(parts.size()));

@@ -23,7 +23,8 @@ struct TracedPhotons {
 class PhotonTracer {
  public:
   // Of a scene whose `importance` tells which photons to keep. Refers to all of them.
-  PhotonTracer(const RayScene& rays, const Lights& lights, const PhotonImportance& importance, const SkySurvey& survey, const PhotonSettings& settings);
+  PhotonTracer(const RayScene& rays, const Lights& lights, const PhotonImportance& importance, const SkySurvey& survey,
+               const PhotonSettings& settings);
 
   // About settings.photons of them: of every kind, or `indirectOnly`.
   TracedPhotons global(bool indirectOnly, const Progress& progress) const;

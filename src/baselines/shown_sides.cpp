@@ -5,7 +5,9 @@
 
 namespace roomlight {
 bool isDoubleSided(const Scene& scene, const FaceSlot& slot) {
-  return scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[slot.instance].mesh)].material)].doubleSided;
+  return scene
+      .materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[slot.instance].mesh)].material)]
+      .doubleSided;
 }
 
 bool isFront(const RayScene& rays, const FaceSlot& slot, float voxelSizeM) {

@@ -7,7 +7,8 @@
 
 namespace roomlight {
 
-SkyGuide surveySky(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Carried* carried, int raysPerSlot, uint64_t seed, uint64_t& rayCount, const Progress& progress) {
+SkyGuide surveySky(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Carried* carried,
+                   int raysPerSlot, uint64_t seed, uint64_t& rayCount, const Progress& progress) {
   SkyGuideBuilder guide(voxels, lights.sky());
   std::atomic<uint64_t> count = 0;
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
@@ -25,7 +26,8 @@ SkyGuide surveySky(const RayScene& rays, const Lights& lights, const Voxels& vox
     std::vector<Vec3> left(tries.size());
     rays.transmittance(tries, left);
     for (size_t i = 0; i < tries.size(); ++i) {
-      guide.add(b, voxels.slots[first + i / static_cast<size_t>(raysPerSlot)].face, tries[i].direction, luminance(left[i]));
+      guide.add(b, voxels.slots[first + i / static_cast<size_t>(raysPerSlot)].face, tries[i].direction,
+                luminance(left[i]));
     }
     count += tries.size();
   });
@@ -33,7 +35,8 @@ SkyGuide surveySky(const RayScene& rays, const Lights& lights, const Voxels& vox
   return guide.finish(progress);
 }
 
-SkySurvey surveySky(const RayScene& rays, const Lights& lights, const VoxelSettings& settings, int raysPerSlot, uint64_t seed, const Progress& progress) {
+SkySurvey surveySky(const RayScene& rays, const Lights& lights, const VoxelSettings& settings, int raysPerSlot,
+                    uint64_t seed, const Progress& progress) {
   SkySurvey out;
   if (!lights.sky().present()) return out;
   out.voxels = voxelise(rays.scene(), settings).voxels;

@@ -1,4 +1,5 @@
-// Technique `vxgi`: voxel cone tracing with clipmaps, as in the well-known SDK, to be measured against. docs/methods/vxgi.md
+// Technique `vxgi`: voxel cone tracing with clipmaps, as in the well-known SDK, to be measured against.
+ // docs/methods/vxgi.md
 #pragma once
 
 #include "baselines/vxgi_clipmap.h"
@@ -13,13 +14,15 @@ struct VxgiTracing {
   int maxSamples = 128;
   float startOffsetVoxels = 2;
   VxgiTracing() = default;
-  explicit VxgiTracing(const VxgiSettings& s) : step(s.tracingStep), maxSamples(s.maxSamples), startOffsetVoxels(s.startOffsetVoxels) {}
+  explicit VxgiTracing(const VxgiSettings& s)
+      : step(s.tracingStep), maxSamples(s.maxSamples), startOffsetVoxels(s.startOffsetVoxels) {}
 };
 
 // Mean radiance that the cone of half-angle atan(tanHalf) about unit d from `origin` meets, cd/m².
 Vec3 traceVxgiCone(const VxgiClipmap& map, Vec3 origin, Vec3 d, float tanHalf, const VxgiTracing& tracing);
 
-// The diffuse cones of a hemisphere: directions (z up) of equal solid angle with weights by their cosine, which sum to 1.
+// The diffuse cones of a hemisphere: directions (z up) of equal solid angle with weights by their cosine, which sum
+// to 1.
 struct VxgiCones {
   explicit VxgiCones(int count);
   std::vector<Vec3> direction;
@@ -27,8 +30,10 @@ struct VxgiCones {
   float tanHalf = 0;
 };
 
-// Irradiance / pi, cd/m², of a surface at p with unit normals ng (true) and ns (for shading). `turnRad` rotates the cones.
-Vec3 traceVxgiDiffuse(const VxgiClipmap& map, Vec3 p, Vec3 ng, Vec3 ns, const VxgiCones& cones, float turnRad, const VxgiTracing& tracing);
+// Irradiance / pi, cd/m², of a surface at p with unit normals ng (true) and ns (for shading). `turnRad` rotates the
+// cones.
+Vec3 traceVxgiDiffuse(const VxgiClipmap& map, Vec3 p, Vec3 ng, Vec3 ns, const VxgiCones& cones, float turnRad,
+                      const VxgiTracing& tracing);
 
 struct VxgiLight {
   VxgiClipmap map;
@@ -40,8 +45,9 @@ struct VxgiLight {
   uint64_t rays = 0;
 };
 
-// Voxels, their light by shadow rays, and its bounces by cones. `room` is what the finest level shall hold. Once `progress` says stop
-// it ends soon, with part of the light.
-VxgiLight lightVxgi(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings, const Progress& progress = {});
+// Voxels, their light by shadow rays, and its bounces by cones. `room` is what the finest level shall hold. Once
+// `progress` says stop it ends soon, with part of the light.
+VxgiLight lightVxgi(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings,
+                    const Progress& progress = {});
 
 }  // namespace roomlight

@@ -10,7 +10,10 @@ namespace {
 constexpr float kMargin = 2;  // voxels around the room, at each end of the finest level
 
 float finestVoxelM(const RayScene& rays, const Bounds3& room, const VxgiSettings& settings) {
-  const float wanted = settings.voxelSizeM > 0 ? settings.voxelSizeM : std::max(1e-3f, maxComponent(room.size()) / (static_cast<float>(settings.resolution) - 2 * kMargin));
+  const float wanted =
+      settings.voxelSizeM > 0
+          ? settings.voxelSizeM
+          : std::max(1e-3f, maxComponent(room.size()) / (static_cast<float>(settings.resolution) - 2 * kMargin));
   return feasibleVoxelSizeM(rays.bounds(), wanted);
 }
 
@@ -22,13 +25,22 @@ RadianceSettings directOnly(const VxgiSettings& settings) {
 
 }  // namespace
 
-VxgiCache::VxgiCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings, const Progress& progress)
-    : settings_(settings), light_{VxgiClipmap(room.centre(), finestVoxelM(rays, room, settings), settings.resolution, settings.levels), {}, {}, 0, 0, 0, 0} {
+VxgiCache::VxgiCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings,
+                     const Progress& progress)
+    : settings_(settings),
+      light_{VxgiClipmap(room.centre(), finestVoxelM(rays, room, settings), settings.resolution, settings.levels),
+             {},
+             {},
+             0,
+             0,
+             0,
+             0} {
   for (int level = 0; level < settings.levels; ++level) {
     if (progress.stop()) return;
     VoxelSettings voxel;
     voxel.voxelSizeM = light_.map.voxelSizeM(level);
-    levels_.push_back(std::make_unique<Level>(rays, lights, voxel, directOnly(settings), Progress{{}, progress.cancelled}));
+    levels_.push_back(
+        std::make_unique<Level>(rays, lights, voxel, directOnly(settings), Progress{{}, progress.cancelled}));
     progress.at(0.5f * static_cast<float>(level + 1) / static_cast<float>(settings.levels));
   }
   if (progress.stop()) return;
@@ -36,7 +48,8 @@ VxgiCache::VxgiCache(const RayScene& rays, const Lights& lights, const Bounds3& 
   bounce(settings.maxBounces, progress);
 }
 
-void VxgiCache::update(const RayScene& rays, const Lights& lights, const SceneChange& change, const Progress& progress) {
+void VxgiCache::update(const RayScene& rays, const Lights& lights, const SceneChange& change,
+                       const Progress& progress) {
   std::vector<uint32_t> changed = change.moved;
   changed.insert(changed.end(), change.glow.begin(), change.glow.end());
   light_.rays = 0;
@@ -51,7 +64,8 @@ void VxgiCache::update(const RayScene& rays, const Lights& lights, const SceneCh
   }
   if (progress.stop()) return;
   gatherSources(rays);
-  bounce(settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces) : settings_.maxBounces, progress);
+  bounce(settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces) : settings_.maxBounces,
+         progress);
 }
 
 void VxgiCache::gatherSources(const RayScene& rays) {
@@ -68,7 +82,8 @@ void VxgiCache::gatherSources(const RayScene& rays) {
   light_.sources = sources_.voxels.size();
   float brightest = 0;
   for (const VxgiSide& s : sources_.sides) brightest = std::max(brightest, maxComponent(s.radiance()));
-  if (brightest > 0) light_.map.setUnit(brightest / 4096);  // bounces add to it, and half floats hold sixteen times as much
+  if (brightest > 0)
+    light_.map.setUnit(brightest / 4096);  // bounces add to it, and half floats hold sixteen times as much
   light_.map.clear();
   inject(sources_, light_.map);
   light_.map.findEmpty();

@@ -1,5 +1,5 @@
-// Light of technique `vxgi` that is kept up to date: voxels and direct light that a change has nothing to do with stay, and bounces go on
-// from the light there was.
+// Light of technique `vxgi` that is kept up to date: voxels and direct light that a change has nothing to do with stay,
+// and bounces go on from the light there was.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,8 @@ namespace roomlight {
 class VxgiCache {
  public:
   // `room` is what the finest level shall hold. Once `progress` says stop it ends soon, with part of the light.
-  VxgiCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings, const Progress& progress = {});
+  VxgiCache(const RayScene& rays, const Lights& lights, const Bounds3& room, const VxgiSettings& settings,
+            const Progress& progress = {});
 
   // `rays` and `lights` are of the scene as it is now; suns and sky are as before.
   void update(const RayScene& rays, const Lights& lights, const SceneChange& change, const Progress& progress = {});
@@ -28,7 +29,8 @@ class VxgiCache {
 
  private:
   struct Level {
-    Level(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, const Progress& progress)
+    Level(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance,
+          const Progress& progress)
         : voxelisation(voxelise(rays.scene(), voxel)), direct(rays, lights, voxelisation.voxels, radiance, progress) {}
     Voxelisation voxelisation;
     LightCache direct;

@@ -1,6 +1,6 @@
-// Voxel cone tracing's store of light: nested cubes of voxels about one place, each level twice as large as the one before and of as
-// many voxels (Panteleev 2014, "Practical Real-Time Voxel-Based Global Illumination for Current GPUs"). A voxel shows each of the six
-// axis directions an opacity and a radiance. docs/methods/vxgi.md
+// Voxel cone tracing's store of light: nested cubes of voxels about one place, each level twice as large as the one
+// before and of as many voxels (Panteleev 2014, "Practical Real-Time Voxel-Based Global Illumination for Current
+// GPUs"). A voxel shows each of the six axis directions an opacity and a radiance. docs/methods/vxgi.md
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace roomlight {
 
 class VxgiClipmap {
  public:
-  // Level 0 has voxels of `voxelSizeM` and lies about `centre`, as close as the voxels of the coarser levels allow: theirs are made of
-  // whole ones. All is empty.
+  // Level 0 has voxels of `voxelSizeM` and lies about `centre`, as close as the voxels of the coarser levels allow:
+  // theirs are made of whole ones. All is empty.
   VxgiClipmap(Vec3 centre, float voxelSizeM, int resolution, int levels);
 
   int resolution() const { return n_; }
@@ -32,7 +32,8 @@ class VxgiClipmap {
   void set(int level, Int3 v, int face, Vec3 radiance, float opacity);
   // The same, radiance times opacity and opacity.
   Float4 get(int level, Int3 v, int face) const;
-  // Fills what is made of finer voxels, from the finest level on: front over back along each direction, the mean of the four columns.
+  // Fills what is made of finer voxels, from the finest level on: front over back along each direction, the mean of the
+  // four columns.
   void buildCoarser();
   void clear();  // all is empty again
   // Notes where there is nothing, which later changes of light must leave so: sampling there is quicker.
@@ -46,9 +47,9 @@ class VxgiClipmap {
   int levelAt(Vec3 p) const { return levelAt(p, 0); }
   // The same, known to be no finer than one below `near`, as for a place close by.
   int levelAt(Vec3 p, int near) const;
-  // Radiance times opacity in x, y, z, and opacity in w, as seen by who looks along unit d: between the eight voxels around p, and
-  // of the three directions that face the looker by their cosines, which makes the opacity that of the area seen, at most 1. In
-  // unit(). p must lie in the level.
+  // Radiance times opacity in x, y, z, and opacity in w, as seen by who looks along unit d: between the eight voxels
+  // around p, and of the three directions that face the looker by their cosines, which makes the opacity that of the
+  // area seen, at most 1. In unit(). p must lie in the level.
   Float4 sample(int level, Vec3 p, Vec3 d) const;
 
  private:
@@ -57,7 +58,7 @@ class VxgiClipmap {
     Int3 corner;
     Vec3 firstCentre;  // world: middle of the voxel at the corner
     size_t first = 0;  // in texels_
-    float perM = 0;    // voxels
+    float perM = 0;  // voxels
   };
   bool reaches(const Level& level, Vec3 p) const {
     const Vec3 q = (p - level.firstCentre) * level.perM;
@@ -69,15 +70,19 @@ class VxgiClipmap {
   }
   size_t texel(const Level& level, int face, Int3 v) const {
     const auto n = static_cast<size_t>(n_);
-    return level.first + 4 * (((static_cast<size_t>(face) * n + static_cast<size_t>(v.z)) * n + static_cast<size_t>(v.y)) * n + static_cast<size_t>(v.x));
+    return level.first +
+           4 * (((static_cast<size_t>(face) * n + static_cast<size_t>(v.z)) * n + static_cast<size_t>(v.y)) * n +
+                static_cast<size_t>(v.x));
   }
   void put(int level, Int3 v, int face, Float4 value);
   Float4 composed(int finer, Int3 v, int face) const;
 
   int n_;
   std::vector<Level> levels_;
-  std::vector<uint16_t> texels_;  // half floats; level by level, face by face, x fastest: radiance times opacity, opacity
-  std::vector<uint8_t> empty_;    // per voxel of each level: whether it and the seven beyond it, which are interpolated together, hold nothing
+  std::vector<uint16_t>
+      texels_;  // half floats; level by level, face by face, x fastest: radiance times opacity, opacity
+  std::vector<uint8_t> empty_;  // per voxel of each level: whether it and the seven beyond it, which are interpolated
+                                // together, hold nothing
   float unit_ = 1;
 };
 

@@ -31,7 +31,8 @@ Vec3 traceVxgiCone(const VxgiClipmap& map, Vec3 origin, Vec3 d, float tanHalf, c
     const float alpha = found.everyW().x();
     if (alpha > 1e-4f) {
       // Opacity is that of a whole voxel: of a step through it, 1 - (1 - alpha)^step.
-      const float clear = std::max(0.0f, 1 - alpha), passes = tracing.step == 0.5f ? std::sqrt(clear) : std::pow(clear, tracing.step);
+      const float clear = std::max(0.0f, 1 - alpha),
+                  passes = tracing.step == 0.5f ? std::sqrt(clear) : std::pow(clear, tracing.step);
       sum = fma(Float4(left * (1 - passes) / alpha), found, sum);
       left *= passes;
     }
@@ -46,7 +47,8 @@ VxgiCones::VxgiCones(int count) {
   constexpr float kGoldenRad = 2.39996323f;
   float sum = 0;
   for (int i = 0; i < count; ++i) {
-    const float z = 1 - (static_cast<float>(i) + 0.5f) / static_cast<float>(count), r = std::sqrt(1 - z * z), phi = kGoldenRad * static_cast<float>(i);
+    const float z = 1 - (static_cast<float>(i) + 0.5f) / static_cast<float>(count), r = std::sqrt(1 - z * z),
+                phi = kGoldenRad * static_cast<float>(i);
     direction.push_back({r * std::cos(phi), r * std::sin(phi), z});
     weight.push_back(z);
     sum += z;
@@ -57,7 +59,8 @@ VxgiCones::VxgiCones(int count) {
   tanHalf = std::sqrt(1 - cosHalf * cosHalf) / cosHalf;
 }
 
-Vec3 traceVxgiDiffuse(const VxgiClipmap& map, Vec3 p, Vec3 ng, Vec3 ns, const VxgiCones& cones, float turnRad, const VxgiTracing& tracing) {
+Vec3 traceVxgiDiffuse(const VxgiClipmap& map, Vec3 p, Vec3 ng, Vec3 ns, const VxgiCones& cones, float turnRad,
+                      const VxgiTracing& tracing) {
   const int level = map.levelAt(p);
   if (level == map.levels()) return {};
   const Frame frame(ns);
@@ -65,7 +68,8 @@ Vec3 traceVxgiDiffuse(const VxgiClipmap& map, Vec3 p, Vec3 ng, Vec3 ns, const Vx
   const float c = std::cos(turnRad), s = std::sin(turnRad);
   Vec3 sum;
   for (size_t i = 0; i < cones.direction.size(); ++i) {
-    const Vec3 local = cones.direction[i], d = frame.toWorld({local.x * c - local.y * s, local.x * s + local.y * c, local.z});
+    const Vec3 local = cones.direction[i],
+               d = frame.toWorld({local.x * c - local.y * s, local.x * s + local.y * c, local.z});
     sum += traceVxgiCone(map, origin, d, cones.tanHalf, tracing) * cones.weight[i];
   }
   return sum;

@@ -13,7 +13,8 @@ class VxgiShader final : public DirectShader {
 
  private:
   Vec3 indirect(const SurfacePoint& s, Sampler& sampler, GatherCounters& count, float& occlusion) const override;
-  Vec3 glossy(const SurfacePoint& s, Vec3 wo, const BsdfSample& r, Sampler& sampler, GatherCounters& count) const override;
+  Vec3 glossy(const SurfacePoint& s, Vec3 wo, const BsdfSample& r, Sampler& sampler,
+              GatherCounters& count) const override;
 
   const VxgiClipmap& map_;
   const VxgiTracing tracing_;

@@ -16,7 +16,8 @@ float openness(const RayScene& rays, Vec3 p, Vec3 n, uint64_t key) {
   const Frame frame(n);
   std::array<Ray, kRays> tries;
   std::array<Vec3, kRays> left;
-  for (uint32_t k = 0; k < kRays; ++k) tries[k] = {offsetOrigin(p, n), frame.toWorld(sampleCosineHemisphere(Sampler(key, k, 0).next2())), 0, kInfinity};
+  for (uint32_t k = 0; k < kRays; ++k)
+    tries[k] = {offsetOrigin(p, n), frame.toWorld(sampleCosineHemisphere(Sampler(key, k, 0).next2())), 0, kInfinity};
   rays.transmittance(tries, left);
   float open = 0;
   for (const Vec3 l : left) open += luminance(l) / kRays;
@@ -47,12 +48,14 @@ Vec3 isotropicRadiance(std::span<const VxgiSide> sides) {
 }
 
 uint64_t keyOf(const VxgiSource& s) {
-  return static_cast<uint64_t>(s.level) << 48 | static_cast<uint64_t>(s.v.x) << 32 | static_cast<uint64_t>(s.v.y) << 16 | static_cast<uint64_t>(s.v.z);
+  return static_cast<uint64_t>(s.level) << 48 | static_cast<uint64_t>(s.v.x) << 32 |
+         static_cast<uint64_t>(s.v.y) << 16 | static_cast<uint64_t>(s.v.z);
 }
 
 }  // namespace
 
-void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const Voxels& voxels, const std::vector<Vec3>& directLux, VxgiSources& out) {
+void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const Voxels& voxels,
+                const std::vector<Vec3>& directLux, VxgiSources& out) {
   std::vector<uint8_t> front(voxels.slots.size());
   parallelFor(front.size(), 1024, [&](size_t s) { front[s] = isFront(rays, voxels.slots[s], voxels.voxelSizeM); });
   const Lattice lattice = latticeOf(voxels);
@@ -63,13 +66,25 @@ void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const V
     for (int z = 0; z < kBrickSize; ++z) {
       for (uint64_t bits = brick.occupied[static_cast<size_t>(z)]; bits; bits &= bits - 1, ++record) {
         const int bit = std::countr_zero(bits);
-        const Int3 v{at.x * kBrickSize + bit % kBrickSize - corner.x, at.y * kBrickSize + bit / kBrickSize - corner.y, at.z * kBrickSize + z - corner.z};
+        const Int3 v{at.x * kBrickSize + bit % kBrickSize - corner.x, at.y * kBrickSize + bit / kBrickSize - corner.y,
+                     at.z * kBrickSize + z - corner.z};
         if (!map.contains(v) || map.isMadeOfFiner(level, v)) continue;
         const SurfaceVoxel& voxel = voxels.voxels[record];
         VxgiSource source{level, v, voxel.opacity, out.sides.size(), 0};
-        for (size_t s = voxel.firstSlot, end = s + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces))); s < end; ++s) {
+        for (size_t s = voxel.firstSlot,
+                    end = s + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+             s < end; ++s) {
           const FaceSlot& slot = voxels.slots[s];
-          if (front[s] || isDoubleSided(rays.scene(), slot)) out.sides.push_back({slot.position, slot.normal, slot.albedo, directLux[s], {}, slot.areaM2, VxgiSide::kUnknown, slot.face, front[s] != 0});
+          if (front[s] || isDoubleSided(rays.scene(), slot))
+            out.sides.push_back({slot.position,
+                                 slot.normal,
+                                 slot.albedo,
+                                 directLux[s],
+                                 {},
+                                 slot.areaM2,
+                                 VxgiSide::kUnknown,
+                                 slot.face,
+                                 front[s] != 0});
         }
         source.count = out.sides.size() - source.first;
         out.voxels.push_back(source);

@@ -34,7 +34,8 @@ struct VxgiSources {
 };
 
 // The voxels of one level that are its own. `directLux`: per slot.
-void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const Voxels& voxels, const std::vector<Vec3>& directLux, VxgiSources& out);
+void addSources(const RayScene& rays, const VxgiClipmap& map, int level, const Voxels& voxels,
+                const std::vector<Vec3>& directLux, VxgiSources& out);
 // What `before` knows of sides that are as they were: indirect light and openness.
 void carrySides(const VxgiSources& before, VxgiSources& now);
 // Where it is not known.

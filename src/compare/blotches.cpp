@@ -35,7 +35,9 @@ Plane largest(const Plane& in, int reach) {
       const int y = static_cast<int>(row);
       for (int x = 0; x < of.width; ++x) {
         float most = of.at(x, y);
-        for (int k = -reach; k <= reach; ++k) most = std::max(most, of.at(std::clamp(x + k * dx, 0, of.width - 1), std::clamp(y + k * dy, 0, of.height - 1)));
+        for (int k = -reach; k <= reach; ++k)
+          most =
+              std::max(most, of.at(std::clamp(x + k * dx, 0, of.width - 1), std::clamp(y + k * dy, 0, of.height - 1)));
         out.at(x, y) = most;
       }
     });
@@ -53,7 +55,8 @@ Plane range(const Plane& in, int reach) {
 struct Smoothed {
   const Plane& judged;
   Plane operator()(const Plane& values, float sigma) const {
-    const Plane weight = gaussian(judged, sigma), sum = gaussian(map(values, [&](size_t i) { return values.values[i] * judged.values[i]; }), sigma);
+    const Plane weight = gaussian(judged, sigma),
+                sum = gaussian(map(values, [&](size_t i) { return values.values[i] * judged.values[i]; }), sigma);
     return map(values, [&](size_t i) { return weight.values[i] > 0 ? sum.values[i] / weight.values[i] : 0; });
   }
 };
@@ -64,7 +67,9 @@ Plane minus(const Plane& a, const Plane& b) {
 
 double rootOfProduct(const Plane& a, const Plane& b, const Plane& judged) {
   double sum = 0, count = 0;
-  for (size_t i = 0; i < a.values.size(); ++i) sum += static_cast<double>(judged.values[i] * a.values[i] * b.values[i]), count += static_cast<double>(judged.values[i]);
+  for (size_t i = 0; i < a.values.size(); ++i)
+    sum += static_cast<double>(judged.values[i] * a.values[i] * b.values[i]),
+        count += static_cast<double>(judged.values[i]);
   return count > 0 ? 100 * std::sqrt(std::max(0.0, sum / count)) : 0;
 }
 
@@ -75,7 +80,8 @@ Blotches blotches(const Image& reference, const Image& second, const Image& pict
   const Plane r = map(one, [&](size_t i) { return 0.5f * (one.values[i] + two.values[i]); });
   double sum = 0;
   for (const float v : r.values) sum += static_cast<double>(v);
-  const float mean = static_cast<float>(sum / static_cast<double>(r.values.size())), least = std::max(kFloor * mean, 1e-20f);
+  const float mean = static_cast<float>(sum / static_cast<double>(r.values.size())),
+              least = std::max(kFloor * mean, 1e-20f);
   std::vector<float> lit;
   std::copy_if(r.values.begin(), r.values.end(), std::back_inserter(lit), [](float v) { return v > 0; });
   if (lit.empty()) return {0, 0, 0, map(r, [](size_t) { return kNotJudged; })};
@@ -83,16 +89,29 @@ Blotches blotches(const Image& reference, const Image& second, const Image& pict
   const float brightest = kBright * lit[lit.size() / 2];
   Plane all = map(r, [](size_t) { return 1.0f; });
   const Plane soft = Smoothed{all}(r, 2);
-  const auto logarithm = [&](const Plane& of) { return map(of, [&](size_t i) { return std::log(std::max(of.values[i], 0.0f) + least); }); };
+  const auto logarithm = [&](const Plane& of) {
+    return map(of, [&](size_t i) { return std::log(std::max(of.values[i], 0.0f) + least); });
+  };
   const Plane edges = range(logarithm(soft), kReferenceReach), edgesSeen = range(logarithm(p), kPictureReach);
-  const Plane judged = map(r, [&](size_t i) { return edges.values[i] < kReferenceRange && edgesSeen.values[i] < kPictureRange && r.values[i] > 0 && r.values[i] < brightest ? 1.0f : 0.0f; });
-  const auto error = [&](const Plane& of) { return map(r, [&](size_t i) { return std::clamp((p.values[i] - of.values[i]) / (r.values[i] + least), -1.0f, 1.0f); }); };
+  const Plane judged = map(r, [&](size_t i) {
+    return edges.values[i] < kReferenceRange && edgesSeen.values[i] < kPictureRange && r.values[i] > 0 &&
+                   r.values[i] < brightest
+               ? 1.0f
+               : 0.0f;
+  });
+  const auto error = [&](const Plane& of) {
+    return map(r,
+               [&](size_t i) { return std::clamp((p.values[i] - of.values[i]) / (r.values[i] + least), -1.0f, 1.0f); });
+  };
   const Smoothed smoothed{judged};
-  const Plane e1 = error(one), e2 = error(two), fine1 = smoothed(e1, 1.5f), fine2 = smoothed(e2, 1.5f), middle1 = smoothed(e1, 4), middle2 = smoothed(e2, 4);
+  const Plane e1 = error(one), e2 = error(two), fine1 = smoothed(e1, 1.5f), fine2 = smoothed(e2, 1.5f),
+              middle1 = smoothed(e1, 4), middle2 = smoothed(e2, 4);
   const Plane band1 = minus(middle1, smoothed(e1, 32)), band2 = minus(middle2, smoothed(e2, 32));
-  const double share = static_cast<double>(std::count(judged.values.begin(), judged.values.end(), 1.0f)) / static_cast<double>(judged.values.size());
-  return {rootOfProduct(band1, band2, judged), rootOfProduct(minus(fine1, middle1), minus(fine2, middle2), judged), share,
-          map(r, [&](size_t i) { return judged.values[i] > 0 ? 0.5f * (band1.values[i] + band2.values[i]) : kNotJudged; })};
+  const double share = static_cast<double>(std::count(judged.values.begin(), judged.values.end(), 1.0f)) /
+                       static_cast<double>(judged.values.size());
+  return {
+      rootOfProduct(band1, band2, judged), rootOfProduct(minus(fine1, middle1), minus(fine2, middle2), judged), share,
+      map(r, [&](size_t i) { return judged.values[i] > 0 ? 0.5f * (band1.values[i] + band2.values[i]) : kNotJudged; })};
 }
 
 Image bandPicture(const Blotches& found) {

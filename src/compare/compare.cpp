@@ -17,7 +17,8 @@ Status checkFinite(const Image& image, const char* which) {
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     if (isFinite(image.pixels[i])) continue;
     const size_t width = static_cast<size_t>(image.width);
-    return Error{fmt::format("the {} holds a value that is not finite, at pixel ({}, {})", which, i % width, i / width)};
+    return Error{
+        fmt::format("the {} holds a value that is not finite, at pixel ({}, {})", which, i % width, i / width)};
   }
   return Ok{};
 }
@@ -25,8 +26,9 @@ Status checkFinite(const Image& image, const char* which) {
 Status checkPair(const Image& reference, const Image& picture) {
   if (reference.pixels.empty() || picture.pixels.empty()) return Error{"a picture without pixels cannot be compared"};
   if (reference.width != picture.width || reference.height != picture.height) {
-    return Error{fmt::format("sizes differ: the reference has {} x {} pixels, the picture {} x {}; render both with the same --size", reference.width,
-                             reference.height, picture.width, picture.height)};
+    return Error{fmt::format(
+        "sizes differ: the reference has {} x {} pixels, the picture {} x {}; render both with the same --size",
+        reference.width, reference.height, picture.width, picture.height)};
   }
   if (Status s = checkFinite(reference, "reference"); !s.ok()) return s;
   return checkFinite(picture, "picture");
@@ -104,7 +106,8 @@ Result<Report> compare(const Image& reference, const Image& picture) {
   report.referenceMeanLuminance = meanLuminance(reference);
   if (!(report.referenceMeanLuminance > 0)) return Error{"the reference is black: no error can be related to it"};
   report.ev100 = automaticEv100(reference);
-  const Image r = toneMap(reference, report.ev100, ToneCurve::Clip), p = toneMap(picture, report.ev100, ToneCurve::Clip);
+  const Image r = toneMap(reference, report.ev100, ToneCurve::Clip),
+              p = toneMap(picture, report.ev100, ToneCurve::Clip);
   report.mse = meanSquaredError(r, p);
   report.relMse = relativeMeanSquaredError(reference, picture, report.referenceMeanLuminance);
   report.ssim = structuralSimilarity(luminanceOf(r), luminanceOf(p));
@@ -139,7 +142,8 @@ Image differencePicture(const Image& reference, const Image& picture) {
 Result<ShownReport> compareShown(const Image& reference, const Image& picture) {
   if (Status s = checkPair(reference, picture); !s.ok()) return Error{s.error()};
   const Image r = asShown(reference), p = asShown(picture);
-  return ShownReport{meanSquaredError(r, p), structuralSimilarity(luminanceOf(r), luminanceOf(p)), meanFlip(reference, picture)};
+  return ShownReport{meanSquaredError(r, p), structuralSimilarity(luminanceOf(r), luminanceOf(p)),
+                     meanFlip(reference, picture)};
 }
 
 Image differencePictureOfShown(const Image& reference, const Image& picture) {

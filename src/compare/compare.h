@@ -9,18 +9,19 @@
 
 namespace roomlight {
 
-// Both pictures linear. For mse, ssim, flip and the difference picture both are exposed alike, by the automatic exposure
-// of the reference, clipped to 0..1 and sRGB-encoded: what a viewer sees, without a tone curve.
+// Both pictures linear. For mse, ssim, flip and the difference picture both are exposed alike, by the automatic
+// exposure of the reference, clipped to 0..1 and sRGB-encoded: what a viewer sees, without a tone curve.
 struct Report {
   double mse = 0;     // mean of squared differences over all pixels and channels of the encoded pictures; 0 is equal
-  double relMse = 0;  // mean over pixels and channels of (p - r)² / (r² + 0.01 m²), linear; m: the reference's mean luminance
+  double relMse =
+      0;  // mean over pixels and channels of (p - r)² / (r² + 0.01 m²), linear; m: the reference's mean luminance
   double ssim = 1;    // structural similarity of encoded luma (Wang et al. 2004); 1 is equal
   double flip = 0;    // mean LDR-FLIP (Andersson et al. 2020) at 67 pixels per degree; 0 is equal, 1 at most
   double meanLuminanceErrorPercent = 0;  // 100 (mean luminance of picture / that of reference - 1); signed
   double referenceMeanLuminance = 0;     // in the unit of the pictures, cd/m²
   float ev100 = 0;                       // the exposure used
-  // With two references: what mse would be without their noise. With a and b independent, the mean of (a - p)(b - p) is free of
-  // both variances. May be slightly negative.
+  // With two references: what mse would be without their noise. With a and b independent, the mean of (a - p)(b - p) is
+  // free of both variances. May be slightly negative.
   std::optional<double> mseBeyondNoise;
   std::optional<Blotches> noise;  // with two references: what smooth surfaces have of it
 };
@@ -29,8 +30,9 @@ struct Report {
 // Cost: about 0.3 s for a million pixels on two cores, nearly all of it FLIP.
 Result<Report> compare(const Image& reference, const Image& picture);
 
-// Of pictures that are exposed and tone-mapped already (.png, .jpg): what is shown, as in the files. How much light there was they no longer tell, so
-// that there is no relMse and no error of the mean luminance. Both pictures decoded from sRGB to linear, as readImage() gives them.
+// Of pictures that are exposed and tone-mapped already (.png, .jpg): what is shown, as in the files. How much light
+// there was they no longer tell, so that there is no relMse and no error of the mean luminance. Both pictures decoded
+// from sRGB to linear, as readImage() gives them.
 struct ShownReport {
   double mse = 0, ssim = 1, flip = 0;  // as in Report, without an exposure
 };

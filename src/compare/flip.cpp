@@ -53,7 +53,8 @@ Plane filterBy(const Plane& in, const std::vector<Sensitivity>& terms, double pi
   double total = 0;
   for (const Sensitivity& s : terms) {
     double sum = 0;  // of the one-dimensional kernel before it is normalised
-    for (int x = -radius; x <= radius; ++x) sum += std::exp(-M_PI * M_PI * x * x / (pixelsPerDegree * pixelsPerDegree * s.b));
+    for (int x = -radius; x <= radius; ++x)
+      sum += std::exp(-M_PI * M_PI * x * x / (pixelsPerDegree * pixelsPerDegree * s.b));
     weights.push_back(s.a * std::sqrt(M_PI / s.b) * sum * sum);
     total += weights.back();
   }

@@ -28,7 +28,8 @@ Plane convolve(const Plane& in, const Kernel& alongX, const Kernel& alongY) {
     std::vector<float> padded(width + alongX.size());
     for (size_t y = begin; y < end; ++y) {
       const float* source = &in.values[y * width];
-      for (int x = -radiusX; x < in.width + radiusX; ++x) padded[static_cast<size_t>(x + radiusX)] = source[std::clamp(x, 0, in.width - 1)];
+      for (int x = -radiusX; x < in.width + radiusX; ++x)
+        padded[static_cast<size_t>(x + radiusX)] = source[std::clamp(x, 0, in.width - 1)];
       float* target = &rows.values[y * width];
       for (size_t k = 0; k < alongX.size(); ++k) {
         for (size_t x = 0; x < width; ++x) target[x] += alongX[k] * padded[x + k];

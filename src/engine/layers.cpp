@@ -2,7 +2,8 @@
 
 namespace roomlight {
 
-Result<std::shared_ptr<const LightLayers>> wantedLayers(const Scene& scene, const Lights& lights, const RenderSettings& settings) {
+Result<std::shared_ptr<const LightLayers>> wantedLayers(const Scene& scene, const Lights& lights,
+                                                        const RenderSettings& settings) {
   if (!settings.layers) return std::shared_ptr<const LightLayers>();
   Result<LightLayers> layers = layersOf(scene, lights, settings.layersByRoom ? LayerBy::Room : LayerBy::Name);
   if (!layers) return Error{layers.error()};

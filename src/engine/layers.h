@@ -8,7 +8,8 @@
 namespace roomlight {
 
 // What the settings ask for: null where that is nothing.
-Result<std::shared_ptr<const LightLayers>> wantedLayers(const Scene& scene, const Lights& lights, const RenderSettings& settings);
+Result<std::shared_ptr<const LightLayers>> wantedLayers(const Scene& scene, const Lights& lights,
+                                                        const RenderSettings& settings);
 
 // With what they are; none where `lights` is null.
 std::vector<RenderedLayer> described(const LightLayers* lights, std::vector<Image> images);

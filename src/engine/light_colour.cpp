@@ -23,7 +23,8 @@ Vec3 lightColour(const RayScene& rays, const Camera& camera, const Image& image,
       const Hit hit = rays.intersect(ray);
       if (!hit.valid()) continue;
       const SurfacePoint s = surfaceAt(rays.scene(), hit, ray.direction);
-      const bool tells = isBlack(s.m.emission) && s.m.metallic < 0.5f && s.m.transmission < 0.5f && s.m.alpha > 0.5f && minComponent(s.m.baseColor) >= kDarkest;
+      const bool tells = isBlack(s.m.emission) && s.m.metallic < 0.5f && s.m.transmission < 0.5f && s.m.alpha > 0.5f &&
+                         minComponent(s.m.baseColor) >= kDarkest;
       if (!tells) continue;
       colours.push_back(image.at(x, y) / s.m.baseColor);
       mean += static_cast<double>(luminance(colours.back()));

@@ -6,9 +6,9 @@
 
 namespace roomlight {
 
-// Mean of luminance over albedo on opaque surfaces that do not shine themselves, by camera rays on a raster: what a white card
-// would show there. So coloured walls do not count as coloured light, except for what they reflect on to others. Of no size but
-// a colour; black where nothing tells.
+// Mean of luminance over albedo on opaque surfaces that do not shine themselves, by camera rays on a raster: what a
+// white card would show there. So coloured walls do not count as coloured light, except for what they reflect on to
+// others. Of no size but a colour; black where nothing tells.
 Vec3 lightColour(const RayScene& rays, const Camera& camera, const Image& image, int raysASide = 64);
 
 }  // namespace roomlight

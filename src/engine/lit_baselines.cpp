@@ -16,11 +16,13 @@ namespace {
 template <class Method>
 class BaselineScene final : public LitScene {
  public:
-  BaselineScene(const Scene& scene, const typename Method::Settings& settings, Stages& stages, const Camera* camera) : LitScene(scene, true, stages), settings_(settings) {
+  BaselineScene(const Scene& scene, const typename Method::Settings& settings, Stages& stages, const Camera* camera)
+      : LitScene(scene, true, stages), settings_(settings) {
     if (camera) room_ = roomAround(rays(), camera->worldFromCamera.w);
     light(stages);
   }
-  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                        const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
   }
   Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
@@ -77,11 +79,13 @@ struct Lpv {
 
 }  // namespace
 
-std::unique_ptr<LitScene> lightByVxgi(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera) {
+std::unique_ptr<LitScene> lightByVxgi(const Scene& scene, const RenderSettings& settings, Stages& stages,
+                                      const Camera* camera) {
   return std::make_unique<BaselineScene<Vxgi>>(scene, vxgiStage(settings), stages, camera);
 }
 
-std::unique_ptr<LitScene> lightByLpv(const Scene& scene, const RenderSettings& settings, Stages& stages, const Camera* camera) {
+std::unique_ptr<LitScene> lightByLpv(const Scene& scene, const RenderSettings& settings, Stages& stages,
+                                     const Camera* camera) {
   return std::make_unique<BaselineScene<Lpv>>(scene, lpvStage(settings), stages, camera);
 }
 

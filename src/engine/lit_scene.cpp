@@ -18,8 +18,10 @@ namespace {
 // By technique `path`.
 class TracedScene final : public LitScene {
  public:
-  TracedScene(const Scene& scene, const RenderSettings& settings, Stages& stages) : LitScene(scene, false, stages), settings_(settings) {}
-  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+  TracedScene(const Scene& scene, const RenderSettings& settings, Stages& stages)
+      : LitScene(scene, false, stages), settings_(settings) {}
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                        const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), elements, settings, progress);
   }
   Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
@@ -33,15 +35,21 @@ class TracedScene final : public LitScene {
 // By photon maps, made anew for what is asked.
 class PhotonScene final : public LitScene {
  public:
-  PhotonScene(const Scene& scene, const RenderSettings& settings, Stages& stages) : LitScene(scene, true, stages), settings_(photonStage(settings)) {}
-  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
-    const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(elements), settings_, {{}, progress.cancelled});
-    return measureIlluminance(rays(), lights(), PhotonShader(rays(), lights(), light, settings_), elements, settings, progress);
+  PhotonScene(const Scene& scene, const RenderSettings& settings, Stages& stages)
+      : LitScene(scene, true, stages), settings_(photonStage(settings)) {}
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                        const Progress& progress) const override {
+    const PhotonLight light =
+        lightPhotons(rays(), lights(), importonsFrom(elements), settings_, {{}, progress.cancelled});
+    return measureIlluminance(rays(), lights(), PhotonShader(rays(), lights(), light, settings_), elements, settings,
+                              progress);
   }
   Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress) const override {
     const PhotonSettings use = asked(settings_, wish);
-    const PhotonLight light = lightPhotons(rays(), lights(), importonsFrom(camera, wish.width, wish.height), use, {{}, progress.cancelled});
-    return gatherView(rays(), lights(), PhotonShader(rays(), lights(), light, use), camera, use, wish.history, progress);
+    const PhotonLight light =
+        lightPhotons(rays(), lights(), importonsFrom(camera, wish.width, wish.height), use, {{}, progress.cancelled});
+    return gatherView(rays(), lights(), PhotonShader(rays(), lights(), light, use), camera, use, wish.history,
+                      progress);
   }
 
  private:
@@ -51,12 +59,17 @@ class PhotonScene final : public LitScene {
 }  // namespace
 
 SceneRays::SceneRays(const Scene& scene, bool sunApart, Stages& stages)
-    : sunApart_(sunApart), rays_(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })), lights_(stages.run("lights", [&](const Progress&) { return Lights(scene, sunApart); })) {}
+    : sunApart_(sunApart),
+      rays_(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })),
+      lights_(stages.run("lights", [&](const Progress&) { return Lights(scene, sunApart); })) {}
 
 void SceneRays::follow(const SceneChange& change, Stages& stages) {
   const Scene& scene = rays_.scene();
   const bool emitters = !change.glow.empty() || std::any_of(change.moved.begin(), change.moved.end(), [&](uint32_t i) {
-    return lights_->emitterOf(i) >= 0 || !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)].emission);
+    return lights_->emitterOf(i) >= 0 ||
+           !isBlack(
+               scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)]
+                   .emission);
   });
   if (!change.moved.empty()) {
     stages.run("rays", [&](const Progress&) {
@@ -81,7 +94,8 @@ void LitScene::update(const SceneChange& change, Stages& stages) {
   relight(change, stages);
 }
 
-Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages, const LitUse& use) {
+Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages,
+                                             const LitUse& use) {
   if (const Status status = checkSettings(settings); !status) return Error{status.error()};
   std::unique_ptr<LitScene> out;
   if (settings.technique == "path") {

@@ -42,7 +42,9 @@ class LastView {
 template <class Shader, class Settings>
 class VoxelScene final : public LitScene {
  public:
-  VoxelScene(const Scene& scene, const RenderSettings& settings, const StageSettings<Settings>& use, bool changes, Stages& stages) : LitScene(scene, true, stages), radiance_(use.radiance), gather_(use.gather) {
+  VoxelScene(const Scene& scene, const RenderSettings& settings, const StageSettings<Settings>& use, bool changes,
+             Stages& stages)
+      : LitScene(scene, true, stages), radiance_(use.radiance), gather_(use.gather) {
     radiance_.still = !changes;  // what changes is followed by links
     if (const auto layers = wantedLayers(scene, lights(), settings)) radiance_.layers = layers.value();
     voxels_ = stages.run("voxelise", [&](const Progress&) { return voxelise(scene, use.voxel); });
@@ -53,10 +55,12 @@ class VoxelScene final : public LitScene {
     });
     makeShader(stages);
   }
-  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+  std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                        const Progress& progress) const override {
     return measureIlluminance(rays(), lights(), *shader_, elements, settings, progress);
   }
-  LayeredReadings illuminanceInLayers(std::span<const SurfaceElement> elements, const MeterSettings& settings, const Progress& progress) const override {
+  LayeredReadings illuminanceInLayers(std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                      const Progress& progress) const override {
     if (!shader_ || !shader_->layers()) return {};
     return measureInLayers(rays(), lights(), *shader_, elements, settings, progress);
   }
@@ -66,10 +70,12 @@ class VoxelScene final : public LitScene {
     const Settings use = asked(gather_, wish);
     if constexpr (kByRays) {
       if (!wish.history || use.samples >= kWorthSurvey) {
-        const auto prepared = last_.of(camera, use.width, use.height, use.samples >= kWorthSurvey, [&]() -> std::shared_ptr<const RayGather> {
-          auto made = std::make_shared<const RayGather>(rays(), lights(), *shader_, camera, sized(gather_, use.width, use.height), progress);
-          return progress.stop() ? nullptr : made;
-        });
+        const auto prepared = last_.of(
+            camera, use.width, use.height, use.samples >= kWorthSurvey, [&]() -> std::shared_ptr<const RayGather> {
+              auto made = std::make_shared<const RayGather>(rays(), lights(), *shader_, camera,
+                                                            sized(gather_, use.width, use.height), progress);
+              return progress.stop() ? nullptr : made;
+            });
         if (prepared) return prepared->picture(use, progress).image;
       }
     }
@@ -78,7 +84,8 @@ class VoxelScene final : public LitScene {
   std::shared_ptr<const SlotSnapshot> snapshot() const override {
     std::vector<uint32_t> edited = light_->emittersApart(lights()) ? edited_ : std::vector<uint32_t>();
     const std::vector<Vec3> sharp = light_->sharpLux(voxels_.voxels, edited);
-    return std::make_shared<const SlotSnapshot>(voxels_.voxels, light_->field().irradianceLux, sharp, std::move(edited));
+    return std::make_shared<const SlotSnapshot>(voxels_.voxels, light_->field().irradianceLux, sharp,
+                                                std::move(edited));
   }
 
  private:
@@ -93,7 +100,8 @@ class VoxelScene final : public LitScene {
     SceneChange behind = change;
     if (!moved.empty()) behind.glow = std::exchange(glow_, {});
     std::vector<Bounds3> places;
-    if (!moved.empty()) places = stages.run("voxelise", [&](const Progress&) { return followMoves(voxels_, rays().scene(), behind); });
+    if (!moved.empty())
+      places = stages.run("voxelise", [&](const Progress&) { return followMoves(voxels_, rays().scene(), behind); });
     stages.run("illuminate", [&](const Progress& p) {
       if (change.daylight && !moved.empty()) {
         light_.emplace(rays(), lights(), voxels_.voxels, radiance_, p);
@@ -114,7 +122,8 @@ class VoxelScene final : public LitScene {
   void noteEdited(const SceneChange& change) {
     std::vector<uint32_t> now;
     for (const std::vector<uint32_t>* list : {&change.glow, &change.moved}) {
-      std::copy_if(list->begin(), list->end(), std::back_inserter(now), [&](uint32_t i) { return lights().emitterOf(i) >= 0; });
+      std::copy_if(list->begin(), list->end(), std::back_inserter(now),
+                   [&](uint32_t i) { return lights().emitterOf(i) >= 0; });
     }
     if (!now.empty() && now.size() <= kMostEdited) edited_ = std::move(now);
   }
@@ -139,9 +148,13 @@ class VoxelScene final : public LitScene {
 
 }  // namespace
 
-std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages, bool changes) {
-  if (settings.technique == "cone") return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, settings, coneStages(settings), changes, stages);
-  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, settings, hybridStages(settings), changes, stages);
+std::unique_ptr<LitScene> lightByVoxels(const Scene& scene, const RenderSettings& settings, Stages& stages,
+                                        bool changes) {
+  if (settings.technique == "cone")
+    return std::make_unique<VoxelScene<ConeShader, GatherSettings>>(scene, settings, coneStages(settings), changes,
+                                                                    stages);
+  return std::make_unique<VoxelScene<RayShader, RayGatherSettings>>(scene, settings, hybridStages(settings), changes,
+                                                                    stages);
 }
 
 }  // namespace roomlight

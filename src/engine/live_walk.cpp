@@ -27,12 +27,14 @@ void addUp(const std::vector<StageStats>& more, std::vector<StageStats>& sums) {
 // Pictures of the frames, each from those before it.
 class FrameMaker {
  public:
-  FrameMaker(const LitScene& lit, const RenderSettings& settings) : lit_(lit), settings_(settings), history_(settings.frames) {
+  FrameMaker(const LitScene& lit, const RenderSettings& settings)
+      : lit_(lit), settings_(settings), history_(settings.frames) {
     if (isQuick()) light_ = lit.snapshot(), settled_ = lit.settled();
   }
   Status check() const {
     if (!isQuick() || light_) return Ok{};
-    return Error{"frames.quickMs: technique '" + settings_.technique + "' keeps no light in slots; 'hybrid' and 'cone' do"};
+    return Error{"frames.quickMs: technique '" + settings_.technique +
+                 "' keeps no light in slots; 'hybrid' and 'cone' do"};
   }
 
   // After light has followed.
@@ -46,7 +48,8 @@ class FrameMaker {
   }
   Image make(const Camera& camera, const Progress& progress) {
     if (!isQuick()) return lit_.picture(camera, settings_.width, settings_.height, progress, &history_);
-    return quick_.make({lit_.rays(), lit_.lights(), *light_, {}}, camera, settings_.width, settings_.height, settings_.frames.quickMs, progress);
+    return quick_.make({lit_.rays(), lit_.lights(), *light_, {}}, camera, settings_.width, settings_.height,
+                       settings_.frames.quickMs, progress);
   }
 
  private:
@@ -60,7 +63,8 @@ class FrameMaker {
   bool settled_ = false;
 };
 
-Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, const RenderProgress& progress, const TakeFrame& take, WalkFrames& out) {
+Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, const RenderProgress& progress,
+            const TakeFrame& take, WalkFrames& out) {
   RenderStats openStats;
   Stages opening(progress, openStats);
   stage(walk, 0, scene);
@@ -128,7 +132,8 @@ double WalkFrames::framesPerCpuSecond() const {
   return rate(frames, [](const WalkFrame& f) { return f.updateCpuMs + f.pictureCpuMs; });
 }
 
-Result<WalkFrames> measureWalk(Scene& scene, const Walk& walk, const RenderSettings& settings, const RenderProgress& progress, const TakeFrame& take) {
+Result<WalkFrames> measureWalk(Scene& scene, const Walk& walk, const RenderSettings& settings,
+                               const RenderProgress& progress, const TakeFrame& take) {
   WalkFrames out;
   Status status = Ok{};
   withThreads(settings.threads, [&] { status = play(scene, walk, settings, progress, take, out); });

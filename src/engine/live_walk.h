@@ -19,7 +19,8 @@ struct WalkFrames {
   std::vector<StageStats> opening;  // what came before the first
   std::vector<StageStats> stages;   // of all frames together: "rays", "voxelise", "illuminate", ..., "gather"
   bool complete = true;
-  double framesPerSecond() const;     // frames over the time of all of them but the first, if there are more; 0 without any
+  double framesPerSecond()
+      const;     // frames over the time of all of them but the first, if there are more; 0 without any
   double framesPerCpuSecond() const;  // over processor time: as many cores would do it in
 };
 
@@ -32,9 +33,11 @@ struct ShownFrame {
 // `take`, where given, is handed every picture in turn; its time does not count, and an error ends the walk.
 using TakeFrame = std::function<Status(const ShownFrame&)>;
 
-// Plays a walk of the scene, which must be as readWalkFile() saw it, and is so again afterwards. Pictures are of the settings' size and
-// samples. What is done once a scene, such as parting what moves from what does not, is done before the first frame.
-Result<WalkFrames> measureWalk(Scene& scene, const Walk& walk, const RenderSettings& settings, const RenderProgress& progress = {}, const TakeFrame& take = {});
+// Plays a walk of the scene, which must be as readWalkFile() saw it, and is so again afterwards. Pictures are of the
+// settings' size and samples. What is done once a scene, such as parting what moves from what does not, is done before
+// the first frame.
+Result<WalkFrames> measureWalk(Scene& scene, const Walk& walk, const RenderSettings& settings,
+                               const RenderProgress& progress = {}, const TakeFrame& take = {});
 
 // Settings of a frame: one sample a pixel, and for `path` its filter, without which one is nothing to look at.
 RenderSettings frameSettings(RenderSettings settings);

@@ -18,7 +18,8 @@ constexpr Preset kPresets[] = {
      [](RenderSettings& s) {
        s.voxel.sizeFactor = 1.4f;
        s.radiance.directSamples = 4, s.radiance.links = 4, s.radiance.residual = 0.01f;
-       s.hybrid.samples = 4, s.hybrid.firstSamples = 4, s.hybrid.tolerance = 0, s.hybrid.raysPerShading = 4, s.hybrid.causticPhotons = 1 << 15;
+       s.hybrid.samples = 4, s.hybrid.firstSamples = 4, s.hybrid.tolerance = 0, s.hybrid.raysPerShading = 4,
+       s.hybrid.causticPhotons = 1 << 15;
      }},
     {"good", "for looking at", [](RenderSettings&) {}},
     {"best", "for keeping: goes on until little error is left",

@@ -33,8 +33,15 @@ double secondsOfAPass(const RayScene& rays, const Lights& lights, const Camera& 
 
 class Refinement {
  public:
-  Refinement(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings, double seconds, double pass, const Stages& stages, const Image& picture)
-      : aim_(settings.blendUntilMse), seconds_(seconds), longest_(pass), blendSeconds_(kBlendInPasses * pass), stages_(stages), picture_(picture), tracer_(rays, lights, camera, pathSettings(settings), true) {}
+  Refinement(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings,
+             double seconds, double pass, const Stages& stages, const Image& picture)
+      : aim_(settings.blendUntilMse),
+        seconds_(seconds),
+        longest_(pass),
+        blendSeconds_(kBlendInPasses * pass),
+        stages_(stages),
+        picture_(picture),
+        tracer_(rays, lights, camera, pathSettings(settings), true) {}
 
   void run(const Progress& progress) {
     Progress inner;
@@ -45,7 +52,9 @@ class Refinement {
       if (!tracer_.pass(inner)) break;
       longest_ = std::max(0.5 * longest_, watch_.seconds() - before);
       progress.at(done());
-      if (tracer_.samples() < kFewestSamples || tracer_.samples() < kLookAgain * blended_ || !fits(blendSeconds_ + longest_)) continue;
+      if (tracer_.samples() < kFewestSamples || tracer_.samples() < kLookAgain * blended_ ||
+          !fits(blendSeconds_ + longest_))
+        continue;
       look();
       if (best_.srgbMse <= aim_) return;
     }
@@ -82,7 +91,8 @@ class Refinement {
 
 }  // namespace
 
-bool refineByPath(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings, double seconds, Stages& stages, Image& picture) {
+bool refineByPath(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings,
+                  double seconds, Stages& stages, Image& picture) {
   const Stopwatch watch;
   const double pass = std::isfinite(seconds) ? secondsOfAPass(rays, lights, camera, pathSettings(settings)) : 0;
   const double left = seconds - watch.seconds();

@@ -51,7 +51,8 @@ Picture finished(const RayScene& rays, const Camera& camera, Image image, std::v
 }
 
 struct Renderer::State {
-  State(const Scene& s, const RenderSettings& how, const Technique& technique) : scene(s), settings(how), pictures(technique.pictures(s, settings)) {}
+  State(const Scene& s, const RenderSettings& how, const Technique& technique)
+      : scene(s), settings(how), pictures(technique.pictures(s, settings)) {}
   const Scene& scene;
   const RenderSettings settings;
   const PictureOf pictures;
@@ -92,7 +93,8 @@ Result<Rendered> Renderer::picture(const Camera& camera, const RenderProgress& p
   return result;
 }
 
-Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSettings& settings, const RenderProgress& progress) {
+Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                        const RenderProgress& progress) {
   Result<Renderer> renderer = Renderer::of(scene, settings);
   if (!renderer) return Error{renderer.error()};
   return renderer.value().picture(camera, progress);

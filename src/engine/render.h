@@ -24,7 +24,8 @@ struct StageStats {
 
 struct RenderStats {
   std::vector<StageStats> stages;
-  std::vector<std::pair<std::string, double>> numbers;  // "triangles", "voxels", "voxelSizeM", "rays", "samples", "noise", ...
+  std::vector<std::pair<std::string, double>>
+      numbers;  // "triangles", "voxels", "voxelSizeM", "rays", "samples", "noise", ...
 };
 
 struct RenderedLayer {
@@ -36,20 +37,22 @@ struct Rendered {
   Image image;        // linear, cd/m²
   Vec3 lightColour;   // of the light on what the picture shows, luminance 1; black where nothing tells
   Sights sights;
-  std::vector<RenderedLayer> layers;  // with settings.layers: their sum is `image`; lamps first, then emissive meshes, sun and sky
+  std::vector<RenderedLayer>
+      layers;  // with settings.layers: their sum is `image`; lamps first, then emissive meshes, sun and sky
   RenderStats stats;
   bool complete = true;  // false: stopped early, the image is the best so far; empty if there was none yet
 };
 
-// What long work tells its caller: the stage's name and the fraction of it done; and, where a technique can tell, the error that the
-// picture still has: root mean square relative to a pixel's luminance, and mse of the encoded picture.
+// What long work tells its caller: the stage's name and the fraction of it done; and, where a technique can tell, the
+// error that the picture still has: root mean square relative to a pixel's luminance, and mse of the encoded picture.
 struct RenderProgress {
   std::function<void(const std::string& stage, float fraction)> report;
   const std::atomic<bool>* cancelled = nullptr;
   std::function<void(double relativeError, double srgbMse)> estimate;
 };
 
-// Pictures of one scene, one after the other. Techniques `hybrid` and `cone` find light in voxels with the first, and keep it.
+// Pictures of one scene, one after the other. Techniques `hybrid` and `cone` find light in voxels with the first, and
+// keep it.
 class Renderer {
  public:
   // Errors: an unknown technique, settings out of range. `scene` must be validated; it is referred to.

@@ -23,9 +23,11 @@ struct Choice {
   const char* name;
   T value;
 };
-constexpr Choice<Attenuation> kAttenuations[] = {{"plain", Attenuation::Plain}, {"normalWeighted", Attenuation::NormalWeighted}};
+constexpr Choice<Attenuation> kAttenuations[] = {{"plain", Attenuation::Plain},
+                                                 {"normalWeighted", Attenuation::NormalWeighted}};
 constexpr Choice<BounceBy> kBounces[] = {{"rays", BounceBy::Rays}, {"cones", BounceBy::Cones}};
-constexpr Choice<PhotonKernel> kKernels[] = {{"disc", PhotonKernel::Disc}, {"cone", PhotonKernel::Cone}, {"epanechnikov", PhotonKernel::Epanechnikov}};
+constexpr Choice<PhotonKernel> kKernels[] = {
+    {"disc", PhotonKernel::Disc}, {"cone", PhotonKernel::Cone}, {"epanechnikov", PhotonKernel::Epanechnikov}};
 
 // The one list of members: name, where it is, smallest and largest value. Reader, writer and range check all walk it.
 template <class Visitor, class Settings>
@@ -327,7 +329,8 @@ std::string settingsToJson(const RenderSettings& settings) {
   return writer.json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-Result<RenderSettings> settingsFromJson(std::string_view text, const std::string& where, const RenderSettings& defaults, const std::string& quality) {
+Result<RenderSettings> settingsFromJson(std::string_view text, const std::string& where, const RenderSettings& defaults,
+                                        const std::string& quality) {
   Json json;
   try {
     json = Json::parse(text);
@@ -339,7 +342,8 @@ Result<RenderSettings> settingsFromJson(std::string_view text, const std::string
   std::string chosen = quality;
   if (quality.empty()) Reader(json, where + ": ").text("quality", chosen);
   if (!chosen.empty()) {
-    if (const Status status = applyQuality(chosen, settings); !status) return Error{fmt::format("{}: {}", where, status.error())};
+    if (const Status status = applyQuality(chosen, settings); !status)
+      return Error{fmt::format("{}: {}", where, status.error())};
   }
   Reader reader(json, where + ": ");
   visitMembers(reader, settings);
@@ -356,12 +360,17 @@ Status checkSettings(const RenderSettings& settings) {
   RenderSettings named;
   if (const Status status = applyQuality(settings.quality, named); !status) return status;
   if (int64_t{settings.width} * settings.height > kLargestPicture) {
-    return Error{fmt::format("width, height: {} x {} pixels are more than {}", settings.width, settings.height, kLargestPicture)};
+    return Error{fmt::format("width, height: {} x {} pixels are more than {}", settings.width, settings.height,
+                             kLargestPicture)};
   }
   if (settings.voxel.smallestM > settings.voxel.largestM) {
-    return Error{fmt::format("voxel.smallestM: must not be above voxel.largestM: {} > {}", settings.voxel.smallestM, settings.voxel.largestM)};
+    return Error{fmt::format("voxel.smallestM: must not be above voxel.largestM: {} > {}", settings.voxel.smallestM,
+                             settings.voxel.largestM)};
   }
-  if (settings.vxgi.resolution % 2 != 0) return Error{fmt::format("vxgi.resolution: must be even, for coarser voxels are made of two finer ones each way: {}", settings.vxgi.resolution)};
+  if (settings.vxgi.resolution % 2 != 0)
+    return Error{
+        fmt::format("vxgi.resolution: must be even, for coarser voxels are made of two finer ones each way: {}",
+                    settings.vxgi.resolution)};
   return Ok{};
 }
 

@@ -9,7 +9,9 @@ Sights sightsOf(const RayScene& rays, const Camera& camera, int width, int heigh
   constexpr int kSteps = 4;
   const CameraRays cameraRays(camera, width, height);
   const size_t w = static_cast<size_t>(width), h = static_cast<size_t>(height);
-  const auto look = [&](size_t x, size_t y, float u, float v) { return sightOf(rays, camera, cameraRays.ray(static_cast<float>(x) + u, static_cast<float>(y) + v)); };
+  const auto look = [&](size_t x, size_t y, float u, float v) {
+    return sightOf(rays, camera, cameraRays.ray(static_cast<float>(x) + u, static_cast<float>(y) + v));
+  };
   std::vector<Sight> centre(w * h);
   parallelFor(h, 1, [&](size_t y) {
     for (size_t x = 0; x < w; ++x) centre[y * w + x] = look(x, y, 0.5f, 0.5f);
@@ -24,7 +26,9 @@ Sights sightsOf(const RayScene& rays, const Camera& camera, int width, int heigh
       }
       float counts[3] = {};
       for (int k = 0; k < (alike ? 1 : kSteps * kSteps); ++k) {
-        const Sight s = alike ? own : look(x, y, (static_cast<float>(k % kSteps) + 0.5f) / kSteps, (static_cast<float>(k / kSteps) + 0.5f) / kSteps);
+        const Sight s = alike ? own
+                              : look(x, y, (static_cast<float>(k % kSteps) + 0.5f) / kSteps,
+                                     (static_cast<float>(k / kSteps) + 0.5f) / kSteps);
         counts[static_cast<size_t>(s)] += alike ? 1 : 1.0f / (kSteps * kSteps);
       }
       out.section[y * w + x] = counts[static_cast<size_t>(Sight::Section)];
@@ -50,8 +54,7 @@ Image drawn(const Image& encoded, const Sights& sights, Vec3 section, std::optio
   for (size_t i = 0; i < out.pixels.size(); ++i) {
     const float cut = sights.section[i], nothing = sights.backdrop[i], solid = 1 - nothing;
     const Vec3 inside = encoded.pixels[i] * (solid - cut) + section * cut;
-    out.pixels[i] = backdrop ? inside + *backdrop * nothing : solid > 0 ? inside / solid
-                                                                        : Vec3(1);
+    out.pixels[i] = backdrop ? inside + *backdrop * nothing : solid > 0 ? inside / solid : Vec3(1);
   }
   return out;
 }

@@ -15,7 +15,8 @@ class Stages {
  public:
   Stages(const RenderProgress& progress, RenderStats& stats) : progress_(progress), stats_(stats) {}
 
-  // work(Progress) -> value. The stage's last report, and only that, says 1; a stage whose Result is an error never does.
+  // work(Progress) -> value. The stage's last report, and only that, says 1; a stage whose Result is an error never
+// does.
   template <class Work>
   auto run(const std::string& name, Work&& work) {
     const Stopwatch watch;

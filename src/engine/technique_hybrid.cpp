@@ -14,7 +14,8 @@ constexpr int kMostForError = 256;  // samples, until no more error is left than
 // What pictures of all cameras share: the light in voxels.
 struct HybridScene {
   explicit HybridScene(const Scene& scene, Stages& stages)
-      : rays(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })), lights(stages.run("lights", [&](const Progress&) { return Lights(scene, true); })) {}
+      : rays(stages.run("bvh", [&](const Progress&) { return RayScene(scene); })),
+        lights(stages.run("lights", [&](const Progress&) { return Lights(scene, true); })) {}
   const RayScene rays;
   const Lights lights;
   std::shared_ptr<const LightLayers> layers;
@@ -24,14 +25,19 @@ struct HybridScene {
 
 class HybridPictures {
  public:
-  HybridPictures(const Scene& scene, const RenderSettings& settings) : scene_(scene), settings_(settings), use_(hybridStages(settings)) {
+  HybridPictures(const Scene& scene, const RenderSettings& settings)
+      : scene_(scene), settings_(settings), use_(hybridStages(settings)) {
     use_.gather.tellsError = true, use_.gather.untilMse = settings.blendUntilMse;
-    if (settings.blendUntilMse > 0 && use_.gather.tolerance > 0 && settings.samples == 0) use_.gather.samples = std::max(use_.gather.samples, kMostForError);
+    if (settings.blendUntilMse > 0 && use_.gather.tolerance > 0 && settings.samples == 0)
+      use_.gather.samples = std::max(use_.gather.samples, kMostForError);
   }
   Result<Picture> of(const Camera& camera, Stages& stages);
 
  private:
-  double left(const Stopwatch& watch) const { return isLimited() ? std::max(0.0, settings_.timeLimitS - watch.seconds()) : std::numeric_limits<double>::infinity(); }
+  double left(const Stopwatch& watch) const {
+    return isLimited() ? std::max(0.0, settings_.timeLimitS - watch.seconds())
+                       : std::numeric_limits<double>::infinity();
+  }
   bool isLimited() const { return settings_.timeLimitS > 0; }
   Status light(const Stopwatch& watch, Stages& stages);
 
@@ -47,7 +53,8 @@ Status HybridPictures::light(const Stopwatch& watch, Stages& stages) {
   const auto layers = wantedLayers(scene_, lit->lights, settings_);
   if (!layers) return Error{layers.error()};
   use_.radiance.layers = lit->layers = layers.value();
-  lit->light = isLimited() ? lightVoxelsWithin(left(watch), lit->rays, lit->lights, use_.voxel, use_.radiance, stages) : lightVoxels(lit->rays, lit->lights, use_.voxel, use_.radiance, stages);
+  lit->light = isLimited() ? lightVoxelsWithin(left(watch), lit->rays, lit->lights, use_.voxel, use_.radiance, stages)
+                           : lightVoxels(lit->rays, lit->lights, use_.voxel, use_.radiance, stages);
   if (stages.cancelled()) return Ok{};
   use_.gather = withCells(use_.gather, lit->light.voxels.voxelSizeM);
   lit_ = std::move(lit);
@@ -75,11 +82,14 @@ Result<Picture> HybridPictures::of(const Camera& camera, Stages& stages) {
   tellNumbers(lit.light, result, stages);
   stages.number("pixelsGathered", static_cast<double>(gathered));
   if (result.error.relative >= 0) stages.estimate(result.error.relative, result.error.srgbMse);
-  const bool isGoodEnough = settings_.blendUntilMse > 0 && result.error.srgbMse >= 0 && result.error.srgbMse <= settings_.blendUntilMse;
+  const bool isGoodEnough =
+      settings_.blendUntilMse > 0 && result.error.srgbMse >= 0 && result.error.srgbMse <= settings_.blendUntilMse;
   // Paths see the sky as it is, with its sun in it.
-  const bool told = settings_.blend && (isLimited() || settings_.blendUntilMse > 0) && !isGoodEnough && !stages.cancelled() &&
+  const bool told = settings_.blend && (isLimited() || settings_.blendUntilMse > 0) && !isGoodEnough &&
+                    !stages.cancelled() &&
                     refineByPath(lit.rays, Lights(scene_), camera, settings_, left(watch), stages, result.image);
-  if (!told && result.error.relative >= 0) stages.number("estimatedError", result.error.relative), stages.number("estimatedMse", result.error.srgbMse);
+  if (!told && result.error.relative >= 0)
+    stages.number("estimatedError", result.error.relative), stages.number("estimatedMse", result.error.srgbMse);
   // What paths put right of the whole is put right of all its parts.
   splitLike(result.image, result.layers);
   return finished(lit.rays, camera, std::move(result.image), described(lit.layers.get(), std::move(result.layers)));
@@ -88,7 +98,9 @@ Result<Picture> HybridPictures::of(const Camera& camera, Stages& stages) {
 }  // namespace
 
 PictureOf picturesByRays(const Scene& scene, const RenderSettings& settings) {
-  return [pictures = std::make_shared<HybridPictures>(scene, settings)](const Camera& camera, Stages& stages) { return pictures->of(camera, stages); };
+  return [pictures = std::make_shared<HybridPictures>(scene, settings)](const Camera& camera, Stages& stages) {
+    return pictures->of(camera, stages);
+  };
 }
 
 }  // namespace roomlight

@@ -12,10 +12,13 @@ Result<Picture> renderLpv(const Scene& scene, const Camera& camera, const Render
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
   const Bounds3 room = roomAround(rays, camera.worldFromCamera.w);
-  const LpvLight light = stages.run("illuminate", [&](const Progress& p) { return lightLpv(rays, lights, room, use, p); });
+  const LpvLight light =
+      stages.run("illuminate", [&](const Progress& p) { return lightLpv(rays, lights, room, use, p); });
   if (stages.cancelled()) return Picture{};
   if (settings.timeLimitS > 0) use.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
-  GatheredPicture result = stages.run("gather", [&](const Progress& p) { return gatherPicture(rays, lights, LpvShader(rays, lights, light, use), camera, use, p); });
+  GatheredPicture result = stages.run("gather", [&](const Progress& p) {
+    return gatherPicture(rays, lights, LpvShader(rays, lights, light, use), camera, use, p);
+  });
 
   size_t bytes = 0;
   for (const LpvLevel& level : light.levels) bytes += level.bytes();

@@ -11,11 +11,14 @@ Result<Picture> renderPhoton(const Scene& scene, const Camera& camera, const Ren
 
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
-  const PhotonLight light = stages.run("photons", [&](const Progress& p) { return lightPhotons(rays, lights, importonsFrom(camera, use.width, use.height), use, p); });
+  const PhotonLight light = stages.run("photons", [&](const Progress& p) {
+    return lightPhotons(rays, lights, importonsFrom(camera, use.width, use.height), use, p);
+  });
   if (stages.cancelled()) return Picture{};
   // What the stages before took counts against the limit; the gather never ends before its first pass.
   if (settings.timeLimitS > 0) use.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
-  GatheredPicture result = stages.run("gather", [&](const Progress& p) { return gatherPhotons(rays, lights, light, camera, use, p); });
+  GatheredPicture result =
+      stages.run("gather", [&](const Progress& p) { return gatherPhotons(rays, lights, light, camera, use, p); });
 
   stages.number("photonsEmitted", static_cast<double>(light.emitted));
   stages.number("photonsKept", static_cast<double>(light.global.size()));

@@ -63,8 +63,7 @@ PathSettings pathStage(const RenderSettings& settings) {
   path.width = settings.width;
   path.height = settings.height;
   const bool endsOtherwise = settings.timeLimitS > 0 || settings.noiseLevel > 0;
-  path.samples = settings.samples > 0 ? settings.samples : endsOtherwise ? kNoLimit
-                                                                         : kDefaultSamples;
+  path.samples = settings.samples > 0 ? settings.samples : endsOtherwise ? kNoLimit : kDefaultSamples;
   path.timeLimitS = settings.timeLimitS;
   path.noiseLevel = settings.noiseLevel;
   path.seed = settings.seed;

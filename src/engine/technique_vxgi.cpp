@@ -12,10 +12,13 @@ Result<Picture> renderVxgi(const Scene& scene, const Camera& camera, const Rende
   const RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
   const Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
   const Bounds3 room = roomAround(rays, camera.worldFromCamera.w);
-  const VxgiLight light = stages.run("illuminate", [&](const Progress& p) { return lightVxgi(rays, lights, room, use, p); });
+  const VxgiLight light =
+      stages.run("illuminate", [&](const Progress& p) { return lightVxgi(rays, lights, room, use, p); });
   if (stages.cancelled()) return Picture{};
   if (settings.timeLimitS > 0) use.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
-  GatheredPicture result = stages.run("gather", [&](const Progress& p) { return gatherPicture(rays, lights, VxgiShader(rays, lights, light, use), camera, use, p); });
+  GatheredPicture result = stages.run("gather", [&](const Progress& p) {
+    return gatherPicture(rays, lights, VxgiShader(rays, lights, light, use), camera, use, p);
+  });
 
   stages.number("voxelSizeM", static_cast<double>(light.map.voxelSizeM(0)));
   stages.number("voxels", static_cast<double>(light.sources));

@@ -14,7 +14,8 @@ constexpr float kTriedSize = 4;       // voxels that are tried first, in edges o
 constexpr double kGrowth = 1.6;       // light on voxels takes their edge to the power of minus this
 constexpr double kLightShare = 0.5;   // of the time, at most
 constexpr double kPatience = 1.25;    // of the time that lighting should take: then it is given up
-constexpr float kHardlyFiner = 2.5f;  // voxels not smaller than this, in edges of those wanted, are no gain over those tried
+constexpr float kHardlyFiner =
+    2.5f;  // voxels not smaller than this, in edges of those wanted, are no gain over those tried
 constexpr int kTriedPart = 8;         // of width and height, at most; also the smallest picture
 constexpr double kTriedPixels = 500;  // at least
 constexpr double kHardlyLarger = 1.3;  // times that: no gain
@@ -22,7 +23,8 @@ constexpr double kFilterShare = 0.1;  // of the time of the first pass
 
 }  // namespace
 
-VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
+VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel,
+                             const RadianceSettings& radiance, Stages& stages) {
   const Stopwatch watch;
   const float wanted = chooseVoxelSize(rays.scene(), voxel);
   VoxelSettings tried = voxel;
@@ -35,7 +37,8 @@ VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights&
   });
   if (stages.cancelled()) return light;
   const double took = watch.seconds(), allowed = kLightShare * seconds - took;
-  const float affordable = allowed > 0 ? kTriedSize * static_cast<float>(std::pow(took / allowed, 1 / kGrowth)) : kInfinity;
+  const float affordable =
+      allowed > 0 ? kTriedSize * static_cast<float>(std::pow(took / allowed, 1 / kGrowth)) : kInfinity;
   if (affordable > kHardlyFiner) return light;
   VoxelSettings fine = voxel;
   fine.voxelSizeM = std::max(1.0f, affordable) * wanted;
@@ -43,9 +46,13 @@ VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights&
   return finer.field.irradianceLux.empty() ? light : finer;
 }
 
-int triedPart(int width, int height) { return static_cast<int>(std::clamp(std::sqrt(static_cast<double>(width) * height / kTriedPixels), 1.0, static_cast<double>(kTriedPart))); }
+int triedPart(int width, int height) {
+  return static_cast<int>(
+      std::clamp(std::sqrt(static_cast<double>(width) * height / kTriedPixels), 1.0, static_cast<double>(kTriedPart)));
+}
 
-GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, RayGatherSettings gather, const Progress& progress) {
+GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const RayShader& shader,
+                             const Camera& camera, RayGatherSettings gather, const Progress& progress) {
   const Stopwatch watch;
   const RayGather prepared(rays, lights, shader, camera, gather, progress);
   const double preparing = watch.seconds();
@@ -55,7 +62,8 @@ GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights&
   small.width = (gather.width + divisor - 1) / divisor, small.height = (gather.height + divisor - 1) / divisor;
   small.samples = std::min(gather.samples, gather.firstSamples), small.tolerance = 0;
   GatheredPicture tried = prepared.picture(small);
-  const double smaller = static_cast<double>(gather.width) * gather.height / (static_cast<double>(small.width) * small.height);
+  const double smaller =
+      static_cast<double>(gather.width) * gather.height / (static_cast<double>(small.width) * small.height);
   const double took = watch.seconds(), first = (took - preparing) * smaller, left = seconds - took;
   const double part = std::sqrt(std::min(1.0, std::max(0.0, left) / ((1 + kFilterShare) * first)));
   if (progress.stop() || (part < 1 && part < kHardlyLarger / divisor)) return tried;
@@ -68,7 +76,9 @@ GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights&
 Image enlarged(const Image& image, int width, int height) {
   Image out(width, height);
   const auto place = [](int i, int size, int sizeOut, int& low, int& high) {
-    const float at = std::clamp((static_cast<float>(i) + 0.5f) * static_cast<float>(size) / static_cast<float>(sizeOut) - 0.5f, 0.0f, static_cast<float>(size - 1));
+    const float at =
+        std::clamp((static_cast<float>(i) + 0.5f) * static_cast<float>(size) / static_cast<float>(sizeOut) - 0.5f, 0.0f,
+                   static_cast<float>(size - 1));
     low = static_cast<int>(at), high = std::min(low + 1, size - 1);
     return at - static_cast<float>(low);
   };
@@ -78,7 +88,8 @@ Image enlarged(const Image& image, int width, int height) {
     const float v = place(y, image.height, height, y0, y1);
     for (int x = 0; x < width; ++x) {
       const float u = place(x, image.width, width, x0, x1);
-      out.at(x, y) = (image.at(x0, y0) * (1 - u) + image.at(x1, y0) * u) * (1 - v) + (image.at(x0, y1) * (1 - u) + image.at(x1, y1) * u) * v;
+      out.at(x, y) = (image.at(x0, y0) * (1 - u) + image.at(x1, y0) * u) * (1 - v) +
+                     (image.at(x0, y1) * (1 - u) + image.at(x1, y1) * u) * v;
     }
   });
   return out;

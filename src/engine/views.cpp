@@ -20,7 +20,11 @@ constexpr float kBesideAllM = 0.3f;     // but no more than this around everythi
 constexpr float kEyeM = 1.6f;           // of who stands in a panorama
 constexpr float kTopFovRad = 0.9f;
 constexpr int kLongerSidePixels = 1200, kPanoramaPixels = 2048;
-constexpr std::pair<const char*, View> kViews[] = {{"camera", View::Camera}, {"top", View::Top}, {"plan", View::Plan}, {"panorama", View::Panorama}, {"stereo", View::Stereo}};
+constexpr std::pair<const char*, View> kViews[] = {{"camera", View::Camera},
+                                                   {"top", View::Top},
+                                                   {"plan", View::Plan},
+                                                   {"panorama", View::Panorama},
+                                                   {"stereo", View::Stereo}};
 
 // A name, else a number from 0; -1: none of these.
 int indexOf(const std::vector<std::string>& names, const std::string& wanted) {
@@ -29,7 +33,8 @@ int indexOf(const std::vector<std::string>& names, const std::string& wanted) {
   }
   size_t index = 0;
   const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-  return code == std::errc() && end == wanted.data() + wanted.size() && index < names.size() ? static_cast<int>(index) : -1;
+  return code == std::errc() && end == wanted.data() + wanted.size() && index < names.size() ? static_cast<int>(index)
+                                                                                             : -1;
 }
 
 std::string listOf(const std::vector<std::string>& names) {
@@ -74,22 +79,29 @@ Result<Level> pickLevel(const Scene& scene, std::span<const Room> rooms, const V
     return only;
   }
   if (levels.empty()) {
-    if (!wish.level.empty()) return Error{fmt::format("--level {}: the scene knows no rooms and none were found, so that it has no levels", wish.level)};
+    if (!wish.level.empty())
+      return Error{fmt::format("--level {}: the scene knows no rooms and none were found, so that it has no levels",
+                               wish.level)};
     const Bounds3 b = scene.bounds();
     return Level{b.lo.y, b.hi.y, {b.lo.x, b.lo.z}, {b.hi.x, b.hi.z}};
   }
   if (wish.level.empty()) {
     // The one at the ground.
-    return *std::min_element(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return std::abs(a.elevationM) < std::abs(b.elevationM); });
+    return *std::min_element(levels.begin(), levels.end(), [](const Level& a, const Level& b) {
+      return std::abs(a.elevationM) < std::abs(b.elevationM);
+    });
   }
   const int index = indexOf(std::vector<std::string>(levels.size()), wish.level);
   std::string list;
-  for (size_t i = 0; i < levels.size(); ++i) list += fmt::format("{}{} at {:.2f} m", i > 0 ? ", " : "", i, levels[i].elevationM);
+  for (size_t i = 0; i < levels.size(); ++i)
+    list += fmt::format("{}{} at {:.2f} m", i > 0 ? ", " : "", i, levels[i].elevationM);
   if (index < 0) return Error{fmt::format("--level {}: no such level; there are {}", wish.level, list)};
   return levels[static_cast<size_t>(index)];
 }
 
-float cutHeight(const Level& level, const ViewWish& wish) { return wish.cutM ? level.elevationM + *wish.cutM : level.ceilingM - kUnderCeilingM; }
+float cutHeight(const Level& level, const ViewWish& wish) {
+  return wish.cutM ? level.elevationM + *wish.cutM : level.ceilingM - kUnderCeilingM;
+}
 
 Result<Viewed> fromAbove(const Scene& scene, std::span<const Room> rooms, const ViewWish& wish) {
   const Result<Level> level = pickLevel(scene, rooms, wish);
@@ -108,7 +120,10 @@ Result<Viewed> fromAbove(const Scene& scene, std::span<const Room> rooms, const 
   } else {
     const float mpp = wish.metresPerPixel.value_or(std::max(acrossM, downM) / static_cast<float>(kLongerSidePixels));
     const float width = std::ceil(acrossM / mpp - 1e-3f), height = std::ceil(downM / mpp - 1e-3f);
-    if (!(std::max(width, height) <= 65536)) return Error{fmt::format("--metres-per-pixel {}: the picture would be {:.0f} x {:.0f} pixels; give more metres, or --size", mpp, width, height)};
+    if (!(std::max(width, height) <= 65536))
+      return Error{
+          fmt::format("--metres-per-pixel {}: the picture would be {:.0f} x {:.0f} pixels; give more metres, or --size",
+                      mpp, width, height)};
     out.width = std::max(1, static_cast<int>(width)), out.height = std::max(1, static_cast<int>(height));
   }
   Camera& c = out.camera;
@@ -117,7 +132,8 @@ Result<Viewed> fromAbove(const Scene& scene, std::span<const Room> rooms, const 
   c.worldFromCamera = looking({0.5f * (low.x + high.x), c.cutHeightM + 1, 0.5f * (low.y + high.y)}, {0, -1, 0});
   // Metres a pixel at the cut, that all of it fits.
   const float fit = std::max(acrossM / static_cast<float>(out.width), downM / static_cast<float>(out.height));
-  const float halfHeightM = 0.5f * static_cast<float>(out.height) * (wish.view == View::Plan ? wish.metresPerPixel.value_or(fit) : fit);
+  const float halfHeightM =
+      0.5f * static_cast<float>(out.height) * (wish.view == View::Plan ? wish.metresPerPixel.value_or(fit) : fit);
   if (wish.view == View::Plan) {
     c.projection = Projection::Orthographic;
     c.yMagM = halfHeightM;
@@ -136,22 +152,30 @@ Result<Viewed> around(std::span<const Room> rooms, const Camera& placed, bool is
   if (wish.size) {
     std::tie(out.width, out.height) = *wish.size;
     if (out.width != out.height * (stereo ? 1 : 2)) {
-      return Error{fmt::format("--size {}x{}: {}; write {}x{}", out.width, out.height, stereo ? "two panoramas, one above the other, are as wide as high" : "a panorama is twice as wide as high", 2 * std::max(1, out.width / 2), stereo ? 2 * std::max(1, out.width / 2) : std::max(1, out.width / 2))};
+      return Error{fmt::format(
+          "--size {}x{}: {}; write {}x{}", out.width, out.height,
+          stereo ? "two panoramas, one above the other, are as wide as high" : "a panorama is twice as wide as high",
+          2 * std::max(1, out.width / 2), stereo ? 2 * std::max(1, out.width / 2) : std::max(1, out.width / 2))};
     }
-    if (stereo && out.height % 2 != 0) return Error{fmt::format("--size {}x{}: each eye needs as many rows; write an even height", out.width, out.height)};
+    if (stereo && out.height % 2 != 0)
+      return Error{
+          fmt::format("--size {}x{}: each eye needs as many rows; write an even height", out.width, out.height)};
   }
   Camera& c = out.camera;
   c.projection = stereo ? Projection::StereoPanorama : Projection::Panorama;
   c.aspect = 0;
   if (!wish.eye && (!wish.room.empty() || (!isPlaced && !rooms.empty()))) {
-    const Room* room = &*std::max_element(rooms.begin(), rooms.end(), [](const Room& a, const Room& b) { return std::abs(signedAreaM2(a.floor)) < std::abs(signedAreaM2(b.floor)); });
+    const Room* room = &*std::max_element(rooms.begin(), rooms.end(), [](const Room& a, const Room& b) {
+      return std::abs(signedAreaM2(a.floor)) < std::abs(signedAreaM2(b.floor));
+    });
     if (!wish.room.empty()) {
       const Result<const Room*> picked = pickRoom(rooms, wish.room);
       if (!picked) return Error{picked.error()};
       room = picked.value();
     }
     const Vec2 middle = middleOf(*room);
-    c.worldFromCamera = looking({middle.x, room->elevationM + std::min(kEyeM, 0.7f * room->heightM), middle.y}, {0, 0, -1});
+    c.worldFromCamera =
+        looking({middle.x, room->elevationM + std::min(kEyeM, 0.7f * room->heightM), middle.y}, {0, 0, -1});
     c.name = room->name;
   }
   c.worldFromCamera = upright(c.worldFromCamera);
@@ -172,12 +196,14 @@ Result<View> viewFromName(const std::string& name) {
 std::vector<Level> levelsOf(std::span<const Room> rooms) {
   std::vector<const Room*> sorted;
   for (const Room& room : rooms) sorted.push_back(&room);
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Room* a, const Room* b) { return a->elevationM < b->elevationM; });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Room* a, const Room* b) { return a->elevationM < b->elevationM; });
   std::vector<Level> levels;
   float last = -kInfinity;
   std::vector<float> lowest;  // ceilings, also those that one cannot stand under
   for (const Room* room : sorted) {
-    if (room->elevationM - last > kLevelsApartM) levels.push_back(levelAt(room->elevationM)), lowest.push_back(kInfinity);
+    if (room->elevationM - last > kLevelsApartM)
+      levels.push_back(levelAt(room->elevationM)), lowest.push_back(kInfinity);
     Level& l = levels.back();
     last = room->elevationM;
     widen(l, *room);
@@ -185,7 +211,8 @@ std::vector<Level> levelsOf(std::span<const Room> rooms) {
     lowest.back() = std::min(lowest.back(), ceiling);
     if (room->heightM >= kStandM) l.ceilingM = std::min(l.ceilingM, ceiling);
   }
-  for (size_t i = 0; i < levels.size(); ++i) levels[i].ceilingM = levels[i].ceilingM < kInfinity ? levels[i].ceilingM : lowest[i];
+  for (size_t i = 0; i < levels.size(); ++i)
+    levels[i].ceilingM = levels[i].ceilingM < kInfinity ? levels[i].ceilingM : lowest[i];
   return levels;
 }
 
@@ -198,16 +225,19 @@ Vec2 middleOf(const Room& room) {
   float bestScore = -kInfinity;
   for (int j = 0; j <= kSteps; ++j) {
     for (int i = 0; i <= kSteps; ++i) {
-      const Vec2 p{box.low.x + (box.high.x - box.low.x) * static_cast<float>(i) / kSteps, box.low.y + (box.high.y - box.low.y) * static_cast<float>(j) / kSteps};
+      const Vec2 p{box.low.x + (box.high.x - box.low.x) * static_cast<float>(i) / kSteps,
+                   box.low.y + (box.high.y - box.low.y) * static_cast<float>(j) / kSteps};
       if (!contains(room.floor, p)) continue;
-      const float score = static_cast<float>(distanceToEdgeM(room.floor, p)) - 1e-3f * std::hypot(p.x - centre.x, p.y - centre.y);
+      const float score =
+          static_cast<float>(distanceToEdgeM(room.floor, p)) - 1e-3f * std::hypot(p.x - centre.x, p.y - centre.y);
       if (score > bestScore) bestScore = score, best = p;
     }
   }
   return best;
 }
 
-Result<Viewed> makeView(const Scene& scene, std::span<const Room> rooms, const Camera& placed, bool isPlaced, std::pair<int, int> usual, const ViewWish& wish) {
+Result<Viewed> makeView(const Scene& scene, std::span<const Room> rooms, const Camera& placed, bool isPlaced,
+                        std::pair<int, int> usual, const ViewWish& wish) {
   Camera base = placed;
   if (wish.eye) {
     base = {};
@@ -252,13 +282,18 @@ std::vector<bool> roomMask(const Scene& scene, const Camera& camera, int width, 
   const CameraRays rays(camera, width, height);
   std::vector<bool> mask(static_cast<size_t>(width) * static_cast<size_t>(height));
   for (size_t i = 0; i < mask.size(); ++i) {
-    const auto x = static_cast<float>(i % static_cast<size_t>(width)), y = static_cast<float>(i / static_cast<size_t>(width));
+    const auto x = static_cast<float>(i % static_cast<size_t>(width)),
+               y = static_cast<float>(i / static_cast<size_t>(width));
     const Ray ray = rays.ray(x + 0.5f, y + 0.5f);
     if (!(ray.direction.y < 0)) continue;
-    const auto at = [&](float elevationM) { return ray.origin + ray.direction * ((elevationM - ray.origin.y) / ray.direction.y); };
-    const Vec3 onFloor = at(*floor), onCut = at(camera.cutHeightM);  // between them a ray from above meets the walls of a room
+    const auto at = [&](float elevationM) {
+      return ray.origin + ray.direction * ((elevationM - ray.origin.y) / ray.direction.y);
+    };
+    const Vec3 onFloor = at(*floor),
+               onCut = at(camera.cutHeightM);  // between them a ray from above meets the walls of a room
     mask[i] = std::any_of(scene.rooms.begin(), scene.rooms.end(), [&](const Room& r) {
-      return std::abs(r.elevationM - *floor) < kLevelsApartM && (contains(r.floor, {onFloor.x, onFloor.z}) || contains(r.floor, {onCut.x, onCut.z}));
+      return std::abs(r.elevationM - *floor) < kLevelsApartM &&
+             (contains(r.floor, {onFloor.x, onFloor.z}) || contains(r.floor, {onCut.x, onCut.z}));
     });
   }
   return std::find(mask.begin(), mask.end(), true) == mask.end() ? std::vector<bool>() : mask;

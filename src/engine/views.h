@@ -48,18 +48,22 @@ struct Level {
 };
 std::vector<Level> levelsOf(std::span<const Room> rooms);
 
-// `rooms`: those of the scene, or found in it; with none, top and plan show the whole of the scene. `placed`: the camera that was chosen or
-// stands in for one; `isPlaced`: somebody did, so that panoramas are taken from there rather than from the middle of a room.
-// `usual`: size of a picture of View::Camera. Errors name the option that asks for what there is not.
-Result<Viewed> makeView(const Scene& scene, std::span<const Room> rooms, const Camera& placed, bool isPlaced, std::pair<int, int> usual, const ViewWish& wish);
+// `rooms`: those of the scene, or found in it; with none, top and plan show the whole of the scene. `placed`: the
+// camera that was chosen or stands in for one; `isPlaced`: somebody did, so that panoramas are taken from there rather
+// than from the middle of a room. `usual`: size of a picture of View::Camera. Errors name the option that asks for what
+// there is not.
+Result<Viewed> makeView(const Scene& scene, std::span<const Room> rooms, const Camera& placed, bool isPlaced,
+                        std::pair<int, int> usual, const ViewWish& wish);
 
 // The point of a floor farthest from its edges, to 5 % of its size.
 Vec2 middleOf(const Room& room);
 
-// Elevation of the floor that a cut camera shows: the highest of the rooms' that lies below the cut. None without a cut or rooms.
+// Elevation of the floor that a cut camera shows: the highest of the rooms' that lies below the cut. None without a cut
+// or rooms.
 std::optional<float> shownFloorM(const Scene& scene, const Camera& camera);
 
-// Whether each pixel shows a room or its walls, of a camera that cuts a scene with rooms: what a plan is exposed by, instead of the garden around it. Empty for other pictures.
+// Whether each pixel shows a room or its walls, of a camera that cuts a scene with rooms: what a plan is exposed by,
+// instead of the garden around it. Empty for other pictures.
 std::vector<bool> roomMask(const Scene& scene, const Camera& camera, int width, int height);
 
 }  // namespace roomlight

@@ -4,14 +4,17 @@
 
 namespace roomlight {
 
-VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
+VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel,
+                       const RadianceSettings& radiance, Stages& stages) {
   VoxelLight out;
   out.voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(rays.scene(), voxel).voxels; });
-  out.field = stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, out.voxels, radiance, p); });
+  out.field =
+      stages.run("illuminate", [&](const Progress& p) { return illuminate(rays, lights, out.voxels, radiance, p); });
   return out;
 }
 
-VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages) {
+VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel,
+                             const RadianceSettings& radiance, Stages& stages) {
   const Stopwatch watch;
   VoxelLight out;
   out.voxels = stages.run("voxelise", [&](const Progress&) { return voxelise(rays.scene(), voxel).voxels; });
@@ -38,7 +41,9 @@ void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages
   stages.number("residual", light.field.residual);
   if (!light.field.layers.empty()) {
     stages.number("layers", static_cast<double>(picture.layers.size()));
-    stages.number("layersMiB", static_cast<double>(light.field.layers.bytes() + picture.layerBytes + picture.layers.size() * picture.image.pixels.size() * sizeof(Vec3)) / 1048576);
+    stages.number("layersMiB", static_cast<double>(light.field.layers.bytes() + picture.layerBytes +
+                                                   picture.layers.size() * picture.image.pixels.size() * sizeof(Vec3)) /
+                                   1048576);
   }
   stages.number("samples", picture.samples);
   stages.number("rays", static_cast<double>(light.field.rays + picture.rays));

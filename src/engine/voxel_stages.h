@@ -15,10 +15,12 @@ struct VoxelLight {
 };
 
 // Stages "voxelise" and "illuminate".
-VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
+VoxelLight lightVoxels(const RayScene& rays, const Lights& lights, const VoxelSettings& voxel,
+                       const RadianceSettings& radiance, Stages& stages);
 
 // The same, given up once `seconds` are over: then without light (no field.irradianceLux).
-VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel, const RadianceSettings& radiance, Stages& stages);
+VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel,
+                             const RadianceSettings& radiance, Stages& stages);
 
 // Sizes of voxels and light, and what was traced.
 void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages& stages);

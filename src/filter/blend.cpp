@@ -55,7 +55,9 @@ class Blender {
     const int step = kStep[k];
     body(at(x, y), 1.0f);
     for (size_t i = 0; i < 8; ++i) {
-      if (weights[i]) body(at(x + kNeighbours[i].x * step, y + kNeighbours[i].y * step), static_cast<float>(weights[i]) * (1.0f / 255));
+      if (weights[i])
+        body(at(x + kNeighbours[i].x * step, y + kNeighbours[i].y * step),
+             static_cast<float>(weights[i]) * (1.0f / 255));
     }
   }
   void findScale(const Image& first);
@@ -72,7 +74,12 @@ class Blender {
 };
 
 Blender::Blender(const Image& first, const Image& mean, const Image& variance, const FilterInput& guide)
-    : first_(first), w_(first.width), h_(first.height), scale_(first.pixels.size()), brightness_(first.pixels.size()), seen_(first.pixels.size()) {
+    : first_(first),
+      w_(first.width),
+      h_(first.height),
+      scale_(first.pixels.size()),
+      brightness_(first.pixels.size()),
+      seen_(first.pixels.size()) {
   findScale(first);
   findWeights(guide);
   forAll([&](int, int, size_t i) {
@@ -88,7 +95,8 @@ void Blender::findScale(const Image& first) {
   forAll([&](int x, int y, size_t i) {
     float around = 0, count = 0;
     for (int qy = std::max(0, y - 1); qy <= std::min(h_ - 1, y + 1); ++qy) {
-      for (int qx = std::max(0, x - 1); qx <= std::min(w_ - 1, x + 1); ++qx) around += luminance(first.at(qx, qy)), count += 1;
+      for (int qx = std::max(0, x - 1); qx <= std::min(w_ - 1, x + 1); ++qx)
+        around += luminance(first.at(qx, qy)), count += 1;
     }
     scale_[i] = around / count + darkest;
     brightness_[i] = std::log(scale_[i]);
@@ -108,7 +116,8 @@ void Blender::findWeights(const FilterInput& guide) {
         const float facing = dot(own.normal, other.normal);
         if (own.surface <= 0 || other.surface <= 0 || facing < kLeastFacing) continue;
         const Vec3 between = other.position - own.position;
-        const float off = std::max(std::abs(dot(own.normal, between)), std::abs(dot(other.normal, between))) / (kPlaneTolerance + kSlope * length(between));
+        const float off = std::max(std::abs(dot(own.normal, between)), std::abs(dot(other.normal, between))) /
+                          (kPlaneTolerance + kSlope * length(between));
         const float ratio = std::abs(brightness_[at(qx, qy)] - brightness_[i]) / kBrightnessTolerance;
         const float a = std::max(0.0f, 1 - 0.125f * (off + ratio)), b = a * a * facing;  // (1 - x/8)^8, about e^-x
         all[i][n] = static_cast<uint8_t>(255 * b * b * b * b + 0.5f);
@@ -123,7 +132,9 @@ std::vector<Seen> Blender::coarser(const std::vector<Seen>& fine, int k) const {
   forAll([&](int x, int y, size_t i) {
     Seen sum;
     float total = 0;
-    forWindow(x, y, k, [&](size_t q, float weight) { sum.error += fine[q].error * weight, sum.variance += fine[q].variance * weight * weight, total += weight; });
+    forWindow(x, y, k, [&](size_t q, float weight) {
+      sum.error += fine[q].error * weight, sum.variance += fine[q].variance * weight * weight, total += weight;
+    });
     out[i] = {sum.error / total, sum.variance / (total * total), 1 / total};
   });
   return out;
@@ -138,7 +149,8 @@ std::vector<Power> Blender::pooled(std::vector<Power> values, int k) const {
       float total = 0;
       forWindow(x, y, step, [&](size_t q, float weight) {
         const Power& p = values[q];
-        sum.error += p.error * weight, sum.noise += p.noise * weight, sum.uncertainty += p.uncertainty * weight * weight;
+        sum.error += p.error * weight, sum.noise += p.noise * weight,
+            sum.uncertainty += p.uncertainty * weight * weight;
         total += weight;
       });
       const float inverse = 1 / total;
@@ -194,9 +206,11 @@ Blend Blender::result() const {
   const float exposure = exposureFromEv100(automaticEv100(out.image));
   double relative = 0, encoded = 0;
   for (size_t i = 0; i < shares.size(); ++i) {
-    const float kept = 1 - shares[i], error = kept * kept * std::max(certain[i].error, last[i].error) + shares[i] * shares[i] * certain[i].noise;
+    const float kept = 1 - shares[i], error = kept * kept * std::max(certain[i].error, last[i].error) +
+                                              shares[i] * shares[i] * certain[i].noise;
     relative += static_cast<double>(error);
-    encoded += static_cast<double>(encodedSquare(luminance(out.image.pixels[i]) * exposure, std::sqrt(error) * scale_[i] * exposure));
+    encoded += static_cast<double>(
+        encodedSquare(luminance(out.image.pixels[i]) * exposure, std::sqrt(error) * scale_[i] * exposure));
   }
   const double n = static_cast<double>(shares.size());
   out.relativeError = std::sqrt(relative / n);
@@ -206,6 +220,8 @@ Blend Blender::result() const {
 
 }  // namespace
 
-Blend blend(const Image& first, const Image& mean, const Image& variance, const FilterInput& guide) { return Blender(first, mean, variance, guide).result(); }
+Blend blend(const Image& first, const Image& mean, const Image& variance, const FilterInput& guide) {
+  return Blender(first, mean, variance, guide).result();
+}
 
 }  // namespace roomlight

@@ -21,17 +21,20 @@ using V = hn::Vec<D>;
 
 constexpr float kKernel[3] = {0.25f, 0.2f, 0.1f};   // of the pixel, of those beside it, of those at its corners
 constexpr float kSmooth[3] = {0.25f, 0.125f, 0.0625f};  // the same of levels: hats, twice as wide each
-constexpr float kSigmas[kFilterLights] = {2, 1, 2.5f, 0};  // differences within so many standard deviations count as noise; sharp shadows differ where they should
-constexpr float kOwnNoise = 0.5f;          // of a pixel's own variance counts at least, so that an outlier is taken for one
-constexpr float kPlaneTolerance = 0.02f;   // metres off the tangent plane, and
-constexpr float kSlope = 0.5f;             // of the distance between the two points along it
-constexpr float kLeastFacing = 0.3f;       // cosine between normals
-constexpr float kNoSamples = 1e-6f;        // instead of a weight of zero
-constexpr float kUnseen = -1;              // where no pixel has samples yet: like everything
+constexpr float kSigmas[kFilterLights] = {
+    2, 1, 2.5f,
+    0};  // differences within so many standard deviations count as noise; sharp shadows differ where they should
+constexpr float kOwnNoise = 0.5f;  // of a pixel's own variance counts at least, so that an outlier is taken for one
+constexpr float kPlaneTolerance = 0.02f;  // metres off the tangent plane, and
+constexpr float kSlope = 0.5f;  // of the distance between the two points along it
+constexpr float kLeastFacing = 0.3f;  // cosine between normals
+constexpr float kNoSamples = 1e-6f;  // instead of a weight of zero
+constexpr float kUnseen = -1;  // where no pixel has samples yet: like everything
 constexpr float kSameRoughness = 0.1f;
-constexpr int kFinestSeen = 8;             // pixels: coarser levels of diffuse light no longer tell rare light where it changes
-constexpr float kCompany = 2;              // so many around must show the same surface
-constexpr float kSameLevel = 0.125f;       // of the sum of two pixels' diffuse light: rare light spreads where that differs by no more
+constexpr int kFinestSeen = 8;  // pixels: coarser levels of diffuse light no longer tell rare light where it changes
+constexpr float kCompany = 2;  // so many around must show the same surface
+constexpr float kSameLevel =
+    0.125f;  // of the sum of two pixels' diffuse light: rare light spreads where that differs by no more
 
 V load(const float* p) { return hn::LoadU(D(), p); }
 V set(float v) { return hn::Set(D(), v); }
@@ -53,11 +56,16 @@ V falloff(V x) {
 struct Place {
   V3 n, p;
 };
-Place reflectedAt(const float* pixel, ptrdiff_t pitch) { return {load3(pixel + FilterRows::kReflected * pitch, pitch), load3(pixel + (FilterRows::kReflected + 3) * pitch, pitch)}; }
-Place placeAt(const float* pixel, ptrdiff_t pitch) { return {load3(pixel + FilterRows::kNormal * pitch, pitch), load3(pixel + FilterRows::kPosition * pitch, pitch)}; }
+Place reflectedAt(const float* pixel, ptrdiff_t pitch) {
+  return {load3(pixel + FilterRows::kReflected * pitch, pitch),
+          load3(pixel + (FilterRows::kReflected + 3) * pitch, pitch)};
+}
+Place placeAt(const float* pixel, ptrdiff_t pitch) {
+  return {load3(pixel + FilterRows::kNormal * pitch, pitch), load3(pixel + FilterRows::kPosition * pitch, pitch)};
+}
 
-// How far two places are off each other's tangent plane, in tolerances. These grow with the distance along the plane, so that what hangs before a
-// wall is far from it, however near in the picture.
+// How far two places are off each other's tangent plane, in tolerances. These grow with the distance along the plane,
+// so that what hangs before a wall is far from it, however near in the picture.
 V offPlane(const Place& a, const Place& b) {
   const V3 between{hn::Sub(b.p.x, a.p.x), hn::Sub(b.p.y, a.p.y), hn::Sub(b.p.z, a.p.z)};
   const V off = hn::Max(hn::Abs(dot(a.n, between)), hn::Abs(dot(b.n, between)));
@@ -74,23 +82,27 @@ V likeness(V facing) {
 void findNoise(FilterRows& rows, const FilterPass& pass, int light, int y) {
   const D d;
   const int variance = FilterRows::light(light, pass.place[light]) + FilterRows::kVariance;
-  const float *above = rows.line(variance, std::max(0, y - 1)), *own = rows.line(variance, y), *below = rows.line(variance, std::min(rows.height() - 1, y + 1));
+  const float *above = rows.line(variance, std::max(0, y - 1)), *own = rows.line(variance, y),
+              *below = rows.line(variance, std::min(rows.height() - 1, y + 1));
   const ptrdiff_t weights = (FilterRows::kWeight - FilterRows::kVariance) * rows.pitch();
   float* out = rows.line(FilterRows::kNoise + light, y);
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
     if (light == 1) {
       // Penumbras have noise all over, the edge of a sharp shadow in a line of pixels.
       V least = load(own + x);
-      for (const float* line : {above, own, below}) least = hn::Min(least, hn::Min(hn::Min(load(line + x - 1), load(line + x)), load(line + x + 1)));
+      for (const float* line : {above, own, below})
+        least = hn::Min(least, hn::Min(hn::Min(load(line + x - 1), load(line + x)), load(line + x + 1)));
       hn::StoreU(least, d, out + x);
       continue;
     }
     V sum = hn::Zero(d), sampled = hn::Zero(d);
     for (const float* line : {above, own, below}) {
       sum = hn::Add(sum, hn::Add(hn::Add(load(line + x - 1), load(line + x)), load(line + x + 1)));
-      for (int i = -1; i <= 1; ++i) sampled = hn::Add(sampled, hn::IfThenElseZero(hn::Gt(load(line + weights + x + i), hn::Zero(d)), set(1)));
+      for (int i = -1; i <= 1; ++i)
+        sampled = hn::Add(sampled, hn::IfThenElseZero(hn::Gt(load(line + weights + x + i), hn::Zero(d)), set(1)));
     }
-    const V found = hn::Max(hn::Mul(sum, hn::Div(set(1), hn::Max(sampled, set(1)))), hn::Mul(load(own + x), set(kOwnNoise)));
+    const V found =
+        hn::Max(hn::Mul(sum, hn::Div(set(1), hn::Max(sampled, set(1)))), hn::Mul(load(own + x), set(kOwnNoise)));
     hn::StoreU(hn::Mul(found, set(pass.correlated)), d, out + x);
   }
 }
@@ -112,7 +124,8 @@ void findSeen(FilterRows& rows, const FilterPass& pass, int light, int y) {
           if (i == 0 && j == 0) continue;
           const float* there = here + j * rows.rowPitch() + i;
           const Place other = placeAt(there, pitch);
-          const V weight = hn::Mul(load(there + samples), hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other))));
+          const V weight =
+              hn::Mul(load(there + samples), hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other))));
           sum = hn::MulAdd(weight, luminance(load3(there + colour, pitch)), sum), total = hn::Add(total, weight);
         }
       }
@@ -134,8 +147,9 @@ void prepare(FilterRows& rows, const FilterPass& pass, int y) {
   }
 }
 
-// A weighted mean under way, and the pixel it is for. Pixels weigh by their samples: those that got more were chosen by what their first
-// samples found, so that a mean of pixels alike would be too dark (rare bright samples made themselves rarer), the mean of all samples is not.
+// A weighted mean under way, and the pixel it is for. Pixels weigh by their samples: those that got more were chosen by
+// what their first samples found, so that a mean of pixels alike would be too dark (rare bright samples made themselves
+// rarer), the mean of all samples is not.
 struct Sum {
   V3 own;
   V ownVariance, ownWeight, seen, noise;
@@ -144,7 +158,14 @@ struct Sum {
   V open;
 
   Sum() = default;
-  Sum(const V3& c, V v, V w, V s, V n) : own(c), ownVariance(v), ownWeight(w), seen(s), noise(n), total(hn::Mul(w, set(kKernel[0]))), kernel(set(kKernel[0])) {
+  Sum(const V3& c, V v, V w, V s, V n)
+      : own(c),
+        ownVariance(v),
+        ownWeight(w),
+        seen(s),
+        noise(n),
+        total(hn::Mul(w, set(kKernel[0]))),
+        kernel(set(kKernel[0])) {
     light = {hn::Mul(c.x, total), hn::Mul(c.y, total), hn::Mul(c.z, total)};
     variance = hn::Mul(v, hn::Mul(total, total));
   }
@@ -152,7 +173,8 @@ struct Sum {
   static Sum ofLevel(const V3& c, V drawn, V w, V openness) {
     Sum s;
     s.own = c, s.ownVariance = drawn, s.ownWeight = w, s.kernel = set(kSmooth[0]), s.total = hn::Mul(w, s.kernel);
-    s.light = {hn::Mul(c.x, s.total), hn::Mul(c.y, s.total), hn::Mul(c.z, s.total)}, s.variance = hn::Mul(drawn, s.total), s.open = hn::Mul(openness, s.total);
+    s.light = {hn::Mul(c.x, s.total), hn::Mul(c.y, s.total), hn::Mul(c.z, s.total)},
+    s.variance = hn::Mul(drawn, s.total), s.open = hn::Mul(openness, s.total);
     return s;
   }
   void addLevel(const V3& c, V drawn, V openness, V samples, V share) {
@@ -169,9 +191,7 @@ struct Sum {
   }
 };
 
-enum Diffuse { kNone,
-               kByNoise,
-               kByLevels };
+enum Diffuse { kNone, kByNoise, kByLevels };
 
 template <Diffuse kDiffuse, bool kSharp, bool kSpecular, bool kRare>
 void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
@@ -189,10 +209,13 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
       if (!kUsed[k]) continue;
       const float* at = here + FilterRows::light(k, pass.place[k]) * pitch;
       if (k == 0 && kDiffuse == kByLevels) {
-        sums[k] = Sum::ofLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), load(here + FilterRows::open(pass.place[0]) * pitch));
+        sums[k] =
+            Sum::ofLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch),
+                         load(at + FilterRows::kWeight * pitch), load(here + FilterRows::open(pass.place[0]) * pitch));
         continue;
       }
-      sums[k] = Sum(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), load(here + (FilterRows::kSeen + k) * pitch), load(here + (FilterRows::kNoise + k) * pitch));
+      sums[k] = Sum(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch),
+                    load(here + (FilterRows::kSeen + k) * pitch), load(here + (FilterRows::kNoise + k) * pitch));
     }
     for (int j = -1; j <= 1; ++j) {
       if (y + j * pass.step < 0 || y + j * pass.step >= rows.height()) continue;
@@ -200,43 +223,55 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
         if (i == 0 && j == 0) continue;
         const float* there = here + j * pass.step * rows.rowPitch() + i * pass.step;
         const Place other = placeAt(there, pitch);
-        const V facing = likeness(dot(own.n, other.n)), kernel = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), facing), off = offPlane(own, other);
+        const V facing = likeness(dot(own.n, other.n)),
+                kernel = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), facing), off = offPlane(own, other);
         for (int k = 0; k < kFilterLights; ++k) {
           if (!kUsed[k]) continue;
           Sum& s = sums[k];
           if (k == 0 && kDiffuse == kByLevels) {
             const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-            s.addLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(there + FilterRows::open(pass.place[0]) * pitch), load(at + FilterRows::kWeight * pitch), hn::Mul(hn::Mul(set(kSmooth[std::abs(i) + std::abs(j)]), facing), falloff(off)));
+            s.addLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch),
+                       load(there + FilterRows::open(pass.place[0]) * pitch), load(at + FilterRows::kWeight * pitch),
+                       hn::Mul(hn::Mul(set(kSmooth[std::abs(i) + std::abs(j)]), facing), falloff(off)));
             continue;
           }
           if (k == 3) {
             // Its own noise tells nothing: what other diffuse light there is tells where it changes.
             const V one = load(here + FilterRows::kSeen * pitch), two = load(there + FilterRows::kSeen * pitch);
-            const V apart = hn::Div(hn::Abs(hn::Sub(one, two)), hn::MulAdd(set(kSameLevel), hn::Add(hn::Max(one, hn::Zero(d)), hn::Max(two, hn::Zero(d))), set(1e-6f)));
-            const V level = hn::IfThenElseZero(hn::Ge(hn::Min(one, two), hn::Zero(d)), hn::Mul(apart, apart));  // unseen: like everything
+            const V apart = hn::Div(
+                hn::Abs(hn::Sub(one, two)),
+                hn::MulAdd(set(kSameLevel), hn::Add(hn::Max(one, hn::Zero(d)), hn::Max(two, hn::Zero(d))), set(1e-6f)));
+            const V level = hn::IfThenElseZero(hn::Ge(hn::Min(one, two), hn::Zero(d)),
+                                               hn::Mul(apart, apart));  // unseen: like everything
             const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-            s.add(load3(at, pitch), hn::Zero(d), load(at + FilterRows::kWeight * pitch), hn::Mul(kernel, falloff(hn::Add(off, level))));
+            s.add(load3(at, pitch), hn::Zero(d), load(at + FilterRows::kWeight * pitch),
+                  hn::Mul(kernel, falloff(hn::Add(off, level))));
             continue;
           }
-          // How far the light of two pixels differs, in units of their noise together: as seen from either, so that as much passes
-          // from a bright spot to its surroundings as back.
+          // How far the light of two pixels differs, in units of their noise together: as seen from either, so that as
+          // much passes from a bright spot to its surroundings as back.
           const V noise = hn::Sqrt(hn::Add(s.noise, load(there + (FilterRows::kNoise + k) * pitch)));
           const V seen = load(there + (FilterRows::kSeen + k) * pitch);
-          const V between = hn::IfThenElseZero(hn::Ge(hn::Min(seen, s.seen), hn::Zero(d)), hn::Abs(hn::Sub(seen, s.seen)));
+          const V between =
+              hn::IfThenElseZero(hn::Ge(hn::Min(seen, s.seen), hn::Zero(d)), hn::Abs(hn::Sub(seen, s.seen)));
           V apart = off, like = kernel;
           if (k == 2) {
             const Place reflected = reflectedAt(there, pitch);
             apart = hn::Max(off, offPlane(ownReflected, reflected));
-            like = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), hn::Min(facing, likeness(dot(ownReflected.n, reflected.n))));
+            like = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]),
+                           hn::Min(facing, likeness(dot(ownReflected.n, reflected.n))));
           }
-          V weight = hn::Mul(like, falloff(hn::Add(apart, hn::Div(between, hn::MulAdd(set(kSigmas[k]), noise, set(1e-6f))))));
+          V weight =
+              hn::Mul(like, falloff(hn::Add(apart, hn::Div(between, hn::MulAdd(set(kSigmas[k]), noise, set(1e-6f))))));
           if (k == 2) {
             const V r = load(there + FilterRows::kRoughness * pitch);
-            const auto alike = hn::And(hn::Ge(r, set(kMirrorRoughness)), hn::Le(hn::Abs(hn::Sub(r, roughness)), set(kSameRoughness)));
+            const auto alike =
+                hn::And(hn::Ge(r, set(kMirrorRoughness)), hn::Le(hn::Abs(hn::Sub(r, roughness)), set(kSameRoughness)));
             weight = hn::IfThenElseZero(alike, weight);
           }
           const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-          s.add(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch), weight);
+          s.add(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch),
+                weight);
         }
       }
     }
@@ -249,9 +284,11 @@ void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
       hn::StoreU(hn::IfThenElse(kept, s.own.x, hn::Mul(s.light.x, inverse)), d, at);
       hn::StoreU(hn::IfThenElse(kept, s.own.y, hn::Mul(s.light.y, inverse)), d, at + pitch);
       hn::StoreU(hn::IfThenElse(kept, s.own.z, hn::Mul(s.light.z, inverse)), d, at + 2 * pitch);
-      if (k == 0 && kDiffuse == kByLevels) hn::StoreU(hn::Mul(s.open, inverse), d, rows.line(FilterRows::open(1 - pass.place[0]), y) + x);
+      if (k == 0 && kDiffuse == kByLevels)
+        hn::StoreU(hn::Mul(s.open, inverse), d, rows.line(FilterRows::open(1 - pass.place[0]), y) + x);
       const V spread = k == 0 && kDiffuse == kByLevels ? inverse : hn::Mul(inverse, inverse);
-      hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, spread)), d, at + FilterRows::kVariance * pitch);
+      hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, spread)), d,
+                 at + FilterRows::kVariance * pitch);
       hn::StoreU(hn::IfThenElse(kept, s.ownWeight, hn::Div(s.total, s.kernel)), d, at + FilterRows::kWeight * pitch);
     }
   }
@@ -283,13 +320,15 @@ void dropLonely(FilterRows& rows, int y) {
   const float* company = rows.line(FilterRows::kSeen, y);
   for (int c = 0; c < 3; ++c) {
     float* normal = rows.line(FilterRows::kNormal + c, y);
-    for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) hn::StoreU(hn::IfThenElseZero(hn::Ge(load(company + x), set(kCompany)), load(normal + x)), d, normal + x);
+    for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d)))
+      hn::StoreU(hn::IfThenElseZero(hn::Ge(load(company + x), set(kCompany)), load(normal + x)), d, normal + x);
   }
 }
 
 void pool(FilterRows& rows, int step, int place, int y) {
   const D d;
-  const ptrdiff_t pitch = rows.pitch(), from = FilterRows::pool(place) * pitch, to = FilterRows::pool(1 - place) * pitch;
+  const ptrdiff_t pitch = rows.pitch(), from = FilterRows::pool(place) * pitch,
+                  to = FilterRows::pool(1 - place) * pitch;
   float* row = rows.line(0, y);
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
     float* here = row + x;
@@ -302,8 +341,10 @@ void pool(FilterRows& rows, int step, int place, int y) {
         if (i == 0 && j == 0) continue;
         const float* there = here + j * step * rows.rowPitch() + i * step;
         const Place other = placeAt(there, pitch);
-        const V weight = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other))));
-        for (int q = 0; q < FilterRows::kPooled; ++q) sums[q] = hn::MulAdd(weight, load(there + from + q * pitch), sums[q]);
+        const V weight = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]),
+                                 hn::Mul(likeness(dot(own.n, other.n)), falloff(offPlane(own, other))));
+        for (int q = 0; q < FilterRows::kPooled; ++q)
+          sums[q] = hn::MulAdd(weight, load(there + from + q * pitch), sums[q]);
         total = hn::Add(total, weight);
       }
     }
@@ -313,13 +354,19 @@ void pool(FilterRows& rows, int step, int place, int y) {
 
 template <Diffuse kDiffuse, bool kRare>
 void filterOthers(FilterRows& rows, const FilterPass& pass, int y) {
-  if (pass.filter[1]) return pass.filter[2] ? filterPixels<kDiffuse, true, true, kRare>(rows, pass, y) : filterPixels<kDiffuse, true, false, kRare>(rows, pass, y);
-  return pass.filter[2] ? filterPixels<kDiffuse, false, true, kRare>(rows, pass, y) : filterPixels<kDiffuse, false, false, kRare>(rows, pass, y);
+  if (pass.filter[1])
+    return pass.filter[2] ? filterPixels<kDiffuse, true, true, kRare>(rows, pass, y)
+                          : filterPixels<kDiffuse, true, false, kRare>(rows, pass, y);
+  return pass.filter[2] ? filterPixels<kDiffuse, false, true, kRare>(rows, pass, y)
+                        : filterPixels<kDiffuse, false, false, kRare>(rows, pass, y);
 }
 
 void filterLights(FilterRows& rows, const FilterPass& pass, int y) {
-  if (!pass.filter[0]) return pass.filter[3] ? filterOthers<kNone, true>(rows, pass, y) : filterOthers<kNone, false>(rows, pass, y);
-  if (pass.levels) return pass.filter[3] ? filterOthers<kByLevels, true>(rows, pass, y) : filterOthers<kByLevels, false>(rows, pass, y);
+  if (!pass.filter[0])
+    return pass.filter[3] ? filterOthers<kNone, true>(rows, pass, y) : filterOthers<kNone, false>(rows, pass, y);
+  if (pass.levels)
+    return pass.filter[3] ? filterOthers<kByLevels, true>(rows, pass, y)
+                          : filterOthers<kByLevels, false>(rows, pass, y);
   return pass.filter[3] ? filterOthers<kByNoise, true>(rows, pass, y) : filterOthers<kByNoise, false>(rows, pass, y);
 }
 
@@ -342,7 +389,12 @@ constexpr ptrdiff_t kMostLanes = 16;  // the last vector of a line reaches so fa
 }  // namespace
 
 FilterRows::FilterRows(int w, int h, int margin)
-    : width_(w), height_(h), margin_(margin), pitch_(w + 2 * ptrdiff_t{margin} + kMostLanes), floats_(new float[static_cast<size_t>(pitch_) * kCount * static_cast<size_t>(h)]), begin_(floats_.get() + margin) {}
+    : width_(w),
+      height_(h),
+      margin_(margin),
+      pitch_(w + 2 * ptrdiff_t{margin} + kMostLanes),
+      floats_(new float[static_cast<size_t>(pitch_) * kCount * static_cast<size_t>(h)]),
+      begin_(floats_.get() + margin) {}
 
 void FilterRows::clearMargins(int y) {
   for (int q = 0; q < kCount; ++q) {

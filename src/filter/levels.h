@@ -1,17 +1,22 @@
-// Diffuse light by levels: what a smooth picture of its surfaces shows, and what each finer level adds to that. Levels are means by surfaces alone (hats, twice as wide each: the à-trous
-// wavelet transform, Starck & Murtagh 1994), so noise goes through them as through any linear filter, and one draw of it tells how much of a level it makes up around a pixel. As much of each
-// level is kept as stands out of that (Wiener's gain): clouds of noise go at every size; slopes, soft shadows and contacts stay.
+// Diffuse light by levels: what a smooth picture of its surfaces shows, and what each finer level adds to that. Levels
+// are means by surfaces alone (hats, twice as wide each: the à-trous wavelet transform, Starck & Murtagh 1994), so
+// noise goes through them as through any linear filter, and one draw of it tells how much of a level it makes up around
+// a pixel. As much of each level is kept as stands out of that (Wiener's gain): clouds of noise go at every size;
+// slopes, soft shadows and contacts stay.
 //
-// Openness (FilterPixel::open) goes through the same levels. Where light changes with it, by a regression around each pixel, so much of a level is kept as that tells, however noisy light is: contacts, corners and what stands before walls (after
-// Moon et al. 2014, "Adaptive rendering based on weighted local regression", and Bitterli et al. 2016, "Nonlinearly weighted first-order regression for denoising Monte Carlo renderings").
+// Openness (FilterPixel::open) goes through the same levels. Where light changes with it, by a regression around each
+// pixel, so much of a level is kept as that tells, however noisy light is: contacts, corners and what stands before
+// walls (after Moon et al. 2014, "Adaptive rendering based on weighted local regression", and Bitterli et al. 2016,
+// "Nonlinearly weighted first-order regression for denoising Monte Carlo renderings").
 #pragma once
 
 #include "filter/filter_kernel.h"
 
 namespace roomlight {
 
-// Called by filter.cpp after each pass: takePower, pooling; of levels with outliers boundPower, pooling; keepLevel. After the last pass addKept; takeNoise, pooling. `place`: which of the two places
-// of diffuse light holds the finer picture; the other holds the smoother one.
+// Called by filter.cpp after each pass: takePower, pooling; of levels with outliers boundPower, pooling; keepLevel.
+// After the last pass addKept; takeNoise, pooling. `place`: which of the two places of diffuse light holds the finer
+// picture; the other holds the smoother one.
 //
 // Level 0 is what single pixels add. In the finest single pixels may be outliers, so their power is bounded.
 bool hasOutliers(int level);

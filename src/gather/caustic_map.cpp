@@ -67,7 +67,9 @@ template <class Visit>
 void CausticMap::visitCells(Vec3 p, int level, const Runs& runs, const Visit& visit) {
   const Vec3 q = p / cellM(level) - Vec3(0.5f);
   for (int k = 0; k < 8; ++k) {
-    if (const Run* run = runs.find(keyOf(q + Vec3(static_cast<float>(k & 1), static_cast<float>(k >> 1 & 1), static_cast<float>(k >> 2)), level))) visit(*run);
+    if (const Run* run = runs.find(keyOf(
+            q + Vec3(static_cast<float>(k & 1), static_cast<float>(k >> 1 & 1), static_cast<float>(k >> 2)), level)))
+      visit(*run);
   }
 }
 
@@ -95,7 +97,10 @@ std::vector<float> CausticMap::radii(std::span<const CausticPhoton> photons) {
         for (uint32_t k = run.begin; k < run.end; k += step) {
           const CausticPhoton& other = photons[order[k] % few * kEvery];
           const Vec3 d = other.p - own.p;
-          count += lengthSquared(d) < radius * radius && std::abs(dot(d, own.n)) < kFlat * radius && dot(own.n, other.n) > kFacing ? static_cast<float>(step) : 0.0f;
+          count += lengthSquared(d) < radius * radius && std::abs(dot(d, own.n)) < kFlat * radius &&
+                           dot(own.n, other.n) > kFacing
+                       ? static_cast<float>(step)
+                       : 0.0f;
         }
       });
       if (count < kNearest) continue;
@@ -134,16 +139,20 @@ CausticMap::CausticMap(std::span<const CausticPhoton> photons, const LightLayers
   });
   const std::vector<uint32_t> order = sortedBy(keys);
   cells_ = Runs(keys, order);
-  for (std::vector<float>* list : {&x_, &y_, &z_, &nx_, &ny_, &nz_, &perRadius2_, &lux_[0], &lux_[1], &lux_[2], &from_[0], &from_[1], &from_[2]}) list->resize(photons.size() + kLanes);
+  for (std::vector<float>* list :
+       {&x_, &y_, &z_, &nx_, &ny_, &nz_, &perRadius2_, &lux_[0], &lux_[1], &lux_[2], &from_[0], &from_[1], &from_[2]})
+    list->resize(photons.size() + kLanes);
   layer_.resize(layers ? photons.size() + kLanes : 0);
   parallelFor(photons.size(), 4096, [&](size_t k) {
     const CausticPhoton& photon = photons[order[k]];
     if (layers) layer_[k] = static_cast<int8_t>(layerOf(photon, *layers));
     const float r2 = radius[order[k]] * radius[order[k]];
     const Vec3 lux = photon.fluxLm * (2 / (kPi * r2));  // Epanechnikov's kernel: 2 / (pi r²) (1 - d²/r²)
-    x_[k] = photon.p.x, y_[k] = photon.p.y, z_[k] = photon.p.z, nx_[k] = photon.n.x, ny_[k] = photon.n.y, nz_[k] = photon.n.z;
+    x_[k] = photon.p.x, y_[k] = photon.p.y, z_[k] = photon.p.z, nx_[k] = photon.n.x, ny_[k] = photon.n.y,
+    nz_[k] = photon.n.z;
     perRadius2_[k] = 1 / r2;
-    for (int c = 0; c < 3; ++c) lux_[static_cast<size_t>(c)][k] = lux[c], from_[static_cast<size_t>(c)][k] = photon.wi[c] * luminance(lux);
+    for (int c = 0; c < 3; ++c)
+      lux_[static_cast<size_t>(c)][k] = lux[c], from_[static_cast<size_t>(c)][k] = photon.wi[c] * luminance(lux);
   });
   markLevels(photons, radius);
 }
@@ -164,21 +173,25 @@ void CausticMap::markLevels(std::span<const CausticPhoton> photons, std::span<co
   levels_ = Runs(keys, sortedBy(keys));
 }
 
-size_t CausticMap::bytes() const { return x_.size() * 13 * sizeof(float) + layer_.size() + cells_.bytes() + levels_.bytes(); }
+size_t CausticMap::bytes() const {
+  return x_.size() * 13 * sizeof(float) + layer_.size() + cells_.bytes() + levels_.bytes();
+}
 
 // Light of eight photons from the i-th on, with such weights.
 void CausticMap::addToLayers(Float8 weight, size_t i, std::span<Vec3> byLayer) const {
   std::array<float, kLanes> w;
   weight.store(w.data());
   for (size_t k = 0; k < kLanes; ++k) {
-    if (w[k] > 0 && layer_[i + k] >= 0) byLayer[static_cast<size_t>(layer_[i + k])] += Vec3{lux_[0][i + k], lux_[1][i + k], lux_[2][i + k]} * w[k];
+    if (w[k] > 0 && layer_[i + k] >= 0)
+      byLayer[static_cast<size_t>(layer_[i + k])] += Vec3{lux_[0][i + k], lux_[1][i + k], lux_[2][i + k]} * w[k];
   }
 }
 
 CausticMap::Light CausticMap::at(Vec3 p, Vec3 n, std::span<Vec3> byLayer) const {
   if (empty()) return {};
   alignas(32) static constexpr std::array<float, 8> kLane{0, 1, 2, 3, 4, 5, 6, 7};
-  const Float8 lane = Float8::load(kLane.data()), px(p.x), py(p.y), pz(p.z), qx(n.x), qy(n.y), qz(n.z), one(1), zero(0), flat2(kFlat * kFlat), facing(kFacing);
+  const Float8 lane = Float8::load(kLane.data()), px(p.x), py(p.y), pz(p.z), qx(n.x), qy(n.y), qz(n.z), one(1), zero(0),
+               flat2(kFlat * kFlat), facing(kFacing);
   std::array<Float8, 3> lux, from;
   bool any = false;
   for (int level = 0; level < kLevels; ++level) {
@@ -186,14 +199,19 @@ CausticMap::Light CausticMap::at(Vec3 p, Vec3 n, std::span<Vec3> byLayer) const 
     visitCells(p, level, cells_, [&](const Run& run) {
       for (size_t i = run.begin; i < run.end; i += kLanes) {
         const Float8 dx = Float8::load(&x_[i]) - px, dy = Float8::load(&y_[i]) - py, dz = Float8::load(&z_[i]) - pz;
-        const Float8 per = Float8::load(&perRadius2_[i]), weight = max(zero, one - fma(dx, dx, fma(dy, dy, dz * dz)) * per);
-        const Float8 along = fma(dx, qx, fma(dy, qy, dz * qz)), cosine = fma(Float8::load(&nx_[i]), qx, fma(Float8::load(&ny_[i]), qy, Float8::load(&nz_[i]) * qz));
-        const Float8 counts = (zero < weight) & (along * along * per < flat2) & (facing < cosine) & (lane < Float8(static_cast<float>(run.end - i)));
+        const Float8 per = Float8::load(&perRadius2_[i]),
+                     weight = max(zero, one - fma(dx, dx, fma(dy, dy, dz * dz)) * per);
+        const Float8 along = fma(dx, qx, fma(dy, qy, dz * qz)),
+                     cosine =
+                         fma(Float8::load(&nx_[i]), qx, fma(Float8::load(&ny_[i]), qy, Float8::load(&nz_[i]) * qz));
+        const Float8 counts = (zero < weight) & (along * along * per < flat2) & (facing < cosine) &
+                              (lane < Float8(static_cast<float>(run.end - i)));
         if (topBits(counts) == 0) continue;
         any = true;
         const Float8 w = weight & counts;
         if (!byLayer.empty()) addToLayers(w, i, byLayer);
-        for (size_t c = 0; c < 3; ++c) lux[c] = fma(w, Float8::load(&lux_[c][i]), lux[c]), from[c] = fma(w, Float8::load(&from_[c][i]), from[c]);
+        for (size_t c = 0; c < 3; ++c)
+          lux[c] = fma(w, Float8::load(&lux_[c][i]), lux[c]), from[c] = fma(w, Float8::load(&from_[c][i]), from[c]);
       }
     });
   }

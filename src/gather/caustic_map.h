@@ -1,4 +1,5 @@
-// Illuminance of photons on surfaces: each is spread over a disc as large as photons around it are sparse (variable kernels, Silverman 1986, 5.3), so that all flux stays, borders are sharp where photons are dense, and nothing steps.
+// Illuminance of photons on surfaces: each is spread over a disc as large as photons around it are sparse (variable
+// kernels, Silverman 1986, 5.3), so that all flux stays, borders are sharp where photons are dense, and nothing steps.
 #pragma once
 
 #include <array>
@@ -24,7 +25,8 @@ class CausticMap {
     Vec3 lux;
     Vec3 from;  // where most of it comes from, unit
   };
-  // On a surface at p whose geometric normal, unit, is n. Adds the lux of each layer to `byLayer`, unless that is empty.
+  // On a surface at p whose geometric normal, unit, is n. Adds the lux of each layer to `byLayer`, unless that is
+  // empty.
   Light at(Vec3 p, Vec3 n, std::span<Vec3> byLayer = {}) const;
 
  private:
@@ -55,9 +57,9 @@ class CausticMap {
 
   // Of each photon, those of a cell one after the other; with some more at the end, for loads of eight.
   std::vector<float> x_, y_, z_, nx_, ny_, nz_, perRadius2_;
-  std::array<std::vector<float>, 3> lux_;   // in the middle of its disc,
+  std::array<std::vector<float>, 3> lux_;  // in the middle of its disc,
   std::array<std::vector<float>, 3> from_;  // and the direction it comes from, times its luminance
-  std::vector<int8_t> layer_;               // -1: of none; empty: light is not told apart
+  std::vector<int8_t> layer_;  // -1: of none; empty: light is not told apart
   Runs cells_;
   Runs levels_;  // of the largest cells: `begin` has a bit for every level whose discs reach into it
 };

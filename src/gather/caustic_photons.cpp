@@ -15,13 +15,16 @@ namespace roomlight {
 namespace {
 
 constexpr size_t kMostPieces = size_t{1} << 17;
-constexpr float kLargestM = 0.4f, kSmallestM = 0.02f, kOfDistance = 0.5f;  // edges of pieces: no longer, whatever their light; so long at least, and no longer than that part of the distance to the nearest lamp
+constexpr float kLargestM = 0.4f, kSmallestM = 0.02f,
+                kOfDistance = 0.5f;  // edges of pieces: no longer, whatever their light; so long at least, and no
+ // longer than that part of the distance to the nearest lamp
 constexpr size_t kAskedLights = 256;         // lamps and emissive meshes for which pieces are made that small
 constexpr size_t kClusters = 2048, kClusterPieces = 16;
-constexpr float kEven = 0.01f;               // of what a light gives the pieces is taken to be even over all of them: keeps each possible
+constexpr float kEven =
+    0.01f;  // of what a light gives the pieces is taken to be even over all of them: keeps each possible
 constexpr size_t kPilots = size_t{1} << 15, kFewestPilots = 4, kMostPilots = 512;
-constexpr float kByPotential = 0.1f;         // of photons go where light could be without shadows
-constexpr size_t kMostStarted = 2;           // for each that shall arrive
+constexpr float kByPotential = 0.1f;  // of photons go where light could be without shadows
+constexpr size_t kMostStarted = 2;  // for each that shall arrive
 constexpr size_t kAtOnce = 512;
 constexpr int kMostReflections = 7, kMostPanes = 16;
 constexpr float kSeenM = 0.5f, kUnseen = 0.1f;  // cells of what is seen; what photons are worth elsewhere
@@ -41,13 +44,15 @@ class Pieces {
  public:
   Pieces(const Scene& scene, const Lights& lights) {
     if (lights.lampCount() + lights.emitterCount() <= kAskedLights) {
-      for (size_t i = 0; i < lights.lampCount(); ++i) near_.push_back({lights.lamp(i).position, lights.lamp(i).position});
+      for (size_t i = 0; i < lights.lampCount(); ++i)
+        near_.push_back({lights.lamp(i).position, lights.lamp(i).position});
       for (size_t i = 0; i < lights.emitterCount(); ++i) near_.push_back(lights.emitterBounds(i));
     }
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
       const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
       if (!throwsLight(scene.materials[static_cast<size_t>(mesh.material)])) continue;
-      for (uint32_t t = 0; t < mesh.triangleCount(); ++t) add(i, t, worldTriangle(scene, i, t), {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}});
+      for (uint32_t t = 0; t < mesh.triangleCount(); ++t)
+        add(i, t, worldTriangle(scene, i, t), {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}});
     }
   }
   std::vector<Piece> pieces;
@@ -67,7 +72,8 @@ class Pieces {
     const Vec3 centre = (t.a + t.b + t.c) / 3, across = cross(t.b - t.a, t.c - t.a);
     const float edge = length(v[(longest + 1) % 3] - v[longest]), doubled = length(across);
     if (!(doubled > 0)) return;
-    if (pieces.size() < kMostPieces && edge > kSmallestM && edge > std::min(kLargestM, kOfDistance * std::max(0.0f, toNearest(centre) - edge))) {
+    if (pieces.size() < kMostPieces && edge > kSmallestM &&
+        edge > std::min(kLargestM, kOfDistance * std::max(0.0f, toNearest(centre) - edge))) {
       const size_t a = longest, b = (longest + 1) % 3, c = (longest + 2) % 3;
       const Vec3 middle = (v[a] + v[b]) * 0.5f;
       const Vec2 cornerMiddle{0.5f * (corner[a].x + corner[b].x), 0.5f * (corner[a].y + corner[b].y)};
@@ -82,7 +88,9 @@ class Pieces {
 };
 
 uint64_t cellOf(Vec3 p) {
-  const auto whole = [](float v) { return static_cast<uint64_t>(static_cast<int64_t>(std::floor(v / kSeenM))) & 0x1fffff; };
+  const auto whole = [](float v) {
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(v / kSeenM))) & 0x1fffff;
+  };
   return whole(p.x) | whole(p.y) << 21 | whole(p.z) << 42;
 }
 
@@ -98,7 +106,8 @@ struct Flight {
 
 class CausticTracer {
  public:
-  CausticTracer(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, bool apart, uint64_t seed) : rays_(rays), lights_(lights), seed_(seed), apart_(apart), pieces_(Pieces(rays.scene(), lights).pieces) {
+  CausticTracer(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, bool apart, uint64_t seed)
+      : rays_(rays), lights_(lights), seed_(seed), apart_(apart), pieces_(Pieces(rays.scene(), lights).pieces) {
     for (const Vec3 p : seen) seen_.insert(cellOf(p));
     const size_t most = std::max(kClusterPieces, (pieces_.size() + kClusters - 1) / kClusters);
     for (size_t i = 0; i < pieces_.size(); ++i) {
@@ -118,9 +127,12 @@ class CausticTracer {
     }
     if (!(score > 0)) return {};
     for (Source& s : sources_) {
-      for (Cluster& c : s.clusters) c.chance = (1 - kByPotential) * c.score / score + kByPotential * c.potential / potential, s.chance += c.chance, arriving += c.chance * c.arriving;
+      for (Cluster& c : s.clusters)
+        c.chance = (1 - kByPotential) * c.score / score + kByPotential * c.potential / potential, s.chance += c.chance,
+        arriving += c.chance * c.arriving;
     }
-    const double started = std::min(static_cast<double>(count) / std::max(arriving, 1e-9), static_cast<double>(kMostStarted * count));
+    const double started =
+        std::min(static_cast<double>(count) / std::max(arriving, 1e-9), static_cast<double>(kMostStarted * count));
     std::vector<CausticPhoton> photons;
     for (const Source& s : sources_) send(s, static_cast<size_t>(std::ceil(started * s.chance)), photons);
     return photons;
@@ -130,8 +142,8 @@ class CausticTracer {
  private:
   struct Cluster {  // pieces that follow one another
     double potential = 0;  // lm that a light could give them,
-    double score = 0;      // lm that arrive of it, by what they are worth
-    double arriving = 0;   // photons that arrive where it is seen, of each
+    double score = 0;  // lm that arrive of it, by what they are worth
+    double arriving = 0;  // photons that arrive where it is seen, of each
     double chance = 0;
   };
   struct Source {  // a sun, all lamps, or all emissive meshes
@@ -143,7 +155,8 @@ class CausticTracer {
 
   size_t sourceCount() const { return lights_.sunCount() + 2; }
 
-  // Half of the lamps and emissive meshes by what they could give at p, half evenly where their light is told apart: else a dim one would be known by few photons.
+  // Half of the lamps and emissive meshes by what they could give at p, half evenly where their light is told apart:
+  // else a dim one would be known by few photons.
   LightSample sampleOf(size_t source, Vec3 p, Sampler& sampler) const {
     if (source < lights_.sunCount()) return lights_.sampleSun(source, sampler.next2());
     const bool lamps = source == lights_.sunCount();
@@ -161,7 +174,8 @@ class CausticTracer {
     }
     const float chance = (1 - evenly) * chosen.chance + evenly / static_cast<float>(count);
     const Vec2 u = sampler.next2();
-    LightSample light = lamps ? lights_.sampleLamp(chosen.index, p, u) : lights_.sampleEmitter(chosen.index, p, u, sampler.next1());
+    LightSample light =
+        lamps ? lights_.sampleLamp(chosen.index, p, u) : lights_.sampleEmitter(chosen.index, p, u, sampler.next1());
     light.radiance *= 1 / chance;
     return light;
   }
@@ -174,17 +188,23 @@ class CausticTracer {
     }
     const bool lamps = source == lights_.sunCount();
     if ((lamps ? lights_.lampCount() : lights_.emitterCount()) == 0) return 0;
-    const LightTree::Choice choice = lamps ? lights_.chooseLamp(piece.centre, 0.5f) : lights_.chooseEmitter(piece.centre, 0.5f);
+    const LightTree::Choice choice =
+        lamps ? lights_.chooseLamp(piece.centre, 0.5f) : lights_.chooseEmitter(piece.centre, 0.5f);
     if (!(choice.chance > 0)) return 0;
-    return piece.areaM2 * (lamps ? lights_.lampImportance(choice.index, piece.centre) : lights_.emitterImportance(choice.index, piece.centre)) / choice.chance;
+    return piece.areaM2 *
+           (lamps ? lights_.lampImportance(choice.index, piece.centre)
+                  : lights_.emitterImportance(choice.index, piece.centre)) /
+           choice.chance;
   }
 
   Source source(size_t index) const {
     Source s{index, std::vector<float>(pieces_.size()), std::vector<Cluster>(first_.size() - 1)};
     parallelFor(pieces_.size(), 256, [&](size_t i) { s.weight[i] = potentialOf(index, pieces_[i]); });
     double area = 0, sum = 0;
-    for (size_t i = 0; i < pieces_.size(); ++i) area += static_cast<double>(pieces_[i].areaM2), sum += static_cast<double>(s.weight[i]);
-    for (size_t i = 0; i < pieces_.size(); ++i) s.weight[i] += kEven * pieces_[i].areaM2 * static_cast<float>(sum / area);
+    for (size_t i = 0; i < pieces_.size(); ++i)
+      area += static_cast<double>(pieces_[i].areaM2), sum += static_cast<double>(s.weight[i]);
+    for (size_t i = 0; i < pieces_.size(); ++i)
+      s.weight[i] += kEven * pieces_[i].areaM2 * static_cast<float>(sum / area);
     for (size_t c = 0; c < s.clusters.size(); ++c) {
       for (size_t i = first_[c]; i < first_[c + 1]; ++i) s.clusters[c].potential += static_cast<double>(s.weight[i]);
       s.potential += s.clusters[c].potential;
@@ -201,14 +221,20 @@ class CausticTracer {
     const Piece& piece = pieces_[i];
     const Vec2 on = sampleTriangle(u);
     const auto mixed = [&](float a, float b, float c) { return a + (b - a) * on.x + (c - a) * on.y; };
-    Hit hit{piece.instance, piece.triangle, mixed(piece.corner[0].x, piece.corner[1].x, piece.corner[2].x), mixed(piece.corner[0].y, piece.corner[1].y, piece.corner[2].y), 0, piece.normal};
+    Hit hit{piece.instance,
+            piece.triangle,
+            mixed(piece.corner[0].x, piece.corner[1].x, piece.corner[2].x),
+            mixed(piece.corner[0].y, piece.corner[1].y, piece.corner[2].y),
+            0,
+            piece.normal};
     const TriangleVertices t = worldTriangle(rays_.scene(), hit.instance, hit.triangle);
     const Vec3 p = t.a + (t.b - t.a) * hit.b1 + (t.c - t.a) * hit.b2;
     const LightSample light = sampleOf(source.index, p, flight.sampler);
     if (!light.valid()) return false;
     flight.s = surfaceAt(rays_.scene(), hit, -light.wi);
     flight.wi = light.wi, flight.lamp = light.lamp, flight.emitter = light.emitter;
-    flight.flux = light.radiance * (std::max(0.0f, dot(light.wi, flight.s.ng)) * flight.s.m.alpha * piece.areaM2 * all / source.weight[i]);
+    flight.flux = light.radiance * (std::max(0.0f, dot(light.wi, flight.s.ng)) * flight.s.m.alpha * piece.areaM2 * all /
+                                    source.weight[i]);
     shadow = shadowRay(offsetOrigin(flight.s.p, flight.s.ng), flight.s.p, light);
     return !isBlack(flight.flux);
   }
@@ -233,8 +259,11 @@ class CausticTracer {
     SurfacePoint s = surfaceAt(rays_.scene(), hit, d);
     const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, d)));
     const bool polished = throwsLight(*s.material);
-    const float passes = std::min(1.0f, luminance(through)), back = polished ? s.m.alpha * luminance(bihemisphericalAlbedo(s.m)) : 1 - passes;
-    if (!polished && maxComponent(s.m.baseColor) * (1 - s.m.metallic) * (1 - s.m.transmission) * s.m.alpha > kLeastAlbedo) keep(CausticPhoton{s.p, s.ng, -d, f.flux, f.lamp, f.emitter}, f.sampler);
+    const float passes = std::min(1.0f, luminance(through)),
+                back = polished ? s.m.alpha * luminance(bihemisphericalAlbedo(s.m)) : 1 - passes;
+    if (!polished &&
+        maxComponent(s.m.baseColor) * (1 - s.m.metallic) * (1 - s.m.transmission) * s.m.alpha > kLeastAlbedo)
+      keep(CausticPhoton{s.p, s.ng, -d, f.flux, f.lamp, f.emitter}, f.sampler);
     const float chance = passes > 0 ? passes / (passes + back) : 0;
     if (chance > 0 && f.sampler.next1() < chance) {
       f.flux *= through / chance;
@@ -283,7 +312,8 @@ class CausticTracer {
     parallelFor(source.clusters.size(), 4, [&](size_t c) {
       Cluster& cluster = source.clusters[c];
       if (!(cluster.potential > 0)) return;
-      const size_t n = std::clamp(static_cast<size_t>(static_cast<double>(kPilots) * cluster.potential / potential), kFewestPilots, kMostPilots);
+      const size_t n = std::clamp(static_cast<size_t>(static_cast<double>(kPilots) * cluster.potential / potential),
+                                  kFewestPilots, kMostPilots);
       std::vector<Flight> flights;
       std::vector<Ray> shadows;
       for (size_t k = 0; k < n; ++k) {
@@ -316,7 +346,8 @@ class CausticTracer {
         Sampler sampler(mix64(kKey + source.index), static_cast<uint32_t>(k), seed_);
         Vec2 u = sampler.next2();
         const double choice = static_cast<double>(u.x) * sum;
-        const size_t c = std::min(static_cast<size_t>(std::upper_bound(upTo.begin(), upTo.end(), choice) - upTo.begin()), upTo.size() - 1);
+        const size_t c = std::min(
+            static_cast<size_t>(std::upper_bound(upTo.begin(), upTo.end(), choice) - upTo.begin()), upTo.size() - 1);
         const double before = c > 0 ? upTo[c - 1] : 0, chance = upTo[c] - before;
         u.x = std::clamp(static_cast<float>((choice - before) / chance), 0.0f, kBelowOne);
         Flight f{{}, {}, {}, {}, sampler};
@@ -356,7 +387,8 @@ bool throwsLight(const Material& m) {
   return isPolishedMetal(m) || m.glazing.panes > 0 || (m.transmission > 0 && m.roughness < kPolished);
 }
 
-std::vector<CausticPhoton> traceCausticPhotons(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, size_t count, bool apart, uint64_t seed, uint64_t& rayCount) {
+std::vector<CausticPhoton> traceCausticPhotons(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen,
+                                               size_t count, bool apart, uint64_t seed, uint64_t& rayCount) {
   CausticTracer tracer(rays, lights, seen, apart, seed);
   std::vector<CausticPhoton> photons = tracer.trace(count);
   rayCount += tracer.rayCount();

@@ -1,4 +1,5 @@
-// What has changed in a scene since the frame before, as far as frames that reuse light must know: what moved, and where light is another.
+// What has changed in a scene since the frame before, as far as frames that reuse light must know: what moved, and
+ // where light is another.
 #pragma once
 
 #include <functional>
@@ -13,8 +14,8 @@ namespace roomlight {
 
 class ChangedPlaces {
  public:
-  // `addSeen` adds to the box of each instance what was seen of it: where things were that move for the first time, unless the change tells.
-  // After many changes without a frame light counts as changed everywhere.
+  // `addSeen` adds to the box of each instance what was seen of it: where things were that move for the first time,
+  // unless the change tells. After many changes without a frame light counts as changed everywhere.
   void add(const SceneChange& change, const Scene& scene, const std::function<void(std::vector<Bounds3>&)>& addSeen);
   // Light of the scene as it is now: where things that moved throw shadows, or did, light has changed.
   // `emissive`: instances of emissive meshes that throw sharp ones too.

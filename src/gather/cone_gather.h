@@ -1,5 +1,6 @@
 // Technique `cone`: pictures from voxel radiance. Primary visibility and direct light by exact rays, diffuse light and
-// occlusion by cones through the directional pyramid, reflections by cones or, where they are narrower than voxels, rays.
+// occlusion by cones through the directional pyramid, reflections by cones or, where they are narrower than voxels,
+// rays.
 #pragma once
 
 #include "gather/picture.h"
@@ -16,7 +17,8 @@ struct GatherSettings : PictureSettings {
   Vec3 ambientCdM2{0, 0, 0};      // luminance of light that ambient occlusion attenuates; 0: physical light only
 };
 
-GatheredPicture gatherCones(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
-                            const Camera& camera, const GatherSettings& settings, const Progress& progress = {});
+GatheredPicture gatherCones(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                            const RadianceField& field, const Camera& camera, const GatherSettings& settings,
+                            const Progress& progress = {});
 
 }  // namespace roomlight

@@ -13,29 +13,42 @@ constexpr float kDoubt = 8;      // times the mean around: where rays check what
 
 }  // namespace
 
-ConeShader::ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const GatherSettings& settings)
-    : DirectShader(rays, lights, voxels, field.guide, settings.rayRoughness), field_(field), settings_(settings), diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.occlusionLambda} {}
+ConeShader::ConeShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
+                       const GatherSettings& settings)
+    : DirectShader(rays, lights, voxels, field.guide, settings.rayRoughness),
+      field_(field),
+      settings_(settings),
+      diffuse_{std::tan(settings.coneHalfAngleDeg * kPi / 180), settings.occlusionLambda} {}
 
 // Light that surfaces near lamps reflect, as far as cones leave it.
-void ConeShader::addNear(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, Sampler& sampler, Lobes& sum, GatherCounters& count) const {
+void ConeShader::addNear(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, Sampler& sampler, Lobes& sum,
+                         GatherCounters& count) const {
   if (field_.glow.empty()) return;
-  const GlowSample g = field_.glow.sample(s.p, s.ns, static_cast<float>(settings_.conesPerShading), diffuse_.tanHalf, sampler);
+  const GlowSample g =
+      field_.glow.sample(s.p, s.ns, static_cast<float>(settings_.conesPerShading), diffuse_.tanHalf, sampler);
   if (!g.light.valid()) return;
   const Vec3 wi = g.light.wi;
   Lobes f{bsdf.evaluateDiffuse(wi), {}};
-  f.diffuse *= field_.glow.pointShare(g.point, s.p, {conePdf(dot(wi, s.ns)), std::min(diffuse_.tanHalf, dot(wi, s.ng))});
+  f.diffuse *=
+      field_.glow.pointShare(g.point, s.p, {conePdf(dot(wi, s.ns)), std::min(diffuse_.tanHalf, dot(wi, s.ng))});
   if (s.m.roughness >= kSharpRoughness) {
     const ConeShape shape = lobe(s, bsdf.pdfSpecular(wi));
-    f.specular = bsdf.evaluateSpecular(wi) * field_.glow.pointShare(g.point, s.p, {shape.pdf, by == Reflection::Ray ? 0 : std::min(shape.tanHalf, dot(wi, s.ng))});
+    f.specular = bsdf.evaluateSpecular(wi) *
+                 field_.glow.pointShare(
+                     g.point, s.p, {shape.pdf, by == Reflection::Ray ? 0 : std::min(shape.tanHalf, dot(wi, s.ng))});
   }
   sum.add(f, g.light.radiance * visible(s, g.light, f, count));
 }
 
 // Of all diffuse cones of a shading together.
-float ConeShader::conePdf(float cosSurface) const { return static_cast<float>(settings_.conesPerShading) * std::max(0.0f, cosSurface) / kPi; }
+float ConeShader::conePdf(float cosSurface) const {
+  return static_cast<float>(settings_.conesPerShading) * std::max(0.0f, cosSurface) / kPi;
+}
 
 // A cone of the glossy lobe. The lobe is sampled, so the cone need only be as wide as the gaps between the samples.
-ConeShape ConeShader::lobe(const SurfacePoint& s, float pdf) const { return {std::min(0.5f * s.m.roughness * s.m.roughness, diffuse_.tanHalf), 0, pdf}; }
+ConeShape ConeShader::lobe(const SurfacePoint& s, float pdf) const {
+  return {std::min(0.5f * s.m.roughness * s.m.roughness, diffuse_.tanHalf), 0, pdf};
+}
 
 ConeStart ConeShader::coneStart(const SurfacePoint& s) const {
   return {s.p + s.ng * (settings_.startOffsetVoxels * voxels_.voxelSizeM), s.ng};
@@ -54,12 +67,15 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, GatherCounter
   for (int i = 0; i < n; ++i) {
     // Turned about the normal: strata of azimuth within the shading; the sampler spreads the shadings of a pixel.
     const float turn = 2 * kPi * static_cast<float>(i) / static_cast<float>(n);
-    Vec3 d = frame.toWorld({first.x * std::cos(turn) - first.y * std::sin(turn), first.x * std::sin(turn) + first.y * std::cos(turn), first.z});
+    Vec3 d = frame.toWorld({first.x * std::cos(turn) - first.y * std::sin(turn),
+                            first.x * std::sin(turn) + first.y * std::cos(turn), first.z});
     if (dot(d, s.ng) < 0.02f) d = normalize(d + s.ng * (0.04f - dot(d, s.ng)));
     ConeShape shape = diffuse_;
     shape.pdf = conePdf(dot(d, s.ns));
     const ConeLight c = marchCone(field_, start, d, shape, sampler.next1());
-    sum += luminance(c.radiance) > doubt ? seen({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, {s.p, shape.pdf, -1, false}, irradiance, sampler, count) : c.radiance;
+    sum += luminance(c.radiance) > doubt ? seen({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, {s.p, shape.pdf, -1, false},
+                                                irradiance, sampler, count)
+                                         : c.radiance;
     sum += settings_.ambientCdM2 * (1 - c.occlusion);
     occlusion += c.occlusion / static_cast<float>(n);
   }
@@ -67,9 +83,10 @@ Vec3 ConeShader::indirect(const SurfacePoint& s, Sampler& sampler, GatherCounter
   return sum / static_cast<float>(n);
 }
 
-// What an exact ray sees by the light that voxels hold, without lights and sky: it tells whether a cone that found much more light than
-// its surroundings get looked through a wall thinner than voxels. Where a slot does not stand for the place met (a bar that goes
-// on through a wall has sun on one end of it), that is lit afresh, and what others reflect there is taken for that of the ray's start.
+// What an exact ray sees by the light that voxels hold, without lights and sky: it tells whether a cone that found much
+// more light than its surroundings get looked through a wall thinner than voxels. Where a slot does not stand for the
+// place met (a bar that goes on through a wall has sun on one end of it), that is lit afresh, and what others reflect
+// there is taken for that of the ray's start.
 Vec3 ConeShader::seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sampler, GatherCounters& count) const {
   Vec3 sum, left(1);
   for (int k = 0; k < kMostPanes && maxComponent(left) > 1e-3f; ++k) {
@@ -77,13 +94,16 @@ Vec3 ConeShader::seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sa
     ++count.rays;
     if (!hit.valid()) break;
     const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-    if (const int64_t slot = slotAtSurface(voxels_, s.p, s.ng); slot >= 0 && isParted(static_cast<size_t>(slot), s, count)) {
+    if (const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
+        slot >= 0 && isParted(static_cast<size_t>(slot), s, count)) {
       const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
       float unused = 0;
-      const Vec3 direct = soft(s, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse + sharp(s, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
+      const Vec3 direct = soft(s, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse +
+                          sharp(s, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
       sum += left * (direct + bsdf.diffuseAlbedo() * startLux / kPi) * s.m.alpha;
     } else {
-      sum += left * bihemisphericalAlbedo(s.m) * reflectedIrradiance(s, ray.direction, from, sampler, count) * (s.m.alpha / kPi);
+      sum += left * bihemisphericalAlbedo(s.m) * reflectedIrradiance(s, ray.direction, from, sampler, count) *
+             (s.m.alpha / kPi);
     }
     left *= passing(s.m, *s.material, std::abs(dot(s.ns, ray.direction)));
     ray.origin = offsetOrigin(s.p, -s.ng);
@@ -93,18 +113,21 @@ Vec3 ConeShader::seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sa
 
 // Whether another surface stands between a place and where its slot takes its light.
 bool ConeShader::isParted(size_t slot, const SurfacePoint& s, GatherCounters& count) const {
-  const Vec3 from = s.p + s.ng * (kLift * voxels_.voxelSizeM), to = voxels_.slots[slot].position + s.ng * (kLift * voxels_.voxelSizeM);
+  const Vec3 from = s.p + s.ng * (kLift * voxels_.voxelSizeM),
+             to = voxels_.slots[slot].position + s.ng * (kLift * voxels_.voxelSizeM);
   ++count.rays;
   return luminance(rays_.transmittance({from, to - from, 0, 1})) < 0.25f;
 }
 
-Vec3 ConeShader::glossy(const SurfacePoint& s, Vec3, const BsdfSample& r, Sampler& sampler, GatherCounters& count) const {
+Vec3 ConeShader::glossy(const SurfacePoint& s, Vec3, const BsdfSample& r, Sampler& sampler,
+                        GatherCounters& count) const {
   ++count.cones;
   return marchCone(field_, coneStart(s), r.wi, lobe(s, r.pdf), sampler.next1()).radiance;
 }
 
 // At s, where a ray reflected at from.p arrives. What the points of LampGlow give is left to them.
-Vec3 ConeShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler, GatherCounters&) const {
+Vec3 ConeShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected& from, Sampler& sampler,
+                                     GatherCounters&) const {
   const int64_t near = slotNear(s, sampler);
   if (near < 0) return {};
   const auto slot = static_cast<size_t>(near);

@@ -18,48 +18,56 @@ constexpr int kLampSamples = 2;  // where lamps are many
 
 float DirectShader::Reflected::weight(float lightPdf) const { return pdf > 0 ? misWeight(pdf, lightPdf) : 1; }
 
-void DirectShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const {
-  for (size_t i = 0; i < work.size(); ++i) light[i] = shade(work[i], shadows.subspan(work[i].firstShadow, sharp_.count()), count);
+void DirectShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light,
+                         GatherCounters& count) const {
+  for (size_t i = 0; i < work.size(); ++i)
+    light[i] = shade(work[i], shadows.subspan(work[i].firstShadow, sharp_.count()), count);
 }
 
 SurfaceLight DirectShader::shade(const Shading& work, std::span<const Shadow> shadows, GatherCounters& count) const {
   const SurfacePoint& s = work.s;
   Sampler sampler = work.sampler;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
-  const Reflection by = work.followed ? Reflection::Followed : s.m.roughness < rayRoughness_ ? Reflection::Ray
-                                                                                             : Reflection::Cone;
+  const Reflection by = work.followed                   ? Reflection::Followed
+                        : s.m.roughness < rayRoughness_ ? Reflection::Ray
+                                                        : Reflection::Cone;
   const int32_t guide = guideOf(s);
   SurfaceLight out;
-  const Lobes soft = this->soft(s, bsdf, by, guide, sampler, count, !work.skyKnown), sharp = this->sharp(s, bsdf, by, shadows, sampler, count, out.sharpVariance);
+  const Lobes soft = this->soft(s, bsdf, by, guide, sampler, count, !work.skyKnown),
+              sharp = this->sharp(s, bsdf, by, shadows, sampler, count, out.sharpVariance);
   out.albedo = bsdf.diffuseAlbedo();
   out.diffuse = soft.diffuse;
   out.sharp = sharp.diffuse;
   out.specular = soft.specular + sharp.specular;
   if (maxComponent(out.albedo) > 1e-4f) out.diffuse += out.albedo * indirect(s, sampler, count, out.occlusion);
-  if (!work.followed && maxComponent(bsdf.specularAlbedo()) > 1e-4f) out.specular += reflection(s, work.wo, bsdf, by, guide, sampler, count);
+  if (!work.followed && maxComponent(bsdf.specularAlbedo()) > 1e-4f)
+    out.specular += reflection(s, work.wo, bsdf, by, guide, sampler, count);
   return out;
 }
 
 // What arrives of a light sample.
-Vec3 DirectShader::visible(const SurfacePoint& s, const LightSample& light, const Lobes& f, GatherCounters& count) const {
+Vec3 DirectShader::visible(const SurfacePoint& s, const LightSample& light, const Lobes& f,
+                           GatherCounters& count) const {
   if (isBlack(f.diffuse) && isBlack(f.specular)) return {};
   ++count.rays;
   return rays_.transmittance(shadowRay(offsetOrigin(s.p, s.ng), s.p, light));
 }
 
-// Both lobes towards a light. Where reflections follow rays they find extended lights too; both ways share the specular lobe
-// by multiple importance sampling, and from mirrors rays alone look for them. `strategies` is how many light samples compete.
+// Both lobes towards a light. Where reflections follow rays they find extended lights too; both ways share the specular
+// lobe by multiple importance sampling, and from mirrors rays alone look for them. `strategies` is how many light
+// samples compete.
 Lobes DirectShader::towards(const LightSample& light, const Bsdf& bsdf, Reflection by, float strategies) const {
   if (!light.valid()) return {};
   Lobes f{bsdf.evaluateDiffuse(light.wi), bsdf.evaluateSpecular(light.wi)};
-  if (by == Reflection::Ray && light.pdf > 0) f.specular *= misWeight(strategies * light.pdf, bsdf.pdfSpecular(light.wi));
+  if (by == Reflection::Ray && light.pdf > 0)
+    f.specular *= misWeight(strategies * light.pdf, bsdf.pdfSpecular(light.wi));
   if (by == Reflection::Followed && light.pdf > 0) f.specular = {};
   return f;
 }
 
 // Light of suns and lamps. Their shadows are given, or traced where `shadows` is empty.
-Lobes DirectShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows, Sampler& sampler, GatherCounters& count,
-                          float& variance) const {
+Lobes DirectShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows,
+                          Sampler& sampler, GatherCounters& count, float& variance) const {
   Lobes sum;
   for (size_t i = 0; i < sharp_.count(); ++i) {
     const LightSample light = sharp_.sample(i, s.p, sampler.next2());
@@ -76,7 +84,8 @@ Lobes DirectShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by
 }
 
 // Light of the sky, emissive meshes and, where they are many, lamps.
-Lobes DirectShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, GatherCounters& count, bool skyToo) const {
+Lobes DirectShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler,
+                         GatherCounters& count, bool skyToo) const {
   Lobes sum;
   const auto take = [&](const LightSample& light, float strategies, float weight) {
     const Lobes f = towards(light, bsdf, by, strategies);
@@ -88,7 +97,8 @@ Lobes DirectShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by,
   if (lights_.hasEmitters()) {
     const float choice = sampler.next1();
     for (int k = 0; k < kEmitterSamples; ++k) {
-      take(lights_.sampleEmitters(s.p, sampler.next2(), (choice + static_cast<float>(k)) / kEmitterSamples), kEmitterSamples, 1.0f / kEmitterSamples);
+      take(lights_.sampleEmitters(s.p, sampler.next2(), (choice + static_cast<float>(k)) / kEmitterSamples),
+           kEmitterSamples, 1.0f / kEmitterSamples);
     }
   }
   if (skyToo && lights_.sky().present()) {
@@ -101,15 +111,18 @@ Lobes DirectShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by,
   return sum;
 }
 
-Vec3 DirectShader::reflection(const SurfacePoint& s, Vec3 wo, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler, GatherCounters& count) const {
+Vec3 DirectShader::reflection(const SurfacePoint& s, Vec3 wo, const Bsdf& bsdf, Reflection by, int32_t guide,
+                              Sampler& sampler, GatherCounters& count) const {
   const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
   if (!r.valid() || isBlack(r.weight)) return {};
-  if (by == Reflection::Ray) return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
+  if (by == Reflection::Ray)
+    return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity},
+                            {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
   return r.weight * glossy(s, wo, r, sampler, count);
 }
 
-// What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold. Where the way
-// goes on, through a pane or as a further reflection, one of the two is followed, in proportion to its light.
+// What an exact ray sees: lights as they are, surfaces by their own materials under the light that voxels hold. Where
+// the way goes on, through a pane or as a further reflection, one of the two is followed, in proportion to its light.
 Vec3 DirectShader::along(Ray ray, Reflected from, Sampler& sampler, GatherCounters& count) const {
   Vec3 sum, left(1);
   for (int k = 0; k < kMostPanes; ++k) {
@@ -117,7 +130,8 @@ Vec3 DirectShader::along(Ray ray, Reflected from, Sampler& sampler, GatherCounte
     ++count.rays;
     if (!hit.valid()) return sum + left * reflectedBackground(ray.direction, from);
     const SurfacePoint s = surfaceAt(rays_.scene(), hit, ray.direction);
-    if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) sum += left * emitted * from.weight(kEmitterSamples * lights_.pdfEmitters(from.p, s));
+    if (const Vec3 emitted = s.emitted(); !isBlack(emitted))
+      sum += left * emitted * from.weight(kEmitterSamples * lights_.pdfEmitters(from.p, s));
     const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
     const bool glossy = s.m.roughness < kChainRoughness;
     const Reflection by = glossy ? Reflection::Ray : Reflection::Cone;
@@ -125,15 +139,18 @@ Vec3 DirectShader::along(Ray ray, Reflected from, Sampler& sampler, GatherCounte
     const int32_t guide = from.sharp ? guideOf(s) : -1;
     if (from.sharp) {
       float unused = 0;
-      const Lobes light = soft(s, bsdf, by, guide, sampler, count), point = sharp(s, bsdf, by, {}, sampler, count, unused);
+      const Lobes light = soft(s, bsdf, by, guide, sampler, count),
+                  point = sharp(s, bsdf, by, {}, sampler, count, unused);
       Vec3 lit = light.diffuse + light.specular + point.diffuse + point.specular;
       if (maxComponent(rho) > 1e-4f) lit += rho * indirect(s, sampler, count, unused);
       sum += left * lit * s.m.alpha;
     } else {
       sum += left * rho * reflectedIrradiance(s, ray.direction, from, sampler, count) * (s.m.alpha / kPi);
     }
-    const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, ray.direction))), mirrored = glossy ? bsdf.specularAlbedo() * s.m.alpha : Vec3(0);
-    const float pThrough = luminance(left * through), pMirrored = luminance(left * mirrored), survive = std::min(1.0f, 2 * (pThrough + pMirrored));
+    const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, ray.direction))),
+               mirrored = glossy ? bsdf.specularAlbedo() * s.m.alpha : Vec3(0);
+    const float pThrough = luminance(left * through), pMirrored = luminance(left * mirrored),
+                survive = std::min(1.0f, 2 * (pThrough + pMirrored));
     if (survive < 1e-2f) return sum;
     const float u = sampler.next1(), split = survive * pThrough / (pThrough + pMirrored);
     if (u >= survive) return sum;
@@ -164,13 +181,15 @@ Vec3 DirectShader::reflectedBackground(Vec3 d, const Reflected& from) const {
   return sum;
 }
 
-Vec3 DirectShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected&, Sampler& sampler, GatherCounters& count) const {
+Vec3 DirectShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, const Reflected&, Sampler& sampler,
+                                       GatherCounters& count) const {
   SurfacePoint white = s;
   white.m = {};
   white.m.baseColor = Vec3(1);
   const Bsdf bsdf(white.m, s.ns, s.ng, -direction);
   float unused = 0;
-  const Vec3 direct = soft(white, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse + sharp(white, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
+  const Vec3 direct = soft(white, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse +
+                      sharp(white, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
   return (direct + indirect(white, sampler, count, unused)) * kPi;
 }
 

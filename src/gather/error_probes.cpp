@@ -12,19 +12,24 @@ namespace roomlight {
 namespace {
 
 constexpr size_t kOneIn = 32, kFewestPixels = 512, kMostPixels = 4096;
-constexpr int kFewest = 4, kMost = 8, kClosely = 16;  // shadings of each of the two samples: the fewer the noisier the estimate, and there is no need to know a rough picture's error well
+constexpr int kFewest = 4, kMost = 8,
+              kClosely = 16;  // shadings of each of the two samples: the fewer the noisier the estimate, and there is
+                              // no need to know a rough picture's error well
 constexpr size_t kRaysOfShading = 2;
-constexpr size_t kAtOnce = 16;                   // probes
-constexpr size_t kFewestKnown = 16;              // pixels: of fewer nothing can be told
-constexpr uint64_t kProbeKey = 0x9e0be5;         // other random numbers than the picture has
-constexpr float kDarkest = 0.05f;                // of the mean luminance: below it errors count as absolute
-constexpr float kMostRelative = 1, kMostEncoded = 0.5f;  // that a sample may differ by: single ones are far beyond what a picture can be off by
-constexpr float kStep = 1e-3f;                   // of exposed values, for a slope
+constexpr size_t kAtOnce = 16;  // probes
+constexpr size_t kFewestKnown = 16;  // pixels: of fewer nothing can be told
+constexpr uint64_t kProbeKey = 0x9e0be5;  // other random numbers than the picture has
+constexpr float kDarkest = 0.05f;  // of the mean luminance: below it errors count as absolute
+constexpr float kMostRelative = 1,
+                kMostEncoded =
+                    0.5f;  // that a sample may differ by: single ones are far beyond what a picture can be off by
+constexpr float kStep = 1e-3f;  // of exposed values, for a slope
 
 // How fast the encoded value changes from an exposed one towards another; nothing is seen beyond white.
 float slopeOfEncoding(float exposed, float towards) {
   if (exposed >= 1 && towards >= 1) return 0;
-  if (exposed >= 1 || towards >= 1) return (1 - srgbEncode(std::min(exposed, towards))) / std::max(std::abs(towards - exposed), 1e-6f);
+  if (exposed >= 1 || towards >= 1)
+    return (1 - srgbEncode(std::min(exposed, towards))) / std::max(std::abs(towards - exposed), 1e-6f);
   return (srgbEncode(exposed + kStep) - srgbEncode(exposed)) / kStep;
 }
 
@@ -47,7 +52,8 @@ class MeanSquare {
 
 }  // namespace
 
-ErrorProbes::ErrorProbes(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, bool closely, const Progress& progress) {
+ErrorProbes::ErrorProbes(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+                         const PictureSettings& settings, bool closely, const Progress& progress) {
   const auto pixels = static_cast<size_t>(settings.width) * static_cast<size_t>(settings.height);
   const size_t count = std::min(pixels, std::clamp(pixels / kOneIn, kFewestPixels, kMostPixels));
   const auto shadings = static_cast<uint32_t>(closely ? kClosely : std::clamp(settings.samples / 2, kFewest, kMost));
@@ -72,11 +78,14 @@ ErrorProbes::ErrorProbes(const RayScene& rays, const Lights& lights, const Surfa
       const size_t first = i * pixels / count, next = (i + 1) * pixels / count;
       const size_t pixel = first + mix64(i ^ own.seed) % (next - first);
       probes_[i].pixel = static_cast<uint32_t>(pixel);
-      const int x = static_cast<int>(pixel % static_cast<size_t>(settings.width)), y = static_cast<int>(pixel / static_cast<size_t>(settings.width));
+      const int x = static_cast<int>(pixel % static_cast<size_t>(settings.width)),
+                y = static_cast<int>(pixel / static_cast<size_t>(settings.width));
       for (uint32_t k = 0; k < 2 * shadings; ++k) {
         const size_t which = k / shadings, sum = 2 * (i - begin) + which;
         std::array<Ray, kRaysAtOnce> some;
-        pixelShader.see(places[which].at(x, y, kRaysOfShading * (k % shadings), kRaysOfShading, some), PixelSequence(x, y, k, own.seed), {&sums[sum], &counts[sum], static_cast<uint32_t>(pixel)}, work, counters);
+        pixelShader.see(places[which].at(x, y, kRaysOfShading * (k % shadings), kRaysOfShading, some),
+                        PixelSequence(x, y, k, own.seed), {&sums[sum], &counts[sum], static_cast<uint32_t>(pixel)},
+                        work, counters);
       }
     }
     light.resize(work.shadings.size());
@@ -97,17 +106,21 @@ ErrorProbes::ErrorProbes(const RayScene& rays, const Lights& lights, const Surfa
 ErrorLeft ErrorProbes::of(const Image& picture) const {
   if (probes_.empty() || picture.pixels.empty()) return {};
   double mean = 0;
-  for (const Vec3& p : picture.pixels) mean += static_cast<double>(luminance(p)) / static_cast<double>(picture.pixels.size());
-  const float darkest = kDarkest * static_cast<float>(mean) + 1e-20f, exposure = exposureFromEv100(automaticEv100(picture));
+  for (const Vec3& p : picture.pixels)
+    mean += static_cast<double>(luminance(p)) / static_cast<double>(picture.pixels.size());
+  const float darkest = kDarkest * static_cast<float>(mean) + 1e-20f,
+              exposure = exposureFromEv100(automaticEv100(picture));
   MeanSquare relative, encoded;
   for (const Probe& probe : probes_) {
     const Vec3 p = picture.pixels[probe.pixel], a = p - probe.sample[0], b = p - probe.sample[1];
     if (!isFinite(a) || !isFinite(b)) continue;
     const float level = std::max(0.0f, luminance(p)) + darkest;
-    relative.add(static_cast<double>(bounded(luminance(a) / level, kMostRelative) * bounded(luminance(b) / level, kMostRelative)));
+    relative.add(static_cast<double>(bounded(luminance(a) / level, kMostRelative) *
+                                     bounded(luminance(b) / level, kMostRelative)));
     double square = 0;
     for (int c = 0; c < 3; ++c) {
-      const float slope = exposure * slopeOfEncoding(p[c] * exposure, (probe.sample[0][c] + probe.sample[1][c]) / 2 * exposure);
+      const float slope =
+          exposure * slopeOfEncoding(p[c] * exposure, (probe.sample[0][c] + probe.sample[1][c]) / 2 * exposure);
       square += static_cast<double>(bounded(slope * a[c], kMostEncoded) * bounded(slope * b[c], kMostEncoded)) / 3;
     }
     encoded.add(square);

@@ -1,6 +1,8 @@
-// How far a picture is off, told by samples that have no part in it. Some of its pixels get two samples each, independent of one another and of the picture: the mean of the product of what the
-// picture differs by from either is its squared error, however noisy samples are (cross-validation, as Buisine et al. 2021 and Zheng et al. 2021 do it for filtered renderings by halves of their samples).
-// Noise and what a filter spreads are in it; errors of the caches that samples share with the picture are not.
+// How far a picture is off, told by samples that have no part in it. Some of its pixels get two samples each,
+// independent of one another and of the picture: the mean of the product of what the picture differs by from either is
+// its squared error, however noisy samples are (cross-validation, as Buisine et al. 2021 and Zheng et al. 2021 do it
+// for filtered renderings by halves of their samples). Noise and what a filter spreads are in it; errors of the caches
+// that samples share with the picture are not.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +16,8 @@ namespace roomlight {
 class ErrorProbes {
  public:
   // `closely`: for pictures whose error shall be small.
-  ErrorProbes(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, bool closely, const Progress& progress);
+  ErrorProbes(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+              const PictureSettings& settings, bool closely, const Progress& progress);
   // Of a picture of the same size; nothing is known of one of a few pixels.
   ErrorLeft of(const Image& picture) const;
   uint64_t rays() const { return rays_; }

@@ -9,11 +9,13 @@ bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition
   constexpr float kFacing = 0.6f, kToleranceM = 0.02f, kSlope = 0.5f;
   if (!(length(normal) > 0) || !(length(otherNormal) > 0)) return false;
   const Vec3 n = normalize(normal), m = normalize(otherNormal), between = otherPosition - position;
-  const float off = std::max(std::abs(dot(n, between)), std::abs(dot(m, between))), along = std::sqrt(std::max(0.0f, lengthSquared(between) - off * off));
+  const float off = std::max(std::abs(dot(n, between)), std::abs(dot(m, between))),
+              along = std::sqrt(std::max(0.0f, lengthSquared(between) - off * off));
   return dot(n, m) > kFacing && off < kToleranceM + kSlope * along;
 }
 
-void addFragments(const Fragments& fragments, const FilterInput& means, const std::vector<PixelCount>& counts, std::span<const Vec3> irradiance, Image& image) {
+void addFragments(const Fragments& fragments, const FilterInput& means, const std::vector<PixelCount>& counts,
+                  std::span<const Vec3> irradiance, Image& image) {
   constexpr int kReach = 2;
   for (const Fragment& f : fragments) {
     const int x = static_cast<int>(f.pixel) % means.width, y = static_cast<int>(f.pixel) / means.width;

@@ -14,9 +14,12 @@ namespace {
 constexpr int kTile = 16;
 constexpr size_t kTilesAtOnce = 2;
 constexpr int kPlaces = 64;  // of a pixel's camera rays
-constexpr float kFewGlossy = 0.25f, kGlossyShare = 0.04f;  // estimates of reflected light that are too few, where it is so much of the whole
+constexpr float kFewGlossy = 0.25f,
+                kGlossyShare =
+                    0.04f;  // estimates of reflected light that are too few, where it is so much of the whole
 
-constexpr float kSmooth = 0.08f, kPane = 0.5f, kVeilAlbedo = 0.01f;  // of panes: roughness and own diffuse albedo at most, light that passes at least
+constexpr float kSmooth = 0.08f, kPane = 0.5f,
+                kVeilAlbedo = 0.01f;  // of panes: roughness and own diffuse albedo at most, light that passes at least
 constexpr int kMostPanes = 16;
 constexpr float kLeastLeft = 1e-3f;
 constexpr float kGradientM = 0.01f;  // farther apart than this, places may differ in how near their lamps are
@@ -36,11 +39,11 @@ struct Sight {
   uint32_t pixel = 0;
   Ray ray;
   Hit hit;
-  Vec3 eye;         // where it began
+  Vec3 eye;  // where it began
   Vec3 left{1, 1, 1};  // of what it comes to
   int panes = 0;
   std::span<const Hit> tile;  // what all rays of the tile met first
-  Ray reflected;    // by the first pane,
+  Ray reflected;  // by the first pane,
   float paneM = 0;  // which is so far away
 };
 
@@ -66,9 +69,11 @@ FilterPixel meanOfWholes(const FilterPixel& a, float n, const FilterPixel& b) {
   const auto mean = [](auto x, auto y, float share) { return x + (y - x) * share; };
   const auto variance = [&](float x, float y) { return (x * n * n + y * m * m) / ((n + m) * (n + m)); };
   FilterPixel out;
-  out.diffuse = mean(a.diffuse, b.diffuse, s), out.sharp = mean(a.sharp, b.sharp, s), out.specular = mean(a.specular, b.specular, s), out.rest = mean(a.rest, b.rest, s);
+  out.diffuse = mean(a.diffuse, b.diffuse, s), out.sharp = mean(a.sharp, b.sharp, s),
+  out.specular = mean(a.specular, b.specular, s), out.rest = mean(a.rest, b.rest, s);
   out.albedo = mean(a.albedo, b.albedo, s);
-  out.diffuseVariance = variance(a.diffuseVariance, b.diffuseVariance), out.sharpVariance = variance(a.sharpVariance, b.sharpVariance);
+  out.diffuseVariance = variance(a.diffuseVariance, b.diffuseVariance),
+  out.sharpVariance = variance(a.sharpVariance, b.sharpVariance);
   out.specularVariance = variance(a.specularVariance, b.specularVariance);
   out.surface = mean(a.surface, b.surface, s);
   if (out.surface > 0) {
@@ -89,10 +94,21 @@ size_t placeOf(const FrameHistory& history) {
 
 class FrameMaker {
  public:
-  FrameMaker(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history)
-      : rays_(rays), lights_(lights), shader_(shader), settings_(settings), history_(history), pixelRays_(rays, camera, settings), pixelShader_(rays, lights, settings, false), sharp_(rays, lights), place_(placeOf(history)) {
+  FrameMaker(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+             const PictureSettings& settings, FrameHistory& history)
+      : rays_(rays),
+        lights_(lights),
+        shader_(shader),
+        settings_(settings),
+        history_(history),
+        pixelRays_(rays, camera, settings),
+        pixelShader_(rays, lights, settings, false),
+        sharp_(rays, lights),
+        place_(placeOf(history)) {
     const Scene& scene = rays.scene();
-    for (const Instance& i : scene.instances) opaque_.push_back(!letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
+    for (const Instance& i : scene.instances)
+      opaque_.push_back(
+          !letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
   }
   void make(int x0, int y0, GatherCounters& count) const;
   bool leftStale() const { return stale_; }  // pixels
@@ -120,31 +136,37 @@ class FrameMaker {
   const PixelShader pixelShader_;
   const SharpLights sharp_;
   std::vector<uint8_t> opaque_;  // a flag an instance
-  const size_t place_;           // of each pixel's camera ray
+  const size_t place_;  // of each pixel's camera ray
   mutable std::atomic<bool> stale_ = false;
 };
 
 bool FrameMaker::isTurn(uint32_t pixel, int every) const {
   const auto w = static_cast<uint32_t>(settings_.width);
-  return PixelSequence(static_cast<int>(pixel % w), static_cast<int>(pixel / w), 4 * history_.frame(), settings_.seed, std::bit_floor(static_cast<uint32_t>(every))).gathers();
+  return PixelSequence(static_cast<int>(pixel % w), static_cast<int>(pixel / w), 4 * history_.frame(), settings_.seed,
+                       std::bit_floor(static_cast<uint32_t>(every)))
+      .gathers();
 }
 
 // Whether no pixel near it that sees the same is lit anew in this frame.
 bool FrameMaker::isAlone(const Sight& sight) const {
   if (sight.panes > 0) return true;
   constexpr int kNear = 4;
-  const int w = settings_.width, x = static_cast<int>(sight.pixel) % w, y = static_cast<int>(sight.pixel) / w, x0 = x / kTile * kTile, y0 = y / kTile * kTile;
+  const int w = settings_.width, x = static_cast<int>(sight.pixel) % w, y = static_cast<int>(sight.pixel) / w,
+            x0 = x / kTile * kTile, y0 = y / kTile * kTile;
   const int x1 = std::min(w, x0 + kTile), bx = x / kNear * kNear, by = y / kNear * kNear;
   for (int j = by; j < std::min(settings_.height, by + kNear); ++j) {
     for (int i = bx; i < std::min(w, bx + kNear); ++i) {
       const Hit& hit = sight.tile[static_cast<size_t>((j - y0) * (x1 - x0) + i - x0)];
-      if (hit.instance == sight.hit.instance && hit.triangle == sight.hit.triangle && isTurn(static_cast<uint32_t>(j * w + i), history_.settings().everyStale)) return false;
+      if (hit.instance == sight.hit.instance && hit.triangle == sight.hit.triangle &&
+          isTurn(static_cast<uint32_t>(j * w + i), history_.settings().everyStale))
+        return false;
     }
   }
   return true;
 }
 
-// Light of suns and lamps there, if nothing stood in its way: how it differs between two places of one surface. Of any unit.
+// Light of suns and lamps there, if nothing stood in its way: how it differs between two places of one surface. Of any
+// unit.
 float FrameMaker::unshadowed(Vec3 p, Vec3 n) const {
   float sum = 0;
   for (size_t i = 0; i < sharp_.count(); ++i) {
@@ -154,7 +176,8 @@ float FrameMaker::unshadowed(Vec3 p, Vec3 n) const {
   return sum;
 }
 
-// The ray goes on through a pane. False where more than that must be known: of mirrors, and of veils, which have light of their own.
+// The ray goes on through a pane. False where more than that must be known: of mirrors, and of veils, which have light
+// of their own.
 bool FrameMaker::passPane(Sight& sight) const {
   const MaterialSample m = materialAt(rays_.scene(), sight.hit);
   const SurfacePoint s = surfaceAt(rays_.scene(), sight.hit, sight.ray.direction, m);
@@ -201,7 +224,8 @@ void FrameMaker::see(const Sight& sight, std::vector<Sight>& on, std::vector<Ask
   next.albedo = sight.left * bsdf.diffuseAlbedo();
   next.rest = sight.left * s.emitted();
   next.normal = s.ns, next.position = veiledPlace(s, sight.left), next.roughness = m.roughness, next.surface = 1;
-  keep(sight, {s.p, s.ns, -sight.ray.direction, hit.instance, false, sight.panes > 0 ? 0 : m.roughness, s.p}, next, asked);
+  keep(sight, {s.p, s.ns, -sight.ray.direction, hit.instance, false, sight.panes > 0 ? 0 : m.roughness, s.p}, next,
+       asked);
 }
 
 // A pane before the sky: what it reflects is seen behind it, as far as it is before it.
@@ -215,10 +239,14 @@ void FrameMaker::seePane(const Sight& sight, std::vector<Asked>& asked) const {
   const SurfacePoint s = surfaceAt(rays_.scene(), hit, sight.reflected.direction);
   FilterPixel next;
   next.rest = sight.left * background(lights_, sight.ray.direction);
-  keep(sight, {s.p, s.ns, -sight.reflected.direction, hit.instance, false, -1, sight.eye + sight.ray.direction * (sight.paneM + hit.t)}, next, asked);
+  keep(sight,
+       {s.p, s.ns, -sight.reflected.direction, hit.instance, false, -1,
+        sight.eye + sight.ray.direction * (sight.paneM + hit.t)},
+       next, asked);
 }
 
-// Of mirrors and veils, whose parts are not told apart: all that the pixel showed is found again where it was. What mirrors show is not, once the camera moves.
+// Of mirrors and veils, whose parts are not told apart: all that the pixel showed is found again where it was. What
+// mirrors show is not, once the camera moves.
 void FrameMaker::seeWhole(const Sight& sight, bool mirror, std::vector<Asked>& asked) const {
   const FrameSettings& use = history_.settings();
   const SurfacePlace s = placeAt(rays_.scene(), sight.hit, sight.ray.direction);
@@ -228,8 +256,7 @@ void FrameMaker::seeWhole(const Sight& sight, bool mirror, std::vector<Asked>& a
   if ((mirror && !history_.still()) || isReflection(past)) past = {};
   now = past;
   now.instance = seen.instance, now.whole = true, now.position = seen.position, now.normal = seen.normal;
-  const int every = history_.settled() ? use.everyStill : history_.still() ? use.every
-                                                                           : use.everyVeil;
+  const int every = history_.settled() ? use.everyStill : history_.still() ? use.every : use.everyVeil;
   if (past.estimates < 1 || isTurn(sight.pixel, every)) {
     asked.push_back({sight.pixel, past.estimates < 1 ? 1 : every, past});
     return;
@@ -252,26 +279,29 @@ PastLight FrameMaker::find(const Sight& sight, const SeenSurface& seen) const {
   return history_.find(pixel % settings_.width, pixel / settings_.width, seen);
 }
 
-// Light that was found at one place of a surface, at another: nearer to a lamp, or turned to it. What is kept is not scaled, else factors would pile up.
+// Light that was found at one place of a surface, at another: nearer to a lamp, or turned to it. What is kept is not
+// scaled, else factors would pile up.
 PastLight FrameMaker::as(PastLight past, const SeenSurface& seen) const {
   if (isBlack(past.sharp) || lengthSquared(past.position - seen.position) < kGradientM * kGradientM) return past;
-  const float before = unshadowed(past.position, past.normal), after = unshadowed(seen.position, seen.normal), change = before > 0 ? std::clamp(after / before, 0.5f, 2.0f) : 1;
+  const float before = unshadowed(past.position, past.normal), after = unshadowed(seen.position, seen.normal),
+              change = before > 0 ? std::clamp(after / before, 0.5f, 2.0f) : 1;
   past.sharp *= change, past.variance.y *= change * change;
   return past;
 }
 
 // `next`: the pixel without its light.
-void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next, std::vector<Asked>& asked) const {
+void FrameMaker::keep(const Sight& sight, const SeenSurface& seen, const FilterPixel& next,
+                      std::vector<Asked>& asked) const {
   const FrameSettings& use = history_.settings();
   PastLight& now = history_.light(sight.pixel);
   const PastLight past = find(sight, seen);
-  const float specular = luminance(past.specular), diffuse = luminance((past.irradiance + past.sharp) * next.albedo + next.rest);
+  const float specular = luminance(past.specular),
+              diffuse = luminance((past.irradiance + past.sharp) * next.albedo + next.rest);
   const bool askForGloss = past.glossy < kFewGlossy && specular > kGlossyShare * (diffuse + specular);
   now = past;
   now.instance = seen.instance, now.position = seen.position, now.normal = seen.normal;
   const bool none = !(past.estimates > 0), stale = past.estimates < 1;
-  const int every = history_.settled() ? use.everyStill : stale ? use.everyStale
-                                                                : use.every;
+  const int every = history_.settled() ? use.everyStill : stale ? use.everyStale : use.every;
   const bool turn = !none && isTurn(sight.pixel, every);
   if (turn || none || history_.settled() || askForGloss || (stale && isAlone(sight))) {
     asked.push_back({sight.pixel, turn ? every : 1, past});
@@ -295,8 +325,10 @@ void FrameMaker::light(std::span<const Asked> asked, GatherCounters& count) cons
   for (size_t i = 0; i < asked.size(); ++i) {
     const int x = static_cast<int>(asked[i].pixel) % w, y = static_cast<int>(asked[i].pixel) / w;
     sums[i] = {}, counts[i] = {};
-    const PixelSequence sequence(x, y, 4 * history_.frame(), settings_.seed, std::bit_floor(static_cast<uint32_t>(asked[i].every)));
-    pixelShader_.see(pixelRays_.at(x, y, place_, 1, some), sequence, {&sums[i], &counts[i], asked[i].pixel}, work, count);
+    const PixelSequence sequence(x, y, 4 * history_.frame(), settings_.seed,
+                                 std::bit_floor(static_cast<uint32_t>(asked[i].every)));
+    pixelShader_.see(pixelRays_.at(x, y, place_, 1, some), sequence, {&sums[i], &counts[i], asked[i].pixel}, work,
+                     count);
   }
   found.resize(work.shadings.size());
   shader_.shade(work.shadings, work.shadows, found, count);
@@ -360,17 +392,21 @@ void FrameMaker::make(int x0, int y0, GatherCounters& count) const {
 
 }  // namespace
 
-Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory* history, const Progress& progress) {
-  if (history && history->settings().reuse && settings.samples == 1 && !settings.white) return gatherFrame(rays, lights, shader, camera, settings, *history, progress);
+Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+                 const PictureSettings& settings, FrameHistory* history, const Progress& progress) {
+  if (history && history->settings().reuse && settings.samples == 1 && !settings.white)
+    return gatherFrame(rays, lights, shader, camera, settings, *history, progress);
   return gatherPicture(rays, lights, shader, camera, settings, progress).image;
 }
 
-Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history, const Progress& progress) {
+Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+                  const PictureSettings& settings, FrameHistory& history, const Progress& progress) {
   PictureSettings use = settings;
   use.samples = kPlaces;
   history.begin(camera, use.width, use.height, lights);
   const FrameMaker maker(rays, lights, shader, camera, use, history);
-  const size_t across = static_cast<size_t>((use.width + kTile - 1) / kTile), tiles = across * static_cast<size_t>((use.height + kTile - 1) / kTile);
+  const size_t across = static_cast<size_t>((use.width + kTile - 1) / kTile),
+               tiles = across * static_cast<size_t>((use.height + kTile - 1) / kTile);
   parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {
     GatherCounters count;
     for (size_t tile = begin; tile < end; ++tile) {

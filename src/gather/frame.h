@@ -1,4 +1,5 @@
-// A frame of a camera that moves on: pixels that see what the frame before saw keep its light, and of them a few in turn find more.
+// A frame of a camera that moves on: pixels that see what the frame before saw keep its light, and of them a few in
+ // turn find more.
 #pragma once
 
 #include "gather/frame_history.h"
@@ -6,10 +7,13 @@
 
 namespace roomlight {
 
-// Linear, cd/m². One camera ray a pixel, whatever the settings say of samples; the history is of frames of this scene and shader's technique.
-Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory& history, const Progress& progress);
+// Linear, cd/m². One camera ray a pixel, whatever the settings say of samples; the history is of frames of this scene
+// and shader's technique.
+Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+                  const PictureSettings& settings, FrameHistory& history, const Progress& progress);
 
 // A frame, where there is a history and one sample a pixel is asked for; else a picture.
-Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, FrameHistory* history, const Progress& progress);
+Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+                 const PictureSettings& settings, FrameHistory* history, const Progress& progress);
 
 }  // namespace roomlight

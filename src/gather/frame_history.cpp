@@ -12,9 +12,12 @@ constexpr float kFacing = 0.9f;      // cosine between normals of one place
 constexpr float kFootprints = 1.5f;  // how far off it may be, in pixels; and
 constexpr float kOffPlane = 0.25f;    // of that off the tangent plane
 constexpr float kLeastCosine = 0.1f;  // of pixels' footprints on slanted surfaces
-constexpr float kLobe = 2, kSlackRad = 0.02f;  // how far a view may turn until nothing is left of a reflection: times GGX's alpha, and besides
+constexpr float
+    kLobe = 2,
+    kSlackRad = 0.02f;  // how far a view may turn until nothing is left of a reflection: times GGX's alpha, and besides
 
-// Few estimates that differ tell little of how far their mean is off: what the first was thought to be off counts with the others.
+// Few estimates that differ tell little of how far their mean is off: what the first was thought to be off counts with
+// the others.
 float varianceOf(float before, float n, float now, float m, float apart) {
   return (before * n * n + now * m * m * std::max(0.0f, 1 - n) + apart * apart * n * m / (n + m)) / ((n + m) * (n + m));
 }
@@ -69,8 +72,10 @@ void FrameHistory::begin(const Camera& camera, int width, int height, const Ligh
   camera_ = camera;
   const CameraRays rays(camera, width, height);
   pixels_->wraps = rays.wraps();
-  const Ray a = rays.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)), b = rays.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height) + 1);
-  pixelSlope_ = length(b.direction - a.direction), pixelM_ = camera.projection == Projection::Orthographic ? length(b.origin - a.origin) : 0;
+  const Ray a = rays.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)),
+            b = rays.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height) + 1);
+  pixelSlope_ = length(b.direction - a.direction),
+  pixelM_ = camera.projection == Projection::Orthographic ? length(b.origin - a.origin) : 0;
   eye_ = camera.worldFromCamera.w;
 }
 
@@ -84,7 +89,9 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
   const auto look = [&](int i, int j) {
     if (i < 0 || j < 0 || i >= width_ || j >= height_) return;
     const PastLight& l = known[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)];
-    if (l.instance != seen.instance || l.whole != seen.whole || !(l.estimates > 0) || dot(l.normal, seen.normal) < kFacing) return;
+    if (l.instance != seen.instance || l.whole != seen.whole || !(l.estimates > 0) ||
+        dot(l.normal, seen.normal) < kFacing)
+      return;
     const Vec3 between = l.position - seen.position;
     const float d2 = lengthSquared(between);
     if (d2 >= nearest || std::abs(dot(between, seen.normal)) > kOffPlane * footprint) return;
@@ -122,9 +129,12 @@ PastLight FrameHistory::find(int x, int y, const SeenSurface& seen) const {
 void FrameHistory::end(const std::vector<Vec3>& smooth, bool stale) {
   stale_ = stale;
 
-  if (!settled_) parallelFor(smooth.size(), 4096, [&](size_t i) {
-    if (now_[i].instance != kNoHit && !now_[i].whole && now_[i].estimates < settings_.smoothEstimates && pixels_->pixels[i].surface > 0) now_[i].irradiance = smooth[i];
-  });
+  if (!settled_)
+    parallelFor(smooth.size(), 4096, [&](size_t i) {
+      if (now_[i].instance != kNoHit && !now_[i].whole && now_[i].estimates < settings_.smoothEstimates &&
+          pixels_->pixels[i].surface > 0)
+        now_[i].irradiance = smooth[i];
+    });
   changed_.forget();
   ++frame_;
 }

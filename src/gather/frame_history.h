@@ -1,5 +1,6 @@
-// What the pixels of a frame have learned about light, for the next frame of a camera that moves on: where the geometry allows it counts as
-// estimates that a pixel already has (reprojection: Nehab et al. 2007, Scherzer et al. 2007; with variances: Schied et al. 2017).
+// What the pixels of a frame have learned about light, for the next frame of a camera that moves on: where the geometry
+// allows it counts as estimates that a pixel already has (reprojection: Nehab et al. 2007, Scherzer et al. 2007; with
+// variances: Schied et al. 2017).
 #pragma once
 
 #include <optional>
@@ -16,12 +17,12 @@ namespace roomlight {
 struct PastLight {
   Vec3 position, normal;  // of the surface, where its light was found
   uint32_t instance = kNoHit;  // kNoHit: none
-  bool whole = false;          // of several surfaces, of which this is the first: their light is in the pixel's FilterPixel
-  uint32_t pixel = 0;          // that found it
+  bool whole = false;  // of several surfaces, of which this is the first: their light is in the pixel's FilterPixel
+  uint32_t pixel = 0;  // that found it
   float estimates = 0, glossy = 0;  // how many are in its means; 0: none
   Vec3 irradiance, sharp;  // diffuse and sharp light over albedo, cd/m²
   Vec3 specular;
-  Vec3 variance;           // of the means' luminance: irradiance, sharp, specular
+  Vec3 variance;  // of the means' luminance: irradiance, sharp, specular
 };
 
 // A surface that a camera ray comes to, perhaps through panes or reflected by one.
@@ -29,8 +30,9 @@ struct SeenSurface {
   Vec3 position, normal, wo;  // wo: unit, towards where the ray came from last
   uint32_t instance;
   bool whole;
-  float roughness;            // of what reflects towards the eye, itself or a pane before it; below 0: what it reflects stays where it is, an image in a pane
-  Vec3 place;                 // where it seems to be: `position`, or its image in a pane
+  float roughness;  // of what reflects towards the eye, itself or a pane before it; below 0: what it reflects stays
+                    // where it is, an image in a pane
+  Vec3 place;  // where it seems to be: `position`, or its image in a pane
 };
 
 // Mean of two of one surface, each by as many estimates as it has.
@@ -44,7 +46,8 @@ class FrameHistory {
   void sceneChanged(const SceneChange& change, const Scene& scene);
   void forget();
 
-  // From here on the frame before is what was made last, and pixels are to be made. `filled` says what they are once they are.
+  // From here on the frame before is what was made last, and pixels are to be made. `filled` says what they are once
+  // they are.
   void begin(const Camera& camera, int width, int height, const Lights& lights);
   uint32_t frame() const { return frame_; }
   uint32_t framesStill() const { return framesStill_; }
@@ -58,7 +61,8 @@ class FrameHistory {
   FilterPixel& pixel(size_t i) { return pixels_->pixels[i]; }
   const FilterPixel& pixelBefore(size_t i) const { return settled_ ? pixels_->pixels[i] : pixelsBefore_->pixels[i]; }
   const FilterInput& pixels() const { return *pixels_; }
-  // `smooth`: irradiance after a first pass of the filter, which pixels of few estimates keep for theirs; may be empty. `stale`: whether pixels are left whose light is out of date.
+  // `smooth`: irradiance after a first pass of the filter, which pixels of few estimates keep for theirs; may be empty.
+  // `stale`: whether pixels are left whose light is out of date.
   void end(const std::vector<Vec3>& smooth, bool stale);
 
  private:

@@ -16,7 +16,8 @@ namespace {
 
 constexpr float kLift = 0.1f;               // cells: for places to see one another along a bent surface
 constexpr size_t kKeysAtOnce = 4096;             // keys
-constexpr Vec3 kShift{0.377f, 0.619f, 0.283f};  // smallest cells: surfaces of homes stand on round coordinates, borders of cells do not
+constexpr Vec3 kShift{0.377f, 0.619f,
+                      0.283f};  // smallest cells: surfaces of homes stand on round coordinates, borders of cells do not
 
 }  // namespace
 
@@ -25,7 +26,8 @@ uint64_t HitCache::keyOf(const HitPlace& place, int level) const {
   const Vec3 q = (place.p + kShift * cellM_) * perMetre;  // cells of a level are parts of those of the next
   const auto whole = [](float v) { return static_cast<uint64_t>(static_cast<int64_t>(std::floor(v))) & 0x1fffff; };
   const uint64_t cell = whole(q.x) | (whole(q.y) << 21) | (whole(q.z) << 42);
-  const uint64_t kind = (uint64_t{place.instance} << 8) | (static_cast<uint64_t>(dominantFace(place.n)) << 4) | static_cast<uint64_t>(level);
+  const uint64_t kind = (uint64_t{place.instance} << 8) | (static_cast<uint64_t>(dominantFace(place.n)) << 4) |
+                        static_cast<uint64_t>(level);
   const uint64_t key = mix64(mix64(cell + 0x9e3779b97f4a7c15ull) ^ (kind * 0xd6e8feb86659fd93ull));
   return key == 0 ? 1 : key;
 }
@@ -37,7 +39,9 @@ std::vector<HitCache::Chosen> HitCache::chosen(std::span<const HitPlace> places,
   std::vector<Chosen> out;
   forRuns(keys, order, [&](size_t begin, size_t end) {
     const size_t n = std::min(most, end - begin);
-    for (size_t k = 0; k < n; ++k) out.push_back({order[begin + k * (end - begin) / n], static_cast<float>(end - begin) / static_cast<float>(n)});  // from all over the picture
+    for (size_t k = 0; k < n; ++k)
+      out.push_back({order[begin + k * (end - begin) / n],
+                     static_cast<float>(end - begin) / static_cast<float>(n)});  // from all over the picture
   });
   return out;
 }
@@ -55,7 +59,8 @@ void HitCache::fill(const RayScene& rays, std::span<const LitHit> samples, const
 }
 
 // Cells of one level, where finer ones leave samples over.
-void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers, int level, std::vector<uint8_t>& covered) {
+void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers, int level,
+                         std::vector<uint8_t>& covered) {
   const size_t fewest = level + 1 < kLevels ? kFewest : 1;
   std::vector<uint64_t> keys(samples.size());
   parallelFor(keys.size(), kKeysAtOnce, [&](size_t i) { keys[i] = keyOf(samples[i].at, level); });
@@ -95,13 +100,15 @@ void HitCache::fillLevel(const RayScene& rays, std::span<const LitHit> samples, 
       if (!cell.sure && k != runs[r].begin && !(luminance(left[way + k - runs[r].begin]) > 0.25f)) continue;
       const LitHit& s = samples[order[k]];
       const Vec3 sent = s.even + s.rare + s.sharp;
-      cell.radianceCdM2 += s.albedo * sent, cell.ownCdM2 += s.own, cell.lux += kPi * luminance(sent), cell.ownLux += kPi * luminance(s.own), cell.sunLux += s.sunLux, n += 1;
+      cell.radianceCdM2 += s.albedo * sent, cell.ownCdM2 += s.own, cell.lux += kPi * luminance(sent),
+          cell.ownLux += kPi * luminance(s.own), cell.sunLux += s.sunLux, n += 1;
       members.push_back(order[k]);
     }
     if (!cell.sure) way += runs[r].end - runs[r].begin;
     if (members.size() < fewest) continue;
     for (const uint32_t m : members) covered[m] = 1;
-    cell.radianceCdM2 = cell.radianceCdM2 / n, cell.ownCdM2 = cell.ownCdM2 / n, cell.lux /= n, cell.ownLux /= n, cell.sunLux /= n;
+    cell.radianceCdM2 = cell.radianceCdM2 / n, cell.ownCdM2 = cell.ownCdM2 / n, cell.lux /= n, cell.ownLux /= n,
+    cell.sunLux /= n;
     if (layers) cell.shares = static_cast<uint32_t>(shares_.size()), layers->addShares(samples, members, shares_);
     cells_[kept++] = cell;
     keys_.push_back(keys[order[runs[r].begin]]);

@@ -1,7 +1,9 @@
-// Light that leaves the places where gathering rays of one camera arrive, finer than voxels and without their errors: a hashed grid of cells, filled from the very hits that rays of this
-// picture find, then only read (after the radiance caches of Boissé et al. 2023, "GI-1.0", and Binder et al. 2019, "Massively parallel path space filtering").
+// Light that leaves the places where gathering rays of one camera arrive, finer than voxels and without their errors: a
+// hashed grid of cells, filled from the very hits that rays of this picture find, then only read (after the radiance
+// caches of Boissé et al. 2023, "GI-1.0", and Binder et al. 2019, "Massively parallel path space filtering").
 //
-// A cell holds the mean of what its samples send out, as found and as told by their neighbours (hit_smoothing.h). What lies hidden within furniture is never hit, so it counts for nothing, and the mean over all rays is right however
+// A cell holds the mean of what its samples send out, as found and as told by their neighbours (hit_smoothing.h). What
+// lies hidden within furniture is never hit, so it counts for nothing, and the mean over all rays is right however
 // coarse the cells are. Places seldom hit share larger cells.
 #pragma once
 
@@ -14,14 +16,16 @@
 namespace roomlight {
 
 struct HitCell {
-  Vec3 radianceCdM2;   // as of a Lambertian surface, its albedo included
-  Vec3 ownCdM2;        // the same of a white surface, as its samples found it: for what panes show, where light told by what lies beside would be seen
-  float lux = 0, ownLux = 0, sunLux = 0;  // luminous illuminance, as of either; that of the sun, where there is one alone
+  Vec3 radianceCdM2;  // as of a Lambertian surface, its albedo included
+  Vec3 ownCdM2;  // the same of a white surface, as its samples found it: for what panes show, where light told by what
+                 // lies beside would be seen
+  float lux = 0, ownLux = 0,
+        sunLux = 0;  // luminous illuminance, as of either; that of the sun, where there is one alone
   Vec3 place, normal;  // a surface point that the cell stands for
-  int64_t slot = -1;   // of the voxel there
+  int64_t slot = -1;  // of the voxel there
   float sizeM = 0;
   uint32_t shares = 0;  // see HitCache::shares()
-  bool sure = false;   // nothing else lies in its voxels: places in it need no ray to the cell's own
+  bool sure = false;  // nothing else lies in its voxels: places in it need no ray to the cell's own
 };
 
 // Where a ray arrived.
@@ -33,9 +37,9 @@ struct HitPlace {
 // One sample of the light there.
 struct LitHit {
   HitPlace at;
-  Vec3 albedo;             // radiances below are as of a white surface
+  Vec3 albedo;  // radiances below are as of a white surface
   Vec3 even, rare, sharp;  // SurfaceLight's diffuse, rare and sharp light; smoothLight() changes the first two
-  Vec3 own;                // the three as they were found
+  Vec3 own;  // the three as they were found
   float sunLux = 0;
   float rays = 1;  // that it stands for
   uint32_t number = 0;  // of the sample, in HitLayers
@@ -47,7 +51,7 @@ class HitLayers;
 
 class HitCache {
  public:
-  static constexpr int kLevels = 3;     // of cells, each twice as large as the one before
+  static constexpr int kLevels = 3;  // of cells, each twice as large as the one before
   static constexpr size_t kFewest = 4;  // samples that a cell is made of, but for the largest cells
 
   HitCache() = default;
@@ -56,13 +60,15 @@ class HitCache {
 
   float cellM() const { return cellM_; }
   bool empty() const { return cells_.empty(); }
-  // Which of the places shall be lit: of those that share a cell at most `most`, in their order; and how many places each stands for.
+  // Which of the places shall be lit: of those that share a cell at most `most`, in their order; and how many places
+  // each stands for.
   struct Chosen {
     uint32_t place;
     float rays;
   };
   std::vector<Chosen> chosen(std::span<const HitPlace> places, size_t most) const;
-  // A sample that the cell's first sample cannot see is left out. The result does not depend on the number of threads. `layers`, where given: whose the samples' light is.
+  // A sample that the cell's first sample cannot see is left out. The result does not depend on the number of threads.
+  // `layers`, where given: whose the samples' light is.
   void fill(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers = nullptr);
   // Of a cell's light, as SlotLayers::at(); only of cells filled with layers.
   const uint16_t* shares(const HitCell& cell) const { return shares_.data() + cell.shares; }
@@ -70,7 +76,8 @@ class HitCache {
   const HitCell* find(const HitPlace& place) const;
   // Has what find() reads fetched into the processor's cache.
   void prefetch(std::span<const HitPlace> places) const;
-  // Between a place and the one that a cell stands for, both a little before their surface: where nothing is in the way, the cell's light is that of the place.
+  // Between a place and the one that a cell stands for, both a little before their surface: where nothing is in the
+  // way, the cell's light is that of the place.
   static Ray between(const HitCell& cell, const HitPlace& place);
   // Of the cell of a level around it, whether or not it holds anything; not 0.
   uint64_t keyOf(const HitPlace& place, int level) const;
@@ -80,7 +87,8 @@ class HitCache {
     uint64_t key = 0;  // 0: none
     uint32_t cell = 0;
   };
-  void fillLevel(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers, int level, std::vector<uint8_t>& covered);
+  void fillLevel(const RayScene& rays, std::span<const LitHit> samples, const HitLayers* layers, int level,
+                 std::vector<uint8_t>& covered);
   void insert(uint64_t key, uint32_t cell);
   void makeTable(std::span<const uint64_t> keys);
 

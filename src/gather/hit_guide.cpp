@@ -17,14 +17,14 @@ namespace {
 constexpr float kMostShare = 0.3f;  // of rays that follow a guide
 constexpr size_t kFewest = 8;       // rays that a region learns from
 constexpr float kLeastShare = 0.05f;
-constexpr float kNarrowest = 0.01f, kWidest = 0.8f;      // sine of a cone's half angle: nearer targets are left to chance
+constexpr float kNarrowest = 0.01f, kWidest = 0.8f;  // sine of a cone's half angle: nearer targets are left to chance
 constexpr size_t kMostClusters = 2048;
-constexpr float kBelieved = 16;      // rays of its own after which a region believes them as much as those of all
+constexpr float kBelieved = 16;  // rays of its own after which a region believes them as much as those of all
 constexpr float kWider = 1.25f, kLeastRadiusM = 0.02f;  // than where rays arrived
-constexpr float kFilled = 0.5f;      // of a cluster's disc that surfaces fill
-constexpr float kMostSeen = 2;       // times as many rays as should arrive at a cluster
-constexpr float kDoubt = 1;          // rays that should arrive before it is doubted whether a cluster is seen
-constexpr size_t kKeysOfGuide = 4096;      // keys
+constexpr float kFilled = 0.5f;  // of a cluster's disc that surfaces fill
+constexpr float kMostSeen = 2;  // times as many rays as should arrive at a cluster
+constexpr float kDoubt = 1;  // rays that should arrive before it is doubted whether a cluster is seen
+constexpr size_t kKeysOfGuide = 4096;  // keys
 constexpr Vec3 kShift{0.271f, 0.713f, 0.459f};
 
 float meanLight(std::span<const GuideRay> rays) {
@@ -48,21 +48,25 @@ float GuideCones::pdf(Vec3 d) const {
 Vec3 GuideCones::sample(Vec2 u, float choice) const {
   size_t i = 0;
   while (i + 1 < static_cast<size_t>(count) && upTo[i] <= choice) ++i;
-  const float cosine = 1 - u.x * (1 - cosMost[i]), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine)), angle = 2 * kPi * u.y;
+  const float cosine = 1 - u.x * (1 - cosMost[i]), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine)),
+              angle = 2 * kPi * u.y;
   return Frame(Vec3{x[i], y[i], z[i]}).toWorld({sine * std::cos(angle), sine * std::sin(angle), cosine});
 }
 
 uint64_t HitGuide::keyOf(Vec3 p, Vec3 n, float cellM) {
   const Vec3 q = p / cellM + kShift;
   const auto whole = [](float v) { return static_cast<uint64_t>(static_cast<int64_t>(std::floor(v))) & 0xfffff; };
-  const uint64_t key = mix64((whole(q.x) | (whole(q.y) << 20) | (whole(q.z) << 40) | (static_cast<uint64_t>(dominantFace(n)) << 60)) + 0x9e3779b97f4a7c15ull);
+  const uint64_t key =
+      mix64((whole(q.x) | (whole(q.y) << 20) | (whole(q.z) << 40) | (static_cast<uint64_t>(dominantFace(n)) << 60)) +
+            0x9e3779b97f4a7c15ull);
   return key == 0 ? 1 : key;
 }
 
 // Cells in which rays of the whole picture arrive and find more than rays do on average.
 std::vector<HitGuide::Cluster> HitGuide::clustersOf(std::span<const GuideRay> rays, float cellM) {
   std::vector<uint64_t> keys(rays.size());
-  parallelFor(keys.size(), kKeysOfGuide, [&](size_t i) { keys[i] = rays[i].arrives ? keyOf(rays[i].to, Vec3(0, 1, 0), cellM) : 0; });
+  parallelFor(keys.size(), kKeysOfGuide,
+              [&](size_t i) { keys[i] = rays[i].arrives ? keyOf(rays[i].to, Vec3(0, 1, 0), cellM) : 0; });
   const float mean = meanLight(rays);
   std::vector<Cluster> out;
   const std::vector<uint32_t> order = sortedBy(keys);
@@ -71,18 +75,25 @@ std::vector<HitGuide::Cluster> HitGuide::clustersOf(std::span<const GuideRay> ra
     if (keys[run[0]] == 0) return;
     Vec3 lo(kInfinity), hi(-kInfinity);
     float weight = 0, light = 0;
-    for (const uint32_t i : run) lo = min(lo, rays[i].to), hi = max(hi, rays[i].to), weight += rays[i].weight, light += rays[i].light;
-    if (light > mean * weight) out.push_back({keys[run[0]], (lo + hi) / 2, std::max(kLeastRadiusM, kWider * length(hi - lo) / 2), light / weight});
+    for (const uint32_t i : run)
+      lo = min(lo, rays[i].to), hi = max(hi, rays[i].to), weight += rays[i].weight, light += rays[i].light;
+    if (light > mean * weight)
+      out.push_back(
+          {keys[run[0]], (lo + hi) / 2, std::max(kLeastRadiusM, kWider * length(hi - lo) / 2), light / weight});
   });
   const auto gives = [](const Cluster& c) { return c.light * c.radiusM * c.radiusM; };
-  std::sort(out.begin(), out.end(), [&](const Cluster& x, const Cluster& y) { return gives(x) != gives(y) ? gives(x) > gives(y) : x.key < y.key; });
+  std::sort(out.begin(), out.end(), [&](const Cluster& x, const Cluster& y) {
+    return gives(x) != gives(y) ? gives(x) > gives(y) : x.key < y.key;
+  });
   out.resize(std::min(out.size(), kMostClusters));
   return out;
 }
 
-// Targets are clusters that bring a larger share of the light than of the rays: the difference is what chance misses. What a cluster could bring without obstacles is known; how much of it
-// is seen is believed the less the more of the rays that should have arrived there did not.
-HitGuide::Region HitGuide::regionOf(std::span<const GuideRay> rays, std::span<const uint32_t> own, std::span<const Cluster> clusters, float clusterM, float meanOfAll) {
+// Targets are clusters that bring a larger share of the light than of the rays: the difference is what chance misses.
+// What a cluster could bring without obstacles is known; how much of it is seen is believed the less the more of the
+// rays that should have arrived there did not.
+HitGuide::Region HitGuide::regionOf(std::span<const GuideRay> rays, std::span<const uint32_t> own,
+                                    std::span<const Cluster> clusters, float clusterM, float meanOfAll) {
   Region out;
   Vec3 p, n;
   float weight = 0, light = 0;
@@ -106,14 +117,17 @@ HitGuide::Region HitGuide::regionOf(std::span<const GuideRay> rays, std::span<co
     const Cluster& k = clusters[c];
     if (k.light <= mean) continue;
     const Vec3 to = k.centre - p;
-    const float d2 = std::max(lengthSquared(to), 4 * k.radiusM * k.radiusM), cosine = (dot(to, n) + k.radiusM) / std::sqrt(d2);
+    const float d2 = std::max(lengthSquared(to), 4 * k.radiusM * k.radiusM),
+                cosine = (dot(to, n) + k.radiusM) / std::sqrt(d2);
     if (!(cosine > 0)) continue;
     const float chance = kFilled * std::min(1.0f, cosine) * k.radiusM * k.radiusM / d2;  // of a ray to arrive there
     const auto [first, last] = std::equal_range(arrived.begin(), arrived.end(), k.key);
     const float seen = (static_cast<float>(last - first) + kDoubt) / (count * chance + kDoubt);
     found.push_back({c, chance * std::min(seen, kMostSeen) * (k.light / mean - 1)});
   }
-  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.misses != b.misses ? a.misses > b.misses : a.cluster < b.cluster; });
+  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+    return a.misses != b.misses ? a.misses > b.misses : a.cluster < b.cluster;
+  });
   found.resize(std::min(found.size(), kGuideTargets));
   for (const Found& f : found) {
     const Cluster& k = clusters[f.cluster];
@@ -176,7 +190,8 @@ GuideCones HitGuide::at(Vec3 p, Vec3 n) const {
     out.upTo[k] /= sum;
     out.density[k] /= sum * 2 * kPi * (1 - out.cosMost[k]);
   }
-  for (size_t k = static_cast<size_t>(out.count); k % 8 != 0; ++k) out.x[k] = out.y[k] = out.z[k] = out.density[k] = 0, out.cosMost[k] = 1;  // none, for whole steps of eight
+  for (size_t k = static_cast<size_t>(out.count); k % 8 != 0; ++k)
+    out.x[k] = out.y[k] = out.z[k] = out.density[k] = 0, out.cosMost[k] = 1;  // none, for whole steps of eight
   return out;
 }
 

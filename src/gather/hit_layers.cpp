@@ -27,7 +27,8 @@ void HitLayers::smooth(const RayScene& rays, const HitCache& cells, std::span<co
   });
 }
 
-void HitLayers::addShares(std::span<const LitHit> samples, std::span<const uint32_t> members, std::vector<uint16_t>& out) const {
+void HitLayers::addShares(std::span<const LitHit> samples, std::span<const uint32_t> members,
+                          std::vector<uint16_t>& out) const {
   std::vector<Vec3> light(layers_);
   Vec3 whole;
   for (size_t l = 0; l < layers_; ++l) {
@@ -37,7 +38,8 @@ void HitLayers::addShares(std::span<const LitHit> samples, std::span<const uint3
   const size_t first = out.size();
   out.resize(first + 3 * stride_);
   for (size_t l = 0; l < layers_; ++l) {
-    for (int c = 0; c < 3; ++c) out[first + static_cast<size_t>(c) * stride_ + l] = toHalf(whole[c] > 0 ? light[l][c] / whole[c] : 0);
+    for (int c = 0; c < 3; ++c)
+      out[first + static_cast<size_t>(c) * stride_ + l] = toHalf(whole[c] > 0 ? light[l][c] / whole[c] : 0);
   }
 }
 

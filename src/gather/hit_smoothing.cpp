@@ -19,9 +19,10 @@ constexpr float kFew = 1;              // samples
 constexpr int kClusters = 4;           // places that samples of a largest cell may have a free way to
 constexpr float kLift = 0.1f;          // of the largest cells: how far before their surface ways lie
 constexpr float kChance = 2;           // times the noise: so much may a few cells differ without reason
-constexpr float kStandsOut = 6;        // times its variance: a square deviation of a mean of kFewest that is no chance
-constexpr float kLeastSpread = 0.02f, kMostSpread = 0.5f;  // of the light: how far cells of a level may differ from the next larger
-constexpr size_t kAtOnce = 4096;       // samples
+constexpr float kStandsOut = 6;  // times its variance: a square deviation of a mean of kFewest that is no chance
+constexpr float kLeastSpread = 0.02f,
+                kMostSpread = 0.5f;  // of the light: how far cells of a level may differ from the next larger
+constexpr size_t kAtOnce = 4096;  // samples
 
 float cellM(const HitCache& cells, int level) { return cells.cellM() * static_cast<float>(1 << level); }
 
@@ -30,13 +31,14 @@ struct Smoothing {
   const HitCache& cells;
   std::span<LitHit> samples;
   std::vector<uint32_t> cluster;  // of each sample; kClusters: it stands alone
-  std::vector<Vec3> even;         // as told by the cells looked at so far
-  std::vector<float> around;      // mean luminance of samples near
-  std::vector<float> variance;    // of single samples, relative to that
+  std::vector<Vec3> even;  // as told by the cells looked at so far
+  std::vector<float> around;  // mean luminance of samples near
+  std::vector<float> variance;  // of single samples, relative to that
 
   std::vector<uint64_t> keysOf(int level) const {
     std::vector<uint64_t> keys(samples.size());
-    parallelFor(keys.size(), kAtOnce, [&](size_t i) { keys[i] = mix64(cells.keyOf(samples[i].at, level) + cluster[i]); });
+    parallelFor(keys.size(), kAtOnce,
+                [&](size_t i) { keys[i] = mix64(cells.keyOf(samples[i].at, level) + cluster[i]); });
     return keys;
   }
   void findClusters();
@@ -45,7 +47,8 @@ struct Smoothing {
   void refine(int level);
 };
 
-// Of the samples in one largest cell those that see the first, then of the rest those that see the first of these, and so on.
+// Of the samples in one largest cell those that see the first, then of the rest those that see the first of these, and
+// so on.
 void Smoothing::findClusters() {
   cluster.assign(samples.size(), 0);
   const float lift = kLift * cellM(cells, kTop);
@@ -64,7 +67,9 @@ void Smoothing::findClusters() {
       }
     });
     std::vector<Vec3> left(ways.size());
-    parallelRanges(ways.size(), kAtOnce, [&](size_t begin, size_t end) { rays.transmittance(std::span(ways).subspan(begin, end - begin), std::span(left).subspan(begin, end - begin)); });
+    parallelRanges(ways.size(), kAtOnce, [&](size_t begin, size_t end) {
+      rays.transmittance(std::span(ways).subspan(begin, end - begin), std::span(left).subspan(begin, end - begin));
+    });
     for (size_t i = 0; i < who.size(); ++i) {
       if (!(luminance(left[i]) > 0.25f)) cluster[who[i]] = c + 1;
     }
@@ -82,7 +87,8 @@ void Smoothing::boundSamples() {
     float left = 0;
     for (size_t k = begin; k < end; ++k) {
       LitHit& hit = samples[order[k]];
-      const float own = luminance(hit.even), beyond = end - begin >= kFewest && own > kRareHere * mean ? 1 - kRareHere * mean / own : 0;
+      const float own = luminance(hit.even),
+                  beyond = end - begin >= kFewest && own > kRareHere * mean ? 1 - kRareHere * mean / own : 0;
       hit.rare += hit.even * beyond, hit.even = hit.even * (1 - beyond);
       left += luminance(hit.even) / static_cast<float>(end - begin);
     }
@@ -92,7 +98,8 @@ void Smoothing::boundSamples() {
 
 void Smoothing::startAtTop() {
   even.resize(samples.size()), variance.resize(samples.size());
-  // Of samples so near to one another that they should agree: squares of how far they are off their mean, and how many of them are free to be.
+  // Of samples so near to one another that they should agree: squares of how far they are off their mean, and how many
+  // of them are free to be.
   std::vector<float> square(samples.size()), freedom(samples.size());
   const std::vector<uint64_t> near = keysOf(kAlikeLevel);
   const std::vector<uint32_t> nearOrder = sortedBy(near);
@@ -102,7 +109,8 @@ void Smoothing::startAtTop() {
     const float n = static_cast<float>(end - begin);
     for (size_t k = begin; k < end; ++k) {
       const float off = luminance(samples[nearOrder[k]].even - sum / n);
-      square[nearOrder[k]] = off * off / std::max(around[nearOrder[k]] * around[nearOrder[k]], 1e-20f), freedom[nearOrder[k]] = (n - 1) / n;
+      square[nearOrder[k]] = off * off / std::max(around[nearOrder[k]] * around[nearOrder[k]], 1e-20f),
+      freedom[nearOrder[k]] = (n - 1) / n;
     }
   });
   const std::vector<uint64_t> keys = keysOf(kTop);
@@ -158,11 +166,14 @@ void Smoothing::refine(int level) {
       node.mean += hit.even * hit.rays, node.weight += hit.rays, squares += hit.rays * hit.rays;
     }
     node.mean = node.mean / node.weight;
-    const float known = luminance(even[order[begin]]), off = std::clamp(luminance(node.mean) - known, -known, 2 * known);
+    const float known = luminance(even[order[begin]]),
+                off = std::clamp(luminance(node.mean) - known, -known, 2 * known);
     node.off2 = off * off, node.noise = variance[order[begin]] * known * known * squares / (node.weight * node.weight);
-    if (parents.empty() || larger[order[nodes[parents.back().begin].begin]] != larger[order[begin]]) parents.push_back({nodes.size(), nodes.size()});
+    if (parents.empty() || larger[order[nodes[parents.back().begin].begin]] != larger[order[begin]])
+      parents.push_back({nodes.size(), nodes.size()});
     nodes.push_back(node);
-    parents.back().end = nodes.size(), parents.back().weight += node.weight, parents.back().mean += node.weight * luminance(node.mean);
+    parents.back().end = nodes.size(), parents.back().weight += node.weight,
+    parents.back().mean += node.weight * luminance(node.mean);
   });
   for (Parent& parent : parents) {
     const float known = luminance(even[order[nodes[parent.begin].begin]]);
@@ -172,22 +183,28 @@ void Smoothing::refine(int level) {
       const Node& node = nodes[c];
       const float off = luminance(node.mean) - parent.mean / parent.weight, free = 1 - node.weight / parent.weight;
       signalAlone += static_cast<double>(node.weight * (off * off - free * node.noise));
-      parent.signal += static_cast<double>(node.weight * (off * off - kChance * free * node.noise)), parent.freedom += static_cast<double>(node.weight * free);
+      parent.signal += static_cast<double>(node.weight * (off * off - kChance * free * node.noise)),
+          parent.freedom += static_cast<double>(node.weight * free);
     }
     signal += signalAlone, all += parent.freedom * static_cast<double>(known * known);
   }
-  const float spread2 = all > 0 ? std::clamp(static_cast<float>(signal / all), kLeastSpread * kLeastSpread, kMostSpread * kMostSpread) : 0;
+  const float spread2 =
+      all > 0 ? std::clamp(static_cast<float>(signal / all), kLeastSpread * kLeastSpread, kMostSpread * kMostSpread)
+              : 0;
   parallelFor(parents.size(), 64, [&](size_t i) {
     const Parent& parent = parents[i];
     const Vec3 whole = even[order[nodes[parent.begin].begin]];
     // As much as all cells of this level differ, or as those of the same larger one do.
-    const float known = luminance(whole), own = parent.freedom > 0 ? static_cast<float>(parent.signal / parent.freedom) : 0, prior = std::max(spread2 * known * known, own);
+    const float known = luminance(whole),
+                own = parent.freedom > 0 ? static_cast<float>(parent.signal / parent.freedom) : 0,
+                prior = std::max(spread2 * known * known, own);
     Vec3 sum;
     float weight = 0;
     for (size_t c = parent.begin; c < parent.end; ++c) {
       Node& node = nodes[c];
       float share = prior > 0 ? prior / (prior + node.noise) : 1;
-      if (node.end - node.begin >= kFewest && node.off2 > kStandsOut * node.noise) share = std::max(share, 1 - node.noise / node.off2);
+      if (node.end - node.begin >= kFewest && node.off2 > kStandsOut * node.noise)
+        share = std::max(share, 1 - node.noise / node.off2);
       node.mean = whole + (node.mean - whole) * share;
       sum += node.mean * node.weight, weight += node.weight;
     }

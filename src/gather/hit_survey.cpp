@@ -25,8 +25,10 @@ constexpr uint64_t kSurveyKey = 0x5e7e11, kLightKey = 0x5e7e12;  // other random
 // The picture's camera, few pixels, a ray each.
 RayGatherSettings surveySettings(const RayGatherSettings& settings) {
   RayGatherSettings few = settings;
-  const double part = std::sqrt(std::min(1.0, kSurveyedPixels / (static_cast<double>(settings.width) * settings.height)));
-  few.width = std::max(1, static_cast<int>(part * settings.width)), few.height = std::max(1, static_cast<int>(part * settings.height));
+  const double part =
+      std::sqrt(std::min(1.0, kSurveyedPixels / (static_cast<double>(settings.width) * settings.height)));
+  few.width = std::max(1, static_cast<int>(part * settings.width)),
+  few.height = std::max(1, static_cast<int>(part * settings.height));
   few.samples = few.firstSamples = few.raysPerShading = few.fewestShadings = 1;
   few.seed = settings.seed ^ kSurveyKey;
   return few;
@@ -45,7 +47,8 @@ struct Arrivals {
   }
 };
 
-Arrivals arrivalsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, uint64_t& allRays) {
+Arrivals arrivalsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera,
+                    const RayGatherSettings& settings, uint64_t& allRays) {
   const RayGatherSettings few = surveySettings(settings);
   const PixelRays pixelRays(rays, camera, few);
   const PixelShader pixelShader(rays, lights, few, false);
@@ -58,7 +61,9 @@ Arrivals arrivalsOf(const RayScene& rays, const Lights& lights, const RayShader&
     for (int x = 0; x < few.width; ++x) {
       std::array<Ray, kRaysAtOnce> some;
       const PixelSequence sequence(x, static_cast<int>(y), 0, few.seed);
-      pixelShader.see(pixelRays.at(x, static_cast<int>(y), 0, 1, some), sequence, {&sums[static_cast<size_t>(x)], &counts[static_cast<size_t>(x)], static_cast<uint32_t>(x)}, work, count);
+      pixelShader.see(pixelRays.at(x, static_cast<int>(y), 0, 1, some), sequence,
+                      {&sums[static_cast<size_t>(x)], &counts[static_cast<size_t>(x)], static_cast<uint32_t>(x)}, work,
+                      count);
     }
     for (Shading& s : work.shadings) s.gathers = std::max(1, kRaysAPixel / settings.estimates), s.firstShadow = 0;
     shader.arrivals(work.shadings, byRow[y].hits, count);
@@ -91,13 +96,21 @@ HitGuide guideFrom(const Arrivals& all, const RayShader& shader, const HitCache&
 // The light of places where rays arrive, one sample each.
 class LitPlaces {
  public:
-  LitPlaces(const RayScene& rays, const Lights& lights, const RayShader& shader, const HitSurvey& known, const RayGatherSettings& settings)
-      : rays_(rays), shader_(shader), known_(known), settings_(settings), sharp_(rays, lights), suns_(lights.sunCount()) {}
+  LitPlaces(const RayScene& rays, const Lights& lights, const RayShader& shader, const HitSurvey& known,
+            const RayGatherSettings& settings)
+      : rays_(rays),
+        shader_(shader),
+        known_(known),
+        settings_(settings),
+        sharp_(rays, lights),
+        suns_(lights.sunCount()) {}
 
-  void light(const Arrivals& all, std::span<const HitCache::Chosen> chosen, std::span<LitHit> lit, HitLayers* layers, GatherCounters& count) const {
+  void light(const Arrivals& all, std::span<const HitCache::Chosen> chosen, std::span<LitHit> lit, HitLayers* layers,
+             GatherCounters& count) const {
     std::vector<Shading> work;
     std::vector<Shadow> shadows;
-    for (size_t i = 0; i < chosen.size(); ++i) work.push_back(prepared(all.hits[chosen[i].place], chosen[i], lit[i], shadows));
+    for (size_t i = 0; i < chosen.size(); ++i)
+      work.push_back(prepared(all.hits[chosen[i].place], chosen[i], lit[i], shadows));
     count.rays += shadows.size();
     std::vector<SurfaceLight> light(work.size());
     LayerSums apart(layers ? shader_.layers()->size() : 0);
@@ -111,10 +124,12 @@ class LitPlaces {
   }
 
  private:
-  Shading prepared(const HitArrival& a, const HitCache::Chosen& chosen, LitHit& out, std::vector<Shadow>& shadows) const {
+  Shading prepared(const HitArrival& a, const HitCache::Chosen& chosen, LitHit& out,
+                   std::vector<Shadow>& shadows) const {
     SurfacePoint s = surfaceAt(rays_.scene(), a.hit, a.direction);
     const Vec3 origin = offsetOrigin(s.p, s.ng);
-    out.at = a.at, out.slot = a.slot, out.sure = a.sure, out.rays = chosen.rays, out.albedo = bihemisphericalAlbedo(s.m);
+    out.at = a.at, out.slot = a.slot, out.sure = a.sure, out.rays = chosen.rays,
+    out.albedo = bihemisphericalAlbedo(s.m);
     s.m = MaterialSample{};
     s.m.baseColor = Vec3(1);
     Sampler sampler(mix64(chosen.place + kLightKey), 0, settings_.seed);
@@ -139,16 +154,20 @@ class LitPlaces {
   const size_t suns_;
 };
 
-CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Arrivals& all, const RayGatherSettings& settings, uint64_t& rayCount) {
+CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShader& shader, const Arrivals& all,
+                      const RayGatherSettings& settings, uint64_t& rayCount) {
   if (settings.causticPhotons <= 0) return {};
   std::vector<Vec3> seen;
   for (const Arrivals::Origin& o : all.origins) seen.push_back(o.p);
-  return CausticMap(traceCausticPhotons(rays, lights, seen, static_cast<size_t>(settings.causticPhotons), shader.layers() != nullptr, settings.seed, rayCount), shader.layers());
+  return CausticMap(traceCausticPhotons(rays, lights, seen, static_cast<size_t>(settings.causticPhotons),
+                                        shader.layers() != nullptr, settings.seed, rayCount),
+                    shader.layers());
 }
 
 }  // namespace
 
-HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress) {
+HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera,
+                     const RayGatherSettings& settings, const Progress& progress) {
   HitSurvey out{HitCache(settings.hitCellM, shader.voxelM()), {}, {}, 0};
   const Arrivals all = arrivalsOf(rays, lights, shader, camera, settings, out.rays);
   out.caustics = causticsOf(rays, lights, shader, all, settings, out.rays);
@@ -169,7 +188,8 @@ HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader
   parallelRanges(chosen.size(), kBatch, [&](size_t begin, size_t end) {
     if (progress.stop()) return;
     GatherCounters own;
-    lighting.light(all, std::span(chosen).subspan(begin, end - begin), std::span(lit).subspan(begin, end - begin), layers ? &*layers : nullptr, own);
+    lighting.light(all, std::span(chosen).subspan(begin, end - begin), std::span(lit).subspan(begin, end - begin),
+                   layers ? &*layers : nullptr, own);
     rayCount += own.rays;
   });
   out.rays += rayCount;

@@ -1,4 +1,5 @@
-// Finds where gathering rays arrive, and lights these places: what the cache of hits and the guide are made of. Photons of polished surfaces are sent to where the camera looks.
+// Finds where gathering rays arrive, and lights these places: what the cache of hits and the guide are made of. Photons
+// of polished surfaces are sent to where the camera looks.
 #pragma once
 
 #include "base/progress.h"
@@ -21,6 +22,7 @@ struct HitSurvey {
 };
 
 // Of rays from what a camera sees. Where light is kept in layers, so it is in the cells. Without cells if cancelled.
-HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress);
+HitSurvey surveyHits(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera,
+                     const RayGatherSettings& settings, const Progress& progress);
 
 }  // namespace roomlight

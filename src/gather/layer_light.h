@@ -1,4 +1,5 @@
-// Light kept apart by layers while a picture is gathered: beside every sum of light, what lamps, suns and sky have in it.
+// Light kept apart by layers while a picture is gathered: beside every sum of light, what lamps, suns and sky have in
+ // it.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,8 @@ struct LightOrigin {
   int32_t layer = -1;
   const uint16_t* shares = nullptr;  // as SlotLayers has them
   float weight = 1;   // of the light in its layer, where layers sample it otherwise than the picture
-  float glow = 0, sun = 0;  // of the light that has these shares, what points have taken of it: of layer `glowOf`, and of the sun
+  float glow = 0,
+        sun = 0;  // of the light that has these shares, what points have taken of it: of layer `glowOf`, and of the sun
   int32_t glowOf = -1;
   static LightOrigin ofLayer(int32_t layer, float weight = 1) { return {layer, nullptr, weight, 0, 0, -1}; }
 };
@@ -24,12 +26,14 @@ struct LightOrigin {
 // Sums for many things, each with kParts kinds of light (and variances), each of three channels of `stride` layers.
 class LayerSums {
  public:
-  enum Part : size_t { kDiffuse,  // rare light, too
-                       kSharp,
-                       kSpecular,
-                       kRest,
-                       kVariance,  // of the luminance of diffuse, sharp and specular light
-                       kParts };
+  enum Part : size_t {
+    kDiffuse,  // rare light, too
+    kSharp,
+    kSpecular,
+    kRest,
+    kVariance,  // of the luminance of diffuse, sharp and specular light
+    kParts
+  };
   LayerSums() = default;
   // `together`: of all things one sum, as the first.
   explicit LayerSums(size_t layers, bool together = false) : stride_(layerStride(layers)), together_(together) {}

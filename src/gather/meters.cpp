@@ -28,7 +28,8 @@ SurfacePoint whitePatch(const SurfaceElement& element) {
 struct MeterSamples {
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
-  void take(const SharpLights& sharp, const SurfaceElement& element, size_t meter, int first, int count, uint64_t seed, bool lampsKnown = false) {
+  void take(const SharpLights& sharp, const SurfaceElement& element, size_t meter, int first, int count, uint64_t seed,
+            bool lampsKnown = false) {
     shadings.clear(), shadows.clear();
     const SurfacePoint s = whitePatch(element);
     const Vec3 origin = offsetOrigin(s.p, s.ng);
@@ -66,7 +67,8 @@ class LayerMeter {
     float strongest = 0;
     for (size_t l = 0; l < sum_.size(); ++l) strongest = std::max(strongest, luminance(lux(l)));
     for (size_t l = 0; l < sum_.size(); ++l) {
-      if (error(l) > tolerance * static_cast<double>(std::max(luminance(lux(l)), kOfStrongest * strongest))) return false;
+      if (error(l) > tolerance * static_cast<double>(std::max(luminance(lux(l)), kOfStrongest * strongest)))
+        return false;
     }
     return true;
   }
@@ -77,8 +79,10 @@ class LayerMeter {
   int batches_ = 0;
 };
 
-// Straight from all lamps that are extended, by so many places on each, or from all that are points: each is asked, so that no layer has the noise of a choice among them.
-void addLamps(const RayScene& rays, const Lights& lights, const LightLayers& layers, const SurfaceElement& element, bool extended, std::span<const Sampler> places, std::vector<Vec3>& lux) {
+// Straight from all lamps that are extended, by so many places on each, or from all that are points: each is asked, so
+// that no layer has the noise of a choice among them.
+void addLamps(const RayScene& rays, const Lights& lights, const LightLayers& layers, const SurfaceElement& element,
+              bool extended, std::span<const Sampler> places, std::vector<Vec3>& lux) {
   thread_local std::vector<Ray> shadowRays;
   thread_local std::vector<std::pair<size_t, Vec3>> arrives;
   thread_local std::vector<Vec3> left;
@@ -91,7 +95,8 @@ void addLamps(const RayScene& rays, const Lights& lights, const LightLayers& lay
       const float cosine = light.valid() ? dot(light.wi, element.normal) : 0;
       if (cosine <= 0) continue;
       shadowRays.push_back(shadowRay(origin, element.position, light));
-      arrives.emplace_back(static_cast<size_t>(layers.ofLamp[i]), light.radiance * (cosine / static_cast<float>(places.size())));
+      arrives.emplace_back(static_cast<size_t>(layers.ofLamp[i]),
+                           light.radiance * (cosine / static_cast<float>(places.size())));
     }
   }
   left.resize(shadowRays.size());
@@ -100,7 +105,8 @@ void addLamps(const RayScene& rays, const Lights& lights, const LightLayers& lay
 }
 
 // Adds the means of one batch of all but lamps' direct light.
-void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const SurfaceElement& element, size_t meter, int first, uint64_t seed, std::vector<Vec3>& means) {
+void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const SurfaceElement& element, size_t meter,
+                  int first, uint64_t seed, std::vector<Vec3>& means) {
   thread_local MeterSamples samples;
   thread_local std::vector<SurfaceLight> light;
   thread_local LayerSums sums;
@@ -110,13 +116,15 @@ void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const S
   sums.resize(samples.shadings.size());
   GatherCounters counters;
   shader.shadeInLayers(samples.shadings, samples.shadows, light, sums, counters);
-  for (size_t l = 0; l < means.size(); ++l) means[l] += (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / kBatch);
+  for (size_t l = 0; l < means.size(); ++l)
+    means[l] += (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / kBatch);
 }
 
 }  // namespace
 
-std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
-                                             const MeterSettings& settings, const Progress& progress) {
+std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader,
+                                             std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                             const Progress& progress) {
   const SharpLights sharp(rays, lights);
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     thread_local MeterSamples samples;
@@ -130,8 +138,9 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
   return readMeters(rays, lights, elements, settings, sample, progress);
 }
 
-LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
-                                const MeterSettings& settings, const Progress& progress) {
+LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, const SurfaceShader& shader,
+                                std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                const Progress& progress) {
   const SharpLights sharp(rays, lights);
   LayeredReadings out;
   out.layers = shader.layers()->size();
@@ -143,11 +152,13 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
     std::vector<Vec3> steady(out.layers), means;
     const auto lamps = [&](bool extended, int firstPlace, int count, std::vector<Vec3>& lux) {
       std::vector<Sampler> places;
-      for (int k = 0; k < count; ++k) places.emplace_back(mix64(i + kLampKey), static_cast<uint32_t>(firstPlace + k), settings.seed);
+      for (int k = 0; k < count; ++k)
+        places.emplace_back(mix64(i + kLampKey), static_cast<uint32_t>(firstPlace + k), settings.seed);
       addLamps(rays, lights, *shader.layers(), elements[i], extended, places, lux);
     };
     lamps(false, 0, 1, steady);
-    for (int first = 0, count = std::max(settings.fewestSamples, 2 * kBatch); count <= std::max(settings.mostSamples, 2 * kBatch) && !progress.stop(); count *= 2) {
+    for (int first = 0, count = std::max(settings.fewestSamples, 2 * kBatch);
+         count <= std::max(settings.mostSamples, 2 * kBatch) && !progress.stop(); count *= 2) {
       for (; first < count && !progress.stop(); first += kBatch) {
         means = steady;
         if (lights.hasExtendedLamps()) lamps(true, first / kBatch * kPlaces, kPlaces, means);

@@ -9,8 +9,9 @@
 namespace roomlight {
 
 // A reading for each element, as readMeters() has it.
-std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
-                                             const MeterSettings& settings, const Progress& progress = {});
+std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, const SurfaceShader& shader,
+                                             std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                             const Progress& progress = {});
 
 // Light on elements kept apart by layers.
 struct LayeredReadings {
@@ -20,10 +21,12 @@ struct LayeredReadings {
   Vec3 at(size_t element, size_t layer) const { return lux[element * layers + layer]; }
 };
 
-// By a shader that keeps light apart (layers() is not null), in a scene lit by lamps and emissive meshes alone: suns and sky are left out. Every element
-// takes fewestSamples and goes on to twice as many, up to mostSamples, until every layer is as certain as the tolerance asks, or as it asks of 3 % of the
-// strongest layer there; what comes straight from lamps that are points is exact. Does not depend on the number of threads.
-LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, std::span<const SurfaceElement> elements,
-                                const MeterSettings& settings, const Progress& progress = {});
+// By a shader that keeps light apart (layers() is not null), in a scene lit by lamps and emissive meshes alone: suns
+// and sky are left out. Every element takes fewestSamples and goes on to twice as many, up to mostSamples, until every
+// layer is as certain as the tolerance asks, or as it asks of 3 % of the strongest layer there; what comes straight
+// from lamps that are points is exact. Does not depend on the number of threads.
+LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, const SurfaceShader& shader,
+                                std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                const Progress& progress = {});
 
 }  // namespace roomlight

@@ -37,7 +37,9 @@ Look lookOf(const FilterPixel& sum, const PixelCount& count) {
   return l;
 }
 
-bool alike(const Look& a, const Look& b) { return b.surface > 0 && onOneSurface(a.normal, a.position, b.normal, b.position); }
+bool alike(const Look& a, const Look& b) {
+  return b.surface > 0 && onOneSurface(a.normal, a.position, b.normal, b.position);
+}
 
 }  // namespace
 
@@ -61,18 +63,23 @@ FilterPixel meanBeside(const FilterInput& sums, const std::vector<PixelCount>& c
     const FilterPixel o = meanOf(sums.pixels[q], counts[q]);
     if (!(o.surface > 0) || !onOneSurface(own.normal, own.position, o.normal, o.position)) continue;
     const Vec3 albedo = max(o.albedo, Vec3(kLeastAlbedo));
-    sum.diffuse += o.diffuse / albedo, sum.rare += o.rare / albedo, sum.sharp += o.sharp / albedo, sum.specular += o.specular, sum.rest += o.rest;
-    sum.diffuseVariance += o.diffuseVariance, sum.sharpVariance += o.sharpVariance, sum.specularVariance += o.specularVariance, sum.weight += o.weight;
+    sum.diffuse += o.diffuse / albedo, sum.rare += o.rare / albedo, sum.sharp += o.sharp / albedo,
+        sum.specular += o.specular, sum.rest += o.rest;
+    sum.diffuseVariance += o.diffuseVariance, sum.sharpVariance += o.sharpVariance,
+        sum.specularVariance += o.specularVariance, sum.weight += o.weight;
     count += 1;
   }
   if (count == 0) return own;
   const Vec3 albedo = max(own.albedo, Vec3(kLeastAlbedo)) / count;
-  own.diffuse = sum.diffuse * albedo, own.rare = sum.rare * albedo, own.sharp = sum.sharp * albedo, own.specular = sum.specular / count, own.rest = sum.rest / count;
-  own.diffuseVariance = sum.diffuseVariance / count, own.sharpVariance = sum.sharpVariance / count, own.specularVariance = sum.specularVariance / count, own.weight = sum.weight / count;
+  own.diffuse = sum.diffuse * albedo, own.rare = sum.rare * albedo, own.sharp = sum.sharp * albedo,
+  own.specular = sum.specular / count, own.rest = sum.rest / count;
+  own.diffuseVariance = sum.diffuseVariance / count, own.sharpVariance = sum.sharpVariance / count,
+  own.specularVariance = sum.specularVariance / count, own.weight = sum.weight / count;
   return own;
 }
 
-std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts, const FilteredLuminance& left, float tolerance) {
+std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts,
+                                 const FilteredLuminance& left, float tolerance) {
   const bool isFiltered = !left.variance.empty();
   const int width = sums.width, height = sums.height;
   std::vector<Look> looks(counts.size());
@@ -94,7 +101,8 @@ std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<Pixe
     for (int x = 0; x < width; ++x) {
       const size_t i = row * static_cast<size_t>(width) + static_cast<size_t>(x);
       const Look& own = looks[i];
-      // Nothing here may follow the pixel's own luminance: refining those that came out dark would make pictures too bright.
+      // Nothing here may follow the pixel's own luminance: refining those that came out dark would make pictures too
+      // bright.
       float variance = 0, like = 0, around = 0, all = 0, level = 0, sharp = 0, beside = 0, low = kInfinity, high = 0;
       for (int dy = -kReach; dy <= kReach; ++dy) {
         for (int dx = -kReach; dx <= kReach; ++dx) {
@@ -119,10 +127,15 @@ std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<Pixe
       all = std::max(all, 1.0f), like = std::max(like, 1.0f);  // what is known of none is believed to be as it should
       level = level / all + dark;
       // The variance of a few pixels, each of few samples, may be too small by chance.
-      variance = isFiltered ? left.variance[i] : std::max(variance / (like * like), around / (all * like)) + sharp / beside;
-      if (own.edge && high >= low) variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
-      const float allowed = tolerance * tolerance * level * level, rays = static_cast<float>(std::max(1u, counts[i].rays));
-      if (variance > allowed) out[i] = static_cast<uint16_t>(std::ceil(std::min(kMostNeeded, rays * (variance / std::max(allowed, 1e-30f) - 1))));
+      variance =
+          isFiltered ? left.variance[i] : std::max(variance / (like * like), around / (all * like)) + sharp / beside;
+      if (own.edge && high >= low)
+        variance += kEdge * (high - low) * (high - low) / static_cast<float>(std::max(1u, counts[i].rays));
+      const float allowed = tolerance * tolerance * level * level,
+                  rays = static_cast<float>(std::max(1u, counts[i].rays));
+      if (variance > allowed)
+        out[i] =
+            static_cast<uint16_t>(std::ceil(std::min(kMostNeeded, rays * (variance / std::max(allowed, 1e-30f) - 1))));
     }
   });
   return out;

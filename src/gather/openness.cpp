@@ -34,7 +34,8 @@ uint64_t findOpenness(const RayScene& rays, const CameraRays& camera, uint64_t s
       for (uint32_t k = 0; k < kRaysAPixel; ++k) {
         Sampler sampler = sequence.forShading(0, k, kRaysAPixel);
         const Vec3 d = frame.toWorld(sampleCosineHemisphere(sampler.next2()));
-        ways.push_back({offsetOrigin(p + n * (kLiftPixels * step), n), d, 0, step * kNearestPixels * std::pow(kFarthestPixels / kNearestPixels, sampler.next1())});
+        ways.push_back({offsetOrigin(p + n * (kLiftPixels * step), n), d, 0,
+                        step * kNearestPixels * std::pow(kFarthestPixels / kNearestPixels, sampler.next1())});
       }
     }
     left.resize(ways.size());

@@ -1,5 +1,6 @@
-// How open surfaces are to what lies near: the part of their hemisphere that is free as far as a few to some dozen pixels reach. It has little noise where light has much, and contacts,
-// corners and things before walls show in both: the filter learns from it where light changes (filter/levels.h).
+// How open surfaces are to what lies near: the part of their hemisphere that is free as far as a few to some dozen
+// pixels reach. It has little noise where light has much, and contacts, corners and things before walls show in both:
+// the filter learns from it where light changes (filter/levels.h).
 #pragma once
 
 #include "filter/filter.h"

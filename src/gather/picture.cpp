@@ -20,28 +20,36 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr size_t kTilesAtOnce = 4;
-constexpr size_t kPlanned = 3;     // a plan of further rays is made anew once more than that many times the rays it knew were traced
+constexpr size_t kPlanned =
+    3;     // a plan of further rays is made anew once more than that many times the rays it knew were traced
 constexpr float kFiner = 0.6f, kFinest = 0.002f;  // times the tolerance where too much error is left; no finer
-constexpr float kUnfiltered = 4;  // times the tolerance where outliers hide what noise a filter leaves: that of single pixels is asked for
+constexpr float kUnfiltered =
+    4;  // times the tolerance where outliers hide what noise a filter leaves: that of single pixels is asked for
 
 Rectangle tileAt(size_t index, int width, int height) {
-  const int tilesX = (width + kTile - 1) / kTile, x = static_cast<int>(index) % tilesX * kTile, y = static_cast<int>(index) / tilesX * kTile;
+  const int tilesX = (width + kTile - 1) / kTile, x = static_cast<int>(index) % tilesX * kTile,
+            y = static_cast<int>(index) / tilesX * kTile;
   return {x, y, std::min(width, x + kTile), std::min(height, y + kTile)};
 }
 
 // What the filter is told of one layer: what pixels see is that of the whole, light and noise its own.
-FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>& counts, const LayerSums& sums, size_t layer) {
+FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>& counts, const LayerSums& sums,
+                         size_t layer) {
   FilterInput out(whole.width, whole.height);
   out.wraps = whole.wraps, out.reflected = whole.reflected;
   parallelFor(counts.size(), 4096, [&](size_t i) {
     FilterPixel& p = out.pixels[i];
     p = whole.pixels[i];
     const auto per = [](uint32_t n) { return 1 / static_cast<float>(std::max(1u, n)); };
-    const float inverse = per(counts[i].rays), diffuse = per(counts[i].gathered), specular = per(counts[i].glossy), albedo = std::max(luminance(p.albedo), 1e-3f);
-    p.diffuse = sums.get(i, LayerSums::kDiffuse, layer) * diffuse, p.rare = {}, p.sharp = sums.get(i, LayerSums::kSharp, layer) * inverse;
-    p.specular = sums.get(i, LayerSums::kSpecular, layer) * specular, p.rest = sums.get(i, LayerSums::kRest, layer) * inverse;
+    const float inverse = per(counts[i].rays), diffuse = per(counts[i].gathered), specular = per(counts[i].glossy),
+                albedo = std::max(luminance(p.albedo), 1e-3f);
+    p.diffuse = sums.get(i, LayerSums::kDiffuse, layer) * diffuse, p.rare = {},
+    p.sharp = sums.get(i, LayerSums::kSharp, layer) * inverse;
+    p.specular = sums.get(i, LayerSums::kSpecular, layer) * specular,
+    p.rest = sums.get(i, LayerSums::kRest, layer) * inverse;
     const Vec3 variance = sums.get(i, LayerSums::kVariance, layer);
-    p.diffuseVariance = variance.x * diffuse * diffuse / (albedo * albedo), p.sharpVariance = variance.y * inverse * inverse / (albedo * albedo);
+    p.diffuseVariance = variance.x * diffuse * diffuse / (albedo * albedo),
+    p.sharpVariance = variance.y * inverse * inverse / (albedo * albedo);
     p.specularVariance = variance.z * specular * specular;
   });
   return out;
@@ -49,7 +57,8 @@ FilterInput inputOfLayer(const FilterInput& whole, const std::vector<PixelCount>
 
 class Gathering {
  public:
-  Gathering(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, const Progress& progress)
+  Gathering(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+            const PictureSettings& settings, const Progress& progress)
       : rays_(rays),
         shader_(shader),
         settings_(settings),
@@ -81,7 +90,8 @@ class Gathering {
         if (hasAim() && planned_ > 0) return;  // a look at the error, before more is planned
         plan(first);
       }
-      const auto most = static_cast<size_t>(first > 0 || !(tolerance_ > 0) ? settings_.samples : std::min(settings_.samples, settings_.firstSamples));
+      const auto most = static_cast<size_t>(
+          first > 0 || !(tolerance_ > 0) ? settings_.samples : std::min(settings_.samples, settings_.firstSamples));
       const size_t n = std::min(kRaysAtOnce, most - first);
       const auto asks = [&](size_t pixel) { return !chosen || needed_[pixel] > first - planned_; };
       size_t pixels = 0;
@@ -95,21 +105,27 @@ class Gathering {
       result_.samples += static_cast<int>(n);
       secondsOfARay_ = (watch_.seconds() - started) / passRays;
       if (isGivenUp()) return;
-      if (first == 0 && settings_.rareApart) rayCount_ += findOpenness(rays_, pixelRays_.camera(), settings_.seed, sums_);
+      if (first == 0 && settings_.rareApart)
+        rayCount_ += findOpenness(rays_, pixelRays_.camera(), settings_.seed, sums_);
       if (progress_.stop()) return;
     }
   }
 
   // The picture of all samples so far. What it is made of is changed to means over each pixel's.
   void compose(FilterInput& means) {
-    if (std::any_of(counts_.begin(), counts_.end(), [](const PixelCount& c) { return c.occlusion > 0; })) result_.occlusion = Image(width_, height_);
+    if (std::any_of(counts_.begin(), counts_.end(), [](const PixelCount& c) { return c.occlusion > 0; }))
+      result_.occlusion = Image(width_, height_);
     parallelFor(counts_.size(), 4096, [&](size_t i) {
       means.pixels[i] = meanOf(means.pixels[i], counts_[i]);
-      if (!result_.occlusion.pixels.empty()) result_.occlusion.pixels[i] = Vec3(counts_[i].occlusion / static_cast<float>(std::max(1u, counts_[i].rays)));
+      if (!result_.occlusion.pixels.empty())
+        result_.occlusion.pixels[i] = Vec3(counts_[i].occlusion / static_cast<float>(std::max(1u, counts_[i].rays)));
     });
     std::vector<Vec3> irradiance;
-    result_.image = settings_.filterPasses > 0 ? filtered(means, settings_.filterPasses, nullptr, keepsFragments_ ? &irradiance : nullptr) : composed(means);
-    parallelFor(fragments_.size(), 16, [&](size_t t) { addFragments(fragments_[t], means, counts_, irradiance, result_.image); });
+    result_.image = settings_.filterPasses > 0
+                        ? filtered(means, settings_.filterPasses, nullptr, keepsFragments_ ? &irradiance : nullptr)
+                        : composed(means);
+    parallelFor(fragments_.size(), 16,
+                [&](size_t t) { addFragments(fragments_[t], means, counts_, irradiance, result_.image); });
   }
   void composeForGood() {
     compose(sums_);
@@ -123,7 +139,9 @@ class Gathering {
   bool isGivenUp() const { return settings_.orNothing && progress_.stop(); }
   bool isLate() const { return late_; }
   bool hasAim() const { return settings_.untilMse > 0; }
-  bool mayGoOn() const { return hasAim() && !late_ && !progress_.stop() && result_.samples < settings_.samples && tolerance_ > kFinest; }
+  bool mayGoOn() const {
+    return hasAim() && !late_ && !progress_.stop() && result_.samples < settings_.samples && tolerance_ > kFinest;
+  }
   // From now on less noise may be left.
   void askForMore() { tolerance_ *= kFiner, planned_ = 0; }
 
@@ -144,13 +162,18 @@ class Gathering {
     planned_ = first;
   }
 
-  // By what the filter leaves where a pixel has what those beside it found: were it to ask for more rays because it found much itself, pixels that are bright by chance would get more than dark ones, and
-  // the picture be too dark. So once for each colour of a chequerboard.
+  // By what the filter leaves where a pixel has what those beside it found: were it to ask for more rays because it
+  // found much itself, pixels that are bright by chance would get more than dark ones, and the picture be too dark. So
+  // once for each colour of a chequerboard.
   void planByOthers() {
-    const auto colourOf = [&](size_t i) { return (i / static_cast<size_t>(width_) + i % static_cast<size_t>(width_)) % 2; };
+    const auto colourOf = [&](size_t i) {
+      return (i / static_cast<size_t>(width_) + i % static_cast<size_t>(width_)) % 2;
+    };
     needed_.assign(counts_.size(), 0);
     for (size_t colour = 0; colour < 2; ++colour) {
-      const FilteredLuminance left = filteredLuminance(sums_, settings_.filterPasses, [&](size_t i) { return colourOf(i) == colour ? meanBeside(sums_, counts_, i) : meanOf(sums_.pixels[i], counts_[i]); });
+      const FilteredLuminance left = filteredLuminance(sums_, settings_.filterPasses, [&](size_t i) {
+        return colourOf(i) == colour ? meanBeside(sums_, counts_, i) : meanOf(sums_.pixels[i], counts_[i]);
+      });
       const std::vector<uint16_t> needed = raysNeeded(sums_, counts_, left, tolerance_);
       for (size_t i = 0; i < needed.size(); ++i) {
         if (colourOf(i) == colour) needed_[i] = needed[i];
@@ -188,13 +211,17 @@ class Gathering {
         const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
         if (!asks(pixel)) continue;
         const PixelSequence sequence(x, y, static_cast<uint32_t>(first), settings_.seed, every_);
-        pixelShader_.see(pixelRays_.at(x, y, first, n, some), sequence, {&sums_.pixels[pixel], &counts_[pixel], static_cast<uint32_t>(pixel), sums_.reflected.empty() ? nullptr : &sums_.reflected[pixel]}, work, count);
+        pixelShader_.see(pixelRays_.at(x, y, first, n, some), sequence,
+                         {&sums_.pixels[pixel], &counts_[pixel], static_cast<uint32_t>(pixel),
+                          sums_.reflected.empty() ? nullptr : &sums_.reflected[pixel]},
+                         work, count);
       }
     }
     if (every_ > 1) gatherSparsely(work, r, every_, settings_.rayRoughness, static_cast<uint32_t>(n), sums_);
   }
 
-  void shade(size_t tile, TileWork& work, std::vector<SurfaceLight>& light, LayerSums& layerLight, GatherCounters& count) {
+  void shade(size_t tile, TileWork& work, std::vector<SurfaceLight>& light, LayerSums& layerLight,
+             GatherCounters& count) {
     light.resize(work.shadings.size());
     if (layers_) {
       layerLight.resize(work.shadings.size());
@@ -209,8 +236,11 @@ class Gathering {
 
   void report(size_t first, size_t n, size_t tilesDone) {
     if (tilesDone % 64 != 0 || !reporting_.try_lock()) return;
-    const float bySamples = (static_cast<float>(first) + static_cast<float>(n) * static_cast<float>(tilesDone) / static_cast<float>(tiles_)) / static_cast<float>(settings_.samples);
-    const float byError = result_.error.srgbMse > 0 ? static_cast<float>(std::min(1.0, settings_.untilMse / result_.error.srgbMse)) : 0;
+    const float bySamples = (static_cast<float>(first) +
+                             static_cast<float>(n) * static_cast<float>(tilesDone) / static_cast<float>(tiles_)) /
+                            static_cast<float>(settings_.samples);
+    const float byError =
+        result_.error.srgbMse > 0 ? static_cast<float>(std::min(1.0, settings_.untilMse / result_.error.srgbMse)) : 0;
     progress_.at(std::max(bySamples, byError));
     reporting_.unlock();
   }
@@ -244,7 +274,7 @@ class Gathering {
   size_t planned_ = 0;
   const Stopwatch watch_;
   double secondsOfARay_ = 0;  // in the last pass
-  bool late_ = false;         // the next pass would end after the limit
+  bool late_ = false;  // the next pass would end after the limit
   std::atomic<uint64_t> rayCount_ = 0, coneCount_ = 0;
   std::mutex reporting_;
   GatheredPicture result_;
@@ -252,7 +282,8 @@ class Gathering {
 
 }  // namespace
 
-GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera, const PictureSettings& settings, const Progress& progress) {
+GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const SurfaceShader& shader,
+                              const Camera& camera, const PictureSettings& settings, const Progress& progress) {
   Gathering gathering(rays, lights, shader, camera, settings, progress);
   std::optional<ErrorProbes> probes;
   for (;;) {
@@ -262,7 +293,8 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     mayGoOn ? gathering.composeForNow() : gathering.composeForGood();
     GatheredPicture& picture = gathering.picture();
     if ((settings.tellsError || gathering.hasAim()) && !gathering.isLate()) {
-      if (!probes) picture.rays += probes.emplace(rays, lights, shader, camera, settings, gathering.hasAim(), progress).rays();
+      if (!probes)
+        picture.rays += probes.emplace(rays, lights, shader, camera, settings, gathering.hasAim(), progress).rays();
       picture.error = probes->of(picture.image);
     }
     if (!mayGoOn || progress.stop() || picture.error.srgbMse <= settings.untilMse) return gathering.result();

@@ -1,6 +1,6 @@
-// The camera rays of one pixel together. Rays that see the same surface share its shading: edges, textures and sharp shadows are
-// as smooth as the pixel's many cheap rays make them, while the rest of its light comes from few samples. Panes and mirrors send
-// the rays on: what is seen in a mirror is shaded, and filtered, like what is seen directly.
+// The camera rays of one pixel together. Rays that see the same surface share its shading: edges, textures and sharp
+// shadows are as smooth as the pixel's many cheap rays make them, while the rest of its light comes from few samples.
+// Panes and mirrors send the rays on: what is seen in a mirror is shaded, and filtered, like what is seen directly.
 #pragma once
 
 #include <span>
@@ -14,17 +14,22 @@ namespace roomlight {
 
 constexpr size_t kRaysAtOnce = SharpLights::kMostPoints;
 
-// Random numbers of one pixel. Pixels take their points of one sequence along Morton's curve, so that every square block of 2^k
-// pixels together has a well-distributed set: what a filter makes of them has far less noise than from points chosen apart (Ahmed &
-// Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of pixels").
+// Random numbers of one pixel. Pixels take their points of one sequence along Morton's curve, so that every square
+// block of 2^k pixels together has a well-distributed set: what a filter makes of them has far less noise than from
+// points chosen apart (Ahmed & Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via
+// hierarchical ordering of pixels").
 class PixelSequence {
  public:
   // Of `every` pixels, a power of two, one in every pass gathers for all.
   PixelSequence(int x, int y, uint32_t pass, uint64_t seed, uint32_t every = 1);
   bool gathers() const { return gathers_; }
   // Of `count` shadings that pixels have of one surface, a power of two; `surface` counts those of this pixel.
-  Sampler forShading(uint32_t surface, uint32_t i, uint32_t count) const { return {key_ + 2 * surface, shadingIndex_ * count + i, seed_}; }
-  Sampler forShadow(uint32_t surface, uint32_t ray) const { return {key_ + 2 * surface + 1, index_ * static_cast<uint32_t>(kRaysAtOnce) + ray, seed_}; }
+  Sampler forShading(uint32_t surface, uint32_t i, uint32_t count) const {
+    return {key_ + 2 * surface, shadingIndex_ * count + i, seed_};
+  }
+  Sampler forShadow(uint32_t surface, uint32_t ray) const {
+    return {key_ + 2 * surface + 1, index_ * static_cast<uint32_t>(kRaysAtOnce) + ray, seed_};
+  }
 
  private:
   uint64_t key_, seed_;
@@ -59,9 +64,10 @@ struct TileWork {
     float roughness = 0, surface = 0;
     bool veil = false;       // lets most light through: a surface only where nothing solid is seen behind
     bool once = false;       // lit by single estimates
-    float survival = 1;      // probability that it was lit at all: what is found stands for those that were not; unlit parts have no shadings
-    Vec3 unlitAlbedo{};      // sum over the camera rays of an unlit part
-    bool apart = false;      // not filtered with what fills most of its pixel: another surface, or what outshines that
+    float survival = 1;  // probability that it was lit at all: what is found stands for those that were not; unlit
+                         // parts have no shadings
+    Vec3 unlitAlbedo{};  // sum over the camera rays of an unlit part
+    bool apart = false;  // not filtered with what fills most of its pixel: another surface, or what outshines that
   };
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
@@ -71,14 +77,24 @@ struct TileWork {
 
 class PixelShader {
  public:
-  // `keepsFragments`: what edges show of other surfaces is kept apart. `byLayer`, where given: a sum for each pixel, of light by `layers`.
-  PixelShader(const RayScene& rays, const Lights& lights, const PictureSettings& settings, bool keepsFragments, const LightLayers* layers = nullptr, LayerSums* byLayer = nullptr)
-      : rays_(rays), lights_(lights), sharp_(rays, lights), settings_(settings), keepsFragments_(keepsFragments), layers_(layers), byLayer_(byLayer) {}
+  // `keepsFragments`: what edges show of other surfaces is kept apart. `byLayer`, where given: a sum for each pixel, of
+  // light by `layers`.
+  PixelShader(const RayScene& rays, const Lights& lights, const PictureSettings& settings, bool keepsFragments,
+              const LightLayers* layers = nullptr, LayerSums* byLayer = nullptr)
+      : rays_(rays),
+        lights_(lights),
+        sharp_(rays, lights),
+        settings_(settings),
+        keepsFragments_(keepsFragments),
+        layers_(layers),
+        byLayer_(byLayer) {}
   // At most kRaysAtOnce rays. What shines by itself is added to `pixel` at once; what has to be lit, to `work`.
-  void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work, GatherCounters& count) const;
+  void see(std::span<const Ray> rays, const PixelSequence& sequence, PixelSum pixel, TileWork& work,
+           GatherCounters& count) const;
   // Marks parts that outshine their pixels.
   void findOutshining(TileWork& work, std::span<const SurfaceLight> light) const;
-  // Adds the light of everything in `work` to its pixels, but for what `fragments`, where given, take: such parts are marked.
+  // Adds the light of everything in `work` to its pixels, but for what `fragments`, where given, take: such parts are
+  // marked.
   static void add(TileWork& work, std::span<const SurfaceLight> light, Fragments* fragments);
   // The same by layers, of which `light` has one thing for each shading.
   void addLayers(const TileWork& work, std::span<const SurfaceLight> whole, const LayerSums& light) const;
@@ -89,16 +105,20 @@ class PixelShader {
   Group* groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const;
   MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
   bool glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight) const;
-  uint32_t shadows(const Group& group, const Layer& layer, const MaterialSample* smooth, uint32_t surface, const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
-  void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
+  uint32_t shadows(const Group& group, const Layer& layer, const MaterialSample* smooth, uint32_t surface,
+                   const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
+  void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence,
+           PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addPlace(const TileWork::Part& part);
   static void addFragment(const TileWork::Part& part, std::span<const SurfaceLight> shadings, Fragments& fragments);
   static void addPart(const TileWork::Part& part, std::span<const SurfaceLight> shadings);
   static void addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part);
   static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
-  void addVarianceOfLayers(const TileWork::Part& part, std::span<const SurfaceLight> whole, const LayerSums& light) const;
+  void addVarianceOfLayers(const TileWork::Part& part, std::span<const SurfaceLight> whole,
+                           const LayerSums& light) const;
   void addBackground(Vec3 left, Vec3 direction, PixelSum pixel) const;
-  void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface, const PixelSequence& sequence, Layer& behind) const;
+  void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface,
+                 const PixelSequence& sequence, Layer& behind) const;
 
   const RayScene& rays_;
   const Lights& lights_;

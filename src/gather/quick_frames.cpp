@@ -18,7 +18,8 @@ constexpr double kNewest = 0.3;        // weight of the newest measurement
 // Of places at unit depth: pixels a unit of x and of y.
 Vec2 pixelScaleOf(const Camera& camera, int width, int height) {
   const Vec3 d = inverse(camera.worldFromCamera).vector(CameraRays(camera, width, height).ray(0, 0).direction);
-  return {std::abs(0.5f * static_cast<float>(width) * d.z / d.x), std::abs(0.5f * static_cast<float>(height) * d.z / d.y)};
+  return {std::abs(0.5f * static_cast<float>(width) * d.z / d.x),
+          std::abs(0.5f * static_cast<float>(height) * d.z / d.y)};
 }
 
 }  // namespace
@@ -50,8 +51,8 @@ void QuickFrames::land(const Camera& camera) {
     std::atomic<uint64_t>& to = landed_[static_cast<size_t>(v) * static_cast<size_t>(width_) + static_cast<size_t>(u)];
     const float depth = q.key == Rules::kSky ? 1e30f : -c.z;
     const uint64_t mine = uint64_t{std::bit_cast<uint32_t>(depth)} << 32 | i;
-    for (uint64_t there = to.load(std::memory_order_relaxed); mine < there && !to.compare_exchange_weak(there, mine, std::memory_order_relaxed);) {
-    }
+    for (uint64_t there = to.load(std::memory_order_relaxed);
+         mine < there && !to.compare_exchange_weak(there, mine, std::memory_order_relaxed);) {}
   });
 }
 
@@ -71,7 +72,8 @@ void QuickFrames::planShares(double ms) {
   while (everyOld_ > 1 && lent / (everyOld_ / 2) < rest) everyOld_ /= 2;
 }
 
-Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width, int height, double ms, const Progress& progress) {
+Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width, int height, double ms,
+                        const Progress& progress) {
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
   const bool still = camera_ && width == width_ && height == height_ && seeTheSame(*camera_, camera);
   hasPast_ = camera_.has_value();
@@ -95,14 +97,18 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
 
   Image out(width, height);
   Maker maker(*this, scene, camera, width, height);
-  const size_t across = static_cast<size_t>((width + Rules::kTile - 1) / Rules::kTile), tiles = across * static_cast<size_t>((height + Rules::kTile - 1) / Rules::kTile);
+  const size_t across = static_cast<size_t>((width + Rules::kTile - 1) / Rules::kTile),
+               tiles = across * static_cast<size_t>((height + Rules::kTile - 1) / Rules::kTile);
   Count sum;
   std::mutex adding;
   parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {
     Count count;
-    for (size_t tile = begin; tile < end && !progress.stop(); ++tile) maker.make(static_cast<int>(tile % across) * Rules::kTile, static_cast<int>(tile / across) * Rules::kTile, count, out);
+    for (size_t tile = begin; tile < end && !progress.stop(); ++tile)
+      maker.make(static_cast<int>(tile % across) * Rules::kTile, static_cast<int>(tile / across) * Rules::kTile, count,
+                 out);
     const std::lock_guard lock(adding);
-    sum.kept += count.kept, sum.traced += count.traced, sum.lit += count.lit, sum.lent += count.lent, sum.otherMs += count.otherMs, sum.litMs += count.litMs;
+    sum.kept += count.kept, sum.traced += count.traced, sum.lit += count.lit, sum.lent += count.lent,
+        sum.otherMs += count.otherMs, sum.litMs += count.litMs;
   });
   if (progress.stop()) {
     forget();

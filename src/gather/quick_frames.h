@@ -1,6 +1,7 @@
-// Frames for walking about, in some tens of milliseconds: points that the frame before saw are projected into the new one (after the render cache: Walter et al. 1999), and only pixels to
-// which none came send a ray. What was not seen before is lit by what slots know, interpolated, and by a shadow ray to each sun and small lamp.
-// Where there is no time for all of them, some are lit and lend their light to those beside them, until a later frame comes to these too.
+// Frames for walking about, in some tens of milliseconds: points that the frame before saw are projected into the new
+// one (after the render cache: Walter et al. 1999), and only pixels to which none came send a ray. What was not seen
+// before is lit by what slots know, interpolated, and by a shadow ray to each sun and small lamp. Where there is no
+// time for all of them, some are lit and lend their light to those beside them, until a later frame comes to these too.
 #pragma once
 
 #include <array>
@@ -19,7 +20,8 @@
 
 namespace roomlight {
 
-// What a frame is made of. The snapshot may be of an earlier state of the scene: `moved` says for instances that have moved since where their places were then.
+// What a frame is made of. The snapshot may be of an earlier state of the scene: `moved` says for instances that have
+// moved since where their places were then.
 struct QuickScene {
   const RayScene& rays;
   const Lights& lights;
@@ -31,17 +33,20 @@ struct QuickScene {
 class QuickFrames {
  public:
   struct Count {
-    size_t kept = 0, traced = 0, lit = 0, lent = 0;  // pixels: as they were, looked at anew, and of these with new light or that of others
-    double otherMs = 0, litMs = 0;       // of all threads: of rays and look-ups, of light
+    size_t kept = 0, traced = 0, lit = 0,
+           lent = 0;  // pixels: as they were, looked at anew, and of these with new light or that of others
+    double otherMs = 0, litMs = 0;  // of all threads: of rays and look-ups, of light
   };
 
   // Linear, cd/m², of a perspective camera; takes about `ms`, more where less cannot be done.
-  Image make(const QuickScene& scene, const Camera& camera, int width, int height, double ms, const Progress& progress = {});
+  Image make(const QuickScene& scene, const Camera& camera, int width, int height, double ms,
+             const Progress& progress = {});
   const Count& count() const { return count_; }
   // Nothing more would come of another frame of the same camera.
   bool settled() const { return settled_; }
 
-  // The scene is another than in the frame before: what moved, what its shadow may fall or have fallen on, or all that lamps shine on is lit anew.
+  // The scene is another than in the frame before: what moved, what its shadow may fall or have fallen on, or all that
+  // lamps shine on is lit anew.
   void sceneChanged(const SceneChange& change, const Scene& scene);
   // So is the light of slots.
   void lightChanged() { stale_ = true; }
@@ -50,10 +55,12 @@ class QuickFrames {
   void forget() { camera_.reset(); }
 
  private:
-  enum State : uint8_t { kNone,   // no light yet
-                         kLent,   // from a pixel beside it, or out of date
-                         kLit,
-                         kFine };  // of a better picture
+  enum State : uint8_t {
+    kNone,  // no light yet
+    kLent,  // from a pixel beside it, or out of date
+    kLit,
+    kFine
+  };  // of a better picture
   struct Pixel {  // half a cache line
     Vec3 position;
     uint32_t key = kNoHit;  // the instance; of the sky, which lies in the direction `position`, a mark
@@ -79,12 +86,15 @@ class QuickFrames {
   Vec2 pixelScale_;
   std::vector<Pixel> now_, past_;
   bool lands_ = false;
-  std::vector<std::atomic<uint64_t>> landed_;  // per pixel: distance and number of the pixel before that is seen there now
+  std::vector<std::atomic<uint64_t>>
+      landed_;  // per pixel: distance and number of the pixel before that is seen there now
   ChangedPlaces changed_;
-  // Of so many pixels one is lit: of those without light, and of those that have lent or old light (0: none). Powers of two up to 16, and 64.
+  // Of so many pixels one is lit: of those without light, and of those that have lent or old light (0: none). Powers of
+  // two up to 16, and 64.
   uint32_t everyNew_ = 16, everyOld_ = 0;
-  std::array<double, 2> otherMs_{};  // per pixel: what all but light costs, all threads together, where pixels look for themselves and where those of the frame before land
-  double msALight_ = 1e-3;           // per pixel that is lit
+  std::array<double, 2> otherMs_{};  // per pixel: what all but light costs, all threads together, where pixels look for
+                                     // themselves and where those of the frame before land
+  double msALight_ = 1e-3;  // per pixel that is lit
   Count count_;
 };
 

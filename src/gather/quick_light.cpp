@@ -19,7 +19,8 @@ SlotIrradiance QuickFrames::Maker::receivedAt(uint32_t instance, Vec3 p, Vec3 n)
   return scene_.light.at(moved->second.point(p), normalize(moved->second.vector(n)));
 }
 
-// By slots alone, for reflections and what is seen through veils: `left` of all surfaces and the sky behind one another.
+// By slots alone, for reflections and what is seen through veils: `left` of all surfaces and the sky behind one
+// another.
 Vec3 QuickFrames::Maker::radianceAlong(Ray ray, Vec3 left) const {
   Vec3 sum;
   for (int k = 0; k < Rules::kMostPanes && luminance(left) > Rules::kLeastLeft; ++k) {
@@ -30,7 +31,8 @@ Vec3 QuickFrames::Maker::radianceAlong(Ray ray, Vec3 left) const {
     const SlotIrradiance e = receivedAt(hit.instance, place.p, place.ng);
     const Vec3 emitted = place.front || place.material->doubleSided ? m.emission : Vec3(0);
     sum += left * (emitted + bihemisphericalAlbedo(m) * (e.soft + e.sharp) / kPi) * m.alpha;
-    const Vec3 through = clear_[hit.instance] ? passing(m, *place.material, std::abs(dot(place.ng, ray.direction))) : Vec3(0);
+    const Vec3 through =
+        clear_[hit.instance] ? passing(m, *place.material, std::abs(dot(place.ng, ray.direction))) : Vec3(0);
     if (isBlack(through)) break;
     left *= through;
     ray = {offsetOrigin(place.p, -place.ng), ray.direction, 0, kInfinity};
@@ -59,13 +61,15 @@ void QuickFrames::Maker::shade(uint32_t index, Work& w) const {
   a.rest += sight.left * s.emitted();
   if (s.m.roughness < kPictureRoughness) {
     const Vec3 d = sight.ray.direction - s.ns * (2 * dot(sight.ray.direction, s.ns));
-    if (dot(d, s.ng) > 0) a.rest += radianceAlong({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, left * bsdf.specularAlbedo());
+    if (dot(d, s.ng) > 0)
+      a.rest += radianceAlong({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, left * bsdf.specularAlbedo());
   } else {
     a.rest += left * bsdf.specularAlbedo() * e.soft / kPi;
   }
   if (clear_[s.instance]) {
     const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ng, sight.ray.direction)));
-    if (!isBlack(through)) a.rest += radianceAlong({offsetOrigin(s.p, -s.ng), sight.ray.direction, 0, kInfinity}, sight.left * through);
+    if (!isBlack(through))
+      a.rest += radianceAlong({offsetOrigin(s.p, -s.ng), sight.ray.direction, 0, kInfinity}, sight.left * through);
   }
   const size_t lamps = scene_.lights.lampCount(), lights = lamps + scene_.lights.sunCount();
   const float faintest = kFaint * luminance(e.soft + e.sharp) / kPi;
@@ -83,7 +87,8 @@ void QuickFrames::Maker::shade(uint32_t index, Work& w) const {
   };
   for (size_t i = 0; i < lights; ++i) {
     if (i < lamps && !isSharp(scene_.lights.lamp(i))) continue;
-    ask(i < lamps ? scene_.lights.sampleLamp(i, s.p, {0.5f, 0.5f}) : scene_.lights.sampleSun(i - lamps, {0.5f, 0.5f}), i < lamps ? &besideLamps_[i] : nullptr);
+    ask(i < lamps ? scene_.lights.sampleLamp(i, s.p, {0.5f, 0.5f}) : scene_.lights.sampleSun(i - lamps, {0.5f, 0.5f}),
+        i < lamps ? &besideLamps_[i] : nullptr);
   }
   for (size_t k = 0; k < emitters_.size(); ++k) {
     Rng random(a.pixel, f_.frame_, k);
@@ -104,7 +109,8 @@ void QuickFrames::Maker::lookAtEmitters(Work& w) const {
   for (const SharpEmitter& e : emitters_) w.views.emplace_back(scene_.lights, e.index, places);
 }
 
-// Within the surroundings of a source its light comes by slots (radiance/near_lights.h). Between slots inside and outside light is interpolated over a voxel, and so is what is asked for.
+// Within the surroundings of a source its light comes by slots (radiance/near_lights.h). Between slots inside and
+// outside light is interpolated over a voxel, and so is what is asked for.
 float QuickFrames::Maker::shareOutside(const LightSurroundings& around, Vec3 p, Vec3 towards) const {
   float outside = 0;
   for (const float step : {-0.375f, -0.125f, 0.125f, 0.375f}) {
@@ -124,7 +130,8 @@ void QuickFrames::Maker::lend(Work& w, Count& count) const {
   const auto yOf = [&](const Asked& a) { return static_cast<int>(a.pixel / width); };
   const auto blockOf = [&](int v) { return v % Rules::kTile / Rules::kLendWithin; };
   for (uint32_t i = 0; i < w.asked.size(); ++i) {
-    if (w.asked[i].lit) lit[static_cast<size_t>(blockOf(yOf(w.asked[i])) * kBlocks + blockOf(xOf(w.asked[i])))].push_back(i);
+    if (w.asked[i].lit)
+      lit[static_cast<size_t>(blockOf(yOf(w.asked[i])) * kBlocks + blockOf(xOf(w.asked[i])))].push_back(i);
   }
   for (Asked& a : w.asked) {
     if (a.lit) continue;
@@ -136,7 +143,9 @@ void QuickFrames::Maker::lend(Work& w, Count& count) const {
         for (const uint32_t k : lit[static_cast<size_t>(j * kBlocks + i)]) {
           const Asked& b = w.asked[k];
           const int dx = xOf(b) - x, dy = yOf(b) - y, d2 = dx * dx + dy * dy;
-          if (d2 >= nearest || b.hit.instance != a.hit.instance || b.sight.panes != a.sight.panes || dot(a.n, b.n) < Rules::kFacing) continue;
+          if (d2 >= nearest || b.hit.instance != a.hit.instance || b.sight.panes != a.sight.panes ||
+              dot(a.n, b.n) < Rules::kFacing)
+            continue;
           nearest = d2, from = &b;
         }
       }

@@ -1,4 +1,5 @@
-// How pixels of one quick frame get what they show (quick_frames.h): what of the frame before comes to them, what their rays meet, and light.
+// How pixels of one quick frame get what they show (quick_frames.h): what of the frame before comes to them, what their
+// rays meet, and light.
 #pragma once
 
 #include <bit>
@@ -13,14 +14,15 @@ namespace roomlight {
 struct QuickFrames::Rules {
   static constexpr int kTile = 16;
   static constexpr int kMostPanes = 8;
-  static constexpr float kLeastLeft = 1e-2f;    // of light behind panes that is still looked for
+  static constexpr float kLeastLeft = 1e-2f;  // of light behind panes that is still looked for
   static constexpr float kLeastReflected = 0.02f;
-  static constexpr float kFacing = 0.9f;        // cosine between normals of one place
+  static constexpr float kFacing = 0.9f;  // cosine between normals of one place
   static constexpr float kLeastCosine = 0.1f;
-  static constexpr int kLendWithin = 4;         // pixels: blocks in which light is lent
+  static constexpr int kLendWithin = 4;  // pixels: blocks in which light is lent
   static constexpr uint64_t kNothing = ~uint64_t{0};
-  static constexpr uint32_t kSky = 0x7fffffffu; // in place of an instance
-  // Whose turn it is among `every` pixels: all of a block of 4x4 come on within 16 frames, of 8x8 within 64, far ones after one another.
+  static constexpr uint32_t kSky = 0x7fffffffu;  // in place of an instance
+  // Whose turn it is among `every` pixels: all of a block of 4x4 come on within 16 frames, of 8x8 within 64, far ones
+  // after one another.
   static bool isTurn(int x, int y, uint32_t frame, uint32_t every);
 };
 
@@ -31,7 +33,7 @@ struct QuickFrames::Sight {
   Vec3 left{1, 1, 1};  // of what it comes to
   int panes = 0;
   Vec3 panePlace, paneNormal;  // of the first pane, for what it reflects,
-  Vec3 reflectance;            // and how much that is
+  Vec3 reflectance;  // and how much that is
 };
 
 // A pixel that is to be lit, with what it sees.
@@ -39,34 +41,44 @@ struct QuickFrames::Asked {
   uint32_t pixel;
   Sight sight;
   Hit hit;
-  Vec3 p, n;       // n: geometric, towards the eye
-  bool lit = true;            // else it is lent light
-  std::optional<Vec3> old;    // colour it had, and keeps where nobody lends
+  Vec3 p, n;  // n: geometric, towards the eye
+  bool lit = true;  // else it is lent light
+  std::optional<Vec3> old;  // colour it had, and keeps where nobody lends
   bool lent = false;
-  Vec3 albedo, rest;          // once it has light: of its Lambertian lobe; all other light of the pixel
-  Vec3 diffuse;               // light over albedo
+  Vec3 albedo, rest;  // once it has light: of its Lambertian lobe; all other light of the pixel
+  Vec3 diffuse;  // light over albedo
 };
 
 class QuickFrames::Maker {
  public:
-  Maker(QuickFrames& frames, const QuickScene& scene, const Camera& camera, int width, int height) : f_(frames), scene_(scene), rays_(camera, width, height), eye_(camera.worldFromCamera.w) {
+  Maker(QuickFrames& frames, const QuickScene& scene, const Camera& camera, int width, int height)
+      : f_(frames), scene_(scene), rays_(camera, width, height), eye_(camera.worldFromCamera.w) {
     const Scene& s = scene.rays.scene();
-    for (const Instance& i : s.instances) clear_.push_back(letsLightThrough(s.materials[static_cast<size_t>(s.meshes[static_cast<size_t>(i.mesh)].material)]));
-    const Ray a = rays_.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)), b = rays_.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height) + 1);
+    for (const Instance& i : s.instances)
+      clear_.push_back(
+          letsLightThrough(s.materials[static_cast<size_t>(s.meshes[static_cast<size_t>(i.mesh)].material)]));
+    const Ray a = rays_.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)),
+              b = rays_.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height) + 1);
     slope_ = length(b.direction - a.direction);
     // Directions are those of the corner and two steps, before they are unit.
-    const Ray corner = rays_.ray(0, 0), right = rays_.ray(static_cast<float>(width), 0), down = rays_.ray(0, static_cast<float>(height));
+    const Ray corner = rays_.ray(0, 0), right = rays_.ray(static_cast<float>(width), 0),
+              down = rays_.ray(0, static_cast<float>(height));
     const Vec3 ahead = -camera.worldFromCamera.z;
     const auto onPlane = [&](const Ray& r) { return r.direction / dot(r.direction, ahead); };
-    corner_ = onPlane(corner), stepX_ = (onPlane(right) - corner_) / static_cast<float>(width), stepY_ = (onPlane(down) - corner_) / static_cast<float>(height);
-    coarser_ = slope_ * std::max(1.0f, frames.pastHeight_ > 0 ? static_cast<float>(height) / static_cast<float>(frames.pastHeight_) : 1.0f);
+    corner_ = onPlane(corner), stepX_ = (onPlane(right) - corner_) / static_cast<float>(width),
+    stepY_ = (onPlane(down) - corner_) / static_cast<float>(height);
+    coarser_ = slope_ * std::max(1.0f, frames.pastHeight_ > 0
+                                           ? static_cast<float>(height) / static_cast<float>(frames.pastHeight_)
+                                           : 1.0f);
     const float voxelM = scene.light.voxelSizeM();
     for (size_t i = 0; i < scene.lights.lampCount(); ++i) besideLamps_.emplace_back(scene.lights.lamp(i), voxelM);
     for (const uint32_t i : scene.light.sharpEmissive()) {
       const int32_t e = scene.lights.emitterOf(i);
       if (e < 0) continue;
       const auto index = static_cast<size_t>(e);
-      emitters_.push_back({index, isSmall(scene.lights, index, voxelM) ? LightSurroundings(scene.lights.emitterBounds(index), voxelM) : LightSurroundings()});
+      emitters_.push_back({index, isSmall(scene.lights, index, voxelM)
+                                      ? LightSurroundings(scene.lights.emitterBounds(index), voxelM)
+                                      : LightSurroundings()});
     }
     nearM_ = camera.nearM;
     anyStale_ = frames.changed_.any();
@@ -117,7 +129,10 @@ class QuickFrames::Maker {
   void lend(Work& w, Count& count) const;
   void store(const Asked& a, Vec3 colour, State state, Image& out) const;
   void storeSky(const Sight& sight, Vec3 reflected, Image& out) const;
-  bool isTurnOf(uint32_t pixel, uint32_t every) const { return Rules::isTurn(static_cast<int>(pixel % static_cast<uint32_t>(f_.width_)), static_cast<int>(pixel / static_cast<uint32_t>(f_.width_)), f_.frame_, every); }
+  bool isTurnOf(uint32_t pixel, uint32_t every) const {
+    return Rules::isTurn(static_cast<int>(pixel % static_cast<uint32_t>(f_.width_)),
+                         static_cast<int>(pixel / static_cast<uint32_t>(f_.width_)), f_.frame_, every);
+  }
   bool keep(int x, int y, Image& out) const;
   const Pixel* landedAt(size_t pixel) const {
     const uint64_t from = f_.landed_[pixel].load(std::memory_order_relaxed);
@@ -144,8 +159,8 @@ class QuickFrames::Maker {
   Vec3 corner_, stepX_, stepY_;
   float nearM_ = 0;
   bool anyStale_ = false;
-  float slope_ = 0;             // of a pixel: how far its edges part, per metre of distance
-  float coarser_ = 0;           // the same, or that of the frame before where its pixels were larger
+  float slope_ = 0;  // of a pixel: how far its edges part, per metre of distance
+  float coarser_ = 0;  // the same, or that of the frame before where its pixels were larger
   std::vector<uint8_t> clear_;  // a flag an instance: light may pass through
 };
 

@@ -21,11 +21,15 @@ const QuickFrames::Pixel* QuickFrames::Maker::find(uint32_t key, Vec3 p, Vec3 n)
   if (!f_.camera_ || !f_.hasPast_ || f_.changed_.hasMoved(key)) return nullptr;
   const Vec3 c = f_.fromWorld_.point(p);
   if (!(c.z < 0)) return nullptr;
-  const float u = f_.pixelScale_.x * c.x / -c.z + 0.5f * static_cast<float>(f_.pastWidth_), v = 0.5f * static_cast<float>(f_.pastHeight_) - f_.pixelScale_.y * c.y / -c.z;
-  if (!(u >= 0 && v >= 0 && u < static_cast<float>(f_.pastWidth_) && v < static_cast<float>(f_.pastHeight_))) return nullptr;
+  const float u = f_.pixelScale_.x * c.x / -c.z + 0.5f * static_cast<float>(f_.pastWidth_),
+              v = 0.5f * static_cast<float>(f_.pastHeight_) - f_.pixelScale_.y * c.y / -c.z;
+  if (!(u >= 0 && v >= 0 && u < static_cast<float>(f_.pastWidth_) && v < static_cast<float>(f_.pastHeight_)))
+    return nullptr;
   const Vec3 toEye = eye_ - p;
-  const float distance2 = lengthSquared(toEye), facing = dot(toEye, n), cosine2 = std::max(Rules::kLeastCosine * Rules::kLeastCosine * distance2, facing * facing);
-  const float footprint2 = kFootprints * kFootprints * coarser_ * coarser_ * distance2, offPlane2 = kOffPlane * kOffPlane * footprint2;
+  const float distance2 = lengthSquared(toEye), facing = dot(toEye, n),
+              cosine2 = std::max(Rules::kLeastCosine * Rules::kLeastCosine * distance2, facing * facing);
+  const float footprint2 = kFootprints * kFootprints * coarser_ * coarser_ * distance2,
+              offPlane2 = kOffPlane * kOffPlane * footprint2;
   float nearest = footprint2 * distance2 / cosine2;
   const Pixel* best = nullptr;
   const auto look = [&](int i, int j) {
@@ -34,7 +38,9 @@ const QuickFrames::Pixel* QuickFrames::Maker::find(uint32_t key, Vec3 p, Vec3 n)
     const Vec3 between = q.position - p;
     const float d2 = lengthSquared(between), off = dot(between, n);
     if (d2 >= nearest || off * off > offPlane2) return;
-    if (dot(Vec3{static_cast<float>(q.normalX), static_cast<float>(q.normalY), static_cast<float>(q.normalZ)}, n) < Rules::kFacing * 127) return;
+    if (dot(Vec3{static_cast<float>(q.normalX), static_cast<float>(q.normalY), static_cast<float>(q.normalZ)}, n) <
+        Rules::kFacing * 127)
+      return;
     nearest = d2, best = &q;
   };
   const int i = static_cast<int>(u), j = static_cast<int>(v);
@@ -61,7 +67,9 @@ const QuickFrames::Maker::Pane& QuickFrames::Maker::paneAt(const Hit& hit, Vec3 
   w.varied.material = &material, w.varied.cosine = cosine;
   w.varied.through = passing(m, material, cosine), w.varied.reflected = bsdf.specularAlbedo();
   w.varied.clear = luminance(w.varied.through) > 0.3f && luminance(bsdf.diffuseAlbedo()) < 0.05f;
-  const bool uniform = w.varied.clear && material.alphaMode == AlphaMode::Opaque && material.baseColorTexture.texture < 0 && material.transmissionTexture.texture < 0 && mesh.colors.empty();
+  const bool uniform = w.varied.clear && material.alphaMode == AlphaMode::Opaque &&
+                       material.baseColorTexture.texture < 0 && material.transmissionTexture.texture < 0 &&
+                       mesh.colors.empty();
   if (!uniform) return w.varied;
   w.pane = w.varied;
   return w.pane;
@@ -72,7 +80,8 @@ void QuickFrames::Maker::see(const Sight& sight, const Hit& hit, bool traced, Ve
   if (!hit.valid()) {
     if (sight.panes > 0 && luminance(sight.reflectance) > Rules::kLeastReflected) {
       Asked& a = w.asked.emplace_back();
-      a.pixel = sight.pixel, a.sight = sight, a.hit = hit, a.n = sight.paneNormal, a.lit = isTurnOf(sight.pixel, std::max(1u, f_.everyNew_));
+      a.pixel = sight.pixel, a.sight = sight, a.hit = hit, a.n = sight.paneNormal,
+      a.lit = isTurnOf(sight.pixel, std::max(1u, f_.everyNew_));
       return;
     }
     storeSky(sight, Vec3(0), out);
@@ -93,11 +102,12 @@ void QuickFrames::Maker::see(const Sight& sight, const Hit& hit, bool traced, Ve
   meet(sight, hit, traced, p, n, w, out);
 }
 
-void QuickFrames::Maker::meet(const Sight& sight, const Hit& hit, bool traced, Vec3 p, Vec3 n, Work& w, Image& out) const {
+void QuickFrames::Maker::meet(const Sight& sight, const Hit& hit, bool traced, Vec3 p, Vec3 n, Work& w,
+                              Image& out) const {
   const Pixel* known = find(hit.instance, p, n);
-  const bool stale = known && (f_.stale_ || (anyStale_ && f_.changed_.concern(p, kNearM))), waits = known && (stale || known->state == kLent);
-  const uint32_t every = !known ? f_.everyNew_ : waits ? f_.everyOld_
-                                                       : 0;
+  const bool stale = known && (f_.stale_ || (anyStale_ && f_.changed_.concern(p, kNearM))),
+             waits = known && (stale || known->state == kLent);
+  const uint32_t every = !known ? f_.everyNew_ : waits ? f_.everyOld_ : 0;
   const bool turn = every > 0 && isTurnOf(sight.pixel, every);
   if (known && !turn && !stale) {
     // Where this pixel sees it, else two would soon be one. What is far from where its light was found may be lit anew.
@@ -122,7 +132,8 @@ void QuickFrames::Maker::store(const Asked& a, Vec3 colour, State state, Image& 
   if (!a.hit.valid()) return storeSky(a.sight, colour, out);
   Pixel& q = f_.now_[a.pixel];
   q.position = a.p, q.key = a.hit.instance, q.colour = colour, q.state = state;
-  q.normalX = static_cast<int8_t>(std::lround(127 * a.n.x)), q.normalY = static_cast<int8_t>(std::lround(127 * a.n.y)), q.normalZ = static_cast<int8_t>(std::lround(127 * a.n.z));
+  q.normalX = static_cast<int8_t>(std::lround(127 * a.n.x)), q.normalY = static_cast<int8_t>(std::lround(127 * a.n.y)),
+  q.normalZ = static_cast<int8_t>(std::lround(127 * a.n.z));
   out.pixels[a.pixel] = colour;
 }
 
@@ -137,7 +148,8 @@ void QuickFrames::Maker::storeSky(const Sight& sight, Vec3 reflected, Image& out
 
 // A pixel that nothing came to, between two that see one surface or the sky.
 bool QuickFrames::Maker::between(int x, int y, const Pixel* a, const Pixel* b, Image& out) const {
-  if (!a || !b || a->key != b->key || a->normalX != b->normalX || a->normalY != b->normalY || a->normalZ != b->normalZ) return false;
+  if (!a || !b || a->key != b->key || a->normalX != b->normalX || a->normalY != b->normalY || a->normalZ != b->normalZ)
+    return false;
   const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(f_.width_) + static_cast<size_t>(x);
   Pixel& q = f_.now_[pixel];
   q = *a;
@@ -170,7 +182,9 @@ bool QuickFrames::Maker::keep(int x, int y, Image& out) const {
   if (q.state == kLent && Rules::isTurn(x, y, f_.frame_, f_.everyOld_)) return false;
   // A crack in what is before it: that is on both sides.
   const float limit = kNearer * std::bit_cast<float>(static_cast<uint32_t>(from >> 32));
-  const auto isNearer = [&](size_t i) { return std::bit_cast<float>(static_cast<uint32_t>(f_.landed_[i].load(std::memory_order_relaxed) >> 32)) < limit; };
+  const auto isNearer = [&](size_t i) {
+    return std::bit_cast<float>(static_cast<uint32_t>(f_.landed_[i].load(std::memory_order_relaxed) >> 32)) < limit;
+  };
   const auto w = static_cast<size_t>(f_.width_);
   if (x > 0 && x + 1 < f_.width_ && isNearer(pixel - 1) && isNearer(pixel + 1)) return false;
   if (y > 0 && y + 1 < f_.height_ && isNearer(pixel - w) && isNearer(pixel + w)) return false;
@@ -203,14 +217,17 @@ void QuickFrames::Maker::trace(int x0, int y0, int x1, int y1, Work& w) const {
     }
   }
   traceAll();
-  const auto same = [&](const Spot& a, const Spot& b) { return a.hit.valid() ? a.hit.instance == b.hit.instance && a.hit.triangle == b.hit.triangle : !b.hit.valid(); };
+  const auto same = [&](const Spot& a, const Spot& b) {
+    return a.hit.valid() ? a.hit.instance == b.hit.instance && a.hit.triangle == b.hit.triangle : !b.hit.valid();
+  };
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       if (isSparse(x, y)) continue;
       const int xa = (x & 1) && x < x1 - 1 ? 1 : 0, ya = (y & 1) && y < y1 - 1 ? 1 : 0;
       const Spot& a = w.spots[placeOf(x - xa, y - ya)];
       bool whole = same(a, w.spots[placeOf(x + xa, y + ya)]) && (!a.hit.valid() || !clear_[a.hit.instance]);
-      if (xa && ya) whole = whole && same(a, w.spots[placeOf(x + xa, y - ya)]) && same(a, w.spots[placeOf(x - xa, y + ya)]);
+      if (xa && ya)
+        whole = whole && same(a, w.spots[placeOf(x + xa, y - ya)]) && same(a, w.spots[placeOf(x - xa, y + ya)]);
       if (!whole) {
         w.rays.push_back(rayOf(x, y)), w.places.push_back(placeOf(x, y));
         continue;
@@ -236,7 +253,9 @@ void QuickFrames::Maker::make(int x0, int y0, Count& count, Image& out) {
   if (f_.lands_) {
     // Fetched together, not one after the other.
     for (int y = y0; y < y1; ++y) {
-      for (size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(out.width) + static_cast<size_t>(x0), end = pixel + static_cast<size_t>(x1 - x0); pixel < end; ++pixel) {
+      for (size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(out.width) + static_cast<size_t>(x0),
+                  end = pixel + static_cast<size_t>(x1 - x0);
+           pixel < end; ++pixel) {
         if (const Pixel* q = landedAt(pixel)) __builtin_prefetch(q);
         __builtin_prefetch(&f_.now_[pixel], 1);
       }

@@ -17,17 +17,23 @@ RayGatherSettings withCells(RayGatherSettings settings, float voxelM) {
   return settings;
 }
 
-void SurveyedShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const { shader_.shade(work, shadows, light, nullptr, &survey_, count); }
+void SurveyedShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows,
+                           std::span<SurfaceLight> light, GatherCounters& count) const {
+  shader_.shade(work, shadows, light, nullptr, &survey_, count);
+}
 
-void SurveyedShader::shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums& layers, GatherCounters& count) const {
+void SurveyedShader::shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows,
+                                   std::span<SurfaceLight> light, LayerSums& layers, GatherCounters& count) const {
   shader_.shade(work, shadows, light, &layers, &survey_, count);
 }
 
 const LightLayers* SurveyedShader::layers() const { return shader_.layers(); }
 
-RayGather::RayGather(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress)
+RayGather::RayGather(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera,
+                     const RayGatherSettings& settings, const Progress& progress)
     : rays_(rays), lights_(lights), shader_(shader), camera_(camera) {
-  if (settings.hitCellM > 0) survey_ = std::make_unique<HitSurvey>(surveyHits(rays_, lights_, shader_, camera_, settings, progress));
+  if (settings.hitCellM > 0)
+    survey_ = std::make_unique<HitSurvey>(surveyHits(rays_, lights_, shader_, camera_, settings, progress));
 }
 
 RayGather::~RayGather() = default;
@@ -35,13 +41,14 @@ RayGather::~RayGather() = default;
 GatheredPicture RayGather::picture(RayGatherSettings settings, const Progress& progress) const {
   settings.rareApart = survey_ && settings.filterPasses > 0;
   if (!survey_) return gatherPicture(rays_, lights_, shader_, camera_, settings, progress);
-  GatheredPicture picture = gatherPicture(rays_, lights_, SurveyedShader(shader_, *survey_), camera_, settings, progress);
+  GatheredPicture picture =
+      gatherPicture(rays_, lights_, SurveyedShader(shader_, *survey_), camera_, settings, progress);
   picture.rays += survey_->rays;
   return picture;
 }
 
-GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const Camera& camera,
-                           const RayGatherSettings& settings, const Progress& progress) {
+GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
+                           const Camera& camera, const RayGatherSettings& settings, const Progress& progress) {
   const RayGatherSettings use = withCells(settings, voxels.voxelSizeM);
   const RayShader shader(rays, lights, voxels, field, use);
   return RayGather(rays, lights, shader, camera, use, progress).picture(use, progress);

@@ -1,4 +1,5 @@
-// Technique `hybrid`: exact rays decide what every direction sees; the voxels are a cache of the light that leaves what they hit.
+// Technique `hybrid`: exact rays decide what every direction sees; the voxels are a cache of the light that leaves what
+// they hit.
 #pragma once
 
 #include <memory>
@@ -9,12 +10,16 @@
 namespace roomlight {
 
 struct RayGatherSettings : PictureSettings {
-  RayGatherSettings() { samples = 20, firstSamples = 4, tolerance = 0.05f, raysPerShading = 2, fewestShadings = 1, filterPasses = 6; }
-  int estimates = 2;        // per shading, a power of two: each a ray that gathers what surfaces reflect, and one to every kind of light
-  float nearVoxels = 2;     // what is hit nearer than this is lit afresh, not read from the cache
-  float hitCellM = 0;       // edge of the smallest cells of the cache of hits; 0: chosen by the voxels; below 0: no such cache
+  RayGatherSettings() {
+    samples = 20, firstSamples = 4, tolerance = 0.05f, raysPerShading = 2, fewestShadings = 1, filterPasses = 6;
+  }
+  int estimates =
+      2;  // per shading, a power of two: each a ray that gathers what surfaces reflect, and one to every kind of light
+  float nearVoxels = 2;  // what is hit nearer than this is lit afresh, not read from the cache
+  float hitCellM =
+      0;  // edge of the smallest cells of the cache of hits; 0: chosen by the voxels; below 0: no such cache
   int causticPhotons = 1 << 17;  // of what polished surfaces throw on others; 0: rays are left to find it
-  int hitSamples = 6;       // of the light on each cell, at most
+  int hitSamples = 6;  // of the light on each cell, at most
 };
 
 class RayShader;
@@ -27,8 +32,10 @@ RayGatherSettings withCells(RayGatherSettings settings, float voxelM);
 class SurveyedShader final : public SurfaceShader {
  public:
   SurveyedShader(const RayShader& shader, const HitSurvey& survey) : shader_(shader), survey_(survey) {}
-  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, GatherCounters& count) const override;
-  void shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums& layers, GatherCounters& count) const override;
+  void shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light,
+             GatherCounters& count) const override;
+  void shadeInLayers(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light,
+                     LayerSums& layers, GatherCounters& count) const override;
   const LightLayers* layers() const override;
 
  private:
@@ -40,7 +47,8 @@ class SurveyedShader final : public SurfaceShader {
 class RayGather {
  public:
   // `settings` as the shader has them.
-  RayGather(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera, const RayGatherSettings& settings, const Progress& progress = {});
+  RayGather(const RayScene& rays, const Lights& lights, const RayShader& shader, const Camera& camera,
+            const RayGatherSettings& settings, const Progress& progress = {});
   ~RayGather();
   const Camera& camera() const { return camera_; }
   // Of that size, with so many samples; how they are taken is as prepared.

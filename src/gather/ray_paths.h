@@ -1,4 +1,5 @@
-// What the two halves of technique hybrid's shading hand to one another: RayScatter sends rays from surfaces, RayShader follows them.
+// What the two halves of technique hybrid's shading hand to one another: RayScatter sends rays from surfaces, RayShader
+// follows them.
 #pragma once
 
 #include <span>
@@ -10,26 +11,27 @@
 
 namespace roomlight {
 
-constexpr float kClear = 0.1f;   // roughness below which a reflection is a picture: what it shows is lit afresh
+constexpr float kClear = 0.1f;  // roughness below which a reflection is a picture: what it shows is lit afresh
 constexpr float kSpread = 0.4f;  // roughness of what is seen by rough surfaces, at least
 
 // A ray on its way, and the parts of what it finds that its surface's lobes send to the eye.
 struct GatherPath {
   Ray ray;
   Lobes factor;
-  Vec3 from;      // where its direction was chosen,
-  float pdf;      // and with which density; 0: no light was sampled for it
+  Vec3 from;  // where its direction was chosen,
+  float pdf;  // and with which density; 0: no light was sampled for it
   int32_t side;  // of a brick, that samples of lights, sky and bright patches there followed
   uint32_t estimate;
   uint8_t depth, panes;
-  bool clear;     // what it meets is seen clearly
+  bool clear;  // what it meets is seen clearly
   bool skyKnown;  // the sky, if the ray sees it, is counted elsewhere
-  bool inGlow;      // of light that surfaces beside a lamp throw on one another `from` has its part already
+  bool inGlow;  // of light that surfaces beside a lamp throw on one another `from` has its part already
   bool leavesNear;  // what reaches `from` straight from a light that this lies near is in the cache
   bool lampsKnown;  // straight from lamps to `from`, too, is counted elsewhere
-  bool causticsKnown;  // of what its diffuse part finds photons have brought the light straight from suns, lamps and emissive meshes, once polished surfaces have reflected it
-  bool picture;     // seen by the camera in a surface as smooth as a mirror
-  float spread;   // roughness that surfaces have for it at least
+  bool causticsKnown;  // of what its diffuse part finds photons have brought the light straight from suns, lamps and
+                       // emissive meshes, once polished surfaces have reflected it
+  bool picture;  // seen by the camera in a surface as smooth as a mirror
+  float spread;  // roughness that surfaces have for it at least
 };
 
 // A surface to be lit. The first has its lobes apart; later ones send their light back along a path.
@@ -43,15 +45,19 @@ struct GatherVertex {
   bool first, followed, apart, clear;  // apart: the glossy lobe has rays of its own
   bool leavesNear = false;  // light straight from lights it lies near is in the cache
   bool skyKnown = false, lampsKnown = false;
-  bool inGlow = false;  // points stand for what it reflects of lamps that it lies near, straight from them or not (LampGlow)
-  bool causticsKnown = false;  // photons have brought what polished surfaces throw on the first; of later vertices: they are such surfaces
+  bool inGlow =
+      false;  // points stand for what it reflects of lamps that it lies near, straight from them or not (LampGlow)
+  bool causticsKnown = false;  // photons have brought what polished surfaces throw on the first; of later vertices:
+                               // they are such surfaces
   bool glossOnly = false;  // leaves the diffuse lobe's light to others
   const GuideCones* cones = nullptr;  // that part of the rays which gather diffuse light follow
 
   // Whether what its glossy lobe reflects is seen as a picture.
   bool picture() const { return first && clear && s.m.roughness < kMirrorRoughness; }
   // Density of such rays, where that of unguided ones is known.
-  float guided(float pdf, Vec3 wi) const { return cones ? (1 - cones->share) * pdf + cones->share * cones->pdf(wi) : pdf; }
+  float guided(float pdf, Vec3 wi) const {
+    return cones ? (1 - cones->share) * pdf + cones->share * cones->pdf(wi) : pdf;
+  }
 
   Lobes value(Vec3 wi) const {
     if (first) return {glossOnly ? Vec3(0) : bsdf.evaluateDiffuse(wi), followed ? Vec3(0) : bsdf.evaluateSpecular(wi)};
@@ -60,8 +66,11 @@ struct GatherVertex {
   }
 };
 
-// Of a path's light that photons may have brought, what they have not: it came from a light, by polished surfaces alone, to that whose diffuse lobe began the path.
-inline Lobes withoutCaustics(const Lobes& factor, bool known) { return {known ? Vec3(0) : factor.diffuse, factor.specular}; }
+// Of a path's light that photons may have brought, what they have not: it came from a light, by polished surfaces
+// alone, to that whose diffuse lobe began the path.
+inline Lobes withoutCaustics(const Lobes& factor, bool known) {
+  return {known ? Vec3(0) : factor.diffuse, factor.specular};
+}
 
 // Where a gathering ray arrived that a cache could answer.
 struct HitArrival {
@@ -69,10 +78,10 @@ struct HitArrival {
   Hit hit;
   Vec3 direction;
   int64_t slot;
-  bool sure;         // nothing else lies in the slot's voxel
+  bool sure;  // nothing else lies in the slot's voxel
   uint32_t shading;  // that the ray came from,
-  bool first;        // straight, to gather diffuse light,
-  float factor;      // luminous part of what it finds that reaches the eye
+  bool first;  // straight, to gather diffuse light,
+  float factor;  // luminous part of what it finds that reaches the eye
 };
 
 struct GatherWork {
@@ -94,37 +103,40 @@ struct GatherWork {
   std::vector<Lobes> found;
   std::vector<float> most;  // luminance that a single path may add, by either lobe,
   std::vector<float> expected;  // and that all together should
-  std::vector<Vec3> rare;       // of `found`, what single diffuse finds have beyond `rareFrom` times that
+  std::vector<Vec3> rare;  // of `found`, what single diffuse finds have beyond `rareFrom` times that
   float rareFrom = kInfinity;
-  std::vector<Vec3> mirrored;   // of `found`, emission seen as a picture
+  std::vector<Vec3> mirrored;  // of `found`, emission seen as a picture
   std::vector<GatherPath> paths, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
-  std::vector<Vec3> places;        // where rays arrived: all,
-  std::vector<HitPlace> cells;     // those that a cell may know (normals of any length), and
-  std::vector<Hit> surfaces;       // those whose surface is looked at
+  std::vector<Vec3> places;  // where rays arrived: all,
+  std::vector<HitPlace> cells;  // those that a cell may know (normals of any length), and
+  std::vector<Hit> surfaces;  // those whose surface is looked at
   std::vector<Ray> shadowRays;
   std::vector<Shadowed> shadowed;
   std::vector<Vec3> left;
   std::vector<Doubt> doubts;
   uint64_t rayCount = 0;
-  const HitSurvey* survey = nullptr;            // what is known of places where rays arrive; never null while rays are sent
+  const HitSurvey* survey = nullptr;  // what is known of places where rays arrive; never null while rays are sent
   std::vector<HitArrival>* arrivals = nullptr;  // where given, rays tell only where they arrive: no light is asked for
-  // Where light is kept in layers: sums of the shadings, the one of each estimate, and the part that the estimate has in it.
+  // Where light is kept in layers: sums of the shadings, the one of each estimate, and the part that the estimate has
+  // in it.
   LayerSums* layers = nullptr;
   const LightLayers* lightLayers = nullptr;
   bool layersAlone = false;  // for meters: nobody wants the sum of all light
   std::vector<uint32_t> shadingOf;  // of each estimate
-  std::span<SurfaceLight> shaded;   // light of the shadings
+  std::span<SurfaceLight> shaded;  // light of the shadings
   std::vector<float> part;
 
   void clear() {
-    samplers.clear(), found.clear(), most.clear(), expected.clear(), rare.clear(), mirrored.clear(), paths.clear(), next.clear(), shadingOf.clear(), part.clear();
+    samplers.clear(), found.clear(), most.clear(), expected.clear(), rare.clear(), mirrored.clear(), paths.clear(),
+        next.clear(), shadingOf.clear(), part.clear();
     rayCount = 0, layers = nullptr, layersAlone = false, survey = nullptr, arrivals = nullptr, rareFrom = kInfinity;
   }
   void arrive(const GatherPath& path, const Hit& hit, const HitPlace& at, int64_t slot, bool sure) {
     const bool gathers = path.depth == 1 && !isBlack(path.factor.diffuse);
-    arrivals->push_back({at, hit, path.ray.direction, slot, sure, shadingOf[path.estimate], gathers, luminance(path.factor.diffuse + path.factor.specular)});
+    arrivals->push_back({at, hit, path.ray.direction, slot, sure, shadingOf[path.estimate], gathers,
+                         luminance(path.factor.diffuse + path.factor.specular)});
   }
   // `sure`: of a light that is sampled too, so that none of its samples stands for much. Returns what was added.
   Lobes add(uint32_t estimate, const Lobes& factor, Vec3 radiance, const LightOrigin& origin, bool sure = false) {
@@ -132,7 +144,8 @@ struct GatherWork {
       const float l = luminance(light);
       return sure || l <= limit ? light : light * (limit / l);
     };
-    const Lobes light{bounded(factor.diffuse * radiance, most[estimate]), bounded(factor.specular * radiance, most[estimate])};
+    const Lobes light{bounded(factor.diffuse * radiance, most[estimate]),
+                      bounded(factor.specular * radiance, most[estimate])};
     const float diffuse = luminance(light.diffuse), usual = rareFrom * expected[estimate];
     if (usual > 0 && diffuse > usual) rare[estimate] += light.diffuse * (1 - usual / diffuse);
     found[estimate].diffuse += light.diffuse;
@@ -149,7 +162,8 @@ struct GatherWork {
   void takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
   void takeMirroredOfLayer(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
   void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin);
-  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin, bool layersOnly = false, bool isMirrored = false) {
+  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin,
+              bool layersOnly = false, bool isMirrored = false) {
     shadowRays.push_back(ray), shadowed.push_back({estimate, sure, layersOnly, isMirrored, light, origin});
   }
 };

@@ -1,5 +1,5 @@
-// Rays from a surface: to every kind of light, and on to other surfaces. All share the light by multiple importance sampling (Veach
-// 1997, power heuristic).
+// Rays from a surface: to every kind of light, and on to other surfaces. All share the light by multiple importance
+// sampling (Veach 1997, power heuristic).
 #pragma once
 
 #include <array>
@@ -15,19 +15,22 @@ namespace roomlight {
 class RayScatter {
  public:
   // `sampleLamps`: lamps are too many for each to cast its own shadow on what the camera sees.
-  RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, const BrightPatches& patches, const SunGloss& sunGloss, bool sampleLamps);
+  RayScatter(const Lights& lights, const Voxels& voxels, const RadianceField& field, const BrightPatches& patches,
+             const SunGloss& sunGloss, bool sampleLamps);
   // Adds its shadow rays and paths to `w`.
   void from(const GatherVertex& v, GatherWork& w) const;
   // Whether light straight from the emissive mesh of an instance to where the path came from is in the cache.
   bool isCached(const GatherPath& path, uint32_t instance) const;
-  // Density with which samples of emissive meshes where the path came from, all together, would have chosen its way to s.
+  // Density with which samples of emissive meshes where the path came from, all together, would have chosen its way to
+  // s.
   float pdfEmitters(const GatherPath& path, const SurfacePoint& s) const;
-  // What light of an emissive mesh, found where a path ends, weighs in its layer relative to the picture: layers sample each apart.
+  // What light of an emissive mesh, found where a path ends, weighs in its layer relative to the picture: layers sample
+  // each apart.
   float weightInLayer(const GatherPath& path, const SurfacePoint& s) const;
 
  private:
   static constexpr size_t kEmitterSamples = 4;  // of what the camera sees,
-  static constexpr int kLayerSamples = 2;       // and of each layer there
+  static constexpr int kLayerSamples = 2;  // and of each layer there
   static size_t emitterSamples(int depth) { return depth == 0 ? kEmitterSamples : 1; }
   static int layerSamples(int depth) { return depth == 0 ? kLayerSamples : 1; }
   struct DrawnSky {
@@ -38,7 +41,8 @@ class RayScatter {
   void lightsAt(const GatherVertex& v, const DrawnSky& sky, GatherWork& w) const;
   DrawnSky drawSky(const GatherVertex& v, GatherWork& w) const;
   static float askingWeight(float most, uint32_t estimate, GatherWork& w);
-  void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly, GatherWork& w) const;
+  void takeLight(const GatherVertex& v, const LightSample& light, const LightOrigin& origin, bool layersOnly,
+                 GatherWork& w) const;
   // Whether layers' lamps are sampled for what the camera sees: else each of them is asked by whoever wants its light.
   bool asksLamps(bool lampsKnown) const { return sampleLamps_ && !lampsKnown; }
   void layersAt(const GatherVertex& v, GatherWork& w) const;
@@ -61,7 +65,7 @@ class RayScatter {
     std::vector<uint32_t> lamps, emitters;
   };
   std::vector<Members> members_;
-  std::vector<LightSurroundings> besideLamps_;           // of each
+  std::vector<LightSurroundings> besideLamps_;  // of each
   const std::vector<LightSurroundings> besideEmitters_;  // of each
 };
 

@@ -14,7 +14,8 @@ constexpr float kRare = 4;        // times the light expected: what a single fin
 constexpr float kFaintShare = 0.2f;    // of the light seen: less is a faint reflection, as a pane's
 constexpr float kFaintCells = 3;  // that such a reflection is taken from
 constexpr float kAlike = 0.5f;     // cosine between normals of a place and of a slot that may have taken its light
-constexpr float kNearCells = 2;   // first hits nearer than that many cells read none: the slot if it may be read, else they are lit afresh
+constexpr float kNearCells =
+    2;   // first hits nearer than that many cells read none: the slot if it may be read, else they are lit afresh
 constexpr float kFarM = 1000;    // away: what panes show of the sky
 constexpr float kMost = 1024;    // times the light that the cache tells of: what a single path may find at most
 
@@ -34,7 +35,8 @@ uint8_t kindOf(const Material& m) {
 
 bool isFaint(const GatherPath& path) { return luminance(path.factor.diffuse + path.factor.specular) < kFaintShare; }
 
-BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings) {
+BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const RadianceField& field,
+                        const RayGatherSettings& settings) {
   std::vector<GlowPoint> points(field.glow.points().begin(), field.glow.points().end());
   points.insert(points.end(), field.sunPoints.begin(), field.sunPoints.end());
   return BrightPatches(rays, voxels, points, field.glowShare, settings.nearVoxels * voxels.voxelSizeM, settings.seed);
@@ -42,8 +44,17 @@ BrightPatches patchesOf(const RayScene& rays, const Voxels& voxels, const Radian
 
 }  // namespace
 
-RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field, const RayGatherSettings& settings)
-    : rays_(rays), lights_(lights), voxels_(voxels), field_(field), cache_(voxels, field), patches_(patchesOf(rays, voxels, field, settings)), settings_(settings), sharp_(rays, lights), scatter_(lights, voxels, field, patches_, sunGloss_, lights.lampCount() + lights.sunCount() > sharp_.count()) {
+RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
+                     const RayGatherSettings& settings)
+    : rays_(rays),
+      lights_(lights),
+      voxels_(voxels),
+      field_(field),
+      cache_(voxels, field),
+      patches_(patchesOf(rays, voxels, field, settings)),
+      settings_(settings),
+      sharp_(rays, lights),
+      scatter_(lights, voxels, field, patches_, sunGloss_, lights.lampCount() + lights.sunCount() > sharp_.count()) {
   if (lights.sunCount() == 1) {
     const LightSample sun = lights.sampleSun(0, {0.5f, 0.5f});
     sunDirection_ = sun.wi, sunColour_ = sun.radiance / luminance(sun.radiance);
@@ -52,22 +63,29 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
   double sum = 0, flux = 0, area = 0;
   for (size_t i = 0; i < voxels.slots.size(); ++i) {
     const float lux = luminance(field.irradianceLux[i]), areaM2 = voxels.slots[i].areaM2;
-    sum += static_cast<double>(std::sqrt(lux) * areaM2), flux += static_cast<double>(lux * areaM2), area += static_cast<double>(areaM2);
+    sum += static_cast<double>(std::sqrt(lux) * areaM2), flux += static_cast<double>(lux * areaM2),
+        area += static_cast<double>(areaM2);
   }
-  if (area > 0) leastExpected_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi, meanRadiance_ = static_cast<float>(flux / area) / kPi;
+  if (area > 0)
+    leastExpected_ = static_cast<float>(0.1 * sum * sum / (area * area)) / kPi,
+    meanRadiance_ = static_cast<float>(flux / area) / kPi;
   findBrightest();
   if (!field.glowShare.empty()) markGlow();
   const Scene& scene = rays.scene();
-  for (const Instance& i : scene.instances) kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
+  for (const Instance& i : scene.instances)
+    kind_.push_back(kindOf(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)]));
 }
 
-void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light, LayerSums* layers, const HitSurvey* survey, GatherCounters& count) const {
+void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> shadows, std::span<SurfaceLight> light,
+                      LayerSums* layers, const HitSurvey* survey, GatherCounters& count) const {
   static const HitSurvey kNone;
   thread_local GatherWork w;
   w.clear();
   w.shaded = light, w.survey = survey ? survey : &kNone, w.rareFrom = survey ? kRare : kInfinity;
-  w.layers = layers, w.lightLayers = field_.layers.lights.get(), w.layersAlone = layers && !work.empty() && work[0].lampsKnown;
-  for (size_t i = 0; i < work.size(); ++i) light[i] = start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), w);
+  w.layers = layers, w.lightLayers = field_.layers.lights.get(),
+  w.layersAlone = layers && !work.empty() && work[0].lampsKnown;
+  for (size_t i = 0; i < work.size(); ++i)
+    light[i] = start(work[i], static_cast<uint32_t>(i), shadows.subspan(work[i].firstShadow, sharp_.count()), w);
   traceShadows(w);
   while (!w.next.empty()) {
     w.paths.swap(w.next);
@@ -78,14 +96,16 @@ void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> sha
   size_t first = 0;
   for (size_t i = 0; i < work.size(); ++i) {
     const auto n = static_cast<size_t>(estimates(work[i]));
-    sumUp(std::span(w.found).subspan(first, n), std::span(w.rare).subspan(first, n), std::span(w.mirrored).subspan(first, n), light[i]);
+    sumUp(std::span(w.found).subspan(first, n), std::span(w.rare).subspan(first, n),
+          std::span(w.mirrored).subspan(first, n), light[i]);
     first += n;
   }
   count.rays += w.rayCount;
 }
 
 // The mean of estimates, and its variance from how they differ.
-void RayShader::sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, std::span<const Vec3> mirrored, SurfaceLight& out) {
+void RayShader::sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, std::span<const Vec3> mirrored,
+                      SurfaceLight& out) {
   const auto n = static_cast<float>(found.size());
   Lobes mean;
   for (size_t i = 0; i < found.size(); ++i) {
@@ -96,7 +116,8 @@ void RayShader::sumUp(std::span<const Lobes> found, std::span<const Vec3> rare, 
   if (found.size() < 2) return;
   for (size_t i = 0; i < found.size(); ++i) {
     const Lobes& l = found[i];
-    const float d = luminance(l.diffuse - rare[i] - mean.diffuse), s = luminance(l.specular - mirrored[i] - mean.specular);
+    const float d = luminance(l.diffuse - rare[i] - mean.diffuse),
+                s = luminance(l.specular - mirrored[i] - mean.specular);
     out.diffuseVariance += d * d / (n * (n - 1)), out.specularVariance += s * s / (n * (n - 1));
   }
 }
@@ -133,10 +154,12 @@ void RayShader::prefetch(GatherWork& w) const {
 }
 
 // Sends out everything that lights a surface, and returns what is known at once.
-SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<const Shadow> shadows, GatherWork& w) const {
+SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<const Shadow> shadows,
+                              GatherWork& w) const {
   const SurfacePoint& s = work.s;
   const Bsdf bsdf(s.m, s.ns, s.ng, work.wo);
-  GatherVertex v{s, bsdf, {Vec3(1), Vec3(1)}, brickSideAt(voxels_, s.p, s.ng), 0, 0, true, work.followed, apart(work), s.m.roughness < kClear};
+  GatherVertex v{s,    bsdf,          {Vec3(1), Vec3(1)}, brickSideAt(voxels_, s.p, s.ng), 0, 0,
+                 true, work.followed, apart(work),        s.m.roughness < kClear};
   v.skyKnown = work.skyKnown, v.lampsKnown = work.lampsKnown;
   v.causticsKnown = !w.survey->caustics.empty() && s.material && !throwsLight(*s.material);
   SurfaceLight out;
@@ -163,7 +186,8 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
   const int n = estimates(work);
   const float most = n > 0 ? kMost * luminance(bsdf.albedo()) * expectedRadiance(s) : 0;
   v.glossOnly = work.gathers == 0;
-  const GuideCones cones = n > 0 && !v.glossOnly && !w.survey->guide.empty() ? w.survey->guide.at(s.p, s.ng) : GuideCones{};
+  const GuideCones cones =
+      n > 0 && !v.glossOnly && !w.survey->guide.empty() ? w.survey->guide.at(s.p, s.ng) : GuideCones{};
   if (cones.share > 0) v.cones = &cones;
   for (int k = 0; k < n; ++k) {
     v.estimate = static_cast<uint32_t>(w.samplers.size());
@@ -188,7 +212,8 @@ Vec3 RayShader::addCaustics(const SurfacePoint& s, const Bsdf& bsdf, uint32_t in
   const CausticMap::Light caustic = w.survey->caustics.at(s.p, s.ng, byLayer);
   if (isBlack(caustic.lux)) return {};
   const Vec3 reflected = bsdf.evaluateDiffuse(caustic.from) / std::max(kGrazing, dot(s.ng, caustic.from));
-  for (size_t l = 0; l < byLayer.size(); ++l) w.layers->add(index, LayerSums::kSharp, static_cast<int32_t>(l), reflected * byLayer[l]);
+  for (size_t l = 0; l < byLayer.size(); ++l)
+    w.layers->add(index, LayerSums::kSharp, static_cast<int32_t>(l), reflected * byLayer[l]);
   return reflected * caustic.lux;
 }
 
@@ -212,8 +237,9 @@ float RayShader::found(const HitArrival& arrival, const HitCache& hits) const {
   return arrival.slot < 0 ? 0 : luminance(cache_.radiance(arrival.slot));
 }
 
-// Of light that falls on a surface, by the cache. A path that finds far more than all paths together should is a rare one: what it
-// finds is noise rather than picture, and is bounded. A slot may lie in the dark within a thing: then those around it tell, and meters are read as they are.
+// Of light that falls on a surface, by the cache. A path that finds far more than all paths together should is a rare
+// one: what it finds is noise rather than picture, and is bounded. A slot may lie in the dark within a thing: then
+// those around it tell, and meters are read as they are.
 float RayShader::expectedRadiance(const SurfacePoint& s) const {
   if (!s.material) return kInfinity;
   const SlotCache::Place place = cache_.find(s.p, s.ng);
@@ -228,13 +254,15 @@ void RayShader::findBrightest() {
   parallelFor(own.size(), 8192, [&](size_t v) {
     const SurfaceVoxel& voxel = voxels_.voxels[v];
     const auto end = voxel.firstSlot + static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
-    for (uint32_t slot = voxel.firstSlot; slot < end; ++slot) own[v] = std::max(own[v], luminance(field_.irradianceLux[slot]) / kPi);
+    for (uint32_t slot = voxel.firstSlot; slot < end; ++slot)
+      own[v] = std::max(own[v], luminance(field_.irradianceLux[slot]) / kPi);
   });
   brightest_ = own;
   parallelFor(voxels_.bricks.size(), 64, [&](size_t b) {
     const Int3 brick = voxels_.bricks[b].coord;
     for (int i = 0; i < kBrickSize * kBrickSize * kBrickSize; ++i) {
-      const Int3 at{brick.x * kBrickSize + i % kBrickSize, brick.y * kBrickSize + i / kBrickSize % kBrickSize, brick.z * kBrickSize + i / (kBrickSize * kBrickSize)};
+      const Int3 at{brick.x * kBrickSize + i % kBrickSize, brick.y * kBrickSize + i / kBrickSize % kBrickSize,
+                    brick.z * kBrickSize + i / (kBrickSize * kBrickSize)};
       const int64_t voxel = voxels_.voxelAt(at);
       if (voxel < 0) continue;
       float most = own[static_cast<size_t>(voxel)];
@@ -262,7 +290,10 @@ float RayShader::brightestAround(Vec3 p) const {
 Vec3 RayShader::skyAlong(const GatherPath& path) const {
   if (!lights_.sky().present() || path.skyKnown) return {};
   const Vec2 uv = lights_.sky().toUv(path.ray.direction);
-  return lights_.sky().radianceAt(uv) * (path.pdf > 0 ? misWeight(path.pdf, pdfSkyGuided(field_.guide, guideOfSide(field_.guide, path.side), lights_, uv)) : 1);
+  return lights_.sky().radianceAt(uv) *
+         (path.pdf > 0
+              ? misWeight(path.pdf, pdfSkyGuided(field_.guide, guideOfSide(field_.guide, path.side), lights_, uv))
+              : 1);
 }
 
 Vec3 RayShader::sunsAlong(const GatherPath& path) const {
@@ -280,7 +311,9 @@ void RayShader::addBackground(const GatherPath& path, GatherWork& w) const {
   if (w.arrivals) return w.arrive(path, {}, {}, -1, false);
   const LightLayers* layers = w.layers ? field_.layers.lights.get() : nullptr;
   w.add(path.estimate, path.factor, skyAlong(path), LightOrigin::ofLayer(layers ? layers->sky : -1), path.depth == 1);
-  if (const Vec3 suns = sunsAlong(path); !isBlack(suns)) w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), suns, LightOrigin::ofLayer(layers ? layers->sun : -1), path.depth == 1);
+  if (const Vec3 suns = sunsAlong(path); !isBlack(suns))
+    w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), suns,
+          LightOrigin::ofLayer(layers ? layers->sun : -1), path.depth == 1);
 }
 
 // What a path finds where its ray ends, and how it goes on from there.
@@ -301,7 +334,9 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted) && !scatter_.isCached(path, hit.instance)) {
       LightOrigin origin;
       if (w.layers) origin = LightOrigin::ofLayer(layerOf(hit.instance), scatter_.weightInLayer(path, s));
-      const Lobes added = w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1), origin, path.depth == 1);
+      const Lobes added = w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1),
+                                emitted * (path.pdf > 0 ? misWeight(path.pdf, scatter_.pdfEmitters(path, s)) : 1),
+                                origin, path.depth == 1);
       if (path.picture && path.depth == 1) w.takeMirrored(path.estimate, added.specular, origin);
     }
   }
@@ -311,7 +346,8 @@ void RayShader::arrive(const GatherPath& path, const Hit& hit, GatherWork& w) co
   }
   // Through it or reflected, one of the two, in proportion.
   const Vec3 through = passing(s.m, *s.material, std::abs(dot(s.ns, path.ray.direction)));
-  const float p = luminance(through), q = s.m.alpha * luminance(bihemisphericalAlbedo(s.m)), chance = p + q > 0 ? p / (p + q) : 0;
+  const float p = luminance(through), q = s.m.alpha * luminance(bihemisphericalAlbedo(s.m)),
+              chance = p + q > 0 ? p / (p + q) : 0;
   GatherPath after = path;
   if (w.samplers[path.estimate].fast1() < chance) {
     if (++after.panes > kMostPanes) return;
@@ -340,14 +376,16 @@ bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, G
   if (path.clear) return cachedFaintly(path, hit, p, n, w);
   // Light beside lamps is in the slots alone.
   const bool glows = shinesBesideLamps(place.slot), inGlow = glows || isInGlow(p, n);
-  // A cache tells too little of what is near what the eye sees; of light that gets there by way of other surfaces it tells enough.
+  // A cache tells too little of what is near what the eye sees; of light that gets there by way of other surfaces it
+// tells enough.
   const float distance = path.depth < 2 ? length(p - path.from) : kInfinity;
   if (w.arrivals) {
     if (!glows && distance < kNearCells * settings_.hitCellM) return false;
     if (!inGlow) w.arrive(path, hit, {p, n, hit.instance}, place.slot, place.trust == Trust::Sure);
     return true;
   }
-  if (const HitCell* cell = inGlow ? nullptr : w.survey->hits.find({p, n, hit.instance}); cell && distance >= kNearCells * cell->sizeM) {
+  if (const HitCell* cell = inGlow ? nullptr : w.survey->hits.find({p, n, hit.instance});
+      cell && distance >= kNearCells * cell->sizeM) {
     if (cell->sure && place.trust == Trust::Sure) {
       readCell(path, hit, *cell, p, n, w);
     } else {
@@ -365,7 +403,8 @@ bool RayShader::cached(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, G
   return true;
 }
 
-// Of what is seen faintly, as by night in a pane: cells around tell, each ray of another place, so that their edges do not show.
+// Of what is seen faintly, as by night in a pane: cells around tell, each ray of another place, so that their edges do
+// not show.
 bool RayShader::cachedFaintly(const GatherPath& path, const Hit& hit, Vec3 p, Vec3 n, GatherWork& w) const {
   const float distance = length(p - path.from);
   if (w.arrivals) {
@@ -403,7 +442,9 @@ void RayShader::markGlow() {
         bool shines = false;
         for (uint32_t slot = voxel.firstSlot; slot < end; ++slot) shines = shines || shinesBesideLamps(slot);
         const int bit = std::countr_zero(bits);
-        if (shines) markAround({kBrickSize * brick.coord.x + bit % kBrickSize, kBrickSize * brick.coord.y + bit / kBrickSize, kBrickSize * brick.coord.z + z});
+        if (shines)
+          markAround({kBrickSize * brick.coord.x + bit % kBrickSize, kBrickSize * brick.coord.y + bit / kBrickSize,
+                      kBrickSize * brick.coord.z + z});
       }
     }
   }
@@ -412,8 +453,11 @@ void RayShader::markGlow() {
 void RayShader::markAround(Int3 voxel) {
   for (int k = 0; k < 27; ++k) {
     const Int3 v{voxel.x + k % 3 - 1, voxel.y + k / 3 % 3 - 1, voxel.z + k / 9 - 1};
-    const int32_t brick = v.x < 0 || v.y < 0 || v.z < 0 ? -1 : voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
-    if (brick >= 0) nearGlow_[static_cast<size_t>(brick)][static_cast<size_t>(v.z % kBrickSize)] |= uint64_t{1} << (v.x % kBrickSize + kBrickSize * (v.y % kBrickSize));
+    const int32_t brick =
+        v.x < 0 || v.y < 0 || v.z < 0 ? -1 : voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
+    if (brick >= 0)
+      nearGlow_[static_cast<size_t>(brick)][static_cast<size_t>(v.z % kBrickSize)] |=
+          uint64_t{1} << (v.x % kBrickSize + kBrickSize * (v.y % kBrickSize));
   }
 }
 
@@ -422,10 +466,13 @@ bool RayShader::mayBeInGlow(Int3 v) const {
   if (nearGlow_.empty()) return false;
   if (v.x < 0 || v.y < 0 || v.z < 0) return true;
   const int32_t brick = voxels_.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
-  return brick < 0 || (nearGlow_[static_cast<size_t>(brick)][static_cast<size_t>(v.z % kBrickSize)] >> (v.x % kBrickSize + kBrickSize * (v.y % kBrickSize)) & 1);
+  return brick < 0 || (nearGlow_[static_cast<size_t>(brick)][static_cast<size_t>(v.z % kBrickSize)] >>
+                           (v.x % kBrickSize + kBrickSize * (v.y % kBrickSize)) &
+                       1);
 }
 
-// Whether points stand for all that it reflects of a lamp which it lies near: what comes by way of other surfaces there, too.
+// Whether points stand for all that it reflects of a lamp which it lies near: what comes by way of other surfaces
+// there, too.
 bool RayShader::isInGlow(Vec3 p, Vec3 n) const {
   const Int3 v = voxels_.voxelOf(p);
   if (!mayBeInGlow(v)) return false;
@@ -446,12 +493,13 @@ bool RayShader::isInGlow(Vec3 p, Vec3 n) const {
 // Lights the surface afresh.
 void RayShader::goOn(const GatherPath& path, SurfacePoint s, GatherWork& w) const {
   if (path.depth >= kMostVertices) return;
-  // What a mirror throws on others is found by chance only, too rarely: it is spread (Kaplanyan & Dachsbacher 2013, path space
-  // regularization).
+  // What a mirror throws on others is found by chance only, too rarely: it is spread (Kaplanyan & Dachsbacher 2013,
+  // path space regularization).
   s.m.roughness = std::max(s.m.roughness, path.spread);
   const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
   const bool clear = path.clear && s.m.roughness < kClear;
-  GatherVertex v{s, bsdf, path.factor, brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false, false, false, clear, !path.clear};
+  GatherVertex v{s,     bsdf,  path.factor, brickSideAt(voxels_, s.p, s.ng), path.estimate, path.depth, false, false,
+                 false, clear, !path.clear};
   v.causticsKnown = path.causticsKnown && throwsLight(*s.material);
   v.inGlow = !path.clear && !isPolishedMetal(*s.material) && isInGlow(s.p, s.ng);
   scatter_.from(v, w);
@@ -462,51 +510,71 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
   // The slot's albedo is that of what does not let light through, of the instance that has most of it.
   const auto i = static_cast<size_t>(slot);
   const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
-  const Vec3 even = own ? cache_.radiance(slot) : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[i] / kPi;
+  const Vec3 even = own ? cache_.radiance(slot)
+                        : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[i] / kPi;
   const float sunLux = field_.sunLux.empty() ? 0 : field_.sunLux[i];
-  const LeftToPoints points = leftToPoints(path, slot, luminance(field_.irradianceLux[i]), sunLux, p, n, luminance(even));
+  const LeftToPoints points =
+      leftToPoints(path, slot, luminance(field_.irradianceLux[i]), sunLux, p, n, luminance(even));
   const SlotLayers& layers = field_.layers;
-  addCached(path, hit, even, sunLux, voxels_.slots[i].normal, points, w.layers ? layers.at(i) : nullptr, w.layers && points.glow > 0 ? layers.glowOf[i] : -1, w);
+  addCached(path, hit, even, sunLux, voxels_.slots[i].normal, points, w.layers ? layers.at(i) : nullptr,
+            w.layers && points.glow > 0 ? layers.glowOf[i] : -1, w);
 }
 
-void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n, GatherWork& w) const {
+void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n,
+                         GatherWork& w) const {
   // In a picture noise is filtered, light told by what lies beside would be seen, and so is a texture.
-  const Vec3 even = path.clear ? bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * cell.ownCdM2 : cell.radianceCdM2;
-  const LeftToPoints points = leftToPoints(path, cell.slot, path.clear ? cell.ownLux : cell.lux, cell.sunLux, p, n, luminance(even));
+  const Vec3 even =
+      path.clear ? bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * cell.ownCdM2 : cell.radianceCdM2;
+  const LeftToPoints points =
+      leftToPoints(path, cell.slot, path.clear ? cell.ownLux : cell.lux, cell.sunLux, p, n, luminance(even));
   addCached(path, hit, even, cell.sunLux, cell.normal, points, w.layers ? w.survey->hits.shares(cell) : nullptr, -1, w);
 }
 
-// Light that a cache has of a place: `even` as it is spread evenly, of which points take their part, and what the sun's differs from that.
-void RayShader::addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal, const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const {
+// Light that a cache has of a place: `even` as it is spread evenly, of which points take their part, and what the sun's
+// differs from that.
+void RayShader::addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal,
+                          const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const {
   const Vec3 ofRay = even * points.ray(), bent = sunLux > 0 ? max(-even, sunward(path, hit, sunLux, normal)) : Vec3(0);
   const Vec3 light = max(Vec3(0), ofRay + bent * (1 - points.ofSun));
   const Lobes added = w.add(path.estimate, path.factor, light, {});
   if (!w.layers || isBlack(added.diffuse + added.specular)) return;
   // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
   const Vec3 ofEven = ofRay / max(light, Vec3(1e-20f)), ofSun = Vec3(1) - ofEven;
-  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven}, {-1, shares, 1, points.glow, points.sun, glowOf});
-  if (!isBlack(ofSun)) w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun}, LightOrigin::ofLayer(field_.layers.lights->sun));
+  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven},
+                {-1, shares, 1, points.glow, points.sun, glowOf});
+  if (!isBlack(ofSun))
+    w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun},
+                  LightOrigin::ofLayer(field_.layers.lights->sun));
 }
 
-RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n, float light) const {
+RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p,
+                                                Vec3 n, float light) const {
   if (!(path.pdf > 0) || patches_.empty() || slot < 0) return {};
   const auto i = static_cast<size_t>(slot);
   const float distance = length(p - path.from);
   const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM;
-  const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, sunLux / std::max(lux, 1e-30f)), glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
-  const auto left = [&](float share) { return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction), path.side, path.pdf)) : 0; };
+  const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, sunLux / std::max(lux, 1e-30f)),
+              glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
+  const auto left = [&](float share) {
+    return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction),
+                                                      path.side, path.pdf))
+                     : 0;
+  };
   const float leftOfSun = left(sun);
   return {path.inGlow ? glow : left(glow), leftOfSun, sun > 0 ? leftOfSun / sun : 0};
 }
 
 // Sunlight that a surface throws on towards the path, less what the cache spreads evenly of it.
 Vec3 RayShader::sunward(const GatherPath& path, const Hit& hit, float sunLux, Vec3 normal) const {
-  return sunColour_ * (sunLux * SunGloss::bend(surfaceAt(rays_.scene(), hit, path.ray.direction), normal, sunDirection_, -path.ray.direction));
+  return sunColour_ * (sunLux * SunGloss::bend(surfaceAt(rays_.scene(), hit, path.ray.direction), normal, sunDirection_,
+                                               -path.ray.direction));
 }
 
 void RayShader::resolveUnsure(GatherWork& w) const {
   w.rays.clear();
-  for (const GatherWork::Doubt& d : w.doubts) w.rays.push_back(d.cell ? HitCache::between(*d.cell, {d.p, d.n, d.hit.instance}) : cache_.between(d.slot, d.p, d.n));
+  for (const GatherWork::Doubt& d : w.doubts)
+    w.rays.push_back(d.cell ? HitCache::between(*d.cell, {d.p, d.n, d.hit.instance})
+                            : cache_.between(d.slot, d.p, d.n));
   w.left.resize(w.rays.size());
   rays_.transmittance(w.rays, w.left);
   w.rayCount += w.rays.size();

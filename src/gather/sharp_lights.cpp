@@ -9,7 +9,9 @@ constexpr size_t kAllLamps = 8;  // up to this many lamps each casts its own sha
 
 }  // namespace
 
-Vec3 skyAlong(const Lights& lights, Vec3 direction) { return lights.sky().present() ? lights.sky().radiance(direction) : Vec3(0); }
+Vec3 skyAlong(const Lights& lights, Vec3 direction) {
+  return lights.sky().present() ? lights.sky().radiance(direction) : Vec3(0);
+}
 
 Vec3 background(const Lights& lights, Vec3 direction) {
   Vec3 sum = skyAlong(lights, direction);
@@ -20,9 +22,14 @@ Vec3 background(const Lights& lights, Vec3 direction) {
   return sum;
 }
 
-SharpLights::SharpLights(const RayScene& rays, const Lights& lights) : rays_(rays), lights_(lights), lamps_(lights.lampCount() <= kAllLamps && !lights.hasExtendedLamps() ? lights.lampCount() : 0) {}
+SharpLights::SharpLights(const RayScene& rays, const Lights& lights)
+    : rays_(rays),
+      lights_(lights),
+      lamps_(lights.lampCount() <= kAllLamps && !lights.hasExtendedLamps() ? lights.lampCount() : 0) {}
 
-LightSample SharpLights::sample(size_t light, Vec3 p, Vec2 u) const { return light < lamps_ ? lights_.sampleLamp(light, p, u) : lights_.sampleSun(light - lamps_, u); }
+LightSample SharpLights::sample(size_t light, Vec3 p, Vec2 u) const {
+  return light < lamps_ ? lights_.sampleLamp(light, p, u) : lights_.sampleSun(light - lamps_, u);
+}
 
 Shadow SharpLights::shadow(size_t light, std::span<const Vec3> points, std::span<const Vec2> u) const {
   std::array<Ray, kMostPoints> rays;

@@ -1,5 +1,5 @@
-// Suns and lamps: small sources with sharp shadows. Every camera ray asks for its own shadow, in packets, because a shadow's edge
-// crosses a pixel as the edge of a thing does.
+// Suns and lamps: small sources with sharp shadows. Every camera ray asks for its own shadow, in packets, because a
+// shadow's edge crosses a pixel as the edge of a thing does.
 #pragma once
 
 #include <span>
@@ -29,7 +29,8 @@ class SharpLights {
  private:
   const RayScene& rays_;
   const Lights& lights_;
-  size_t lamps_;  // 0 where they are so many that a few have to be chosen by importance, or where one is extended: its shadows are not
+  size_t lamps_;  // 0 where they are so many that a few have to be chosen by importance, or where one is extended: its
+                  // shadows are not
 };
 
 // What a ray sees that meets no surface, cd/m².

@@ -7,7 +7,9 @@ namespace {
 
 // Whether a neighbour in the tile sees another surface, or the pixel none or several.
 bool isLone(const FilterInput& sums, const PixelCount& count, const Rectangle& tile, int x, int y) {
-  const auto at = [&](int i, int j) -> const FilterPixel& { return sums.pixels[static_cast<size_t>(j) * static_cast<size_t>(sums.width) + static_cast<size_t>(i)]; };
+  const auto at = [&](int i, int j) -> const FilterPixel& {
+    return sums.pixels[static_cast<size_t>(j) * static_cast<size_t>(sums.width) + static_cast<size_t>(i)];
+  };
   const FilterPixel& own = at(x, y);
   if (count.edge || own.surface <= 0) return true;
   const Vec3 normal = normalize(own.normal), position = own.position / own.surface;
@@ -22,7 +24,8 @@ bool isLone(const FilterInput& sums, const PixelCount& count, const Rectangle& t
 
 }  // namespace
 
-void gatherSparsely(TileWork& work, const Rectangle& tile, uint32_t every, float rayRoughness, uint32_t rays, const FilterInput& sums) {
+void gatherSparsely(TileWork& work, const Rectangle& tile, uint32_t every, float rayRoughness, uint32_t rays,
+                    const FilterInput& sums) {
   for (size_t begin = 0, end; begin < work.parts.size(); begin = end) {
     // The parts of a pixel follow one another. The light of several surfaces is not kept apart: all of them gather.
     for (end = begin + 1; end < work.parts.size() && work.parts[end].pixel.sum == work.parts[begin].pixel.sum;) ++end;
@@ -30,8 +33,7 @@ void gatherSparsely(TileWork& work, const Rectangle& tile, uint32_t every, float
     const auto pixel = static_cast<int>(first.pixel.sum - sums.pixels.data());
     PixelCount& count = *first.pixel.count;
     const bool alone = end - begin > 1 || isLone(sums, count, tile, pixel % sums.width, pixel / sums.width);
-    const uint32_t gathers = first.turn ? every : alone ? 1
-                                                        : 0;
+    const uint32_t gathers = first.turn ? every : alone ? 1 : 0;
     const bool smooth = work.shadings[first.first].s.m.roughness < rayRoughness;
     const uint32_t glossy = gathers == 0 && smooth ? 1 : gathers;
     for (size_t p = begin; p < end; ++p) {

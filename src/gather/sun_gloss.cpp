@@ -18,7 +18,8 @@ float cosineOf(Vec3 n, Vec3 toSun) { return std::max(dot(n, toSun), kGrazing); }
 
 }  // namespace
 
-SunGloss::SunGloss(const RayScene& rays, const BrightPatches& patches, Vec3 toSun) : surfaceOf_(patches.pointCount(), -1), toSun_(toSun) {
+SunGloss::SunGloss(const RayScene& rays, const BrightPatches& patches, Vec3 toSun)
+    : surfaceOf_(patches.pointCount(), -1), toSun_(toSun) {
   // Points of one slot follow one another, and share what the first of them finds.
   std::vector<size_t> first;
   for (size_t i = 0; i < surfaceOf_.size(); ++i) {
@@ -37,11 +38,13 @@ SunGloss::SunGloss(const RayScene& rays, const BrightPatches& patches, Vec3 toSu
     out.s = surfaceAt(rays.scene(), hit, ray.direction);
     const Vec3 albedo = bihemisphericalAlbedo(out.s.m);
     out.s.m.roughness = std::max(out.s.m.roughness, kSpread);
-    out.even = bihemisphericalAlbedo(out.s.m) / kPi, out.scale = Vec3(kPi) / max(albedo, Vec3(kLeastAlbedo)), out.cosSun = cosineOf(g.n, toSun);
+    out.even = bihemisphericalAlbedo(out.s.m) / kPi, out.scale = Vec3(kPi) / max(albedo, Vec3(kLeastAlbedo)),
+    out.cosSun = cosineOf(g.n, toSun);
   });
 }
 
-// Sunlight that a surface throws on towards the viewer, less what is cached of it: the sun's illuminance is, its reflection by gloss and shading normals is not.
+// Sunlight that a surface throws on towards the viewer, less what is cached of it: the sun's illuminance is, its
+// reflection by gloss and shading normals is not.
 Vec3 SunGloss::bend(const SurfacePoint& surface, Vec3 n, Vec3 toSun, Vec3 wo) {
   SurfacePoint s = surface;
   s.m.roughness = std::max(s.m.roughness, kSpread);
@@ -53,7 +56,9 @@ Vec3 SunGloss::at(size_t point, Vec3 wo) const {
   if (of < 0) return Vec3(1);
   const Surface& surface = surfaces_[static_cast<size_t>(of)];
   if (!surface.s.material) return Vec3(1);
-  return max(Vec3(0), Vec3(1) + (Bsdf(surface.s.m, surface.s.ns, surface.s.ng, wo).evaluate(toSun_) / surface.cosSun - surface.even) * surface.scale);
+  return max(Vec3(0), Vec3(1) + (Bsdf(surface.s.m, surface.s.ns, surface.s.ng, wo).evaluate(toSun_) / surface.cosSun -
+                                 surface.even) *
+                                    surface.scale);
 }
 
 }  // namespace roomlight

@@ -48,7 +48,8 @@ std::vector<uint32_t> subjectOf(const Scene& scene) {
     if (wide && size.y < 0.03f * std::max(size.x, size.z)) continue;
     things.push_back(i), ofThings.add(b);
   }
-  const bool smaller = !things.empty() && std::max(ofThings.size().x, ofThings.size().z) < 0.7f * std::max(all.size().x, all.size().z);
+  const bool smaller =
+      !things.empty() && std::max(ofThings.size().x, ofThings.size().z) < 0.7f * std::max(all.size().x, all.size().z);
   return smaller ? things : everything;
 }
 
@@ -81,7 +82,8 @@ std::vector<Vec3> surfacePlaces(const Scene& scene, const std::vector<uint32_t>&
   Rng random(1, 2, 3);
   for (int k = 0; k < kSurfacePlaces && sum > 0; ++k) {
     const double at = (k + static_cast<double>(random.uniform())) / kSurfacePlaces * sum;
-    const auto piece = std::lower_bound(pieces.begin(), pieces.end(), at, [](const Piece& p, double s) { return p.upTo < s; });
+    const auto piece =
+        std::lower_bound(pieces.begin(), pieces.end(), at, [](const Piece& p, double s) { return p.upTo < s; });
     if (piece == pieces.end()) continue;
     const auto c = corners(piece->instance, piece->triangle);
     const Vec2 b = sampleTriangle(random.uniform2());
@@ -97,7 +99,8 @@ Camera framing(const Bounds3& b, Vec3 back) {
   c.yFovRad = kOutsideFov;
   c.worldFromCamera = looking(b.centre(), -back);
   const float up = std::tan(0.5f * kOutsideFov), side = up * kFrameRatio;
-  // Of each corner how far the eye has to be from the middle, and how far it lies beside the axis: first the axis, then the distance.
+  // Of each corner how far the eye has to be from the middle, and how far it lies beside the axis: first the axis, then
+  // the distance.
   const auto fit = [&](Vec3 centre) {
     float distance = 0, low = kInfinity, high = -kInfinity;
     for (int i = 0; i < 8; ++i) {
@@ -115,7 +118,8 @@ Camera framing(const Bounds3& b, Vec3 back) {
   return c;
 }
 
-// Three-quarter view, from the side and height that show most of the surfaces; glTF's front is +z, so that side is tried first.
+// Three-quarter view, from the side and height that show most of the surfaces; glTF's front is +z, so that side is
+// tried first.
 Camera outside(const RayScene& rays) {
   const std::vector<uint32_t> subject = subjectOf(rays.scene());
   Bounds3 b;
@@ -126,17 +130,18 @@ Camera outside(const RayScene& rays) {
   for (const float elevationDeg : {18.0f, 30.0f, 48.0f}) {
     for (int i = 0; i < 8; ++i) {
       const float azimuth = (35 + 45 * static_cast<float>(i)) * kPi / 180, elevation = elevationDeg * kPi / 180;
-      const Vec3 back{std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+      const Vec3 back{std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                      std::cos(azimuth) * std::cos(elevation)};
       const Camera c = framing(b, back);
       std::vector<uint8_t> seen(places.size(), 0);
       parallelFor(places.size(), 128, [&](size_t k) {
         const Vec3 to = places[k] - c.worldFromCamera.w;
         seen[k] = rays.intersect({c.worldFromCamera.w, to, 0, 0.9995f}).valid() ? 0 : 1;
       });
-      const double share = static_cast<double>(std::count(seen.begin(), seen.end(), 1)) / std::max<double>(1, static_cast<double>(places.size()));
+      const double share = static_cast<double>(std::count(seen.begin(), seen.end(), 1)) /
+                           std::max<double>(1, static_cast<double>(places.size()));
       const double front = std::cos(static_cast<double>(azimuth));
-      const double score = share * (1 + 0.1 * front) * (elevationDeg < 20 ? 1 : elevationDeg < 40 ? 0.93
-                                                                                                  : 0.75);
+      const double score = share * (1 + 0.1 * front) * (elevationDeg < 20 ? 1 : elevationDeg < 40 ? 0.93 : 0.75);
       if (score > bestScore) bestScore = score, best = c;
     }
   }
@@ -165,9 +170,11 @@ std::vector<Camera> proposeCameras(const RayScene& rays, const std::vector<Room>
     const std::optional<RoomView> view = viewOf(rays, rooms[i]);
     if (!view) continue;
     const double size = std::sqrt(std::min(80.0, areaM2(rooms[i])));
-    proposals.push_back({view->camera, view->score * size * (isLit(rays, rooms[i], view->camera, lightComes) ? 1 : 0.3)});
+    proposals.push_back(
+        {view->camera, view->score * size * (isLit(rays, rooms[i], view->camera, lightComes) ? 1 : 0.3)});
   }
-  std::stable_sort(proposals.begin(), proposals.end(), [](const Proposal& a, const Proposal& b) { return a.worth > b.worth; });
+  std::stable_sort(proposals.begin(), proposals.end(),
+                   [](const Proposal& a, const Proposal& b) { return a.worth > b.worth; });
   std::vector<Camera> cameras;
   for (Proposal& p : proposals) cameras.push_back(std::move(p.camera));
   cameras.push_back(outside(rays));

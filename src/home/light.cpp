@@ -26,17 +26,18 @@ constexpr double kLatitudeDeg = 48, kLongitudeDeg = 11;
 constexpr int kAzimuths = 24;
 constexpr float kAltitudesDeg[] = {25, 35, 45, 55};
 constexpr double kSunShare = 0.12;            // of what is seen indoors, as much as is wished in the sun
-constexpr float kBlueHourDeg = -4;                // altitude of the sun at which the sky is about as bright as lit rooms
-constexpr float kNightDeg = -9;                   // and at which it is hardly seen from one
+constexpr float kBlueHourDeg = -4;  // altitude of the sun at which the sky is about as bright as lit rooms
+constexpr float kNightDeg = -9;  // and at which it is hardly seen from one
 constexpr double kGroundReflectance = 0.2;
-constexpr double kLeastDaylight = 0.003;      // share of sky or sun; below it are seams between walls
+constexpr double kLeastDaylight = 0.003;  // share of sky or sun; below it are seams between walls
 constexpr double kLumenPerM2 = 100, kLeastLumen = 500, kMostLumen = 6000;
-constexpr float kUnderThings = 0.0005f;            // of the extent: how far below them the ground lies
+constexpr float kUnderThings = 0.0005f;  // of the extent: how far below them the ground lies
 constexpr float kUnderCeilingM = 0.06f, kHighestLampM = 3.2f, kLowestLampM = 1.8f;
 constexpr size_t kMostLamps = 40;
 
 Vec3 towards(float azimuthRad, float altitudeRad) {
-  return {std::sin(azimuthRad) * std::cos(altitudeRad), std::sin(altitudeRad), -std::cos(azimuthRad) * std::cos(altitudeRad)};
+  return {std::sin(azimuthRad) * std::cos(altitudeRad), std::sin(altitudeRad),
+          -std::cos(azimuthRad) * std::cos(altitudeRad)};
 }
 
 // Share of the sky around a place.
@@ -120,11 +121,17 @@ Json daylightFrom(Vec3 toSun, const char* sky) {
   const int first = altitude < 0 ? 21 * 60 : 5 * 60, last = altitude < 0 ? 23 * 60 : 12 * 60 + 30;
   for (int minute = first; minute <= last; minute += 5) {
     const SunPosition p = sunPosition({2026, 6, 10, minute / 60.0 - 2}, kLatitudeDeg, kLongitudeDeg);
-    if (std::abs(p.altitudeRad - altitude) < bestMiss) bestMiss = std::abs(p.altitudeRad - altitude), bestMinute = minute, bearing = p.bearingRad;
+    if (std::abs(p.altitudeRad - altitude) < bestMiss)
+      bestMiss = std::abs(p.altitudeRad - altitude), bestMinute = minute, bearing = p.bearingRad;
   }
   const double onPlan = std::atan2(static_cast<double>(toSun.x), -static_cast<double>(toSun.z));
   const double north = std::remainder((bearing - onPlan) * 180 / static_cast<double>(kPi), 360.0);
-  return {{"sky", sky}, {"latitude", kLatitudeDeg}, {"longitude", kLongitudeDeg}, {"time", fmt::format("2026-06-10T{:02}:{:02}+02:00", bestMinute / 60, bestMinute % 60)}, {"north", std::round(north * 10) / 10}, {"ground", kGroundReflectance}};
+  return {{"sky", sky},
+          {"latitude", kLatitudeDeg},
+          {"longitude", kLongitudeDeg},
+          {"time", fmt::format("2026-06-10T{:02}:{:02}+02:00", bestMinute / 60, bestMinute % 60)},
+          {"north", std::round(north * 10) / 10},
+          {"ground", kGroundReflectance}};
 }
 
 // Below the horizon, so that the glow of the sky is before the camera, to its left.
@@ -158,7 +165,10 @@ std::optional<Vec3> lampPlace(const RayScene& rays, const Room& room) {
   std::optional<Vec3> best;
   double bestScore = 0;
   for (int i = -1; i < kSteps * kSteps; ++i) {
-    const Vec2 at = i < 0 ? middle : Vec2{box.low.x + (box.high.x - box.low.x) * (static_cast<float>(i % kSteps) + 0.5f) / kSteps, box.low.y + (box.high.y - box.low.y) * (static_cast<float>(i / kSteps) + 0.5f) / kSteps};
+    const Vec2 at = i < 0
+                        ? middle
+                        : Vec2{box.low.x + (box.high.x - box.low.x) * (static_cast<float>(i % kSteps) + 0.5f) / kSteps,
+                               box.low.y + (box.high.y - box.low.y) * (static_cast<float>(i / kSteps) + 0.5f) / kSteps};
     if (!contains(room.floor, at)) continue;
     const double edge = distanceToEdgeM(room.floor, at);
     if (!(edge > bestScore)) continue;
@@ -177,7 +187,14 @@ Json ceilingLamp(const Room& room, Vec3 p) {
   const double m2 = areaM2(room);
   const double flux = std::round(std::clamp(kLumenPerM2 * m2, kLeastLumen, kMostLumen) / 50) * 50;
   const double side = std::clamp(0.1 * std::sqrt(m2), 0.3, 0.6);
-  return {{"name", room.name + " ceiling lamp"}, {"type", "area"}, {"position", place(p)}, {"direction", {0, -1, 0}}, {"width", std::round(side * 100) / 100}, {"height", std::round(side * 100) / 100}, {"flux", fmt::format("{:.0f} lm", flux)}, {"temperature", "3000 K"}};
+  return {{"name", room.name + " ceiling lamp"},
+          {"type", "area"},
+          {"position", place(p)},
+          {"direction", {0, -1, 0}},
+          {"width", std::round(side * 100) / 100},
+          {"height", std::round(side * 100) / 100},
+          {"flux", fmt::format("{:.0f} lm", flux)},
+          {"temperature", "3000 K"}};
 }
 
 // Where everything else fails: over the eye, as bright as what is seen is far away.
@@ -187,11 +204,17 @@ Json lampOverCamera(const RayScene& rays, const std::vector<Seen>& seen, const C
   std::sort(distances.begin(), distances.end());
   const float far = distances.empty() ? 3 : distances[distances.size() / 2];
   const Vec3 eye = camera.worldFromCamera.w, ahead = -camera.worldFromCamera.z;
-  const auto reach = [&](Vec3 from, Vec3 d, float most) { return std::min(most, 0.5f * rays.intersect({from, d, 0, kInfinity}).t); };
+  const auto reach = [&](Vec3 from, Vec3 d, float most) {
+    return std::min(most, 0.5f * rays.intersect({from, d, 0, kInfinity}).t);
+  };
   Vec3 p = eye + ahead * reach(eye, ahead, 0.3f * far);
   p.y += reach(p, {0, 1, 0}, 0.8f);
   const double flux = std::clamp(4 * static_cast<double>(kPi) * 60 * static_cast<double>(far * far), kLeastLumen, 1e7);
-  return {{"name", "Lamp over the camera"}, {"type", "point"}, {"position", place(p)}, {"flux", fmt::format("{:.0f} lm", flux)}, {"temperature", "3000 K"}};
+  return {{"name", "Lamp over the camera"},
+          {"type", "point"},
+          {"position", place(p)},
+          {"flux", fmt::format("{:.0f} lm", flux)},
+          {"temperature", "3000 K"}};
 }
 
 // Wide enough to end close to the horizon as the camera sees it.
@@ -200,12 +223,17 @@ Json groundUnder(const Bounds3& b, const Camera& camera) {
   const float eyeHeight = camera.worldFromCamera.w.y - b.lo.y;
   const float radius = std::clamp(std::max(8 * extent, 28 * eyeHeight), 4.0f, std::max(60.0f, 3 * extent));
   const auto fine = [](float v) { return std::round(static_cast<double>(v) * 1e6) / 1e6; };  // things may be small
-  return {{"elevation", fine(b.lo.y - kUnderThings * extent)}, {"centre", {number(b.centre().x), number(b.centre().z)}}, {"radius", number(radius)}, {"reflectance", kGroundReflectance}};
+  return {{"elevation", fine(b.lo.y - kUnderThings * extent)},
+          {"centre", {number(b.centre().x), number(b.centre().z)}},
+          {"radius", number(radius)},
+          {"reflectance", kGroundReflectance}};
 }
 
 bool reaches(const RayScene& rays, const std::vector<Json>& lamps, const Seen& s) {
   return std::any_of(lamps.begin(), lamps.end(), [&](const Json& lamp) {
-    const Vec3 to = Vec3{lamp["position"][0].get<float>(), lamp["position"][1].get<float>() - 0.01f, lamp["position"][2].get<float>()} - s.p;
+    const Vec3 to = Vec3{lamp["position"][0].get<float>(), lamp["position"][1].get<float>() - 0.01f,
+                         lamp["position"][2].get<float>()} -
+                    s.p;
     return dot(to, s.n) > 0 && luminance(rays.transmittance({offsetOrigin(s.p, s.n), to, 0, 0.999f})) > 0.01f;
   });
 }
@@ -218,22 +246,26 @@ double shareReached(const RayScene& rays, const std::vector<Json>& lamps, const 
 // Of what is seen, in rooms with a lamp of their own.
 double shareWithLamps(const RayScene& rays, const std::vector<Room>& rooms, const std::vector<Seen>& seen) {
   std::vector<Room> withLamps;
-  std::copy_if(rooms.begin(), rooms.end(), std::back_inserter(withLamps), [&](const Room& room) { return hasLight(rays.scene(), room); });
-  const auto isLit = [&](const Seen& s) { return std::any_of(withLamps.begin(), withLamps.end(), [&](const Room& room) { return isIn(room, s.p + s.n * 0.05f); }); };
-  return static_cast<double>(std::count_if(seen.begin(), seen.end(), isLit)) / static_cast<double>(std::max<size_t>(1, seen.size()));
+  std::copy_if(rooms.begin(), rooms.end(), std::back_inserter(withLamps),
+               [&](const Room& room) { return hasLight(rays.scene(), room); });
+  const auto isLit = [&](const Seen& s) {
+    return std::any_of(withLamps.begin(), withLamps.end(),
+                       [&](const Room& room) { return isIn(room, s.p + s.n * 0.05f); });
+  };
+  return static_cast<double>(std::count_if(seen.begin(), seen.end(), isLit)) /
+         static_cast<double>(std::max<size_t>(1, seen.size()));
 }
 
 std::string listed(bool daylight, const char* darkSky, size_t ceilingLamps, bool overCamera, bool ground) {
   std::vector<std::string> parts;
   if (daylight) parts.push_back("daylight");
   if (darkSky) parts.push_back(darkSky);
-  if (ceilingLamps > 0) parts.push_back(ceilingLamps == 1 ? "a ceiling lamp" : fmt::format("{} ceiling lamps", ceilingLamps));
+  if (ceilingLamps > 0)
+    parts.push_back(ceilingLamps == 1 ? "a ceiling lamp" : fmt::format("{} ceiling lamps", ceilingLamps));
   if (overCamera) parts.push_back("a lamp over the camera");
   if (ground) parts.push_back("a ground");
   std::string text;
-  for (size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? "" : i + 1 == parts.size() ? " and "
-                                                                                         : ", ") +
-                                                    parts[i];
+  for (size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
   return text;
 }
 
@@ -247,7 +279,8 @@ bool outdoorLightComesIn(const RayScene& rays, const std::vector<Room>& rooms, c
   return share > kLeastDaylight;
 }
 
-AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood, const Json& ownGround) {
+AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood,
+                    const Json& ownGround) {
   const Sights sights = sightsOf(rays, camera);
   const std::vector<Seen>& seen = sights.surfaces;
   const bool indoors = isIndoors(rays, rooms, camera, sights), dark = mood == Mood::Evening || mood == Mood::Night;
@@ -268,7 +301,9 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   }
   const size_t ceilingLamps = lamps.size();
   // Evening and night outdoors are dark but for lamps.
-  const bool overCamera = daylightReaches < kLeastDaylight && shareReached(rays, lamps, seen) + shareWithLamps(rays, rooms, seen) < 0.05 && (indoors || !dark);
+  const bool overCamera = daylightReaches < kLeastDaylight &&
+                          shareReached(rays, lamps, seen) + shareWithLamps(rays, rooms, seen) < 0.05 &&
+                          (indoors || !dark);
   if (overCamera) lamps.push_back(lampOverCamera(rays, seen, camera));
 
   AddedLight out;
@@ -285,8 +320,10 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
   if (addsGround) j["ground"] = groundUnder(rays.bounds(), camera);
   if (j.contains("daylight") && !ownGround.is_null()) j["daylight"]["ground"] = ownGround;
   if (!lamps.empty()) j["lamps"] = lamps;
-  out.summary = listed(daylight, !dark ? nullptr : mood == Mood::Night ? "a night sky"
-                                                                       : "the sky after sunset",
+  out.summary = listed(daylight,
+                       !dark                 ? nullptr
+                       : mood == Mood::Night ? "a night sky"
+                                             : "the sky after sunset",
                        ceilingLamps, overCamera, addsGround);
   return out;
 }

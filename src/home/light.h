@@ -12,7 +12,9 @@ namespace roomlight::home {
 // What a scene's own light could give at the most.
 struct OwnLight {
   bool lamps = false;                 // point, spot and area lamps
-  double indoorLux = 0, outdoorLux = 0;  // on surfaces, estimated: all the flux of lamps and shining surfaces over all surfaces; suns and sky
+  double indoorLux = 0,
+         outdoorLux =
+             0;  // on surfaces, estimated: all the flux of lamps and shining surfaces over all surfaces; suns and sky
   std::vector<std::string> farLamps;  // that stand so far outside the scene that they light nothing
 
   static constexpr double kFaintLux = 0.5;  // less than a full moon gives is no light to see a home by
@@ -27,10 +29,10 @@ OwnLight ownLightOf(const Scene& scene);
 bool outdoorLightComesIn(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera);
 
 enum class Mood {
-  Auto,     // rooms by daylight and a ceiling lamp each, all else by sun and sky
-  Day,      // daylight; lamps only in rooms that it does not reach
+  Auto,  // rooms by daylight and a ceiling lamp each, all else by sun and sky
+  Day,  // daylight; lamps only in rooms that it does not reach
   Evening,  // a ceiling lamp in each room and the last light of the sky
-  Night,    // the same under a sky that is all but dark
+  Night,  // the same under a sky that is all but dark
 };
 
 // Light for a scene, as a lighting file has it (docs/formats/lighting.md).
@@ -39,9 +41,10 @@ struct AddedLight {
   std::string summary;  // "daylight and 3 ceiling lamps"
 };
 
-// `camera`: what is looked at. `rooms`: those of the scene, or found in it. Indoors the sun stands where most of it comes in. Where all that
-// would leave the picture black, a lamp is added over the camera.
-// `ownGround`: reflectance of the home's own ground, as a `daylight` has it; null: there is none, and homes seen from outside get one.
-AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood, const nlohmann::ordered_json& ownGround = {});
+// `camera`: what is looked at. `rooms`: those of the scene, or found in it. Indoors the sun stands where most of it
+// comes in. Where all that would leave the picture black, a lamp is added over the camera. `ownGround`: reflectance of
+// the home's own ground, as a `daylight` has it; null: there is none, and homes seen from outside get one.
+AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood,
+                    const nlohmann::ordered_json& ownGround = {});
 
 }  // namespace roomlight::home

@@ -24,7 +24,8 @@ constexpr std::array kLightKeys = {"scene", "lamps", "sun", "sky", "daylight"}; 
 
 std::string quoted(const std::vector<std::string>& names) {
   std::string text;
-  for (size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) text += fmt::format("{}'{}'", i > 0 ? ", " : "", names[i]);
+  for (size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
+    text += fmt::format("{}'{}'", i > 0 ? ", " : "", names[i]);
   return names.size() > kMostNamed ? fmt::format("{} and {} more", text, names.size() - kMostNamed) : text;
 }
 
@@ -38,12 +39,14 @@ void switchOff(Scene& scene) {
 // The unit that a lighting file's places are meant for: what it says, else the file's own. None where it has no places.
 std::optional<double> unitOf(const nlohmann::json& lighting) {
   if (!lighting.is_object()) return std::nullopt;
-  if (lighting.contains("metresPerUnit") && lighting["metresPerUnit"].is_number()) return lighting["metresPerUnit"].get<double>();
+  if (lighting.contains("metresPerUnit") && lighting["metresPerUnit"].is_number())
+    return lighting["metresPerUnit"].get<double>();
   return lighting.contains("lamps") || lighting.contains("ground") ? std::optional(1.0) : std::nullopt;
 }
 
 bool decidesLight(const nlohmann::json& lighting) {
-  return lighting.is_object() && std::any_of(kLightKeys.begin(), kLightKeys.end(), [&](const char* key) { return lighting.contains(key); });
+  return lighting.is_object() &&
+         std::any_of(kLightKeys.begin(), kLightKeys.end(), [&](const char* key) { return lighting.contains(key); });
 }
 
 void takeUnit(const OpenWish& wish, StatedUnit stated, const nlohmann::json& lighting, OpenedHome& home) {
@@ -61,7 +64,9 @@ void takeUnit(const OpenWish& wish, StatedUnit stated, const nlohmann::json& lig
   home.metresPerUnit = guess.metres;
   if (guess.metres == 1) return;
   scaleScene(home.scene, static_cast<float>(guess.metres));
-  if (!guess.because.empty()) home.notes.push_back(fmt::format("taken as {} ({:g} m a unit), else {}; --metres-per-unit decides", guess.name, guess.metres, guess.because));
+  if (!guess.because.empty())
+    home.notes.push_back(fmt::format("taken as {} ({:g} m a unit), else {}; --metres-per-unit decides", guess.name,
+                                     guess.metres, guess.because));
 }
 
 // Which camera of the file is shown where nobody says; none that sees anything: its number of cameras.
@@ -86,14 +91,18 @@ void chooseCamera(const RayScene& rays, const OpenWish& wish, bool lightComes, O
   std::string fault;
   scene.cameraInUse = cameraInUse(rays, home, fault);
   const auto isUnknown = [&](const std::string& name) { return !name.empty() && !findCamera(scene, name); };
-  const bool unknown = isUnknown(wish.camera) || std::any_of(wish.moreCameras.begin(), wish.moreCameras.end(), isUnknown);
+  const bool unknown =
+      isUnknown(wish.camera) || std::any_of(wish.moreCameras.begin(), wish.moreCameras.end(), isUnknown);
   if (wish.allCameras || unknown || !home.placed()) {
     for (Camera& c : proposeCameras(rays, home.scene.rooms, lightComes)) {
       if (findCamera(scene, c.name) && home.fileCameras > 0) c.name += " (proposed)";  // the file's goes by the name
       scene.cameras.push_back(std::move(c));
     }
   }
-  if (!fault.empty()) home.notes.push_back(fmt::format("the file's camera {} {}; {} is shown instead, --camera decides", quotedOrNumber(scene, 0), fault, quotedOrNumber(scene, static_cast<size_t>(scene.cameraInUse))));
+  if (!fault.empty())
+    home.notes.push_back(fmt::format("the file's camera {} {}; {} is shown instead, --camera decides",
+                                     quotedOrNumber(scene, 0), fault,
+                                     quotedOrNumber(scene, static_cast<size_t>(scene.cameraInUse))));
 }
 
 // `decided`: a lighting file says what shines, even if that is nothing.
@@ -110,12 +119,20 @@ std::optional<Mood> moodOf(LightWish wish, const OwnLight& own, bool decided) {
 }
 
 void tellOwnLight(const OwnLight& own, bool added, LightWish wish, OpenedHome& home) {
-  if (!own.farLamps.empty()) home.warnings.push_back(fmt::format("{} nothing: {}", own.farLamps.size() == 1 ? "a lamp far outside the scene lights" : fmt::format("{} lamps far outside the scene light", own.farLamps.size()), quoted(own.farLamps)));
+  if (!own.farLamps.empty())
+    home.warnings.push_back(fmt::format("{} nothing: {}",
+                                        own.farLamps.size() == 1
+                                            ? "a lamp far outside the scene lights"
+                                            : fmt::format("{} lamps far outside the scene light", own.farLamps.size()),
+                                        quoted(own.farLamps)));
   if (added) return;
   if (own.none()) {
-    home.warnings.push_back(wish == LightWish::None ? "there is no light" : "nothing in it shines; --light auto, the default of render, adds light");
+    home.warnings.push_back(wish == LightWish::None
+                                ? "there is no light"
+                                : "nothing in it shines; --light auto, the default of render, adds light");
   } else if (own.faint()) {
-    home.warnings.push_back(fmt::format("the light in it is next to nothing, about {:.1g} lx; --light day adds daylight", own.meanLux()));
+    home.warnings.push_back(
+        fmt::format("the light in it is next to nothing, about {:.1g} lx; --light day adds daylight", own.meanLux()));
   }
 }
 
@@ -125,10 +142,12 @@ Camera shownCamera(const OpenWish& wish, const OpenedHome& home) {
   return camera ? camera.value() : defaultCamera(home.scene);
 }
 
-void addLight(const RayScene& rays, const OpenWish& wish, const OwnLight& own, std::optional<Mood> mood, OpenedHome& home) {
+void addLight(const RayScene& rays, const OpenWish& wish, const OwnLight& own, std::optional<Mood> mood,
+              OpenedHome& home) {
   tellOwnLight(own, mood.has_value(), wish.light, home);
   if (!mood) return;
-  AddedLight light = lightFor(rays, home.scene.rooms, shownCamera(wish, home), *mood, home.daylight.empty() ? Json() : Json::parse(home.daylight).at("ground"));
+  AddedLight light = lightFor(rays, home.scene.rooms, shownCamera(wish, home), *mood,
+                              home.daylight.empty() ? Json() : Json::parse(home.daylight).at("ground"));
   std::string why = "no light in the file: ";
   if (own.outdoors()) {
     why = "the sun and sky of the file do not come in: ";
@@ -136,7 +155,8 @@ void addLight(const RayScene& rays, const OpenWish& wish, const OwnLight& own, s
     why = fmt::format("the light in the file is next to nothing, about {:.1g} lx: ", own.meanLux());
   }
   if (*mood != Mood::Auto) why.clear();
-  home.notes.push_back(fmt::format("{}added {}; --light or --lighting decides, --write-lighting FILE keeps it", why, light.summary));
+  home.notes.push_back(
+      fmt::format("{}added {}; --light or --lighting decides, --write-lighting FILE keeps it", why, light.summary));
   home.added = light.summary;
   home.lighting = std::move(light.document);
   if (home.metresPerUnit != 1) home.lighting["metresPerUnit"] = home.metresPerUnit;
@@ -145,12 +165,13 @@ void addLight(const RayScene& rays, const OpenWish& wish, const OwnLight& own, s
 }  // namespace
 
 const std::vector<std::pair<std::string, std::string>>& lightWishes() {
-  static const std::vector<std::pair<std::string, std::string>> names = {{"auto", "the file's own; where it has none, daylight and a ceiling lamp in each room are added"},
-                                                                         {"day", "a clear day instead of the file's sun and sky"},
-                                                                         {"evening", "the sky after sunset, and a lamp in each room that has none"},
-                                                                         {"night", "the same under a sky that is all but dark"},
-                                                                         {"none", "no light but that of --lighting"},
-                                                                         {"file", "only what the file holds"}};
+  static const std::vector<std::pair<std::string, std::string>> names = {
+      {"auto", "the file's own; where it has none, daylight and a ceiling lamp in each room are added"},
+      {"day", "a clear day instead of the file's sun and sky"},
+      {"evening", "the sky after sunset, and a lamp in each room that has none"},
+      {"night", "the same under a sky that is all but dark"},
+      {"none", "no light but that of --lighting"},
+      {"file", "only what the file holds"}};
   return names;
 }
 
@@ -182,7 +203,8 @@ Result<OpenedHome> openHome(const OpenWish& wish) {
   takeUnit(wish, imported.value().unit, lighting, home);
   if (wish.light == LightWish::None) switchOff(home.scene);
   if (!wish.lighting.empty()) {
-    if (const Status s = applyLighting(lighting, wish.lighting, home.scene, &home.warnings); !s) return Error{s.error()};
+    if (const Status s = applyLighting(lighting, wish.lighting, home.scene, &home.warnings); !s)
+      return Error{s.error()};
   }
   {
     const RayScene rays(home.scene);
@@ -191,11 +213,14 @@ Result<OpenedHome> openHome(const OpenWish& wish) {
     const bool decided = decidesLight(lighting);
     std::optional<Mood> mood = moodOf(wish.light, own, decided);
     chooseCamera(rays, wish, own.outdoors() || mood.has_value(), home);
-    if (wish.light == LightWish::Auto && !decided && !mood && !own.lamps && own.indoorLux < 0.5 && !outdoorLightComesIn(rays, home.scene.rooms, shownCamera(wish, home))) mood = Mood::Auto;
+    if (wish.light == LightWish::Auto && !decided && !mood && !own.lamps && own.indoorLux < 0.5 &&
+        !outdoorLightComesIn(rays, home.scene.rooms, shownCamera(wish, home)))
+      mood = Mood::Auto;
     addLight(rays, wish, own, mood, home);
   }
   if (!home.lighting.is_null()) {
-    if (const Status s = applyLighting(home.lighting, "added light", home.scene, &home.warnings); !s) return Error{s.error()};
+    if (const Status s = applyLighting(home.lighting, "added light", home.scene, &home.warnings); !s)
+      return Error{s.error()};
   }
   return home;
 }

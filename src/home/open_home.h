@@ -1,4 +1,5 @@
-// The one way from a file to a home that can be looked at: its unit, its rooms, cameras that see something, and light where it has none.
+// The one way from a file to a home that can be looked at: its unit, its rooms, cameras that see something, and light
+ // where it has none.
 #pragma once
 
 #include <filesystem>
@@ -35,7 +36,8 @@ struct OpenWish {
 };
 
 struct OpenedHome {
-  // With the cameras of the file first, then those proposed, if any; `cameraInUse` is one that sees something. Rooms are the file's; where it has none, those found.
+  // With the cameras of the file first, then those proposed, if any; `cameraInUse` is one that sees something. Rooms
+// are the file's; where it has none, those found.
   Scene scene;
   size_t fileCameras = 0;
   std::vector<std::string> warnings, faults;  // as Imported has them
@@ -46,7 +48,9 @@ struct OpenedHome {
   nlohmann::ordered_json lighting;   // the same, as a lighting file; null: nothing
   std::optional<PhotoWish> photo;    // as Imported has them
   std::string daylight;
-  bool placed() const { return static_cast<size_t>(scene.cameraInUse) < fileCameras; }  // whether the default camera is the file's
+  bool placed() const {
+    return static_cast<size_t>(scene.cameraInUse) < fileCameras;
+  }  // whether the default camera is the file's
 };
 
 // The error is one line.

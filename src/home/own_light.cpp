@@ -24,7 +24,8 @@ OwnLight ownLightOf(const Scene& scene) {
   OwnLight own;
   const Bounds3 bounds = scene.bounds();
   const Vec3 size = bounds.size();
-  const double surfaceM2 = std::max(1e-6, 2.0 * static_cast<double>(size.x * size.y + size.y * size.z + size.z * size.x));
+  const double surfaceM2 =
+      std::max(1e-6, 2.0 * static_cast<double>(size.x * size.y + size.y * size.z + size.z * size.x));
   const float reach = std::max(kFarLampM, kFarLamp * maxComponent(size));
   double fluxLm = Lights(scene).emittedFluxLm();
   for (const Lamp& lamp : scene.lamps) {
@@ -40,7 +41,9 @@ OwnLight ownLightOf(const Scene& scene) {
       continue;
     }
     own.lamps = true;
-    fluxLm += cd * (lamp.kind == LampKind::Spot ? spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad)) : 4.0 * static_cast<double>(kPi));
+    fluxLm +=
+        cd * (lamp.kind == LampKind::Spot ? spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad))
+                                          : 4.0 * static_cast<double>(kPi));
   }
   own.indoorLux = fluxLm / surfaceM2;
   for (const Sun& sun : scene.suns) own.outdoorLux += static_cast<double>(luminance(sun.illuminanceLux)) * 0.3;

@@ -52,8 +52,14 @@ class Cells {
   }
 
  private:
-  int along(Vec3 p, int axis) const { return std::clamp(static_cast<int>((p[axis] - low_[axis]) / cellM_), 0, dims_[axis] - 1); }
-  size_t index(int x, int y, int z) const { return (static_cast<size_t>(z) * static_cast<size_t>(dims_[1]) + static_cast<size_t>(y)) * static_cast<size_t>(dims_[0]) + static_cast<size_t>(x); }
+  int along(Vec3 p, int axis) const {
+    return std::clamp(static_cast<int>((p[axis] - low_[axis]) / cellM_), 0, dims_[axis] - 1);
+  }
+  size_t index(int x, int y, int z) const {
+    return (static_cast<size_t>(z) * static_cast<size_t>(dims_[1]) + static_cast<size_t>(y)) *
+               static_cast<size_t>(dims_[0]) +
+           static_cast<size_t>(x);
+  }
   void markAround(int x, int y, int z) {
     for (int k = std::max(0, z - 1); k <= std::min(dims_[2] - 1, z + 1); ++k) {
       for (int j = std::max(0, y - 1); j <= std::min(dims_[1] - 1, y + 1); ++j) {
@@ -81,7 +87,8 @@ Trace follow(const RayScene& rays, Ray ray) {
     const Vec3 p = ray.origin + ray.direction * hit.t, n = normalize(dot(hit.ng, ray.direction) > 0 ? -hit.ng : hit.ng);
     trace.places.push_back(p);
     const Scene& scene = rays.scene();
-    if (!letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)].material)])) {
+    if (!letsLightThrough(scene.materials[static_cast<size_t>(
+            scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)].material)])) {
       trace.normal = n;
       return trace;
     }
@@ -95,7 +102,8 @@ std::vector<Vec3> lightsOf(const Scene& scene) {
   std::vector<Vec3> lights;
   for (const Lamp& lamp : scene.lamps) lights.push_back(lamp.position);
   for (const Instance& i : scene.instances) {
-    if (!isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].emission)) lights.push_back(instanceBounds(scene, i).centre());
+    if (!isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].emission))
+      lights.push_back(instanceBounds(scene, i).centre());
   }
   return lights;
 }
@@ -105,7 +113,8 @@ void lookFor(const RayScene& rays, Vec3 from, Vec3 light, std::vector<Vec3>& pla
   places.push_back(hit.valid() ? from + (light - from) * hit.t : light);
 }
 
-void tracePath(const RayScene& rays, const std::vector<Vec3>& lights, const Ray& first, Rng& random, std::vector<Vec3>& places) {
+void tracePath(const RayScene& rays, const std::vector<Vec3>& lights, const Ray& first, Rng& random,
+               std::vector<Vec3>& places) {
   Ray ray = first;
   for (int bounce = 0; bounce <= kBounces; ++bounce) {
     const Trace met = follow(rays, ray);
@@ -117,7 +126,11 @@ void tracePath(const RayScene& rays, const std::vector<Vec3>& lights, const Ray&
       const Trace toSun = follow(rays, {from, sun.toLight, 0, kInfinity});
       places.insert(places.end(), toSun.places.begin(), toSun.places.end());
     }
-    if (!lights.empty()) lookFor(rays, from, lights[std::min(lights.size() - 1, static_cast<size_t>(random.uniform() * static_cast<float>(lights.size())))], places);
+    if (!lights.empty())
+      lookFor(rays, from,
+              lights[std::min(lights.size() - 1,
+                              static_cast<size_t>(random.uniform() * static_cast<float>(lights.size())))],
+              places);
     ray = {from, Frame(*met.normal).toWorld(sampleCosineHemisphere(random.uniform2())), 0, kInfinity};
   }
 }
@@ -129,7 +142,9 @@ void markReached(const RayScene& rays, const Camera& camera, Cells& cells) {
   parallelFor(rows.size(), 1, [&](size_t y) {
     for (int x = 0; x < kAcross; ++x) {
       Rng random(y * kAcross + static_cast<size_t>(x), 0, 0);
-      tracePath(rays, lights, through.ray(static_cast<float>(x) + random.uniform(), static_cast<float>(y) + random.uniform()), random, rows[y]);
+      tracePath(rays, lights,
+                through.ray(static_cast<float>(x) + random.uniform(), static_cast<float>(y) + random.uniform()), random,
+                rows[y]);
     }
   });
   for (const auto& row : rows) {
@@ -149,7 +164,8 @@ Kept keptOf(const Scene& scene, const Instance& instance, const Cells& cells) {
   for (uint32_t t = 0; t < mesh.triangleCount(); ++t) {
     Bounds3 b;
     Vec3 c[3];
-    for (uint32_t k = 0; k < 3; ++k) b.add(c[k] = instance.worldFromObject.point(mesh.positions[mesh.indices[3 * t + k]]));
+    for (uint32_t k = 0; k < 3; ++k)
+      b.add(c[k] = instance.worldFromObject.point(mesh.positions[mesh.indices[3 * t + k]]));
     const double m2 = 0.5 * static_cast<double>(length(cross(c[1] - c[0], c[2] - c[0])));
     kept.allM2 += m2;
     if (!cells.any(b)) continue;
@@ -180,7 +196,8 @@ Mesh partOf(const Mesh& mesh, const std::vector<uint32_t>& triangles) {
       part.indices.push_back(renamed[v]);
     }
   }
-  pick(part.positions, vertices), pick(part.normals, vertices), pick(part.tangents, vertices), pick(part.tangentSigns, vertices);
+  pick(part.positions, vertices), pick(part.normals, vertices), pick(part.tangents, vertices),
+      pick(part.tangentSigns, vertices);
   pick(part.uv[0], vertices), pick(part.uv[1], vertices), pick(part.colors, vertices), pick(part.colorAlphas, vertices);
   return part;
 }

@@ -17,15 +17,15 @@ constexpr float kEyeM = 1.6f, kMostOfHeight = 0.65f;
 constexpr float kNearM = 0.5f, kStandM = 0.35f;
 constexpr float kBesideM = 3.2f;           // how far beside a room that is open to a side
 constexpr int kPlaces = 14;                // along each side of the room
-constexpr int kAround = 96, kUp = 15;      // rays of one place, all around and over kTallDeg to each side of the horizon
+constexpr int kAround = 96, kUp = 15;  // rays of one place, all around and over kTallDeg to each side of the horizon
 constexpr int kHeadings = 32;
-constexpr double kAlike = 0.004;           // difference of scores
+constexpr double kAlike = 0.004;  // difference of scores
 constexpr float kHalfHighDeg = 26, kHalfWideDeg = 41;  // of the picture: a lens of 21 mm
 constexpr float kFov = 2 * kHalfHighDeg * kPi / 180;
 
 struct Look {
   float distanceM = kInfinity;  // to the first surface, not to what is behind panes
-  uint32_t kind = kNoHit;       // of surface: material, thing and the way it faces
+  uint32_t kind = kNoHit;  // of surface: material, thing and the way it faces
   bool inRoom = false;
 };
 
@@ -36,9 +36,9 @@ float azimuth(int column) { return 2 * kPi * (static_cast<float>(column) + 0.5f)
 
 uint32_t kindOf(const Scene& scene, const Hit& hit) {
   const Vec3 n = abs(hit.ng);
-  const uint32_t axis = n.y > std::max(n.x, n.z) ? 0 : n.x > n.z ? 1
-                                                                 : 2;
-  const auto material = static_cast<uint32_t>(scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)].material);
+  const uint32_t axis = n.y > std::max(n.x, n.z) ? 0 : n.x > n.z ? 1 : 2;
+  const auto material =
+      static_cast<uint32_t>(scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)].material);
   return mix32(hit.instance * 3 + axis + 0x9e3779b9u * material) & 0x7fffffffu;
 }
 
@@ -56,7 +56,8 @@ Panorama lookAround(const RayScene& rays, const Room& room, Vec3 eye) {
   for (int row = 0; row < kUp; ++row) {
     for (int column = 0; column < kAround; ++column) {
       const float a = azimuth(column), e = elevation(row);
-      sent[static_cast<size_t>(row * kAround + column)] = {eye, {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)}, 0, kInfinity};
+      sent[static_cast<size_t>(row * kAround + column)] = {
+          eye, {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)}, 0, kInfinity};
     }
   }
   rays.intersect(sent, hits);
@@ -92,7 +93,8 @@ double scoreOf(const Panorama& all, float heading, double surfaceM2, double farM
       }
       const double nearness = d < 1.5 ? 0.2 + 0.8 * (d - 0.5) : 1;
       good += w * std::min(nearness, std::max(0.4, farM / d));
-      const double m2 = d * d * static_cast<double>(2 * kPi / kAround * 2 * kHalfHighDeg * kPi / 180 / kUp * std::cos(e));
+      const double m2 =
+          d * d * static_cast<double>(2 * kPi / kAround * 2 * kHalfHighDeg * kPi / 180 / kUp * std::cos(e));
       seenM2 += m2;
       things[look.kind] += w;
     }
@@ -121,7 +123,8 @@ bool canStand(const RayScene& rays, Vec3 eye) {
     const float a = 2 * kPi * static_cast<float>(i) / 16;
     if (rays.intersect({eye, {std::sin(a), 0, std::cos(a)}, 0, kStandM}).valid()) return false;
   }
-  return !rays.intersect({eye, {0, 1, 0}, 0, 0.2f}).valid() && !rays.intersect({eye, {0, -1, 0}, 0, 0.4f}).valid() && !insideBody(rays, eye);
+  return !rays.intersect({eye, {0, 1, 0}, 0, 0.2f}).valid() && !rays.intersect({eye, {0, -1, 0}, 0, 0.4f}).valid() &&
+         !insideBody(rays, eye);
 }
 
 // Whether an eye beside the room looks into it: a wall between would hide all of it, things in it do not.
@@ -138,7 +141,8 @@ bool seesRoom(const RayScene& rays, Vec3 eye, Vec2 low, Vec2 high) {
 
 std::vector<Vec3> placesFor(const RayScene& rays, const Room& room) {
   Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
-  for (const Vec2 c : room.floor) low = {std::min(low.x, c.x), std::min(low.y, c.y)}, high = {std::max(high.x, c.x), std::max(high.y, c.y)};
+  for (const Vec2 c : room.floor)
+    low = {std::min(low.x, c.x), std::min(low.y, c.y)}, high = {std::max(high.x, c.x), std::max(high.y, c.y)};
   const float y = room.elevationM + std::min(kEyeM, kMostOfHeight * room.heightM);
   std::vector<Vec3> places;
   const auto add = [&](float x, float z, bool beside) {
@@ -189,7 +193,8 @@ std::optional<RoomView> viewOf(const RayScene& rays, const Room& room) {
   });
   std::optional<RoomView> out;
   for (size_t i = 0; i < places.size(); ++i) {
-    if (out && !(best[i].score > out->score + kAlike)) continue;  // the first of those that are as good: rounding does not decide
+    if (out && !(best[i].score > out->score + kAlike))
+      continue;  // the first of those that are as good: rounding does not decide
     out.emplace();
     out->score = best[i].score;
     out->camera.name = room.name;

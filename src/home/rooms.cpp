@@ -34,7 +34,8 @@ std::vector<uint8_t> largestPart(const Lattice& cells) {
     part[first] = number;
     sizes.push_back(0);
     while (!open.empty()) {
-      const int column = static_cast<int>(open.back()) % cells.columns, row = static_cast<int>(open.back()) / cells.columns;
+      const int column = static_cast<int>(open.back()) % cells.columns,
+                row = static_cast<int>(open.back()) / cells.columns;
       open.pop_back();
       ++sizes.back();
       for (const Cell step : {Cell{0, 1}, Cell{1, 0}, Cell{0, -1}, Cell{-1, 0}}) {
@@ -54,7 +55,9 @@ std::vector<uint8_t> largestPart(const Lattice& cells) {
 // Corners of the outline of the largest connected part, along the borders of cells. Holes are left out.
 std::vector<Cell> outlineOf(const Lattice& cells) {
   const std::vector<uint8_t> marked = largestPart(cells);
-  const auto used = [&](int column, int row) { return column >= 0 && row >= 0 && column < cells.columns && row < cells.rows && marked[cells.index(column, row)]; };
+  const auto used = [&](int column, int row) {
+    return column >= 0 && row >= 0 && column < cells.columns && row < cells.rows && marked[cells.index(column, row)];
+  };
   Cell start{-1, -1};
   for (int row = 0; row < cells.rows && start.row < 0; ++row) {
     for (int column = 0; column < cells.columns && start.row < 0; ++column) {
@@ -80,7 +83,7 @@ std::vector<Cell> outlineOf(const Lattice& cells) {
     const bool left = ahead(-1), right = ahead(1);
     int turned = heading;
     if (!left)
-      turned = (heading + 1) % 4;        // the cells are on the left
+      turned = (heading + 1) % 4;  // the cells are on the left
     else if (right)
       turned = (heading + 3) % 4;
     if (turned != heading) corners.push_back(at), heading = turned;
@@ -99,7 +102,8 @@ Heights heightsIn(const RayScene& rays, const Area& area) {
       if (!area.map.used[area.map.index(column, row)]) continue;
       const Vec3 p = area.map.centre(column, row);
       const Vec3 eye{p.x, area.elevationM + kEyeM, p.z};
-      const Hit ceiling = rays.intersect({eye, {0, 1, 0}, 0, kInfinity}), floor = rays.intersect({eye, {0, -1, 0}, 0, kInfinity});
+      const Hit ceiling = rays.intersect({eye, {0, 1, 0}, 0, kInfinity}),
+                floor = rays.intersect({eye, {0, -1, 0}, 0, kInfinity});
       if (ceiling.valid()) heights.ceilings.push_back(kEyeM + ceiling.t);
       if (floor.valid()) heights.floors.push_back(kEyeM - floor.t);
     }
@@ -115,7 +119,8 @@ float medianOf(std::vector<float>& heights, float otherwise) {
 }
 
 double shareAt(const std::vector<float>& heights, float level) {
-  const auto near = std::count_if(heights.begin(), heights.end(), [&](float h) { return std::abs(h - level) < kMarginM; });
+  const auto near =
+      std::count_if(heights.begin(), heights.end(), [&](float h) { return std::abs(h - level) < kMarginM; });
   return heights.empty() ? 0 : static_cast<double>(near) / static_cast<double>(heights.size());
 }
 
@@ -125,14 +130,16 @@ Room roomOf(const Area& area, float heightM) {
   room.heightM = heightM;
   const Lattice& m = area.map;
   for (const Cell c : outlineOf(m)) {
-    const Vec3 p = m.corner + m.u * (static_cast<float>(c.column) * m.stepUM) + m.v * (static_cast<float>(c.row) * m.stepVM);
+    const Vec3 p =
+        m.corner + m.u * (static_cast<float>(c.column) * m.stepUM) + m.v * (static_cast<float>(c.row) * m.stepVM);
     room.floor.push_back({p.x, p.z});
   }
   if (signedAreaM2(room.floor) < 0) std::reverse(room.floor.begin(), room.floor.end());
   return room;
 }
 
-// From the middle of a room: share of level rays that meet something, and of all that meet something how much turns its back.
+// From the middle of a room: share of level rays that meet something, and of all that meet something how much turns its
+// back.
 struct Enclosure {
   double closed = 0, backs = 0;
 };
@@ -165,8 +172,8 @@ Candidate candidateOf(const RayScene& rays, const Area& area) {
   return c;
 }
 
-// Between two plates is no room. A cave or a log is level nowhere. Where some rooms have faces, those that see little but backs are the insides of blocks; where all see backs,
-// the file has its walls turned.
+// Between two plates is no room. A cave or a log is level nowhere. Where some rooms have faces, those that see little
+// but backs are the insides of blocks; where all see backs, the file has its walls turned.
 bool isRoom(const Candidate& c, bool othersHaveFaces) {
   constexpr double kLevel = 0.5, kSolid = 0.65, kClosed = 0.5;
   if (c.around.closed < kClosed) return false;
@@ -180,7 +187,8 @@ std::vector<Room> findRooms(const RayScene& rays) {
   constexpr double kFaces = 0.5;
   std::vector<Candidate> candidates;
   for (const Area& area : findAreas(rays, kPlaneM, {0.2, 0, 0})) candidates.push_back(candidateOf(rays, area));
-  const bool anyFaces = std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.around.backs < kFaces; });
+  const bool anyFaces =
+      std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.around.backs < kFaces; });
   std::vector<Room> rooms;
   for (Candidate& c : candidates) {
     if (!isRoom(c, anyFaces)) continue;
@@ -191,12 +199,14 @@ std::vector<Room> findRooms(const RayScene& rays) {
 }
 
 bool isIn(const Room& room, Vec3 p) {
-  return p.y > room.elevationM - kMarginM && p.y < room.elevationM + room.heightM + kMarginM && contains(room.floor, {p.x, p.z});
+  return p.y > room.elevationM - kMarginM && p.y < room.elevationM + room.heightM + kMarginM &&
+         contains(room.floor, {p.x, p.z});
 }
 
 bool hasLight(const Scene& scene, const Room& room) {
   constexpr float kLeastCdM2 = 50;  // a display shines less
-  if (std::any_of(scene.lamps.begin(), scene.lamps.end(), [&](const Lamp& l) { return isIn(room, l.position); })) return true;
+  if (std::any_of(scene.lamps.begin(), scene.lamps.end(), [&](const Lamp& l) { return isIn(room, l.position); }))
+    return true;
   return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
     const Material& m = scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)];
     return luminance(m.emission) >= kLeastCdM2 && isIn(room, instanceBounds(scene, i).centre());

@@ -7,8 +7,8 @@
 
 namespace roomlight::home {
 
-// "Room 1", the largest, "Room 2", ... of a scene in metres; each with the outline of its floor, to 20 cm, and the height of most of its ceiling.
-// Costs some hundred thousand rays.
+// "Room 1", the largest, "Room 2", ... of a scene in metres; each with the outline of its floor, to 20 cm, and the
+// height of most of its ceiling. Costs some hundred thousand rays.
 std::vector<Room> findRooms(const RayScene& rays);
 
 // Whether p is in the room, between its floor and its ceiling.

@@ -11,7 +11,8 @@
 namespace roomlight::home {
 namespace {
 
-constexpr double kMostlyRoom = 0.4;  // of what is seen lies in rooms: seen through a window from outside, all around it is half
+constexpr double kMostlyRoom =
+    0.4;  // of what is seen lies in rooms: seen through a window from outside, all around it is half
 constexpr int kAcross = 32, kDown = 18;
 constexpr int kAround = 64;
 constexpr double kClosedIn = 0.85;
@@ -19,7 +20,8 @@ constexpr double kClosedIn = 0.85;
 }  // namespace
 
 double Sights::share(float nearM, float farM) const {
-  const auto count = std::count_if(surfaces.begin(), surfaces.end(), [&](const Seen& s) { return s.distanceM >= nearM && s.distanceM <= farM; });
+  const auto count = std::count_if(surfaces.begin(), surfaces.end(),
+                                   [&](const Seen& s) { return s.distanceM >= nearM && s.distanceM <= farM; });
   return rays > 0 ? static_cast<double>(count) / static_cast<double>(rays) : 0;
 }
 
@@ -40,9 +42,13 @@ Sights sightsOf(const RayScene& rays, const Camera& camera) {
 }
 
 bool isIndoors(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, const Sights& sights) {
-  const auto inRoom = [&](const Seen& s) { return std::any_of(rooms.begin(), rooms.end(), [&](const Room& r) { return isIn(r, s.p + s.n * 0.05f); }); };
+  const auto inRoom = [&](const Seen& s) {
+    return std::any_of(rooms.begin(), rooms.end(), [&](const Room& r) { return isIn(r, s.p + s.n * 0.05f); });
+  };
   const auto& seen = sights.surfaces;
-  if (!seen.empty() && static_cast<double>(std::count_if(seen.begin(), seen.end(), inRoom)) > kMostlyRoom * static_cast<double>(seen.size())) return true;
+  if (!seen.empty() && static_cast<double>(std::count_if(seen.begin(), seen.end(), inRoom)) >
+                           kMostlyRoom * static_cast<double>(seen.size()))
+    return true;
   int met = 0;
   for (int i = 0; i < kAround; ++i) {
     const Vec3 d = sampleSphere(latticePoint(i, kAround));

@@ -22,13 +22,16 @@ struct Unit {
   const char* name;
   double ifNoneStated, ifMetresStated;  // how much less likely than metres, as logarithms
 };
-constexpr Unit kUnits[] = {{1, "metres", 0, 0}, {0.01, "centimetres", -1.5, -3}, {0.001, "millimetres", -1.5, -3}, {0.0254, "inches", -2.5, -3.5}, {0.3048, "feet", -4, -5.5}};
+constexpr Unit kUnits[] = {{1, "metres", 0, 0},
+                           {0.01, "centimetres", -1.5, -3},
+                           {0.001, "millimetres", -1.5, -3},
+                           {0.0254, "inches", -2.5, -3.5},
+                           {0.3048, "feet", -4, -5.5}};
 
 // How unlikely a length is that usually lies between low and high: a normal distribution of its logarithm beyond them.
 double unlikely(double value, double low, double high, double sigma) {
   if (!(value > 0)) return 0;
-  const double beyond = value < low ? std::log(low / value) : value > high ? std::log(value / high)
-                                                                           : 0;
+  const double beyond = value < low ? std::log(low / value) : value > high ? std::log(value / high) : 0;
   return 0.5 * (beyond / sigma) * (beyond / sigma);
 }
 
@@ -37,11 +40,16 @@ struct Word {
   const char* word;
   double low, high;
 };
-constexpr Word kWords[] = {{"door", 1.8, 2.4}, {"tuer", 1.8, 2.4}, {"porte", 1.8, 2.4}, {"puerta", 1.8, 2.4}, {"chair", 0.65, 1.3}, {"stuhl", 0.65, 1.3}, {"chaise", 0.65, 1.3}, {"silla", 0.65, 1.3}, {"sofa", 0.5, 1.2}, {"couch", 0.5, 1.2}, {"table", 0.35, 1.1}, {"tisch", 0.35, 1.1}, {"desk", 0.6, 1.3}, {"toilet", 0.35, 1.1}, {"fridge", 0.8, 2.1}, {"person", 1.4, 2.0}, {"human", 1.4, 2.0}};
+constexpr Word kWords[] = {{"door", 1.8, 2.4},   {"tuer", 1.8, 2.4},    {"porte", 1.8, 2.4},   {"puerta", 1.8, 2.4},
+                           {"chair", 0.65, 1.3}, {"stuhl", 0.65, 1.3},  {"chaise", 0.65, 1.3}, {"silla", 0.65, 1.3},
+                           {"sofa", 0.5, 1.2},   {"couch", 0.5, 1.2},   {"table", 0.35, 1.1},  {"tisch", 0.35, 1.1},
+                           {"desk", 0.6, 1.3},   {"toilet", 0.35, 1.1}, {"fridge", 0.8, 2.1},  {"person", 1.4, 2.0},
+                           {"human", 1.4, 2.0}};
 
 bool isCalled(const std::string& name, const char* word) {
   std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return lower.find(word) != std::string::npos;
 }
 
@@ -84,7 +92,8 @@ double unlikelyThings(const std::vector<Proportions::Thing>& things, double metr
 // Seats, beds, tables and worktops are where people's knees and elbows are.
 double unlikelySteps(const std::vector<float>& steps, double metres) {
   if (steps.size() < 20) return 0;
-  const auto usual = std::count_if(steps.begin(), steps.end(), [&](float s) { return s * metres > 0.35 && s * metres < 1.1; });
+  const auto usual =
+      std::count_if(steps.begin(), steps.end(), [&](float s) { return s * metres > 0.35 && s * metres < 1.1; });
   return -0.7 * std::log((static_cast<double>(usual) / static_cast<double>(steps.size()) + 0.05) / 1.05);
 }
 
@@ -93,10 +102,12 @@ double unlikelihood(const Proportions& p, const Unit& unit, StatedUnit stated) {
   const double extentM = static_cast<double>(p.extent) * unit.metres;
   double size = 0.7 + unlikely(extentM, 0.25, 5, 1.5);
   if (p.roomHeight > 0) {
-    const double asHome = unlikely(static_cast<double>(p.roomHeight) * unit.metres, 2.1, 4, 0.22) + unlikely(extentM, 1.8, 120, 0.6) + unlikelySteps(p.steps, unit.metres);
+    const double asHome = unlikely(static_cast<double>(p.roomHeight) * unit.metres, 2.1, 4, 0.22) +
+                          unlikely(extentM, 1.8, 120, 0.6) + unlikelySteps(p.steps, unit.metres);
     size = std::min(asHome, size + 8 * static_cast<double>(p.enclosedShare));
   }
-  return size + unlikelyThings(p.things, unit.metres) - (stated == StatedUnit::Stated ? unit.ifMetresStated : unit.ifNoneStated);
+  return size + unlikelyThings(p.things, unit.metres) -
+         (stated == StatedUnit::Stated ? unit.ifMetresStated : unit.ifNoneStated);
 }
 
 struct Column {
@@ -125,7 +136,11 @@ Column lookAt(const RayScene& rays, float x, float z) {
   int met = 0;
   for (int i = 0; i < kAround; ++i) {
     const float angle = 2 * kPi * (static_cast<float>(i) + 0.5f) / kAround;
-    met += rays.intersect({{x, 0.5f * (column.low + column.high), z}, {std::cos(angle), 0, std::sin(angle)}, 0, kInfinity}).valid() ? 1 : 0;
+    met +=
+        rays.intersect({{x, 0.5f * (column.low + column.high), z}, {std::cos(angle), 0, std::sin(angle)}, 0, kInfinity})
+                .valid()
+            ? 1
+            : 0;
   }
   column.enclosed = met >= kEnclosed * kAround;
   return column;
@@ -152,11 +167,16 @@ std::vector<float> stepsOf(const std::vector<Column>& columns, float roomHeight)
 std::optional<UnitGuess> scaledHome(const Proportions& p) {
   constexpr float kRoomM = 2.6f, kWide = 2;
   constexpr double kLow = 0.25, kHigh = 15;
-  if (!(p.roomHeight > 0) || (p.roomHeight > kLow && p.roomHeight < kHigh) || p.extent < kWide * p.roomHeight || p.steps.size() < 40) return std::nullopt;
-  const auto usual = std::count_if(p.steps.begin(), p.steps.end(), [&](float s) { return s > 0.13f * p.roomHeight && s < 0.42f * p.roomHeight; });
+  if (!(p.roomHeight > 0) || (p.roomHeight > kLow && p.roomHeight < kHigh) || p.extent < kWide * p.roomHeight ||
+      p.steps.size() < 40)
+    return std::nullopt;
+  const auto usual = std::count_if(p.steps.begin(), p.steps.end(),
+                                   [&](float s) { return s > 0.13f * p.roomHeight && s < 0.42f * p.roomHeight; });
   if (2 * static_cast<size_t>(usual) < p.steps.size()) return std::nullopt;
-  const double exact = static_cast<double>(kRoomM / p.roomHeight), power = std::pow(10, std::floor(std::log10(exact)) - 1);
-  return UnitGuess{std::round(exact / power) * power, "another unit", fmt::format("rooms would be {:.2g} m high", p.roomHeight)};
+  const double exact = static_cast<double>(kRoomM / p.roomHeight),
+               power = std::pow(10, std::floor(std::log10(exact)) - 1);
+  return UnitGuess{std::round(exact / power) * power, "another unit",
+                   fmt::format("rooms would be {:.2g} m high", p.roomHeight)};
 }
 
 }  // namespace
@@ -173,7 +193,8 @@ Proportions proportionsOf(const RayScene& rays) {
   parallelFor(columns.size(), 16, [&](size_t i) {
     const int column = static_cast<int>(i) % across, row = static_cast<int>(i) / across;
     // Off the middle by a little, so that seams between equal parts are not met from end to end.
-    columns[i] = lookAt(rays, b.lo.x + (static_cast<float>(column) + 0.487f) / static_cast<float>(across) * size.x, b.lo.z + (static_cast<float>(row) + 0.513f) / static_cast<float>(down) * size.z);
+    columns[i] = lookAt(rays, b.lo.x + (static_cast<float>(column) + 0.487f) / static_cast<float>(across) * size.x,
+                        b.lo.z + (static_cast<float>(row) + 0.513f) / static_cast<float>(down) * size.z);
   });
   const auto covered = std::count_if(columns.begin(), columns.end(), [](const Column& c) { return c.covered; });
   std::erase_if(columns, [](const Column& c) { return !c.enclosed; });
@@ -210,7 +231,9 @@ UnitGuess guessUnit(const Proportions& p, StatedUnit stated) {
     if (const std::optional<UnitGuess> scaled = scaledHome(p)) return *scaled;
   }
   UnitGuess guess{best->metres, best->name, ""};
-  if (best != &kUnits[0]) guess.because = p.roomHeight > 0 ? fmt::format("rooms would be {:.3g} m high", p.roomHeight) : fmt::format("it would be {:.3g} m long", p.extent);
+  if (best != &kUnits[0])
+    guess.because = p.roomHeight > 0 ? fmt::format("rooms would be {:.3g} m high", p.roomHeight)
+                                     : fmt::format("it would be {:.3g} m long", p.extent);
   return guess;
 }
 

@@ -23,7 +23,9 @@ constexpr float kRadPerDegree = std::numbers::pi_v<float> / 180;
 std::string text(const aiString& s) { return std::string(s.data, std::min<size_t>(s.length, sizeof(s.data))); }
 Vec3 vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 Vec3 vec(const aiColor3D& v) { return {v.r, v.g, v.b}; }
-Affine affine(const aiMatrix4x4& m) { return {{m.a1, m.b1, m.c1}, {m.a2, m.b2, m.c2}, {m.a3, m.b3, m.c3}, {m.a4, m.b4, m.c4}}; }
+Affine affine(const aiMatrix4x4& m) {
+  return {{m.a1, m.b1, m.c1}, {m.a2, m.b2, m.c2}, {m.a3, m.b3, m.c3}, {m.a4, m.b4, m.c4}};
+}
 
 // Vertex colours are meant as a screen shows them.
 float linear(float srgb) { return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f); }
@@ -40,7 +42,8 @@ class MaterialReader {
     colour(AI_MATKEY_COLOR_SPECULAR, out.specular);
     colour(AI_MATKEY_COLOR_EMISSIVE, out.emission);
     in_.Get(AI_MATKEY_OPACITY, out.opacity);
-    if (in_.Get(AI_MATKEY_SHININESS, out.shininess) != aiReturn_SUCCESS) in_.Get("$raw.Shininess", 0, 0, out.shininess);  // FBX has both
+    if (in_.Get(AI_MATKEY_SHININESS, out.shininess) != aiReturn_SUCCESS)
+      in_.Get("$raw.Shininess", 0, 0, out.shininess);  // FBX has both
     out.diffusePicture = picture(aiTextureType_DIFFUSE);
     if (out.diffusePicture.empty()) out.diffusePicture = picture(aiTextureType_BASE_COLOR);
     out.opacityPicture = picture(aiTextureType_OPACITY);
@@ -75,7 +78,8 @@ class MaterialReader {
 
 class Collector {
  public:
-  Collector(const aiScene& scene, AssimpFormat format, size_t maxTriangles) : scene_(scene), format_(format), maxTriangles_(maxTriangles) {}
+  Collector(const aiScene& scene, AssimpFormat format, size_t maxTriangles)
+      : scene_(scene), format_(format), maxTriangles_(maxTriangles) {}
 
   ForeignModel collect() {
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i) addMaterial(*scene_.mMaterials[i]);
@@ -111,7 +115,8 @@ class Collector {
   void addMaterial(const aiMaterial& in) {
     model_.materials.push_back(MaterialReader(scene_, in).read());
     ForeignMaterial& m = model_.materials.back();
-    if (format_ == AssimpFormat::Stl || format_ == AssimpFormat::Ply) m.diffuse = ForeignMaterial().diffuse, m.specular = m.emission = {}, m.shininess = 0;
+    if (format_ == AssimpFormat::Stl || format_ == AssimpFormat::Ply)
+      m.diffuse = ForeignMaterial().diffuse, m.specular = m.emission = {}, m.shininess = 0;
   }
 
   void addMesh(const aiMesh& in) {
@@ -123,7 +128,8 @@ class Collector {
       if (in.HasNormals()) out.normals.push_back(vec(in.mNormals[i]));
       // Texture coordinates count from the picture's bottom here, from its top in the scene.
       if (in.HasTextureCoords(0)) out.uv[0].push_back({in.mTextureCoords[0][i].x, 1 - in.mTextureCoords[0][i].y});
-      if (colours) out.colors.push_back({linear(in.mColors[0][i].r), linear(in.mColors[0][i].g), linear(in.mColors[0][i].b)});
+      if (colours)
+        out.colors.push_back({linear(in.mColors[0][i].r), linear(in.mColors[0][i].g), linear(in.mColors[0][i].b)});
     }
     for (unsigned i = 0; i < in.mNumFaces; ++i) {
       const aiFace& face = in.mFaces[i];
@@ -149,10 +155,12 @@ class Collector {
     const Affine m = placeOf(in.mName);
     ForeignCamera out;
     out.name = text(in.mName);
-    out.position = m.point(vec(in.mPosition)), out.direction = m.vector(vec(in.mLookAt)), out.up = m.vector(vec(in.mUp));
+    out.position = m.point(vec(in.mPosition)), out.direction = m.vector(vec(in.mLookAt)),
+    out.up = m.vector(vec(in.mUp));
     out.xFovRad = in.mHorizontalFOV, out.aspect = in.mAspect;
     // 3D Studio says the focal length in mm where the library takes degrees: the angle is 2400 / mm degrees.
-    if (format_ == AssimpFormat::Studio3D && in.mHorizontalFOV > 0) out.xFovRad = 2400 / (in.mHorizontalFOV / kRadPerDegree) * kRadPerDegree;
+    if (format_ == AssimpFormat::Studio3D && in.mHorizontalFOV > 0)
+      out.xFovRad = 2400 / (in.mHorizontalFOV / kRadPerDegree) * kRadPerDegree;
     model_.cameras.push_back(out);
   }
 
@@ -169,7 +177,8 @@ class Collector {
                : in.mType == aiLightSource_SPOT        ? ForeignLightKind::Spot
                : in.mType == aiLightSource_DIRECTIONAL ? ForeignLightKind::Directional
                                                        : ForeignLightKind::Area;
-    out.position = m.point(vec(in.mPosition)), out.direction = m.vector(vec(in.mDirection)), out.up = m.vector(vec(in.mUp));
+    out.position = m.point(vec(in.mPosition)), out.direction = m.vector(vec(in.mDirection)),
+    out.up = m.vector(vec(in.mUp));
     out.colour = vec(in.mColorDiffuse);
     out.innerConeRad = in.mAngleInnerCone / 2, out.outerConeRad = in.mAngleOuterCone / 2;
     // COLLADA's falloff angle is where the light ends; beyond it the library guesses.
@@ -198,6 +207,8 @@ class Collector {
 
 }  // namespace
 
-ForeignModel collectForeign(const aiScene& scene, AssimpFormat format, size_t maxTriangles) { return Collector(scene, format, maxTriangles).collect(); }
+ForeignModel collectForeign(const aiScene& scene, AssimpFormat format, size_t maxTriangles) {
+  return Collector(scene, format, maxTriangles).collect();
+}
 
 }  // namespace roomlight::importers

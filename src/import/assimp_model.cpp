@@ -34,8 +34,7 @@ class MemoryStream : public Assimp::IOStream {
   }
   size_t Write(const void*, size_t, size_t) override { return 0; }
   aiReturn Seek(size_t offset, aiOrigin origin) override {
-    const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_
-                                                                            : bytes_.size();
+    const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
     const size_t to = base + offset;  // backwards wraps around
     if (to > bytes_.size()) return aiReturn_FAILURE;
     at_ = to;
@@ -56,7 +55,9 @@ class OneFile : public Assimp::IOSystem {
   OneFile(std::string name, std::span<const uint8_t> bytes) : name_(std::move(name)), bytes_(bytes) {}
   bool Exists(const char* name) const override { return name == name_; }
   char getOsSeparator() const override { return '/'; }
-  Assimp::IOStream* Open(const char* name, const char*) override { return name == name_ ? new MemoryStream(bytes_) : nullptr; }
+  Assimp::IOStream* Open(const char* name, const char*) override {
+    return name == name_ ? new MemoryStream(bytes_) : nullptr;
+  }
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
@@ -96,7 +97,8 @@ Bytes readInside(std::span<const uint8_t> bytes, AssimpFormat format, bool ignor
   importer.SetIOHandler(new OneFile(name, bytes));  // owned by the importer
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // of nodes, instead of their ids
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, ignoreUp);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);  // one node for each of the file's, not one for each part of its transform
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS,
+                           false);  // one node for each of the file's, not one for each part of its transform
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
   unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_TransformUVCoords;
   if (format == AssimpFormat::Stl) {
@@ -118,7 +120,8 @@ ForeignModel readForeign(std::span<const uint8_t> bytes, AssimpFormat format, bo
   return foreignModel(inChildProcess([&] { return readInside(bytes, format, ignoreUp, maxTriangles); }));
 }
 
-Scene readByAssimp(std::span<const uint8_t> bytes, AssimpFormat format, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings) {
+Scene readByAssimp(std::span<const uint8_t> bytes, AssimpFormat format, const ReadCompanion& companions,
+                   size_t maxTriangles, Warnings& warnings) {
   ForeignModel model = readForeign(bytes, format, false, maxTriangles);
   const UpAxis up = model.up ? static_cast<UpAxis>(model.up) : usualUp(format);
   Scene scene = sceneOf(std::move(model), companions, warnings);

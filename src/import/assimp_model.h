@@ -22,11 +22,14 @@ enum class AssimpFormat {
 // What a file of the format means that does not say which axis points up.
 UpAxis usualUp(AssimpFormat format);
 
-// The file is read in a process of its own, as the library follows cycles and sizes that a hostile file claims, and sees no file but these
-// bytes. `ignoreUp`: in the file's own axes even where it says which one points up. Throws Failure.
+// The file is read in a process of its own, as the library follows cycles and sizes that a hostile file claims, and
+// sees no file but these bytes. `ignoreUp`: in the file's own axes even where it says which one points up. Throws
+// Failure.
 ForeignModel readForeign(std::span<const uint8_t> bytes, AssimpFormat format, bool ignoreUp, size_t maxTriangles);
 
-// One model of many: in its own unit, y up, without transforms, lights and cameras; pictures are read by `companions`, in this process.
-Scene readByAssimp(std::span<const uint8_t> bytes, AssimpFormat format, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings);
+// One model of many: in its own unit, y up, without transforms, lights and cameras; pictures are read by `companions`,
+// in this process.
+Scene readByAssimp(std::span<const uint8_t> bytes, AssimpFormat format, const ReadCompanion& companions,
+                   size_t maxTriangles, Warnings& warnings);
 
 }  // namespace roomlight::importers

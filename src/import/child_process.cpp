@@ -101,7 +101,8 @@ Bytes readAll(int file) {
 Bytes inChildProcess(const std::function<Bytes()>& work) {
   // Sanitizers' allocators may be locked by another thread at the moment of the fork; the child would wait for ever.
   if (ROOMLIGHT_SANITIZED) fail("", "is not read by a build with sanitizers, which cannot start a process for it");
-  // A file in memory instead of a pipe: nobody has to empty it while it is written, and children of other threads do not hold its end open.
+  // A file in memory instead of a pipe: nobody has to empty it while it is written, and children of other threads do
+// not hold its end open.
   const File file{memfd_create("roomlight", MFD_CLOEXEC)};
   const pid_t child = file.number < 0 ? -1 : fork();
   if (child < 0) fail("", "cannot be read, as no process can be started for it");
@@ -114,7 +115,8 @@ Bytes inChildProcess(const std::function<Bytes()>& work) {
   const int code = ended == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   if (code != 0 && code != kFailed) fail("", "is damaged, or needs too much time or memory");
   Bytes bytes = readAll(file.number);
-  if (code == kFailed) fail("", printable(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), 300));
+  if (code == kFailed)
+    fail("", printable(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), 300));
   return bytes;
 }
 

@@ -7,8 +7,9 @@
 
 namespace roomlight::importers {
 
-// What `work` returns, called in a child process with limits of time (60 s) and memory (8 GiB more). Throws Failure: what `work` threw, or that
-// the child crashed or met a limit. `work` sees the memory as it is at the call and can change nothing of it.
+// What `work` returns, called in a child process with limits of time (60 s) and memory (8 GiB more). Throws Failure:
+// what `work` threw, or that the child crashed or met a limit. `work` sees the memory as it is at the call and can
+// change nothing of it.
 Bytes inChildProcess(const std::function<Bytes()>& work);
 
 }  // namespace roomlight::importers

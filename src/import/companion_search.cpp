@@ -19,7 +19,8 @@ constexpr std::array kPictures = {"png", "jpg", "jpeg", "webp", "tga", "bmp"};
 
 std::string lower(std::string_view text) {
   std::string out = asUtf8(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return c < 0x80 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return c < 0x80 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c); });
   return out;
 }
 
@@ -46,7 +47,8 @@ std::string stem(const std::string& name) { return name.substr(0, name.rfind('.'
 
 bool isPicture(const std::string& name) {
   const size_t dot = name.rfind('.');
-  return dot != std::string::npos && std::find(kPictures.begin(), kPictures.end(), name.substr(dot + 1)) != kPictures.end();
+  return dot != std::string::npos &&
+         std::find(kPictures.begin(), kPictures.end(), name.substr(dot + 1)) != kPictures.end();
 }
 
 size_t sharedFromEnd(const std::vector<std::string>& a, const std::vector<std::string>& b) {
@@ -57,14 +59,17 @@ size_t sharedFromEnd(const std::vector<std::string>& a, const std::vector<std::s
 
 // The best of the names whose last part `agrees`.
 template <class Agrees>
-const std::string* best(const std::vector<std::string>& names, const std::vector<std::string>& wanted, Agrees&& agrees) {
+const std::string* best(const std::vector<std::string>& names, const std::vector<std::string>& wanted,
+                        Agrees&& agrees) {
   const std::string* found = nullptr;
   size_t foundShared = 0, foundDepth = 0;
   for (const std::string& name : names) {
     const std::vector<std::string> own = parts(name);
     if (own.empty() || !agrees(own.back())) continue;
     const size_t shared = sharedFromEnd(own, wanted);
-    const bool better = !found || shared > foundShared || (shared == foundShared && (own.size() < foundDepth || (own.size() == foundDepth && name < *found)));
+    const bool better =
+        !found || shared > foundShared ||
+        (shared == foundShared && (own.size() < foundDepth || (own.size() == foundDepth && name < *found)));
     if (better) found = &name, foundShared = shared, foundDepth = own.size();
   }
   return found;
@@ -111,7 +116,8 @@ class Around {
 
 }  // namespace
 
-std::optional<std::string> meantName(const std::vector<std::string>& names, std::string_view folder, std::string_view reference) {
+std::optional<std::string> meantName(const std::vector<std::string>& names, std::string_view folder,
+                                     std::string_view reference) {
   const std::vector<std::string> wanted = parts(reference), place = parts(std::string(folder) + std::string(reference));
   if (wanted.empty()) return {};
   for (const std::string& name : names) {
@@ -128,14 +134,18 @@ std::optional<std::string> meantName(const std::vector<std::string>& names, std:
 std::optional<std::vector<std::string>> filesBelow(const fs::path& folder, size_t most, int deepest) {
   std::vector<std::string> out;
   std::error_code code;
-  fs::recursive_directory_iterator it(folder.empty() ? fs::path(".") : folder, fs::directory_options::skip_permission_denied, code), end;
+  fs::recursive_directory_iterator it(folder.empty() ? fs::path(".") : folder,
+                                      fs::directory_options::skip_permission_denied, code),
+      end;
   for (size_t seen = 0; !code && it != end; it.increment(code)) {
     if (++seen > most) return {};
     const std::string name = it->path().filename().string();
     std::error_code ignored;
     const bool isFolder = it->is_directory(ignored);
-    if (isFolder && (name.starts_with('.') || name == "__MACOSX" || it.depth() >= deepest)) it.disable_recursion_pending();
-    if (!isFolder && !name.starts_with('.') && it->is_regular_file(ignored)) out.push_back(it->path().lexically_relative(folder.empty() ? fs::path(".") : folder).generic_string());
+    if (isFolder && (name.starts_with('.') || name == "__MACOSX" || it.depth() >= deepest))
+      it.disable_recursion_pending();
+    if (!isFolder && !name.starts_with('.') && it->is_regular_file(ignored))
+      out.push_back(it->path().lexically_relative(folder.empty() ? fs::path(".") : folder).generic_string());
   }
   std::sort(out.begin(), out.end());
   return out;

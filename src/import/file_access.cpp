@@ -25,8 +25,7 @@ int base64Digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
   if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63
-                                                          : -1;
+  return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63 : -1;
 }
 
 Bytes base64Decode(std::string_view given, const std::string& place) {
@@ -34,7 +33,8 @@ Bytes base64Decode(std::string_view given, const std::string& place) {
   std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
   size_t padding = 0;
   while (padding < 2 && !text.empty() && text.back() == '=') text.pop_back(), ++padding;
-  if (text.size() % 4 == 1 || (padding > 0 && (text.size() + padding) % 4 != 0)) fail(place, "the base64 data are cut short");
+  if (text.size() % 4 == 1 || (padding > 0 && (text.size() + padding) % 4 != 0))
+    fail(place, "the base64 data are cut short");
   Bytes out;
   out.reserve(text.size() / 4 * 3 + 3);
   uint32_t bits = 0;
@@ -97,8 +97,11 @@ std::string percentDecode(std::string_view uri) {
   return out;
 }
 
-std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view reference, const std::string& place) {
-  const auto refuse = [&](const char* why) { fail(place, fmt::format("'{}' {}; only files beside the scene are read", printable(reference), why)); };
+std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view reference,
+                                 const std::string& place) {
+  const auto refuse = [&](const char* why) {
+    fail(place, fmt::format("'{}' {}; only files beside the scene are read", printable(reference), why));
+  };
   if (reference.empty()) refuse("names no file");
   if (reference.find('\0') != std::string_view::npos) refuse("holds a NUL character");
   if (hasScheme(reference)) refuse("is an address elsewhere");
@@ -122,7 +125,8 @@ std::filesystem::path pathInside(const std::filesystem::path& folder, std::strin
   return target;
 }
 
-std::optional<std::filesystem::path> findInside(const std::filesystem::path& folder, std::string_view reference, const std::string& place) {
+std::optional<std::filesystem::path> findInside(const std::filesystem::path& folder, std::string_view reference,
+                                                const std::string& place) {
   std::string relative(reference);
   std::replace(relative.begin(), relative.end(), '\\', '/');
   std::filesystem::path file = pathInside(folder, relative, place);
@@ -134,7 +138,8 @@ std::optional<std::filesystem::path> findInside(const std::filesystem::path& fol
     if (part.empty() || part == ".") continue;
     const std::string wanted = lowerCase(part.string());
     std::string best;
-    for (std::filesystem::directory_iterator entry((folder.empty() ? "." : folder) / found, code), end; !code && entry != end; entry.increment(code)) {
+    for (std::filesystem::directory_iterator entry((folder.empty() ? "." : folder) / found, code), end;
+         !code && entry != end; entry.increment(code)) {
       const std::string name = entry->path().filename().string();
       if (lowerCase(name) == wanted && (best.empty() || name < best)) best = name;
     }
@@ -162,7 +167,8 @@ std::optional<Bytes> dataUri(std::string_view uri, const std::string& place) {
   return base64Decode(uri.substr(comma + 1), place);
 }
 
-std::optional<std::filesystem::path> fileOfUri(const std::filesystem::path& folder, std::string_view uri, const std::string& place) {
+std::optional<std::filesystem::path> fileOfUri(const std::filesystem::path& folder, std::string_view uri,
+                                               const std::string& place) {
   const std::string decoded = percentDecode(uri);
   if (auto file = findInside(folder, decoded, place)) return file;
   return decoded == uri ? std::nullopt : findInside(folder, uri, place);

@@ -18,14 +18,16 @@ Bytes readWholeFile(const std::filesystem::path& file, const std::string& place)
 
 // The file that a relative reference names. Throws Failure when the reference has a scheme, is absolute, or leaves
 // `folder`, also by way of symbolic links. The file need not exist.
-std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view reference, const std::string& place);
+std::filesystem::path pathInside(const std::filesystem::path& folder, std::string_view reference,
+                                 const std::string& place);
 
-// The same for a file that exists, also where its name or that of a folder differs by upper and lower case, or has '\\' between folders; none
-// where there is none.
-std::optional<std::filesystem::path> findInside(const std::filesystem::path& folder, std::string_view reference, const std::string& place);
+// The same for a file that exists, also where its name or that of a folder differs by upper and lower case, or has '\\'
+// between folders; none where there is none.
+std::optional<std::filesystem::path> findInside(const std::filesystem::path& folder, std::string_view reference,
+                                                const std::string& place);
 
-// Reads a file that another one names by a relative reference with '/' or '\\' between folders; none where there is no such file. Throws
-// Failure where the reference leads out, or the file cannot be read.
+// Reads a file that another one names by a relative reference with '/' or '\\' between folders; none where there is no
+// such file. Throws Failure where the reference leads out, or the file cannot be read.
 using ReadCompanion = std::function<std::optional<Bytes>(std::string_view reference, const std::string& place)>;
 
 // Of a file in `folder`.
@@ -37,8 +39,10 @@ std::string percentDecode(std::string_view uri);
 // The bytes of a "data:...;base64,..." URI; none for any other URI. Throws Failure on bad base64.
 std::optional<Bytes> dataUri(std::string_view uri, const std::string& place);
 
-// The file in `folder` that a glTF URI names, escaped or not; none where there is none. Throws Failure where it leads out.
-std::optional<std::filesystem::path> fileOfUri(const std::filesystem::path& folder, std::string_view uri, const std::string& place);
+// The file in `folder` that a glTF URI names, escaped or not; none where there is none. Throws Failure where it leads
+// out.
+std::optional<std::filesystem::path> fileOfUri(const std::filesystem::path& folder, std::string_view uri,
+                                               const std::string& place);
 
 // The bytes that a glTF URI means: a data URI's own, or those of the file it names in `folder`. Throws Failure.
 Bytes readUri(const std::filesystem::path& folder, std::string_view uri, const std::string& place);

@@ -17,7 +17,8 @@ namespace {
 void checkHeader(std::span<const uint8_t> bytes, AssimpFormat format) {
   constexpr size_t kLongestHeader = 1 << 20;
   const std::string_view beginning(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), kLongestHeader));
-  if (format == AssimpFormat::Ply && beginning.find("end_header") == std::string_view::npos) throw Failure("its header does not end");
+  if (format == AssimpFormat::Ply && beginning.find("end_header") == std::string_view::npos)
+    throw Failure("its header does not end");
 }
 
 Imported read(const std::filesystem::path& file, AssimpFormat format, const ImportOptions& options) {
@@ -33,8 +34,7 @@ Imported read(const std::filesystem::path& file, AssimpFormat format, const Impo
   Scene scene = sceneOf(std::move(model), companionsAround(file, options.companionRoot), warnings);
   scaleScene(scene, metresPerUnit);
   addForeignLights(lights, metresPerUnit, scene, warnings);
-  const std::optional<char> up = options.upAxis ? options.upAxis : told ? std::optional<char>(told)
-                                                                        : std::nullopt;
+  const std::optional<char> up = options.upAxis ? options.upAxis : told ? std::optional<char>(told) : std::nullopt;
   standUpright(scene, up, options.metresPerUnit, usualUp(format), warnings);
   return importedScene(std::move(scene), warnings, unit);
 }

@@ -29,7 +29,8 @@ Lamp lampOf(const ForeignLight& in, float metresPerUnit, Vec3 fluxLm) {
     lamp.kind = LampKind::Spot;
     lamp.outerConeRad = std::clamp(std::max(in.outerConeRad, in.innerConeRad), kLeastConeRad, kPi / 2);
     lamp.innerConeRad = std::clamp(in.innerConeRad, 0.0f, lamp.outerConeRad);
-    lamp.intensityCd = fluxLm / static_cast<float>(spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad)));
+    lamp.intensityCd =
+        fluxLm / static_cast<float>(spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad)));
   } else {
     lamp.kind = LampKind::Area;
     lamp.widthM = in.width > 0 ? in.width * metresPerUnit : kUsualAreaM;
@@ -63,7 +64,10 @@ void addForeignLights(const std::vector<ForeignLight>& lights, float metresPerUn
     }
   }
   addAreaLampMeshes(scene, firstLamp);
-  warnings.add("lights of this format have no photometric unit: the brightest lamp is taken as 800 lm, the brightest directional light as a sun of 50000 lx", taken);
+  warnings.add(
+      "lights of this format have no photometric unit: the brightest lamp is taken as 800 lm, the brightest "
+      "directional light as a sun of 50000 lx",
+      taken);
 }
 
 }  // namespace roomlight::importers

@@ -31,7 +31,9 @@ class Writer {
   }
   void operator()(const std::string& s) { all(s); }
   template <class T>
-  void operator()(const std::vector<T>& v) { all(v); }
+  void operator()(const std::vector<T>& v) {
+    all(v);
+  }
   template <class T, class Each>
   void each(const std::vector<T>& v, Each&& one) {
     (*this)(static_cast<uint64_t>(v.size()));
@@ -63,7 +65,9 @@ class Reader {
   }
   void operator()(std::string& s) { all(s); }
   template <class T>
-  void operator()(std::vector<T>& v) { all(v); }
+  void operator()(std::vector<T>& v) {
+    all(v);
+  }
   template <class T, class Each>
   void each(std::vector<T>& v, Each&& one) {
     uint64_t count = 0;
@@ -99,12 +103,16 @@ void visitModel(Visit& visit, Model& model) {
     v(m.name), v(m.diffuse), v(m.specular), v(m.emission), v(m.opacity), v(m.shininess);
     v(m.diffusePicture), v(m.opacityPicture), v(m.emissionPicture), v(m.normalPicture);
   });
-  visit.each(model.meshes, [](auto& v, auto& m) { v(m.name), v(m.positions), v(m.normals), v(m.colors), v(m.uv[0]), v(m.indices), v(m.material); });
+  visit.each(model.meshes, [](auto& v, auto& m) {
+    v(m.name), v(m.positions), v(m.normals), v(m.colors), v(m.uv[0]), v(m.indices), v(m.material);
+  });
   visit.each(model.instances, [](auto& v, auto& i) { v(i.name), v(i.mesh), v(i.object), v(i.modelFromMesh); });
   visit.each(model.pictures, [](auto& v, auto& p) { v(p); });
-  visit.each(model.cameras, [](auto& v, auto& c) { v(c.name), v(c.position), v(c.direction), v(c.up), v(c.xFovRad), v(c.aspect); });
+  visit.each(model.cameras,
+             [](auto& v, auto& c) { v(c.name), v(c.position), v(c.direction), v(c.up), v(c.xFovRad), v(c.aspect); });
   visit.each(model.lights, [](auto& v, auto& l) {
-    v(l.name), v(l.kind), v(l.position), v(l.direction), v(l.up), v(l.colour), v(l.innerConeRad), v(l.outerConeRad), v(l.width), v(l.height);
+    v(l.name), v(l.kind), v(l.position), v(l.direction), v(l.up), v(l.colour), v(l.innerConeRad), v(l.outerConeRad),
+        v(l.width), v(l.height);
   });
   visit(model.noTriangles), visit(model.otherLights), visit(model.up), visit(model.metresPerUnit);
 }
@@ -114,7 +122,8 @@ bool sensible(Vec3 v) { return isFinite(v) && maxComponent(abs(v)) <= kFarthest;
 void checkMesh(Mesh& mesh, size_t materials) {
   const size_t n = mesh.positions.size();
   const auto agrees = [n](size_t size) { return size == 0 || size == n; };
-  const bool sizes = agrees(mesh.normals.size()) && agrees(mesh.uv[0].size()) && agrees(mesh.colors.size()) && mesh.indices.size() % 3 == 0;
+  const bool sizes = agrees(mesh.normals.size()) && agrees(mesh.uv[0].size()) && agrees(mesh.colors.size()) &&
+                     mesh.indices.size() % 3 == 0;
   if (!sizes || mesh.material < 0 || static_cast<size_t>(mesh.material) >= materials) fail("", "is damaged");
   for (const uint32_t i : mesh.indices) {
     if (i >= n) fail("", "is damaged");
@@ -149,8 +158,11 @@ void keepSensible(ForeignModel& model) {
     return !sensible(m.x) || !sensible(m.y) || !sensible(m.z) || !sensible(m.w) || !(std::abs(m.determinant()) > 0);
   });
   std::erase_if(model.cameras, [](const ForeignCamera& c) { return !sensible(c.position); });
-  for (ForeignCamera& c : model.cameras) c.direction = direction(c.direction, {0, 0, -1}), c.up = direction(c.up, {0, 1, 0});
-  std::erase_if(model.lights, [](const ForeignLight& l) { return !sensible(l.position) || !isFinite(l.colour) || l.kind > ForeignLightKind::Area; });
+  for (ForeignCamera& c : model.cameras)
+    c.direction = direction(c.direction, {0, 0, -1}), c.up = direction(c.up, {0, 1, 0});
+  std::erase_if(model.lights, [](const ForeignLight& l) {
+    return !sensible(l.position) || !isFinite(l.colour) || l.kind > ForeignLightKind::Area;
+  });
   for (ForeignLight& l : model.lights) {
     l.direction = direction(l.direction, {0, -1, 0});
     for (float* v : {&l.innerConeRad, &l.outerConeRad, &l.width, &l.height}) *v = *v >= 0 && *v <= kFarthest ? *v : 0;
@@ -249,7 +261,8 @@ Scene sceneOf(ForeignModel model, const ReadCompanion& companions, Warnings& war
     if (!mesh.indices.empty()) scene.meshes.push_back(std::move(mesh));
   }
   for (const ForeignInstance& i : model.instances) {
-    if (kept[i.mesh] >= 0) scene.instances.push_back({i.name, kept[i.mesh], static_cast<int>(i.object & 0x3fffffff), i.modelFromMesh});
+    if (kept[i.mesh] >= 0)
+      scene.instances.push_back({i.name, kept[i.mesh], static_cast<int>(i.object & 0x3fffffff), i.modelFromMesh});
   }
   for (const ForeignCamera& c : model.cameras) addCamera(c, scene);
   warnings.add("points and lines are ignored", model.noTriangles);
@@ -264,7 +277,8 @@ void bakeInstances(Scene& scene) {
     const bool mirrored = m.determinant() < 0;
     for (Vec3& p : mesh.positions) p = m.point(p);
     for (Vec3& n : mesh.normals) n = normalize(m.normal(n)) * (mirrored ? -1.0f : 1.0f);
-    for (size_t t = 0; mirrored && t + 2 < mesh.indices.size(); t += 3) std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
+    for (size_t t = 0; mirrored && t + 2 < mesh.indices.size(); t += 3)
+      std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
     mesh.name = i.name;
     i.mesh = static_cast<int>(meshes.size()), i.worldFromObject = {};
     meshes.push_back(std::move(mesh));

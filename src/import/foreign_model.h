@@ -1,4 +1,5 @@
-// Models of formats that a library reads for us: what is taken from them, as plain data and as bytes that come out of a child process.
+// Models of formats that a library reads for us: what is taken from them, as plain data and as bytes that come out of a
+// child process.
 #pragma once
 
 #include <string>
@@ -10,8 +11,8 @@
 
 namespace roomlight::importers {
 
-// As MTL files say it: colours linear, emission in cd/m², Phong's exponent; pictures by the names that the file gives them, or "*3" for the
-// model's own picture 3.
+// As MTL files say it: colours linear, emission in cd/m², Phong's exponent; pictures by the names that the file gives
+// them, or "*3" for the model's own picture 3.
 struct ForeignMaterial {
   std::string name;
   Vec3 diffuse{0.6f, 0.6f, 0.6f}, specular, emission;
@@ -42,9 +43,9 @@ struct ForeignLight {
   std::string name;
   ForeignLightKind kind = ForeignLightKind::Point;
   Vec3 position, direction{0, -1, 0}, up{1, 0, 0};
-  Vec3 colour;                                     // times an intensity that has no unit
+  Vec3 colour;  // times an intensity that has no unit
   float innerConeRad = 0, outerConeRad = kPi / 4;  // half-angles
-  float width = 0, height = 0;                     // of an area
+  float width = 0, height = 0;  // of an area
 };
 
 struct ForeignModel {
@@ -54,9 +55,9 @@ struct ForeignModel {
   std::vector<Bytes> pictures;  // that the file holds itself
   std::vector<ForeignCamera> cameras;
   std::vector<ForeignLight> lights;
-  size_t noTriangles = 0;   // points and lines, left out
-  size_t otherLights = 0;   // ambient ones, left out
-  char up = 0;              // 'x', 'y', 'z'; 0: the file does not say
+  size_t noTriangles = 0;  // points and lines, left out
+  size_t otherLights = 0;  // ambient ones, left out
+  char up = 0;  // 'x', 'y', 'z'; 0: the file does not say
   float metresPerUnit = 0;  // 0: the file does not say
 };
 

@@ -34,7 +34,8 @@ size_t sizeOf(int componentType) {
 int readComponentType(const Json& json) {
   const Json type = json.at("componentType");
   const int value = static_cast<int>(type.integer(65535));
-  if (value != kByte && value != kUnsignedByte && value != kShort && value != kUnsignedShort && value != kUnsignedInt && value != kFloat) {
+  if (value != kByte && value != kUnsignedByte && value != kShort && value != kUnsignedShort && value != kUnsignedInt &&
+      value != kFloat) {
     type.fail(fmt::format("{} is no component type", value));
   }
   return value;
@@ -59,14 +60,18 @@ double component(const uint8_t* p, int componentType) {
 }
 
 // The bytes of `count` elements of `size` bytes in a buffer view, and their stride.
-std::span<const uint8_t> range(const GltfDocument& document, const Json& json, size_t count, size_t size, size_t* stride) {
+std::span<const uint8_t> range(const GltfDocument& document, const Json& json, size_t count, size_t size,
+                               size_t* stride) {
   const BufferView& view = document.views[static_cast<size_t>(json.at("bufferView").index(document.views.size()))];
   const size_t offset = json.integer("byteOffset", 0, uint64_t{1} << 40);
   *stride = view.stride > 0 ? view.stride : size;
-  if (*stride < size) json.fail(fmt::format("elements of {} bytes overlap: the stride of the buffer view is {}", size, *stride));
+  if (*stride < size)
+    json.fail(fmt::format("elements of {} bytes overlap: the stride of the buffer view is {}", size, *stride));
   const size_t available = offset <= view.bytes.size() ? view.bytes.size() - offset : 0;
   const bool fits = count == 0 || (available >= size && (available - size) / *stride >= count - 1);
-  if (!fits) json.fail(fmt::format("{} elements of {} bytes reach beyond the buffer view of {} bytes", count, size, view.bytes.size()));
+  if (!fits)
+    json.fail(fmt::format("{} elements of {} bytes reach beyond the buffer view of {} bytes", count, size,
+                          view.bytes.size()));
   return view.bytes.subspan(std::min(offset, view.bytes.size()));
 }
 
@@ -74,7 +79,8 @@ void openSparse(const GltfDocument& document, const Json& sparse, Accessor& a) {
   const size_t count = sparse.at("count").integer(a.count);
   const Json indices = sparse.at("indices"), values = sparse.at("values");
   const int type = readComponentType(indices);
-  if (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt) indices.fail("sparse indices must be unsigned integers");
+  if (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt)
+    indices.fail("sparse indices must be unsigned integers");
   size_t stride = 0;
   const auto bytes = range(document, indices, count, sizeOf(type), &stride);
   a.sparseIndices.resize(count);
@@ -107,16 +113,19 @@ Accessor openAccessor(const GltfDocument& document, const Json& use) {
   a.componentType = readComponentType(json);
   a.normalized = json.boolean("normalized", false);
   const std::string type = json.at("type").text();
-  if (type != "SCALAR" && type != "VEC2" && type != "VEC3" && type != "VEC4") json.at("type").fail(fmt::format("'{}' is no type of vertices", printable(type)));
+  if (type != "SCALAR" && type != "VEC2" && type != "VEC3" && type != "VEC4")
+    json.at("type").fail(fmt::format("'{}' is no type of vertices", printable(type)));
   a.components = type == "SCALAR" ? 1 : type.back() - '0';
-  if (json.find("bufferView")) a.bytes = range(document, json, a.count, sizeOf(a.componentType) * static_cast<size_t>(a.components), &a.stride);
+  if (json.find("bufferView"))
+    a.bytes = range(document, json, a.count, sizeOf(a.componentType) * static_cast<size_t>(a.components), &a.stride);
   if (const auto sparse = json.find("sparse")) openSparse(document, *sparse, a);
   return a;
 }
 
 std::vector<float> readFloats(const Accessor& a, int components, std::span<const uint32_t> selection) {
   if (a.components < components) a.json.fail(fmt::format("has {} components, {} are needed", a.components, components));
-  const size_t count = selection.empty() ? a.count : selection.size(), width = static_cast<size_t>(components), size = sizeOf(a.componentType);
+  const size_t count = selection.empty() ? a.count : selection.size(), width = static_cast<size_t>(components),
+               size = sizeOf(a.componentType);
   const bool scaled = a.normalized && a.componentType != kFloat;
   const double scale = scaled ? 1.0 / static_cast<double>(normalizer(a.componentType)) : 1.0;
   std::vector<float> out(count * width);
@@ -125,7 +134,8 @@ std::vector<float> readFloats(const Accessor& a, int components, std::span<const
     const uint8_t* p = a.bytes.empty() ? nullptr : a.bytes.data() + element * a.stride;
     const auto sparse = std::lower_bound(a.sparseIndices.begin(), a.sparseIndices.end(), element);
     if (sparse != a.sparseIndices.end() && *sparse == element) {
-      p = a.sparseBytes.data() + static_cast<size_t>(sparse - a.sparseIndices.begin()) * size * static_cast<size_t>(a.components);
+      p = a.sparseBytes.data() +
+          static_cast<size_t>(sparse - a.sparseIndices.begin()) * size * static_cast<size_t>(a.components);
     }
     for (size_t c = 0; p && c < width; ++c) {
       const double v = component(p + c * size, a.componentType) * scale;

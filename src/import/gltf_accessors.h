@@ -13,8 +13,8 @@ namespace roomlight::importers {
 struct Accessor {
   Json json;  // for messages
   size_t count = 0;
-  int components = 1;      // 1 to 4
-  int componentType = 0;   // 5120 ... 5126
+  int components = 1;  // 1 to 4
+  int componentType = 0;  // 5120 ... 5126
   bool normalized = false;
   std::span<const uint8_t> bytes;  // empty: zeros
   size_t stride = 0;
@@ -25,8 +25,8 @@ struct Accessor {
 // The accessor that the JSON number `use` names. Throws Failure.
 Accessor openAccessor(const GltfDocument& document, const Json& use);
 
-// `components` numbers an element, of all elements or of those in `selection`; floats as they are, finite or not. An accessor with more
-// components gives the first ones; with fewer it is refused.
+// `components` numbers an element, of all elements or of those in `selection`; floats as they are, finite or not. An
+// accessor with more components gives the first ones; with fewer it is refused.
 std::vector<float> readFloats(const Accessor& accessor, int components, std::span<const uint32_t> selection = {});
 
 // Whole numbers of one component; negative ones, which some exporters' types allow, become the largest.

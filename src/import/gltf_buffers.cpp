@@ -9,7 +9,7 @@ namespace roomlight::importers {
 namespace {
 
 constexpr uint64_t kMaxBytes = uint64_t{1} << 40;  // any number above is nonsense and would overflow sums
-constexpr uint64_t kMostReadings = 4;              // how often compressed views may use each byte of the buffers, on average
+constexpr uint64_t kMostReadings = 4;  // how often compressed views may use each byte of the buffers, on average
 
 std::optional<Json> meshoptOf(const Json& object) {
   auto found = object.extension("EXT_meshopt_compression");
@@ -31,7 +31,8 @@ std::span<const uint8_t> loadBuffer(GltfDocument& document, const Json& buffer, 
     buffer.fail("has neither a uri nor a binary chunk");
   }
   if (!buffer.find("byteLength")) return bytes;
-  if (bytes.size() < stated) buffer.fail(fmt::format("claims {} bytes, but there are {}; the file is cut short", stated, bytes.size()));
+  if (bytes.size() < stated)
+    buffer.fail(fmt::format("claims {} bytes, but there are {}; the file is cut short", stated, bytes.size()));
   return bytes.first(stated);
 }
 

@@ -18,31 +18,57 @@ constexpr size_t kMaxJsonDepth = 64;
 
 constexpr size_t kElementsPerByte = 64;  // Draco spends a byte on about five
 
-// clang-format off
-constexpr std::array<std::string_view, 19> kHonoured = {
-    "EXT_mesh_gpu_instancing",         "EXT_meshopt_compression",             "EXT_texture_avif",
-    "EXT_texture_webp",                "KHR_draco_mesh_compression",          "KHR_lights_punctual",
-    "KHR_materials_emissive_strength", "KHR_materials_ior",                   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",          "KHR_materials_transmission",          "KHR_materials_unlit",
-    "KHR_materials_volume",            "KHR_mesh_quantization",               "KHR_meshopt_compression",
-    "KHR_node_visibility",             "KHR_texture_basisu",                  "KHR_texture_transform",
-    "MSFT_texture_dds"};
+constexpr std::array<std::string_view, 19> kHonoured = {"EXT_mesh_gpu_instancing",
+                                                        "EXT_meshopt_compression",
+                                                        "EXT_texture_avif",
+                                                        "EXT_texture_webp",
+                                                        "KHR_draco_mesh_compression",
+                                                        "KHR_lights_punctual",
+                                                        "KHR_materials_emissive_strength",
+                                                        "KHR_materials_ior",
+                                                        "KHR_materials_pbrSpecularGlossiness",
+                                                        "KHR_materials_specular",
+                                                        "KHR_materials_transmission",
+                                                        "KHR_materials_unlit",
+                                                        "KHR_materials_volume",
+                                                        "KHR_mesh_quantization",
+                                                        "KHR_meshopt_compression",
+                                                        "KHR_node_visibility",
+                                                        "KHR_texture_basisu",
+                                                        "KHR_texture_transform",
+                                                        "MSFT_texture_dds"};
 
-// What a file may require and still shows right without: animation, sound, data about things, other levels of detail, light of pictures.
-constexpr std::array<std::string_view, 17> kHarmless = {
-    "AGI_",                  "CESIUM_primitive_outline", "EXT_feature_metadata",   "EXT_instance_features", "EXT_lights_",
-    "EXT_mesh_features",     "EXT_structural_metadata",  "FB_geometry_metadata",   "KHR_animation_pointer", "KHR_audio",
-    "KHR_interactivity",     "KHR_node_",                "KHR_physics_",           "KHR_xmp",               "MSFT_audio_emitter",
-    "MSFT_lod",              "VRMC_"};
-// clang-format on
+// What a file may require and still shows right without: animation, sound, data about things, other levels of detail,
+// light of pictures.
+constexpr std::array<std::string_view, 17> kHarmless = {"AGI_",
+                                                        "CESIUM_primitive_outline",
+                                                        "EXT_feature_metadata",
+                                                        "EXT_instance_features",
+                                                        "EXT_lights_",
+                                                        "EXT_mesh_features",
+                                                        "EXT_structural_metadata",
+                                                        "FB_geometry_metadata",
+                                                        "KHR_animation_pointer",
+                                                        "KHR_audio",
+                                                        "KHR_interactivity",
+                                                        "KHR_node_",
+                                                        "KHR_physics_",
+                                                        "KHR_xmp",
+                                                        "MSFT_audio_emitter",
+                                                        "MSFT_lod",
+                                                        "VRMC_"};
 
 bool honoured(std::string_view name) { return std::find(kHonoured.begin(), kHonoured.end(), name) != kHonoured.end(); }
 
-// Extensions that only refine the metallic-roughness material, which a file always has beside them: clearcoat, sheen, variants, ...
-bool refinesMaterials(std::string_view name) { return name.find("_materials_") != std::string_view::npos || name.starts_with("MSFT_packing_"); }
+// Extensions that only refine the metallic-roughness material, which a file always has beside them: clearcoat, sheen,
+// variants, ...
+bool refinesMaterials(std::string_view name) {
+  return name.find("_materials_") != std::string_view::npos || name.starts_with("MSFT_packing_");
+}
 
 bool harmless(std::string_view name) {
-  return std::any_of(kHarmless.begin(), kHarmless.end(), [&](std::string_view prefix) { return name.starts_with(prefix); });
+  return std::any_of(kHarmless.begin(), kHarmless.end(),
+                     [&](std::string_view prefix) { return name.starts_with(prefix); });
 }
 
 uint32_t word(const Bytes& bytes, size_t offset) {
@@ -51,7 +77,8 @@ uint32_t word(const Bytes& bytes, size_t offset) {
   return v;
 }
 
-constexpr const char* kFirstVersion = "glTF 1.0 is not read; convert it to 2.0, for example with Blender or gltf-pipeline";
+constexpr const char* kFirstVersion =
+    "glTF 1.0 is not read; convert it to 2.0, for example with Blender or gltf-pipeline";
 
 std::string_view jsonOfBinary(GltfDocument& document) {
   const Bytes& file = document.file;
@@ -66,7 +93,8 @@ std::string_view jsonOfBinary(GltfDocument& document) {
     const uint32_t type = word(file, at + 4);
     at += 8;
     if (chunk == 0 && type != 0x4e4f534a) fail("chunk 0", "is not the JSON chunk");
-    if (chunk == 0 && length > left) fail("chunk 0", fmt::format("the file is cut short: {} bytes of {}", left, length));
+    if (chunk == 0 && length > left)
+      fail("chunk 0", fmt::format("the file is cut short: {} bytes of {}", left, length));
     if (chunk == 0) json = {reinterpret_cast<const char*>(file.data()) + at, length};
     if (chunk == 1 && type == 0x004e4942) document.binaryChunk = std::span(file).subspan(at, std::min(length, left));
     at += std::min(length, left);
@@ -82,14 +110,17 @@ std::string cleaned(std::string_view text) {
   for (size_t i = 0; i < out.size();) {
     const auto byte = [&](size_t k) { return i + k < out.size() ? static_cast<unsigned char>(out[i + k]) : 0u; };
     const unsigned first = byte(0);
-    const size_t length = first < 0x80 ? 1 : first >= 0xc2 && first < 0xe0 ? 2
-                                         : first >= 0xe0 && first < 0xf0   ? 3
-                                         : first >= 0xf0 && first < 0xf5   ? 4
-                                                                           : 0;
+    const size_t length = first < 0x80                    ? 1
+                          : first >= 0xc2 && first < 0xe0 ? 2
+                          : first >= 0xe0 && first < 0xf0 ? 3
+                          : first >= 0xf0 && first < 0xf5 ? 4
+                                                          : 0;
     bool valid = length > 0;
     for (size_t k = 1; k < length; ++k) valid = valid && (byte(k) & 0xc0) == 0x80;
     // Overlong forms, surrogates and what lies beyond Unicode.
-    if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) > 0x9f) || (first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) > 0x8f)) valid = false;
+    if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) > 0x9f) || (first == 0xf0 && byte(1) < 0x90) ||
+        (first == 0xf4 && byte(1) > 0x8f))
+      valid = false;
     if (!valid) out[i] = '?';
     i += valid ? length : 1;
   }
@@ -108,7 +139,8 @@ void checkDepth(const std::string& json) {
     } else if (c == '"') {
       text = true;
     } else if (c == '{' || c == '[') {
-      if (++depth > kMaxJsonDepth) fail("JSON", fmt::format("is nested deeper than {} levels at byte {}", kMaxJsonDepth, i));
+      if (++depth > kMaxJsonDepth)
+        fail("JSON", fmt::format("is nested deeper than {} levels at byte {}", kMaxJsonDepth, i));
     } else if ((c == '}' || c == ']') && depth > 0) {
       --depth;
     }
@@ -143,9 +175,11 @@ void checkVersion(GltfDocument& document) {
   const Json root = document.root();
   const auto asset = root.find("asset");
   const auto version = asset ? asset->find("version") : std::nullopt;
-  const std::string stated = !version ? "" : version->raw().is_number() ? fmt::format("{}", version->number())
-                                                                        : version->text();
-  if (stated.starts_with("1") || stated.starts_with("0") || hasShapeOfFirstVersion(document.json)) fail("", kFirstVersion);
+  const std::string stated = !version                     ? ""
+                             : version->raw().is_number() ? fmt::format("{}", version->number())
+                                                          : version->text();
+  if (stated.starts_with("1") || stated.starts_with("0") || hasShapeOfFirstVersion(document.json))
+    fail("", kFirstVersion);
   if (stated.empty()) {
     document.warnings.add("the file states no version and is taken as glTF 2.0");
   } else if (stated != "2" && !stated.starts_with("2.")) {
@@ -160,7 +194,8 @@ void checkVersion(GltfDocument& document) {
 void ElementBudget::grantFor(size_t fileBytes) { left_ += kElementsPerByte * fileBytes; }
 
 void ElementBudget::spend(size_t elements, const std::string& place) {
-  if (elements > left_) fail(place, "the file unfolds into far more vertices, indices or placements than its size explains");
+  if (elements > left_)
+    fail(place, "the file unfolds into far more vertices, indices or placements than its size explains");
   left_ -= elements;
 }
 
@@ -173,7 +208,9 @@ void parseContainer(GltfDocument& document) {
   try {
     document.json = nlohmann::json::parse(json.begin(), json.end());
   } catch (const nlohmann::json::parse_error& e) {
-    const size_t line = 1 + static_cast<size_t>(std::count(json.begin(), json.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, json.size())), '\n'));
+    const size_t line =
+        1 + static_cast<size_t>(std::count(
+                json.begin(), json.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, json.size())), '\n'));
     fail("JSON", fmt::format("line {}, byte {}: is not valid JSON; the file is damaged or no glTF", line, e.byte));
   } catch (const nlohmann::json::exception&) {
     fail("JSON", "holds a number out of range");
@@ -185,7 +222,8 @@ void checkExtensions(GltfDocument& document) {
   const Json required = document.root().list("extensionsRequired");
   for (size_t i = 0; i < required.size(); ++i) {
     const std::string& name = required[i].text();
-    if (!honoured(name) && !refinesMaterials(name) && !harmless(name)) required[i].fail(fmt::format("the file requires '{}', which is not supported", printable(name)));
+    if (!honoured(name) && !refinesMaterials(name) && !harmless(name))
+      required[i].fail(fmt::format("the file requires '{}', which is not supported", printable(name)));
   }
   std::map<std::string, size_t> unknown;
   countUnknown(document.json, unknown);
@@ -194,7 +232,8 @@ void checkExtensions(GltfDocument& document) {
   looks.addTo(document.warnings, "looks that are not supported show as their base material: ");
   others.addTo(document.warnings, "extensions that are not supported are ignored: ");
   const size_t animations = document.root().list("animations").size();
-  if (animations > 0) document.warnings.add("animations are ignored, things stay where their nodes put them", animations);
+  if (animations > 0)
+    document.warnings.add("animations are ignored, things stay where their nodes put them", animations);
 }
 
 std::unique_ptr<GltfDocument> openGltf(const std::filesystem::path& file) {

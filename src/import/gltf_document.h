@@ -43,7 +43,8 @@ struct GltfDocument {
 
   Json root() const { return Json(json, ""); }
 
-  // Index into a list of `count` things that the file can do without; -1: none, or one that does not exist, which is counted.
+  // Index into a list of `count` things that the file can do without; -1: none, or one that does not exist, which is
+// counted.
   int looseIndex(const Json& in, const char* key, size_t count) {
     bool isBroken = false;
     const int index = in.looseIndex(key, count, isBroken);
@@ -52,8 +53,8 @@ struct GltfDocument {
   }
 };
 
-// Throws Failure. Refuses versions other than 2 and required extensions without which the file would show wrong; warns of
-// used ones that are not honoured. Spans point into the document: it stays where it is.
+// Throws Failure. Refuses versions other than 2 and required extensions without which the file would show wrong; warns
+// of used ones that are not honoured. Spans point into the document: it stays where it is.
 std::unique_ptr<GltfDocument> openGltf(const std::filesystem::path& file);
 
 // The steps of openGltf.

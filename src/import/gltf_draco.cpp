@@ -36,7 +36,8 @@ class Wary : public Decoder {
   bool DecodeAllAttributes() override {
     uint64_t components = 0;
     const draco::PointCloud* cloud = this->point_cloud();
-    for (int i = 0; i < cloud->num_attributes(); ++i) components += static_cast<uint64_t>(cloud->attribute(i)->num_components());
+    for (int i = 0; i < cloud->num_attributes(); ++i)
+      components += static_cast<uint64_t>(cloud->attribute(i)->num_components());
     tooMuch_ = components > kMostComponents;
     return !tooMuch_ && Decoder::DecodeAllAttributes();
   }
@@ -52,7 +53,8 @@ void decodeWith(std::span<const uint8_t> bytes, uint64_t most, const Json& exten
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   Wary<Decoder> decoder(most);
   const draco::Status status = decoder.Decode(draco::DecoderOptions(), &buffer, &mesh);
-  if (decoder.claimsTooMuch()) extension.fail(fmt::format("claims far more vertices or triangles than its {} bytes can hold", bytes.size()));
+  if (decoder.claimsTooMuch())
+    extension.fail(fmt::format("claims far more vertices or triangles than its {} bytes can hold", bytes.size()));
   if (!status.ok()) extension.fail(fmt::format("the Draco data are damaged: {}", printable(status.error_msg_string())));
 }
 
@@ -60,11 +62,13 @@ void decodeMesh(std::span<const uint8_t> bytes, uint64_t most, const Json& exten
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::DracoHeader header{};
-  if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) extension.fail("the Draco data are cut short or no Draco data");
+  if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok())
+    extension.fail("the Draco data are cut short or no Draco data");
   if (header.encoder_type != draco::TRIANGULAR_MESH) extension.fail("the Draco data hold no triangles");
   // glTF allows only this version; the counts of older ones are stored in another way.
   if (header.version_major != 2 || header.version_minor != 2) {
-    extension.fail(fmt::format("Draco bitstream {}.{} is not supported, only 2.2", header.version_major, header.version_minor));
+    extension.fail(
+        fmt::format("Draco bitstream {}.{} is not supported, only 2.2", header.version_major, header.version_minor));
   }
   if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
     decodeWith<draco::MeshEdgebreakerDecoder>(bytes, most, extension, mesh);
@@ -86,7 +90,8 @@ DracoAttribute valuesOf(const draco::Mesh& mesh, const draco::PointAttribute& at
     const draco::AttributeValueIndex value = attribute.mapped_index(draco::PointIndex(i));
     if (value.value() >= attribute.size()) use.fail("the Draco data are damaged: a vertex has no value");
     float* v = &out.values[i * width];
-    if (!attribute.ConvertValue(value, static_cast<int8_t>(width), v)) use.fail("the Draco data are damaged: a value cannot be read");
+    if (!attribute.ConvertValue(value, static_cast<int8_t>(width), v))
+      use.fail("the Draco data are damaged: a value cannot be read");
   }
   return out;
 }
@@ -95,7 +100,8 @@ DracoAttribute valuesOf(const draco::Mesh& mesh, const draco::PointAttribute& at
 
 DracoPrimitive decodeDraco(GltfDocument& document, const Json& extension) {
   const BufferView& view = document.views[static_cast<size_t>(extension.at("bufferView").index(document.views.size()))];
-  const uint64_t most = std::min<uint64_t>(kFreeElements + kElementsPerByte * view.bytes.size(), document.budget.left());
+  const uint64_t most =
+      std::min<uint64_t>(kFreeElements + kElementsPerByte * view.bytes.size(), document.budget.left());
   draco::Mesh mesh;
   decodeMesh(view.bytes, most, extension, mesh);
   document.budget.spend(size_t{3} * mesh.num_faces() + mesh.num_points(), extension.path());
@@ -105,14 +111,16 @@ DracoPrimitive decodeDraco(GltfDocument& document, const Json& extension) {
   out.indices.reserve(size_t{3} * mesh.num_faces());
   for (uint32_t f = 0; f < mesh.num_faces(); ++f) {
     for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(f))) {
-      if (corner.value() >= out.vertexCount) extension.fail(fmt::format("the Draco data are damaged: triangle {} has no vertex {}", f, corner.value()));
+      if (corner.value() >= out.vertexCount)
+        extension.fail(fmt::format("the Draco data are damaged: triangle {} has no vertex {}", f, corner.value()));
       out.indices.push_back(corner.value());
     }
   }
   const Json attributes = extension.at("attributes");
   for (const auto& [name, id] : attributes.raw().items()) {
     const Json use = attributes.at(name.c_str());
-    const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<uint32_t>(use.integer(0xffffffff)));
+    const draco::PointAttribute* attribute =
+        mesh.GetAttributeByUniqueId(static_cast<uint32_t>(use.integer(0xffffffff)));
     if (!attribute) use.fail("the Draco data hold no such attribute");
     out.attributes.emplace(name, valuesOf(mesh, *attribute, use));
   }

@@ -142,7 +142,8 @@ int Json::looseIndex(const char* key, size_t count, bool& isBroken) const {
 
 int Json::index(size_t count) const {
   const uint64_t i = integer(uint64_t{1} << 53);
-  if (i >= count || i > static_cast<uint64_t>(std::numeric_limits<int>::max())) fail(fmt::format("is {}, but there are only {}", i, count));
+  if (i >= count || i > static_cast<uint64_t>(std::numeric_limits<int>::max()))
+    fail(fmt::format("is {}, but there are only {}", i, count));
   return static_cast<int>(i);
 }
 

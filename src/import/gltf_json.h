@@ -49,7 +49,8 @@ class Json {
   // Index into a list of `count` things; -1 where absent.
   int index(const char* key, size_t count) const;
   int index(size_t count) const;
-  // The same for references that a file can do without: -1 also where the thing does not exist, which `isBroken` then tells.
+  // The same for references that a file can do without: -1 also where the thing does not exist, which `isBroken` then
+  // tells.
   int looseIndex(const char* key, size_t count, bool& isBroken) const;
 
  private:

@@ -24,7 +24,9 @@ std::string nameOf(const Json& thing, const std::string& nodeName) {
 std::string photometricName(const std::string& nodeName) {
   std::string name = nodeName;
   const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  if (const size_t n = name.size(); n > 4 && name[n - 4] == '.' && isDigit(name[n - 3]) && isDigit(name[n - 2]) && isDigit(name[n - 1])) name.resize(n - 4);
+  if (const size_t n = name.size();
+      n > 4 && name[n - 4] == '.' && isDigit(name[n - 3]) && isDigit(name[n - 2]) && isDigit(name[n - 1]))
+    name.resize(n - 4);
   return isPhotometric(name) ? name : "";
 }
 
@@ -55,7 +57,8 @@ std::optional<Camera> readGltfCamera(const Json& in, const std::string& nodeName
   return std::nullopt;
 }
 
-void addGltfLight(GltfDocument& document, const Json& extension, const std::string& nodeName, const Affine& world, Scene& scene) {
+void addGltfLight(GltfDocument& document, const Json& extension, const std::string& nodeName, const Affine& world,
+                  Scene& scene) {
   const auto all = document.root().extension("KHR_lights_punctual");
   if (!all) return document.warnings.add("references to things that do not exist are ignored");
   const Json lights = all->list("lights");
@@ -100,14 +103,14 @@ void addGltfLuminaire(GltfDocument& document, const Json& node, const Affine& wo
   LampSize size = LampSize::AsStated;
   if (ours) {
     for (const auto& [key, value] : ours->raw().items()) {
-      if (key != "ies" && key != "fluxLm" && key != "dimming" && key != "lightLossFactor" && key != "as") ours->fail(fmt::format("the key '{}' is unknown", printable(key)));
+      if (key != "ies" && key != "fluxLm" && key != "dimming" && key != "lightLossFactor" && key != "as")
+        ours->fail(fmt::format("the key '{}' is unknown", printable(key)));
     }
     if (ours->find("fluxLm")) fluxLm = static_cast<double>(ours->number("fluxLm", 0, 0, kBrightest));
     factor = static_cast<double>(ours->number("dimming", 1, 0, 1) * ours->number("lightLossFactor", 1, 1e-6f, 1));
     const std::string as = ours->text("as");
     if (!as.empty() && as != "point" && as != "area") ours->at("as").fail("is neither point nor area");
-    size = as == "point" ? LampSize::Point : as == "area" ? LampSize::Area
-                                                          : LampSize::AsStated;
+    size = as == "point" ? LampSize::Point : as == "area" ? LampSize::Area : LampSize::AsStated;
   }
   const std::string place = ours ? ours->at("ies").path() : node.path();
   std::filesystem::path file;
@@ -117,10 +120,13 @@ void addGltfLuminaire(GltfDocument& document, const Json& node, const Affine& wo
     if (ours) throw;
   }
   std::error_code code;
-  if (!ours && !std::filesystem::is_regular_file(file, code)) return document.warnings.add(fmt::format("the luminaire '{}' is left out: there is no such file beside the scene", printable(name)));
+  if (!ours && !std::filesystem::is_regular_file(file, code))
+    return document.warnings.add(
+        fmt::format("the luminaire '{}' is left out: there is no such file beside the scene", printable(name)));
   const Result<PhotometricFiles::Web> web = document.photometric.read(file);
   if (!web) fail(place, fmt::format("'{}': {}", printable(name), web.error()));
-  if (size == LampSize::Area && !web.value()->hasOpening()) fail(place, "the file states no luminous opening; 'as' must be point");
+  if (size == LampSize::Area && !web.value()->hasOpening())
+    fail(place, "the file states no luminous opening; 'as' must be point");
   Lamp lamp;
   lamp.name = node.name().empty() ? name : node.name();
   lamp.position = world.w;

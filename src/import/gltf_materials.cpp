@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kBrightest = 1e12f;          // of any unit; keeps squares finite in floats
 constexpr float kPlastic = 0.04f;             // what plastics and paints mirror
-constexpr float kGrey = 0.6f;                 // stands in for a lost picture of base colours: white walls would never let light end
+constexpr float kGrey = 0.6f;  // stands in for a lost picture of base colours: white walls would never let light end
 
 class Reader {
  public:
@@ -29,9 +29,9 @@ class Reader {
     }
     emission(in, m);
     const std::string mode = in.text("alphaMode", "OPAQUE");
-    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") document_.warnings.add("materials with an unknown alphaMode are opaque");
-    m.alphaMode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend
-                                                                     : AlphaMode::Opaque;
+    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
+      document_.warnings.add("materials with an unknown alphaMode are opaque");
+    m.alphaMode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
     m.alphaCutoff = limited(in, "alphaCutoff", 0.5f, 0, 1e6f);
     m.doubleSided = in.boolean("doubleSided", false);
     glass(in, m);
@@ -53,7 +53,8 @@ class Reader {
     for (SpecularGlossiness& wish : specularGlossiness_) {
       if (wish.texture.texture < 0) continue;
       wish.texture.texture = indices[static_cast<size_t>(wish.texture.texture)];
-      if (wish.texture.texture < 0) wish.specular = min(wish.specular, Vec3(kPlastic)), wish.glossiness = std::min(wish.glossiness, 1 - kGrey);
+      if (wish.texture.texture < 0)
+        wish.specular = min(wish.specular, Vec3(kPlastic)), wish.glossiness = std::min(wish.glossiness, 1 - kGrey);
     }
     convertSpecularGlossiness(specularGlossiness_, scene);
   }
@@ -71,7 +72,8 @@ class Reader {
   }
 
   void specularGlossiness(const Json& in, Material& m) {
-    if (const auto factor = in.find("diffuseFactor"); factor && factor->size() > 3) m.alpha = limitedTo(static_cast<float>((*factor)[3].number()), 0, 1);
+    if (const auto factor = in.find("diffuseFactor"); factor && factor->size() > 3)
+      m.alpha = limitedTo(static_cast<float>((*factor)[3].number()), 0, 1);
     m.baseColor = colour(in, "diffuseFactor", Vec3(1), 1);
     m.baseColorTexture = textures_.reference(in.find("diffuseTexture"));
     m.metallicRoughnessTexture = {};
@@ -120,14 +122,17 @@ class Reader {
       m.thicknessM = limited(*e, "thicknessFactor", 0, 0, 1e6f);
       m.attenuationColor = colour(*e, "attenuationColor", Vec3(1), 1);
       m.attenuationDistanceM = e->number("attenuationDistance", kInfinity);
-      if (!(m.attenuationDistanceM > 0)) m.attenuationDistanceM = limitedTo(m.attenuationDistanceM, kInfinity, kInfinity);
+      if (!(m.attenuationDistanceM > 0))
+        m.attenuationDistanceM = limitedTo(m.attenuationDistanceM, kInfinity, kInfinity);
       ignore(*e, "thicknessTexture");
     }
   }
 
-  // Files for the web bake their light into such surfaces; here they take the scene's light instead, as paint of that colour.
+  // Files for the web bake their light into such surfaces; here they take the scene's light instead, as paint of that
+  // colour.
   void unlit(Material& m) {
-    document_.warnings.add("materials that ask for no light (KHR_materials_unlit) are lit as matt ones of their colour");
+    document_.warnings.add(
+        "materials that ask for no light (KHR_materials_unlit) are lit as matt ones of their colour");
     m.metallic = m.specular = 0;
     m.roughness = 1;
     m.metallicRoughnessTexture = {};
@@ -138,7 +143,9 @@ class Reader {
     if (v < low || v > high) document_.warnings.mended("values of materials outside their range are limited to it");
     return std::clamp(v, low, high);
   }
-  float limited(const Json& in, const char* key, float fallback, float low, float high) { return limitedTo(in.number(key, fallback), low, high); }
+  float limited(const Json& in, const char* key, float fallback, float low, float high) {
+    return limitedTo(in.number(key, fallback), low, high);
+  }
   Vec3 colour(const Json& in, const char* key, Vec3 fallback, float high) {
     const Vec3 c = in.vec3(key, fallback);
     return {limitedTo(c.x, 0, high), limitedTo(c.y, 0, high), limitedTo(c.z, 0, high)};

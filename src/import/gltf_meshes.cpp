@@ -46,7 +46,8 @@ size_t dropTriangles(std::vector<uint32_t>& indices, IsBroken&& isBroken) {
 class Primitive {
  public:
   // Without attributes the primitive itself, which has no POSITION, stands in for them.
-  Primitive(GltfDocument& document, const Json& json) : document_(document), json_(json), attributes_(json.find("attributes").value_or(json)) {}
+  Primitive(GltfDocument& document, const Json& json)
+      : document_(document), json_(json), attributes_(json.find("attributes").value_or(json)) {}
 
   // None where it has no triangles.
   std::optional<Mesh> read() {
@@ -59,7 +60,8 @@ class Primitive {
       document_.warnings.add("primitives without positions are left out");
       return std::nullopt;
     }
-    if (json_.list("targets").size() > 0) document_.warnings.add("morph targets are ignored, meshes keep their base shape");
+    if (json_.list("targets").size() > 0)
+      document_.warnings.add("morph targets are ignored, meshes keep their base shape");
     if (const auto extension = json_.extension("KHR_draco_mesh_compression")) {
       draco_ = decodeDraco(document_, *extension);
       vertexCount_ = draco_->vertexCount;
@@ -88,7 +90,8 @@ class Primitive {
       for (size_t i = 0; i < vertexCount_; ++i) indices[i] = static_cast<uint32_t>(i);
     }
     if (mode != 4) document_.budget.spend(3 * indices.size(), json_.path());
-    if (mode == 4 && indices.size() % 3 != 0) document_.warnings.add("indices that make no whole triangle are left out");
+    if (mode == 4 && indices.size() % 3 != 0)
+      document_.warnings.add("indices that make no whole triangle are left out");
     mesh_.indices = asList(std::move(indices), mode);
     const size_t dropped = dropTriangles(mesh_.indices, [&](uint32_t index) { return index >= vertexCount_; });
     document_.warnings.add("triangles with a vertex that does not exist are left out", dropped);
@@ -108,20 +111,23 @@ class Primitive {
     }
   }
 
-  // The numbers of an attribute, `width` a vertex or as many as it has where `width` is 0; empty: there is none that fits the vertices.
+  // The numbers of an attribute, `width` a vertex or as many as it has where `width` is 0; empty: there is none that
+// fits the vertices.
   std::vector<float> values(const char* name, int width, int* found = nullptr) {
     const auto use = attributes_.find(name);
     if (!use) return {};
     Accessor accessor = openAccessor(document_, *use);
     if (draco_) {
-      if (const auto it = draco_->attributes.find(name); it != draco_->attributes.end()) return dracoValues(it->second, accessor, width, found);
+      if (const auto it = draco_->attributes.find(name); it != draco_->attributes.end())
+        return dracoValues(it->second, accessor, width, found);
     }
     const bool isPosition = std::string_view(name) == "POSITION";
     if (!isPosition && (accessor.count < vertexCount_ || accessor.components < width)) {
       document_.warnings.add("attributes that do not fit their vertices are left out");
       return {};
     }
-    if (accessor.count < vertexCount_) use->fail(fmt::format("has {} elements for {} vertices", accessor.count, vertexCount_));
+    if (accessor.count < vertexCount_)
+      use->fail(fmt::format("has {} elements for {} vertices", accessor.count, vertexCount_));
     accessor.count = vertexCount_;
     if (found) *found = accessor.components;
     return readFloats(accessor, width > 0 ? width : accessor.components, selection_);
@@ -130,12 +136,14 @@ class Primitive {
   std::vector<float> dracoValues(const DracoAttribute& in, const Accessor& accessor, int width, int* found) {
     if (width == 0) width = std::min(in.components, 4);
     if (found) *found = width;
-    if (in.components < width) accessor.json.fail(fmt::format("its Draco data have {} components, {} are needed", in.components, width));
+    if (in.components < width)
+      accessor.json.fail(fmt::format("its Draco data have {} components, {} are needed", in.components, width));
     const float scale = accessor.normalized && !in.scaled ? 1 / normalizer(accessor.componentType) : 1;
     std::vector<float> out;
     out.reserve(vertexCount_ * static_cast<size_t>(width));
     for (size_t i = 0; i < vertexCount_; ++i) {
-      for (int c = 0; c < width; ++c) out.push_back(in.values[i * static_cast<size_t>(in.components) + static_cast<size_t>(c)] * scale);
+      for (int c = 0; c < width; ++c)
+        out.push_back(in.values[i * static_cast<size_t>(in.components) + static_cast<size_t>(c)] * scale);
     }
     return out;
   }
@@ -150,7 +158,8 @@ class Primitive {
   void readVertices() {
     mesh_.positions = vectors(values("POSITION", 3), 3);
     const size_t count = mesh_.positions.size();
-    size_t broken = dropTriangles(mesh_.indices, [&](uint32_t i) { return i >= count || !isFinite(mesh_.positions[i]); });
+    size_t broken =
+        dropTriangles(mesh_.indices, [&](uint32_t i) { return i >= count || !isFinite(mesh_.positions[i]); });
     document_.warnings.add("triangles with a vertex that is no finite number are left out", broken);
     for (Vec3& p : mesh_.positions) {
       if (!isFinite(p)) p = Vec3(0);  // nothing uses it
@@ -177,7 +186,8 @@ class Primitive {
     int width = 0;
     const std::vector<float> colours = values("COLOR_0", 0, &width);
     if (colours.empty()) return;
-    if (width != 3 && width != 4) return document_.warnings.add("attributes that do not fit their vertices are left out");
+    if (width != 3 && width != 4)
+      return document_.warnings.add("attributes that do not fit their vertices are left out");
     const auto limited = [](float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 1.0f; };
     mesh_.colors = vectors(colours, static_cast<size_t>(width));
     for (Vec3& c : mesh_.colors) c = {limited(c.x), limited(c.y), limited(c.z)};
@@ -243,7 +253,8 @@ std::vector<std::vector<int>> addGltfMeshes(GltfDocument& document, size_t maxTr
       auto mesh = Primitive(document, primitives[k]).read();
       if (!mesh) continue;
       triangles += mesh->triangleCount();
-      if (triangles > maxTriangles) primitives[k].fail(fmt::format("all meshes together have more than {} triangles", maxTriangles));
+      if (triangles > maxTriangles)
+        primitives[k].fail(fmt::format("all meshes together have more than {} triangles", maxTriangles));
       dropDegenerate(*mesh);
       if (mesh->indices.empty()) continue;
       mesh->name = meshes[i].name();

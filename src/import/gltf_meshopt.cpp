@@ -20,7 +20,8 @@ Bytes decodeMeshopt(std::span<const uint8_t> compressed, const Json& extension) 
   const std::string mode = extension.at("mode").text();
   const std::string filter = extension.text("filter", "NONE");
   if (stride == 0 || count * stride > kMaxExpansion * (compressed.size() + 64)) {
-    extension.fail(fmt::format("claims {} elements of {} bytes, more than its {} bytes can hold", count, stride, compressed.size()));
+    extension.fail(fmt::format("claims {} elements of {} bytes, more than its {} bytes can hold", count, stride,
+                               compressed.size()));
   }
 
   // Filters work on groups of four elements; the spare ones are cut off again.
@@ -32,8 +33,9 @@ Bytes decodeMeshopt(std::span<const uint8_t> compressed, const Json& extension) 
   } else if (mode == "TRIANGLES" || mode == "INDICES") {
     if (stride != 2 && stride != 4) extension.fail("byteStride of indices must be 2 or 4");
     if (mode == "TRIANGLES" && count % 3 != 0) extension.fail("count of a triangle list must be a multiple of 3");
-    status = mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(out.data(), count, stride, compressed.data(), compressed.size())
-                                 : meshopt_decodeIndexSequence(out.data(), count, stride, compressed.data(), compressed.size());
+    status = mode == "TRIANGLES"
+                 ? meshopt_decodeIndexBuffer(out.data(), count, stride, compressed.data(), compressed.size())
+                 : meshopt_decodeIndexSequence(out.data(), count, stride, compressed.data(), compressed.size());
   } else {
     extension.fail(fmt::format("mode '{}' is not known", printable(mode)));
   }

@@ -13,8 +13,13 @@ constexpr int kMaxDepth = 512;
 
 class Walker {
  public:
-  Walker(GltfDocument& document, const std::vector<std::vector<int>>& primitivesOfMesh, size_t maxTriangles, Scene& scene)
-      : document_(document), nodes_(document.root().list("nodes")), primitivesOfMesh_(primitivesOfMesh), maxTriangles_(maxTriangles), scene_(scene) {}
+  Walker(GltfDocument& document, const std::vector<std::vector<int>>& primitivesOfMesh, size_t maxTriangles,
+         Scene& scene)
+      : document_(document),
+        nodes_(document.root().list("nodes")),
+        primitivesOfMesh_(primitivesOfMesh),
+        maxTriangles_(maxTriangles),
+        scene_(scene) {}
 
   void walk() {
     visited_.resize(nodes_.size());
@@ -90,7 +95,8 @@ class Walker {
       return;
     }
     const Affine world = worldFromParent * transformOf(node);
-    if (!isFinite(world.x) || !isFinite(world.y) || !isFinite(world.z) || !isFinite(world.w)) node.fail("its transform is too large");
+    if (!isFinite(world.x) || !isFinite(world.y) || !isFinite(world.z) || !isFinite(world.w))
+      node.fail("its transform is too large");
     if (world.determinant() == 0) {
       document_.warnings.mended("nodes scaled to nothing are left out with all below them");
       return;
@@ -121,13 +127,15 @@ class Walker {
   }
 
   void place(const Json& node, int mesh, const Affine& world) {
-    if (world.determinant() == 0 || !isFinite(world.x) || !isFinite(world.y) || !isFinite(world.z) || !isFinite(world.w)) {
+    if (world.determinant() == 0 || !isFinite(world.x) || !isFinite(world.y) || !isFinite(world.z) ||
+        !isFinite(world.w)) {
       document_.warnings.mended("instances scaled to nothing are left out");
       return;
     }
     for (const int primitive : primitivesOfMesh_[static_cast<size_t>(mesh)]) {
       triangles_ += scene_.meshes[static_cast<size_t>(primitive)].triangleCount();
-      if (triangles_ > maxTriangles_) node.fail(fmt::format("all instances together have more than {} triangles", maxTriangles_));
+      if (triangles_ > maxTriangles_)
+        node.fail(fmt::format("all instances together have more than {} triangles", maxTriangles_));
       scene_.instances.push_back({node.name(), primitive, nextObject_, world});
     }
     ++nextObject_;
@@ -144,14 +152,17 @@ class Walker {
       const auto use = attributes.find(names[k]);
       if (!use) continue;
       const Accessor accessor = openAccessor(document_, *use);
-      if (count.value_or(accessor.count) != accessor.count) use->fail(fmt::format("has {} elements, others have {}", accessor.count, *count));
+      if (count.value_or(accessor.count) != accessor.count)
+        use->fail(fmt::format("has {} elements, others have {}", accessor.count, *count));
       count = accessor.count;
       document_.budget.spend(accessor.count, use->path());
       values[k] = readFloats(accessor, widths[k]);
     }
     std::vector<Affine> out;
     for (size_t i = 0; i < count.value_or(0); ++i) {
-      const auto at = [&](size_t k, size_t c, float otherwise) { return values[k].empty() ? otherwise : values[k][i * (k == 1 ? 4 : 3) + c]; };
+      const auto at = [&](size_t k, size_t c, float otherwise) {
+        return values[k].empty() ? otherwise : values[k][i * (k == 1 ? 4 : 3) + c];
+      };
       const Quaternion q{at(1, 0, 0), at(1, 1, 0), at(1, 2, 0), at(1, 3, 1)};
       out.push_back(composed({at(0, 0, 0), at(0, 1, 0), at(0, 2, 0)}, q, {at(2, 0, 1), at(2, 1, 1), at(2, 2, 1)}));
     }
@@ -169,7 +180,8 @@ class Walker {
 
 }  // namespace
 
-void addGltfNodes(GltfDocument& document, const std::vector<std::vector<int>>& primitivesOfMesh, size_t maxTriangles, Scene& scene) {
+void addGltfNodes(GltfDocument& document, const std::vector<std::vector<int>>& primitivesOfMesh, size_t maxTriangles,
+                  Scene& scene) {
   Walker(document, primitivesOfMesh, maxTriangles, scene).walk();
 }
 

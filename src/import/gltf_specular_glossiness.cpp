@@ -1,6 +1,7 @@
-// A specular-glossiness material gives a diffuse colour d and a mirrored share s. Metallic-roughness gives a base colour b and a metallic
-// share m with d (1 - max s) = b (1 - 0.04) (1 - m) and s = 0.04 (1 - m) + b m. With the brightness of d and s, b cancels out and a quadratic
-// equation is left for m (Khronos Group: examples/convert-between-workflows of KHR_materials_pbrSpecularGlossiness).
+// A specular-glossiness material gives a diffuse colour d and a mirrored share s. Metallic-roughness gives a base
+// colour b and a metallic share m with d (1 - max s) = b (1 - 0.04) (1 - m) and s = 0.04 (1 - m) + b m. With the
+// brightness of d and s, b cancels out and a quadratic equation is left for m (Khronos Group:
+// examples/convert-between-workflows of KHR_materials_pbrSpecularGlossiness).
 #include "import/gltf_specular_glossiness.h"
 
 #include <algorithm>
@@ -29,14 +30,16 @@ float metallicOf(float diffuse, float specular, float diffuseShare) {
 // A texture as the conversion reads it: as large as wanted, white where there is none.
 class Source {
  public:
-  Source(const Scene& scene, const TextureRef& ref) : texture_(ref.texture < 0 ? nullptr : &scene.textures[static_cast<size_t>(ref.texture)]) {}
+  Source(const Scene& scene, const TextureRef& ref)
+      : texture_(ref.texture < 0 ? nullptr : &scene.textures[static_cast<size_t>(ref.texture)]) {}
 
   int width() const { return texture_ ? texture_->width : 1; }
   int height() const { return texture_ ? texture_->height : 1; }
   // The texel of this one that lies at (x, y) of a picture of w x h.
   std::array<uint8_t, 4> at(int x, int y, int w, int h) const {
     if (!texture_) return {255, 255, 255, 255};
-    const size_t column = static_cast<size_t>(int64_t{x} * texture_->width / w), row = static_cast<size_t>(int64_t{y} * texture_->height / h);
+    const size_t column = static_cast<size_t>(int64_t{x} * texture_->width / w),
+                 row = static_cast<size_t>(int64_t{y} * texture_->height / h);
     const uint8_t* t = &texture_->rgba[4 * (row * static_cast<size_t>(texture_->width) + column)];
     return {t[0], t[1], t[2], t[3]};
   }
@@ -50,7 +53,8 @@ struct Tables {
   std::array<uint8_t, 4096> encoded;
   Tables() {
     for (size_t i = 0; i < linear.size(); ++i) linear[i] = srgbDecode(static_cast<float>(i) / 255);
-    for (size_t i = 0; i < encoded.size(); ++i) encoded[i] = static_cast<uint8_t>(std::lround(255 * srgbEncode(static_cast<float>(i) / 4095)));
+    for (size_t i = 0; i < encoded.size(); ++i)
+      encoded[i] = static_cast<uint8_t>(std::lround(255 * srgbEncode(static_cast<float>(i) / 4095)));
   }
   Vec3 decode(const std::array<uint8_t, 4>& t) const { return {linear[t[0]], linear[t[1]], linear[t[2]]}; }
   uint8_t encode(float v) const { return encoded[static_cast<size_t>(std::lround(4095 * std::clamp(v, 0.0f, 1.0f)))]; }
@@ -84,7 +88,8 @@ class Converter {
     const bool constantSpecular = in.texture.texture < 0;
     if (constantSpecular && (m.baseColorTexture.texture < 0 || brightness(in.specular) < kDielectric)) {
       byFactors(m, m.baseColor, in.specular);
-    } else if (!constantSpecular && m.baseColorTexture.texture >= 0 && !sameCoordinates(m.baseColorTexture, in.texture)) {
+    } else if (!constantSpecular && m.baseColorTexture.texture >= 0 &&
+               !sameCoordinates(m.baseColorTexture, in.texture)) {
       byMeans(in, m);
     } else if (!byTexels(in, m)) {
       byMeans(in, m);
@@ -100,7 +105,8 @@ class Converter {
     if (m.baseColorTexture.texture < 0 || out.metallic > 0.5f) {
       m.baseColor = out.baseColor, m.baseColorTexture = {};
     } else {
-      for (int c = 0; c < 3; ++c) m.baseColor[c] = std::min(1.0f, m.baseColor[c] * out.baseColor[c] / std::max(diffuse[c], kSmall));
+      for (int c = 0; c < 3; ++c)
+        m.baseColor[c] = std::min(1.0f, m.baseColor[c] * out.baseColor[c] / std::max(diffuse[c], kSmall));
     }
   }
 
@@ -130,13 +136,15 @@ class Converter {
   bool byTexels(const SpecularGlossiness& in, Material& m) {
     const int diffuseTexture = m.baseColorTexture.texture;
     const auto known = std::find_if(done_.begin(), done_.end(), [&](const Converted& c) {
-      return c.diffuse == diffuseTexture && c.specular == in.texture.texture && c.diffuseFactor == m.baseColor && c.specularFactor == in.specular && c.glossiness == in.glossiness;
+      return c.diffuse == diffuseTexture && c.specular == in.texture.texture && c.diffuseFactor == m.baseColor &&
+             c.specularFactor == in.specular && c.glossiness == in.glossiness;
     });
     const Converted* converted = known == done_.end() ? make(in, m) : &*known;
     if (!converted) return false;
     const TextureRef where = diffuseTexture >= 0 ? m.baseColorTexture : in.texture;
     m.baseColorTexture = m.metallicRoughnessTexture = where;
-    m.baseColorTexture.texture = converted->baseColor, m.metallicRoughnessTexture.texture = converted->metallicRoughness;
+    m.baseColorTexture.texture = converted->baseColor,
+    m.metallicRoughnessTexture.texture = converted->metallicRoughness;
     m.baseColor = Vec3(1);
     m.metallic = m.roughness = 1;
     return true;
@@ -148,12 +156,14 @@ class Converter {
     const size_t texels = static_cast<size_t>(w) * static_cast<size_t>(h);
     if (2 * texels > texelsLeft_) return nullptr;
     texelsLeft_ -= 2 * texels;
-    const Texture& like = scene_.textures[static_cast<size_t>(m.baseColorTexture.texture >= 0 ? m.baseColorTexture.texture : in.texture.texture)];
+    const Texture& like = scene_.textures[static_cast<size_t>(
+        m.baseColorTexture.texture >= 0 ? m.baseColorTexture.texture : in.texture.texture)];
     Texture base{like.name, w, h, like.wrapU, like.wrapV, std::vector<uint8_t>(4 * texels)}, rough = base;
     parallelFor(static_cast<size_t>(h), 16, [&](size_t row) {
       for (int x = 0; x < w; ++x) {
         const auto d = diffuse.at(x, static_cast<int>(row), w, h), s = specular.at(x, static_cast<int>(row), w, h);
-        const MetallicRoughness out = metallicRoughnessOf(m.baseColor * tables().decode(d), in.specular * tables().decode(s));
+        const MetallicRoughness out =
+            metallicRoughnessOf(m.baseColor * tables().decode(d), in.specular * tables().decode(s));
         const size_t at = 4 * (row * static_cast<size_t>(w) + static_cast<size_t>(x));
         for (int c = 0; c < 3; ++c) base.rgba[at + static_cast<size_t>(c)] = tables().encode(out.baseColor[c]);
         base.rgba[at + 3] = d[3];
@@ -163,7 +173,8 @@ class Converter {
       }
     });
     const int first = static_cast<int>(scene_.textures.size());
-    done_.push_back({m.baseColorTexture.texture, in.texture.texture, m.baseColor, in.specular, in.glossiness, first, first + 1});
+    done_.push_back(
+        {m.baseColorTexture.texture, in.texture.texture, m.baseColor, in.specular, in.glossiness, first, first + 1});
     scene_.textures.push_back(std::move(base));
     scene_.textures.push_back(std::move(rough));
     return &done_.back();

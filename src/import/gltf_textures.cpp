@@ -84,7 +84,8 @@ std::span<const uint8_t> GltfTextures::open(int image) {
   if (bytes.empty()) {
     missing_.add(nameOf(image));
   } else if (const auto kind = undecodable(bytes)) {
-    document_.warnings.add(fmt::format("pictures of kind {} cannot be decoded, their materials show without them", *kind));
+    document_.warnings.add(
+        fmt::format("pictures of kind {} cannot be decoded, their materials show without them", *kind));
   } else {
     entry->second = bytes;
   }
@@ -134,13 +135,15 @@ std::vector<int> GltfTextures::decode(Scene& scene) {
   for (const Use& use : uses_) {
     if (use.image < 0) continue;
     const auto [entry, isNew] = jobOfImage.emplace(use.image, jobs.size());
-    if (isNew) jobs.push_back({images[static_cast<size_t>(use.image)].path(), pictures_.at(use.image)}), usesLeft.push_back(0);
+    if (isNew)
+      jobs.push_back({images[static_cast<size_t>(use.image)].path(), pictures_.at(use.image)}), usesLeft.push_back(0);
     ++usesLeft[entry->second];
   }
   std::vector<DecodedPicture> pictures = tryPictures(jobs, document_.warnings);
   Listed damaged;
   for (const auto& [image, job] : jobOfImage) {
-    if (!pictures[job].failure.empty()) damaged.add(fmt::format("{} ({})", nameOf(image), printable(pictures[job].failure, 100)));
+    if (!pictures[job].failure.empty())
+      damaged.add(fmt::format("{} ({})", nameOf(image), printable(pictures[job].failure, 100)));
   }
   std::vector<int> indices;
   for (const Use& use : uses_) {

@@ -14,12 +14,13 @@ class GltfTextures {
  public:
   explicit GltfTextures(GltfDocument& document) : document_(document) {}
 
-  // A material's texture info (index, texCoord, KHR_texture_transform). Its `texture` is a number that decode() tells the meaning of; -1
-  // where `info` is missing. What cannot be honoured is counted as a warning. Throws Failure.
+  // A material's texture info (index, texCoord, KHR_texture_transform). Its `texture` is a number that decode() tells
+  // the meaning of; -1 where `info` is missing. What cannot be honoured is counted as a warning. Throws Failure.
   TextureRef reference(const std::optional<Json>& info);
 
-  // Decodes all pictures that were referred to and appends the textures to the scene. Returns, for each number that reference() gave, the
-  // index of its texture in the scene; -1 where the picture is missing, damaged or of an unknown kind, which is counted as a warning.
+  // Decodes all pictures that were referred to and appends the textures to the scene. Returns, for each number that
+  // reference() gave, the index of its texture in the scene; -1 where the picture is missing, damaged or of an unknown
+  // kind, which is counted as a warning.
   std::vector<int> decode(Scene& scene);
 
  private:

@@ -5,7 +5,9 @@
 namespace roomlight::importers {
 namespace {
 
-Vec3 vector(double x, double y, double z) { return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)}; }
+Vec3 vector(double x, double y, double z) {
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
 
 // Columns first; the last row, 0 0 0 1, is not looked at but for a common factor.
 Affine fromMatrix(const Json& matrix) {

@@ -20,6 +20,8 @@ inline Material greyMaterial(const std::string& name = "default") {
 constexpr float kWhitePaint = 0.85f;
 
 // Of a surface whose picture is missing: exporters write black or white beside a picture.
-inline Vec3 colourWithoutPicture(Vec3 colour) { return isBlack(colour) || minComponent(colour) > 0.98f ? Vec3(0.6f) : colour; }
+inline Vec3 colourWithoutPicture(Vec3 colour) {
+  return isBlack(colour) || minComponent(colour) > 0.98f ? Vec3(0.6f) : colour;
+}
 
 }  // namespace roomlight::importers

@@ -23,7 +23,9 @@ inline Imported importedScene(Scene scene, const Warnings& warnings, StatedUnit 
 // `read` returns an Imported or throws; its scene is validated.
 template <class Read>
 Result<Imported> guarded(const std::filesystem::path& file, Read&& read) {
-  const auto error = [&](std::string_view what) { return Error{fmt::format("{}: {}", file.string(), printable(what, 600))}; };
+  const auto error = [&](std::string_view what) {
+    return Error{fmt::format("{}: {}", file.string(), printable(what, 600))};
+  };
   try {
     Imported imported = read();
     const Status status = validate(imported.scene);

@@ -24,7 +24,9 @@ void leaveOutFarThings(Imported& imported) {
   const auto far = [](Vec3 p) { return !(maxComponent(abs(p)) <= kFarthest); };
   Scene& scene = imported.scene;
   const auto tell = [&](size_t count, const char* what) {
-    if (count > 0) imported.warnings.push_back(fmt::format("{} {}{} left out, more than {:.0f} m from the origin", count, what, count == 1 ? " is" : "s are", kFarthest));
+    if (count > 0)
+      imported.warnings.push_back(fmt::format("{} {}{} left out, more than {:.0f} m from the origin", count, what,
+                                              count == 1 ? " is" : "s are", kFarthest));
   };
   tell(std::erase_if(scene.lamps, [&](const Lamp& l) { return l.kind != LampKind::Area && far(l.position); }), "lamp");
   tell(std::erase_if(scene.cameras, [&](const Camera& c) { return far(c.worldFromCamera.w); }), "camera");
@@ -39,7 +41,9 @@ void moveToOrigin(Imported& imported) {
   if (!(away > kFarAway) || !(away > kFarAwayTimes * maxComponent(bounds.size()))) return;
   const Vec3 origin{centre.x, bounds.lo.y, centre.z};
   moveScene(imported.scene, -origin);
-  imported.warnings.push_back(fmt::format("the scene lies far from its origin; it is moved there by ({:.0f}, {:.0f}, {:.0f}) m", -origin.x, -origin.y, -origin.z));
+  imported.warnings.push_back(
+      fmt::format("the scene lies far from its origin; it is moved there by ({:.0f}, {:.0f}, {:.0f}) m", -origin.x,
+                  -origin.y, -origin.z));
 }
 
 }  // namespace
@@ -63,26 +67,33 @@ Result<Imported> importFile(const std::filesystem::path& file, const ImportOptio
   } catch (const std::exception& e) {
     return Error{fmt::format("{}: {}", file.string(), printable(e.what(), 600))};
   }
-  if (!options.companionRoot.empty()) return Error{fmt::format("{}: is an archive in an archive or a folder; unpack it first", file.string())};
+  if (!options.companionRoot.empty())
+    return Error{fmt::format("{}: is an archive in an archive or a folder; unpack it first", file.string())};
   return importZip(file, options);
 }
 
 }  // namespace importers
 
-std::string supportedFiles() { return ".glb, .gltf, .obj, .fbx, .dae, .3ds, .ply, .stl, .sh3d or .sh3f, or a folder or .zip file with one"; }
+std::string supportedFiles() {
+  return ".glb, .gltf, .obj, .fbx, .dae, .3ds, .ply, .stl, .sh3d or .sh3f, or a folder or .zip file with one";
+}
 
 Result<Imported> importScene(const std::filesystem::path& file, const ImportOptions& options) {
   std::error_code code;
   const bool folder = std::filesystem::is_directory(file, code);
-  if (!folder && !std::filesystem::is_regular_file(file, code)) return Error{fmt::format("{}: no such file", file.string())};
-  if (options.upAxis && *options.upAxis != 'x' && *options.upAxis != 'y' && *options.upAxis != 'z') return Error{"the axis that points up is x, y or z"};
+  if (!folder && !std::filesystem::is_regular_file(file, code))
+    return Error{fmt::format("{}: no such file", file.string())};
+  if (options.upAxis && *options.upAxis != 'x' && *options.upAxis != 'y' && *options.upAxis != 'z')
+    return Error{"the axis that points up is x, y or z"};
   Result<Imported> imported = folder ? importers::importFolder(file, options) : importers::importFile(file, options);
   if (imported && options.metresPerUnit != 1) scaleScene(imported.value().scene, options.metresPerUnit);
   if (imported) {
     leaveOutFarThings(imported.value());
     moveToOrigin(imported.value());
     if (const float farthest = extentFromOrigin(imported.value().scene.bounds()); !(farthest <= kFarthest)) {
-      return Error{fmt::format("{}: the scene reaches {:.3g} m from its origin, more than {:.0f} m; give --metres-per-unit", file.string(), farthest, kFarthest)};
+      return Error{
+          fmt::format("{}: the scene reaches {:.3g} m from its origin, more than {:.0f} m; give --metres-per-unit",
+                      file.string(), farthest, kFarthest)};
     }
   }
   return imported;

@@ -14,16 +14,19 @@ namespace roomlight {
 struct ImportOptions {
   float metresPerUnit = 1;             // multiplies lengths; OBJ files carry no unit
   double lumenAtFullPower = 1600;      // what Sweet Home 3D's lights of power 1 send out; their power has no unit
-  std::string camera = {};             // of a Sweet Home 3D home, by name or number: whose time of day it is; empty: the one in use
-  std::optional<char> upAxis = {};     // 'x', 'y' or 'z': what points up in a file other than glTF and Sweet Home 3D's; none: as the file says, or guessed
-  std::filesystem::path companionRoot = {};  // of a scene in a folder or an archive: its top folder, below which companions are looked for; empty: the scene's own
-  size_t maxTriangles = 200'000'000;   // of all instances; refuse absurd files before allocating
+  std::string camera =
+      {};             // of a Sweet Home 3D home, by name or number: whose time of day it is; empty: the one in use
+  std::optional<char> upAxis = {};  // 'x', 'y' or 'z': what points up in a file other than glTF and Sweet Home 3D's;
+                                    // none: as the file says, or guessed
+  std::filesystem::path companionRoot = {};  // of a scene in a folder or an archive: its top folder, below which
+                                             // companions are looked for; empty: the scene's own
+  size_t maxTriangles = 200'000'000;  // of all instances; refuse absurd files before allocating
 };
 
 // What a file says of its unit of length.
 enum class StatedUnit {
-  None,     // nothing: OBJ, STL, PLY, 3DS
-  Stated,   // by its format or in the file; often wrong
+  None,  // nothing: OBJ, STL, PLY, 3DS
+  Stated,  // by its format or in the file; often wrong
   Certain,  // Sweet Home 3D counts in centimetres, always
 };
 
@@ -35,21 +38,23 @@ struct PhotoWish {
 
 struct Imported {
   Scene scene;
-  std::vector<std::string> warnings;  // what somebody must know: one per kind of thing that could not be honoured, with how often
+  std::vector<std::string>
+      warnings;  // what somebody must know: one per kind of thing that could not be honoured, with how often
   std::optional<PhotoWish> photo = {};  // of a Sweet Home 3D home where somebody chose one
-  // Of a Sweet Home 3D home that says where and when: a `daylight` as lighting files have it, much like the scene's own sun and sky, for
-  // other times. JSON; empty: none.
+  // Of a Sweet Home 3D home that says where and when: a `daylight` as lighting files have it, much like the scene's own
+  // sun and sky, for other times. JSON; empty: none.
   std::string daylight = {};
-  std::vector<std::string> faults = {};  // small things that were mended and that nobody sees: one per kind, with how often
-  size_t faultCount = 0;                 // of all kinds together
+  std::vector<std::string> faults =
+      {};  // small things that were mended and that nobody sees: one per kind, with how often
+  size_t faultCount = 0;  // of all kinds together
   StatedUnit unit = StatedUnit::Stated;  // the scene is in metres as far as the file knows
 };
 
 // ".glb, .gltf, ...": what importScene opens, for people.
 std::string supportedFiles();
 
-// A file of a kind that supportedFiles() names, also under another extension; a folder or a zip file with one scene in it. The error is one line
-// that names the file and the place in it.
+// A file of a kind that supportedFiles() names, also under another extension; a folder or a zip file with one scene in
+// it. The error is one line that names the file and the place in it.
 Result<Imported> importScene(const std::filesystem::path& file, const ImportOptions& options = {});
 
 // Each format's own reader; same contract.

@@ -80,7 +80,8 @@ uint32_t takeCharacter(std::string_view& text, size_t line) {
   uint32_t code = 0;
   const std::string_view digits = text.substr(0, 4);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
-  if (error != std::errc() || digits.size() < 4 || end != digits.data() + 4) fail(fmt::format("line {}", line), "\\u is not followed by four hexadecimal digits");
+  if (error != std::errc() || digits.size() < 4 || end != digits.data() + 4)
+    fail(fmt::format("line {}", line), "\\u is not followed by four hexadecimal digits");
   text.remove_prefix(4);
   return code;
 }

@@ -9,8 +9,8 @@
 
 namespace roomlight::importers {
 
-// ISO 8859-1 with \uXXXX for the rest, comments after # and !, lines that go on behind a backslash; keys and values come out as UTF-8. Of equal
-// keys the last counts. Throws Failure that names the line: an escape that is none.
+// ISO 8859-1 with \uXXXX for the rest, comments after # and !, lines that go on behind a backslash; keys and values
+// come out as UTF-8. Of equal keys the last counts. Throws Failure that names the line: an escape that is none.
 std::map<std::string, std::string> javaProperties(std::span<const uint8_t> bytes);
 
 }  // namespace roomlight::importers

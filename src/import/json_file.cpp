@@ -56,11 +56,14 @@ Result<nlohmann::json> parsed(std::string_view text, bool comments) {
 Result<nlohmann::json> parseJson(std::string_view text) { return parsed(text, false); }
 
 Result<nlohmann::json> readJsonFile(const std::filesystem::path& file) {
-  const auto error = [&](std::string_view what) { return Error{fmt::format("{}: {}", file.string(), printable(what, kLongestMessage))}; };
+  const auto error = [&](std::string_view what) {
+    return Error{fmt::format("{}: {}", file.string(), printable(what, kLongestMessage))};
+  };
   std::error_code code;
   const uintmax_t size = std::filesystem::file_size(file, code);
   if (code) return error(std::filesystem::exists(file, code) ? "not a readable file" : "no such file");
-  if (size > kLargestFileBytes) return error(fmt::format("larger than {} MiB; this is no lighting file", kLargestFileBytes >> 20));
+  if (size > kLargestFileBytes)
+    return error(fmt::format("larger than {} MiB; this is no lighting file", kLargestFileBytes >> 20));
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   if (!in.good() && !in.eof()) return error("cannot be read");

@@ -48,12 +48,16 @@ JsonPlace JsonPlace::operator[](const char* key) const {
   return {kNothing, path, *error_};
 }
 
-JsonPlace JsonPlace::operator[](size_t index) const { return {(*value_)[index], fmt::format("{}[{}]", path_, index), *error_}; }
+JsonPlace JsonPlace::operator[](size_t index) const {
+  return {(*value_)[index], fmt::format("{}[{}]", path_, index), *error_};
+}
 
 bool JsonPlace::isArray() const { return value_->is_array(); }
 bool JsonPlace::isNumber() const { return value_->is_number(); }
 bool JsonPlace::isNull() const { return value_->is_null(); }
-bool JsonPlace::isText(std::string_view text) const { return value_->is_string() && value_->get_ref<const std::string&>() == text; }
+bool JsonPlace::isText(std::string_view text) const {
+  return value_->is_string() && value_->get_ref<const std::string&>() == text;
+}
 
 std::string JsonPlace::json() const { return value_->dump(); }
 

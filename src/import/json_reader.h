@@ -1,5 +1,6 @@
-// Reads hand-written JSON strictly: every key must be known, every value of its type and in its range. The first thing wrong is
-// kept with its path ("lamps[2].flux: ..."); reading goes on with defaults, and the caller asks for the error once at the end.
+// Reads hand-written JSON strictly: every key must be known, every value of its type and in its range. The first thing
+// wrong is kept with its path ("lamps[2].flux: ..."); reading goes on with defaults, and the caller asks for the error
+// once at the end.
 #pragma once
 
 #include <initializer_list>
@@ -15,7 +16,8 @@ namespace roomlight {
 // A place in the document. Cheap to copy; lives no longer than the document and the error it was made with.
 class JsonPlace {
  public:
-  JsonPlace(const nlohmann::json& value, std::string path, std::string& error) : value_(&value), path_(std::move(path)), error_(&error) {}
+  JsonPlace(const nlohmann::json& value, std::string path, std::string& error)
+      : value_(&value), path_(std::move(path)), error_(&error) {}
 
   void fail(const std::string& what) const;  // keeps the first
   bool isObject(std::initializer_list<const char*> knownKeys) const;
@@ -38,8 +40,12 @@ class JsonPlace {
   std::string oneOf(std::initializer_list<const char*> words) const;
 
   // With a default where the key is missing.
-  double number(const char* key, double low, double high, double otherwise) const { return has(key) ? (*this)[key].number(low, high) : otherwise; }
-  std::string text(const char* key, const std::string& otherwise) const { return has(key) ? (*this)[key].text() : otherwise; }
+  double number(const char* key, double low, double high, double otherwise) const {
+    return has(key) ? (*this)[key].number(low, high) : otherwise;
+  }
+  std::string text(const char* key, const std::string& otherwise) const {
+    return has(key) ? (*this)[key].text() : otherwise;
+  }
 
  private:
   const nlohmann::json* value_;

@@ -1,6 +1,7 @@
-// KTX 2.0: a 12-byte identifier, nine words (VkFormat, size of a type, width, height, depth, layers, faces, levels, supercompression),
-// where descriptor, key/value data and global data lie, then offset, length and unpacked length of each level, the largest first.
-// The descriptor's colour model says what a file of VkFormat 0 holds: 163 ETC1S, 166 UASTC. All numbers little-endian.
+// KTX 2.0: a 12-byte identifier, nine words (VkFormat, size of a type, width, height, depth, layers, faces, levels,
+// supercompression), where descriptor, key/value data and global data lie, then offset, length and unpacked length of
+// each level, the largest first. The descriptor's colour model says what a file of VkFormat 0 holds: 163 ETC1S, 166
+// UASTC. All numbers little-endian.
 #include "import/ktx2.h"
 
 #include <fmt/format.h>
@@ -42,38 +43,47 @@ struct PlainFormat {
   bool blueFirst;
 };
 
-constexpr PlainFormat kPlain[] = {{9, 1, false}, {15, 1, false}, {16, 2, false}, {22, 2, false}, {23, 3, false}, {29, 3, false}, {30, 3, true}, {36, 3, true}, {37, 4, false}, {43, 4, false}, {44, 4, true}, {50, 4, true}};
+constexpr PlainFormat kPlain[] = {{9, 1, false},  {15, 1, false}, {16, 2, false}, {22, 2, false},
+                                  {23, 3, false}, {29, 3, false}, {30, 3, true},  {36, 3, true},
+                                  {37, 4, false}, {43, 4, false}, {44, 4, true},  {50, 4, true}};
 
 const PlainFormat* plainFormat(uint32_t vkFormat) {
-  const auto found = std::find_if(std::begin(kPlain), std::end(kPlain), [&](const PlainFormat& f) { return f.vkFormat == vkFormat; });
+  const auto found =
+      std::find_if(std::begin(kPlain), std::end(kPlain), [&](const PlainFormat& f) { return f.vkFormat == vkFormat; });
   return found == std::end(kPlain) ? nullptr : found;
 }
 
-uint8_t colourModel(ByteView bytes) { return number<uint8_t>(part(bytes, number<uint32_t>(bytes, 48), number<uint32_t>(bytes, 52)), 12); }
+uint8_t colourModel(ByteView bytes) {
+  return number<uint8_t>(part(bytes, number<uint32_t>(bytes, 48), number<uint32_t>(bytes, 52)), 12);
+}
 
 bool decodable(ByteView bytes) {
   const uint32_t format = number<uint32_t>(bytes, 12), scheme = number<uint32_t>(bytes, 44);
   if (format != 0) return plainFormat(format) && (scheme == kNoSupercompression || scheme == kZstandard);
   const uint8_t model = colourModel(bytes);
-  return (model == kModelUastc && (scheme == kNoSupercompression || scheme == kZstandard)) || (model == kModelEtc1s && scheme == kBasisLz);
+  return (model == kModelUastc && (scheme == kNoSupercompression || scheme == kZstandard)) ||
+         (model == kModelEtc1s && scheme == kBasisLz);
 }
 
 uint64_t imageCount(ByteView bytes, uint32_t levels) {
   const uint64_t depth = number<uint32_t>(bytes, 28);
   uint64_t slices = 0;
   for (uint32_t level = 0; level < levels; ++level) slices += std::max<uint64_t>(depth >> level, 1);
-  return slices * std::max<uint64_t>(number<uint32_t>(bytes, 32), 1) * std::max<uint64_t>(number<uint32_t>(bytes, 36), 1);
+  return slices * std::max<uint64_t>(number<uint32_t>(bytes, 32), 1) *
+         std::max<uint64_t>(number<uint32_t>(bytes, 36), 1);
 }
 
 // The first `size` bytes that the frame unpacks to.
 std::vector<uint8_t> unpackZstandard(ByteView packed, size_t size) {
   std::vector<uint8_t> out(size);
-  const std::unique_ptr<ZSTD_DStream, decltype([](ZSTD_DStream* s) { ZSTD_freeDStream(s); })> stream(ZSTD_createDStream());
+  const std::unique_ptr<ZSTD_DStream, decltype([](ZSTD_DStream* s) { ZSTD_freeDStream(s); })> stream(
+      ZSTD_createDStream());
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
   ZSTD_outBuffer to{out.data(), out.size(), 0};
   while (to.pos < to.size) {
     const size_t before = to.pos + in.pos, status = ZSTD_decompressStream(stream.get(), &to, &in);
-    if (ZSTD_isError(status)) fail("", fmt::format("the KTX2 picture's Zstandard data are damaged: {}", ZSTD_getErrorName(status)));
+    if (ZSTD_isError(status))
+      fail("", fmt::format("the KTX2 picture's Zstandard data are damaged: {}", ZSTD_getErrorName(status)));
     if (to.pos < to.size && to.pos + in.pos == before) fail("", "the KTX2 picture's Zstandard data are cut short");
   }
   return out;
@@ -84,7 +94,8 @@ void spreadTexels(ByteView texels, const Ktx2Header& h, std::span<uint8_t> rgba)
   for (size_t i = 0; i < rgba.size() / 4; ++i) {
     const uint8_t* in = &texels[i * channels];
     uint8_t* out = &rgba[i * 4];
-    out[0] = in[0], out[1] = channels > 1 ? in[1] : 0, out[2] = channels > 2 ? in[2] : 0, out[3] = channels > 3 ? in[3] : 255;
+    out[0] = in[0], out[1] = channels > 1 ? in[1] : 0, out[2] = channels > 2 ? in[2] : 0,
+    out[3] = channels > 3 ? in[3] : 255;
     if (h.blueFirst) std::swap(out[0], out[2]);
   }
 }
@@ -93,7 +104,9 @@ size_t blocksOf(int side) { return (static_cast<size_t>(side) + 3) / 4; }
 
 }  // namespace
 
-bool isKtx2(ByteView bytes) { return bytes.size() >= sizeof kIdentifier && std::memcmp(bytes.data(), kIdentifier, sizeof kIdentifier) == 0; }
+bool isKtx2(ByteView bytes) {
+  return bytes.size() >= sizeof kIdentifier && std::memcmp(bytes.data(), kIdentifier, sizeof kIdentifier) == 0;
+}
 
 std::optional<std::string> undecodableKtx2(ByteView bytes) {
   try {
@@ -109,8 +122,10 @@ std::optional<std::string> undecodableKtx2(ByteView bytes) {
 Ktx2Header readKtx2Header(ByteView bytes) {
   Ktx2Header h;
   if (!decodable(bytes)) fail("", "the KTX2 picture is of a kind that cannot be decoded");
-  const uint32_t format = number<uint32_t>(bytes, 12), width = number<uint32_t>(bytes, 20), height = number<uint32_t>(bytes, 24);
-  if (width > INT32_MAX || height > INT32_MAX) fail("", fmt::format("the picture claims {} x {} pixels", width, height));
+  const uint32_t format = number<uint32_t>(bytes, 12), width = number<uint32_t>(bytes, 20),
+                 height = number<uint32_t>(bytes, 24);
+  if (width > INT32_MAX || height > INT32_MAX)
+    fail("", fmt::format("the picture claims {} x {} pixels", width, height));
   h.width = static_cast<int>(width), h.height = std::max(1, static_cast<int>(height));
   h.zstandard = number<uint32_t>(bytes, 44) == kZstandard;
   if (const PlainFormat* plain = plainFormat(format)) {
@@ -134,7 +149,8 @@ std::vector<uint8_t> decodeKtx2(const Ktx2Header& h) {
     decodeBasisLz(h, rgba);
     return rgba;
   }
-  const size_t size = h.coding == Ktx2Coding::Uastc ? 16 * blocksOf(h.width) * blocksOf(h.height) : pixels * static_cast<size_t>(h.channels);
+  const size_t size = h.coding == Ktx2Coding::Uastc ? 16 * blocksOf(h.width) * blocksOf(h.height)
+                                                    : pixels * static_cast<size_t>(h.channels);
   std::vector<uint8_t> unpacked;
   ByteView data = h.level;
   if (h.zstandard) data = unpacked = unpackZstandard(h.level, size);

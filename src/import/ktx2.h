@@ -1,5 +1,6 @@
-// KTX 2.0 pictures (Khronos specification 2.0.4): ETC1S with BasisLZ and UASTC, as KHR_texture_basisu has them, and plain texels of 8 bits a
-// channel; the last two also with Zstandard. Only the first picture of the largest level is read.
+// KTX 2.0 pictures (Khronos specification 2.0.4): ETC1S with BasisLZ and UASTC, as KHR_texture_basisu has them, and
+// plain texels of 8 bits a channel; the last two also with Zstandard. Only the first picture of the largest level is
+// read.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,8 @@ struct Ktx2Header {
 
 bool isKtx2(std::span<const uint8_t> bytes);
 
-// What this file holds where it cannot be decoded here, "KTX2 (format 145)"; none where it can, or is too damaged to tell.
+// What this file holds where it cannot be decoded here, "KTX2 (format 145)"; none where it can, or is too damaged to
+// tell.
 std::optional<std::string> undecodableKtx2(std::span<const uint8_t> bytes);
 
 // Throws Failure where the header is damaged or points outside the file.

@@ -1,6 +1,7 @@
-// ETC1S with BasisLZ (KTX 2.0, appendices C and D). The global data hold two palettes, of endpoints (a 5-bit colour and a table of
-// modifiers) and of selectors (which of four modifiers each of 4 x 4 texels has), and the Huffman tables of the slices. A slice names an
-// endpoint and a selector for each block, row by row; alpha is a second slice of grey blocks.
+// ETC1S with BasisLZ (KTX 2.0, appendices C and D). The global data hold two palettes, of endpoints (a 5-bit colour and
+// a table of modifiers) and of selectors (which of four modifiers each of 4 x 4 texels has), and the Huffman tables of
+// the slices. A slice names an endpoint and a selector for each block, row by row; alpha is a second slice of grey
+// blocks.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -13,7 +14,9 @@ namespace {
 
 using ByteView = std::span<const uint8_t>;
 
-[[noreturn]] void damaged(const char* what) { fail("", std::string("the KTX2 picture's BasisLZ data are damaged: ") + what); }
+[[noreturn]] void damaged(const char* what) {
+  fail("", std::string("the KTX2 picture's BasisLZ data are damaged: ") + what);
+}
 
 ByteView take(ByteView& from, size_t length) {
   if (length > from.size()) damaged("they are cut short");
@@ -48,9 +51,10 @@ HuffmanTable readTable(BitReader& bits) {
     }
     const bool repeats = symbol >= 19;
     if (repeats && (lengths.empty() || lengths.back() == 0)) damaged("nothing to repeat");
-    const uint32_t run = symbol == 17 ? 3 + bits.bits(3) : symbol == 18 ? 11 + bits.bits(7)
-                                                       : symbol == 19   ? 3 + bits.bits(2)
-                                                                        : 7 + bits.bits(7);
+    const uint32_t run = symbol == 17   ? 3 + bits.bits(3)
+                         : symbol == 18 ? 11 + bits.bits(7)
+                         : symbol == 19 ? 3 + bits.bits(2)
+                                        : 7 + bits.bits(7);
     if (run > symbols - lengths.size()) damaged("a run is too long");
     lengths.insert(lengths.end(), run, repeats ? lengths.back() : uint8_t{0});
   }
@@ -83,10 +87,7 @@ std::vector<Endpoint> readEndpoints(ByteView data, size_t count) {
     now.modifiers = static_cast<uint8_t>((now.modifiers + ofModifiers.next(bits)) & 7);
     for (size_t c = 0; c < (grey ? 1u : 3u); ++c) {
       uint8_t& v = now.colour[c];
-      v = static_cast<uint8_t>((v + ofColour[v < 10 ? 0 : v < 22 ? 1
-                                                                 : 2]
-                                        .next(bits)) &
-                               31);
+      v = static_cast<uint8_t>((v + ofColour[v < 10 ? 0 : v < 22 ? 1 : 2].next(bits)) & 31);
     }
     if (grey) now.colour[1] = now.colour[2] = now.colour[0];
     out.push_back(now);
@@ -103,7 +104,8 @@ std::vector<Selector> readSelectors(ByteView data, size_t count) {
   std::vector<Selector> out;
   Selector now{};
   for (size_t i = 0; i < count; ++i) {
-    for (uint8_t& row : now) row = plain || i == 0 ? static_cast<uint8_t>(bits.bits(8)) : static_cast<uint8_t>(row ^ delta.next(bits));
+    for (uint8_t& row : now)
+      row = plain || i == 0 ? static_cast<uint8_t>(bits.bits(8)) : static_cast<uint8_t>(row ^ delta.next(bits));
     out.push_back(now);
   }
   return out;
@@ -145,7 +147,13 @@ uint32_t readGroups(BitReader& bits, int width) {
 // One slice on its way through the blocks.
 class Slice {
  public:
-  Slice(const Palettes& palettes, ByteView data, size_t across) : p_(palettes), bits_(data), history_(palettes.history), above_(across), here_(across), predictions_((across + 1) / 2) {}
+  Slice(const Palettes& palettes, ByteView data, size_t across)
+      : p_(palettes),
+        bits_(data),
+        history_(palettes.history),
+        above_(across),
+        here_(across),
+        predictions_((across + 1) / 2) {}
 
   // Calls block(x, y, endpoint, selector) for every block.
   template <class OnBlock>
@@ -154,7 +162,8 @@ class Slice {
       for (size_t x = 0; x < here_.size(); ++x) {
         if (x % 2 == 0) pending_ = y % 2 == 0 ? firstOfPair(x) : predictions_[x / 2];
         const uint32_t endpoint = nextEndpoint(x, y), selector = nextSelector();
-        if (endpoint >= p_.endpoints.size() || selector >= p_.selectors.size()) damaged("a block names nothing of its palette");
+        if (endpoint >= p_.endpoints.size() || selector >= p_.selectors.size())
+          damaged("a block names nothing of its palette");
         here_[x] = last_ = endpoint;
         block(x, y, p_.endpoints[endpoint], p_.selectors[selector]);
       }
@@ -212,17 +221,17 @@ class Slice {
   BitReader bits_;
   History history_;
   std::vector<uint32_t> above_, here_;  // endpoints of two rows
-  std::vector<uint8_t> predictions_;    // of the odd row
+  std::vector<uint8_t> predictions_;  // of the odd row
   uint32_t pending_ = 0, prediction_ = 0, last_ = 0;
   uint64_t repeats_ = 0, run_ = 0;
 };
 
 uint8_t texel(const Endpoint& endpoint, size_t channel, uint32_t selector) {
-  static constexpr int kModifiers[8][2] = {{2, 8}, {5, 17}, {9, 29}, {13, 42}, {18, 60}, {24, 80}, {33, 106}, {47, 183}};
-  const int base = (endpoint.colour[channel] << 3) | (endpoint.colour[channel] >> 2), *m = kModifiers[endpoint.modifiers];
-  const int offset = selector == 0 ? -m[1] : selector == 1 ? -m[0]
-                                         : selector == 2   ? m[0]
-                                                           : m[1];
+  static constexpr int kModifiers[8][2] = {{2, 8},   {5, 17},  {9, 29},   {13, 42},
+                                           {18, 60}, {24, 80}, {33, 106}, {47, 183}};
+  const int base = (endpoint.colour[channel] << 3) | (endpoint.colour[channel] >> 2),
+            *m = kModifiers[endpoint.modifiers];
+  const int offset = selector == 0 ? -m[1] : selector == 1 ? -m[0] : selector == 2 ? m[0] : m[1];
   return static_cast<uint8_t>(std::clamp(base + offset, 0, 255));
 }
 
@@ -231,12 +240,14 @@ uint8_t texel(const Endpoint& endpoint, size_t channel, uint32_t selector) {
 void decodeBasisLz(const Ktx2Header& h, std::span<uint8_t> rgba) {
   ByteView global = h.global;
   const size_t endpoints = number<uint16_t>(global), selectors = number<uint16_t>(global);
-  const uint32_t endpointBytes = number<uint32_t>(global), selectorBytes = number<uint32_t>(global), tableBytes = number<uint32_t>(global);
+  const uint32_t endpointBytes = number<uint32_t>(global), selectorBytes = number<uint32_t>(global),
+                 tableBytes = number<uint32_t>(global);
   number<uint32_t>(global);  // of extensions, which come last
   ByteView images = global;
   if (h.images == 0 || h.images > global.size() / 20) damaged("they are cut short");
   take(global, 20 * h.images);
-  const uint32_t flags = number<uint32_t>(images), colourAt = number<uint32_t>(images), colourBytes = number<uint32_t>(images);
+  const uint32_t flags = number<uint32_t>(images), colourAt = number<uint32_t>(images),
+                 colourBytes = number<uint32_t>(images);
   const uint32_t alphaAt = number<uint32_t>(images), alphaBytes = number<uint32_t>(images);
   if (flags & 2) damaged("the first picture is a change to another");
 
@@ -244,24 +255,27 @@ void decodeBasisLz(const Ktx2Header& h, std::span<uint8_t> rgba) {
   palettes.endpoints = readEndpoints(take(global, endpointBytes), endpoints);
   palettes.selectors = readSelectors(take(global, selectorBytes), selectors);
   BitReader tables(take(global, tableBytes));
-  for (HuffmanTable* table : {&palettes.prediction, &palettes.endpointDelta, &palettes.selector, &palettes.runLength}) *table = readTable(tables);
+  for (HuffmanTable* table : {&palettes.prediction, &palettes.endpointDelta, &palettes.selector, &palettes.runLength})
+    *table = readTable(tables);
   palettes.history = tables.bits(13);
 
-  const size_t width = static_cast<size_t>(h.width), height = static_cast<size_t>(h.height), across = (width + 3) / 4, down = (height + 3) / 4;
+  const size_t width = static_cast<size_t>(h.width), height = static_cast<size_t>(h.height), across = (width + 3) / 4,
+               down = (height + 3) / 4;
   // Alpha is the green of grey blocks.
   const auto decode = [&](uint32_t at, uint32_t bytes, bool isAlpha) {
     ByteView data = h.level;
     take(data, at);
-    Slice(palettes, take(data, bytes), across).decode(down, [&](size_t bx, size_t by, const Endpoint& endpoint, const Selector& selector) {
-      for (size_t y = 0; y < 4 && 4 * by + y < height; ++y) {
-        for (size_t x = 0; x < 4 && 4 * bx + x < width; ++x) {
-          uint8_t* out = &rgba[4 * ((4 * by + y) * width + 4 * bx + x)];
-          const uint32_t modifier = (selector[y] >> (2 * x)) & 3u;
-          if (isAlpha) out[3] = texel(endpoint, 1, modifier);
-          for (size_t c = 0; !isAlpha && c < 3; ++c) out[c] = texel(endpoint, c, modifier);
-        }
-      }
-    });
+    Slice(palettes, take(data, bytes), across)
+        .decode(down, [&](size_t bx, size_t by, const Endpoint& endpoint, const Selector& selector) {
+          for (size_t y = 0; y < 4 && 4 * by + y < height; ++y) {
+            for (size_t x = 0; x < 4 && 4 * bx + x < width; ++x) {
+              uint8_t* out = &rgba[4 * ((4 * by + y) * width + 4 * bx + x)];
+              const uint32_t modifier = (selector[y] >> (2 * x)) & 3u;
+              if (isAlpha) out[3] = texel(endpoint, 1, modifier);
+              for (size_t c = 0; !isAlpha && c < 3; ++c) out[c] = texel(endpoint, c, modifier);
+            }
+          }
+        });
   };
   std::fill(rgba.begin(), rgba.end(), uint8_t{255});
   decode(colourAt, colourBytes, false);

@@ -41,7 +41,8 @@ When readWhen(const JsonPlace& j, const Epw* weather) {
     return when;
   }
   const double latitude = weather ? j.number("latitude", -90, 90, weather->latitudeDeg) : j["latitude"].number(-90, 90);
-  const double longitude = weather ? j.number("longitude", -180, 180, weather->longitudeDeg) : j["longitude"].number(-180, 180);
+  const double longitude =
+      weather ? j.number("longitude", -180, 180, weather->longitudeDeg) : j["longitude"].number(-180, 180);
   const double north = j.number("north", -360, 360, 0);
   const Result<Moment> moment = parseMoment(j["time"].text());
   if (!moment) {
@@ -74,7 +75,8 @@ struct DaylightLux {
 DaylightLux cieLux(const JsonPlace& j, const When& when, int type) {
   DaylightLux lux;
   const SkyCover cover = skyCover(type);
-  lux.sky = j.has("horizontalIlluminance") ? j["horizontalIlluminance"].quantity(Unit::Lux, 0, 1e9) : skyHorizontalLux(cover, when.altitudeRad);
+  lux.sky = j.has("horizontalIlluminance") ? j["horizontalIlluminance"].quantity(Unit::Lux, 0, 1e9)
+                                           : skyHorizontalLux(cover, when.altitudeRad);
   if (j.has("sunIlluminance")) {
     lux.sun = j["sunIlluminance"].quantity(Unit::Lux, 0, 1e9);
   } else if (cover != SkyCover::Overcast) {
@@ -113,7 +115,11 @@ struct Measured {
 };
 
 Measured readMeasured(const JsonPlace& j) {
-  return {{j["directNormal"].quantity(Unit::WattPerM2, 0, 2000), j["diffuseHorizontal"].quantity(Unit::WattPerM2, 0, 2000)}, {}, {}, kUsualWaterCm};
+  return {
+      {j["directNormal"].quantity(Unit::WattPerM2, 0, 2000), j["diffuseHorizontal"].quantity(Unit::WattPerM2, 0, 2000)},
+      {},
+      {},
+      kUsualWaterCm};
 }
 
 Measured measuredAt(const JsonPlace& j, const Epw& weather, const Moment& moment) {
@@ -126,7 +132,10 @@ Measured measuredAt(const JsonPlace& j, const Epw& weather, const Moment& moment
     j["weather"].fail(fmt::format("has no irradiance of month {} day {} hour {}", hour->month, hour->day, hour->hour));
     return {};
   }
-  Measured m{{*hour->directNormalWm2, *hour->diffuseHorizontalWm2}, hour->diffuseHorizontalLux, hour->directNormalLux, kUsualWaterCm};
+  Measured m{{*hour->directNormalWm2, *hour->diffuseHorizontalWm2},
+             hour->diffuseHorizontalLux,
+             hour->directNormalLux,
+             kUsualWaterCm};
   if (hour->dewPointC) m.waterCm = precipitableWaterCm(*hour->dewPointC);
   return m;
 }
@@ -165,7 +174,8 @@ Daylight lit(const JsonPlace& j, const When& when, DaylightLux lux, const SkyFun
 // The all-weather sky of what was measured. Clear where the sun shines (WMO: from 120 W/m² on).
 Daylight perezDaylight(const JsonPlace& j, const When& when, const Measured& measured) {
   if (measured.irradiance.diffuseHorizontal <= 0) {
-    if (measured.irradiance.directNormal > 0) j.fail("direct light without any diffuse light is no sky; is one of the two missing?");
+    if (measured.irradiance.directNormal > 0)
+      j.fail("direct light without any diffuse light is no sky; is one of the two missing?");
     return {};
   }
   const Vec3 sun = sunInSky(when.toSun);
@@ -174,7 +184,8 @@ Daylight perezDaylight(const JsonPlace& j, const When& when, const Measured& mea
   const DaylightLux lux{measured.skyLux.value_or(sky.diffuseEfficacy * measured.irradiance.diffuseHorizontal),
                         measured.sunLux.value_or(sky.directEfficacy * measured.irradiance.directNormal)};
   return lit(
-      j, when, lux, [=](Vec3 d) { return perezLuminance(sky, static_cast<double>(d.y), angleRad(d, sun)); }, measured.irradiance.directNormal > kSunshineWm2);
+      j, when, lux, [=](Vec3 d) { return perezLuminance(sky, static_cast<double>(d.y), angleRad(d, sun)); },
+      measured.irradiance.directNormal > kSunshineWm2);
 }
 
 Daylight cieDaylight(const JsonPlace& j) {
@@ -190,8 +201,10 @@ Daylight cieDaylight(const JsonPlace& j) {
 }  // namespace
 
 Daylight readDaylight(const JsonPlace& j, const std::filesystem::path& folder) {
-  if (!j.isObject({"sky", "latitude", "longitude", "time", "north", "direction", "horizontalIlluminance", "sunIlluminance", "directNormal",
-                   "diffuseHorizontal", "weather", "ground", "temperature", "color", "sunTemperature"})) return {};
+  if (!j.isObject({"sky", "latitude", "longitude", "time", "north", "direction", "horizontalIlluminance",
+                   "sunIlluminance", "directNormal", "diffuseHorizontal", "weather", "ground", "temperature", "color",
+                   "sunTemperature"}))
+    return {};
   const bool byWeather = j.has("weather");
   if (!byWeather && !(j.has("sky") && j["sky"].isText("perez"))) return cieDaylight(j);
   forbid(j, {"horizontalIlluminance", "sunIlluminance"}, "beside measured irradiance");

@@ -1,5 +1,5 @@
-// Sun and sky that belong together, from the `daylight` of a lighting file (docs/formats/lighting.md). What is wrong is told to the place;
-// see json_reader.h.
+// Sun and sky that belong together, from the `daylight` of a lighting file (docs/formats/lighting.md). What is wrong is
+// told to the place; see json_reader.h.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,8 @@ struct Daylight {
   Sky sky;  // black at night
 };
 
-// By the sky's kind, or by measured irradiance and Perez's all-weather sky. `folder`: where the path of a weather file begins.
+// By the sky's kind, or by measured irradiance and Perez's all-weather sky. `folder`: where the path of a weather file
+// begins.
 Daylight readDaylight(const JsonPlace& j, const std::filesystem::path& folder);
 
 }  // namespace roomlight

@@ -1,10 +1,10 @@
 // Lighting files, version 1 (docs/formats/lighting.md):
 //   { "scene": { "lamps": "keep"|"off", "suns": .., "sky": .., "emission": "keep"|"off"|factor },
-//     "lamps": [ { "type": "point"|"spot"|"area"|"photometric", "position": [x,y,z], "flux"|"intensity"|"luminance": "800 lm", .. } ],
-//     "sun": { "direction": [x,y,z], "illuminance": "75000 lx" } or { "latitude", "longitude", "time" } or a list of them,
-//     "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" | "horizontalIlluminance": "10 klx" },
-//     "daylight": { "sky": "clear"|"intermediate"|"overcast"|1..16|"perez", "latitude", "longitude", "time", .. },
-//     "own": [ { "name", "number", "dimming": 0..1, "factor", .. } ],
+//     "lamps": [ { "type": "point"|"spot"|"area"|"photometric", "position": [x,y,z], "flux"|"intensity"|"luminance":
+//     "800 lm", .. } ], "sun": { "direction": [x,y,z], "illuminance": "75000 lx" } or { "latitude", "longitude", "time"
+//     } or a list of them, "sky": { "luminance": "3000 cd/m2" } or { "image": "sky.hdr", "unit": "1000 cd/m2" |
+//     "horizontalIlluminance": "10 klx" }, "daylight": { "sky": "clear"|"intermediate"|"overcast"|1..16|"perez",
+//     "latitude", "longitude", "time", .. }, "own": [ { "name", "number", "dimming": 0..1, "factor", .. } ],
 //     "metresPerUnit": number, the scene's unit that places are meant for (home/open_home),
 //     "ground": { "elevation": y, "centre": [x,z], "radius": r, "reflectance": 0..1 },
 //     "glazing": [ { "material": "Glass", "panes": 2, "internalTransmittance": 0.96, "ior": 1.52 } ] }
@@ -68,7 +68,9 @@ struct Lighting {
 
 Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder, PhotometricFiles& files) {
   Lighting out;
-  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight", "ground", "glazing", "own", "metresPerUnit"})) return out;
+  if (!root.isObject({"version", "comment", "scene", "lamps", "sun", "sky", "daylight", "ground", "glazing", "own",
+                      "metresPerUnit"}))
+    return out;
   if (root.has("version") && root["version"].number(1, 1e6) != 1) root["version"].fail("must be 1");
   if (root.has("comment")) root["comment"].text();
   if (root.has("scene")) out.kept = readKept(root["scene"]);
@@ -88,7 +90,8 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
   if (root.has("daylight")) {
     forbid(root, {"sun", "sky"}, "beside 'daylight', which brings both");
     Daylight daylight = readDaylight(root["daylight"], folder);
-    if (isBlack(daylight.sun.illuminanceLux) && !daylight.sky.present()) out.warnings.push_back("daylight: the sun is below the horizon then; there is none");
+    if (isBlack(daylight.sun.illuminanceLux) && !daylight.sky.present())
+      out.warnings.push_back("daylight: the sun is below the horizon then; there is none");
     out.suns.push_back(daylight.sun);
     out.sky = std::move(daylight.sky);
   }
@@ -101,9 +104,8 @@ Lighting readLighting(const JsonPlace& root, const std::filesystem::path& folder
 
 // Depends on the scene: its emission times the factor must stay in range.
 bool emissionStaysInRange(const Scene& scene, float factor) {
-  return std::all_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
-    return factor <= 1 || maxComponent(m.emission) <= kMostLight / factor;
-  });
+  return std::all_of(scene.materials.begin(), scene.materials.end(),
+                     [&](const Material& m) { return factor <= 1 || maxComponent(m.emission) <= kMostLight / factor; });
 }
 
 void apply(Lighting& lighting, Scene& scene) {
@@ -132,7 +134,8 @@ Status applyLightingFile(const std::filesystem::path& file, Scene& scene, std::v
   return applyLighting(json.value(), file, scene, warnings);
 }
 
-Status applyLighting(const nlohmann::json& document, const std::filesystem::path& file, Scene& scene, std::vector<std::string>* warnings) {
+Status applyLighting(const nlohmann::json& document, const std::filesystem::path& file, Scene& scene,
+                     std::vector<std::string>* warnings) {
   std::string error;
   PhotometricFiles files;
   Lighting lighting = readLighting(JsonPlace(document, "", error), file.parent_path(), files);
@@ -140,8 +143,10 @@ Status applyLighting(const nlohmann::json& document, const std::filesystem::path
   if (!emissionStaysInRange(scene, lighting.kept.emission)) {
     return Error{fmt::format("{}: scene.emission: would make a material brighter than 1e12 cd/m2", file.string())};
   }
-  if (const std::string wrong = missingLamp(lighting.own, scene); !wrong.empty()) return Error{fmt::format("{}: {}", file.string(), wrong)};
-  if (const std::string wrong = missingMaterial(lighting.glazing, scene); !wrong.empty()) return Error{fmt::format("{}: {}", file.string(), wrong)};
+  if (const std::string wrong = missingLamp(lighting.own, scene); !wrong.empty())
+    return Error{fmt::format("{}: {}", file.string(), wrong)};
+  if (const std::string wrong = missingMaterial(lighting.glazing, scene); !wrong.empty())
+    return Error{fmt::format("{}: {}", file.string(), wrong)};
   apply(lighting, scene);
   if (warnings) {
     warnings->insert(warnings->end(), lighting.warnings.begin(), lighting.warnings.end());

@@ -24,8 +24,10 @@ std::vector<GlazedMaterial> readGlazing(const JsonPlace& j) {
     if (!one.isObject({"material", "panes", "ior", "internalTransmittance"})) return out;
     const double panes = one.number("panes", 1, kMostGlazingPanes, 1);
     if (panes != static_cast<int>(panes)) one["panes"].fail("must be a whole number");
-    const double ior = one.number("ior", 1, 4, kClearGlassIor), internal = one.number("internalTransmittance", 0.001, 1, kSixMillimetres);
-    out.push_back({one["material"].text(), {static_cast<int>(panes), static_cast<float>(ior), static_cast<float>(internal)}});
+    const double ior = one.number("ior", 1, 4, kClearGlassIor),
+                 internal = one.number("internalTransmittance", 0.001, 1, kSixMillimetres);
+    out.push_back(
+        {one["material"].text(), {static_cast<int>(panes), static_cast<float>(ior), static_cast<float>(internal)}});
   }
   return out;
 }
@@ -36,7 +38,8 @@ std::string missingMaterial(const std::vector<GlazedMaterial>& glazing, const Sc
     if (std::any_of(scene.materials.begin(), scene.materials.end(), called)) continue;
     std::string names;
     for (const Material& m : scene.materials) names += (names.empty() ? "'" : ", '") + m.name + "'";
-    return fmt::format("glazing[{}].material: no material is called '{}'; there are {}", i, printable(glazing[i].material, 60), printable(names, 400));
+    return fmt::format("glazing[{}].material: no material is called '{}'; there are {}", i,
+                       printable(glazing[i].material, 60), printable(names, 400));
   }
   return {};
 }

@@ -32,23 +32,31 @@ void readArea(const JsonPlace& j, Lamp& lamp) {
 }
 
 // The web's own flux, unless the file says another.
-void readPhotometric(const JsonPlace& j, Vec3 c, double factor, const std::filesystem::path& folder, PhotometricFiles& files, Lamp& lamp) {
+void readPhotometric(const JsonPlace& j, Vec3 c, double factor, const std::filesystem::path& folder,
+                     PhotometricFiles& files, Lamp& lamp) {
   lamp.direction = j.has("direction") ? readDirection(j["direction"]) : Vec3{0, -1, 0};
   lamp.up = readUp(j, lamp.direction, std::abs(lamp.direction.x) < 0.9f ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
   const double flux = j.has("flux") ? j["flux"].quantity(Unit::Lumen, 0, kMostLight) : -1;
   const std::string as = j.has("as") ? j["as"].oneOf({"point", "area"}) : "";
   const Result<PhotometricFiles::Web> web = files.read(folder / j["file"].text());
   if (!web) return j["file"].fail(fmt::format("'{}': {}", printable(j["file"].text()), printable(web.error(), 300)));
-  if (as == "area" && !web.value()->hasOpening()) return j["as"].fail("must be point: the file states no luminous opening");
-  setWeb(lamp, web.value(), as == "point" ? LampSize::Point : as == "area" ? LampSize::Area
-                                                                           : LampSize::AsStated,
+  if (as == "area" && !web.value()->hasOpening())
+    return j["as"].fail("must be point: the file states no luminous opening");
+  setWeb(lamp, web.value(),
+         as == "point"  ? LampSize::Point
+         : as == "area" ? LampSize::Area
+                        : LampSize::AsStated,
          c, flux, factor);
-  if (!(luminance(lamp.intensityCd) <= 1.001f * static_cast<float>(kMostLight))) j["flux"].fail("makes an intensity above 1e12 cd");
+  if (!(luminance(lamp.intensityCd) <= 1.001f * static_cast<float>(kMostLight)))
+    j["flux"].fail("makes an intensity above 1e12 cd");
 }
 
 Lamp readKind(const JsonPlace& j, size_t number, const std::filesystem::path& folder, PhotometricFiles& files) {
   Lamp lamp;
-  if (!j.isObject({"name", "group", "type", "position", "direction", "up", "flux", "intensity", "luminance", "temperature", "color", "innerCone", "outerCone", "width", "height", "file", "as", "dimming", "lightLossFactor", "watts"})) return lamp;
+  if (!j.isObject({"name",      "group",     "type",        "position", "direction",       "up",        "flux",
+                   "intensity", "luminance", "temperature", "color",    "innerCone",       "outerCone", "width",
+                   "height",    "file",      "as",          "dimming",  "lightLossFactor", "watts"}))
+    return lamp;
   lamp.name = j.text("name", fmt::format("lamp {}", number + 1));
   lamp.group = j.text("group", "");
   lamp.position = j["position"].vector(-kFarthestM, kFarthestM);
@@ -68,9 +76,13 @@ Lamp readKind(const JsonPlace& j, size_t number, const std::filesystem::path& fo
     readArea(j, lamp);
     const std::string unit = theOne(j, {"flux", "luminance"});
     const double area = static_cast<double>(lamp.widthM) * lamp.heightM;
-    if (unit == "flux") lamp.luminanceCdM2 = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / (kPi * std::max(area, 1e-8)));
-    if (unit == "luminance") lamp.luminanceCdM2 = c * static_cast<float>(j["luminance"].quantity(Unit::CandelaPerM2, 0, kMostLight));
-    if (luminance(lamp.luminanceCdM2) > 1.001 * kMostLight) j["flux"].fail("is more than 1e12 cd/m2 on so small an area");
+    if (unit == "flux")
+      lamp.luminanceCdM2 =
+          c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / (kPi * std::max(area, 1e-8)));
+    if (unit == "luminance")
+      lamp.luminanceCdM2 = c * static_cast<float>(j["luminance"].quantity(Unit::CandelaPerM2, 0, kMostLight));
+    if (luminance(lamp.luminanceCdM2) > 1.001 * kMostLight)
+      j["flux"].fail("is more than 1e12 cd/m2 on so small an area");
     lamp.luminanceCdM2 *= static_cast<float>(factor);
     return lamp;
   }
@@ -84,8 +96,10 @@ Lamp readKind(const JsonPlace& j, size_t number, const std::filesystem::path& fo
     forbid(j, {"direction", "innerCone", "outerCone"}, why);
   }
   const std::string unit = theOne(j, {"flux", "intensity"});
-  if (unit == "flux") lamp.intensityCd = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / fluxPerCandela);
-  if (unit == "intensity") lamp.intensityCd = c * static_cast<float>(j["intensity"].quantity(Unit::Candela, 0, kMostLight));
+  if (unit == "flux")
+    lamp.intensityCd = c * static_cast<float>(j["flux"].quantity(Unit::Lumen, 0, kMostLight) / fluxPerCandela);
+  if (unit == "intensity")
+    lamp.intensityCd = c * static_cast<float>(j["intensity"].quantity(Unit::Candela, 0, kMostLight));
   lamp.intensityCd *= static_cast<float>(factor);
   return lamp;
 }

@@ -26,7 +26,8 @@ OwnLamp readOwn(const JsonPlace& j) {
   own.dimming = j.number("dimming", 0, 1, 1);
   own.factor = j.number("factor", 0, 1e6, 1);
   if (j.has("color") || j.has("temperature")) own.color = readColour(j);
-  if (j.has("temperature")) own.temperatureK = static_cast<float>(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
+  if (j.has("temperature"))
+    own.temperatureK = static_cast<float>(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
   if (j.has("position")) own.position = j["position"].vector(-kFarthestM, kFarthestM);
   if (j.has("direction")) own.direction = readDirection(j["direction"]);
   return own;
@@ -52,7 +53,9 @@ void applyTo(const SceneLamp& at, const OwnLamp& own, Scene& scene) {
     if (!own.direction) continue;
     lamp.direction = *own.direction;
     const Vec3 up = importers::perpendicular(lamp.up, lamp.direction);
-    lamp.up = isBlack(up) ? importers::perpendicular(std::abs(lamp.direction.x) < 0.9f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, lamp.direction) : up;
+    lamp.up = isBlack(up) ? importers::perpendicular(std::abs(lamp.direction.x) < 0.9f ? Vec3{1, 0, 0} : Vec3{0, 1, 0},
+                                                     lamp.direction)
+                          : up;
   }
   std::map<int, bool> done;  // materials
   for (const uint32_t i : at.instances) {
@@ -76,16 +79,20 @@ std::string missingLamp(const std::vector<OwnLamp>& own, const Scene& scene) {
   const std::vector<SceneLamp> lamps = findLamps(scene);
   for (size_t i = 0; i < own.size(); ++i) {
     const SceneLamp* lamp = lampOf(lamps, own[i]);
-    if (lamp && (lamp->object >= 0 || lamp->lamps.empty()) && (own[i].position || own[i].direction)) return fmt::format("own[{}]: '{}' is part of a thing and has no place of its own", i, printable(own[i].name));
+    if (lamp && (lamp->object >= 0 || lamp->lamps.empty()) && (own[i].position || own[i].direction))
+      return fmt::format("own[{}]: '{}' is part of a thing and has no place of its own", i, printable(own[i].name));
     if (lamp) continue;
     std::map<std::string, size_t> counts;
     for (const SceneLamp& l : lamps) ++counts[l.name];
     std::string list;
     size_t listed = 0;
     for (const auto& [name, count] : counts) {
-      if (++listed <= kMostNames) list += fmt::format("{}'{}'{}", list.empty() ? "" : ", ", printable(name), count > 1 ? fmt::format(" (1 to {})", count) : "");
+      if (++listed <= kMostNames)
+        list += fmt::format("{}'{}'{}", list.empty() ? "" : ", ", printable(name),
+                            count > 1 ? fmt::format(" (1 to {})", count) : "");
     }
-    return fmt::format("own[{}].name: the scene has no lamp {} '{}'; there are {}", i, own[i].number, printable(own[i].name), list.empty() ? "none" : list);
+    return fmt::format("own[{}].name: the scene has no lamp {} '{}'; there are {}", i, own[i].number,
+                       printable(own[i].name), list.empty() ? "none" : list);
   }
   return {};
 }

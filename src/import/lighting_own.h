@@ -1,4 +1,5 @@
-// Lamps that a scene has itself, as a lighting file changes them (docs/formats/lighting.md, `own`). What is wrong is told to the place; see json_reader.h.
+// Lamps that a scene has itself, as a lighting file changes them (docs/formats/lighting.md, `own`). What is wrong is
+ // told to the place; see json_reader.h.
 #pragma once
 
 #include <optional>

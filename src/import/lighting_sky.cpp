@@ -16,7 +16,8 @@ double horizontalIlluminance(const Image& image) {
   double sum = 0;
   for (int y = 0; 2 * y < image.height; ++y) {
     // Exact integral of cos over a row; of an odd number of rows the middle one counts with its upper half.
-    const double low = std::sin(std::numbers::pi * y / image.height), high = std::sin(std::min(0.5, (y + 1.0) / image.height) * std::numbers::pi);
+    const double low = std::sin(std::numbers::pi * y / image.height),
+                 high = std::sin(std::min(0.5, (y + 1.0) / image.height) * std::numbers::pi);
     double row = 0;
     for (int x = 0; x < image.width; ++x) row += luminance(image.at(x, y));
     sum += row * 0.5 * (high * high - low * low);
@@ -60,13 +61,16 @@ void readSkyImage(const JsonPlace& j, const std::filesystem::path& folder, Sky& 
 
 Vec3 towardsSun(const SunPosition& position, double northDeg) {
   const double bearing = position.bearingRad - rad(northDeg);  // from the scene's -z axis, clockwise seen from above
-  return normalize(Vec3{static_cast<float>(std::sin(bearing) * std::cos(position.altitudeRad)), static_cast<float>(std::sin(position.altitudeRad)),
+  return normalize(Vec3{static_cast<float>(std::sin(bearing) * std::cos(position.altitudeRad)),
+                        static_cast<float>(std::sin(position.altitudeRad)),
                         static_cast<float>(-std::cos(bearing) * std::cos(position.altitudeRad))});
 }
 
 Sun readSun(const JsonPlace& j) {
   Sun sun;
-  if (!j.isObject({"name", "direction", "latitude", "longitude", "time", "north", "illuminance", "angularDiameter", "temperature", "color"})) return sun;
+  if (!j.isObject({"name", "direction", "latitude", "longitude", "time", "north", "illuminance", "angularDiameter",
+                   "temperature", "color"}))
+    return sun;
   sun.name = j.text("name", "sun");
   sun.halfAngleRad = static_cast<float>(rad(j.number("angularDiameter", 0, 90, 0.533) / 2));
   const Vec3 c = readColour(j);
@@ -78,7 +82,8 @@ Sun readSun(const JsonPlace& j) {
     sun.toLight = readDirection(j["direction"]);
     lux = j["illuminance"].quantity(Unit::Lux, 0, kMostLight);
   } else {
-    const double latitude = j["latitude"].number(-90, 90), longitude = j["longitude"].number(-180, 180), north = j.number("north", -360, 360, 0);
+    const double latitude = j["latitude"].number(-90, 90), longitude = j["longitude"].number(-180, 180),
+                 north = j.number("north", -360, 360, 0);
     const Result<Moment> moment = parseMoment(j["time"].text());
     if (!moment) {
       j["time"].fail(moment.error());
@@ -86,7 +91,8 @@ Sun readSun(const JsonPlace& j) {
     }
     const SunPosition p = sunPosition(moment.value(), latitude, longitude);
     sun.toLight = towardsSun(p, north);
-    lux = j.has("illuminance") ? j["illuminance"].quantity(Unit::Lux, 0, kMostLight) : sunLux(moment.value(), p.altitudeRad);
+    lux = j.has("illuminance") ? j["illuminance"].quantity(Unit::Lux, 0, kMostLight)
+                               : sunLux(moment.value(), p.altitudeRad);
     if (p.altitudeRad <= 0) lux = 0;
   }
   sun.illuminanceLux = c * static_cast<float>(lux);
@@ -95,7 +101,8 @@ Sun readSun(const JsonPlace& j) {
 
 Sky readSky(const JsonPlace& j, const std::filesystem::path& folder) {
   Sky sky;
-  if (!j.isObject({"luminance", "temperature", "color", "image", "unit", "horizontalIlluminance", "rotation"})) return sky;
+  if (!j.isObject({"luminance", "temperature", "color", "image", "unit", "horizontalIlluminance", "rotation"}))
+    return sky;
   sky.rotationRad = static_cast<float>(rad(j.number("rotation", -360, 360, 0)));
   const std::string kind = theOne(j, {"luminance", "image"});
   if (kind == "image") {

@@ -9,7 +9,8 @@
 
 namespace roomlight {
 
-// By direction with its illuminance, or by place and time under a clear sky. Below the horizon there is no sun: its illuminance is 0.
+// By direction with its illuminance, or by place and time under a clear sky. Below the horizon there is no sun: its
+// illuminance is 0.
 Sun readSun(const JsonPlace& j);
 
 // Direction towards a sun of that position; `northDeg` is the compass bearing of the scene's -z axis.

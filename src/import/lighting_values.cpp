@@ -16,7 +16,8 @@ Vec3 readDirection(const JsonPlace& j) {
 
 Vec3 readColour(const JsonPlace& j) {
   if (j.has("temperature") && j.has("color")) j.fail("give 'temperature' or 'color', not both");
-  if (j.has("temperature")) return blackBodyColour(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
+  if (j.has("temperature"))
+    return blackBodyColour(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
   if (!j.has("color")) return Vec3(1);
   const Vec3 c = j["color"].vector(0, kMostLight);
   if (luminance(c) >= 1e-6f) return c / luminance(c);

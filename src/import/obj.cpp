@@ -33,7 +33,8 @@ struct Corner {
 };
 struct CornerHash {
   size_t operator()(const Corner& c) const {
-    return (static_cast<size_t>(c.v) * 0x9e3779b97f4a7c15u) ^ (static_cast<size_t>(c.vt) * 0xc2b2ae3d27d4eb4fu) ^ (static_cast<size_t>(c.vn) * 0x165667b19e3779f9u);
+    return (static_cast<size_t>(c.v) * 0x9e3779b97f4a7c15u) ^ (static_cast<size_t>(c.vt) * 0xc2b2ae3d27d4eb4fu) ^
+           (static_cast<size_t>(c.vn) * 0x165667b19e3779f9u);
   }
 };
 
@@ -91,15 +92,20 @@ class Builder {
     corners_.clear(), points_.clear();
     for (std::string_view word = nextWord(text); !word.empty() && word[0] != '#'; word = nextWord(text)) {
       const std::optional<ObjCorner> in = objCorner(word);
-      if (!in) return lost_.add("with corners that are no numbers", fmt::format("{}: '{}' is not a corner of a face", lines_.place(), printable(word, 30)));
+      if (!in)
+        return lost_.add("with corners that are no numbers",
+                         fmt::format("{}: '{}' is not a corner of a face", lines_.place(), printable(word, 30)));
       const int v = resolve(in->v, positions_.size());
       if (v < 0) {
-        return lost_.add("of vertices that do not exist", fmt::format("{}: vertex {} does not exist, there are {} so far", lines_.place(), in->v, positions_.size()));
+        return lost_.add(
+            "of vertices that do not exist",
+            fmt::format("{}: vertex {} does not exist, there are {} so far", lines_.place(), in->v, positions_.size()));
       }
       corners_.push_back({v, optional(in->vt, uvs_.size()), optional(in->vn, normals_.size())});
       points_.push_back(positions_[static_cast<size_t>(v)]);
       if (!isFinite(points_.back())) {
-        return lost_.add("of vertices that are no finite place", fmt::format("{}: vertex {} is no finite place", lines_.place(), in->v));
+        return lost_.add("of vertices that are no finite place",
+                         fmt::format("{}: vertex {} is no finite place", lines_.place(), in->v));
       }
     }
     if (corners_.size() < 3) {
@@ -108,7 +114,8 @@ class Builder {
     }
     triangles_ += corners_.size() - 2;
     ++faces_;
-    if (triangles_ > maxTriangles_) fail(lines_.place(), fmt::format("the file has more than {} triangles", maxTriangles_));
+    if (triangles_ > maxTriangles_)
+      fail(lines_.place(), fmt::format("the file has more than {} triangles", maxTriangles_));
     Part& part = currentPart();
     for (const auto& triangle : triangulate(points_)) {
       for (const uint32_t corner : triangle) part.mesh.indices.push_back(vertexOf(part, corners_[corner]));
@@ -122,7 +129,8 @@ class Builder {
 
   void material(const std::string& name) { materialName_ = name, part_ = nullptr; }
   void object(const std::string& name) { startObject(name), hasObjects_ = true, fileObjectName_ = name; }
-  // Groups are parts of objects, except in files that have no objects, and those that Sweet Home 3D knows by their names: they may move apart.
+  // Groups are parts of objects, except in files that have no objects, and those that Sweet Home 3D knows by their
+  // names: they may move apart.
   void group(const std::string& name) {
     if (!hasObjects_ || name.starts_with("sweethome3d_")) {
       startObject(name);
@@ -152,7 +160,8 @@ class Builder {
   template <size_t N>
   static size_t numbers(std::string_view text, std::array<float, N>& v) {
     size_t count = 0;
-    for (std::string_view word = nextWord(text); !word.empty() && word[0] != '#' && count < N; word = nextWord(text)) v[count++] = objNumber(word);
+    for (std::string_view word = nextWord(text); !word.empty() && word[0] != '#' && count < N; word = nextWord(text))
+      v[count++] = objNumber(word);
     return count;
   }
 
@@ -216,7 +225,8 @@ class Builder {
     const size_t n = mesh.positions.size();
     mesh.positions.push_back(positions_[static_cast<size_t>(corner.v)]);
     if (corner.vt >= 0) mesh.uv[0].resize(n);
-    if (corner.vt >= 0 || !mesh.uv[0].empty()) mesh.uv[0].push_back(corner.vt >= 0 ? uvs_[static_cast<size_t>(corner.vt)] : Vec2{});
+    if (corner.vt >= 0 || !mesh.uv[0].empty())
+      mesh.uv[0].push_back(corner.vt >= 0 ? uvs_[static_cast<size_t>(corner.vt)] : Vec2{});
     const Vec3 normal = corner.vn >= 0 ? normals_[static_cast<size_t>(corner.vn)] : Vec3();
     const float size = length(normal);
     if (size > 0 && std::isfinite(size) && mesh.normals.size() == n) {
@@ -228,7 +238,8 @@ class Builder {
   }
 
   const ObjLines& lines_;
-  size_t maxTriangles_ = 0, triangles_ = 0, faces_ = 0, shortFaces_ = 0, missingAttributes_ = 0, linesAndPoints_ = 0, freeForm_ = 0;
+  size_t maxTriangles_ = 0, triangles_ = 0, faces_ = 0, shortFaces_ = 0, missingAttributes_ = 0, linesAndPoints_ = 0,
+         freeForm_ = 0;
   LostFaces lost_;
   std::vector<Vec3> positions_, normals_;
   bool coloured_ = false;
@@ -268,7 +279,8 @@ void readLine(std::string_view line, const ObjLines& lines, Builder& builder) {
 
 }  // namespace
 
-Scene readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, size_t maxTriangles, Warnings& warnings) {
+Scene readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, size_t maxTriangles,
+              Warnings& warnings) {
   ObjLines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   Builder builder(lines, maxTriangles);
   for (std::string_view line; lines.next(line);) readLine(line, lines, builder);
@@ -287,7 +299,9 @@ Scene readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, s
 Result<Imported> importObj(const std::filesystem::path& file, const ImportOptions& options) {
   return importers::guarded(file, [&] {
     importers::Warnings warnings;
-    Scene scene = importers::readObj(importers::readWholeFile(file, ""), importers::companionsAround(file, options.companionRoot), options.maxTriangles, warnings);
+    Scene scene =
+        importers::readObj(importers::readWholeFile(file, ""), importers::companionsAround(file, options.companionRoot),
+                           options.maxTriangles, warnings);
     importers::standUpright(scene, options.upAxis, options.metresPerUnit, importers::UpAxis::Y, warnings);
     return importers::importedScene(std::move(scene), warnings, StatedUnit::None);
   });

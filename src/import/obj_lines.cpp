@@ -74,7 +74,8 @@ float objNumber(std::string_view word) {
   double v = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), v);
   if (end != word.data() + word.size()) return kNone;
-  if (code == std::errc::result_out_of_range) return word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos ? 0 : kNone;
+  if (code == std::errc::result_out_of_range)
+    return word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos ? 0 : kNone;
   if (code != std::errc() || !(std::abs(v) <= std::numeric_limits<float>::max())) return kNone;
   return static_cast<float>(v);
 }

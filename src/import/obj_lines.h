@@ -11,7 +11,8 @@ class ObjLines {
  public:
   explicit ObjLines(std::string_view text);
 
-  // The next line, without blanks at its ends; a backslash at its end joins the one after. It is good until the next call.
+  // The next line, without blanks at its ends; a backslash at its end joins the one after. It is good until the next
+// call.
   bool next(std::string_view& line);
 
   size_t number() const { return number_; }  // of the line handed out last, from 1

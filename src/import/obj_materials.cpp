@@ -1,5 +1,6 @@
 // MTL, as exporters write it: Kd colour, Ke emission, d or Tr = 1 - d, Ns shininess of Blinn-Phong, Ni refraction; with
-// the PBR extension Pr roughness, Pm metallic, norm; map_X: a picture that multiplies X, after options such as "-s 2 2".
+// the PBR extension Pr roughness, Pm metallic, norm; map_X: a picture that multiplies X, after options such as "-s 2
+// 2".
 #include "import/obj_materials.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,8 @@ struct Libraries {
 };
 
 bool isNumber(const std::string& word) {
-  return !word.empty() && word.find_first_not_of("+-.0123456789eE") == std::string::npos && word.find_first_of("0123456789") != std::string::npos;
+  return !word.empty() && word.find_first_not_of("+-.0123456789eE") == std::string::npos &&
+         word.find_first_of("0123456789") != std::string::npos;
 }
 
 // The options -s, -o and -t take one to three numbers, but the parser wants three: the rest are filled in.
@@ -72,13 +74,17 @@ Opacities opacitiesOf(std::string_view text) {
   return out;
 }
 
-// Nobody draws what cannot be seen. Where a material is wholly transparent by `Tr` alone, its exporter means opacity by it; where all of them are
-// by `d`, it means nothing.
-void mendOpacities(const Opacities& said, std::vector<tinyobj::material_t>& materials, size_t first, Warnings& warnings) {
+// Nobody draws what cannot be seen. Where a material is wholly transparent by `Tr` alone, its exporter means opacity by
+// it; where all of them are by `d`, it means nothing.
+void mendOpacities(const Opacities& said, std::vector<tinyobj::material_t>& materials, size_t first,
+                   Warnings& warnings) {
   const auto from = materials.begin() + static_cast<std::ptrdiff_t>(first);
   const auto byTr = [&](const tinyobj::material_t& m) { return said.byTr.contains(m.name); };
-  const bool swapped = std::any_of(from, materials.end(), [&](const tinyobj::material_t& m) { return byTr(m) && m.dissolve <= 0; });
-  const bool allUnseen = !said.byD.empty() && std::all_of(from, materials.end(), [&](const tinyobj::material_t& m) { return m.dissolve <= 0 && !byTr(m); });
+  const bool swapped =
+      std::any_of(from, materials.end(), [&](const tinyobj::material_t& m) { return byTr(m) && m.dissolve <= 0; });
+  const bool allUnseen = !said.byD.empty() && std::all_of(from, materials.end(), [&](const tinyobj::material_t& m) {
+    return m.dissolve <= 0 && !byTr(m);
+  });
   for (auto m = from; m != materials.end(); ++m) {
     if (swapped && byTr(*m)) {
       m->dissolve = 1 - m->dissolve;
@@ -95,8 +101,11 @@ void readLibrary(const std::string& name, const Bytes& bytes, Libraries& out, Wa
   if (raw.starts_with("\xef\xbb\xbf")) raw.remove_prefix(3);
   const std::string text = asUtf8(raw);
   size_t count = 0;
-  for (size_t at = text.find("newmtl"); at != std::string::npos && count <= kMaxMaterials; at = text.find("newmtl", at + 6)) ++count;
-  if (count > kMaxMaterials) fail(fmt::format("mtllib '{}'", printable(name)), fmt::format("holds more than {} materials", kMaxMaterials));
+  for (size_t at = text.find("newmtl"); at != std::string::npos && count <= kMaxMaterials;
+       at = text.find("newmtl", at + 6))
+    ++count;
+  if (count > kMaxMaterials)
+    fail(fmt::format("mtllib '{}'", printable(name)), fmt::format("holds more than {} materials", kMaxMaterials));
   std::istringstream in(withAllNumbers(text));
   const size_t first = out.materials.size();
   tinyobj::LoadMtl(&out.indices, &out.materials, &in, nullptr, nullptr);
@@ -111,11 +120,15 @@ void readLibraries(const ReadCompanion& companions, const std::string& line, Lib
     return bytes.has_value();
   };
   if (read(line)) return;
-  const auto missing = [&](const std::string& name) { warnings.add(fmt::format("MTL file '{}' is missing, its materials are grey", printable(name))); };
+  const auto missing = [&](const std::string& name) {
+    warnings.add(fmt::format("MTL file '{}' is missing, its materials are grey", printable(name)));
+  };
   std::vector<std::string> names;
   std::string_view rest = line;
   for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) names.emplace_back(word);
-  const bool several = std::count_if(names.begin(), names.end(), [](const std::string& n) { return n.ends_with(".mtl") || n.ends_with(".MTL"); }) > 1;
+  const bool several = std::count_if(names.begin(), names.end(), [](const std::string& n) {
+                         return n.ends_with(".mtl") || n.ends_with(".MTL");
+                       }) > 1;
   if (!several) return missing(line);
   for (const std::string& name : names) {
     if (!read(name)) missing(name);
@@ -124,21 +137,26 @@ void readLibraries(const ReadCompanion& companions, const std::string& line, Lib
 
 class Translator {
  public:
-  Translator(ObjTextures& textures, Scene& scene, Warnings& warnings) : textures_(textures), scene_(scene), warnings_(warnings) {}
+  Translator(ObjTextures& textures, Scene& scene, Warnings& warnings)
+      : textures_(textures), scene_(scene), warnings_(warnings) {}
 
   Material material(const tinyobj::material_t& in) {
     Material m;
     m.name = in.name;
     m.baseColor = colour(in.diffuse, "Kd", 1);
     if (isBlack(m.baseColor) && !in.diffuse_texname.empty()) m.baseColor = Vec3(1);  // "no factor" of some exporters
-    m.baseColorTexture = reference(textures_.colourWithAlpha(in.diffuse_texname, in.alpha_texname, wrapOf(in.diffuse_texopt), scene_), in.diffuse_texopt);
+    m.baseColorTexture =
+        reference(textures_.colourWithAlpha(in.diffuse_texname, in.alpha_texname, wrapOf(in.diffuse_texopt), scene_),
+                  in.diffuse_texopt);
     if (m.baseColorTexture.texture < 0 && !in.diffuse_texname.empty()) m.baseColor = colourWithoutPicture(m.baseColor);
     m.alpha = limited(in.dissolve, 0, 1, "d");
     m.alphaMode = m.alpha < 1 || !in.alpha_texname.empty() ? AlphaMode::Blend : AlphaMode::Opaque;
     m.emission = colour(in.emission, "Ke", kBrightest);
-    m.emissionTexture = reference(textures_.colourWithAlpha(in.emissive_texname, "", wrapOf(in.emissive_texopt), scene_), in.emissive_texopt);
+    m.emissionTexture = reference(
+        textures_.colourWithAlpha(in.emissive_texname, "", wrapOf(in.emissive_texopt), scene_), in.emissive_texopt);
     if (isBlack(m.emission) && m.emissionTexture.texture >= 0) m.emission = Vec3(1);
-    m.normalTexture = reference(textures_.colourWithAlpha(in.normal_texname, "", wrapOf(in.normal_texopt), scene_), in.normal_texopt);
+    m.normalTexture =
+        reference(textures_.colourWithAlpha(in.normal_texname, "", wrapOf(in.normal_texopt), scene_), in.normal_texopt);
     m.doubleSided = true;  // OBJ knows no one-sided surfaces
     surface(in, m);
     countIgnored(in);
@@ -151,7 +169,8 @@ class Translator {
     m.roughness = limited(in.roughness, 0, 1, "Pr");
     const std::string &metallic = in.metallic_texname, &roughness = in.roughness_texname;
     const auto& options = metallic.empty() ? in.roughness_texopt : in.metallic_texopt;
-    m.metallicRoughnessTexture = reference(textures_.metallicRoughness(metallic, roughness, wrapOf(options), scene_), options);
+    m.metallicRoughnessTexture =
+        reference(textures_.metallicRoughness(metallic, roughness, wrapOf(options), scene_), options);
     if (m.metallicRoughnessTexture.texture >= 0) {
       if (!metallic.empty() && m.metallic == 0) m.metallic = 1;
       if (!roughness.empty() && m.roughness == 0) m.roughness = 1;
@@ -167,24 +186,29 @@ class Translator {
 
   float limited(float v, float low, float high, const char* key) {
     if (!std::isfinite(v)) {
-      warnings_.mended(fmt::format("{} of a material is not a finite number and taken as {}", key, high < 2 ? high : 0));
+      warnings_.mended(
+          fmt::format("{} of a material is not a finite number and taken as {}", key, high < 2 ? high : 0));
       return high < 2 ? high : 0;
     }
-    if (v < low || v > high) warnings_.mended(fmt::format("{} of a material is outside {} to {} and limited", key, low, high));
+    if (v < low || v > high)
+      warnings_.mended(fmt::format("{} of a material is outside {} to {} and limited", key, low, high));
     return std::clamp(v, low, high);
   }
   Vec3 colour(const float (&v)[3], const char* key, float high) {
     return {limited(v[0], 0, high, key), limited(v[1], 0, high, key), limited(v[2], 0, high, key)};
   }
 
-  static Wrap wrapOf(const tinyobj::texture_option_t& options) { return options.clamp ? Wrap::ClampToEdge : Wrap::Repeat; }
+  static Wrap wrapOf(const tinyobj::texture_option_t& options) {
+    return options.clamp ? Wrap::ClampToEdge : Wrap::Repeat;
+  }
 
   // OBJ's v points up, the scene's down: v' = s v + o becomes s v + 1 - s - o.
   TextureRef reference(int texture, const tinyobj::texture_option_t& options) {
     TextureRef ref;
     ref.texture = texture;
     const float su = limited(options.scale[0], -1e6f, 1e6f, "-s"), sv = limited(options.scale[1], -1e6f, 1e6f, "-s");
-    const float ou = limited(options.origin_offset[0], -1e6f, 1e6f, "-o"), ov = limited(options.origin_offset[1], -1e6f, 1e6f, "-o");
+    const float ou = limited(options.origin_offset[0], -1e6f, 1e6f, "-o"),
+                ov = limited(options.origin_offset[1], -1e6f, 1e6f, "-o");
     ref.m[0][0] = su, ref.m[0][2] = ou;
     ref.m[1][1] = sv, ref.m[1][2] = 1 - sv - ov;
     return ref;
@@ -210,7 +234,8 @@ std::set<std::string> picturesOf(const std::vector<const tinyobj::material_t*>& 
   std::set<std::string> names;
   for (const tinyobj::material_t* m : used) {
     if (!m) continue;
-    for (const std::string* name : {&m->diffuse_texname, &m->alpha_texname, &m->emissive_texname, &m->normal_texname, &m->metallic_texname, &m->roughness_texname}) {
+    for (const std::string* name : {&m->diffuse_texname, &m->alpha_texname, &m->emissive_texname, &m->normal_texname,
+                                    &m->metallic_texname, &m->roughness_texname}) {
       if (!name->empty()) names.insert(*name);
     }
   }
@@ -219,14 +244,15 @@ std::set<std::string> picturesOf(const std::vector<const tinyobj::material_t*>& 
 
 }  // namespace
 
-void addObjMaterials(const ReadCompanion& companions, const std::vector<std::string>& libraries, const std::vector<std::string>& names,
-                     Scene& scene, Warnings& warnings) {
+void addObjMaterials(const ReadCompanion& companions, const std::vector<std::string>& libraries,
+                     const std::vector<std::string>& names, Scene& scene, Warnings& warnings) {
   Libraries read;
   for (const std::string& library : libraries) readLibraries(companions, library, read, warnings);
   std::vector<const tinyobj::material_t*> used;
   for (const std::string& name : names) {
     const auto it = read.indices.find(name);
-    used.push_back(name.empty() || it == read.indices.end() ? nullptr : &read.materials[static_cast<size_t>(it->second)]);
+    used.push_back(name.empty() || it == read.indices.end() ? nullptr
+                                                            : &read.materials[static_cast<size_t>(it->second)]);
     if (!name.empty() && !used.back()) warnings.add("materials that no MTL file holds are grey");
   }
   ObjTextures textures(companions, picturesOf(used), warnings);

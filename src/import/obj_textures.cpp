@@ -73,10 +73,12 @@ const Texture* ObjTextures::find(const std::string& name) const {
 }
 
 template <class Combine>
-int ObjTextures::combined(const char* kind, const std::string& a, const std::string& b, Wrap wrap, Scene& scene, Combine&& combine) {
+int ObjTextures::combined(const char* kind, const std::string& a, const std::string& b, Wrap wrap, Scene& scene,
+                          Combine&& combine) {
   const Texture *ta = find(a), *tb = find(b);
   if (!ta && !tb) return -1;
-  const auto [entry, isNew] = made_.emplace(fmt::format("{}\n{}\n{}\n{}", kind, a, b, static_cast<int>(wrap)), static_cast<int>(scene.textures.size()));
+  const auto [entry, isNew] = made_.emplace(fmt::format("{}\n{}\n{}\n{}", kind, a, b, static_cast<int>(wrap)),
+                                            static_cast<int>(scene.textures.size()));
   if (!isNew) return entry->second;
   Texture t;
   t.name = ta ? a : b;
@@ -88,7 +90,8 @@ int ObjTextures::combined(const char* kind, const std::string& a, const std::str
   uint8_t* out = t.rgba.data();
   for (int y = 0; y < t.height; ++y) {
     for (int x = 0; x < t.width; ++x, out += 4) {
-      combine(ta ? texelAt(*ta, x, y, t.width, t.height) : kWhite, tb ? texelAt(*tb, x, y, t.width, t.height) : kWhite, out);
+      combine(ta ? texelAt(*ta, x, y, t.width, t.height) : kWhite, tb ? texelAt(*tb, x, y, t.width, t.height) : kWhite,
+              out);
     }
   }
   scene.textures.push_back(std::move(t));
@@ -105,9 +108,9 @@ int ObjTextures::colourWithAlpha(const std::string& colour, const std::string& a
 }
 
 int ObjTextures::metallicRoughness(const std::string& metallic, const std::string& roughness, Wrap wrap, Scene& scene) {
-  return combined("metallicRoughness", metallic, roughness, wrap, scene, [](const uint8_t* m, const uint8_t* r, uint8_t* out) {
-    out[0] = 0, out[1] = r[0], out[2] = m[0], out[3] = 255;
-  });
+  return combined(
+      "metallicRoughness", metallic, roughness, wrap, scene,
+      [](const uint8_t* m, const uint8_t* r, uint8_t* out) { out[0] = 0, out[1] = r[0], out[2] = m[0], out[3] = 255; });
 }
 
 }  // namespace roomlight::importers

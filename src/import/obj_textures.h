@@ -26,7 +26,8 @@ class ObjTextures {
  private:
   const Texture* find(const std::string& name) const;
   template <class Combine>
-  int combined(const char* kind, const std::string& a, const std::string& b, Wrap wrap, Scene& scene, Combine&& combine);
+  int combined(const char* kind, const std::string& a, const std::string& b, Wrap wrap, Scene& scene,
+               Combine&& combine);
 
   std::map<std::string, Texture> pictures_;
   std::map<std::string, int> made_;

@@ -25,7 +25,8 @@ std::string lowerExtension(const std::filesystem::path& file) {
 // Throws Failure.
 std::string textOf(const std::filesystem::path& file) {
   std::error_code code;
-  if (std::filesystem::is_regular_file(file, code) && std::filesystem::file_size(file, code) > kMostBytes) fail("", "the file is larger than 16 MiB");
+  if (std::filesystem::is_regular_file(file, code) && std::filesystem::file_size(file, code) > kMostBytes)
+    fail("", "the file is larger than 16 MiB");
   const Bytes bytes = readWholeFile(file, "");
   return {bytes.begin(), bytes.end()};
 }
@@ -51,7 +52,8 @@ Result<PhotometricFiles::Web> PhotometricFiles::read(const std::filesystem::path
     };
     Result<WebFile> parsed = lowerExtension(file) == ".ies" ? parseIes(text, tilt) : parseEulumdat(text);
     if (!parsed) return Error{parsed.error()};
-    for (const std::string& w : parsed.value().warnings) warnings_.push_back(fmt::format("{}: {}", file.filename().string(), printable(w, 300)));
+    for (const std::string& w : parsed.value().warnings)
+      warnings_.push_back(fmt::format("{}: {}", file.filename().string(), printable(w, 300)));
     return known_[file] = std::make_shared<const PhotometricWeb>(std::move(parsed.value().web));
   } catch (const Failure& f) {
     return Error{f.what()};

@@ -49,7 +49,8 @@ Format formatOf(ByteView bytes) {
   if (startsWith(bytes, "BM")) return Format::Bmp;
   int w = 0, h = 0, n = 0;
   // TGA has no magic number: believed only when its header makes sense.
-  if (bytes.size() <= INT32_MAX && stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &w, &h, &n)) return Format::Tga;
+  if (bytes.size() <= INT32_MAX && stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &w, &h, &n))
+    return Format::Tga;
   return Format::Unknown;
 }
 
@@ -77,20 +78,17 @@ Header readHeader(ByteView bytes) {
       break;
     case Format::Jpeg: {
       const JpegDecoder decoder(tjInitDecompress());
-      fine = tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &h.width, &h.height, &subsampling, &h.jpegColours) == 0;
+      fine = tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &h.width, &h.height, &subsampling,
+                                 &h.jpegColours) == 0;
       break;
     }
-    case Format::WebP:
-      fine = WebPGetInfo(bytes.data(), bytes.size(), &h.width, &h.height) != 0;
-      break;
+    case Format::WebP: fine = WebPGetInfo(bytes.data(), bytes.size(), &h.width, &h.height) != 0; break;
     case Format::Ktx2:
       h.ktx2 = readKtx2Header(bytes);
       h.width = h.ktx2.width, h.height = h.ktx2.height;
       break;
-    case Format::Unknown:
-      fail("", "is no PNG, JPEG, WebP, KTX2, BMP or TGA picture");
-    default:
-      fine = stbi_info_from_memory(bytes.data(), size, &h.width, &h.height, &channels) != 0;
+    case Format::Unknown: fail("", "is no PNG, JPEG, WebP, KTX2, BMP or TGA picture");
+    default: fine = stbi_info_from_memory(bytes.data(), size, &h.width, &h.height, &channels) != 0;
   }
   if (!fine) fail("", "the picture's header is damaged, or the picture is too large");
   return h;
@@ -113,8 +111,8 @@ size_t checkedPixels(const Header& h, size_t bytes) {
   if (h.width <= 0 || h.height <= 0) fail("", "the picture is empty");
   const size_t pixels = static_cast<size_t>(h.width) * static_cast<size_t>(h.height);
   if (h.width > kMaxPictureSide || h.height > kMaxPictureSide || pixels > kMaxPicturePixels) {
-    fail("", fmt::format("the picture claims {} x {} pixels; the limits are {} a side and {} in all", h.width, h.height, kMaxPictureSide,
-                         kMaxPicturePixels));
+    fail("", fmt::format("the picture claims {} x {} pixels; the limits are {} a side and {} in all", h.width, h.height,
+                         kMaxPictureSide, kMaxPicturePixels));
   }
   if (pixels > mostPixels(h, bytes)) {
     fail("", fmt::format("the picture claims {} x {} pixels, but has only {} bytes", h.width, h.height, bytes));
@@ -172,7 +170,8 @@ Texture decode(ByteView bytes, const Header& h, std::string& complaint) {
   if (h.format == Format::Jpeg) {
     complaint = decodeJpeg(bytes, h, t.rgba);
   } else if (h.format == Format::WebP) {
-    if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), t.rgba.data(), t.rgba.size(), h.width * 4)) fail("", "damaged or animated WebP picture");
+    if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), t.rgba.data(), t.rgba.size(), h.width * 4))
+      fail("", "damaged or animated WebP picture");
   } else {
     decodeByStb(bytes, h, t.rgba);
   }
@@ -219,13 +218,15 @@ std::vector<DecodedPicture> tryPictures(const std::vector<PictureJob>& jobs, War
     out[i].failure = failureOf([&] {
       headers[i] = readHeader(jobs[i].bytes);
       const size_t more = checkedPixels(headers[i], jobs[i].bytes.size());
-      if (pixels + more > kMaxAllPixels) fail("", fmt::format("all pictures together have more than {} pixels", kMaxAllPixels));
+      if (pixels + more > kMaxAllPixels)
+        fail("", fmt::format("all pictures together have more than {} pixels", kMaxAllPixels));
       pixels += more;
     });
   }
   std::vector<std::string> complaints(jobs.size());
   parallelOrFail(jobs.size(), [&](size_t i) {
-    if (out[i].failure.empty()) out[i].failure = failureOf([&] { out[i].texture = decode(jobs[i].bytes, headers[i], complaints[i]); });
+    if (out[i].failure.empty())
+      out[i].failure = failureOf([&] { out[i].texture = decode(jobs[i].bytes, headers[i], complaints[i]); });
   });
   for (const std::string& complaint : complaints) {
     if (!complaint.empty()) warnings.add("damaged JPEG pictures are shown as far as they could be read");

@@ -33,8 +33,8 @@ struct DecodedPicture {
   std::string failure;  // what is wrong with it: damaged, or beyond a limit
 };
 
-// In the order of the jobs. Sizes are checked against the number of bytes before anything is allocated. What a decoder complained
-// about although it could go on is counted in `warnings`.
+// In the order of the jobs. Sizes are checked against the number of bytes before anything is allocated. What a decoder
+// complained about although it could go on is counted in `warnings`.
 std::vector<DecodedPicture> tryPictures(const std::vector<PictureJob>& jobs, Warnings& warnings);
 
 // The same; throws Failure that names the place of the first job that fails.

@@ -27,7 +27,8 @@ PlanArea combined(const PlanArea& a, const PlanArea& b, ClipperLib::ClipType typ
   PlanArea out;
   for (const ClipperLib::Path& path : paths) {
     PlanRing ring;
-    for (const ClipperLib::IntPoint& p : path) ring.push_back({static_cast<double>(p.X) * kPlanGrid, static_cast<double>(p.Y) * kPlanGrid});
+    for (const ClipperLib::IntPoint& p : path)
+      ring.push_back({static_cast<double>(p.X) * kPlanGrid, static_cast<double>(p.Y) * kPlanGrid});
     out.push_back(std::move(ring));
   }
   return out;
@@ -73,9 +74,11 @@ std::vector<PlanTriangle> trianglesOf(const PlanArea& area) {
     const double x0 = cuts[c], x1 = cuts[c + 1], middle = 0.5 * (x0 + x1);
     std::erase_if(active, [&](const Edge& e) { return e.b.x <= x0; });
     for (; next < edges.size() && edges[next].a.x <= x0; ++next) active.push_back(edges[next]);
-    std::sort(active.begin(), active.end(), [&](const Edge& e, const Edge& f) { return e.yAt(middle) < f.yAt(middle); });
+    std::sort(active.begin(), active.end(),
+              [&](const Edge& e, const Edge& f) { return e.yAt(middle) < f.yAt(middle); });
     for (size_t i = 0; i + 1 < active.size(); i += 2) {
-      const PlanPoint a{x0, active[i].yAt(x0)}, b{x1, active[i].yAt(x1)}, d{x0, active[i + 1].yAt(x0)}, e{x1, active[i + 1].yAt(x1)};
+      const PlanPoint a{x0, active[i].yAt(x0)}, b{x1, active[i].yAt(x1)}, d{x0, active[i + 1].yAt(x0)},
+          e{x1, active[i + 1].yAt(x1)};
       addTriangle(out, a, b, e);
       addTriangle(out, a, e, d);
     }

@@ -18,8 +18,9 @@ PlanArea united(const PlanArea& a, const PlanArea& b);
 PlanArea intersected(const PlanArea& a, const PlanArea& b);
 PlanArea subtracted(const PlanArea& a, const PlanArea& b);
 
-// Of rings that do not cross. Counter-clockwise where x points right and y up. Vertical cuts through every corner: corners on a common cut
-// have the very same x, so that neighbours leave no gap. Takes time and space of corners times edges on a cut.
+// Of rings that do not cross. Counter-clockwise where x points right and y up. Vertical cuts through every corner:
+// corners on a common cut have the very same x, so that neighbours leave no gap. Takes time and space of corners times
+// edges on a cut.
 using PlanTriangle = std::array<PlanPoint, 3>;
 std::vector<PlanTriangle> trianglesOf(const PlanArea& area);
 

@@ -5,7 +5,8 @@
 namespace roomlight::importers {
 namespace {
 
-constexpr size_t kMostTests = size_t{1} << 24;  // of corners against ears: up to the cube of their number, though mostly near its square
+constexpr size_t kMostTests =
+    size_t{1} << 24;  // of corners against ears: up to the cube of their number, though mostly near its square
 
 // Newell's normal: exact for plane polygons, an average for others; its length is twice the area.
 Vec3 normalOf(std::span<const Vec3> p) {
@@ -38,7 +39,8 @@ std::vector<std::array<uint32_t, 3>> triangulate(std::span<const Vec3> corners) 
   std::vector<std::array<uint32_t, 3>> triangles;
   Ears ears{corners, normalOf(corners), std::vector<uint32_t>(corners.size())};
   std::iota(ears.left.begin(), ears.left.end(), 0u);
-  for (size_t k = 0, missed = 0, tests = 0; tests <= kMostTests && ears.left.size() > 3 && missed < ears.left.size(); tests += ears.left.size()) {
+  for (size_t k = 0, missed = 0, tests = 0; tests <= kMostTests && ears.left.size() > 3 && missed < ears.left.size();
+       tests += ears.left.size()) {
     const size_t count = ears.left.size();
     k %= count;
     if (ears.isEar(k)) {

@@ -22,28 +22,49 @@ struct Extension {
   SceneKind kind;
 };
 constexpr std::array kExtensions = {
-    Extension{".glb", SceneKind::Gltf}, Extension{".gltf", SceneKind::Gltf}, Extension{".sh3d", SceneKind::Sh3d}, Extension{".sh3f", SceneKind::Sh3f},
-    Extension{".obj", SceneKind::Obj}, Extension{".fbx", SceneKind::Fbx}, Extension{".dae", SceneKind::Collada}, Extension{".3ds", SceneKind::Studio3D},
-    Extension{".ply", SceneKind::Ply}, Extension{".stl", SceneKind::Stl}, Extension{".zip", SceneKind::Zip}, Extension{".kmz", SceneKind::Zip}};
+    Extension{".glb", SceneKind::Gltf},    Extension{".gltf", SceneKind::Gltf},    Extension{".sh3d", SceneKind::Sh3d},
+    Extension{".sh3f", SceneKind::Sh3f},   Extension{".obj", SceneKind::Obj},      Extension{".fbx", SceneKind::Fbx},
+    Extension{".dae", SceneKind::Collada}, Extension{".3ds", SceneKind::Studio3D}, Extension{".ply", SceneKind::Ply},
+    Extension{".stl", SceneKind::Stl},     Extension{".zip", SceneKind::Zip},      Extension{".kmz", SceneKind::Zip}};
 
 struct Foreign {
   std::string_view extension, what, instead;
 };
 constexpr std::string_view kGlb = "glTF (.glb)";
-constexpr std::array kForeign = {
-    Foreign{".usdz", "USD", kGlb}, Foreign{".usd", "USD", kGlb}, Foreign{".usda", "USD", kGlb}, Foreign{".usdc", "USD", kGlb},
-    Foreign{".blend", "Blender's own format", kGlb}, Foreign{".skp", "SketchUp's own format", "COLLADA (.dae) or glTF (.glb)"},
-    Foreign{".ifc", "IFC", "glTF (.glb), for example with Blender and Bonsai"}, Foreign{".max", "3ds Max's own format", "FBX or glTF (.glb)"},
-    Foreign{".ma", "Maya's own format", "FBX"}, Foreign{".mb", "Maya's own format", "FBX"}, Foreign{".c4d", "Cinema 4D's own format", "glTF (.glb) or FBX"},
-    Foreign{".step", "STEP", "glTF (.glb) or STL"}, Foreign{".stp", "STEP", "glTF (.glb) or STL"}, Foreign{".iges", "IGES", "STL"}, Foreign{".igs", "IGES", "STL"},
-    Foreign{".3dm", "Rhino's own format", "glTF (.glb) or OBJ"}, Foreign{".dwg", "AutoCAD's own format", "FBX"}, Foreign{".dxf", "DXF", "FBX or OBJ"},
-    Foreign{".rvt", "Revit's own format", "FBX"}, Foreign{".pln", "Archicad's own format", "OBJ or FBX"}, Foreign{".fcstd", "FreeCAD's own format", kGlb},
-    Foreign{".lwo", "LightWave's own format", "OBJ or FBX"}, Foreign{".x3d", "X3D", kGlb}, Foreign{".wrl", "VRML", kGlb}, Foreign{".abc", "Alembic", kGlb},
-    Foreign{".3mf", "3MF", "STL or OBJ"}, Foreign{".vrm", "VRM", kGlb}, Foreign{".babylon", "Babylon's own format", kGlb}, Foreign{".splat", "a cloud of splats", "a mesh as glTF (.glb)"}};
+constexpr std::array kForeign = {Foreign{".usdz", "USD", kGlb},
+                                 Foreign{".usd", "USD", kGlb},
+                                 Foreign{".usda", "USD", kGlb},
+                                 Foreign{".usdc", "USD", kGlb},
+                                 Foreign{".blend", "Blender's own format", kGlb},
+                                 Foreign{".skp", "SketchUp's own format", "COLLADA (.dae) or glTF (.glb)"},
+                                 Foreign{".ifc", "IFC", "glTF (.glb), for example with Blender and Bonsai"},
+                                 Foreign{".max", "3ds Max's own format", "FBX or glTF (.glb)"},
+                                 Foreign{".ma", "Maya's own format", "FBX"},
+                                 Foreign{".mb", "Maya's own format", "FBX"},
+                                 Foreign{".c4d", "Cinema 4D's own format", "glTF (.glb) or FBX"},
+                                 Foreign{".step", "STEP", "glTF (.glb) or STL"},
+                                 Foreign{".stp", "STEP", "glTF (.glb) or STL"},
+                                 Foreign{".iges", "IGES", "STL"},
+                                 Foreign{".igs", "IGES", "STL"},
+                                 Foreign{".3dm", "Rhino's own format", "glTF (.glb) or OBJ"},
+                                 Foreign{".dwg", "AutoCAD's own format", "FBX"},
+                                 Foreign{".dxf", "DXF", "FBX or OBJ"},
+                                 Foreign{".rvt", "Revit's own format", "FBX"},
+                                 Foreign{".pln", "Archicad's own format", "OBJ or FBX"},
+                                 Foreign{".fcstd", "FreeCAD's own format", kGlb},
+                                 Foreign{".lwo", "LightWave's own format", "OBJ or FBX"},
+                                 Foreign{".x3d", "X3D", kGlb},
+                                 Foreign{".wrl", "VRML", kGlb},
+                                 Foreign{".abc", "Alembic", kGlb},
+                                 Foreign{".3mf", "3MF", "STL or OBJ"},
+                                 Foreign{".vrm", "VRM", kGlb},
+                                 Foreign{".babylon", "Babylon's own format", kGlb},
+                                 Foreign{".splat", "a cloud of splats", "a mesh as glTF (.glb)"}};
 
 std::string lowerExtension(const std::filesystem::path& file) {
   std::string out = file.extension().string();
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
 }
 
@@ -70,7 +91,9 @@ bool looksLikeObj(std::string_view text) {
     at = end + 1;
     if (line.starts_with("v ")) ++vertices;
     const bool blank = line.empty() || line[0] == '#' || line[0] == '\r';
-    if (!blank && !std::any_of(kWords.begin(), kWords.end(), [&](const char* w) { return line.starts_with(w); }) && at < text.size()) return false;
+    if (!blank && !std::any_of(kWords.begin(), kWords.end(), [&](const char* w) { return line.starts_with(w); }) &&
+        at < text.size())
+      return false;
     if (!blank) ++known;
   }
   return known > 2 && (vertices > 0 || text.find("mtllib ") != std::string_view::npos);

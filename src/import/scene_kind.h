@@ -30,7 +30,8 @@ std::optional<SceneKind> kindByExtension(const std::filesystem::path& file);
 // What the bytes say that a file begins with, `size` being its own; none where they fit several kinds or none.
 std::optional<SceneKind> kindByContent(std::string_view beginning, uintmax_t size);
 
-// Of a file on disk: its content where that is beyond doubt, otherwise its extension. Throws Failure that says what is wrong and what to do.
+// Of a file on disk: its content where that is beyond doubt, otherwise its extension. Throws Failure that says what is
+// wrong and what to do.
 SceneKind kindOf(const std::filesystem::path& file);
 
 // What to do with a file of a program's own format (".blend", ".skp", ...); empty for any other.

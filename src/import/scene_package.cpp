@@ -34,7 +34,8 @@ struct Candidate {
 
 std::string stemOf(const fs::path& name) {
   std::string out = name.stem().string();
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
 }
 
@@ -46,21 +47,24 @@ std::vector<Candidate> candidatesIn(const std::vector<PackedFile>& files) {
     out.push_back({&f, *kind, static_cast<size_t>(std::count(f.name.begin(), f.name.end(), '/')), stemOf(f.name)});
   }
   std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tuple(a.kind, a.depth, b.file->bytes, a.file->name) < std::tuple(b.kind, b.depth, a.file->bytes, b.file->name);
+    return std::tuple(a.kind, a.depth, b.file->bytes, a.file->name) <
+           std::tuple(b.kind, b.depth, a.file->bytes, b.file->name);
   });
   return out;
 }
 
 std::string without(const std::vector<PackedFile>& files) {
   for (const PackedFile& f : files) {
-    if (const std::string advice = adviceFor(f.name); !advice.empty()) return fmt::format("holds no scene that can be read; '{}' {}", printable(f.name), advice);
+    if (const std::string advice = adviceFor(f.name); !advice.empty())
+      return fmt::format("holds no scene that can be read; '{}' {}", printable(f.name), advice);
   }
   return "holds no scene; use one with " + supportedFiles();
 }
 
 // One line whose paths are those that the user knows.
 std::string renamed(std::string error, const std::string& from, const std::string& to) {
-  for (size_t at = error.find(from); at != std::string::npos; at = error.find(from, at + to.size())) error.replace(at, from.size(), to);
+  for (size_t at = error.find(from); at != std::string::npos; at = error.find(from, at + to.size()))
+    error.replace(at, from.size(), to);
   return error;
 }
 
@@ -69,7 +73,8 @@ Result<Imported> importPicked(const fs::path& root, const std::vector<PackedFile
   options.companionRoot = root;
   Result<Imported> imported = importFile(root / name, options);
   if (imported && candidatesIn(files).size() > 1) {
-    imported.value().warnings.insert(imported.value().warnings.begin(), fmt::format("'{}' is shown; other scenes beside it are not", printable(name)));
+    imported.value().warnings.insert(imported.value().warnings.begin(),
+                                     fmt::format("'{}' is shown; other scenes beside it are not", printable(name)));
   }
   return imported;
 }
@@ -97,11 +102,13 @@ class UnpackFolder {
 
 // Scenes and what they name; not programs, films and papers beside them.
 bool isOfScenes(const std::string& name) {
-  constexpr std::array kCompanions = {".mtl", ".bin", ".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tga", ".ktx2", ".ies", ".ldt", ".hdr", ".exr", ".json"};
+  constexpr std::array kCompanions = {".mtl", ".bin",  ".png", ".jpg", ".jpeg", ".webp", ".bmp",
+                                      ".tga", ".ktx2", ".ies", ".ldt", ".hdr",  ".exr",  ".json"};
   const auto kind = kindByExtension(name);
   if (kind) return *kind != SceneKind::Zip;
   std::string extension = fs::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::find(kCompanions.begin(), kCompanions.end(), extension) != kCompanions.end();
 }
 
@@ -114,7 +121,8 @@ void unpack(const Archive& archive, const std::string& name, const fs::path& roo
   fs::create_directories(file.parent_path(), code);
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-  if (!out.flush()) fail(fmt::format("entry '{}'", printable(name)), "cannot be unpacked into the folder for temporary files");
+  if (!out.flush())
+    fail(fmt::format("entry '{}'", printable(name)), "cannot be unpacked into the folder for temporary files");
 }
 
 }  // namespace
@@ -126,18 +134,22 @@ std::string pickScene(const std::vector<PackedFile>& files) {
   std::vector<const Candidate*> best;
   for (const Candidate& c : all) {
     if (c.kind != all[0].kind || c.depth != all[0].depth) break;
-    if (std::none_of(best.begin(), best.end(), [&](const Candidate* b) { return b->stem == c.stem; })) best.push_back(&c);
+    if (std::none_of(best.begin(), best.end(), [&](const Candidate* b) { return b->stem == c.stem; }))
+      best.push_back(&c);
   }
   if (best.size() == 1 || best[0]->file->bytes / kClearlyLarger >= best[1]->file->bytes) return best[0]->file->name;
   std::string names;
-  for (size_t i = 0; i < best.size() && i < kMostNamed; ++i) names += fmt::format("{}'{}'", i ? ", " : "", printable(best[i]->file->name));
-  fail("", fmt::format("holds {} scenes, name the one to open: {}{}", best.size(), names, best.size() > kMostNamed ? ", ..." : ""));
+  for (size_t i = 0; i < best.size() && i < kMostNamed; ++i)
+    names += fmt::format("{}'{}'", i ? ", " : "", printable(best[i]->file->name));
+  fail("", fmt::format("holds {} scenes, name the one to open: {}{}", best.size(), names,
+                       best.size() > kMostNamed ? ", ..." : ""));
 }
 
 Result<Imported> importFolder(const fs::path& folder, const ImportOptions& options) {
   try {
     const auto names = filesBelow(folder, kMostFiles, kDeepest);
-    if (!names) fail("", fmt::format("is a folder of more than {} files; name the scene's own folder or its file", kMostFiles));
+    if (!names)
+      fail("", fmt::format("is a folder of more than {} files; name the scene's own folder or its file", kMostFiles));
     std::vector<PackedFile> files;
     for (const std::string& name : *names) {
       std::error_code code;

@@ -1,4 +1,5 @@
-// Homes of Sweet Home 3D 5.3 and later: a zip file with Home.xml, which names models and pictures that are other entries of it.
+// Homes of Sweet Home 3D 5.3 and later: a zip file with Home.xml, which names models and pictures that are other
+ // entries of it.
 #include "import/failure.h"
 #include "import/file_access.h"
 #include "import/guarded.h"
@@ -21,7 +22,8 @@ Imported readSh3d(const std::filesystem::path& file, const ImportOptions& option
   warnings.add("entries whose names lead out of the file are left out", archive.refused());
   const auto xml = archive.read("Home.xml");
   if (!xml) {
-    fail("", archive.has("Home") ? "is of before Sweet Home 3D 5.3 and holds no Home.xml; open it in Sweet Home 3D 5.3 or newer and save it again"
+    fail("", archive.has("Home") ? "is of before Sweet Home 3D 5.3 and holds no Home.xml; open it in Sweet Home 3D 5.3 "
+                                   "or newer and save it again"
                                  : "holds no Home.xml, so it is no home of Sweet Home 3D");
   }
   const Home home = readHomeXml(*xml, warnings);

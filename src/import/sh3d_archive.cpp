@@ -80,11 +80,13 @@ struct Archive::State {
   }
 };
 
-Archive::Archive(std::span<const uint8_t> bytes, const std::string& place, const ArchiveLimits& limits) : state_(std::make_unique<State>()) {
+Archive::Archive(std::span<const uint8_t> bytes, const std::string& place, const ArchiveLimits& limits)
+    : state_(std::make_unique<State>()) {
   state_->bytes = bytes, state_->place = place, state_->limits = limits;
   Zip zip = opened(bytes, place);
   const zip_int64_t count = zip_get_num_entries(zip.get(), 0);
-  if (count < 0 || static_cast<size_t>(count) > limits.entries) fail(place, fmt::format("holds {} entries; the limit is {}", count, limits.entries));
+  if (count < 0 || static_cast<size_t>(count) > limits.entries)
+    fail(place, fmt::format("holds {} entries; the limit is {}", count, limits.entries));
   for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(count); ++i) {
     const char* raw = zip_get_name(zip.get(), i, ZIP_FL_ENC_GUESS);
     const std::string_view name = raw ? raw : "";
@@ -114,20 +116,24 @@ size_t Archive::sizeOf(std::string_view name) const {
 
 std::vector<std::string> Archive::namesIn(std::string_view folder) const {
   std::vector<std::string> names;
-  for (auto it = state_->entries.lower_bound(folder); it != state_->entries.end() && it->first.starts_with(folder); ++it) names.push_back(it->first);
+  for (auto it = state_->entries.lower_bound(folder); it != state_->entries.end() && it->first.starts_with(folder);
+       ++it)
+    names.push_back(it->first);
   return names;
 }
 
 std::optional<uint64_t> Archive::indexOf(std::string_view name) const {
   auto it = state_->entries.find(name);
-  if (it == state_->entries.end() && name.find('%') != std::string_view::npos) it = state_->entries.find(percentDecode(name));
+  if (it == state_->entries.end() && name.find('%') != std::string_view::npos)
+    it = state_->entries.find(percentDecode(name));
   return it == state_->entries.end() ? std::nullopt : std::optional<uint64_t>(it->second);
 }
 
 std::optional<Bytes> Archive::read(std::string_view name) const {
   const auto index = indexOf(name);
   if (!index) return {};
-  const std::string place = fmt::format("{}{}entry '{}'", state_->place, state_->place.empty() ? "" : ": ", printable(name));
+  const std::string place =
+      fmt::format("{}{}entry '{}'", state_->place, state_->place.empty() ? "" : ": ", printable(name));
   Zip zip = state_->take();
   Bytes bytes = unpacked(zip.get(), *index, place);
   state_->giveBack(std::move(zip));
@@ -140,11 +146,15 @@ Bytes Archive::unpacked(zip* zip, uint64_t index, const std::string& place) cons
   if (zip_stat_index(zip, index, 0, &stat) != 0) fail(place, "is damaged");
   constexpr zip_uint64_t kWanted = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE;
   if ((stat.valid & kWanted) != kWanted) fail(place, "is damaged: it does not say how large it is");
-  if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) && stat.encryption_method != ZIP_EM_NONE) fail(place, "is encrypted; save it without a password");
-  if (stat.size > limits.entryBytes) fail(place, fmt::format("unpacks to {} bytes; the limit is {}", stat.size, limits.entryBytes));
+  if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) && stat.encryption_method != ZIP_EM_NONE)
+    fail(place, "is encrypted; save it without a password");
+  if (stat.size > limits.entryBytes)
+    fail(place, fmt::format("unpacks to {} bytes; the limit is {}", stat.size, limits.entryBytes));
   const size_t ratio = stat.size > limits.largeBytes ? limits.largeRatio : limits.ratio;
-  if (stat.size / ratio > stat.comp_size) fail(place, fmt::format("unpacks {} bytes to {}, which no home does", stat.comp_size, stat.size));
-  if (state_->unpacked += stat.size; state_->unpacked > limits.totalBytes) fail(place, fmt::format("all entries together unpack to more than {} bytes", limits.totalBytes));
+  if (stat.size / ratio > stat.comp_size)
+    fail(place, fmt::format("unpacks {} bytes to {}, which no home does", stat.comp_size, stat.size));
+  if (state_->unpacked += stat.size; state_->unpacked > limits.totalBytes)
+    fail(place, fmt::format("all entries together unpack to more than {} bytes", limits.totalBytes));
 
   const ZipFile file(zip_fopen_index(zip, index, 0));
   if (!file) fail(place, fmt::format("cannot be unpacked: {}", printable(zip_strerror(zip), 200)));

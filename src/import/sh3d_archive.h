@@ -1,4 +1,5 @@
-// The zip file that a Sweet Home 3D home is, or that a model inside it may be. Nothing it claims is believed before it is checked.
+// The zip file that a Sweet Home 3D home is, or that a model inside it may be. Nothing it claims is believed before it
+ // is checked.
 #pragma once
 
 #include <memory>
@@ -26,22 +27,23 @@ struct ArchiveLimits {
 
 class Archive {
  public:
-  // Lists the entries. Throws Failure: no zip file, damaged, more entries than the limit. `bytes` must outlive the archive.
+  // Lists the entries. Throws Failure: no zip file, damaged, more entries than the limit. `bytes` must outlive the
+// archive.
   Archive(std::span<const uint8_t> bytes, const std::string& place, const ArchiveLimits& limits = {});
   ~Archive();
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
 
-  // Names of the files in it, normalised: '/' between folders, no "." and no empty parts. Names that climb out ("..") or are absolute
-  // are left out and counted in refused().
+  // Names of the files in it, normalised: '/' between folders, no "." and no empty parts. Names that climb out ("..")
+  // or are absolute are left out and counted in refused().
   const std::vector<std::string>& names() const { return names_; }
   size_t refused() const { return refused_; }
   bool has(std::string_view name) const;
   size_t sizeOf(std::string_view name) const;  // unpacked, as the archive claims; 0 where it does not say
   std::vector<std::string> namesIn(std::string_view folder) const;  // that begin with it ("3/"), sorted
 
-  // The unpacked entry; none where there is no such entry. A name with percent escapes also means the entry of the name without them. Throws
-  // Failure: damaged, encrypted, or beyond a limit. Several threads may read at a time.
+  // The unpacked entry; none where there is no such entry. A name with percent escapes also means the entry of the name
+  // without them. Throws Failure: damaged, encrypted, or beyond a limit. Several threads may read at a time.
   std::optional<Bytes> read(std::string_view name) const;
 
  private:

@@ -53,27 +53,44 @@ void addSide(const Side& side, const std::vector<double>& topCm, std::span<const
     const double length = panel.lengthCm();
     if (length < kTinyCm || top < side.floorCm + kTinyCm) continue;
     for (const Interval& part : left(panel, side.baseboard.thicknessCm, cuts)) {
-      const PlanPoint ends[2] = {along(panel.a, panel.b, part.from / length), along(panel.a, panel.b, part.to / length)};
+      const PlanPoint ends[2] = {along(panel.a, panel.b, part.from / length),
+                                 along(panel.a, panel.b, part.to / length)};
       const PlanPoint a = side.wall[i], b = side.wall[i + 1];
-      const PlanPoint backs[2] = {part.from > 0 ? behind(ends[0], a, b) : a, part.to < length ? behind(ends[1], a, b) : b};
-      const auto corner = [&](PlanPoint p, double s, double h) { return SurfaceCorner{toWorld(p, h), {static_cast<float>(s / 100), static_cast<float>(-h / 100)}}; };
-      const Vec3 outwards = toWorld(ends[0], 0) - toWorld(backs[0], 0), forward = toWorld(ends[1], 0) - toWorld(ends[0], 0);
+      const PlanPoint backs[2] = {part.from > 0 ? behind(ends[0], a, b) : a,
+                                  part.to < length ? behind(ends[1], a, b) : b};
+      const auto corner = [&](PlanPoint p, double s, double h) {
+        return SurfaceCorner{toWorld(p, h), {static_cast<float>(s / 100), static_cast<float>(-h / 100)}};
+      };
+      const Vec3 outwards = toWorld(ends[0], 0) - toWorld(backs[0], 0),
+                 forward = toWorld(ends[1], 0) - toWorld(ends[0], 0);
       const double f = side.floorCm;
-      out.quad(side.material, {corner(ends[0], part.from, f), corner(ends[1], part.to, f), corner(ends[1], part.to, top), corner(ends[0], part.from, top)}, outwards);
-      out.quad(side.material, {corner(backs[0], part.from, f), corner(backs[1], part.to, f), corner(backs[1], part.to, top), corner(backs[0], part.from, top)}, -outwards);
+      out.quad(side.material,
+               {corner(ends[0], part.from, f), corner(ends[1], part.to, f), corner(ends[1], part.to, top),
+                corner(ends[0], part.from, top)},
+               outwards);
+      out.quad(side.material,
+               {corner(backs[0], part.from, f), corner(backs[1], part.to, f), corner(backs[1], part.to, top),
+                corner(backs[0], part.from, top)},
+               -outwards);
       for (const double height : {f, top}) {
         const Vec3 up{0, height == f ? -1.0f : 1.0f, 0};
-        out.quad(side.material, {corner(ends[0], part.from, height), corner(ends[1], part.to, height), corner(backs[1], part.to, height), corner(backs[0], part.from, height)}, up);
+        out.quad(side.material,
+                 {corner(ends[0], part.from, height), corner(ends[1], part.to, height),
+                  corner(backs[1], part.to, height), corner(backs[0], part.from, height)},
+                 up);
       }
       for (const size_t k : {size_t{0}, size_t{1}}) {
-        out.quad(side.material, {corner(ends[k], 0, f), corner(backs[k], 1, f), corner(backs[k], 1, top), corner(ends[k], 0, top)}, k == 0 ? -forward : forward);
+        out.quad(side.material,
+                 {corner(ends[k], 0, f), corner(backs[k], 1, f), corner(backs[k], 1, top), corner(ends[k], 0, top)},
+                 k == 0 ? -forward : forward);
       }
     }
   }
 }
 
 int materialOf(const Baseboard& board, const Paint& side, Paints& paints) {
-  return board.paint.colour || board.paint.texture ? paints.material(board.paint, "baseboard") : paints.plain(side, "baseboard");
+  return board.paint.colour || board.paint.texture ? paints.material(board.paint, "baseboard")
+                                                   : paints.plain(side, "baseboard");
 }
 
 }  // namespace
@@ -87,14 +104,18 @@ std::vector<WallOffsets> baseboardOffsets(const Home& home) {
   return out;
 }
 
-void addBaseboards(const Wall& wall, const WallOutline& outline, const WallOutline& boards, const WallHeights& heights, std::span<const WallCut> cuts,
-                   Paints& paints, Surfaces& out) {
+void addBaseboards(const Wall& wall, const WallOutline& outline, const WallOutline& boards, const WallHeights& heights,
+                   std::span<const WallCut> cuts, Paints& paints, Surfaces& out) {
   if (boards.left.size() != outline.left.size()) return;
   if (wall.leftBaseboard) {
-    addSide({outline.left, boards.left, *wall.leftBaseboard, materialOf(*wall.leftBaseboard, wall.left, paints), heights.floorCm}, heights.leftTopCm, cuts, out);
+    addSide({outline.left, boards.left, *wall.leftBaseboard, materialOf(*wall.leftBaseboard, wall.left, paints),
+             heights.floorCm},
+            heights.leftTopCm, cuts, out);
   }
   if (wall.rightBaseboard) {
-    addSide({outline.right, boards.right, *wall.rightBaseboard, materialOf(*wall.rightBaseboard, wall.right, paints), heights.floorCm}, heights.rightTopCm, cuts, out);
+    addSide({outline.right, boards.right, *wall.rightBaseboard, materialOf(*wall.rightBaseboard, wall.right, paints),
+             heights.floorCm},
+            heights.rightTopCm, cuts, out);
   }
 }
 

@@ -12,8 +12,10 @@ std::string nameOf(const Camera& c) { return c.name.empty() ? c.kind : c.name; }
 
 // Yaw 0 looks along the plan's y, towards the viewer; it turns clockwise on the plan. Pitch looks down.
 roomlight::Camera converted(const Camera& in, double aspect) {
-  const double cp = std::cos(in.pitchRad), sp = std::sin(in.pitchRad), cy = std::cos(in.yawRad), sy = std::sin(in.yawRad);
-  const Vec3 forward = normalize(Vec3(static_cast<float>(-sy * cp), static_cast<float>(-sp), static_cast<float>(cy * cp)));
+  const double cp = std::cos(in.pitchRad), sp = std::sin(in.pitchRad), cy = std::cos(in.yawRad),
+               sy = std::sin(in.yawRad);
+  const Vec3 forward =
+      normalize(Vec3(static_cast<float>(-sy * cp), static_cast<float>(-sp), static_cast<float>(cy * cp)));
   const Vec3 right = normalize(Vec3(static_cast<float>(-cy), 0, static_cast<float>(-sy)));
   roomlight::Camera out;
   out.name = nameOf(in);
@@ -27,8 +29,7 @@ roomlight::Camera converted(const Camera& in, double aspect) {
 std::vector<const Camera*> inOrder(const Home& home) {
   std::vector<const Camera*> order;
   for (const Camera& c : home.cameras) order.push_back(&c);
-  const auto rank = [&](const Camera* c) { return c->kind == home.camera ? 0 : c->kind == "storedCamera" ? 2
-                                                                                                         : 1; };
+  const auto rank = [&](const Camera* c) { return c->kind == home.camera ? 0 : c->kind == "storedCamera" ? 2 : 1; };
   std::stable_sort(order.begin(), order.end(), [&](const Camera* a, const Camera* b) { return rank(a) < rank(b); });
   return order;
 }

@@ -13,7 +13,8 @@ constexpr std::string_view kName = "Name: ", kDigest = "SHA-1-Digest: ";
 bool isLicence(std::string_view entry) {
   const size_t slash = entry.rfind('/');
   std::string name(slash == std::string_view::npos ? entry : entry.substr(slash + 1));
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return name == "LICENSE.TXT";
 }
 

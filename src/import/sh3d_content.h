@@ -1,4 +1,5 @@
-// Contents of a home, which are models with their companions, and pictures: what is unpacked of them, and whether it is what was saved.
+// Contents of a home, which are models with their companions, and pictures: what is unpacked of them, and whether it is
+// what was saved.
 #pragma once
 
 #include <map>
@@ -11,8 +12,9 @@
 
 namespace roomlight::importers::sh3d {
 
-// What the entry ContentDigests says of contents, by the name of their entry. Its text, as Sweet Home 3D writes it: a line
-// "ContentDigests-Version: 1.0", then for each content "Name: <entry>" and "SHA-1-Digest: <base64>", with empty lines between.
+// What the entry ContentDigests says of contents, by the name of their entry. Its text, as Sweet Home 3D writes it: a
+// line "ContentDigests-Version: 1.0", then for each content "Name: <entry>" and "SHA-1-Digest: <base64>", with empty
+// lines between.
 class ContentDigests {
  public:
   ContentDigests() = default;
@@ -32,7 +34,8 @@ class Content {
   // The entry's bytes, kept as long as this is; null where there is none. Throws Failure.
   const Bytes* read(const std::string& entry);
 
-  // Whether `entry` and all else in its top folder, without licence texts, in the order of their names, have that digest.
+  // Whether `entry` and all else in its top folder, without licence texts, in the order of their names, have that
+  // digest.
   bool has(const Sha1Digest& digest, const std::string& entry);
 
  private:

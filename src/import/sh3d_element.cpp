@@ -36,7 +36,8 @@ std::string Element::place() const {
   std::string name = text("id");
   if (name.empty()) name = text("name");
   const ptrdiff_t offset = node_.offset_debug();
-  std::string place = fmt::format("Home.xml: line {}: {}", lines_->at(offset < 0 ? 0 : static_cast<size_t>(offset)), printable(kind(), 40));
+  std::string place = fmt::format("Home.xml: line {}: {}", lines_->at(offset < 0 ? 0 : static_cast<size_t>(offset)),
+                                  printable(kind(), 40));
   if (!name.empty()) place += fmt::format(" '{}'", printable(name, 40));
   return place;
 }
@@ -71,7 +72,8 @@ std::optional<uint32_t> Element::colour(const char* key) const {
   const std::string word = text(key);
   uint32_t v = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), v, 16);
-  if (code != std::errc() || end != word.data() + word.size()) failAt(key, fmt::format("is '{}', no colour as AARRGGBB", printable(word)));
+  if (code != std::errc() || end != word.data() + word.size())
+    failAt(key, fmt::format("is '{}', no colour as AARRGGBB", printable(word)));
   return v & 0xffffffu;
 }
 
@@ -80,7 +82,8 @@ std::optional<int64_t> Element::integerIfAny(const char* key) const {
   const std::string word = text(key);
   int64_t v = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), v);
-  if (code != std::errc() || end != word.data() + word.size()) failAt(key, fmt::format("is '{}', no whole number", printable(word)));
+  if (code != std::errc() || end != word.data() + word.size())
+    failAt(key, fmt::format("is '{}', no whole number", printable(word)));
   return v;
 }
 

@@ -37,8 +37,12 @@ class Element {
   // Finite and within [low, high]; without `absent` the attribute is required.
   double number(const char* key, double low, double high, std::optional<double> absent = {}) const;
   std::optional<double> numberIfAny(const char* key, double low, double high) const;
-  double lengthCm(const char* key, std::optional<double> absent = {}) const { return number(key, -kFarthestCm, kFarthestCm, absent); }
-  double sizeCm(const char* key, std::optional<double> absent = {}) const { return number(key, 0, kFarthestCm, absent); }
+  double lengthCm(const char* key, std::optional<double> absent = {}) const {
+    return number(key, -kFarthestCm, kFarthestCm, absent);
+  }
+  double sizeCm(const char* key, std::optional<double> absent = {}) const {
+    return number(key, 0, kFarthestCm, absent);
+  }
   double angleRad(const char* key, std::optional<double> absent = {}) const { return number(key, -1e4, 1e4, absent); }
   std::optional<uint32_t> colour(const char* key) const;  // AARRGGBB or RRGGBB
   std::optional<int64_t> integerIfAny(const char* key) const;

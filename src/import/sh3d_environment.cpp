@@ -28,8 +28,8 @@ Moment momentOf(int64_t wallSeconds, int offsetSeconds) {
   const std::chrono::sys_seconds at{std::chrono::seconds(wallSeconds - offsetSeconds)};
   const auto day = std::chrono::floor<std::chrono::days>(at);
   const std::chrono::year_month_day date(day);
-  return {static_cast<int>(date.year()), static_cast<int>(static_cast<unsigned>(date.month())), static_cast<int>(static_cast<unsigned>(date.day())),
-          static_cast<double>((at - day).count()) / 3600};
+  return {static_cast<int>(date.year()), static_cast<int>(static_cast<unsigned>(date.month())),
+          static_cast<int>(static_cast<unsigned>(date.day())), static_cast<double>((at - day).count()) / 3600};
 }
 
 Vec3 hue(uint32_t rgb) {
@@ -43,11 +43,13 @@ class SkyPicture {
   SkyPicture(const Texture& t, double xOffset) : t_(t), xOffset_(xOffset) {}
 
   Vec3 at(Vec3 d) const {
-    const double turn = std::atan2(static_cast<double>(d.z), static_cast<double>(d.x)) / (2 * std::numbers::pi) - xOffset_;
+    const double turn =
+        std::atan2(static_cast<double>(d.z), static_cast<double>(d.x)) / (2 * std::numbers::pi) - xOffset_;
     const double altitude = std::asin(std::clamp(static_cast<double>(d.y), 0.0, 1.0)) * 2 / std::numbers::pi;
     const int x = std::min(static_cast<int>((turn - std::floor(turn)) * t_.width), t_.width - 1);
     const int y = std::min(static_cast<int>((1 - altitude) * t_.height), t_.height - 1);
-    const uint8_t* texel = t_.rgba.data() + 4 * (static_cast<size_t>(y) * static_cast<size_t>(t_.width) + static_cast<size_t>(x));
+    const uint8_t* texel =
+        t_.rgba.data() + 4 * (static_cast<size_t>(y) * static_cast<size_t>(t_.width) + static_cast<size_t>(x));
     return linearColour(static_cast<uint32_t>(texel[0]) << 16 | static_cast<uint32_t>(texel[1]) << 8 | texel[2]);
   }
 
@@ -58,8 +60,9 @@ class SkyPicture {
 
 double angleRad(Vec3 a, Vec3 b) { return std::acos(std::clamp(static_cast<double>(dot(a, b)), -1.0, 1.0)); }
 
-// The sky's picture goes once around: its left edge stands towards +x, the columns to its right turn clockwise seen from above, its bottom row lies
-// at the horizon and its top row at the zenith, as the 3D view shows it. A level surface has `skyLux` from it. None where it is black.
+// The sky's picture goes once around: its left edge stands towards +x, the columns to its right turn clockwise seen
+// from above, its bottom row lies at the horizon and its top row at the zenith, as the 3D view shows it. A level
+// surface has `skyLux` from it. None where it is black.
 Image pictureSky(const Texture& picture, double xOffset, double skyLux, Vec3 tint) {
   const SkyPicture sky(picture, xOffset);
   const double now = horizontalIlluminance([&](Vec3 d) { return static_cast<double>(luminance(sky.at(d) * tint)); });
@@ -86,16 +89,24 @@ std::string daylightJson(const Home& home, int64_t wallSeconds, int offsetSecond
   const std::chrono::year_month_day date(day);
   const auto second = static_cast<int>((wall - day).count());
   const int offset = std::abs(offsetSeconds) / 60;
-  const Vec3 sky = hue(home.environment.skyColour.value_or(0xffffff)) * hue(home.environment.lightColour.value_or(0xffffff));
-  return fmt::format(R"({{"sky": "clear", "latitude": {:.6f}, "longitude": {:.6f}, "north": {:.4f}, "ground": [{:.4f}, {:.4f}, {:.4f}], "color": [{:.5f}, {:.5f}, {:.5f}], "time": "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}"}})",
-                     *compass.latitudeRad * kDegrees, *compass.longitudeRad * kDegrees, std::remainder(-compass.northRad * kDegrees, 360.0), groundReflectance.x, groundReflectance.y, groundReflectance.z, sky.x, sky.y, sky.z,
-                     static_cast<int>(date.year()), static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), second / 3600, second / 60 % 60, second % 60, offsetSeconds < 0 ? '-' : '+', offset / 60, offset % 60);
+  const Vec3 sky =
+      hue(home.environment.skyColour.value_or(0xffffff)) * hue(home.environment.lightColour.value_or(0xffffff));
+  return fmt::format(
+      R"({{"sky": "clear", "latitude": {:.6f}, "longitude": {:.6f}, "north": {:.4f}, "ground": [{:.4f}, {:.4f}, {:.4f}], "color": [{:.5f}, {:.5f}, {:.5f}], "time": "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}"}})",
+      *compass.latitudeRad * kDegrees, *compass.longitudeRad * kDegrees,
+      std::remainder(-compass.northRad * kDegrees, 360.0), groundReflectance.x, groundReflectance.y,
+      groundReflectance.z, sky.x, sky.y, sky.z, static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+      static_cast<unsigned>(date.day()), second / 3600, second / 60 % 60, second % 60, offsetSeconds < 0 ? '-' : '+',
+      offset / 60, offset % 60);
 }
 
-std::string addDaylight(const Home& home, const Paints& paints, const std::string& wantedCamera, Vec3 groundReflectance, Scene& scene, Warnings& warnings) {
+std::string addDaylight(const Home& home, const Paints& paints, const std::string& wantedCamera, Vec3 groundReflectance,
+                        Scene& scene, Warnings& warnings) {
   const Camera* camera = cameraOfTime(home, wantedCamera);
-  if (!home.compass || !home.compass->latitudeRad || !home.compass->longitudeRad || !camera || !camera->timeMs || std::abs(*camera->timeMs) > kLatestMs) {
-    warnings.add("the home does not say where it stands, or when it is seen: there is no daylight; a lighting file can give it");
+  if (!home.compass || !home.compass->latitudeRad || !home.compass->longitudeRad || !camera || !camera->timeMs ||
+      std::abs(*camera->timeMs) > kLatestMs) {
+    warnings.add(
+        "the home does not say where it stands, or when it is seen: there is no daylight; a lighting file can give it");
     return {};
   }
   const Compass& compass = *home.compass;
@@ -114,7 +125,8 @@ std::string addDaylight(const Home& home, const Paints& paints, const std::strin
   sun.toLight = towardsSun(position, -compass.northRad * kDegrees);
   sun.halfAngleRad = static_cast<float>(kSunDiameterDeg / 2 / kDegrees);
   const Vec3 tint = hue(home.environment.lightColour.value_or(0xffffff));
-  sun.illuminanceLux = tint * (static_cast<float>(sunLux(moment, position.altitudeRad, sunExtinction(skyCover(kClearSky)))));
+  sun.illuminanceLux =
+      tint * (static_cast<float>(sunLux(moment, position.altitudeRad, sunExtinction(skyCover(kClearSky)))));
   const double skyLux = skyHorizontalLux(skyCover(kClearSky), position.altitudeRad);
   const Vec3 toSun = sunInSky(sun.toLight);
   const auto& use = home.environment.skyTexture;
@@ -125,7 +137,9 @@ std::string addDaylight(const Home& home, const Paints& paints, const std::strin
     const double zenithRad = angleRad(toSun, {0, 1, 0});
     SkyColour sky(colour);
     sky.miredPerDecade = kClearSkyMiredPerDecade;
-    scene.sky.image = skyImage([=](Vec3 d) { return cieSkyLuminance(kClearSky, static_cast<double>(d.y), angleRad(d, toSun), zenithRad); }, skyLux, sky);
+    scene.sky.image = skyImage(
+        [=](Vec3 d) { return cieSkyLuminance(kClearSky, static_cast<double>(d.y), angleRad(d, toSun), zenithRad); },
+        skyLux, sky);
   }
   paintGround(scene.sky.image, groundReflectance, sun.illuminanceLux * std::max(sun.toLight.y, 0.0f), kHazeRad);
   scene.sky.horizonEdge = true;
@@ -151,23 +165,28 @@ Vec3 meanReflectance(const Scene& scene, int material) {
 void addGround(const Home& home, int material, Scene& scene, int& object) {
   const Bounds3 b = scene.bounds();
   if (b.empty()) return;
-  const double x0 = static_cast<double>(b.lo.x) * 100 - kGroundMarginCm, x1 = static_cast<double>(b.hi.x) * 100 + kGroundMarginCm;
-  const double y0 = static_cast<double>(b.lo.z) * 100 - kGroundMarginCm, y1 = static_cast<double>(b.hi.z) * 100 + kGroundMarginCm;
+  const double x0 = static_cast<double>(b.lo.x) * 100 - kGroundMarginCm,
+               x1 = static_cast<double>(b.hi.x) * 100 + kGroundMarginCm;
+  const double y0 = static_cast<double>(b.lo.z) * 100 - kGroundMarginCm,
+               y1 = static_cast<double>(b.hi.z) * 100 + kGroundMarginCm;
   PlanArea area{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
   for (const Room& room : home.rooms) {
-    if (isShown(home, room.level) && elevationOf(home, room.level) < -kGroundDepthCm) area = subtracted(area, {room.points});
+    if (isShown(home, room.level) && elevationOf(home, room.level) < -kGroundDepthCm)
+      area = subtracted(area, {room.points});
   }
   Surfaces surfaces;
   const auto corner = [&](PlanPoint p) {
     return SurfaceCorner{toWorld(p, -kGroundDepthCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
   };
-  for (const PlanTriangle& t : trianglesOf(area)) surfaces.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, 1, 0});
+  for (const PlanTriangle& t : trianglesOf(area))
+    surfaces.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, 1, 0});
   surfaces.finish(scene, "ground", object++);
 }
 
 }  // namespace
 
-std::string addEnvironment(const Home& home, Paints& paints, const std::string& camera, Scene& scene, int& object, Warnings& warnings) {
+std::string addEnvironment(const Home& home, Paints& paints, const std::string& camera, Scene& scene, int& object,
+                           Warnings& warnings) {
   const Environment& env = home.environment;
   Paint ground;
   ground.colour = env.groundColour.value_or(kUsualGround);

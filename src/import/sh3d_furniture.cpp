@@ -36,11 +36,15 @@ Affine moved(Vec3 by) { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, by}; }
 float cm(double v) { return static_cast<float>(v / 100); }
 
 Affine fromRows(const std::array<double, 9>& m) {
-  const auto column = [&](size_t i) { return Vec3(static_cast<float>(m[i]), static_cast<float>(m[i + 3]), static_cast<float>(m[i + 6])); };
+  const auto column = [&](size_t i) {
+    return Vec3(static_cast<float>(m[i]), static_cast<float>(m[i + 3]), static_cast<float>(m[i + 6]));
+  };
   return {column(0), column(1), column(2), {}};
 }
 Affine fromRows(const std::array<double, 12>& m) {
-  const auto column = [&](size_t i) { return Vec3(static_cast<float>(m[i]), static_cast<float>(m[i + 4]), static_cast<float>(m[i + 8])); };
+  const auto column = [&](size_t i) {
+    return Vec3(static_cast<float>(m[i]), static_cast<float>(m[i + 4]), static_cast<float>(m[i + 8]));
+  };
   return {column(0), column(1), column(2), column(3)};
 }
 
@@ -88,7 +92,13 @@ void addBox(const Home& home, const Piece& p, int material, Scene& scene, int ob
 class Placer {
  public:
   Placer(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, Scene& scene, Warnings& warnings)
-      : home_(home), models_(models), looks_(paints, scene), paints_(paints), maxTriangles_(maxTriangles), scene_(scene), warnings_(warnings) {}
+      : home_(home),
+        models_(models),
+        looks_(paints, scene),
+        paints_(paints),
+        maxTriangles_(maxTriangles),
+        scene_(scene),
+        warnings_(warnings) {}
 
   void place(const Piece& p, int object) {
     const Model* model = p.model.empty() ? nullptr : models_.find(p.model);
@@ -114,12 +124,15 @@ class Placer {
 
  private:
   // Lights hang on rails to be set higher or lower: that would part their bodies from their sources.
-  std::vector<int> leavesOf(const Piece& p, const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed, const Affine& worldFrom) {
+  std::vector<int> leavesOf(const Piece& p, const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed,
+                            const Affine& worldFrom) {
     if (p.kind == PieceKind::Light) return std::vector<int>(meshes.size(), -1);
     return findLeaves(meshes, posed, worldFrom, worldFromPiece(home_, p).z, scene_);
   }
 
-  bool isEdge(const Mesh& mesh) const { return scene_.materials[static_cast<size_t>(mesh.material)].name.starts_with("edge_color"); }
+  bool isEdge(const Mesh& mesh) const {
+    return scene_.materials[static_cast<size_t>(mesh.material)].name.starts_with("edge_color");
+  }
 
   void standIn(const Piece& p, int object) {
     if (p.kind != PieceKind::Furniture) {
@@ -137,7 +150,8 @@ class Placer {
   int meshWithLook(const Piece& p, const std::string& model, size_t i, const Mesh& mesh, const Affine& worldFrom) {
     const Look look = looks_.of(p, mesh.name, mesh.material);
     if (!look.layBySize) {
-      const auto [entry, isNew] = shared_.try_emplace({model, i, look.material}, static_cast<int>(scene_.meshes.size()));
+      const auto [entry, isNew] =
+          shared_.try_emplace({model, i, look.material}, static_cast<int>(scene_.meshes.size()));
       if (isNew) {
         scene_.meshes.push_back(mesh);
         scene_.meshes.back().material = look.material;
@@ -166,12 +180,16 @@ Affine worldFromPiece(const Home& home, const Piece& p) {
   return moved(toWorld(p.centre, elevationOf(home, p.level) + p.elevationCm + height / 2)) * turnedY(-p.angleRad);
 }
 
-Affine worldFromModel(const Home& home, const Piece& p, const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed) {
+Affine worldFromModel(const Home& home, const Piece& p, const std::vector<const Mesh*>& meshes,
+                      const std::vector<Affine>& posed) {
   const Affine turned = fromRows(p.modelRotation);
   const Bounds3 b = boundsThrough(turned, meshes, posed);
   const Vec3 size = b.size();
-  const auto factor = [](double wantedCm, float extent) { return extent > kFlat ? cm(wantedCm) / extent : cm(wantedCm); };
-  const Vec3 scale{factor(p.widthCm, size.x) * (p.mirrored ? -1.0f : 1.0f), factor(p.heightCm, size.y), factor(p.depthCm, size.z)};
+  const auto factor = [](double wantedCm, float extent) {
+    return extent > kFlat ? cm(wantedCm) / extent : cm(wantedCm);
+  };
+  const Vec3 scale{factor(p.widthCm, size.x) * (p.mirrored ? -1.0f : 1.0f), factor(p.heightCm, size.y),
+                   factor(p.depthCm, size.z)};
   Affine m = scaled(scale) * moved(-b.centre()) * turned;
   double height = p.heightCm;
   if (p.pitchRad != 0 || p.rollRad != 0) {
@@ -183,7 +201,8 @@ Affine worldFromModel(const Home& home, const Piece& p, const std::vector<const 
   return moved(toWorld(p.centre, elevationOf(home, p.level) + p.elevationCm + height / 2)) * turnedY(-p.angleRad) * m;
 }
 
-void addFurniture(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, double lumenAtFullPower, Scene& scene, int& object, Warnings& warnings) {
+void addFurniture(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, double lumenAtFullPower,
+                  Scene& scene, int& object, Warnings& warnings) {
   Placer placer(home, models, paints, maxTriangles, scene, warnings);
   for (const Piece& p : home.pieces) {
     if (!isShown(home, p.level)) continue;

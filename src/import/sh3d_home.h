@@ -1,5 +1,6 @@
-// What Home.xml of a Sweet Home 3D home says, after SweetHome3D.dtd, as plain data in the file's own units: centimetres, radians, plan
-// coordinates with x to the right and y down (towards the viewer), angles clockwise as seen on the plan, colours 0xRRGGBB in sRGB.
+// What Home.xml of a Sweet Home 3D home says, after SweetHome3D.dtd, as plain data in the file's own units:
+// centimetres, radians, plan coordinates with x to the right and y down (towards the viewer), angles clockwise as seen
+// on the plan, colours 0xRRGGBB in sRGB.
 #pragma once
 
 #include <array>
@@ -154,8 +155,12 @@ struct Home {
   std::vector<Polyline> polylines;
 };
 
-inline double elevationOf(const Home& home, int level) { return level < 0 ? 0 : home.levels[static_cast<size_t>(level)].elevationCm; }
-inline bool isShown(const Home& home, int level) { return level < 0 || home.levels[static_cast<size_t>(level)].viewable; }
+inline double elevationOf(const Home& home, int level) {
+  return level < 0 ? 0 : home.levels[static_cast<size_t>(level)].elevationCm;
+}
+inline bool isShown(const Home& home, int level) {
+  return level < 0 || home.levels[static_cast<size_t>(level)].viewable;
+}
 // Levels stand on the slab of their floor, except the lowest, which stands on the ground.
 double slabBelowCm(const Home& home, int level);
 

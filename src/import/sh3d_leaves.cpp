@@ -14,7 +14,8 @@ constexpr float kShortestSlideM = 0.01f;
 
 // Whether a group's name begins with that, and not with a longer number.
 bool isOf(const std::string& group, const std::string& prefix) {
-  return group.starts_with(prefix) && (group.size() == prefix.size() || std::isdigit(static_cast<unsigned char>(group[prefix.size()])) == 0);
+  return group.starts_with(prefix) &&
+         (group.size() == prefix.size() || std::isdigit(static_cast<unsigned char>(group[prefix.size()])) == 0);
 }
 
 Bounds3 boxOf(const Mesh& mesh) {
@@ -43,7 +44,8 @@ Travel travelOf(float usual, float opened, float least) {
 // All of it is worked out in the world: models are mirrored, turned, and scaled unevenly.
 class LeafFinder {
  public:
-  LeafFinder(const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed, const Affine& worldFrom, Vec3 front)
+  LeafFinder(const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed, const Affine& worldFrom,
+             Vec3 front)
       : meshes_(meshes), posed_(posed), worldFrom_(worldFrom), front_(front) {}
 
   Bounds3 boxOfJoint(const std::string& joint) const {
@@ -66,7 +68,8 @@ class LeafFinder {
   // Handles stand out to one side: the leaf itself is the largest mesh.
   size_t largestOf(const std::vector<size_t>& meshes) const {
     const auto diagonal = [&](size_t i) { return length(worldFrom_.vector(boxOf(*meshes_[i]).size())); };
-    return *std::max_element(meshes.begin(), meshes.end(), [&](size_t a, size_t b) { return diagonal(a) < diagonal(b); });
+    return *std::max_element(meshes.begin(), meshes.end(),
+                             [&](size_t a, size_t b) { return diagonal(a) < diagonal(b); });
   }
 
   // By a right angle to the side on which the pin lies: elsewhere the leaf would turn into its frame.
@@ -94,7 +97,8 @@ class LeafFinder {
     slide = worldFrom_.vector(slide);
     const float usual = length(slide);
     if (!(usual > kShortestSlideM)) return leaf;
-    const Vec3 way = slide / usual, posed = centreOf(largest, worldFrom_ * posed_[largest]) - centreOf(largest, worldFrom_);
+    const Vec3 way = slide / usual,
+               posed = centreOf(largest, worldFrom_ * posed_[largest]) - centreOf(largest, worldFrom_);
     const Travel travel = travelOf(usual, dot(posed, way), kShutM);
     leaf.slideM = way * travel.whole, leaf.atRest = travel.atRest;
     return leaf;
@@ -124,16 +128,18 @@ class LeafFinder {
 
 // Not of pins too small, or models too large, for floats.
 bool opens(const Leaf& leaf) {
-  return isFinite(leaf.hinge) && isFinite(leaf.axis) && isFinite(leaf.slideM) && std::isfinite(leaf.turnRad) && (leaf.turnRad != 0 || !isBlack(leaf.slideM));
+  return isFinite(leaf.hinge) && isFinite(leaf.axis) && isFinite(leaf.slideM) && std::isfinite(leaf.turnRad) &&
+         (leaf.turnRad != 0 || !isBlack(leaf.slideM));
 }
 
 }  // namespace
 
-// "sweethome3d_hinge_1" moves what is "opening_on_hinge_1", with the panes and mirrors in it; so do rails, and balls move arms. Any other
-// transformation moves the groups of its name.
+// "sweethome3d_hinge_1" moves what is "opening_on_hinge_1", with the panes and mirrors in it; so do rails, and balls
+// move arms. Any other transformation moves the groups of its name.
 bool moves(const std::string& transformation, const std::string& group) {
   const std::string head = "sweethome3d_", tail = "_transformation";
-  const std::string name = transformation.ends_with(tail) ? transformation.substr(0, transformation.size() - tail.size()) : transformation;
+  const std::string name =
+      transformation.ends_with(tail) ? transformation.substr(0, transformation.size() - tail.size()) : transformation;
   if (name.empty()) return false;
   if (name.starts_with(head)) {
     for (const char* what : {"opening_on_", "window_pane_on_", "window_mirror_on_", "mirror_on_", "arm_on_"}) {
@@ -143,7 +149,8 @@ bool moves(const std::string& transformation, const std::string& group) {
   return isOf(group, name);
 }
 
-std::vector<int> findLeaves(const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed, const Affine& worldFrom, Vec3 front, Scene& scene) {
+std::vector<int> findLeaves(const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed,
+                            const Affine& worldFrom, Vec3 front, Scene& scene) {
   std::vector<int> out(meshes.size(), -1);
   const LeafFinder finder(meshes, posed, worldFrom, front);
   const auto add = [&](const std::string& joint, const Bounds3& box, bool slides) {

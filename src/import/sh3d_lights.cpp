@@ -25,7 +25,8 @@ double brightness(const LightSource& s) { return static_cast<double>(luminance(l
 double areaOf(const Mesh& mesh, const Affine& m) {
   double sum = 0;
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-    const Vec3 a = m.point(mesh.positions[mesh.indices[t]]), b = m.point(mesh.positions[mesh.indices[t + 1]]), c = m.point(mesh.positions[mesh.indices[t + 2]]);
+    const Vec3 a = m.point(mesh.positions[mesh.indices[t]]), b = m.point(mesh.positions[mesh.indices[t + 1]]),
+               c = m.point(mesh.positions[mesh.indices[t + 2]]);
     sum += 0.5 * static_cast<double>(length(cross(b - a, c - a)));
   }
   return sum;
@@ -37,7 +38,8 @@ Mesh ball(float radiusM) {
   for (int i = 0; i <= kRings; ++i) {
     for (int k = 0; k < kSectors; ++k) {
       const double polar = std::numbers::pi * i / kRings, turn = 2 * std::numbers::pi * k / kSectors;
-      mesh.positions.push_back(Vec3(static_cast<float>(std::sin(polar) * std::cos(turn)), static_cast<float>(std::cos(polar)),
+      mesh.positions.push_back(Vec3(static_cast<float>(std::sin(polar) * std::cos(turn)),
+                                    static_cast<float>(std::cos(polar)),
                                     static_cast<float>(-std::sin(polar) * std::sin(turn))) *
                                radiusM);
     }
@@ -46,7 +48,8 @@ Mesh ball(float radiusM) {
   for (int i = 0; i < kRings; ++i) {
     for (int k = 0; k < kSectors; ++k) {
       if (i > 0) mesh.indices.insert(mesh.indices.end(), {vertex(i, k), vertex(i + 1, k), vertex(i, k + 1)});
-      if (i + 1 < kRings) mesh.indices.insert(mesh.indices.end(), {vertex(i, k + 1), vertex(i + 1, k), vertex(i + 1, k + 1)});
+      if (i + 1 < kRings)
+        mesh.indices.insert(mesh.indices.end(), {vertex(i, k + 1), vertex(i + 1, k), vertex(i + 1, k + 1)});
     }
   }
   return mesh;
@@ -63,8 +66,10 @@ Material glowing(const std::string& name, Vec3 colour, double fluxLm, double are
 }
 
 void addSource(const Home& home, const Piece& p, const LightSource& s, double fluxLm, Scene& scene, int object) {
-  const double x = (s.x - 0.5) * (p.mirrored ? -1 : 1) * p.widthCm, z = (0.5 - s.y) * p.depthCm, y = s.z * p.heightCm - p.heightInPlanCm.value_or(p.heightCm) / 2;
-  const Vec3 at = worldFromPiece(home, p).point({static_cast<float>(x / 100), static_cast<float>(y / 100), static_cast<float>(z / 100)});
+  const double x = (s.x - 0.5) * (p.mirrored ? -1 : 1) * p.widthCm, z = (0.5 - s.y) * p.depthCm,
+               y = s.z * p.heightCm - p.heightInPlanCm.value_or(p.heightCm) / 2;
+  const Vec3 at = worldFromPiece(home, p).point(
+      {static_cast<float>(x / 100), static_cast<float>(y / 100), static_cast<float>(z / 100)});
   const double radiusM = s.diameter.value_or(0) * p.widthCm / 200;
   if (radiusM < 1e-4) {
     Lamp lamp;
@@ -91,7 +96,8 @@ bool lightUpMaterials(const Piece& p, size_t firstInstance, double fluxLm, Scene
   for (size_t i = firstInstance; i < scene.instances.size(); ++i) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     const std::string& name = scene.materials[static_cast<size_t>(mesh.material)].name;
-    if (std::find(p.lightSourceMaterials.begin(), p.lightSourceMaterials.end(), name) == p.lightSourceMaterials.end()) continue;
+    if (std::find(p.lightSourceMaterials.begin(), p.lightSourceMaterials.end(), name) == p.lightSourceMaterials.end())
+      continue;
     lit.push_back(i), area += areaOf(mesh, scene.instances[i].worldFromObject);
   }
   if (!(area > 0)) return false;
@@ -117,14 +123,17 @@ bool lightUpMaterials(const Piece& p, size_t firstInstance, double fluxLm, Scene
 
 }  // namespace
 
-void addLight(const Home& home, const Piece& p, size_t firstInstance, double lumenAtFullPower, Scene& scene, int object, Warnings& warnings) {
+void addLight(const Home& home, const Piece& p, size_t firstInstance, double lumenAtFullPower, Scene& scene, int object,
+              Warnings& warnings) {
   const double fluxLm = p.power * lumenAtFullPower;
   if (!(fluxLm > 0)) return;
   if (!p.lightSources.empty()) {
     double whole = 0;
     for (const LightSource& s : p.lightSources) whole += brightness(s);
     for (const LightSource& s : p.lightSources) {
-      addSource(home, p, s, whole > 0 ? fluxLm * brightness(s) / whole : fluxLm / static_cast<double>(p.lightSources.size()), scene, object);
+      addSource(home, p, s,
+                whole > 0 ? fluxLm * brightness(s) / whole : fluxLm / static_cast<double>(p.lightSources.size()), scene,
+                object);
     }
   } else if (!lightUpMaterials(p, firstInstance, fluxLm, scene)) {
     warnings.add("lights without light sources stay dark");

@@ -19,9 +19,10 @@ class Looks {
  public:
   Looks(Paints& paints, Scene& scene) : paints_(paints), scene_(scene) {}
 
-  // Of the part `group` of a piece, whose model gives it `material`. Groups that Sweet Home 3D knows as window panes are thin clear glass,
-  // those that it knows as mirrors reflect; the rest takes the paint of its own material, or that of the whole piece. Unpainted
-  // materials of doors and windows that let light through evenly are glass: models write it as a white veil.
+  // Of the part `group` of a piece, whose model gives it `material`. Groups that Sweet Home 3D knows as window panes
+  // are thin clear glass, those that it knows as mirrors reflect; the rest takes the paint of its own material, or that
+  // of the whole piece. Unpainted materials of doors and windows that let light through evenly are glass: models write
+  // it as a white veil.
   Look of(const Piece& piece, const std::string& group, int material);
 
  private:

@@ -28,18 +28,22 @@ std::string extensionOf(std::string_view name) {
   const size_t dot = name.rfind('.'), slash = name.rfind('/');
   if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash)) return {};
   std::string out(name.substr(dot + 1));
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
 }
 
 bool startsWith(const Bytes& bytes, std::string_view magic) {
-  return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin(), [](char c, uint8_t b) { return static_cast<uint8_t>(c) == b; });
+  return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin(),
+                                                    [](char c, uint8_t b) { return static_cast<uint8_t>(c) == b; });
 }
 
 // Entries of single files are named by a number without an extension.
 Format formatOf(const std::string& extension, const Bytes& bytes) {
   if (startsWith(bytes, "PK\x03\x04")) return Format::Zip;
-  if (extension == "dae" || startsWith(bytes, "<?xml") || startsWith(bytes, "\xef\xbb\xbf<?xml") || startsWith(bytes, "<COLLADA")) return Format::Collada;
+  if (extension == "dae" || startsWith(bytes, "<?xml") || startsWith(bytes, "\xef\xbb\xbf<?xml") ||
+      startsWith(bytes, "<COLLADA"))
+    return Format::Collada;
   if (extension == "3ds" || startsWith(bytes, "MM")) return Format::Studio3D;
   if (extension == "lws" || startsWith(bytes, "LWSC")) return Format::LightWave;
   if (extension == "gltf" || extension == "glb" || startsWith(bytes, "glTF")) return Format::Gltf;
@@ -76,8 +80,8 @@ std::optional<std::string> withoutSteps(std::string path) {
   return normalisedEntryName(out);
 }
 
-// Companions of an entry: entries beside, below or, inside its own archive, above it. Some models name pictures on their author's disk: of those
-// the file's name counts, beside the model.
+// Companions of an entry: entries beside, below or, inside its own archive, above it. Some models name pictures on
+// their author's disk: of those the file's name counts, beside the model.
 ReadCompanion companionsOf(Content& content, const std::string& entry, Budget& budget) {
   const size_t slash = entry.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : entry.substr(0, slash + 1);
@@ -86,9 +90,11 @@ ReadCompanion companionsOf(Content& content, const std::string& entry, Budget& b
     const auto path = name.starts_with('/') || name.starts_with('\\') ? std::nullopt : withoutSteps(folder + name);
     const Bytes* bytes = path ? content.read(*path) : nullptr;
     const size_t lastSlash = name.find_last_of("/\\");
-    if (!bytes && lastSlash != std::string::npos && lastSlash + 1 < name.size()) bytes = content.read(folder + name.substr(lastSlash + 1));
+    if (!bytes && lastSlash != std::string::npos && lastSlash + 1 < name.size())
+      bytes = content.read(folder + name.substr(lastSlash + 1));
     if (!bytes) return {};
-    if ((budget.pixels += claimedPixels(*bytes)) > kMaxAllPixels) fail("", "has too many pictures beside those of other models");
+    if ((budget.pixels += claimedPixels(*bytes)) > kMaxAllPixels)
+      fail("", "has too many pictures beside those of other models");
     return *bytes;
   };
 }
@@ -106,7 +112,8 @@ Scene readModel(const std::string& entry, Content& content, size_t maxTriangles,
     case Format::Zip: break;
   }
   // A zip file in the zip file (also .kmz): the first model in it.
-  const Archive inner(*bytes, fmt::format("entry '{}'", printable(entry)), {.entryBytes = size_t{256} << 20, .totalBytes = size_t{1} << 30});
+  const Archive inner(*bytes, fmt::format("entry '{}'", printable(entry)),
+                      {.entryBytes = size_t{256} << 20, .totalBytes = size_t{1} << 30});
   Content innerContent(inner);
   for (const std::string& name : inner.names()) {
     if (isModelName(name)) return readModel(name, innerContent, maxTriangles, budget, warnings);
@@ -119,7 +126,8 @@ struct Read {
   Warnings warnings;
 };
 
-void readOne(const Archive& archive, const ContentDigests& digests, const std::string& entry, Budget& budget, Read& out) {
+void readOne(const Archive& archive, const ContentDigests& digests, const std::string& entry, Budget& budget,
+             Read& out) {
   if (budget.exceeded()) return;
   const std::string model = fmt::format("the model '{}' ", printable(entry));
   try {
@@ -128,7 +136,8 @@ void readOne(const Archive& archive, const ContentDigests& digests, const std::s
     if (out.scene.instances.empty()) fail("", "holds no triangles");
     budget.triangles += out.scene.triangleCount();
     const auto digest = digests.of(entry);
-    if (digest && !content.has(*digest, entry)) out.warnings.add(model + "is not what was saved, its digest differs: it is damaged, or was exchanged");
+    if (digest && !content.has(*digest, entry))
+      out.warnings.add(model + "is not what was saved, its digest differs: it is damaged, or was exchanged");
   } catch (const Failure& failure) {
     out.scene = {};
     out.warnings.add(model + printable(failure.what(), 200));
@@ -138,10 +147,12 @@ void readOne(const Archive& archive, const ContentDigests& digests, const std::s
 // Its materials and textures behind those of the home.
 Model merged(Scene& from, Scene& scene) {
   Model model;
-  const int firstMaterial = static_cast<int>(scene.materials.size()), firstTexture = static_cast<int>(scene.textures.size());
+  const int firstMaterial = static_cast<int>(scene.materials.size()),
+            firstTexture = static_cast<int>(scene.textures.size());
   for (Texture& t : from.textures) scene.textures.push_back(std::move(t));
   for (Material& m : from.materials) {
-    for (TextureRef* ref : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture, &m.transmissionTexture}) {
+    for (TextureRef* ref : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture,
+                            &m.transmissionTexture}) {
       if (ref->texture >= 0) ref->texture += firstTexture;
     }
     scene.materials.push_back(std::move(m));
@@ -156,14 +167,17 @@ Model merged(Scene& from, Scene& scene) {
 
 }  // namespace
 
-Models::Models(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& entries, size_t maxTriangles, Scene& scene, Warnings& warnings) {
+Models::Models(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& entries,
+               size_t maxTriangles, Scene& scene, Warnings& warnings) {
   const std::vector<std::string> names(entries.begin(), entries.end());
   std::vector<Read> read(names.size());
   Budget budget;
   budget.maxTriangles = maxTriangles;
   parallelOrFail(names.size(), [&](size_t i) { readOne(archive, digests, names[i], budget, read[i]); });
-  if (budget.triangles > maxTriangles) fail("", fmt::format("the models together have more than {} triangles", maxTriangles));
-  if (budget.pixels > kMaxAllPixels) fail("", fmt::format("the pictures of all models together have more than {} pixels", kMaxAllPixels));
+  if (budget.triangles > maxTriangles)
+    fail("", fmt::format("the models together have more than {} triangles", maxTriangles));
+  if (budget.pixels > kMaxAllPixels)
+    fail("", fmt::format("the pictures of all models together have more than {} pixels", kMaxAllPixels));
   for (size_t i = 0; i < names.size(); ++i) {
     warnings.add(read[i].warnings);
     if (!read[i].scene.instances.empty()) models_.emplace(names[i], merged(read[i].scene, scene));

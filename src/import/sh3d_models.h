@@ -20,9 +20,11 @@ struct Model {
 
 class Models {
  public:
-  // Reads these entries, several at a time; their materials and textures are added to the scene. What is missing, damaged, not what was saved or of
-  // a format that is not read is a warning. Throws Failure where all together are beyond a limit.
-  Models(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& entries, size_t maxTriangles, Scene& scene, Warnings& warnings);
+  // Reads these entries, several at a time; their materials and textures are added to the scene. What is missing,
+  // damaged, not what was saved or of a format that is not read is a warning. Throws Failure where all together are
+// beyond a limit.
+  Models(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& entries,
+         size_t maxTriangles, Scene& scene, Warnings& warnings);
 
   // Null where it could not be read.
   const Model* find(const std::string& entry) const;

@@ -24,12 +24,15 @@ Material paintedMaterial(const std::string& name, Vec3 reflectance, double shini
   m.baseColor = reflectance;
   m.metallic = 0;
   m.specular = shininess > 0 ? 1.0f : 0.0f;
-  // Sweet Home 3D's shininess is Blinn-Phong's exponent over 128; as GGX: alpha² = 2 / (n + 2) (Walter et al. 2007), alpha = roughness².
+  // Sweet Home 3D's shininess is Blinn-Phong's exponent over 128; as GGX: alpha² = 2 / (n + 2) (Walter et al. 2007),
+  // alpha = roughness².
   m.roughness = static_cast<float>(std::pow(2 / (128 * shininess + 2), 0.25));
   return m;
 }
 
-Paints::Paints(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& images, Scene& scene, Warnings& warnings) : scene_(scene) {
+Paints::Paints(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& images, Scene& scene,
+               Warnings& warnings)
+    : scene_(scene) {
   struct Picture {
     std::string name;
     std::vector<Texture> decoded;
@@ -44,15 +47,19 @@ Paints::Paints(const Archive& archive, const ContentDigests& digests, const std:
       Content content(archive);
       const Bytes* bytes = content.read(p.name);
       if (!bytes) return p.warnings.add("textures whose picture is not in the file are left out");
-      if (const auto kind = undecodable(*bytes)) return p.warnings.add(fmt::format("pictures of kind {} cannot be decoded", *kind));
+      if (const auto kind = undecodable(*bytes))
+        return p.warnings.add(fmt::format("pictures of kind {} cannot be decoded", *kind));
       if ((pixels += claimedPixels(*bytes)) > kMaxAllPixels) return;
       p.decoded = decodePictures({{"", *bytes}}, p.warnings);
       const auto digest = digests.of(p.name);
       if (digest && !content.has(*digest, p.name)) {
-        p.warnings.add(fmt::format("the picture '{}' is not what was saved, its digest differs: it is damaged, or was exchanged", printable(p.name)));
+        p.warnings.add(
+            fmt::format("the picture '{}' is not what was saved, its digest differs: it is damaged, or was exchanged",
+                        printable(p.name)));
       }
     } catch (const Failure& failure) {
-      p.warnings.add(fmt::format("the picture '{}' is left out: {}", printable(p.name), printable(failure.what(), 200)));
+      p.warnings.add(
+          fmt::format("the picture '{}' is left out: {}", printable(p.name), printable(failure.what(), 200)));
     }
   });
   if (pixels > kMaxAllPixels) fail("", fmt::format("all pictures together have more than {} pixels", kMaxAllPixels));
@@ -75,9 +82,11 @@ TextureRef Paints::reference(const TextureUse& use) {
   const auto it = textures_.find(use.image);
   if (it == textures_.end()) return ref;
   ref.texture = it->second;
-  // Metres to repeats of the picture: moved by its offset (right and up, of its size), turned, then scaled. v points down here.
+  // Metres to repeats of the picture: moved by its offset (right and up, of its size), turned, then scaled. v points
+  // down here.
   const double c = std::cos(use.angleRad), s = std::sin(use.angleRad);
-  const double w = use.widthCm * use.scale / 100, h = use.heightCm * use.scale / 100, u0 = -use.xOffset * w, v0 = use.yOffset * h;
+  const double w = use.widthCm * use.scale / 100, h = use.heightCm * use.scale / 100, u0 = -use.xOffset * w,
+               v0 = use.yOffset * h;
   const double rows[2][3] = {{c / w, s / w, (c * u0 + s * v0) / w}, {-s / h, c / h, (c * v0 - s * u0) / h}};
   for (size_t i = 0; i < 2; ++i) {
     for (size_t k = 0; k < 3; ++k) ref.m[i][k] = static_cast<float>(rows[i][k]);
@@ -101,8 +110,10 @@ int Paints::material(const Paint& paint, const std::string& name) {
 
 int Paints::plain(const Paint& paint, const std::string& name) {
   const uint32_t colour = paint.colour.value_or(0xffffff);
-  const auto [entry, isNew] = made_.emplace(fmt::format("{}\n{:06x}\n{}", name, colour, paint.shininess), static_cast<int>(scene_.materials.size()));
-  if (isNew) scene_.materials.push_back(paintedMaterial(name, linearColour(colour) * kWhiteReflectance, paint.shininess));
+  const auto [entry, isNew] = made_.emplace(fmt::format("{}\n{:06x}\n{}", name, colour, paint.shininess),
+                                            static_cast<int>(scene_.materials.size()));
+  if (isNew)
+    scene_.materials.push_back(paintedMaterial(name, linearColour(colour) * kWhiteReflectance, paint.shininess));
   return entry->second;
 }
 

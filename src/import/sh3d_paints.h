@@ -20,11 +20,13 @@ Vec3 linearColour(uint32_t rgb);  // sRGB 0xRRGGBB to linear Rec.709, 0 to 1
 
 class Paints {
  public:
-  // Decodes the pictures; one that is missing, damaged, not what was saved or of an unknown kind is a warning. Throws Failure where all together
-  // are beyond a limit.
-  Paints(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& images, Scene& scene, Warnings& warnings);
+  // Decodes the pictures; one that is missing, damaged, not what was saved or of an unknown kind is a warning. Throws
+  // Failure where all together are beyond a limit.
+  Paints(const Archive& archive, const ContentDigests& digests, const std::set<std::string>& images, Scene& scene,
+         Warnings& warnings);
 
-  // Index of the material; white where the paint says nothing. Meshes give texture coordinates in metres, u to the right and v down.
+  // Index of the material; white where the paint says nothing. Meshes give texture coordinates in metres, u to the
+  // right and v down.
   int material(const Paint& paint, const std::string& name);
   // The same without the texture: for the narrow faces beside a side.
   int plain(const Paint& paint, const std::string& name);

@@ -32,7 +32,8 @@ void addPolylines(const Home& home, Paints& paints, Scene& scene, int& object) {
     const int material = paints.material(paint, "line");
     const double heightCm = elevationOf(home, line.level) + std::max(line.elevationCm, kLowestCm);
     Surfaces surfaces;
-    for (size_t i = 0; i + 1 < line.points.size(); ++i) addBand(line.points[i], line.points[i + 1], line.thicknessCm, heightCm, material, surfaces);
+    for (size_t i = 0; i + 1 < line.points.size(); ++i)
+      addBand(line.points[i], line.points[i + 1], line.thicknessCm, heightCm, material, surfaces);
     if (line.closed) addBand(line.points.back(), line.points.front(), line.thicknessCm, heightCm, material, surfaces);
     surfaces.finish(scene, "line", object++);
   }

@@ -15,11 +15,14 @@ constexpr double kSameHeightCm = 1e-3;
 bool isHighest(const Home& home, int level) {
   if (level < 0) return true;
   const double own = elevationOf(home, level);
-  return std::none_of(home.levels.begin(), home.levels.end(), [&](const Level& l) { return l.viewable && l.elevationCm > own + kSameHeightCm; });
+  return std::none_of(home.levels.begin(), home.levels.end(),
+                      [&](const Level& l) { return l.viewable && l.elevationCm > own + kSameHeightCm; });
 }
 
 double levelTopCm(const Home& home, int level) {
-  return level < 0 ? home.wallHeightCm : home.levels[static_cast<size_t>(level)].elevationCm + home.levels[static_cast<size_t>(level)].heightCm;
+  return level < 0
+             ? home.wallHeightCm
+             : home.levels[static_cast<size_t>(level)].elevationCm + home.levels[static_cast<size_t>(level)].heightCm;
 }
 
 // A corner of a wall on the plan and how high the wall is there.
@@ -34,7 +37,8 @@ std::vector<WallCorner> wallCorners(const Home& home, int level, const std::vect
     const Wall& w = home.walls[i];
     if (w.level != level) continue;
     for (const PlanRing* side : {&outlines[i].left, &outlines[i].right}) {
-      for (size_t k = 0; k < side->size(); ++k) out.push_back({(*side)[k], elevationOf(home, level) + wallHeightCm(home, w, (*side)[k])});
+      for (size_t k = 0; k < side->size(); ++k)
+        out.push_back({(*side)[k], elevationOf(home, level) + wallHeightCm(home, w, (*side)[k])});
     }
   }
   return out;
@@ -64,7 +68,8 @@ struct Drawn {
 };
 
 // The stairs' holes on the plan: through floors that they rise through, through ceilings that they rise above.
-PlanArea stairwells(const Home& home, const std::vector<const Piece*>& stairs, double heightCm, const std::string& place, Effort& effort) {
+PlanArea stairwells(const Home& home, const std::vector<const Piece*>& stairs, double heightCm,
+                    const std::string& place, Effort& effort) {
   PlanArea out;
   size_t points = 0;
   for (const Piece* piece : stairs) {
@@ -86,7 +91,8 @@ PlanArea stairwells(const Home& home, const std::vector<const Piece*>& stairs, d
   return out;
 }
 
-// Heights of a ceiling: those of its outline's corners, straight lines in between. Triangles have all their corners on the outline.
+// Heights of a ceiling: those of its outline's corners, straight lines in between. Triangles have all their corners on
+// the outline.
 double ceilingOn(const PlanArea& area, const Drawn& drawn, PlanPoint p) {
   if (drawn.flat) return drawn.ceilingCm;
   double nearest = 1e300, height = drawn.ceilingCm;
@@ -98,8 +104,9 @@ double ceilingOn(const PlanArea& area, const Drawn& drawn, PlanPoint p) {
       const double away = std::hypot(a.x + x * t - p.x, a.y + y * t - p.y);
       if (away >= nearest) continue;
       nearest = away;
-      height = t == 0 ? drawn.ceilingAt(a) : t == 1 ? drawn.ceilingAt(b)
-                                                    : drawn.ceilingAt(a) + (drawn.ceilingAt(b) - drawn.ceilingAt(a)) * t;
+      height = t == 0   ? drawn.ceilingAt(a)
+               : t == 1 ? drawn.ceilingAt(b)
+                        : drawn.ceilingAt(a) + (drawn.ceilingAt(b) - drawn.ceilingAt(a)) * t;
     }
   }
   return height;
@@ -107,28 +114,37 @@ double ceilingOn(const PlanArea& area, const Drawn& drawn, PlanPoint p) {
 
 void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int material, Effort& effort, Surfaces& out) {
   const auto corner = [&](PlanPoint p) {
-    return SurfaceCorner{toWorld(p, ceiling ? ceilingOn(area, drawn, p) : drawn.floorCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
+    return SurfaceCorner{toWorld(p, ceiling ? ceilingOn(area, drawn, p) : drawn.floorCm),
+                         {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
   };
   const std::vector<PlanTriangle> triangles = trianglesOf(area);
   size_t points = 0;
   for (const PlanRing& ring : area) points += ring.size();
-  effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + (points * (1 + drawn.corners->size())) / 8 : 1), drawn.room->place);
-  for (const PlanTriangle& t : triangles) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
+  effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + (points * (1 + drawn.corners->size())) / 8 : 1),
+               drawn.room->place);
+  for (const PlanTriangle& t : triangles)
+    out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
 }
 
-// What is seen of the slab under a floor of an upper level: its edges, in stairwells too, and its underside where no ceiling closes it.
+// What is seen of the slab under a floor of an upper level: its edges, in stairwells too, and its underside where no
+// ceiling closes it.
 void addSlab(const PlanArea& area, const PlanArea& underside, double top, double bottom, int material, Surfaces& out) {
-  const auto corner = [](PlanPoint p, double s, double h) { return SurfaceCorner{toWorld(p, h), {static_cast<float>(s / 100), static_cast<float>(-h / 100)}}; };
+  const auto corner = [](PlanPoint p, double s, double h) {
+    return SurfaceCorner{toWorld(p, h), {static_cast<float>(s / 100), static_cast<float>(-h / 100)}};
+  };
   for (const PlanRing& ring : area) {
     for (size_t i = 0; i < ring.size(); ++i) {
       const PlanPoint p = ring[i], q = ring[(i + 1) % ring.size()];
       const double length = std::hypot(q.x - p.x, q.y - p.y);
-      const Vec3 front{static_cast<float>(q.y - p.y), 0, static_cast<float>(p.x - q.x)};  // rings have their inside at the left
-      out.quad(material, {corner(p, 0, bottom), corner(q, length, bottom), corner(q, length, top), corner(p, 0, top)}, front);
+      const Vec3 front{static_cast<float>(q.y - p.y), 0,
+                       static_cast<float>(p.x - q.x)};  // rings have their inside at the left
+      out.quad(material, {corner(p, 0, bottom), corner(q, length, bottom), corner(q, length, top), corner(p, 0, top)},
+               front);
     }
   }
   for (const PlanTriangle& t : trianglesOf(underside)) {
-    out.triangle(material, corner(t[0], t[0].x, bottom), corner(t[1], t[1].x, bottom), corner(t[2], t[2].x, bottom), {0, -1, 0});
+    out.triangle(material, corner(t[0], t[0].x, bottom), corner(t[1], t[1].x, bottom), corner(t[2], t[2].x, bottom),
+                 {0, -1, 0});
   }
 }
 
@@ -139,7 +155,8 @@ PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling, Effo
   for (size_t k = i + 1; k < all.size(); ++k) {
     const Room& other = *all[k].room;
     if (!all[i].overlaps(all[k]) || !(ceiling ? other.ceilingVisible : other.floorVisible)) continue;
-    const double here = ceiling ? all[i].ceilingCm : all[i].floorCm, there = ceiling ? all[k].ceilingCm : all[k].floorCm;
+    const double here = ceiling ? all[i].ceilingCm : all[i].floorCm,
+                 there = ceiling ? all[k].ceilingCm : all[k].floorCm;
     if (std::abs(here - there) >= kSameHeightCm) continue;
     for (const PlanRing& ring : area) effort.spend(8 * ring.size(), all[i].room->place);
     effort.spend(8 * other.points.size(), all[i].room->place);
@@ -148,13 +165,17 @@ PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling, Effo
   return area;
 }
 
-// Of a floor the part whose slab, `bottomCm` high from below, no ceiling of a lower room closes. Ceilings that stairs leave by are open there.
-PlanArea undersideOf(const PlanArea& floor, const std::vector<Drawn>& all, size_t i, double bottomCm, const PlanArea& stairwells, Effort& effort) {
+// Of a floor the part whose slab, `bottomCm` high from below, no ceiling of a lower room closes. Ceilings that stairs
+// leave by are open there.
+PlanArea undersideOf(const PlanArea& floor, const std::vector<Drawn>& all, size_t i, double bottomCm,
+                     const PlanArea& stairwells, Effort& effort) {
   PlanArea area = floor;
   const std::string& place = all[i].room->place;
   effort.spend(all.size() / 16, place);
   for (const Drawn& lower : all) {
-    if (!lower.room->ceilingVisible || !lower.flat || std::abs(lower.ceilingCm - bottomCm) >= kSameHeightCm || !lower.overlaps(all[i])) continue;
+    if (!lower.room->ceilingVisible || !lower.flat || std::abs(lower.ceilingCm - bottomCm) >= kSameHeightCm ||
+        !lower.overlaps(all[i]))
+      continue;
     for (const PlanRing& ring : area) effort.spend(8 * ring.size(), place);
     effort.spend(8 * lower.room->points.size(), place);
     const PlanArea ceiling = united({lower.room->points}, {});
@@ -194,11 +215,18 @@ void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effor
     }
     const auto [entry, isNew] = corners.try_emplace(room.level);
     if (isNew) entry->second = wallCorners(home, room.level, outlines);
-    all.push_back({&room, elevationOf(home, room.level), room.ceilingFlat || !isHighest(home, room.level), levelTopCm(home, room.level), &entry->second, {}, {}});
+    all.push_back({&room,
+                   elevationOf(home, room.level),
+                   room.ceilingFlat || !isHighest(home, room.level),
+                   levelTopCm(home, room.level),
+                   &entry->second,
+                   {},
+                   {}});
     Drawn& drawn = all.back();
     drawn.lo = drawn.hi = room.points.front();
     for (const PlanPoint& p : room.points) {
-      drawn.lo = {std::min(drawn.lo.x, p.x), std::min(drawn.lo.y, p.y)}, drawn.hi = {std::max(drawn.hi.x, p.x), std::max(drawn.hi.y, p.y)};
+      drawn.lo = {std::min(drawn.lo.x, p.x), std::min(drawn.lo.y, p.y)},
+      drawn.hi = {std::max(drawn.hi.x, p.x), std::max(drawn.hi.y, p.y)};
     }
   }
   std::vector<const Piece*> stairs;
@@ -211,16 +239,19 @@ void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effor
     addToScene(all[i], effort, scene);
     Surfaces surfaces;
     if (room.floorVisible) {
-      const PlanArea area = subtracted(visibleArea(all, i, false, effort), stairwells(home, stairs, all[i].floorCm, room.place, effort));
+      const PlanArea area =
+          subtracted(visibleArea(all, i, false, effort), stairwells(home, stairs, all[i].floorCm, room.place, effort));
       addFace(area, all[i], false, paints.material(room.floor, "floor"), effort, surfaces);
       const double top = all[i].floorCm, bottom = top - slabBelowCm(home, room.level);
       if (bottom <= top - kSameHeightCm) {
-        const PlanArea underside = undersideOf(area, all, i, bottom, stairwells(home, stairs, bottom, room.place, effort), effort);
+        const PlanArea underside =
+            undersideOf(area, all, i, bottom, stairwells(home, stairs, bottom, room.place, effort), effort);
         addSlab(area, underside, top, bottom, paints.plain(room.floor, "floor"), surfaces);
       }
     }
     if (room.ceilingVisible) {
-      const PlanArea area = subtracted(visibleArea(all, i, true, effort), stairwells(home, stairs, all[i].ceilingCm, room.place, effort));
+      const PlanArea area =
+          subtracted(visibleArea(all, i, true, effort), stairwells(home, stairs, all[i].ceilingCm, room.place, effort));
       addFace(area, all[i], true, paints.material(room.ceiling, "ceiling"), effort, surfaces);
     }
     surfaces.finish(scene, name, object++);

@@ -9,9 +9,10 @@
 
 namespace roomlight::importers::sh3d {
 
-// Floors and ceilings of the rooms on shown levels as objects, and Scene::rooms. Where rooms at one height overlap, the later one of the
-// file lies on top: the earlier one is cut. Stairs with a cut-out shape cut the floor that they come up through and the ceiling that they
-// leave by. On the highest level ceilings follow the tops of the walls, unless they are flat; below it they lie at the level's height.
+// Floors and ceilings of the rooms on shown levels as objects, and Scene::rooms. Where rooms at one height overlap, the
+// later one of the file lies on top: the earlier one is cut. Stairs with a cut-out shape cut the floor that they come
+// up through and the ceiling that they leave by. On the highest level ceilings follow the tops of the walls, unless
+// they are flat; below it they lie at the level's height.
 void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effort& effort, Warnings& warnings);
 
 }  // namespace roomlight::importers::sh3d

@@ -46,7 +46,8 @@ std::set<std::string> modelsOf(const Home& home) {
 
 }  // namespace
 
-Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests, const ImportOptions& options, Warnings& warnings, std::string& daylight) {
+Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests, const ImportOptions& options,
+                  Warnings& warnings, std::string& daylight) {
   Scene scene;
   Paints paints(archive, digests, imagesOf(home), scene, warnings);
   int object = 0;

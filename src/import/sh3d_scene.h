@@ -9,7 +9,9 @@
 
 namespace roomlight::importers::sh3d {
 
-// Walls, rooms, furniture, lights, lines, cameras, daylight and ground. Models and pictures are entries of `archive`. Throws Failure. `daylight`: see Imported.
-Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests, const ImportOptions& options, Warnings& warnings, std::string& daylight);
+// Walls, rooms, furniture, lights, lines, cameras, daylight and ground. Models and pictures are entries of `archive`.
+// Throws Failure. `daylight`: see Imported.
+Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests, const ImportOptions& options,
+                  Warnings& warnings, std::string& daylight);
 
 }  // namespace roomlight::importers::sh3d

@@ -66,13 +66,15 @@ class PathReader {
     for (int i = 1; i <= kChords; ++i) {
       const double t = static_cast<double>(i) / kChords, s = 1 - t;
       const double w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
-      add({w[0] * from.x + w[1] * a.x + w[2] * b.x + w[3] * end.x, w[0] * from.y + w[1] * a.y + w[2] * b.y + w[3] * end.y});
+      add({w[0] * from.x + w[1] * a.x + w[2] * b.x + w[3] * end.x,
+           w[0] * from.y + w[1] * a.y + w[2] * b.y + w[3] * end.y});
     }
   }
   // A quadratic curve is the cubic whose inner points lie two thirds of the way to its own.
   void quadratic(PlanPoint c, PlanPoint end) {
     const PlanPoint from = now_;
-    curve({from.x + (c.x - from.x) * 2 / 3, from.y + (c.y - from.y) * 2 / 3}, {end.x + (c.x - end.x) * 2 / 3, end.y + (c.y - end.y) * 2 / 3}, end);
+    curve({from.x + (c.x - from.x) * 2 / 3, from.y + (c.y - from.y) * 2 / 3},
+          {end.x + (c.x - end.x) * 2 / 3, end.y + (c.y - end.y) * 2 / 3}, end);
   }
 
   // SVG 1.1, F.6.5: from end points to the centre; F.6.6: radii that are too small grow.
@@ -102,8 +104,8 @@ class PathReader {
   void segment() {
     const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(command_)));
     const bool relative = letter != command_;
-    const PlanPoint mirrored = last_ == letter || (last_ == 'C' && letter == 'S') || (last_ == 'S' && letter == 'C') || (last_ == 'Q' && letter == 'T') ||
-                                       (last_ == 'T' && letter == 'Q')
+    const PlanPoint mirrored = last_ == letter || (last_ == 'C' && letter == 'S') || (last_ == 'S' && letter == 'C') ||
+                                       (last_ == 'Q' && letter == 'T') || (last_ == 'T' && letter == 'Q')
                                    ? PlanPoint{2 * now_.x - control_.x, 2 * now_.y - control_.y}
                                    : now_;
     if (letter != 'M' && letter != 'Z' && ring_.empty()) ring_.push_back(now_);

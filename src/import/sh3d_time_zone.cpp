@@ -1,6 +1,6 @@
-// TZif (RFC 8536): header "TZif", version, 15 zero bytes, six big-endian counts (isut, isstd, leap, transitions, types, abbreviations), then
-// transition times, their types, and types of 6 bytes (offset, daylight saving, abbreviation). From version 2 on the same follows once more
-// with times of 8 bytes.
+// TZif (RFC 8536): header "TZif", version, 15 zero bytes, six big-endian counts (isut, isstd, leap, transitions, types,
+// abbreviations), then transition times, their types, and types of 6 bytes (offset, daylight saving, abbreviation).
+// From version 2 on the same follows once more with times of 8 bytes.
 #include "import/sh3d_time_zone.h"
 
 #include <cctype>
@@ -47,7 +47,8 @@ std::optional<Block> blockOf(std::span<const uint8_t> file, size_t timeBytes) {
 
 int offsetAt(const Block& b, int64_t utcSeconds) {
   size_t type = 0;  // before the first transition
-  for (size_t i = 0; i < b.types.size() && bigEndian(b.times.subspan(i * b.timeBytes, b.timeBytes)) <= utcSeconds; ++i) type = b.types[i];
+  for (size_t i = 0; i < b.types.size() && bigEndian(b.times.subspan(i * b.timeBytes, b.timeBytes)) <= utcSeconds; ++i)
+    type = b.types[i];
   return 6 * type + 4 <= b.rules.size() ? static_cast<int>(bigEndian(b.rules.subspan(6 * type, 4))) : 0;
 }
 
@@ -65,7 +66,8 @@ std::optional<int> utcOffsetSeconds(const std::string& zone, int64_t wallSeconds
   if (!isZoneName(zone)) return {};
   std::error_code code;
   const std::filesystem::path path = folder / zone;
-  if (!std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) > kMaxBytes || code) return {};
+  if (!std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) > kMaxBytes || code)
+    return {};
   const Bytes file = readWholeFile(path, zone);
   auto block = blockOf(file, 4);
   if (!block) return {};

@@ -19,7 +19,9 @@ struct Share {
 };
 
 bool isParallel(const Panel& p, const Opening& o) { return std::abs(o.v(p.b) - o.v(p.a)) < kParallel * p.lengthCm(); }
-bool runsAlong(const Panel& p, const Opening& o) { return p.isEnd || std::abs(o.u(p.b) - o.u(p.a)) >= kLeastAlong * p.lengthCm(); }
+bool runsAlong(const Panel& p, const Opening& o) {
+  return p.isEnd || std::abs(o.u(p.b) - o.u(p.a)) >= kLeastAlong * p.lengthCm();
+}
 
 // The part of a panel, as shares of its length, that lies within the opening's depth.
 std::optional<Share> withinDepth(const Panel& p, const Opening& o) {
@@ -43,7 +45,8 @@ PlanArea sideInFrame(const std::vector<Panel>& side, const Opening& o) {
   PlanArea out;
   for (const Panel& p : side) {
     if (!runsAlong(p, o)) continue;
-    if (const auto share = withinDepth(p, o)) out = out.empty() ? PlanArea{inFrame(p, o, *share)} : united(out, {inFrame(p, o, *share)});
+    if (const auto share = withinDepth(p, o))
+      out = out.empty() ? PlanArea{inFrame(p, o, *share)} : united(out, {inFrame(p, o, *share)});
   }
   return out;
 }
@@ -55,7 +58,8 @@ struct Range {
 };
 
 auto longest(const std::vector<Panel>& side) {
-  return std::max_element(side.begin(), side.end(), [](const Panel& p, const Panel& q) { return p.lengthCm() < q.lengthCm(); });
+  return std::max_element(side.begin(), side.end(),
+                          [](const Panel& p, const Panel& q) { return p.lengthCm() < q.lengthCm(); });
 }
 
 struct Bounds {
@@ -80,7 +84,8 @@ bool touches(const WallSides& sides, const Opening& o) {
 
 // The same opening in the frame of another that runs the same way or the opposite one.
 std::optional<Opening> inFrameOf(const Opening& frame, const Opening& o) {
-  const double cosine = frame.along.x * o.along.x + frame.along.y * o.along.y, sine = frame.along.x * o.along.y - frame.along.y * o.along.x;
+  const double cosine = frame.along.x * o.along.x + frame.along.y * o.along.y,
+               sine = frame.along.x * o.along.y - frame.along.y * o.along.x;
   if (std::abs(sine) > 1e-4) return {};
   if (cosine > 0) return o;
   Opening turned = o;
@@ -132,12 +137,15 @@ std::vector<double> heightsAt(const PlanArea& shape, double u) {
   return out;
 }
 
-// Ends are slanted to an opening by mitres, or as the wall is turned against it. Round walls are compared along their own ends.
+// Ends are slanted to an opening by mitres, or as the wall is turned against it. Round walls are compared along their
+// own ends.
 WallSides withEnds(const WallSides& sides, const Opening& o) {
   WallSides out = sides;
   const Panel l = sides.left.back(), r = sides.right.back(), m = sides.left.front(), s = sides.right.front();
   const auto further = [&](const Panel& p, PlanPoint a, PlanPoint b) {
-    const double along = sides.straight ? (o.u(a) - o.u(b)) * (o.u(p.b) > o.u(p.a) ? 1 : -1) : ((a.x - b.x) * (p.b.x - p.a.x) + (a.y - b.y) * (p.b.y - p.a.y)) / p.lengthCm();
+    const double along = sides.straight
+                             ? (o.u(a) - o.u(b)) * (o.u(p.b) > o.u(p.a) ? 1 : -1)
+                             : ((a.x - b.x) * (p.b.x - p.a.x) + (a.y - b.y) * (p.b.y - p.a.y)) / p.lengthCm();
     return along > kTouchCm;
   };
   if (further(l, l.b, r.b)) out.right.push_back({r.b, l.b, r.baseCm, r.topBCm, l.topBCm, true});
@@ -154,7 +162,8 @@ void makeNiche(WallCut& cut) {
   const Panel &open = *longest(side), &closed = *longest(cut.throughLeft ? cut.sides.right : cut.sides.left);
   const double towards = o.v(closed.a) + o.v(closed.b) - o.v(open.a) - o.v(open.b);
   double outside = o.v(open.a);
-  for (const Panel& p : side) outside = towards > 0 ? std::min({outside, o.v(p.a), o.v(p.b)}) : std::max({outside, o.v(p.a), o.v(p.b)});
+  for (const Panel& p : side)
+    outside = towards > 0 ? std::min({outside, o.v(p.a), o.v(p.b)}) : std::max({outside, o.v(p.a), o.v(p.b)});
   cut.backV = towards > 0 ? o.vHigh - o.reachCm : o.vLow + o.reachCm;
   if ((cut.backV - outside) * towards <= 0) o.shape.clear();  // the piece only touches the wall
 }
@@ -191,8 +200,7 @@ PlanArea WallCut::holeIn(const Panel& panel) const {
   for (PlanRing& ring : hole) {
     for (PlanPoint& q : ring) {
       q.x = (q.x - ua) * scale;
-      q.x = q.x < coarse ? 0 : q.x > length - coarse ? length
-                                                     : q.x;
+      q.x = q.x < coarse ? 0 : q.x > length - coarse ? length : q.x;
     }
   }
   return hole;
@@ -204,7 +212,8 @@ PlanPoint WallCut::on(const std::vector<Panel>& side, double u) const {
   for (const Panel& p : side) {
     const auto share = withinDepth(p, opening);
     if (!share || !runsAlong(p, opening)) continue;
-    const double ua = opening.u(p.a), t = (u - ua) / (opening.u(p.b) - ua), inside = std::clamp(t, share->first, share->last);
+    const double ua = opening.u(p.a), t = (u - ua) / (opening.u(p.b) - ua),
+                 inside = std::clamp(t, share->first, share->last);
     if (std::abs(t - inside) * p.lengthCm() >= nearest) continue;
     nearest = std::abs(t - inside) * p.lengthCm();
     const double held = std::clamp(t, 0.0, 1.0);
@@ -223,7 +232,8 @@ std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> ope
       merged = *turned;
     }
     if (!touches(withEnds(sides, merged), merged)) continue;
-    const double reach = merged.bothSides && (!sides.straight || isParallel(*longest(sides.left), o)) ? kThroughCm : merged.reachCm;
+    const double reach =
+        merged.bothSides && (!sides.straight || isParallel(*longest(sides.left), o)) ? kThroughCm : merged.reachCm;
     merged.vLow -= reach, merged.vHigh += reach;
     for (size_t i = 0; i < cuts.size();) {
       const Opening& known = cuts[i].opening;

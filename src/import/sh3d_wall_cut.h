@@ -29,7 +29,8 @@ struct WallSides {
 // Openings of one wall that run in the same direction and overlap in depth, as one.
 struct WallCut {
   Opening opening;  // of (u, h): what is cut out of both sides, or of the one that a niche is in
-  WallSides sides;  // where one side ends earlier than the other along the opening, the wall's slanted end goes on with it
+  WallSides
+      sides;  // where one side ends earlier than the other along the opening, the wall's slanted end goes on with it
   bool throughLeft = true, throughRight = true;  // which sides it cuts; one only: a niche, whose back lies at `backV`
   double backV = 0;
 
@@ -40,14 +41,17 @@ struct WallCut {
   // Where the opening ends at u: on the side's surface, or at the niche's back.
   PlanPoint onLeft(double u) const { return throughLeft ? on(sides.left, u) : back(u); }
   PlanPoint onRight(double u) const { return throughRight ? on(sides.right, u) : back(u); }
-  PlanPoint back(double u) const { return {u * opening.along.x - backV * opening.along.y, u * opening.along.y + backV * opening.along.x}; }
+  PlanPoint back(double u) const {
+    return {u * opening.along.x - backV * opening.along.y, u * opening.along.y + backV * opening.along.x};
+  }
 
  private:
   PlanPoint on(const std::vector<Panel>& side, double u) const;
 };
 
 // Cuts with something in them. Openings that end less than 1 cm inside a wall go through. Straight walls across
-// them (more than 60 degrees) lose what stands in the piece, if the opening is a rectangle; parts of round walls do not.
+// them (more than 60 degrees) lose what stands in the piece, if the opening is a rectangle; parts of round walls do
+// not.
 std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings);
 
 }  // namespace roomlight::importers::sh3d

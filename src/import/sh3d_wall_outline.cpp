@@ -20,8 +20,8 @@ WallOutline straight(const Wall& w, WallOffsets o) {
   return {{moved(w.start, o.leftCm), moved(w.end, o.leftCm)}, {moved(w.start, -o.rightCm), moved(w.end, -o.rightCm)}};
 }
 
-// The arc's centre lies on the perpendicular bisector of its chord, chord / 2 / tan(extent / 2) to the right: a positive extent bulges to the
-// left, one beyond half a turn puts the centre on the other side.
+// The arc's centre lies on the perpendicular bisector of its chord, chord / 2 / tan(extent / 2) to the right: a
+// positive extent bulges to the left, one beyond half a turn puts the centre on the other side.
 WallOutline round(const Wall& w, WallOffsets o) {
   const double length = distance(w.start, w.end), extent = w.arcExtentRad;
   const double nx = (w.end.y - w.start.y) / length, ny = -(w.end.x - w.start.x) / length;
@@ -52,9 +52,11 @@ SideEnd sideEnd(const PlanRing& side, bool atStart) {
   return atStart ? SideEnd{side.front(), side[1]} : SideEnd{side.back(), side[side.size() - 2]};
 }
 
-// Where the lines of the two sides meet; the corner itself where they are nearly parallel or meet farther away than `limit`.
+// Where the lines of the two sides meet; the corner itself where they are nearly parallel or meet farther away than
+// `limit`.
 PlanPoint met(const SideEnd& a, const SideEnd& b, double limit) {
-  const double ax = a.before.x - a.corner.x, ay = a.before.y - a.corner.y, bx = b.before.x - b.corner.x, by = b.before.y - b.corner.y;
+  const double ax = a.before.x - a.corner.x, ay = a.before.y - a.corner.y, bx = b.before.x - b.corner.x,
+               by = b.before.y - b.corner.y;
   const double cross = ax * by - ay * bx;
   if (std::abs(cross) <= 1e-5 * std::hypot(ax, ay) * std::hypot(bx, by)) return a.corner;
   const double t = ((b.corner.x - a.corner.x) * by - (b.corner.y - a.corner.y) * bx) / cross;
@@ -107,7 +109,8 @@ std::vector<WallOutline> wallOutlines(const Home& home, const std::vector<WallOf
   for (size_t i = 0; i < bare.size(); ++i) {
     const Wall& w = home.walls[i];
     if (distance(w.start, w.end) < kShortestCm) continue;
-    bare[i] = std::abs(w.arcExtentRad) > 1e-3 && std::abs(w.arcExtentRad) < 6.282 ? round(w, offsets[i]) : straight(w, offsets[i]);
+    bare[i] = std::abs(w.arcExtentRad) > 1e-3 && std::abs(w.arcExtentRad) < 6.282 ? round(w, offsets[i])
+                                                                                  : straight(w, offsets[i]);
   }
   std::vector<WallOutline> out = bare;
   const Joiner joiner(home, bare);
@@ -127,7 +130,8 @@ std::vector<WallOutline> wallOutlines(const Home& home) {
 double wallHeightCm(const Home& home, const Wall& wall, PlanPoint at) {
   const double start = wall.heightCm.value_or(home.wallHeightCm), end = wall.heightAtEndCm.value_or(start);
   const double x = wall.end.x - wall.start.x, y = wall.end.y - wall.start.y;
-  return std::max(0.0, start + (end - start) * ((at.x - wall.start.x) * x + (at.y - wall.start.y) * y) / (x * x + y * y));
+  return std::max(0.0,
+                  start + (end - start) * ((at.x - wall.start.x) * x + (at.y - wall.start.y) * y) / (x * x + y * y));
 }
 
 }  // namespace roomlight::importers::sh3d

@@ -18,13 +18,15 @@ struct WallOffsets {
   double leftCm = 0, rightCm = 0;
 };
 
-// One outline a wall; those without length have none (empty sides). Round walls are cut into chords that leave the arc by at most 1 mm,
-// with their corners on it. Where two walls name each other, each side ends at its intersection with the neighbour's, unless that lies
-// farther away than twice the wall's own thickness: so are sharp corners kept from growing spikes.
+// One outline a wall; those without length have none (empty sides). Round walls are cut into chords that leave the arc
+// by at most 1 mm, with their corners on it. Where two walls name each other, each side ends at its intersection with
+// the neighbour's, unless that lies farther away than twice the wall's own thickness: so are sharp corners kept from
+// growing spikes.
 std::vector<WallOutline> wallOutlines(const Home& home, const std::vector<WallOffsets>& offsets);
 std::vector<WallOutline> wallOutlines(const Home& home);  // of the bare walls
 
-// Height of the wall's top above its level there: a plane that rises along the line from start to end, of a round wall along its chord.
+// Height of the wall's top above its level there: a plane that rises along the line from start to end, of a round wall
+// along its chord.
 double wallHeightCm(const Home& home, const Wall& wall, PlanPoint at);
 
 }  // namespace roomlight::importers::sh3d

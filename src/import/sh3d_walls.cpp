@@ -40,7 +40,8 @@ void addPanel(const Panel& p, const PlanArea& holes, int material, Vec3 front, c
   if (holes.empty()) {
     out.quad(material, {corner(outline[0]), corner(outline[1]), corner(outline[2]), corner(outline[3])}, front);
   } else {
-    for (const PlanTriangle& t : trianglesOf(subtracted({outline}, holes))) out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), front);
+    for (const PlanTriangle& t : trianglesOf(subtracted({outline}, holes)))
+      out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), front);
   }
 }
 
@@ -48,7 +49,8 @@ void unite(PlanArea& holes, const PlanArea& hole) {
   if (!hole.empty()) holes = holes.empty() ? hole : united(holes, hole);
 }
 
-// One side of a wall: its panels without the holes. Texture coordinates run to the right as seen from that side, from the wall's base up.
+// One side of a wall: its panels without the holes. Texture coordinates run to the right as seen from that side, from
+// the wall's base up.
 void addSide(const std::vector<Panel>& panels, bool left, std::span<const WallCut> cuts, int material, Surfaces& out) {
   double whole = 0, before = 0;
   for (const Panel& p : panels) whole += p.lengthCm();
@@ -57,7 +59,8 @@ void addSide(const std::vector<Panel>& panels, bool left, std::span<const WallCu
     const Vec3 front = horizontal(sign * (p.b.y - p.a.y), -sign * (p.b.x - p.a.x));
     const auto corner = [&](PlanPoint q) {
       const double along = left ? whole - before - q.x : before + q.x;
-      return SurfaceCorner{toWorld(p.at(q.x), q.y), {static_cast<float>(along / 100), static_cast<float>((p.baseCm - q.y) / 100)}};
+      return SurfaceCorner{toWorld(p.at(q.x), q.y),
+                           {static_cast<float>(along / 100), static_cast<float>((p.baseCm - q.y) / 100)}};
     };
     PlanArea holes;
     for (const WallCut& cut : cuts) unite(holes, cut.holeIn(p));
@@ -88,18 +91,21 @@ bool isLevelAt(PlanPoint p, PlanPoint q, double heightCm) {
 PlanPoint between(PlanPoint p, PlanPoint q, double t) { return {p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t}; }
 
 bool liesBetween(PlanPoint p, PlanPoint a, PlanPoint b) {
-  return std::hypot(p.x - a.x, p.y - a.y) + std::hypot(p.x - b.x, p.y - b.y) < std::hypot(a.x - b.x, a.y - b.y) + kTinyCm;
+  return std::hypot(p.x - a.x, p.y - a.y) + std::hypot(p.x - b.x, p.y - b.y) <
+         std::hypot(a.x - b.x, a.y - b.y) + kTinyCm;
 }
 
 // Where an upright border of the opening, or of a niche, lies in the wall's own end: that end has the hole.
 bool isWallsEnd(const WallCut& cut, double u) {
   const PlanPoint l = cut.onLeft(u), r = cut.onRight(u);
-  const Panel &first = cut.sides.left.front(), &last = cut.sides.left.back(), &s = cut.sides.right.front(), &e = cut.sides.right.back();
-  return (liesBetween(l, first.a, s.a) && liesBetween(r, first.a, s.a)) || (liesBetween(l, last.b, e.b) && liesBetween(r, last.b, e.b));
+  const Panel &first = cut.sides.left.front(), &last = cut.sides.left.back(), &s = cut.sides.right.front(),
+              &e = cut.sides.right.back();
+  return (liesBetween(l, first.a, s.a) && liesBetween(r, first.a, s.a)) ||
+         (liesBetween(l, last.b, e.b) && liesBetween(r, last.b, e.b));
 }
 
-// The inside of an opening: its outline between the two sides, in pieces where a round side has a corner. No faces where the opening ends at
-// the wall's base, as the floor goes on there, at its level top, or at its end.
+// The inside of an opening: its outline between the two sides, in pieces where a round side has a corner. No faces
+// where the opening ends at the wall's base, as the floor goes on there, at its level top, or at its end.
 void addReveals(const WallCut& cut, const WallHeights& heights, int material, Surfaces& out) {
   const Opening& o = cut.opening;
   for (const PlanRing& ring : o.shape) {
@@ -109,13 +115,18 @@ void addReveals(const WallCut& cut, const WallHeights& heights, int material, Su
       if (std::abs(p.x - q.x) < kTinyCm && isWallsEnd(cut, p.x)) continue;
       const std::vector<double> stops = stopsOn(cut, p, q);
       // Into the opening, which lies to the left of its outline.
-      const Vec3 front{static_cast<float>((p.y - q.y) * o.along.x), static_cast<float>(q.x - p.x), static_cast<float>((p.y - q.y) * o.along.y)};
+      const Vec3 front{static_cast<float>((p.y - q.y) * o.along.x), static_cast<float>(q.x - p.x),
+                       static_cast<float>((p.y - q.y) * o.along.y)};
       for (size_t k = 0; k + 1 < stops.size(); ++k) {
         const auto corner = [&](bool left, double t) {
           const PlanPoint at = between(p, q, t), on = left ? cut.onLeft(at.x) : cut.onRight(at.x);
-          return SurfaceCorner{toWorld(on, at.y), {static_cast<float>(o.v(on) / 100), static_cast<float>((at.x + at.y) / 100)}};
+          return SurfaceCorner{toWorld(on, at.y),
+                               {static_cast<float>(o.v(on) / 100), static_cast<float>((at.x + at.y) / 100)}};
         };
-        out.quad(material, {corner(true, stops[k]), corner(true, stops[k + 1]), corner(false, stops[k + 1]), corner(false, stops[k])}, front);
+        out.quad(
+            material,
+            {corner(true, stops[k]), corner(true, stops[k + 1]), corner(false, stops[k + 1]), corner(false, stops[k])},
+            front);
       }
     }
   }
@@ -123,7 +134,9 @@ void addReveals(const WallCut& cut, const WallHeights& heights, int material, Su
 
 void addNicheBack(const WallCut& cut, int material, Surfaces& out) {
   if (cut.throughLeft && cut.throughRight) return;
-  const auto corner = [&](PlanPoint p) { return SurfaceCorner{toWorld(cut.back(p.x), p.y), {static_cast<float>(p.x / 100), static_cast<float>(-p.y / 100)}}; };
+  const auto corner = [&](PlanPoint p) {
+    return SurfaceCorner{toWorld(cut.back(p.x), p.y), {static_cast<float>(p.x / 100), static_cast<float>(-p.y / 100)}};
+  };
   for (const PlanTriangle& t : trianglesOf(cut.opening.shape)) {
     const PlanPoint open = cut.throughLeft ? cut.onLeft(t[0].x) : cut.onRight(t[0].x), back = cut.back(t[0].x);
     out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), horizontal(open.x - back.x, open.y - back.y));
@@ -150,7 +163,8 @@ PlanArea footprints(std::span<const WallCut> cuts, double heightCm) {
 }
 
 // Top or bottom: between the sides, without what openings take; its heights are those of the corners, in a plane.
-void addCover(const WallOutline& outline, const std::vector<double>& leftCm, const std::vector<double>& rightCm, const PlanArea& holes, int material, Vec3 front, Surfaces& out) {
+void addCover(const WallOutline& outline, const std::vector<double>& leftCm, const std::vector<double>& rightCm,
+              const PlanArea& holes, int material, Vec3 front, Surfaces& out) {
   const auto corner = [&](PlanPoint p, double height) {
     return SurfaceCorner{toWorld(p, height), {static_cast<float>(p.x / 100), static_cast<float>((p.y + height) / 100)}};
   };
@@ -161,34 +175,46 @@ void addCover(const WallOutline& outline, const std::vector<double>& leftCm, con
     return;
   }
   for (size_t i = 0; i + 1 < outline.left.size(); ++i) {
-    out.quad(material, {corner(outline.left[i], leftCm[i]), corner(outline.left[i + 1], leftCm[i + 1]), corner(outline.right[i + 1], rightCm[i + 1]), corner(outline.right[i], rightCm[i])},
+    out.quad(material,
+             {corner(outline.left[i], leftCm[i]), corner(outline.left[i + 1], leftCm[i + 1]),
+              corner(outline.right[i + 1], rightCm[i + 1]), corner(outline.right[i], rightCm[i])},
              front);
   }
 }
 
 // Top, bottom and the two ends.
-void addRest(const WallOutline& outline, const WallHeights& h, std::span<const WallCut> cuts, int top, int rest, Surfaces& out) {
+void addRest(const WallOutline& outline, const WallHeights& h, std::span<const WallCut> cuts, int top, int rest,
+             Surfaces& out) {
   const std::vector<double> base(outline.left.size(), h.baseCm);
-  addCover(outline, h.leftTopCm, h.rightTopCm, h.levelTop() ? footprints(cuts, h.leftTopCm[0]) : PlanArea(), top, {0, 1, 0}, out);
+  addCover(outline, h.leftTopCm, h.rightTopCm, h.levelTop() ? footprints(cuts, h.leftTopCm[0]) : PlanArea(), top,
+           {0, 1, 0}, out);
   addCover(outline, base, base, footprints(cuts, h.baseCm), rest, {0, -1, 0}, out);
   const size_t last = outline.left.size() - 1;
   for (const size_t i : {size_t{0}, last}) {
     const size_t inner = i == 0 ? 1 : last - 1;
     const Panel end{outline.left[i], outline.right[i], h.baseCm, h.leftTopCm[i], h.rightTopCm[i], true};
     if (end.lengthCm() < kTinyCm) continue;
-    const Vec3 front = horizontal(outline.left[i].x - outline.left[inner].x + outline.right[i].x - outline.right[inner].x,
-                                  outline.left[i].y - outline.left[inner].y + outline.right[i].y - outline.right[inner].y);
+    const Vec3 front =
+        horizontal(outline.left[i].x - outline.left[inner].x + outline.right[i].x - outline.right[inner].x,
+                   outline.left[i].y - outline.left[inner].y + outline.right[i].y - outline.right[inner].y);
     PlanArea holes;
     for (const WallCut& cut : cuts) unite(holes, cut.holeInEnd(end));
     addPanel(
-        end, holes, rest, front, [&](PlanPoint q) { return SurfaceCorner{toWorld(end.at(q.x), q.y), {static_cast<float>(q.x / 100), static_cast<float>(-q.y / 100)}}; }, out);
+        end, holes, rest, front,
+        [&](PlanPoint q) {
+          return SurfaceCorner{toWorld(end.at(q.x), q.y),
+                               {static_cast<float>(q.x / 100), static_cast<float>(-q.y / 100)}};
+        },
+        out);
   }
 }
 
 // Those that may touch a wall.
-std::vector<Opening> openingsAt(const WallOutline& outline, const std::vector<Opening>& openings, const std::string& place, Effort& effort) {
+std::vector<Opening> openingsAt(const WallOutline& outline, const std::vector<Opening>& openings,
+                                const std::string& place, Effort& effort) {
   PlanPoint lo{1e300, 1e300}, hi{-1e300, -1e300};
-  for (const PlanPoint& p : outline.ring()) lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)}, hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+  for (const PlanPoint& p : outline.ring())
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)}, hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
   std::vector<Opening> out;
   effort.spend(openings.size() / 16, place);
   for (const Opening& o : openings) {
@@ -214,10 +240,12 @@ void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Effor
       continue;
     }
     const WallHeights h = heightsOf(home, w, outlines[i]);
-    const std::vector<Panel> leftSide = panelsOf(outlines[i].left, h.baseCm, h.leftTopCm), rightSide = panelsOf(outlines[i].right, h.baseCm, h.rightTopCm);
+    const std::vector<Panel> leftSide = panelsOf(outlines[i].left, h.baseCm, h.leftTopCm),
+                             rightSide = panelsOf(outlines[i].right, h.baseCm, h.rightTopCm);
     const WallSides sides{leftSide, rightSide, leftSide.size() == 1 && rightSide.size() == 1};
     std::vector<WallCut> cuts;
-    if (!sides.left.empty() && !sides.right.empty()) cuts = cutsOf(sides, openingsAt(outlines[i], openings, w.place, effort));
+    if (!sides.left.empty() && !sides.right.empty())
+      cuts = cutsOf(sides, openingsAt(outlines[i], openings, w.place, effort));
     Paint top;
     top.colour = w.topColour ? w.topColour : w.left.colour;
     Surfaces surfaces;

@@ -9,8 +9,9 @@
 
 namespace roomlight::importers::sh3d {
 
-// Every wall on a shown level becomes an object: both sides, top, bottom and ends, with the reveals of its openings and its baseboards. Walls
-// of upper levels reach down through the slab of their floor. `object` is the first free number and ends behind the last one used.
+// Every wall on a shown level becomes an object: both sides, top, bottom and ends, with the reveals of its openings and
+// its baseboards. Walls of upper levels reach down through the slab of their floor. `object` is the first free number
+// and ends behind the last one used.
 void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Effort& effort, Warnings& warnings);
 
 }  // namespace roomlight::importers::sh3d

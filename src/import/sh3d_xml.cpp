@@ -1,4 +1,5 @@
-// Home.xml after SweetHome3D.dtd: <home> holds environment, compass, cameras, levels, furniture (groups hold furniture), walls and rooms.
+// Home.xml after SweetHome3D.dtd: <home> holds environment, compass, cameras, levels, furniture (groups hold
+ // furniture), walls and rooms.
 #include "import/sh3d_xml.h"
 
 #include <fmt/format.h>
@@ -41,7 +42,8 @@ Paint readPaint(const Element& e, const char* colourKey, const char* shininessKe
   paint.colour = e.colour(colourKey);
   paint.shininess = std::min(e.number(shininessKey, 0, 128, 0), 1.0);
   e.children([&](const Element& child) {
-    if (child.kind() == "texture" && (use.empty() || child.text("attribute") == use)) paint.texture = readTexture(child);
+    if (child.kind() == "texture" && (use.empty() || child.text("attribute") == use))
+      paint.texture = readTexture(child);
   });
   return paint;
 }
@@ -50,7 +52,8 @@ Paint readPaint(const Element& e, const char* colourKey, const char* shininessKe
 void fit(const std::vector<PlanPoint>& points, TextureUse& t) {
   if (points.empty()) return;
   PlanPoint lo = points[0], hi = points[0];
-  for (const PlanPoint& p : points) lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)}, hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+  for (const PlanPoint& p : points)
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)}, hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
   if (!(hi.x - lo.x > 1e-3 && hi.y - lo.y > 1e-3)) return;
   t.widthCm = hi.x - lo.x, t.heightCm = hi.y - lo.y, t.angleRad = 0, t.scale = 1;
   t.xOffset = lo.x / t.widthCm, t.yOffset = -lo.y / t.heightCm;
@@ -81,14 +84,17 @@ class Reader {
     if (kind == "polyline" && e.has("elevation")) polyline(e);
     if (kind == "label" && e.has("pitch")) warnings_.add("labels shown in 3D are left out");
     furniture(e, 0, -1);
-    if (home_.walls.size() + home_.rooms.size() + home_.levels.size() + home_.cameras.size() + home_.pieces.size() + home_.polylines.size() > kMaxThings) {
+    if (home_.walls.size() + home_.rooms.size() + home_.levels.size() + home_.cameras.size() + home_.pieces.size() +
+            home_.polylines.size() >
+        kMaxThings) {
       fail("Home.xml", fmt::format("holds more than {} things", kMaxThings));
     }
   }
 
   void environment(const Element& e) {
     Environment& env = home_.environment;
-    env.groundColour = e.colour("groundColor"), env.skyColour = e.colour("skyColor"), env.lightColour = e.colour("lightColor");
+    env.groundColour = e.colour("groundColor"), env.skyColour = e.colour("skyColor"),
+    env.lightColour = e.colour("lightColor");
     readPhoto(e, env);
     e.children([&](const Element& c) {
       if (c.kind() == "texture" && c.text("attribute") == "groundTexture") env.groundTexture = readTexture(c);
@@ -98,13 +104,19 @@ class Reader {
 
   // A fixed ratio rules over the height; that of the 3D view is not known, so that the last height stands for it.
   static void readPhoto(const Element& e, Environment& env) {
-    static constexpr std::array<std::pair<std::string_view, double>, 6> kRatios = {
-        {{"RATIO_4_3", 4.0 / 3}, {"RATIO_3_2", 1.5}, {"RATIO_16_9", 16.0 / 9}, {"RATIO_2_1", 2}, {"RATIO_24_10", 2.4}, {"SQUARE_RATIO", 1}}};
-    const double width = e.number("photoWidth", 1, 1e6, kNewPhotoWidth), height = e.number("photoHeight", 1, 1e6, kNewPhotoHeight);
+    static constexpr std::array<std::pair<std::string_view, double>, 6> kRatios = {{{"RATIO_4_3", 4.0 / 3},
+                                                                                    {"RATIO_3_2", 1.5},
+                                                                                    {"RATIO_16_9", 16.0 / 9},
+                                                                                    {"RATIO_2_1", 2},
+                                                                                    {"RATIO_24_10", 2.4},
+                                                                                    {"SQUARE_RATIO", 1}}};
+    const double width = e.number("photoWidth", 1, 1e6, kNewPhotoWidth),
+                 height = e.number("photoHeight", 1, 1e6, kNewPhotoHeight);
     const std::string ratio = e.text("photoAspectRatio", "VIEW_3D_RATIO");
     const auto fixed = std::find_if(kRatios.begin(), kRatios.end(), [&](const auto& r) { return r.first == ratio; });
     env.photoAspect = fixed == kRatios.end() ? width / height : fixed->second;
-    const PhotoWish photo{static_cast<int>(width), std::max(1, static_cast<int>(std::lround(width / env.photoAspect))), static_cast<int>(e.number("photoQuality", 0, 3, 0))};
+    const PhotoWish photo{static_cast<int>(width), std::max(1, static_cast<int>(std::lround(width / env.photoAspect))),
+                          static_cast<int>(e.number("photoQuality", 0, 3, 0))};
     const bool isNew = width == kNewPhotoWidth && height == kNewPhotoHeight && photo.quality == 0;
     if (!isNew && std::max(photo.widthPx, photo.heightPx) <= kLargestPhoto) env.photo = photo;
   }
@@ -112,7 +124,8 @@ class Reader {
   void compass(const Element& e) {
     Compass c;
     c.northRad = e.angleRad("northDirection", 0);
-    c.latitudeRad = e.numberIfAny("latitude", -1.5708, 1.5708), c.longitudeRad = e.numberIfAny("longitude", -3.1416, 3.1416);
+    c.latitudeRad = e.numberIfAny("latitude", -1.5708, 1.5708),
+    c.longitudeRad = e.numberIfAny("longitude", -3.1416, 3.1416);
     c.timeZone = e.text("timeZone");
     home_.compass = c;
   }
@@ -134,9 +147,11 @@ class Reader {
   void level(const Element& e) {
     Level l;
     l.id = e.text("id"), l.name = e.text("name");
-    l.elevationCm = e.lengthCm("elevation"), l.floorThicknessCm = e.sizeCm("floorThickness"), l.heightCm = e.sizeCm("height");
+    l.elevationCm = e.lengthCm("elevation"), l.floorThicknessCm = e.sizeCm("floorThickness"),
+    l.heightCm = e.sizeCm("height");
     l.viewable = e.flag("viewable", true);
-    if (!levels_.emplace(l.id, static_cast<int>(home_.levels.size())).second) e.failAt("id", "is that of another level too");
+    if (!levels_.emplace(l.id, static_cast<int>(home_.levels.size())).second)
+      e.failAt("id", "is that of another level too");
     home_.levels.push_back(l);
     if (home_.levels.size() > kMaxLevels) fail(e.place(), fmt::format("there are more than {} levels", kMaxLevels));
   }
@@ -144,7 +159,8 @@ class Reader {
   int levelOf(const Element& e, int absent = -1) const {
     if (!e.has("level")) return absent;
     const auto it = levels_.find(e.text("level"));
-    if (it == levels_.end()) e.failAt("level", fmt::format("names '{}', which does not exist", printable(e.text("level"))));
+    if (it == levels_.end())
+      e.failAt("level", fmt::format("names '{}', which does not exist", printable(e.text("level"))));
     return it->second;
   }
 
@@ -164,7 +180,8 @@ class Reader {
       Baseboard b{c.number("thickness", 0, 1e4), c.sizeCm("height"), readPaint(c, "color", "shininess", "")};
       (c.text("attribute") == "leftSideBaseboard" ? w.leftBaseboard : w.rightBaseboard) = b;
     });
-    if (!w.id.empty() && !wallIds_.emplace(w.id, static_cast<int>(home_.walls.size())).second) e.failAt("id", "is that of another wall too");
+    if (!w.id.empty() && !wallIds_.emplace(w.id, static_cast<int>(home_.walls.size())).second)
+      e.failAt("id", "is that of another wall too");
     joins_.emplace_back(e.text("wallAtStart"), e.text("wallAtEnd"));
     home_.walls.push_back(std::move(w));
   }
@@ -177,7 +194,8 @@ class Reader {
       if (it == wallIds_.end()) warnings_.mended("walls are joined to walls that do not exist");
       return it == wallIds_.end() ? -1 : it->second;
     };
-    for (size_t i = 0; i < home_.walls.size(); ++i) home_.walls[i].atStart = find(joins_[i].first), home_.walls[i].atEnd = find(joins_[i].second);
+    for (size_t i = 0; i < home_.walls.size(); ++i)
+      home_.walls[i].atStart = find(joins_[i].first), home_.walls[i].atEnd = find(joins_[i].second);
   }
 
   void room(const Element& e) {
@@ -207,7 +225,8 @@ class Reader {
     });
     if (p.points.size() > kMaxRoomPoints) fail(e.place(), fmt::format("has more than {} points", kMaxRoomPoints));
     if (e.text("dashStyle", "SOLID") != "SOLID") warnings_.add("dashed lines shown in 3D are whole");
-    if (e.text("startArrowStyle", "NONE") != "NONE" || e.text("endArrowStyle", "NONE") != "NONE") warnings_.add("arrows of lines shown in 3D are left out");
+    if (e.text("startArrowStyle", "NONE") != "NONE" || e.text("endArrowStyle", "NONE") != "NONE")
+      warnings_.add("arrows of lines shown in 3D are left out");
     if (e.text("joinStyle") == "CURVED") warnings_.add("curved lines shown in 3D are straight between their points");
     home_.polylines.push_back(std::move(p));
   }
@@ -226,15 +245,17 @@ class Reader {
     if (!door && !light && kind != "pieceOfFurniture" && kind != "shelfUnit") return;
     if (!e.flag("visible", true)) return;
     Piece p;
-    p.kind = door || e.flag("doorOrWindow", false) ? PieceKind::DoorOrWindow : light ? PieceKind::Light
-                                                                                     : PieceKind::Furniture;
+    p.kind = door || e.flag("doorOrWindow", false) ? PieceKind::DoorOrWindow
+             : light                               ? PieceKind::Light
+                                                   : PieceKind::Furniture;
     p.name = e.text("name"), p.place = e.place(), p.level = levelOf(e, level);
     placement(e, p);
     look(e, p);
     if (p.kind == PieceKind::DoorOrWindow) doorOrWindow(e, p);
     if (p.kind == PieceKind::Light) p.power = e.number("power", 0, 100, 0.5);
     home_.pieces.push_back(std::move(p));
-    if (home_.pieces.size() > kMaxThings) fail(e.place(), fmt::format("there are more than {} pieces of furniture", kMaxThings));
+    if (home_.pieces.size() > kMaxThings)
+      fail(e.place(), fmt::format("there are more than {} pieces of furniture", kMaxThings));
   }
 
   static void placement(const Element& e, Piece& p) {
@@ -254,7 +275,9 @@ class Reader {
     p.paint = readPaint(e, "color", "shininess", "");
     p.shininessGiven = e.has("shininess");
     e.children([&](const Element& c) {
-      if (c.kind() == "material") p.materials.push_back({c.text("name"), c.text("key"), readPaint(c, "color", "shininess", ""), c.has("shininess")});
+      if (c.kind() == "material")
+        p.materials.push_back(
+            {c.text("name"), c.text("key"), readPaint(c, "color", "shininess", ""), c.has("shininess")});
       if (c.kind() == "transformation") {
         Transformation t;
         t.name = c.text("name");
@@ -262,8 +285,8 @@ class Reader {
         p.transformations.push_back(t);
       }
       if (c.kind() == "lightSource") {
-        LightSource s{c.number("x", -100, 100), c.number("y", -100, 100), c.number("z", -100, 100), c.colour("color").value_or(0xffffff),
-                      c.numberIfAny("diameter", 0, 100)};
+        LightSource s{c.number("x", -100, 100), c.number("y", -100, 100), c.number("z", -100, 100),
+                      c.colour("color").value_or(0xffffff), c.numberIfAny("diameter", 0, 100)};
         p.lightSources.push_back(s);
       }
       if (c.kind() == "lightSourceMaterial") p.lightSourceMaterials.push_back(c.text("name"));
@@ -299,7 +322,9 @@ Home readHomeXml(std::span<const uint8_t> xml, Warnings& warnings) {
   pugi::xml_document document;
   // Entities that a document defines are not expanded: parse_default knows only the five of XML.
   const pugi::xml_parse_result parsed = document.load_buffer(xml.data(), xml.size());
-  if (!parsed) fail(fmt::format("Home.xml: line {}", lines.at(static_cast<size_t>(parsed.offset))), fmt::format("is damaged: {}", parsed.description()));
+  if (!parsed)
+    fail(fmt::format("Home.xml: line {}", lines.at(static_cast<size_t>(parsed.offset))),
+         fmt::format("is damaged: {}", parsed.description()));
   if (!document.document_element()) fail("Home.xml", "is empty");
   return Reader(warnings).home(Element(document.document_element(), lines));
 }

@@ -1,5 +1,6 @@
-// Furniture libraries of Sweet Home 3D: a zip file with PluginFurnitureCatalog.properties, in which the keys of piece 7 end in "#7" (name, model,
-// width, depth, height, elevation in cm, lightSourceX ...), and the models that it names. Shown as a home: all pieces in rows on a floor, by day.
+// Furniture libraries of Sweet Home 3D: a zip file with PluginFurnitureCatalog.properties, in which the keys of piece 7
+// end in "#7" (name, model, width, depth, height, elevation in cm, lightSourceX ...), and the models that it names.
+// Shown as a home: all pieces in rows on a floor, by day.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,18 +79,22 @@ class Entry {
 
 // Places are those of the piece in cm, colours "#RRGGBB".
 void readLights(const Entry& e, Piece& p) {
-  const std::vector<double> x = e.numbers("lightSourceX"), y = e.numbers("lightSourceY"), z = e.numbers("lightSourceZ"), diameter = e.numbers("lightSourceDiameter");
+  const std::vector<double> x = e.numbers("lightSourceX"), y = e.numbers("lightSourceY"), z = e.numbers("lightSourceZ"),
+                            diameter = e.numbers("lightSourceDiameter");
   const std::vector<std::string> colours = e.words("lightSourceColor");
   if (x.empty() || !(p.widthCm > 0 && p.depthCm > 0 && p.heightCm > 0)) return;
-  if (y.size() != x.size() || z.size() != x.size() || colours.size() != x.size()) fail(p.place, "the light sources have different numbers of places and colours");
+  if (y.size() != x.size() || z.size() != x.size() || colours.size() != x.size())
+    fail(p.place, "the light sources have different numbers of places and colours");
   p.kind = PieceKind::Light;
   for (size_t i = 0; i < x.size(); ++i) {
     LightSource s;
     s.x = x[i] / p.widthCm, s.y = y[i] / p.depthCm, s.z = z[i] / p.heightCm;
-    const std::string hex = colours[i].starts_with('#') ? colours[i].substr(1) : colours[i].starts_with("0x") ? colours[i].substr(2)
-                                                                                                              : colours[i];
+    const std::string hex = colours[i].starts_with('#')    ? colours[i].substr(1)
+                            : colours[i].starts_with("0x") ? colours[i].substr(2)
+                                                           : colours[i];
     const auto [end, code] = std::from_chars(hex.data(), hex.data() + hex.size(), s.colour, 16);
-    if (code != std::errc() || end != hex.data() + hex.size()) fail(p.place, fmt::format("'{}' is no colour", printable(colours[i], 40)));
+    if (code != std::errc() || end != hex.data() + hex.size())
+      fail(p.place, fmt::format("'{}' is no colour", printable(colours[i], 40)));
     s.colour &= 0xffffff;
     if (i < diameter.size()) s.diameter = diameter[i] / p.widthCm;
     p.lightSources.push_back(s);
@@ -176,7 +181,8 @@ Imported readSh3f(const std::filesystem::path& file, const ImportOptions& option
   warnings.add("entries whose names lead out of the file are left out", archive.refused());
   const auto catalogue = archive.read(kCatalogue);
   if (!catalogue) fail("", fmt::format("holds no {}, so it is no furniture library of Sweet Home 3D", kCatalogue));
-  if (catalogue->size() > kMaxCatalogueBytes) fail(kCatalogue, fmt::format("is larger than {} MiB", kMaxCatalogueBytes >> 20));
+  if (catalogue->size() > kMaxCatalogueBytes)
+    fail(kCatalogue, fmt::format("is larger than {} MiB", kMaxCatalogueBytes >> 20));
   const Home home = showroom(javaProperties(*catalogue), warnings);
   std::string daylight;  // of a piece of furniture there is none
   Scene scene = sceneOfHome(home, archive, ContentDigests(), options, warnings, daylight);

@@ -9,7 +9,8 @@ namespace roomlight::importers {
 void Sha1::block(const uint8_t* bytes) {
   std::array<uint32_t, 16> w;
   for (size_t i = 0; i < 16; ++i) {
-    w[i] = static_cast<uint32_t>(bytes[4 * i]) << 24 | static_cast<uint32_t>(bytes[4 * i + 1]) << 16 | static_cast<uint32_t>(bytes[4 * i + 2]) << 8 | bytes[4 * i + 3];
+    w[i] = static_cast<uint32_t>(bytes[4 * i]) << 24 | static_cast<uint32_t>(bytes[4 * i + 1]) << 16 |
+           static_cast<uint32_t>(bytes[4 * i + 2]) << 8 | bytes[4 * i + 3];
   }
   auto [a, b, c, d, e] = state_;
   const auto rounds = [&](size_t from, uint32_t constant, auto&& mix) {

@@ -1,4 +1,5 @@
-// SHA-1 (FIPS 180-4): what Sweet Home 3D writes of each content to notice damage. It guards against accidents, not against malice.
+// SHA-1 (FIPS 180-4): what Sweet Home 3D writes of each content to notice damage. It guards against accidents, not
+ // against malice.
 #pragma once
 
 #include <array>

@@ -3,7 +3,8 @@
 namespace roomlight::importers {
 namespace {
 
-// Of twice an area, in the file's units, of which nodes may make any size: edges of 1e-12, whose third powers floats hold.
+// Of twice an area, in the file's units, of which nodes may make any size: edges of 1e-12, whose third powers floats
+// hold.
 constexpr double kSmallest = 1e-24;
 
 }  // namespace
@@ -14,7 +15,8 @@ size_t dropDegenerate(Mesh& mesh) {
     const uint32_t a = mesh.indices[t], b = mesh.indices[t + 1], c = mesh.indices[t + 2];
     const Vec3 ab = mesh.positions[b] - mesh.positions[a], ac = mesh.positions[c] - mesh.positions[a];
     // In doubles: the square of a small triangle's area is below what floats hold.
-    const double x = double(ab.y) * ac.z - double(ab.z) * ac.y, y = double(ab.z) * ac.x - double(ab.x) * ac.z, z = double(ab.x) * ac.y - double(ab.y) * ac.x;
+    const double x = double(ab.y) * ac.z - double(ab.z) * ac.y, y = double(ab.z) * ac.x - double(ab.x) * ac.z,
+                 z = double(ab.x) * ac.y - double(ab.y) * ac.x;
     if (x * x + y * y + z * z < kSmallest * kSmallest) continue;
     mesh.indices[kept++] = a, mesh.indices[kept++] = b, mesh.indices[kept++] = c;
   }

@@ -38,7 +38,8 @@ void forTriangles(const Scene& scene, Visit&& visit) {
     std::vector<Vec3> world;
     world.reserve(mesh.positions.size());
     for (const Vec3 p : mesh.positions) world.push_back(i.worldFromObject.point(p));
-    for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) visit(world[mesh.indices[t]], world[mesh.indices[t + 1]], world[mesh.indices[t + 2]]);
+    for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
+      visit(world[mesh.indices[t]], world[mesh.indices[t + 1]], world[mesh.indices[t + 2]]);
   }
 }
 
@@ -101,7 +102,9 @@ double strongestStep(const Scene& scene, const Bounds3& bounds, const Areas& are
     if (!(twice > 0) || std::abs(n[axis]) / twice <= 0.999) return;
     slices[static_cast<size_t>(std::clamp(static_cast<int>((p[axis] - lo) / size * kSlices), 0, kSlices - 1))] += twice;
   });
-  const auto strong = [&](int i) { return slices[static_cast<size_t>(i)] > 0.15 * areas.level[static_cast<size_t>(axis)]; };
+  const auto strong = [&](int i) {
+    return slices[static_cast<size_t>(i)] > 0.15 * areas.level[static_cast<size_t>(axis)];
+  };
   double least = 0;
   for (int i = 0, last = -1; i < kSlices; ++i) {
     if (!strong(i)) continue;
@@ -131,7 +134,9 @@ double flatness(const Bounds3& b, const Areas& areas) {
   const auto flat = [&](int axis) {
     const float h = b.size()[axis], u = b.size()[(axis + 1) % 3], v = b.size()[(axis + 2) % 3];
     const double level = areas.level[static_cast<size_t>(axis)];
-    return h < 0.8f * std::min(u, v) && h > 0.05f * std::min(u, v) && level >= areas.level[static_cast<size_t>((axis + 1) % 3)] && level >= areas.level[static_cast<size_t>((axis + 2) % 3)];
+    return h < 0.8f * std::min(u, v) && h > 0.05f * std::min(u, v) &&
+           level >= areas.level[static_cast<size_t>((axis + 1) % 3)] &&
+           level >= areas.level[static_cast<size_t>((axis + 2) % 3)];
   };
   return (flat(kZ) ? 1 : 0) - (flat(kY) ? 1 : 0);
 }
@@ -142,9 +147,11 @@ double evidence(const Scene& scene, float metresPerUnit) {
   const Areas areas = measured(scene);
   if (!(areas.all > 0) || !(minComponent(bounds.size()) > 0)) return 0;
   const double plumb = limited((areas.plumb[kZ] - areas.plumb[kY]) / areas.all / 0.2);
-  const double open = limited((std::max(areas.signedAll[kZ], 0.0) - std::max(areas.signedAll[kY], 0.0)) / areas.all / 0.1);
+  const double open =
+      limited((std::max(areas.signedAll[kZ], 0.0) - std::max(areas.signedAll[kY], 0.0)) / areas.all / 0.1);
   const double standing = (stands(scene, bounds, areas, kZ) ? 1 : 0) - (stands(scene, bounds, areas, kY) ? 1 : 0);
-  return 1.25 * plumb + grounded(bounds) + standing + 0.5 * open + 0.75 * flatness(bounds, areas) + storey(scene, bounds, areas, metresPerUnit);
+  return 1.25 * plumb + grounded(bounds) + standing + 0.5 * open + 0.75 * flatness(bounds, areas) +
+         storey(scene, bounds, areas, metresPerUnit);
 }
 
 Affine uprightFrom(UpAxis up) {
@@ -157,15 +164,15 @@ Affine uprightFrom(UpAxis up) {
 
 UpAxis guessUpAxis(const Scene& scene, float metresPerUnit, UpAxis usual) {
   const double z = evidence(scene, metresPerUnit);
-  return z >= kClear ? UpAxis::Z : z <= -kClear ? UpAxis::Y
-                                                : usual;
+  return z >= kClear ? UpAxis::Z : z <= -kClear ? UpAxis::Y : usual;
 }
 
 void turnUpright(Scene& scene, UpAxis up) {
   if (up == UpAxis::Y) return;
   const Affine turn = uprightFrom(up);
   for (Instance& i : scene.instances) i.worldFromObject = turn * i.worldFromObject;
-  for (Lamp& l : scene.lamps) l.position = turn.point(l.position), l.direction = turn.vector(l.direction), l.up = turn.vector(l.up);
+  for (Lamp& l : scene.lamps)
+    l.position = turn.point(l.position), l.direction = turn.vector(l.direction), l.up = turn.vector(l.up);
   for (Sun& s : scene.suns) s.toLight = turn.vector(s.toLight);
   for (Camera& c : scene.cameras) c.worldFromCamera = turn * c.worldFromCamera;
 }
@@ -173,7 +180,10 @@ void turnUpright(Scene& scene, UpAxis up) {
 void standUpright(Scene& scene, std::optional<char> wanted, float metresPerUnit, UpAxis usual, Warnings& warnings) {
   if (wanted) return turnUpright(scene, static_cast<UpAxis>(*wanted));
   const UpAxis up = guessUpAxis(scene, metresPerUnit, usual);
-  const auto say = [&](const char* why) { warnings.say(fmt::format("the file does not say which axis points up; {} it is taken to be {}; --up decides", why, static_cast<char>(up))); };
+  const auto say = [&](const char* why) {
+    warnings.say(fmt::format("the file does not say which axis points up; {} it is taken to be {}; --up decides", why,
+                             static_cast<char>(up)));
+  };
   if (up != usual) {
     say("by its shapes");
   } else if (up != UpAxis::Y) {

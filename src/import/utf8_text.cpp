@@ -5,15 +5,18 @@
 namespace roomlight::importers {
 namespace {
 
-bool continues(std::string_view text, size_t at) { return at < text.size() && (static_cast<uint8_t>(text[at]) & 0xc0) == 0x80; }
+bool continues(std::string_view text, size_t at) {
+  return at < text.size() && (static_cast<uint8_t>(text[at]) & 0xc0) == 0x80;
+}
 
 // Bytes of the character that begins at `at`; 0 where none does.
 size_t characterSize(std::string_view text, size_t at) {
   const auto first = static_cast<uint8_t>(text[at]);
   if (first < 0x80) return 1;
-  const size_t size = first >= 0xc2 && first < 0xe0 ? 2 : first >= 0xe0 && first < 0xf0 ? 3
-                                                      : first >= 0xf0 && first < 0xf5   ? 4
-                                                                                        : 0;
+  const size_t size = first >= 0xc2 && first < 0xe0   ? 2
+                      : first >= 0xe0 && first < 0xf0 ? 3
+                      : first >= 0xf0 && first < 0xf5 ? 4
+                                                      : 0;
   for (size_t i = 1; i < size; ++i) {
     if (!continues(text, at + i)) return 0;
   }

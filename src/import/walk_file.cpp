@@ -1,8 +1,8 @@
 // Walk files, version 1 (docs/formats/walk.md):
 //   { "version": 1, "comment", "seconds": 6, "framesPerSecond": 10,
 //     "camera": [ { "time", "position": [x,y,z], "target": [x,y,z], "verticalFov": degrees }, .. ],
-//     "objects": [ { "name", "number", "about": [x,y,z], "keys": [ { "time", "move": [x,y,z], "turn": degrees }, .. ] }, .. ],
-//     "lamps": [ { "name", "keys": [ { "time", "dimming": 0..1 }, .. ] }, .. ] }
+//     "objects": [ { "name", "number", "about": [x,y,z], "keys": [ { "time", "move": [x,y,z], "turn": degrees }, .. ]
+//     }, .. ], "lamps": [ { "name", "keys": [ { "time", "dimming": 0..1 }, .. ] }, .. ] }
 #include "import/walk_file.h"
 
 #include <fmt/format.h>
@@ -50,7 +50,13 @@ std::vector<float> cameraKey(const JsonPlace& j) {
   }
   const Vec3 p = j["position"].vector(-kFarthestM, kFarthestM), t = j["target"].vector(-kFarthestM, kFarthestM);
   if (!(length(t - p) > 1e-3f)) j["target"].fail("is where the camera is");
-  return {p.x, p.y, p.z, t.x, t.y, t.z, static_cast<float>(rad(j.number("verticalFov", 1, 170, static_cast<double>(kUsualFovDeg))))};
+  return {p.x,
+          p.y,
+          p.z,
+          t.x,
+          t.y,
+          t.z,
+          static_cast<float>(rad(j.number("verticalFov", 1, 170, static_cast<double>(kUsualFovDeg))))};
 }
 
 std::vector<float> objectKey(const JsonPlace& j) {
@@ -72,20 +78,25 @@ void failUnknown(const JsonPlace& name, const char* what, const std::set<std::st
     if (k.empty() || ++count > kMostNames) continue;
     list += fmt::format("{}'{}'", list.empty() ? "" : ", ", printable(k));
   }
-  name.fail(fmt::format("no {} '{}'; there are {}{}", what, printable(name.text()), list.empty() ? "none" : list, count > kMostNames ? fmt::format(" and {} more", count - kMostNames) : ""));
+  name.fail(fmt::format("no {} '{}'; there are {}{}", what, printable(name.text()), list.empty() ? "none" : list,
+                        count > kMostNames ? fmt::format(" and {} more", count - kMostNames) : ""));
 }
 
-bool glows(const Scene& scene, const Instance& i) { return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].emission); }
+bool glows(const Scene& scene, const Instance& i) {
+  return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].emission);
+}
 
 std::string lampName(const Instance& i) {
-  return i.name.ends_with(kLightSuffix) ? i.name.substr(0, i.name.size() - std::string_view(kLightSuffix).size()) : i.name;
+  return i.name.ends_with(kLightSuffix) ? i.name.substr(0, i.name.size() - std::string_view(kLightSuffix).size())
+                                        : i.name;
 }
 
 // The objects one of whose instances bears the name, in order.
 std::vector<int> objectsNamed(const Scene& scene, const std::string& name) {
   std::vector<int> objects;
   for (const Instance& i : scene.instances) {
-    if (i.name == name && std::find(objects.begin(), objects.end(), i.object) == objects.end()) objects.push_back(i.object);
+    if (i.name == name && std::find(objects.begin(), objects.end(), i.object) == objects.end())
+      objects.push_back(i.object);
   }
   return objects;
 }
@@ -106,7 +117,8 @@ Walk::Thing readThing(const JsonPlace& j, double secondsS, const Scene& scene) {
     return thing;
   }
   if (objects.size() > 1 && !j.has("number")) {
-    j["name"].fail(fmt::format("names {} objects; add \"number\": 1 to {}, in their order in the scene", objects.size(), objects.size()));
+    j["name"].fail(fmt::format("names {} objects; add \"number\": 1 to {}, in their order in the scene", objects.size(),
+                               objects.size()));
     return thing;
   }
   const double number = j.number("number", 1, static_cast<double>(objects.size()), 1);
@@ -136,18 +148,24 @@ Walk::Dimmed readDimmed(const JsonPlace& j, double secondsS, const Scene& scene)
     known.insert(scene.lamps[i].name), known.insert(scene.lamps[i].group);
     if (scene.lamps[i].name != name && scene.lamps[i].group != name) continue;
     dimmed.lamps.push_back(i);
-    dimmed.intensityCd.push_back(scene.lamps[i].intensityCd), dimmed.luminanceCdM2.push_back(scene.lamps[i].luminanceCdM2);
+    dimmed.intensityCd.push_back(scene.lamps[i].intensityCd),
+        dimmed.luminanceCdM2.push_back(scene.lamps[i].luminanceCdM2);
   }
   std::set<size_t> materials;
   for (const Instance& i : scene.instances) {
     if (!glows(scene, i)) continue;
     known.insert(lampName(i));
-    const bool ofGroup = std::any_of(dimmed.lamps.begin(), dimmed.lamps.end(), [&](size_t l) { return scene.lamps[l].kind == LampKind::Area && scene.lamps[l].name == i.name; });
-    if (lampName(i) == name || ofGroup) materials.insert(static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material));
+    const bool ofGroup = std::any_of(dimmed.lamps.begin(), dimmed.lamps.end(), [&](size_t l) {
+      return scene.lamps[l].kind == LampKind::Area && scene.lamps[l].name == i.name;
+    });
+    if (lampName(i) == name || ofGroup)
+      materials.insert(static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material));
   }
-  for (const size_t m : materials) dimmed.materials.push_back(m), dimmed.emission.push_back(scene.materials[m].emission);
+  for (const size_t m : materials)
+    dimmed.materials.push_back(m), dimmed.emission.push_back(scene.materials[m].emission);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    if (materials.count(static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material))) dimmed.instances.push_back(i);
+    if (materials.count(static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material)))
+      dimmed.instances.push_back(i);
   }
   if (dimmed.lamps.empty() && dimmed.materials.empty()) failUnknown(j["name"], "lamp", known);
   return dimmed;
@@ -203,7 +221,9 @@ float WalkTrack::at(size_t channel, double timeS) const {
   if (timeS <= timesS.front()) return v.front();
   if (timeS >= timesS.back()) return v.back();
   const auto k = static_cast<size_t>(std::upper_bound(timesS.begin(), timesS.end(), timeS) - timesS.begin()) - 1;
-  const auto slope = [&](size_t i) { return (static_cast<double>(v[i + 1]) - static_cast<double>(v[i])) / (timesS[i + 1] - timesS[i]); };
+  const auto slope = [&](size_t i) {
+    return (static_cast<double>(v[i + 1]) - static_cast<double>(v[i])) / (timesS[i + 1] - timesS[i]);
+  };
   // Harmonic mean of the slopes on both sides, weighed by the gaps; zero at the ends and where they differ in sign.
   const auto tangent = [&](size_t i) {
     if (i == 0 || i + 1 == v.size()) return 0.0;
@@ -214,7 +234,8 @@ float WalkTrack::at(size_t channel, double timeS) const {
   };
   const double h = timesS[k + 1] - timesS[k], u = (timeS - timesS[k]) / h;
   const double rise = static_cast<double>(v[k + 1]) - static_cast<double>(v[k]), step = u * u * (3 - 2 * u);
-  return static_cast<float>(static_cast<double>(v[k]) + rise * step + h * u * (1 - u) * (tangent(k) * (1 - u) - tangent(k + 1) * u));
+  return static_cast<float>(static_cast<double>(v[k]) + rise * step +
+                            h * u * (1 - u) * (tangent(k) * (1 - u) - tangent(k + 1) * u));
 }
 
 int Walk::frameCount() const { return std::max(1, static_cast<int>(std::floor(seconds * framesPerSecond + 1e-6))); }
@@ -243,7 +264,9 @@ Result<Walk> readWalkFile(const std::filesystem::path& file, const Scene& scene)
 }
 
 Camera cameraAt(const Walk& walk, double timeS) {
-  const auto point = [&](size_t first) { return Vec3{walk.camera.at(first, timeS), walk.camera.at(first + 1, timeS), walk.camera.at(first + 2, timeS)}; };
+  const auto point = [&](size_t first) {
+    return Vec3{walk.camera.at(first, timeS), walk.camera.at(first + 1, timeS), walk.camera.at(first + 2, timeS)};
+  };
   Camera camera;
   camera.name = "walk";
   const Vec3 eye = point(0), forward = point(3) - eye;
@@ -266,11 +289,13 @@ SceneChange stage(const Walk& walk, double timeS, Scene& scene) {
     const float dimming = dimmed.track.at(0, timeS);
     for (size_t k = 0; k < dimmed.lamps.size(); ++k) {
       Lamp& lamp = scene.lamps[dimmed.lamps[k]];
-      const bool dimmedCd = dim(lamp.intensityCd, dimmed.intensityCd[k], dimming), dimmedCdM2 = dim(lamp.luminanceCdM2, dimmed.luminanceCdM2[k], dimming);
+      const bool dimmedCd = dim(lamp.intensityCd, dimmed.intensityCd[k], dimming),
+                 dimmedCdM2 = dim(lamp.luminanceCdM2, dimmed.luminanceCdM2[k], dimming);
       change.lamps = change.lamps || dimmedCd || dimmedCdM2;
     }
     bool glow = false;
-    for (size_t k = 0; k < dimmed.materials.size(); ++k) glow = dim(scene.materials[dimmed.materials[k]].emission, dimmed.emission[k], dimming) || glow;
+    for (size_t k = 0; k < dimmed.materials.size(); ++k)
+      glow = dim(scene.materials[dimmed.materials[k]].emission, dimmed.emission[k], dimming) || glow;
     if (glow) change.glow.insert(change.glow.end(), dimmed.instances.begin(), dimmed.instances.end());
   }
   return change;
@@ -278,17 +303,22 @@ SceneChange stage(const Walk& walk, double timeS, Scene& scene) {
 
 void atRest(const Walk& walk, Scene& scene) {
   for (const Walk::Thing& thing : walk.things) {
-    for (size_t k = 0; k < thing.instances.size(); ++k) scene.instances[thing.instances[k]].worldFromObject = thing.atRest[k];
+    for (size_t k = 0; k < thing.instances.size(); ++k)
+      scene.instances[thing.instances[k]].worldFromObject = thing.atRest[k];
   }
   for (const Walk::Dimmed& dimmed : walk.lamps) {
-    for (size_t k = 0; k < dimmed.lamps.size(); ++k) scene.lamps[dimmed.lamps[k]].intensityCd = dimmed.intensityCd[k], scene.lamps[dimmed.lamps[k]].luminanceCdM2 = dimmed.luminanceCdM2[k];
-    for (size_t k = 0; k < dimmed.materials.size(); ++k) scene.materials[dimmed.materials[k]].emission = dimmed.emission[k];
+    for (size_t k = 0; k < dimmed.lamps.size(); ++k)
+      scene.lamps[dimmed.lamps[k]].intensityCd = dimmed.intensityCd[k],
+      scene.lamps[dimmed.lamps[k]].luminanceCdM2 = dimmed.luminanceCdM2[k];
+    for (size_t k = 0; k < dimmed.materials.size(); ++k)
+      scene.materials[dimmed.materials[k]].emission = dimmed.emission[k];
   }
 }
 
 SceneChange everythingIn(const Walk& walk) {
   SceneChange change;
-  for (const Walk::Thing& thing : walk.things) change.moved.insert(change.moved.end(), thing.instances.begin(), thing.instances.end());
+  for (const Walk::Thing& thing : walk.things)
+    change.moved.insert(change.moved.end(), thing.instances.begin(), thing.instances.end());
   for (const Walk::Dimmed& dimmed : walk.lamps) {
     change.glow.insert(change.glow.end(), dimmed.instances.begin(), dimmed.instances.end());
     change.lamps = change.lamps || !dimmed.lamps.empty();

@@ -1,4 +1,5 @@
-// The walk file: JSON with a camera's way through a home and what moves or is dimmed meanwhile. Schema: docs/formats/walk.md.
+// The walk file: JSON with a camera's way through a home and what moves or is dimmed meanwhile. Schema:
+ // docs/formats/walk.md.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,8 @@
 
 namespace roomlight {
 
-// Values at times, smooth between them: monotone cubics (Fritsch and Carlson 1980), which never overshoot; constant before and after.
+// Values at times, smooth between them: monotone cubics (Fritsch and Carlson 1980), which never overshoot; constant
+// before and after.
 struct WalkTrack {
   std::vector<double> timesS;               // increasing
   std::vector<std::vector<float>> channels;  // of as many values each
@@ -41,8 +43,8 @@ struct Walk {
   double timeOf(int frame) const { return frame / framesPerSecond; }
 };
 
-// The scene as the file's author knows it: nothing has moved. Errors name the file and the JSON path: unknown keys, times that do not
-// increase, names that the scene does not have, with those it has.
+// The scene as the file's author knows it: nothing has moved. Errors name the file and the JSON path: unknown keys,
+// times that do not increase, names that the scene does not have, with those it has.
 Result<Walk> readWalkFile(const std::filesystem::path& file, const Scene& scene);
 
 Camera cameraAt(const Walk& walk, double timeS);

@@ -1,5 +1,6 @@
-// What an importer says about a file: one line for each kind, with how often it occurred. Warnings are what somebody must know: what the file
-// asks for and the scene does not have. Faults are small things that were mended and that nobody sees.
+// What an importer says about a file: one line for each kind, with how often it occurred. Warnings are what somebody
+// must know: what the file asks for and the scene does not have. Faults are small things that were mended and that
+// nobody sees.
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,8 @@ constexpr double kUsualMired = 9;
 constexpr double kBluestWhiteK = 9000;  // bluer light stays a little blue, as at dusk
 constexpr float kLeastLight = 0.02f;  // of a channel: what is not there cannot be brought back
 
-// How far light is taken for white: in full up to what coloured walls make of it, not at all from where nobody would call it white.
+// How far light is taken for white: in full up to what coloured walls make of it, not at all from where nobody would
+// call it white.
 float whiteness(Vec3 light, double kelvin) {
   constexpr double kFull = 0.015, kNone = 0.05;
   return static_cast<float>(std::clamp((kNone - distanceFromWhite(light, kelvin)) / (kNone - kFull), 0.0, 1.0));
@@ -34,7 +35,8 @@ Vec3 shownWhite(const Display& display, double kelvin) {
 
 // Darker by the square of the distance from the middle.
 void darkenCorners(Image& image, float by) {
-  const float x0 = 0.5f * static_cast<float>(image.width), y0 = 0.5f * static_cast<float>(image.height), r2 = x0 * x0 + y0 * y0;
+  const float x0 = 0.5f * static_cast<float>(image.width), y0 = 0.5f * static_cast<float>(image.height),
+              r2 = x0 * x0 + y0 * y0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const float dx = static_cast<float>(x) + 0.5f - x0, dy = static_cast<float>(y) + 0.5f - y0;
@@ -66,15 +68,21 @@ White whiteOf(const Display& display, Vec3 lightColour) {
   return {{std::pow(gains.x, share), std::pow(gains.y, share), std::pow(gains.z, share)}, kelvin};
 }
 
-float ev100Of(const Display& display, const Image& image) { return display.ev100 ? *display.ev100 : lookedAtEv100(image) - display.brighterEv; }
+float ev100Of(const Display& display, const Image& image) {
+  return display.ev100 ? *display.ev100 : lookedAtEv100(image) - display.brighterEv;
+}
 
-Affine matrixOf(const White& white) { return {{white.gains.x, 0, 0}, {0, white.gains.y, 0}, {0, 0, white.gains.z}, {}}; }
+Affine matrixOf(const White& white) {
+  return {{white.gains.x, 0, 0}, {0, white.gains.y, 0}, {0, 0, white.gains.z}, {}};
+}
 
 Retouch retouchOf(const Image& adapted, const Display& display, float ev100) {
   Retouch r{{}, display.glare, display.vignette};
   if (display.localExposure <= 0) return r;
-  const float meteredEv100 = display.ev100 ? ev100 : ev100 + display.brighterEv;  // about the metered grey: what the look adds stays
-  r.gains = display.quickLocalExposure ? quickLocalExposure(adapted, meteredEv100, display.localExposure) : localExposure(adapted, meteredEv100, display.localExposure);
+  const float meteredEv100 =
+      display.ev100 ? ev100 : ev100 + display.brighterEv;  // about the metered grey: what the look adds stays
+  r.gains = display.quickLocalExposure ? quickLocalExposure(adapted, meteredEv100, display.localExposure)
+                                       : localExposure(adapted, meteredEv100, display.localExposure);
   return r;
 }
 

@@ -9,9 +9,10 @@ namespace {
 
 constexpr double kMiddleGrey = 0.18;
 constexpr double kAboveEv = 2.5, kBelowEv = 6.5;  // from the median on, light is that of windows and lamps, or of holes
-constexpr double kVoidEv = 0.4;                    // more for a picture that is all void, as a camera gives it that meters all of its frame
-constexpr float kEdge = 0.3f;                     // weight of the edges of the picture
-constexpr float kWide = 0.55f;                    // of the middle, in shares of width and height
+constexpr double kVoidEv =
+    0.4;  // more for a picture that is all void, as a camera gives it that meters all of its frame
+constexpr float kEdge = 0.3f;  // weight of the edges of the picture
+constexpr float kWide = 0.55f;  // of the middle, in shares of width and height
 
 struct Place {
   float log2;

@@ -56,7 +56,8 @@ Plane fused(const Exposures& exposures) {
     Plane level = sum.width > 0 ? doubled(sum, size.width, size.height) : Plane(size.width, size.height);
     for (size_t i = 0; i < level.values.size(); ++i) {
       float weighted = 0, weights = 0;
-      for (const Exposure& e : exposures) weighted += e.weights[k].values[i] * e.details[k].values[i], weights += e.weights[k].values[i];
+      for (const Exposure& e : exposures)
+        weighted += e.weights[k].values[i] * e.details[k].values[i], weights += e.weights[k].values[i];
       level.values[i] += weighted / weights;
     }
     sum = std::move(level);
@@ -71,7 +72,8 @@ float heldLight(float light) { return light > kLeast ? std::min(light, 1e4f) : k
 Plane lightOf(const Image& image, float ev100) {
   const float exposure = exposureFromEv100(ev100);
   Plane light(image.width, image.height);
-  parallelFor(image.pixels.size(), 16384, [&](size_t i) { light.values[i] = heldLight(luminance(image.pixels[i]) * exposure); });
+  parallelFor(image.pixels.size(), 16384,
+              [&](size_t i) { light.values[i] = heldLight(luminance(image.pixels[i]) * exposure); });
   return light;
 }
 
@@ -84,8 +86,11 @@ Plane fusedOf(const Plane& light, float strength) {
 // What brings light to where it shall be shown.
 struct GainOf {
   float most, least;
-  explicit GainOf(float strength) : most(std::exp2(kStops.front() * strength)), least(std::exp2(kStops.back() * strength)) {}
-  float operator()(float light, float wanted) const { return std::clamp(undone(std::clamp(wanted, 1e-4f, 0.999f)) / light, least, most); }
+  explicit GainOf(float strength)
+      : most(std::exp2(kStops.front() * strength)), least(std::exp2(kStops.back() * strength)) {}
+  float operator()(float light, float wanted) const {
+    return std::clamp(undone(std::clamp(wanted, 1e-4f, 0.999f)) / light, least, most);
+  }
 };
 
 // What is looked at keeps its exposure.
@@ -96,11 +101,11 @@ void keepMetered(const Image& before, Plane& gains) {
   for (float& g : gains.values) g *= kept;
 }
 
-// --- Frames: fused at a quarter of the size, and brought to pixels by what is a line within each window there (He, Sun & Tang 2013, "Guided image filtering";
-// He & Sun 2015, "Fast guided filter").
+// --- Frames: fused at a quarter of the size, and brought to pixels by what is a line within each window there (He, Sun
+// & Tang 2013, "Guided image filtering"; He & Sun 2015, "Fast guided filter").
 
 constexpr int kQuarter = 4;
-constexpr int kRadius = 2;          // pixels of the small picture to either side
+constexpr int kRadius = 2;  // pixels of the small picture to either side
 constexpr float kEpsilon = 2e-3f;  // regularisation: the variance of what counts as one surface
 
 Image quartered(const Image& image) {
@@ -146,8 +151,10 @@ struct GuidedCoefficients {
 
 GuidedCoefficients guidedCoefficients(const Plane& guide, const Plane& target) {
   Plane squares(guide.width, guide.height), products(guide.width, guide.height);
-  for (size_t i = 0; i < guide.values.size(); ++i) squares.values[i] = guide.values[i] * guide.values[i], products.values[i] = guide.values[i] * target.values[i];
-  const Plane mean = boxFiltered(guide), meanTarget = boxFiltered(target), meanSquare = boxFiltered(squares), meanProduct = boxFiltered(products);
+  for (size_t i = 0; i < guide.values.size(); ++i)
+    squares.values[i] = guide.values[i] * guide.values[i], products.values[i] = guide.values[i] * target.values[i];
+  const Plane mean = boxFiltered(guide), meanTarget = boxFiltered(target), meanSquare = boxFiltered(squares),
+              meanProduct = boxFiltered(products);
   GuidedCoefficients lines{Plane(guide.width, guide.height), Plane(guide.width, guide.height)};
   for (size_t i = 0; i < guide.values.size(); ++i) {
     const float m = mean.values[i], variance = std::max(0.0f, meanSquare.values[i] - m * m);
@@ -173,7 +180,8 @@ Plane localExposure(const Image& image, float ev100, float strength) {
   const Plane light = lightOf(image, ev100), wanted = fusedOf(light, strength);
   const GainOf gainOf(strength);
   Plane gains(image.width, image.height);
-  parallelFor(gains.values.size(), 16384, [&](size_t i) { gains.values[i] = gainOf(light.values[i], wanted.values[i]); });
+  parallelFor(gains.values.size(), 16384,
+              [&](size_t i) { gains.values[i] = gainOf(light.values[i], wanted.values[i]); });
   keepMetered(image, gains);
   return gains;
 }
@@ -184,7 +192,8 @@ Plane quickLocalExposure(const Image& image, float ev100, float strength) {
   const Plane light = lightOf(small, ev100), target = fusedOf(light, strength);
   const GainOf gainOf(strength);
   Plane guide(small.width, small.height), metered(small.width, small.height);
-  for (size_t i = 0; i < light.values.size(); ++i) guide.values[i] = shown(light.values[i]), metered.values[i] = gainOf(light.values[i], target.values[i]);
+  for (size_t i = 0; i < light.values.size(); ++i)
+    guide.values[i] = shown(light.values[i]), metered.values[i] = gainOf(light.values[i], target.values[i]);
   const float first = metered.values[0];
   keepMetered(small, metered);
   const float kept = metered.values[0] / first, exposure = exposureFromEv100(ev100);
@@ -203,7 +212,8 @@ Plane quickLocalExposure(const Image& image, float ev100, float strength) {
     for (int x = 0; x < image.width; ++x) {
       const BilinearTap& u = columns[static_cast<size_t>(x)];
       const auto low = static_cast<size_t>(u.low), high = static_cast<size_t>(u.high);
-      const float slope = slopes[low] + u.share * (slopes[high] - slopes[low]), offset = offsets[low] + u.share * (offsets[high] - offsets[low]);
+      const float slope = slopes[low] + u.share * (slopes[high] - slopes[low]),
+                  offset = offsets[low] + u.share * (offsets[high] - offsets[low]);
       const float l = heldLight(luminance(image.at(x, y)) * exposure);
       gains.at(x, y) = kept * gainOf(l, slope * shown(l) + offset);
     }

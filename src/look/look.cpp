@@ -39,10 +39,11 @@ Display technical() {
 Display usualDisplay() { return natural(); }
 
 const std::vector<std::pair<std::string, std::string>>& lookNames() {
-  static const std::vector<std::pair<std::string, std::string>> names = {{"natural", "as an eye sees it: windows and corners within reach, a trace of the lamps' warmth"},
-                                                                         {"bright", "as a brochure has it: 0.7 EV brighter than natural"},
-                                                                         {"evening", "darker and warmer, with glare around lamps"},
-                                                                         {"technical", "one exposure all over, no contrast added, white is white"}};
+  static const std::vector<std::pair<std::string, std::string>> names = {
+      {"natural", "as an eye sees it: windows and corners within reach, a trace of the lamps' warmth"},
+      {"bright", "as a brochure has it: 0.7 EV brighter than natural"},
+      {"evening", "darker and warmer, with glare around lamps"},
+      {"technical", "one exposure all over, no contrast added, white is white"}};
   return names;
 }
 

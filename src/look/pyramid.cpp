@@ -32,16 +32,21 @@ Plane halved(const Plane& p) {
 // The binomial filter on every other place: at places between two, half of each; at the others 1, 6 and 1 eighths.
 Plane doubled(const Plane& p, int width, int height) {
   Plane across(width, p.height), out(width, height);
-  const auto between = [](float before, float here, float after, bool odd) { return odd ? 0.5f * (here + after) : 0.125f * (before + 6 * here + after); };
+  const auto between = [](float before, float here, float after, bool odd) {
+    return odd ? 0.5f * (here + after) : 0.125f * (before + 6 * here + after);
+  };
   for (int y = 0; y < p.height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int c = x / 2;
-      across.at(x, y) = between(p.at(held(c - 1, p.width), y), p.at(held(c, p.width), y), p.at(held(c + 1, p.width), y), x % 2 == 1);
+      across.at(x, y) =
+          between(p.at(held(c - 1, p.width), y), p.at(held(c, p.width), y), p.at(held(c + 1, p.width), y), x % 2 == 1);
     }
   }
   for (int y = 0; y < height; ++y) {
     const int c = y / 2;
-    for (int x = 0; x < width; ++x) out.at(x, y) = between(across.at(x, held(c - 1, p.height)), across.at(x, held(c, p.height)), across.at(x, held(c + 1, p.height)), y % 2 == 1);
+    for (int x = 0; x < width; ++x)
+      out.at(x, y) = between(across.at(x, held(c - 1, p.height)), across.at(x, held(c, p.height)),
+                             across.at(x, held(c + 1, p.height)), y % 2 == 1);
   }
   return out;
 }

@@ -23,11 +23,11 @@ constexpr float kElbowM = 0.35f;          // free to all sides of where a person
 constexpr int kMostHits = 64;
 constexpr double kMapCells = 48;          // along the longer side
 
-enum Cell : int { kOutside = -1,
-                  kInThing = -2,
-                  kOpen = -3 };  // or the number of an area, from 0 on
+enum Cell : int { kOutside = -1, kInThing = -2, kOpen = -3 };  // or the number of an area, from 0 on
 
-Hit look(const RayScene& rays, Vec3 from, Vec3 direction, float most = kInfinity) { return rays.intersect({from, direction, 1e-4f, most}); }
+Hit look(const RayScene& rays, Vec3 from, Vec3 direction, float most = kInfinity) {
+  return rays.intersect({from, direction, 1e-4f, most});
+}
 
 bool seesBack(const Hit& hit, Vec3 direction) { return dot(hit.ng, direction) > 0; }
 
@@ -41,7 +41,8 @@ struct Search {
 
   size_t count() const { return static_cast<size_t>(columns) * static_cast<size_t>(rows); }
   Vec3 at(size_t i, float y) const {
-    const auto column = static_cast<float>(i % static_cast<size_t>(columns)), row = static_cast<float>(i / static_cast<size_t>(columns));
+    const auto column = static_cast<float>(i % static_cast<size_t>(columns)),
+               row = static_cast<float>(i / static_cast<size_t>(columns));
     return {low.x + (column + 0.5f) * cellM, y, low.z + (row + 0.5f) * cellM};
   }
 };
@@ -119,7 +120,8 @@ std::vector<float> levelsOf(const Search& s, const std::vector<std::vector<float
   for (const Bin& level : levels) {
     if (level.count * cellM2 < std::max(kLeastFloorM2, 0.1 * levels.front().count * cellM2)) break;
     const float y = static_cast<float>(level.sumM / level.count);
-    if (std::none_of(chosen.begin(), chosen.end(), [&](float other) { return std::abs(other - y) < kHeadroomM; })) chosen.push_back(y);
+    if (std::none_of(chosen.begin(), chosen.end(), [&](float other) { return std::abs(other - y) < kHeadroomM; }))
+      chosen.push_back(y);
   }
   return chosen;
 }
@@ -133,7 +135,8 @@ Cell cellAt(const RayScene& rays, Vec3 p, float levelM) {
 // One storey: which area each cell belongs to.
 class Storey {
  public:
-  Storey(const Search& search, float levelM, float planeM) : s_(search), levelM_(levelM), planeM_(planeM), cells_(search.count()) {
+  Storey(const Search& search, float levelM, float planeM)
+      : s_(search), levelM_(levelM), planeM_(planeM), cells_(search.count()) {
     parallelFor(s_.count(), 64, [&](size_t i) { cells_[i] = cellAt(s_.rays, s_.at(i, levelM_ + planeM_), levelM_); });
     part(levelM_ + overDoors());
     joinSmall();
@@ -158,7 +161,8 @@ class Storey {
   bool holdsAPerson(int area) const {
     const int reach = static_cast<int>(std::ceil(kElbowM / s_.cellM));
     for (size_t i = 0; i < cells_.size(); ++i) {
-      const int column = static_cast<int>(i % static_cast<size_t>(s_.columns)), row = static_cast<int>(i / static_cast<size_t>(s_.columns));
+      const int column = static_cast<int>(i % static_cast<size_t>(s_.columns)),
+                row = static_cast<int>(i / static_cast<size_t>(s_.columns));
       bool wide = cells_[i] == area;
       for (int k = -reach; wide && k <= reach; ++k) wide = at(column + k, row) == area && at(column, row + k) == area;
       if (wide) return true;
@@ -172,7 +176,8 @@ class Storey {
     for (int dr = -reach; dr <= reach; ++dr) {
       for (int dc = -reach; dc <= reach; ++dc) {
         const int c = at(column + dc, row + dr);
-        const float dx = s_.low.x + (static_cast<float>(column + dc) + 0.5f) * s_.cellM - p.x, dz = s_.low.z + (static_cast<float>(row + dr) + 0.5f) * s_.cellM - p.z;
+        const float dx = s_.low.x + (static_cast<float>(column + dc) + 0.5f) * s_.cellM - p.x,
+                    dz = s_.low.z + (static_cast<float>(row + dr) + 0.5f) * s_.cellM - p.z;
         if (c != area && c != kInThing && std::hypot(dx, dz) < borderM + s_.cellM / 2) return false;
       }
     }
@@ -184,7 +189,8 @@ class Storey {
   int rowOf(Vec3 p) const { return static_cast<int>(std::floor((p.z - s_.low.z) / s_.cellM)); }
   int at(int column, int row) const {
     const bool in = column >= 0 && row >= 0 && column < s_.columns && row < s_.rows;
-    return in ? cells_[static_cast<size_t>(row) * static_cast<size_t>(s_.columns) + static_cast<size_t>(column)] : kOutside;
+    return in ? cells_[static_cast<size_t>(row) * static_cast<size_t>(s_.columns) + static_cast<size_t>(column)]
+              : kOutside;
   }
   // Below the ceiling of most cells.
   float overDoors() const {
@@ -193,7 +199,8 @@ class Storey {
       if (cells_[i] == kOpen) ceilings.push_back(planeM_ + look(s_.rays, s_.at(i, levelM_ + planeM_), {0, 1, 0}).t);
     }
     if (ceilings.empty()) return kOverDoorsM;
-    std::nth_element(ceilings.begin(), ceilings.begin() + static_cast<std::ptrdiff_t>(ceilings.size() / 2), ceilings.end());
+    std::nth_element(ceilings.begin(), ceilings.begin() + static_cast<std::ptrdiff_t>(ceilings.size() / 2),
+                     ceilings.end());
     return std::min(kOverDoorsM, ceilings[ceilings.size() / 2] - 0.1f);
   }
   bool linked(size_t a, size_t b, float y) const {
@@ -232,7 +239,8 @@ class Storey {
         if (cells_[i] < 0 || m2[static_cast<size_t>(cells_[i])] >= kLeastAreaM2) continue;
         neighbours(i, [&](size_t n) {
           if (changed && cells_[i] >= 0 && m2[static_cast<size_t>(cells_[i])] >= kLeastAreaM2) return;
-          if (cells_[n] >= 0 && m2[static_cast<size_t>(cells_[n])] >= kLeastAreaM2 && linked(i, n, levelM_ + planeM_)) cells_[i] = cells_[n], changed = true;
+          if (cells_[n] >= 0 && m2[static_cast<size_t>(cells_[n])] >= kLeastAreaM2 && linked(i, n, levelM_ + planeM_))
+            cells_[i] = cells_[n], changed = true;
         });
       }
     }
@@ -247,7 +255,8 @@ class Storey {
 Lattice latticeOf(const Storey& storey, int area, const Bounds3& b, const GridSettings& settings) {
   const Vec3 size = b.size();
   Lattice lattice = rectangleLattice(b.lo, {size.x, 0, 0}, {0, 0, size.z}, {0, 1, 0}, settings);
-  const double border = std::min(settings.borderM, settings.borderShare * static_cast<double>(std::min(size.x, size.z)));
+  const double border =
+      std::min(settings.borderM, settings.borderShare * static_cast<double>(std::min(size.x, size.z)));
   parallelFor(lattice.used.size(), 16, [&](size_t i) {
     const int column = static_cast<int>(i) % lattice.columns, row = static_cast<int>(i) / lattice.columns;
     lattice.used[i] = storey.belongs(lattice.centre(column, row), area, static_cast<float>(border));

@@ -9,8 +9,8 @@
 
 namespace roomlight {
 
-// In a wardrobe, in a pillar? Five of six rays along the axes meet the backs of things smaller than a room; the sixth may meet the floor that the
-// thing stands on.
+// In a wardrobe, in a pillar? Five of six rays along the axes meet the backs of things smaller than a room; the sixth
+// may meet the floor that the thing stands on.
 bool insideThing(const RayScene& rays, Vec3 p);
 
 // Cells whose middle is in a wardrobe say nothing of the room: they are no longer used. Returns how many.
@@ -24,8 +24,8 @@ struct Area {
   Lattice map;           // the same up to the walls and finer, for a picture of the light
 };
 
-// A floor is a level that many rays from above end on with 1.9 m of room and a ceiling over it. Areas are parted by what stands 2.2 m above the
-// floor, where doors have ended. Costs some hundred thousand rays.
+// A floor is a level that many rays from above end on with 1.9 m of room and a ceiling over it. Areas are parted by
+// what stands 2.2 m above the floor, where doors have ended. Costs some hundred thousand rays.
 std::vector<Area> findAreas(const RayScene& rays, double workPlaneM, const GridSettings& settings);
 
 }  // namespace roomlight

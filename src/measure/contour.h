@@ -13,8 +13,8 @@ struct ContourPoint {
   bool rim = false;  // on the edge of the field, where the line only closes
 };
 
-// Lines around all that is at least `level`, which lies to one side of each all along; together, filled by the even-odd rule, they are that region.
-// Values must be numbers, row by row; between cell middles they are linear.
+// Lines around all that is at least `level`, which lies to one side of each all along; together, filled by the even-odd
+// rule, they are that region. Values must be numbers, row by row; between cell middles they are linear.
 std::vector<std::vector<ContourPoint>> contours(std::span<const float> values, int columns, int rows, float level);
 
 // A field with its gaps (not a number) filled from their neighbours, for drawing.

@@ -23,7 +23,8 @@ void lightByOvercastSky(Scene& scene, double groundReflectance) {
   Image image(kColumns, kRows);
   for (int row = 0; row < kRows; ++row) {
     const double altitude = kPiD * (0.5 - (row + 0.5) / kRows);
-    const double l = altitude > 0 ? zenith * cieSkyLuminance(kTraditionalOvercast, std::sin(altitude), 0, 0) : groundReflectance * kOvercastLux / kPiD;
+    const double l = altitude > 0 ? zenith * cieSkyLuminance(kTraditionalOvercast, std::sin(altitude), 0, 0)
+                                  : groundReflectance * kOvercastLux / kPiD;
     for (int column = 0; column < kColumns; ++column) image.at(column, row) = Vec3(static_cast<float>(l));
   }
   scene.sky = {};
@@ -37,9 +38,11 @@ void addDaylight(Measurements& m, const LitScene& lit, const MeterSettings& sett
     for (const SurfaceElement& e : g.points.lattice.elements()) elements.push_back(e);
   }
   if (elements.empty()) return;
-  const std::vector<MeterReading> readings = stages.run("daylight", [&](const Progress& p) { return lit.illuminance(elements, settings, p); });
+  const std::vector<MeterReading> readings =
+      stages.run("daylight", [&](const Progress& p) { return lit.illuminance(elements, settings, p); });
   std::vector<float> percent;
-  for (const MeterReading& r : readings) percent.push_back(luminance(r.illuminanceLux) * static_cast<float>(100 / kOvercastLux));
+  for (const MeterReading& r : readings)
+    percent.push_back(luminance(r.illuminanceLux) * static_cast<float>(100 / kOvercastLux));
   size_t next = 0;
   for (PointReading& p : m.points) p.daylightPercent = static_cast<double>(percent[next++]);
   for (GridReading& g : m.grids) {

@@ -18,9 +18,11 @@ constexpr double kLeastContrast = 3, kMostContrast = 100;
 
 // Linear Rec.709 of Oklab (Ottosson 2020, "A perceptual color space for image processing").
 Vec3 fromOklab(double lightness, double a, double b) {
-  const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3), m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3),
+  const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3),
+               m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3),
                s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
-  return {static_cast<float>(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s), static_cast<float>(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+  return {static_cast<float>(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          static_cast<float>(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
           static_cast<float>(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
@@ -30,8 +32,11 @@ bool displayable(Vec3 c) { return minComponent(c) >= 0 && maxComponent(c) <= 1; 
 
 Vec3 falseColour(double t) {
   t = std::clamp(t, 0.0, 1.0);
-  const double lightness = kDark + (kLight - kDark) * t, hue = (kFirstHueDeg + (kLastHueDeg - kFirstHueDeg) * t) * static_cast<double>(kPi) / 180;
-  const auto colour = [&](double chroma) { return fromOklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue)); };
+  const double lightness = kDark + (kLight - kDark) * t,
+               hue = (kFirstHueDeg + (kLastHueDeg - kFirstHueDeg) * t) * static_cast<double>(kPi) / 180;
+  const auto colour = [&](double chroma) {
+    return fromOklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
+  };
   double low = 0, high = kMostChroma;  // the most chroma that can be shown
   for (int i = 0; i < 20; ++i) {
     const double middle = (low + high) / 2;
@@ -46,7 +51,9 @@ std::string hexColour(Vec3 c) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.x), byte(c.y), byte(c.z));
 }
 
-double LightScale::position(double value) const { return std::clamp(std::log(std::max(value, 1e-30) / low) / std::log(high / low), 0.0, 1.0); }
+double LightScale::position(double value) const {
+  return std::clamp(std::log(std::max(value, 1e-30) / low) / std::log(high / low), 0.0, 1.0);
+}
 
 std::vector<double> roundSteps(double low, double high) {
   std::vector<double> steps;
@@ -67,9 +74,11 @@ LightScale scaleOf(std::span<const float> values) {
   }
   if (lit.empty()) return {};
   std::sort(lit.begin(), lit.end());
-  const double high = lit[lit.size() - 1 - lit.size() / 100], low = std::max(lit[lit.size() / 20], high / kMostContrast);
+  const double high = lit[lit.size() - 1 - lit.size() / 100],
+               low = std::max(lit[lit.size() / 20], high / kMostContrast);
   LightScale scale{roundSteps(low / 2, low).back(), roundSteps(high, 2 * high).front()};
-  if (scale.high < kLeastContrast * scale.low) scale.low = roundSteps(scale.high / kLeastContrast / 2, scale.high / kLeastContrast).back();
+  if (scale.high < kLeastContrast * scale.low)
+    scale.low = roundSteps(scale.high / kLeastContrast / 2, scale.high / kLeastContrast).back();
   return scale;
 }
 

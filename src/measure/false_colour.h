@@ -9,8 +9,9 @@
 
 namespace roomlight {
 
-// t from 0 (dark violet) to 1 (light yellow), encoded sRGB 0..1. Even steps of t are even steps of lightness in Oklab (Ottosson 2020), hue turns
-// steadily from blue over green to yellow, and chroma is as high as the display allows up to a limit: readable in grey and for colour-blind people.
+// t from 0 (dark violet) to 1 (light yellow), encoded sRGB 0..1. Even steps of t are even steps of lightness in Oklab
+// (Ottosson 2020), hue turns steadily from blue over green to yellow, and chroma is as high as the display allows up to
+// a limit: readable in grey and for colour-blind people.
 Vec3 falseColour(double t);
 std::string hexColour(Vec3 encoded);  // "#20a0ff"
 
@@ -19,7 +20,8 @@ struct LightScale {
   double low = 1, high = 1000;
   double position(double value) const;  // 0..1
 };
-// From the values (not numbers left out): their 5th and 99th percentiles rounded outwards to steps of roundSteps(), a factor 3 to 150 apart.
+// From the values (not numbers left out): their 5th and 99th percentiles rounded outwards to steps of roundSteps(), a
+// factor 3 to 150 apart.
 LightScale scaleOf(std::span<const float> values);
 
 // The steps by which EN 12464-1 grades illuminances, 1 - 1.5 - 2 - 3 - 5 - 7.5 - 10 and so on, from low to high.

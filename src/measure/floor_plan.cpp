@@ -56,7 +56,9 @@ std::vector<Segment> cut(const Scene& scene, const PlanFrame& frame) {
 
 // Walks along segments that share ends; points on a straight line are left out.
 std::vector<PlanLine> joined(const std::vector<Segment>& segments, float rasterM) {
-  const auto node = [&](Vec2 p) { return Node{static_cast<int>(std::lround(p.x / rasterM)), static_cast<int>(std::lround(p.y / rasterM))}; };
+  const auto node = [&](Vec2 p) {
+    return Node{static_cast<int>(std::lround(p.x / rasterM)), static_cast<int>(std::lround(p.y / rasterM))};
+  };
   std::map<Node, std::set<Node>> links;
   for (const Segment& s : segments) {
     const Node a = node(s.a), b = node(s.b);
@@ -72,14 +74,18 @@ std::vector<PlanLine> joined(const std::vector<Segment>& segments, float rasterM
         const auto next = links.find(to);
         next->second.erase(from->first);
         const size_t n = line.size();
-        const bool straight = n >= 2 && (line[n - 1].first - line[n - 2].first) * (to.second - line[n - 1].second) == (line[n - 1].second - line[n - 2].second) * (to.first - line[n - 1].first);
+        const bool straight = n >= 2 && (line[n - 1].first - line[n - 2].first) * (to.second - line[n - 1].second) ==
+                                            (line[n - 1].second - line[n - 2].second) * (to.first - line[n - 1].first);
         if (straight) line.pop_back();
         line.push_back(to);
         from = next;
       }
       Node low = line[0], high = line[0];
-      for (const auto& [x, z] : line) low = {std::min(low.first, x), std::min(low.second, z)}, high = {std::max(high.first, x), std::max(high.second, z)};
-      if (static_cast<float>(std::max(high.first - low.first, high.second - low.second)) * rasterM < kShortestM) continue;
+      for (const auto& [x, z] : line)
+        low = {std::min(low.first, x), std::min(low.second, z)},
+        high = {std::max(high.first, x), std::max(high.second, z)};
+      if (static_cast<float>(std::max(high.first - low.first, high.second - low.second)) * rasterM < kShortestM)
+        continue;
       PlanLine out;
       for (const auto& [x, z] : line) out.push_back({static_cast<float>(x) * rasterM, static_cast<float>(z) * rasterM});
       lines.push_back(std::move(out));

@@ -15,8 +15,9 @@ struct PlanFrame {
 
 using PlanLine = std::vector<Vec2>;  // in the frame, metres
 
-// What surfaces the plane through frame.origin cuts, joined to long lines on a raster of a centimetre, coarser where that would make more than 20 000
-// points. Lines shorter than 4 cm (leaves, fringes) are left out. Costs a pass over all triangles.
+// What surfaces the plane through frame.origin cuts, joined to long lines on a raster of a centimetre, coarser where
+// that would make more than 20 000 points. Lines shorter than 4 cm (leaves, fringes) are left out. Costs a pass over
+// all triangles.
 std::vector<PlanLine> cutPlan(const Scene& scene, const PlanFrame& frame);
 
 }  // namespace roomlight

@@ -14,16 +14,18 @@ struct GlareSource {
   double solidAngleSr = 0;   // of those
 };
 
-// Guth's position index of a direction for an eye that looks along `view`, upright: how much less a source disturbs there than on the line of
-// sight. Above it and on its level the closed form of CIE 117 (1995), below it p = 1 + 0.8 r up to r = 0.6, 1 + 1.2 r beyond, r the tangent of the
-// angle off the line of sight (Iwata & Tokura 1997). At most 16; infinite behind the eye.
+// Guth's position index of a direction for an eye that looks along `view`, upright: how much less a source disturbs
+// there than on the line of sight. Above it and on its level the closed form of CIE 117 (1995), below it p = 1 + 0.8 r
+// up to r = 0.6, 1 + 1.2 r beyond, r the tangent of the angle off the line of sight (Iwata & Tokura 1997). At most 16;
+// infinite behind the eye.
 double positionIndex(Vec3 direction, Vec3 view);
 
-// UGR = 8 log10(0.25 / L_b · Σ L² ω / p²), CIE 117 (1995). Minus infinity without sources; the background must be above zero.
+// UGR = 8 log10(0.25 / L_b · Σ L² ω / p²), CIE 117 (1995). Minus infinity without sources; the background must be above
+// zero.
 double ugr(std::span<const GlareSource> sources, Vec3 view, double backgroundCdM2);
 
-// A source of less than 0.005 m² of projected area counts as one of that area with the same intensity: CIE 147 (2002), "Glare from small, large and
-// complex sources". L² ω becomes 200 I² / r².
+// A source of less than 0.005 m² of projected area counts as one of that area with the same intensity: CIE 147 (2002),
+// "Glare from small, large and complex sources". L² ω becomes 200 I² / r².
 constexpr double kSmallSourceM2 = 0.005;
 // Beyond this projected area UGR is too mild (the same report).
 constexpr double kLargeSourceM2 = 1.5;

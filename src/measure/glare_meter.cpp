@@ -72,13 +72,16 @@ Seen look(const RayScene& rays, uint32_t instance, Vec3 eye, Vec3 view) {
     for (uint32_t i = 0; i < samples; ++i) {
       const Vec2 b = sampleTriangle(Sampler(t.number, i, instance).next2());
       const Vec3 to = t.v.a + (t.v.b - t.v.a) * b.x + (t.v.c - t.v.a) * b.y - eye;
-      const double distance2 = static_cast<double>(lengthSquared(to)), weight = static_cast<double>(std::abs(dot(to, normal))) / std::pow(distance2, 1.5);
-      const Vec3 light = materialAt(scene, mesh, TrianglePoint{t.number, b.x, b.y}).emission * rays.transmittance({eye, to, 0, kAlmost});
+      const double distance2 = static_cast<double>(lengthSquared(to)),
+                   weight = static_cast<double>(std::abs(dot(to, normal))) / std::pow(distance2, 1.5);
+      const Vec3 light = materialAt(scene, mesh, TrianglePoint{t.number, b.x, b.y}).emission *
+                         rays.transmittance({eye, to, 0, kAlmost});
       weights += weight;
       points.push_back({normalize(to), light, weight, distance2});
     }
     for (const Point& p : points) {
-      const double l = static_cast<double>(luminance(p.light)), sr = static_cast<double>(t.solidAngleSr) * p.weight / std::max(weights, 1e-30);
+      const double l = static_cast<double>(luminance(p.light)),
+                   sr = static_cast<double>(t.solidAngleSr) * p.weight / std::max(weights, 1e-30);
       if (l <= 0) continue;
       seen.direction += p.direction * static_cast<float>(sr);
       seen.solidAngleSr += sr, seen.luminanceSr += l * sr;
@@ -93,7 +96,8 @@ Seen look(const RayScene& rays, uint32_t instance, Vec3 eye, Vec3 view) {
 double openingTowards(const Lamp& lamp, Vec3 away) {
   if (!lamp.extended || !lamp.web) return 0;
   const double area = static_cast<double>(lamp.web->sizeC0M) * static_cast<double>(lamp.web->sizeC90M);
-  return area * (lamp.web->round ? static_cast<double>(kPi) / 4 : 1) * static_cast<double>(std::abs(dot(away, lamp.direction)));
+  return area * (lamp.web->round ? static_cast<double>(kPi) / 4 : 1) *
+         static_cast<double>(std::abs(dot(away, lamp.direction)));
 }
 
 }  // namespace
@@ -109,13 +113,16 @@ SeenLamp seenLamp(const RayScene& rays, const Lamp& lamp, Vec3 eye, Vec3 view) {
   for (uint32_t k = 0; k < samples; ++k) {
     const LightSample light = sampleLamp(lamp, eye, Sampler(0, k, 0).next2());
     if (!light.valid()) continue;
-    const double l = static_cast<double>(luminance(light.radiance * rays.transmittance(shadowRay(eye, eye, light)))) / samples;
-    out.directLux += l * static_cast<double>(std::max(0.0f, dot(light.wi, view))), cd += l * static_cast<double>(light.distance * light.distance);
+    const double l =
+        static_cast<double>(luminance(light.radiance * rays.transmittance(shadowRay(eye, eye, light)))) / samples;
+    out.directLux += l * static_cast<double>(std::max(0.0f, dot(light.wi, view))),
+        cd += l * static_cast<double>(light.distance * light.distance);
   }
   if (cd <= 0 || dot(direction, view) <= 0) return out;
   out.areaM2 = openingTowards(lamp, -direction);
   const double distance2 = static_cast<double>(distance * distance);
-  out.source = out.areaM2 < kSmallSourceM2 ? smallSource(direction, cd, static_cast<double>(distance)) : GlareSource{direction, cd / out.areaM2, out.areaM2 / distance2};
+  out.source = out.areaM2 < kSmallSourceM2 ? smallSource(direction, cd, static_cast<double>(distance))
+                                           : GlareSource{direction, cd / out.areaM2, out.areaM2 / distance2};
   return out;
 }
 
@@ -150,7 +157,8 @@ SeenLamps seenLamps(const RayScene& rays, Vec3 eye, Vec3 view) {
   return out;
 }
 
-std::vector<GlareReading> readGlares(const LitScene& lit, std::span<const GlarePlan> plans, const MeterSettings& settings, const Progress& progress,
+std::vector<GlareReading> readGlares(const LitScene& lit, std::span<const GlarePlan> plans,
+                                     const MeterSettings& settings, const Progress& progress,
                                      std::vector<std::string>& warnings) {
   std::vector<SurfaceElement> eyes;
   for (const GlarePlan& plan : plans) eyes.push_back({plan.position, plan.direction});
@@ -171,9 +179,12 @@ std::vector<GlareReading> readGlares(const LitScene& lit, std::span<const GlareP
       r.ugr = lamps.sources.empty() ? 0 : std::max(0.0, ugr(lamps.sources, plans[i].direction, r.backgroundCdM2));
       r.ugrError = 8 / std::log(10.0) * error / indirectLux;
     } else {
-      warnings.push_back(fmt::format("{}: no glare rating, since no light but that straight from lamps reaches the eye", r.plan.name));
+      warnings.push_back(
+          fmt::format("{}: no glare rating, since no light but that straight from lamps reaches the eye", r.plan.name));
     }
-    if (lamps.large > 0) warnings.push_back(fmt::format("{}: {} luminaires show more than 1.5 m², where UGR is too mild (CIE 147)", r.plan.name, lamps.large));
+    if (lamps.large > 0)
+      warnings.push_back(fmt::format("{}: {} luminaires show more than 1.5 m², where UGR is too mild (CIE 147)",
+                                     r.plan.name, lamps.large));
     list.push_back(std::move(r));
   }
   return list;

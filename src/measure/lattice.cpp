@@ -12,10 +12,13 @@ namespace {
 constexpr double kMostCellsASide = 2000;
 constexpr float kShortestWallM = 0.3f, kBeforeWallM = 0.01f;
 
-// The nearest whole number of cells for the first side; cells as long as those, as near as whole numbers allow, on the other.
+// The nearest whole number of cells for the first side; cells as long as those, as near as whole numbers allow, on the
+// other.
 void divide(Lattice& lattice, double sideU, double sideV, double spacingM) {
   const double p = spacingM > 0 ? spacingM : gridSpacingM(sideU, sideV);
-  const auto cells = [&](double side) { return std::clamp(spacingM > 0 ? std::ceil(side / p - 1e-6) : std::round(side / p), 1.0, kMostCellsASide); };
+  const auto cells = [&](double side) {
+    return std::clamp(spacingM > 0 ? std::ceil(side / p - 1e-6) : std::round(side / p), 1.0, kMostCellsASide);
+  };
   lattice.columns = static_cast<int>(cells(sideU));
   lattice.rows = static_cast<int>(cells(sideV));
   lattice.stepUM = static_cast<float>(sideU / lattice.columns);
@@ -23,7 +26,9 @@ void divide(Lattice& lattice, double sideU, double sideV, double spacingM) {
   lattice.used.assign(static_cast<size_t>(lattice.columns) * static_cast<size_t>(lattice.rows), 1);
 }
 
-double borderOf(const GridSettings& s, double sideU, double sideV) { return std::min(s.borderM, s.borderShare * std::min(sideU, sideV)); }
+double borderOf(const GridSettings& s, double sideU, double sideV) {
+  return std::min(s.borderM, s.borderShare * std::min(sideU, sideV));
+}
 
 }  // namespace
 
@@ -55,7 +60,8 @@ double gridSpacingM(double sideM, double otherSideM) {
 }
 
 Lattice rectangleLattice(Vec3 corner, Vec3 alongU, Vec3 alongV, Vec3 normal, const GridSettings& settings) {
-  const double sideU = static_cast<double>(length(alongU)), sideV = static_cast<double>(length(alongV)), border = borderOf(settings, sideU, sideV);
+  const double sideU = static_cast<double>(length(alongU)), sideV = static_cast<double>(length(alongV)),
+               border = borderOf(settings, sideU, sideV);
   Lattice lattice;
   lattice.u = normalize(alongU), lattice.v = normalize(alongV), lattice.normal = normal;
   lattice.corner = corner + (lattice.u + lattice.v) * static_cast<float>(border);
@@ -75,18 +81,21 @@ Lattice floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& 
     low = {std::min(low.x, a), std::min(low.y, b)}, high = {std::max(high.x, a), std::max(high.y, b)};
   }
   const Vec2 size = high - low, corner = u * low.x + v * low.y;
-  Lattice lattice = rectangleLattice({corner.x, yM, corner.y}, Vec3{u.x, 0, u.y} * size.x, Vec3{v.x, 0, v.y} * size.y, {0, 1, 0}, settings);
+  Lattice lattice = rectangleLattice({corner.x, yM, corner.y}, Vec3{u.x, 0, u.y} * size.x, Vec3{v.x, 0, v.y} * size.y,
+                                     {0, 1, 0}, settings);
   const double border = borderOf(settings, static_cast<double>(size.x), static_cast<double>(size.y));
   for (int row = 0; row < lattice.rows; ++row) {
     for (int column = 0; column < lattice.columns; ++column) {
       const Vec3 p = lattice.centre(column, row);
-      lattice.used[lattice.index(column, row)] = contains(floor, {p.x, p.z}) && distanceToEdgeM(floor, {p.x, p.z}) >= border;
+      lattice.used[lattice.index(column, row)] =
+          contains(floor, {p.x, p.z}) && distanceToEdgeM(floor, {p.x, p.z}) >= border;
     }
   }
   return lattice;
 }
 
-std::vector<Lattice> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM, const GridSettings& settings) {
+std::vector<Lattice> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM,
+                                  const GridSettings& settings) {
   std::vector<Lattice> walls;
   const float turn = signedAreaM2(floor) > 0 ? 1.0f : -1.0f;
   for (size_t i = 0; i < floor.size(); ++i) {
@@ -94,7 +103,8 @@ std::vector<Lattice> wallLattices(std::span<const Vec2> floor, float elevationM,
     const float l = std::hypot(side.x, side.y);
     if (l < kShortestWallM) continue;
     const Vec3 inwards = Vec3{side.y, 0, -side.x} * (turn / l);
-    walls.push_back(rectangleLattice(Vec3{a.x, elevationM, a.y} + inwards * kBeforeWallM, {side.x, 0, side.y}, {0, heightM, 0}, inwards, settings));
+    walls.push_back(rectangleLattice(Vec3{a.x, elevationM, a.y} + inwards * kBeforeWallM, {side.x, 0, side.y},
+                                     {0, heightM, 0}, inwards, settings));
   }
   return walls;
 }

@@ -19,8 +19,13 @@ struct Lattice {
   int columns = 0, rows = 0;
   std::vector<uint8_t> used;         // row by row
 
-  size_t index(int column, int row) const { return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column); }
-  Vec3 centre(int column, int row) const { return corner + u * ((static_cast<float>(column) + 0.5f) * stepUM) + v * ((static_cast<float>(row) + 0.5f) * stepVM); }
+  size_t index(int column, int row) const {
+    return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
+  }
+  Vec3 centre(int column, int row) const {
+    return corner + u * ((static_cast<float>(column) + 0.5f) * stepUM) +
+           v * ((static_cast<float>(row) + 0.5f) * stepVM);
+  }
   size_t count() const;
   std::vector<SurfaceElement> elements() const;  // of the used cells, in their order
   // One value for each used cell onto all cells; not a number in the others.
@@ -33,16 +38,18 @@ struct GridSettings {
   double borderShare = 0.15;  // ... in small rooms at most this share of the shorter side (its edition of 2021)
 };
 
-// The largest distance of points on an area of these sides: p = 0.2 · 5^(log10 d), at most 10 m; d is the longer side, or the shorter
-// where the longer is twice as long (EN 12464-1, 4.4).
+// The largest distance of points on an area of these sides: p = 0.2 · 5^(log10 d), at most 10 m; d is the longer side,
+// or the shorter where the longer is twice as long (EN 12464-1, 4.4).
 double gridSpacingM(double sideM, double otherSideM);
 
 // The rectangle corner, corner + alongU, corner + alongV.
 Lattice rectangleLattice(Vec3 corner, Vec3 alongU, Vec3 alongV, Vec3 normal, const GridSettings& settings);
-// A horizontal plane over a floor at height yM, its columns along or across the longest side. Has no used cell where the floor is too narrow.
+// A horizontal plane over a floor at height yM, its columns along or across the longest side. Has no used cell where
+// the floor is too narrow.
 Lattice floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& settings);
 // The walls around a floor, one for each side longer than 0.3 m, a centimetre in front of them.
-std::vector<Lattice> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM, const GridSettings& settings);
+std::vector<Lattice> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM,
+                                  const GridSettings& settings);
 
 struct Statistics {
   size_t points = 0;

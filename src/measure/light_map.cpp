@@ -19,13 +19,15 @@ constexpr double kWidthPx = 620, kHeightPx = 520;
 constexpr float kLampHeightM = 4;          // lamps up to so high above the plane are marked
 constexpr float kLargestLampM = 3;         // what emits and is larger is no lamp
 
-// The values with a ring of their own edge around them, so that colours and lines go on to the border of the outer cells.
+// The values with a ring of their own edge around them, so that colours and lines go on to the border of the outer
+// cells.
 std::vector<float> ringed(const Field& field) {
   const int columns = field.lattice.columns, rows = field.lattice.rows;
   const std::vector<float> inner = withoutGaps(field.lux, columns, rows);
   std::vector<float> out;
   for (int y = -1; y <= rows; ++y) {
-    for (int x = -1; x <= columns; ++x) out.push_back(inner[field.lattice.index(std::clamp(x, 0, columns - 1), std::clamp(y, 0, rows - 1))]);
+    for (int x = -1; x <= columns; ++x)
+      out.push_back(inner[field.lattice.index(std::clamp(x, 0, columns - 1), std::clamp(y, 0, rows - 1))]);
   }
   return out;
 }
@@ -36,12 +38,26 @@ int cm(float metres) { return static_cast<int>(std::lround(metres * 100)); }
 class Drawing {
  public:
   Drawing(const GridReading& grid, const Scene& scene, const LightScale& scale, int number)
-      : grid_(grid), field_(grid.map ? *grid.map : grid.points), scene_(scene), scale_(scale), number_(number), wall_(std::abs(lattice().normal.y) < 0.5f), size_{lattice().stepUM * static_cast<float>(lattice().columns), lattice().stepVM * static_cast<float>(lattice().rows)}, px_(static_cast<float>(std::max((static_cast<double>(size_.x + 2 * kMarginM) * 100) / kWidthPx, (static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30) / kHeightPx))), values_(ringed(field_)) {}
+      : grid_(grid),
+        field_(grid.map ? *grid.map : grid.points),
+        scene_(scene),
+        scale_(scale),
+        number_(number),
+        wall_(std::abs(lattice().normal.y) < 0.5f),
+        size_{lattice().stepUM * static_cast<float>(lattice().columns),
+              lattice().stepVM * static_cast<float>(lattice().rows)},
+        px_(static_cast<float>(std::max((static_cast<double>(size_.x + 2 * kMarginM) * 100) / kWidthPx,
+                                        (static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30) / kHeightPx))),
+        values_(ringed(field_)) {}
 
   std::string svg() const {
-    const double width = static_cast<double>(size_.x + 2 * kMarginM) * 100, height = static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30;
-    std::string s = fmt::format("<svg class=\"map\" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {:.0f} {:.0f}\" style=\"--px:{:.3f}px\" role=\"img\" aria-label=\"{}\">\n",
-                                width / static_cast<double>(px_), height / static_cast<double>(px_), -cm(kMarginM), -cm(kMarginM), width, height, px_, htmlEscaped(grid_.name));
+    const double width = static_cast<double>(size_.x + 2 * kMarginM) * 100,
+                 height = static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30;
+    std::string s = fmt::format(
+        "<svg class=\"map\" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} "
+        "{:.0f} {:.0f}\" style=\"--px:{:.3f}px\" role=\"img\" aria-label=\"{}\">\n",
+        width / static_cast<double>(px_), height / static_cast<double>(px_), -cm(kMarginM), -cm(kMarginM), width,
+        height, px_, htmlEscaped(grid_.name));
     s += fmt::format("<clipPath id=\"c{}\"><path clip-rule=\"evenodd\" d=\"{}\"/></clipPath>\n", number_, region());
     s += fmt::format("<g clip-path=\"url(#c{})\">\n{}</g>\n", number_, shades());
     s += plan();
@@ -65,7 +81,9 @@ class Drawing {
     const float y = cells.y * lattice().stepVM;
     return {cells.x * lattice().stepUM, wall_ ? size_.y - y : y};
   }
-  Vec2 place(Vec3 world) const { return {dot(world - lattice().corner, lattice().u), dot(world - lattice().corner, lattice().v)}; }
+  Vec2 place(Vec3 world) const {
+    return {dot(world - lattice().corner, lattice().u), dot(world - lattice().corner, lattice().v)};
+  }
 
   // Where there is something to show: the floor, where it is known, else the cells measured.
   std::string region() const {
@@ -80,7 +98,8 @@ class Drawing {
         const int first = column;
         while (column < lattice().columns && lattice().used[lattice().index(column, row)]) ++column;
         if (column == first) continue;
-        const Vec2 a = place(Vec2{static_cast<float>(first), static_cast<float>(row)}), b = place(Vec2{static_cast<float>(column), static_cast<float>(row + 1)});
+        const Vec2 a = place(Vec2{static_cast<float>(first), static_cast<float>(row)}),
+                   b = place(Vec2{static_cast<float>(column), static_cast<float>(row + 1)});
         d += fmt::format("M{},{}H{}V{}H{}Z", cm(a.x), cm(a.y), cm(b.x), cm(b.y), cm(a.x));
       }
     }
@@ -90,9 +109,11 @@ class Drawing {
   std::string shades() const {
     std::vector<double> steps = roundSteps(scale_.low, scale_.high), levels;
     for (size_t i = 0; i + 1 < steps.size(); ++i) {
-      for (int k = 0; k < kShadesAStep; ++k) levels.push_back(steps[i] * std::pow(steps[i + 1] / steps[i], static_cast<double>(k) / kShadesAStep));
+      for (int k = 0; k < kShadesAStep; ++k)
+        levels.push_back(steps[i] * std::pow(steps[i + 1] / steps[i], static_cast<double>(k) / kShadesAStep));
     }
-    std::string s = fmt::format("<rect x=\"0\" y=\"0\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", cm(size_.x), cm(size_.y), hexColour(falseColour(0)));
+    std::string s = fmt::format("<rect x=\"0\" y=\"0\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", cm(size_.x),
+                                cm(size_.y), hexColour(falseColour(0)));
     for (size_t i = 1; i < levels.size(); ++i) {
       std::string d;
       for (const auto& loop : lines(levels[i])) {
@@ -103,7 +124,9 @@ class Drawing {
         d += "Z";
       }
       const double middle = i + 1 < levels.size() ? std::sqrt(levels[i] * levels[i + 1]) : levels[i];
-      if (!d.empty()) s += fmt::format("<path fill=\"{}\" fill-rule=\"evenodd\" d=\"{}\"/>\n", hexColour(falseColour(scale_.position(middle))), d);
+      if (!d.empty())
+        s += fmt::format("<path fill=\"{}\" fill-rule=\"evenodd\" d=\"{}\"/>\n",
+                         hexColour(falseColour(scale_.position(middle))), d);
     }
     return s;
   }
@@ -120,7 +143,8 @@ class Drawing {
         std::vector<Vec2> run, best;
         for (size_t k = 0; k <= loop.size(); ++k) {
           const ContourPoint& point = loop[k % loop.size()];
-          const int column = std::clamp(static_cast<int>(point.p.x), 0, lattice().columns - 1), row = std::clamp(static_cast<int>(point.p.y), 0, lattice().rows - 1);
+          const int column = std::clamp(static_cast<int>(point.p.x), 0, lattice().columns - 1),
+                    row = std::clamp(static_cast<int>(point.p.y), 0, lattice().rows - 1);
           if (point.rim || !lattice().used[lattice().index(column, row)]) {
             on = false;
             run.clear();
@@ -135,16 +159,21 @@ class Drawing {
         if (best.size() < kShortestRun) continue;
         paths += d;
         const Vec2 middle = best[best.size() / 2];
-        if (std::any_of(labelled.begin(), labelled.end(), [&](Vec2 p) { return std::hypot(p.x - middle.x, p.y - middle.y) < clear; })) continue;
+        if (std::any_of(labelled.begin(), labelled.end(),
+                        [&](Vec2 p) { return std::hypot(p.x - middle.x, p.y - middle.y) < clear; }))
+          continue;
         labelled.push_back(middle);
-        labels += fmt::format("<text class=\"level\" x=\"{}\" y=\"{}\">{:g}</text>\n", cm(middle.x), cm(middle.y), level);
+        labels +=
+            fmt::format("<text class=\"level\" x=\"{}\" y=\"{}\">{:g}</text>\n", cm(middle.x), cm(middle.y), level);
       }
     }
     return fmt::format("<path class=\"contour\" clip-path=\"url(#c{})\" d=\"{}\"/>\n{}", number_, paths, labels);
   }
 
   std::string plan() const {
-    if (wall_) return fmt::format("<rect class=\"wall\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\"/>\n", cm(size_.x), cm(size_.y));
+    if (wall_)
+      return fmt::format("<rect class=\"wall\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\"/>\n", cm(size_.x),
+                         cm(size_.y));
     const Lattice& l = lattice();
     const PlanFrame frame{l.corner, l.u, l.v, {-kMarginM, -kMarginM}, {size_.x + kMarginM, size_.y + kMarginM}};
     std::string d;
@@ -174,8 +203,13 @@ class Drawing {
 
   std::string lamp(Vec3 at, const std::string& name) const {
     const Vec2 p = place(at);
-    if (p.x < 0 || p.y < 0 || p.x > size_.x || p.y > size_.y || at.y < lattice().corner.y - 1 || at.y > lattice().corner.y + kLampHeightM) return {};
-    return fmt::format("<g class=\"lamp\" transform=\"translate({} {})\"><title>{}, {:.2f} m</title><circle r=\"9\"/><path d=\"M-6.4-6.4L6.4 6.4M-6.4 6.4L6.4-6.4\"/></g>\n", cm(p.x), cm(p.y), htmlEscaped(name), at.y);
+    if (p.x < 0 || p.y < 0 || p.x > size_.x || p.y > size_.y || at.y < lattice().corner.y - 1 ||
+        at.y > lattice().corner.y + kLampHeightM)
+      return {};
+    return fmt::format(
+        "<g class=\"lamp\" transform=\"translate({} {})\"><title>{}, {:.2f} m</title><circle r=\"9\"/><path "
+        "d=\"M-6.4-6.4L6.4 6.4M-6.4 6.4L6.4-6.4\"/></g>\n",
+        cm(p.x), cm(p.y), htmlEscaped(name), at.y);
   }
 
   std::string lamps() const {
@@ -185,7 +219,8 @@ class Drawing {
       if (l.kind != LampKind::Area) s += lamp(l.position, l.name);
     }
     for (const Instance& i : scene_.instances) {
-      if (isBlack(scene_.materials[static_cast<size_t>(scene_.meshes[static_cast<size_t>(i.mesh)].material)].emission)) continue;
+      if (isBlack(scene_.materials[static_cast<size_t>(scene_.meshes[static_cast<size_t>(i.mesh)].material)].emission))
+        continue;
       const Bounds3 b = instanceBounds(scene_, i);
       if (!b.empty() && maxComponent(b.size()) < kLargestLampM) s += lamp(b.centre(), i.name);
     }
@@ -195,8 +230,10 @@ class Drawing {
   std::string scaleBar() const {
     const int y = cm(size_.y + kMarginM) + 12;
     const int metres = size_.x > 1.5f ? 1 : 0, length = metres ? 100 : 10;
-    return fmt::format("<g class=\"bar\"><path d=\"M0,{0}v{1:.0f}h{2}v-{1:.0f}\"/><text x=\"{3:.0f}\" y=\"{4:.0f}\">{5}</text></g>\n", y, 6 * px_, length, static_cast<float>(length) + 6 * px_, static_cast<float>(y) + 8 * px_,
-                       metres ? "1 m" : "10 cm");
+    return fmt::format(
+        "<g class=\"bar\"><path d=\"M0,{0}v{1:.0f}h{2}v-{1:.0f}\"/><text x=\"{3:.0f}\" y=\"{4:.0f}\">{5}</text></g>\n",
+        y, 6 * px_, length, static_cast<float>(length) + 6 * px_, static_cast<float>(y) + 8 * px_,
+        metres ? "1 m" : "10 cm");
   }
 
   const GridReading& grid_;
@@ -224,17 +261,25 @@ const char* const kLightMapStyle = R"(
 .map .bar text{font-size:calc(12*var(--px))}
 )";
 
-std::string lightMapSvg(const GridReading& grid, const Scene& scene, const LightScale& scale, int number) { return Drawing(grid, scene, scale, number).svg(); }
+std::string lightMapSvg(const GridReading& grid, const Scene& scene, const LightScale& scale, int number) {
+  return Drawing(grid, scene, scale, number).svg();
+}
 
 std::string legendSvg(const LightScale& scale, const std::string& unit) {
   constexpr int kHeight = 300, kPieces = 60;
-  std::string s = fmt::format("<svg class=\"legend\" xmlns=\"http://www.w3.org/2000/svg\" width=\"78\" height=\"{}\" viewBox=\"0 -26 78 {}\">\n<text x=\"0\" y=\"-12\">{}</text>\n", kHeight + 40, kHeight + 40, htmlEscaped(unit));
+  std::string s = fmt::format(
+      "<svg class=\"legend\" xmlns=\"http://www.w3.org/2000/svg\" width=\"78\" height=\"{}\" viewBox=\"0 -26 78 "
+      "{}\">\n<text x=\"0\" y=\"-12\">{}</text>\n",
+      kHeight + 40, kHeight + 40, htmlEscaped(unit));
   for (int i = 0; i < kPieces; ++i) {
-    s += fmt::format("<rect x=\"0\" y=\"{}\" width=\"22\" height=\"{}\" fill=\"{}\"/>\n", kHeight - (i + 1) * kHeight / kPieces, kHeight / kPieces + 1, hexColour(falseColour((i + 0.5) / kPieces)));
+    s += fmt::format("<rect x=\"0\" y=\"{}\" width=\"22\" height=\"{}\" fill=\"{}\"/>\n",
+                     kHeight - (i + 1) * kHeight / kPieces, kHeight / kPieces + 1,
+                     hexColour(falseColour((i + 0.5) / kPieces)));
   }
   for (const double step : roundSteps(scale.low, scale.high)) {
     const double y = kHeight * (1 - scale.position(step));
-    s += fmt::format("<path class=\"tick\" d=\"M22,{0:.1f}h5\"/><text x=\"31\" y=\"{1:.1f}\">{2:g}</text>\n", y, y + 4, step);
+    s += fmt::format("<path class=\"tick\" d=\"M22,{0:.1f}h5\"/><text x=\"31\" y=\"{1:.1f}\">{2:g}</text>\n", y, y + 4,
+                     step);
   }
   return s + "</svg>\n";
 }

@@ -1,4 +1,5 @@
-// A picture of the light on a surface: colours, contours, the plan around it, lamps and a length to compare with. Inline SVG.
+// A picture of the light on a surface: colours, contours, the plan around it, lamps and a length to compare with.
+ // Inline SVG.
 #pragma once
 
 #include <string>

@@ -30,8 +30,7 @@ std::optional<double> kelvinOf(Vec3 fluxLm) {
 
 const char* kindOf(const Lamp& lamp) {
   if (lamp.web) return "photometric";
-  return lamp.kind == LampKind::Area ? "area" : lamp.kind == LampKind::Spot ? "spot"
-                                                                            : "point";
+  return lamp.kind == LampKind::Area ? "area" : lamp.kind == LampKind::Spot ? "spot" : "point";
 }
 
 Vec3 fluxOf(const Lamp& lamp) {

@@ -19,20 +19,13 @@ struct Glyph {
   uint8_t rows[kGlyphHeight];
 };
 constexpr Glyph kGlyphs[] = {
-    {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}},
-    {'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
-    {'2', {0x0e, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1f}},
-    {'3', {0x1f, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0e}},
-    {'4', {0x02, 0x06, 0x0a, 0x12, 0x1f, 0x02, 0x02}},
-    {'5', {0x1f, 0x10, 0x1e, 0x01, 0x01, 0x11, 0x0e}},
-    {'6', {0x06, 0x08, 0x10, 0x1e, 0x11, 0x11, 0x0e}},
-    {'7', {0x1f, 0x01, 0x02, 0x04, 0x08, 0x08, 0x08}},
-    {'8', {0x0e, 0x11, 0x11, 0x0e, 0x11, 0x11, 0x0e}},
-    {'9', {0x0e, 0x11, 0x11, 0x0f, 0x01, 0x02, 0x0c}},
-    {'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x0c, 0x0c}},
-    {'/', {0x00, 0x01, 0x02, 0x04, 0x08, 0x10, 0x00}},
-    {'c', {0x00, 0x00, 0x0e, 0x10, 0x10, 0x11, 0x0e}},
-    {'d', {0x01, 0x01, 0x0d, 0x13, 0x11, 0x11, 0x0f}},
+    {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}}, {'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
+    {'2', {0x0e, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1f}}, {'3', {0x1f, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0e}},
+    {'4', {0x02, 0x06, 0x0a, 0x12, 0x1f, 0x02, 0x02}}, {'5', {0x1f, 0x10, 0x1e, 0x01, 0x01, 0x11, 0x0e}},
+    {'6', {0x06, 0x08, 0x10, 0x1e, 0x11, 0x11, 0x0e}}, {'7', {0x1f, 0x01, 0x02, 0x04, 0x08, 0x08, 0x08}},
+    {'8', {0x0e, 0x11, 0x11, 0x0e, 0x11, 0x11, 0x0e}}, {'9', {0x0e, 0x11, 0x11, 0x0f, 0x01, 0x02, 0x0c}},
+    {'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x0c, 0x0c}}, {'/', {0x00, 0x01, 0x02, 0x04, 0x08, 0x10, 0x00}},
+    {'c', {0x00, 0x00, 0x0e, 0x10, 0x10, 0x11, 0x0e}}, {'d', {0x01, 0x01, 0x0d, 0x13, 0x11, 0x11, 0x0f}},
     {'m', {0x00, 0x00, 0x1a, 0x15, 0x15, 0x11, 0x11}},
 };
 
@@ -48,7 +41,8 @@ void write(Image& image, int x, int y, int enlarged, const std::string& text) {
       if (g.letter != letter) continue;
       for (int row = 0; row < kGlyphHeight; ++row) {
         for (int column = 0; column < kGlyphWidth; ++column) {
-          if (g.rows[row] >> (kGlyphWidth - 1 - column) & 1) fill(image, x + column * enlarged, y + row * enlarged, enlarged, enlarged, Vec3(0.1f));
+          if (g.rows[row] >> (kGlyphWidth - 1 - column) & 1)
+            fill(image, x + column * enlarged, y + row * enlarged, enlarged, enlarged, Vec3(0.1f));
         }
       }
     }
@@ -72,7 +66,9 @@ LightScale luminanceScale(const Image& image) {
 
 Image greyPicture(const Image& image, double whiteCdM2) {
   Image out(image.width, image.height);
-  parallelFor(image.pixels.size(), 16384, [&](size_t i) { out.pixels[i] = Vec3(srgbEncode(luminance(image.pixels[i]) / static_cast<float>(whiteCdM2))); });
+  parallelFor(image.pixels.size(), 16384, [&](size_t i) {
+    out.pixels[i] = Vec3(srgbEncode(luminance(image.pixels[i]) / static_cast<float>(whiteCdM2)));
+  });
   return out;
 }
 
@@ -81,12 +77,15 @@ Image falseColourPicture(const Image& image, const LightScale& scale) {
   Image out(image.width + kLegendWidth * enlarged, image.height);
   std::fill(out.pixels.begin(), out.pixels.end(), Vec3(1));
   parallelFor(static_cast<size_t>(image.height), 16, [&](size_t y) {
-    for (int x = 0; x < image.width; ++x) out.at(x, static_cast<int>(y)) = falseColour(scale.position(static_cast<double>(luminance(image.at(x, static_cast<int>(y))))));
+    for (int x = 0; x < image.width; ++x)
+      out.at(x, static_cast<int>(y)) =
+          falseColour(scale.position(static_cast<double>(luminance(image.at(x, static_cast<int>(y))))));
   });
   const int top = kUnitHeight * enlarged, height = image.height - top - 6 * enlarged;
   if (height <= 0) return out;
   write(out, left, 5 * enlarged, enlarged, "cd/m2");
-  for (int y = 0; y < height; ++y) fill(out, left, top + y, kBarWidth * enlarged, 1, falseColour(1 - (y + 0.5) / height));
+  for (int y = 0; y < height; ++y)
+    fill(out, left, top + y, kBarWidth * enlarged, 1, falseColour(1 - (y + 0.5) / height));
   int below = image.height + kGlyphHeight * enlarged;
   for (const double step : roundSteps(scale.low, scale.high)) {
     const int y = top + static_cast<int>(std::lround((1 - scale.position(step)) * height));

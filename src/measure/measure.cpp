@@ -19,7 +19,8 @@ constexpr double kRoofedShare = 0.25;  // of points under a roof, from which on 
 constexpr float kStoreyM = 3;          // of an area, whose ceiling is not known
 constexpr float kBesideCellM = 0.6f;   // a lamp so near to a point of an area hangs in it
 
-void addHorizontal(const RoomPlan& plan, const GridSettings& grid, SurfaceKind kind, float aboveM, bool maps, Measurements& m) {
+void addHorizontal(const RoomPlan& plan, const GridSettings& grid, SurfaceKind kind, float aboveM, bool maps,
+                   Measurements& m) {
   GridReading g;
   g.name = fmt::format("{}, {}", plan.room.name, kind == SurfaceKind::Floor ? "floor" : "work plane");
   g.room = plan.room.name, g.kind = kind, g.targets = plan.targets, g.floor = plan.room.floor;
@@ -29,8 +30,11 @@ void addHorizontal(const RoomPlan& plan, const GridSettings& grid, SurfaceKind k
   if (maps) {
     Field map;
     Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
-    for (const Vec2 p : plan.room.floor) low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    map.lattice = floorLattice(plan.room.floor, y, {std::max(0.1, static_cast<double>(std::max(high.x - low.x, high.y - low.y)) / kMapCells), 0, 0});
+    for (const Vec2 p : plan.room.floor)
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    map.lattice =
+        floorLattice(plan.room.floor, y,
+                     {std::max(0.1, static_cast<double>(std::max(high.x - low.x, high.y - low.y)) / kMapCells), 0, 0});
     g.map = std::move(map);
   }
   m.grids.push_back(std::move(g));
@@ -75,28 +79,32 @@ void addAreas(const RayScene& rays, const GridSettings& grid, bool maps, Measure
     if (maps) g.map = Field{std::move(area.map), {}, {}};
     m.grids.push_back(std::move(g));
   }
-  if (m.rooms.empty()) m.warnings.push_back("no floor under a ceiling was found; say what to measure with --meters or --point");
+  if (m.rooms.empty())
+    m.warnings.push_back("no floor under a ceiling was found; say what to measure with --meters or --point");
 }
 
 void addGrid(const GridPlan& plan, const GridSettings& grid, Measurements& m) {
   GridReading g;
   g.name = plan.name, g.kind = SurfaceKind::Rectangle, g.targets = plan.targets;
   // The task itself: nothing of it is left out.
-  g.points.lattice = rectangleLattice(plan.corner, plan.alongU, plan.alongV, normalize(cross(plan.alongU, plan.alongV)), {grid.spacingM, 0, 0});
+  g.points.lattice = rectangleLattice(plan.corner, plan.alongU, plan.alongV, normalize(cross(plan.alongU, plan.alongV)),
+                                      {grid.spacingM, 0, 0});
   m.grids.push_back(std::move(g));
 }
 
 // Takes points out of use that say nothing of their room.
 void leaveOut(const RayScene& rays, Measurements& m) {
   size_t cells = 0, roofed = 0;
-  for (const GridReading& g : m.grids) cells += g.points.lattice.count(), roofed += cellsUnderRoof(rays, g.points.lattice);
+  for (const GridReading& g : m.grids)
+    cells += g.points.lattice.count(), roofed += cellsUnderRoof(rays, g.points.lattice);
   const bool roofs = static_cast<double>(roofed) >= kRoofedShare * static_cast<double>(cells);
   for (GridReading& g : m.grids) {
     const size_t before = g.points.lattice.count();
     LatticePlaces places = leaveOutMisplaced(rays, g.points.lattice, roofs);
     g.leftOut = std::move(places.leftOut), g.outdoors = places.outdoors;
     if (g.map) leaveOutMisplaced(rays, g.map->lattice, roofs);
-    if (before == 0) m.warnings.push_back(fmt::format("{}: no point to measure at; set 'border' or 'spacing' smaller", g.name));
+    if (before == 0)
+      m.warnings.push_back(fmt::format("{}: no point to measure at; set 'border' or 'spacing' smaller", g.name));
   }
 }
 
@@ -114,7 +122,8 @@ Certainty certaintyOf(std::vector<double> errors) {
   return {errors.size(), errors.back(), errors[errors.size() / 2]};
 }
 
-void readFields(const LitScene& lit, const std::vector<Field*>& fields, const MeterSettings& settings, const Progress& progress, std::vector<double>& errors) {
+void readFields(const LitScene& lit, const std::vector<Field*>& fields, const MeterSettings& settings,
+                const Progress& progress, std::vector<double>& errors) {
   std::vector<SurfaceElement> elements;
   for (const Field* f : fields) {
     for (const SurfaceElement& e : f->lattice.elements()) elements.push_back(e);
@@ -132,12 +141,14 @@ void readFields(const LitScene& lit, const std::vector<Field*>& fields, const Me
   }
 }
 
-void readPoints(const LitScene& lit, const MeterPlan& plan, const MeterSettings& settings, const Progress& progress, Measurements& m, std::vector<double>& errors) {
+void readPoints(const LitScene& lit, const MeterPlan& plan, const MeterSettings& settings, const Progress& progress,
+                Measurements& m, std::vector<double>& errors) {
   std::vector<SurfaceElement> elements;
   for (const PointPlan& p : plan.points) elements.push_back(p.place);
   const std::vector<MeterReading> readings = lit.illuminance(elements, settings, progress);
   for (size_t i = 0; i < readings.size(); ++i) {
-    m.points.push_back({plan.points[i], static_cast<double>(luminance(readings[i].illuminanceLux)), readings[i].standardErrorLux, std::nullopt});
+    m.points.push_back({plan.points[i], static_cast<double>(luminance(readings[i].illuminanceLux)),
+                        readings[i].standardErrorLux, std::nullopt});
   }
   addCertainty(readings, errors);
 }
@@ -156,8 +167,10 @@ void nameRooms(Measurements& m) {
   for (Luminaire& l : m.luminaires) {
     for (RoomReading& r : m.rooms) {
       const bool outlined = !r.room.floor.empty();
-      const bool inside = outlined ? isIn(r.room, l.position)
-                                   : std::any_of(m.grids.begin(), m.grids.end(), [&](const GridReading& g) { return g.room == r.room.name && isOver(g, r.room.elevationM, l.position); });
+      const bool inside =
+          outlined ? isIn(r.room, l.position) : std::any_of(m.grids.begin(), m.grids.end(), [&](const GridReading& g) {
+            return g.room == r.room.name && isOver(g, r.room.elevationM, l.position);
+          });
       if (!inside) continue;
       l.room = r.room.name;
       if (!outlined) ++r.lamps, r.wattsW += l.wattsW, r.lampsWithoutWatts += l.wattsW <= 0;
@@ -189,15 +202,21 @@ Measurements measure(const LitScene& lit, const MeterPlan& plan, const MeasureSe
     points.push_back(&g.points);
     if (g.map) maps.push_back(&*g.map);
   }
-  if (!plan.points.empty()) stages.run("points", [&](const Progress& p) { return readPoints(lit, plan, settings.meters, p, m, errors), 0; });
-  if (!points.empty()) stages.run("grids", [&](const Progress& p) { return readFields(lit, points, settings.meters, p, errors), 0; });
+  if (!plan.points.empty())
+    stages.run("points", [&](const Progress& p) { return readPoints(lit, plan, settings.meters, p, m, errors), 0; });
+  if (!points.empty())
+    stages.run("grids", [&](const Progress& p) { return readFields(lit, points, settings.meters, p, errors), 0; });
   if (!maps.empty()) {
     MeterSettings rough = settings.meters;
     rough.tolerance *= kMapTolerance;
     stages.run("maps", [&](const Progress& p) { return readFields(lit, maps, rough, p, ofMaps), 0; });
   }
-  if (!plan.spots.empty()) stages.run("spots", [&](const Progress& p) { return m.spots = readSpots(lit, plan.spots, p), 0; });
-  if (!plan.glares.empty()) stages.run("glare", [&](const Progress& p) { return m.glares = readGlares(lit, plan.glares, settings.meters, p, m.warnings), 0; });
+  if (!plan.spots.empty())
+    stages.run("spots", [&](const Progress& p) { return m.spots = readSpots(lit, plan.spots, p), 0; });
+  if (!plan.glares.empty())
+    stages.run("glare", [&](const Progress& p) {
+      return m.glares = readGlares(lit, plan.glares, settings.meters, p, m.warnings), 0;
+    });
   m.certainty = certaintyOf(std::move(errors));
   for (PointReading& p : m.points) p.place = placeOf(rays, p.plan.place.position);
   for (SpotReading& s : m.spots) s.place = placeOf(rays, s.plan.position);
@@ -208,7 +227,8 @@ Measurements measure(const LitScene& lit, const MeterPlan& plan, const MeasureSe
   const std::vector<std::string> open = notJudged(m);
   m.warnings.insert(m.warnings.end(), open.begin(), open.end());
   const Lights& lights = lit.lights();
-  if (!lights.hasLocal() && lights.sunCount() == 0 && !lights.sky().present()) m.warnings.push_back("the scene has no light at all: give it some by --lighting");
+  if (!lights.hasLocal() && lights.sunCount() == 0 && !lights.sky().present())
+    m.warnings.push_back("the scene has no light at all: give it some by --lighting");
   return m;
 }
 

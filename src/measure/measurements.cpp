@@ -18,7 +18,9 @@ std::string threeDigits(double value) {
   return fmt::format("{:.{}f}", rounded, std::clamp(3 - digits, 0, 6));
 }
 
-bool isIn(const Room& room, Vec3 p) { return p.y >= room.elevationM && p.y <= room.elevationM + room.heightM && contains(room.floor, {p.x, p.z}); }
+bool isIn(const Room& room, Vec3 p) {
+  return p.y >= room.elevationM && p.y <= room.elevationM + room.heightM && contains(room.floor, {p.x, p.z});
+}
 
 std::optional<HomeMeans> homeMeans(const Measurements& m) {
   HomeMeans means;
@@ -47,7 +49,8 @@ std::string misplacedAt(const Measurements& m, MeterPlace place, const char* whe
   std::vector<std::string> grids, meters, whole;
   size_t cells = 0;
   for (const GridReading& g : m.grids) {
-    const auto count = static_cast<size_t>(std::count_if(g.leftOut.begin(), g.leftOut.end(), [&](const LeftOutCell& c) { return c.place == place; }));
+    const auto count = static_cast<size_t>(
+        std::count_if(g.leftOut.begin(), g.leftOut.end(), [&](const LeftOutCell& c) { return c.place == place; }));
     if (count > 0) cells += count, grids.push_back(fmt::format("{} of '{}'", count, g.name));
     if (g.outdoors && place == MeterPlace::Outdoors) whole.push_back(fmt::format("'{}'", g.name));
   }
@@ -59,10 +62,15 @@ std::string misplacedAt(const Measurements& m, MeterPlace place, const char* whe
   add(m.points), add(m.spots), add(m.glares);
   std::string text;
   const auto part = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
-  if (cells > 0) part(fmt::format("{} {} of grids left out of means and minima ({})", cells, cells == 1 ? "point" : "points", namesOf(grids, grids.size() > kMostNames + 1 ? " grids" : " grid")));
-  if (!whole.empty()) part(fmt::format("{} measured, but left out of the means of the home ({})", whole.size() == 1 ? "one grid" : fmt::format("{} grids", whole.size()), namesOf(whole, "")));
+  if (cells > 0)
+    part(fmt::format("{} {} of grids left out of means and minima ({})", cells, cells == 1 ? "point" : "points",
+                     namesOf(grids, grids.size() > kMostNames + 1 ? " grids" : " grid")));
+  if (!whole.empty())
+    part(fmt::format("{} measured, but left out of the means of the home ({})",
+                     whole.size() == 1 ? "one grid" : fmt::format("{} grids", whole.size()), namesOf(whole, "")));
   if (!meters.empty()) {
-    part(fmt::format("{} {}{} ({})", meters.size(), meters.size() == 1 ? "meter" : "meters", isMisplaced(place) ? ", read but not judged" : "", namesOf(meters, "")));
+    part(fmt::format("{} {}{} ({})", meters.size(), meters.size() == 1 ? "meter" : "meters",
+                     isMisplaced(place) ? ", read but not judged" : "", namesOf(meters, "")));
   }
   return text.empty() ? text : fmt::format("{}: {}", where, text);
 }
@@ -71,7 +79,9 @@ std::string misplacedAt(const Measurements& m, MeterPlace place, const char* whe
 
 std::vector<std::string> misplaced(const Measurements& m) {
   std::vector<std::string> lines;
-  for (const auto& [place, where] : {std::pair(MeterPlace::Furniture, "in furniture"), std::pair(MeterPlace::Wall, "in a wall, floor or ceiling"), std::pair(MeterPlace::Outdoors, "outdoors")}) {
+  for (const auto& [place, where] :
+       {std::pair(MeterPlace::Furniture, "in furniture"), std::pair(MeterPlace::Wall, "in a wall, floor or ceiling"),
+        std::pair(MeterPlace::Outdoors, "outdoors")}) {
     const std::string line = misplacedAt(m, place, where);
     if (!line.empty()) lines.push_back(line);
   }
@@ -81,25 +91,36 @@ std::vector<std::string> misplaced(const Measurements& m) {
 std::vector<std::string> notJudged(const Measurements& m) {
   std::vector<std::string> list;
   for (const GridReading& g : m.grids) {
-    if (g.kind == SurfaceKind::WorkPlane && g.lux().points == 0 && g.targets.lux) list.push_back(fmt::format("{}: illuminance is not judged, since no point is left ({} lie in furniture or walls)", g.name, g.leftOut.size()));
+    if (g.kind == SurfaceKind::WorkPlane && g.lux().points == 0 && g.targets.lux)
+      list.push_back(fmt::format("{}: illuminance is not judged, since no point is left ({} lie in furniture or walls)",
+                                 g.name, g.leftOut.size()));
   }
   for (const GlareReading& g : m.glares) {
-    if (isMisplaced(g.place) && g.plan.targets.ugr) list.push_back(fmt::format("{}: glare is not judged, since the eye is in {}", g.plan.name, g.place == MeterPlace::Wall ? "a wall" : "furniture"));
-    if (!isMisplaced(g.place) && !g.ugr && g.plan.targets.ugr) list.push_back(fmt::format("{}: glare is not judged, since there is no rating", g.plan.name));
+    if (isMisplaced(g.place) && g.plan.targets.ugr)
+      list.push_back(fmt::format("{}: glare is not judged, since the eye is in {}", g.plan.name,
+                                 g.place == MeterPlace::Wall ? "a wall" : "furniture"));
+    if (!isMisplaced(g.place) && !g.ugr && g.plan.targets.ugr)
+      list.push_back(fmt::format("{}: glare is not judged, since there is no rating", g.plan.name));
   }
   for (const RoomReading& r : m.rooms) {
     const auto ofRoom = [&](const GridReading& g) { return g.room == r.room.name && g.kind == SurfaceKind::WorkPlane; };
-    if ((r.targets.lux || r.targets.uniformity) && std::none_of(m.grids.begin(), m.grids.end(), ofRoom)) list.push_back(fmt::format("{}: illuminance is not judged, since its work plane is not measured", r.room.name));
+    if ((r.targets.lux || r.targets.uniformity) && std::none_of(m.grids.begin(), m.grids.end(), ofRoom))
+      list.push_back(fmt::format("{}: illuminance is not judged, since its work plane is not measured", r.room.name));
     const auto eye = [&](const GlareReading& g) { return isIn(r.room, g.plan.position); };
-    if (r.targets.ugr && std::none_of(m.glares.begin(), m.glares.end(), eye)) list.push_back(fmt::format("{}: glare is not judged, since there is no eye in it (glare, or --eye and --view)", r.room.name));
-    if (r.targets.wattsPerM2 && !r.wattsKnown()) list.push_back(fmt::format("{}: W/m² are not judged, since the watts of {} of {} lamps are not stated", r.room.name, r.lampsWithoutWatts, r.lamps));
+    if (r.targets.ugr && std::none_of(m.glares.begin(), m.glares.end(), eye))
+      list.push_back(fmt::format("{}: glare is not judged, since there is no eye in it (glare, or --eye and --view)",
+                                 r.room.name));
+    if (r.targets.wattsPerM2 && !r.wattsKnown())
+      list.push_back(fmt::format("{}: W/m² are not judged, since the watts of {} of {} lamps are not stated",
+                                 r.room.name, r.lampsWithoutWatts, r.lamps));
   }
   return list;
 }
 
 std::vector<Verdict> verdictsOf(const Measurements& m) {
   std::vector<Verdict> list;
-  const auto judge = [&](const std::string& where, const char* what, const char* unit, const std::optional<Target>& wanted, double got, bool atMost) {
+  const auto judge = [&](const std::string& where, const char* what, const char* unit,
+                         const std::optional<Target>& wanted, double got, bool atMost) {
     if (wanted) list.push_back({where, what, unit, wanted->source, wanted->value, got, atMost});
   };
   for (const GridReading& g : m.grids) {
@@ -118,9 +139,11 @@ std::vector<Verdict> verdictsOf(const Measurements& m) {
   }
   for (const RoomReading& r : m.rooms) {
     for (const GlareReading& g : m.glares) {
-      if (g.ugr && !isMisplaced(g.place) && !g.plan.targets.ugr && isIn(r.room, g.plan.position)) judge(r.room.name + ", " + g.plan.name, "glare UGR", "", r.targets.ugr, *g.ugr, true);
+      if (g.ugr && !isMisplaced(g.place) && !g.plan.targets.ugr && isIn(r.room, g.plan.position))
+        judge(r.room.name + ", " + g.plan.name, "glare UGR", "", r.targets.ugr, *g.ugr, true);
     }
-    if (r.wattsKnown() && r.areaM2 > 0) judge(r.room.name, "power density", "W/m²", r.targets.wattsPerM2, r.wattsW / r.areaM2, true);
+    if (r.wattsKnown() && r.areaM2 > 0)
+      judge(r.room.name, "power density", "W/m²", r.targets.wattsPerM2, r.wattsW / r.areaM2, true);
   }
   return list;
 }

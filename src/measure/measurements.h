@@ -18,10 +18,7 @@ struct Field {
   std::vector<float> daylightPercent;  // empty, or as long as lux
 };
 
-enum class SurfaceKind { WorkPlane,
-                         Floor,
-                         Wall,
-                         Rectangle };
+enum class SurfaceKind { WorkPlane, Floor, Wall, Rectangle };
 
 struct GridReading {
   std::string name;  // "Kitchen, work plane"

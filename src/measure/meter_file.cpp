@@ -1,10 +1,9 @@
 // Meter files, version 1 (docs/formats/meters.md):
 //   { "version": 1, "comment", "border": 0.5, "spacing": 0.25, "maintenanceFactor": 0.8, "groundReflectance": 0.2,
-//     "rooms": [ { "name", "use", "floor": [[x, z], ..], "elevation", "height", "workPlane", "surfaces": ["workPlane", "floor", "walls"], "watts", targets } ],
-//     "grids": [ { "name", "corner": [x,y,z], "u": [..], "v": [..], targets } ],
-//     "points": [ { "name", "position", "normal", "target" } ],
-//     "spots": [ { "name", "position", "direction" | "lookAt", "angle" } ],
-//     "glare": [ { "name", "position", "direction" | "lookAt", "ugr" } ] }
+//     "rooms": [ { "name", "use", "floor": [[x, z], ..], "elevation", "height", "workPlane", "surfaces": ["workPlane",
+//     "floor", "walls"], "watts", targets } ], "grids": [ { "name", "corner": [x,y,z], "u": [..], "v": [..], targets }
+//     ], "points": [ { "name", "position", "normal", "target" } ], "spots": [ { "name", "position", "direction" |
+//     "lookAt", "angle" } ], "glare": [ { "name", "position", "direction" | "lookAt", "ugr" } ] }
 //   targets: "target": "150 lx", "uniformity": 0.6, "ugr": 19, "powerDensity": 6
 #include "measure/meter_file.h"
 
@@ -40,7 +39,8 @@ Vec3 direction(const JsonPlace& j, Vec3 from) {
     j.fail("give exactly one of direction, lookAt");
     return {0, 0, -1};
   }
-  return j.has("direction") ? unit(j["direction"], place(j["direction"])) : unit(j["lookAt"], place(j["lookAt"]) - from);
+  return j.has("direction") ? unit(j["direction"], place(j["direction"]))
+                            : unit(j["lookAt"], place(j["lookAt"]) - from);
 }
 
 // What the file says goes before what a standard says.
@@ -63,7 +63,8 @@ std::vector<Vec2> readFloor(const JsonPlace& j) {
       j[i].fail("must be [x, z]");
       return floor;
     }
-    floor.push_back({static_cast<float>(j[i][size_t{0}].number(-kFarthestM, kFarthestM)), static_cast<float>(j[i][size_t{1}].number(-kFarthestM, kFarthestM))});
+    floor.push_back({static_cast<float>(j[i][size_t{0}].number(-kFarthestM, kFarthestM)),
+                     static_cast<float>(j[i][size_t{1}].number(-kFarthestM, kFarthestM))});
   }
   const double area = signedAreaM2(floor);
   if (std::abs(area) < kLeastAreaM2) j.fail("has no area");
@@ -78,27 +79,36 @@ Room knownRoom(const JsonPlace& j, const std::string& name, std::span<const Room
   }
   std::string names;
   for (const Room& r : sceneRooms) names += (names.empty() ? "" : ", ") + r.name;
-  if (!j.has("floor")) j.fail(fmt::format("the scene knows no room '{}'{}; give its 'floor' as a list of [x, z]", name, names.empty() ? "" : " (it knows " + names + ")"));
+  if (!j.has("floor"))
+    j.fail(fmt::format("the scene knows no room '{}'{}; give its 'floor' as a list of [x, z]", name,
+                       names.empty() ? "" : " (it knows " + names + ")"));
   Room room;
   room.name = name;
   return room;
 }
 
 RoomPlan readRoom(const JsonPlace& j, std::span<const Room> sceneRooms) {
-  if (!j.isObject({"name", "use", "floor", "elevation", "height", "workPlane", "surfaces", "watts", "target", "uniformity", "ugr", "powerDensity"})) return {};
+  if (!j.isObject({"name", "use", "floor", "elevation", "height", "workPlane", "surfaces", "watts", "target",
+                   "uniformity", "ugr", "powerDensity"}))
+    return {};
   Room room = knownRoom(j, j["name"].text(), sceneRooms);
   if (j.has("use")) {
     room.use = j["use"].text();
     std::string known;
     for (const RoomUse& use : roomUses()) known += (known.empty() ? "" : ", ") + use.name;
-    if (!findRoomUse(room.use)) j["use"].fail(fmt::format("unknown '{}'; there are {}; leave it out and give 'target'", room.use.substr(0, 60), known));
+    if (!findRoomUse(room.use))
+      j["use"].fail(
+          fmt::format("unknown '{}'; there are {}; leave it out and give 'target'", room.use.substr(0, 60), known));
   }
   if (j.has("floor")) room.floor = readFloor(j["floor"]);
-  room.elevationM = static_cast<float>(j.number("elevation", -kFarthestM, kFarthestM, static_cast<double>(room.elevationM)));
+  room.elevationM =
+      static_cast<float>(j.number("elevation", -kFarthestM, kFarthestM, static_cast<double>(room.elevationM)));
   room.heightM = static_cast<float>(j.number("height", 0.1, 1000, static_cast<double>(room.heightM)));
   RoomPlan plan = planRoom(room);
   plan.workPlaneM = j.number("workPlane", 0, 100, plan.workPlaneM);
-  if (plan.workPlaneM >= static_cast<double>(room.heightM)) j[j.has("workPlane") ? "workPlane" : "height"].fail("the work plane must lie below the ceiling; give the room's 'height'");
+  if (plan.workPlaneM >= static_cast<double>(room.heightM))
+    j[j.has("workPlane") ? "workPlane" : "height"].fail(
+        "the work plane must lie below the ceiling; give the room's 'height'");
   plan.wattsW = j.number("watts", 0, 1e7, 0);
   readTargets(j, plan.targets);
   if (j.has("surfaces")) {
@@ -107,8 +117,7 @@ RoomPlan readRoom(const JsonPlace& j, std::span<const Room> sceneRooms) {
     if (list.arraySize() == 0) list.fail("names no surface; there are workPlane, floor, walls");
     for (size_t i = 0; i < list.arraySize(); ++i) {
       const std::string s = list[i].oneOf({"workPlane", "floor", "walls"});
-      (s == "workPlane" ? plan.onWorkPlane : s == "floor" ? plan.onFloor
-                                                          : plan.onWalls) = true;
+      (s == "workPlane" ? plan.onWorkPlane : s == "floor" ? plan.onFloor : plan.onWalls) = true;
     }
   }
   return plan;
@@ -120,7 +129,8 @@ GridPlan readGrid(const JsonPlace& j) {
   grid.name = j["name"].text();
   grid.corner = place(j["corner"]), grid.alongU = place(j["u"]), grid.alongV = place(j["v"]);
   const float u = length(grid.alongU), v = length(grid.alongV);
-  if (u < 1e-3f || v < 1e-3f || std::abs(dot(grid.alongU, grid.alongV)) > 1e-3f * u * v) j.fail("'u' and 'v' must be the sides of a rectangle, from 'corner' on");
+  if (u < 1e-3f || v < 1e-3f || std::abs(dot(grid.alongU, grid.alongV)) > 1e-3f * u * v)
+    j.fail("'u' and 'v' must be the sides of a rectangle, from 'corner' on");
   readTargets(j, grid.targets);
   return grid;
 }
@@ -161,7 +171,8 @@ GlarePlan readGlare(const JsonPlace& j) {
 void refuseTwins(const JsonPlace& j, const std::vector<RoomPlan>& rooms) {
   std::set<std::string> names;
   for (size_t i = 0; i < rooms.size(); ++i) {
-    if (!names.insert(rooms[i].room.name).second) j["rooms"][i].fail(fmt::format("is the second room named '{}'", rooms[i].room.name));
+    if (!names.insert(rooms[i].room.name).second)
+      j["rooms"][i].fail(fmt::format("is the second room named '{}'", rooms[i].room.name));
   }
 }
 
@@ -184,7 +195,8 @@ Result<MeterPlan> readMeterFile(const std::filesystem::path& file, std::span<con
   std::string error;
   const JsonPlace j(document.value(), "", error);
   MeterPlan plan;
-  if (j.isObject({"version", "comment", "border", "spacing", "maintenanceFactor", "groundReflectance", "rooms", "grids", "points", "spots", "glare"})) {
+  if (j.isObject({"version", "comment", "border", "spacing", "maintenanceFactor", "groundReflectance", "rooms", "grids",
+                  "points", "spots", "glare"})) {
     plan.grid.spacingM = j.number("spacing", 0.01, 100, 0);
     if (j.has("border")) plan.grid.borderM = j["border"].number(0, 10), plan.grid.borderShare = 0.45;
     plan.maintenanceFactor = j.number("maintenanceFactor", 0.1, 1, 1);

@@ -9,8 +9,8 @@
 
 namespace roomlight {
 
-// Rooms that the file only names are those of the scene. Unknown keys, wrong types, missing units and values out of range are errors that name
-// the file and the JSON path.
+// Rooms that the file only names are those of the scene. Unknown keys, wrong types, missing units and values out of
+// range are errors that name the file and the JSON path.
 Result<MeterPlan> readMeterFile(const std::filesystem::path& file, std::span<const Room> sceneRooms);
 
 }  // namespace roomlight

@@ -1,4 +1,5 @@
-// What shall be measured, as plain data. Filled from a meter file, from the command line, or from what the scene knows of its rooms.
+// What shall be measured, as plain data. Filled from a meter file, from the command line, or from what the scene knows
+ // of its rooms.
 #pragma once
 
 #include <string>

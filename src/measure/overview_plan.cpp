@@ -101,8 +101,7 @@ class Storey {
 
  private:
   static const char* kindOf(const PlacedRoom& r) {
-    return !r.target || !r.target->foundLux ? "open" : r.target->met() ? "ok"
-                                                                       : "low";
+    return !r.target || !r.target->foundLux ? "open" : r.target->met() ? "ok" : "low";
   }
 
   std::string cutLines(const Scene& scene) const {
@@ -157,8 +156,7 @@ class Storey {
                      htmlEscaped(r.reading->room.name.empty() ? "room" : r.reading->room.name));
     const Statistics l = r.grid ? r.grid->lux() : Statistics();
     if (l.points > 0) {
-      const char* mark = !r.target ? "" : r.target->met() ? " ✓"
-                                                          : " ✗";
+      const char* mark = !r.target ? "" : r.target->met() ? " ✓" : " ✗";
       s += fmt::format("<text y=\"10\">{} lx{}</text>", threeDigits(l.mean), mark);
     }
     if (!isNarrow) s += fmt::format("<text class=\"soft\" y=\"24\">{:.1f} m²</text>", r.reading->areaM2);
@@ -166,8 +164,7 @@ class Storey {
   }
 
   std::string scaleBar() const {
-    const int metres = bounds_.size().x > 12 ? 5 : bounds_.size().x > 4 ? 2
-                                                                        : 1;
+    const int metres = bounds_.size().x > 12 ? 5 : bounds_.size().x > 4 ? 2 : 1;
     const float x = bounds_.lo.x * 100 + kMarginM * 100, y = bounds_.hi.z * 100 + 14 * cmAPixel_;
     return fmt::format(
         "<g class=\"bar\"><path d=\"M{0:.0f},{1:.0f}v{2:.0f}h{3}v-{2:.0f}\"/><text x=\"{4:.0f}\" y=\"{5:.0f}\">{6} "

@@ -14,7 +14,9 @@ Json vector(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json statistics(const Statistics& s) { return {{"points", s.points}, {"mean", s.mean}, {"min", s.least}, {"max", s.most}, {"u0", s.u0()}, {"u1", s.u1()}}; }
+Json statistics(const Statistics& s) {
+  return {{"points", s.points}, {"mean", s.mean}, {"min", s.least}, {"max", s.most}, {"u0", s.u0()}, {"u1", s.u1()}};
+}
 
 const char* kindName(SurfaceKind kind) {
   switch (kind) {
@@ -35,11 +37,17 @@ Json values(const std::vector<float>& list) {
 Json gridJson(const GridReading& g) {
   const Lattice& l = g.points.lattice;
   Json j = {{"name", g.name}, {"room", g.room}, {"surface", kindName(g.kind)}, {"illuminanceLux", statistics(g.lux())}};
-  if (!g.points.daylightPercent.empty()) j["daylightFactorPercent"] = statistics(statisticsOf(g.points.daylightPercent));
+  if (!g.points.daylightPercent.empty())
+    j["daylightFactorPercent"] = statistics(statisticsOf(g.points.daylightPercent));
   j["outdoors"] = g.outdoors;
   j["leftOut"] = Json::array();  // cells of the lattice, row by row from 0
   for (const LeftOutCell& c : g.leftOut) j["leftOut"].push_back({{"cell", c.cell}, {"place", placeName(c.place)}});
-  j["lattice"] = {{"columns", l.columns}, {"rows", l.rows}, {"firstM", vector(l.columns && l.rows ? l.centre(0, 0) : l.corner)}, {"columnStepM", vector(l.u * l.stepUM)}, {"rowStepM", vector(l.v * l.stepVM)}, {"normal", vector(l.normal)}};
+  j["lattice"] = {{"columns", l.columns},
+                  {"rows", l.rows},
+                  {"firstM", vector(l.columns && l.rows ? l.centre(0, 0) : l.corner)},
+                  {"columnStepM", vector(l.u * l.stepUM)},
+                  {"rowStepM", vector(l.v * l.stepVM)},
+                  {"normal", vector(l.normal)}};
   j["lux"] = values(g.points.lux);  // row by row; null where nothing was measured
   if (!g.points.daylightPercent.empty()) j["daylightPercent"] = values(g.points.daylightPercent);
   return j;
@@ -53,7 +61,13 @@ Json roomJson(const RoomReading& r) {
 }
 
 Json pointJson(const PointReading& p) {
-  Json j = {{"name", p.plan.name}, {"positionM", vector(p.plan.place.position)}, {"normal", vector(p.plan.place.normal)}, {"illuminanceLux", p.lux}, {"standardErrorLux", p.standardErrorLux}, {"ev100", finite(incidentEv100(p.lux))}, {"place", placeName(p.place)}};
+  Json j = {{"name", p.plan.name},
+            {"positionM", vector(p.plan.place.position)},
+            {"normal", vector(p.plan.place.normal)},
+            {"illuminanceLux", p.lux},
+            {"standardErrorLux", p.standardErrorLux},
+            {"ev100", finite(incidentEv100(p.lux))},
+            {"place", placeName(p.place)}};
   if (p.daylightPercent) j["daylightFactorPercent"] = *p.daylightPercent;
   return j;
 }
@@ -63,7 +77,10 @@ Json pointJson(const PointReading& p) {
 Json meansJson(const Measurements& m) {
   const std::optional<HomeMeans> means = homeMeans(m);
   if (!means) return nullptr;
-  return {{"rooms", means->rooms}, {"areaM2", means->areaM2}, {"meanOfRoomsLux", means->ofRoomsLux}, {"meanOfAreaLux", means->ofAreaLux}};
+  return {{"rooms", means->rooms},
+          {"areaM2", means->areaM2},
+          {"meanOfRoomsLux", means->ofRoomsLux},
+          {"meanOfAreaLux", means->ofAreaLux}};
 }
 
 Json luminaireJson(const Luminaire& l) {
@@ -83,18 +100,39 @@ Json roomTargetJson(const RoomTarget& t) {
 }
 
 std::string reportJson(const ReportHeader& header, const Measurements& m) {
-  Json rooms = Json::array(), grids = Json::array(), points = Json::array(), spots = Json::array(), glares = Json::array(), targets = Json::array(), luminaires = Json::array(), byRoom = Json::array();
+  Json rooms = Json::array(), grids = Json::array(), points = Json::array(), spots = Json::array(),
+       glares = Json::array(), targets = Json::array(), luminaires = Json::array(), byRoom = Json::array();
   for (const RoomReading& r : m.rooms) rooms.push_back(roomJson(r));
   for (const GridReading& g : m.grids) grids.push_back(gridJson(g));
   for (const PointReading& p : m.points) points.push_back(pointJson(p));
   for (const SpotReading& s : m.spots) {
-    spots.push_back({{"name", s.plan.name}, {"positionM", vector(s.plan.position)}, {"direction", vector(s.plan.direction)}, {"angleDeg", s.plan.angleDeg}, {"luminanceCdM2", s.luminanceCdM2}, {"ev100", finite(reflectedEv100(s.luminanceCdM2))}, {"place", placeName(s.place)}});
+    spots.push_back({{"name", s.plan.name},
+                     {"positionM", vector(s.plan.position)},
+                     {"direction", vector(s.plan.direction)},
+                     {"angleDeg", s.plan.angleDeg},
+                     {"luminanceCdM2", s.luminanceCdM2},
+                     {"ev100", finite(reflectedEv100(s.luminanceCdM2))},
+                     {"place", placeName(s.place)}});
   }
   for (const GlareReading& g : m.glares) {
-    glares.push_back({{"name", g.plan.name}, {"positionM", vector(g.plan.position)}, {"direction", vector(g.plan.direction)}, {"ugr", g.ugr ? Json(*g.ugr) : Json(nullptr)}, {"ugrStandardError", g.ugrError}, {"backgroundCdM2", g.backgroundCdM2}, {"eyeLux", g.eyeLux}, {"luminairesSeen", g.sources}, {"place", placeName(g.place)}});
+    glares.push_back({{"name", g.plan.name},
+                      {"positionM", vector(g.plan.position)},
+                      {"direction", vector(g.plan.direction)},
+                      {"ugr", g.ugr ? Json(*g.ugr) : Json(nullptr)},
+                      {"ugrStandardError", g.ugrError},
+                      {"backgroundCdM2", g.backgroundCdM2},
+                      {"eyeLux", g.eyeLux},
+                      {"luminairesSeen", g.sources},
+                      {"place", placeName(g.place)}});
   }
   for (const Verdict& v : verdictsOf(m)) {
-    targets.push_back({{"where", v.where}, {"what", v.what}, {"unit", v.unit}, {v.atMost ? "atMost" : "atLeast", v.wanted}, {"found", v.got}, {"met", v.met()}, {"source", v.source}});
+    targets.push_back({{"where", v.where},
+                       {"what", v.what},
+                       {"unit", v.unit},
+                       {v.atMost ? "atMost" : "atLeast", v.wanted},
+                       {"found", v.got},
+                       {"met", v.met()},
+                       {"source", v.source}});
   }
   for (const Luminaire& l : scheduleOf(m.luminaires).rows) luminaires.push_back(luminaireJson(l));
   for (const RoomTarget& t : roomTargets(m)) byRoom.push_back(roomTargetJson(t));
@@ -107,7 +145,10 @@ std::string reportJson(const ReportHeader& header, const Measurements& m) {
                   {"quality", header.quality},
                   {"tolerance", header.tolerance},
                   {"maintenanceFactor", m.maintenanceFactor},
-                  {"certainty", {{"meters", m.certainty.meters}, {"medianStandardError", m.certainty.median}, {"largestStandardError", m.certainty.worst}}},
+                  {"certainty",
+                   {{"meters", m.certainty.meters},
+                    {"medianStandardError", m.certainty.median},
+                    {"largestStandardError", m.certainty.worst}}},
                   {"home", meansJson(m)},
                   {"rooms", rooms},
                   {"grids", grids},

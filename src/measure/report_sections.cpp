@@ -66,8 +66,9 @@ std::string titleBlock(const ReportHeader& h) {
   };
   row("Date", htmlEscaped(h.date));
   row("Home", fileName(h.scene));
-  row("Lighting", !h.lighting.empty() ? fileName(h.lighting) : h.addedLight.empty() ? std::string("of the home itself")
-                                                                                    : std::string("assumed, since the file has little or none: " + h.addedLight));
+  row("Lighting", !h.lighting.empty()    ? fileName(h.lighting)
+                  : h.addedLight.empty() ? std::string("of the home itself")
+                                         : std::string("assumed, since the file has little or none: " + h.addedLight));
   row("Meters", h.meters.empty() ? "every room's work plane" : fileName(h.meters));
   row("Computed by",
       fmt::format("roomlight {}, {}, {}", htmlEscaped(h.version), htmlEscaped(h.technique), htmlEscaped(h.quality)));

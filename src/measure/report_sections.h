@@ -9,7 +9,8 @@
 
 namespace roomlight::report {
 
-// A cell of a table, `kind`: its class; `text` is HTML. A row of heads, to the left those with "<" before them and those from `leftFrom` on.
+// A cell of a table, `kind`: its class; `text` is HTML. A row of heads, to the left those with "<" before them and
+// those from `leftFrom` on.
 std::string cell(const std::string& text, const char* kind = "");
 std::string head(std::initializer_list<const char*> names, size_t leftFrom = 99);
 std::string verdictCell(bool met);

@@ -24,7 +24,8 @@ std::vector<SpotReading> readSpots(const LitScene& lit, std::span<const SpotPlan
   std::vector<SpotReading> list;
   for (const SpotPlan& plan : plans) {
     if (progress.stop()) break;
-    const Image image = lit.picture(cameraAt(plan.position, plan.direction, static_cast<float>(plan.angleDeg) * kPi / 180), kPixels, kPixels);
+    const Image image = lit.picture(
+        cameraAt(plan.position, plan.direction, static_cast<float>(plan.angleDeg) * kPi / 180), kPixels, kPixels);
     double sum = 0;
     for (const Vec3& p : image.pixels) sum += static_cast<double>(luminance(p));
     list.push_back({plan, sum / static_cast<double>(std::max<size_t>(1, image.pixels.size()))});

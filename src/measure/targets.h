@@ -25,10 +25,12 @@ struct RoomUse {
   double workPlaneM;  // above the floor, where the standard measures
 };
 
-// Homes after GB 50034 (general lighting, on 0.75 m, of halls and stairs on the floor; power density of homes), offices after EN 12464-1.
+// Homes after GB 50034 (general lighting, on 0.75 m, of halls and stairs on the floor; power density of homes), offices
+// after EN 12464-1.
 const std::vector<RoomUse>& roomUses();
 const RoomUse* findRoomUse(const std::string& name);
-// What a room's name says of its use, in English, German, French, Italian and Spanish: "Kitchen 2", "Küche", "Salle de bain". Null: nothing.
+// What a room's name says of its use, in English, German, French, Italian and Spanish: "Kitchen 2", "Küche", "Salle de
+// bain". Null: nothing.
 const RoomUse* useByName(const std::string& name);
 
 }  // namespace roomlight

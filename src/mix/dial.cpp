@@ -32,7 +32,8 @@ std::string_view trimmed(std::string_view text) {
 Result<Vec3> tintOfHex(std::string_view text) {
   uint32_t rgb = 0;
   const auto [end, code] = std::from_chars(text.data() + 1, text.data() + text.size(), rgb, 16);
-  if (text.size() != 7 || code != std::errc() || end != text.data() + text.size()) return Error{fmt::format("'{}': write a colour as #rrggbb, for example #ffd080", text)};
+  if (text.size() != 7 || code != std::errc() || end != text.data() + text.size())
+    return Error{fmt::format("'{}': write a colour as #rrggbb, for example #ffd080", text)};
   if (rgb == 0) return Error{"'#000000' is no colour of light; write off"};
   const auto channel = [rgb](int shift) { return srgbDecode(static_cast<float>((rgb >> shift) & 255u) / 255); };
   const Vec3 linear{channel(16), channel(8), channel(0)};
@@ -53,7 +54,8 @@ Status readPart(std::string_view part, Dial& dial) {
   const std::string_view digits = part.substr(0, part.empty() ? 0 : part.size() - 1);
   const std::optional<double> value = number(digits);
   if (value && part.back() == '%') {
-    if (!(*value >= 0 && *value <= kMostPercent)) return Error{fmt::format("'{}': must be from 0 to {} %", part, kMostPercent)};
+    if (!(*value >= 0 && *value <= kMostPercent))
+      return Error{fmt::format("'{}': must be from 0 to {} %", part, kMostPercent)};
     dial.level = static_cast<float>(*value / 100);
     return Ok{};
   }
@@ -63,13 +65,15 @@ Status readPart(std::string_view part, Dial& dial) {
     dial.tint = tint.value();
     return Ok{};
   }
-  return Error{fmt::format("'{}': write on, off, a percentage (60%), a temperature (2700K) or a colour (#ffd080)", part)};
+  return Error{
+      fmt::format("'{}': write on, off, a percentage (60%), a temperature (2700K) or a colour (#ffd080)", part)};
 }
 
 }  // namespace
 
 Result<Vec3> tintOfKelvin(double kelvin) {
-  if (!(kelvin >= kLowestKelvin && kelvin <= kHighestKelvin)) return Error{fmt::format("{:g} K: must be from {:g} to {:g} K", kelvin, kLowestKelvin, kHighestKelvin)};
+  if (!(kelvin >= kLowestKelvin && kelvin <= kHighestKelvin))
+    return Error{fmt::format("{:g} K: must be from {:g} to {:g} K", kelvin, kLowestKelvin, kHighestKelvin)};
   return blackBodyColour(kelvin);
 }
 
@@ -92,7 +96,9 @@ Result<Vec3> gainOf(const LayerInfo& layer, const Dial& dial) {
     if (wanted[c] <= kLeastOfPrimary) continue;
     constexpr const char* kPrimaries[] = {"red", "green", "blue"};
     if (!(own[c] * kMostGain >= wanted[c])) {
-      return Error{fmt::format("'{}' was rendered with light that has next to no {}, so it cannot be given this colour; render it whiter", layer.name, kPrimaries[c])};
+      return Error{fmt::format(
+          "'{}' was rendered with light that has next to no {}, so it cannot be given this colour; render it whiter",
+          layer.name, kPrimaries[c])};
     }
     gain[c] = level * wanted[c] / own[c];
   }

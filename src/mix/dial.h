@@ -18,8 +18,9 @@ Result<Dial> parseDial(std::string_view text);
 // The tint of a black body; an error outside kLowestKelvin..kHighestKelvin.
 Result<Vec3> tintOfKelvin(double kelvin);
 
-// What the layer's linear channels are multiplied by: its light in the new colour at the same luminous flux, dimmed. An error where its own
-// light has next to nothing of a primary that the new colour needs: what was not rendered cannot be mixed.
+// What the layer's linear channels are multiplied by: its light in the new colour at the same luminous flux, dimmed. An
+// error where its own light has next to nothing of a primary that the new colour needs: what was not rendered cannot be
+// mixed.
 Result<Vec3> gainOf(const LayerInfo& layer, const Dial& dial);
 
 }  // namespace roomlight

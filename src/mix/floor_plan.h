@@ -22,11 +22,14 @@ struct FloorPlan {
   std::vector<PlanLamp> lamps;
 };
 
-// Small letters, digits and underscores, as Home Assistant makes entity ids from names: "Küche, Decke" becomes kuche_decke. Never empty.
+// Small letters, digits and underscores, as Home Assistant makes entity ids from names: "Küche, Decke" becomes
+// kuche_decke. Never empty.
 std::string slugOf(std::string_view name);
 
-// Plan with a file name and an entity (light.<slug>) for every switched lamp; equal slugs are numbered. `entities`: by layer, where given.
-FloorPlan planOf(const std::vector<LayerInfo>& layers, const Switches& switches, const std::map<size_t, std::string>& entities, const std::string& extension);
+// Plan with a file name and an entity (light.<slug>) for every switched lamp; equal slugs are numbered. `entities`: by
+// layer, where given.
+FloorPlan planOf(const std::vector<LayerInfo>& layers, const Switches& switches,
+                 const std::map<size_t, std::string>& entities, const std::string& extension);
 
 // index.html: the pictures beside it, a switch and a dimmer a lamp. No scripts from elsewhere.
 std::string pageOf(const FloorPlan& plan);

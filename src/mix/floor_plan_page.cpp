@@ -57,16 +57,24 @@ std::string pageOf(const FloorPlan& plan) {
     const PlanLamp& lamp = plan.lamps[i];
     std::string steps;
     for (const float o : lamp.opacities) steps += fmt::format("{}{:.3f}", steps.empty() ? "" : ",", o);
-    pictures += fmt::format("<img class=\"light\" id=\"l{}\" src=\"{}\" alt=\"\" data-steps=\"[{}]\">\n", i, lamp.file, steps);
+    pictures +=
+        fmt::format("<img class=\"light\" id=\"l{}\" src=\"{}\" alt=\"\" data-steps=\"[{}]\">\n", i, lamp.file, steps);
     if (lamp.pixel) {
-      spots += fmt::format("<button id=\"spot-l{}\" title=\"{}\" style=\"left: {:.2f}%; top: {:.2f}%\"></button>\n", i, escaped(lamp.name), lamp.pixel->x * 100, lamp.pixel->y * 100);
+      spots += fmt::format("<button id=\"spot-l{}\" title=\"{}\" style=\"left: {:.2f}%; top: {:.2f}%\"></button>\n", i,
+                           escaped(lamp.name), lamp.pixel->x * 100, lamp.pixel->y * 100);
     }
-    rows += fmt::format("<li id=\"row-l{}\"><label><input type=\"checkbox\"></label><span>{}</span><input type=\"range\" min=\"1\" max=\"100\" value=\"100\"></li>\n", i, escaped(lamp.name));
+    rows += fmt::format(
+        "<li id=\"row-l{}\"><label><input type=\"checkbox\"></label><span>{}</span><input type=\"range\" min=\"1\" "
+        "max=\"100\" value=\"100\"></li>\n",
+        i, escaped(lamp.name));
   }
   return fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>Lamps</title>\n<style>{0}"
-      ".plan {{ aspect-ratio: {1} / {2}; width: min(100%, calc(80vh * {1} / {2})); }}\n.plan .light {{ mix-blend-mode: {3}; }}\n</style></head>\n<body>\n"
-      "<div class=\"plan\">\n<img src=\"{4}\" alt=\"The home with these lamps off\">\n{5}{6}</div>\n<ul>\n{7}</ul>\n<script>{8}</script>\n</body></html>\n",
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>Lamps</title>\n<style>{0}"
+      ".plan {{ aspect-ratio: {1} / {2}; width: min(100%, calc(80vh * {1} / {2})); }}\n.plan .light {{ mix-blend-mode: "
+      "{3}; }}\n</style></head>\n<body>\n"
+      "<div class=\"plan\">\n<img src=\"{4}\" alt=\"The home with these lamps "
+      "off\">\n{5}{6}</div>\n<ul>\n{7}</ul>\n<script>{8}</script>\n</body></html>\n",
       kStyle, plan.width, plan.height, cssName(plan.blend), plan.baseFile, pictures, spots, rows, kScript);
 }
 

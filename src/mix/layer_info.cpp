@@ -23,16 +23,20 @@ LayerInfo read(const Json& layer) {
   info.channel = layer.at("channel").get<std::string>();
   info.name = layer.at("name").get<std::string>();
   info.kind = layer.at("kind").get<std::string>();
-  if (std::find(kKinds.begin(), kKinds.end(), info.kind) == kKinds.end()) throw std::runtime_error("unknown kind '" + info.kind + "'");
-  if (const auto c = layer.find("colour"); c != layer.end() && !c->is_null()) info.colour = {c->at(0).get<float>(), c->at(1).get<float>(), c->at(2).get<float>()};
+  if (std::find(kKinds.begin(), kKinds.end(), info.kind) == kKinds.end())
+    throw std::runtime_error("unknown kind '" + info.kind + "'");
+  if (const auto c = layer.find("colour"); c != layer.end() && !c->is_null())
+    info.colour = {c->at(0).get<float>(), c->at(1).get<float>(), c->at(2).get<float>()};
   const bool proper = isFinite(info.colour) && minComponent(info.colour) >= 0;
   if (!proper) throw std::runtime_error("'colour' must be three numbers from 0 on");
   // A layer without light of its own has no hue; white says nothing wrong.
   info.colour = isBlack(info.colour) ? Vec3(1) : info.colour / luminance(info.colour);
   info.kelvin = optionalNumber(layer, "kelvin");
   info.fluxLm = optionalNumber(layer, "fluxLm");
-  if (const auto room = layer.find("room"); room != layer.end() && room->is_string()) info.room = room->get<std::string>();
-  if (const auto p = layer.find("pixel"); p != layer.end() && !p->is_null()) info.pixel = Vec2{p->at(0).get<float>(), p->at(1).get<float>()};
+  if (const auto room = layer.find("room"); room != layer.end() && room->is_string())
+    info.room = room->get<std::string>();
+  if (const auto p = layer.find("pixel"); p != layer.end() && !p->is_null())
+    info.pixel = Vec2{p->at(0).get<float>(), p->at(1).get<float>()};
   return info;
 }
 
@@ -45,14 +49,17 @@ Result<std::vector<LayerInfo>> layersFromJson(std::string_view text, const std::
   std::string place = where;
   try {
     const Json json = Json::parse(text);
-    if (json.at("version").get<int>() != kVersion) return Error{fmt::format("{}: is of version {}, this program reads {}", where, json.at("version").get<int>(), kVersion)};
+    if (json.at("version").get<int>() != kVersion)
+      return Error{
+          fmt::format("{}: is of version {}, this program reads {}", where, json.at("version").get<int>(), kVersion)};
     for (const Json& layer : json.at("layers")) {
       place = fmt::format("{}: layers[{}]", where, layers.size());
       layers.push_back(read(layer));
     }
   } catch (const std::exception& e) {
     std::string reason = e.what();  // the library's begin with "[json.exception...] "
-    if (const size_t end = reason.find("] "); reason.starts_with("[json") && end != std::string::npos) reason.erase(0, end + 2);
+    if (const size_t end = reason.find("] "); reason.starts_with("[json") && end != std::string::npos)
+      reason.erase(0, end + 2);
     return Error{fmt::format("{}: {}", place, reason)};
   }
   return layers;

@@ -22,8 +22,8 @@ struct LayerInfo {
 // Lamps are what people switch: everything but sun and sky.
 bool isLamp(const LayerInfo& layer);
 
-// The layer of a home that is cut open which is no light: of each pixel the shares of sections (R) and of the empty backdrop (G). The JSON
-// names it as "sights".
+// The layer of a home that is cut open which is no light: of each pixel the shares of sections (R) and of the empty
+// backdrop (G). The JSON names it as "sights".
 inline constexpr const char* kSightsChannel = "sights";
 
 // {"version": 1, "layers": [...]}; `where` begins the error's line.

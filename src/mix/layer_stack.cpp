@@ -15,7 +15,8 @@ void pack(const Vec3* pixels, size_t count, PackedTile& tile, uint8_t& black) {
   for (int c = 0; c < 3; ++c) {
     for (size_t i = 0; i < count; ++i) {
       assert(pixels[i][c] >= 0 && pixels[i][c] < kInfinity);
-      const auto rounded = (std::bit_cast<uint32_t>(std::max(0.0f, pixels[i][c])) + 0x40u) >> 7;  // of -0 and 0 the latter
+      const auto rounded =
+          (std::bit_cast<uint32_t>(std::max(0.0f, pixels[i][c])) + 0x40u) >> 7;  // of -0 and 0 the latter
       tile.high[c][i] = static_cast<uint16_t>(rounded >> 8);
       tile.low[c][i] = static_cast<uint8_t>(rounded & 0xffu);
       any |= rounded;
@@ -51,7 +52,8 @@ LayerStack makeLayerStack(int width, int height, size_t layerCount) {
 void setLayer(LayerStack& stack, size_t layer, const Image& image) {
   assert(image.width == stack.width && image.height == stack.height && layer < stack.layerCount);
   parallelFor(stack.runCount(), 16, [&](size_t run) {
-    const size_t begin = run * kTilePixels, count = std::min(kTilePixels, stack.pixelCount() - begin), tile = run * stack.layerCount + layer;
+    const size_t begin = run * kTilePixels, count = std::min(kTilePixels, stack.pixelCount() - begin),
+                 tile = run * stack.layerCount + layer;
     pack(image.pixels.data() + begin, count, stack.tiles[tile], stack.black[tile]);
   });
   stack.meanRgb[layer] = clippedMean(image);

@@ -48,7 +48,8 @@ void ditherRun(const LayerStack& stack, size_t run, float* __restrict noise) {
 
 // Exposure is in the matrix.
 template <Vec3 (*Curve)(Vec3), bool kGraded>
-void showRun(const Planes& light, const Affine& matrix, const Tone& tone, const float* __restrict noise, uint8_t* __restrict out) {
+void showRun(const Planes& light, const Affine& matrix, const Tone& tone, const float* __restrict noise,
+             uint8_t* __restrict out) {
   const float contrast = tone.contrast, saturation = tone.saturation;
   const float* __restrict r = light.rgb[0];
   const float* __restrict g = light.rgb[1];
@@ -75,7 +76,9 @@ ShowRun showRunOf(ToneCurve curve) {
   return showRun<curves::clip, kGraded>;
 }
 
-size_t pixelsOfRun(const LayerStack& stack, size_t run) { return std::min(kTilePixels, stack.pixelCount() - run * kTilePixels); }
+size_t pixelsOfRun(const LayerStack& stack, size_t run) {
+  return std::min(kTilePixels, stack.pixelCount() - run * kTilePixels);
+}
 
 }  // namespace
 
@@ -96,7 +99,8 @@ ByteImage mixDisplay(const LayerStack& stack, std::span<const Vec3> gains, const
   ByteImage out(stack.width, stack.height, 3);
   const ShowRun show = look.tone.plain() ? showRunOf<false>(look.tone.curve) : showRunOf<true>(look.tone.curve);
   const float exposure = exposureFromEv100(look.ev100);
-  const Affine matrix{look.whiteBalance.x * exposure, look.whiteBalance.y * exposure, look.whiteBalance.z * exposure, {}};
+  const Affine matrix{
+      look.whiteBalance.x * exposure, look.whiteBalance.y * exposure, look.whiteBalance.z * exposure, {}};
   parallelFor(stack.runCount(), kRunsAtOnce, [&](size_t run) {
     Planes sum;
     uint8_t bytes[3 * kTilePixels];

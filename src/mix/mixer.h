@@ -19,7 +19,8 @@ struct Look {
 // The sum of layers times their gains, one gain a layer: linear, in the layers' unit.
 Image mixLinear(const LayerStack& stack, std::span<const Vec3> gains);
 
-// The same, white-balanced, exposed, tone-mapped, dithered and encoded in one pass over memory, which is what limits it: 9 bytes a pixel and layer.
+// The same, white-balanced, exposed, tone-mapped, dithered and encoded in one pass over memory, which is what limits
+// it: 9 bytes a pixel and layer.
 ByteImage mixDisplay(const LayerStack& stack, std::span<const Vec3> gains, const Look& look);
 
 }  // namespace roomlight

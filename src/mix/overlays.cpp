@@ -101,7 +101,8 @@ std::vector<uint64_t> trialStates(size_t lampCount) {
   return masks;
 }
 
-std::array<float, 11> opacitiesOf(const LayerStack& stack, const Switches& switches, const Look& look, size_t lamp, const ByteImage& base, const ByteImage& lit) {
+std::array<float, 11> opacitiesOf(const LayerStack& stack, const Switches& switches, const Look& look, size_t lamp,
+                                  const ByteImage& base, const ByteImage& lit) {
   std::array<float, 11> opacities{};
   std::vector<Vec3> gains = gainsOfState(switches, uint64_t{1} << lamp);
   const Vec3 full = gains[switches.lamps[lamp]];
@@ -114,7 +115,8 @@ std::array<float, 11> opacitiesOf(const LayerStack& stack, const Switches& switc
       products += whole * part;
       squares += whole * whole;
     }
-    opacities[step] = squares > 0 ? std::clamp(static_cast<float>(products / squares), 0.0f, 1.0f) : 0.1f * static_cast<float>(step);
+    opacities[step] =
+        squares > 0 ? std::clamp(static_cast<float>(products / squares), 0.0f, 1.0f) : 0.1f * static_cast<float>(step);
   }
   return opacities;
 }
@@ -133,18 +135,22 @@ std::string_view cssName(Blend blend) {
 
 ByteImage overlayOf(const ByteImage& base, const ByteImage& lit, Blend blend) {
   ByteImage overlay(base.width, base.height, 4);
-  parallelFor(base.pixelCount(), 4096, [&](size_t i) { overlayPixel(&base.samples[3 * i], &lit.samples[3 * i], blend, &overlay.samples[4 * i]); });
+  parallelFor(base.pixelCount(), 4096, [&](size_t i) {
+    overlayPixel(&base.samples[3 * i], &lit.samples[3 * i], blend, &overlay.samples[4 * i]);
+  });
   return overlay;
 }
 
-std::vector<float> composite(const ByteImage& base, const std::vector<ByteImage>& overlays, std::span<const float> opacities, Blend blend) {
+std::vector<float> composite(const ByteImage& base, const std::vector<ByteImage>& overlays,
+                             std::span<const float> opacities, Blend blend) {
   std::vector<float> canvas(base.samples.begin(), base.samples.end());
   for (size_t k = 0; k < overlays.size(); ++k) {
     if (opacities[k] == 0) continue;
     for (size_t i = 0; i < base.pixelCount(); ++i) {
       const uint8_t* over = &overlays[k].samples[4 * i];
       const float alpha = opacities[k] * static_cast<float>(over[3]) / 255;
-      for (size_t c = 0; c < 3; ++c) canvas[3 * i + c] = blended(canvas[3 * i + c], static_cast<float>(over[c]), alpha, blend);
+      for (size_t c = 0; c < 3; ++c)
+        canvas[3 * i + c] = blended(canvas[3 * i + c], static_cast<float>(over[c]), alpha, blend);
     }
   }
   return canvas;
@@ -166,10 +172,12 @@ OverlayTrial tryOverlays(const LayerStack& stack, const Switches& switches, cons
     std::vector<std::vector<float>> steps(masks.size());
     parallelFor(masks.size(), 1, [&](size_t m) {
       std::vector<float> on;
-      for (size_t lamp = 0; lamp < switches.lamps.size(); ++lamp) on.push_back(static_cast<float>((masks[m] >> lamp) & 1));
+      for (size_t lamp = 0; lamp < switches.lamps.size(); ++lamp)
+        on.push_back(static_cast<float>((masks[m] >> lamp) & 1));
       steps[m] = composite(base, overlays, on, kBlends[blend]);
       const ByteImage truth = mixDisplay(few, gainsOfState(switches, masks[m]), look);
-      for (size_t i = 0; i < truth.samples.size(); ++i) steps[m][i] = std::abs(steps[m][i] - static_cast<float>(truth.samples[i]));
+      for (size_t i = 0; i < truth.samples.size(); ++i)
+        steps[m][i] = std::abs(steps[m][i] - static_cast<float>(truth.samples[i]));
     });
     std::vector<float> all;
     for (const std::vector<float>& s : steps) all.insert(all.end(), s.begin(), s.end());

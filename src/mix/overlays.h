@@ -1,5 +1,6 @@
-// One picture a lamp to be laid over the picture without lamps, for pages that switch lamps by CSS. Light adds up in linear units, but pages
-// blend what is already encoded and tone-mapped: one lamp over the base is exact to rounding with every blend here, several are not.
+// One picture a lamp to be laid over the picture without lamps, for pages that switch lamps by CSS. Light adds up in
+// linear units, but pages blend what is already encoded and tone-mapped: one lamp over the base is exact to rounding
+// with every blend here, several are not.
 #pragma once
 
 #include <array>
@@ -10,18 +11,19 @@
 
 namespace roomlight {
 
-enum class Blend { Screen,
-                   Normal,
-                   PlusLighter,
-                   Lighten };
+enum class Blend { Screen, Normal, PlusLighter, Lighten };
 inline constexpr std::array<Blend, 4> kBlends = {Blend::Screen, Blend::Normal, Blend::PlusLighter, Blend::Lighten};
-std::string_view cssName(Blend blend);  // of mix-blend-mode: W3C Compositing and Blending Level 1, plus-lighter of Level 2
+std::string_view cssName(
+    Blend blend);  // of mix-blend-mode: W3C Compositing and Blending Level 1, plus-lighter of Level 2
 
-// The overlay, with alpha, that turns `base` into `lit` where it is laid over with that blend. Only `normal` can darken a pixel.
+// The overlay, with alpha, that turns `base` into `lit` where it is laid over with that blend. Only `normal` can darken
+// a pixel.
 ByteImage overlayOf(const ByteImage& base, const ByteImage& lit, Blend blend);
 
-// Lays overlays in order over `base` as a browser does: opacities 0..1, one an overlay. Encoded values 0..255, not rounded.
-std::vector<float> composite(const ByteImage& base, const std::vector<ByteImage>& overlays, std::span<const float> opacities, Blend blend);
+// Lays overlays in order over `base` as a browser does: opacities 0..1, one an overlay. Encoded values 0..255, not
+// rounded.
+std::vector<float> composite(const ByteImage& base, const std::vector<ByteImage>& overlays,
+                             std::span<const float> opacities, Blend blend);
 
 // How far overlays are from the true mix, in steps of 1/255 of the display, over states taken at random.
 struct BlendError {
@@ -29,7 +31,8 @@ struct BlendError {
 };
 struct OverlayTrial {
   std::array<BlendError, kBlends.size()> errors;  // in the order of kBlends
-  // What opacity shows a lamp at 0, 10, .. 100 % of its flux best (least squares over the base alone). The same for every blend but lighten.
+  // What opacity shows a lamp at 0, 10, .. 100 % of its flux best (least squares over the base alone). The same for
+  // every blend but lighten.
   std::vector<std::array<float, 11>> opacities;
 };
 // Of pixels spread over the picture, and of 64 states.

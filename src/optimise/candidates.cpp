@@ -12,9 +12,11 @@
 namespace roomlight::optimise {
 namespace {
 
-constexpr float kLookUpFrom = 0.6f;              // of the room's height: where the search for a ceiling starts, so that lower ones are met
+constexpr float kLookUpFrom =
+    0.6f;              // of the room's height: where the search for a ceiling starts, so that lower ones are met
 constexpr float kAboveCeilingM = 0.7f;           // and how far above the room it ends
-constexpr float kAroundM = 0.3f, kHangsM = 0.02f;  // what is lower than most of what is so far around it hangs from the ceiling
+constexpr float kAroundM = 0.3f,
+                kHangsM = 0.02f;  // what is lower than most of what is so far around it hangs from the ceiling
 constexpr size_t kMostPlaces = 100'000;          // of a rule's grid
 constexpr float kBeforeWallM = 0.5f, kBehindWallM = 0.15f;
 constexpr float kTableLowM = 0.3f, kTableHighM = 1.3f;  // tops above the floor
@@ -25,13 +27,17 @@ constexpr int kRound = 8;                        // directions in which a lumina
 Vec3 at(Vec2 p, float y) { return {p.x, y, p.y}; }
 
 // How many points evenly() makes.
-double countOf(float length, double spacing) { return length < 0 ? 0 : std::floor(static_cast<double>(length) / spacing + 1e-6) + 1; }
+double countOf(float length, double spacing) {
+  return length < 0 ? 0 : std::floor(static_cast<double>(length) / spacing + 1e-6) + 1;
+}
 
 // Even points from `low` to `high`, as far as `spacing` apart at least, in the middle.
 std::vector<float> evenly(float low, float high, double spacing) {
   const int n = static_cast<int>(countOf(high - low, spacing));
   std::vector<float> out;
-  for (int i = 0; i < n; ++i) out.push_back((low + high) / 2 + (static_cast<float>(i) - static_cast<float>(n - 1) / 2) * static_cast<float>(spacing));
+  for (int i = 0; i < n; ++i)
+    out.push_back((low + high) / 2 +
+                  (static_cast<float>(i) - static_cast<float>(n - 1) / 2) * static_cast<float>(spacing));
   return out;
 }
 
@@ -104,12 +110,19 @@ class Search {
       const PlaceRule& rule = study_.places[r];
       const size_t before = out_.places.size();
       number_ = 0;
-      if (rule.at.empty() && gridSizeOf(rule) > kMostPlaces) return Error{fmt::format("{}:{}: place '{}': its grid has more than {} places; set 'spacing' larger", study_.file.string(), rule.line, rule.name, kMostPlaces)};
+      if (rule.at.empty() && gridSizeOf(rule) > kMostPlaces)
+        return Error{fmt::format("{}:{}: place '{}': its grid has more than {} places; set 'spacing' larger",
+                                 study_.file.string(), rule.line, rule.name, kMostPlaces)};
       for (const Mount& m : mountsOf(rule)) add(r, m);
       if (out_.places.size() == before) {
-        return Error{fmt::format("{}:{}: place '{}': there is no free place for any of its luminaires; set 'spacing' or 'fromWalls' smaller, or say where with 'at'", study_.file.string(), rule.line, rule.name)};
+        return Error{
+            fmt::format("{}:{}: place '{}': there is no free place for any of its luminaires; set 'spacing' or "
+                        "'fromWalls' smaller, or say where with 'at'",
+                        study_.file.string(), rule.line, rule.name)};
       }
-      if (out_.candidates.size() > kMostCandidates) return Error{fmt::format("{}:{}: place '{}': makes more than {} candidates; set 'spacing' larger", study_.file.string(), rule.line, rule.name, kMostCandidates)};
+      if (out_.candidates.size() > kMostCandidates)
+        return Error{fmt::format("{}:{}: place '{}': makes more than {} candidates; set 'spacing' larger",
+                                 study_.file.string(), rule.line, rule.name, kMostCandidates)};
     }
     out_.firstOption.push_back(out_.options.size());
     findConflicts();
@@ -121,7 +134,9 @@ class Search {
     Vec3 p, away;
   };
 
-  Hit look(Vec3 from, Vec3 direction, float most = kInfinity) const { return rays_.intersect({from, direction, 1e-4f, most}); }
+  Hit look(Vec3 from, Vec3 direction, float most = kInfinity) const {
+    return rays_.intersect({from, direction, 1e-4f, most});
+  }
 
   std::vector<Mount> mountsOf(const PlaceRule& rule) const {
     std::vector<Mount> out;
@@ -137,7 +152,8 @@ class Search {
   }
 
   std::optional<Mount> ceilingAt(const PlaceRule& rule, Vec2 p) const {
-    const float from = rule.room.elevationM + kLookUpFrom * rule.room.heightM, most = (1 - kLookUpFrom) * rule.room.heightM + kAboveCeilingM;
+    const float from = rule.room.elevationM + kLookUpFrom * rule.room.heightM,
+                most = (1 - kLookUpFrom) * rule.room.heightM + kAboveCeilingM;
     const auto heightAt = [&](Vec2 q) {
       const Hit hit = look(at(q, from), {0, 1, 0}, most);
       return hit.valid() ? from + hit.t : kInfinity;
@@ -189,12 +205,15 @@ class Search {
     };
     for (const Side& s : sides) {
       if (!rule.at.empty()) break;
-      for (const float along : evenly(static_cast<float>(rule.fromWallsM), s.lengthM - static_cast<float>(rule.fromWallsM), rule.spacingM)) hang(s, along, rule.room.elevationM + static_cast<float>(rule.heightM));
+      for (const float along :
+           evenly(static_cast<float>(rule.fromWallsM), s.lengthM - static_cast<float>(rule.fromWallsM), rule.spacingM))
+        hang(s, along, rule.room.elevationM + static_cast<float>(rule.heightM));
     }
     for (const Vec3 p : rule.at) {
       // The nearest wall is theirs.
       const Vec2 q{p.x, p.z};
-      const auto s = std::min_element(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return a.distanceM(q) < b.distanceM(q); });
+      const auto s = std::min_element(sides.begin(), sides.end(),
+                                      [&](const Side& a, const Side& b) { return a.distanceM(q) < b.distanceM(q); });
       if (s == sides.end()) continue;
       const Vec2 d = q - s->from;
       hang(*s, std::clamp(d.x * s->along.x + d.y * s->along.y, 0.0f, s->lengthM), p.y);
@@ -215,11 +234,11 @@ class Search {
 
   std::vector<std::pair<Vec3, std::string>> aimsOf(const PlaceRule& rule, Vec3 position, Vec3 away) const {
     std::vector<std::pair<Vec3, std::string>> out;
-    for (const std::string& word : rule.aimWords) out.emplace_back(word == "down" ? Vec3{0, -1, 0} : word == "up" ? Vec3{0, 1, 0}
-                                                                                                                  : away,
-                                                                   word);
+    for (const std::string& word : rule.aimWords)
+      out.emplace_back(word == "down" ? Vec3{0, -1, 0} : word == "up" ? Vec3{0, 1, 0} : away, word);
     for (const Vec3 p : rule.aimPoints) {
-      if (length(p - position) > 0.05f) out.emplace_back(normalize(p - position), fmt::format("at {:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
+      if (length(p - position) > 0.05f)
+        out.emplace_back(normalize(p - position), fmt::format("at {:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
     }
     return out;
   }
@@ -231,7 +250,9 @@ class Search {
     for (const size_t l : rule.luminaires) {
       const Luminaire& luminaire = study_.catalogue.luminaires[l];
       const Vec3 position = mount.p + mount.away * static_cast<float>(luminaire.dropM);
-      if (rule.on == Mounting::Ceiling && static_cast<double>(distanceToEdgeM(rule.room.floor, {position.x, position.z})) < luminaire.fromWallsM) continue;
+      if (rule.on == Mounting::Ceiling &&
+          static_cast<double>(distanceToEdgeM(rule.room.floor, {position.x, position.z})) < luminaire.fromWallsM)
+        continue;
       if (insideThing(rays_, position)) {
         inThing = true;
         continue;
@@ -252,7 +273,8 @@ class Search {
 
   double sizeAt(size_t place) const {
     double most = 0;
-    for (size_t o = out_.firstOption[place]; o < out_.firstOption[place + 1]; ++o) most = std::max(most, study_.catalogue.luminaires[out_.candidates[out_.options[o].candidate].luminaire].sizeM);
+    for (size_t o = out_.firstOption[place]; o < out_.firstOption[place + 1]; ++o)
+      most = std::max(most, study_.catalogue.luminaires[out_.candidates[out_.options[o].candidate].luminaire].sizeM);
     return most;
   }
 
@@ -262,8 +284,10 @@ class Search {
     for (size_t a = 0; a < n; ++a) {
       for (size_t b = 0; b < n; ++b) {
         const bool same = out_.places[a].rule == out_.places[b].rule;
-        const double apart = std::max((sizeAt(a) + sizeAt(b)) / 2, same ? study_.places[out_.places[a].rule].apartM : 0);
-        if (a != b && static_cast<double>(length(out_.places[a].mount - out_.places[b].mount)) < apart) out_.conflicts[a].push_back(static_cast<uint32_t>(b));
+        const double apart =
+            std::max((sizeAt(a) + sizeAt(b)) / 2, same ? study_.places[out_.places[a].rule].apartM : 0);
+        if (a != b && static_cast<double>(length(out_.places[a].mount - out_.places[b].mount)) < apart)
+          out_.conflicts[a].push_back(static_cast<uint32_t>(b));
       }
     }
   }

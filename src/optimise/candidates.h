@@ -32,7 +32,7 @@ struct Candidates {
   std::vector<LampOption> options;       // those of a place follow one another
   std::vector<size_t> firstOption;       // per place, and the end
   std::vector<std::vector<uint32_t>> conflicts;  // per place: those too near for lamps at both
-  size_t inThings = 0, tooNear = 0;      // places left out: inside things; nearer to something than a luminaire is large
+  size_t inThings = 0, tooNear = 0;  // places left out: inside things; nearer to something than a luminaire is large
 };
 
 constexpr size_t kMostCandidates = 2000;

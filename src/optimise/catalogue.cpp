@@ -20,8 +20,11 @@ std::vector<double> kelvins(const TomlPlace& j) {
   std::vector<double> out;
   if (j.has("tunable")) {
     const TomlPlace range = j["tunable"];
-    if (range.size() != 2) return range.fail("must be [coldest \"K\", warmest \"K\"] of two texts, such as [\"2200 K\", \"4000 K\"]"), std::vector<double>{3000};
-    const double low = range.at(0).quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin), high = range.at(1).quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin);
+    if (range.size() != 2)
+      return range.fail("must be [coldest \"K\", warmest \"K\"] of two texts, such as [\"2200 K\", \"4000 K\"]"),
+             std::vector<double>{3000};
+    const double low = range.at(0).quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin),
+                 high = range.at(1).quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin);
     if (low >= high) range.fail("must rise");
     out.push_back(low);
     for (const double step : kTuningSteps) {
@@ -34,7 +37,8 @@ std::vector<double> kelvins(const TomlPlace& j) {
   if (!j.has("kelvin")) return {3000};
   const TomlPlace k = j["kelvin"];
   if (!k.isArray()) return {k.quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin)};
-  for (size_t i = 0, n = k.size(); i < n; ++i) out.push_back(k.at(i).quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
+  for (size_t i = 0, n = k.size(); i < n; ++i)
+    out.push_back(k.at(i).quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
   if (out.empty()) k.fail("must not be empty");
   return out;
 }
@@ -42,7 +46,9 @@ std::vector<double> kelvins(const TomlPlace& j) {
 Luminaire readLuminaire(const TomlPlace& j, const std::filesystem::path& folder, importers::PhotometricFiles& files) {
   Luminaire l;
   l.line = j.line();
-  if (!j.isTable({"name", "type", "file", "flux", "beam", "watts", "standby", "price", "kelvin", "tunable", "dimmable", "mounting", "size", "fromWalls", "drop", "comment"})) return l;
+  if (!j.isTable({"name", "type", "file", "flux", "beam", "watts", "standby", "price", "kelvin", "tunable", "dimmable",
+                  "mounting", "size", "fromWalls", "drop", "comment"}))
+    return l;
   l.name = j["name"].text();
   if (j.has("type")) l.type = j["type"].oneOf({"photometric", "point", "spot"});
   if (l.type == "photometric") {
@@ -65,11 +71,13 @@ Luminaire readLuminaire(const TomlPlace& j, const std::filesystem::path& folder,
   const TomlPlace mounting = j["mounting"];
   for (const std::string& name : mounting.texts()) {
     const auto m = mountingNamed(name);
-    if (!m) mounting.fail(fmt::format("must be of 'ceiling', 'wall', 'table', 'floor', but there is '{}'", printable(name)));
+    if (!m)
+      mounting.fail(fmt::format("must be of 'ceiling', 'wall', 'table', 'floor', but there is '{}'", printable(name)));
     if (m) l.mountings.push_back(*m);
   }
   if (l.mountings.empty()) mounting.fail("must name at least one");
-  l.sizeM = j.number("size", 0, 10, l.sizeM), l.fromWallsM = j.number("fromWalls", 0, 10, 0), l.dropM = j.number("drop", 0.005, 5, l.dropM);
+  l.sizeM = j.number("size", 0, 10, l.sizeM), l.fromWallsM = j.number("fromWalls", 0, 10, 0),
+  l.dropM = j.number("drop", 0.005, 5, l.dropM);
   return l;
 }
 
@@ -144,8 +152,10 @@ nlohmann::json lampEntry(const Luminaire& l, Vec3 position, Vec3 direction) {
   }
   lamp["type"] = "spot";
   // Half of the peak at half of the beam: t² = 1/2 where t = (cos θ − cos outer) / (1 − cos outer).
-  const double half = std::cos(l.beamDeg / 2 * static_cast<double>(kPi) / 180), outer = (half - std::sqrt(0.5)) / (1 - std::sqrt(0.5));
-  lamp["innerCone"] = 0, lamp["outerCone"] = std::clamp(std::acos(std::clamp(outer, 0.0, 1.0)) * 180 / static_cast<double>(kPi), 0.5, 90.0);
+  const double half = std::cos(l.beamDeg / 2 * static_cast<double>(kPi) / 180),
+               outer = (half - std::sqrt(0.5)) / (1 - std::sqrt(0.5));
+  lamp["innerCone"] = 0,
+  lamp["outerCone"] = std::clamp(std::acos(std::clamp(outer, 0.0, 1.0)) * 180 / static_cast<double>(kPi), 0.5, 90.0);
   return lamp;
 }
 

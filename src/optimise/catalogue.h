@@ -1,4 +1,5 @@
-// Luminaires that a design may choose from: their light, watts, price, and where they may go. Schema: docs/formats/optimise.md.
+// Luminaires that a design may choose from: their light, watts, price, and where they may go. Schema:
+ // docs/formats/optimise.md.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,10 +8,7 @@
 
 namespace roomlight::optimise {
 
-enum class Mounting { Ceiling,
-                      Wall,
-                      Table,
-                      Floor };
+enum class Mounting { Ceiling, Wall, Table, Floor };
 const char* nameOf(Mounting mounting);
 std::optional<Mounting> mountingNamed(const std::string& name);
 
@@ -43,7 +41,8 @@ struct Catalogue {
 // Every photometric file is looked at. The error is "file:line: place: what is wrong".
 Result<Catalogue> readCatalogue(const std::filesystem::path& file);
 
-// A lamp as lighting files have it, white (without temperature), undimmed. Photometric files by absolute path. `direction` is unit.
+// A lamp as lighting files have it, white (without temperature), undimmed. Photometric files by absolute path.
+// `direction` is unit.
 nlohmann::json lampEntry(const Luminaire& luminaire, Vec3 position, Vec3 direction);
 
 }  // namespace roomlight::optimise

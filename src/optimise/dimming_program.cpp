@@ -9,7 +9,8 @@ constexpr size_t kDarkPoints = 6;      // of a zone, whose uniformity is asked f
 constexpr double kLeastWeight = 1e-6;  // of energy that was not asked for: among equals, less of it is better
 constexpr double kLeastKWh = 1e-12;
 
-// What solving takes, in evaluations of a design, measured (docs/measured/optimise.md): so much, and one more for so many entries of the matrix.
+// What solving takes, in evaluations of a design, measured (docs/measured/optimise.md): so much, and one more for so
+// many entries of the matrix.
 constexpr size_t kEvaluationsAProgram = 8, kEntriesAnEvaluation = 75;
 
 double weightOf(const Model& m, const search::Wish& wish, Objective objective) {
@@ -22,7 +23,8 @@ double weightOf(const Model& m, const search::Wish& wish, Objective objective) {
 }  // namespace
 
 LinearWeights linearWeights(const Model& m, const search::Wish& wish) {
-  LinearWeights w{weightOf(m, wish, Objective::TargetMiss), weightOf(m, wish, Objective::Energy), weightOf(m, wish, Objective::Cost), weightOf(m, wish, Objective::Fittings)};
+  LinearWeights w{weightOf(m, wish, Objective::TargetMiss), weightOf(m, wish, Objective::Energy),
+                  weightOf(m, wish, Objective::Cost), weightOf(m, wish, Objective::Fittings)};
   w.energy = std::max(w.energy, kLeastWeight * w.miss);
   return w;
 }
@@ -30,13 +32,15 @@ LinearWeights linearWeights(const Model& m, const search::Wish& wish) {
 double weightOfGoals(const Model& m) {
   double sum = 0;
   for (const ModelCondition& c : m.conditions) {
-    for (const uint32_t z : c.zones) sum += c.weight * m.zones[z].weight * ((m.zones[z].meanLux > 0) + (m.zones[z].u0 > 0));
+    for (const uint32_t z : c.zones)
+      sum += c.weight * m.zones[z].weight * ((m.zones[z].meanLux > 0) + (m.zones[z].u0 > 0));
     sum += c.weight * static_cast<double>(c.eyes.size() + c.ratios.size());
   }
   return sum;
 }
 
-DimmingProgram::DimmingProgram(const Model& model, std::vector<ChosenLamp> lamps, Scope scope) : m_(model), lamps_(std::move(lamps)), scope_(scope) {
+DimmingProgram::DimmingProgram(const Model& model, std::vector<ChosenLamp> lamps, Scope scope)
+    : m_(model), lamps_(std::move(lamps)), scope_(scope) {
   const size_t n = lamps_.size(), levels = scope.alike ? 1 : scope.end - scope.first;
   costs_.assign(n * levels, 0);
   if (levels == 1) return;
@@ -55,7 +59,8 @@ DimmingProgram::DimmingProgram(const Model& model, std::vector<ChosenLamp> lamps
 void DimmingProgram::addCosts(const LinearWeights& weights, double share) {
   for (size_t i = 0; i < lamps_.size(); ++i) {
     const ModelOption& o = m_.options[lamps_[i].option];
-    for (size_t c = scope_.first; c < scope_.end; ++c) costs_[level(i, c)] += weights.energy * std::max(m_.conditions[c].hours * o.wattsW / 1000, kLeastKWh);
+    for (size_t c = scope_.first; c < scope_.end; ++c)
+      costs_[level(i, c)] += weights.energy * std::max(m_.conditions[c].hours * o.wattsW / 1000, kLeastKWh);
     costs_[bought(i)] += share * (weights.cost * o.price + weights.fittings);
   }
 }
@@ -77,7 +82,9 @@ void DimmingProgram::addRatios() {
     for (const uint32_t q : m_.conditions[c].ratios) {
       const size_t task = m_.firstSeen + 2 * q, surround = task + 1;
       const double k = m_.ratios[q].most;
-      Row row = lampsRow(c, [&](uint32_t o) { return static_cast<double>(m_.column(o)[task]) - k * static_cast<double>(m_.column(o)[surround]); });
+      Row row = lampsRow(c, [&](uint32_t o) {
+        return static_cast<double>(m_.column(o)[task]) - k * static_cast<double>(m_.column(o)[surround]);
+      });
       row.most = k * static_cast<double>(m_.baseOf(c)[surround]) - static_cast<double>(m_.baseOf(c)[task]);
       if (row.most >= 0) rows_.push_back(std::move(row));
     }
@@ -90,10 +97,12 @@ void DimmingProgram::addLimits() {
   if (m_.mostFittings > 0) addLimit(m_.mostFittings, [](ChosenLamp) { return 1.0; });
   for (uint32_t rule = 0; rule < m_.mostOfRule.size(); ++rule) {
     const auto places = std::count(m_.ruleOfPlace.begin(), m_.ruleOfPlace.end(), rule);
-    if (places > m_.mostOfRule[rule]) addLimit(m_.mostOfRule[rule], [&](ChosenLamp l) { return m_.ruleOfPlace[l.place] == rule ? 1.0 : 0.0; });
+    if (places > m_.mostOfRule[rule])
+      addLimit(m_.mostOfRule[rule], [&](ChosenLamp l) { return m_.ruleOfPlace[l.place] == rule ? 1.0 : 0.0; });
   }
   for (uint32_t a = 0; a < m_.places(); ++a) {
-    if (m_.firstOption[a + 1] > m_.firstOption[a] + 1) addLimit(1, [&](ChosenLamp l) { return l.place == a ? 1.0 : 0.0; });
+    if (m_.firstOption[a + 1] > m_.firstOption[a] + 1)
+      addLimit(1, [&](ChosenLamp l) { return l.place == a ? 1.0 : 0.0; });
     for (const uint32_t b : m_.conflicts[a]) {
       if (a < b) addLimit(1, [&](ChosenLamp l) { return l.place == a || l.place == b ? 1.0 : 0.0; });
     }
@@ -116,7 +125,8 @@ void DimmingProgram::addGlareCut(size_t c, size_t e, double most, std::span<cons
   for (size_t i = 0; i < lamps_.size(); ++i) {
     const uint32_t o = lamps_[i].option;
     const double glare = m_.glare[o * m_.eyes.size() + e];
-    row.terms.emplace_back(level(i, c), 2 * glare * levels[i] - most * static_cast<double>(m_.column(o)[m_.firstEye + e]));
+    row.terms.emplace_back(level(i, c),
+                           2 * glare * levels[i] - most * static_cast<double>(m_.column(o)[m_.firstEye + e]));
     row.most += glare * levels[i] * levels[i];
   }
   rows_.push_back(std::move(row));

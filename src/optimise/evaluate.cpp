@@ -51,7 +51,8 @@ ZoneResult statistics(const ModelZone& z, const float* rows) {
   ZoneResult out{0, static_cast<double>(least[0]), 0};
   for (size_t k = 0; k < kLanes; ++k) {
     total += static_cast<double>(sum[k]);
-    out.leastLux = std::min(out.leastLux, static_cast<double>(least[k])), out.mostLux = std::max(out.mostLux, static_cast<double>(most[k]));
+    out.leastLux = std::min(out.leastLux, static_cast<double>(least[k])),
+    out.mostLux = std::max(out.mostLux, static_cast<double>(most[k]));
   }
   // What pads the rows are copies of the last point.
   total -= static_cast<double>(whole - z.count) * static_cast<double>(p[z.count - 1]);
@@ -59,7 +60,9 @@ ZoneResult statistics(const ModelZone& z, const float* rows) {
   return out;
 }
 
-double ugrAt(const Model& m, const Workspace& w, size_t condition, size_t eye) { return ugrOf(glareAt(m, w.lamps, w.levels, condition, eye), static_cast<double>(w.rows[m.firstEye + eye])); }
+double ugrAt(const Model& m, const Workspace& w, size_t condition, size_t eye) {
+  return ugrOf(glareAt(m, w.lamps, w.levels, condition, eye), static_cast<double>(w.rows[m.firstEye + eye]));
+}
 
 // Sums of what is judged, over conditions.
 class Judge {
@@ -94,7 +97,8 @@ class Judge {
 };
 
 double ratioOf(const Model& m, const float* rows, size_t q) {
-  const auto task = static_cast<double>(rows[m.firstSeen + 2 * q]), surround = static_cast<double>(rows[m.firstSeen + 2 * q + 1]);
+  const auto task = static_cast<double>(rows[m.firstSeen + 2 * q]),
+             surround = static_cast<double>(rows[m.firstSeen + 2 * q + 1]);
   return task / std::max(surround, 1e-6);
 }
 
@@ -191,12 +195,17 @@ search::Problem problemOf(const Model& m) {
   }
   problem.blockOfGroup.assign(m.ruleOfPlace.begin(), m.ruleOfPlace.end());
   problem.objectives = m.objectives.size();
-  problem.evaluate = [&m](const search::Genomes& designs, std::span<double> objectives) { evaluateAll(m, designs, objectives); };
+  problem.evaluate = [&m](const search::Genomes& designs, std::span<double> objectives) {
+    evaluateAll(m, designs, objectives);
+  };
   problem.repair = [&m](search::Genome design) { repair(m, design); };
-  problem.draw = [&m](size_t count, uint64_t seed, size_t generation) { return sparseDesigns(m, count, seed, generation); };
+  problem.draw = [&m](size_t count, uint64_t seed, size_t generation) {
+    return sparseDesigns(m, count, seed, generation);
+  };
   // Dimming helps targets only.
   const bool targets = std::find(m.objectives.begin(), m.objectives.end(), Objective::TargetMiss) != m.objectives.end();
-  if (m.levels() > 0 && targets) problem.polish = [&m](search::Genome design, const search::Wish& wish) { return polish(m, design, wish); };
+  if (m.levels() > 0 && targets)
+    problem.polish = [&m](search::Genome design, const search::Wish& wish) { return polish(m, design, wish); };
   return problem;
 }
 
@@ -210,7 +219,8 @@ search::Genomes sparseDesigns(const Model& m, size_t count, uint64_t seed, size_
     for (size_t p = 0; p < m.places(); ++p) {
       const uint32_t options = m.firstOption[p + 1] - m.firstOption[p];
       const bool taken = static_cast<double>(random.uniform()) < share;
-      const auto option = static_cast<int32_t>(std::min<uint32_t>(options - 1, static_cast<uint32_t>(random.uniform() * static_cast<float>(options))));
+      const auto option = static_cast<int32_t>(
+          std::min<uint32_t>(options - 1, static_cast<uint32_t>(random.uniform() * static_cast<float>(options))));
       out[i].integers[p] = taken ? 1 + option : 0;
     }
     for (double& d : out[i].reals) d = 0.3 + 0.7 * static_cast<double>(random.uniform());

@@ -28,14 +28,16 @@ DesignResult resultOf(const Model& model, search::ConstGenome design);
 // Its rows in a condition, as Model's columns have them.
 std::vector<float> rowsOf(const Model& model, search::ConstGenome design, size_t condition);
 
-// objectives[i * model.objectives.size() + m] of every design, on all threads. A design costs lamps × rows × conditions multiplications: 2 to 20 µs.
+// objectives[i * model.objectives.size() + m] of every design, on all threads. A design costs lamps × rows × conditions
+// multiplications: 2 to 20 µs.
 void evaluateAll(const Model& model, const search::Genomes& designs, std::span<double> objectives);
 
-// The search's problem: designs by chance, evaluation, repair and polish of designs of this model, which must stay where it is.
+// The search's problem: designs by chance, evaluation, repair and polish of designs of this model, which must stay
+// where it is.
 search::Problem problemOf(const Model& model);
 
-// Designs with few lamps: from one to all places taken with even chances, at 0.3 to full light. Every method draws its designs by chance here, the
-// random search each of its generations.
+// Designs with few lamps: from one to all places taken with even chances, at 0.3 to full light. Every method draws its
+// designs by chance here, the random search each of its generations.
 search::Genomes sparseDesigns(const Model& model, size_t count, uint64_t seed, size_t generation = 0);
 
 }  // namespace roomlight::optimise

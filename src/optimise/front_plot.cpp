@@ -8,7 +8,8 @@
 namespace roomlight::optimise {
 namespace {
 
-// Draws DATA into the svg: wheel or buttons zoom, dragging moves, a point tells its numbers, a proposed one leads to its section.
+// Draws DATA into the svg: wheel or buttons zoom, dragging moves, a point tells its numbers, a proposed one leads to
+// its section.
 constexpr const char* kScript = R"(
 const svg=document.getElementById('front'),tip=document.getElementById('tip'),sx=document.getElementById('axisX'),sy=document.getElementById('axisY');
 const W=860,H=460,L=70,B=52,T=14,R=16;let box=null,drag=null;
@@ -41,7 +42,9 @@ document.getElementById('zoomIn').onclick=()=>zoom(1/1.5);document.getElementByI
 
 std::string frontPlot(const Report& r) {
   nlohmann::json data = {{"axes", nlohmann::json::array()}, {"points", nlohmann::json::array()}};
-  for (const Objective o : r.model.objectives) data["axes"].push_back({{"title", infoOf(o).title}, {"unit", o == Objective::Cost ? r.study.catalogue.currency : infoOf(o).unit}});
+  for (const Objective o : r.model.objectives)
+    data["axes"].push_back(
+        {{"title", infoOf(o).title}, {"unit", o == Objective::Cost ? r.study.catalogue.currency : infoOf(o).unit}});
   for (size_t i = 0; i < r.front.size(); ++i) {
     nlohmann::json point = {{"v", nlohmann::json::array()}};
     for (const double v : r.front.objectivesOf(i)) point["v"].push_back(std::stod(fmt::format("{:.5g}", v)));
@@ -54,8 +57,11 @@ std::string frontPlot(const Report& r) {
   std::string text = data.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   for (size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3)) text.replace(at, 2, "<\\/");
   return fmt::format(
-      "<div class=\"controls\"><label>across <select id=\"axisX\"></select></label> <label>up <select id=\"axisY\"></select></label> <button id=\"zoomIn\">+</button> <button id=\"zoomOut\">−</button> <button id=\"zoomAll\">all</button></div>\n"
-      "<svg id=\"front\" viewBox=\"0 0 860 460\" role=\"img\" aria-label=\"The front\"></svg><div id=\"tip\"></div>\n<script>\nconst DATA={};{}</script>\n",
+      "<div class=\"controls\"><label>across <select id=\"axisX\"></select></label> <label>up <select "
+      "id=\"axisY\"></select></label> <button id=\"zoomIn\">+</button> <button id=\"zoomOut\">−</button> <button "
+      "id=\"zoomAll\">all</button></div>\n"
+      "<svg id=\"front\" viewBox=\"0 0 860 460\" role=\"img\" aria-label=\"The front\"></svg><div "
+      "id=\"tip\"></div>\n<script>\nconst DATA={};{}</script>\n",
       text, kScript);
 }
 

@@ -20,7 +20,8 @@ Most mostOf(const Model& m) {
   for (size_t p = 0; p < m.places(); ++p) {
     double watts = 0, standby = 0, cost = 0;
     for (size_t o = m.firstOption[p]; o < m.firstOption[p + 1]; ++o) {
-      watts = std::max(watts, m.options[o].wattsW), standby = std::max(standby, m.options[o].standbyW), cost = std::max(cost, m.options[o].price);
+      watts = std::max(watts, m.options[o].wattsW), standby = std::max(standby, m.options[o].standbyW),
+      cost = std::max(cost, m.options[o].price);
     }
     most.wattsW += watts, most.standbyW += standby, most.cost += cost;
   }
@@ -49,16 +50,19 @@ ObjectiveBox boxOf(const Model& m) {
     return 0.0;
   };
   ObjectiveBox box;
-  for (const Objective o : m.objectives) box.ideal.push_back(0), box.reference.push_back(kBeyond * std::max(worst(o), 1e-9));
+  for (const Objective o : m.objectives)
+    box.ideal.push_back(0), box.reference.push_back(kBeyond * std::max(worst(o), 1e-9));
   return box;
 }
 
 double hypervolumeOf(const Model& m, const search::Archive& front) {
   const ObjectiveBox box = boxOf(m);
-  if (front.objectivesEach < 4 || front.size() <= kHypervolumePoints) return search::hypervolumeShare(front.objectives, box.ideal, box.reference);
+  if (front.objectivesEach < 4 || front.size() <= kHypervolumePoints)
+    return search::hypervolumeShare(front.objectives, box.ideal, box.reference);
   // The designs themselves are not needed.
   search::Archive points;
-  points.objectivesEach = front.objectivesEach, points.objectives = front.objectives, points.designs.count = front.size();
+  points.objectivesEach = front.objectivesEach, points.objectives = front.objectives,
+  points.designs.count = front.size();
   search::thin(points, kHypervolumePoints);
   return search::hypervolumeShare(points.objectives, box.ideal, box.reference);
 }

@@ -12,7 +12,8 @@ struct ObjectiveBox {
 };
 ObjectiveBox boxOf(const Model& model);
 
-// The share of the box that a front dominates. With four objectives, where it is dear, of at most kHypervolumePoints that are spread over the front.
+// The share of the box that a front dominates. With four objectives, where it is dear, of at most kHypervolumePoints
+// that are spread over the front.
 constexpr size_t kHypervolumePoints = 300;
 double hypervolumeOf(const Model& model, const search::Archive& front);
 

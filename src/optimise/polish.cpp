@@ -21,13 +21,21 @@ std::vector<double> between(const std::vector<double>& a, const std::vector<doub
   return out;
 }
 
-// The levels that one program is for. UGR keeps its limit where f(d) = Σ L² ω / p² - k · background <= 0, which is convex: the best without it is
-// found first; where that glares, the way there from levels that do not ends on the limit, and the tangent there cuts the program's corner off (supporting
-// hyperplanes: Veinott 1967).
+// The levels that one program is for. UGR keeps its limit where f(d) = Σ L² ω / p² - k · background <= 0, which is
+// convex: the best without it is found first; where that glares, the way there from levels that do not ends on the
+// limit, and the tangent there cuts the program's corner off (supporting hyperplanes: Veinott 1967).
 class Polisher {
  public:
-  Polisher(const Model& m, search::Genome design, const search::Wish& wish, const std::vector<ChosenLamp>& lamps, size_t k)
-      : m_(m), design_(design), wish_(wish), lamps_(lamps), k_(k), first_(programsOf(m) == 1 ? 0 : k), end_(programsOf(m) == 1 ? m.conditions.size() : k + 1), program_(m, lamps, {first_, end_, true}) {
+  Polisher(const Model& m, search::Genome design, const search::Wish& wish, const std::vector<ChosenLamp>& lamps,
+           size_t k)
+      : m_(m),
+        design_(design),
+        wish_(wish),
+        lamps_(lamps),
+        k_(k),
+        first_(programsOf(m) == 1 ? 0 : k),
+        end_(programsOf(m) == 1 ? m.conditions.size() : k + 1),
+        program_(m, lamps, {first_, end_, true}) {
     const LinearWeights weights = linearWeights(m, wish);
     program_.addCosts(weights, 1 / static_cast<double>(programsOf(m)));
     program_.addGoals(weights);
@@ -64,17 +72,22 @@ class Polisher {
   std::vector<double> limitsOrNow(std::vector<double> limits) const {
     eachEye([&](size_t c, uint32_t e, size_t i) {
       const double background = backgroundAt(m_, lamps_, now_, c, e);
-      if (background > 0) limits[i] = std::max(limits[i], glareAt(m_, lamps_, now_, c, e) / background * (1 + kRounding));
+      if (background > 0)
+        limits[i] = std::max(limits[i], glareAt(m_, lamps_, now_, c, e) / background * (1 + kRounding));
     });
     return limits;
   }
   bool within(const std::vector<double>& levels, const std::vector<double>& limits) const {
     bool all = true;
-    eachEye([&](size_t c, uint32_t e, size_t i) { all = all && glareAt(m_, lamps_, levels, c, e) <= limits[i] * backgroundAt(m_, lamps_, levels, c, e) * (1 + kRounding); });
+    eachEye([&](size_t c, uint32_t e, size_t i) {
+      all = all &&
+            glareAt(m_, lamps_, levels, c, e) <= limits[i] * backgroundAt(m_, lamps_, levels, c, e) * (1 + kRounding);
+    });
     return all;
   }
   // How far from `inside` towards `to` the limits hold.
-  double reach(const std::vector<double>& inside, const std::vector<double>& to, const std::vector<double>& limits) const {
+  double reach(const std::vector<double>& inside, const std::vector<double>& to,
+               const std::vector<double>& limits) const {
     if (within(to, limits)) return 1;
     double low = 0, high = 1;
     for (int i = 0; i < kHalvings; ++i) {
@@ -125,7 +138,8 @@ class Polisher {
   }
 
   void put(const std::vector<double>& levels) {
-    for (size_t i = 0; i < lamps_.size(); ++i) design_.reals[lamps_[i].place * m_.levels() + k_] = std::clamp(levels[i], 0.0, 1.0);
+    for (size_t i = 0; i < lamps_.size(); ++i)
+      design_.reals[lamps_[i].place * m_.levels() + k_] = std::clamp(levels[i], 0.0, 1.0);
   }
   // Of all that were offered the one stays that is best by the objectives themselves.
   void offer(const std::vector<double>& levels) {
@@ -152,7 +166,8 @@ class Polisher {
 std::vector<ChosenLamp> hungLamps(const Model& m, search::ConstGenome design) {
   std::vector<ChosenLamp> out;
   for (size_t p = 0; p < m.places(); ++p) {
-    if (design.integers[p] > 0) out.push_back({static_cast<uint32_t>(p), m.firstOption[p] + static_cast<uint32_t>(design.integers[p]) - 1});
+    if (design.integers[p] > 0)
+      out.push_back({static_cast<uint32_t>(p), m.firstOption[p] + static_cast<uint32_t>(design.integers[p]) - 1});
   }
   return out;
 }

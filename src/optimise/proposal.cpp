@@ -20,19 +20,25 @@ using nlohmann::json;
 
 std::string fileNameOf(const std::string& name) {
   std::string out;
-  for (const char c : name) out += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
+  for (const char c : name)
+    out += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
+                                                       : '_';
   return out;
 }
 
 // Of base light and what lamps as new add to it, the sum with the maintenance factor.
-float maintained(float base, float all, double maintenance) { return base + (all - base) * static_cast<float>(maintenance); }
+float maintained(float base, float all, double maintenance) {
+  return base + (all - base) * static_cast<float>(maintenance);
+}
 
 // UGR of the full solution with lamps' light times the maintenance factor; below 0: there is none.
 double maintainedUgr(const StudyFile& study, const Model& m, const GlareReading& g, size_t condition, size_t eye) {
   if (!g.ugr) return -1;
   if (study.maintenance >= 1 || *g.ugr <= 0) return *g.ugr;
-  const double f = study.maintenance, glare = glareOfUgr(*g.ugr) * g.backgroundCdM2, base = m.baseGlare[condition * m.eyes.size() + eye];
-  const double background = static_cast<double>(maintained(m.baseOf(condition)[m.firstEye + eye], static_cast<float>(g.backgroundCdM2), f));
+  const double f = study.maintenance, glare = glareOfUgr(*g.ugr) * g.backgroundCdM2,
+               base = m.baseGlare[condition * m.eyes.size() + eye];
+  const double background =
+      static_cast<double>(maintained(m.baseOf(condition)[m.firstEye + eye], static_cast<float>(g.backgroundCdM2), f));
   return ugrOf(base + (glare - base) * f * f, background);
 }
 
@@ -45,12 +51,14 @@ std::vector<double> ugrsOf(const LitScene& lit, const StudyFile& study, const Mo
   }
   std::vector<std::string> ignored;
   std::vector<double> out;
-  for (const GlareReading& g : readGlares(lit, eyes, MeterSettings(), {}, ignored)) out.push_back(maintainedUgr(study, model, g, condition, out.size()));
+  for (const GlareReading& g : readGlares(lit, eyes, MeterSettings(), {}, ignored))
+    out.push_back(maintainedUgr(study, model, g, condition, out.size()));
   return out;
 }
 
 // Lamps as new: the maintenance factor is of targets.
-std::vector<float> predictedLux(const StudyFile& study, const Model& model, search::ConstGenome design, size_t condition) {
+std::vector<float> predictedLux(const StudyFile& study, const Model& model, search::ConstGenome design,
+                                size_t condition) {
   std::vector<float> out;
   const std::vector<float> rows = rowsOf(model, design, condition);
   for (const ModelZone& z : model.zones) {
@@ -66,7 +74,8 @@ void compare(Certificate::OfCondition& r) {
     const auto full = static_cast<double>(r.fullLux[i]);
     if (full < kJudgedLux) continue;
     const double off = 100 * std::abs(static_cast<double>(r.predictedLux[i]) / full - 1);
-    if (off >= r.maxPercent) r.maxPercent = off, r.uncertainPercent = 100 * static_cast<double>(r.fullErrorLux[i]) / full;
+    if (off >= r.maxPercent)
+      r.maxPercent = off, r.uncertainPercent = 100 * static_cast<double>(r.fullErrorLux[i]) / full;
     sum += off, ++r.judged;
   }
   r.meanPercent = r.judged ? sum / static_cast<double>(r.judged) : 0;
@@ -80,7 +89,8 @@ Image shown(const Image& light, const Camera& camera, const RayScene& rays) {
 
 }  // namespace
 
-std::vector<BillLine> billOf(const StudyFile& study, const Candidates& candidates, const Model& model, search::ConstGenome design) {
+std::vector<BillLine> billOf(const StudyFile& study, const Candidates& candidates, const Model& model,
+                             search::ConstGenome design) {
   std::vector<BillLine> out;
   for (const ChosenLamp& lamp : chosenLamps(model, design)) {
     const LampOption& option = candidates.options[lamp.option];
@@ -93,7 +103,8 @@ std::vector<BillLine> billOf(const StudyFile& study, const Candidates& candidate
   return out;
 }
 
-json lampsOf(const StudyFile& study, const Candidates& candidates, const Model& model, search::ConstGenome design, size_t condition) {
+json lampsOf(const StudyFile& study, const Candidates& candidates, const Model& model, search::ConstGenome design,
+             size_t condition) {
   json lamps = json::array();
   for (const ChosenLamp& lamp : chosenLamps(model, design)) {
     const LampOption& option = candidates.options[lamp.option];
@@ -120,45 +131,59 @@ std::vector<std::string> fileNamesOf(const std::vector<Condition>& conditions) {
   for (const Condition& c : conditions) {
     const std::string plain = fileNameOf(c.name);
     std::string name = plain;
-    for (int number = 2; std::find(out.begin(), out.end(), name) != out.end(); ++number) name = fmt::format("{}_{}", plain, number);
+    for (int number = 2; std::find(out.begin(), out.end(), name) != out.end(); ++number)
+      name = fmt::format("{}_{}", plain, number);
     out.push_back(name);
   }
   return out;
 }
 
 const Certificate::OfCondition& Certificate::worst() const {
-  return *std::max_element(conditions.begin(), conditions.end(), [](const OfCondition& a, const OfCondition& b) { return a.maxPercent < b.maxPercent; });
+  return *std::max_element(conditions.begin(), conditions.end(),
+                           [](const OfCondition& a, const OfCondition& b) { return a.maxPercent < b.maxPercent; });
 }
 
-std::string largestDifference(const Certificate::OfCondition& c) { return fmt::format("largest {:.2f} % (full solution uncertain by {:.2f} % there)", c.maxPercent, c.uncertainPercent); }
+std::string largestDifference(const Certificate::OfCondition& c) {
+  return fmt::format("largest {:.2f} % (full solution uncertain by {:.2f} % there)", c.maxPercent, c.uncertainPercent);
+}
 
-std::vector<float> maintainedLux(const StudyFile& study, const Model& model, const Certificate::OfCondition& c, size_t condition) {
+std::vector<float> maintainedLux(const StudyFile& study, const Model& model, const Certificate::OfCondition& c,
+                                 size_t condition) {
   std::vector<float> out;
   for (const ModelZone& z : model.zones) {
-    for (const float base : pointsOf(z, {model.baseOf(condition), model.rows})) out.push_back(maintained(base, c.fullLux[out.size()], study.maintenance));
+    for (const float base : pointsOf(z, {model.baseOf(condition), model.rows}))
+      out.push_back(maintained(base, c.fullLux[out.size()], study.maintenance));
   }
   return out;
 }
 
-Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& study, const Candidates& candidates, const Meters& meters, const Model& model, search::ConstGenome design,
-                                           std::span<const Camera> cameras, const RenderSettings& render, Stages& stages) {
+Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& study, const Candidates& candidates,
+                                           const Meters& meters, const Model& model, search::ConstGenome design,
+                                           std::span<const Camera> cameras, const RenderSettings& render,
+                                           Stages& stages) {
   const Stopwatch watch;
   Certificate out;
   const std::span<const SurfaceElement> points = std::span(meters.elements).first(meters.points());
   for (size_t c = 0; c < study.conditions.size(); ++c) {
-    const Result<Scene> scene = litBy(home, study, study.conditions[c].daylight, lampsOf(study, candidates, model, design, c), true);
+    const Result<Scene> scene =
+        litBy(home, study, study.conditions[c].daylight, lampsOf(study, candidates, model, design, c), true);
     if (!scene) return Error{scene.error()};
     const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, stages, {.changes = false});
     if (!lit) return Error{lit.error()};
     if (!lit.value()) return std::optional<Certificate>();
     Certificate::OfCondition r;
     // Other random numbers than those the response was found with.
-    const auto readings = stages.run("certify: " + study.conditions[c].name, [&](const Progress& p) { return lit.value()->illuminance(points, fullMeters(render.seed + 1), p); });
-    for (const MeterReading& m : readings) r.fullLux.push_back(luminance(m.illuminanceLux)), r.fullErrorLux.push_back(static_cast<float>(m.standardErrorLux));
+    const auto readings = stages.run("certify: " + study.conditions[c].name, [&](const Progress& p) {
+      return lit.value()->illuminance(points, fullMeters(render.seed + 1), p);
+    });
+    for (const MeterReading& m : readings)
+      r.fullLux.push_back(luminance(m.illuminanceLux)),
+          r.fullErrorLux.push_back(static_cast<float>(m.standardErrorLux));
     r.fullUgr = ugrsOf(*lit.value(), study, model, c);
     if (stages.cancelled()) return std::optional<Certificate>();
     for (const Camera& camera : c == 0 ? cameras : std::span<const Camera>()) {
-      const Image light = stages.run("picture", [&](const Progress& p) { return lit.value()->picture(camera, kPictureWidth, kPictureHeight, p); });
+      const Image light = stages.run(
+          "picture", [&](const Progress& p) { return lit.value()->picture(camera, kPictureWidth, kPictureHeight, p); });
       if (light.width > 0) out.pictures.push_back(shown(light, camera, lit.value()->rays()));
     }
     r.predictedLux = predictedLux(study, model, design, c);
@@ -175,14 +200,18 @@ std::vector<size_t> spreadOf(const Model& model, const search::Archive& front, s
   const auto miss = std::find(model.objectives.begin(), model.objectives.end(), Objective::TargetMiss);
   const auto column = static_cast<size_t>(miss - model.objectives.begin());
   double least = std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < n && miss != model.objectives.end(); ++i) least = std::min(least, front.objectivesOf(i)[column]);
+  for (size_t i = 0; i < n && miss != model.objectives.end(); ++i)
+    least = std::min(least, front.objectivesOf(i)[column]);
   for (size_t i = 0; i < n; ++i) {
-    if (miss == model.objectives.end() || front.objectivesOf(i)[column] <= least + kProposedMissPercent) open.push_back(i);
+    if (miss == model.objectives.end() || front.objectivesOf(i)[column] <= least + kProposedMissPercent)
+      open.push_back(i);
   }
   if (open.empty() || count == 0) return {};
-  std::vector<double> low(each, std::numeric_limits<double>::infinity()), high(each, -std::numeric_limits<double>::infinity());
+  std::vector<double> low(each, std::numeric_limits<double>::infinity()),
+      high(each, -std::numeric_limits<double>::infinity());
   for (const size_t i : open) {
-    for (size_t k = 0; k < each; ++k) low[k] = std::min(low[k], front.objectivesOf(i)[k]), high[k] = std::max(high[k], front.objectivesOf(i)[k]);
+    for (size_t k = 0; k < each; ++k)
+      low[k] = std::min(low[k], front.objectivesOf(i)[k]), high[k] = std::max(high[k], front.objectivesOf(i)[k]);
   }
   const auto distance = [&](size_t a, size_t b) {
     double sum = 0;
@@ -196,7 +225,9 @@ std::vector<size_t> spreadOf(const Model& model, const search::Archive& front, s
   const auto choose = [&](size_t i) {
     if (chosen.size() < count && std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
   };
-  for (size_t k = 0; k < each; ++k) choose(*std::min_element(open.begin(), open.end(), [&](size_t a, size_t b) { return front.objectivesOf(a)[k] < front.objectivesOf(b)[k]; }));
+  for (size_t k = 0; k < each; ++k)
+    choose(*std::min_element(open.begin(), open.end(),
+                             [&](size_t a, size_t b) { return front.objectivesOf(a)[k] < front.objectivesOf(b)[k]; }));
   while (chosen.size() < std::min(count, open.size())) {
     size_t farthest = open.front();
     double most = -1;
@@ -208,7 +239,8 @@ std::vector<size_t> spreadOf(const Model& model, const search::Archive& front, s
     if (most <= 0) break;
     choose(farthest);
   }
-  std::sort(chosen.begin(), chosen.end(), [&](size_t a, size_t b) { return front.objectivesOf(a)[0] < front.objectivesOf(b)[0]; });
+  std::sort(chosen.begin(), chosen.end(),
+            [&](size_t a, size_t b) { return front.objectivesOf(a)[0] < front.objectivesOf(b)[0]; });
   return chosen;
 }
 

@@ -14,8 +14,10 @@ namespace roomlight::optimise {
 namespace {
 
 constexpr size_t kMostEntries = 1 << 22;                                   // of a program's matrix: 32 MiB
-constexpr double kLeastExponent = -2.5, kExponents = 3;                    // of what energy, price and number weigh against targets, powers of ten
-constexpr double kSteps[] = {0.7548776662, 0.5698402910, 0.3819660113};  // R2 sequence (Roberts 2018), and the golden section
+constexpr double kLeastExponent = -2.5,
+                 kExponents = 3;  // of what energy, price and number weigh against targets, powers of ten
+constexpr double kSteps[] = {0.7548776662, 0.5698402910,
+                             0.3819660113};  // R2 sequence (Roberts 2018), and the golden section
 
 // Of trade-off i: even over the logarithms, from least weight on all but targets.
 std::vector<double> weightsOf(const Model& m, size_t i) {
@@ -24,7 +26,10 @@ std::vector<double> weightsOf(const Model& m, size_t i) {
   size_t others = 0;
   for (size_t k = 0; k < m.objectives.size(); ++k) {
     double weight = 1;
-    if (m.objectives[k] != Objective::TargetMiss) weight = std::pow(10, kLeastExponent + kExponents * std::fmod(kSteps[others++ % std::size(kSteps)] * static_cast<double>(i), 1));
+    if (m.objectives[k] != Objective::TargetMiss)
+      weight =
+          std::pow(10, kLeastExponent +
+                           kExponents * std::fmod(kSteps[others++ % std::size(kSteps)] * static_cast<double>(i), 1));
     out.push_back(weight / box.reference[k]);
   }
   return out;
@@ -48,7 +53,8 @@ DimmingProgram programOf(const Model& m, const std::vector<ChosenLamp>& lamps, c
   return program;
 }
 
-// At each place hangs the lamp that is lit most, with the light of all that the program put there. `levels`: of every option, those of the first condition first.
+// At each place hangs the lamp that is lit most, with the light of all that the program put there. `levels`: of every
+// option, those of the first condition first.
 void roundOff(const Model& m, const std::vector<double>& levels, search::Genome design) {
   const size_t conditions = m.levels(), options = m.options.size();
   for (size_t p = 0; p < m.places(); ++p) {

@@ -21,7 +21,8 @@ class Kept {
     }
     if (ofRule_[rule] + 1 > m_.mostOfRule[rule]) return "a place has more lamps than its 'most'";
     if (m_.mostFittings > 0 && fittings_ + 1 > m_.mostFittings) return "there are more fittings than the limit";
-    if (m_.mostWatts > 0 && watts_ + o.wattsW > m_.mostWatts + kRounding) return "more watts are installed than the limit";
+    if (m_.mostWatts > 0 && watts_ + o.wattsW > m_.mostWatts + kRounding)
+      return "more watts are installed than the limit";
     if (m_.mostCost > 0 && cost_ + o.price > m_.mostCost + kRounding) return "it costs more than the limit";
     return nullptr;
   }
@@ -43,7 +44,11 @@ class Kept {
 void repair(const Model& m, search::Genome design) {
   std::vector<ChosenLamp> lamps = chosenLamps(m, design);
   const size_t levels = m.levels();
-  const auto most = [&](ChosenLamp l) { return levels == 0 ? 0.0 : *std::max_element(design.reals.begin() + static_cast<std::ptrdiff_t>(l.place * levels), design.reals.begin() + static_cast<std::ptrdiff_t>((l.place + 1) * levels)); };
+  const auto most = [&](ChosenLamp l) {
+    return levels == 0 ? 0.0
+                       : *std::max_element(design.reals.begin() + static_cast<std::ptrdiff_t>(l.place * levels),
+                                           design.reals.begin() + static_cast<std::ptrdiff_t>((l.place + 1) * levels));
+  };
   std::stable_sort(lamps.begin(), lamps.end(), [&](ChosenLamp a, ChosenLamp b) { return most(a) > most(b); });
   Kept kept(m);
   for (const ChosenLamp& lamp : lamps) {

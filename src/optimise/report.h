@@ -38,7 +38,7 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> facts;
   double responseSeconds = 0, baseSeconds = 0;  // 0: known from before
   double designsASecond = 0;                    // evaluated
-  double lookUpsASecond = 0;                    // of a design's neighbours on the front, as a surrogate would (timing.h)
+  double lookUpsASecond = 0;  // of a design's neighbours on the front, as a surrogate would (timing.h)
 };
 
 // One page on its own; `home` is drawn.
@@ -47,7 +47,8 @@ Result<std::string> reportHtml(const Report& report, const Scene& home);
 std::string frontCsv(const Report& report);
 // Every point of every design that was solved in full: predicted and full lux, and how certain that is.
 std::string pointsCsv(const Report& report);
-// How it went, for scripts: times, methods with their traces, certificates, and the exact least watts where that can be asked.
+// How it went, for scripts: times, methods with their traces, certificates, and the exact least watts where that can be
+// asked.
 std::string runJson(const Report& report);
 // The front as a picture with axes to choose, that can be zoomed and pointed at; a script in the page.
 std::string frontPlot(const Report& report);

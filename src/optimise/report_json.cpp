@@ -8,7 +8,8 @@ namespace {
 
 using nlohmann::json;
 
-// Where dimming alone is free: a lamp at every place, in one condition, and the least watts of any design of the front that meets all goals.
+// Where dimming alone is free: a lamp at every place, in one condition, and the least watts of any design of the front
+// that meets all goals.
 json leastWattsOf(const Report& r) {
   const Model& m = r.model;
   if (m.conditions.size() != 1 || m.options.size() != m.places() || m.levels() != 1) return nullptr;
@@ -30,11 +31,24 @@ json leastWattsOf(const Report& r) {
 }  // namespace
 
 std::string runJson(const Report& r) {
-  json j = {{"candidates", r.candidates.candidates.size()}, {"places", r.candidates.places.size()}, {"points", r.meters.points()}, {"eyes", r.study.eyes.size()}, {"responseSeconds", r.responseSeconds}, {"baseSeconds", r.baseSeconds}, {"designsASecond", r.designsASecond}, {"lookUpsASecond", r.lookUpsASecond}, {"leastWatts", leastWattsOf(r)}};
+  json j = {{"candidates", r.candidates.candidates.size()},
+            {"places", r.candidates.places.size()},
+            {"points", r.meters.points()},
+            {"eyes", r.study.eyes.size()},
+            {"responseSeconds", r.responseSeconds},
+            {"baseSeconds", r.baseSeconds},
+            {"designsASecond", r.designsASecond},
+            {"lookUpsASecond", r.lookUpsASecond},
+            {"leastWatts", leastWattsOf(r)}};
   for (const MethodResult& m : r.methods) {
     json trace = json::array();
     for (const TracePoint& t : m.trace) trace.push_back({t.evaluations, t.seconds, t.hypervolume});
-    j["methods"].push_back({{"name", m.name}, {"evaluations", m.evaluations}, {"polished", m.polished}, {"seconds", m.seconds}, {"hypervolume", m.hypervolume}, {"trace", trace}});
+    j["methods"].push_back({{"name", m.name},
+                            {"evaluations", m.evaluations},
+                            {"polished", m.polished},
+                            {"seconds", m.seconds},
+                            {"hypervolume", m.hypervolume},
+                            {"trace", trace}});
   }
   for (const Proposed& d : r.designs) {
     json entry = {{"name", d.name}, {"fittings", d.result.fittings}};
@@ -43,7 +57,11 @@ std::string runJson(const Report& r) {
       entry["certifySeconds"] = d.certificate->seconds;
       for (size_t c = 0; c < d.certificate->conditions.size(); ++c) {
         const Certificate::OfCondition& k = d.certificate->conditions[c];
-        entry["certificates"].push_back({{"condition", r.study.conditions[c].name}, {"points", k.judged}, {"meanPercent", k.meanPercent}, {"maxPercent", k.maxPercent}, {"uncertainPercent", k.uncertainPercent}});
+        entry["certificates"].push_back({{"condition", r.study.conditions[c].name},
+                                         {"points", k.judged},
+                                         {"meanPercent", k.meanPercent},
+                                         {"maxPercent", k.maxPercent},
+                                         {"uncertainPercent", k.uncertainPercent}});
       }
     }
     j["designs"].push_back(std::move(entry));

@@ -25,27 +25,37 @@ Result<json> fixedLighting(const StudyFile& study) {
   json document = json::parse(in, nullptr, false, true);
   if (!document.is_object()) return Error{fmt::format("{}: is no lighting file", study.lightingFile.string())};
   for (const char* key : {"daylight", "sun", "sky"}) {
-    if (document.contains(key)) return Error{fmt::format("{}: {}: daylight belongs into the study's conditions", study.lightingFile.string(), key)};
+    if (document.contains(key))
+      return Error{
+          fmt::format("{}: {}: daylight belongs into the study's conditions", study.lightingFile.string(), key)};
   }
-  if (document.contains("scene") && !document["scene"].is_object()) return Error{fmt::format("{}: scene: must be an object", study.lightingFile.string())};
-  if (document.contains("lamps") && !document["lamps"].is_array()) return Error{fmt::format("{}: lamps: must be a list", study.lightingFile.string())};
+  if (document.contains("scene") && !document["scene"].is_object())
+    return Error{fmt::format("{}: scene: must be an object", study.lightingFile.string())};
+  if (document.contains("lamps") && !document["lamps"].is_array())
+    return Error{fmt::format("{}: lamps: must be a list", study.lightingFile.string())};
   // Designs are written elsewhere.
   if (document.contains("lamps")) {
     for (json& lamp : document["lamps"]) {
-      if (lamp.is_object() && lamp.contains("file") && lamp["file"].is_string()) lamp["file"] = std::filesystem::absolute(study.lightingFile.parent_path() / lamp["file"].get<std::string>()).lexically_normal().string();
+      if (lamp.is_object() && lamp.contains("file") && lamp["file"].is_string())
+        lamp["file"] = std::filesystem::absolute(study.lightingFile.parent_path() / lamp["file"].get<std::string>())
+                           .lexically_normal()
+                           .string();
     }
   }
   return document;
 }
 
 bool hasLight(const Scene& scene) {
-  const bool emits = std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) { return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].emission); });
+  const bool emits = std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
+    return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].emission);
+  });
   return emits || !scene.lamps.empty() || !scene.suns.empty() || scene.sky.present();
 }
 
 MeterSettings metersOf(const ResponseSettings& settings) {
   MeterSettings m;
-  m.tolerance = settings.tolerance, m.mostSamples = settings.mostSamples, m.fewestSamples = std::min(settings.fewestSamples, settings.mostSamples), m.seed = settings.render.seed;
+  m.tolerance = settings.tolerance, m.mostSamples = settings.mostSamples,
+  m.fewestSamples = std::min(settings.fewestSamples, settings.mostSamples), m.seed = settings.render.seed;
   return m;
 }
 
@@ -72,10 +82,13 @@ Status addBase(Task& t, const Condition& condition) {
   const Result<Scene> scene = litBy(t.home, t.study, condition.daylight, json::array(), true);
   if (!scene) return Error{scene.error()};
   if (hasLight(scene.value())) {
-    const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), t.settings.render, t.stages, {.changes = false});
+    const Result<std::unique_ptr<LitScene>> lit =
+        lightScene(scene.value(), t.settings.render, t.stages, {.changes = false});
     if (!lit) return Error{lit.error()};
     if (!lit.value()) return Ok{};
-    const auto readings = t.stages.run("meters: " + condition.name, [&](const Progress& p) { return lit.value()->illuminance(t.meters.elements, fullMeters(t.settings.render.seed), p); });
+    const auto readings = t.stages.run("meters: " + condition.name, [&](const Progress& p) {
+      return lit.value()->illuminance(t.meters.elements, fullMeters(t.settings.render.seed), p);
+    });
     for (size_t i = 0; i < readings.size(); ++i) base.lux[i] = readings[i].illuminanceLux;
     for (size_t e = 0; e < t.study.eyes.size(); ++e) {
       const SeenLamps seen = seenLamps(lit.value()->rays(), t.study.eyes[e].position, t.study.eyes[e].direction);
@@ -108,16 +121,21 @@ Status addGroup(Task& t, size_t first, size_t count) {
   if (!lit) return Error{lit.error()};
   if (!lit.value()) return Ok{};
   const LightLayers* layers = lit.value()->layers();
-  if (!layers || layers->size() != count) return Error{"candidates could not be told apart: something in the home shines that is neither lamp nor emission"};
-  const LayeredReadings readings = t.stages.run("response", [&](const Progress& p) { return lit.value()->illuminanceInLayers(t.meters.elements, metersOf(t.settings), p); });
+  if (!layers || layers->size() != count)
+    return Error{"candidates could not be told apart: something in the home shines that is neither lamp nor emission"};
+  const LayeredReadings readings = t.stages.run("response", [&](const Progress& p) {
+    return lit.value()->illuminanceInLayers(t.meters.elements, metersOf(t.settings), p);
+  });
   if (t.stages.cancelled()) return Ok{};
   for (size_t l = 0; l < count; ++l) {
     const size_t c = static_cast<size_t>(std::stoul(layers->layers[l].name));
     for (size_t i = 0; i < t.out.elements; ++i) t.out.lux[c * t.out.elements + i] = readings.at(i, l);
-    for (size_t i = 0; i < t.meters.points(); ++i) t.errorsLux[c * t.meters.points() + i] = readings.standardErrorLux[i * readings.layers + l];
+    for (size_t i = 0; i < t.meters.points(); ++i)
+      t.errorsLux[c * t.meters.points() + i] = readings.standardErrorLux[i * readings.layers + l];
     // The last lamps of the scene are the candidates'.
     const Lamp& lamp = scene.value().lamps[scene.value().lamps.size() - count + (c - first)];
-    for (size_t e = 0; e < t.out.eyes; ++e) t.out.glare[c * t.out.eyes + e] = glareOf(lamp, lit.value()->rays(), t.study.eyes[e]);
+    for (size_t e = 0; e < t.out.eyes; ++e)
+      t.out.glare[c * t.out.eyes + e] = glareOf(lamp, lit.value()->rays(), t.study.eyes[e]);
   }
   return Ok{};
 }
@@ -131,7 +149,8 @@ float worstErrorPercent(const Task& t) {
     float strongest = 0;
     for (size_t c = 0; c < n; ++c) strongest = std::max(strongest, luxOf(c));
     for (size_t c = 0; c < n; ++c) {
-      if (strongest > 0 && luxOf(c) >= kThatMatters * strongest) worst = std::max(worst, 100 * t.errorsLux[c * points + i] / luxOf(c));
+      if (strongest > 0 && luxOf(c) >= kThatMatters * strongest)
+        worst = std::max(worst, 100 * t.errorsLux[c * points + i] / luxOf(c));
     }
   }
   return worst;
@@ -153,7 +172,8 @@ Result<json> lightingDocument(const StudyFile& study, const json& daylight, cons
   if (!fixed) return Error{fixed.error()};
   json document = std::move(fixed.value());
   document["scene"]["suns"] = "off", document["scene"]["sky"] = "off";
-  if (!study.ownLamps || !fixedToo) document["scene"]["lamps"] = "off", document["scene"]["emission"] = "off", document.erase("own");
+  if (!study.ownLamps || !fixedToo)
+    document["scene"]["lamps"] = "off", document["scene"]["emission"] = "off", document.erase("own");
   if (!fixedToo) document.erase("lamps");
   if (!daylight.is_null()) document["daylight"] = daylight;
   for (const json& lamp : lamps) document["lamps"].push_back(lamp);
@@ -164,7 +184,10 @@ Result<Scene> litBy(const Scene& home, const StudyFile& study, const json& dayli
   const Result<json> document = lightingDocument(study, daylight, lamps, fixedToo);
   if (!document) return Error{document.error()};
   Scene scene = home;
-  if (const Status s = applyLighting(document.value(), study.lightingFile.empty() ? study.file : study.lightingFile, scene); !s) return Error{s.error()};
+  if (const Status s =
+          applyLighting(document.value(), study.lightingFile.empty() ? study.file : study.lightingFile, scene);
+      !s)
+    return Error{s.error()};
   return scene;
 }
 
@@ -179,12 +202,14 @@ Status checkConditions(const Scene& home, const StudyFile& study) {
     if (applied) continue;
     // It begins with the file; the line goes behind that.
     const std::string file = study.file.string() + ": ", what = applied.error();
-    return Error{fmt::format("{}:{}: condition '{}': {}", study.file.string(), c.line, c.name, what.starts_with(file) ? what.substr(file.size()) : what)};
+    return Error{fmt::format("{}:{}: condition '{}': {}", study.file.string(), c.line, c.name,
+                             what.starts_with(file) ? what.substr(file.size()) : what)};
   }
   return Ok{};
 }
 
-Result<std::optional<Response>> findResponse(const Scene& home, const StudyFile& study, const Candidates& candidates, const Meters& meters, const ResponseSettings& settings, Stages& stages) {
+Result<std::optional<Response>> findResponse(const Scene& home, const StudyFile& study, const Candidates& candidates,
+                                             const Meters& meters, const ResponseSettings& settings, Stages& stages) {
   const Stopwatch watch;
   Task t{home, study, candidates, meters, settings, stages, {}, {}};
   const size_t n = candidates.candidates.size();

@@ -1,4 +1,5 @@
-// What every candidate lamp gives every meter, found once: light is linear, so any design is a sum of these (docs/methods/optimise.md).
+// What every candidate lamp gives every meter, found once: light is linear, so any design is a sum of these
+ // (docs/methods/optimise.md).
 #pragma once
 
 #include "engine/settings.h"
@@ -22,11 +23,12 @@ struct Base {                   // of one condition: daylight and lamps that sta
 
 struct Response {
   size_t elements = 0, eyes = 0;
-  std::vector<Vec3> lux;             // of candidate c, white and undimmed, on element i: lux[c * elements + i], per channel
-  std::vector<EyeGlare> glare;       // of candidate c at eye e: glare[c * eyes + e]
-  std::vector<Base> base;            // per condition
+  std::vector<Vec3> lux;  // of candidate c, white and undimmed, on element i: lux[c * elements + i], per channel
+  std::vector<EyeGlare> glare;  // of candidate c at eye e: glare[c * eyes + e]
+  std::vector<Base> base;  // per condition
   double seconds = 0, baseSeconds = 0;  // that finding it took: candidates; conditions without them
-  float worstErrorPercent = 0;       // the largest standard error of candidates that give a point at least a tenth of what the strongest gives it
+  float worstErrorPercent =
+      0;  // the largest standard error of candidates that give a point at least a tenth of what the strongest gives it
   const Vec3* of(size_t candidate) const { return lux.data() + candidate * elements; }
   const EyeGlare* glareOf(size_t candidate) const { return glare.data() + candidate * eyes; }
 };
@@ -34,25 +36,30 @@ struct Response {
 struct ResponseSettings {
   RenderSettings render;
   double tolerance = 0.005;  // of candidates at points; light that comes straight from lamps is exact
-  int fewestSamples = 256;   // a point; a power of two
+  int fewestSamples = 256;  // a point; a power of two
   int mostSamples = 8192;
-  size_t atOnce = 48;        // candidates that are told apart in one solution; at most kMostLayers
+  size_t atOnce = 48;  // candidates that are told apart in one solution; at most kMostLayers
 };
 
-// Meters of whole solutions: of conditions without candidates, and of the certificates that judge predictions by the same measure.
+// Meters of whole solutions: of conditions without candidates, and of the certificates that judge predictions by the
+// same measure.
 inline MeterSettings fullMeters(uint64_t seed) { return {0.003, 512, 1 << 13, seed}; }
 
-// A lighting file: with `fixedToo` the study's own and the home's lamps where they stay; `lamps`, and the daylight of a condition, if not null. The
-// home's own suns and sky are off.
-Result<nlohmann::json> lightingDocument(const StudyFile& study, const nlohmann::json& daylight, const nlohmann::json& lamps, bool fixedToo);
+// A lighting file: with `fixedToo` the study's own and the home's lamps where they stay; `lamps`, and the daylight of a
+// condition, if not null. The home's own suns and sky are off.
+Result<nlohmann::json> lightingDocument(const StudyFile& study, const nlohmann::json& daylight,
+                                        const nlohmann::json& lamps, bool fixedToo);
 // The home in that light.
-Result<Scene> litBy(const Scene& home, const StudyFile& study, const nlohmann::json& daylight, const nlohmann::json& lamps, bool fixedToo);
+Result<Scene> litBy(const Scene& home, const StudyFile& study, const nlohmann::json& daylight,
+                    const nlohmann::json& lamps, bool fixedToo);
 
-// What is wrong with the lighting file or with a condition's daylight, before long work: they are applied to the home. The error names the file, of a condition its line.
+// What is wrong with the lighting file or with a condition's daylight, before long work: they are applied to the home.
+// The error names the file, of a condition its line.
 Status checkConditions(const Scene& home, const StudyFile& study);
 
 // `home` as imported. Errors: of daylight and lighting files. Empty where cancelled.
-Result<std::optional<Response>> findResponse(const Scene& home, const StudyFile& study, const Candidates& candidates, const Meters& meters, const ResponseSettings& settings, Stages& stages);
+Result<std::optional<Response>> findResponse(const Scene& home, const StudyFile& study, const Candidates& candidates,
+                                             const Meters& meters, const ResponseSettings& settings, Stages& stages);
 
 // Σ L² ω / p² of what an eye sees.
 double glareTerm(std::span<const GlareSource> sources, Vec3 view);

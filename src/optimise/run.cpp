@@ -21,12 +21,15 @@ namespace {
 constexpr double kKeepEveryS = 10;     // the state of the search
 constexpr size_t kTracePoints = 200;   // of the hypervolume over a search
 constexpr double kTraceS = 2, kTraceShare = 0.05;  // what the trace may take: so long, and so much of the search's time
-constexpr size_t kRelaxedShare = 20;   // hybrid: of the first generation, one in so many
-constexpr double kPolishShare = 0.25;  // hybrid: of all evaluations; linear programs are dear beside evaluations of designs
+constexpr size_t kRelaxedShare = 20;  // hybrid: of the first generation, one in so many
+constexpr double kPolishShare =
+    0.25;  // hybrid: of all evaluations; linear programs are dear beside evaluations of designs
 constexpr size_t kFewestProposed = 8;
 
 // One that was kept is no use where it has gone beyond a smaller budget: the same seed gives the same front.
-bool isWithin(const search::State& known, const search::Settings& settings) { return known.evaluations <= settings.evaluations || known.settings.evaluations == settings.evaluations; }
+bool isWithin(const search::State& known, const search::Settings& settings) {
+  return known.evaluations <= settings.evaluations || known.settings.evaluations == settings.evaluations;
+}
 
 // Lighting files of an earlier run would look like designs of this one: "design_" and a number.
 void removeOldDesigns(const std::filesystem::path& folder) {
@@ -34,7 +37,8 @@ void removeOldDesigns(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string(), begin = "design_";
-    if (name.starts_with(begin) && name.ends_with(".json") && name.find_first_of("0123456789") == begin.size()) old.push_back(entry.path());
+    if (name.starts_with(begin) && name.ends_with(".json") && name.find_first_of("0123456789") == begin.size())
+      old.push_back(entry.path());
   }
   for (const std::filesystem::path& file : old) std::filesystem::remove(file, ignored);
 }
@@ -82,7 +86,9 @@ Status Run::read() {
   }
   if (cameras_.empty()) cameras_.push_back(defaultCamera(home_));
   const ResponseSettings response{};
-  const std::string settings = fmt::format("{} {} {} {} {} {}", version(), settingsToJson(wish_.render), response.tolerance, response.fewestSamples, response.mostSamples, response.atOnce);
+  const std::string settings =
+      fmt::format("{} {} {} {} {} {}", version(), settingsToJson(wish_.render), response.tolerance,
+                  response.fewestSamples, response.mostSamples, response.atOnce);
   hash_ = inputHash(wish_.home, study_, settings + hashOfScene(home_));
   if (wish_.evaluations) study_.evaluations = *wish_.evaluations;
   if (wish_.certified) study_.certified = *wish_.certified;
@@ -100,9 +106,12 @@ Status Run::respond(Stages& stages) {
     if (!meters) return Error{meters.error()};
     meters_ = std::move(meters.value());
   }
-  news_.line(fmt::format("{} places, {} candidate lamps, {} points, {} eyes", candidates_.places.size(), candidates_.candidates.size(), meters_.points(), study_.eyes.size()));
+  news_.line(fmt::format("{} places, {} candidate lamps, {} points, {} eyes", candidates_.places.size(),
+                         candidates_.candidates.size(), meters_.points(), study_.eyes.size()));
   const std::filesystem::path file = wish_.folder / "response.bin";
-  if (auto known = loadResponse(file, hash_, {candidates_.candidates.size(), meters_.elements.size(), study_.eyes.size(), study_.conditions.size()})) {
+  if (auto known = loadResponse(
+          file, hash_,
+          {candidates_.candidates.size(), meters_.elements.size(), study_.eyes.size(), study_.conditions.size()})) {
     news_.line("the response of all candidates is known from before");
     response_ = std::move(*known);
   } else {
@@ -112,7 +121,8 @@ Status Run::respond(Stages& stages) {
     if (!found) return Error{found.error()};
     if (!found.value()) return Ok{};
     response_ = std::move(*found.value());
-    news_.line(fmt::format("response of {} candidates at {} points in {:.1f} s, conditions without them in {:.1f} s", candidates_.candidates.size(), meters_.points(), response_.seconds, response_.baseSeconds));
+    news_.line(fmt::format("response of {} candidates at {} points in {:.1f} s, conditions without them in {:.1f} s",
+                           candidates_.candidates.size(), meters_.points(), response_.seconds, response_.baseSeconds));
     if (const Status s = saveResponse(file, hash_, response_); !s) news_.warning(s.error());
   }
   model_ = makeModel(study_, candidates_, meters_, response_);
@@ -135,7 +145,8 @@ search::State Run::start(const search::Problem& problem, const search::Settings&
 
 Result<search::State> Run::searchBy(const search::Problem& problem, search::Method method, Trace& trace) {
   search::Settings settings;
-  settings.method = method, settings.seed = study_.seed, settings.evaluations = study_.evaluations, settings.population = study_.population, settings.seconds = wish_.seconds;
+  settings.method = method, settings.seed = study_.seed, settings.evaluations = study_.evaluations,
+  settings.population = study_.population, settings.seconds = wish_.seconds;
   settings.polishShare = kPolishShare;
   if (const Status s = search::check(problem, settings); !s) return Error{s.error()};
   const char* name = search::nameOf(method);
@@ -171,21 +182,32 @@ Status Run::searchAll() {
     Trace trace(model_);
     Result<search::State> state = searchBy(problem, wish_.methods[i], trace);
     if (!state) return Error{state.error()};
-    report_.methods.push_back({search::nameOf(wish_.methods[i]), state.value().evaluations, state.value().polished, state.value().seconds, trace.hypervolume(), trace.points()});
+    report_.methods.push_back({search::nameOf(wish_.methods[i]), state.value().evaluations, state.value().polished,
+                               state.value().seconds, trace.hypervolume(), trace.points()});
     if (i == 0) report_.front = std::move(state.value().archive);
   }
   if (report_.front.size() == 0) return Ok{};
   report_.lookUpsASecond = lookUpsASecond(model_, report_.front);
-  report_.facts = {{"program", "roomlight " + std::string(version())}, {"home", wish_.home.string()}, {"seed", fmt::format("{}", study_.seed)}, {"technique", wish_.render.technique + ", quality " + wish_.render.quality}, {"candidates' standard error", fmt::format("{:.2f} % at the worst point", response_.worstErrorPercent)}, {"a second", fmt::format("{:.0f} designs evaluated; {:.0f} looked up among those of the front, as a surrogate would", report_.designsASecond, report_.lookUpsASecond)}};
+  report_.facts = {
+      {"program", "roomlight " + std::string(version())},
+      {"home", wish_.home.string()},
+      {"seed", fmt::format("{}", study_.seed)},
+      {"technique", wish_.render.technique + ", quality " + wish_.render.quality},
+      {"candidates' standard error", fmt::format("{:.2f} % at the worst point", response_.worstErrorPercent)},
+      {"a second",
+       fmt::format("{:.0f} designs evaluated; {:.0f} looked up among those of the front, as a surrogate would",
+                   report_.designsASecond, report_.lookUpsASecond)}};
   return Ok{};
 }
 
 Status Run::writeDesign(search::ConstGenome design, size_t number, Proposed& out) const {
   const std::vector<std::string> names = fileNamesOf(study_.conditions);
   for (size_t c = 0; c < names.size(); ++c) {
-    const Result<std::string> text = lightingFileOf(study_, lampsOf(study_, candidates_, model_, design, c), study_.conditions[c].daylight);
+    const Result<std::string> text =
+        lightingFileOf(study_, lampsOf(study_, candidates_, model_, design, c), study_.conditions[c].daylight);
     if (!text) return Error{text.error()};
-    out.lightingFiles.push_back(names.size() == 1 ? fmt::format("design_{}.json", number) : fmt::format("design_{}_{}.json", number, names[c]));
+    out.lightingFiles.push_back(names.size() == 1 ? fmt::format("design_{}.json", number)
+                                                  : fmt::format("design_{}_{}.json", number, names[c]));
     if (const Status s = writeWhole(wish_.folder / out.lightingFiles.back(), text.value()); !s) return s;
   }
   return Ok{};
@@ -193,15 +215,24 @@ Status Run::writeDesign(search::ConstGenome design, size_t number, Proposed& out
 
 Status Run::propose() {
   removeOldDesigns(wish_.folder);
-  for (const size_t index : spreadOf(model_, report_.front, std::max(static_cast<size_t>(study_.certified), kFewestProposed))) {
+  for (const size_t index :
+       spreadOf(model_, report_.front, std::max(static_cast<size_t>(study_.certified), kFewestProposed))) {
     const size_t number = report_.designs.size() + 1;
     const search::ConstGenome design = std::as_const(report_.front.designs)[index];
-    Proposed d{index, fmt::format("design {}", number), billOf(study_, candidates_, model_, design), resultOf(model_, design), {}, {}};
+    Proposed d{index,
+               fmt::format("design {}", number),
+               billOf(study_, candidates_, model_, design),
+               resultOf(model_, design),
+               {},
+               {}};
     if (const Status s = writeDesign(design, number, d); !s) return s;
     report_.designs.push_back(std::move(d));
   }
-  const bool dark = std::all_of(report_.designs.begin(), report_.designs.end(), [](const Proposed& d) { return d.bill.empty(); });
-  if (dark) news_.warning("no design has a lamp: the limits are too small for any, or no objective asks for light (targetMiss)");
+  const bool dark =
+      std::all_of(report_.designs.begin(), report_.designs.end(), [](const Proposed& d) { return d.bill.empty(); });
+  if (dark)
+    news_.warning(
+        "no design has a lamp: the limits are too small for any, or no objective asks for light (targetMiss)");
   return Ok{};
 }
 
@@ -209,16 +240,20 @@ Status Run::certifyAll(Stages& stages) {
   const size_t count = std::min(report_.designs.size(), static_cast<size_t>(study_.certified));
   for (size_t i = 0; i < count && !stopped(); ++i) {
     Proposed& d = report_.designs[i];
-    Result<std::optional<Certificate>> c = certify(home_, study_, candidates_, meters_, model_, std::as_const(report_.front.designs)[d.index], cameras_, wish_.render, stages);
+    Result<std::optional<Certificate>> c =
+        certify(home_, study_, candidates_, meters_, model_, std::as_const(report_.front.designs)[d.index], cameras_,
+                wish_.render, stages);
     if (!c) return Error{c.error()};
     d.certificate = std::move(c.value());
     if (!d.certificate) break;
     std::string differences;
     for (size_t k = 0; k < study_.conditions.size(); ++k) {
       const Certificate::OfCondition& r = d.certificate->conditions[k];
-      differences += fmt::format("{}{}: {} points, mean {:.2f} %, {}", k ? "; " : "", study_.conditions[k].name, r.judged, r.meanPercent, largestDifference(r));
+      differences += fmt::format("{}{}: {} points, mean {:.2f} %, {}", k ? "; " : "", study_.conditions[k].name,
+                                 r.judged, r.meanPercent, largestDifference(r));
     }
-    news_.line(fmt::format("{} certified in {:.1f} s: prediction against full solution {}", d.name, d.certificate->seconds, differences));
+    news_.line(fmt::format("{} certified in {:.1f} s: prediction against full solution {}", d.name,
+                           d.certificate->seconds, differences));
   }
   return Ok{};
 }

@@ -1,4 +1,5 @@
-// One run: from a home and a study file to designs on the best trade-offs. Its folder keeps the response and the searches, so that a run that was stopped goes on where it was:
+// One run: from a home and a study file to designs on the best trade-offs. Its folder keeps the response and the
+ // searches, so that a run that was stopped goes on where it was:
 //
 //     Run run({.home = "flat.sh3d", .study = "goals.toml", .folder = "out"}, news);
 //     run.read(); run.respond(stages); run.searchAll(); run.propose(); run.certifyAll(stages); run.write();
@@ -19,7 +20,8 @@ struct RunWish {
   std::optional<float> metresPerUnit;  // of the home; none: the file's, or guessed
   std::filesystem::path home, study, folder;
   RenderSettings render;
-  std::vector<search::Method> methods = {search::Method::hybrid};  // the first finds the front, the others are compared with it
+  std::vector<search::Method> methods = {
+      search::Method::hybrid};  // the first finds the front, the others are compared with it
   // Instead of the study's:
   std::optional<size_t> evaluations;
   std::optional<int> certified;
@@ -47,7 +49,8 @@ class Run {
   Status read();
   // Candidates, meters, and what each candidate gives at each of them: from the folder, where it is of the same inputs.
   Status respond(Stages& stages);
-  // By every method, each going on from the folder. Stopped, those so far; there is a front all the same once the first has begun.
+  // By every method, each going on from the folder. Stopped, those so far; there is a front all the same once the first
+  // has begun.
   Status searchAll();
   // Chooses designs of the front and writes their lighting files.
   Status propose();

@@ -46,14 +46,19 @@ class Fnv1a {
 
 void add(Fnv1a& hash, const Material& m) {
   hash.add(m.name);
-  hash.add(fmt::format("{} {} {} {} {} {} {} {}", m.baseColor.x, m.baseColor.y, m.baseColor.z, m.alpha, m.metallic, m.roughness, m.transmission, m.ior));
+  hash.add(fmt::format("{} {} {} {} {} {} {} {}", m.baseColor.x, m.baseColor.y, m.baseColor.z, m.alpha, m.metallic,
+                       m.roughness, m.transmission, m.ior));
   hash.add(fmt::format("{} {} {} {}", m.emission.x, m.emission.y, m.emission.z, m.doubleSided));
 }
 
 // Whether a response has as many numbers of each kind as its sizes say.
 bool isWhole(const Response& r, const ResponseSizes& sizes) {
-  const bool candidates = r.elements == sizes.elements && r.eyes == sizes.eyes && r.lux.size() == sizes.candidates * sizes.elements && r.glare.size() == sizes.candidates * sizes.eyes;
-  return candidates && r.base.size() == sizes.conditions && std::all_of(r.base.begin(), r.base.end(), [&](const Base& b) { return b.lux.size() == sizes.elements && b.glare.size() == sizes.eyes; });
+  const bool candidates = r.elements == sizes.elements && r.eyes == sizes.eyes &&
+                          r.lux.size() == sizes.candidates * sizes.elements &&
+                          r.glare.size() == sizes.candidates * sizes.eyes;
+  return candidates && r.base.size() == sizes.conditions &&
+         std::all_of(r.base.begin(), r.base.end(),
+                     [&](const Base& b) { return b.lux.size() == sizes.elements && b.glare.size() == sizes.eyes; });
 }
 
 // Reads what put() wrote; once something does not fit, nothing more.
@@ -94,7 +99,8 @@ std::string hashOfFile(const std::filesystem::path& file) {
 }
 
 std::string inputHash(const std::filesystem::path& home, const StudyFile& study, const std::string& settings) {
-  std::string all = std::string(kMagic) + hashOfFile(home) + hashOfFile(study.file) + hashOfFile(study.catalogueFile) + (study.lightingFile.empty() ? "" : hashOfFile(study.lightingFile)) + settings;
+  std::string all = std::string(kMagic) + hashOfFile(home) + hashOfFile(study.file) + hashOfFile(study.catalogueFile) +
+                    (study.lightingFile.empty() ? "" : hashOfFile(study.lightingFile)) + settings;
   for (const Luminaire& l : study.catalogue.luminaires) {
     if (!l.file.empty()) all += hashOfFile(l.file);
   }
@@ -118,7 +124,8 @@ Status saveResponse(const std::filesystem::path& file, const std::string& hash, 
   return writeWhole(file, bytes);
 }
 
-std::optional<Response> loadResponse(const std::filesystem::path& file, const std::string& hash, const ResponseSizes& wanted) {
+std::optional<Response> loadResponse(const std::filesystem::path& file, const std::string& hash,
+                                     const ResponseSizes& wanted) {
   const auto bytes = contentOf(file);
   const std::string head = std::string(kMagic) + hash;
   if (!bytes || !bytes->starts_with(head)) return std::nullopt;
@@ -140,9 +147,12 @@ std::optional<Response> loadResponse(const std::filesystem::path& file, const st
   return r;
 }
 
-Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state) { return writeWhole(file, hash + "\n" + search::toJson(state)); }
+Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state) {
+  return writeWhole(file, hash + "\n" + search::toJson(state));
+}
 
-std::optional<search::State> loadSearch(const std::filesystem::path& file, const std::string& hash, const search::Problem& problem) {
+std::optional<search::State> loadSearch(const std::filesystem::path& file, const std::string& hash,
+                                        const search::Problem& problem) {
   const auto text = contentOf(file);
   if (!text || !text->starts_with(hash + "\n")) return std::nullopt;
   const auto state = search::stateFromJson(std::string_view(*text).substr(hash.size() + 1), problem, file.string());

@@ -1,4 +1,5 @@
-// What a run keeps in its folder, so that it can go on: the response and the state of the search, each with a hash of all it depends on.
+// What a run keeps in its folder, so that it can go on: the response and the state of the search, each with a hash of
+ // all it depends on.
 #pragma once
 
 #include <filesystem>
@@ -22,9 +23,11 @@ Status saveResponse(const std::filesystem::path& file, const std::string& hash, 
 struct ResponseSizes {
   size_t candidates = 0, elements = 0, eyes = 0, conditions = 0;
 };
-std::optional<Response> loadResponse(const std::filesystem::path& file, const std::string& hash, const ResponseSizes& sizes);
+std::optional<Response> loadResponse(const std::filesystem::path& file, const std::string& hash,
+                                     const ResponseSizes& sizes);
 
 Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state);
-std::optional<search::State> loadSearch(const std::filesystem::path& file, const std::string& hash, const search::Problem& problem);
+std::optional<search::State> loadSearch(const std::filesystem::path& file, const std::string& hash,
+                                        const search::Problem& problem);
 
 }  // namespace roomlight::optimise

@@ -53,7 +53,8 @@ Room readRoom(const TomlPlace& j, const std::vector<Room>& rooms) {
   if (j.has("floor")) {
     const TomlPlace floor = j["floor"];
     for (size_t i = 0, n = floor.size(); i < n; ++i) room.floor.push_back(corner(floor.at(i)));
-    if (room.floor.size() < 3 || crossesItself(room.floor) || std::abs(signedAreaM2(room.floor)) < 1e-3) return floor.fail("must be an outline of three corners or more that does not cross itself"), room;
+    if (room.floor.size() < 3 || crossesItself(room.floor) || std::abs(signedAreaM2(room.floor)) < 1e-3)
+      return floor.fail("must be an outline of three corners or more that does not cross itself"), room;
     if (signedAreaM2(room.floor) < 0) std::reverse(room.floor.begin(), room.floor.end());
     room.elevationM = static_cast<float>(j.number("elevation", -1e4, 1e4, 0));
     room.heightM = static_cast<float>(j.number("ceiling", 1, 100, 2.5));
@@ -63,8 +64,11 @@ Room readRoom(const TomlPlace& j, const std::vector<Room>& rooms) {
   if (found != rooms.end()) return *found;
   std::string names;
   for (const Room& r : rooms) names += (names.empty() ? "'" : ", '") + r.name + "'";
-  j["room"].fail(rooms.empty() ? fmt::format("the home knows no rooms; give '{}' a 'floor' of corners [x, z]", printable(room.name))
-                               : fmt::format("there is no room '{}'; there are {}; another needs a 'floor' of corners [x, z]", printable(room.name), names));
+  j["room"].fail(
+      rooms.empty()
+          ? fmt::format("the home knows no rooms; give '{}' a 'floor' of corners [x, z]", printable(room.name))
+          : fmt::format("there is no room '{}'; there are {}; another needs a 'floor' of corners [x, z]",
+                        printable(room.name), names));
   return room;
 }
 
@@ -76,7 +80,8 @@ std::vector<size_t> readConditions(const TomlPlace& j, const StudyFile& out) {
   }
   const TomlPlace names = j["conditions"];
   for (const std::string& name : names.texts()) {
-    const auto c = std::find_if(out.conditions.begin(), out.conditions.end(), [&](const Condition& x) { return x.name == name; });
+    const auto c =
+        std::find_if(out.conditions.begin(), out.conditions.end(), [&](const Condition& x) { return x.name == name; });
     if (c == out.conditions.end()) return names.fail(fmt::format("there is no condition '{}'", printable(name))), list;
     list.push_back(static_cast<size_t>(c - out.conditions.begin()));
   }
@@ -99,7 +104,9 @@ void each(const TomlPlace& root, const char* key, Read&& read) {
   for (size_t i = 0, n = list.size(); i < n; ++i) read(list.at(i));
 }
 
-std::filesystem::path beside(const StudyFile& out, const std::string& name) { return std::filesystem::absolute(out.file.parent_path() / name).lexically_normal(); }
+std::filesystem::path beside(const StudyFile& out, const std::string& name) {
+  return std::filesystem::absolute(out.file.parent_path() / name).lexically_normal();
+}
 
 void readCondition(const TomlPlace& j, StudyFile& out) {
   if (!j.isTable({"name", "daylight", "weight", "hours", "comment"})) return;
@@ -112,7 +119,8 @@ void readCondition(const TomlPlace& j, StudyFile& out) {
   } else {
     c.daylight = jsonOf(daylight.node());
     // Lighting files that are made of it lie elsewhere.
-    if (c.daylight.is_object() && c.daylight.contains("weather") && c.daylight["weather"].is_string()) c.daylight["weather"] = beside(out, c.daylight["weather"].get<std::string>()).string();
+    if (c.daylight.is_object() && c.daylight.contains("weather") && c.daylight["weather"].is_string())
+      c.daylight["weather"] = beside(out, c.daylight["weather"].get<std::string>()).string();
   }
   c.weight = j.number("weight", 0, 1e6, 1);
   c.hoursPerYear = j.number("hours", 0, 8784, -1);
@@ -129,13 +137,16 @@ void shareHours(StudyFile& out) {
       if (c.hoursPerYear > 0) left -= c.hoursPerYear;
     }
     for (Condition& c : out.conditions) {
-      if (c.daylight.is_null() == night && c.hoursPerYear < 0) c.hoursPerYear = open > 0 ? std::max(0.0, left) * c.weight / open : 0;
+      if (c.daylight.is_null() == night && c.hoursPerYear < 0)
+        c.hoursPerYear = open > 0 ? std::max(0.0, left) * c.weight / open : 0;
     }
   }
 }
 
 void readZone(const TomlPlace& j, const Reading& r) {
-  if (!j.isTable({"name", "room", "floor", "elevation", "ceiling", "rectangle", "height", "spacing", "border", "mean", "uniformity", "use", "weight", "conditions", "comment"})) return;
+  if (!j.isTable({"name", "room", "floor", "elevation", "ceiling", "rectangle", "height", "spacing", "border", "mean",
+                  "uniformity", "use", "weight", "conditions", "comment"}))
+    return;
   Zone z;
   z.line = j.line();
   z.rectangle = j.has("rectangle");
@@ -158,7 +169,8 @@ void readZone(const TomlPlace& j, const Reading& r) {
     if (!use) {
       j["use"].fail("there is no such use; write living, bedroom, dining, kitchen, bathroom or office");
     } else {
-      z.meanLux = use->targets.lux ? use->targets.lux->value : 0, z.u0 = use->targets.uniformity ? use->targets.uniformity->value : 0;
+      z.meanLux = use->targets.lux ? use->targets.lux->value : 0,
+      z.u0 = use->targets.uniformity ? use->targets.uniformity->value : 0;
       z.workPlaneM = use->workPlaneM;
     }
   }
@@ -192,7 +204,8 @@ void readRatio(const TomlPlace& j, StudyFile& out) {
   q.name = j["name"].text();
   checkName(j, out.ratios, q.name);
   q.eye = j["eye"].vector(), q.task = j["task"].vector(), q.surround = j["surround"].vector();
-  if (length(q.task - q.eye) < 1e-3f || length(q.surround - q.eye) < 1e-3f) j.fail("'task' and 'surround' must lie apart from 'eye'");
+  if (length(q.task - q.eye) < 1e-3f || length(q.surround - q.eye) < 1e-3f)
+    j.fail("'task' and 'surround' must lie apart from 'eye'");
   q.most = j.number("most", 1, 1e4, q.most);
   q.conditions = readConditions(j, out);
   out.ratios.push_back(q);
@@ -200,8 +213,7 @@ void readRatio(const TomlPlace& j, StudyFile& out) {
 
 void readAims(const TomlPlace& j, PlaceRule& p) {
   if (!j.has("aims")) {
-    p.aimWords = {p.on == Mounting::Ceiling ? "down" : p.on == Mounting::Wall ? "out"
-                                                                              : "up"};
+    p.aimWords = {p.on == Mounting::Ceiling ? "down" : p.on == Mounting::Wall ? "out" : "up"};
     return;
   }
   const TomlPlace aims = j["aims"];
@@ -224,17 +236,22 @@ void readAt(const TomlPlace& j, PlaceRule& p) {
     const Vec3 place = at.at(i).vector();
     const Vec2 onFloor{place.x, place.z};
     const bool wall = p.on == Mounting::Wall;
-    const bool inside = !p.room.floor.empty() && (contains(p.room.floor, onFloor) || (wall && distanceToEdgeM(p.room.floor, onFloor) < kBehindWallM));
+    const bool inside = !p.room.floor.empty() && (contains(p.room.floor, onFloor) ||
+                                                  (wall && distanceToEdgeM(p.room.floor, onFloor) < kBehindWallM));
     const float above = place.y - p.room.elevationM;
     if (!inside) at.at(i).fail(fmt::format("lies outside of '{}'", printable(p.room.name)));
-    if (wall && (above < 0 || above > p.room.heightM)) at.at(i).fail(fmt::format("its height must be between floor and ceiling of '{}', {:g} to {:g}", printable(p.room.name), p.room.elevationM, p.room.elevationM + p.room.heightM));
+    if (wall && (above < 0 || above > p.room.heightM))
+      at.at(i).fail(fmt::format("its height must be between floor and ceiling of '{}', {:g} to {:g}",
+                                printable(p.room.name), p.room.elevationM, p.room.elevationM + p.room.heightM));
     p.at.push_back(place);
   }
   if (p.at.empty()) at.fail("must not be empty");
 }
 
 void readPlace(const TomlPlace& j, const Reading& r) {
-  if (!j.isTable({"name", "on", "room", "floor", "elevation", "ceiling", "luminaires", "aims", "spacing", "fromWalls", "height", "apart", "most", "at", "comment"})) return;
+  if (!j.isTable({"name", "on", "room", "floor", "elevation", "ceiling", "luminaires", "aims", "spacing", "fromWalls",
+                  "height", "apart", "most", "at", "comment"}))
+    return;
   PlaceRule p;
   p.line = j.line();
   p.on = mountingNamed(j["on"].oneOf({"ceiling", "wall", "table", "floor"})).value_or(Mounting::Ceiling);
@@ -244,8 +261,11 @@ void readPlace(const TomlPlace& j, const Reading& r) {
   const TomlPlace names = j["luminaires"];
   for (const std::string& name : names.texts()) {
     const Luminaire* l = r.out.catalogue.find(name);
-    if (!l) return names.fail(fmt::format("there is no '{}' in the catalogue; there are {}", printable(name), r.out.catalogue.names()));
-    if (std::find(l->mountings.begin(), l->mountings.end(), p.on) == l->mountings.end()) return names.fail(fmt::format("'{}' is not for mounting on a {}", l->name, nameOf(p.on)));
+    if (!l)
+      return names.fail(
+          fmt::format("there is no '{}' in the catalogue; there are {}", printable(name), r.out.catalogue.names()));
+    if (std::find(l->mountings.begin(), l->mountings.end(), p.on) == l->mountings.end())
+      return names.fail(fmt::format("'{}' is not for mounting on a {}", l->name, nameOf(p.on)));
     p.luminaires.push_back(static_cast<size_t>(l - r.out.catalogue.luminaires.data()));
   }
   if (p.luminaires.empty()) names.fail("must name at least one");
@@ -268,24 +288,27 @@ void readObjectives(const TomlPlace& root, StudyFile& out) {
     const std::string word = list.at(i).oneOf({"targetMiss", "uniformity", "glare", "energy", "cost", "fittings"});
     for (const ObjectiveInfo& o : objectiveTable()) {
       if (word != o.name) continue;
-      if (std::find(out.objectives.begin(), out.objectives.end(), o.objective) != out.objectives.end()) list.at(i).fail("is there twice");
+      if (std::find(out.objectives.begin(), out.objectives.end(), o.objective) != out.objectives.end())
+        list.at(i).fail("is there twice");
       out.objectives.push_back(o.objective);
     }
   }
   if (out.objectives.size() < 2 || out.objectives.size() > kMostObjectives) list.fail("must be two to four");
-  if (out.eyes.empty() && std::find(out.objectives.begin(), out.objectives.end(), Objective::Glare) != out.objectives.end()) list.fail("'glare' needs an [[eye]] to judge from");
+  if (out.eyes.empty() &&
+      std::find(out.objectives.begin(), out.objectives.end(), Objective::Glare) != out.objectives.end())
+    list.fail("'glare' needs an [[eye]] to judge from");
 }
 
 void readLimits(const TomlPlace& root, StudyFile& out) {
   if (root.has("limits")) {
     const TomlPlace j = root["limits"];
     if (!j.isTable({"watts", "cost", "fittings"})) return;
-    out.mostWatts = j.number("watts", 0.1, 1e6, 0), out.mostCost = j.number("cost", 0, 1e9, 0), out.mostFittings = j.whole("fittings", 1, 10000, 0);
+    out.mostWatts = j.number("watts", 0.1, 1e6, 0), out.mostCost = j.number("cost", 0, 1e9, 0),
+    out.mostFittings = j.whole("fittings", 1, 10000, 0);
   }
   if (root.has("dimming")) {
     const std::string word = root["dimming"].oneOf({"none", "common", "by condition"});
-    out.dimming = word == "none" ? Dimming::None : word == "common" ? Dimming::Common
-                                                                    : Dimming::ByCondition;
+    out.dimming = word == "none" ? Dimming::None : word == "common" ? Dimming::Common : Dimming::ByCondition;
   }
   if (root.has("search")) {
     const TomlPlace j = root["search"];
@@ -300,7 +323,9 @@ void readLimits(const TomlPlace& root, StudyFile& out) {
 
 void readAll(const TomlPlace& root, const Reading& r) {
   StudyFile& out = r.out;
-  if (!root.isTable({"version", "title", "comment", "catalogue", "lighting", "ownLamps", "condition", "zone", "eye", "ratio", "place", "limits", "dimming", "objectives", "search", "maintenance", "area", "cameras"})) return;
+  if (!root.isTable({"version", "title", "comment", "catalogue", "lighting", "ownLamps", "condition", "zone", "eye",
+                     "ratio", "place", "limits", "dimming", "objectives", "search", "maintenance", "area", "cameras"}))
+    return;
   if (root.has("version")) root["version"].number(1, 1);
   out.title = root.text("title", out.file.stem().string());
   out.catalogueFile = beside(out, root["catalogue"].text());
@@ -308,19 +333,22 @@ void readAll(const TomlPlace& root, const Reading& r) {
   if (!catalogue) {
     // What is wrong in the catalogue's lines is said with those.
     std::error_code ignored;
-    std::filesystem::exists(out.catalogueFile, ignored) ? root["catalogue"].fail("see " + catalogue.error()) : root["catalogue"].fail(catalogue.error());
+    std::filesystem::exists(out.catalogueFile, ignored) ? root["catalogue"].fail("see " + catalogue.error())
+                                                        : root["catalogue"].fail(catalogue.error());
     return;
   }
   out.catalogue = std::move(catalogue.value());
   if (root.has("lighting")) {
     out.lightingFile = beside(out, root["lighting"].text());
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(out.lightingFile, ignored)) root["lighting"].fail(fmt::format("{}: no such file", out.lightingFile.string()));
+    if (!std::filesystem::is_regular_file(out.lightingFile, ignored))
+      root["lighting"].fail(fmt::format("{}: no such file", out.lightingFile.string()));
   }
   out.ownLamps = root.flag("ownLamps", false);
   each(root, "condition", [&](const TomlPlace& j) { readCondition(j, out); });
   if (out.conditions.empty()) out.conditions.push_back({"night", nullptr, 1, -1, 0});
-  if (std::none_of(out.conditions.begin(), out.conditions.end(), [](const Condition& c) { return c.weight > 0; })) root["condition"].at(0).fail("all have weight 0: nothing would be judged");
+  if (std::none_of(out.conditions.begin(), out.conditions.end(), [](const Condition& c) { return c.weight > 0; }))
+    root["condition"].at(0).fail("all have weight 0: nothing would be judged");
   shareHours(out);
   each(root, "zone", [&](const TomlPlace& j) { readZone(j, r); });
   if (out.zones.empty())
@@ -341,12 +369,18 @@ void readAll(const TomlPlace& root, const Reading& r) {
 }  // namespace
 
 const std::vector<ObjectiveInfo>& objectiveTable() {
-  static const std::vector<ObjectiveInfo> table = {{Objective::TargetMiss, "targetMiss", "targets missed by", "%"}, {Objective::Uniformity, "uniformity", "unevenness 1 − U0", ""}, {Objective::Glare, "glare", "glare above the limit", "UGR"}, {Objective::Energy, "energy", "energy", "kWh/a"}, {Objective::Cost, "cost", "cost", ""}, {Objective::Fittings, "fittings", "fittings", ""}};
+  static const std::vector<ObjectiveInfo> table = {{Objective::TargetMiss, "targetMiss", "targets missed by", "%"},
+                                                   {Objective::Uniformity, "uniformity", "unevenness 1 − U0", ""},
+                                                   {Objective::Glare, "glare", "glare above the limit", "UGR"},
+                                                   {Objective::Energy, "energy", "energy", "kWh/a"},
+                                                   {Objective::Cost, "cost", "cost", ""},
+                                                   {Objective::Fittings, "fittings", "fittings", ""}};
   return table;
 }
 
 const ObjectiveInfo& infoOf(Objective objective) {
-  return *std::find_if(objectiveTable().begin(), objectiveTable().end(), [&](const ObjectiveInfo& o) { return o.objective == objective; });
+  return *std::find_if(objectiveTable().begin(), objectiveTable().end(),
+                       [&](const ObjectiveInfo& o) { return o.objective == objective; });
 }
 
 Result<StudyFile> readStudy(const std::filesystem::path& file, const std::vector<Room>& rooms) {

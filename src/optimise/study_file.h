@@ -9,12 +9,7 @@
 
 namespace roomlight::optimise {
 
-enum class Objective { TargetMiss,
-                       Uniformity,
-                       Glare,
-                       Energy,
-                       Cost,
-                       Fittings };
+enum class Objective { TargetMiss, Uniformity, Glare, Energy, Cost, Fittings };
 struct ObjectiveInfo {
   Objective objective;
   const char* name;   // in files: targetMiss
@@ -77,9 +72,7 @@ struct PlaceRule {
   int line = 0;
 };
 
-enum class Dimming { None,
-                     Common,
-                     ByCondition };
+enum class Dimming { None, Common, ByCondition };
 
 struct StudyFile {
   std::filesystem::path file, catalogueFile, lightingFile;  // lightingFile: what is fixed; may be empty

@@ -19,7 +19,8 @@ TomlNode copyOf(const toml::node& from, std::string key) {
   if (const toml::table* table = from.as_table()) {
     for (const auto& [name, value] : *table) out.children.push_back(copyOf(value, std::string(name.str())));
     // toml++ sorts by name; people read from above.
-    std::stable_sort(out.children.begin(), out.children.end(), [](const TomlNode& a, const TomlNode& b) { return a.line < b.line; });
+    std::stable_sort(out.children.begin(), out.children.end(),
+                     [](const TomlNode& a, const TomlNode& b) { return a.line < b.line; });
   } else if (const toml::array* array = from.as_array()) {
     out.kind = TomlNode::Kind::Array;
     for (const toml::node& value : *array) out.children.push_back(copyOf(value, {}));
@@ -51,7 +52,8 @@ Result<TomlNode> parseToml(const std::string& text, const std::string& where) {
 Result<TomlNode> readToml(const std::filesystem::path& file) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code)) return Error{fmt::format("{}: no such file", file.string())};
-  if (std::filesystem::file_size(file, code) > kLargestBytes) return Error{fmt::format("{}: larger than 16 MiB", file.string())};
+  if (std::filesystem::file_size(file, code) > kLargestBytes)
+    return Error{fmt::format("{}: larger than 16 MiB", file.string())};
   std::ifstream in(file, std::ios::binary);
   if (!in) return Error{fmt::format("{}: cannot be read", file.string())};
   return parseToml({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, file.string());

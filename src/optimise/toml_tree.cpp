@@ -36,19 +36,24 @@ void TomlError::at(int line, const std::string& what) {
   if (first.empty()) first = fmt::format("{}:{}: {}", file, line, what);
 }
 
-void TomlPlace::fail(const std::string& what) const { error_->at(node_->line, path_.empty() ? what : path_ + ": " + what); }
+void TomlPlace::fail(const std::string& what) const {
+  error_->at(node_->line, path_.empty() ? what : path_ + ": " + what);
+}
 
 const TomlNode* TomlPlace::find(const char* key) const {
   if (node_->kind != TomlNode::Kind::Table) return nullptr;
-  const auto child = std::find_if(node_->children.begin(), node_->children.end(), [&](const TomlNode& c) { return c.key == key; });
+  const auto child =
+      std::find_if(node_->children.begin(), node_->children.end(), [&](const TomlNode& c) { return c.key == key; });
   return child == node_->children.end() ? nullptr : &*child;
 }
 
 bool TomlPlace::isTable(std::initializer_list<const char*> knownKeys) const {
-  if (node_->kind != TomlNode::Kind::Table) return fail(fmt::format("must be a table, but is {}", nameOf(node_->kind))), false;
+  if (node_->kind != TomlNode::Kind::Table)
+    return fail(fmt::format("must be a table, but is {}", nameOf(node_->kind))), false;
   for (const TomlNode& child : node_->children) {
     if (std::none_of(knownKeys.begin(), knownKeys.end(), [&](const char* k) { return child.key == k; })) {
-      error_->at(child.line, fmt::format("{}unknown key '{}'; there are {}", path_.empty() ? "" : path_ + ": ", printable(child.key), listOf(knownKeys)));
+      error_->at(child.line, fmt::format("{}unknown key '{}'; there are {}", path_.empty() ? "" : path_ + ": ",
+                                         printable(child.key), listOf(knownKeys)));
       return false;
     }
   }
@@ -68,10 +73,14 @@ size_t TomlPlace::size() const {
   return 0;
 }
 
-TomlPlace TomlPlace::at(size_t index) const { return {index < node_->children.size() ? node_->children[index] : kNothing, fmt::format("{}[{}]", path_, index), *error_}; }
+TomlPlace TomlPlace::at(size_t index) const {
+  return {index < node_->children.size() ? node_->children[index] : kNothing, fmt::format("{}[{}]", path_, index),
+          *error_};
+}
 
 std::string TomlPlace::text() const {
-  if (node_->kind != TomlNode::Kind::Text) return fail(fmt::format("must be text, but is {}", nameOf(node_->kind))), std::string();
+  if (node_->kind != TomlNode::Kind::Text)
+    return fail(fmt::format("must be text, but is {}", nameOf(node_->kind))), std::string();
   if (node_->text.empty()) fail("must not be empty");
   return node_->text;
 }
@@ -82,8 +91,10 @@ bool TomlPlace::flag() const {
 }
 
 double TomlPlace::number(double low, double high) const {
-  if (node_->kind != TomlNode::Kind::Number) return fail(fmt::format("must be a number, but is {}", nameOf(node_->kind))), low;
-  if (!(node_->number >= low && node_->number <= high)) return fail(fmt::format("must be from {:g} to {:g}, but is {:g}", low, high, node_->number)), low;
+  if (node_->kind != TomlNode::Kind::Number)
+    return fail(fmt::format("must be a number, but is {}", nameOf(node_->kind))), low;
+  if (!(node_->number >= low && node_->number <= high))
+    return fail(fmt::format("must be from {:g} to {:g}, but is {:g}", low, high, node_->number)), low;
   return node_->number;
 }
 
@@ -95,20 +106,25 @@ int TomlPlace::whole(int low, int high) const {
 
 Vec3 TomlPlace::vector() const {
   if (!isArray() || node_->children.size() != 3) return fail("must be [x, y, z] in metres"), Vec3();
-  return {static_cast<float>(at(0).number(-1e6, 1e6)), static_cast<float>(at(1).number(-1e6, 1e6)), static_cast<float>(at(2).number(-1e6, 1e6))};
+  return {static_cast<float>(at(0).number(-1e6, 1e6)), static_cast<float>(at(1).number(-1e6, 1e6)),
+          static_cast<float>(at(2).number(-1e6, 1e6))};
 }
 
 double TomlPlace::quantity(Unit unit, double low, double high) const {
-  if (node_->kind == TomlNode::Kind::Number) return fail(fmt::format("has no unit; write \"{:g} {}\"", node_->number, unitName(unit))), low;
+  if (node_->kind == TomlNode::Kind::Number)
+    return fail(fmt::format("has no unit; write \"{:g} {}\"", node_->number, unitName(unit))), low;
   const Result<double> value = parseQuantity(text(), unit);
   if (!value) return fail(value.error()), low;
-  if (!(value.value() >= low && value.value() <= high)) return fail(fmt::format("must be from {:g} to {:g} {}, but is {:g}", low, high, unitName(unit), value.value())), low;
+  if (!(value.value() >= low && value.value() <= high))
+    return fail(fmt::format("must be from {:g} to {:g} {}, but is {:g}", low, high, unitName(unit), value.value())),
+           low;
   return value.value();
 }
 
 std::string TomlPlace::oneOf(std::initializer_list<const char*> words) const {
   const std::string word = text();
-  if (std::none_of(words.begin(), words.end(), [&](const char* w) { return word == w; })) fail(fmt::format("must be one of {}, but is '{}'", listOf(words), printable(word)));
+  if (std::none_of(words.begin(), words.end(), [&](const char* w) { return word == w; }))
+    fail(fmt::format("must be one of {}, but is '{}'", listOf(words), printable(word)));
   return word;
 }
 

@@ -1,4 +1,5 @@
-// TOML as plain data that knows its lines, and strict reading of it: every key must be known, every value of its type and in its range.
+// TOML as plain data that knows its lines, and strict reading of it: every key must be known, every value of its type
+ // and in its range.
 #pragma once
 
 #include <deque>
@@ -15,12 +16,7 @@
 namespace roomlight::optimise {
 
 struct TomlNode {
-  enum class Kind { Table,
-                    Array,
-                    Text,
-                    Number,
-                    Flag,
-                    Other };  // dates and times
+  enum class Kind { Table, Array, Text, Number, Flag, Other };  // dates and times
   Kind kind = Kind::Table;
   int line = 0;  // from 1
   std::string key;
@@ -43,7 +39,8 @@ struct TomlError {
 // A place in the tree. Cheap to copy; lives no longer than the tree and the error.
 class TomlPlace {
  public:
-  TomlPlace(const TomlNode& node, std::string path, TomlError& error) : node_(&node), path_(std::move(path)), error_(&error) {}
+  TomlPlace(const TomlNode& node, std::string path, TomlError& error)
+      : node_(&node), path_(std::move(path)), error_(&error) {}
 
   void fail(const std::string& what) const;  // "file:line: path: what"
   bool isTable(std::initializer_list<const char*> knownKeys) const;
@@ -67,9 +64,15 @@ class TomlPlace {
   std::vector<std::string> texts() const;
 
   // With a default where the key is missing.
-  double number(const char* key, double low, double high, double otherwise) const { return has(key) ? (*this)[key].number(low, high) : otherwise; }
-  int whole(const char* key, int low, int high, int otherwise) const { return has(key) ? (*this)[key].whole(low, high) : otherwise; }
-  std::string text(const char* key, const std::string& otherwise) const { return has(key) ? (*this)[key].text() : otherwise; }
+  double number(const char* key, double low, double high, double otherwise) const {
+    return has(key) ? (*this)[key].number(low, high) : otherwise;
+  }
+  int whole(const char* key, int low, int high, int otherwise) const {
+    return has(key) ? (*this)[key].whole(low, high) : otherwise;
+  }
+  std::string text(const char* key, const std::string& otherwise) const {
+    return has(key) ? (*this)[key].text() : otherwise;
+  }
   bool flag(const char* key, bool otherwise) const { return has(key) ? (*this)[key].flag() : otherwise; }
 
  private:

@@ -18,24 +18,24 @@ struct Indicatrix {
 };
 
 // Table 1 of the standard, types 1 to 15.
-// clang-format off
 constexpr Gradation kGradation[] = {
-    {4, -0.70}, {4, -0.70}, {1.1, -0.8}, {1.1, -0.8}, {0, -1}, {0, -1}, {0, -1}, {0, -1},
+    {4, -0.70},  {4, -0.70},  {1.1, -0.8}, {1.1, -0.8}, {0, -1},     {0, -1},     {0, -1},     {0, -1},
     {-1, -0.55}, {-1, -0.55}, {-1, -0.55}, {-1, -0.32}, {-1, -0.32}, {-1, -0.15}, {-1, -0.15},
 };
 constexpr Indicatrix kIndicatrix[] = {
-    {0, -1, 0}, {2, -1.5, 0.15}, {0, -1, 0}, {2, -1.5, 0.15}, {0, -1, 0}, {2, -1.5, 0.15}, {5, -2.5, 0.30}, {10, -3, 0.45},
-    {2, -1.5, 0.15}, {5, -2.5, 0.30}, {10, -3, 0.45}, {10, -3, 0.45}, {16, -3, 0.30}, {16, -3, 0.30}, {24, -2.8, 0.15},
+    {0, -1, 0},      {2, -1.5, 0.15}, {0, -1, 0},     {2, -1.5, 0.15}, {0, -1, 0},
+    {2, -1.5, 0.15}, {5, -2.5, 0.30}, {10, -3, 0.45}, {2, -1.5, 0.15}, {5, -2.5, 0.30},
+    {10, -3, 0.45},  {10, -3, 0.45},  {16, -3, 0.30}, {16, -3, 0.30},  {24, -2.8, 0.15},
 };
-// clang-format on
 
 double scattering(const Indicatrix& i, double angleRad) {
   const double c = std::cos(angleRad);
   return 1 + i.c * (std::exp(i.d * angleRad) - std::exp(i.d * std::numbers::pi / 2)) + i.e * c * c;
 }
 
-// What is left of the sky's light after sunset, of that at sunset: in powers of ten at 6, 12 and 18 degrees below the horizon, between them linear (3.4, 0.008 and 0.00065 lx of
-// 760 lx; Seidelmann 1992, "Explanatory Supplement to the Astronomical Almanac").
+// What is left of the sky's light after sunset, of that at sunset: in powers of ten at 6, 12 and 18 degrees below the
+// horizon, between them linear (3.4, 0.008 and 0.00065 lx of 760 lx; Seidelmann 1992, "Explanatory Supplement to the
+// Astronomical Almanac").
 double twilight(double sunAltitudeRad) {
   constexpr std::array kPowers = {0.0, -2.35, -4.96, -6.07};
   const double sixes = std::clamp(-sunAltitudeRad * 180 / std::numbers::pi / 6, 0.0, 3.0);

@@ -18,7 +18,8 @@ double lobe(double nm, double scale, double centre, double left, double right) {
 
 // Wyman, Sloan, Shirley 2013, "Simple analytic approximations to the CIE XYZ color matching functions", multi-lobe fit.
 Xyz observer(double nm) {
-  return {lobe(nm, 0.362, 442.0, 0.0624, 0.0374) + lobe(nm, 1.056, 599.8, 0.0264, 0.0323) + lobe(nm, -0.065, 501.1, 0.0490, 0.0382),
+  return {lobe(nm, 0.362, 442.0, 0.0624, 0.0374) + lobe(nm, 1.056, 599.8, 0.0264, 0.0323) +
+              lobe(nm, -0.065, 501.1, 0.0490, 0.0382),
           lobe(nm, 0.821, 568.8, 0.0213, 0.0247) + lobe(nm, 0.286, 530.9, 0.0613, 0.0322),
           lobe(nm, 1.217, 437.0, 0.0845, 0.0278) + lobe(nm, 0.681, 459.0, 0.0385, 0.0725)};
 }
@@ -46,7 +47,8 @@ Vec3 blackBodyColour(double kelvin) {
   const Xyz c = blackBody(kelvin);
   const double x = c.x / c.y, z = c.z / c.y;
   // IEC 61966-2-1: XYZ (D65) to linear Rec.709.
-  const Vec3 rgb{static_cast<float>(std::max(0.0, 3.2404542 * x - 1.5371385 - 0.4985314 * z)), static_cast<float>(std::max(0.0, -0.9692660 * x + 1.8760108 + 0.0415560 * z)),
+  const Vec3 rgb{static_cast<float>(std::max(0.0, 3.2404542 * x - 1.5371385 - 0.4985314 * z)),
+                 static_cast<float>(std::max(0.0, -0.9692660 * x + 1.8760108 + 0.0415560 * z)),
                  static_cast<float>(std::max(0.0, 0.0556434 * x - 0.2040259 + 1.0572252 * z))};
   return rgb / luminance(rgb);
 }

@@ -51,7 +51,8 @@ class Record {
   std::optional<double> measured(size_t i, const char* what, double low, double high, double missing) {
     const double v = number(i, what, -1e9, 1e9);
     if (v >= missing) return {};
-    if (v < low || v > high) fail(fmt::format("field {} ({}) is {}; it must be from {} to {}", i + 1, what, v, low, high));
+    if (v < low || v > high)
+      fail(fmt::format("field {} ({}) is {}; it must be from {} to {}", i + 1, what, v, low, high));
     return v;
   }
   void fail(const std::string& what) {
@@ -119,7 +120,8 @@ Result<Epw> parseEpw(std::string_view text) {
     if (!record.error().empty()) return Error{record.error()};
   }
   if (number == 0) return Error{"line 1: does not begin with 'LOCATION'; this is no .epw weather file"};
-  if (out.hours.empty()) return Error{fmt::format("line {}: the file ends without an hour of weather after 'DATA PERIODS'", number)};
+  if (out.hours.empty())
+    return Error{fmt::format("line {}: the file ends without an hour of weather after 'DATA PERIODS'", number)};
   return out;
 }
 
@@ -131,7 +133,9 @@ const EpwHour* hourAt(const Epw& weather, const Moment& moment) {
   const int ofYear = ((static_cast<int>(std::floor(hours)) % 8760) + 8760) % 8760;
   int month = 1, left = ofYear / 24;
   for (; left >= kDays[static_cast<size_t>(month - 1)]; ++month) left -= kDays[static_cast<size_t>(month - 1)];
-  const auto isIt = [&](const EpwHour& h) { return h.month == month && h.day == left + 1 && h.hour == ofYear % 24 + 1; };
+  const auto isIt = [&](const EpwHour& h) {
+    return h.month == month && h.day == left + 1 && h.hour == ofYear % 24 + 1;
+  };
   const auto it = std::find_if(weather.hours.begin(), weather.hours.end(), isIt);
   return it == weather.hours.end() ? nullptr : &*it;
 }

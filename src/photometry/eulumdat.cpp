@@ -1,9 +1,10 @@
-// EULUMDAT in six lines: one value a line. 1 company, 2 kind, 3 symmetry (0 none, 1 rotation, 2 about C0-C180, 3 about C90-C270, 4
-// both), 4 and 5 count of C planes and degrees between them, 6 and 7 the same of gamma, 8 to 12 texts, 13 to 15 size of the luminaire
-// in mm, 16 and 17 length and width of the luminous area (width 0: a disc), 18 to 21 its heights, 22 and 23 downward flux and light
-// output ratio in percent, 24 factor of the intensities, 25 tilt, 26 count of lamp sets; of each set: number of lamps (negative:
-// absolute), kind, lumens of all, colour, rendering, watts; ten direct ratios; all C angles, all gammas, and the intensities in cd per
-// 1000 lm of lamps, plane by plane, of the planes that symmetry leaves.
+// EULUMDAT in six lines: one value a line. 1 company, 2 kind, 3 symmetry (0 none, 1 rotation, 2 about C0-C180, 3 about
+// C90-C270, 4 both), 4 and 5 count of C planes and degrees between them, 6 and 7 the same of gamma, 8 to 12 texts, 13
+// to 15 size of the luminaire in mm, 16 and 17 length and width of the luminous area (width 0: a disc), 18 to 21 its
+// heights, 22 and 23 downward flux and light output ratio in percent, 24 factor of the intensities, 25 tilt, 26 count
+// of lamp sets; of each set: number of lamps (negative: absolute), kind, lumens of all, colour, rendering, watts; ten
+// direct ratios; all C angles, all gammas, and the intensities in cd per 1000 lm of lamps, plane by plane, of the
+// planes that symmetry leaves.
 #include "photometry/eulumdat.h"
 
 #include <fmt/format.h>
@@ -40,10 +41,12 @@ class Items {
   }
   size_t count(const std::string& what, size_t low, size_t high) {
     const double v = number(what);
-    if (!(v >= static_cast<double>(low) && v <= static_cast<double>(high)) || v != std::floor(v)) damage(lineNumber(), fmt::format("{}: {} is not a whole number from {} to {}", what, v, low, high));
+    if (!(v >= static_cast<double>(low) && v <= static_cast<double>(high)) || v != std::floor(v))
+      damage(lineNumber(), fmt::format("{}: {} is not a whole number from {} to {}", what, v, low, high));
     return static_cast<size_t>(v);
   }
-  // Where values follow each other, empty lines between them say nothing. At the end of the file, so many at most may be missing: zeros.
+  // Where values follow each other, empty lines between them say nothing. At the end of the file, so many at most may
+  // be missing: zeros.
   std::vector<double> numbers(size_t n, const std::string& what, size_t mayMiss = 0) {
     std::vector<double> out;
     out.reserve(std::min(n, lines_.size()));
@@ -66,7 +69,8 @@ class Items {
 
  private:
   const Line& take(const std::string& what) {
-    if (at_ == lines_.size()) damage(lines_.empty() ? 1 : lines_.back().number, fmt::format("the file ends before {}", what));
+    if (at_ == lines_.size())
+      damage(lines_.empty() ? 1 : lines_.back().number, fmt::format("the file ends before {}", what));
     return lines_[at_++];
   }
   void skipEmpty() {
@@ -90,10 +94,11 @@ class Items {
 struct Header {
   Symmetry symmetry = Symmetry::None;
   size_t planes = 0, gammas = 0, written = 0, firstWritten = 0;  // planes of the circle, and those with intensities
-  double factor = 1;                                             // cd per value
+  double factor = 1;  // cd per value
 };
 
-constexpr Symmetry kSymmetries[] = {Symmetry::None, Symmetry::Rotation, Symmetry::AboutC0, Symmetry::AboutC90, Symmetry::Quadrants};
+constexpr Symmetry kSymmetries[] = {Symmetry::None, Symmetry::Rotation, Symmetry::AboutC0, Symmetry::AboutC90,
+                                    Symmetry::Quadrants};
 
 Header readSymmetry(Items& items) {
   Header h;
@@ -104,19 +109,24 @@ Header readSymmetry(Items& items) {
   h.gammas = items.count("line 6, the number of gammas", 2, kMostGammas);
   items.numberOr(0, "line 7, the distance of gammas");
   const auto divides = [&](size_t n) {
-    if (h.planes % n != 0) damage(planesLine, fmt::format("{} C planes do not fit this symmetry; their number must be a multiple of {}", h.planes, n));
+    if (h.planes % n != 0)
+      damage(planesLine,
+             fmt::format("{} C planes do not fit this symmetry; their number must be a multiple of {}", h.planes, n));
   };
   switch (h.symmetry) {
     case Symmetry::None: h.written = h.planes; break;
     case Symmetry::Rotation: h.written = 1; break;
     case Symmetry::AboutC0: divides(2), h.written = h.planes / 2 + 1; break;
-    case Symmetry::AboutC90: divides(4), h.written = h.planes / 2 + 1, h.firstWritten = 3 * h.planes / 4; break;  // from C270 by C0 to C90
+    case Symmetry::AboutC90:
+      divides(4), h.written = h.planes / 2 + 1, h.firstWritten = 3 * h.planes / 4;
+      break;  // from C270 by C0 to C90
     case Symmetry::Quadrants: divides(4), h.written = h.planes / 4 + 1; break;
   }
   return h;
 }
 
-// The first set of lamps counts. Sizes in mm: the length lies along C90-C270 (CIE 121: C0 looks across the luminaire's long axis).
+// The first set of lamps counts. Sizes in mm: the length lies along C90-C270 (CIE 121: C0 looks across the luminaire's
+// long axis).
 void readLuminaire(Items& items, Header& h, PhotometricWeb& web, Oddities& odd) {
   const auto millimetres = [&](const char* what) {
     const double v = items.numberOr(0, what);
@@ -125,13 +135,16 @@ void readLuminaire(Items& items, Header& h, PhotometricWeb& web, Oddities& odd) 
   };
   items.text("line 8, the report");
   web.name = items.text("line 9, the luminaire's name");
-  for (const char* what : {"line 10, the luminaire's number", "line 11, the file's name", "line 12, the date"}) items.text(what);
+  for (const char* what : {"line 10, the luminaire's number", "line 11, the file's name", "line 12, the date"})
+    items.text(what);
   for (const char* what : {"line 13, the length", "line 14, the width", "line 15, the height"}) millimetres(what);
-  const float length = millimetres("line 16, the length of the luminous area"), width = millimetres("line 17, the width of the luminous area");
+  const float length = millimetres("line 16, the length of the luminous area"),
+              width = millimetres("line 17, the width of the luminous area");
   web.round = length > 0 && width == 0;
   web.sizeC90M = length, web.sizeC0M = web.round ? length : width;
   if (!web.hasOpening()) web.sizeC0M = web.sizeC90M = 0;
-  for (const char* what : {"line 18, the height of the luminous area", "line 19, the height of the luminous area", "line 20, the height of the luminous area", "line 21, the height of the luminous area"}) {
+  for (const char* what : {"line 18, the height of the luminous area", "line 19, the height of the luminous area",
+                           "line 20, the height of the luminous area", "line 21, the height of the luminous area"}) {
     web.heightM = std::max(web.heightM, millimetres(what));
   }
   items.numberOr(0, "line 22, the downward flux");
@@ -139,7 +152,8 @@ void readLuminaire(Items& items, Header& h, PhotometricWeb& web, Oddities& odd) 
   double factor = items.numberOr(1, "line 24, the factor of intensities");
   if (factor == 0) odd.add("the factor of intensities is 0; read as 1"), factor = 1;
   if (factor < 0) damage(items.lineNumber(), "line 24, the factor of intensities, is negative");
-  if (items.numberOr(0, "line 25, the tilt at measurement") != 0) odd.add("was measured tilted; the tilt is not turned back");
+  if (items.numberOr(0, "line 25, the tilt at measurement") != 0)
+    odd.add("was measured tilted; the tilt is not turned back");
 
   const size_t sets = items.count("line 26, the number of lamp sets", 1, kMostSets);
   if (sets > 1) odd.add(fmt::format("has {} sets of lamps; the first counts", sets));
@@ -152,7 +166,9 @@ void readLuminaire(Items& items, Header& h, PhotometricWeb& web, Oddities& odd) 
     // Text stands here in some files.
     const double watts = items.numberOr(0, "the watts of the lamps");
     if (i > 0) continue;
-    if (!(lumens > 0)) damage(fluxLine, fmt::format("the flux of the lamps is {} lm; without it intensities in cd/klm mean nothing", lumens));
+    if (!(lumens > 0))
+      damage(fluxLine,
+             fmt::format("the flux of the lamps is {} lm; without it intensities in cd/klm mean nothing", lumens));
     h.factor = factor * lumens / 1000;
     web.watts = watts;
     // Absolute: the flux is the luminaire's.
@@ -169,7 +185,8 @@ std::vector<double> writtenAngles(const Header& h, const std::vector<double>& li
   for (size_t k = 0; k < h.written; ++k) {
     const size_t i = (h.firstWritten + k) % h.planes;
     double c = listed[i];
-    if (c < -360 - kAngleSlackDeg || c > 360 + kAngleSlackDeg) damage(line, fmt::format("C angle {} is not between 0 and 360", c));
+    if (c < -360 - kAngleSlackDeg || c > 360 + kAngleSlackDeg)
+      damage(line, fmt::format("C angle {} is not between 0 and 360", c));
     // From C270 upwards: what follows C0 lies beyond 360.
     if (h.symmetry == Symmetry::AboutC90 && c < 180) c += 360;
     out.push_back(c);
@@ -190,12 +207,14 @@ void readIntensities(Items& items, const Header& h, PhotometricWeb& web, Odditie
   const std::vector<double> listed = items.numbers(h.planes, "the C angles");
   Planes planes;
   planes.line = items.lineNumber();
-  planes.angleDeg = h.symmetry == Symmetry::Rotation ? std::vector<double>{0} : writtenAngles(h, listed, planes.line, odd);
+  planes.angleDeg =
+      h.symmetry == Symmetry::Rotation ? std::vector<double>{0} : writtenAngles(h, listed, planes.line, odd);
   planes.inPlaneDeg = items.numbers(h.gammas, "the gammas");
   checkAngles(planes.inPlaneDeg, items.lineNumber(), "gamma", 0, 180);
   for (size_t k = 0; k < h.written; ++k) {
     const size_t mayMiss = k + 1 == h.written ? std::max<size_t>(1, h.gammas / 50) : 0;
-    std::vector<double>& plane = planes.candela.emplace_back(items.numbers(h.gammas, fmt::format("the intensities of plane {}", k + 1), mayMiss));
+    std::vector<double>& plane = planes.candela.emplace_back(
+        items.numbers(h.gammas, fmt::format("the intensities of plane {}", k + 1), mayMiss));
     for (double& v : plane) {
       if (v < 0) odd.add("negative intensities count as 0");
       v = std::max(0.0, v) * h.factor;

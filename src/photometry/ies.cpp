@@ -1,8 +1,9 @@
-// LM-63 in six lines: a first line that names the edition (none in 1986); lines of text, from 1991 on "[KEYWORD] text"; TILT=NONE,
-// TILT=INCLUDE with a table, or TILT=<file>; then numbers, separated by blanks, commas or line ends: lamps, lumens per lamp (-1:
-// absolute), multiplier, count of vertical and of horizontal angles, type 1 C, 2 B, 3 A, unit 1 feet, 2 metres, width, length, height of
-// the opening; ballast factor, ballast-lamp factor (until 1995), watts; vertical angles, horizontal angles, and candela for every
-// vertical angle of the first horizontal one, of the second, and so on.
+// LM-63 in six lines: a first line that names the edition (none in 1986); lines of text, from 1991 on "[KEYWORD] text";
+// TILT=NONE, TILT=INCLUDE with a table, or TILT=<file>; then numbers, separated by blanks, commas or line ends: lamps,
+// lumens per lamp (-1: absolute), multiplier, count of vertical and of horizontal angles, type 1 C, 2 B, 3 A, unit 1
+// feet, 2 metres, width, length, height of the opening; ballast factor, ballast-lamp factor (until 1995), watts;
+// vertical angles, horizontal angles, and candela for every vertical angle of the first horizontal one, of the second,
+// and so on.
 #include "photometry/ies.h"
 
 #include <fmt/format.h>
@@ -24,7 +25,8 @@ constexpr double kAngleSlackDeg = 0.01;
 
 std::string upper(std::string_view s) {
   std::string out(s);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return out;
 }
 
@@ -88,7 +90,8 @@ void readTiltTable(Words& words, PhotometricWeb& web) {
   }
 }
 
-void readTilt(const std::string& tilt, const Line& line, const TiltFile& tiltFile, Words& words, PhotometricWeb& web, Oddities& odd) {
+void readTilt(const std::string& tilt, const Line& line, const TiltFile& tiltFile, Words& words, PhotometricWeb& web,
+              Oddities& odd) {
   const std::string kind = upper(tilt);
   if (kind == "NONE") return;
   if (kind == "INCLUDE") return readTiltTable(words, web);
@@ -104,7 +107,8 @@ void readTilt(const std::string& tilt, const Line& line, const TiltFile& tiltFil
   }
 }
 
-// Length lies along C0-C180, width across; a negative number means that the shape is round there (LM-63-2002, luminous openings).
+// Length lies along C0-C180, width across; a negative number means that the shape is round there (LM-63-2002, luminous
+// openings).
 void readOpening(double width, double length, double height, double metres, PhotometricWeb& web) {
   const bool round = width < 0 || length < 0;
   // Files of 1986 and 1991 write a disc as one negative diameter.
@@ -126,15 +130,21 @@ Symmetry symmetryOf(const std::vector<double>& c, size_t line, Oddities& odd) {
   if (is(first, 0) && is(last, 90)) return Symmetry::Quadrants;
   if (is(first, 0) && is(last, 180)) return Symmetry::AboutC0;
   if (is(first, 0) && is(last, 360)) return Symmetry::None;
-  if (is(first, -90) && is(last, 90)) return odd.add("horizontal angles go from -90 to 90; read as symmetric about C90-C270"), Symmetry::AboutC90;
-  if (last - first > 180) return odd.add(fmt::format("horizontal angles end at {}; the circle is closed", last)), Symmetry::None;
-  damage(line, fmt::format("horizontal angles from {} to {} do not tell what is symmetric; they end at 0, 90, 180 or 360", first, last));
+  if (is(first, -90) && is(last, 90))
+    return odd.add("horizontal angles go from -90 to 90; read as symmetric about C90-C270"), Symmetry::AboutC90;
+  if (last - first > 180)
+    return odd.add(fmt::format("horizontal angles end at {}; the circle is closed", last)), Symmetry::None;
+  damage(line,
+         fmt::format("horizontal angles from {} to {} do not tell what is symmetric; they end at 0, 90, 180 or 360",
+                     first, last));
 }
 
-std::vector<std::vector<double>> readCandela(Words& words, size_t planes, size_t inPlane, double factor, Oddities& odd) {
+std::vector<std::vector<double>> readCandela(Words& words, size_t planes, size_t inPlane, double factor,
+                                             Oddities& odd) {
   std::vector<std::vector<double>> out;
   for (size_t i = 0; i < planes; ++i) {
-    std::vector<double>& plane = out.emplace_back(words.numbers(inPlane, fmt::format("candela of horizontal angle {}", i + 1)));
+    std::vector<double>& plane =
+        out.emplace_back(words.numbers(inPlane, fmt::format("candela of horizontal angle {}", i + 1)));
     for (double& v : plane) {
       if (v < 0) odd.add("negative candela count as 0");
       v = std::max(0.0, v) * factor;
@@ -147,17 +157,22 @@ std::vector<std::vector<double>> readCandela(Words& words, size_t planes, size_t
 void readWeb(Words& words, const Edition& edition, PhotometricWeb& web, Oddities& odd) {
   const size_t lamps = words.count("the number of lamps", 100'000);
   const double lumens = words.number("lumens per lamp"), multiplier = words.number("the multiplier");
-  const size_t vertical = words.count("the number of vertical angles", kMostAngles), horizontal = words.count("the number of horizontal angles", kMostAngles);
+  const size_t vertical = words.count("the number of vertical angles", kMostAngles),
+               horizontal = words.count("the number of horizontal angles", kMostAngles);
   const size_t type = words.count("the photometric type", 3), unit = words.count("the unit of lengths", 2);
-  const double width = words.number("the width"), length = words.number("the length"), height = words.number("the height");
+  const double width = words.number("the width"), length = words.number("the length"),
+               height = words.number("the height");
   const double ballast = words.number("the ballast factor"), ballastLamp = words.number("the ballast-lamp factor");
   web.watts = words.number("the watts");
   const double metres = unit == 1 ? kMetresPerFoot : 1;
-  if (std::max({std::abs(width), std::abs(length), std::abs(height)}) * metres > 1000) damage(words.lineNumber(), "the opening is larger than 1 km");
+  if (std::max({std::abs(width), std::abs(length), std::abs(height)}) * metres > 1000)
+    damage(words.lineNumber(), "the opening is larger than 1 km");
   readOpening(width, length, height, metres, web);
   // Since 2002 the second factor is set aside, and in 2019 tells how the file was made.
   const double factor = multiplier * ballast * (edition.year <= 1995 ? ballastLamp : 1);
-  if (!(factor > 0)) damage(words.lineNumber(), fmt::format("the multiplier times the ballast factors is {}; it must be above 0", factor));
+  if (!(factor > 0))
+    damage(words.lineNumber(),
+           fmt::format("the multiplier times the ballast factors is {}; it must be above 0", factor));
   if (vertical < 2) damage(words.lineNumber(), "there must be two vertical angles or more");
 
   Planes planes;
@@ -166,7 +181,9 @@ void readWeb(Words& words, const Edition& edition, PhotometricWeb& web, Oddities
   planes.angleDeg = words.numbers(horizontal, "horizontal angles");
   planes.line = words.lineNumber();
   checkAngles(planes.angleDeg, planes.line, "horizontal angle", type == 1 ? -90 : -180, type == 1 ? 360 : 180);
-  if (horizontal * vertical > words.left()) damage(words.lineNumber(), fmt::format("{} intensities should follow, but the file is too short", horizontal * vertical));
+  if (horizontal * vertical > words.left())
+    damage(words.lineNumber(),
+           fmt::format("{} intensities should follow, but the file is too short", horizontal * vertical));
   planes.candela = readCandela(words, horizontal, vertical, factor, odd);
   if (!words.atEnd()) odd.add("goes on after the last intensity; the rest is ignored");
   if (type == 1) {

@@ -17,8 +17,9 @@ struct WebFile {
 // The text of the file that TILT= names. Its error is one line without a place.
 using TiltFile = std::function<Result<std::string>(const std::string& name)>;
 
-// `text`: the whole file. The error is one line, "line 12: what is wrong", without the file's name. A web that is not within 2 % of
-// the flux that the file states is a warning with both numbers. `tiltFile` may be empty: then such a file is an error.
+// `text`: the whole file. The error is one line, "line 12: what is wrong", without the file's name. A web that is not
+// within 2 % of the flux that the file states is a warning with both numbers. `tiltFile` may be empty: then such a file
+// is an error.
 Result<WebFile> parseIes(std::string_view text, const TiltFile& tiltFile = {});
 
 }  // namespace roomlight

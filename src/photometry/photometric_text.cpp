@@ -12,7 +12,9 @@ namespace {
 constexpr size_t kMostBytes = size_t{16} << 20;
 constexpr double kMost = 1e12;
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == '\x1a'; }  // DOS ends files with 0x1a
+bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == '\x1a';
+}  // DOS ends files with 0x1a
 bool separates(char c) { return isBlank(c) || c == ','; }
 
 std::string_view trimmed(std::string_view s) {
@@ -24,10 +26,11 @@ std::string_view trimmed(std::string_view s) {
 bool isUtf8(std::string_view s) {
   for (size_t i = 0; i < s.size();) {
     const auto c = static_cast<unsigned char>(s[i]);
-    const size_t more = c < 0x80 ? 0 : c >= 0xc2 && c < 0xe0 ? 1
-                                   : c >= 0xe0 && c < 0xf0   ? 2
-                                   : c >= 0xf0 && c < 0xf5   ? 3
-                                                             : 4;
+    const size_t more = c < 0x80                ? 0
+                        : c >= 0xc2 && c < 0xe0 ? 1
+                        : c >= 0xe0 && c < 0xf0 ? 2
+                        : c >= 0xf0 && c < 0xf5 ? 3
+                                                : 4;
     if (more > 3 || i + more >= s.size()) return false;
     for (size_t k = 1; k <= more; ++k) {
       if ((static_cast<unsigned char>(s[i + k]) & 0xc0) != 0x80) return false;
@@ -61,7 +64,9 @@ std::string quoted(std::string_view word) {
 
 }  // namespace
 
-void damage(size_t line, const std::string& what) { throw Damage(line > 0 ? fmt::format("line {}: {}", line, what) : what); }
+void damage(size_t line, const std::string& what) {
+  throw Damage(line > 0 ? fmt::format("line {}: {}", line, what) : what);
+}
 
 void Oddities::add(const std::string& what) {
   if (std::find(lines_.begin(), lines_.end(), what) == lines_.end()) lines_.push_back(what);
@@ -129,12 +134,15 @@ double Words::number(const std::string& what) {
 
 size_t Words::count(const std::string& what, size_t most) {
   const double v = number(what);
-  if (!(v >= 1 && v <= static_cast<double>(most)) || v != std::floor(v)) damage(lastLine_, fmt::format("{}: {} is not a whole number from 1 to {}", what, v, most));
+  if (!(v >= 1 && v <= static_cast<double>(most)) || v != std::floor(v))
+    damage(lastLine_, fmt::format("{}: {} is not a whole number from 1 to {}", what, v, most));
   return static_cast<size_t>(v);
 }
 
 std::vector<double> Words::numbers(size_t count, const std::string& what) {
-  if (count > left()) damage(lines_.empty() ? 1 : lines_.back().number, fmt::format("the file is too short for {} values of {}", count, what));
+  if (count > left())
+    damage(lines_.empty() ? 1 : lines_.back().number,
+           fmt::format("the file is too short for {} values of {}", count, what));
   std::vector<double> out;
   out.reserve(count);
   for (size_t i = 0; i < count; ++i) out.push_back(number(what));

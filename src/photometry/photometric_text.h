@@ -1,5 +1,5 @@
-// Photometric files as text: lines, words and numbers that remember where they stand. Readers of this folder throw Damage; the
-// functions that others call turn it into an Error.
+// Photometric files as text: lines, words and numbers that remember where they stand. Readers of this folder throw
+// Damage; the functions that others call turn it into an Error.
 #pragma once
 
 #include <stdexcept>
@@ -30,7 +30,8 @@ struct Line {
   std::string text;  // UTF-8, without spaces at its ends
 };
 
-// LF, CRLF and CR end lines. A byte-order mark and Latin-1 letters are oddities; NUL characters and more than 16 MiB are damage.
+// LF, CRLF and CR end lines. A byte-order mark and Latin-1 letters are oddities; NUL characters and more than 16 MiB
+// are damage.
 std::vector<Line> linesOf(std::string_view text, Oddities& odd);
 
 // The whole of `text` as a finite number of at most 1e12; fails with what the number is for.

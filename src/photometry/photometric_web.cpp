@@ -9,12 +9,14 @@ namespace {
 
 constexpr float kTwoPi = 2 * kPi;
 
-// The interval of ascending edges that holds v, and how far into it. Most files have even steps: there the first guess is right.
+// The interval of ascending edges that holds v, and how far into it. Most files have even steps: there the first guess
+// is right.
 std::pair<size_t, float> interval(const std::vector<float>& edges, float v) {
   const size_t last = edges.size() - 2;
   const float steps = (v - edges.front()) / (edges.back() - edges.front()) * static_cast<float>(edges.size() - 1);
   size_t i = std::min(static_cast<size_t>(std::max(0.0f, steps)), last);
-  if ((i > 0 && v < edges[i]) || (i < last && v >= edges[i + 1])) i = static_cast<size_t>(std::upper_bound(edges.begin() + 1, edges.end() - 1, v) - edges.begin()) - 1;
+  if ((i > 0 && v < edges[i]) || (i < last && v >= edges[i + 1]))
+    i = static_cast<size_t>(std::upper_bound(edges.begin() + 1, edges.end() - 1, v) - edges.begin()) - 1;
   return {i, std::clamp((v - edges[i]) / (edges[i + 1] - edges[i]), 0.0f, 1.0f)};
 }
 
@@ -43,12 +45,15 @@ float intensityCd(const PhotometricWeb& web, Vec3 direction) {
 double cellFluxLm(const PhotometricWeb& web, size_t plane, size_t gamma) {
   const double a = static_cast<double>(web.gammaRad[gamma]), b = static_cast<double>(web.gammaRad[gamma + 1]);
   const double width = static_cast<double>(web.cRad[plane + 1]) - static_cast<double>(web.cRad[plane]);
-  // Integrals of sin over [a, b], times what falls from 1 to 0 and what rises from 0 to 1: half of that of sin alone, less and plus what
-  // the slope makes of it; by the middle and half the width, which loses nothing in narrow cells.
+  // Integrals of sin over [a, b], times what falls from 1 to 0 and what rises from 0 to 1: half of that of sin alone,
+  // less and plus what the slope makes of it; by the middle and half the width, which loses nothing in narrow cells.
   const double middle = (a + b) / 2, h = (b - a) / 2;
-  const double even = std::sin(middle) * std::sin(h), slope = std::cos(middle) * (h < 1e-3 ? h * h / 3 : std::sin(h) / h - std::cos(h));
+  const double even = std::sin(middle) * std::sin(h),
+               slope = std::cos(middle) * (h < 1e-3 ? h * h / 3 : std::sin(h) / h - std::cos(h));
   const double falling = std::max(0.0, even - slope), rising = std::max(0.0, even + slope);
-  const auto mean = [&](size_t g) { return 0.5 * (static_cast<double>(web.at(plane, g)) + static_cast<double>(web.at(plane + 1, g))); };
+  const auto mean = [&](size_t g) {
+    return 0.5 * (static_cast<double>(web.at(plane, g)) + static_cast<double>(web.at(plane + 1, g)));
+  };
   return width * (mean(gamma) * falling + mean(gamma + 1) * rising);
 }
 
@@ -72,7 +77,8 @@ bool shinesUp(const PhotometricWeb& web) {
   for (size_t i = 0; i < web.candela.size(); ++i) {
     // A value above the plane, or one on it whose neighbour above lies within the web, lights what is above.
     if (web.gammaRad[i % web.gammas()] > kHorizontal && web.candela[i] > 0) return true;
-    if (i % web.gammas() + 1 < web.gammas() && web.gammaRad[i % web.gammas() + 1] > kHorizontal && web.candela[i] > 0) return true;
+    if (i % web.gammas() + 1 < web.gammas() && web.gammaRad[i % web.gammas() + 1] > kHorizontal && web.candela[i] > 0)
+      return true;
   }
   return false;
 }

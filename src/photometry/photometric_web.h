@@ -1,6 +1,7 @@
-// How a luminaire's light leaves it: luminous intensity over directions, as measured by a goniophotometer and written into IES LM-63
-// and EULUMDAT files. Directions are C, gamma (CIE 121): gamma from the nadir up, C about the vertical, counter-clockwise seen from
-// above. Own axes: x towards C0, y towards C90, z up, away from the nadir (docs/formats/luminaires.md).
+// How a luminaire's light leaves it: luminous intensity over directions, as measured by a goniophotometer and written
+// into IES LM-63 and EULUMDAT files. Directions are C, gamma (CIE 121): gamma from the nadir up, C about the vertical,
+// counter-clockwise seen from above. Own axes: x towards C0, y towards C90, z up, away from the nadir
+// (docs/formats/luminaires.md).
 #pragma once
 
 #include <string>
@@ -20,8 +21,8 @@ struct PhotometricWeb {
   double statedFluxLm = 0;  // that the file says leaves the luminaire or its lamps; 0: it does not
   double watts = 0;
   float sizeC0M = 0, sizeC90M = 0, heightM = 0;  // of the luminous opening, along C0-C180 and C90-C270; 0, 0: a point
-  bool round = false;                            // an ellipse of these axes, else a rectangle
-  std::vector<float> tiltRad, tiltFactor;        // of lamps whose flux depends on the tilt of the luminaire; ascending
+  bool round = false;  // an ellipse of these axes, else a rectangle
+  std::vector<float> tiltRad, tiltFactor;  // of lamps whose flux depends on the tilt of the luminaire; ascending
 
   size_t gammas() const { return gammaRad.size(); }
   float at(size_t plane, size_t gamma) const { return candela[plane * gammas() + gamma]; }

@@ -19,8 +19,8 @@ enum class Unit {
 // "lm", "cd", "lx", "cd/m2", "K", "W/m2".
 std::string_view unitName(Unit unit);
 
-// The number in `text`, whose unit must be `unit` ("cd/m²" and "nit" are read as cd/m2; "klx", "klm", "kcd" as thousands).
-// The error says what is wrong without naming a place: "'800' has no unit; write '800 lm'".
+// The number in `text`, whose unit must be `unit` ("cd/m²" and "nit" are read as cd/m2; "klx", "klm", "kcd" as
+// thousands). The error says what is wrong without naming a place: "'800' has no unit; write '800 lm'".
 Result<double> parseQuantity(std::string_view text, Unit unit);
 
 }  // namespace roomlight

@@ -13,7 +13,8 @@ constexpr int kWidth = 512, kHeight = 256;
 
 // `bearing` clockwise seen from above, from -z.
 Vec3 direction(double sinAltitude, double cosAltitude, double bearingRad) {
-  return {static_cast<float>(std::sin(bearingRad) * cosAltitude), static_cast<float>(sinAltitude), static_cast<float>(-std::cos(bearingRad) * cosAltitude)};
+  return {static_cast<float>(std::sin(bearingRad) * cosAltitude), static_cast<float>(sinAltitude),
+          static_cast<float>(-std::cos(bearingRad) * cosAltitude)};
 }
 
 // Of a row's middle.

@@ -15,7 +15,9 @@ void checkFlux(const PhotometricWeb& web, const std::string& whose, Oddities& od
   if (!(web.fluxLm > 0)) damage(0, "all intensities are zero; there is no light");
   if (!(web.statedFluxLm > 0)) return;
   const double ratio = web.fluxLm / web.statedFluxLm;
-  if (std::abs(ratio - 1) > kTolerance) odd.add(fmt::format("the intensities add up to {:.6g} lm, {:.3g} % of the {:.6g} lm stated for {}", web.fluxLm, 100 * ratio, web.statedFluxLm, whose));
+  if (std::abs(ratio - 1) > kTolerance)
+    odd.add(fmt::format("the intensities add up to {:.6g} lm, {:.3g} % of the {:.6g} lm stated for {}", web.fluxLm,
+                        100 * ratio, web.statedFluxLm, whose));
 }
 
 }  // namespace roomlight::photometric

@@ -6,8 +6,8 @@
 
 namespace roomlight::photometric {
 
-// More than 2 % off is an oddity with both numbers. `whose`: the flux is that of "its lamps" or "the luminaire". A web without light is
-// damage.
+// More than 2 % off is an oddity with both numbers. `whose`: the flux is that of "its lamps" or "the luminaire". A web
+// without light is damage.
 void checkFlux(const PhotometricWeb& web, const std::string& whose, Oddities& odd);
 
 }  // namespace roomlight::photometric

@@ -15,7 +15,8 @@ constexpr double kRad = std::numbers::pi / 180;
 // Days since 2000-01-01 12:00 UTC (J2000.0). Fliegel and van Flandern 1968.
 double daysSinceJ2000(const Moment& t) {
   const int a = (t.month - 14) / 12;
-  const int julianDay = 1461 * (t.year + 4800 + a) / 4 + 367 * (t.month - 2 - 12 * a) / 12 - 3 * ((t.year + 4900 + a) / 100) / 4 + t.day - 32075;
+  const int julianDay = 1461 * (t.year + 4800 + a) / 4 + 367 * (t.month - 2 - 12 * a) / 12 -
+                        3 * ((t.year + 4900 + a) / 100) / 4 + t.day - 32075;
   return julianDay - 2451545 + (t.hour - 12) / 24;
 }
 
@@ -44,14 +45,17 @@ Result<Moment> parseMoment(std::string_view text) {
   if (rest != "Z") {
     int h, m;
     char sign;
-    if (std::sscanf(rest.c_str(), "%c%2d:%2d%n", &sign, &h, &m, &used) != 3 || (sign != '+' && sign != '-') || static_cast<size_t>(used) != rest.size()) {
+    if (std::sscanf(rest.c_str(), "%c%2d:%2d%n", &sign, &h, &m, &used) != 3 || (sign != '+' && sign != '-') ||
+        static_cast<size_t>(used) != rest.size()) {
       return Error{fmt::format("'{}' has no offset from UTC; end it with 'Z' or for example '+02:00'", text)};
     }
     if (h < 0 || h > 14 || m < 0 || m > 59) return wrong;
     offsetHours = (sign == '-' ? -1 : 1) * (h + m / 60.0);
   }
   if (year < 1950 || year > 2050) return Error{fmt::format("'{}': the year must be from 1950 to 2050", text)};
-  if (month < 1 || month > 12 || day < 1 || day > daysInMonth(year, month) || hour < 0 || hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) return wrong;
+  if (month < 1 || month > 12 || day < 1 || day > daysInMonth(year, month) || hour < 0 || hour > 23 || minute < 0 ||
+      minute > 59 || second < 0 || second > 60)
+    return wrong;
   return Moment{year, month, day, hour + minute / 60.0 + second / 3600 - offsetHours};
 }
 
@@ -65,9 +69,11 @@ SunPosition sunPosition(const Moment& moment, double latitudeDeg, double longitu
   const double siderealDeg = 15 * (18.697374558 + 24.06570982441908 * n) + longitudeDeg;
   const double hourAngle = siderealDeg * kRad - rightAscension, latitude = latitudeDeg * kRad;
   SunPosition p;
-  p.altitudeRad = std::asin(std::sin(declination) * std::sin(latitude) + std::cos(declination) * std::cos(latitude) * std::cos(hourAngle));
+  p.altitudeRad = std::asin(std::sin(declination) * std::sin(latitude) +
+                            std::cos(declination) * std::cos(latitude) * std::cos(hourAngle));
   const double east = -std::cos(declination) * std::sin(hourAngle);
-  const double north = std::sin(declination) * std::cos(latitude) - std::cos(declination) * std::sin(latitude) * std::cos(hourAngle);
+  const double north =
+      std::sin(declination) * std::cos(latitude) - std::cos(declination) * std::sin(latitude) * std::cos(hourAngle);
   p.bearingRad = std::atan2(east, north);
   if (p.bearingRad < 0) p.bearingRad += 2 * std::numbers::pi;
   return p;

@@ -21,12 +21,14 @@ struct SunPosition {
   double bearingRad = 0;   // clockwise from north
 };
 
-// The Astronomical Almanac's low-precision formulas as published by Michalsky 1988 ("The Astronomical Almanac's algorithm for
-// approximate solar position"): 0.01 degrees from 1950 to 2050. Latitude north and longitude east positive.
+// The Astronomical Almanac's low-precision formulas as published by Michalsky 1988 ("The Astronomical Almanac's
+// algorithm for approximate solar position"): 0.01 degrees from 1950 to 2050. Latitude north and longitude east
+// positive.
 SunPosition sunPosition(const Moment& moment, double latitudeDeg, double longitudeDeg);
 
-// Illuminance in lux on a surface that faces the sun: 127.5 klx outside the atmosphere, corrected for the earth's distance, less
-// `extinction` per air mass (IES RP-21, Gillette et al. 1984; 0.21 under a clear sky). 0 below the horizon.
+// Illuminance in lux on a surface that faces the sun: 127.5 klx outside the atmosphere, corrected for the earth's
+// distance, less `extinction` per air mass (IES RP-21, Gillette et al. 1984; 0.21 under a clear sky). 0 below the
+// horizon.
 double sunLux(const Moment& moment, double altitudeRad, double extinction = 0.21);
 
 // Square of the earth's mean distance from the sun over that of the day: 0.967 to 1.034.

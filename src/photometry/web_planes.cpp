@@ -54,9 +54,11 @@ std::vector<double> between(const Plane& a, const Plane& b, double t) {
 void checkAngles(std::vector<double>& angles, size_t line, const std::string& what, double low, double high) {
   constexpr double kSlackDeg = 0.01;
   for (size_t i = 0; i < angles.size(); ++i) {
-    if (angles[i] < low - kSlackDeg || angles[i] > high + kSlackDeg) damage(line, fmt::format("{} {} is not between {} and {}", what, angles[i], low, high));
+    if (angles[i] < low - kSlackDeg || angles[i] > high + kSlackDeg)
+      damage(line, fmt::format("{} {} is not between {} and {}", what, angles[i], low, high));
     angles[i] = std::clamp(angles[i], low, high);
-    if (i > 0 && angles[i] - angles[i - 1] < kSameDeg) damage(line, fmt::format("{}s must ascend, but {} follows {}", what, angles[i], angles[i - 1]));
+    if (i > 0 && angles[i] - angles[i - 1] < kSameDeg)
+      damage(line, fmt::format("{}s must ascend, but {} follows {}", what, angles[i], angles[i - 1]));
   }
 }
 
@@ -68,7 +70,8 @@ void fillWeb(Planes planes, Symmetry symmetry, PhotometricWeb& web, Oddities& od
     addPlane(web, 360, planes.candela[0]);
     return sumUp(web);
   }
-  if (!std::is_sorted(planes.angleDeg.begin(), planes.angleDeg.end())) odd.add("the planes are not in order of their angles");
+  if (!std::is_sorted(planes.angleDeg.begin(), planes.angleDeg.end()))
+    odd.add("the planes are not in order of their angles");
   std::vector<Plane> all = mirrored(planes, symmetry);
   // Of planes written twice, as C0 is again as C360, the first counts.
   const auto differ = [](const Plane& a, const Plane& b) { return *a.candela != *b.candela; };
@@ -77,7 +80,8 @@ void fillWeb(Planes planes, Symmetry symmetry, PhotometricWeb& web, Oddities& od
       ++i;
       continue;
     }
-    if (differ(all[i], all[i - 1])) odd.add(fmt::format("plane {} is there twice with different values; the first counts", all[i].c));
+    if (differ(all[i], all[i - 1]))
+      odd.add(fmt::format("plane {} is there twice with different values; the first counts", all[i].c));
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
   }
   const Plane& first = all.front();
@@ -102,7 +106,8 @@ void resampleWeb(const Planes& planes, System system, PhotometricWeb& web) {
     for (size_t i = 1; i < angles.size(); ++i) finest = std::min(finest, angles[i] - angles[i - 1]);
   };
   look(planes.angleDeg), look(planes.inPlaneDeg);
-  const double step = std::max(finest / 4, kFinestDeg);  // kinks at the angles of the file are rounded off by little then
+  const double step =
+      std::max(finest / 4, kFinestDeg);  // kinks at the angles of the file are rounded off by little then
   const auto rows = static_cast<size_t>(std::ceil(180 / step)), columns = 2 * rows;
   const auto interpolated = [](const std::vector<double>& at, double v) {
     const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, v);
@@ -113,14 +118,18 @@ void resampleWeb(const Planes& planes, System system, PhotometricWeb& web) {
   const auto candela = [&](double h, double v) {
     if (alike) h = std::abs(h);
     const double slack = 1e-9;
-    if (h < planes.angleDeg.front() - slack || h > planes.angleDeg.back() + slack || v < planes.inPlaneDeg.front() - slack || v > planes.inPlaneDeg.back() + slack) return 0.0;
+    if (h < planes.angleDeg.front() - slack || h > planes.angleDeg.back() + slack ||
+        v < planes.inPlaneDeg.front() - slack || v > planes.inPlaneDeg.back() + slack)
+      return 0.0;
     const auto [i, s] = interpolated(planes.angleDeg, h);
     const auto [k, t] = interpolated(planes.inPlaneDeg, v);
-    return (planes.candela[i][k] * (1 - t) + planes.candela[i][k + 1] * t) * (1 - s) + (planes.candela[i + 1][k] * (1 - t) + planes.candela[i + 1][k + 1] * t) * s;
+    return (planes.candela[i][k] * (1 - t) + planes.candela[i][k + 1] * t) * (1 - s) +
+           (planes.candela[i + 1][k] * (1 - t) + planes.candela[i + 1][k + 1] * t) * s;
   };
   const auto deg = [](double r) { return r * 180 / std::numbers::pi; };
   web.cRad.clear(), web.gammaRad.clear(), web.candela.clear();
-  for (size_t g = 0; g <= rows; ++g) web.gammaRad.push_back(static_cast<float>(std::numbers::pi * static_cast<double>(g) / static_cast<double>(rows)));
+  for (size_t g = 0; g <= rows; ++g)
+    web.gammaRad.push_back(static_cast<float>(std::numbers::pi * static_cast<double>(g) / static_cast<double>(rows)));
   for (size_t c = 0; c <= columns; ++c) {
     const double phi = 2 * std::numbers::pi * static_cast<double>(c) / static_cast<double>(columns);
     web.cRad.push_back(static_cast<float>(phi));

@@ -1,4 +1,5 @@
-// From what a photometric file writes down to a whole web: planes that symmetry leaves out, and other systems than C, gamma.
+// From what a photometric file writes down to a whole web: planes that symmetry leaves out, and other systems than C,
+ // gamma.
 #pragma once
 
 #include <vector>
@@ -24,15 +25,17 @@ enum class Symmetry {
   Quadrants,   // about both
 };
 
-// Angles must lie between low and high, or up to 0.01 degrees beyond, and ascend by 0.001 or more; fails with what they are.
+// Angles must lie between low and high, or up to 0.01 degrees beyond, and ascend by 0.001 or more; fails with what they
+// are.
 void checkAngles(std::vector<double>& anglesDeg, size_t line, const std::string& what, double lowDeg, double highDeg);
 
 // Planes to all of the circle. Planes in wrong order, a missing C0 and one that is written twice are oddities.
 void fillWeb(Planes planes, Symmetry symmetry, PhotometricWeb& web, Oddities& odd);
 
-// What the angles of type A or B mean; angles between -90 and 90 degrees (LM-63-2002, key definitions). For both, horizontal angles run
-// clockwise seen from above or from C0. Type B: planes share the horizontal axis of C0, in which the vertical angle is 90 degrees; 0, 0
-// is the nadir. Type A: planes share the vertical axis; 0, 0 is the horizontal of C0, a vertical angle of -90 the nadir.
+// What the angles of type A or B mean; angles between -90 and 90 degrees (LM-63-2002, key definitions). For both,
+// horizontal angles run clockwise seen from above or from C0. Type B: planes share the horizontal axis of C0, in which
+// the vertical angle is 90 degrees; 0, 0 is the nadir. Type A: planes share the vertical axis; 0, 0 is the horizontal
+// of C0, a vertical angle of -90 the nadir.
 enum class System {
   A,
   B,

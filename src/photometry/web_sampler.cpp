@@ -5,8 +5,8 @@
 namespace roomlight {
 namespace {
 
-// Chooses among `count` shares whose upper ends begin at `upTo`; `u` becomes the place inside the chosen one, 0 to 1. Shares of zero
-// are never chosen.
+// Chooses among `count` shares whose upper ends begin at `upTo`; `u` becomes the place inside the chosen one, 0 to 1.
+// Shares of zero are never chosen.
 size_t choose(const float* upTo, size_t count, float& u) {
   const auto i = std::min(static_cast<size_t>(std::upper_bound(upTo, upTo + count, u) - upTo), count - 1);
   const float from = i > 0 ? upTo[i - 1] : 0, share = upTo[i] - from;
@@ -35,7 +35,8 @@ WebSampler::WebSampler(const PhotometricWeb& web) : web_(web), planes_(web.cRad.
   for (size_t g = 0; g < rows; ++g) {
     for (size_t c = 0; c < planes_; ++c) ofRow[g] += ofCell[c] = cellFluxLm(web, c, g);
     accumulate(ofCell, ofRow[g], &upTo_[g * planes_]);
-    const double height = std::cos(static_cast<double>(web.gammaRad[g])) - std::cos(static_cast<double>(web.gammaRad[g + 1]));
+    const double height =
+        std::cos(static_cast<double>(web.gammaRad[g])) - std::cos(static_cast<double>(web.gammaRad[g + 1]));
     for (size_t c = 0; c < planes_; ++c) {
       const double width = static_cast<double>(web.cRad[c + 1]) - static_cast<double>(web.cRad[c]);
       density_[g * planes_ + c] = static_cast<float>(ofCell[c] / (web.fluxLm * height * width));
@@ -50,7 +51,8 @@ Vec3 WebSampler::sample(Vec2 u, float& pdf) const {
   pdf = density(c, g);
   // 1 - cos of gamma, exact close to the nadir; its even places are even over the sphere.
   const auto oneMinusCos = [](float gamma) { return 2 * std::sin(gamma / 2) * std::sin(gamma / 2); };
-  const float h = lerp(oneMinusCos(web_.gammaRad[g]), oneMinusCos(web_.gammaRad[g + 1]), u.x), phi = lerp(web_.cRad[c], web_.cRad[c + 1], u.y);
+  const float h = lerp(oneMinusCos(web_.gammaRad[g]), oneMinusCos(web_.gammaRad[g + 1]), u.x),
+              phi = lerp(web_.cRad[c], web_.cRad[c + 1], u.y);
   const float across = std::sqrt(std::max(0.0f, h * (2 - h)));
   return {across * std::cos(phi), across * std::sin(phi), h - 1};
 }

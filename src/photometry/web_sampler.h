@@ -1,5 +1,5 @@
-// Directions from a luminaire in proportion to the light it sends there: cells of its web are chosen by their flux, and a direction
-// inside the cell evenly over its solid angle.
+// Directions from a luminaire in proportion to the light it sends there: cells of its web are chosen by their flux, and
+// a direction inside the cell evenly over its solid angle.
 #pragma once
 
 #include <vector>
@@ -21,9 +21,9 @@ class WebSampler {
   float density(size_t plane, size_t gamma) const { return density_[gamma * planes_ + plane]; }
 
   const PhotometricWeb& web_;
-  size_t planes_;               // intervals of C
+  size_t planes_;  // intervals of C
   std::vector<float> rowUpTo_;  // upper end of each interval of gamma, of all flux
-  std::vector<float> upTo_;     // upper end of each cell in its row, of the row's flux
+  std::vector<float> upTo_;  // upper end of each cell in its row, of the row's flux
   std::vector<float> density_;  // per steradian, in each cell
 };
 

@@ -11,7 +11,10 @@ namespace {
 constexpr double kD65K = 6504;
 
 // IEC 61966-2-1, D65; columns.
-constexpr Affine kXyzFromRgb{{0.4124564f, 0.2126729f, 0.0193339f}, {0.3575761f, 0.7151522f, 0.1191920f}, {0.1804375f, 0.0721750f, 0.9503041f}, {0, 0, 0}};
+constexpr Affine kXyzFromRgb{{0.4124564f, 0.2126729f, 0.0193339f},
+                             {0.3575761f, 0.7151522f, 0.1191920f},
+                             {0.1804375f, 0.0721750f, 0.9503041f},
+                             {0, 0, 0}};
 Vec3 xyzOf(Vec2 xy) { return {xy.x / xy.y, 1, (1 - xy.x - xy.y) / xy.y}; }
 
 Vec2 uvOf(Vec3 xyz) {
@@ -22,7 +25,8 @@ Vec2 uvOf(Vec3 xyz) {
 // CIE 15: the daylight locus, 4000 K to 25000 K.
 Vec2 daylight(double k) {
   const double t = 1000 / k;
-  const double x = k <= 7000 ? ((-4.6070 * t + 2.9678) * t + 0.09911) * t + 0.244063 : ((-2.0064 * t + 1.9018) * t + 0.24748) * t + 0.237040;
+  const double x = k <= 7000 ? ((-4.6070 * t + 2.9678) * t + 0.09911) * t + 0.244063
+                             : ((-2.0064 * t + 1.9018) * t + 0.24748) * t + 0.237040;
   return {static_cast<float>(x), static_cast<float>((-3 * x + 2.870) * x - 0.275)};
 }
 
@@ -57,7 +61,9 @@ double nearestWhiteK(Vec3 rgb) {
   return std::clamp(best, kLowestWhiteK, kHighestWhiteK);
 }
 
-double distanceFromWhite(Vec3 rgb, double kelvin) { return std::sqrt(distance2(kelvin, uvOf(kXyzFromRgb.vector(rgb)))); }
+double distanceFromWhite(Vec3 rgb, double kelvin) {
+  return std::sqrt(distance2(kelvin, uvOf(kXyzFromRgb.vector(rgb))));
+}
 
 Vec3 whiteColour(double kelvin) { return inverse(kXyzFromRgb).vector(xyzOf(whiteChromaticity(kelvin))); }
 

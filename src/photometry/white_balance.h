@@ -5,16 +5,17 @@
 
 namespace roomlight {
 
-// CIE 1931 x, y of white light of a temperature: black bodies below 4000 K, CIE daylight above 5000 K, in between a mixture.
-// Within kLowestWhiteK..kHighestWhiteK.
+// CIE 1931 x, y of white light of a temperature: black bodies below 4000 K, CIE daylight above 5000 K, in between a
+// mixture. Within kLowestWhiteK..kHighestWhiteK.
 constexpr double kLowestWhiteK = 1667, kHighestWhiteK = 25000;
 Vec2 whiteChromaticity(double kelvin);
 
-// The temperature whose white is nearest to a linear Rec.709 colour (CIE 1960 u, v). What is green or magenta beyond it, and
-// what is warmer or colder than the range, is not white and is left out. The colour is not black.
+// The temperature whose white is nearest to a linear Rec.709 colour (CIE 1960 u, v). What is green or magenta beyond
+// it, and what is warmer or colder than the range, is not white and is left out. The colour is not black.
 double nearestWhiteK(Vec3 rgb);
 
-// How far the colour is from the white of a temperature: in CIE 1960 u, v. Beyond 0.05 no one speaks of white (CIE 15 for correlated colour temperatures).
+// How far the colour is from the white of a temperature: in CIE 1960 u, v. Beyond 0.05 no one speaks of white (CIE 15
+// for correlated colour temperatures).
 double distanceFromWhite(Vec3 rgb, double kelvin);
 
 // Linear Rec.709 of that white, of luminance 1. Below 1900 K its blue is negative.

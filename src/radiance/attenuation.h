@@ -5,8 +5,8 @@
 
 namespace roomlight {
 
-// Normal-weighted: per axis the face that the normal picks, weighted with the squared normal; section 1 of the published
-// study. Plain: Lambert's cosine.
+// Normal-weighted: per axis the face that the normal picks, weighted with the squared normal; section 1 of the
+// published study. Plain: Lambert's cosine.
 inline float attenuation(Attenuation kind, Vec3 n, Vec3 l) {
   if (kind == Attenuation::Plain) return std::max(0.0f, dot(n, l));
   float sum = 0;

@@ -37,7 +37,13 @@ float luminanceOf(Float4 v) { return dot(v, Float4(0.2126f, 0.7152f, 0.0722f, 0)
 class Iteration {
  public:
   Iteration(const Voxels& voxels, const Links& links, std::span<const Vec3> direct, std::span<const Vec3> indirect)
-      : links_(links), surfaces_(direct.size()), direct_(direct.size()), indirect_(direct.size()), other_(direct.size()), reflected_(direct.size()), next_(direct.size()) {
+      : links_(links),
+        surfaces_(direct.size()),
+        direct_(direct.size()),
+        indirect_(direct.size()),
+        other_(direct.size()),
+        reflected_(direct.size()),
+        next_(direct.size()) {
     parallelFor(surfaces_.size(), 8192, [&](size_t i) {
       const FaceSlot& slot = voxels.slots[i];
       surfaces_[i] = {slot.albedo, slot.areaM2 * std::max(kAbsorbs, 1 - luminance(slot.albedo))};
@@ -46,7 +52,8 @@ class Iteration {
     float brightest = 1e-30f;
     for (size_t i = 0; i < direct.size(); ++i) brightest = std::max(brightest, maxComponent(direct[i] + indirect[i]));
     unit_ = brightest * kHeadroom;
-    parallelFor(surfaces_.size(), 8192, [&](size_t i) { reflected_[i] = reflectedBy(i, direct_[i].load() + indirect_[i].load(), unit_); });
+    parallelFor(surfaces_.size(), 8192,
+                [&](size_t i) { reflected_[i] = reflectedBy(i, direct_[i].load() + indirect_[i].load(), unit_); });
   }
 
   Bounces run(const RadianceSettings& settings, const Progress& progress) {
@@ -58,7 +65,8 @@ class Iteration {
       beforeThat = before, before = delta;
       delta = step(weights.next(slowest > 0));
       if (k > kTrial && delta > beforeThat) slowest = 0;  // modes that are not real: on without momentum
-      // A mode l of G shrinks by m with l = (m + momentum / m) / (1 + momentum), those up to `slowest` by sqrt(momentum).
+      // A mode l of G shrinks by m with l = (m + momentum / m) / (1 + momentum), those up to `slowest` by
+// sqrt(momentum).
       const double momentum = 2 / (1 + std::sqrt(1 - slowest * slowest)) - 1;
       const double m = std::clamp(beforeThat > 0 ? std::sqrt(delta / beforeThat) : 0.9, std::sqrt(momentum), 0.995);
       out.residual = delta * m / (1 - (m + momentum / m) / (1 + momentum));
@@ -77,12 +85,12 @@ class Iteration {
   }
 
  private:
-  // One step. Returns by how much G changes its light, as a fraction of the light r of each slot, averaged where there is change:
-  // sum a r² / sum a r. So a room counts in full beside a sunlit street that has long converged; but what is less than kSmall of all
-  // surfaces (the inside of a pipe) counts for less, and areas are those of black surfaces that absorb as much: light between two
-  // mirrors hardly ever settles, and hardly matters. What is darker than kDark of the mean of what is lit (`mean_`, of the step before,
-  // weighted with the light itself) hardly counts. Fixed chunks keep the order of the sums, and so the number of
-  // steps, independent of threads.
+  // One step. Returns by how much G changes its light, as a fraction of the light r of each slot, averaged where there
+  // is change: sum a r² / sum a r. So a room counts in full beside a sunlit street that has long converged; but what is
+  // less than kSmall of all surfaces (the inside of a pipe) counts for less, and areas are those of black surfaces that
+  // absorb as much: light between two mirrors hardly ever settles, and hardly matters. What is darker than kDark of the
+  // mean of what is lit (`mean_`, of the step before, weighted with the light itself) hardly counts. Fixed chunks keep
+  // the order of the sums, and so the number of steps, independent of threads.
   double step(float omega) {
     struct Sums {
       double light = 0, lightSquared = 0, area = 0, squares = 0, fractions = 0;
@@ -97,8 +105,10 @@ class Iteration {
         const Float4 gathered = gather(i), straight = direct_[i].load(), before = other_[i].load();
         const auto area = static_cast<double>(surfaces_[i].v[3]);
         const auto light = static_cast<double>(std::max(0.0f, luminanceOf(gathered + straight)));
-        const double r = static_cast<double>(std::abs(luminanceOf(gathered - indirect_[i].load()))) / (light + kDark * mean_ + 1e-30);
-        sum.light += area * light, sum.lightSquared += area * light * light, sum.area += area, sum.squares += area * r * r, sum.fractions += area * r;
+        const double r = static_cast<double>(std::abs(luminanceOf(gathered - indirect_[i].load()))) /
+                         (light + kDark * mean_ + 1e-30);
+        sum.light += area * light, sum.lightSquared += area * light * light, sum.area += area,
+            sum.squares += area * r * r, sum.fractions += area * r;
         const Float4 after = fma(gathered - before, Float4(omega), before);
         other_[i] = Padded(after);
         const Float4 all = straight + after;
@@ -113,12 +123,16 @@ class Iteration {
     const Padded channels(brightest);
     brightest_ = std::max({channels.v[0], channels.v[1], channels.v[2]});
     Sums sum;
-    for (const Sums& p : parts) sum.light += p.light, sum.lightSquared += p.lightSquared, sum.area += p.area, sum.squares += p.squares, sum.fractions += p.fractions;
+    for (const Sums& p : parts)
+      sum.light += p.light, sum.lightSquared += p.lightSquared, sum.area += p.area, sum.squares += p.squares,
+          sum.fractions += p.fractions;
     mean_ = sum.light > 0 ? sum.lightSquared / sum.light : 0;
     return sum.fractions > 0 ? std::min(sum.squares / sum.fractions, sum.fractions / (kSmall * sum.area)) : 0;
   }
 
-  Halves reflectedBy(size_t slot, Float4 lux, float unit) const { return Halves(surfaces_[slot].load() * lux * Float4(1 / unit)); }
+  Halves reflectedBy(size_t slot, Float4 lux, float unit) const {
+    return Halves(surfaces_[slot].load() * lux * Float4(1 / unit));
+  }
 
   Float4 gather(size_t slot) const {
     const size_t first = links_.first[slot], last = links_.first[slot + 1], end = links_.links.size();
@@ -134,15 +148,15 @@ class Iteration {
   const Links& links_;
   std::vector<Padded> surfaces_;  // albedo, and black surface that takes as much, m²
   std::vector<Padded> direct_, indirect_, other_;  // other: the step before, replaced by the step after
-  std::vector<Halves> reflected_, next_;           // in unit_: of the light there is, and after this step
+  std::vector<Halves> reflected_, next_;  // in unit_: of the light there is, and after this step
   float unit_ = 1, brightest_ = 0;
   double mean_ = 0;
 };
 
 }  // namespace
 
-Bounces bounce(const Voxels& voxels, const Links& links, std::span<const Vec3> direct, std::vector<Vec3>& indirect, const RadianceSettings& settings,
-               const Progress& progress) {
+Bounces bounce(const Voxels& voxels, const Links& links, std::span<const Vec3> direct, std::vector<Vec3>& indirect,
+               const RadianceSettings& settings, const Progress& progress) {
   Iteration iteration(voxels, links, direct, indirect);
   const Bounces done = iteration.run(settings, progress);
   iteration.result(indirect);

@@ -29,10 +29,11 @@ class Momentum {
   double omega_ = 1;
 };
 
-// E = direct + G E for each slot. `indirect` (lx per channel) is where the iteration starts, and its result without `direct`: zero,
-// or the solution for slightly different light. `settings` gives the residual to stop at and the most bounces.
-Bounces bounce(const Voxels& voxels, const Links& links, std::span<const Vec3> direct, std::vector<Vec3>& indirect, const RadianceSettings& settings,
-               const Progress& progress);
+// E = direct + G E for each slot. `indirect` (lx per channel) is where the iteration starts, and its result without
+// `direct`: zero, or the solution for slightly different light. `settings` gives the residual to stop at and the most
+// bounces.
+Bounces bounce(const Voxels& voxels, const Links& links, std::span<const Vec3> direct, std::vector<Vec3>& indirect,
+               const RadianceSettings& settings, const Progress& progress);
 
 // Means over slots and their kin on flat sheets: the noise of few links falls, and no wall is crossed.
 void smooth(const Links& links, std::vector<Vec3>& perSlot);

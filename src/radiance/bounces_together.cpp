@@ -28,7 +28,13 @@ struct alignas(16) Halves {
 class Iteration {
  public:
   Iteration(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct)
-      : voxels_(voxels), links_(links), direct_(voxels.slots.size()), indirect_(voxels.slots.size()), other_(voxels.slots.size()), reflected_(voxels.slots.size()), next_(voxels.slots.size()) {
+      : voxels_(voxels),
+        links_(links),
+        direct_(voxels.slots.size()),
+        indirect_(voxels.slots.size()),
+        other_(voxels.slots.size()),
+        reflected_(voxels.slots.size()),
+        next_(voxels.slots.size()) {
     for (size_t k = 0; k < direct.size(); ++k) {
       float brightest = 0;
       for (const Vec3& v : direct[k]) brightest = std::max(brightest, maxComponent(v));
@@ -96,7 +102,8 @@ class Iteration {
 
 }  // namespace
 
-void bounceTogether(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct, std::span<std::vector<Vec3>> indirect, const Bounces& like, const Progress& progress) {
+void bounceTogether(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct,
+                    std::span<std::vector<Vec3>> indirect, const Bounces& like, const Progress& progress) {
   assert(direct.size() <= kTogether && indirect.size() == direct.size());
   Iteration iteration(voxels, links, direct);
   Momentum momentum;

@@ -9,8 +9,9 @@ namespace roomlight {
 
 constexpr size_t kTogether = 8;  // lights
 
-// As bounce() in bounces.h for each of at most kTogether lights from darkness on, with as many steps as `like` took for their sum.
-// direct[k] and indirect[k]: lx per slot. Half floats in between: within about a thousandth.
-void bounceTogether(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct, std::span<std::vector<Vec3>> indirect, const Bounces& like, const Progress& progress);
+// As bounce() in bounces.h for each of at most kTogether lights from darkness on, with as many steps as `like` took for
+// their sum. direct[k] and indirect[k]: lx per slot. Half floats in between: within about a thousandth.
+void bounceTogether(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct,
+                    std::span<std::vector<Vec3>> indirect, const Bounces& like, const Progress& progress);
 
 }  // namespace roomlight

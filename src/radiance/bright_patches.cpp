@@ -46,17 +46,22 @@ PatchKey keyOf(const Voxels& voxels, int64_t slot) {
   return keyAt(voxels, s.position, s.normal, s.face);
 }
 
-PatchKey keyOf(const Voxels& voxels, const GlowPoint& g) { return g.slot >= 0 ? keyOf(voxels, g.slot) : keyAt(voxels, g.p, g.n, dominantFace(g.n)); }
+PatchKey keyOf(const Voxels& voxels, const GlowPoint& g) {
+  return g.slot >= 0 ? keyOf(voxels, g.slot) : keyAt(voxels, g.p, g.n, dominantFace(g.n));
+}
 
 }  // namespace
 
-BrightPatches::BrightPatches(const RayScene& rays, const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare, float farM, uint64_t seed) : voxels_(&voxels), farM_(farM) {
+BrightPatches::BrightPatches(const RayScene& rays, const Voxels& voxels, std::span<const GlowPoint> points,
+                             std::span<const float> glowShare, float farM, uint64_t seed)
+    : voxels_(&voxels), farM_(farM) {
   gatherPatches(voxels, points, glowShare);
   if (points_.empty()) return;
   learn(rays, seed);
 }
 
-void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points, std::span<const float> glowShare) {
+void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoint> points,
+                                  std::span<const float> glowShare) {
   std::map<PatchKey, std::vector<uint32_t>> byKey;
   for (uint32_t i = 0; i < points.size(); ++i) byKey[keyOf(voxels, points[i])].push_back(i);
   struct Found {
@@ -73,8 +78,10 @@ void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoin
     if (f.fluxLm > 0) found.push_back(std::move(f));
   }
   // What paths leave to points must stay; of what the sun lights the brightest.
-  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.lamps != b.lamps ? a.lamps : a.fluxLm > b.fluxLm; });
-  const auto lamps = static_cast<size_t>(std::count_if(found.begin(), found.end(), [](const Found& f) { return f.lamps; }));
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.lamps != b.lamps ? a.lamps : a.fluxLm > b.fluxLm; });
+  const auto lamps =
+      static_cast<size_t>(std::count_if(found.begin(), found.end(), [](const Found& f) { return f.lamps; }));
   found.resize(std::min(found.size(), lamps + kMostPatches));
   patchOfSlot_.assign(voxels.slots.size(), -1), holdsSun_.assign(voxels.slots.size(), 0);
   std::map<PatchKey, int32_t> patchOf;
@@ -101,14 +108,17 @@ void BrightPatches::gatherPatches(const Voxels& voxels, std::span<const GlowPoin
 }
 
 // Where rays arrive that a patch sends out, through panes: bricks with how many, in their order.
-std::vector<std::pair<uint32_t, uint32_t>> BrightPatches::lights(const RayScene& rays, uint32_t patch, uint64_t seed) const {
+std::vector<std::pair<uint32_t, uint32_t>> BrightPatches::lights(const RayScene& rays, uint32_t patch,
+                                                                 uint64_t seed) const {
   const Patch& from = patches_[patch];
   const Scene& scene = rays.scene();
   std::vector<Ray> way;
   std::vector<Hit> hits;
   Sampler sampler(mix64(seed + 13), patch, 0);
   for (size_t i = 0; i < kRays; ++i) {
-    const GlowPoint& g = points_[from.first + std::min(from.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(from.count)))];
+    const GlowPoint& g =
+        points_[from.first +
+                std::min(from.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(from.count)))];
     way.push_back({g.p, Frame(g.n).toWorld(sampleCosineHemisphere({sampler.fast1(), sampler.fast1()})), 0, kInfinity});
   }
   std::vector<uint32_t> bricks;
@@ -118,9 +128,12 @@ std::vector<std::pair<uint32_t, uint32_t>> BrightPatches::lights(const RayScene&
     size_t on = 0;
     for (size_t i = 0; i < way.size(); ++i) {
       if (!hits[i].valid()) continue;
-      const Vec3 d = way[i].direction, p = way[i].origin + d * hits[i].t, g = normalize(hits[i].ng), n = dot(g, d) < 0 ? g : -g;
+      const Vec3 d = way[i].direction, p = way[i].origin + d * hits[i].t, g = normalize(hits[i].ng),
+                 n = dot(g, d) < 0 ? g : -g;
       if (const int32_t b = brickSideAt(*voxels_, p, n); b >= 0) bricks.push_back(static_cast<uint32_t>(b));
-      if (letsLightThrough(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[hits[i].instance].mesh)].material)])) way[on++] = {offsetOrigin(p, -n), d, 0, kInfinity};
+      if (letsLightThrough(scene.materials[static_cast<size_t>(
+              scene.meshes[static_cast<size_t>(scene.instances[hits[i].instance].mesh)].material)]))
+        way[on++] = {offsetOrigin(p, -n), d, 0, kInfinity};
     }
     way.resize(on);
   }
@@ -143,7 +156,8 @@ void BrightPatches::learn(const RayScene& rays, uint64_t seed) {
   };
   std::vector<std::vector<Arrives>> byBrick(kBrickSides * voxels_->bricks.size());
   for (uint32_t p = 0; p < patches_.size(); ++p) {
-    for (const auto& [brick, count] : lit[p]) byBrick[brick].push_back({p, patches_[p].fluxLm * static_cast<float>(count) / static_cast<float>(kRays)});
+    for (const auto& [brick, count] : lit[p])
+      byBrick[brick].push_back({p, patches_[p].fluxLm * static_cast<float>(count) / static_cast<float>(kRays)});
   }
   std::vector<Seen> found(byBrick.size());
   parallelFor(found.size(), 64, [&](size_t b) {
@@ -152,7 +166,8 @@ void BrightPatches::learn(const RayScene& rays, uint64_t seed) {
     for (int k = 0; k < 27; ++k) {
       const int32_t n = k == 13 ? -1 : voxels_->brickAt({c.x + k % 3 - 1, c.y + k / 3 % 3 - 1, c.z + k / 9 - 1});
       if (n < 0) continue;
-      for (const Arrives& a : byBrick[kBrickSides * static_cast<size_t>(n) + b % kBrickSides]) all.push_back({a.patch, kBeside * a.fluxLm});
+      for (const Arrives& a : byBrick[kBrickSides * static_cast<size_t>(n) + b % kBrickSides])
+        all.push_back({a.patch, kBeside * a.fluxLm});
     }
     std::sort(all.begin(), all.end(), [](const Arrives& x, const Arrives& y) { return x.patch < y.patch; });
     std::vector<Arrives> sums;
@@ -160,7 +175,9 @@ void BrightPatches::learn(const RayScene& rays, uint64_t seed) {
       if (sums.empty() || sums.back().patch != a.patch) sums.push_back({a.patch, 0});
       sums.back().fluxLm += a.fluxLm;
     }
-    std::sort(sums.begin(), sums.end(), [](const Arrives& x, const Arrives& y) { return x.fluxLm != y.fluxLm ? x.fluxLm > y.fluxLm : x.patch < y.patch; });
+    std::sort(sums.begin(), sums.end(), [](const Arrives& x, const Arrives& y) {
+      return x.fluxLm != y.fluxLm ? x.fluxLm > y.fluxLm : x.patch < y.patch;
+    });
     sums.resize(std::min(sums.size(), kSeen));
     float sum = 0, upTo = 0;
     for (const Arrives& a : sums) sum += a.fluxLm;
@@ -168,7 +185,8 @@ void BrightPatches::learn(const RayScene& rays, uint64_t seed) {
     seen.patch.fill(Seen::kNone), seen.upTo.fill(1), seen.upTo[0] = 0;
     for (const Arrives& a : sums) {
       seen.patch[static_cast<size_t>(seen.count)] = a.patch;
-      if (++seen.count < static_cast<int32_t>(sums.size())) seen.upTo[static_cast<size_t>(seen.count)] = (upTo += a.fluxLm) / sum;
+      if (++seen.count < static_cast<int32_t>(sums.size()))
+        seen.upTo[static_cast<size_t>(seen.count)] = (upTo += a.fluxLm) / sum;
     }
   });
   seenOfSide_.assign(found.size(), -1);
@@ -187,7 +205,8 @@ float BrightPatches::chanceOf(uint32_t patch, int32_t side) const {
 }
 
 // Per steradian at the place that looks: a point is chosen within its patch by flux.
-float BrightPatches::pointsDensity(int32_t patch, float radianceCdM2, float distance, float cosLight, int32_t side) const {
+float BrightPatches::pointsDensity(int32_t patch, float radianceCdM2, float distance, float cosLight,
+                                   int32_t side) const {
   return kTries * chancePerLumen(patch, side) * kPi * radianceCdM2 * distance * distance / std::max(cosLight, 1e-6f);
 }
 
@@ -202,12 +221,14 @@ float BrightPatches::densityAt(size_t point, Vec3 p, int32_t side) const {
   const Vec3 d = p - g.p;
   const float distance = length(d);
   if (isSun(g) && distance < farM_) return 0;
-  return pointsDensity(static_cast<int32_t>(patchOfPoint_[point]), g.radianceCdM2, distance, dot(d, g.n) / std::max(distance, 1e-12f), side);
+  return pointsDensity(static_cast<int32_t>(patchOfPoint_[point]), g.radianceCdM2, distance,
+                       dot(d, g.n) / std::max(distance, 1e-12f), side);
 }
 
 float BrightPatches::pointShare(float density, float rayPdf) { return 1 - powerHeuristic(rayPdf, density); }
 
-float BrightPatches::rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side, float rayPdf) const {
+float BrightPatches::rayShare(int64_t slot, float radianceCdM2, float distance, float cosLight, int32_t side,
+                              float rayPdf) const {
   const float points = pointsDensity(patchOfSlot_[static_cast<size_t>(slot)], radianceCdM2, distance, cosLight, side);
   return powerHeuristic(rayPdf, points);
 }
@@ -217,7 +238,9 @@ BrightPatches::Choice BrightPatches::patchFor(const Seen* seen, float u) const {
   const float share = seen ? kByFlux : 1;
   if (u < share) {
     const float choice = u / share;
-    const auto patch = static_cast<uint32_t>(std::min<ptrdiff_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin(), static_cast<ptrdiff_t>(upTo_.size()) - 1));
+    const auto patch =
+        static_cast<uint32_t>(std::min<ptrdiff_t>(std::upper_bound(upTo_.begin(), upTo_.end(), choice) - upTo_.begin(),
+                                                  static_cast<ptrdiff_t>(upTo_.size()) - 1));
     return {patch, share * byFlux(patch) + (seen ? (1 - kByFlux) * seen->chance(patch) : 0)};
   }
   const int32_t i = seen->chosen((u - kByFlux) / (1 - kByFlux));
@@ -231,13 +254,16 @@ BrightPatches::Candidates BrightPatches::draw(int32_t side, Sampler& sampler) co
   const Seen* seen = seenFrom(side);
   const float first = sampler.next1();
   for (out.count = 0; out.count < Candidates::kMost; ++out.count) {
-    const float u = (static_cast<float>(out.count) + (out.count == 0 ? first : sampler.fast1())) / static_cast<float>(Candidates::kMost);
+    const float u = (static_cast<float>(out.count) + (out.count == 0 ? first : sampler.fast1())) /
+                    static_cast<float>(Candidates::kMost);
     const Choice choice = patchFor(seen, std::min(u, kBelowOne));  // rounding makes 1 of it now and then
     const Patch& of = patches_[choice.patch];
-    const uint32_t point = of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count)));
+    const uint32_t point =
+        of.first + std::min(of.count - 1, static_cast<uint32_t>(sampler.fast1() * static_cast<float>(of.count)));
     __builtin_prefetch(&points_[point]);
     // Chance 0: drawn by rounding, of a patch without flux beside all others.
-    out.point[out.count] = point, out.perPoint[out.count] = choice.chance > 0 ? static_cast<float>(of.count) / choice.chance : 0;
+    out.point[out.count] = point,
+    out.perPoint[out.count] = choice.chance > 0 ? static_cast<float>(of.count) / choice.chance : 0;
   }
   return out;
 }
@@ -265,12 +291,14 @@ GlowSample BrightPatches::choose(const Candidates& candidates, Vec3 p, Vec3 n, S
   const float d2 = lengthSquared(d), distance = std::sqrt(d2), cosLight = -dot(d, g.n) / distance;
   GlowSample out;
   out.point = candidates.point[k];
-  out.light = {d / distance, distance, g.fluxLm * (cosLight / (kPi * d2) * (sum / (static_cast<float>(Candidates::kMost) * gives[k]))), 0};
+  out.light = {d / distance, distance,
+               g.fluxLm * (cosLight / (kPi * d2) * (sum / (static_cast<float>(Candidates::kMost) * gives[k]))), 0};
   return out;
 }
 
 size_t BrightPatches::bytes() const {
-  return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t)) + patchOfSlot_.size() * (sizeof(int32_t) + 1) + patches_.size() * sizeof(Patch) + seen_.size() * sizeof(Seen) + seenOfSide_.size() * sizeof(int32_t);
+  return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t)) + patchOfSlot_.size() * (sizeof(int32_t) + 1) +
+         patches_.size() * sizeof(Patch) + seen_.size() * sizeof(Seen) + seenOfSide_.size() * sizeof(int32_t);
 }
 
 }  // namespace roomlight

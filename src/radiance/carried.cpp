@@ -14,7 +14,9 @@ namespace {
 class Hash {
  public:
   void add(uint64_t v) { state_ = mix64(state_ * 0x9e3779b97f4a7c15ull + v); }
-  void add(float a, float b) { add(std::bit_cast<uint32_t>(a) | static_cast<uint64_t>(std::bit_cast<uint32_t>(b)) << 32); }
+  void add(float a, float b) {
+    add(std::bit_cast<uint32_t>(a) | static_cast<uint64_t>(std::bit_cast<uint32_t>(b)) << 32);
+  }
   void add(Vec3 v) { add(v.x, v.y), add(std::bit_cast<uint32_t>(v.z)); }
   uint64_t value() const { return state_; }
 
@@ -30,7 +32,8 @@ uint64_t hashOf(const Voxels& voxels, size_t b) {
   const auto [first, last] = slotsOfBrick(voxels, b);
   for (size_t s = first; s < last; ++s) {
     const FaceSlot& slot = voxels.slots[s];
-    hash.add(slot.position), hash.add(slot.normal), hash.add(slot.albedo);  // not its emission: emissive meshes are lights
+    hash.add(slot.position), hash.add(slot.normal),
+        hash.add(slot.albedo);  // not its emission: emissive meshes are lights
     hash.add(slot.areaM2, slot.opacity), hash.add(slot.instance | static_cast<uint64_t>(slot.face) << 32);
   }
   return hash.value();
@@ -38,7 +41,8 @@ uint64_t hashOf(const Voxels& voxels, size_t b) {
 
 uint64_t keyOf(Int3 c) {
   constexpr uint64_t kMask = (uint64_t{1} << 21) - 1;
-  return (static_cast<uint64_t>(c.x) & kMask) | (static_cast<uint64_t>(c.y) & kMask) << 21 | (static_cast<uint64_t>(c.z) & kMask) << 42;
+  return (static_cast<uint64_t>(c.x) & kMask) | (static_cast<uint64_t>(c.y) & kMask) << 21 |
+         (static_cast<uint64_t>(c.z) & kMask) << 42;
 }
 
 }  // namespace
@@ -46,7 +50,8 @@ uint64_t keyOf(Int3 c) {
 Bounds3 boundsOfBrick(const Voxels& voxels, size_t brick) {
   const Int3 c = voxels.bricks[brick].coord;
   const float edge = voxels.voxelSizeM * kBrickSize;
-  const Vec3 lo = voxels.origin + Vec3{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)} * edge;
+  const Vec3 lo =
+      voxels.origin + Vec3{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)} * edge;
   return {lo, lo + Vec3(edge)};
 }
 
@@ -61,8 +66,10 @@ bool crosses(const Ray& ray, std::span<const Bounds3> boxes, float margin) {
   for (const Bounds3& box : boxes) {
     float t0 = ray.tMin, t1 = ray.tMax;
     for (int k = 0; k < 3; ++k) {
-      const float inverse = 1 / (std::abs(ray.direction[k]) > 1e-12f ? ray.direction[k] : std::copysign(1e-12f, ray.direction[k]));
-      const float a = (box.lo[k] - margin - ray.origin[k]) * inverse, b = (box.hi[k] + margin - ray.origin[k]) * inverse;
+      const float inverse =
+          1 / (std::abs(ray.direction[k]) > 1e-12f ? ray.direction[k] : std::copysign(1e-12f, ray.direction[k]));
+      const float a = (box.lo[k] - margin - ray.origin[k]) * inverse,
+                  b = (box.hi[k] + margin - ray.origin[k]) * inverse;
       t0 = std::max(t0, std::min(a, b)), t1 = std::min(t1, std::max(a, b));
     }
     if (t0 <= t1) return true;
@@ -74,7 +81,8 @@ void inFront(const FaceSlot& slot, std::span<const Bounds3> boxes, float voxelSi
   constexpr float kWithin = 4;  // voxels: from the slot's place to its points, and a voxel's width off a tilted box
   out.clear();
   for (const Bounds3& box : boxes) {
-    const Vec3 n = slot.normal, farthest{n.x > 0 ? box.hi.x : box.lo.x, n.y > 0 ? box.hi.y : box.lo.y, n.z > 0 ? box.hi.z : box.lo.z};
+    const Vec3 n = slot.normal,
+               farthest{n.x > 0 ? box.hi.x : box.lo.x, n.y > 0 ? box.hi.y : box.lo.y, n.z > 0 ? box.hi.z : box.lo.z};
     if (dot(farthest - slot.position, n) > -kWithin * voxelSizeM) out.push_back(box);
   }
 }
@@ -106,13 +114,15 @@ std::vector<BrickMark> marksOf(const Voxels& voxels) {
   const Lattice lattice = latticeOf(voxels);
   parallelFor(marks.size(), 16, [&](size_t b) {
     const auto [first, last] = slotsOfBrick(voxels, b);
-    marks[b] = {lattice.brickOf(voxels.bricks[b].coord), hashOf(voxels, b), static_cast<uint32_t>(first), static_cast<uint32_t>(last - first)};
+    marks[b] = {lattice.brickOf(voxels.bricks[b].coord), hashOf(voxels, b), static_cast<uint32_t>(first),
+                static_cast<uint32_t>(last - first)};
   });
   return marks;
 }
 
 // Points and neighbours of slots depend on what lies within a voxel of them.
-Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels, std::span<const Bounds3> changed) {
+Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels,
+              std::span<const Bounds3> changed) {
   std::unordered_map<uint64_t, int32_t> places;
   for (size_t b = 0; b < before.size(); ++b) places[keyOf(before[b].coord)] = static_cast<int32_t>(b);
   Carried out;
@@ -123,7 +133,8 @@ Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now,
     if (place == places.end()) continue;
     const BrickMark& old = before[static_cast<size_t>(place->second)];
     const Bounds3 bounds = boundsOfBrick(voxels, b);
-    const bool touched = std::any_of(changed.begin(), changed.end(), [&](const Bounds3& c) { return overlap(bounds, c, 2 * voxels.voxelSizeM); });
+    const bool touched = std::any_of(changed.begin(), changed.end(),
+                                     [&](const Bounds3& c) { return overlap(bounds, c, 2 * voxels.voxelSizeM); });
     if (touched || old.hash != now[b].hash || old.slots != now[b].slots) continue;
     out.oldBrick[b] = place->second, out.firstOld[b] = old.firstSlot;
     for (uint32_t i = 0; i < old.slots; ++i) out.newSlot[old.firstSlot + i] = now[b].firstSlot + i;

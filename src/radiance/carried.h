@@ -27,7 +27,8 @@ struct Carried {
 };
 
 // `changed`: where instances are and were, m.
-Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels, std::span<const Bounds3> changed);
+Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels,
+              std::span<const Bounds3> changed);
 
 Bounds3 boundsOfBrick(const Voxels& voxels, size_t brick);
 // Whether a segment (tMin, tMax of the ray) comes closer than `margin` to one of the boxes.
@@ -35,8 +36,9 @@ bool crosses(const Ray& ray, std::span<const Bounds3> boxes, float margin);
 bool overlap(const Bounds3& a, const Bounds3& b, float margin);
 // Those of `boxes` that rays from a slot's points, which all leave to its outside, may come closer to than a voxel.
 void inFront(const FaceSlot& slot, std::span<const Bounds3> boxes, float voxelSizeM, std::vector<Bounds3>& out);
-// Whether a straight way from somewhere in one box to somewhere in the other may meet one of `boxes`. Exact for the convex hull of the two:
-// the union of all boxes between them, whose middles and sizes go linearly from one to the other.
+// Whether a straight way from somewhere in one box to somewhere in the other may meet one of `boxes`. Exact for the
+// convex hull of the two: the union of all boxes between them, whose middles and sizes go linearly from one to the
+// other.
 bool mayMeetBetween(const Bounds3& from, const Bounds3& to, std::span<const Bounds3> boxes);
 
 }  // namespace roomlight

@@ -11,19 +11,21 @@ namespace {
 constexpr uint32_t kCones = 8;
 constexpr float kTanHalf = 0.1f;
 constexpr float kStart = 0.04f;  // voxels in front of a slot's points
-constexpr float kLeak = 0.5f;    // what slips through surfaces along their edges: a cone that has met more than half of what it could is scaled to all
-constexpr double kFading = 0.9;     // from one bounce to the next, before it is known
+constexpr float kLeak = 0.5f;  // what slips through surfaces along their edges: a cone that has met more than half of
+                               // what it could is scaled to all
+constexpr double kFading = 0.9;  // from one bounce to the next, before it is known
 
 }  // namespace
 
-Bounces bounceByCones(const Voxels& voxels, const SlotPaths& paths, std::span<const Vec3> direct, std::vector<Vec3>& indirect, const RadianceSettings& settings,
-                      const Progress& progress) {
+Bounces bounceByCones(const Voxels& voxels, const SlotPaths& paths, std::span<const Vec3> direct,
+                      std::vector<Vec3>& indirect, const RadianceSettings& settings, const Progress& progress) {
   Bounces out;
   RadianceField field;
   std::vector<Vec3> radiance(voxels.slots.size()), gathered(voxels.slots.size());
   double before = 0;
   while (out.done < settings.maxBounces && !progress.stop()) {
-    parallelFor(radiance.size(), 8192, [&](size_t s) { radiance[s] = voxels.slots[s].albedo * (direct[s] + indirect[s]) / kPi; });
+    parallelFor(radiance.size(), 8192,
+                [&](size_t s) { radiance[s] = voxels.slots[s].albedo * (direct[s] + indirect[s]) / kPi; });
     buildPyramid(voxels, radiance, {}, field);
     parallelFor(gathered.size(), 256, [&](size_t s) {
       gathered[s] = {};
@@ -41,7 +43,8 @@ Bounces bounceByCones(const Voxels& voxels, const SlotPaths& paths, std::span<co
     double squares = 0, fractions = 0;
     for (size_t s = 0; s < gathered.size(); ++s) {
       const double light = static_cast<double>(luminance(direct[s] + gathered[s]));
-      const double r = std::abs(static_cast<double>(luminance(gathered[s] - indirect[s]))) / (light + 1e-30), area = static_cast<double>(voxels.slots[s].areaM2);
+      const double r = std::abs(static_cast<double>(luminance(gathered[s] - indirect[s]))) / (light + 1e-30),
+                   area = static_cast<double>(voxels.slots[s].areaM2);
       squares += area * r * r, fractions += area * r;
     }
     indirect.swap(gathered);

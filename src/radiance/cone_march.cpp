@@ -9,13 +9,17 @@ namespace roomlight {
 namespace {
 
 constexpr float kOpaque = 0.004f;     // what is left of a cone when it is given up
-constexpr float kOverlap = 0.02f;     // voxel edges: planes are looked for a little outside their voxel, so that none falls between two
-constexpr float kMaskReach = 0.05f;  // voxel edges: planes are rounded, and may lie just outside the sub-cells of their surface
-constexpr float kSheet = 0.15f;       // voxel edges: planes that show opposite ways and lie no further apart are two sides of one sheet
-constexpr float kOwnSheet = 0.35f;    // base voxel edges: how far a bent sheet's plane may lie in front of a point on it
-constexpr float kBeyond = 0.02f;      // voxel edges
-constexpr float kNudge = 1e-3f;       // voxel edges: carries a step into the next voxel
-constexpr float kNarrowest = 1.2e-4f; // width of a cone at distance 1: no cone stays on a level for so long that the nudge is lost in rounding
+constexpr float kOverlap =
+    0.02f;     // voxel edges: planes are looked for a little outside their voxel, so that none falls between two
+constexpr float kMaskReach =
+    0.05f;  // voxel edges: planes are rounded, and may lie just outside the sub-cells of their surface
+constexpr float kSheet =
+    0.15f;       // voxel edges: planes that show opposite ways and lie no further apart are two sides of one sheet
+constexpr float kOwnSheet = 0.35f;  // base voxel edges: how far a bent sheet's plane may lie in front of a point on it
+constexpr float kBeyond = 0.02f;  // voxel edges
+constexpr float kNudge = 1e-3f;  // voxel edges: carries a step into the next voxel
+constexpr float kNarrowest =
+    1.2e-4f;  // width of a cone at distance 1: no cone stays on a level for so long that the nudge is lost in rounding
 
 // Whether the sub-cell at p, from the voxel's middle in voxel edges, holds a surface.
 bool isSet(uint64_t mask, Vec3 p) {
@@ -34,16 +38,18 @@ bool isSheet(const DirectionalPlanes& voxel, size_t face, Vec3 n) {
   return std::abs(voxel.distance(face) + voxel.distance(other)) < kSheet && dot(n, voxel.normal(other)) < -0.7f;
 }
 
-// Planes of one voxel that the ray crosses from their fronts between t0 and t1, nearest first. `q` is the ray's origin from the
-// voxel's middle; lengths in voxel edges.
-// `ownNormal` is that of the surface the ray comes from, which may lie behind the plane of its own voxel where it is bent, by up
-// to `ownReach`: the plane's other side is not met then.
-int crossings(const DirectionalPlanes& voxel, Vec3 q, Vec3 d, float t0, float t1, Vec3 ownNormal, float ownReach, Crossing (&out)[6]) {
+// Planes of one voxel that the ray crosses from their fronts between t0 and t1, nearest first. `q` is the ray's origin
+// from the voxel's middle; lengths in voxel edges. `ownNormal` is that of the surface the ray comes from, which may lie
+// behind the plane of its own voxel where it is bent, by up to `ownReach`: the plane's other side is not met then.
+int crossings(const DirectionalPlanes& voxel, Vec3 q, Vec3 d, float t0, float t1, Vec3 ownNormal, float ownReach,
+              Crossing (&out)[6]) {
   // All faces at once, normals in 1/127.
-  const Float8 x = fromBytes(voxel.normalX.data()), y = fromBytes(voxel.normalY.data()), z = fromBytes(voxel.normalZ.data());
+  const Float8 x = fromBytes(voxel.normalX.data()), y = fromBytes(voxel.normalY.data()),
+               z = fromBytes(voxel.normalZ.data());
   const auto along = [&](Vec3 v) { return fma(x, Float8(v.x), fma(y, Float8(v.y), z * Float8(v.z))); };
   const Float8 facing = along(d);
-  const Float8 plane = fma(fromBytes(voxel.plane.data()), Float8(127 * kFarthestPlane * 2 / 255), Float8(-127 * kFarthestPlane));
+  const Float8 plane =
+      fma(fromBytes(voxel.plane.data()), Float8(127 * kFarthestPlane * 2 / 255), Float8(-127 * kFarthestPlane));
   const Float8 ahead = along(q) - plane, t = (Float8(0.0f) - ahead) / facing;
   const Float8 within = (Float8(t0) <= t) & (t < Float8(t1));
   // Where no surface faces a way, the normal there is 0 and so is `facing`.
@@ -65,12 +71,15 @@ int crossings(const DirectionalPlanes& voxel, Vec3 q, Vec3 d, float t0, float t1
   return found;
 }
 
-// Distance along the ray, in voxel edges, from p in voxel v to where it leaves the cube of `edge` (a power of two) voxels that
-// holds it. `ahead` is 1 on axes along which the ray goes up, else 0.
+// Distance along the ray, in voxel edges, from p in voxel v to where it leaves the cube of `edge` (a power of two)
+// voxels that holds it. `ahead` is 1 on axes along which the ray goes up, else 0.
 float exitCube(Vec3 p, Int3 v, Vec3 inverse, Vec3 ahead, int edge) {
   const float e = static_cast<float>(edge);
-  const auto along = [&](int cell, float q, float inv, float up) { return (static_cast<float>(cell & -edge) + up * e - q) * inv; };
-  return std::max(0.0f, std::min(along(v.x, p.x, inverse.x, ahead.x), std::min(along(v.y, p.y, inverse.y, ahead.y), along(v.z, p.z, inverse.z, ahead.z))));
+  const auto along = [&](int cell, float q, float inv, float up) {
+    return (static_cast<float>(cell & -edge) + up * e - q) * inv;
+  };
+  return std::max(0.0f, std::min(along(v.x, p.x, inverse.x, ahead.x),
+                                 std::min(along(v.y, p.y, inverse.y, ahead.y), along(v.z, p.z, inverse.z, ahead.z))));
 }
 
 // Whether none of the 4x4x4 voxels of the brick around v is occupied.
@@ -81,8 +90,8 @@ bool blockIsEmpty(const Brick& brick, Int3 v) {
 }
 
 bool goneForGood(Int3 brick, Int3 dims, Vec3 d) {
-  return (brick.x < 0 && d.x <= 0) || (brick.y < 0 && d.y <= 0) || (brick.z < 0 && d.z <= 0) || (brick.x >= dims.x && d.x >= 0) ||
-         (brick.y >= dims.y && d.y >= 0) || (brick.z >= dims.z && d.z >= 0);
+  return (brick.x < 0 && d.x <= 0) || (brick.y < 0 && d.y <= 0) || (brick.z < 0 && d.z <= 0) ||
+         (brick.x >= dims.x && d.x >= 0) || (brick.y >= dims.y && d.y >= 0) || (brick.z >= dims.z && d.z >= 0);
 }
 
 // Whether p lies in front of a plane that hides the surfaces met: there the plane goes on where they do not.
@@ -104,14 +113,18 @@ float inverseOf(float v) { return 1 / (std::abs(v) > 1e-8f ? v : std::copysign(1
 
 }  // namespace
 
-ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, const ConeShape& shape, float levelShift) {
+ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, const ConeShape& shape,
+                    float levelShift) {
   ConeLight out;
   const float h = field.levels[0].voxelSizeM;
   const int coarsest = static_cast<int>(field.levels.size()) - 1;
-  const Vec3 inverse{inverseOf(d.x), inverseOf(d.y), inverseOf(d.z)}, ahead{d.x > 0 ? 1.0f : 0.0f, d.y > 0 ? 1.0f : 0.0f, d.z > 0 ? 1.0f : 0.0f};
+  const Vec3 inverse{inverseOf(d.x), inverseOf(d.y), inverseOf(d.z)},
+      ahead{d.x > 0 ? 1.0f : 0.0f, d.y > 0 ? 1.0f : 0.0f, d.z > 0 ? 1.0f : 0.0f};
   // As wide as the cone, but never so wide that a voxel reaches back into the surface the cone left.
-  const float widening = std::max(kNarrowest, 2 * std::min(shape.tanHalf, std::max(0.0f, dot(d, from.normal))) * std::exp2(levelShift));
-  // Lengths from here on in edges of the level's voxels: on every level the cone is two voxels wide at the same number of them.
+  const float widening =
+      std::max(kNarrowest, 2 * std::min(shape.tanHalf, std::max(0.0f, dot(d, from.normal))) * std::exp2(levelShift));
+  // Lengths from here on in edges of the level's voxels: on every level the cone is two voxels wide at the same number
+  // of them.
   const float widest = 2 / widening;
   Vec3 origin = (from.origin - field.origin) / h;
   int level = 0;
@@ -121,7 +134,8 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
     for (; t >= widest && level < coarsest; ++level) t *= 0.5f, origin *= 0.5f;
     const RadianceLevel& l = field.levels[static_cast<size_t>(level)];
     const Vec3 p = origin + d * (t + kNudge);
-    const Int3 v{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)), static_cast<int>(std::floor(p.z))};
+    const Int3 v{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)),
+                 static_cast<int>(std::floor(p.z))};
     const Int3 at{v.x >> 3, v.y >> 3, v.z >> 3};
     const Brick* brick = l.brickAt(at);
     if (!brick || blockIsEmpty(*brick, v)) {
@@ -136,7 +150,8 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
       __builtin_prefetch(&light);  // on its way while planes are tested
       const Vec3 middle{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f};
       Crossing met[6];
-      const int count = crossings(planes, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap, from.normal, kOwnSheet * h / l.voxelSizeM, met);
+      const int count = crossings(planes, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap,
+                                  from.normal, kOwnSheet * h / l.voxelSizeM, met);
       for (int i = 0; i < count; ++i) {
         const size_t face = met[i].face;
         if (isBeyond(planes, light.behind[face], origin - middle + d * met[i].t)) continue;
@@ -150,7 +165,10 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
         const float alpha = out.left * static_cast<float>(light.coverage[face] * opacity) * (1.0f / (255 * 255));
         const auto& radiance = light.radiance[face];
         const Vec3 shown = Vec3{fromHalf(radiance[0]), fromHalf(radiance[1]), fromHalf(radiance[2])} * field.unitCdM2;
-        out.radiance += shown * (light.glow[face] == 0 || shape.pdf == 0 ? alpha : alpha * kept(field, light.glow[face], shown, met[i].t * l.voxelSizeM, -dot(planes.normal(face), d), shape.pdf));
+        out.radiance += shown * (light.glow[face] == 0 || shape.pdf == 0
+                                     ? alpha
+                                     : alpha * kept(field, light.glow[face], shown, met[i].t * l.voxelSizeM,
+                                                    -dot(planes.normal(face), d), shape.pdf));
         out.occlusion += alpha / (1 + shape.lambda * met[i].t * l.voxelSizeM);
         out.left -= alpha;
       }

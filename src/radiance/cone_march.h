@@ -22,9 +22,10 @@ struct ConeStart {
   Vec3 origin, normal;
 };
 
-// Follows unit `d` from voxel to voxel, on the level of the pyramid whose voxels are as wide as the cone. `levelShift` (0..1)
-// blends between levels over many cones. Opacity counts once for each plane that is crossed, so it does not depend on the
-// size of the steps.
-ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, const ConeShape& shape, float levelShift);
+// Follows unit `d` from voxel to voxel, on the level of the pyramid whose voxels are as wide as the cone. `levelShift`
+// (0..1) blends between levels over many cones. Opacity counts once for each plane that is crossed, so it does not
+// depend on the size of the steps.
+ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, const ConeShape& shape,
+                    float levelShift);
 
 }  // namespace roomlight

@@ -16,9 +16,11 @@ constexpr float kWide = 0.5f;  // a light's size over its distance
 // Of each voxel of a brick and each face: 1 where a slot has rays that arrive, 2 where it has some that do not.
 class Shadows {
  public:
-  void add(int voxel, int face, unsigned seen) { bits_[static_cast<size_t>(voxel)] |= static_cast<uint16_t>(seen << (2 * face)); }
-  // Whether neighbours inside the brick differ, or none tells. A slot's own rays must not decide on how many more it gets, or those
-  // that by chance miss all light would count for too much.
+  void add(int voxel, int face, unsigned seen) {
+    bits_[static_cast<size_t>(voxel)] |= static_cast<uint16_t>(seen << (2 * face));
+  }
+  // Whether neighbours inside the brick differ, or none tells. A slot's own rays must not decide on how many more it
+  // gets, or those that by chance miss all light would count for too much.
   bool differAround(int voxel, int face) const {
     const int x = voxel % kBrickSize, y = voxel / kBrickSize % kBrickSize, z = voxel / (kBrickSize * kBrickSize);
     unsigned any = 0;
@@ -82,7 +84,8 @@ struct DirectLight::Way {
   float distance = kInfinity;
 };
 
-// Whether light from somewhere in `source` might on its straight way to slots of a brick. Much quicker than the rays themselves.
+// Whether light from somewhere in `source` might on its straight way to slots of a brick. Much quicker than the rays
+// themselves.
 bool DirectLight::mayCross(size_t brick, const Bounds3& source, std::span<const Bounds3> near) const {
   return mayMeetBetween(whereSlotsLie(brick), source, near);
 }
@@ -102,10 +105,11 @@ Bounds3 DirectLight::whereSlotsLie(size_t brick) const {
   return {bounds.lo - lifted, bounds.hi + lifted};
 }
 
-// Slots of a brick some of whose rays may cross one of the boxes; `wayOf(slot, k, p)` is that of the k-th, from p, known to `off` times its
-// length. Added to `out`, which is empty as long as there is none.
+// Slots of a brick some of whose rays may cross one of the boxes; `wayOf(slot, k, p)` is that of the k-th, from p,
+// known to `off` times its length. Added to `out`, which is empty as long as there is none.
 template <class WayOf>
-void DirectLight::findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off, const WayOf& wayOf, Marks& out) const {
+void DirectLight::findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off,
+                              const WayOf& wayOf, Marks& out) const {
   const auto [first, last] = slotsOfBrick(voxels_, brick);
   float margin = 0;
   for (const Bounds3& box : near) {
@@ -119,7 +123,9 @@ void DirectLight::findCrossed(size_t brick, uint32_t samples, std::span<const Bo
     for (uint32_t k = 0; k < samples && !ahead.empty(); ++k) {
       const Vec3 p = point(s, k);
       const Way way = wayOf(s, k, p);
-      if (!(dot(way.direction, voxels_.slots[s].normal) > -off) || isBlack(way.direction) || !crosses({p, way.direction, 0, way.distance}, ahead, margin)) continue;
+      if (!(dot(way.direction, voxels_.slots[s].normal) > -off) || isBlack(way.direction) ||
+          !crosses({p, way.direction, 0, way.distance}, ahead, margin))
+        continue;
       out.resize(last - first);
       out[s - first] = kAnew;
       break;
@@ -127,7 +133,8 @@ void DirectLight::findCrossed(size_t brick, uint32_t samples, std::span<const Bo
   }
 }
 
-// To slots marked, those beside them, which may now want more or fewer rays, and those beside these, whose shadows decide on that.
+// To slots marked, those beside them, which may now want more or fewer rays, and those beside these, whose shadows
+// decide on that.
 void DirectLight::markAround(size_t brick, Marks& marks) const {
   const size_t first = slotsOfBrick(voxels_, brick).first;
   const std::vector<int> voxelOf = voxelsOfSlots(voxels_, brick);
@@ -139,8 +146,7 @@ void DirectLight::markAround(size_t brick, Marks& marks) const {
   const FaceBits beside = spread(crossed), beyond = spread(beside);
   for (size_t i = 0; i < marks.size(); ++i) {
     const auto v = static_cast<size_t>(voxelOf[i]);
-    marks[i] = beside[v] & bit(i) ? kAnew : beyond[v] & bit(i) ? kShadowOnly
-                                                               : kAsItIs;
+    marks[i] = beside[v] & bit(i) ? kAnew : beyond[v] & bit(i) ? kShadowOnly : kAsItIs;
   }
 }
 
@@ -178,7 +184,9 @@ void DirectLight::trace(size_t brick, Samples samples, const Marks& marks, std::
   const std::vector<int> voxelOf = voxelsOfSlots(voxels_, brick);
   std::vector<uint32_t> tried(last - first, samples.first);
   Shadows seen;
-  arrive([&, start = first](size_t s, Vec3 part) { seen.add(voxelOf[s - start], voxels_.slots[s].face, isBlack(part) ? 2 : 1); });
+  arrive([&, start = first](size_t s, Vec3 part) {
+    seen.add(voxelOf[s - start], voxels_.slots[s].face, isBlack(part) ? 2 : 1);
+  });
   for (size_t s = first; s < last; ++s) {
     if (markOf(s) != kAnew || !seen.differAround(voxelOf[s - first], voxels_.slots[s].face)) continue;
     tried[s - first] = samples.most;
@@ -200,7 +208,8 @@ void DirectLight::clear(size_t brick, const Marks& marks, std::span<Vec3> lux) c
 
 // One light anew: all of it, or what `findMarks(Marks&)` finds.
 template <class FindMarks, class Sample>
-void DirectLight::renew(size_t brick, Samples samples, std::span<const Bounds3> near, std::span<Vec3> lux, const FindMarks& findMarks, const Sample& sample) {
+void DirectLight::renew(size_t brick, Samples samples, std::span<const Bounds3> near, std::span<Vec3> lux,
+                        const FindMarks& findMarks, const Sample& sample) {
   Marks marks;
   if (!near.empty()) {
     findMarks(marks);
@@ -226,7 +235,8 @@ void DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> 
   const LightSurroundings around(lamp, voxels_.voxelSizeM);
   const float reachM = lamp.extended ? 0.5f * std::hypot(lamp.web->sizeC0M, lamp.web->sizeC90M) : 0;
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
-    if (dot(lamp.position - p, voxels_.slots[s].normal) + reachM <= 0) return LightSample{};  // behind it, before the web is looked up
+    if (dot(lamp.position - p, voxels_.slots[s].normal) + reachM <= 0)
+      return LightSample{};  // behind it, before the web is looked up
     if (around.contains(voxels_.slots[s].position)) return LightSample{};
     if (!lamp.extended) return sampleLamp(unit, p, {});
     Sampler sampler(paths_.key(s), k, settings_.seed + 5);
@@ -236,7 +246,8 @@ void DirectLight::lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> 
   const Samples samples = lamp.extended ? Samples{(soft + 1) / 2, soft} : Samples{1, perDelta()};
   const Vec3 half(reachM);
   const auto findMarks = [&](Marks& marks) {
-    if (mayCross(brick, {lamp.position - half, lamp.position + half}, near)) findCrossed(brick, samples.most, near, 0, ways(sample), marks);
+    if (mayCross(brick, {lamp.position - half, lamp.position + half}, near))
+      findCrossed(brick, samples.most, near, 0, ways(sample), marks);
   };
   renew(brick, samples, near, lux, findMarks, sample);
 }
@@ -246,7 +257,8 @@ void DirectLight::lamps(std::span<const LightSurroundings> around, size_t brick,
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     Sampler sampler(paths_.key(s), k, settings_.seed + 5);
     const LightSample light = seen_.sampleLamps(lights_, p, brickSide(brick, voxels_.slots[s].face), sampler);
-    return light.valid() && around[static_cast<size_t>(light.lamp)].contains(voxels_.slots[s].position) ? LightSample{} : light;
+    return light.valid() && around[static_cast<size_t>(light.lamp)].contains(voxels_.slots[s].position) ? LightSample{}
+                                                                                                        : light;
   };
   trace(brick, {(most + 1) / 2, most}, {}, lux, sample);
 }
@@ -261,7 +273,8 @@ void DirectLight::suns(size_t brick, std::span<const Bounds3> near, std::span<Ve
   Marks marks;
   if (!near.empty()) {
     for (size_t i = 0; i < lights_.sunCount(); ++i) {
-      if (mayCrossFromAfar(brick, lights_.sunDirections(i), near)) findCrossed(brick, perDelta(), near, 0, ways(sampleOf(i)), marks);
+      if (mayCrossFromAfar(brick, lights_.sunDirections(i), near))
+        findCrossed(brick, perDelta(), near, 0, ways(sampleOf(i)), marks);
     }
     if (marks.empty()) return;
     markAround(brick, marks);
@@ -270,7 +283,8 @@ void DirectLight::suns(size_t brick, std::span<const Bounds3> near, std::span<Ve
   for (size_t i = 0; i < lights_.sunCount(); ++i) trace(brick, {1, perDelta()}, marks, lux, sampleOf(i));
 }
 
-void DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyWays& ways, std::span<Vec3> lux) {
+void DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyWays& ways,
+                      std::span<Vec3> lux) {
   if (guide.guideOfBrick.empty()) return;
   const auto& guides = guide.guideOfBrick[brick];
   const auto sample = [&](size_t s, uint32_t k, Vec3) {
@@ -291,7 +305,8 @@ void DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bound
   }
   const auto findMarks = [&](Marks& marks) {
     findCrossed(
-        brick, kSkySamples, near, SkyWay::kOff, [&](size_t s, uint32_t k, Vec3) { return Way{ways[s][k].direction()}; }, marks);
+        brick, kSkySamples, near, SkyWay::kOff, [&](size_t s, uint32_t k, Vec3) { return Way{ways[s][k].direction()}; },
+        marks);
   };
   renew(brick, {kSkySamples / 2, kSkySamples}, near, lux, findMarks, sample);
 }
@@ -301,8 +316,11 @@ void DirectLight::emitters(size_t brick, std::span<const Bounds3> near, std::spa
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     Sampler sampler(paths_.key(s), k, settings_.seed + 3);
     const Vec2 u = sampler.next2();
-    const LightSample light = seen_.sampleEmitters(lights_, p, brickSide(brick, voxels_.slots[s].face), u, sampler.next1());
-    return light.valid() && besideEmitters_[static_cast<size_t>(light.emitter)].contains(voxels_.slots[s].position) ? LightSample{} : light;
+    const LightSample light =
+        seen_.sampleEmitters(lights_, p, brickSide(brick, voxels_.slots[s].face), u, sampler.next1());
+    return light.valid() && besideEmitters_[static_cast<size_t>(light.emitter)].contains(voxels_.slots[s].position)
+               ? LightSample{}
+               : light;
   };
   const auto findMarks = [&](Marks& marks) {
     bool may = false;
@@ -326,7 +344,8 @@ void DirectLight::emitter(size_t index, size_t brick, std::span<const Bounds3> n
   const Vec3 middle = bounds.centre(), half = bounds.size() * 0.5f;
   const auto sample = [&](size_t s, uint32_t k, Vec3 p) {
     const FaceSlot& slot = voxels_.slots[s];
-    if (dot(middle - p, slot.normal) + dot(half, abs(slot.normal)) <= 0) return LightSample{};  // all of it behind the slot
+    if (dot(middle - p, slot.normal) + dot(half, abs(slot.normal)) <= 0)
+      return LightSample{};  // all of it behind the slot
     if (besideEmitters_[index].contains(slot.position)) return LightSample{};
     Sampler sampler(paths_.key(s), k, settings_.seed + 3);
     const Vec2 u = sampler.next2();

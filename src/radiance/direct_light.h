@@ -14,12 +14,20 @@ namespace roomlight {
 // What part of direct light, traced brick by brick.
 class DirectLight {
  public:
-  DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const SeenLights& seen, const RadianceSettings& settings)
-      : rays_(rays), lights_(lights), voxels_(voxels), paths_(paths), seen_(seen), settings_(settings), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {}
+  DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths,
+              const SeenLights& seen, const RadianceSettings& settings)
+      : rays_(rays),
+        lights_(lights),
+        voxels_(voxels),
+        paths_(paths),
+        seen_(seen),
+        settings_(settings),
+        besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {}
 
-  // Illuminance in lx per channel of the slots of one brick, in one value per slot of the scene. Of a lamp for 1 cd. Of lamps and emissive
-  // meshes less what their particles carry. Where `near` boxes are given only slots some of whose rays may cross one of them, and those beside
-  // them whose rays depend on that, get another value: the same as if all were traced.
+  // Illuminance in lx per channel of the slots of one brick, in one value per slot of the scene. Of a lamp for 1 cd. Of
+  // lamps and emissive meshes less what their particles carry. Where `near` boxes are given only slots some of whose
+  // rays may cross one of them, and those beside them whose rays depend on that, get another value: the same as if all
+  // were traced.
   void lamp(const Lamp& lamp, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   // Of all lamps as one light, as bright as they are: fewer rays than one by one. `around`: surroundings of each.
   void lamps(std::span<const LightSurroundings> around, size_t brick, std::span<Vec3> lux);
@@ -34,15 +42,15 @@ class DirectLight {
 
  private:
   struct Samples {
-    uint32_t first, most;  // per slot: to begin with, and where the first and those of its neighbours do not agree on shadows
+    uint32_t first,
+        most;  // per slot: to begin with, and where the first and those of its neighbours do not agree on shadows
   };
   struct Way;
-  enum Mark : uint8_t { kAsItIs,
-                        kShadowOnly,
-                        kAnew };
+  enum Mark : uint8_t { kAsItIs, kShadowOnly, kAnew };
   using Marks = std::vector<Mark>;  // per slot of a brick
   template <class WayOf>
-  void findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off, const WayOf& wayOf, Marks& out) const;
+  void findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off, const WayOf& wayOf,
+                   Marks& out) const;
   void markAround(size_t brick, Marks& marks) const;
   template <class Sample>
   static auto ways(const Sample& sample);
@@ -54,8 +62,11 @@ class DirectLight {
   template <class Sample>
   void trace(size_t brick, Samples samples, const Marks& marks, std::span<Vec3> lux, const Sample& sample);
   template <class FindMarks, class Sample>
-  void renew(size_t brick, Samples samples, std::span<const Bounds3> near, std::span<Vec3> lux, const FindMarks& findMarks, const Sample& sample);
-  uint32_t perDelta() const { return static_cast<uint32_t>(std::clamp(settings_.directSamples / 2, 1, 4)); }  // of a lamp or sun
+  void renew(size_t brick, Samples samples, std::span<const Bounds3> near, std::span<Vec3> lux,
+             const FindMarks& findMarks, const Sample& sample);
+  uint32_t perDelta() const {
+    return static_cast<uint32_t>(std::clamp(settings_.directSamples / 2, 1, 4));
+  }  // of a lamp or sun
   Vec3 point(size_t slot, uint32_t k) const { return paths_.point(slot, k + paths_.key(slot)); }
 
   const RayScene& rays_;

@@ -19,11 +19,14 @@ std::vector<EmissiveMesh> emissiveMeshes(const Scene& scene, const Lights& light
 
 size_t LightCache::smallEmitters(const Sources& from) {
   size_t count = 0;
-  for (size_t i = 0; i < from.lights.emitterCount(); ++i) count += isSmall(from.lights, i, from.voxels.voxelSizeM) ? 1 : 0;
+  for (size_t i = 0; i < from.lights.emitterCount(); ++i)
+    count += isSmall(from.lights, i, from.voxels.voxelSizeM) ? 1 : 0;
   return count;
 }
 
-bool LightCache::emittersApart(const Lights& lights) const { return settings_.emittersApart && lights.emitterCount() <= kMostApart; }
+bool LightCache::emittersApart(const Lights& lights) const {
+  return settings_.emittersApart && lights.emitterCount() <= kMostApart;
+}
 
 void LightCache::traceEmittersTogether(const Sources& from) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
@@ -32,24 +35,29 @@ void LightCache::traceEmittersTogether(const Sources& from) {
 }
 
 LightCache::EmitterLight LightCache::tracedEmitter(const Sources& from, size_t index, size_t small) {
-  EmitterLight light{{from.rays.scene(), from.lights.emitterInstance(index)}, Vec3(1), static_cast<int32_t>(index), {}, {}};
+  EmitterLight light{
+      {from.rays.scene(), from.lights.emitterInstance(index)}, Vec3(1), static_cast<int32_t>(index), {}, {}};
   if (emittersApart(from.lights)) {
     DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
     light.direct = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.emitter(index, b, {}, lux); });
     field_.rays += direct.rayCount();
   }
-  if (isSmall(from.lights, index, from.voxels.voxelSizeM)) light.particles = particlesFrom(from, particlesOf(from.lights, index, small, from.voxels.voxelSizeM));
+  if (isSmall(from.lights, index, from.voxels.voxelSizeM))
+    light.particles = particlesFrom(from, particlesOf(from.lights, index, small, from.voxels.voxelSizeM));
   return light;
 }
 
 // Of one mesh, straight.
 void LightCache::addEmitter(const Sources& from, size_t index, std::vector<Vec3>& lux) {
   if (emittersApart(from.lights)) {
-    const auto light = std::find_if(emitters_.begin(), emitters_.end(), [&](const EmitterLight& e) { return e.index == static_cast<int32_t>(index); });
+    const auto light = std::find_if(emitters_.begin(), emitters_.end(),
+                                    [&](const EmitterLight& e) { return e.index == static_cast<int32_t>(index); });
     return light->direct.addTo(from.voxels, light->scale, lux);
   }
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
-  lightOfAll(from, [&](size_t b, std::vector<Vec3>& own) { direct.emitter(index, b, {}, own); }).addTo(from.voxels, Vec3(1), lux);
+  lightOfAll(from, [&](size_t b, std::vector<Vec3>& own) {
+    direct.emitter(index, b, {}, own);
+  }).addTo(from.voxels, Vec3(1), lux);
   field_.rays += direct.rayCount();
 }
 
@@ -63,7 +71,8 @@ void LightCache::matchEmitters(const Sources& from) {
   const size_t small = smallEmitters(from);
   std::vector<EmitterLight> next, dark;
   for (size_t i = 0; i < now.size(); ++i) {
-    const auto known = std::find_if(emitters_.begin(), emitters_.end(), [&](const EmitterLight& e) { return now[i].shinesLike(e.mesh); });
+    const auto known = std::find_if(emitters_.begin(), emitters_.end(),
+                                    [&](const EmitterLight& e) { return now[i].shinesLike(e.mesh); });
     if (known == emitters_.end()) {
       next.push_back(tracedEmitter(from, i, small));
       continue;
@@ -96,10 +105,14 @@ void LightCache::updateEmitters(const Sources& from, const Change& change) {
     light.mesh = now[index], light.scale = Vec3(1);
     light.direct.scale(scale), light.particles.scale(scale);
     if (!emittersApart(from.lights)) continue;
-    light.direct = updated(from, light.direct, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.emitter(index, b, near, lux); });
+    light.direct = updated(
+        from, light.direct, change,
+        [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.emitter(index, b, near, lux); });
   }
   if (!emittersApart(from.lights) && now == knownTogether_) {
-    emittersTogether_ = updated(from, emittersTogether_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.emitters(b, near, lux); });
+    emittersTogether_ =
+        updated(from, emittersTogether_, change,
+                [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.emitters(b, near, lux); });
   }
   field_.rays += direct.rayCount();
 }

@@ -12,7 +12,12 @@ namespace {
 
 class HiddenLight {
  public:
-  HiddenLight(const Lights& lights, const Voxels& voxels, const SkyGuide& guide, const SeenLights& seen) : lights_(lights), voxels_(voxels), guide_(guide), seen_(seen), besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
+  HiddenLight(const Lights& lights, const Voxels& voxels, const SkyGuide& guide, const SeenLights& seen)
+      : lights_(lights),
+        voxels_(voxels),
+        guide_(guide),
+        seen_(seen),
+        besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {
     for (size_t i = 0; i < lights.lampCount(); ++i) besideLamps_.emplace_back(lights.lamp(i), voxels.voxelSizeM);
   }
 
@@ -22,17 +27,21 @@ class HiddenLight {
     const int32_t side = brickSideAt(voxels_, h.p, h.n);
     if (lights_.lampCount() > 0) {
       const LightSample lamp = seen_.sampleLamps(lights_, h.p, side, sampler);
-      if (lamp.valid() && !besideLamps_[static_cast<size_t>(lamp.lamp)].contains(h.p)) take(lamp, layers ? layers->of(lamp) : -1);
+      if (lamp.valid() && !besideLamps_[static_cast<size_t>(lamp.lamp)].contains(h.p))
+        take(lamp, layers ? layers->of(lamp) : -1);
     }
-    for (size_t i = 0; i < lights_.sunCount(); ++i) take(lights_.sampleSun(i, sampler.next2()), layers ? layers->sun : -1);
+    for (size_t i = 0; i < lights_.sunCount(); ++i)
+      take(lights_.sampleSun(i, sampler.next2()), layers ? layers->sun : -1);
     if (lights_.hasEmitters()) {
       const Vec2 u = sampler.next2();
       const LightSample emitter = seen_.sampleEmitters(lights_, h.p, side, u, sampler.next1());
-      if (emitter.valid() && !besideEmitters_[static_cast<size_t>(emitter.emitter)].contains(h.p)) take(emitter, layers ? layers->of(emitter) : -1);
+      if (emitter.valid() && !besideEmitters_[static_cast<size_t>(emitter.emitter)].contains(h.p))
+        take(emitter, layers ? layers->of(emitter) : -1);
     }
     if (lights_.sky().present()) {
       const Vec2 u = sampler.next2();
-      take(sampleSkyGuided(guide_, guideAt(guide_, voxels_, h.p, h.n), lights_, u, sampler.next1()), layers ? layers->sky : -1);
+      take(sampleSkyGuided(guide_, guideAt(guide_, voxels_, h.p, h.n), lights_, u, sampler.next1()),
+           layers ? layers->sky : -1);
     }
   }
 
@@ -47,7 +56,9 @@ class HiddenLight {
 
 }  // namespace
 
-std::vector<std::vector<Vec3>> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, const SkyGuide& guide, const SeenLights& seen, const LightLayers* layers, uint64_t seed,
+std::vector<std::vector<Vec3>> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                                             const SlotPaths& paths, const Links& links, const SkyGuide& guide,
+                                             const SeenLights& seen, const LightLayers* layers, uint64_t seed,
                                              uint64_t& rayCount) {
   std::vector<std::vector<Vec3>> lux(layers ? layers->size() : 1, std::vector<Vec3>(voxels.slots.size()));
   if (links.hidden.empty()) return lux;
@@ -61,7 +72,9 @@ std::vector<std::vector<Vec3>> lightOfHidden(const RayScene& rays, const Lights&
       const float perLink = 1 / static_cast<float>(links.count(h.slot));
       hidden.at(h, layers, sampler, [&](const LightSample& light, int32_t layer) {
         const float cosine = dot(light.wi, h.n);
-        if (light.valid() && cosine > 0) samples[static_cast<size_t>(std::max(0, layer))].ask(h.slot, shadowRay(offsetOrigin(h.p, h.n), h.p, light), h.left * light.radiance * (cosine * perLink));
+        if (light.valid() && cosine > 0)
+          samples[static_cast<size_t>(std::max(0, layer))].ask(h.slot, shadowRay(offsetOrigin(h.p, h.n), h.p, light),
+                                                               h.left * light.radiance * (cosine * perLink));
       });
     }
     for (size_t l = 0; l < lux.size(); ++l) count += samples[l].addTo(rays, lux[l]);

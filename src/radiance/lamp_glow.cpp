@@ -11,17 +11,20 @@ constexpr float kTries = 16;  // samples that a choice among candidates is worth
 
 }  // namespace
 
-LampGlow::LampGlow(std::vector<GlowPoint> points, float voxelSizeM) : points_(std::move(points)), voxelSizeM_(voxelSizeM) {
+LampGlow::LampGlow(std::vector<GlowPoint> points, float voxelSizeM)
+    : points_(std::move(points)), voxelSizeM_(voxelSizeM) {
   double flux = 0;
   for (const GlowPoint& g : points_) flux += static_cast<double>(luminance(g.fluxLm));
-  // Chosen by flux, a direction towards luminance L at distance d is found with a density of pi L d² / (flux cos) per steradian.
+  // Chosen by flux, a direction towards luminance L at distance d is found with a density of pi L d² / (flux cos) per
+  // steradian.
   perRadiance_ = flux > 0 ? kTries * kPi / static_cast<float>(flux) : 0;
 }
 
-// Cones read glow on the base level only, and leave that where they are two voxels wide. That distance varies by a factor of two
-// (see marchCone's levelShift).
+// Cones read glow on the base level only, and leave that where they are two voxels wide. That distance varies by a
+// factor of two (see marchCone's levelShift).
 float LampGlow::shareAt(const GlowPoint& g, float distance, float cosLight, const GlowCone& cone) const {
-  const float onBase = cone.tanHalf <= 0 ? 1 : std::clamp(std::log2(voxelSizeM_ / std::max(cone.tanHalf * distance, 1e-9f)), 0.0f, 1.0f);
+  const float onBase =
+      cone.tanHalf <= 0 ? 1 : std::clamp(std::log2(voxelSizeM_ / std::max(cone.tanHalf * distance, 1e-9f)), 0.0f, 1.0f);
   return 1 - onBase * coneShare(g.radianceCdM2, distance, cosLight, cone.pdf);
 }
 
@@ -46,7 +49,8 @@ GlowSample LampGlow::sample(Vec3 p, Vec3 n, float diffuseCones, float tanHalf, S
   for (size_t i = 0; i < kCandidates; ++i) {
     const GlowPoint& g = points_[candidate[i]];
     const Vec3 d = g.p - p;
-    const float d2 = lengthSquared(d), distance = std::sqrt(d2), cosSurface = dot(d, n) / std::max(distance, 1e-12f), cosLight = -dot(d, g.n) / std::max(distance, 1e-12f);
+    const float d2 = lengthSquared(d), distance = std::sqrt(d2), cosSurface = dot(d, n) / std::max(distance, 1e-12f),
+                cosLight = -dot(d, g.n) / std::max(distance, 1e-12f);
     if (cosSurface > 0 && cosLight > 0) {
       const GlowCone cone{diffuseCones * cosSurface / kPi, std::min(tanHalf, cosSurface)};
       sum += cosSurface * cosLight / d2 * shareAt(g, distance, cosLight, cone);

@@ -1,6 +1,7 @@
-// What surfaces close to point and spot lamps reflect: the inside of a shade, the ceiling over a pendant. From afar such a spot is
-// small and very bright, so few cones find it. It is kept as points, each an exact place on a surface, that light is sampled from
-// with shadow rays; cones and points share it by multiple importance sampling (Veach 1997, power heuristic).
+// What surfaces close to point and spot lamps reflect: the inside of a shade, the ceiling over a pendant. From afar
+// such a spot is small and very bright, so few cones find it. It is kept as points, each an exact place on a surface,
+// that light is sampled from with shadow rays; cones and points share it by multiple importance sampling (Veach 1997,
+// power heuristic).
 #pragma once
 
 #include <cstdint>
@@ -41,11 +42,13 @@ class LampGlow {
   std::span<const GlowPoint> points() const { return points_; }
   const GlowPoint& point(size_t index) const { return points_[index]; }
 
-  // One point, chosen by what it could give without shadows to a surface at p with normal n, of what diffuse cones leave to points.
+  // One point, chosen by what it could give without shadows to a surface at p with normal n, of what diffuse cones
+// leave to points.
   GlowSample sample(Vec3 p, Vec3 n, float diffuseCones, float tanHalf, Sampler& sampler) const;
   // The part that points take of the light that goes from one of them to p. The rest is for the cones.
   float pointShare(size_t point, Vec3 p, const GlowCone& cone) const;
-  // The part that a cone takes of luminance that it meets at a distance (m) under a cosine, on voxels of the base level.
+  // The part that a cone takes of luminance that it meets at a distance (m) under a cosine, on voxels of the base
+// level.
   float coneShare(float radianceCdM2, float distance, float cosLight, float conePdf) const {
     const float points = perRadiance_ * radianceCdM2 * distance * distance, cones = cosLight * conePdf;
     return cones > 0 ? cones * cones / (cones * cones + points * points) : 0;

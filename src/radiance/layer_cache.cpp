@@ -32,7 +32,9 @@ LightCache::LayerDirect LightCache::directOf(const Sources& from, const LightLay
   }
   std::vector<Vec3> far;
   for (const LitParticles& p : litParticles()) {
-    if ((p.lamp >= 0 ? layers.ofLamp[static_cast<size_t>(p.lamp)] : layers.ofEmitter[static_cast<size_t>(p.emitter)]) != layer) continue;
+    if ((p.lamp >= 0 ? layers.ofLamp[static_cast<size_t>(p.lamp)] : layers.ofEmitter[static_cast<size_t>(p.emitter)]) !=
+        layer)
+      continue;
     out.near.resize(voxels.slots.size()), far.resize(voxels.slots.size());
     p.particles->near.addTo(voxels, p.scale, out.near);
     p.particles->far.addTo(voxels, p.scale, far);
@@ -48,7 +50,8 @@ LightCache::LayerDirect LightCache::directOf(const Sources& from, const LightLay
   add(out.all, far);
   if (layer == layers.sun && !sunHeld_.empty()) {
     out.held = sunHeld_;
-    parallelFor(out.all.size(), 8192, [&](size_t i) { out.all[i] = max(Vec3(0), out.all[i] - sunHeld_[i]) + sunArrives_[i]; });
+    parallelFor(out.all.size(), 8192,
+                [&](size_t i) { out.all[i] = max(Vec3(0), out.all[i] - sunHeld_[i]) + sunArrives_[i]; });
   }
   if (!hidden_.empty()) add(out.all, std::exchange(hidden_[static_cast<size_t>(layer)], {}));
   return out;
@@ -71,7 +74,8 @@ void LightCache::splitIntoLayers(const Sources& from, const Bounces& like) {
       const size_t l = begin + k;
       LayerDirect light = directOf(from, layers, static_cast<int32_t>(l));
       for (size_t b = 0; b < voxels.bricks.size(); ++b) out.reach[b] |= static_cast<uint64_t>(light.straight[b]) << l;
-      direct.push_back(std::move(light.all)), near.push_back(std::move(light.near)), held.push_back(std::move(light.held));
+      direct.push_back(std::move(light.all)), near.push_back(std::move(light.near)),
+          held.push_back(std::move(light.held));
     }
     bounceTogether(voxels, links_, direct, indirect, like, from.progress);
     for (size_t k = 0; k < count; ++k) {
@@ -93,16 +97,20 @@ void LightCache::splitIntoLayers(const Sources& from, const Bounces& like) {
 }
 
 // Of one layer, relative to the light there is.
-void LightCache::keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, const std::vector<Vec3>& held, std::vector<float>& mostGlow) {
+void LightCache::keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect,
+                            const std::vector<Vec3>& near, const std::vector<Vec3>& held,
+                            std::vector<float>& mostGlow) {
   SlotLayers& out = field_.layers;
   parallelFor(direct.size(), 8192, [&](size_t s) {
-    const Vec3 glow = near.empty() ? Vec3(0) : near[s], all = direct[s] + indirect[s] + glow + (held.empty() ? Vec3(0) : held[s]);
+    const Vec3 glow = near.empty() ? Vec3(0) : near[s],
+               all = direct[s] + indirect[s] + glow + (held.empty() ? Vec3(0) : held[s]);
     uint16_t* at = &out.shares[s * out.slotSize() + layer];
     for (int c = 0; c < 3; ++c) {
       const float whole = field_.irradianceLux[s][c];
       at[static_cast<size_t>(c) * out.stride] = toHalf(whole > 0 ? std::min(all[c] / whole, kMostShare) : 0);
     }
-    if (!out.glowOf.empty() && luminance(glow) > mostGlow[s]) mostGlow[s] = luminance(glow), out.glowOf[s] = static_cast<int8_t>(layer);
+    if (!out.glowOf.empty() && luminance(glow) > mostGlow[s])
+      mostGlow[s] = luminance(glow), out.glowOf[s] = static_cast<int8_t>(layer);
   });
 }
 

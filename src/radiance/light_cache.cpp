@@ -19,8 +19,9 @@ constexpr size_t kDarkLamps = 16;  // kept
 constexpr size_t kMostApart = 32;  // lamps: every slot sends rays to each
 
 bool sameLight(const Lamp& a, const Lamp& b) {
-  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad &&
-         a.web == b.web && (!a.web || (a.up == b.up && a.extended == b.extended));
+  return a.kind == b.kind && a.position == b.position && a.direction == b.direction &&
+         a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad && a.web == b.web &&
+         (!a.web || (a.up == b.up && a.extended == b.extended));
 }
 
 // lm, of the slots together.
@@ -35,7 +36,8 @@ Vec3 fluxOf(const Voxels& voxels, const std::vector<Vec3>& lux) {
 // Reports from one thread at a time.
 class Steps {
  public:
-  Steps(const Progress& progress, float from, float to, size_t count) : progress_(progress), from_(from), to_(to), count_(count) {}
+  Steps(const Progress& progress, float from, float to, size_t count)
+      : progress_(progress), from_(from), to_(to), count_(count) {}
   void one() {
     const size_t d = ++done_;
     if (d % 256 == 0 && reporting_.try_lock()) {
@@ -54,7 +56,8 @@ class Steps {
 
 }  // namespace
 
-LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress)
+LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                       const RadianceSettings& settings, const Progress& progress)
     : settings_(settings), paths_(rays, voxels, settings.seed, progress, settings.still) {
   const Sources from{rays, lights, voxels, progress};
   traceAllLinks(from);
@@ -97,7 +100,8 @@ void LightCache::traceAllParticles(const Sources& from) {
   const size_t small = smallEmitters(from);
   for (EmitterLight& light : emitters_) {
     if (!light.needsAllParticles()) continue;
-    light.particles = particlesFrom(from, particlesOf(from.lights, static_cast<size_t>(light.index), small, from.voxels.voxelSizeM));
+    light.particles =
+        particlesFrom(from, particlesOf(from.lights, static_cast<size_t>(light.index), small, from.voxels.voxelSizeM));
     // These are of the mesh as it shines now, and so must be all that is kept of it.
     light.direct.scale(light.scale);
     light.mesh = EmissiveMesh(from.rays.scene(), light.mesh.instance), light.scale = Vec3(1);
@@ -107,7 +111,8 @@ void LightCache::traceAllParticles(const Sources& from) {
   }
 }
 
-void LightCache::followDaylight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress) {
+void LightCache::followDaylight(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                                const Progress& progress) {
   const Sources from{rays, lights, voxels, progress};
   field_.rays = 0;
   paths_.refer(rays, voxels);
@@ -136,7 +141,8 @@ void LightCache::traceAllLinks(const Sources& from) {
   Steps steps(from.progress, 0, 0.5f, from.voxels.bricks.size());
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
-    traceLinks(from.voxels, paths_, b, linksOfBrick(from.voxels, links_, b), settings_.seed, links_, hasSky ? &guide : nullptr);
+    traceLinks(from.voxels, paths_, b, linksOfBrick(from.voxels, links_, b), settings_.seed, links_,
+               hasSky ? &guide : nullptr);
     steps.one();
   });
   if (from.progress.stop()) return;
@@ -157,10 +163,12 @@ void LightCache::findGuide(const Sources& from) {
   field_.guide = guide.finish(from.progress);
 }
 
-// What is seen of lamps and emissive meshes. Where things move it would change with them, and with it the random choices of all that sees them.
+// What is seen of lamps and emissive meshes. Where things move it would change with them, and with it the random
+// choices of all that sees them.
 void LightCache::learnLights(const Sources& from) {
   field_.seen = {};
-  if (settings_.still && !from.progress.stop()) field_.seen = SeenLights(from.rays, from.lights, from.voxels, paths_, settings_.seed, field_.rays);
+  if (settings_.still && !from.progress.stop())
+    field_.seen = SeenLights(from.rays, from.lights, from.voxels, paths_, settings_.seed, field_.rays);
 }
 
 // Suns and sky.
@@ -168,7 +176,8 @@ void LightCache::traceDaylight(const Sources& from) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   suns_ = sky_ = {};
   skyWays_.clear();
-  if (from.lights.sunCount() > 0) suns_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
+  if (from.lights.sunCount() > 0)
+    suns_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.suns(b, {}, lux); });
   field_.sunPoints.clear();
   if (settings_.still && from.lights.sunCount() == 1 && !suns_.empty() && !from.progress.stop()) {
     std::vector<Vec3> sun(from.voxels.slots.size());
@@ -198,7 +207,9 @@ void LightCache::traceLamp(const Sources& from, LampLight& light) {
   light.particles = particlesFrom(from, particlesOfLamp(from, light.lamp));
 }
 
-bool LightCache::lampsApart(const Lights& lights) const { return !settings_.still || settings_.layers || lights.lampCount() <= kMostApart; }
+bool LightCache::lampsApart(const Lights& lights) const {
+  return !settings_.still || settings_.layers || lights.lampCount() <= kMostApart;
+}
 
 void LightCache::traceLampsTogether(const Sources& from) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
@@ -269,7 +280,10 @@ bool LightCache::hasFewParticles() const {
          std::any_of(lamps_.begin(), lamps_.end(), [](const LampLight& l) { return l.needsAllParticles(); });
 }
 
-int LightCache::bouncesOfUpdate() { return mostAtOnce_ = settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces) : settings_.maxBounces; }
+int LightCache::bouncesOfUpdate() {
+  return mostAtOnce_ = settings_.bouncesAtOnce > 0 ? std::min(settings_.bouncesAtOnce, settings_.maxBounces)
+                                                   : settings_.maxBounces;
+}
 
 void LightCache::solve(const Sources& from, int mostBounces) {
   if (from.progress.stop()) return;
@@ -281,7 +295,8 @@ void LightCache::solve(const Sources& from, int mostBounces) {
 std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   const Voxels& voxels = from.voxels;
   direct_.assign(voxels.slots.size(), {});
-  for (const SlotLight* light : {&suns_, &sky_, &lampsTogether_, &emittersTogether_}) light->addTo(voxels, Vec3(1), direct_);
+  for (const SlotLight* light : {&suns_, &sky_, &lampsTogether_, &emittersTogether_})
+    light->addTo(voxels, Vec3(1), direct_);
   for (const EmitterLight& e : emitters_) {
     if (!isBlack(e.scale)) e.direct.addTo(voxels, e.scale, direct_);
   }
@@ -290,7 +305,8 @@ std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   }
   holdSun(from);
   if (!links_.hidden.empty()) {
-    hidden_ = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, field_.seen, settings_.layers.get(), settings_.seed, field_.rays);
+    hidden_ = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, field_.seen,
+                            settings_.layers.get(), settings_.seed, field_.rays);
     for (std::vector<Vec3>& hidden : hidden_) {
       smooth(links_, hidden);
       for (size_t i = 0; i < hidden.size(); ++i) direct_[i] += hidden[i];
@@ -324,9 +340,7 @@ void LightCache::holdSun(const Sources& from) {
   });
   sunArrives_ = lightFrom(patches, from.rays, voxels, paths_, links_, reflected, settings_.seed, field_.rays);
   smooth(links_, sunArrives_);
-  parallelFor(sun.size(), 8192, [&](size_t i) {
-    direct_[i] = max(Vec3(0), direct_[i] - sun[i]) + sunArrives_[i];
-  });
+  parallelFor(sun.size(), 8192, [&](size_t i) { direct_[i] = max(Vec3(0), direct_[i] - sun[i]) + sunArrives_[i]; });
   sunHeld_ = std::move(sun);
 }
 
@@ -334,7 +348,9 @@ void LightCache::bounceOn(const Sources& from, int mostBounces, std::vector<Vec3
   const Voxels& voxels = from.voxels;
   RadianceSettings once = settings_;
   once.maxBounces = mostBounces;
-  const Bounces done = once.bounceBy == BounceBy::Cones ? bounceByCones(voxels, paths_, direct_, indirect_, once, from.progress) : bounce(voxels, links_, direct_, indirect_, once, from.progress);
+  const Bounces done = once.bounceBy == BounceBy::Cones
+                           ? bounceByCones(voxels, paths_, direct_, indirect_, once, from.progress)
+                           : bounce(voxels, links_, direct_, indirect_, once, from.progress);
   settled_ = !hasFewParticles() && (done.done < mostBounces || mostBounces >= settings_.maxBounces);
   field_.bounces = done.done, field_.residual = done.residual;
   if (!from.progress.stop()) fillField(from, near);
@@ -375,7 +391,8 @@ std::vector<Vec3> LightCache::sharpLux(const Voxels& voxels, std::span<const uin
     if (!isBlack(l.lamp.intensityCd) && isSharp(l.lamp)) l.direct.addTo(voxels, l.lamp.intensityCd, out);
   }
   for (const EmitterLight& e : emitters_) {
-    if (std::find(emissive.begin(), emissive.end(), e.mesh.instance) != emissive.end() && !isBlack(e.scale)) e.direct.addTo(voxels, e.scale, out);
+    if (std::find(emissive.begin(), emissive.end(), e.mesh.instance) != emissive.end() && !isBlack(e.scale))
+      e.direct.addTo(voxels, e.scale, out);
   }
   return out;
 }
@@ -384,7 +401,8 @@ std::vector<Vec3> LightCache::sharpLux(const Voxels& voxels, std::span<const uin
 std::vector<LightCache::LitParticles> LightCache::litParticles() const {
   std::vector<LitParticles> out;
   for (const EmitterLight& e : emitters_) out.push_back({&e.particles, e.scale, -1, e.index});
-  for (size_t i = 0; i < lamps_.size(); ++i) out.push_back({&lamps_[i].particles, lamps_[i].lamp.intensityCd, static_cast<int32_t>(i), -1});
+  for (size_t i = 0; i < lamps_.size(); ++i)
+    out.push_back({&lamps_[i].particles, lamps_[i].lamp.intensityCd, static_cast<int32_t>(i), -1});
   out.push_back({&lampParticles_, Vec3(1), -1, -1});
   std::erase_if(out, [](const LitParticles& p) { return p.particles->near.empty() || isBlack(p.scale); });
   return out;
@@ -413,7 +431,9 @@ std::vector<GlowPoint> LightCache::glowPoints(const std::vector<Vec3>& glow) con
 }
 
 size_t LightCache::bytes() const {
-  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + lampsTogether_.bytes() + lampParticles_.bytes() + emittersTogether_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) + (direct_.size() + indirect_.size()) * sizeof(Vec3);
+  size_t sum = paths_.bytes() + links_.bytes() + suns_.bytes() + sky_.bytes() + lampsTogether_.bytes() +
+               lampParticles_.bytes() + emittersTogether_.bytes() + skyWays_.size() * sizeof(skyWays_[0]) +
+               (direct_.size() + indirect_.size()) * sizeof(Vec3);
   for (const LampLight& l : lamps_) sum += l.direct.bytes() + l.particles.bytes();
   for (const EmitterLight& e : emitters_) sum += e.direct.bytes() + e.particles.bytes();
   return sum;

@@ -1,4 +1,5 @@
-// Light in voxels that is kept up to date: what a change of lamps or a moved instance leaves as it is is not traced again.
+// Light in voxels that is kept up to date: what a change of lamps or a moved instance leaves as it is is not traced
+ // again.
 #pragma once
 
 #include <cstdint>
@@ -20,31 +21,37 @@ namespace roomlight {
 
 class LightCache {
  public:
-  // Lights everything. Where `progress` says stop, here or below, the field comes out without irradiance and the cache is of no
-  // further use.
-  LightCache(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings, const Progress& progress = {});
+  // Lights everything. Where `progress` says stop, here or below, the field comes out without irradiance and the cache
+  // is of no further use.
+  LightCache(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceSettings& settings,
+             const Progress& progress = {});
 
-  // After lamps were switched, dimmed, coloured, moved, added or removed, or emissive meshes switched, dimmed or coloured; suns, sky and
-  // geometry are as before. Only lamps in new places are traced, those dimmed or coloured are scaled, and bounces go on from the light there was.
+  // After lamps were switched, dimmed, coloured, moved, added or removed, or emissive meshes switched, dimmed or
+  // coloured; suns, sky and geometry are as before. Only lamps in new places are traced, those dimmed or coloured are
+  // scaled, and bounces go on from the light there was.
   void relight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
 
-  // After the suns or the sky changed; lamps and the light of emissive meshes may have changed too, geometry is as before. Bounces go on from the light there was, darkened
-  // as what they come from.
+  // After the suns or the sky changed; lamps and the light of emissive meshes may have changed too, geometry is as
+  // before. Bounces go on from the light there was, darkened as what they come from.
   void followDaylight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
 
-  // After instances moved, appeared or vanished; suns and sky are as before, lamps and the light of emissive meshes may have changed too. `rays`, `lights` and `voxels`
-  // are of the scene as it is now; `places`: where they were and where they are, m (see followMoves); none empty. What changed bricks, or ways that cross the changed places, have to do with is traced again; the
-  // rest comes out as if all were lit anew with the same seed.
-  void update(const RayScene& rays, const Lights& lights, const Voxels& voxels, std::span<const Bounds3> places, const Progress& progress = {});
+  // After instances moved, appeared or vanished; suns and sky are as before, lamps and the light of emissive meshes may
+  // have changed too. `rays`, `lights` and `voxels` are of the scene as it is now; `places`: where they were and where
+  // they are, m (see followMoves); none empty. What changed bricks, or ways that cross the changed places, have to do
+  // with is traced again; the rest comes out as if all were lit anew with the same seed.
+  void update(const RayScene& rays, const Lights& lights, const Voxels& voxels, std::span<const Bounds3> places,
+              const Progress& progress = {});
 
-  // Goes on with bounces that an update left over (see RadianceSettings::bouncesAtOnce): with twice as many as the call before made.
+  // Goes on with bounces that an update left over (see RadianceSettings::bouncesAtOnce): with twice as many as the call
+  // before made.
   void goOn(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Progress& progress = {});
   // Whether bounces have come to their end.
   bool settled() const { return settled_; }
 
   const RadianceField& field() const { return field_; }
-  // Of the field's irradiance what comes straight from suns, from lamps that have sharp shadows (trace/lamp_light.h) and from the emissive meshes that these instances are, where they are
-  // kept apart; lx per slot. What particles of these bring is not in it.
+  // Of the field's irradiance what comes straight from suns, from lamps that have sharp shadows (trace/lamp_light.h)
+  // and from the emissive meshes that these instances are, where they are kept apart; lx per slot. What particles of
+  // these bring is not in it.
   std::vector<Vec3> sharpLux(const Voxels& voxels, std::span<const uint32_t> emissive = {}) const;
   // Whether the light of each emissive mesh is kept.
   bool emittersApart(const Lights& lights) const;
@@ -64,7 +71,7 @@ class LightCache {
   // As it was when it was traced. Dark where it has been switched off: it may come back.
   struct EmitterLight {
     EmissiveMesh mesh;
-    Vec3 scale;     // that makes it what shines now
+    Vec3 scale;  // that makes it what shines now
     int32_t index;  // of all emissive meshes; -1: dark
     SlotLight direct;
     ParticleLight particles;
@@ -72,12 +79,12 @@ class LightCache {
   };
   struct LitParticles {
     const ParticleLight* particles;
-    Vec3 scale;                  // that makes them its light
-    int32_t lamp, emitter;       // whose; -1: none
+    Vec3 scale;  // that makes them its light
+    int32_t lamp, emitter;  // whose; -1: none
   };
   struct LayerDirect {
-    std::vector<Vec3> all, near;    // lx per slot, as in direct_; near: empty where there is none
-    std::vector<Vec3> held;         // of the sun, as sunHeld_; else empty
+    std::vector<Vec3> all, near;  // lx per slot, as in direct_; near: empty where there is none
+    std::vector<Vec3> held;  // of the sun, as sunHeld_; else empty
     std::vector<uint8_t> straight;  // per brick: whether any comes straight
   };
   // Traces a light in a brick: all of it, or what boxes have to do with (see DirectLight).
@@ -98,7 +105,8 @@ class LightCache {
   void updateFixedLights(const Sources& from, const Change& change);
   void updateEmitters(const Sources& from, const Change& change);
   void updateParticles(const Sources& from, const Change& change);
-  void updateParticlesOf(const Sources& from, const Change& change, const ParticleSource& source, ParticleLight& particles);
+  void updateParticlesOf(const Sources& from, const Change& change, const ParticleSource& source,
+                         ParticleLight& particles);
   void updateLamps(const Sources& from, const Change& change);
   void findGuide(const Sources& from);
   void traceDaylight(const Sources& from);
@@ -107,7 +115,8 @@ class LightCache {
   void traceEmittersTogether(const Sources& from);
   void addEmitter(const Sources& from, size_t index, std::vector<Vec3>& lux);
   EmitterLight tracedEmitter(const Sources& from, size_t index, size_t small);
-  static SlotLight lightOfAll(const Sources& from, const std::function<void(size_t brick, std::vector<Vec3>& lux)>& ofBrick);
+  static SlotLight lightOfAll(const Sources& from,
+                              const std::function<void(size_t brick, std::vector<Vec3>& lux)>& ofBrick);
   void traceLamp(const Sources& from, LampLight& light);
   void traceLampsTogether(const Sources& from);
   ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
@@ -124,7 +133,8 @@ class LightCache {
   void bounceOn(const Sources& from, int mostBounces, std::vector<Vec3>& near);
   int bouncesOfUpdate();
   void splitIntoLayers(const Sources& from, const Bounces& like);
-  void keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect, const std::vector<Vec3>& near, const std::vector<Vec3>& held, std::vector<float>& mostGlow);
+  void keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect,
+                  const std::vector<Vec3>& near, const std::vector<Vec3>& held, std::vector<float>& mostGlow);
   LayerDirect directOf(const Sources& from, const LightLayers& layers, int32_t layer);
   void fillField(const Sources& from, std::vector<Vec3>& near);
   std::vector<GlowPoint> glowPoints(const std::vector<Vec3>& glow) const;
@@ -134,16 +144,18 @@ class LightCache {
   Links links_;
   std::vector<BrickMark> marks_;
   SlotLight suns_, sky_;
-  SlotLight lampsTogether_;                     // all, straight, where there are too many to keep them apart
-  ParticleLight lampParticles_;                 // and what their particles leave
-  SlotLight emittersTogether_;                  // all, where there are too many to keep them apart
-  std::vector<EmissiveMesh> knownTogether_;     // as they were then
+  SlotLight lampsTogether_;  // all, straight, where there are too many to keep them apart
+  ParticleLight lampParticles_;  // and what their particles leave
+  SlotLight emittersTogether_;  // all, where there are too many to keep them apart
+  std::vector<EmissiveMesh> knownTogether_;  // as they were then
   SkyWays skyWays_;  // empty: no sky
   std::vector<EmitterLight> emitters_;
   std::vector<LampLight> lamps_;
-  std::vector<Vec3> sunHeld_;            // straight from the sun, lx per slot, of slots whose reflection is sampled by place; not in direct_, for that has been passed on
-  std::vector<std::vector<Vec3>> hidden_;  // of each layer, what it lights of hidden places, as lightOfHidden(); until it is told apart
-  std::vector<Vec3> sunArrives_;         // what they have sent on: in direct_
+  std::vector<Vec3> sunHeld_;  // straight from the sun, lx per slot, of slots whose reflection is sampled by place; not
+                               // in direct_, for that has been passed on
+  std::vector<std::vector<Vec3>>
+      hidden_;  // of each layer, what it lights of hidden places, as lightOfHidden(); until it is told apart
+  std::vector<Vec3> sunArrives_;  // what they have sent on: in direct_
   std::vector<Vec3> direct_, indirect_;  // what bounces, and what has bounced; lx per slot
   int mostAtOnce_ = 0;  // bounces, the last time
   bool settled_ = true;

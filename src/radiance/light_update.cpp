@@ -6,22 +6,26 @@
 namespace roomlight {
 namespace {
 
-constexpr float kWithin = 2;  // voxels: so far at most from a slot's place lie points and hits on the surface it stands for
+constexpr float kWithin =
+    2;  // voxels: so far at most from a slot's place lie points and hits on the surface it stands for
 
 bool touched(const Detour& detour, std::span<const Bounds3> places, float h) {
-  return std::any_of(places.begin(), places.end(), [&](const Bounds3& place) { return overlap(detour.within, place, kWithin * h); });
+  return std::any_of(places.begin(), places.end(),
+                     [&](const Bounds3& place) { return overlap(detour.within, place, kWithin * h); });
 }
 
-// What is left of the old links of a carried brick; returns those to trace again. A straight link is known to end at its slot, what
-// is reflected on its way to keep within a box.
-std::vector<LinkOf> carryLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& before, const Carried& carried,
-                               std::span<const Bounds3> places, Links& links) {
+// What is left of the old links of a carried brick; returns those to trace again. A straight link is known to end at
+// its slot, what is reflected on its way to keep within a box.
+std::vector<LinkOf> carryLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed,
+                               const Links& before, const Carried& carried, std::span<const Bounds3> places,
+                               Links& links) {
   std::vector<LinkOf> wanted;
   std::vector<Bounds3> ahead;
   const auto [first, last] = slotsOfBrick(voxels, brick);
   const float h = voxels.voxelSizeM;
   const Vec3 within(kWithin * h);
-  // A voxel's width off a box counts as crossing it: once roughly, by where slots are, and only then with the ray itself.
+  // A voxel's width off a box counts as crossing it: once roughly, by where slots are, and only then with the ray
+// itself.
   const auto crossed = [&](uint32_t s, uint32_t i, const Link& link, uint32_t end) {
     const Vec3 from = voxels.slots[s].position, to = voxels.slots[end].position;
     const Vec3 wide = within + Vec3(h);
@@ -41,7 +45,8 @@ std::vector<LinkOf> carryLinks(const Voxels& voxels, const SlotPaths& paths, siz
       const bool known = i < before.count(old);
       const Link link = known ? before.links[before.first[old] + i] : Link();
       const uint32_t end = known ? carried.newSlot[link.slot()] : Carried::kGone;
-      const bool changed = end == Carried::kGone || (link.isBent() ? touched(detours[next], places, h) : !ahead.empty() && crossed(s, i, link, end));
+      const bool changed = end == Carried::kGone || (link.isBent() ? touched(detours[next], places, h)
+                                                                   : !ahead.empty() && crossed(s, i, link, end));
       if (changed) {
         wanted.push_back({s, i});
       } else {
@@ -56,7 +61,8 @@ std::vector<LinkOf> carryLinks(const Voxels& voxels, const SlotPaths& paths, siz
 
 }  // namespace
 
-void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels& voxels, std::span<const Bounds3> places, const Progress& progress) {
+void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                        std::span<const Bounds3> places, const Progress& progress) {
   const Sources from{rays, lights, voxels, progress};
   std::vector<BrickMark> marks = marksOf(voxels);
   const Carried carried = carry(marks_, marks, voxels, places);
@@ -94,7 +100,9 @@ void LightCache::updateLinks(const Sources& from, const SlotPaths& paths, const 
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
     const bool keeps = change.carried.keeps(b);
-    std::vector<LinkOf> wanted = keeps ? carryLinks(from.voxels, paths, b, settings_.seed, links_, change.carried, change.places, links) : linksOfBrick(from.voxels, links, b);
+    std::vector<LinkOf> wanted =
+        keeps ? carryLinks(from.voxels, paths, b, settings_.seed, links_, change.carried, change.places, links)
+              : linksOfBrick(from.voxels, links, b);
     traceLinks(from.voxels, paths, b, wanted, settings_.seed, links, hasSky && !keeps ? &guide : nullptr);
     traced += wanted.size();
   });
@@ -103,7 +111,8 @@ void LightCache::updateLinks(const Sources& from, const SlotPaths& paths, const 
   if (hasSky) field_.guide = carriedGuide(field_.guide, guide.finish(from.progress), change.carried);
 }
 
-SlotLight LightCache::updated(const Sources& from, const SlotLight& before, const Change& change, const BrickTracer& trace) const {
+SlotLight LightCache::updated(const Sources& from, const SlotLight& before, const Change& change,
+                              const BrickTracer& trace) const {
   std::vector<Vec3> lux(from.voxels.slots.size());
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
@@ -120,7 +129,8 @@ SlotLight LightCache::updated(const Sources& from, const SlotLight& before, cons
 void LightCache::updateFixedLights(const Sources& from, const Change& change) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   if (from.lights.sunCount() > 0) {
-    suns_ = updated(from, suns_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.suns(b, near, lux); });
+    suns_ = updated(from, suns_, change,
+                    [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.suns(b, near, lux); });
   }
   if (from.lights.sky().present()) {
     SkyWays ways(from.voxels.slots.size());
@@ -128,7 +138,9 @@ void LightCache::updateFixedLights(const Sources& from, const Change& change) {
       if (change.carried.newSlot[o] != Carried::kGone) ways[change.carried.newSlot[o]] = skyWays_[o];
     }
     skyWays_ = std::move(ways);
-    sky_ = updated(from, sky_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.sky(field_.guide, b, near, skyWays_, lux); });
+    sky_ = updated(from, sky_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) {
+      direct.sky(field_.guide, b, near, skyWays_, lux);
+    });
   }
   field_.rays += direct.rayCount();
 }
@@ -137,7 +149,9 @@ void LightCache::updateLamps(const Sources& from, const Change& change) {
   if (!lampsApart(from.lights)) return;  // matchLamps() lights them together
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   for (LampLight& light : lamps_) {
-    light.direct = updated(from, light.direct, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.lamp(light.lamp, b, near, lux); });
+    light.direct = updated(
+        from, light.direct, change,
+        [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.lamp(light.lamp, b, near, lux); });
   }
   field_.rays += direct.rayCount();
 }
@@ -146,18 +160,22 @@ void LightCache::updateParticles(const Sources& from, const Change& change) {
   const size_t small = smallEmitters(from);
   for (EmitterLight& light : emitters_) {
     const auto index = static_cast<size_t>(light.index);
-    if (isSmall(from.lights, index, from.voxels.voxelSizeM)) updateParticlesOf(from, change, particlesOf(from.lights, index, small, from.voxels.voxelSizeM), light.particles);
+    if (isSmall(from.lights, index, from.voxels.voxelSizeM))
+      updateParticlesOf(from, change, particlesOf(from.lights, index, small, from.voxels.voxelSizeM), light.particles);
   }
   for (LampLight& light : lamps_) updateParticlesOf(from, change, particlesOfLamp(from, light.lamp), light.particles);
 }
 
-void LightCache::updateParticlesOf(const Sources& from, const Change& change, const ParticleSource& source, ParticleLight& particles) {
+void LightCache::updateParticlesOf(const Sources& from, const Change& change, const ParticleSource& source,
+                                   ParticleLight& particles) {
   if (particles.trails.empty()) {  // there was no surface near it
-    const bool mayBe = std::any_of(change.places.begin(), change.places.end(), [&](const Bounds3& place) { return source.around.touches(place); });
+    const bool mayBe = std::any_of(change.places.begin(), change.places.end(),
+                                   [&](const Bounds3& place) { return source.around.touches(place); });
     if (mayBe) particles = particlesFrom(from, source);
     return;
   }
-  roomlight::updateParticles(from.rays, from.voxels, paths_, source, settings_, change.carried, change.places, from.progress, particles);
+  roomlight::updateParticles(from.rays, from.voxels, paths_, source, settings_, change.carried, change.places,
+                             from.progress, particles);
   field_.rays += particles.rays;
 }
 

@@ -32,7 +32,8 @@ Kin kinOf(const Voxels& voxels, const SlotPaths& paths, size_t s, Int3 v) {
     const int64_t record = voxels.voxelAt({v.x + step[0], v.y + step[1], v.z + step[2]});
     const int64_t other = record < 0 ? -1 : voxels.slotAt(voxels.voxels[static_cast<size_t>(record)], slot.face);
     const auto o = static_cast<size_t>(other);
-    if (other >= 0 && paths.isSheet(o) && areKin(slot, voxels.slots[o], voxels.voxelSizeM)) kin[place] = static_cast<uint32_t>(o);
+    if (other >= 0 && paths.isSheet(o) && areKin(slot, voxels.slots[o], voxels.voxelSizeM))
+      kin[place] = static_cast<uint32_t>(o);
     ++place;
   }
   return kin;
@@ -59,14 +60,17 @@ bool carriesKin(const Voxels& voxels, const Links& before, const Carried& carrie
 // Like directions have near numbers: cells of an octahedron unfolded.
 uint32_t binOf(Vec3 d) {
   const float scale = 1 / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
-  const auto cell = [&](float v) { return static_cast<uint32_t>(std::clamp((0.5f * v * scale + 0.5f) * kBins, 0.0f, kBins - 1.0f)); };
+  const auto cell = [&](float v) {
+    return static_cast<uint32_t>(std::clamp((0.5f * v * scale + 0.5f) * kBins, 0.0f, kBins - 1.0f));
+  };
   const uint32_t x = cell(d.x), y = cell(d.y);
   return (d.z < 0 ? kBins * kBins : 0) + y * kBins + (y & 1 ? kBins - 1 - x : x);
 }
 
 // Of what arrived or escaped in the end: rays[k] is that of wanted[order[k]].
-void noteDetours(const Voxels& voxels, size_t brick, std::span<const LinkOf> wanted, std::span<const uint32_t> order, std::span<const Ray> rays, std::span<const Arrival> ends,
-                 std::span<const HiddenReflection> hidden, std::vector<Detour>& out) {
+void noteDetours(const Voxels& voxels, size_t brick, std::span<const LinkOf> wanted, std::span<const uint32_t> order,
+                 std::span<const Ray> rays, std::span<const Arrival> ends, std::span<const HiddenReflection> hidden,
+                 std::vector<Detour>& out) {
   if (hidden.empty()) return;
   const auto firstSlot = static_cast<uint32_t>(slotsOfBrick(voxels, brick).first);
   constexpr float kAway = 1e6f;  // m: out of any scene
@@ -83,7 +87,8 @@ void noteDetours(const Voxels& voxels, size_t brick, std::span<const LinkOf> wan
     }
     out.push_back({wanted[order[k]].slot - firstSlot, wanted[order[k]].i, within[k]});
   }
-  std::sort(out.begin(), out.end(), [](const Detour& a, const Detour& b) { return std::tie(a.slot, a.i) < std::tie(b.slot, b.i); });
+  std::sort(out.begin(), out.end(),
+            [](const Detour& a, const Detour& b) { return std::tie(a.slot, a.i) < std::tie(b.slot, b.i); });
 }
 
 Sampler wayOf(const SlotPaths& paths, LinkOf link, uint64_t seed) { return {paths.key(link.slot), link.i, seed + 5}; }
@@ -91,7 +96,8 @@ Sampler wayOf(const SlotPaths& paths, LinkOf link, uint64_t seed) { return {path
 }  // namespace
 
 size_t Links::bytes() const {
-  size_t sum = (first.size() + links.size()) * sizeof(uint32_t) + kin.size() * sizeof(Kin) + detours.size() * sizeof(detours[0]);
+  size_t sum =
+      (first.size() + links.size()) * sizeof(uint32_t) + kin.size() * sizeof(Kin) + detours.size() * sizeof(detours[0]);
   for (const auto& d : detours) sum += d.capacity() * sizeof(Detour);
   for (const auto& h : hidden) sum += h.capacity() * sizeof(HiddenPlace);
   return sum;
@@ -107,7 +113,8 @@ Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most, const Li
     for (int z = 0; z < kBrickSize; ++z) {
       for (uint64_t bits = brick.occupied[static_cast<size_t>(z)]; bits; bits &= bits - 1, ++record) {
         const int bit = std::countr_zero(bits);
-        const Int3 v{brick.coord.x * kBrickSize + (bit & 7), brick.coord.y * kBrickSize + (bit >> 3), brick.coord.z * kBrickSize + z};
+        const Int3 v{brick.coord.x * kBrickSize + (bit & 7), brick.coord.y * kBrickSize + (bit >> 3),
+                     brick.coord.z * kBrickSize + z};
         const SurfaceVoxel& voxel = voxels.voxels[record];
         const size_t end = voxel.firstSlot + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
         for (size_t s = voxel.firstSlot; s < end; ++s) out.kin[s] = kinOf(voxels, paths, s, v);
@@ -138,10 +145,12 @@ std::vector<LinkOf> linksOfBrick(const Voxels& voxels, const Links& links, size_
 
 Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed) {
   Sampler sampler(paths.key(link.slot), link.i, seed);
-  return {paths.point(link.slot, link.i), Frame(voxels.slots[link.slot].normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
+  return {paths.point(link.slot, link.i),
+          Frame(voxels.slots[link.slot].normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
 }
 
-size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& links, SkyGuideBuilder& guide) {
+size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& links,
+                 SkyGuideBuilder& guide) {
   const std::vector<LinkOf> all = linksOfBrick(voxels, links, brick);
   std::vector<Ray> rays;
   std::vector<Sampler> samplers;
@@ -156,13 +165,15 @@ size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uin
   for (const LinkOf& l : all) {
     const bool followed = links.links[links.first[l.slot] + l.i].isDark();
     const float open = followed && ends[next].escaped ? luminance(ends[next].left) : 0.0f;
-    guide.add(brick, voxels.slots[l.slot].face, followed ? rays[next].direction : linkRay(voxels, paths, l, seed).direction, open);
+    guide.add(brick, voxels.slots[l.slot].face,
+              followed ? rays[next].direction : linkRay(voxels, paths, l, seed).direction, open);
     next += followed;
   }
   return rays.size();
 }
 
-void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide) {
+void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted,
+                uint64_t seed, Links& links, SkyGuideBuilder* guide) {
   // In order of direction: rays traced together then meet the same things.
   std::vector<Ray> unsorted, rays;
   std::vector<uint32_t> bins, order(wanted.size());
@@ -182,20 +193,23 @@ void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std:
   std::vector<HiddenReflection> hidden;
   paths.follow(rays, samplers, ends, &hidden);
   if (!links.hidden.empty()) {
-    for (const HiddenReflection& h : hidden) links.hidden[brick].push_back({wanted[order[h.ray]].slot, h.p, h.n, h.left});
+    for (const HiddenReflection& h : hidden)
+      links.hidden[brick].push_back({wanted[order[h.ray]].slot, h.p, h.n, h.left});
   }
   noteDetours(voxels, brick, wanted, order, rays, ends, hidden, links.detours[brick]);
   for (size_t k = 0; k < ends.size(); ++k) {
     const Arrival& end = ends[k];
     const LinkOf& of = wanted[order[k]];
     const bool arrives = end.slot >= 0;
-    links.links[links.first[of.slot] + of.i] = Link(arrives ? static_cast<uint32_t>(end.slot) : of.slot, arrives ? luminance(end.left) : 0, end.reflected);
+    links.links[links.first[of.slot] + of.i] =
+        Link(arrives ? static_cast<uint32_t>(end.slot) : of.slot, arrives ? luminance(end.left) : 0, end.reflected);
   }
   if (!guide) return;
   // In the order asked for, so that sums are the same.
   std::vector<float> open(ends.size());
   for (size_t k = 0; k < ends.size(); ++k) open[order[k]] = ends[k].escaped ? luminance(ends[k].left) : 0.0f;
-  for (size_t j = 0; j < open.size(); ++j) guide->add(brick, voxels.slots[wanted[j].slot].face, unsorted[j].direction, open[j]);
+  for (size_t j = 0; j < open.size(); ++j)
+    guide->add(brick, voxels.slots[wanted[j].slot].face, unsorted[j].direction, open[j]);
 }
 
 }  // namespace roomlight

@@ -13,13 +13,15 @@
 
 namespace roomlight {
 
-// Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way leaves. Nothing
-// comes along a ray that arrives nowhere.
+// Where a ray from a slot arrives: the slot it sees, and in four bits how much of the light the glass on the way
+// leaves. Nothing comes along a ray that arrives nowhere.
 class Link {
  public:
   static constexpr float kUnit = 1.0f / 15;
   Link() = default;
-  Link(uint32_t slot, float left, bool bent) : packed_(slot | (bent ? kBent : 0) | static_cast<uint32_t>(std::lround(15 * std::clamp(left, 0.0f, 1.0f))) << 28) {}
+  Link(uint32_t slot, float left, bool bent)
+      : packed_(slot | (bent ? kBent : 0) |
+                static_cast<uint32_t>(std::lround(15 * std::clamp(left, 0.0f, 1.0f))) << 28) {}
   uint32_t slot() const { return packed_ & (kBent - 1); }
   float left() const { return static_cast<float>(packed_ >> 28); }  // in kUnit
   bool isDark() const { return packed_ >> 28 == 0; }
@@ -61,9 +63,10 @@ struct Links {
   size_t count(size_t slot) const { return first[slot + 1] - first[slot]; }
 };
 
-// Kin of all slots, and room for as many links as each gets: `links`, half as many where neighbours on the sheet have theirs. Where bricks
-// and all around them are carried from `before`, so are their kin.
-Links planLinks(const Voxels& voxels, const SlotPaths& paths, int links, const Links* before = nullptr, const Carried* carried = nullptr);
+// Kin of all slots, and room for as many links as each gets: `links`, half as many where neighbours on the sheet have
+// theirs. Where bricks and all around them are carried from `before`, so are their kin.
+Links planLinks(const Voxels& voxels, const SlotPaths& paths, int links, const Links* before = nullptr,
+                const Carried* carried = nullptr);
 
 struct LinkOf {
   uint32_t slot, i;
@@ -75,10 +78,13 @@ std::vector<LinkOf> linksOfBrick(const Voxels& voxels, const Links& links, size_
 // The ray of a link.
 Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed);
 
-// Tells `guide` what all links of a brick see of the sky: of those traced already only the ones that arrive nowhere are followed again. Returns how many.
-size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& links, SkyGuideBuilder& guide);
+// Tells `guide` what all links of a brick see of the sky: of those traced already only the ones that arrive nowhere are
+// followed again. Returns how many.
+size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& links,
+                 SkyGuideBuilder& guide);
 
 // Traces the wanted links of one brick, and tells `guide` (null: no sky) what they saw of the sky.
-void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted, uint64_t seed, Links& links, SkyGuideBuilder* guide);
+void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted,
+                uint64_t seed, Links& links, SkyGuideBuilder* guide);
 
 }  // namespace roomlight

@@ -12,8 +12,10 @@
 namespace roomlight {
 namespace {
 
-constexpr float kSmallest = 0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
-constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12, kChunk = 512, kFewestTogether = kChunk;
+constexpr float kSmallest =
+    0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
+constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12,
+                 kChunk = 512, kFewestTogether = kChunk;
 constexpr int kMostReflections = 64;
 constexpr size_t kFirstLook = 4;
 constexpr size_t kLampsAtOnce = 64;  // of which trails are in memory
@@ -35,18 +37,25 @@ size_t particlesFor(float sizeOfPoints, size_t sources) {
 }
 
 // Of each of many lamps that are lit together: those beside one place send theirs to the same slots.
-size_t particlesTogether(size_t lamps) { return std::clamp(kMostParticles / lamps, kFewestTogether, kMostPerSource) / kChunk * kChunk; }
+size_t particlesTogether(size_t lamps) {
+  return std::clamp(kMostParticles / lamps, kFewestTogether, kMostPerSource) / kChunk * kChunk;
+}
 
 // Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.
-float litArea(const FaceSlot& slot, float h) { return std::clamp(slot.areaM2, kSmallest * h * h, h * h / std::max(0.577f, maxComponent(abs(slot.normal)))); }
+float litArea(const FaceSlot& slot, float h) {
+  return std::clamp(slot.areaM2, kSmallest * h * h, h * h / std::max(0.577f, maxComponent(abs(slot.normal))));
+}
 
 class Particles {
  public:
   // `pointLm`: luminous flux that a point stands for.
-  Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, float pointLm)
+  Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source,
+            const RadianceSettings& settings, float pointLm)
       : rays_(rays), voxels_(voxels), paths_(paths), source_(source), settings_(settings), pointLm_(pointLm) {}
-  Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings)
-      : Particles(rays, voxels, paths, source, settings, source.fluxLm / std::min(kGlowPoints, static_cast<float>(source.particles))) {}
+  Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source,
+            const RadianceSettings& settings)
+      : Particles(rays, voxels, paths, source, settings,
+                  source.fluxLm / std::min(kGlowPoints, static_cast<float>(source.particles))) {}
 
   // Some of a chunk step by step together, so that they can be traced together. Added to `trail`.
   void trace(size_t chunk, std::span<const uint16_t> which, ParticleTrail& trail) const {
@@ -71,14 +80,17 @@ class Particles {
   };
 
   // From slot to slot while these are near the source. What falls on another slot straight from it is not ours.
-  void step(bool reflected, std::vector<Ray>& rays, std::vector<Sampler>& samplers, std::vector<Flight>& flights, ParticleTrail& trail) const {
+  void step(bool reflected, std::vector<Ray>& rays, std::vector<Sampler>& samplers, std::vector<Flight>& flights,
+            ParticleTrail& trail) const {
     std::vector<Arrival> ends;
     std::vector<HiddenReflection> hidden;
     paths_.follow(rays, samplers, ends, &hidden);
     std::vector<Bounds3> bent(hidden.empty() ? 0 : rays.size());
     for (const HiddenReflection& h : hidden) {
       bent[h.ray].add(h.p);
-      if (source_.around.contains(h.p) && !isLeftToRays(*h.material)) reflectedAt(h.p, h.n, *h.material, flights[h.ray].fluxLm * h.left, -1, flights[h.ray].particle, samplers[h.ray], trail);
+      if (source_.around.contains(h.p) && !isLeftToRays(*h.material))
+        reflectedAt(h.p, h.n, *h.material, flights[h.ray].fluxLm * h.left, -1, flights[h.ray].particle, samplers[h.ray],
+                    trail);
     }
     size_t live = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
@@ -86,14 +98,16 @@ class Particles {
       const auto s = static_cast<size_t>(end.slot);
       const bool arrives = end.slot >= 0;
       const SurfacePlace place = arrives ? paths_.place(end) : SurfacePlace{};
-      addWay(rays[i], end, arrives ? place.p : end.ray.origin + end.ray.direction * kAwayM, bent.empty() ? Bounds3() : bent[i], flights[i].particle, trail);
+      addWay(rays[i], end, arrives ? place.p : end.ray.origin + end.ray.direction * kAwayM,
+             bent.empty() ? Bounds3() : bent[i], flights[i].particle, trail);
       if (!arrives) continue;
       const FaceSlot& slot = voxels_.slots[s];
       const bool isNear = source_.around.contains(slot.position), indirect = reflected || end.reflected;
       if (!indirect && !isNear) continue;
       Vec3 flux = flights[i].fluxLm * end.left;
       const float facing = -dot(slot.normal, end.ray.direction);
-      if (!indirect && facing > 0.05f) flux *= attenuation(settings_.attenuation, slot.normal, -end.ray.direction) / facing;
+      if (!indirect && facing > 0.05f)
+        flux *= attenuation(settings_.attenuation, slot.normal, -end.ray.direction) / facing;
       const bool carriedOn = isNear && !isLeftToRays(*place.material);
       trail.deposits.push_back({flux, static_cast<uint32_t>(s), flights[i].particle, carriedOn});
       if (!carriedOn) continue;
@@ -102,7 +116,8 @@ class Particles {
       reflectedAt(place.p, place.ng, *place.material, flux * albedo, end.slot, flights[i].particle, sampler, trail);
       const float survive = std::min(0.95f, maxComponent(albedo));
       if (sampler.next1() >= survive) continue;
-      rays[live] = {offsetOrigin(place.p, place.ng), Frame(place.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
+      rays[live] = {offsetOrigin(place.p, place.ng), Frame(place.ng).toWorld(sampleCosineHemisphere(sampler.next2())),
+                    0, kInfinity};
       samplers[live] = sampler;
       flights[live++] = {flux * (albedo / survive), flights[i].particle};
     }
@@ -111,7 +126,8 @@ class Particles {
     flights.erase(flights.begin() + static_cast<std::ptrdiff_t>(live), flights.end());
   }
 
-  void addWay(const Ray& ray, const Arrival& end, Vec3 to, Bounds3 bent, uint16_t particle, ParticleTrail& trail) const {
+  void addWay(const Ray& ray, const Arrival& end, Vec3 to, Bounds3 bent, uint16_t particle,
+              ParticleTrail& trail) const {
     if (!end.reflected) return trail.ways.push_back({ray.origin, to, particle, true});
     for (const Vec3 p : {ray.origin, end.ray.origin, to}) bent.add(p);
     trail.ways.push_back({bent.lo, bent.hi, particle, false});
@@ -120,9 +136,13 @@ class Particles {
   bool isLeftToRays(const Material& m) const { return source_.isSurface && isPolishedMetal(m); }
 
   // As many points as the flux asks for on average, each of `pointLm_`.
-  void reflectedAt(Vec3 p, Vec3 n, const Material& material, Vec3 flux, int64_t slot, uint16_t particle, Sampler& sampler, ParticleTrail& trail) const {
+  void reflectedAt(Vec3 p, Vec3 n, const Material& material, Vec3 flux, int64_t slot, uint16_t particle,
+                   Sampler& sampler, ParticleTrail& trail) const {
     const float luminous = luminance(flux), copies = std::floor(luminous / pointLm_ + sampler.fast1());
-    for (float k = 0; k < copies; ++k) trail.points.push_back({{offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0, isPolishedMetal(material), -1, -1}, particle});
+    for (float k = 0; k < copies; ++k)
+      trail.points.push_back(
+          {{offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0, isPolishedMetal(material), -1, -1},
+           particle});
   }
 
   const RayScene& rays_;
@@ -142,9 +162,12 @@ class Sums {
       GlowPoint& g = points.emplace_back(p.glow);
       g.fluxLm *= scale, g.lamp = lamp;
     }
-    for (const ParticleTrail::Deposit& d : trail.deposits) (d.near ? near_ : far_)[d.slot] += d.fluxLm * scale / litArea(voxels_.slots[d.slot], voxels_.voxelSizeM);
+    for (const ParticleTrail::Deposit& d : trail.deposits)
+      (d.near ? near_ : far_)[d.slot] += d.fluxLm * scale / litArea(voxels_.slots[d.slot], voxels_.voxelSizeM);
   }
-  void finish(ParticleLight& light) const { light.near = SlotLight(voxels_, near_), light.far = SlotLight(voxels_, far_); }
+  void finish(ParticleLight& light) const {
+    light.near = SlotLight(voxels_, near_), light.far = SlotLight(voxels_, far_);
+  }
 
  private:
   const Voxels& voxels_;
@@ -161,7 +184,8 @@ void addUp(const Voxels& voxels, ParticleLight& light) {
 // What of a trail stays: the numbers of particles that do not are left in `again`.
 class Keeper {
  public:
-  Keeper(const Carried& carried, std::span<const Bounds3> places, float voxelSizeM) : carried_(carried), places_(places), h_(voxelSizeM) {
+  Keeper(const Carried& carried, std::span<const Bounds3> places, float voxelSizeM)
+      : carried_(carried), places_(places), h_(voxelSizeM) {
     for (const Bounds3& box : places) around_.add(box);
   }
 
@@ -176,7 +200,8 @@ class Keeper {
       if (gone[i]) again.push_back(i);
     }
     for (ParticleTrail::Point& p : trail.points) {
-      if (p.glow.slot >= 0 && !gone[p.particle]) p.glow.slot = static_cast<int64_t>(carried_.newSlot[static_cast<size_t>(p.glow.slot)]);
+      if (p.glow.slot >= 0 && !gone[p.particle])
+        p.glow.slot = static_cast<int64_t>(carried_.newSlot[static_cast<size_t>(p.glow.slot)]);
     }
     const auto isGone = [&](const auto& x) { return gone[x.particle]; };
     std::erase_if(trail.deposits, isGone), std::erase_if(trail.points, isGone), std::erase_if(trail.ways, isGone);
@@ -186,7 +211,10 @@ class Keeper {
   // Surfaces as far from a way's end as the slot that stands for them may decide which one that is.
   bool touches(const ParticleTrail::Piece& way) const {
     const float off = kWithin * h_;
-    if (!way.straight) return std::any_of(places_.begin(), places_.end(), [&](const Bounds3& place) { return overlap({way.from, way.to}, place, off); });
+    if (!way.straight)
+      return std::any_of(places_.begin(), places_.end(), [&](const Bounds3& place) {
+        return overlap({way.from, way.to}, place, off);
+      });
     const Vec3 d = way.to - way.from;
     const float metres = length(d);
     const Ray ray{way.from, metres > 0 ? d / metres : Vec3{0, 0, 1}, 0, metres + off};
@@ -208,9 +236,15 @@ ParticleSource particlesOf(const Lamp& lamp, size_t lamps, float voxelSizeM) {
   const auto ray = [unit, directions](Sampler& sampler) {
     float pdf = 0;
     const Vec3 direction = directions.sample(sampler.next2(), pdf);
-    return LightRay{lampPlace(unit, unit.extended ? sampler.next2() : Vec2{}), direction, lampIntensity(unit, direction) / pdf};
+    return LightRay{lampPlace(unit, unit.extended ? sampler.next2() : Vec2{}), direction,
+                    lampIntensity(unit, direction) / pdf};
   };
-  return {LightSurroundings(lamp, voxelSizeM), keyOf({lamp.position, lamp.direction}), directions.fluxPerCandela(), particlesFor(1, lamps), false, ray};
+  return {LightSurroundings(lamp, voxelSizeM),
+          keyOf({lamp.position, lamp.direction}),
+          directions.fluxPerCandela(),
+          particlesFor(1, lamps),
+          false,
+          ray};
 }
 
 // Large surroundings get more, so that slots far from it get as many as those of a point would.
@@ -218,7 +252,12 @@ ParticleSource particlesOf(const Lights& lights, size_t emitter, size_t emitters
   const Bounds3& box = lights.emitterBounds(emitter);
   const LightSurroundings around(box, voxelSizeM);
   const auto ray = [&lights, emitter](Sampler& sampler) { return lights.sampleEmitterRay(emitter, sampler); };
-  return {around, keyOf({box.lo, box.hi}), lights.emitterFluxLm(emitter), particlesFor(around.sizeOfPoints(), emitters), true, ray};
+  return {around,
+          keyOf({box.lo, box.hi}),
+          lights.emitterFluxLm(emitter),
+          particlesFor(around.sizeOfPoints(), emitters),
+          true,
+          ray};
 }
 
 void ParticleSource::takeFewer() { particles = std::max(kChunk, particles / kFirstLook / kChunk * kChunk); }
@@ -235,11 +274,14 @@ void ParticleLight::scale(Vec3 by) {
 
 size_t ParticleLight::bytes() const {
   size_t sum = near.bytes() + far.bytes() + points.size() * sizeof(points[0]);
-  for (const ParticleTrail& t : trails) sum += t.deposits.size() * sizeof(t.deposits[0]) + t.points.size() * sizeof(t.points[0]) + t.ways.size() * sizeof(t.ways[0]);
+  for (const ParticleTrail& t : trails)
+    sum += t.deposits.size() * sizeof(t.deposits[0]) + t.points.size() * sizeof(t.points[0]) +
+           t.ways.size() * sizeof(t.ways[0]);
   return sum;
 }
 
-ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Progress& progress) {
+ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths,
+                             const ParticleSource& source, const RadianceSettings& settings, const Progress& progress) {
   ParticleLight light;
   const Particles particles(rays, voxels, paths, source, settings);
   std::array<uint16_t, kChunk> all;
@@ -258,7 +300,9 @@ bool hasSurfaces(const Voxels& voxels, const LightSurroundings& around) {
   const Bounds3 box = around.bounds();
   const auto brickOf = [&](Vec3 p) {
     const Vec3 q = (p - voxels.origin) / (voxels.voxelSizeM * kBrickSize);
-    const auto within = [](float x, int dim) { return static_cast<int>(std::clamp(std::floor(x), 0.0f, static_cast<float>(dim - 1))); };
+    const auto within = [](float x, int dim) {
+      return static_cast<int>(std::clamp(std::floor(x), 0.0f, static_cast<float>(dim - 1)));
+    };
     return Int3{within(q.x, voxels.brickDims.x), within(q.y, voxels.brickDims.y), within(q.z, voxels.brickDims.z)};
   };
   const Int3 lo = brickOf(box.lo), hi = brickOf(box.hi);
@@ -277,14 +321,17 @@ bool hasSurfaces(const Voxels& voxels, const LightSurroundings& around) {
   return false;
 }
 
-ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress) {
+ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                                 const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress) {
   struct Lit {
     int32_t lamp;
     ParticleSource source;
   };
   std::vector<Lit> lit;
   ParticleLight light;
-  const auto luminous = [&](const Lit& one) { return luminance(lights.lamp(static_cast<size_t>(one.lamp)).intensityCd); };
+  const auto luminous = [&](const Lit& one) {
+    return luminance(lights.lamp(static_cast<size_t>(one.lamp)).intensityCd);
+  };
   for (size_t i = 0; i < lights.lampCount(); ++i) {
     Lit one{static_cast<int32_t>(i), particlesOf(lights.lamp(i), 1, voxels.voxelSizeM)};
     if (!hasSurfaces(voxels, one.source.around)) continue;
@@ -299,16 +346,19 @@ ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, con
     const std::span<const Lit> some = std::span(lit).subspan(first, std::min(kLampsAtOnce, lit.size() - first));
     std::vector<ParticleTrail> trails(some.size());
     parallelFor(some.size(), 1, [&](size_t k) {
-      const Particles particles(rays, voxels, paths, some[k].source, settings, light.fluxLm / (kGlowPoints * luminous(some[k])));
+      const Particles particles(rays, voxels, paths, some[k].source, settings,
+                                light.fluxLm / (kGlowPoints * luminous(some[k])));
       for (size_t chunk = 0; chunk < some[k].source.particles / kChunk; ++chunk) particles.trace(chunk, all, trails[k]);
     });
-    for (size_t k = 0; k < some.size(); ++k) sums.add(trails[k], lights.lamp(static_cast<size_t>(some[k].lamp)).intensityCd, some[k].lamp, light.points);
+    for (size_t k = 0; k < some.size(); ++k)
+      sums.add(trails[k], lights.lamp(static_cast<size_t>(some[k].lamp)).intensityCd, some[k].lamp, light.points);
   }
   sums.finish(light);
   return light;
 }
 
-void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Carried& carried, std::span<const Bounds3> places,
+void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source,
+                     const RadianceSettings& settings, const Carried& carried, std::span<const Bounds3> places,
                      const Progress& progress, ParticleLight& light) {
   ParticleSource same = source;
   same.particles = light.trails.size() * kChunk;  // of as many sources as there were

@@ -1,6 +1,6 @@
-// Light close to small sources: point and spot lamps, bulbs, globes. Within a voxel beside them illuminance varies as 1/d², and shadow
-// rays to a few points miss its mean; and from afar such a voxel is small and very bright, so that a few links miss it or take it for
-// too much. Particles sent out by the source do neither, and keep its flux.
+// Light close to small sources: point and spot lamps, bulbs, globes. Within a voxel beside them illuminance varies as
+// 1/d², and shadow rays to a few points miss its mean; and from afar such a voxel is small and very bright, so that a
+// few links miss it or take it for too much. Particles sent out by the source do neither, and keep its flux.
 #pragma once
 
 #include <functional>
@@ -57,8 +57,10 @@ struct ParticleTrail {
 // What particles of one source leave behind.
 struct ParticleLight {
   SlotLight near;  // lx; on slots in its surroundings: what they reflect of it is contained in `near` and `far`
-  SlotLight far;   // lx; on other slots, by reflection in its surroundings or on surfaces that no slot stands for; and on polished metal
-  std::vector<GlowPoint> points;  // of what surfaces in its surroundings reflect, about kPoints of them for all its flux
+  SlotLight far;  // lx; on other slots, by reflection in its surroundings or on surfaces that no slot stands for; and
+                  // on polished metal
+  std::vector<GlowPoint>
+      points;  // of what surfaces in its surroundings reflect, about kPoints of them for all its flux
   std::vector<ParticleTrail> trails;  // kChunk particles each
   float fluxLm = 0;  // luminous, of the source
   uint64_t rays = 0;  // of the last trace
@@ -70,14 +72,18 @@ struct ParticleLight {
 constexpr float kGlowPoints = 32768;  // that stand for a flux like that of all sources
 
 // Ends early, with a part of the light, once `progress` says stop.
-ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Progress& progress);
+ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths,
+                             const ParticleSource& source, const RadianceSettings& settings, const Progress& progress);
 
-// Of lamps that are lit together, each as bright as it is: few particles of each. Points tell whose they are; there are no trails.
-ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress);
+// Of lamps that are lit together, each as bright as it is: few particles of each. Points tell whose they are; there are
+// no trails.
+ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                                 const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress);
 
-// After instances have moved, of the same source where it was: particles that came near `places`, where these were and are, are traced
-// again, and those that left something on slots that are gone.
-void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source, const RadianceSettings& settings, const Carried& carried, std::span<const Bounds3> places,
+// After instances have moved, of the same source where it was: particles that came near `places`, where these were and
+// are, are traced again, and those that left something on slots that are gone.
+void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source,
+                     const RadianceSettings& settings, const Carried& carried, std::span<const Bounds3> places,
                      const Progress& progress, ParticleLight& light);
 
 }  // namespace roomlight

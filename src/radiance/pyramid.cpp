@@ -20,15 +20,18 @@ using Faces = std::array<Face, 6>;
 
 int8_t toByte(float v) { return static_cast<int8_t>(std::lround(127 * std::clamp(v, -1.0f, 1.0f))); }
 
-void pack(const Face& f, size_t face, Vec3 columns, Vec3 glow, float unit, DirectionalPlanes& planes, DirectionalLight& light) {
+void pack(const Face& f, size_t face, Vec3 columns, Vec3 glow, float unit, DirectionalPlanes& planes,
+          DirectionalLight& light) {
   if (!(f.cover > 0)) return;
   const float distance = dot(f.point, f.normal);
   const Vec3 shown = f.radiance + glow, c = shown / unit;
   light.radiance[face] = {toHalf(c.x), toHalf(c.y), toHalf(c.z)};
-  planes.normalX[face] = toByte(f.normal.x), planes.normalY[face] = toByte(f.normal.y), planes.normalZ[face] = toByte(f.normal.z);
-  planes.plane[face] = static_cast<uint8_t>(std::lround(255 * std::clamp(0.5f + 0.5f * distance / kFarthestPlane, 0.0f, 1.0f)));
-  // Of the columns along the axis that hold surfaces at all. Sub-cells on a border are covered in part: more than half of it
-  // is taken for a whole surface, so that walls do not leak along their edges.
+  planes.normalX[face] = toByte(f.normal.x), planes.normalY[face] = toByte(f.normal.y),
+  planes.normalZ[face] = toByte(f.normal.z);
+  planes.plane[face] =
+      static_cast<uint8_t>(std::lround(255 * std::clamp(0.5f + 0.5f * distance / kFarthestPlane, 0.0f, 1.0f)));
+  // Of the columns along the axis that hold surfaces at all. Sub-cells on a border are covered in part: more than half
+  // of it is taken for a whole surface, so that walls do not leak along their edges.
   const float share = f.cover / std::max(1.0f / 16, columns[static_cast<int>(face / 2)]);
   light.coverage[face] = static_cast<uint8_t>(std::lround(std::clamp(255 * share / kWholeFrom, 1.0f, 255.0f)));
   light.opacity[face] = static_cast<uint8_t>(std::lround(std::clamp(255 * f.opacity, 1.0f, 255.0f)));
@@ -39,16 +42,19 @@ void pack(const Face& f, size_t face, Vec3 columns, Vec3 glow, float unit, Direc
 uint8_t planesBefore(const Faces& faces, size_t face) {
   unsigned bits = 0;
   for (size_t other = 0; other < 6; ++other) {
-    if (faces[other].cover > 0 && dot(faces[face].point - faces[other].point, faces[other].normal) < -kBehind) bits |= 1u << other;
+    if (faces[other].cover > 0 && dot(faces[face].point - faces[other].point, faces[other].normal) < -kBehind)
+      bits |= 1u << other;
   }
   return static_cast<uint8_t>(bits);
 }
 
-void pack(const Faces& faces, uint64_t mask, const PerFace<Vec3>& glow, float unit, RadianceLevel& level, size_t record) {
+void pack(const Faces& faces, uint64_t mask, const PerFace<Vec3>& glow, float unit, RadianceLevel& level,
+          size_t record) {
   level.planes[record].mask = mask;
   const Vec3 columns = columnCoverage(mask);
   for (size_t face = 0; face < 6; ++face) level.light[record].behind[face] = planesBefore(faces, face);
-  for (size_t face = 0; face < 6; ++face) pack(faces[face], face, columns, glow[face], unit, level.planes[record], level.light[record]);
+  for (size_t face = 0; face < 6; ++face)
+    pack(faces[face], face, columns, glow[face], unit, level.planes[record], level.light[record]);
 }
 
 // The slots of a base voxel.
@@ -59,7 +65,8 @@ Faces baseFaces(const Voxels& voxels, const SurfaceVoxel& voxel, Vec3 middle, st
   for (size_t i = voxel.firstSlot; i < end; ++i) {
     const FaceSlot& slot = voxels.slots[i];
     const float projected = slot.areaM2 / std::max(1e-3f, slot.opacity) * std::abs(slot.normal[slot.face / 2]);
-    faces[slot.face] = {std::min(1.0f, projected / (h * h)), slot.opacity, slotRadiance[i], slot.normal, (slot.position - middle) / h};
+    faces[slot.face] = {std::min(1.0f, projected / (h * h)), slot.opacity, slotRadiance[i], slot.normal,
+                        (slot.position - middle) / h};
   }
   return faces;
 }
@@ -82,8 +89,8 @@ uint64_t halved(uint64_t mask) {
   return out;
 }
 
-// Eight children into one. Along each axis the nearer child comes first and the farther one fills what is left, for a wall that
-// crosses both covers different parts of the column; the four columns are averaged.
+// Eight children into one. Along each axis the nearer child comes first and the farther one fills what is left, for a
+// wall that crosses both covers different parts of the column; the four columns are averaged.
 Faces combine(const std::array<const Faces*, 8>& child) {
   Faces out;
   for (int face = 0; face < 6; ++face) {
@@ -110,7 +117,8 @@ Faces combine(const std::array<const Faces*, 8>& child) {
     }
     const float l = length(sum.normal);
     if (!(opaque > 0) || !(l > 0)) continue;
-    out[static_cast<size_t>(face)] = {sum.cover / 4, opaque / sum.cover, sum.radiance / opaque, sum.normal / l, sum.point / sum.cover};
+    out[static_cast<size_t>(face)] = {sum.cover / 4, opaque / sum.cover, sum.radiance / opaque, sum.normal / l,
+                                      sum.point / sum.cover};
   }
   return out;
 }
@@ -153,7 +161,8 @@ RadianceLevel coarser(const RadianceLevel& fine) {
     for (int z = 0; z < 8; ++z) {
       for (uint64_t bits = brick.occupied[static_cast<size_t>(z)]; bits; bits &= bits - 1) {
         const int bit = std::countr_zero(bits);
-        out.occupied[static_cast<size_t>(oz + z / 2)] |= uint64_t{1} << ((ox + (bit & 7) / 2) + 8 * (oy + (bit >> 3) / 2));
+        out.occupied[static_cast<size_t>(oz + z / 2)] |= uint64_t{1}
+                                                         << ((ox + (bit & 7) / 2) + 8 * (oy + (bit >> 3) / 2));
       }
     }
   }
@@ -177,9 +186,11 @@ void forEachVoxel(const RadianceLevel& level, Visit&& visit) {
 
 }  // namespace
 
-void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, std::span<const Vec3> slotGlow, RadianceField& field) {
+void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, std::span<const Vec3> slotGlow,
+                  RadianceField& field) {
   float brightest = 0;
-  for (size_t i = 0; i < slotRadiance.size(); ++i) brightest = std::max(brightest, maxComponent(slotGlow.empty() ? slotRadiance[i] : slotRadiance[i] + slotGlow[i]));
+  for (size_t i = 0; i < slotRadiance.size(); ++i)
+    brightest = std::max(brightest, maxComponent(slotGlow.empty() ? slotRadiance[i] : slotRadiance[i] + slotGlow[i]));
   field.unitCdM2 = brightest > 0 ? brightest / 32768 : 1;  // below the largest half
   field.origin = voxels.origin;
   field.levels.clear();
@@ -192,9 +203,12 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, std:
   now.level.planes.resize(voxels.voxels.size()), now.level.light.resize(voxels.voxels.size());
   now.faces.resize(voxels.voxels.size());
   forEachVoxel(now.level, [&](size_t record, Int3 v) {
-    const Vec3 middle = voxels.origin + Vec3{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f} * voxels.voxelSizeM;
+    const Vec3 middle = voxels.origin + Vec3{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f,
+                                             static_cast<float>(v.z) + 0.5f} *
+                                            voxels.voxelSizeM;
     now.faces[record] = baseFaces(voxels, voxels.voxels[record], middle, slotRadiance);
-    pack(now.faces[record], voxels.voxels[record].mask, baseGlow(voxels, voxels.voxels[record], slotGlow), field.unitCdM2, now.level, record);
+    pack(now.faces[record], voxels.voxels[record].mask, baseGlow(voxels, voxels.voxels[record], slotGlow),
+         field.unitCdM2, now.level, record);
   });
   while (true) {
     const Int3 dims = now.level.brickDims;
@@ -208,7 +222,9 @@ void buildPyramid(const Voxels& voxels, std::span<const Vec3> slotRadiance, std:
       for (int k = 0; k < 8; ++k) {
         const int64_t c = now.level.find({2 * v.x + (k & 1), 2 * v.y + ((k >> 1) & 1), 2 * v.z + (k >> 2)});
         child[static_cast<size_t>(k)] = c < 0 ? nullptr : &now.faces[static_cast<size_t>(c)];
-        if (c >= 0) mask |= halved(now.level.planes[static_cast<size_t>(c)].mask) << (2 * (k & 1) + 8 * ((k >> 1) & 1) + 32 * (k >> 2));
+        if (c >= 0)
+          mask |= halved(now.level.planes[static_cast<size_t>(c)].mask)
+                  << (2 * (k & 1) + 8 * ((k >> 1) & 1) + 32 * (k >> 2));
       }
       next.faces[record] = combine(child);
       pack(next.faces[record], mask, {}, field.unitCdM2, next.level, record);

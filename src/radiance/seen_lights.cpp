@@ -30,7 +30,9 @@ struct PlacesOnSide {
   };
   // The k-th of n.
   Place draw(uint32_t k, uint32_t n, Sampler& sampler) const {
-    const uint32_t s = slots[std::min(slots.size() - 1, static_cast<size_t>((static_cast<float>(k) + sampler.fast1()) / static_cast<float>(n) * static_cast<float>(slots.size())))];
+    const uint32_t s = slots[std::min(
+        slots.size() - 1, static_cast<size_t>((static_cast<float>(k) + sampler.fast1()) / static_cast<float>(n) *
+                                              static_cast<float>(slots.size())))];
     return {paths.point(s, k), voxels.slots[s].normal};
   }
 };
@@ -38,7 +40,8 @@ struct PlacesOnSide {
 }  // namespace
 
 template <class Kind>
-SeenLights::Table SeenLights::learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, uint64_t key, std::atomic<uint64_t>& count) {
+SeenLights::Table SeenLights::learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths,
+                                    const Kind& kind, uint64_t key, std::atomic<uint64_t>& count) {
   if (kind.count() < 2) return {};  // nothing to choose
   std::vector<std::vector<LightPart>> found(kBrickSides * voxels.bricks.size());
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
@@ -63,7 +66,8 @@ SeenLights::Table SeenLights::learn(const RayScene& rays, const Voxels& voxels, 
   return table;
 }
 
-SeenLights::SeenLights(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, uint64_t seed, uint64_t& rayCount) {
+SeenLights::SeenLights(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths,
+                       uint64_t seed, uint64_t& rayCount) {
   std::atomic<uint64_t> count = 0;
   lamps_ = learn(rays, voxels, paths, LampChoice{lights}, seed + kLampKey, count);
   emitters_ = learn(rays, voxels, paths, EmitterChoice{lights}, seed + kEmitterKey, count);
@@ -81,7 +85,8 @@ LightSample SeenLights::sampleLamps(const Lights& lights, Vec3 p, int32_t side, 
   return s;
 }
 
-void SeenLights::sampleEmitters(const Lights& lights, Vec3 p, int32_t side, std::span<const Vec2> u, float choice, std::span<LightSample> out) const {
+void SeenLights::sampleEmitters(const Lights& lights, Vec3 p, int32_t side, std::span<const Vec2> u, float choice,
+                                std::span<LightSample> out) const {
   const EmitterChoice kind{lights};
   const WeighedParts parts = weighed(emitters_.of(side), kind, p);
   const auto n = static_cast<float>(u.size());

@@ -1,4 +1,5 @@
-// Which lamps and emissive meshes light a place: what arrives of each is known for every side of every brick (trace/light_parts.h).
+// Which lamps and emissive meshes light a place: what arrives of each is known for every side of every brick
+ // (trace/light_parts.h).
 #pragma once
 
 #include <atomic>
@@ -14,17 +15,21 @@ namespace roomlight {
 class SeenLights {
  public:
   SeenLights() = default;  // knows nothing: lights are chosen without shadows
-  SeenLights(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, uint64_t seed, uint64_t& rayCount);
+  SeenLights(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, uint64_t seed,
+             uint64_t& rayCount);
 
-  // As Lights::sampleLamps and its like, for a place on that side; -1: as if nothing were known. `lights` are those learned from.
+  // As Lights::sampleLamps and its like, for a place on that side; -1: as if nothing were known. `lights` are those
+// learned from.
   LightSample sampleLamps(const Lights& lights, Vec3 p, int32_t side, Sampler& sampler) const;
   LightSample sampleEmitters(const Lights& lights, Vec3 p, int32_t side, Vec2 u, float choice) const {
     LightSample one;
     sampleEmitters(lights, p, side, {&u, 1}, choice, {&one, 1});
     return one;
   }
-  // As many as there are `u`, by choices that are equally far apart: `radiance` and `pdf` are such that all of them together are one estimate.
-  void sampleEmitters(const Lights& lights, Vec3 p, int32_t side, std::span<const Vec2> u, float choice, std::span<LightSample> out) const;
+  // As many as there are `u`, by choices that are equally far apart: `radiance` and `pdf` are such that all of them
+// together are one estimate.
+  void sampleEmitters(const Lights& lights, Vec3 p, int32_t side, std::span<const Vec2> u, float choice,
+                      std::span<LightSample> out) const;
   float pdfEmitters(const Lights& lights, Vec3 p, int32_t side, const SurfacePoint& q) const;
   size_t bytes() const { return lamps_.bytes() + emitters_.bytes(); }
 
@@ -40,7 +45,8 @@ class SeenLights {
     size_t bytes() const { return first.size() * sizeof(first[0]) + parts.size() * sizeof(parts[0]); }
   };
   template <class Kind>
-  static Table learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, uint64_t key, std::atomic<uint64_t>& count);
+  static Table learn(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Kind& kind, uint64_t key,
+                     std::atomic<uint64_t>& count);
 
   Table lamps_, emitters_;
 };

@@ -32,7 +32,8 @@ int blockFor(const Cdf& cdf, float v) {
 
 }  // namespace
 
-SkyGuideBuilder::SkyGuideBuilder(const Voxels& voxels, const SkyDistribution& sky) : voxels_(voxels), sky_(sky), blocks_(voxels.bricks.size()) {}
+SkyGuideBuilder::SkyGuideBuilder(const Voxels& voxels, const SkyDistribution& sky)
+    : voxels_(voxels), sky_(sky), blocks_(voxels.bricks.size()) {}
 
 void SkyGuideBuilder::add(size_t brick, int face, Vec3 direction, float open) {
   std::unique_ptr<Blocks>& blocks = blocks_[brick][static_cast<size_t>(face)];
@@ -59,8 +60,8 @@ SkyGuideBuilder::Blocks SkyGuideBuilder::around(size_t brick, size_t face) const
   return sum;
 }
 
-// Light of each block times the share of it that came through. Neighbouring blocks count a little, so that a window found by
-// few links is covered to its edges. False where no sky was seen.
+// Light of each block times the share of it that came through. Neighbouring blocks count a little, so that a window
+// found by few links is covered to its edges. False where no sky was seen.
 bool SkyGuideBuilder::density(const Blocks& tries, Cdf& cdf) const {
   float running = 0;
   for (int i = 0; i < kBlocks; ++i) {
@@ -129,20 +130,26 @@ float guidedPdf(const SkyGuide& guides, int32_t guide, const SkyDistribution& sk
   if (guide < 0) return plain;
   const int block = sky.blockAt(uv);
   const float share = sky.blockShare(block);
-  return share > 0 ? plain * (kUnguidedShare + (1 - kUnguidedShare) * shareOf(guides.cdf[static_cast<size_t>(guide)], block) / share) : plain;
+  return share > 0 ? plain * (kUnguidedShare +
+                              (1 - kUnguidedShare) * shareOf(guides.cdf[static_cast<size_t>(guide)], block) / share)
+                   : plain;
 }
 
 }  // namespace
 
-float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 uv) { return guidedPdf(guides, guide, lights.sky(), uv, lights.sky().pdfAt(uv)); }
+float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 uv) {
+  return guidedPdf(guides, guide, lights.sky(), uv, lights.sky().pdfAt(uv));
+}
 
-SkyDistribution::Sample drawSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) {
+SkyDistribution::Sample drawSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u,
+                                      float choice) {
   const SkyDistribution& sky = lights.sky();
   SkyDistribution::Sample found;
   if (guide < 0 || choice < kUnguidedShare) {
     found = sky.sample(u);
   } else {
-    found = sky.sampleBlock(blockFor(guides.cdf[static_cast<size_t>(guide)], (choice - kUnguidedShare) / (1 - kUnguidedShare)), u);
+    found = sky.sampleBlock(
+        blockFor(guides.cdf[static_cast<size_t>(guide)], (choice - kUnguidedShare) / (1 - kUnguidedShare)), u);
   }
   sky.prefetch(found.uv);
   found.pdf = guidedPdf(guides, guide, sky, found.uv, found.pdf);
@@ -158,6 +165,8 @@ LightSample skyLight(const Lights& lights, const SkyDistribution::Sample& drawn)
   return s;
 }
 
-LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) { return skyLight(lights, drawSkyGuided(guides, guide, lights, u, choice)); }
+LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice) {
+  return skyLight(lights, drawSkyGuided(guides, guide, lights, u, choice));
+}
 
 }  // namespace roomlight

@@ -31,23 +31,28 @@ class SkyGuideBuilder {
 // The guides of `fresh`, and those of `before` for bricks that are carried.
 SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carried& carried);
 
-// A sky direction for a surface: by `guide` (an index into SkyGuide::cdf), or where that is -1 by the sky's own brightness.
-// `radiance` is divided by the density.
+// A sky direction for a surface: by `guide` (an index into SkyGuide::cdf), or where that is -1 by the sky's own
+// brightness. `radiance` is divided by the density.
 LightSample sampleSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice);
 // The same in two steps, between which the light that the second reads is fetched from memory.
-SkyDistribution::Sample drawSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u, float choice);
+SkyDistribution::Sample drawSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 u,
+                                      float choice);
 LightSample skyLight(const Lights& lights, const SkyDistribution::Sample& drawn);
 
 // Density with which sampleSkyGuided chooses the direction of a place in the sky's map, per steradian.
 float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec2 uv);
-inline float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d) { return pdfSkyGuided(guides, guide, lights, lights.sky().toUv(d)); }
+inline float pdfSkyGuided(const SkyGuide& guides, int32_t guide, const Lights& lights, Vec3 d) {
+  return pdfSkyGuided(guides, guide, lights, lights.sky().toUv(d));
+}
 
-// The guide that serves a surface at p with unit normal n: of its own brick, or where the surface lies on the border of bricks
-// of the one on the other side; -1 where neither saw sky.
+// The guide that serves a surface at p with unit normal n: of its own brick, or where the surface lies on the border of
+// bricks of the one on the other side; -1 where neither saw sky.
 int32_t guideAt(const SkyGuide& guides, const Voxels& voxels, Vec3 p, Vec3 n);
 // The same for who knows the side of a brick that it lies on (brickSideAt); -1: none.
 inline int32_t guideOfSide(const SkyGuide& guides, int32_t side) {
-  return side < 0 || guides.guideOfBrick.empty() ? -1 : guides.guideOfBrick[static_cast<size_t>(side) / kBrickSides][static_cast<size_t>(side) % kBrickSides];
+  return side < 0 || guides.guideOfBrick.empty()
+             ? -1
+             : guides.guideOfBrick[static_cast<size_t>(side) / kBrickSides][static_cast<size_t>(side) % kBrickSides];
 }
 
 }  // namespace roomlight

@@ -17,7 +17,9 @@ SkyWay::SkyWay(Vec3 d) {
     const float folded = (1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f);
     v = (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f), u = folded;
   }
-  const auto cell = [](float x) { return static_cast<uint16_t>(std::clamp(static_cast<int>((0.5f * x + 0.5f) * kCells), 0, kCells - 1)); };
+  const auto cell = [](float x) {
+    return static_cast<uint16_t>(std::clamp(static_cast<int>((0.5f * x + 0.5f) * kCells), 0, kCells - 1));
+  };
   code_ = static_cast<uint16_t>(cell(u) | cell(v) << 8);
 }
 

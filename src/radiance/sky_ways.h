@@ -1,5 +1,5 @@
-// Where the rays went that slots asked the sky for light with: kept, so that after a move only those that it concerns are found without
-// choosing all directions anew.
+// Where the rays went that slots asked the sky for light with: kept, so that after a move only those that it concerns
+// are found without choosing all directions anew.
 #pragma once
 
 #include <array>

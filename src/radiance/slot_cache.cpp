@@ -13,15 +13,17 @@ constexpr float kOpposite = -0.95f; // cosine between the normals of a sheet's t
 // One sheet and nothing else: no surface in its voxel parts one of its places from another.
 bool isSheet(const Voxels& voxels, const SurfaceVoxel& voxel) {
   const int count = std::popcount(static_cast<unsigned>(voxel.faces));
-  return count == 1 || (count == 2 && voxels.slots[voxel.firstSlot].face / 2 == voxels.slots[voxel.firstSlot + 1].face / 2 &&
-                        dot(voxels.slots[voxel.firstSlot].normal, voxels.slots[voxel.firstSlot + 1].normal) < kOpposite);
+  return count == 1 ||
+         (count == 2 && voxels.slots[voxel.firstSlot].face / 2 == voxels.slots[voxel.firstSlot + 1].face / 2 &&
+          dot(voxels.slots[voxel.firstSlot].normal, voxels.slots[voxel.firstSlot + 1].normal) < kOpposite);
 }
 
 int8_t packed(float v) { return static_cast<int8_t>(std::lround(127 * v)); }
 
 }  // namespace
 
-SlotCache::SlotCache(const Voxels& voxels, const RadianceField& field) : voxels_(voxels), perMetre_(1 / voxels.voxelSizeM), records_(voxels.slots.size()) {
+SlotCache::SlotCache(const Voxels& voxels, const RadianceField& field)
+    : voxels_(voxels), perMetre_(1 / voxels.voxelSizeM), records_(voxels.slots.size()) {
   parallelFor(voxels.voxels.size(), 8192, [&](size_t v) {
     const SurfaceVoxel& voxel = voxels.voxels[v];
     const auto count = static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
@@ -59,7 +61,8 @@ SlotCache::Place SlotCache::find(Vec3 p, Vec3 n) const {
     return std::abs(dot(q, r.normal()) - r.offset);
   };
   const SlotFound found = lookAround(q, n, [&](Int3 at) {
-    const int64_t voxel = voxels_.voxelAt(at), slot = voxel < 0 ? -1 : slotOf(voxels_.voxels[static_cast<size_t>(voxel)], n);
+    const int64_t voxel = voxels_.voxelAt(at),
+                  slot = voxel < 0 ? -1 : slotOf(voxels_.voxels[static_cast<size_t>(voxel)], n);
     return SlotFound{slot, slot >= 0 && offPlane(slot) < onPlane};
   });
   if (found.slot < 0) return {};
@@ -75,9 +78,12 @@ void SlotCache::prefetch(std::span<const Vec3> points) const {
     const size_t n = std::min(kAtOnce, points.size());
     for (size_t i = 0; i < n; ++i) {
       const Vec3 q = (points[i] - voxels_.origin) * perMetre_;
-      voxel[i] = {static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)), static_cast<int>(std::floor(q.z))};
+      voxel[i] = {static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)),
+                  static_cast<int>(std::floor(q.z))};
       at[i] = voxels_.brickAt({voxel[i].x / kBrickSize, voxel[i].y / kBrickSize, voxel[i].z / kBrickSize});
-      if (at[i] >= 0) __builtin_prefetch(&voxels_.bricks[static_cast<size_t>(at[i])]), __builtin_prefetch(&voxels_.bricks[static_cast<size_t>(at[i])].before);
+      if (at[i] >= 0)
+        __builtin_prefetch(&voxels_.bricks[static_cast<size_t>(at[i])]),
+            __builtin_prefetch(&voxels_.bricks[static_cast<size_t>(at[i])].before);
     }
     for (size_t i = 0; i < n; ++i) {
       if (at[i] >= 0) at[i] = voxels_.voxelAt(voxel[i]);

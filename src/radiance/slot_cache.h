@@ -26,13 +26,15 @@ class SlotCache {
   };
   // For a point of a surface and its unit normal on the side that is looked at.
   Place find(Vec3 p, Vec3 n) const;
-  // Has what find() reads fetched into the processor's cache: what many points need comes at once, not one after the other.
+  // Has what find() reads fetched into the processor's cache: what many points need comes at once, not one after the
+// other.
   void prefetch(std::span<const Vec3> points) const;
   // Reflected, as a Lambertian surface of the slot's albedo, cd/m².
   Vec3 radiance(int64_t slot) const { return records_[static_cast<size_t>(slot)].radiance; }
   // The one that most of the slot's surface belongs to: what others have in its voxel may be of another albedo.
   uint32_t instance(int64_t slot) const { return records_[static_cast<size_t>(slot)].instance; }
-  // A ray between p and the slot's place, both a little before their surface: where nothing is in its way the slot stands for p.
+  // A ray between p and the slot's place, both a little before their surface: where nothing is in its way the slot
+// stands for p.
   Ray between(int64_t slot, Vec3 p, Vec3 n) const;
 
  private:
@@ -43,7 +45,9 @@ class SlotCache {
     int8_t normalX, normalY, normalZ;        // in 1/127
     bool alone;                              // in its voxel, but for the other side of its sheet
     uint32_t instance;
-    Vec3 normal() const { return Vec3{static_cast<float>(normalX), static_cast<float>(normalY), static_cast<float>(normalZ)} * (1.0f / 127); }
+    Vec3 normal() const {
+      return Vec3{static_cast<float>(normalX), static_cast<float>(normalY), static_cast<float>(normalZ)} * (1.0f / 127);
+    }
   };
   int64_t slotOf(const SurfaceVoxel& voxel, Vec3 n) const;
 

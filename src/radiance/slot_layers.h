@@ -12,9 +12,10 @@ namespace roomlight {
 struct SlotLayers {
   std::shared_ptr<const LightLayers> lights;  // none: light is not kept apart
   size_t stride = 0;                          // layers, rounded up to four
-  std::vector<uint16_t> shares;  // per slot: of irradiance, three channels of `stride` half floats; the sum of a channel is 1, or 0 where that is dark
+  std::vector<uint16_t> shares;  // per slot: of irradiance, three channels of `stride` half floats; the sum of a
+ // channel is 1, or 0 where that is dark
   std::vector<uint64_t> reach;   // per brick: bit l where layer l was found to shine straight on a slot
-  std::vector<int8_t> glowOf;    // per slot: the layer that glow there is reflected light of; empty: there is no glow
+  std::vector<int8_t> glowOf;  // per slot: the layer that glow there is reflected light of; empty: there is no glow
 
   bool empty() const { return !lights; }
   size_t slotSize() const { return 3 * stride; }

@@ -28,11 +28,15 @@ SlotFound slotIn(const Voxels& voxels, Int3 voxel, Vec3 p, Vec3 normal) {
 }  // namespace
 
 int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal) {
-  return lookAround((p - voxels.origin) / voxels.voxelSizeM, normal, [&](Int3 at) { return slotIn(voxels, at, p, normal); }).slot;
+  return lookAround((p - voxels.origin) / voxels.voxelSizeM, normal,
+                    [&](Int3 at) { return slotIn(voxels, at, p, normal); })
+      .slot;
 }
 
 int32_t brickAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal) {
-  const auto brickAround = [&](Int3 v) { return v.x < 0 || v.y < 0 || v.z < 0 ? -1 : voxels.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize}); };
+  const auto brickAround = [&](Int3 v) {
+    return v.x < 0 || v.y < 0 || v.z < 0 ? -1 : voxels.brickAt({v.x / kBrickSize, v.y / kBrickSize, v.z / kBrickSize});
+  };
   int32_t brick = -1;
   const auto look = [&](Int3 at) {
     const SlotFound found = slotIn(voxels, at, p, normal);

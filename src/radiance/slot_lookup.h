@@ -1,5 +1,6 @@
-// Which slot, and which brick, a point of a surface belongs to. Floors and walls of homes stand on round coordinates, as borders of voxels do: rounding puts a point of such a surface to either
-// side, and what is found there may be another surface close behind.
+// Which slot, and which brick, a point of a surface belongs to. Floors and walls of homes stand on round coordinates,
+// as borders of voxels do: rounding puts a point of such a surface to either side, and what is found there may be
+// another surface close behind.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +17,15 @@ struct SlotFound {
   bool onPlane = false;
 };
 
-// Looks at the voxel around q, in voxels from the lattice's origin, and at those a little before and behind it along n, until one holds a slot on whose plane q lies; else the first slot found.
-// `look` (SlotFound of Int3) is asked.
+// Looks at the voxel around q, in voxels from the lattice's origin, and at those a little before and behind it along n,
+// until one holds a slot on whose plane q lies; else the first slot found. `look` (SlotFound of Int3) is asked.
 template <class Look>
 SlotFound lookAround(Vec3 q, Vec3 n, Look&& look) {
   constexpr float kRounding = 0.02f, kBeside = 0.3f;
-  const auto voxelAround = [](Vec3 at) { return Int3{static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), static_cast<int>(std::floor(at.z))}; };
+  const auto voxelAround = [](Vec3 at) {
+    return Int3{static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)),
+                static_cast<int>(std::floor(at.z))};
+  };
   const Int3 own = voxelAround(q);
   const SlotFound here = look(own);
   if (here.onPlane) return here;
@@ -42,7 +46,8 @@ SlotFound lookAround(Vec3 q, Vec3 n, Look&& look) {
 // Metres off a slot's plane within which a point belongs to its own sheet and not to one close behind.
 inline float onPlaneM(float voxelSizeM) { return std::min(0.05f * voxelSizeM, 0.005f); }
 
-// Slot of Voxels that a point of a surface belongs to: the face of its voxel nearest to `normal`; -1 where voxels hold nothing.
+// Slot of Voxels that a point of a surface belongs to: the face of its voxel nearest to `normal`; -1 where voxels hold
+// nothing.
 int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal);
 
 // The brick that holds it, or around p where there is no slot; -1: none.

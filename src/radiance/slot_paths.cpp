@@ -12,7 +12,8 @@ constexpr int kMostPanes = 16;          // surfaces a ray goes through or on fro
 constexpr float kLift = 0.1f;           // voxels; how far points are lifted to see one another along a bent surface
 constexpr float kProbeHeight = 0.3f;    // voxels
 constexpr float kLeastProbe = 0.02f;    // voxels
-constexpr float kHiddenBehind = 0.15f, kStrictlyBehind = 0.05f;  // voxels; surfaces further behind a slot's place are not lit as it is
+constexpr float kHiddenBehind = 0.15f,
+                kStrictlyBehind = 0.05f;  // voxels; surfaces further behind a slot's place are not lit as it is
 constexpr float kNothingLeft = 0.03f;
 constexpr float kOneSheet = 1.1f;       // of the area with which a plane fills the voxel: more is more than one
 
@@ -38,9 +39,12 @@ float toBorder(const Voxels& voxels, const FaceSlot& slot) {
 bool isOneSheet(const Voxels& voxels, const SurfaceVoxel& voxel, Int3 v, const FaceSlot& slot) {
   const int ofAxis = 3 << (slot.face & ~1);
   const float h = voxels.voxelSizeM;
-  if ((voxel.faces & ~ofAxis) != 0 || !(slot.areaM2 * std::abs(slot.normal[slot.face / 2]) < kOneSheet * h * h * slot.opacity)) return false;
+  if ((voxel.faces & ~ofAxis) != 0 ||
+      !(slot.areaM2 * std::abs(slot.normal[slot.face / 2]) < kOneSheet * h * h * slot.opacity))
+    return false;
   const Vec3 up = faceDirection(slot.face);
-  return toBorder(voxels, slot) > 2 * kLift * h || voxels.voxelAt({v.x + static_cast<int>(up.x), v.y + static_cast<int>(up.y), v.z + static_cast<int>(up.z)}) < 0;
+  return toBorder(voxels, slot) > 2 * kLift * h ||
+         voxels.voxelAt({v.x + static_cast<int>(up.x), v.y + static_cast<int>(up.y), v.z + static_cast<int>(up.z)}) < 0;
 }
 
 }  // namespace
@@ -48,13 +52,24 @@ bool isOneSheet(const Voxels& voxels, const SurfaceVoxel& voxel, Int3 v, const F
 std::pair<size_t, size_t> slotsOfBrick(const Voxels& voxels, size_t brick) {
   const auto firstVoxel = voxels.bricks[brick].firstVoxel;
   const size_t end = brick + 1 < voxels.bricks.size() ? voxels.bricks[brick + 1].firstVoxel : voxels.voxels.size();
-  const auto slotBegin = [&](size_t v) { return v < voxels.voxels.size() ? voxels.voxels[v].firstSlot : voxels.slots.size(); };
+  const auto slotBegin = [&](size_t v) {
+    return v < voxels.voxels.size() ? voxels.voxels[v].firstSlot : voxels.slots.size();
+  };
   return {slotBegin(firstVoxel), slotBegin(end)};
 }
 
-SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict, const SlotPaths* before, const Carried* carried)
-    : rays_(&rays), voxels_(&voxels), behind_(strict ? kStrictlyBehind : kHiddenBehind), points_(voxels.slots.size()), key_(voxels.slots.size()), sheet_(voxels.slots.size()), free_(voxels.slots.size()) {
-  for (const Instance& i : rays.scene().instances) clear_.push_back(letsLightThrough(rays.scene().materials[static_cast<size_t>(rays.scene().meshes[static_cast<size_t>(i.mesh)].material)]));
+SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict,
+                     const SlotPaths* before, const Carried* carried)
+    : rays_(&rays),
+      voxels_(&voxels),
+      behind_(strict ? kStrictlyBehind : kHiddenBehind),
+      points_(voxels.slots.size()),
+      key_(voxels.slots.size()),
+      sheet_(voxels.slots.size()),
+      free_(voxels.slots.size()) {
+  for (const Instance& i : rays.scene().instances)
+    clear_.push_back(letsLightThrough(
+        rays.scene().materials[static_cast<size_t>(rays.scene().meshes[static_cast<size_t>(i.mesh)].material)]));
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
     if (progress.stop()) return;
     if (carried && carried->keeps(b)) {
@@ -85,8 +100,11 @@ void SlotPaths::nameSlots(size_t b) {
   for (int z = 0; z < kBrickSize; ++z) {
     for (uint64_t bits = brick.occupied[static_cast<size_t>(z)]; bits; bits &= bits - 1, ++record) {
       const int bit = std::countr_zero(bits);
-      const Int3 inBrick{bit & 7, bit >> 3, z}, v{brick.coord.x * kBrickSize + inBrick.x, brick.coord.y * kBrickSize + inBrick.y, brick.coord.z * kBrickSize + inBrick.z};
-      const Int3 inWorld{corner.x * kBrickSize + inBrick.x, corner.y * kBrickSize + inBrick.y, corner.z * kBrickSize + inBrick.z};
+      const Int3 inBrick{bit & 7, bit >> 3, z},
+          v{brick.coord.x * kBrickSize + inBrick.x, brick.coord.y * kBrickSize + inBrick.y,
+            brick.coord.z * kBrickSize + inBrick.z};
+      const Int3 inWorld{corner.x * kBrickSize + inBrick.x, corner.y * kBrickSize + inBrick.y,
+                         corner.z * kBrickSize + inBrick.z};
       const SurfaceVoxel& voxel = voxels_->voxels[record];
       const size_t end = voxel.firstSlot + static_cast<size_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
       for (size_t s = voxel.firstSlot; s < end; ++s) {
@@ -97,8 +115,8 @@ void SlotPaths::nameSlots(size_t b) {
   }
 }
 
-// Points are spread over the voxel where the surface fills that. Each is looked up on the surface itself, for beside a curved
-// surface the slot's plane lies behind it.
+// Points are spread over the voxel where the surface fills that. Each is looked up on the surface itself, for beside a
+// curved surface the slot's plane lies behind it.
 void SlotPaths::probe(size_t first, size_t last, uint64_t seed) {
   const float highest = kProbeHeight * voxels_->voxelSizeM;
   std::vector<Ray> rays;
@@ -145,8 +163,8 @@ void SlotPaths::probe(size_t first, size_t last, uint64_t seed) {
 
 Vec3 SlotPaths::lifted(Vec3 p, Vec3 n) const { return offsetOrigin(p, n) + n * (0.01f * voxels_->voxelSizeM); }
 
-// Short rays down onto the slot's surface, one in each quarter of its square. They start below whatever lies over it: in its own
-// voxel, if there is nothing else in that.
+// Short rays down onto the slot's surface, one in each quarter of its square. They start below whatever lies over it:
+// in its own voxel, if there is nothing else in that.
 void SlotPaths::appendProbes(size_t s, uint64_t seed, std::vector<Ray>& rays) const {
   const FaceSlot& slot = voxels_->slots[s];
   if (!fillsVoxel(slot)) return;
@@ -157,8 +175,10 @@ void SlotPaths::appendProbes(size_t s, uint64_t seed, std::vector<Ray>& rays) co
   for (uint32_t k = 0; k < kPoints; ++k) {
     Sampler sampler(key_[s], k, seed + 6);
     const Vec2 u = sampler.next2();
-    const float x = 0.4f * (u.x + static_cast<float>(k & 1)) - 0.4f, y = 0.4f * (u.y + static_cast<float>(k >> 1)) - 0.4f;
-    rays.push_back({slot.position + (frame.t * x + frame.b * y) * h + slot.normal * height, -slot.normal, 0, height + kProbeHeight * h});
+    const float x = 0.4f * (u.x + static_cast<float>(k & 1)) - 0.4f,
+                y = 0.4f * (u.y + static_cast<float>(k >> 1)) - 0.4f;
+    rays.push_back({slot.position + (frame.t * x + frame.b * y) * h + slot.normal * height, -slot.normal, 0,
+                    height + kProbeHeight * h});
   }
 }
 
@@ -178,7 +198,8 @@ Vec3 SlotPaths::albedoOfTheRest(const Hit& hit, float passes) const {
   return m.alpha >= 1 ? min(albedo / std::max(1e-3f, 1 - passes), Vec3(1)) : albedo;
 }
 
-void SlotPaths::follow(std::span<const Ray> rays, std::span<Sampler> samplers, std::vector<Arrival>& ends, std::vector<HiddenReflection>* hidden) const {
+void SlotPaths::follow(std::span<const Ray> rays, std::span<Sampler> samplers, std::vector<Arrival>& ends,
+                       std::vector<HiddenReflection>* hidden) const {
   const Scene& scene = rays_->scene();
   ends.assign(rays.size(), {});
   std::vector<size_t> on(rays.size()), next;  // rays on their way

@@ -42,11 +42,14 @@ class SlotPaths {
   static constexpr uint32_t kPoints = 4;
 
   SlotPaths() = default;
-  // Of no use once `progress` says stop. Refers to rays and voxels. `strict`: surfaces a little behind a slot's place are none of its, for who lights those by themselves (hidden_light.h); else their
-  // light would be lost, and the slot's stands for it.
-  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict = false) : SlotPaths(rays, voxels, seed, progress, strict, nullptr, nullptr) {}
+  // Of no use once `progress` says stop. Refers to rays and voxels. `strict`: surfaces a little behind a slot's place
+  // are none of its, for who lights those by themselves (hidden_light.h); else their light would be lost, and the
+  // slot's stands for it.
+  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict = false)
+      : SlotPaths(rays, voxels, seed, progress, strict, nullptr, nullptr) {}
   // Where bricks are carried from `before` what was found there stands.
-  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict, const SlotPaths* before, const Carried* carried);
+  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict,
+            const SlotPaths* before, const Carried* carried);
 
   // The same scene and voxels, wherever they are now.
   void refer(const RayScene& rays, const Voxels& voxels) { rays_ = &rays, voxels_ = &voxels; }
@@ -54,21 +57,25 @@ class SlotPaths {
   // Points that receive a slot's light.
   Vec3 point(size_t slot, size_t k) const { return points_[slot][k % kPoints]; }
 
-  // Number for random numbers, which depends on nothing but the place of the slot in the world: what is traced again after an
-  // instance has moved meets the same as before.
+  // Number for random numbers, which depends on nothing but the place of the slot in the world: what is traced again
+  // after an instance has moved meets the same as before.
   uint32_t key(size_t slot) const { return key_[slot]; }
 
   // Whether its voxel holds one sheet of surface and nothing else.
   bool isSheet(size_t slot) const { return sheet_[slot] != 0; }
 
-  // Follows rays through panes, with the share that they let through, to the slots that stand for the surfaces met. A surface
-  // behind the one its slot stands for (the back of a panel before a wall, the inside of a pipe) has no light of its own in the
-  // voxels: there the way goes on by a diffuse reflection, which is added to `hidden`. ends[i] belongs to rays[i].
-  void follow(std::span<const Ray> rays, std::span<Sampler> samplers, std::vector<Arrival>& ends, std::vector<HiddenReflection>* hidden = nullptr) const;
+  // Follows rays through panes, with the share that they let through, to the slots that stand for the surfaces met. A
+  // surface behind the one its slot stands for (the back of a panel before a wall, the inside of a pipe) has no light
+  // of its own in the voxels: there the way goes on by a diffuse reflection, which is added to `hidden`. ends[i]
+  // belongs to rays[i].
+  void follow(std::span<const Ray> rays, std::span<Sampler> samplers, std::vector<Arrival>& ends,
+              std::vector<HiddenReflection>* hidden = nullptr) const;
 
   // Albedo of the surface where it ends, for the light that does not pass it.
   Vec3 albedo(const Arrival& end) const { return albedoOfTheRest(end.hit, end.passes); }
-  size_t bytes() const { return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t) + sizeof(uint8_t) + sizeof(float)); }
+  size_t bytes() const {
+    return points_.size() * (sizeof(points_[0]) + sizeof(uint32_t) + sizeof(uint8_t) + sizeof(float));
+  }
   SurfacePlace place(const Arrival& end) const { return placeAt(rays_->scene(), end.hit, end.ray.direction); }
 
  private:

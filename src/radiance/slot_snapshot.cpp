@@ -10,12 +10,14 @@ namespace {
 
 constexpr float kFacing = 0.7f;     // cosine between the normals of a place and of a slot that stands for it
 constexpr float kOffPlane = 0.6f;   // voxels
-constexpr float kHidden = 0.04f;    // of the brightest around: darker slots are taken to lie in a wall, where no eye comes
+constexpr float kHidden =
+    0.04f;    // of the brightest around: darker slots are taken to lie in a wall, where no eye comes
 constexpr float kOneSurface = 0.9f;
 constexpr int kSmoothings = 6;
 constexpr float kLeastWeight = 1e-3f;
 
-// Three channels of nine bits and an exponent of five, as in OpenGL's RGB9_E5 but for its range: from 2^-20 lx up to 2^20.
+// Three channels of nine bits and an exponent of five, as in OpenGL's RGB9_E5 but for its range: from 2^-20 lx up to
+// 2^20.
 constexpr int kLeastExponent = -20;
 uint32_t packed(Vec3 v) {
   const float most = maxComponent(v);
@@ -24,21 +26,33 @@ uint32_t packed(Vec3 v) {
   std::frexp(most, &e);  // most < 2^e
   e = std::clamp(e, kLeastExponent + 9, kLeastExponent + 9 + 31);
   const float scale = std::ldexp(1.0f, 9 - e);
-  const auto channel = [&](float c) { return static_cast<uint32_t>(std::clamp(std::lround(std::max(0.0f, c) * scale), 0L, 511L)); };
+  const auto channel = [&](float c) {
+    return static_cast<uint32_t>(std::clamp(std::lround(std::max(0.0f, c) * scale), 0L, 511L));
+  };
   return channel(v.x) | channel(v.y) << 9 | channel(v.z) << 18 | static_cast<uint32_t>(e - 9 - kLeastExponent) << 27;
 }
 Vec3 unpacked(uint32_t bits) {
-  const float scale = std::bit_cast<float>(static_cast<uint32_t>(127 + kLeastExponent + static_cast<int>(bits >> 27)) << 23);
-  return Vec3{static_cast<float>(bits & 511), static_cast<float>(bits >> 9 & 511), static_cast<float>(bits >> 18 & 511)} * scale;
+  const float scale =
+      std::bit_cast<float>(static_cast<uint32_t>(127 + kLeastExponent + static_cast<int>(bits >> 27)) << 23);
+  return Vec3{static_cast<float>(bits & 511), static_cast<float>(bits >> 9 & 511),
+              static_cast<float>(bits >> 18 & 511)} *
+         scale;
 }
 
 int8_t packedUnit(float v) { return static_cast<int8_t>(std::lround(127 * v)); }
 
 }  // namespace
 
-SlotSnapshot::SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux, std::vector<uint32_t> emissive)
-    : perMetre_(1 / voxels.voxelSizeM), emissive_(std::move(emissive)), grid_(voxels), cells_(voxels.voxels.size()), records_(voxels.slots.size()) {
-  parallelFor(cells_.size(), 16384, [&](size_t v) { cells_[v] = {voxels.voxels[v].firstSlot, voxels.voxels[v].faces}; });
+SlotSnapshot::SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux,
+                           std::vector<uint32_t> emissive)
+    : perMetre_(1 / voxels.voxelSizeM),
+      emissive_(std::move(emissive)),
+      grid_(voxels),
+      cells_(voxels.voxels.size()),
+      records_(voxels.slots.size()) {
+  parallelFor(cells_.size(), 16384, [&](size_t v) {
+    cells_[v] = {voxels.voxels[v].firstSlot, voxels.voxels[v].faces};
+  });
   std::vector<Vec3> soft(records_.size());
   parallelFor(records_.size(), 16384, [&](size_t i) {
     const FaceSlot& slot = voxels.slots[i];
@@ -53,8 +67,9 @@ SlotSnapshot::SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianc
   parallelFor(records_.size(), 16384, [&](size_t i) { records_[i].soft = packed(soft[i]); });
 }
 
-// What links find has noise from slot to slot: each takes on some of those beside it on the same surface, from pass to pass farther ones too. Slots within walls are dark and left out,
-// so that no light comes from one room to another along a wall they share.
+// What links find has noise from slot to slot: each takes on some of those beside it on the same surface, from pass to
+// pass farther ones too. Slots within walls are dark and left out, so that no light comes from one room to another
+// along a wall they share.
 void SlotSnapshot::smooth(const Voxels& voxels, std::vector<Vec3>& soft) const {
   std::vector<std::array<int32_t, 8>> beside(records_.size());
   parallelFor(voxels.bricks.size(), 64, [&](size_t b) {
@@ -66,7 +81,8 @@ void SlotSnapshot::smooth(const Voxels& voxels, std::vector<Vec3>& soft) const {
         const Int3 v{8 * brick.coord.x + (bit & 7), 8 * brick.coord.y + (bit >> 3), 8 * brick.coord.z + z};
         const Cell& cell = cells_[voxel];
         for (int face = 0; face < 6; ++face) {
-          if (const Record* r = recordOf(cell, face)) findBeside(v, *r, face, beside[static_cast<size_t>(r - records_.data())]);
+          if (const Record* r = recordOf(cell, face))
+            findBeside(v, *r, face, beside[static_cast<size_t>(r - records_.data())]);
         }
       }
     }
@@ -79,7 +95,9 @@ void SlotSnapshot::smooth(const Voxels& voxels, std::vector<Vec3>& soft) const {
       float weight = 4;
       for (size_t k = 0; k < 8; ++k) {
         const int32_t n = beside[i][k];
-        if (n < 0 || !(luminance(soft[static_cast<size_t>(n)]) > least) || luminance(soft[static_cast<size_t>(n)]) * kHidden > luminance(soft[i])) continue;
+        if (n < 0 || !(luminance(soft[static_cast<size_t>(n)]) > least) ||
+            luminance(soft[static_cast<size_t>(n)]) * kHidden > luminance(soft[i]))
+          continue;
         const float w = k < 4 ? 2.0f : 1.0f;  // edges, then corners
         sum += soft[static_cast<size_t>(n)] * w, weight += w;
       }
@@ -90,25 +108,28 @@ void SlotSnapshot::smooth(const Voxels& voxels, std::vector<Vec3>& soft) const {
 }
 
 void SlotSnapshot::findBeside(Int3 v, const Record& r, int face, std::array<int32_t, 8>& beside) const {
-  constexpr std::array<std::array<int, 2>, 8> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+  constexpr std::array<std::array<int, 2>, 8> kSteps{
+      {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
   const int axis = face >> 1;
   for (size_t k = 0; k < 8; ++k) {
     const auto [a, b] = kSteps[k];
-    const Int3 at{v.x + (axis == 0 ? 0 : a), v.y + (axis == 1 ? 0 : axis == 0 ? a
-                                                                              : b),
-                  v.z + (axis == 2 ? 0 : b)};
+    const Int3 at{v.x + (axis == 0 ? 0 : a), v.y + (axis == 1 ? 0 : axis == 0 ? a : b), v.z + (axis == 2 ? 0 : b)};
     const Cell* cell = cellAt(at);
     const Record* o = cell ? recordOf(*cell, face) : nullptr;
     // Of one plane, seen from the middle of the other voxel.
-    const Vec3 middle{static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f, static_cast<float>(at.z) + 0.5f};
-    const bool same = o && dot(o->normal(), r.normal()) > kOneSurface && std::abs((dot(middle, r.normal()) - r.offset) - (dot(middle, o->normal()) - o->offset)) < kOffPlane;
+    const Vec3 middle{static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f,
+                      static_cast<float>(at.z) + 0.5f};
+    const bool same =
+        o && dot(o->normal(), r.normal()) > kOneSurface &&
+        std::abs((dot(middle, r.normal()) - r.offset) - (dot(middle, o->normal()) - o->offset)) < kOffPlane;
     beside[k] = same ? static_cast<int32_t>(o - records_.data()) : -1;
   }
 }
 
 SlotIrradiance SlotSnapshot::at(Vec3 p, Vec3 n) const {
   const Vec3 q = (p - grid_.origin) * perMetre_, corner = q - Vec3(0.5f);
-  const Int3 v{static_cast<int>(std::floor(corner.x)), static_cast<int>(std::floor(corner.y)), static_cast<int>(std::floor(corner.z))};
+  const Int3 v{static_cast<int>(std::floor(corner.x)), static_cast<int>(std::floor(corner.y)),
+               static_cast<int>(std::floor(corner.z))};
   const Vec3 t = corner - Vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
   const int face = dominantFace(n);
   struct Near {
@@ -143,7 +164,8 @@ SlotIrradiance SlotSnapshot::at(Vec3 p, Vec3 n) const {
   // Of bent or small things: the slot that faces n best, in the voxel of p or one beside it.
   for (const float nudge : {0.0f, 0.3f, -0.3f, 0.8f}) {
     const Vec3 at = q + n * nudge;
-    const Cell* cell = cellAt({static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), static_cast<int>(std::floor(at.z))});
+    const Cell* cell = cellAt(
+        {static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), static_cast<int>(std::floor(at.z))});
     if (!cell) continue;
     const Record* best = recordOf(*cell, face);
     float bestCosine = best ? 1 : 0;

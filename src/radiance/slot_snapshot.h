@@ -1,5 +1,5 @@
-// Light on slots as a value of its own, for pictures that are made while voxels and cache follow a change: what a surface receives
-// anywhere, interpolated between slots.
+// Light on slots as a value of its own, for pictures that are made while voxels and cache follow a change: what a
+// surface receives anywhere, interpolated between slots.
 #pragma once
 
 #include <span>
@@ -12,16 +12,20 @@ namespace roomlight {
 // What falls on one side of a surface, lx per channel.
 struct SlotIrradiance {
   Vec3 soft;   // from all around, and
-  Vec3 sharp;  // straight from suns, small lamps and what was edited last, as voxels know it: shadows as coarse as they are
+  Vec3 sharp;  // straight from suns, small lamps and what was edited last, as voxels know it: shadows as coarse as they
+               // are
   bool found = false;  // else no slot is near
 };
 
 class SlotSnapshot {
  public:
-  // One value a slot: all light, and the part of it that comes straight from suns, small lamps and the emissive meshes that instances `emissive` are.
-  SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux, std::vector<uint32_t> emissive = {});
+  // One value a slot: all light, and the part of it that comes straight from suns, small lamps and the emissive meshes
+  // that instances `emissive` are.
+  SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianceLux, std::span<const Vec3> sharpLux,
+               std::vector<uint32_t> emissive = {});
 
-  // Mean of the eight voxels around p, weighted by nearness, of slots that face as n (unit) does and whose plane p lies on; where there is none, the nearest's.
+  // Mean of the eight voxels around p, weighted by nearness, of slots that face as n (unit) does and whose plane p lies
+  // on; where there is none, the nearest's.
   SlotIrradiance at(Vec3 p, Vec3 n) const;
   const std::vector<uint32_t>& sharpEmissive() const { return emissive_; }
   float voxelSizeM() const { return 1 / perMetre_; }
@@ -32,7 +36,9 @@ class SlotSnapshot {
     int8_t normalX = 0, normalY = 0, normalZ = 0;  // in 1/127
     uint8_t face = 0;
     float offset = 0;  // of its plane along the normal, in voxels from the lattice's origin
-    Vec3 normal() const { return Vec3{static_cast<float>(normalX), static_cast<float>(normalY), static_cast<float>(normalZ)} * (1.0f / 127); }
+    Vec3 normal() const {
+      return Vec3{static_cast<float>(normalX), static_cast<float>(normalY), static_cast<float>(normalZ)} * (1.0f / 127);
+    }
   };
   struct Cell {
     uint32_t firstSlot;

@@ -24,20 +24,26 @@ Vec3 placeOn(const Voxels& voxels, const FaceSlot& slot, uint32_t k, Vec2 jitter
   Vec3 p = slot.position;
   p[u] = voxels.origin[u] + h * (std::floor(corner[u]) + (static_cast<float>(k % kSide) + jitter.x) / kSide);
   p[v] = voxels.origin[v] + h * (std::floor(corner[v]) + (static_cast<float>(k / kSide) + jitter.y) / kSide);
-  p[axis] -= ((p[u] - slot.position[u]) * slot.normal[u] + (p[v] - slot.position[v]) * slot.normal[v]) / slot.normal[axis];
+  p[axis] -=
+      ((p[u] - slot.position[u]) * slot.normal[u] + (p[v] - slot.position[v]) * slot.normal[v]) / slot.normal[axis];
   return offsetOrigin(p, slot.normal) + slot.normal * (0.01f * h);
 }
 
-bool fills(const FaceSlot& slot, float h) { return slot.areaM2 > 0.9f * h * h && std::abs(slot.normal[slot.face / 2]) > 0.9f; }
+bool fills(const FaceSlot& slot, float h) {
+  return slot.areaM2 > 0.9f * h * h && std::abs(slot.normal[slot.face / 2]) > 0.9f;
+}
 
 }  // namespace
 
-std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux, uint64_t& rayCount) {
+std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                                 const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux,
+                                 uint64_t& rayCount) {
   // Rays always go on from polished metal.
   const Scene& scene = rays.scene();
   const auto isMetal = [&](size_t s) {
     const Instance& instance = scene.instances[voxels.slots[s].instance];
-    return isPolishedMetal(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)]);
+    return isPolishedMetal(
+        scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)]);
   };
   // How many places of each slot are asked: few amid others that are lit all over, none where no sun is near.
   std::vector<uint8_t> places(voxels.slots.size());
@@ -49,8 +55,7 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
       const float other = luminance(sunLux[o]);
       any = any || other > 0, even = even && std::abs(other - own) < kEven * own;
     }
-    places[s] = even ? SlotPaths::kPoints : any ? kPlaces
-                                                : 0;
+    places[s] = even ? SlotPaths::kPoints : any ? kPlaces : 0;
   });
   std::vector<std::vector<GlowPoint>> ofBrick(voxels.bricks.size());
   std::atomic<uint64_t> count = 0;
@@ -64,8 +69,10 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
       if (places[s] == 0) {
         // Among other things in its voxel rays do not always read the slot.
         if (!paths.isSheet(s) || isBlack(sunLux[s]) || isMetal(s)) continue;
-        const Vec3 radiance = slot.albedo * sunLux[s] / kPi, flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
-        for (uint32_t k = 0; k < SlotPaths::kPoints; ++k) ofBrick[b].push_back({paths.point(s, k), slot.normal, flux, static_cast<int64_t>(s), luminance(radiance)});
+        const Vec3 radiance = slot.albedo * sunLux[s] / kPi,
+                   flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
+        for (uint32_t k = 0; k < SlotPaths::kPoints; ++k)
+          ofBrick[b].push_back({paths.point(s, k), slot.normal, flux, static_cast<int64_t>(s), luminance(radiance)});
         continue;
       }
       way.clear(), lux.clear();
@@ -86,7 +93,8 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
       finer[s] = mean;
       const bool all = std::none_of(lux.begin(), lux.end(), [](Vec3 v) { return isBlack(v); });
       const size_t step = all && lux.size() == kPlaces ? kDiagonal : 1;  // of one that is lit all over a few will do
-      const float radiance = luminance(slot.albedo * mean) / kPi, part = static_cast<float>(all ? SlotPaths::kPoints : lux.size());
+      const float radiance = luminance(slot.albedo * mean) / kPi,
+                  part = static_cast<float>(all ? SlotPaths::kPoints : lux.size());
       for (size_t i = 0; i < lux.size(); i += step) {
         const Vec3 flux = slot.albedo * (all ? mean : lux[i]) * (slot.areaM2 / part);
         if (!isBlack(flux)) ofBrick[b].push_back({way[i].origin, slot.normal, flux, static_cast<int64_t>(s), radiance});
@@ -100,7 +108,9 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
   return all;
 }
 
-std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Links& links, std::span<const Vec3> reflectedLx, uint64_t seed, uint64_t& rayCount) {
+std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, const Voxels& voxels,
+                            const SlotPaths& paths, const Links& links, std::span<const Vec3> reflectedLx,
+                            uint64_t seed, uint64_t& rayCount) {
   std::vector<Vec3> lux(voxels.slots.size());
   std::atomic<uint64_t> count = 0;
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
@@ -110,9 +120,11 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
     const auto linkShare = [&](size_t s, size_t j) {
       const FaceSlot &to = voxels.slots[s], &from = voxels.slots[j];
       const Vec3 way = from.position - to.position;
-      const float distance = std::max(length(way), 1e-6f), cosine = std::max(0.0f, dot(way, to.normal)) / distance, cosLight = -dot(way, from.normal) / distance;
+      const float distance = std::max(length(way), 1e-6f), cosine = std::max(0.0f, dot(way, to.normal)) / distance,
+                  cosLight = -dot(way, from.normal) / distance;
       const float perSample = static_cast<float>(links.count(s)) / static_cast<float>(kSamples);
-      return patches.rayShare(static_cast<int64_t>(j), luminance(reflectedLx[j]) / kPi, distance, cosLight, sideOf(s), perSample * cosine / kPi);
+      return patches.rayShare(static_cast<int64_t>(j), luminance(reflectedLx[j]) / kPi, distance, cosLight, sideOf(s),
+                              perSample * cosine / kPi);
     };
     SlotSamples samples;
     for (size_t s = first; s < last; ++s) {
@@ -123,7 +135,8 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
         const GlowSample g = patches.sample(p, n, sideOf(s), sampler);
         if (!g.light.valid()) continue;
         const float share = 1 - linkShare(s, static_cast<size_t>(patches.point(g.point).slot));
-        samples.ask(s, shadowRay(p, p, g.light), g.light.radiance * (share * dot(g.light.wi, n) / static_cast<float>(kSamples)));
+        samples.ask(s, shadowRay(p, p, g.light),
+                    g.light.radiance * (share * dot(g.light.wi, n) / static_cast<float>(kSamples)));
       }
     }
     for (size_t s = first; s < last; ++s) {
@@ -131,7 +144,8 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
       for (const Link& link : own) {
         const size_t j = link.slot();
         if (link.isDark() || !patches.holdsSun(static_cast<int64_t>(j))) continue;
-        lux[s] += reflectedLx[j] * (link.left() * Link::kUnit * (link.isBent() ? 1 : linkShare(s, j)) / static_cast<float>(own.size()));
+        lux[s] += reflectedLx[j] *
+                  (link.left() * Link::kUnit * (link.isBent() ? 1 : linkShare(s, j)) / static_cast<float>(own.size()));
       }
     }
     count += samples.addTo(rays, lux);

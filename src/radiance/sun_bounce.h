@@ -1,4 +1,5 @@
-// What the sun lights, as points, and the light that slots get from it straight: by place, where links would find such patches by chance only.
+// What the sun lights, as points, and the light that slots get from it straight: by place, where links would find such
+ // patches by chance only.
 #pragma once
 
 #include <vector>
@@ -9,11 +10,16 @@
 
 namespace roomlight {
 
-// Places that the scene's only sun lights, with the flux they reflect, Lambertian. `sunLux`: per slot, known by few rays; of flat
-// surfaces that fill their voxel it becomes known by 16, by 4 where all around is lit alike.
-std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux, uint64_t& rayCount);
+// Places that the scene's only sun lights, with the flux they reflect, Lambertian. `sunLux`: per slot, known by few
+// rays; of flat surfaces that fill their voxel it becomes known by 16, by 4 where all around is lit alike.
+std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels,
+                                 const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux,
+                                 uint64_t& rayCount);
 
-// lx per slot that arrives from the patches, whose slots reflect `reflectedLx`: by samples of them and along links, which share it by multiple importance sampling.
-std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const Links& links, std::span<const Vec3> reflectedLx, uint64_t seed, uint64_t& rayCount);
+// lx per slot that arrives from the patches, whose slots reflect `reflectedLx`: by samples of them and along links,
+// which share it by multiple importance sampling.
+std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, const Voxels& voxels,
+                            const SlotPaths& paths, const Links& links, std::span<const Vec3> reflectedLx,
+                            uint64_t seed, uint64_t& rayCount);
 
 }  // namespace roomlight

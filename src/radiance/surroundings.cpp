@@ -13,20 +13,29 @@ constexpr float kMostPoints = 8;  // size of its surroundings: bulbs all over a 
 float nearM(float voxelSizeM) { return std::max(kNearM, kNearVoxels * voxelSizeM); }
 
 // Half-angle that holds most light of a lamp that has a beam.
-float beamRad(const Lamp& lamp) { return lamp.web ? beamHalfAngleRad(*lamp.web) : lamp.kind == LampKind::Spot ? lamp.outerConeRad
-                                                                                                              : kPi; }
+float beamRad(const Lamp& lamp) {
+  return lamp.web ? beamHalfAngleRad(*lamp.web) : lamp.kind == LampKind::Spot ? lamp.outerConeRad : kPi;
+}
 
 }  // namespace
 
 LightSurroundings::LightSurroundings(const Lamp& lamp, float voxelSizeM)
-    : position_(lamp.position), direction_(lamp.direction), acrossC0_(lamp.up), acrossC90_(cross(lamp.up, lamp.direction)), near_(nearM(voxelSizeM)), tanOuter_(std::tan(beamRad(lamp))), voxelSizeM_(voxelSizeM) {
-  // How far a spot's disc of light is smaller than a few voxels, so that shadow rays from slots miss it. Not for wide ones.
+    : position_(lamp.position),
+      direction_(lamp.direction),
+      acrossC0_(lamp.up),
+      acrossC90_(cross(lamp.up, lamp.direction)),
+      near_(nearM(voxelSizeM)),
+      tanOuter_(std::tan(beamRad(lamp))),
+      voxelSizeM_(voxelSizeM) {
+  // How far a spot's disc of light is smaller than a few voxels, so that shadow rays from slots miss it. Not for wide
+  // ones.
   const float outerRad = beamRad(lamp);
   if (outerRad < kNarrow) far_ = kNarrowVoxels * voxelSizeM / std::tan(std::max(outerRad, 1e-3f));
   if (lamp.extended) half_ = {0.5f * lamp.web->sizeC0M, 0.5f * lamp.web->sizeC90M, 0};
 }
 
-LightSurroundings::LightSurroundings(const Bounds3& box, float voxelSizeM) : position_(box.centre()), half_(box.size() * 0.5f), near_(nearM(voxelSizeM)), voxelSizeM_(voxelSizeM) {}
+LightSurroundings::LightSurroundings(const Bounds3& box, float voxelSizeM)
+    : position_(box.centre()), half_(box.size() * 0.5f), near_(nearM(voxelSizeM)), voxelSizeM_(voxelSizeM) {}
 
 // From the nearest place of the opening or the box.
 Vec3 LightSurroundings::toSource(Vec3 p) const {
@@ -63,7 +72,8 @@ float LightSurroundings::sizeOfPoints() const {
 }
 
 bool isSmall(const Lights& lights, size_t emitter, float voxelSizeM) {
-  return lights.emitterAreaM2(emitter) <= kSmallM2 && LightSurroundings(lights.emitterBounds(emitter), voxelSizeM).sizeOfPoints() <= kMostPoints;
+  return lights.emitterAreaM2(emitter) <= kSmallM2 &&
+         LightSurroundings(lights.emitterBounds(emitter), voxelSizeM).sizeOfPoints() <= kMostPoints;
 }
 
 std::vector<LightSurroundings> emitterSurroundings(const Lights& lights, float voxelSizeM) {

@@ -46,7 +46,8 @@ void LightVertices::trace(int paths, uint32_t pass, uint64_t seed) {
   perPath_ = static_cast<double>(total) / static_cast<double>(count);
 }
 
-void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t seed, std::vector<LightVertex>& out, uint64_t& rayCount) const {
+void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t seed, std::vector<LightVertex>& out,
+                           uint64_t& rayCount) const {
   Sampler sampler(kFirstKey + path, pass, seed);
   const LightRay start = lightRays_.sample(sampler);
   Ray ray{start.origin, start.direction, 0, kInfinity};
@@ -60,8 +61,10 @@ void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t s
     const Bsdf bsdf(s.m, s.ns, s.ng, wi);
     if (LightVertices::connects(bsdf)) {
       const Vec3 scattered = flux * s.m.alpha;
-      out.push_back({s.p, s.ng, s.smooth, wi, luminance(scattered * bsdf.diffuseAlbedo()), luminance(scattered * bsdf.specularAlbedo()), bsdf.alpha(),
-                     lightRays_.densityM2(s.p, s.ng), scattered, s.m.baseColor * ((1 - s.m.metallic) * (1 - s.m.transmission)), s.m.f0, s.m.f90, s.m.roughness, start.lamp, start.emitter});
+      out.push_back({s.p, s.ng, s.smooth, wi, luminance(scattered * bsdf.diffuseAlbedo()),
+                     luminance(scattered * bsdf.specularAlbedo()), bsdf.alpha(), lightRays_.densityM2(s.p, s.ng),
+                     scattered, s.m.baseColor * ((1 - s.m.metallic) * (1 - s.m.transmission)), s.m.f0, s.m.f90,
+                     s.m.roughness, start.lamp, start.emitter});
     }
     // Thin glass and blended alpha, as for paths from the camera.
     if (s.m.alpha < 1 || s.m.transmission > 0) {
@@ -85,7 +88,8 @@ void LightVertices::follow(uint64_t path, float share, uint32_t pass, uint64_t s
     if (next.mirror) {
       flux *= next.weight;
     } else {
-      // What a path coming the other way would find here: flux spreads by the true surface, scattering sees the shading normal.
+      // What a path coming the other way would find here: flux spreads by the true surface, scattering sees the shading
+      // normal.
       const Vec3 f = Bsdf(s.m, bentNormal(s.smooth, s.ng, -next.wi), s.ng, next.wi).evaluate(wi);
       flux *= f * (dot(s.ng, next.wi) / (std::max(dot(s.ng, wi), 1e-6f) * next.pdf));
     }

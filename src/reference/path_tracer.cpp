@@ -14,12 +14,12 @@ namespace roomlight {
 namespace {
 
 constexpr int kTile = 16;
-// Light paths a pass; more do not help as much as another pass. Vertices take 128 B each, twice that while they are collected; how
-// many a path has, the first pass tells.
+// Light paths a pass; more do not help as much as another pass. Vertices take 128 B each, twice that while they are
+// collected; how many a path has, the first pass tells.
 constexpr int kMostLightPaths = 1 << 18, kFirstLightPaths = 1 << 14, kPixelsPerLightPath = 16;
 constexpr double kMostLightVertices = 1 << 20;
-// Of meters; each round of samples has its own. All meters of a round share them, so what they are off by shows in no spread of samples: as many as
-// samples, that it stays below theirs.
+// Of meters; each round of samples has its own. All meters of a round share them, so what they are off by shows in no
+// spread of samples: as many as samples, that it stays below theirs.
 constexpr size_t kFewestLightPaths = 1024, kMostMeterLightPaths = 1 << 17;
 
 // From the camera, to where lights are looked for before the picture.
@@ -32,7 +32,16 @@ constexpr int kFilterPasses = 5;
 
 struct PathTracer::State {
   State(const RayScene& r, const Lights& l, const Camera& c, const PathSettings& s, bool withFeatures)
-      : rays(r), lights(l), cameraRays(c, s.width, s.height), settings(s), vertices(r, l), visible(l), sum(s.width, s.height), squares(s.width, s.height), pixels(withFeatures ? sum.pixels.size() : 0), layerSums(s.layers ? sum.pixels.size() * s.layers->size() : 0) {}
+      : rays(r),
+        lights(l),
+        cameraRays(c, s.width, s.height),
+        settings(s),
+        vertices(r, l),
+        visible(l),
+        sum(s.width, s.height),
+        squares(s.width, s.height),
+        pixels(withFeatures ? sum.pixels.size() : 0),
+        layerSums(s.layers ? sum.pixels.size() * s.layers->size() : 0) {}
 
   const RayScene& rays;
   const Lights& lights;
@@ -49,18 +58,21 @@ struct PathTracer::State {
 
   void learnLights(const std::function<bool()>& stopped) {
     if (samples > 0 || visible.cellCount() > 0) return;
-    const size_t paths = std::clamp(static_cast<size_t>(settings.width * settings.height / kPixelsPerLearningPath), kFewestLearningPaths, kMostLearningPaths);
+    const size_t paths = std::clamp(static_cast<size_t>(settings.width * settings.height / kPixelsPerLearningPath),
+                                    kFewestLearningPaths, kMostLearningPaths);
     visible.learn(rays, cameraRays, settings.width, settings.height, paths, settings.seed, stopped);
   }
   void traceLightPaths() {
     if (!settings.lightPaths || !vertices.lightRays().any()) return;
     const int paths = std::clamp(settings.width * settings.height / kPixelsPerLightPath, 1024, kMostLightPaths);
-    const int most = samples == 0 ? kFirstLightPaths : static_cast<int>(kMostLightVertices / std::max(1.0, vertices.perPath()));
+    const int most =
+        samples == 0 ? kFirstLightPaths : static_cast<int>(kMostLightVertices / std::max(1.0, vertices.perPath()));
     vertices.trace(std::min(paths, std::max(1, most)), static_cast<uint32_t>(samples), settings.seed);
   }
 };
 
-PathTracer::PathTracer(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings, bool features)
+PathTracer::PathTracer(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings,
+                       bool features)
     : state_(std::make_unique<State>(rays, lights, camera, settings, features)) {}
 PathTracer::~PathTracer() = default;
 
@@ -87,13 +99,17 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
         const uint64_t pixel = static_cast<uint64_t>(y) * w + x;
         Sampler sampler(pixel, static_cast<uint32_t>(st.samples), st.settings.seed);
         const Vec2 jitter = sampler.next2();
-        const Ray ray = st.cameraRays.seeing(st.rays, static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+        const Ray ray =
+            st.cameraRays.seeing(st.rays, static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
         if (ray.tMax <= 0) continue;  // sees no light
         const size_t layerCount = st.settings.layers ? st.settings.layers->size() : 0;
         std::optional<PathLayers> layers;
-        if (layerCount > 0) layers.emplace(PathLayers{*st.settings.layers, std::span(st.layerSums).subspan(pixel * layerCount, layerCount)});
+        if (layerCount > 0)
+          layers.emplace(
+              PathLayers{*st.settings.layers, std::span(st.layerSums).subspan(pixel * layerCount, layerCount)});
         PathLayers* apart = layers ? &*layers : nullptr;
-        fresh.at(x, y) = seen.empty() ? walk.radiance(ray, sampler, count, apart) : walk.radiance(ray, sampler, count, seen[pixel], apart);
+        fresh.at(x, y) = seen.empty() ? walk.radiance(ray, sampler, count, apart)
+                                      : walk.radiance(ray, sampler, count, seen[pixel], apart);
       }
     }
     st.rayCount += count;
@@ -114,7 +130,9 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
 }
 
 int PathTracer::samples() const { return state_->samples; }
-uint64_t PathTracer::rays() const { return state_->rayCount + state_->vertices.rayCount() + state_->visible.rayCount(); }
+uint64_t PathTracer::rays() const {
+  return state_->rayCount + state_->vertices.rayCount() + state_->visible.rayCount();
+}
 
 Image PathTracer::mean() const {
   Image out = state_->sum;
@@ -175,37 +193,50 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
   if (progress.report) {
     inner.report = [&](float done) {
       float fraction = (static_cast<float>(tracer.samples()) + done) / static_cast<float>(settings.samples);
-      if (settings.timeLimitS > 0) fraction = std::max(fraction, static_cast<float>(watch.seconds() / settings.timeLimitS));
+      if (settings.timeLimitS > 0)
+        fraction = std::max(fraction, static_cast<float>(watch.seconds() / settings.timeLimitS));
       progress.at(std::min(1.0f, fraction));
     };
   }
   while (tracer.samples() < settings.samples) {
     if (!tracer.pass(inner) || progress.stop()) break;
     if (settings.timeLimitS > 0 && watch.seconds() >= settings.timeLimitS) break;
-    if (settings.noiseLevel > 0 && tracer.samples() >= 16 && tracer.samples() % 8 == 0 && tracer.noise() <= settings.noiseLevel) break;
+    if (settings.noiseLevel > 0 && tracer.samples() >= 16 && tracer.samples() % 8 == 0 &&
+        tracer.noise() <= settings.noiseLevel)
+      break;
   }
-  return {settings.filter ? filtered(tracer.features(), kFilterPasses) : tracer.mean(), tracer.variance(), tracer.layers(), tracer.samples(), tracer.noise(), tracer.rays()};
+  return {settings.filter ? filtered(tracer.features(), kFilterPasses) : tracer.mean(),
+          tracer.variance(),
+          tracer.layers(),
+          tracer.samples(),
+          tracer.noise(),
+          tracer.rays()};
 }
 
-std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
+std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights,
+                                             std::span<const SurfaceElement> elements, const MeterSettings& settings,
                                              const Progress& progress) {
   LightVertices vertices(rays, lights);
   const VisibleLights visible(lights);
   const auto prepare = [&](uint32_t round, size_t samples) {
-    if (vertices.lightRays().any()) vertices.trace(static_cast<int>(std::clamp<size_t>(samples, kFewestLightPaths, kMostMeterLightPaths)), round, settings.seed);
+    if (vertices.lightRays().any())
+      vertices.trace(static_cast<int>(std::clamp<size_t>(samples, kFewestLightPaths, kMostMeterLightPaths)), round,
+                     settings.seed);
   };
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     const PathWalk walk(rays, lights, visible, &vertices);
     uint64_t rayCount = 0;
     for (int i = 0; i < count; ++i) {
       Sampler sampler(meter, static_cast<uint32_t>(first + i), settings.seed);
-      lux[static_cast<size_t>(i)] += walk.illuminanceButSky(elements[meter].position, elements[meter].normal, sampler, rayCount);
+      lux[static_cast<size_t>(i)] +=
+          walk.illuminanceButSky(elements[meter].position, elements[meter].normal, sampler, rayCount);
     }
   };
   return readMeters(rays, lights, elements, settings, sample, progress, prepare);
 }
 
-MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples, uint64_t seed) {
+MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples,
+                                uint64_t seed) {
   const SurfaceElement element{position, normal};
   return measureIlluminance(rays, lights, {&element, 1}, {0, samples, samples, seed}).front();
 }

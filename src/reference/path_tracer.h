@@ -30,18 +30,21 @@ struct PathSettings {
 // Path tracing pass by pass: each adds one sample to every pixel. Refers to the rays and lights.
 class PathTracer {
  public:
-  // Size, light paths and seed of the settings count. With features, what a filter needs is kept as well: 128 B more a pixel.
-  PathTracer(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings, bool features = false);
+  // Size, light paths and seed of the settings count. With features, what a filter needs is kept as well: 128 B more a
+  // pixel.
+  PathTracer(const RayScene& rays, const Lights& lights, const Camera& camera, const PathSettings& settings,
+             bool features = false);
   ~PathTracer();
 
-  // Reports the fraction of this pass. False: stopped half way, and dropped. The first is stopped only with `firstToo`: there is no picture then.
+  // Reports the fraction of this pass. False: stopped half way, and dropped. The first is stopped only with `firstToo`:
+  // there is no picture then.
   bool pass(const Progress& progress = {}, bool firstToo = false);
 
-  int samples() const;     // passes so far
-  Image mean() const;      // linear, cd/m²
+  int samples() const;  // passes so far
+  Image mean() const;  // linear, cd/m²
   Image variance() const;  // of each pixel's mean, per channel; 0 with one sample
-  double noise() const;    // mean relative standard error over pixels; infinite with one sample
-  uint64_t rays() const;   // traced so far, of every kind
+  double noise() const;  // mean relative standard error over pixels; infinite with one sample
+  uint64_t rays() const;  // traced so far, of every kind
   FilterInput features() const;  // needs features
   std::vector<Image> layers() const;  // of the mean, where the settings have layers: their sum is mean()
 
@@ -51,11 +54,11 @@ class PathTracer {
 };
 
 struct PathResult {
-  Image image;        // linear, cd/m²
-  Image variance;     // of each pixel's mean before filtering, per channel
+  Image image;  // linear, cd/m²
+  Image variance;  // of each pixel's mean before filtering, per channel
   std::vector<Image> layers;  // where the settings have them: their sum is `image`
-  int samples = 0;    // per pixel, done
-  double noise = 0;   // mean relative standard error
+  int samples = 0;  // per pixel, done
+  double noise = 0;  // mean relative standard error
   uint64_t rays = 0;  // traced, of every kind
 };
 
@@ -63,9 +66,11 @@ PathResult pathTrace(const RayScene& rays, const Lights& lights, const Camera& c
                      const Progress& progress = {});
 
 // Incident light meters: a reading for each element, as readMeters() has it.
-std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings,
+std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights& lights,
+                                             std::span<const SurfaceElement> elements, const MeterSettings& settings,
                                              const Progress& progress = {});
 // One, with so many samples.
-MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples, uint64_t seed);
+MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples,
+                                uint64_t seed);
 
 }  // namespace roomlight

@@ -6,12 +6,15 @@
 namespace roomlight {
 namespace {
 
-// Paths longer than this are not physics but a loop between perfect mirrors; at albedo 0.95 the chance to get here is e-13.
+// Paths longer than this are not physics but a loop between perfect mirrors; at albedo 0.95 the chance to get here is
+// e-13.
 constexpr int kLongestPath = 4096;
 constexpr int kCandidates = LightVertices::kCandidates;
 
 // The part of light from wi that the diffuse lobe scatters.
-Vec3 diffuseShare(const Bsdf& bsdf, Vec3 wi) { return min(bsdf.evaluateDiffuse(wi) / max(bsdf.evaluate(wi), Vec3(1e-20f)), Vec3(1)); }
+Vec3 diffuseShare(const Bsdf& bsdf, Vec3 wi) {
+  return min(bsdf.evaluateDiffuse(wi) / max(bsdf.evaluate(wi), Vec3(1e-20f)), Vec3(1));
+}
 
 }  // namespace
 
@@ -60,7 +63,7 @@ struct PathWalk::State {
   float lastPdf = 0;       // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
   bool skyKnown = false;   // the sky, if the ray sees it, is counted already
   PathLayers* layers = nullptr;
-  float lampShare = 1;     // of light that has light paths: what connections at earlier vertices have left to this path
+  float lampShare = 1;  // of light that has light paths: what connections at earlier vertices have left to this path
 
   // Russian roulette by throughput from the third scattering on.
   bool survives(int scattered, float share, Sampler& sampler) {
@@ -84,7 +87,9 @@ class PathWalk::FirstSurface {
   static constexpr bool kOn = true;
   explicit FirstSurface(FilterPixel& pixel) : pixel_(pixel) { pixel = {}; }
 
-  bool isHere(const SurfacePoint& s, const Bsdf& bsdf) const { return state_ == kLooking && s.m.alpha >= 1 && s.m.transmission <= 0 && !bsdf.isMirrorOnly(); }
+  bool isHere(const SurfacePoint& s, const Bsdf& bsdf) const {
+    return state_ == kLooking && s.m.alpha >= 1 && s.m.transmission <= 0 && !bsdf.isMirrorOnly();
+  }
   void see(const SurfacePoint& s, const Bsdf& bsdf, Vec3 throughput) {
     pixel_.albedo = throughput * bsdf.diffuseAlbedo();
     pixel_.normal = s.ns, pixel_.position = s.p;
@@ -92,8 +97,13 @@ class PathWalk::FirstSurface {
     pixel_.surface = 1;
   }
   // Light that the surface itself has gathered.
-  void add(Vec3 all, const Parts& parts) { pixel_.diffuse += parts.diffuse, pixel_.sharp += parts.sharp, pixel_.specular += max(all - parts.diffuse - parts.sharp, Vec3(0)); }
-  void goOn(const Bsdf& bsdf, const BsdfSample& next) { state_ = kSeen, diffuse_ = next.mirror ? Vec3(0) : diffuseShare(bsdf, next.wi); }
+  void add(Vec3 all, const Parts& parts) {
+    pixel_.diffuse += parts.diffuse, pixel_.sharp += parts.sharp,
+        pixel_.specular += max(all - parts.diffuse - parts.sharp, Vec3(0));
+  }
+  void goOn(const Bsdf& bsdf, const BsdfSample& next) {
+    state_ = kSeen, diffuse_ = next.mirror ? Vec3(0) : diffuseShare(bsdf, next.wi);
+  }
   // Panes scatter sharp pictures of other things.
   void scatteredByPane() { state_ = state_ == kLooking ? kGivenUp : state_; }
   // Light from anywhere else.
@@ -103,9 +113,7 @@ class PathWalk::FirstSurface {
   }
 
  private:
-  enum State { kLooking,
-               kSeen,
-               kGivenUp };
+  enum State { kLooking, kSeen, kGivenUp };
   FilterPixel& pixel_;
   State state_ = kLooking;
   Vec3 diffuse_;  // of light that arrives after the first surface, what its diffuse lobe scattered
@@ -118,7 +126,8 @@ Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, Pa
   return follow(path, sampler, rayCount, NoRecord());
 }
 
-Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen, PathLayers* layers) const {
+Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen,
+                        PathLayers* layers) const {
   State path;
   path.ray = ray;
   path.layers = layers;
@@ -172,10 +181,13 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     if (white_ && scattered == 0) s.m = whitened(s.m);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const int32_t emitter = lights_.emitterOf(s.instance);
-      const float w = path.lastPdf > 0 ? misWeight(path.lastPdf, pdfLocal(lights_, path.lastVisible, path.lastPoint, s)) : 1;
-      const Vec3 light = path.throughput * emitted * (vertices_ && vertices_->lightRays().leaveEmitter(emitter) ? w * path.lampShare : w);
+      const float w =
+          path.lastPdf > 0 ? misWeight(path.lastPdf, pdfLocal(lights_, path.lastVisible, path.lastPoint, s)) : 1;
+      const Vec3 light = path.throughput * emitted *
+                         (vertices_ && vertices_->lightRays().leaveEmitter(emitter) ? w * path.lampShare : w);
       sum += light;
-      if (path.layers && emitter >= 0) path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
+      if (path.layers && emitter >= 0)
+        path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
       if constexpr (Record::kOn) record.add(light);
     }
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
@@ -183,7 +195,8 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     float lampShare = path.lampShare;
     if (vertices_ && path.lastPdf > 0 && LightVertices::connects(bsdf)) {
       const float inverse2 = 1 / std::max(lengthSquared(s.p - path.lastPoint), 1e-12f);
-      lampShare *= 1 - LightVertices::share(path.lastPdf, -dot(s.ng, path.ray.direction), inverse2, vertices_->lightRays().densityM2(s.p, s.ng));
+      lampShare *= 1 - LightVertices::share(path.lastPdf, -dot(s.ng, path.ray.direction), inverse2,
+                                            vertices_->lightRays().densityM2(s.p, s.ng));
     }
     // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
     bool first = false;
@@ -204,7 +217,8 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
       }
     } else {
       here = direct<false>(s, visible, bsdf, lampShare, sampler, rayCount, nullptr, apart);
-      if (vertices_ && !bsdf.isMirrorOnly()) here += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr, apartConnected) * lampShare;
+      if (vertices_ && !bsdf.isMirrorOnly())
+        here += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr, apartConnected) * lampShare;
       if constexpr (Record::kOn) record.add(path.throughput * here * s.m.alpha);
     }
     sum += path.throughput * here * s.m.alpha;
@@ -231,7 +245,8 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
 Vec3 PathWalk::skyBehind(const State& path) const {
   const Vec3 d = path.ray.direction;
   if (!lights_.sky().present() || path.skyKnown) return {};
-  return lights_.sky().radiance(d) * (path.lastPdf > 0 && lights_.sky().sampled() ? misWeight(path.lastPdf, lights_.sky().pdf(d)) : 1);
+  return lights_.sky().radiance(d) *
+         (path.lastPdf > 0 && lights_.sky().sampled() ? misWeight(path.lastPdf, lights_.sky().pdf(d)) : 1);
 }
 
 Vec3 PathWalk::sunsBehind(const State& path) const {
@@ -263,7 +278,8 @@ bool PathWalk::passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf,
 }
 
 template <bool kParts>
-Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const {
+Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount,
+                            Vec3* diffuse) const {
   if (!light.valid()) return {};
   const BsdfValue value = bsdf.value(light.wi);
   if (isBlack(value.f)) return {};
@@ -275,7 +291,8 @@ Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const Light
 }
 
 template <bool kParts>
-Vec3 PathWalk::direct(const SurfacePoint& s, std::span<const LightPart> visible, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo) const {
+Vec3 PathWalk::direct(const SurfacePoint& s, std::span<const LightPart> visible, const Bsdf& bsdf, float lampShare,
+                      Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo) const {
   Vec3 sum, local, sun, sky;
   if (lights_.hasLocal()) {
     const Vec2 u = sampler.next2();
@@ -301,10 +318,11 @@ Vec3 PathWalk::direct(const SurfacePoint& s, std::span<const LightPart> visible,
   return sum;
 }
 
-// Light that reaches s from one vertex of a light path, times the part of it that is had by connections. The vertex is one
-// of a few candidates, resampled in proportion to an estimate of its light (Talbot, Cline & Egbert 2005).
+// Light that reaches s from one vertex of a light path, times the part of it that is had by connections. The vertex is
+// one of a few candidates, resampled in proportion to an estimate of its light (Talbot, Cline & Egbert 2005).
 template <bool kParts>
-Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const {
+Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler,
+                         uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const {
   const LightVertex* chosen = nullptr;
   float chosenWeight = 0, chosenShare = 0, total = 0;
   for (const LightVertex* candidate : candidates.vertex) {

@@ -24,14 +24,21 @@ class PathWalk {
   // vertices: of light paths to connect to, or null.
   // visible: of these lights, by which they are chosen.
   // white: what is seen first, or through panes, is whitened (scene/surface.h).
-  PathWalk(const RayScene& rays, const Lights& lights, const VisibleLights& visible, const LightVertices* vertices = nullptr, bool white = false)
-      : rays_(rays), lights_(lights), visible_(visible), surfaces_(rays.surfaces()), vertices_(vertices && !vertices->all().empty() ? vertices : nullptr), white_(white) {}
+  PathWalk(const RayScene& rays, const Lights& lights, const VisibleLights& visible,
+           const LightVertices* vertices = nullptr, bool white = false)
+      : rays_(rays),
+        lights_(lights),
+        visible_(visible),
+        surfaces_(rays.surfaces()),
+        vertices_(vertices && !vertices->all().empty() ? vertices : nullptr),
+        white_(white) {}
 
   // Towards the ray's origin, cd/m²; added to `layers` as well, if there are.
   Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, PathLayers* layers = nullptr) const;
-  // The same, and for a filter: parts of the light, by how the first surface that is no mirror scatters it, and what is seen there,
-  // looking through panes. Variances are left alone; of what was in `seen` nothing is kept.
-  Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen, PathLayers* layers = nullptr) const;
+  // The same, and for a filter: parts of the light, by how the first surface that is no mirror scatters it, and what is
+  // seen there, looking through panes. Variances are left alone; of what was in `seen` nothing is kept.
+  Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, FilterPixel& seen,
+                PathLayers* layers = nullptr) const;
   // On a surface element, lux. Without what comes straight from the sky, through panes too: who calls adds that.
   Vec3 illuminanceButSky(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& rayCount) const;
 
@@ -49,11 +56,14 @@ class PathWalk {
   bool passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler) const;
   // What goes to `parts` and `diffuse`, where that is asked for, is contained in the value.
   template <bool kParts>
-  Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const;
+  Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount,
+                    Vec3* diffuse) const;
   template <bool kParts>
-  Vec3 direct(const SurfacePoint& s, std::span<const LightPart> visible, const Bsdf& bsdf, float lampShare, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo = true) const;
+  Vec3 direct(const SurfacePoint& s, std::span<const LightPart> visible, const Bsdf& bsdf, float lampShare,
+              Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo = true) const;
   template <bool kParts>
-  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const;
+  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler,
+                 uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const;
 
   const RayScene& rays_;
   const Lights& lights_;

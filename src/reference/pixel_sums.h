@@ -8,7 +8,8 @@ namespace roomlight {
 class PixelSums {
  public:
   void add(const FilterPixel& sample);  // variances in it are not read
-  // Of `samples` added; variances are those of the means. One sample alone counts as uncertain by as much as it is bright.
+  // Of `samples` added; variances are those of the means. One sample alone counts as uncertain by as much as it is
+// bright.
   FilterPixel mean(int samples) const;
 
  private:

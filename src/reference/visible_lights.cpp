@@ -12,22 +12,25 @@
 namespace roomlight {
 namespace {
 
-constexpr float kCellM = 0.4f, kOffM = 0.137f;  // floors and walls stand on round coordinates, which shall be within cells
+constexpr float kCellM = 0.4f,
+                kOffM = 0.137f;  // floors and walls stand on round coordinates, which shall be within cells
 constexpr int kMostVertices = 8;
 constexpr size_t kPathsAtOnce = 256, kCellsAtOnce = 16, kMostPlaces = 64;  // of a cell
-constexpr uint64_t kPathKey = uint64_t{1} << 41, kLookKey = uint64_t{1} << 42;  // other random numbers than those of pixels and light paths
+constexpr uint64_t kPathKey = uint64_t{1} << 41,
+                   kLookKey = uint64_t{1} << 42;  // other random numbers than those of pixels and light paths
 
 int faceOf(Vec3 n) {
   const Vec3 a = abs(n);
-  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1
-                                                             : 2;
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
   return 2 * axis + (n[axis] < 0 ? 1 : 0);
 }
 
 }  // namespace
 
 uint64_t VisibleLights::keyOf(Vec3 p, Vec3 n) {
-  const auto part = [](float x) { return static_cast<uint64_t>(static_cast<int64_t>(std::floor((x + kOffM) / kCellM)) & 0xfffff); };
+  const auto part = [](float x) {
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor((x + kOffM) / kCellM)) & 0xfffff);
+  };
   return (part(p.x) | part(p.y) << 20 | part(p.z) << 40) * 8 + static_cast<uint64_t>(faceOf(n)) + 1;
 }
 
@@ -41,13 +44,15 @@ std::span<const LightPart> VisibleLights::partsAt(Vec3 p, Vec3 n) const {
   if (table_.empty()) return {};
   const uint64_t key = keyOf(p, n);
   for (size_t i = mix64(key) & (table_.size() - 1); table_[i].key != 0; i = (i + 1) & (table_.size() - 1)) {
-    if (table_[i].key == key) return std::span(parts_).subspan(first_[table_[i].cell], first_[table_[i].cell + 1] - first_[table_[i].cell]);
+    if (table_[i].key == key)
+      return std::span(parts_).subspan(first_[table_[i].cell], first_[table_[i].cell + 1] - first_[table_[i].cell]);
   }
   return {};
 }
 
 // Where it comes to, not what it carries.
-void VisibleLights::follow(const RayScene& rays, Ray ray, Sampler& sampler, std::vector<Place>& out, uint64_t& rayCount) {
+void VisibleLights::follow(const RayScene& rays, Ray ray, Sampler& sampler, std::vector<Place>& out,
+                           uint64_t& rayCount) {
   for (int k = 0; k < kMostVertices; ++k) {
     const Hit hit = rays.intersect(ray);
     ++rayCount;
@@ -79,11 +84,13 @@ struct VisibleLights::PlacesInCell {
     return out;
   }
   const Place& draw(uint32_t k, uint32_t n, Sampler& sampler) const {
-    return places[(k * places.size() / n + static_cast<size_t>(sampler.fast1() * static_cast<float>(places.size()))) % places.size()];
+    return places[(k * places.size() / n + static_cast<size_t>(sampler.fast1() * static_cast<float>(places.size()))) %
+                  places.size()];
   }
 };
 
-void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed, const std::function<bool()>& stopped) {
+void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed,
+                          const std::function<bool()>& stopped) {
   const LocalChoice kind{lights_};
   if (kind.count() < 2) return;
   struct Some {

@@ -1,5 +1,6 @@
-// Which lamps and emissive meshes light a place, for paths: before a picture some paths from the camera tell where surfaces are seen, and shadow rays from there what part of
-// each light arrives. Kept by cells of space and facing (trace/light_parts.h).
+// Which lamps and emissive meshes light a place, for paths: before a picture some paths from the camera tell where
+// surfaces are seen, and shadow rays from there what part of each light arrives. Kept by cells of space and facing
+// (trace/light_parts.h).
 #pragma once
 
 #include <cstdint>
@@ -16,11 +17,14 @@ class VisibleLights {
  public:
   // Refers to the lights. Knows nothing: they are chosen without shadows.
   explicit VisibleLights(const Lights& lights) : lights_(lights) {}
-  // By `paths` from the camera of a picture of w x h pixels. Not where there is no light to choose. Knows nothing as before once `stopped` says so.
+  // By `paths` from the camera of a picture of w x h pixels. Not where there is no light to choose. Knows nothing as
+// before once `stopped` says so.
   void learn(
-      const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed, const std::function<bool()>& stopped = [] { return false; });
+      const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed,
+      const std::function<bool()>& stopped = [] { return false; });
 
-  // At a surface at p with unit normal n on its seen side: the parts of all lights that arrive. Empty: nothing is known there.
+  // At a surface at p with unit normal n on its seen side: the parts of all lights that arrive. Empty: nothing is known
+  // there.
   std::span<const LightPart> partsAt(Vec3 p, Vec3 n) const;
   size_t cellCount() const { return first_.empty() ? 0 : first_.size() - 1; }
   uint64_t rayCount() const { return rayCount_; }
@@ -41,8 +45,8 @@ class VisibleLights {
   void forget() { table_.clear(), first_.clear(), parts_.clear(); }
 
   const Lights& lights_;
-  std::vector<Known> table_;      // a power of two, open addressing
-  std::vector<uint32_t> first_;   // of each cell, into parts_; one more at the end
+  std::vector<Known> table_;  // a power of two, open addressing
+  std::vector<uint32_t> first_;  // of each cell, into parts_; one more at the end
   std::vector<LightPart> parts_;
   uint64_t rayCount_ = 0;
 };

@@ -31,7 +31,8 @@ GlazingLight glazingLight(const Glazing& glazing, float cosTheta) {
 float glazingHemisphericalReflectance(const Glazing& glazing) {
   constexpr int kSteps = 128;
   float sum = 0;
-  for (int i = 0; i < kSteps; ++i) sum += glazingLight(glazing, std::sqrt((static_cast<float>(i) + 0.5f) / kSteps)).reflected;  // even in cos²
+  for (int i = 0; i < kSteps; ++i)
+    sum += glazingLight(glazing, std::sqrt((static_cast<float>(i) + 0.5f) / kSteps)).reflected;  // even in cos²
   return sum / kSteps;
 }
 

@@ -15,8 +15,8 @@ struct Point {
 Point difference(Vec3 a, Vec3 b) { return {double(a.x) - b.x, double(a.y) - b.y, double(a.z) - b.z}; }
 Point product(Point a, Point b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
-// Area by plane, positive where fronts look along the plane's normal. Planes 2 mm apart or 0.002 of a unit normal count as one; the bins'
-// borders are no round numbers, as those of plans are.
+// Area by plane, positive where fronts look along the plane's normal. Planes 2 mm apart or 0.002 of a unit normal count
+// as one; the bins' borders are no round numbers, as those of plans are.
 class Planes {
  public:
   void add(Point at, Point n, double areaM2) {
@@ -37,8 +37,7 @@ class Planes {
 void add(ObjectMeasures& o, Planes& planes, Vec3 origin, Vec3 a, Vec3 b, Vec3 c) {
   const Point n = product(difference(b, a), difference(c, a)), from = difference(a, origin);
   const double twice = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-  (std::abs(n.y) <= kUpright * twice ? o.areaUprightM2 : n.y > 0 ? o.areaUpM2
-                                                                 : o.areaDownM2) += twice / 2;
+  (std::abs(n.y) <= kUpright * twice ? o.areaUprightM2 : n.y > 0 ? o.areaUpM2 : o.areaDownM2) += twice / 2;
   o.volumeM3 += (from.x * n.x + from.y * n.y + from.z * n.z) / 6;
   if (twice > 0) planes.add(from, {n.x / twice, n.y / twice, n.z / twice}, twice / 2);
   ++o.triangles;
@@ -65,7 +64,8 @@ std::vector<ObjectMeasures> measureObjects(const Scene& scene) {
     // A mirroring transform turns fronts around.
     const bool mirrored = i.worldFromObject.determinant() < 0;
     for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-      add(out[entry->second], planes[entry->second], origins[entry->second], at(t), at(mirrored ? t + 2 : t + 1), at(mirrored ? t + 1 : t + 2));
+      add(out[entry->second], planes[entry->second], origins[entry->second], at(t), at(mirrored ? t + 2 : t + 1),
+          at(mirrored ? t + 1 : t + 2));
     }
   }
   for (size_t i = 0; i < out.size(); ++i) out[i].netAreaM2 = planes[i].netAreaM2();

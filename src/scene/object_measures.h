@@ -14,8 +14,8 @@ struct ObjectMeasures {
   int object = 0;
   size_t triangles = 0;
   double areaUpM2 = 0, areaDownM2 = 0, areaUprightM2 = 0;  // by the fronts of triangles; upright: within 0.6 degrees
-  // Without faces back to back: of every plane the area that looks to one side less that which looks to the other. So bodies that are put
-  // together from parts measure as much as whole ones.
+  // Without faces back to back: of every plane the area that looks to one side less that which looks to the other. So
+  // bodies that are put together from parts measure as much as whole ones.
   double netAreaM2 = 0;
   double volumeM3 = 0;  // of a closed body whose fronts look outwards (divergence theorem); of others it says nothing
   Bounds3 bounds;

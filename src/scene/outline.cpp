@@ -17,8 +17,10 @@ double signedAreaM2(std::span<const Vec2> corners) {
 bool crossesItself(std::span<const Vec2> corners) {
   const size_t n = corners.size();
   const auto turn = [](Vec2 a, Vec2 b, Vec2 c) {
-    const double abx = static_cast<double>(b.x) - static_cast<double>(a.x), aby = static_cast<double>(b.y) - static_cast<double>(a.y);
-    return abx * (static_cast<double>(c.y) - static_cast<double>(a.y)) - aby * (static_cast<double>(c.x) - static_cast<double>(a.x));
+    const double abx = static_cast<double>(b.x) - static_cast<double>(a.x),
+                 aby = static_cast<double>(b.y) - static_cast<double>(a.y);
+    return abx * (static_cast<double>(c.y) - static_cast<double>(a.y)) -
+           aby * (static_cast<double>(c.x) - static_cast<double>(a.x));
   };
   for (size_t i = 0; i < n; ++i) {
     const Vec2 a = corners[i], b = corners[(i + 1) % n];

@@ -26,7 +26,8 @@ void addRectangle(Scene& scene, Vec3 corner, Vec3 u, Vec3 v, int material, int n
   mesh.material = material;
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
-      mesh.positions.push_back(corner + u * (static_cast<float>(i) / static_cast<float>(n)) + v * (static_cast<float>(j) / static_cast<float>(n)));
+      mesh.positions.push_back(corner + u * (static_cast<float>(i) / static_cast<float>(n)) +
+                               v * (static_cast<float>(j) / static_cast<float>(n)));
     }
   }
   for (int j = 0; j < n; ++j) {
@@ -36,7 +37,10 @@ void addRectangle(Scene& scene, Vec3 corner, Vec3 u, Vec3 v, int material, int n
     }
   }
   scene.meshes.push_back(mesh);
-  scene.instances.push_back({fmt::format("rectangle {}", scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
+  scene.instances.push_back({fmt::format("rectangle {}", scene.instances.size()),
+                             static_cast<int>(scene.meshes.size()) - 1,
+                             static_cast<int>(scene.instances.size()),
+                             {}});
 }
 
 void addRoom(Scene& scene, Vec3 lo, Vec3 hi, const std::vector<int>& materials) {
@@ -69,7 +73,9 @@ void addSheet(Scene& scene, const char* name, int material, int m, int n, const 
   Mesh mesh;
   mesh.material = material;
   for (int j = 0; j <= n; ++j) {
-    for (int i = 0; i <= m; ++i) mesh.positions.push_back(place(static_cast<float>(i % m) / static_cast<float>(m), static_cast<float>(j) / static_cast<float>(n)));
+    for (int i = 0; i <= m; ++i)
+      mesh.positions.push_back(
+          place(static_cast<float>(i % m) / static_cast<float>(m), static_cast<float>(j) / static_cast<float>(n)));
   }
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < m; ++i) {
@@ -78,7 +84,10 @@ void addSheet(Scene& scene, const char* name, int material, int m, int n, const 
     }
   }
   scene.meshes.push_back(mesh);
-  scene.instances.push_back({fmt::format("{} {}", name, scene.instances.size()), static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.instances.size()), {}});
+  scene.instances.push_back({fmt::format("{} {}", name, scene.instances.size()),
+                             static_cast<int>(scene.meshes.size()) - 1,
+                             static_cast<int>(scene.instances.size()),
+                             {}});
 }
 
 }  // namespace
@@ -91,7 +100,9 @@ void addSphere(Scene& scene, Vec3 centre, float radius, int material, int n) {
 }
 
 void addTube(Scene& scene, Vec3 base, float radius, float height, int material, int n) {
-  addSheet(scene, "tube", material, n, 1, [&](float s, float t) { return base + Vec3{radius * std::cos(2 * kPi * s), height * t, radius * std::sin(2 * kPi * s)}; });
+  addSheet(scene, "tube", material, n, 1, [&](float s, float t) {
+    return base + Vec3{radius * std::cos(2 * kPi * s), height * t, radius * std::sin(2 * kPi * s)};
+  });
 }
 
 Lamp pointLamp(Vec3 position, float candela) {

@@ -5,7 +5,8 @@
 
 namespace roomlight {
 
-// All lengths times s: placements, media, lamps, rooms and cameras. Meshes keep their own coordinates, lights their candela and lux.
+// All lengths times s: placements, media, lamps, rooms and cameras. Meshes keep their own coordinates, lights their
+// candela and lux.
 void scaleScene(Scene& scene, float s);
 
 // Everything that has a place, by this much.

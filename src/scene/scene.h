@@ -66,7 +66,7 @@ struct Material {
   Vec3 attenuationColor{1, 1, 1};  // KHR_materials_volume: transmittance of attenuationDistanceM of the medium
   float attenuationDistanceM = kInfinity;
   float thicknessM = 0;  // KHR_materials_volume: 0 is thin
-  Glazing glazing;       // with panes: a smooth window, set by glaze(); only baseColor, alpha and emission count beside it
+  Glazing glazing;  // with panes: a smooth window, set by glaze(); only baseColor, alpha and emission count beside it
   float glazingReflectance = 0;  // glazingHemisphericalReflectance(glazing)
 };
 
@@ -74,11 +74,11 @@ struct Material {
 struct Mesh {
   std::string name;
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;    // unit; empty: flat shading
-  std::vector<Vec3> tangents;   // unit, along +u; empty: derived from uv0 where a normal map needs them
+  std::vector<Vec3> normals;  // unit; empty: flat shading
+  std::vector<Vec3> tangents;  // unit, along +u; empty: derived from uv0 where a normal map needs them
   std::vector<float> tangentSigns;  // ±1, with `tangents`
   std::vector<Vec2> uv[2];
-  std::vector<Vec3> colors;     // COLOR_0, multiplies baseColor
+  std::vector<Vec3> colors;  // COLOR_0, multiplies baseColor
   std::vector<float> colorAlphas;  // alpha of COLOR_0, multiplies alpha
   std::vector<uint32_t> indices;  // three per triangle, counter-clockwise seen from the front
   int material = 0;
@@ -92,9 +92,9 @@ constexpr const char* kLightSuffix = " (light)";
 // What of a thing opens, in the world: it turns about a hinge or slides, from shut (0) to wide open (1).
 struct Leaf {
   Vec3 hinge, axis{0, 1, 0};  // a point of the line that it turns about, and that line's direction, unit
-  float turnRad = 0;          // from shut to wide open, right-handed about the axis
-  Vec3 slideM;                // from shut to wide open
-  float atRest = 0;           // how far open the scene has it
+  float turnRad = 0;  // from shut to wide open, right-handed about the axis
+  Vec3 slideM;  // from shut to wide open
+  float atRest = 0;  // how far open the scene has it
 };
 
 // A mesh placed in the world. Instances with the same `object` belong to one thing that moves as a whole.
@@ -113,40 +113,41 @@ enum class LampKind : uint8_t {
 };
 
 // A luminaire without geometry of its own (Point, Spot) or a Lambertian rectangle that emits to one side (Area; scene
-// loading turns it into an emissive mesh, see addAreaLampMeshes). A Point may have a photometric web: then its nadir is `direction`,
-// C0 is `up`, and light leaves its position, or evenly every place of its luminous opening about there.
+// loading turns it into an emissive mesh, see addAreaLampMeshes). A Point may have a photometric web: then its nadir is
+// `direction`, C0 is `up`, and light leaves its position, or evenly every place of its luminous opening about there.
 struct Lamp {
   std::string name;
   LampKind kind = LampKind::Point;
   Vec3 position;
   Vec3 direction{0, -1, 0};  // unit; axis of a spot, normal of an area lamp, nadir of a web
-  Vec3 up{1, 0, 0};          // unit, along the rectangle's height; C0 of a web, perpendicular to `direction`
+  Vec3 up{1, 0, 0};  // unit, along the rectangle's height; C0 of a web, perpendicular to `direction`
   // Point: in every direction, or in that of the web's peak; Spot: inside the inner cone. luminance(rgb) is the candela
   Vec3 intensityCd{0, 0, 0};
-  std::shared_ptr<const PhotometricWeb> web;       // Point, or none; lamps may share it
-  bool extended = false;                           // of a web with an opening: as large as that, instead of a point
+  std::shared_ptr<const PhotometricWeb> web;  // Point, or none; lamps may share it
+  bool extended = false;  // of a web with an opening: as large as that, instead of a point
   float innerConeRad = 0, outerConeRad = kPi / 4;  // Spot: half-angles
-  float widthM = 0, heightM = 0;                   // Area
-  Vec3 luminanceCdM2{0, 0, 0};                     // Area
-  float wattsW = 0;                                // what it draws; 0: not stated
-  std::string group;                               // lamps of one are one layer of light; empty: those of one name are
+  float widthM = 0, heightM = 0;  // Area
+  Vec3 luminanceCdM2{0, 0, 0};  // Area
+  float wattsW = 0;  // what it draws; 0: not stated
+  std::string group;  // lamps of one are one layer of light; empty: those of one name are
 };
 
 // A source at infinity: the sun or a glTF directional light.
 struct Sun {
   std::string name;
-  Vec3 toLight{0, 1, 0};       // unit
+  Vec3 toLight{0, 1, 0};  // unit
   Vec3 illuminanceLux{0, 0, 0};  // on a surface that faces it; luminance(rgb) is the lux
-  float halfAngleRad = 0;      // angular radius of the disc; 0: a delta direction (the real sun: 0.00465)
+  float halfAngleRad = 0;  // angular radius of the disc; 0: a delta direction (the real sun: 0.00465)
 };
 
 // Light from all directions. Radiance along the world direction d is `image` at d turned by worldFromSky's inverse, or
-// `luminanceCdM2` where there is no image. Image: equirectangular, the centre looks along -z, +x to its right, top row +y.
+// `luminanceCdM2` where there is no image. Image: equirectangular, the centre looks along -z, +x to its right, top row
+// +y.
 struct Sky {
   Vec3 luminanceCdM2{0, 0, 0};  // constant part; ignored when an image is given
-  Image image;                  // in cd/m² after scaling
-  bool horizonEdge = false;     // its upper and lower half meet in an edge: nothing is interpolated across
-  float rotationRad = 0;        // turns the sky about +y, counter-clockwise seen from above
+  Image image;  // in cd/m² after scaling
+  bool horizonEdge = false;  // its upper and lower half meet in an edge: nothing is interpolated across
+  float rotationRad = 0;  // turns the sky about +y, counter-clockwise seen from above
   bool present() const { return image.width > 0 || !isBlack(luminanceCdM2); }
 };
 
@@ -154,8 +155,9 @@ struct Sky {
 enum class Projection : uint8_t {
   Perspective,
   Orthographic,
-  Panorama,        // equirectangular, all directions: the centre looks along -z, +x to its right, the top row is +y
-  StereoPanorama,  // two of them, the left eye's above the right eye's, each eye on a circle about the camera (omni-directional stereo)
+  Panorama,  // equirectangular, all directions: the centre looks along -z, +x to its right, the top row is +y
+  StereoPanorama,  // two of them, the left eye's above the right eye's, each eye on a circle about the camera
+                   // (omni-directional stereo)
 };
 
 // Looks along -z of its own frame, +y up.
@@ -163,12 +165,13 @@ struct Camera {
   std::string name;
   Affine worldFromCamera;
   float yFovRad = 0.9f;  // perspective: full vertical angle at the camera's own aspect ratio
-  float aspect = 0;      // width / height the author meant; 0: unknown
+  float aspect = 0;  // width / height the author meant; 0: unknown
   float nearM = 0;
   Projection projection = Projection::Perspective;
   bool emptyBackdrop = false;  // rays that meet nothing see no light, instead of the sky
-  float yMagM = 1;             // orthographic: half of the height seen
-  // What is higher than this in the world is not seen, but gives and takes light as ever; bodies that it cuts show a section.
+  float yMagM = 1;  // orthographic: half of the height seen
+  // What is higher than this in the world is not seen, but gives and takes light as ever; bodies that it cuts show a
+  // section.
   float cutHeightM = kInfinity;
 };
 
@@ -176,9 +179,9 @@ struct Camera {
 struct Room {
   std::string name;
   std::vector<Vec2> floor;  // corners (x, z), counter-clockwise seen from above
-  float elevationM = 0;     // of the floor
-  float heightM = 2.5f;     // of the ceiling above it
-  std::string use;          // "living", "kitchen", ...: what it should be lit for (measure/targets.h); empty: unknown
+  float elevationM = 0;  // of the floor
+  float heightM = 2.5f;  // of the ceiling above it
+  std::string use;  // "living", "kitchen", ...: what it should be lit for (measure/targets.h); empty: unknown
 };
 
 struct Scene {
@@ -195,7 +198,7 @@ struct Scene {
   std::vector<Room> rooms;  // where the file knows them
 
   size_t triangleCount() const;  // of all instances
-  Bounds3 bounds() const;        // of all instances, in world space
+  Bounds3 bounds() const;  // of all instances, in world space
 };
 
 // An instance's triangles in world space are meshes[instance.mesh] through instance.worldFromObject.

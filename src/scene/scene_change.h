@@ -9,13 +9,15 @@
 
 namespace roomlight {
 
-// What is other than before in a scene that was edited where it stands. Meshes, materials and instances are as many as before.
+// What is other than before in a scene that was edited where it stands. Meshes, materials and instances are as many as
+// before.
 struct SceneChange {
   std::vector<uint32_t> moved;  // instances in other places, or of another mesh: one without triangles hides them
   std::vector<uint32_t> glow;   // instances whose material emits another light
   bool lamps = false;           // scene.lamps: dimmed, switched, coloured, moved, more or fewer
   bool daylight = false;        // scene.suns, scene.sky
-  std::map<uint32_t, Bounds3> before{};  // boxes around where instances of `moved` were, m; those that are not here are not known
+  std::map<uint32_t, Bounds3>
+      before{};  // boxes around where instances of `moved` were, m; those that are not here are not known
   bool any() const { return lamps || daylight || !moved.empty() || !glow.empty(); }
 };
 

@@ -11,7 +11,8 @@ namespace {
 constexpr float kNearM = 0.1f;  // a lamp so near to a thing of its name is part of it
 
 std::string lampName(const Instance& i) {
-  return i.name.ends_with(kLightSuffix) ? i.name.substr(0, i.name.size() - std::string_view(kLightSuffix).size()) : i.name;
+  return i.name.ends_with(kLightSuffix) ? i.name.substr(0, i.name.size() - std::string_view(kLightSuffix).size())
+                                        : i.name;
 }
 
 struct Thing {
@@ -43,7 +44,8 @@ class Finder {
     for (size_t i = 0; i < scene_.lamps.size(); ++i) addLamp(i);
     for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
       const Instance& instance = scene_.instances[i];
-      if (!taken_[i] && shines(scene_, instance) && things_.count(instance.object)) lampOf(instance.object, lampName(instance)).instances.push_back(i);
+      if (!taken_[i] && shines(scene_, instance) && things_.count(instance.object))
+        lampOf(instance.object, lampName(instance)).instances.push_back(i);
     }
     return std::move(found_);
   }
@@ -59,7 +61,9 @@ class Finder {
   }
   int thingAround(const Lamp& lamp) const {
     for (const auto& [number, thing] : things_) {
-      if (thing.name == lamp.name && minComponent(min(lamp.position - thing.bounds.lo, thing.bounds.hi - lamp.position)) > -kNearM) return number;
+      if (thing.name == lamp.name &&
+          minComponent(min(lamp.position - thing.bounds.lo, thing.bounds.hi - lamp.position)) > -kNearM)
+        return number;
     }
     return -1;
   }
@@ -85,7 +89,10 @@ class Finder {
 
 }  // namespace
 
-bool shines(const Scene& scene, const Instance& instance) { return !isBlack(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)].emission); }
+bool shines(const Scene& scene, const Instance& instance) {
+  return !isBlack(
+      scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)].emission);
+}
 
 std::vector<SceneLamp> findLamps(const Scene& scene) { return Finder(scene).find(); }
 

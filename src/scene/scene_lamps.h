@@ -11,16 +11,16 @@ namespace roomlight {
 // Lamps and shining meshes of one name in one thing are one.
 struct SceneLamp {
   std::string name;
-  int object = -1;                  // number of the thing that it is part of; -1: none, or it is an Area lamp with its rectangle
-  std::vector<size_t> lamps;        // of the scene's
+  int object = -1;  // number of the thing that it is part of; -1: none, or it is an Area lamp with its rectangle
+  std::vector<size_t> lamps;  // of the scene's
   std::vector<uint32_t> instances;  // that shine
 };
 
 // In the order of the scene: first those of its lamps, then what else shines.
 std::vector<SceneLamp> findLamps(const Scene& scene);
 
-// Afterwards no two things, and no shining and other part of one, share a material: each can be changed alone. Meshes and materials are copied
-// for that; what is seen stays as it is.
+// Afterwards no two things, and no shining and other part of one, share a material: each can be changed alone. Meshes
+// and materials are copied for that; what is seen stays as it is.
 void partMaterials(Scene& scene);
 
 // Whether the instance's material emits light.

@@ -22,8 +22,7 @@ const std::array<float, 256>& srgbTable() {
 int wrapTexel(int i, int size, Wrap wrap) {
   if (i >= 0 && i < size) return i;
   switch (wrap) {
-    case Wrap::ClampToEdge:
-      return std::clamp(i, 0, size - 1);
+    case Wrap::ClampToEdge: return std::clamp(i, 0, size - 1);
     case Wrap::MirroredRepeat: {
       const int period = 2 * size;
       int m = i % period;
@@ -49,11 +48,14 @@ struct Texels {
     const float fx = std::floor(x), fy = std::floor(y);
     const int x0 = static_cast<int>(fx), y0 = static_cast<int>(fy);
     const float wx = x - fx, wy = y - fy;
-    const int columns[2] = {wrapTexel(x0, texture.width, texture.wrapU), wrapTexel(x0 + 1, texture.width, texture.wrapU)};
-    const int rows[2] = {wrapTexel(y0, texture.height, texture.wrapV), wrapTexel(y0 + 1, texture.height, texture.wrapV)};
+    const int columns[2] = {wrapTexel(x0, texture.width, texture.wrapU),
+                            wrapTexel(x0 + 1, texture.width, texture.wrapU)};
+    const int rows[2] = {wrapTexel(y0, texture.height, texture.wrapV),
+                         wrapTexel(y0 + 1, texture.height, texture.wrapV)};
     for (size_t k = 0; k < 4; ++k) {
       weight[k] = ((k & 1) ? wx : 1 - wx) * ((k >> 1) ? wy : 1 - wy);
-      at[k] = &texture.rgba[4 * (static_cast<size_t>(rows[k >> 1]) * static_cast<size_t>(texture.width) + static_cast<size_t>(columns[k & 1]))];
+      at[k] = &texture.rgba[4 * (static_cast<size_t>(rows[k >> 1]) * static_cast<size_t>(texture.width) +
+                                 static_cast<size_t>(columns[k & 1]))];
     }
   }
   float alpha() const {
@@ -75,12 +77,9 @@ T interpolate(const std::vector<T>& values, const Mesh& mesh, TrianglePoint p) {
 
 float alphaByMode(const Material& material, float alpha) {
   switch (material.alphaMode) {
-    case AlphaMode::Mask:
-      return alpha >= material.alphaCutoff ? 1.0f : 0.0f;
-    case AlphaMode::Blend:
-      return std::clamp(alpha, 0.0f, 1.0f);
-    default:
-      return 1;
+    case AlphaMode::Mask: return alpha >= material.alphaCutoff ? 1.0f : 0.0f;
+    case AlphaMode::Blend: return std::clamp(alpha, 0.0f, 1.0f);
+    default: return 1;
   }
 }
 
@@ -96,16 +95,18 @@ Rgba sampleTexture(const Texture& texture, Vec2 uv, bool srgb) {
   Rgba sum{{0, 0, 0}, texels.alpha()};
   for (size_t k = 0; k < 4; ++k) {
     const uint8_t* t = texels.at[k];
-    const Vec3 rgb = srgb ? Vec3{decode[t[0]], decode[t[1]], decode[t[2]]}
-                          : Vec3{static_cast<float>(t[0]), static_cast<float>(t[1]), static_cast<float>(t[2])} * (1 / 255.0f);
+    const Vec3 rgb =
+        srgb ? Vec3{decode[t[0]], decode[t[1]], decode[t[2]]}
+             : Vec3{static_cast<float>(t[0]), static_cast<float>(t[1]), static_cast<float>(t[2])} * (1 / 255.0f);
     sum.rgb += rgb * texels.weight[k];
   }
   return sum;
 }
 
 bool isUniform(const Material& m, const Mesh& mesh) {
-  return m.baseColorTexture.texture < 0 && m.metallicRoughnessTexture.texture < 0 && m.transmissionTexture.texture < 0 &&
-         m.emissionTexture.texture < 0 && mesh.colors.empty() && mesh.colorAlphas.empty();
+  return m.baseColorTexture.texture < 0 && m.metallicRoughnessTexture.texture < 0 &&
+         m.transmissionTexture.texture < 0 && m.emissionTexture.texture < 0 && mesh.colors.empty() &&
+         mesh.colorAlphas.empty();
 }
 
 float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
@@ -115,7 +116,9 @@ float alphaAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
   if (!mesh.colorAlphas.empty()) alpha *= interpolate(mesh.colorAlphas, mesh, p);
   if (material.baseColorTexture.texture >= 0) {
     const TextureRef& ref = material.baseColorTexture;
-    alpha *= Texels(scene.textures[static_cast<size_t>(ref.texture)], transformUv(ref, vertexValuesAt(mesh, p).uv[ref.uvSet])).alpha();
+    alpha *= Texels(scene.textures[static_cast<size_t>(ref.texture)],
+                    transformUv(ref, vertexValuesAt(mesh, p).uv[ref.uvSet]))
+                 .alpha();
   }
   return alphaByMode(material, alpha);
 }
@@ -136,7 +139,8 @@ float texelsOn(const Scene& scene, const Mesh& mesh, uint32_t triangle, const Te
   const Texture& texture = scene.textures[static_cast<size_t>(ref.texture)];
   const uint32_t* i = &mesh.indices[size_t{3} * triangle];
   const Vec2 a = transformUv(ref, uv[i[0]]), b = transformUv(ref, uv[i[1]]) - a, c = transformUv(ref, uv[i[2]]) - a;
-  return 0.5f * std::abs(b.x * c.y - b.y * c.x) * static_cast<float>(texture.width) * static_cast<float>(texture.height);
+  return 0.5f * std::abs(b.x * c.y - b.y * c.x) * static_cast<float>(texture.width) *
+         static_cast<float>(texture.height);
 }
 
 MaterialSample materialAt(const Scene& scene, const Mesh& mesh, TrianglePoint p) {
@@ -222,7 +226,8 @@ Vec3 triangleTangent(const Mesh& mesh, const TextureRef& ref, uint32_t triangle,
   return (e1 * d2.y - e2 * d1.y) * (1 / det);
 }
 
-Vec3 bumpedNormal(const Scene& scene, const Material& material, Vec3 n, Vec3 tangent, float sign, const VertexValues& values) {
+Vec3 bumpedNormal(const Scene& scene, const Material& material, Vec3 n, Vec3 tangent, float sign,
+                  const VertexValues& values) {
   tangent -= n * dot(n, tangent);
   const float l = length(tangent);
   if (!(l > 1e-12f)) return n;
@@ -262,7 +267,9 @@ void glaze(Material& material, const Glazing& glazing) {
   material = window;
 }
 
-bool letsLightThrough(const Material& m) { return m.glazing.panes > 0 || m.alphaMode != AlphaMode::Opaque || (m.transmission > 0 && m.metallic < 1); }
+bool letsLightThrough(const Material& m) {
+  return m.glazing.panes > 0 || m.alphaMode != AlphaMode::Opaque || (m.transmission > 0 && m.metallic < 1);
+}
 
 bool isPolishedMetal(const Material& m) {
   constexpr float kPolished = 0.2f;  // roughness

@@ -15,7 +15,8 @@ struct MaterialSample {
   Vec3 emission;          // luminance in cd/m²
   Vec3 f0;                // specular reflectance at normal incidence
   Vec3 f90;               // and at grazing incidence
-  const Material* glazed = nullptr;  // the scene's material, where it is a window: reflects as its glazing does, not by f0 and f90
+  const Material* glazed =
+      nullptr;  // the scene's material, where it is a window: reflects as its glazing does, not by f0 and f90
 };
 
 // Bilinear look-up with wrapping; result in 0..1, decoded from sRGB to linear when `srgb`. w is alpha (never decoded).
@@ -52,30 +53,34 @@ bool isUniform(const Material& m, const Mesh& mesh);
 // where the mesh has no normals.
 Vec3 shadingNormalAt(const Scene& scene, const Mesh& mesh, TrianglePoint p, Vec3 geometric);
 // Its parts: the map applied to the interpolated normal n, unit, which takes a tangent of any length (zero: no map)
-// and the side of the bitangent; and that tangent along +u of a triangle, from its texture coordinates (zero where they are degenerate).
+// and the side of the bitangent; and that tangent along +u of a triangle, from its texture coordinates (zero where they
+// are degenerate).
 bool hasNormalMap(const Material& material, const Mesh& mesh);
-Vec3 bumpedNormal(const Scene& scene, const Material& material, Vec3 n, Vec3 tangent, float sign, const VertexValues& values);
+Vec3 bumpedNormal(const Scene& scene, const Material& material, Vec3 n, Vec3 tangent, float sign,
+                  const VertexValues& values);
 Vec3 triangleTangent(const Mesh& mesh, const TextureRef& ref, uint32_t triangle, float& sign);
 
 // Fraction of the light from a uniform hemisphere that the surface reflects in total, per channel; what a diffuse
 // voxel of this material must reflect. Light that passes straight through is not in it.
 Vec3 bihemisphericalAlbedo(const MaterialSample& m);
 
-// The same surface, matt and reflecting everything: pi times the luminance of what it reflects is its illuminance. What light passes through stays as it is, and so do veils' gaps.
+// The same surface, matt and reflecting everything: pi times the luminance of what it reflects is its illuminance. What
+// light passes through stays as it is, and so do veils' gaps.
 MaterialSample whitened(const MaterialSample& m);
 
 // Makes a material a clear window, whatever it was before; what it emits stays.
 void glaze(Material& material, const Glazing& glazing);
 
-// Whether light may pass straight through somewhere on surfaces of this material: panes, veils, leaves cut out by a mask.
+// Whether light may pass straight through somewhere on surfaces of this material: panes, veils, leaves cut out by a
+// mask.
 bool letsLightThrough(const Material& m);
 
 // Whether it reflects as a mirror does, so that its light keeps its direction.
 bool isPolishedMetal(const Material& m);
 
 // Transmittance of a thin pane along a ray that meets it under |cos theta|: base colour times what Fresnel
-// reflection on both sides leaves, times `transmission` and what alpha leaves open; of a window what its glazing lets through.
-// Zero for an opaque surface.
+// reflection on both sides leaves, times `transmission` and what alpha leaves open; of a window what its glazing lets
+// through. Zero for an opaque surface.
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta);
 // At a point of a mesh: of what has gaps alone only these are looked up.
 Vec3 straightTransmittance(const Scene& scene, const Mesh& mesh, TrianglePoint p, float cosTheta);

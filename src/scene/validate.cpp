@@ -9,10 +9,12 @@ bool isFinite(const Affine& a) {
   return roomlight::isFinite(a.x) && roomlight::isFinite(a.y) && roomlight::isFinite(a.z) && roomlight::isFinite(a.w);
 }
 
-// A transform and a vertex, each finite, can still meet beyond the range of floats. A box's corners bound all it holds, term by term.
+// A transform and a vertex, each finite, can still meet beyond the range of floats. A box's corners bound all it holds,
+// term by term.
 bool isFiniteInWorld(const Affine& worldFromObject, const Bounds3& object) {
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p{corner & 1 ? object.hi.x : object.lo.x, corner & 2 ? object.hi.y : object.lo.y, corner & 4 ? object.hi.z : object.lo.z};
+    const Vec3 p{corner & 1 ? object.hi.x : object.lo.x, corner & 2 ? object.hi.y : object.lo.y,
+                 corner & 4 ? object.hi.z : object.lo.z};
     if (!isFinite(worldFromObject.point(p))) return false;
   }
   return true;
@@ -49,20 +51,25 @@ std::string checkMesh(const Scene& scene, const Mesh& mesh) {
 
 std::string checkMaterial(const Scene& scene, const Material& m) {
   if (!isLight(m.emission)) return "emission is negative or not finite";
-  if (!isLight(m.baseColor) || !isFinite(m.attenuationColor) || !isFinite(m.specularColor)) return "a colour is negative or not finite";
-  const float numbers[] = {m.alpha, m.metallic, m.roughness, m.normalScale, m.alphaCutoff, m.transmission, m.ior, m.specular};
+  if (!isLight(m.baseColor) || !isFinite(m.attenuationColor) || !isFinite(m.specularColor))
+    return "a colour is negative or not finite";
+  const float numbers[] = {m.alpha,       m.metallic,     m.roughness, m.normalScale,
+                           m.alphaCutoff, m.transmission, m.ior,       m.specular};
   for (const float v : numbers) {
     if (!std::isfinite(v)) return "a factor is not finite";
   }
   const Glazing& g = m.glazing;
-  const bool saneGlazing = g.panes >= 0 && g.panes <= kMostGlazingPanes && g.ior >= 1 && g.ior <= 4 && g.internalTransmittance > 0 && g.internalTransmittance <= 1 &&
-                           m.glazingReflectance >= 0 && m.glazingReflectance <= 1;
+  const bool saneGlazing = g.panes >= 0 && g.panes <= kMostGlazingPanes && g.ior >= 1 && g.ior <= 4 &&
+                           g.internalTransmittance > 0 && g.internalTransmittance <= 1 && m.glazingReflectance >= 0 &&
+                           m.glazingReflectance <= 1;
   if (!saneGlazing) return "glazing is out of range";
   const TextureRef* refs[] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture,
                               &m.transmissionTexture};
   for (const TextureRef* ref : refs) {
-    if (ref->texture >= static_cast<int>(scene.textures.size())) return fmt::format("texture {} does not exist", ref->texture);
-    if (ref->uvSet < 0 || ref->uvSet > 1) return fmt::format("texture coordinate set {} is not supported, use 0 or 1", ref->uvSet);
+    if (ref->texture >= static_cast<int>(scene.textures.size()))
+      return fmt::format("texture {} does not exist", ref->texture);
+    if (ref->uvSet < 0 || ref->uvSet > 1)
+      return fmt::format("texture coordinate set {} is not supported, use 0 or 1", ref->uvSet);
     for (const auto& row : ref->m) {
       for (const float v : row) {
         if (!std::isfinite(v)) return "a texture transform is not finite";
@@ -75,7 +82,8 @@ std::string checkMaterial(const Scene& scene, const Material& m) {
 std::string checkLeaves(const Scene& scene) {
   for (size_t i = 0; i < scene.leaves.size(); ++i) {
     const Leaf& l = scene.leaves[i];
-    const bool sane = isFinite(l.hinge) && isFinite(l.axis) && isFinite(l.slideM) && std::isfinite(l.turnRad) && l.atRest >= 0 && l.atRest <= 1;
+    const bool sane = isFinite(l.hinge) && isFinite(l.axis) && isFinite(l.slideM) && std::isfinite(l.turnRad) &&
+                      l.atRest >= 0 && l.atRest <= 1;
     if (!sane) return fmt::format("leaf {}: the way that it opens is not finite or out of range", i);
   }
   return {};
@@ -84,13 +92,17 @@ std::string checkLeaves(const Scene& scene) {
 std::string checkLights(const Scene& scene) {
   for (size_t i = 0; i < scene.lamps.size(); ++i) {
     const Lamp& lamp = scene.lamps[i];
-    if (!isLight(lamp.intensityCd) || !isLight(lamp.luminanceCdM2) || !isFinite(lamp.position) || !isFinite(lamp.direction)) {
+    if (!isLight(lamp.intensityCd) || !isLight(lamp.luminanceCdM2) || !isFinite(lamp.position) ||
+        !isFinite(lamp.direction)) {
       return fmt::format("lamp {} '{}': a value is negative or not finite", i, lamp.name);
     }
     if (!lamp.web) continue;
-    const bool frame = std::abs(lengthSquared(lamp.direction) - 1) < 1e-3f && std::abs(lengthSquared(lamp.up) - 1) < 1e-3f && std::abs(dot(lamp.direction, lamp.up)) < 1e-3f;
-    if (lamp.kind != LampKind::Point || !frame) return fmt::format("lamp {} '{}': a web needs a point lamp with its nadir and C0 perpendicular", i, lamp.name);
-    if (!(lamp.web->peakCd > 0) || (lamp.extended && !lamp.web->hasOpening())) return fmt::format("lamp {} '{}': its web has no light or no opening", i, lamp.name);
+    const bool frame = std::abs(lengthSquared(lamp.direction) - 1) < 1e-3f &&
+                       std::abs(lengthSquared(lamp.up) - 1) < 1e-3f && std::abs(dot(lamp.direction, lamp.up)) < 1e-3f;
+    if (lamp.kind != LampKind::Point || !frame)
+      return fmt::format("lamp {} '{}': a web needs a point lamp with its nadir and C0 perpendicular", i, lamp.name);
+    if (!(lamp.web->peakCd > 0) || (lamp.extended && !lamp.web->hasOpening()))
+      return fmt::format("lamp {} '{}': its web has no light or no opening", i, lamp.name);
   }
   for (size_t i = 0; i < scene.suns.size(); ++i) {
     if (!isLight(scene.suns[i].illuminanceLux) || !isFinite(scene.suns[i].toLight)) {
@@ -128,10 +140,13 @@ Status validate(const Scene& scene) {
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const auto where = [&] { return fmt::format("instance {} '{}': ", i, instance.name); };
-    if (instance.mesh < 0 || static_cast<size_t>(instance.mesh) >= scene.meshes.size()) return Error{where() + "its mesh does not exist"};
-    if (instance.leaf < -1 || instance.leaf >= static_cast<int>(scene.leaves.size())) return Error{where() + "its leaf does not exist"};
+    if (instance.mesh < 0 || static_cast<size_t>(instance.mesh) >= scene.meshes.size())
+      return Error{where() + "its mesh does not exist"};
+    if (instance.leaf < -1 || instance.leaf >= static_cast<int>(scene.leaves.size()))
+      return Error{where() + "its leaf does not exist"};
     if (!isFinite(instance.worldFromObject)) return Error{where() + "its transform is not finite"};
-    if (instance.worldFromObject.determinant() == 0) return Error{where() + "its transform flattens it, so it cannot be placed"};
+    if (instance.worldFromObject.determinant() == 0)
+      return Error{where() + "its transform flattens it, so it cannot be placed"};
     const Bounds3& bounds = meshBounds[static_cast<size_t>(instance.mesh)];
     if (!bounds.empty() && !isFiniteInWorld(instance.worldFromObject, bounds)) {
       return Error{where() + "its bounds in the world are not finite; its transform times its vertices is too large"};

@@ -15,7 +15,8 @@ void compact(Archive& archive, const std::vector<char>& keep) {
     if (!keep[i]) continue;
     if (to != i) {
       archive.designs.assign(to, std::as_const(archive.designs)[i]);
-      std::copy_n(archive.objectives.begin() + static_cast<ptrdiff_t>(i * m), m, archive.objectives.begin() + static_cast<ptrdiff_t>(to * m));
+      std::copy_n(archive.objectives.begin() + static_cast<ptrdiff_t>(i * m), m,
+                  archive.objectives.begin() + static_cast<ptrdiff_t>(to * m));
     }
     ++to;
   }
@@ -37,7 +38,8 @@ struct Neighbours {
 
 class Crowd {
  public:
-  explicit Crowd(const Archive& archive) : m_(archive.objectivesEach), points_(archive.objectives), alive_(archive.size(), 1), around_(archive.size()) {
+  explicit Crowd(const Archive& archive)
+      : m_(archive.objectivesEach), points_(archive.objectives), alive_(archive.size(), 1), around_(archive.size()) {
     const Range range = rangeOf(archive);
     for (size_t i = 0; i < points_.size(); ++i) {
       const double width = range.highest[i % m_] - range.lowest[i % m_];
@@ -46,7 +48,8 @@ class Crowd {
     for (size_t i = 0; i < alive_.size(); ++i) around_[i] = lookAround(i);
   }
   bool closer(size_t a, size_t b) const {
-    return around_[a].nearest != around_[b].nearest ? around_[a].nearest < around_[b].nearest : around_[a].second < around_[b].second;
+    return around_[a].nearest != around_[b].nearest ? around_[a].nearest < around_[b].nearest
+                                                    : around_[a].second < around_[b].second;
   }
   void remove(size_t gone) {
     alive_[gone] = 0;

@@ -1,4 +1,5 @@
-// All nondominated designs seen so far. Once there are a fifth more than `limit`, those in the densest places go, down to it.
+// All nondominated designs seen so far. Once there are a fifth more than `limit`, those in the densest places go, down
+ // to it.
 #pragma once
 
 #include <span>
@@ -18,15 +19,18 @@ struct Archive {
   std::vector<double> objectives;  // designs.count × objectivesEach
 
   size_t size() const { return designs.count; }
-  std::span<const double> objectivesOf(size_t i) const { return std::span(objectives).subspan(i * objectivesEach, objectivesEach); }
+  std::span<const double> objectivesOf(size_t i) const {
+    return std::span(objectives).subspan(i * objectivesEach, objectivesEach);
+  }
 };
 
 // Adds what is nondominated and new in its objectives; thins out to the limit when there are a fifth more.
 // Costs new × size × objectives, and size² × objectives when thinned.
 void add(Archive& archive, const Genomes& designs, std::span<const double> objectives);
 
-// Leaves at most `most`, evenly spread: again and again the design closest to its nearest neighbour goes, distances measured in ranges of the
-// front (the truncation of SPEA2: Zitzler, Laumanns and Thiele 2001). The best of each objective always stays.
+// Leaves at most `most`, evenly spread: again and again the design closest to its nearest neighbour goes, distances
+// measured in ranges of the front (the truncation of SPEA2: Zitzler, Laumanns and Thiele 2001). The best of each
+// objective always stays.
 void thin(Archive& archive, size_t most);
 
 // Lowest and highest of each objective in the archive; of an empty one nothing.

@@ -19,7 +19,8 @@ Blocks::Blocks(const Problem& problem) {
     group.integers.push_back(i), group.cardinalities.push_back(v.cardinality);
   }
   for (size_t i = 0; i < problem.reals.size(); ++i) {
-    if (const int32_t g = problem.reals[i].group; g >= 0 && !problem.blockOfGroup.empty()) groups_[static_cast<size_t>(g)].reals.push_back(i);
+    if (const int32_t g = problem.reals[i].group; g >= 0 && !problem.blockOfGroup.empty())
+      groups_[static_cast<size_t>(g)].reals.push_back(i);
   }
   for (size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].block = static_cast<size_t>(problem.blockOfGroup[g]);
@@ -39,7 +40,8 @@ void Blocks::exchange(Genome a, Genome b, Draws& draws) const {
 }
 
 bool Blocks::holdTheSame(ConstGenome genome, const Group& a, const Group& b) {
-  return std::equal(a.integers.begin(), a.integers.end(), b.integers.begin(), [&](size_t i, size_t j) { return genome.integers[i] == genome.integers[j]; });
+  return std::equal(a.integers.begin(), a.integers.end(), b.integers.begin(),
+                    [&](size_t i, size_t j) { return genome.integers[i] == genome.integers[j]; });
 }
 
 void Blocks::move(Genome genome, Draws& draws) const {
@@ -48,7 +50,8 @@ void Blocks::move(Genome genome, Draws& draws) const {
     const std::vector<size_t>& block = blocks_[a.block];
     const Group& b = groups_[block[draws.index(block.size())]];
     if (a.cardinalities != b.cardinalities || a.reals.size() != b.reals.size() || holdTheSame(genome, a, b)) continue;
-    for (size_t k = 0; k < a.integers.size(); ++k) std::swap(genome.integers[a.integers[k]], genome.integers[b.integers[k]]);
+    for (size_t k = 0; k < a.integers.size(); ++k)
+      std::swap(genome.integers[a.integers[k]], genome.integers[b.integers[k]]);
     for (size_t k = 0; k < a.reals.size(); ++k) std::swap(genome.reals[a.reals[k]], genome.reals[b.reals[k]]);
     return;
   }

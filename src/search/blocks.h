@@ -1,5 +1,5 @@
-// Variation where groups of variables belong to blocks (Problem::blockOfGroup): what matters to each other is kept together, as building blocks
-// are where linkage is known (Thierens and Goldberg 1993).
+// Variation where groups of variables belong to blocks (Problem::blockOfGroup): what matters to each other is kept
+// together, as building blocks are where linkage is known (Thierens and Goldberg 1993).
 #pragma once
 
 #include <vector>

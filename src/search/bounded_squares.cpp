@@ -1,5 +1,5 @@
-// Least squares with bounds: the idea of Stark and Parker 1995 on the normal equations, with coordinate descent in place of their one bound
-// at a time.
+// Least squares with bounds: the idea of Stark and Parker 1995 on the normal equations, with coordinate descent in
+// place of their one bound at a time.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRounds = 100, kSweeps = 3;
 constexpr double kTolerance = 1e-10;  // of the largest |h|
-constexpr double kRidge = 1e-13;      // of the largest diagonal: lets singular matrices through; rounds take its error away
+constexpr double kRidge = 1e-13;  // of the largest diagonal: lets singular matrices through; rounds take its error away
 
 class BoundedSquares {
  public:
@@ -68,7 +68,8 @@ class BoundedSquares {
     }
   }
 
-  // The free coordinates together to their minimum, or as far towards it as bounds let; what meets its bound stays there and the rest goes on.
+  // The free coordinates together to their minimum, or as far towards it as bounds let; what meets its bound stays
+  // there and the rest goes on.
   void toMinimumOfFree() {
     free_.clear();
     for (size_t i = 0; i < n_; ++i)
@@ -81,11 +82,11 @@ class BoundedSquares {
       size_t stopped = n_;
       for (size_t k = 0; k < free_.size(); ++k) {
         const size_t i = free_[k];
-        const double room = step_[k] < 0 ? x_[i] / -step_[k] : step_[k] > 0 ? (top(i) - x_[i]) / step_[k]
-                                                                            : 2;
+        const double room = step_[k] < 0 ? x_[i] / -step_[k] : step_[k] > 0 ? (top(i) - x_[i]) / step_[k] : 2;
         if (room < reach) reach = room, stopped = k;
       }
-      for (size_t k = 0; k < free_.size(); ++k) x_[free_[k]] = std::clamp(x_[free_[k]] + reach * step_[k], 0.0, top(free_[k]));
+      for (size_t k = 0; k < free_.size(); ++k)
+        x_[free_[k]] = std::clamp(x_[free_[k]] + reach * step_[k], 0.0, top(free_[k]));
       if (stopped == n_) return;
       x_[free_[stopped]] = step_[stopped] < 0 ? 0 : top(free_[stopped]);
       free_.erase(free_.begin() + static_cast<ptrdiff_t>(stopped));

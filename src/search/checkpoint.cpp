@@ -11,7 +11,8 @@ using nlohmann::json;
 constexpr int kVersion = 1;
 
 json designsJson(const Genomes& designs, const std::vector<double>& objectives) {
-  return {{"count", designs.count}, {"integers", designs.integers}, {"reals", designs.reals}, {"objectives", objectives}};
+  return {
+      {"count", designs.count}, {"integers", designs.integers}, {"reals", designs.reals}, {"objectives", objectives}};
 }
 
 json settingsJson(const Settings& s) {
@@ -38,12 +39,14 @@ Result<Settings> settingsFrom(const json& j) {
   return s;
 }
 
-Status designsFrom(const json& j, const char* place, const Problem& problem, Genomes& designs, std::vector<double>& objectives) {
+Status designsFrom(const json& j, const char* place, const Problem& problem, Genomes& designs,
+                   std::vector<double>& objectives) {
   designs = problem.none();
   j.at("count").get_to(designs.count), j.at("integers").get_to(designs.integers), j.at("reals").get_to(designs.reals);
   j.at("objectives").get_to(objectives);
   if (!fits(problem, designs) || objectives.size() != designs.count * problem.objectives)
-    return Error{std::string(place) + ": designs of another problem; go on with the study the checkpoint was made from"};
+    return Error{std::string(place) +
+                 ": designs of another problem; go on with the study the checkpoint was made from"};
   return Ok{};
 }
 
@@ -54,12 +57,16 @@ Result<State> stateFrom(const json& j, const Problem& problem) {
   if (!settings) return Error{settings.error()};
   state.settings = settings.value();
   if (Status bad = check(problem, state.settings); !bad) return Error{bad.error()};
-  j.at("generation").get_to(state.generation), j.at("evaluations").get_to(state.evaluations), j.at("polished").get_to(state.polished);
+  j.at("generation").get_to(state.generation), j.at("evaluations").get_to(state.evaluations),
+      j.at("polished").get_to(state.polished);
   j.at("polishEvaluations").get_to(state.polishEvaluations), j.at("seconds").get_to(state.seconds);
-  if (Status bad = designsFrom(j.at("population"), "population", problem, state.population, state.objectives); !bad) return Error{bad.error()};
+  if (Status bad = designsFrom(j.at("population"), "population", problem, state.population, state.objectives); !bad)
+    return Error{bad.error()};
   state.archive.limit = archiveLimit(state.settings, problem.objectives);
   state.archive.objectivesEach = problem.objectives;
-  if (Status bad = designsFrom(j.at("archive"), "archive", problem, state.archive.designs, state.archive.objectives); !bad) return Error{bad.error()};
+  if (Status bad = designsFrom(j.at("archive"), "archive", problem, state.archive.designs, state.archive.objectives);
+      !bad)
+    return Error{bad.error()};
   if (state.population.count == 0) return Error{"population: is empty; start anew"};
   return state;
 }

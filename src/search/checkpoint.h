@@ -12,7 +12,8 @@ namespace roomlight::search {
 std::string toJson(const State& state);
 
 // `where` begins the error's line. Errors: not such JSON, another version, designs that do not fit the problem.
-// The budget (Settings::evaluations, seconds) may be raised afterwards; every other setting stays that of the first run.
+// The budget (Settings::evaluations, seconds) may be raised afterwards; every other setting stays that of the first
+// run.
 Result<State> stateFromJson(std::string_view text, const Problem& problem, const std::string& where);
 
 }  // namespace roomlight::search

@@ -1,4 +1,5 @@
-// Exact answers to the convex part of a design: how far to dim given lamps. Light is linear, so what points receive is A x.
+// Exact answers to the convex part of a design: how far to dim given lamps. Light is linear, so what points receive is
+ // A x.
 #pragma once
 
 #include <limits>
@@ -30,19 +31,20 @@ struct LinearProgram {
 
 struct LinearSolution {
   std::vector<double> x;
-  std::vector<double> price;  // one a row: how much the cost rises when what is asked of the row rises by one; 0 where it does not bind
+  std::vector<double>
+      price;  // one a row: how much the cost rises when what is asked of the row rises by one; 0 where it does not bind
   double cost = 0;
 };
 
-// Exact (simplex, Clp). Errors: infeasible (names the row that is missed most when all misses together are least), unbounded,
-// sizes that do not match. Several threads may call it at once.
+// Exact (simplex, Clp). Errors: infeasible (names the row that is missed most when all misses together are least),
+// unbounded, sizes that do not match. Several threads may call it at once.
 Result<LinearSolution> minimise(const LinearProgram& program);
 
 // The nearest to feasible: least sum of misses over all rows, whatever it costs. Errors: sizes that do not match.
 struct LeastMiss {
   std::vector<double> x;
   std::vector<double> miss;  // one a row: how far below atLeast (positive) or above atMost (negative)
-  double sum = 0;            // of their sizes
+  double sum = 0;  // of their sizes
 };
 Result<LeastMiss> leastMiss(const LinearProgram& program);
 
@@ -51,7 +53,7 @@ struct NormalEquations {
   size_t columns = 0;
   std::vector<double> g;  // AᵀWA, columns × columns
   std::vector<double> h;  // AᵀWb
-  double constant = 0;    // bᵀWb, so that the miss is xᵀGx − 2 hᵀx + constant
+  double constant = 0;  // bᵀWb, so that the miss is xᵀGx − 2 hᵀx + constant
 };
 
 // weights: one a row, >= 0; empty: 1 everywhere. Costs rows × columns².
@@ -61,8 +63,8 @@ NormalEquations normalEquations(const DenseMatrix& a, std::span<const double> b,
 double missOf(const NormalEquations& equations, std::span<const double> x);
 
 // Minimises xᵀGx − 2 hᵀx over 0 <= x <= upper (empty: 1 everywhere), from x (clamped) to x; G may be singular.
-// Coordinate descent finds which bounds hold, Cholesky on the free ones makes it exact. Returns the largest violation of the optimality
-// conditions, relative to the largest |h|: 1e-9 or less unless G is not positive semidefinite.
+// Coordinate descent finds which bounds hold, Cholesky on the free ones makes it exact. Returns the largest violation
+// of the optimality conditions, relative to the largest |h|: 1e-9 or less unless G is not positive semidefinite.
 double minimiseSquares(const NormalEquations& equations, std::span<const double> upper, std::span<double> x);
 
 }  // namespace roomlight::search

@@ -28,7 +28,8 @@ Genomes anyDesigns(const Problem& problem, const State& state, size_t count) {
 }  // namespace
 
 Genomes randomDesigns(const Problem& problem, const State& state, size_t count) {
-  Genomes designs = problem.draw ? problem.draw(count, state.settings.seed, state.generation) : anyDesigns(problem, state, count);
+  Genomes designs =
+      problem.draw ? problem.draw(count, state.settings.seed, state.generation) : anyDesigns(problem, state, count);
   repairAll(problem, designs);
   return designs;
 }
@@ -57,7 +58,8 @@ Genomes pick(const Genomes& designs, const std::vector<size_t>& order) {
   return picked;
 }
 
-std::vector<double> pick(const std::vector<double>& objectives, size_t objectivesEach, const std::vector<size_t>& order) {
+std::vector<double> pick(const std::vector<double>& objectives, size_t objectivesEach,
+                         const std::vector<size_t>& order) {
   std::vector<double> picked;
   for (size_t i : order)
     for (size_t m = 0; m < objectivesEach; ++m) picked.push_back(objectives[i * objectivesEach + m]);

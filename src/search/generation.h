@@ -18,7 +18,8 @@ std::vector<double> evaluate(const Problem& problem, State& state, const Genomes
 
 // The points at `order` alone, in that order.
 Genomes pick(const Genomes& designs, const std::vector<size_t>& order);
-std::vector<double> pick(const std::vector<double>& objectives, size_t objectivesEach, const std::vector<size_t>& order);
+std::vector<double> pick(const std::vector<double>& objectives, size_t objectivesEach,
+                         const std::vector<size_t>& order);
 
 // A method's two verbs: what stands after the first designs are evaluated, and a generation.
 using Generation = void (*)(const Problem&, State&);

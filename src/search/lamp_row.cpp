@@ -21,8 +21,9 @@ struct Kind {
 constexpr std::array<Kind, kKinds> kKindTable{{{8, 600, 1}, {18, 1500, 1}, {11, 1000, 6}}};
 
 struct Row {
-  DenseMatrix lux{kPlaces * kKinds, kPoints, {}};  // a row each candidate at full power, a column each point; shares of the target
-  NormalEquations all;                             // of every candidate: those of a design are picked from it
+  DenseMatrix lux{
+      kPlaces * kKinds, kPoints, {}};  // a row each candidate at full power, a column each point; shares of the target
+  NormalEquations all;  // of every candidate: those of a design are picked from it
 };
 
 Row makeRow() {
@@ -33,17 +34,21 @@ Row makeRow() {
     const Kind& kind = kKindTable[c % kKinds];
     const double xLamp = (static_cast<double>(c / kKinds) + 0.5) * kLengthM / kPlaces;
     for (size_t p = 0; p < kPoints; ++p) {
-      const double dx = (static_cast<double>(p % kAlong) + 0.5) * kLengthM / kAlong - xLamp, dy = (static_cast<double>(p / kAlong) - 3.5) * kLengthM / kAlong;
+      const double dx = (static_cast<double>(p % kAlong) + 0.5) * kLengthM / kAlong - xLamp,
+                   dy = (static_cast<double>(p / kAlong) - 3.5) * kLengthM / kAlong;
       const double squareM2 = dx * dx + dy * dy + kHeightM * kHeightM, cosine = kHeightM / std::sqrt(squareM2);
       const double intensityCd = kind.fluxLm * (kind.beam + 1) / (2 * kPi) * std::pow(cosine, kind.beam);
-      byPoint.values[p * row.lux.rows + c] = row.lux.values[c * kPoints + p] = intensityCd * cosine / squareM2 / kTargetLux;
+      byPoint.values[p * row.lux.rows + c] = row.lux.values[c * kPoints + p] =
+          intensityCd * cosine / squareM2 / kTargetLux;
     }
   }
   row.all = normalEquations(byPoint, std::vector<double>(kPoints, 1.0));
   return row;
 }
 
-size_t candidate(ConstGenome d, size_t lamp) { return static_cast<size_t>(d.integers[2 * lamp]) * kKinds + static_cast<size_t>(d.integers[2 * lamp + 1]); }
+size_t candidate(ConstGenome d, size_t lamp) {
+  return static_cast<size_t>(d.integers[2 * lamp]) * kKinds + static_cast<size_t>(d.integers[2 * lamp + 1]);
+}
 
 void evaluateOne(const Row& row, ConstGenome d, std::span<double> f) {
   std::array<double, kPoints> shares{};
@@ -70,14 +75,16 @@ void repairOne(Genome d) {
   std::copy(d.reals.begin(), d.reals.end(), dims.begin());
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return integers[2 * a] < integers[2 * b]; });
   for (size_t i = 0; i < kLamps; ++i) {
-    d.integers[2 * i] = integers[2 * order[i]], d.integers[2 * i + 1] = integers[2 * order[i] + 1], d.reals[i] = dims[order[i]];
+    d.integers[2 * i] = integers[2 * order[i]], d.integers[2 * i + 1] = integers[2 * order[i] + 1],
+                   d.reals[i] = dims[order[i]];
     if (i > 0) d.integers[2 * i] = std::max(d.integers[2 * i], d.integers[2 * i - 2] + 1);
   }
-  for (size_t i = kLamps; i-- > 0;) d.integers[2 * i] = std::min(d.integers[2 * i], static_cast<int32_t>(kPlaces - kLamps + i));
+  for (size_t i = kLamps; i-- > 0;)
+    d.integers[2 * i] = std::min(d.integers[2 * i], static_cast<int32_t>(kPlaces - kLamps + i));
 }
 
-// w0 watts + w1 rms: a root is at most its tangent, rms <= squares / (2 rms0) + rms0 / 2, which makes it a least-squares problem with a price on
-// watts.
+// w0 watts + w1 rms: a root is at most its tangent, rms <= squares / (2 rms0) + rms0 / 2, which makes it a
+// least-squares problem with a price on watts.
 size_t polishOne(const Row& row, Genome d, const Wish& wish) {
   NormalEquations own;
   own.columns = kLamps;

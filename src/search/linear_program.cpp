@@ -26,7 +26,8 @@ double lowOf(const LinearProgram& p, size_t row) { return p.atLeast.empty() ? -k
 double highOf(const LinearProgram& p, size_t row) { return p.atMost.empty() ? kUnbounded : p.atMost[row]; }
 double clpBound(double v) { return std::isfinite(v) ? v : std::copysign(COIN_DBL_MAX, v); }
 
-// The program by columns as Clp takes it; with `soft`, two more columns a row take up what it misses, and they alone cost.
+// The program by columns as Clp takes it; with `soft`, two more columns a row take up what it misses, and they alone
+// cost.
 void load(const LinearProgram& p, bool soft, ClpSimplex& model) {
   const size_t n = p.a.columns, rows = p.a.rows, columns = n + (soft ? 2 * rows : 0);
   std::vector<CoinBigIndex> starts{0};
@@ -45,8 +46,8 @@ void load(const LinearProgram& p, bool soft, ClpSimplex& model) {
   }
   for (size_t r = 0; r < rows; ++r) low[r] = clpBound(lowOf(p, r)), high[r] = clpBound(highOf(p, r));
   model.setLogLevel(0);
-  model.loadProblem(static_cast<int>(columns), static_cast<int>(rows), starts.data(), at.data(), values.data(), lower.data(), upper.data(),
-                    cost.data(), low.data(), high.data());
+  model.loadProblem(static_cast<int>(columns), static_cast<int>(rows), starts.data(), at.data(), values.data(),
+                    lower.data(), upper.data(), cost.data(), low.data(), high.data());
 }
 
 std::string number(double v) {
@@ -59,10 +60,13 @@ Error infeasible(const LinearProgram& p) {
   const Result<LeastMiss> least = leastMiss(p);
   if (!least) return Error{"infeasible; " + least.error()};
   const auto& miss = least.value().miss;
-  const size_t row = static_cast<size_t>(std::max_element(miss.begin(), miss.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) - miss.begin());
+  const size_t row = static_cast<size_t>(
+      std::max_element(miss.begin(), miss.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+      miss.begin());
   const double asked = miss[row] > 0 ? lowOf(p, row) : highOf(p, row);
   return Error{"infeasible: row " + std::to_string(row) + " gets " + number(asked - miss[row]) + " instead of at " +
-               (miss[row] > 0 ? "least " : "most ") + number(asked) + " when all rows together miss least; ask for less"};
+               (miss[row] > 0 ? "least " : "most ") + number(asked) +
+               " when all rows together miss least; ask for less"};
 }
 
 }  // namespace
@@ -75,8 +79,11 @@ Result<LinearSolution> minimise(const LinearProgram& program) {
   // Presolve-free dual simplex may end unsure; the primal one settles it.
   if (model.status() != 0) model.primal();
   if (model.isProvenPrimalInfeasible()) return infeasible(program);
-  if (model.isProvenDualInfeasible()) return Error{"unbounded: the cost falls without end; give every column that earns an upper bound"};
-  if (!model.isProvenOptimal()) return Error{"the simplex method gave up with status " + std::to_string(model.status()) + "; scale rows and columns to like sizes"};
+  if (model.isProvenDualInfeasible())
+    return Error{"unbounded: the cost falls without end; give every column that earns an upper bound"};
+  if (!model.isProvenOptimal())
+    return Error{"the simplex method gave up with status " + std::to_string(model.status()) +
+                 "; scale rows and columns to like sizes"};
   LinearSolution solution;
   const double *x = model.getColSolution(), *price = model.getRowPrice();
   solution.x.assign(x, x + program.a.columns);
@@ -94,7 +101,9 @@ Result<LeastMiss> leastMiss(const LinearProgram& program) {
   ClpSimplex model;
   load(program, true, model);
   model.primal();
-  if (!model.isProvenOptimal()) return Error{"the simplex method gave up with status " + std::to_string(model.status()) + "; scale rows and columns to like sizes"};
+  if (!model.isProvenOptimal())
+    return Error{"the simplex method gave up with status " + std::to_string(model.status()) +
+                 "; scale rows and columns to like sizes"};
   const size_t n = program.a.columns;
   const double* x = model.getColSolution();
   LeastMiss least;

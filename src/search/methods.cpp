@@ -7,7 +7,8 @@ namespace roomlight::search {
 namespace {
 
 constexpr std::array kMethods{
-    MethodInfo{Method::hybrid, "hybrid", "NSGA-II by blocks of what belongs together; the best of each generation are polished"},
+    MethodInfo{Method::hybrid, "hybrid",
+               "NSGA-II by blocks of what belongs together; the best of each generation are polished"},
     MethodInfo{Method::nsga2, "nsga2", "NSGA-II with variation for mixed variables"},
     MethodInfo{Method::pagmoNsga2, "pagmo", "NSGA-II as pagmo has it"},
     MethodInfo{Method::weightedSum, "weighted", "genetic searches for one weighted sum of the objectives each"},
@@ -34,8 +35,7 @@ Result<Method> methodNamed(std::string_view name) {
 }
 
 size_t archiveLimit(const Settings& settings, size_t objectives) {
-  return settings.archive > 0 ? settings.archive : objectives == 2 ? 500
-                                                                   : 1500;
+  return settings.archive > 0 ? settings.archive : objectives == 2 ? 500 : 1500;
 }
 
 Status check(const Problem& problem, const Settings& settings) {
@@ -48,7 +48,8 @@ Status check(const Problem& problem, const Settings& settings) {
   if (!(settings.crossoverIndex >= 1 && settings.crossoverIndex < 100)) return Error{"crossoverIndex: give 1 to 99"};
   if (!(settings.mutationRate >= 0 && settings.mutationRate <= 1)) return Error{"mutationRate: give 0 to 1"};
   if (!(settings.mutationIndex >= 1 && settings.mutationIndex < 100)) return Error{"mutationIndex: give 1 to 99"};
-  if (!(settings.polishShare >= 0 && settings.polishShare < 1)) return Error{"polishShare: give 0 or more, and less than 1"};
+  if (!(settings.polishShare >= 0 && settings.polishShare < 1))
+    return Error{"polishShare: give 0 or more, and less than 1"};
   if (settings.weightings < 2 || settings.weightings > 1000) return Error{"weightings: give 2 to 1000"};
   return Ok{};
 }

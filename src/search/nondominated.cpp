@@ -10,7 +10,8 @@ namespace roomlight::search {
 namespace {
 
 // Crowding distances of one front. An objective in which all of it are equal tells none apart.
-void crowd(std::span<const double> objectives, size_t each, std::vector<uint32_t>& front, std::vector<double>& crowding) {
+void crowd(std::span<const double> objectives, size_t each, std::vector<uint32_t>& front,
+           std::vector<double>& crowding) {
   for (size_t m = 0; m < each; ++m) {
     const auto f = [&](uint32_t i) { return objectives[i * each + m]; };
     std::sort(front.begin(), front.end(), [&](uint32_t a, uint32_t b) { return f(a) != f(b) ? f(a) < f(b) : a < b; });
@@ -36,12 +37,13 @@ Ranking rankPoints(std::span<const double> objectives, size_t objectivesEach) {
       if (fa[m] != fb[m]) return fa[m] < fb[m];
     return a < b;
   });
-  // 2. Each goes to the first front of which none dominates it: found by halving, for what dominates a point is itself dominated by some of every
-  // front before its own. The last ones of a front are the likeliest to dominate.
+  // 2. Each goes to the first front of which none dominates it: found by halving, for what dominates a point is itself
+  // dominated by some of every front before its own. The last ones of a front are the likeliest to dominate.
   std::vector<std::vector<uint32_t>> fronts;
   for (uint32_t i : order) {
     const auto beaten = [&](const std::vector<uint32_t>& front) {
-      return std::any_of(front.rbegin(), front.rend(), [&](uint32_t other) { return dominates(point(other), point(i)); });
+      return std::any_of(front.rbegin(), front.rend(),
+                         [&](uint32_t other) { return dominates(point(other), point(i)); });
     };
     const auto place = std::partition_point(fronts.begin(), fronts.end(), beaten);
     ranking.rank[i] = static_cast<uint32_t>(place - fronts.begin());

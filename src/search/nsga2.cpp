@@ -32,15 +32,18 @@ std::vector<double> randomWeights(const Range& range, Draws& draws) {
 
 // How many designs polishing may take now, so that its share of all evaluations stays what was set.
 size_t polishesNow(const State& state) {
-  const double each = state.polished ? static_cast<double>(state.polishEvaluations) / static_cast<double>(state.polished) : 2;
+  const double each =
+      state.polished ? static_cast<double>(state.polishEvaluations) / static_cast<double>(state.polished) : 2;
   const double others = static_cast<double>(state.evaluations - state.polishEvaluations);
   const double share = state.settings.polishShare;
   const double allowed = share / (1 - share) * others - static_cast<double>(state.polishEvaluations);
   return allowed < each ? 0 : std::min(static_cast<size_t>(allowed / each), state.settings.population);
 }
 
-// Polishes designs[which], evaluates the outcomes and appends them. Where there was nothing to polish, nothing is evaluated.
-void polish(const Problem& problem, State& state, const std::vector<size_t>& which, Genomes& designs, std::vector<double>& objectives) {
+// Polishes designs[which], evaluates the outcomes and appends them. Where there was nothing to polish, nothing is
+// evaluated.
+void polish(const Problem& problem, State& state, const std::vector<size_t>& which, Genomes& designs,
+            std::vector<double>& objectives) {
   const size_t m = problem.objectives;
   Genomes tried = pick(designs, which);
   const Range range = rangeOf(state.archive);
@@ -48,7 +51,8 @@ void polish(const Problem& problem, State& state, const std::vector<size_t>& whi
   parallelFor(which.size(), 1, [&](size_t i) {
     const std::span<const double> f = std::span(objectives).subspan(which[i] * m, m);
     Draws draws(state.settings.seed, state.generation, Purpose::polish, i);
-    const std::vector<double> weights = draws.chance(kAnyDirection) ? randomWeights(range, draws) : weightsFor(f, range);
+    const std::vector<double> weights =
+        draws.chance(kAnyDirection) ? randomWeights(range, draws) : weightsFor(f, range);
     costs[i] = problem.polish(tried[i], Wish{weights, f});
   });
   std::vector<size_t> polished;
@@ -81,15 +85,16 @@ std::vector<size_t> bestFrom(const Ranking& ranking, size_t from, size_t count) 
   return best;
 }
 
-// Of each pair of winners the second gives way to one that stands nearer to the first, in ranges of the front: their blocks strike the same balance between objectives, so that
-// they go together.
+// Of each pair of winners the second gives way to one that stands nearer to the first, in ranges of the front: their
+// blocks strike the same balance between objectives, so that they go together.
 void mateNear(const Problem& problem, const State& state, std::vector<size_t>& winners) {
   const Range range = rangeOf(state.archive);
   const std::vector<size_t> all = winners;
   const auto distance = [&](size_t a, size_t b) {
     double squares = 0;
     for (size_t m = 0; m < problem.objectives; ++m) {
-      const double d = (state.objectives[a * problem.objectives + m] - state.objectives[b * problem.objectives + m]) / widthOf(range, m);
+      const double d = (state.objectives[a * problem.objectives + m] - state.objectives[b * problem.objectives + m]) /
+                       widthOf(range, m);
       squares += d * d;
     }
     return squares;
@@ -99,7 +104,8 @@ void mateNear(const Problem& problem, const State& state, std::vector<size_t>& w
     for (size_t k = 1; k < kSuitors; ++k) {
       const size_t other = all[draws.index(all.size())];
       if (other == winners[i]) continue;
-      if (winners[i + 1] == winners[i] || distance(other, winners[i]) < distance(winners[i + 1], winners[i])) winners[i + 1] = other;
+      if (winners[i + 1] == winners[i] || distance(other, winners[i]) < distance(winners[i + 1], winners[i]))
+        winners[i + 1] = other;
     }
   }
 }
@@ -117,7 +123,9 @@ void generation(const Problem& problem, State& state, bool hybrid) {
   all.append(children);
   std::vector<double> objectives = state.objectives;
   objectives.insert(objectives.end(), found.begin(), found.end());
-  if (hybrid && problem.polish) polish(problem, state, bestFrom(rankPoints(objectives, problem.objectives), old, polishesNow(state)), all, objectives);
+  if (hybrid && problem.polish)
+    polish(problem, state, bestFrom(rankPoints(objectives, problem.objectives), old, polishesNow(state)), all,
+           objectives);
   keepBest(problem, state, all, objectives);
 }
 
@@ -137,7 +145,8 @@ std::vector<size_t> tournaments(const Ranking& ranking, const State& state, size
 std::vector<double> weightsFor(std::span<const double> objectives, const Range& range) {
   std::vector<double> weights(objectives.size());
   double sum = 0;
-  for (size_t m = 0; m < weights.size(); ++m) sum += weights[m] = 0.01 + std::clamp((range.highest[m] - objectives[m]) / widthOf(range, m), 0.0, 1.0);
+  for (size_t m = 0; m < weights.size(); ++m)
+    sum += weights[m] = 0.01 + std::clamp((range.highest[m] - objectives[m]) / widthOf(range, m), 0.0, 1.0);
   for (size_t m = 0; m < weights.size(); ++m) weights[m] /= sum * widthOf(range, m);
   return weights;
 }

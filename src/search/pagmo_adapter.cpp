@@ -1,5 +1,5 @@
-// All that is taken from pagmo 2 (Biscani and Izzo 2020), in one source since its headers compile slowly: hypervolume, and its NSGA-II
-// with batch evaluation.
+// All that is taken from pagmo 2 (Biscani and Izzo 2020), in one source since its headers compile slowly: hypervolume,
+// and its NSGA-II with batch evaluation.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -53,10 +53,13 @@ struct Layout {
 // pagmo copies it and asks for its bounds; designs are evaluated in batches only.
 struct PagmoProblem {
   Layout layout;
-  pagmo::vector_double fitness(const pagmo::vector_double&) const { return pagmo::vector_double(layout.problem->objectives, 0.0); }
+  pagmo::vector_double fitness(const pagmo::vector_double&) const {
+    return pagmo::vector_double(layout.problem->objectives, 0.0);
+  }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
     pagmo::vector_double low(layout.size(), 0.0), high(layout.size(), 1.0);
-    for (size_t i = 0; i < layout.problem->integers.size(); ++i) high[layout.problem->reals.size() + i] = layout.problem->integers[i].cardinality - 1;
+    for (size_t i = 0; i < layout.problem->integers.size(); ++i)
+      high[layout.problem->reals.size() + i] = layout.problem->integers[i].cardinality - 1;
     return {low, high};
   }
   pagmo::vector_double::size_type get_nobj() const { return layout.problem->objectives; }
@@ -66,7 +69,9 @@ struct PagmoProblem {
 struct PagmoBatch {
   Layout layout;
   State* state = nullptr;
-  pagmo::vector_double operator()(const pagmo::problem&, const pagmo::vector_double& all) const { return evaluate(*layout.problem, *state, layout.decodeAll(all)); }
+  pagmo::vector_double operator()(const pagmo::problem&, const pagmo::vector_double& all) const {
+    return evaluate(*layout.problem, *state, layout.decodeAll(all));
+  }
 };
 
 }  // namespace
@@ -79,10 +84,12 @@ double hypervolume(std::span<const double> objectives, std::span<const double> r
   return pagmo::hypervolume(std::move(inside), false).compute({reference.begin(), reference.end()});
 }
 
-double hypervolumeShare(std::span<const double> objectives, std::span<const double> ideal, std::span<const double> reference) {
+double hypervolumeShare(std::span<const double> objectives, std::span<const double> ideal,
+                        std::span<const double> reference) {
   const size_t m = reference.size();
   std::vector<double> scaled(objectives.size());
-  for (size_t i = 0; i < scaled.size(); ++i) scaled[i] = std::max(0.0, (objectives[i] - ideal[i % m]) / (reference[i % m] - ideal[i % m]));
+  for (size_t i = 0; i < scaled.size(); ++i)
+    scaled[i] = std::max(0.0, (objectives[i] - ideal[i % m]) / (reference[i % m] - ideal[i % m]));
   return hypervolume(scaled, std::vector<double>(m, 1.0));
 }
 

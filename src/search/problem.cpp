@@ -42,9 +42,13 @@ Status check(const Problem& problem) {
   if (problem.objectives < 2 || problem.objectives > 4) return Error{"objectives: give two to four"};
   if (problem.integers.empty() && problem.reals.empty()) return Error{"variables: there is nothing to change"};
   for (size_t i = 0; i < problem.integers.size(); ++i)
-    if (problem.integers[i].cardinality < 1) return Error{"integers[" + std::to_string(i) + "]: has no value to take; give it one or leave it out"};
+    if (problem.integers[i].cardinality < 1)
+      return Error{"integers[" + std::to_string(i) + "]: has no value to take; give it one or leave it out"};
   const auto hasNoBlock = [&](const auto& v) { return v.group >= static_cast<int32_t>(problem.blockOfGroup.size()); };
-  if (!problem.blockOfGroup.empty() && (std::any_of(problem.integers.begin(), problem.integers.end(), hasNoBlock) || std::any_of(problem.reals.begin(), problem.reals.end(), hasNoBlock) || *std::min_element(problem.blockOfGroup.begin(), problem.blockOfGroup.end()) < 0))
+  if (!problem.blockOfGroup.empty() &&
+      (std::any_of(problem.integers.begin(), problem.integers.end(), hasNoBlock) ||
+       std::any_of(problem.reals.begin(), problem.reals.end(), hasNoBlock) ||
+       *std::min_element(problem.blockOfGroup.begin(), problem.blockOfGroup.end()) < 0))
     return Error{"blockOfGroup: give every group a block, 0 or more"};
   if (!problem.evaluate) return Error{"evaluate: is missing"};
   return Ok{};
@@ -53,7 +57,8 @@ Status check(const Problem& problem) {
 bool fits(const Problem& problem, const Genomes& genomes) {
   const size_t n = problem.integers.size();
   if (genomes.integersEach != n || genomes.realsEach != problem.reals.size()) return false;
-  if (genomes.integers.size() != genomes.count * n || genomes.reals.size() != genomes.count * genomes.realsEach) return false;
+  if (genomes.integers.size() != genomes.count * n || genomes.reals.size() != genomes.count * genomes.realsEach)
+    return false;
   for (size_t i = 0; i < genomes.integers.size(); ++i)
     if (genomes.integers[i] < 0 || genomes.integers[i] >= problem.integers[i % n].cardinality) return false;
   return std::all_of(genomes.reals.begin(), genomes.reals.end(), [](double x) { return x >= 0 && x <= 1; });

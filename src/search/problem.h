@@ -1,4 +1,5 @@
-// A problem for the search: designs of integers and reals, two to four objectives to be made small. What they mean is the caller's.
+// A problem for the search: designs of integers and reals, two to four objectives to be made small. What they mean is
+ // the caller's.
 #pragma once
 
 #include <cstddef>
@@ -31,10 +32,12 @@ struct Genomes {
   std::vector<double> reals;      // count × realsEach
 
   Genome operator[](size_t i) {
-    return {std::span(integers).subspan(i * integersEach, integersEach), std::span(reals).subspan(i * realsEach, realsEach)};
+    return {std::span(integers).subspan(i * integersEach, integersEach),
+            std::span(reals).subspan(i * realsEach, realsEach)};
   }
   ConstGenome operator[](size_t i) const {
-    return {std::span(integers).subspan(i * integersEach, integersEach), std::span(reals).subspan(i * realsEach, realsEach)};
+    return {std::span(integers).subspan(i * integersEach, integersEach),
+            std::span(reals).subspan(i * realsEach, realsEach)};
   }
   void resize(size_t designs);
   void append(ConstGenome genome);
@@ -54,7 +57,8 @@ struct RealVariable {
 
 // What a polish is to do: make Σ weights[m] · objective m small, from a design with these objectives.
 struct Wish {
-  std::span<const double> weights;     // >= 0, their sum is positive; already divided by the range of each objective in the front so far
+  std::span<const double>
+      weights;     // >= 0, their sum is positive; already divided by the range of each objective in the front so far
   std::span<const double> objectives;  // of the design as it is; a polish may take some of them as bounds
 };
 
@@ -63,32 +67,35 @@ struct Problem {
   std::vector<RealVariable> reals;
   size_t objectives = 2;  // two to four, all made small
 
-  // Optional: the block of each group, 0 and up. Groups of a block, for example the lamps of a room, matter to each other and to those of other blocks little. The
-  // hybrid recombines designs by whole blocks, and moves what groups hold within them. Empty: nothing is known.
+  // Optional: the block of each group, 0 and up. Groups of a block, for example the lamps of a room, matter to each
+  // other and to those of other blocks little. The hybrid recombines designs by whole blocks, and moves what groups
+// hold within them. Empty: nothing is known.
   std::vector<int32_t> blockOfGroup;
 
-  // Writes objectives[i × Problem::objectives + m] of every design i: finite numbers that depend on that design alone, not on its place
-  // among the others. Called with a generation at a time, from one thread; it may use as many as it likes.
+  // Writes objectives[i × Problem::objectives + m] of every design i: finite numbers that depend on that design alone,
+  // not on its place among the others. Called with a generation at a time, from one thread; it may use as many as it
+  // likes.
   std::function<void(const Genomes& designs, std::span<double> objectives)> evaluate;
 
-  // Optional. Makes any genome feasible, in place; a feasible one stays as it is; the same input gives the same output. Called from several
-  // threads at once. evaluate and polish see repaired genomes only.
+  // Optional. Makes any genome feasible, in place; a feasible one stays as it is; the same input gives the same output.
+  // Called from several threads at once. evaluate and polish see repaired genomes only.
   std::function<void(Genome)> repair;
 
-  // Optional. `count` designs by chance, of a generation; they are repaired afterwards. The same arguments give the same designs. Without it every
-  // value of every variable is as likely as any other.
+  // Optional. `count` designs by chance, of a generation; they are repaired afterwards. The same arguments give the
+  // same designs. Without it every value of every variable is as likely as any other.
   std::function<Genomes(size_t count, uint64_t seed, size_t generation)> draw;
 
-  // Optional. Improves the reals of a repaired genome, in place. Returns what it cost, counted in evaluations of one design: how many it
-  // made, or how many the same time would buy, whichever is more (a fixed figure, not a clock's). The search adds one for evaluating the outcome. 0: there
-  // was nothing to improve; the genome is as it was and is not evaluated again.
-  // Called from several threads at once; the same input gives the same output.
+  // Optional. Improves the reals of a repaired genome, in place. Returns what it cost, counted in evaluations of one
+  // design: how many it made, or how many the same time would buy, whichever is more (a fixed figure, not a clock's).
+  // The search adds one for evaluating the outcome. 0: there was nothing to improve; the genome is as it was and is not
+  // evaluated again. Called from several threads at once; the same input gives the same output.
   std::function<size_t(Genome, const Wish&)> polish;
 
   Genomes none() const;  // no designs, of this problem's shape
 };
 
-// Errors: objectives not two to four, no variables, a cardinality below 1, groups without a block where there are blocks, no evaluate.
+// Errors: objectives not two to four, no variables, a cardinality below 1, groups without a block where there are
+// blocks, no evaluate.
 Status check(const Problem& problem);
 
 // Every variable within its bounds and the shape right.

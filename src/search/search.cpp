@@ -36,7 +36,8 @@ State start(const Problem& problem, const Settings& settings, const Genomes& fir
   state.archive.objectivesEach = problem.objectives;
   state.archive.designs = problem.none();
   size_t count = settings.population;
-  if (settings.method == Method::weightedSum) count = kWeightedPopulation * weightings(problem.objectives, settings.weightings).size();
+  if (settings.method == Method::weightedSum)
+    count = kWeightedPopulation * weightings(problem.objectives, settings.weightings).size();
   state.population = randomDesigns(problem, state, count);
   for (size_t i = 0; i < std::min(first.count, count); ++i) state.population.assign(i, first[i]);
   repairAll(problem, state.population);
@@ -48,7 +49,8 @@ State start(const Problem& problem, const Settings& settings, const Genomes& fir
 }
 
 bool finished(const State& state) {
-  return state.evaluations >= state.settings.evaluations || (state.settings.seconds > 0 && state.seconds >= state.settings.seconds);
+  return state.evaluations >= state.settings.evaluations ||
+         (state.settings.seconds > 0 && state.seconds >= state.settings.seconds);
 }
 
 void advance(const Problem& problem, State& state) {
@@ -58,7 +60,8 @@ void advance(const Problem& problem, State& state) {
   state.seconds += watch.seconds();
 }
 
-void run(const Problem& problem, State& state, const Progress& progress, const std::function<void(const State&)>& watch) {
+void run(const Problem& problem, State& state, const Progress& progress,
+         const std::function<void(const State&)>& watch) {
   while (!finished(state) && !progress.stop()) {
     advance(problem, state);
     if (watch) watch(state);

@@ -5,7 +5,8 @@
 //     run(problem, state, progress, [&](const State& s) { ... s.archive ... s.evaluations ... });
 //     state.archive.designs, state.archive.objectives        // the front
 //
-// The same seed gives the same front with any number of threads, and after any number of stops in between (checkpoint.h).
+// The same seed gives the same front with any number of threads, and after any number of stops in between
+// (checkpoint.h).
 #pragma once
 
 #include <functional>
@@ -16,7 +17,8 @@
 
 namespace roomlight::search {
 
-// Everything a search knows, as plain data. Random numbers are keyed by seed, generation and place, so there is no state of a generator.
+// Everything a search knows, as plain data. Random numbers are keyed by seed, generation and place, so there is no
+// state of a generator.
 struct State {
   Settings settings;
   size_t generation = 0;
@@ -38,8 +40,10 @@ bool finished(const State& state);
 // One more generation. Never ends amid one: the last may exceed the budget by less than a generation.
 void advance(const Problem& problem, State& state);
 
-// Advances until finished or told to stop; reports the fraction of the budget. `watch` is called after every generation.
-void run(const Problem& problem, State& state, const Progress& progress = {}, const std::function<void(const State&)>& watch = {});
+// Advances until finished or told to stop; reports the fraction of the budget. `watch` is called after every
+// generation.
+void run(const Problem& problem, State& state, const Progress& progress = {},
+         const std::function<void(const State&)>& watch = {});
 
 // Of the budget, by evaluations or by time, whichever is further; seconds left by the pace so far.
 double fractionDone(const State& state);

@@ -47,7 +47,9 @@ TestProblem zdt(const char* name, double bestHypervolume, double askedHypervolum
 constexpr int32_t kCategories = 10, kValues = 6;
 
 int32_t rightValue(size_t category) { return static_cast<int32_t>((category * 7 + 3) % kValues); }
-double rightReal(size_t real, int32_t value) { return (static_cast<double>((real * 3 + static_cast<size_t>(value) * 5) % 11) + 0.5) / 11; }
+double rightReal(size_t real, int32_t value) {
+  return (static_cast<double>((real * 3 + static_cast<size_t>(value) * 5) % 11) + 0.5) / 11;
+}
 
 double mixedG(ConstGenome d) {
   double sum = 0;
@@ -63,12 +65,15 @@ TestProblem zdt2() { return zdt<concave>("ZDT2", 0.5433, 0.536); }  // 1.21 - 2/
 TestProblem zdt3() { return zdt<broken>("ZDT3", 1.3318, 0); }
 
 TestProblem dtlz2() {
-  return {"DTLZ2", realProblem(12, 3, [](ConstGenome d, std::span<double> f) {
-            double g = 1;
-            for (size_t i = 2; i < d.reals.size(); ++i) g += (d.reals[i] - 0.5) * (d.reals[i] - 0.5);
-            const double a = d.reals[0] * kPi / 2, b = d.reals[1] * kPi / 2;
-            f[0] = g * std::cos(a) * std::cos(b), f[1] = g * std::cos(a) * std::sin(b), f[2] = g * std::sin(a);
-          }),
+  return {"DTLZ2",
+          realProblem(12, 3,
+                      [](ConstGenome d, std::span<double> f) {
+                        double g = 1;
+                        for (size_t i = 2; i < d.reals.size(); ++i) g += (d.reals[i] - 0.5) * (d.reals[i] - 0.5);
+                        const double a = d.reals[0] * kPi / 2, b = d.reals[1] * kPi / 2;
+                        f[0] = g * std::cos(a) * std::cos(b), f[1] = g * std::cos(a) * std::sin(b),
+                        f[2] = g * std::sin(a);
+                      }),
           {1.1, 1.1, 1.1},
           0.8074,
           0.78};  // 1.331 - pi/6

@@ -16,7 +16,8 @@ namespace {
 constexpr int kTriesAgain = 4;
 constexpr double kByBlocks = 0.8, kMoves = 0.5;  // of pairs, of children; docs/methods/search.md
 
-// How far one side of simulated binary crossover spreads: from u uniform, with room to the bound of `room` half-distances of the parents.
+// How far one side of simulated binary crossover spreads: from u uniform, with room to the bound of `room`
+// half-distances of the parents.
 double spread(double u, double room, double index) {
   const double alpha = 2 - std::pow(room, -(index + 1));
   return u <= 1 / alpha ? std::pow(u * alpha, 1 / (index + 1)) : std::pow(1 / (2 - u * alpha), 1 / (index + 1));
@@ -71,7 +72,8 @@ class Exchange {
 std::string bytesOf(ConstGenome genome) {
   std::string bytes(genome.integers.size_bytes() + genome.reals.size_bytes(), '\0');
   if (!genome.integers.empty()) std::memcpy(bytes.data(), genome.integers.data(), genome.integers.size_bytes());
-  if (!genome.reals.empty()) std::memcpy(bytes.data() + genome.integers.size_bytes(), genome.reals.data(), genome.reals.size_bytes());
+  if (!genome.reals.empty())
+    std::memcpy(bytes.data() + genome.integers.size_bytes(), genome.reals.data(), genome.reals.size_bytes());
   return bytes;
 }
 
@@ -94,12 +96,15 @@ void mutate(const Problem& problem, const Settings& settings, Genome genome, Dra
   const double rate = settings.mutationRate > 0 ? settings.mutationRate : 1 / static_cast<double>(variables);
   const size_t certain = atLeastOne ? draws.index(variables) : variables;
   for (size_t i = 0; i < integers; ++i)
-    if (i == certain || draws.chance(rate)) genome.integers[i] = mutateInteger(genome.integers[i], problem.integers[i], draws);
+    if (i == certain || draws.chance(rate))
+      genome.integers[i] = mutateInteger(genome.integers[i], problem.integers[i], draws);
   for (size_t i = 0; i < genome.reals.size(); ++i)
-    if (integers + i == certain || draws.chance(rate)) genome.reals[i] = mutateReal(genome.reals[i], settings.mutationIndex, draws);
+    if (integers + i == certain || draws.chance(rate))
+      genome.reals[i] = mutateReal(genome.reals[i], settings.mutationIndex, draws);
 }
 
-Genomes offspring(const Problem& problem, const Settings& settings, size_t generation, const Genomes& parents, const Genomes& known, const Blocks& blocks) {
+Genomes offspring(const Problem& problem, const Settings& settings, size_t generation, const Genomes& parents,
+                  const Genomes& known, const Blocks& blocks) {
   Genomes children = parents;
   parallelFor(children.count / 2, 16, [&](size_t pair) {
     Draws draws(settings.seed, generation, Purpose::vary, pair);

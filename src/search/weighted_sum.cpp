@@ -1,5 +1,6 @@
-// The rival of one objective: for each of a set of weightings a small genetic search of its own, all of them in step, so that a run can end at any
-// time. Objectives are scaled by the range of the front so far. Every design goes into the archive, not only the winners.
+// The rival of one objective: for each of a set of weightings a small genetic search of its own, all of them in step,
+// so that a run can end at any time. Objectives are scaled by the range of the front so far. Every design goes into the
+// archive, not only the winners.
 #include <algorithm>
 #include <numeric>
 
@@ -36,10 +37,12 @@ double weightedSum(std::span<const double> objectives, const std::vector<double>
   return sum;
 }
 
-std::vector<double> sumsOf(const std::vector<double>& objectives, const std::vector<double>& weights, const Range& range) {
+std::vector<double> sumsOf(const std::vector<double>& objectives, const std::vector<double>& weights,
+                           const Range& range) {
   const size_t m = weights.size();
   std::vector<double> sums(objectives.size() / m);
-  for (size_t i = 0; i < sums.size(); ++i) sums[i] = weightedSum(std::span(objectives).subspan(i * m, m), weights, range);
+  for (size_t i = 0; i < sums.size(); ++i)
+    sums[i] = weightedSum(std::span(objectives).subspan(i * m, m), weights, range);
   return sums;
 }
 
@@ -70,7 +73,8 @@ void weightedGeneration(const Problem& problem, State& state) {
     }
   }
   Genomes designs = state.population;
-  const Genomes children = offspring(problem, state.settings, state.generation, pick(state.population, winners), state.population);
+  const Genomes children =
+      offspring(problem, state.settings, state.generation, pick(state.population, winners), state.population);
   designs.append(children);
   const std::vector<double> found = evaluate(problem, state, children);
   std::vector<double> objectives = state.objectives;

@@ -27,7 +27,9 @@ Status checkWalks(const StudyPlan& plan, const RunStore& store, const std::strin
   if (plan.techniquesIn("walks").empty()) return Ok{};
   for (const StudyScene& s : plan.scenes) {
     if (s.walk.empty()) continue;
-    const RunStore::Key key{{"walk file", s.name}, fmt::format("{} | {} | {} | {}", program, contentHash(s.file), contentHash(s.walkLight.lighting), contentHash(s.walk))};
+    const RunStore::Key key{{"walk file", s.name},
+                            fmt::format("{} | {} | {} | {}", program, contentHash(s.file),
+                                        contentHash(s.walkLight.lighting), contentHash(s.walk))};
     if (store.find(key)) continue;
     const std::optional<Scene> scene = litScene(s);
     if (!scene) continue;

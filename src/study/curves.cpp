@@ -15,7 +15,9 @@ double medianOf(std::vector<double> values) {
 double errorOf(const StudyPoint& point) { return std::max(point.mseBeyondNoise, kLeastMse); }
 
 bool hasSettled(const StudyCurve& curve) {
-  const auto flat = [&](size_t i) { return errorOf(curve.points[i]) > (1 - kSettledChange) * errorOf(curve.points[i - 1]); };
+  const auto flat = [&](size_t i) {
+    return errorOf(curve.points[i]) > (1 - kSettledChange) * errorOf(curve.points[i - 1]);
+  };
   const size_t n = curve.points.size();
   return n >= 3 && flat(n - 1) && flat(n - 2);
 }
@@ -31,7 +33,8 @@ std::optional<double> secondsTo(const StudyCurve& curve, double error) {
   for (const StudyPoint& p : curve.points) {
     if (errorOf(p) <= error) {
       if (!before) return p.seconds;
-      const double high = std::log(errorOf(*before)), low = std::log(errorOf(p)), share = high > low ? (high - std::log(error)) / (high - low) : 1;
+      const double high = std::log(errorOf(*before)), low = std::log(errorOf(p)),
+                   share = high > low ? (high - std::log(error)) / (high - low) : 1;
       return std::exp(std::log(before->seconds) + share * (std::log(p.seconds) - std::log(before->seconds)));
     }
     before = &p;

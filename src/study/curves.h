@@ -33,14 +33,16 @@ double medianOf(std::vector<double> values);  // 0 of none
 // Error by which pictures are ranked: mse beyond the reference's noise, not below kLeastMse.
 double errorOf(const StudyPoint& point);
 
-// Whether the last two doublings changed next to nothing: one alone may be chance, or two samples that share what they see.
+// Whether the last two doublings changed next to nothing: one alone may be chance, or two samples that share what they
+// see.
 bool hasSettled(const StudyCurve& curve);
 
-// The point from which on it does not get better by more than kSettledChange a doubling; the last one where the error still falls. The curve has points.
+// The point from which on it does not get better by more than kSettledChange a doubling; the last one where the error
+// still falls. The curve has points.
 const StudyPoint& settledPoint(const StudyCurve& curve);
 
-// Seconds until the error has come down to this: between two points along a straight line of logarithms, at once by the first where that is good enough. None where
-// it never does.
+// Seconds until the error has come down to this: between two points along a straight line of logarithms, at once by the
+// first where that is good enough. None where it never does.
 std::optional<double> secondsTo(const StudyCurve& curve, double error);
 
 // Seconds of `a` over seconds of `b` for the least error that both reach; none where one has no points.

@@ -26,7 +26,8 @@ Result<Vec3> positionIn(const StudyScene& s) {
 
 Status writeDimLamp(const StudyScene& s, StudyLight& light, const RunStore& store) {
   if (light.dimLampLm <= 0) return Ok{};
-  const RunStore::Key key{{"light", s.name, light.name}, fmt::format("{} | camera {} | {} lm", contentHash(s.file), s.camera, light.dimLampLm)};
+  const RunStore::Key key{{"light", s.name, light.name},
+                          fmt::format("{} | camera {} | {} lm", contentHash(s.file), s.camera, light.dimLampLm)};
   light.lighting = store.file(key, ".lighting.json");
   if (std::filesystem::exists(light.lighting)) return Ok{};
   const Result<Vec3> p = positionIn(s);
@@ -34,7 +35,11 @@ Status writeDimLamp(const StudyScene& s, StudyLight& light, const RunStore& stor
   const auto off = {"lamps", "suns", "sky", "emission"};
   nlohmann::ordered_json file = {{"comment", "One weak lamp; every other light is off."}};
   for (const char* what : off) file["scene"][what] = "off";
-  file["lamps"] = {{{"name", "dim lamp"}, {"type", "point"}, {"position", {p.value().x, p.value().y, p.value().z}}, {"flux", fmt::format("{:g} lm", light.dimLampLm)}, {"temperature", kColour}}};
+  file["lamps"] = {{{"name", "dim lamp"},
+                    {"type", "point"},
+                    {"position", {p.value().x, p.value().y, p.value().z}},
+                    {"flux", fmt::format("{:g} lm", light.dimLampLm)},
+                    {"temperature", kColour}}};
   return writeWhole(light.lighting, file.dump(2) + "\n");
 }
 

@@ -10,8 +10,8 @@ namespace roomlight {
 // Where it hangs: half way from the camera to what is met straight ahead, two metres from the camera at most.
 Vec3 dimLampPosition(const Scene& scene, const Camera& camera);
 
-// Gives every light of the plan, also those of walks, that asks for such a lamp a lighting file in the store, which switches all other light off. Opens the scenes
-// whose file is not there yet.
+// Gives every light of the plan, also those of walks, that asks for such a lamp a lighting file in the store, which
+// switches all other light off. Opens the scenes whose file is not there yet.
 Status writeDimLamps(StudyPlan& plan, const RunStore& store);
 
 }  // namespace roomlight

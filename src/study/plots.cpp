@@ -12,7 +12,8 @@ namespace roomlight {
 namespace {
 
 // Okabe & Ito 2008 and Tol 2021, told apart by people with any colour vision.
-constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#882255", "#999933"};
+constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#e69f00", "#009e73",
+                                                 "#cc79a7", "#56b4e9", "#882255", "#999933"};
 constexpr double kWidth = 560, kHeight = 300, kLeft = 54, kRight = 12, kTop = 10, kBottom = 34;
 constexpr double kLeastError = 1e-9;  // that a logarithmic axis shows
 
@@ -43,10 +44,16 @@ std::vector<double> ticks(const Axis& a) {
 std::string grid(const Axis& x, const Axis& y) {
   std::string s;
   for (const double v : ticks(x)) {
-    s += fmt::format("<line class='grid' x1='{0:.1f}' x2='{0:.1f}' y1='{1}' y2='{2}'/><text x='{0:.1f}' y='{3}' text-anchor='middle'>{4:g}</text>", x.at(v), kTop, kHeight - kBottom, kHeight - kBottom + 15, v);
+    s += fmt::format(
+        "<line class='grid' x1='{0:.1f}' x2='{0:.1f}' y1='{1}' y2='{2}'/><text x='{0:.1f}' y='{3}' "
+        "text-anchor='middle'>{4:g}</text>",
+        x.at(v), kTop, kHeight - kBottom, kHeight - kBottom + 15, v);
   }
   for (const double v : ticks(y)) {
-    s += fmt::format("<line class='grid' x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5:g}</text>", kLeft, kWidth - kRight, y.at(v), kLeft - 6, y.at(v) + 4, v);
+    s += fmt::format(
+        "<line class='grid' x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}'/><text x='{3}' y='{4:.1f}' "
+        "text-anchor='end'>{5:g}</text>",
+        kLeft, kWidth - kRight, y.at(v), kLeft - 6, y.at(v) + 4, v);
   }
   return s + fmt::format("<text x='{}' y='{}' text-anchor='end'>seconds</text>", kWidth - kRight, kHeight - 4);
 }
@@ -65,7 +72,8 @@ std::string curvesSvg(const StudyCase& one) {
   for (const StudyCurve& c : one.curves) {
     for (const StudyPoint& p : c.points) {
       const double s = std::max(p.seconds, 1e-3);
-      leastS = std::min(leastS, s), mostS = std::max(mostS, s), leastE = std::min(leastE, errorOf(p)), mostE = std::max(mostE, errorOf(p));
+      leastS = std::min(leastS, s), mostS = std::max(mostS, s), leastE = std::min(leastE, errorOf(p)),
+      mostE = std::max(mostE, errorOf(p));
     }
   }
   for (const StudyExternal& e : one.externals) {
@@ -73,11 +81,16 @@ std::string curvesSvg(const StudyCase& one) {
     leastE = std::min(leastE, std::max(e.mseBeyondNoise, kLeastError)), mostE = std::max(mostE, e.mseBeyondNoise);
   }
   if (mostS <= 0) return "<p>nothing measured</p>";
-  const Axis x = axisOf(leastS, mostS, kLeft, kWidth - kRight), y = axisOf(std::max(leastE, mostE * 1e-4), mostE, kHeight - kBottom, kTop);
+  const Axis x = axisOf(leastS, mostS, kLeft, kWidth - kRight),
+             y = axisOf(std::max(leastE, mostE * 1e-4), mostE, kHeight - kBottom, kTop);
   const auto placeOf = [&](double secondsTaken, double error) {
-    return std::pair{x.at(std::max(secondsTaken, 1e-3)), std::min(y.at(std::pow(10, std::max(y.low, std::log10(std::max(error, kLeastError))))), kHeight - kBottom)};
+    return std::pair{
+        x.at(std::max(secondsTaken, 1e-3)),
+        std::min(y.at(std::pow(10, std::max(y.low, std::log10(std::max(error, kLeastError))))), kHeight - kBottom)};
   };
-  std::string s = fmt::format("<svg viewBox='0 0 {} {}' role='img' aria-label='Error over time, {}'>", kWidth, kHeight, htmlEscaped(one.scene + ", " + one.light)) + grid(x, y);
+  std::string s = fmt::format("<svg viewBox='0 0 {} {}' role='img' aria-label='Error over time, {}'>", kWidth, kHeight,
+                              htmlEscaped(one.scene + ", " + one.light)) +
+                  grid(x, y);
   for (size_t i = 0; i < one.curves.size(); ++i) {
     const StudyCurve& c = one.curves[i];
     if (c.points.empty()) continue;
@@ -87,32 +100,49 @@ std::string curvesSvg(const StudyCase& one) {
     for (const StudyPoint& p : c.points) {
       const auto [px, py] = placeOf(p.seconds, errorOf(p));
       path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, py);
-      dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}' stroke='{}'><title>{}: {} samples, {:.2f} s, mse beyond noise {:.5f}</title></circle>", px, py, &p == &settled ? 5 : 3, &p == &settled ? colour : "#fff", colour, htmlEscaped(c.technique),
-                          p.samples, p.seconds, p.mseBeyondNoise);
+      dots += fmt::format(
+          "<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}' stroke='{}'><title>{}: {} samples, {:.2f} s, mse beyond "
+          "noise {:.5f}</title></circle>",
+          px, py, &p == &settled ? 5 : 3, &p == &settled ? colour : "#fff", colour, htmlEscaped(c.technique), p.samples,
+          p.seconds, p.mseBeyondNoise);
     }
     const bool dashed = c.technique.find(',') != std::string::npos;
-    s += fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='2'{}/>", path, colour, dashed ? " stroke-dasharray='5 3'" : "") + dots;
+    s += fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='2'{}/>", path, colour,
+                     dashed ? " stroke-dasharray='5 3'" : "") +
+         dots;
   }
   for (const StudyExternal& e : one.externals) {
     const auto [px, py] = placeOf(e.seconds, e.mseBeyondNoise);
-    s += fmt::format("<path d='M{0:.1f} {1:.1f}l6 6l-6 6l-6 -6z' fill='#111'><title>{2}: {3:.2f} s, mse beyond noise {4:.5f}</title></path><text x='{5:.1f}' y='{6:.1f}'>{2}</text>", px, py - 6, htmlEscaped(e.name), e.seconds, e.mseBeyondNoise, px + 9, py + 4);
+    s += fmt::format(
+        "<path d='M{0:.1f} {1:.1f}l6 6l-6 6l-6 -6z' fill='#111'><title>{2}: {3:.2f} s, mse beyond noise "
+        "{4:.5f}</title></path><text x='{5:.1f}' y='{6:.1f}'>{2}</text>",
+        px, py - 6, htmlEscaped(e.name), e.seconds, e.mseBeyondNoise, px + 9, py + 4);
   }
   return s + "</svg>";
 }
 
 std::string barsSvg(const std::vector<Bar>& bars, const std::string& unit) {
   constexpr double kName = 170, kBar = 300, kRow = 24;
-  const auto cone = std::find_if(bars.begin(), bars.end(), [](const Bar& b) { return b.name == "cone" && b.value > 0 && b.published > 0; });
+  const auto cone = std::find_if(bars.begin(), bars.end(),
+                                 [](const Bar& b) { return b.name == "cone" && b.value > 0 && b.published > 0; });
   const double scale = cone == bars.end() ? 0 : cone->value / cone->published;
   double most = 1e-9;
   for (const Bar& b : bars) most = std::max({most, b.value, b.published * scale});
-  std::string s = fmt::format("<svg viewBox='0 0 {} {}' role='img'>", kWidth, kRow * static_cast<double>(bars.size()) + 4);
+  std::string s =
+      fmt::format("<svg viewBox='0 0 {} {}' role='img'>", kWidth, kRow * static_cast<double>(bars.size()) + 4);
   for (size_t i = 0; i < bars.size(); ++i) {
     const Bar& b = bars[i];
     const double y = kRow * static_cast<double>(i) + 3, length = kBar * b.value / most;
-    s += fmt::format("<text x='{}' y='{:.1f}' text-anchor='end'>{}</text><rect x='{}' y='{:.1f}' width='{:.1f}' height='17' fill='{}'/>", kName - 8, y + 13, htmlEscaped(b.name), kName, y, std::max(1.0, length), b.colour);
+    s += fmt::format(
+        "<text x='{}' y='{:.1f}' text-anchor='end'>{}</text><rect x='{}' y='{:.1f}' width='{:.1f}' height='17' "
+        "fill='{}'/>",
+        kName - 8, y + 13, htmlEscaped(b.name), kName, y, std::max(1.0, length), b.colour);
     const double end = std::max(length, b.published * scale / most * kBar);
-    if (b.published > 0 && scale > 0) s += fmt::format("<line class='published' x1='{0:.1f}' x2='{0:.1f}' y1='{1:.1f}' y2='{2:.1f}'><title>published, in ratio: {3:g}</title></line>", kName + b.published * scale / most * kBar, y - 2, y + 19, b.published);
+    if (b.published > 0 && scale > 0)
+      s += fmt::format(
+          "<line class='published' x1='{0:.1f}' x2='{0:.1f}' y1='{1:.1f}' y2='{2:.1f}'><title>published, in ratio: "
+          "{3:g}</title></line>",
+          kName + b.published * scale / most * kBar, y - 2, y + 19, b.published);
     s += fmt::format("<text x='{:.1f}' y='{:.1f}'>{:.3g} {}</text>", kName + end + 6, y + 13, b.value, unit);
   }
   return s + "</svg>";

@@ -17,8 +17,8 @@ struct Bar {
   std::string name, colour;
   double value = 0, published = 0;  // published: 0: none
 };
-// Lying bars, the longest over the whole width, each with its number; a tick where the published value stands in ratio to that of the bar `cone`, none without
-// that bar.
+// Lying bars, the longest over the whole width, each with its number; a tick where the published value stands in ratio
+// to that of the bar `cone`, none without that bar.
 std::string barsSvg(const std::vector<Bar>& bars, const std::string& unit);
 
 }  // namespace roomlight

@@ -1,5 +1,5 @@
-// What the published study of the method reports (voxel cones against VXGI, light propagation volumes and photon mapping; six home scenes, quad-core
-// desktop with a GTX 950).
+// What the published study of the method reports (voxel cones against VXGI, light propagation volumes and photon
+// mapping; six home scenes, quad-core desktop with a GTX 950).
 #pragma once
 
 #include <array>

@@ -23,7 +23,8 @@ void add(Half& half, const Image& picture, double samples) {
     half.sum = picture;
   } else {
     const float share = static_cast<float>(samples / (half.samples + samples));
-    for (size_t i = 0; i < picture.pixels.size(); ++i) half.sum.pixels[i] = half.sum.pixels[i] * (1 - share) + picture.pixels[i] * share;
+    for (size_t i = 0; i < picture.pixels.size(); ++i)
+      half.sum.pixels[i] = half.sum.pixels[i] * (1 - share) + picture.pixels[i] * share;
   }
   half.samples += samples;
 }
@@ -36,12 +37,15 @@ Result<double> noiseOfMean(const Image& a, const Image& b) {
 }
 
 // Halves of every other round have files of their own, so that those of the last one are whole whenever the work ends.
-std::filesystem::path fileOfHalf(const RunStore& store, const RunStore::Key& key, int round, size_t half) { return store.file(key, fmt::format("_{}{}.exr", half + 1, round % 2 ? "b" : "a")); }
+std::filesystem::path fileOfHalf(const RunStore& store, const RunStore::Key& key, int round, size_t half) {
+  return store.file(key, fmt::format("_{}{}.exr", half + 1, round % 2 ? "b" : "a"));
+}
 
 }  // namespace
 
-Result<Reference> makeReference(const RunStore& store, const RunStore::Key& key, const StudyRender& view, const ReferenceSettings& settings, const StudyTools& tools, const StudyProgress& progress,
-                                const std::function<void(double)>& heard) {
+Result<Reference> makeReference(const RunStore& store, const RunStore::Key& key, const StudyRender& view,
+                                const ReferenceSettings& settings, const StudyTools& tools,
+                                const StudyProgress& progress, const std::function<void(double)>& heard) {
   Half halves[2];
   int rounds = 0;
   double seconds = 0;
@@ -61,7 +65,9 @@ Result<Reference> makeReference(const RunStore& store, const RunStore::Key& key,
       halves[0] = {};
     }
   }
-  const auto enough = [&] { return rounds > 0 && (reference.noiseMse <= settings.noiseMse || seconds >= settings.mostS); };
+  const auto enough = [&] {
+    return rounds > 0 && (reference.noiseMse <= settings.noiseMse || seconds >= settings.mostS);
+  };
   while (!enough() && !progress.stop()) {
     if (heard) heard(std::min(1.0, seconds / settings.mostS));
     Image pictures[2];
@@ -91,7 +97,10 @@ Result<Reference> makeReference(const RunStore& store, const RunStore::Key& key,
     for (size_t i = 0; i < 2; ++i) {
       if (const Status s = writeExr(fileOfHalf(store, key, rounds, i), halves[i].sum, {}); !s) return Error{s.error()};
     }
-    const nlohmann::json kept = {{"rounds", rounds}, {"seconds", seconds}, {"samples", halves[0].samples + halves[1].samples}, {"noiseMse", reference.noiseMse}};
+    const nlohmann::json kept = {{"rounds", rounds},
+                                 {"seconds", seconds},
+                                 {"samples", halves[0].samples + halves[1].samples},
+                                 {"noiseMse", reference.noiseMse}};
     if (const Status s = store.keep(key, kept); !s) return Error{s.error()};
   }
   if (rounds == 0) return Error{"stopped before there was a reference"};

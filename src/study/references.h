@@ -22,9 +22,10 @@ struct Reference {
   bool converged = false;  // noiseMse is as small as asked for
 };
 
-// `view`: what is rendered; technique, samples, seed, time and picture are set here. Goes on from what the store holds under this key.
-// `heard` is told the part of the time that is gone.
-Result<Reference> makeReference(const RunStore& store, const RunStore::Key& key, const StudyRender& view, const ReferenceSettings& settings,
-                                const StudyTools& tools, const StudyProgress& progress, const std::function<void(double)>& heard = {});
+// `view`: what is rendered; technique, samples, seed, time and picture are set here. Goes on from what the store holds
+// under this key. `heard` is told the part of the time that is gone.
+Result<Reference> makeReference(const RunStore& store, const RunStore::Key& key, const StudyRender& view,
+                                const ReferenceSettings& settings, const StudyTools& tools,
+                                const StudyProgress& progress, const std::function<void(double)>& heard = {});
 
 }  // namespace roomlight

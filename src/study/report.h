@@ -14,7 +14,8 @@ struct StudyHeader {
   std::vector<std::pair<std::string, std::string>> about{}, techniques{};
 };
 
-// What roomlight asks of its own techniques after the figures of the published study, and what came out; none where the plan does not ask for that.
+// What roomlight asks of its own techniques after the figures of the published study, and what came out; none where the
+// plan does not ask for that.
 struct StudyVerdict {
   std::string asked, measured;
   bool met = false;
@@ -26,8 +27,9 @@ std::string studyJson(const StudyHeader& header, const StudyResults& results);
 std::string studyCsv(const StudyResults& results);
 // Tables alone, for documents.
 std::string studyMarkdown(const StudyHeader& header, const StudyResults& results);
-// One page that needs nothing else, with curves, bars, pictures and error maps. `folder`: where the study's pictures are; small JPEGs of
-// them are written there too.
-Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& results, const std::filesystem::path& folder);
+// One page that needs nothing else, with curves, bars, pictures and error maps. `folder`: where the study's pictures
+// are; small JPEGs of them are written there too.
+Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& results,
+                              const std::filesystem::path& folder);
 
 }  // namespace roomlight

@@ -14,7 +14,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json pointJson(const StudyPoint& p) {
-  return {{"samples", p.samples}, {"seconds", p.seconds}, {"runs", p.runsS}, {"processorSeconds", p.processorSeconds}, {"memoryMiB", p.memoryMiB}, {"mse", p.mse}, {"mseBeyondNoise", p.mseBeyondNoise}, {"flip", p.flip}, {"meanErrorPercent", p.meanErrorPercent}, {"picture", p.picture}};
+  return {{"samples", p.samples},
+          {"seconds", p.seconds},
+          {"runs", p.runsS},
+          {"processorSeconds", p.processorSeconds},
+          {"memoryMiB", p.memoryMiB},
+          {"mse", p.mse},
+          {"mseBeyondNoise", p.mseBeyondNoise},
+          {"flip", p.flip},
+          {"meanErrorPercent", p.meanErrorPercent},
+          {"picture", p.picture}};
 }
 
 Json curveJson(const StudyCurve& c) {
@@ -27,11 +36,21 @@ Json curveJson(const StudyCurve& c) {
 
 Json caseJson(const StudyCase& c) {
   Json j = {{"scene", c.scene}, {"light", c.light}, {"lighting", c.lighting}};
-  j["reference"] = {{"pictures", {c.first.string(), c.second.string()}}, {"noiseMse", c.noiseMse}, {"seconds", c.referenceS}, {"samples", c.referenceSamples}, {"converged", c.referenceConverged}};
+  j["reference"] = {{"pictures", {c.first.string(), c.second.string()}},
+                    {"noiseMse", c.noiseMse},
+                    {"seconds", c.referenceS},
+                    {"samples", c.referenceSamples},
+                    {"converged", c.referenceConverged}};
   j["curves"] = Json::array(), j["externals"] = Json::array();
   for (const StudyCurve& curve : c.curves) j["curves"].push_back(curveJson(curve));
   for (const StudyExternal& e : c.externals) {
-    j["externals"].push_back({{"name", e.name}, {"seconds", e.seconds}, {"mse", e.mse}, {"mseBeyondNoise", e.mseBeyondNoise}, {"flip", e.flip}, {"meanErrorPercent", e.meanErrorPercent}, {"picture", e.picture}});
+    j["externals"].push_back({{"name", e.name},
+                              {"seconds", e.seconds},
+                              {"mse", e.mse},
+                              {"mseBeyondNoise", e.mseBeyondNoise},
+                              {"flip", e.flip},
+                              {"meanErrorPercent", e.meanErrorPercent},
+                              {"picture", e.picture}});
   }
   return j;
 }
@@ -53,7 +72,9 @@ std::string cell(const std::string& text) {
 std::string secondsText(double s) { return s < 9.95 ? fmt::format("{:.2f}", s) : fmt::format("{:.1f}", s); }
 
 std::string curvesTable(const StudyCase& c) {
-  std::string s = "| technique | settles at mse | beyond noise | flip | mean | samples | s | processor s | MiB | s to cone's error |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  std::string s =
+      "| technique | settles at mse | beyond noise | flip | mean | samples | s | processor s | MiB | s to cone's error "
+      "|\n|---|---|---|---|---|---|---|---|---|---|\n";
   const StudyCurve* cone = nullptr;
   for (const StudyCurve& curve : c.curves) cone = curve.technique == "cone" && !curve.points.empty() ? &curve : cone;
   for (const StudyCurve& curve : c.curves) {
@@ -63,12 +84,17 @@ std::string curvesTable(const StudyCase& c) {
     }
     const StudyPoint& p = settledPoint(curve);
     const auto same = cone ? secondsTo(curve, errorOf(settledPoint(*cone))) : std::nullopt;
-    s += fmt::format("| {}{} | {:.5f} | {:.5f} | {:.3f} | {:+.1f} % | {} | {} | {} | {:.0f} | {} |\n", cell(curve.technique), hasSettled(curve) ? "" : " (still falling)", p.mse, p.mseBeyondNoise, p.flip, p.meanErrorPercent, p.samples, secondsText(p.seconds),
-                     secondsText(p.processorSeconds), p.memoryMiB, same ? secondsText(*same) : cone ? "not reached"
-                                                                                                    : "");
+    s +=
+        fmt::format("| {}{} | {:.5f} | {:.5f} | {:.3f} | {:+.1f} % | {} | {} | {} | {:.0f} | {} |\n",
+                    cell(curve.technique), hasSettled(curve) ? "" : " (still falling)", p.mse, p.mseBeyondNoise, p.flip,
+                    p.meanErrorPercent, p.samples, secondsText(p.seconds), secondsText(p.processorSeconds), p.memoryMiB,
+                    same   ? secondsText(*same)
+                    : cone ? "not reached"
+                           : "");
   }
   for (const StudyExternal& e : c.externals) {
-    s += fmt::format("| {} (external) | {:.5f} | {:.5f} | {:.3f} | {:+.1f} % | | {} | | | |\n", cell(e.name), e.mse, e.mseBeyondNoise, e.flip, e.meanErrorPercent, secondsText(e.seconds));
+    s += fmt::format("| {} (external) | {:.5f} | {:.5f} | {:.3f} | {:+.1f} % | | {} | | | |\n", cell(e.name), e.mse,
+                     e.mseBeyondNoise, e.flip, e.meanErrorPercent, secondsText(e.seconds));
   }
   return s;
 }
@@ -80,7 +106,10 @@ std::string drawingTimes(const StudyResults& r) {
   for (const StudyCurve& c : r.cases.front().curves) head += fmt::format(" {} |", cell(c.technique)), rule += "---|";
   for (const StudyCase& c : r.cases) {
     s += fmt::format("| {}, {} |", cell(c.scene), cell(c.light));
-    for (const StudyCurve& curve : c.curves) s += curve.points.empty() ? " – |" : fmt::format(" {}{} |", hasSettled(curve) ? "" : "> ", secondsText(settledPoint(curve).seconds));
+    for (const StudyCurve& curve : c.curves)
+      s += curve.points.empty()
+               ? " – |"
+               : fmt::format(" {}{} |", hasSettled(curve) ? "" : "> ", secondsText(settledPoint(curve).seconds));
     s += "\n";
   }
   return head + "\n" + rule + "\n" + s;
@@ -100,13 +129,17 @@ std::string publishedTimes() {
 std::string timeRatios(const StudyResults& r, const std::string& technique) {
   std::string head, s;
   for (const StudyCase& c : r.cases) {
-    const auto own = std::find_if(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) { return curve.technique == technique && !curve.points.empty(); });
+    const auto own = std::find_if(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) {
+      return curve.technique == technique && !curve.points.empty();
+    });
     if (own == c.curves.end()) continue;
-    std::string names = fmt::format("| `{}` over |", cell(technique)), line = "|---|", row = fmt::format("| {}, {} |", cell(c.scene), cell(c.light));
+    std::string names = fmt::format("| `{}` over |", cell(technique)), line = "|---|",
+                row = fmt::format("| {}, {} |", cell(c.scene), cell(c.light));
     for (const StudyCurve& other : c.curves) {
       if (other.kind != "rival") continue;
       const auto ratio = timeRatioAtEqualError(*own, other);
-      names += fmt::format(" {} |", cell(other.technique)), line += "---|", row += ratio ? fmt::format(" {:.2f} |", *ratio) : " – |";
+      names += fmt::format(" {} |", cell(other.technique)), line += "---|",
+          row += ratio ? fmt::format(" {:.2f} |", *ratio) : " – |";
     }
     if (head.empty()) head = names + "\n" + line + "\n";
     s += row + "\n";
@@ -115,10 +148,14 @@ std::string timeRatios(const StudyResults& r, const std::string& technique) {
 }
 
 std::string framesTable(const StudyResults& r) {
-  std::string s = "| scene | light | technique | frames a second | update ms | picture ms | frames |\n|---|---|---|---|---|---|---|\n";
+  std::string s =
+      "| scene | light | technique | frames a second | update ms | picture ms | frames "
+      "|\n|---|---|---|---|---|---|---|\n";
   for (const StudyFrames& f : r.frames) {
     s += fmt::format("| {} | {} | {} |", cell(f.scene), cell(f.light), cell(f.technique));
-    s += f.runs.empty() ? fmt::format(" – | {} | | |\n", cell(f.failed)) : fmt::format(" {:.2f} | {:.0f} | {:.0f} | {} |\n", f.cost.framesPerSecond, f.cost.updateMs, f.cost.pictureMs, f.cost.frames);
+    s += f.runs.empty() ? fmt::format(" – | {} | | |\n", cell(f.failed))
+                        : fmt::format(" {:.2f} | {:.0f} | {:.0f} | {} |\n", f.cost.framesPerSecond, f.cost.updateMs,
+                                      f.cost.pictureMs, f.cost.frames);
   }
   return s;
 }
@@ -140,32 +177,52 @@ std::string studyJson(const StudyHeader& header, const StudyResults& r) {
   j["complete"] = r.complete;
   if (r.againstPublished) j["verdicts"] = Json::array();
   j["cases"] = Json::array(), j["frames"] = Json::array();
-  for (const StudyVerdict& v : studyVerdicts(r)) j["verdicts"].push_back({{"asked", v.asked}, {"measured", v.measured}, {"met", v.met}});
+  for (const StudyVerdict& v : studyVerdicts(r))
+    j["verdicts"].push_back({{"asked", v.asked}, {"measured", v.measured}, {"met", v.met}});
   for (const StudyCase& c : r.cases) j["cases"].push_back(caseJson(c));
   for (const StudyFrames& f : r.frames) {
-    j["frames"].push_back({{"scene", f.scene}, {"light", f.light}, {"technique", f.technique}, {"framesPerSecond", f.cost.framesPerSecond}, {"frames", f.cost.frames}, {"updateMs", f.cost.updateMs}, {"pictureMs", f.cost.pictureMs}, {"runs", f.runs.size()}, {"failed", f.failed}});
+    j["frames"].push_back({{"scene", f.scene},
+                           {"light", f.light},
+                           {"technique", f.technique},
+                           {"framesPerSecond", f.cost.framesPerSecond},
+                           {"frames", f.cost.frames},
+                           {"updateMs", f.cost.updateMs},
+                           {"pictureMs", f.cost.pictureMs},
+                           {"runs", f.runs.size()},
+                           {"failed", f.failed}});
   }
   for (const auto& t : published::kTechniques) {
     if (!r.againstPublished) break;
-    j["published"].push_back({{"technique", t.name}, {"drawingSeconds", t.drawingS}, {"settledMse", t.settledMse}, {"framesPerSecond", t.framesPerSecond}});
+    j["published"].push_back({{"technique", t.name},
+                              {"drawingSeconds", t.drawingS},
+                              {"settledMse", t.settledMse},
+                              {"framesPerSecond", t.framesPerSecond}});
   }
   j["remarks"] = r.remarks;
   return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string studyCsv(const StudyResults& r) {
-  std::string s = "kind,scene,light,technique,samples,seconds,processorSeconds,memoryMiB,mse,mseBeyondNoise,flip,meanErrorPercent,framesPerSecond\r\n";
+  std::string s =
+      "kind,scene,light,technique,samples,seconds,processorSeconds,memoryMiB,mse,mseBeyondNoise,flip,meanErrorPercent,"
+      "framesPerSecond\r\n";
   for (const StudyCase& c : r.cases) {
     const std::string place = quoted(c.scene) + "," + quoted(c.light);
     for (const StudyCurve& curve : c.curves) {
       for (const StudyPoint& p : curve.points) {
-        s += fmt::format("point,{},{},{},{:.4f},{:.4f},{:.1f},{:.7f},{:.7f},{:.5f},{:.3f},\r\n", place, quoted(curve.technique), p.samples, p.seconds, p.processorSeconds, p.memoryMiB, p.mse, p.mseBeyondNoise, p.flip, p.meanErrorPercent);
+        s += fmt::format("point,{},{},{},{:.4f},{:.4f},{:.1f},{:.7f},{:.7f},{:.5f},{:.3f},\r\n", place,
+                         quoted(curve.technique), p.samples, p.seconds, p.processorSeconds, p.memoryMiB, p.mse,
+                         p.mseBeyondNoise, p.flip, p.meanErrorPercent);
       }
     }
-    for (const StudyExternal& e : c.externals) s += fmt::format("external,{},{},,{:.4f},,,{:.7f},{:.7f},{:.5f},{:.3f},\r\n", place, quoted(e.name), e.seconds, e.mse, e.mseBeyondNoise, e.flip, e.meanErrorPercent);
+    for (const StudyExternal& e : c.externals)
+      s += fmt::format("external,{},{},,{:.4f},,,{:.7f},{:.7f},{:.5f},{:.3f},\r\n", place, quoted(e.name), e.seconds,
+                       e.mse, e.mseBeyondNoise, e.flip, e.meanErrorPercent);
   }
   for (const StudyFrames& f : r.frames) {
-    if (!f.runs.empty()) s += fmt::format("walk,{},{},{},,,,,,,,,{:.4f}\r\n", quoted(f.scene), quoted(f.light), quoted(f.technique), f.cost.framesPerSecond);
+    if (!f.runs.empty())
+      s += fmt::format("walk,{},{},{},,,,,,,,,{:.4f}\r\n", quoted(f.scene), quoted(f.light), quoted(f.technique),
+                       f.cost.framesPerSecond);
   }
   return s;
 }
@@ -177,18 +234,32 @@ std::string studyMarkdown(const StudyHeader& header, const StudyResults& r) {
   }
   s += fmt::format(".{}\n", r.complete ? "" : " Stopped early: what follows is a part.");
   if (r.againstPublished) s += "\n## Asked\n\n| asked | measured | |\n|---|---|---|\n";
-  for (const StudyVerdict& v : studyVerdicts(r)) s += fmt::format("| {} | {} | {} |\n", cell(v.asked), cell(v.measured), v.met ? "met" : "missed");
-  s += fmt::format("\n## Seconds until the error settles{}\n\n", r.againstPublished ? " (Table 1 of the published study)" : "") + drawingTimes(r);
+  for (const StudyVerdict& v : studyVerdicts(r))
+    s += fmt::format("| {} | {} | {} |\n", cell(v.asked), cell(v.measured), v.met ? "met" : "missed");
+  s += fmt::format("\n## Seconds until the error settles{}\n\n",
+                   r.againstPublished ? " (Table 1 of the published study)" : "") +
+       drawingTimes(r);
   s += "\n`>`: stopped by time or samples while the error still fell.\n";
   if (r.againstPublished) s += publishedTimes();
   for (const char* own : {"cone", "hybrid"}) {
-    if (const std::string ratios = timeRatios(r, own); !ratios.empty()) s += fmt::format("\n## Time at equal error, {}\n\nSeconds over those of the other, at the least error that both reach.\n\n", own) + ratios;
+    if (const std::string ratios = timeRatios(r, own); !ratios.empty())
+      s += fmt::format(
+               "\n## Time at equal error, {}\n\nSeconds over those of the other, at the least error that both "
+               "reach.\n\n",
+               own) +
+           ratios;
   }
-  if (!r.frames.empty()) s += fmt::format("\n## Frames a second along a walk{}\n\n", r.againstPublished ? " (Fig. 3)" : "") + framesTable(r);
+  if (!r.frames.empty())
+    s += fmt::format("\n## Frames a second along a walk{}\n\n", r.againstPublished ? " (Fig. 3)" : "") + framesTable(r);
   if (!r.frames.empty() && r.againstPublished) s += "\nPublished: cone 36, vxgi 28, lpv 23, photon 7.\n";
-  s += r.againstPublished ? "\n## Where each settles (Fig. 2 and memory)\n\nPublished: cone .0034, vxgi .0051, lpv .0085, photon .0105.\n" : "\n## Where each settles, and memory\n";
+  s += r.againstPublished ? "\n## Where each settles (Fig. 2 and memory)\n\nPublished: cone .0034, vxgi .0051, lpv "
+                            ".0085, photon .0105.\n"
+                          : "\n## Where each settles, and memory\n";
   for (const StudyCase& c : r.cases) {
-    s += fmt::format("\n### {}, {}\n\nReference: {:.0f} samples a pixel, {:.0f} s, noise {:.6f}{}.\n\n", c.scene, c.light, c.referenceSamples, c.referenceS, c.noiseMse, c.referenceConverged ? "" : " (not down to what was asked)") + curvesTable(c);
+    s += fmt::format("\n### {}, {}\n\nReference: {:.0f} samples a pixel, {:.0f} s, noise {:.6f}{}.\n\n", c.scene,
+                     c.light, c.referenceSamples, c.referenceS, c.noiseMse,
+                     c.referenceConverged ? "" : " (not down to what was asked)") +
+         curvesTable(c);
   }
   for (const std::string& remark : r.remarks) s += "\n- " + remark;
   return s + "\n";

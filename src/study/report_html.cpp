@@ -39,7 +39,10 @@ Image smaller(Image image) {
   while (image.width > kWidestPicture && image.width % 2 == 0 && image.height % 2 == 0) {
     Image half(image.width / 2, image.height / 2);
     for (int y = 0; y < half.height; ++y) {
-      for (int x = 0; x < half.width; ++x) half.at(x, y) = (image.at(2 * x, 2 * y) + image.at(2 * x + 1, 2 * y) + image.at(2 * x, 2 * y + 1) + image.at(2 * x + 1, 2 * y + 1)) * 0.25f;
+      for (int x = 0; x < half.width; ++x)
+        half.at(x, y) = (image.at(2 * x, 2 * y) + image.at(2 * x + 1, 2 * y) + image.at(2 * x, 2 * y + 1) +
+                         image.at(2 * x + 1, 2 * y + 1)) *
+                        0.25f;
     }
     image = std::move(half);
   }
@@ -58,18 +61,25 @@ class Sheet {
     reference_ = meanOf(first.value(), second.value());
     ev100_ = automaticEv100(reference_);
     std::string s = "<div class=\"sheet\">";
-    Result<std::string> one = figure("reference", fmt::format("{:.0f} samples a pixel", case_.referenceSamples), reference_, false);
+    Result<std::string> one =
+        figure("reference", fmt::format("{:.0f} samples a pixel", case_.referenceSamples), reference_, false);
     if (!one) return one;
     s += one.value();
     for (const StudyCurve& c : case_.curves) {
       if (c.points.empty()) continue;
       const StudyPoint& p = settledPoint(c);
-      one = figureOf(c.technique, fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(p.seconds), errorOf(p), p.meanErrorPercent), p.picture);
+      one =
+          figureOf(c.technique,
+                   fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(p.seconds), errorOf(p), p.meanErrorPercent),
+                   p.picture);
       if (!one) return one;
       s += one.value();
     }
     for (const StudyExternal& e : case_.externals) {
-      one = figureOf(e.name, fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(e.seconds), e.mseBeyondNoise, e.meanErrorPercent), e.picture);
+      one = figureOf(
+          e.name,
+          fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(e.seconds), e.mseBeyondNoise, e.meanErrorPercent),
+          e.picture);
       if (!one) return one;
       s += one.value();
     }
@@ -89,13 +99,15 @@ class Sheet {
     if (!image) return Error{image.error()};
     return figure(title, words, image.value(), true);
   }
-  Result<std::string> figure(const std::string& title, const std::string& words, const Image& image, bool difference) const {
+  Result<std::string> figure(const std::string& title, const std::string& words, const Image& image,
+                             bool difference) const {
     const std::string name = fmt::format("{} {} {} shown", case_.scene, case_.light, title);
     const Result<std::string> shown = embedded(name, toneMap(image, ev100_, ToneCurve::Clip), kPictureBytes);
     if (!shown) return shown;
     std::string s = fmt::format("<figure><img alt=\"{0}\" src=\"{1}\">", htmlEscaped(title), shown.value());
     if (difference) {
-      const Result<std::string> error = embedded(name + " difference", differencePicture(reference_, image), kDifferenceBytes);
+      const Result<std::string> error =
+          embedded(name + " difference", differencePicture(reference_, image), kDifferenceBytes);
       if (!error) return error;
       s += fmt::format("<img alt=\"where {} is off\" src=\"{}\">", htmlEscaped(title), error.value());
     }
@@ -111,19 +123,26 @@ class Sheet {
 std::string key(const std::vector<StudyCurve>& curves) {
   std::string s = "<div class=\"key\">";
   for (size_t i = 0; i < curves.size(); ++i) {
-    s += fmt::format("<span><i style=\"border-color:{}{}\"></i>{}</span>", colourOf(curves, i), curves[i].technique.find(',') != std::string::npos ? ";border-top-style:dashed" : "", htmlEscaped(curves[i].technique));
+    s += fmt::format("<span><i style=\"border-color:{}{}\"></i>{}</span>", colourOf(curves, i),
+                     curves[i].technique.find(',') != std::string::npos ? ";border-top-style:dashed" : "",
+                     htmlEscaped(curves[i].technique));
   }
   return s + "</div>\n";
 }
 
 std::string verdictTable(const StudyResults& r) {
-  std::string s = "<h2>Against the published study</h2><p>What roomlight asks of its own techniques beside the rivals, after the figures of the study that it builds on.</p><table><tr><th>asked</th><th class=l>measured</th><th></th></tr>";
-  for (const StudyVerdict& v : studyVerdicts(r)) s += fmt::format("<tr><td>{}</td><td class=l>{}</td><td class=\"{}\">{}</td></tr>\n", htmlEscaped(v.asked), htmlEscaped(v.measured), v.met ? "met" : "missed", v.met ? "✓ met" : "✗ missed");
+  std::string s =
+      "<h2>Against the published study</h2><p>What roomlight asks of its own techniques beside the rivals, after the "
+      "figures of the study that it builds on.</p><table><tr><th>asked</th><th class=l>measured</th><th></th></tr>";
+  for (const StudyVerdict& v : studyVerdicts(r))
+    s += fmt::format("<tr><td>{}</td><td class=l>{}</td><td class=\"{}\">{}</td></tr>\n", htmlEscaped(v.asked),
+                     htmlEscaped(v.measured), v.met ? "met" : "missed", v.met ? "✓ met" : "✗ missed");
   return s + "</table>\n";
 }
 
 // A table of one number a technique and case, the least of a row in bold where `bold`.
-std::string matrix(const StudyResults& r, const std::function<std::string(const StudyCurve&, const StudyCase&)>& text, const std::function<double(const StudyCurve&)>& value) {
+std::string matrix(const StudyResults& r, const std::function<std::string(const StudyCurve&, const StudyCase&)>& text,
+                   const std::function<double(const StudyCurve&)>& value) {
   std::string s = "<div class=wide><table><tr><th>scene, light</th>";
   for (const StudyCurve& c : r.cases.front().curves) s += fmt::format("<th>{}</th>", htmlEscaped(c.technique));
   s += "</tr>\n";
@@ -137,7 +156,8 @@ std::string matrix(const StudyResults& r, const std::function<std::string(const 
       if (curve.points.empty())
         s += fmt::format("<td title=\"{}\">–</td>", htmlEscaped(curve.failed));
       else
-        s += fmt::format("<td{}>{}</td>", value(curve) <= least && curve.kind != "judge" ? " class=best" : "", text(curve, c));
+        s += fmt::format("<td{}>{}</td>", value(curve) <= least && curve.kind != "judge" ? " class=best" : "",
+                         text(curve, c));
     }
     s += "</tr>\n";
   }
@@ -148,10 +168,16 @@ std::string externals(const StudyResults& r) {
   std::string rows;
   for (const StudyCase& c : r.cases) {
     for (const StudyExternal& e : c.externals) {
-      rows += fmt::format("<tr><td>{}</td><td class=l>{}</td><td>{}</td><td>{:.4f}</td><td>{:.3f}</td><td>{:+.1f} %</td></tr>\n", htmlEscaped(e.name), htmlEscaped(c.scene + ", " + c.light), seconds(e.seconds), e.mseBeyondNoise, e.flip, e.meanErrorPercent);
+      rows += fmt::format(
+          "<tr><td>{}</td><td class=l>{}</td><td>{}</td><td>{:.4f}</td><td>{:.3f}</td><td>{:+.1f} %</td></tr>\n",
+          htmlEscaped(e.name), htmlEscaped(c.scene + ", " + c.light), seconds(e.seconds), e.mseBeyondNoise, e.flip,
+          e.meanErrorPercent);
     }
   }
-  return rows.empty() ? "" : "<h2>Other renderers</h2><table><tr><th>name</th><th class=l>scene, light</th><th>seconds</th><th>mse</th><th>flip</th><th>mean</th></tr>\n" + rows + "</table>\n";
+  return rows.empty() ? ""
+                      : "<h2>Other renderers</h2><table><tr><th>name</th><th class=l>scene, "
+                        "light</th><th>seconds</th><th>mse</th><th>flip</th><th>mean</th></tr>\n" +
+                            rows + "</table>\n";
 }
 
 std::string timesToCone(const StudyResults& r) {
@@ -162,7 +188,8 @@ std::string timesToCone(const StudyResults& r) {
     return 0.0;
   };
   if (std::all_of(r.cases.begin(), r.cases.end(), [&](const StudyCase& c) { return coneError(c) <= 0; })) return {};
-  return "<h2>Time to the error of <i>cone</i></h2><p>Seconds until a technique is as good as <i>cone</i> where that settles; between points of its curve along a straight line of logarithms. –: it never is.</p>" +
+  return "<h2>Time to the error of <i>cone</i></h2><p>Seconds until a technique is as good as <i>cone</i> where that "
+         "settles; between points of its curve along a straight line of logarithms. –: it never is.</p>" +
          matrix(
              r,
              [&](const StudyCurve& curve, const StudyCase& c) {
@@ -183,24 +210,40 @@ std::string publishedTimes() {
 }
 
 std::string tables(const StudyResults& r) {
-  std::string s = "<h2>Drawing time</h2><p>Seconds after loading until the error has settled: twice the samples a pixel take away less than a twentieth of it, two times in a row. &gt;: stopped by time while it still fell. Bold: the quickest, whatever its error.</p>";
+  std::string s =
+      "<h2>Drawing time</h2><p>Seconds after loading until the error has settled: twice the samples a pixel take away "
+      "less than a twentieth of it, two times in a row. &gt;: stopped by time while it still fell. Bold: the quickest, "
+      "whatever its error.</p>";
   s += matrix(
-      r, [](const StudyCurve& c, const StudyCase&) { return (hasSettled(c) ? "" : "&gt; ") + seconds(settledPoint(c).seconds); }, [](const StudyCurve& c) { return settledPoint(c).seconds; });
+      r,
+      [](const StudyCurve& c, const StudyCase&) {
+        return (hasSettled(c) ? "" : "&gt; ") + seconds(settledPoint(c).seconds);
+      },
+      [](const StudyCurve& c) { return settledPoint(c).seconds; });
   if (r.againstPublished) s += publishedTimes();
-  s += "<h2>Error where it settles</h2><p>Mean squared difference of the exposed, clipped and sRGB-encoded pictures, without what the reference's own noise adds. ";
-  s += fmt::format("{}Bold: the least of all but the judge.</p>", r.againstPublished ? "Published: cone .0034, vxgi .0051, lpv .0085, photon .0105. " : "");
+  s += "<h2>Error where it settles</h2><p>Mean squared difference of the exposed, clipped and sRGB-encoded pictures, "
+       "without what the reference's own noise adds. ";
+  s += fmt::format("{}Bold: the least of all but the judge.</p>",
+                   r.againstPublished ? "Published: cone .0034, vxgi .0051, lpv .0085, photon .0105. " : "");
   s += matrix(
-      r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.4f}", errorOf(settledPoint(c))); }, [](const StudyCurve& c) { return errorOf(settledPoint(c)); });
+      r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.4f}", errorOf(settledPoint(c))); },
+      [](const StudyCurve& c) { return errorOf(settledPoint(c)); });
   s += timesToCone(r);
   s += "<h2>Memory</h2><p>Peak of the process, MiB, the home included.</p>";
   s += matrix(
-      r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.0f}", settledPoint(c).memoryMiB); }, [](const StudyCurve& c) { return settledPoint(c).memoryMiB; });
+      r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.0f}", settledPoint(c).memoryMiB); },
+      [](const StudyCurve& c) { return settledPoint(c).memoryMiB; });
   return s + externals(r);
 }
 
 std::string errorOverTime(const StudyResults& r) {
-  std::string s = "<h2>Error over time</h2><p>Every point is a picture of its own with twice the samples of the one before. Large dots: where the error settles; diamonds: other renderers. Both axes are logarithmic; down and left is better.</p>" + key(r.cases.front().curves) + "<div class=plots>\n";
-  for (const StudyCase& c : r.cases) s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(c.scene + ", " + c.light), curvesSvg(c));
+  std::string s =
+      "<h2>Error over time</h2><p>Every point is a picture of its own with twice the samples of the one before. Large "
+      "dots: where the error settles; diamonds: other renderers. Both axes are logarithmic; down and left is "
+      "better.</p>" +
+      key(r.cases.front().curves) + "<div class=plots>\n";
+  for (const StudyCase& c : r.cases)
+    s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(c.scene + ", " + c.light), curvesSvg(c));
   return s + "</div>\n";
 }
 
@@ -217,7 +260,10 @@ std::vector<StudyCurve> colouredCurves(const StudyResults& r) {
 std::string frames(const StudyResults& r) {
   if (r.frames.empty()) return {};
   std::string s = "<h2>Frames a second</h2><p>Along a recorded walk with moving objects, one sample a pixel a frame.";
-  s += fmt::format("{}</p><div class=plots>\n", r.againstPublished ? " Black ticks, where there is <i>cone</i>: the published frames (cone 36, vxgi 28, lpv 23, photon 7) in ratio to it." : "");
+  s += fmt::format("{}</p><div class=plots>\n", r.againstPublished
+                                                    ? " Black ticks, where there is <i>cone</i>: the published frames "
+                                                      "(cone 36, vxgi 28, lpv 23, photon 7) in ratio to it."
+                                                    : "");
   std::map<std::string, double> published;
   for (const auto& t : published::kTechniques) {
     if (r.againstPublished) published[t.name] = t.framesPerSecond;
@@ -233,21 +279,28 @@ std::string frames(const StudyResults& r) {
       if (f.scene != scene || f.runs.empty()) continue;
       std::string colour = "#777777";
       for (size_t i = 0; i < all.size(); ++i) colour = all[i].technique == f.technique ? colourOf(all, i) : colour;
-      bars.push_back({f.technique, colour, f.cost.framesPerSecond, published.count(f.technique) ? published[f.technique] : 0});
+      bars.push_back(
+          {f.technique, colour, f.cost.framesPerSecond, published.count(f.technique) ? published[f.technique] : 0});
     }
-    if (!bars.empty()) s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(scene + ", " + light), barsSvg(bars, "/s"));
+    if (!bars.empty())
+      s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(scene + ", " + light), barsSvg(bars, "/s"));
   }
   return s + "</div>\n";
 }
 
 Result<std::string> sheets(const StudyResults& r, const std::filesystem::path& folder) {
-  std::string s = "<h2>Pictures</h2><p>Each where it settles, all exposed like the reference and without a tone curve; below it where it is too bright (red) or too dark (blue): full colour is a difference of .25.</p>";
+  std::string s =
+      "<h2>Pictures</h2><p>Each where it settles, all exposed like the reference and without a tone curve; below it "
+      "where it is too bright (red) or too dark (blue): full colour is a difference of .25.</p>";
   for (size_t i = 0; i < r.cases.size(); ++i) {
     const StudyCase& c = r.cases[i];
     const Result<std::string> sheet = Sheet(c, folder).html();
     if (!sheet) return sheet;
-    s += fmt::format("<details{}><summary><b>{}</b> <span class=soft>reference: {:.0f} s, noise {:.5f}{}</span></summary>{}</details>\n", i < 3 ? " open" : "", htmlEscaped(c.scene + ", " + c.light), c.referenceS, c.noiseMse,
-                     c.referenceConverged ? "" : ", more than was asked", sheet.value());
+    s += fmt::format(
+        "<details{}><summary><b>{}</b> <span class=soft>reference: {:.0f} s, noise "
+        "{:.5f}{}</span></summary>{}</details>\n",
+        i < 3 ? " open" : "", htmlEscaped(c.scene + ", " + c.light), c.referenceS, c.noiseMse,
+        c.referenceConverged ? "" : ", more than was asked", sheet.value());
   }
   return s;
 }
@@ -268,11 +321,14 @@ Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, 
   if (r.againstPublished && !nothingMeasured(r)) s += verdictTable(r);
   s += "<h2>Machine and settings</h2><table>";
   for (const auto* rows : {&header.about, &header.techniques}) {
-    for (const auto& [name, value] : *rows) s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));
+    for (const auto& [name, value] : *rows)
+      s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));
   }
   s += "</table>\n";
   for (const std::string& remark : r.remarks) s += "<p class=soft>" + htmlEscaped(remark) + "</p>\n";
-  return htmlPage("Study of techniques", kStyle, s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take turns.</footer>\n");
+  return htmlPage("Study of techniques", kStyle,
+                  s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take "
+                      "turns.</footer>\n");
 }
 
 }  // namespace roomlight

@@ -79,12 +79,16 @@ std::optional<nlohmann::json> RunStore::find(const Key& key) const {
   std::ifstream in(file(key, ".json"));
   if (!in) return std::nullopt;
   const nlohmann::json read = nlohmann::json::parse(in, nullptr, false);
-  if (!read.is_object() || !read.contains("circumstances") || read["circumstances"] != key.circumstances || !read.contains("result") || !read["result"].is_object()) return std::nullopt;
+  if (!read.is_object() || !read.contains("circumstances") || read["circumstances"] != key.circumstances ||
+      !read.contains("result") || !read["result"].is_object())
+    return std::nullopt;
   return read["result"];
 }
 
 Status RunStore::keep(const Key& key, const nlohmann::json& result) const {
-  return writeWhole(file(key, ".json"), nlohmann::json{{"circumstances", key.circumstances}, {"result", result}}.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  return writeWhole(file(key, ".json"), nlohmann::json{{"circumstances", key.circumstances}, {"result", result}}.dump(
+                                            1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                                            "\n");
 }
 
 void RunStore::forget(const Key& key) const {

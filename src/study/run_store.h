@@ -14,8 +14,8 @@ namespace roomlight {
 
 class RunStore {
  public:
-  // `folder` is made where it is not there, and is this store's alone (among processes too) for as long as the store or a copy of it lives: an error where another
-  // has it.
+  // `folder` is made where it is not there, and is this store's alone (among processes too) for as long as the store or
+  // a copy of it lives: an error where another has it.
   static Result<RunStore> open(const std::filesystem::path& folder);
 
   // A result is known by what it is (a kind, a scene, a light, ..) and by everything that it depends on.
@@ -32,7 +32,8 @@ class RunStore {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  RunStore(std::filesystem::path folder, std::shared_ptr<void> lock) : folder_(std::move(folder)), lock_(std::move(lock)) {}
+  RunStore(std::filesystem::path folder, std::shared_ptr<void> lock)
+      : folder_(std::move(folder)), lock_(std::move(lock)) {}
   std::filesystem::path folder_;
   std::shared_ptr<void> lock_;
 };

@@ -16,23 +16,34 @@ namespace {
 nlohmann::json toJson(const RenderCost& c) {
   auto stages = nlohmann::json::array();
   for (const auto& [name, seconds] : c.stages) stages.push_back({name, seconds});
-  return {{"seconds", c.seconds}, {"processorSeconds", c.processorSeconds}, {"memoryMiB", c.memoryMiB}, {"samples", c.samples}, {"stages", stages}};
+  return {{"seconds", c.seconds},
+          {"processorSeconds", c.processorSeconds},
+          {"memoryMiB", c.memoryMiB},
+          {"samples", c.samples},
+          {"stages", stages}};
 }
 
-double number(const nlohmann::json& j, const char* key) { return j.contains(key) && j[key].is_number() ? j[key].get<double>() : 0; }
+double number(const nlohmann::json& j, const char* key) {
+  return j.contains(key) && j[key].is_number() ? j[key].get<double>() : 0;
+}
 
 nlohmann::json toJson(const Report& r) {
-  return {{"mse", r.mse}, {"mseBeyondNoise", r.mseBeyondNoise.value_or(r.mse)}, {"flip", r.flip}, {"meanErrorPercent", r.meanLuminanceErrorPercent}};
+  return {{"mse", r.mse},
+          {"mseBeyondNoise", r.mseBeyondNoise.value_or(r.mse)},
+          {"flip", r.flip},
+          {"meanErrorPercent", r.meanLuminanceErrorPercent}};
 }
 
-// Tells how much is done, by units of work that are known beforehand, and how long the rest will take by how long what was really measured took.
+// Tells how much is done, by units of work that are known beforehand, and how long the rest will take by how long what
+// was really measured took.
 class Pace {
  public:
   Pace(const StudyProgress& progress, size_t units) : progress_(progress), units_(std::max<size_t>(1, units)) {}
   void now(const std::string& what, double partOfUnit = 0) {
     const double done = (static_cast<double>(done_) + partOfUnit) / static_cast<double>(units_);
     const double each = measured_ > 0 ? watch_.seconds() / measured_ : -1;
-    if (progress_.report) progress_.report(what, done, each < 0 ? -1 : each * (static_cast<double>(units_ - done_) - partOfUnit));
+    if (progress_.report)
+      progress_.report(what, done, each < 0 ? -1 : each * (static_cast<double>(units_ - done_) - partOfUnit));
   }
   // `measured`: not found in the store.
   void unit(bool measured) {
@@ -47,12 +58,15 @@ class Pace {
   Stopwatch watch_;
 };
 
-bool isOf(const ExternalPicture& e, const std::string& scene, const std::string& light) { return (e.scene.empty() || e.scene == scene) && (e.light.empty() || e.light == light); }
+bool isOf(const ExternalPicture& e, const std::string& scene, const std::string& light) {
+  return (e.scene.empty() || e.scene == scene) && (e.light.empty() || e.light == light);
+}
 
 // One scene in one light, measured or read from the store.
 class CaseStudy {
  public:
-  CaseStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace)
+  CaseStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools,
+            const StudyProgress& progress, Pace& pace)
       : plan_(plan), settings_(settings), store_(store), tools_(tools), progress_(progress), pace_(pace) {}
 
   // What is left out is told in `remarks`.
@@ -179,14 +193,16 @@ Status CaseStudy::addExternal(const ExternalPicture& e) {
   if (!r) return Error{r.error()};
   const std::filesystem::path copy = store_.file({{"external", out_.scene, out_.light, e.name}, what_}, ".exr");
   if (const Status s = writeExr(copy, image.value(), {}); !s) return s;
-  out_.externals.push_back({e.name, e.seconds, r.value().mse, r.value().mseBeyondNoise.value_or(r.value().mse), r.value().flip, r.value().meanLuminanceErrorPercent, copy.filename().string()});
+  out_.externals.push_back({e.name, e.seconds, r.value().mse, r.value().mseBeyondNoise.value_or(r.value().mse),
+                            r.value().flip, r.value().meanLuminanceErrorPercent, copy.filename().string()});
   return Ok{};
 }
 
 void CaseStudy::addExternals(std::vector<std::string>& remarks) {
   for (const ExternalPicture& e : settings_.externals) {
     if (!isOf(e, out_.scene, out_.light)) continue;
-    if (const Status s = addExternal(e); !s) remarks.push_back(fmt::format("{}, {}: --external {}: left out: {}", out_.scene, out_.light, e.name, s.error()));
+    if (const Status s = addExternal(e); !s)
+      remarks.push_back(fmt::format("{}, {}: --external {}: left out: {}", out_.scene, out_.light, e.name, s.error()));
   }
 }
 
@@ -198,18 +214,23 @@ void CaseStudy::sumUp() {
 
 Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& light, std::vector<std::string>& remarks) {
   out_.scene = scene.name, out_.light = light.name, out_.lighting = light.lighting.filename().string();
-  view_.scene = scene.file, view_.lighting = light.lighting, view_.camera = scene.camera, view_.width = settings_.width, view_.height = settings_.height;
-  what_ = fmt::format("{} {} | {} | {}x{}", scene.file.filename().string(), contentHash(scene.file), light.lighting.empty() ? "own light" : contentHash(light.lighting), view_.width, view_.height) +
+  view_.scene = scene.file, view_.lighting = light.lighting, view_.camera = scene.camera, view_.width = settings_.width,
+  view_.height = settings_.height;
+  what_ = fmt::format("{} {} | {} | {}x{}", scene.file.filename().string(), contentHash(scene.file),
+                      light.lighting.empty() ? "own light" : contentHash(light.lighting), view_.width, view_.height) +
           (scene.camera.empty() ? "" : " | camera " + scene.camera);
   const std::string doing = fmt::format("{}, {}: reference", scene.name, light.name);
   pace_.now(doing);
   bool made = false;
-  Result<Reference> reference = makeReference(store_, {{"reference", scene.name, light.name}, what_}, view_, settings_.reference, tools_, progress_, [&](double part) { made = true, pace_.now(doing, part); });
+  Result<Reference> reference =
+      makeReference(store_, {{"reference", scene.name, light.name}, what_}, view_, settings_.reference, tools_,
+                    progress_, [&](double part) { made = true, pace_.now(doing, part); });
   if (!reference) return Error{reference.error()};
   pace_.unit(made);
   reference_ = std::move(reference.value());
   out_.first = reference_.firstFile.filename(), out_.second = reference_.secondFile.filename();
-  out_.noiseMse = reference_.noiseMse, out_.referenceS = reference_.seconds, out_.referenceSamples = reference_.samples, out_.referenceConverged = reference_.converged;
+  out_.noiseMse = reference_.noiseMse, out_.referenceS = reference_.seconds, out_.referenceSamples = reference_.samples,
+  out_.referenceConverged = reference_.converged;
 
   const std::vector<StudyTechnique> techniques = plan_.techniquesIn("pictures");
   for (const StudyTechnique& t : techniques) {
@@ -225,17 +246,27 @@ Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& ligh
   return std::move(out_);
 }
 
-Result<WalkCost> walkOnce(const StudyScene& scene, const StudyTechnique& t, const StudySettings& settings, const RunStore& store, const StudyTools& tools, int run, bool& measured) {
+Result<WalkCost> walkOnce(const StudyScene& scene, const StudyTechnique& t, const StudySettings& settings,
+                          const RunStore& store, const StudyTools& tools, int run, bool& measured) {
   const std::filesystem::path& lighting = scene.walkLight.lighting;
-  const std::string circumstances = fmt::format("{} | {} | {} | {} | {} {} | {}x{}, {} frames", settings.program, contentHash(scene.file), contentHash(lighting), contentHash(scene.walk), t.technique, t.settings,
-                                                settings.walkWidth, settings.walkHeight, settings.walkFrames);
+  const std::string circumstances = fmt::format(
+      "{} | {} | {} | {} | {} {} | {}x{}, {} frames", settings.program, contentHash(scene.file), contentHash(lighting),
+      contentHash(scene.walk), t.technique, t.settings, settings.walkWidth, settings.walkHeight, settings.walkFrames);
   const RunStore::Key key{{fmt::format("walk {}", run + 1), scene.name, t.name}, circumstances};
-  if (const auto kept = store.find(key)) return WalkCost{static_cast<int>(number(*kept, "frames")), number(*kept, "framesPerSecond"), number(*kept, "updateMs"), number(*kept, "pictureMs")};
+  if (const auto kept = store.find(key))
+    return WalkCost{static_cast<int>(number(*kept, "frames")), number(*kept, "framesPerSecond"),
+                    number(*kept, "updateMs"), number(*kept, "pictureMs")};
   measured = true;
-  const Result<WalkCost> cost = tools.walk({scene.file, lighting, scene.walk, settings.walkWidth, settings.walkHeight, t.technique, t.settings});
+  const Result<WalkCost> cost =
+      tools.walk({scene.file, lighting, scene.walk, settings.walkWidth, settings.walkHeight, t.technique, t.settings});
   if (!cost) return cost;
   const WalkCost& c = cost.value();
-  if (const Status s = store.keep(key, {{"frames", c.frames}, {"framesPerSecond", c.framesPerSecond}, {"updateMs", c.updateMs}, {"pictureMs", c.pictureMs}}); !s) return Error{s.error()};
+  if (const Status s = store.keep(key, {{"frames", c.frames},
+                                        {"framesPerSecond", c.framesPerSecond},
+                                        {"updateMs", c.updateMs},
+                                        {"pictureMs", c.pictureMs}});
+      !s)
+    return Error{s.error()};
   return cost;
 }
 
@@ -246,13 +277,17 @@ WalkCost medianCost(const std::vector<WalkCost>& runs) {
     for (const WalkCost& w : runs) values.push_back(w.*member);
     return medianOf(std::move(values));
   };
-  return {runs.empty() ? 0 : runs.front().frames, of(&WalkCost::framesPerSecond), of(&WalkCost::updateMs), of(&WalkCost::pictureMs)};
+  return {runs.empty() ? 0 : runs.front().frames, of(&WalkCost::framesPerSecond), of(&WalkCost::updateMs),
+          of(&WalkCost::pictureMs)};
 }
 
 // Techniques in turn, run after run.
-std::vector<StudyFrames> walkThrough(const StudyScene& scene, const std::vector<StudyTechnique>& techniques, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace) {
+std::vector<StudyFrames> walkThrough(const StudyScene& scene, const std::vector<StudyTechnique>& techniques,
+                                     const StudySettings& settings, const RunStore& store, const StudyTools& tools,
+                                     const StudyProgress& progress, Pace& pace) {
   std::vector<StudyFrames> found;
-  for (const StudyTechnique& t : techniques) found.push_back({scene.name, scene.walkLight.name, t.name, t.kind, {}, {}, {}});
+  for (const StudyTechnique& t : techniques)
+    found.push_back({scene.name, scene.walkLight.name, t.name, t.kind, {}, {}, {}});
   for (int run = 0; run < settings.runs; ++run) {
     for (size_t i = 0; i < found.size() && !progress.stop(); ++i) {
       pace.now(fmt::format("{}: frames a second, {}, run {}", scene.name, found[i].technique, run + 1));
@@ -268,14 +303,16 @@ std::vector<StudyFrames> walkThrough(const StudyScene& scene, const std::vector<
   return found;
 }
 
-void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress, Pace& pace, StudyResults& results) {
+void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools,
+             const StudyProgress& progress, Pace& pace, StudyResults& results) {
   const std::vector<StudyTechnique> techniques = plan.techniquesIn("walks");
   for (const StudyScene& scene : plan.scenes) {
     if (scene.walk.empty() || !tools.walk) continue;
     for (StudyFrames& f : walkThrough(scene, techniques, settings, store, tools, progress, pace)) {
       if (f.runs.empty() && f.failed.empty()) continue;  // stopped before
       f.cost = medianCost(f.runs);
-      if (!f.failed.empty()) results.remarks.push_back(fmt::format("{}: walk: {}: {}", scene.name, f.technique, f.failed));
+      if (!f.failed.empty())
+        results.remarks.push_back(fmt::format("{}: walk: {}: {}", scene.name, f.technique, f.failed));
       results.frames.push_back(std::move(f));
     }
   }
@@ -284,13 +321,15 @@ void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStor
 // Whether the view has anything to be compared with a reference.
 bool isWanted(const StudyPlan& plan, const StudySettings& settings, const StudyScene& scene, const StudyLight& light) {
   if (!plan.techniquesIn("pictures").empty()) return true;
-  return std::any_of(settings.externals.begin(), settings.externals.end(), [&](const ExternalPicture& e) { return isOf(e, scene.name, light.name); });
+  return std::any_of(settings.externals.begin(), settings.externals.end(),
+                     [&](const ExternalPicture& e) { return isOf(e, scene.name, light.name); });
 }
 
 // Of Pace: a reference of a view and each run of each technique.
 size_t unitsOf(const StudyPlan& plan, const StudySettings& settings, const StudyTools& tools) {
   const auto runs = static_cast<size_t>(settings.runs);
-  const size_t ofView = 1 + plan.techniquesIn("pictures").size() * runs, ofWalk = plan.techniquesIn("walks").size() * runs;
+  const size_t ofView = 1 + plan.techniquesIn("pictures").size() * runs,
+               ofWalk = plan.techniquesIn("walks").size() * runs;
   size_t units = 0;
   for (const StudyScene& s : plan.scenes) {
     for (const StudyLight& light : s.lights) units += isWanted(plan, settings, s, light) ? ofView : 0;
@@ -302,10 +341,12 @@ size_t unitsOf(const StudyPlan& plan, const StudySettings& settings, const Study
 }  // namespace
 
 bool nothingMeasured(const StudyResults& r) {
-  return r.cases.empty() && std::all_of(r.frames.begin(), r.frames.end(), [](const StudyFrames& f) { return f.runs.empty(); });
+  return r.cases.empty() &&
+         std::all_of(r.frames.begin(), r.frames.end(), [](const StudyFrames& f) { return f.runs.empty(); });
 }
 
-Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress,
+Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store,
+                              const StudyTools& tools, const StudyProgress& progress,
                               const std::function<void(const StudyResults&)>& soFar) {
   Pace pace(progress, unitsOf(plan, settings, tools));
   StudyResults results;
@@ -314,14 +355,16 @@ Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settin
     for (const StudyLight& light : scene.lights) {
       if (progress.stop()) break;
       if (!isWanted(plan, settings, scene, light)) continue;
-      Result<StudyCase> one = CaseStudy(plan, settings, store, tools, progress, pace).run(scene, light, results.remarks);
+      Result<StudyCase> one =
+          CaseStudy(plan, settings, store, tools, progress, pace).run(scene, light, results.remarks);
       if (!one && progress.stop()) break;
       if (!one) {
         results.remarks.push_back(fmt::format("{}, {}: left out: {}", scene.name, light.name, one.error()));
         continue;
       }
       for (const StudyCurve& c : one.value().curves) {
-        if (!c.failed.empty()) results.remarks.push_back(fmt::format("{}, {}: {}: {}", scene.name, light.name, c.technique, c.failed));
+        if (!c.failed.empty())
+          results.remarks.push_back(fmt::format("{}, {}: {}: {}", scene.name, light.name, c.technique, c.failed));
       }
       results.cases.push_back(std::move(one.value()));
       if (soFar) soFar(results);

@@ -62,10 +62,12 @@ struct StudyResults {
 // Neither a view nor a frame of a walk.
 bool nothingMeasured(const StudyResults& results);
 
-// Pictures and what was measured lie in `store`; what it already holds is not measured again. `soFar` is called after every case.
-// A technique that fails has its reason in its curve; a scene and light without a reference, and an external picture that cannot be compared, is left out, with a
-// remark. Views have references only where there is something to be compared: a technique for pictures, or an external one.
-Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools, const StudyProgress& progress = {},
+// Pictures and what was measured lie in `store`; what it already holds is not measured again. `soFar` is called after
+// every case. A technique that fails has its reason in its curve; a scene and light without a reference, and an
+// external picture that cannot be compared, is left out, with a remark. Views have references only where there is
+// something to be compared: a technique for pictures, or an external one.
+Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settings, const RunStore& store,
+                              const StudyTools& tools, const StudyProgress& progress = {},
                               const std::function<void(const StudyResults&)>& soFar = {});
 
 }  // namespace roomlight

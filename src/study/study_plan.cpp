@@ -1,6 +1,7 @@
 // { "version": 1, "comment", "againstPublished": false,
-//   "scenes": [ { "name", "scene": "flat.sh3d", "camera": "Kitchen" | 2, "lights": [ { "name", "lighting": "day.json" | "dimLamp": "150 lm" } ], "walk": "walk.json" } ],
-//   "techniques": [ { "name", "technique", "settings": { .. }, "kind": "ours" | "rival" | "judge", "only": "pictures" | "walks" } ] }
+//   "scenes": [ { "name", "scene": "flat.sh3d", "camera": "Kitchen" | 2, "lights": [ { "name", "lighting": "day.json" |
+//   "dimLamp": "150 lm" } ], "walk": "walk.json" } ], "techniques": [ { "name", "technique", "settings": { .. },
+//   "kind": "ours" | "rival" | "judge", "only": "pictures" | "walks" } ] }
 #include "study/study_plan.h"
 
 #include <fmt/format.h>
@@ -63,7 +64,8 @@ StudyLight readLight(const JsonPlace& j, const std::filesystem::path& folder) {
 std::string readCamera(const JsonPlace& j) {
   if (!j.isNumber()) return j.text();
   const double number = j.number(0, 1e6);
-  if (std::floor(number) < number) j.fail(fmt::format("{} is no camera; write a whole number from 0 or a name", number));
+  if (std::floor(number) < number)
+    j.fail(fmt::format("{} is no camera; write a whole number from 0 or a name", number));
   return fmt::format("{:.0f}", number);
 }
 
@@ -85,7 +87,8 @@ StudyTechnique readTechnique(const JsonPlace& j) {
   t.name = j["name"].text();
   t.technique = j["technique"].text();
   const auto known = techniques();
-  if (std::none_of(known.begin(), known.end(), [&](const auto& k) { return k.first == t.technique; })) j["technique"].fail(fmt::format("unknown technique '{}'", t.technique));
+  if (std::none_of(known.begin(), known.end(), [&](const auto& k) { return k.first == t.technique; }))
+    j["technique"].fail(fmt::format("unknown technique '{}'", t.technique));
   if (j.has("kind")) t.kind = j["kind"].oneOf({"ours", "rival", "judge"});
   if (j.has("only")) t.only = j["only"].oneOf({"pictures", "walks"});
   if (j.has("settings")) {
@@ -100,7 +103,8 @@ StudyTechnique readTechnique(const JsonPlace& j) {
 
 std::vector<StudyTechnique> StudyPlan::techniquesIn(const std::string& what) const {
   std::vector<StudyTechnique> out;
-  std::copy_if(techniques.begin(), techniques.end(), std::back_inserter(out), [&](const StudyTechnique& t) { return t.only.empty() || t.only == what; });
+  std::copy_if(techniques.begin(), techniques.end(), std::back_inserter(out),
+               [&](const StudyTechnique& t) { return t.only.empty() || t.only == what; });
   return out;
 }
 

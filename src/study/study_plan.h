@@ -1,4 +1,5 @@
-// What a study compares: scenes, each under several conditions of light, by several techniques. Study files, version 1: docs/formats/study.md.
+// What a study compares: scenes, each under several conditions of light, by several techniques. Study files, version 1:
+// docs/formats/study.md.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +11,9 @@
 namespace roomlight {
 
 struct StudyLight {
-  std::string name;                // "daylight", "lamps", "one dim lamp"
+  std::string name;  // "daylight", "lamps", "one dim lamp"
   std::filesystem::path lighting;  // lighting file; empty: the scene's own light
-  double dimLampLm = 0;            // above 0: instead, one bare lamp before the camera and nothing else (dim_lamp.h)
+  double dimLampLm = 0;  // above 0: instead, one bare lamp before the camera and nothing else (dim_lamp.h)
 };
 
 struct StudyScene {
@@ -21,22 +22,23 @@ struct StudyScene {
   std::string camera;  // name or number; empty: the scene's usual one
   std::vector<StudyLight> lights;
   std::filesystem::path walk;  // walk file for frames a second; empty: none
-  StudyLight walkLight{};      // of the walk: the first of the plan's, even where not all of them are tried
+  StudyLight walkLight{};  // of the walk: the first of the plan's, even where not all of them are tried
 };
 
 // A technique with settings, tried with twice as many samples a pixel each time until its error settles.
 struct StudyTechnique {
-  std::string name;       // in tables
+  std::string name;  // in tables
   std::string technique;  // of techniques()
   std::string settings = "{}";  // JSON as --settings takes it
-  std::string kind = "rival";   // "ours", "rival" or "judge"
-  std::string only{};           // "pictures" or "walks"; empty: both
+  std::string kind = "rival";  // "ours", "rival" or "judge"
+  std::string only{};  // "pictures" or "walks"; empty: both
 };
 
 struct StudyPlan {
   std::vector<StudyScene> scenes;
   std::vector<StudyTechnique> techniques;
-  bool againstPublished = false;  // reports say what the study that roomlight builds on published, and what roomlight asks of itself beside it
+  bool againstPublished = false;  // reports say what the study that roomlight builds on published, and what roomlight
+                                  // asks of itself beside it
   // Those that are tried so: "pictures" or "walks".
   std::vector<StudyTechnique> techniquesIn(const std::string& what) const;
 };
@@ -44,7 +46,8 @@ struct StudyPlan {
 // cone and hybrid, the three rivals with what the study's parameters leave open (docs/formats/study.md), and path.
 std::vector<StudyTechnique> usualTechniques();
 
-// Paths in the file are relative to it. Errors: as of every file (json_reader.h), a file named in it that is not there, a name given twice.
+// Paths in the file are relative to it. Errors: as of every file (json_reader.h), a file named in it that is not there,
+// a name given twice.
 Result<StudyPlan> readStudyFile(const std::filesystem::path& file);
 
 }  // namespace roomlight

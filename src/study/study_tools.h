@@ -1,5 +1,5 @@
-// What a study asks for and gets back. Who runs it decides how: `roomlight study` starts a process for each, so that memory is that of one
-// technique alone and a defect of one ends no study.
+// What a study asks for and gets back. Who runs it decides how: `roomlight study` starts a process for each, so that
+// memory is that of one technique alone and a defect of one ends no study.
 #pragma once
 
 #include <atomic>
@@ -41,7 +41,8 @@ struct StudyWalk {
 struct WalkCost {
   int frames = 0;
   double framesPerSecond = 0;
-  double updateMs = 0, pictureMs = 0;  // of a frame, median; framesPerSecond and these without the first frame where there are more
+  double updateMs = 0,
+         pictureMs = 0;  // of a frame, median; framesPerSecond and these without the first frame where there are more
 };
 
 struct StudyTools {
@@ -49,7 +50,8 @@ struct StudyTools {
   std::function<Result<WalkCost>(const StudyWalk&)> walk;  // empty: no frames a second
 };
 
-// What long work says and hears: what it does now, the part done of all, and seconds left where that can be told (else negative).
+// What long work says and hears: what it does now, the part done of all, and seconds left where that can be told (else
+// negative).
 struct StudyProgress {
   std::function<void(const std::string& now, double done, double secondsLeft)> report;
   const std::atomic<bool>* cancelled = nullptr;

@@ -12,7 +12,9 @@ namespace roomlight {
 namespace {
 
 const StudyCurve* curveOf(const StudyCase& c, const std::string& technique) {
-  const auto found = std::find_if(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) { return curve.technique == technique && !curve.points.empty(); });
+  const auto found = std::find_if(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) {
+    return curve.technique == technique && !curve.points.empty();
+  });
   return found == c.curves.end() ? nullptr : &*found;
 }
 
@@ -36,7 +38,8 @@ StudyVerdict settles(const StudyResults& r) {
     ++cases, met += e <= wanted;
     if (e >= worst) worst = e, where = place(c);
   }
-  return {fmt::format("cone settles at an mse of at most {} everywhere", wanted), fmt::format("{} of {}; largest {:.4f}, {}", met, cases, worst, where), met == cases && cases > 0};
+  return {fmt::format("cone settles at an mse of at most {} everywhere", wanted),
+          fmt::format("{} of {}; largest {:.4f}, {}", met, cases, worst, where), met == cases && cases > 0};
 }
 
 StudyVerdict below(const StudyResults& r) {
@@ -53,7 +56,10 @@ StudyVerdict below(const StudyResults& r) {
       if (e >= own && !hasSettled(rival)) ++open;
     }
   }
-  std::string text = lost.empty() ? fmt::format("below in all {} pairs", pairs) : fmt::format("below in {} of {} pairs; not below ", pairs - static_cast<int>(lost.size()), pairs) + listOf(lost);
+  std::string text =
+      lost.empty() ? fmt::format("below in all {} pairs", pairs)
+                   : fmt::format("below in {} of {} pairs; not below ", pairs - static_cast<int>(lost.size()), pairs) +
+                         listOf(lost);
   if (open > 0) text += fmt::format("; in {} of them the rival was stopped while its error still fell", open);
   return {"cone settles below each rival everywhere", text, lost.empty() && pairs > 0};
 }
@@ -74,12 +80,16 @@ std::vector<StudyVerdict> ratios(const StudyResults& r) {
       measured += fmt::format("{}{} {:.2f}", measured.empty() ? "" : "; ", c.light, ratio);
       met = met && ratio <= wanted, any = true;
     }
-    if (any) out.push_back({fmt::format("time at equal error, {}: cone over {} at most {:.2f}", r.cases.back().scene, rival.name, wanted), measured, met});
+    if (any)
+      out.push_back({fmt::format("time at equal error, {}: cone over {} at most {:.2f}", r.cases.back().scene,
+                                 rival.name, wanted),
+                     measured, met});
   }
   return out;
 }
 
-// The quickest of hybrid's ways over the quickest of all others that are not the judge, each pair at the least error that both reach.
+// The quickest of hybrid's ways over the quickest of all others that are not the judge, each pair at the least error
+// that both reach.
 StudyVerdict hybridFirst(const StudyResults& r) {
   int met = 0, cases = 0;
   double worst = 0;
@@ -91,7 +101,8 @@ StudyVerdict hybridFirst(const StudyResults& r) {
       if (other.kind == "judge" || other.technique.starts_with("hybrid") || other.points.empty()) continue;
       double best = std::numeric_limits<double>::infinity();
       for (const StudyCurve& own : c.curves) {
-        if (own.technique.starts_with("hybrid") && !own.points.empty()) best = std::min(best, *timeRatioAtEqualError(own, other));
+        if (own.technique.starts_with("hybrid") && !own.points.empty())
+          best = std::min(best, *timeRatioAtEqualError(own, other));
       }
       if (std::isfinite(best)) ratio = std::max(ratio, best), any = true;
     }
@@ -99,7 +110,8 @@ StudyVerdict hybridFirst(const StudyResults& r) {
     ++cases, met += ratio <= 0.5;
     if (ratio >= worst) worst = ratio, where = place(c);
   }
-  return {"time at equal error: hybrid at most half of the best of the others everywhere", fmt::format("{} of {}; largest {:.2f}, {}", met, cases, worst, where), met == cases && cases > 0};
+  return {"time at equal error: hybrid at most half of the best of the others everywhere",
+          fmt::format("{} of {}; largest {:.2f}, {}", met, cases, worst, where), met == cases && cases > 0};
 }
 
 // The one of ours with the most frames a second along the walk of a scene.
@@ -136,7 +148,8 @@ std::vector<StudyVerdict> frames(const StudyResults& r) {
     if (!std::isfinite(worst)) continue;
     std::string text = fmt::format("least {:.2f} times, {}", worst, where);
     if (!quickest.empty()) text += "; quickest of ours: " + listOf({quickest.begin(), quickest.end()});
-    out.push_back({fmt::format("frames a second: cone or hybrid at least {:.2f} times those of {}", wanted, rival.name), text, worst >= wanted});
+    out.push_back({fmt::format("frames a second: cone or hybrid at least {:.2f} times those of {}", wanted, rival.name),
+                   text, worst >= wanted});
   }
   return out;
 }
@@ -147,7 +160,9 @@ std::vector<StudyVerdict> studyVerdicts(const StudyResults& r) {
   if (!r.againstPublished) return {};
   const auto has = [&](const std::string& start, const std::string& kind) {
     return std::any_of(r.cases.begin(), r.cases.end(), [&](const StudyCase& c) {
-      return std::any_of(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) { return !curve.points.empty() && curve.technique.starts_with(start) && (kind.empty() || curve.kind == kind); });
+      return std::any_of(c.curves.begin(), c.curves.end(), [&](const StudyCurve& curve) {
+        return !curve.points.empty() && curve.technique.starts_with(start) && (kind.empty() || curve.kind == kind);
+      });
     });
   };
   std::vector<StudyVerdict> out;

@@ -5,14 +5,20 @@
 namespace roomlight {
 
 Bsdf::Bsdf(const MaterialSample& m, Vec3 ns, Vec3 ng, Vec3 wo)
-    : frame_(ns), ng_(ng), wo_(frame_.toLocal(wo)), f0_(m.f0), f90_(m.f90), roughness_(m.roughness), alpha_(ggxAlpha(m.roughness)) {
+    : frame_(ns),
+      ng_(ng),
+      wo_(frame_.toLocal(wo)),
+      f0_(m.f0),
+      f90_(m.f90),
+      roughness_(m.roughness),
+      alpha_(ggxAlpha(m.roughness)) {
   mirror_ = alpha_ < kMirrorAlpha;
   wo_.z = std::max(wo_.z, 1e-4f);
   lambda_ = ggxLambda(wo_.z, alpha_);
   lobeScale_ = alpha_ * alpha_ / (4 * kPi * wo_.z * (1 + lambda_));
   base_ = m.baseColor * ((1 - m.metallic) * (1 - m.transmission));
-  const AlbedoTerms e = mirror_ ? AlbedoTerms{1 - schlickWeight(wo_.z), schlickWeight(wo_.z)}
-                                : ggxDirectionalAlbedo(wo_.z, roughness_);
+  const AlbedoTerms e =
+      mirror_ ? AlbedoTerms{1 - schlickWeight(wo_.z), schlickWeight(wo_.z)} : ggxDirectionalAlbedo(wo_.z, roughness_);
   specularAlbedo_ = m.glazed ? Vec3(glazingLight(m.glazed->glazing, wo_.z).reflected) : f0_ * e.scale + f90_ * e.bias;
   const float eo = std::min(1.0f, maxComponent(specularAlbedo_));
   const AlbedoTerms mean = ggxHemisphericalAlbedo(roughness_);

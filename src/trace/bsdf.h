@@ -39,7 +39,8 @@ class Bsdf {
   BsdfValue value(Vec3 wi) const;        // evaluate() and pdf(), for less than both
   float pdfSpecular(Vec3 wi) const;  // of sampleSpecular; 0 for a mirror
   BsdfSample sample(Vec2 u, float choice) const;
-  // A direction of the specular lobe alone; weight f_specular cos / pdf of that lobe. Not valid where it would enter the surface.
+  // A direction of the specular lobe alone; weight f_specular cos / pdf of that lobe. Not valid where it would enter
+// the surface.
   BsdfSample sampleSpecular(Vec2 u) const;
 
   // Directional albedo, per channel: all light reflected towards wo under a uniform hemisphere of 1.
@@ -66,7 +67,8 @@ class Bsdf {
   Vec3 lobeWeight(Vec3 wi) const {
     const Vec3 h = wi + wo_;
     const float c2 = wi.z * wi.z, root = std::sqrt(c2 + alpha_ * alpha_ * std::max(0.0f, 1 - c2));
-    return fresnelSchlick(f0_, f90_, dot(wo_, h) / length(h)) * ((1 + lambda_) * wi.z / ((0.5f + lambda_) * wi.z + 0.5f * root));
+    return fresnelSchlick(f0_, f90_, dot(wo_, h) / length(h)) *
+           ((1 + lambda_) * wi.z / ((0.5f + lambda_) * wi.z + 0.5f * root));
   }
 
   Frame frame_;

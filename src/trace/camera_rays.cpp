@@ -9,10 +9,11 @@ constexpr float kCornerM = 0.5f;   // thickest walls whose corners do
 constexpr float kThickestM = 1;    // of bodies that show a section: rooms whose faces are turned inside out must not
 constexpr int kMostFaces = 16;     // met on the way out of a body
 constexpr float kApartM = 1e-5f;   // between two faces that are met one after the other
-constexpr float kSkinM = 0.01f;    // thickness of what is set into a face of a body, or lies on it; of two faces in one place only one is met
+constexpr float kSkinM =
+    0.01f;  // thickness of what is set into a face of a body, or lies on it; of two faces in one place only one is met
 
-// How far it is to where more bodies are left than entered, if that is within reach: faces turned along the direction less those
-// against it. To enter a skin and leave it is to leave the body that it lies on.
+// How far it is to where more bodies are left than entered, if that is within reach: faces turned along the direction
+// less those against it. To enter a skin and leave it is to leave the body that it lies on.
 float wayOut(const RayScene& scene, Vec3 p, Vec3 direction) {
   Ray ray{p, direction, 0, kThickestM};
   int left = 0;
@@ -46,19 +47,21 @@ Ray cutBelow(Ray ray, float heightM) {
 }  // namespace
 
 bool seeTheSame(const Camera& a, const Camera& b) {
-  return a.worldFromCamera == b.worldFromCamera && a.yFovRad == b.yFovRad && a.aspect == b.aspect && a.nearM == b.nearM && a.projection == b.projection &&
-         a.emptyBackdrop == b.emptyBackdrop && a.yMagM == b.yMagM && a.cutHeightM == b.cutHeightM;
+  return a.worldFromCamera == b.worldFromCamera && a.yFovRad == b.yFovRad && a.aspect == b.aspect &&
+         a.nearM == b.nearM && a.projection == b.projection && a.emptyBackdrop == b.emptyBackdrop &&
+         a.yMagM == b.yMagM && a.cutHeightM == b.cutHeightM;
 }
 
-CameraRays::CameraRays(const Camera& camera, int width, int height) : camera_(camera), cameraFromWorld_(inverse(camera.worldFromCamera)), width_(width), height_(height) {
+CameraRays::CameraRays(const Camera& camera, int width, int height)
+    : camera_(camera), cameraFromWorld_(inverse(camera.worldFromCamera)), width_(width), height_(height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   halfHeight_ = camera.projection == Projection::Orthographic ? camera.yMagM : std::tan(0.5f * camera.yFovRad);
   if (camera.aspect > 0 && aspect < camera.aspect) halfHeight_ *= camera.aspect / aspect;
   halfWidth_ = halfHeight_ * aspect;
 }
 
-// Longitude along x, latitude along y. Each eye of a stereo pair stands where its circle touches the ray's vertical plane, so that
-// its rays lie along the tangent (Ishiguro et al. 1992; Anderson et al. 2016, "Jump", section 4).
+// Longitude along x, latitude along y. Each eye of a stereo pair stands where its circle touches the ray's vertical
+// plane, so that its rays lie along the tangent (Ishiguro et al. 1992; Anderson et al. 2016, "Jump", section 4).
 Ray CameraRays::panoramaRay(float x, float y, float height) const {
   const float longitude = (x / static_cast<float>(width_) - 0.5f) * 2 * kPi;
   float eye = 0;
@@ -69,8 +72,10 @@ Ray CameraRays::panoramaRay(float x, float y, float height) const {
   }
   const float colatitude = y / height * kPi;
   const float s = std::sin(colatitude);
-  const Vec3 direction{s * std::sin(longitude), std::cos(colatitude), -s * std::cos(longitude)}, right{std::cos(longitude), 0, std::sin(longitude)};
-  return {camera_.worldFromCamera.point(right * eye), normalize(camera_.worldFromCamera.vector(direction)), camera_.nearM, kInfinity};
+  const Vec3 direction{s * std::sin(longitude), std::cos(colatitude), -s * std::cos(longitude)},
+      right{std::cos(longitude), 0, std::sin(longitude)};
+  return {camera_.worldFromCamera.point(right * eye), normalize(camera_.worldFromCamera.vector(direction)),
+          camera_.nearM, kInfinity};
 }
 
 Ray CameraRays::ray(float x, float y) const {
@@ -101,7 +106,8 @@ std::optional<Vec2> CameraRays::pixelOf(Vec3 place) const {
     const float distance = length(p);
     if (!(distance > 0)) return {};
     const float rows = camera_.projection == Projection::StereoPanorama ? 0.5f * h : h;
-    at = {(std::atan2(p.x, -p.z) / (2 * kPi) + 0.5f) * w, std::acos(std::clamp(p.y / distance, -1.0f, 1.0f)) / kPi * rows};
+    at = {(std::atan2(p.x, -p.z) / (2 * kPi) + 0.5f) * w,
+          std::acos(std::clamp(p.y / distance, -1.0f, 1.0f)) / kPi * rows};
   } else {
     const float depth = camera_.projection == Projection::Orthographic ? 1 : -p.z;
     if (!(depth > 0)) return {};
@@ -111,18 +117,22 @@ std::optional<Vec2> CameraRays::pixelOf(Vec3 place) const {
   return inside ? std::optional(at) : std::nullopt;
 }
 
-bool CameraRays::wraps() const { return camera_.projection == Projection::Panorama || camera_.projection == Projection::StereoPanorama; }
+bool CameraRays::wraps() const {
+  return camera_.projection == Projection::Panorama || camera_.projection == Projection::StereoPanorama;
+}
 
 double CameraRays::solidAngleSr(int x, int y) const {
   const double w = width_, h = height_;
   if (camera_.projection == Projection::Orthographic) return 0;
   if (camera_.projection == Projection::Perspective) {
-    const double px = (2 * (x + 0.5) / w - 1) * static_cast<double>(halfWidth_), py = (1 - 2 * (y + 0.5) / h) * static_cast<double>(halfHeight_);
+    const double px = (2 * (x + 0.5) / w - 1) * static_cast<double>(halfWidth_),
+                 py = (1 - 2 * (y + 0.5) / h) * static_cast<double>(halfHeight_);
     const double area = 4 * static_cast<double>(halfWidth_) * static_cast<double>(halfHeight_) / (w * h);
     return area * std::pow(1 + px * px + py * py, -1.5);
   }
   // Exact: the height of a zone times its share of longitudes (Archimedes).
-  const double pi = std::acos(-1.0), rows = camera_.projection == Projection::StereoPanorama ? h / 2 : h, row = std::fmod(y, rows);
+  const double pi = std::acos(-1.0), rows = camera_.projection == Projection::StereoPanorama ? h / 2 : h,
+               row = std::fmod(y, rows);
   return (std::cos(pi * row / rows) - std::cos(pi * std::min(rows, row + 1) / rows)) * 2 * pi / w;
 }
 
@@ -132,7 +142,10 @@ float CameraRays::pixelWidthM(int x, int y, Vec3 place) const {
 }
 
 Sight sightOf(const RayScene& scene, const Camera& camera, const Ray& ray) {
-  if (camera.cutHeightM < kInfinity && std::abs(ray.origin.y - camera.cutHeightM) < 1e-4f * std::max(1.0f, std::abs(camera.cutHeightM)) && insideBody(scene, ray.origin)) return Sight::Section;
+  if (camera.cutHeightM < kInfinity &&
+      std::abs(ray.origin.y - camera.cutHeightM) < 1e-4f * std::max(1.0f, std::abs(camera.cutHeightM)) &&
+      insideBody(scene, ray.origin))
+    return Sight::Section;
   return camera.emptyBackdrop && !scene.intersect(ray).valid() ? Sight::Backdrop : Sight::Scene;
 }
 
@@ -141,9 +154,11 @@ bool insideBody(const RayScene& scene, Vec3 p) {
   const Vec3 x(1, 0, 0), z(0, 0, 1);
   const float right = wayOut(scene, p, x), left = wayOut(scene, p, -x);
   if (isOut(right) && isOut(left)) return true;
-  const float near = wayOut(scene, p, z), far = isOut(near) || isOut(right) || isOut(left) ? wayOut(scene, p, -z) : kInfinity;
+  const float near = wayOut(scene, p, z),
+              far = isOut(near) || isOut(right) || isOut(left) ? wayOut(scene, p, -z) : kInfinity;
   if (isOut(near) && isOut(far)) return true;
-  // Where walls abut, of the end of one and the side of the other only one may be met: at a corner two ways out must do.
+  // Where walls abut, of the end of one and the side of the other only one may be met: at a corner two ways out must
+  // do.
   if (std::max(std::min(right, left), std::min(near, far)) > kCornerM) return false;
   const auto meets = [&](Vec3 d) { return scene.intersect({p, d, 0, kInfinity}).valid(); };
   return meets(x) && meets(-x) && meets(z) && meets(-z);

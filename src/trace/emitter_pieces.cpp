@@ -26,7 +26,8 @@ struct Spread {
   }
   void add(const EmitterPieces::Part& part, const std::array<float, 6>& about) {
     const auto at = of(part);
-    for (size_t k = 0; k < 6; ++k) mean[k] += part.share * (at[k] - about[k]), square[k] += part.share * (at[k] - about[k]) * (at[k] - about[k]);
+    for (size_t k = 0; k < 6; ++k)
+      mean[k] += part.share * (at[k] - about[k]), square[k] += part.share * (at[k] - about[k]) * (at[k] - about[k]);
     share += part.share;
   }
   float variance(size_t k) const { return std::max(0.0f, square[k] / share - mean[k] * mean[k] / (share * share)); }
@@ -46,7 +47,8 @@ EmitterPieces::EmitterPieces(std::span<const Part> parts, bool twice) : order_(p
     const Piece& piece = pieces_[k];
     std::fill_n(pieceOf_.begin() + piece.first, piece.count, static_cast<uint8_t>(k));
     Lanes& l = lanes_;
-    l.x[k] = piece.centre.x, l.y[k] = piece.centre.y, l.z[k] = piece.centre.z, l.axisX[k] = piece.axis.x, l.axisY[k] = piece.axis.y, l.axisZ[k] = piece.axis.z;
+    l.x[k] = piece.centre.x, l.y[k] = piece.centre.y, l.z[k] = piece.centre.z, l.axisX[k] = piece.axis.x,
+    l.axisY[k] = piece.axis.y, l.axisZ[k] = piece.axis.z;
     l.radius2[k] = piece.radius2, l.cosHalf[k] = piece.cosHalf, l.sinHalf[k] = piece.sinHalf, l.share[k] = piece.share;
   }
 }
@@ -91,7 +93,8 @@ bool EmitterPieces::split(std::span<const Part> parts, size_t which) {
     return x < y || (x == y && a < b);
   });
   uint32_t left = 0;
-  for (double sum = 0; left < whole.count - 1 && (left == 0 || sum < 0.5 * static_cast<double>(whole.share)); ++left) sum += static_cast<double>(parts[begin[left]].share);
+  for (double sum = 0; left < whole.count - 1 && (left == 0 || sum < 0.5 * static_cast<double>(whole.share)); ++left)
+    sum += static_cast<double>(parts[begin[left]].share);
   pieces_[which] = pieceOf(parts, whole.first, left);
   pieces_.push_back(pieceOf(parts, whole.first + left, whole.count - left));
   return true;
@@ -105,14 +108,17 @@ EmitterPieces::Weights EmitterPieces::weights(Vec3 p) const {
   Float4 sum;
   for (size_t i = 0; i < pieces_.size(); i += 4) {
     const auto lane = [i](const std::array<float, kMost>& of) { return Float4::load(of.data() + i); };
-    const Float4 dx = Float4(p.x) - lane(l.x), dy = Float4(p.y) - lane(l.y), dz = Float4(p.z) - lane(l.z), radius2 = lane(l.radius2);
+    const Float4 dx = Float4(p.x) - lane(l.x), dy = Float4(p.y) - lane(l.y), dz = Float4(p.z) - lane(l.z),
+                 radius2 = lane(l.radius2);
     const Float4 one(1), zero, d2 = dx * dx + dy * dy + dz * dz, nearest2 = max(d2, radius2 + Float4(kLeastM2));
     Float4 shines(1);
     if (!twice_) {
       // The angle to the axis less that of the normals and that under which the piece is seen.
       const Float4 far2 = max(d2, radius2 + Float4(kLeastM2)), seen2 = radius2 / far2;
-      const Float4 cosine = (dx * lane(l.axisX) + dy * lane(l.axisY) + dz * lane(l.axisZ)) / sqrt(far2), sine = sqrt(max(zero, one - cosine * cosine));
-      const Float4 sinSeen = sqrt(seen2), cosSeen = sqrt(one - seen2), cosHalf = lane(l.cosHalf), sinHalf = lane(l.sinHalf);
+      const Float4 cosine = (dx * lane(l.axisX) + dy * lane(l.axisY) + dz * lane(l.axisZ)) / sqrt(far2),
+                   sine = sqrt(max(zero, one - cosine * cosine));
+      const Float4 sinSeen = sqrt(seen2), cosSeen = sqrt(one - seen2), cosHalf = lane(l.cosHalf),
+                   sinHalf = lane(l.sinHalf);
       const Float4 cosOff = cosHalf * cosSeen - sinHalf * sinSeen, sinOff = sinHalf * cosSeen + cosHalf * sinSeen;
       // sinOff below 0: more than half a turn. Among its places all are taken to shine.
       const Float4 all = (sinOff < zero) | (cosOff <= cosine) | (d2 <= radius2 * Float4(1.0001f) + Float4(kLeastM2));

@@ -1,4 +1,5 @@
-// An emissive mesh in a few pieces, of which those are chosen that shine towards a place: of a globe the near half, of a strip what lies near.
+// An emissive mesh in a few pieces, of which those are chosen that shine towards a place: of a globe the near half, of
+ // a strip what lies near.
 #pragma once
 
 #include <array>
@@ -38,7 +39,8 @@ class EmitterPieces {
   Weights weights(Vec3 p) const;
   // One piece by them, `u` in [0, 1).
   Choice choose(const Weights& weights, float u) const;
-  // Chance with which choose(p) chooses the piece of a part over the piece's share of the flux. `part`: its place in order().
+  // Chance with which choose(p) chooses the piece of a part over the piece's share of the flux. `part`: its place in
+// order().
   float chanceOverShare(uint32_t part, Vec3 p) const;
 
  private:

@@ -6,11 +6,13 @@ namespace roomlight {
 namespace {
 
 constexpr size_t kMostTriangles = 1024;
-constexpr float kGrazing = 0.1f;  // cosine added for triangles seen edge on from the middle, of which places aside see more
+constexpr float kGrazing =
+    0.1f;  // cosine added for triangles seen edge on from the middle, of which places aside see more
 
 }  // namespace
 
-EmitterView::EmitterView(const Lights& lights, size_t emitter, const Bounds3& place) : lights_(lights), emitter_(emitter) {
+EmitterView::EmitterView(const Lights& lights, size_t emitter, const Bounds3& place)
+    : lights_(lights), emitter_(emitter) {
   const Vec3 middle = place.centre(), half = place.size() * 0.5f;
   const float radius2 = lengthSquared(half);
   const bool twice = lights.emitterShinesTwice(emitter);
@@ -34,7 +36,8 @@ EmitterView::EmitterView(const Lights& lights, size_t emitter, const Bounds3& pl
 LightSample EmitterView::sample(Vec3 p, Vec2 u, float choice) const {
   if (whole_) return lights_.sampleEmitter(emitter_, p, u, choice);
   if (dark()) return {};
-  auto at = std::upper_bound(chosen_.begin(), chosen_.end(), choice, [](float value, const Chosen& c) { return value < c.end; });
+  auto at = std::upper_bound(chosen_.begin(), chosen_.end(), choice,
+                             [](float value, const Chosen& c) { return value < c.end; });
   if (at == chosen_.end()) --at;
   const float before = at == chosen_.begin() ? 0 : std::prev(at)->end;
   return lights_.sampleEmitterTriangle(emitter_, at->triangle, at->end - before, p, u);

@@ -1,4 +1,5 @@
-// An emissive mesh as the points of a small place see it: of its triangles those that shine there, chosen by what they send.
+// An emissive mesh as the points of a small place see it: of its triangles those that shine there, chosen by what they
+ // send.
 #pragma once
 
 #include <vector>

@@ -17,9 +17,12 @@ struct WebAxes {
 }  // namespace
 
 Vec3 lampIntensity(const Lamp& lamp, Vec3 direction) {
-  if (lamp.web) return lamp.intensityCd * (intensityCd(*lamp.web, WebAxes(lamp.direction, lamp.up).toWeb(direction)) / lamp.web->peakCd);
+  if (lamp.web)
+    return lamp.intensityCd *
+           (intensityCd(*lamp.web, WebAxes(lamp.direction, lamp.up).toWeb(direction)) / lamp.web->peakCd);
   if (lamp.kind == LampKind::Point) return lamp.intensityCd;
-  return lamp.intensityCd * spotFalloff(dot(direction, lamp.direction), std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
+  return lamp.intensityCd *
+         spotFalloff(dot(direction, lamp.direction), std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
 }
 
 Vec3 lampPlace(const Lamp& lamp, Vec2 u) {
@@ -39,7 +42,8 @@ LightSample sampleLamp(const Lamp& lamp, Vec3 p, Vec2 u) {
   return s;
 }
 
-LampDirections::LampDirections(const Lamp& lamp, std::shared_ptr<const WebSampler> sampler) : sampler_(std::move(sampler)), direction_(lamp.direction), up_(lamp.up) {
+LampDirections::LampDirections(const Lamp& lamp, std::shared_ptr<const WebSampler> sampler)
+    : sampler_(std::move(sampler)), direction_(lamp.direction), up_(lamp.up) {
   if (lamp.web) {
     if (!sampler_) sampler_ = std::make_shared<const WebSampler>(*lamp.web);
     fluxPerCandela_ = static_cast<float>(lamp.web->fluxLm) / lamp.web->peakCd;

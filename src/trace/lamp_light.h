@@ -18,8 +18,8 @@ inline bool isSharp(const Lamp& lamp) { return lamp.kind != LampKind::Area && !l
 // Where light leaves it: its position, or a place of its opening, even over the area.
 Vec3 lampPlace(const Lamp& lamp, Vec2 u);
 
-// From one such place to p. An extended lamp is the mean over its places, each of which shines as the whole would from there: from afar
-// that is the web, and for a Lambertian web it is the luminous panel from anywhere.
+// From one such place to p. An extended lamp is the mean over its places, each of which shines as the whole would from
+// there: from afar that is the web, and for a Lambertian web it is the luminous panel from anywhere.
 LightSample sampleLamp(const Lamp& lamp, Vec3 p, Vec2 u);
 
 // Directions in which rays leave a lamp: of a web as its light goes, else even over the sphere or the spot's cone.

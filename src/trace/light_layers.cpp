@@ -68,16 +68,21 @@ Result<LightLayers> layersOf(const Scene& scene, const Lights& lights, LayerBy b
   LightLayers& out = grouping.out;
   for (size_t i = 0; i < lights.lampCount(); ++i) {
     const Lamp& lamp = lights.lamp(i);
-    out.ofLamp.push_back(grouping.add(lamp.name, lamp.group, LayerKind::Lamp, lamp.intensityCd * LampDirections(lamp).fluxPerCandela(), lamp.position));
+    out.ofLamp.push_back(grouping.add(lamp.name, lamp.group, LayerKind::Lamp,
+                                      lamp.intensityCd * LampDirections(lamp).fluxPerCandela(), lamp.position));
   }
   for (size_t i = 0; i < lights.emitterCount(); ++i) {
     const Instance& instance = scene.instances[lights.emitterInstance(i)];
     // What stands for an area lamp bears its name.
-    const auto lamp = std::find_if(scene.lamps.begin(), scene.lamps.end(), [&](const Lamp& l) { return l.kind == LampKind::Area && l.name == instance.name; });
+    const auto lamp = std::find_if(scene.lamps.begin(), scene.lamps.end(),
+                                   [&](const Lamp& l) { return l.kind == LampKind::Area && l.name == instance.name; });
     const bool isLamp = lamp != scene.lamps.end() || instance.name.ends_with(kLightSuffix);
-    const Material& material = scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)];
-    out.ofEmitter.push_back(grouping.add(instance.name.empty() ? fmt::format("object {}", instance.object) : instance.name, lamp != scene.lamps.end() ? lamp->group : "",
-                                         isLamp ? LayerKind::Lamp : LayerKind::Mesh, hueOf(material) * lights.emitterFluxLm(i), lights.emitterBounds(i).centre()));
+    const Material& material =
+        scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)];
+    out.ofEmitter.push_back(
+        grouping.add(instance.name.empty() ? fmt::format("object {}", instance.object) : instance.name,
+                     lamp != scene.lamps.end() ? lamp->group : "", isLamp ? LayerKind::Lamp : LayerKind::Mesh,
+                     hueOf(material) * lights.emitterFluxLm(i), lights.emitterBounds(i).centre()));
   }
   for (LightLayer& layer : out.layers) layer.position = layer.position / std::max(luminance(layer.fluxLm), 1e-30f);
   if (lights.sunCount() > 0) {
@@ -94,13 +99,17 @@ Result<LightLayers> layersOf(const Scene& scene, const Lights& lights, LayerBy b
     Vec3 sum;
     constexpr int kPlaces = 16;
     for (int i = 0; i < kPlaces * kPlaces; ++i) {
-      const float z = (static_cast<float>(i / kPlaces) + 0.5f) / kPlaces, a = 2 * kPi * static_cast<float>(i % kPlaces) / kPlaces, r = std::sqrt(1 - z * z);
+      const float z = (static_cast<float>(i / kPlaces) + 0.5f) / kPlaces,
+                  a = 2 * kPi * static_cast<float>(i % kPlaces) / kPlaces, r = std::sqrt(1 - z * z);
       sum += lights.sky().radiance({r * std::cos(a), z, r * std::sin(a)});
     }
     out.layers.push_back({"sky", LayerKind::Sky, sum / (kPlaces * kPlaces), {}});
   }
   if (out.size() > kMostLayers) {
-    return Error{fmt::format("layers: the scene has {} lights of different names, at most {} layers are kept; give lamps a common \"group\" in the lighting file, or use --layer-groups room", out.size(), kMostLayers)};
+    return Error{
+        fmt::format("layers: the scene has {} lights of different names, at most {} layers are kept; give lamps a "
+                    "common \"group\" in the lighting file, or use --layer-groups room",
+                    out.size(), kMostLayers)};
   }
   return std::move(out);
 }

@@ -23,7 +23,8 @@ struct LightLook {
 // Traced together.
 class LightLooks {
  public:
-  // A light sample of `light`, which could give `could` at p by what it is chosen by, and was chosen with a chance. `n`: unit normal there. Dark samples need no ray.
+  // A light sample of `light`, which could give `could` at p by what it is chosen by, and was chosen with a chance.
+// `n`: unit normal there. Dark samples need no ray.
   void add(uint32_t light, float could, const LightSample& sample, Vec3 p, Vec3 n, float chance = 1) {
     Look& look = looks_.emplace_back(Look{light, could / chance, 0, -1});
     const float cosine = dot(sample.wi, n);
@@ -36,7 +37,8 @@ class LightLooks {
   size_t finish(const RayScene& rays, const Take& take) {
     left_.resize(ways_.size());
     rays.transmittance(ways_, left_);
-    for (const Look& l : looks_) take(l.light, l.asked, l.ray < 0 ? 0 : l.found * luminance(left_[static_cast<size_t>(l.ray)]));
+    for (const Look& l : looks_)
+      take(l.light, l.asked, l.ray < 0 ? 0 : l.found * luminance(left_[static_cast<size_t>(l.ray)]));
     looks_.clear(), ways_.clear();
     return left_.size();
   }

@@ -1,5 +1,6 @@
-// What part of the light that lights could give arrives at a place, as shadow rays found, and choices by that (after Vévoda, Kondapaneni & Křivánek 2018, "Bayesian online regression for adaptive
-// direct illumination sampling"; learned once, so that it does not depend on threads).
+// What part of the light that lights could give arrives at a place, as shadow rays found, and choices by that (after
+// Vévoda, Kondapaneni & Křivánek 2018, "Bayesian online regression for adaptive direct illumination sampling"; learned
+// once, so that it does not depend on threads).
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace roomlight {
 
 struct LightPart {
   uint32_t which;  // a light; where there are many, a node of their tree
-  float part;      // of what it could give without shadows; above 0
+  float part;  // of what it could give without shadows; above 0
 };
 constexpr size_t kMostParts = Lights::kMostOneByOne;  // of a place; together they hold all lights
 
@@ -42,7 +43,10 @@ struct LocalChoice {
   size_t count() const { return lights.localCount(); }
   const LightTree& tree() const { return lights.localTree(); }
   float importance(size_t i, Vec3 p) const { return lights.localImportance(i, p); }
-  LightSample sample(size_t i, Vec3 p, Vec2 u, float choice) const { return i < lights.lampCount() ? lights.sampleLamp(i, p, u) : lights.sampleEmitter(i - lights.lampCount(), p, u, choice); }
+  LightSample sample(size_t i, Vec3 p, Vec2 u, float choice) const {
+    return i < lights.lampCount() ? lights.sampleLamp(i, p, u)
+                                  : lights.sampleEmitter(i - lights.lampCount(), p, u, choice);
+  }
   LightTree::Choice choose(Vec3 p, float choice) const { return lights.chooseLocal(p, choice); }
   float chance(size_t i, Vec3 p) const { return lights.chanceOfLocal(i, p); }
 };
@@ -76,7 +80,9 @@ LightTree::Choice chooseLight(const WeighedParts& w, const Kind& kind, Vec3 p, f
   const size_t chosen = chooseByWeight(
       w.parts.size(), w.sum, [&](size_t i) { return w.own[i]; }, choice);
   const uint32_t which = w.parts[chosen].which;
-  LightTree::Choice c = kind.tree().empty() ? LightTree::Choice{which, 1, choice} : kind.tree().chooseIn(which, p, choice, [&](size_t i) { return kind.importance(i, p); });
+  LightTree::Choice c = kind.tree().empty()
+                            ? LightTree::Choice{which, 1, choice}
+                            : kind.tree().chooseIn(which, p, choice, [&](size_t i) { return kind.importance(i, p); });
   c.chance *= w.own[chosen] / w.sum;
   return c;
 }
@@ -88,9 +94,12 @@ float chanceOfLight(std::span<const LightPart> parts, const Kind& kind, size_t l
   const WeighedParts w = weighed(parts, kind, p);
   if (!(w.sum > 0)) return 0;
   const LightTree& tree = kind.tree();
-  const auto holds = [&](const LightPart& part) { return tree.empty() ? part.which == light : tree.holds(part.which, light); };
+  const auto holds = [&](const LightPart& part) {
+    return tree.empty() ? part.which == light : tree.holds(part.which, light);
+  };
   const auto at = static_cast<size_t>(std::find_if(parts.begin(), parts.end(), holds) - parts.begin());
-  const float within = tree.empty() ? 1 : tree.chanceIn(parts[at].which, light, p, [&](size_t i) { return kind.importance(i, p); });
+  const float within =
+      tree.empty() ? 1 : tree.chanceIn(parts[at].which, light, p, [&](size_t i) { return kind.importance(i, p); });
   return within * w.own[at] / w.sum;
 }
 

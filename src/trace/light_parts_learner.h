@@ -1,4 +1,5 @@
-// Finds out by shadow rays what part of the light that lights could give arrives at places that are near one another and look the same way.
+// Finds out by shadow rays what part of the light that lights could give arrives at places that are near one another
+ // and look the same way.
 #pragma once
 
 #include "trace/light_looks.h"
@@ -18,12 +19,14 @@ class SinglePartsLearner {
     float total = 0;
     for (size_t i = 0; i < ones_.size(); ++i) {
       ones_[i] = {};
-      for (const size_t k : {size_t{0}, places.size() / 2, places.size() - 1}) could_[i] += kind.importance(i, places.position(k));
+      for (const size_t k : {size_t{0}, places.size() / 2, places.size() - 1})
+        could_[i] += kind.importance(i, places.position(k));
       total += could_[i];
     }
     for (uint32_t i = 0; i < ones_.size(); ++i) {
-      const uint32_t tries = could_[i] > kMatters * total ? places.kRays : could_[i] > kHardly * total ? places.kFewRays
-                                                                                                       : 0;
+      const uint32_t tries = could_[i] > kMatters * total  ? places.kRays
+                             : could_[i] > kHardly * total ? places.kFewRays
+                                                           : 0;
       for (uint32_t k = 0; k < tries; ++k) {
         const auto at = places.draw(k, tries, sampler);
         const Vec2 u{sampler.fast1(), sampler.fast1()};
@@ -37,7 +40,9 @@ class SinglePartsLearner {
   }
 
  private:
-  static constexpr float kMatters = 0.01f, kHardly = 1e-4f;  // of what all could give: lights that could give more are sent kRays, and kFewRays
+  static constexpr float kMatters = 0.01f,
+                         kHardly =
+                             1e-4f;  // of what all could give: lights that could give more are sent kRays, and kFewRays
   std::vector<LightLook> ones_;
   std::vector<float> could_;
   LightLooks looks_;
@@ -58,7 +63,9 @@ class GroupPartsLearner {
       const auto at = places.draw(k, kDraws, sampler);
       const LightTree::Choice c = kind.choose(at.p, sampler.fast1());
       const Vec2 u{sampler.fast1(), sampler.fast1()};
-      if (c.chance > 0) looks_.add(static_cast<uint32_t>(c.index), kind.importance(c.index, at.p), kind.sample(c.index, at.p, u, c.rest), at.p, at.n, c.chance);
+      if (c.chance > 0)
+        looks_.add(static_cast<uint32_t>(c.index), kind.importance(c.index, at.p),
+                   kind.sample(c.index, at.p, u, c.rest), at.p, at.n, c.chance);
     }
     return looks_.finish(rays, [&](uint32_t light, float asked, float found) {
       for (uint32_t node = tree_.leafOf(light);; node = tree_.parent(node)) {
@@ -74,7 +81,8 @@ class GroupPartsLearner {
     const float perDraw = std::max(found_[0].asked / static_cast<float>(kDraws), 1e-30f);
     std::vector<Group> groups{group(0, LightLook::kUntried, perDraw)};
     while (groups.size() < kMostParts) {
-      const auto most = std::max_element(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.worth < b.worth; });
+      const auto most = std::max_element(groups.begin(), groups.end(),
+                                         [](const Group& a, const Group& b) { return a.worth < b.worth; });
       if (!(most->worth > 0)) break;
       const Group apart = *most;
       *most = group(tree_.left(apart.node), apart.part, perDraw);
@@ -86,21 +94,23 @@ class GroupPartsLearner {
  private:
   static constexpr uint32_t kDraws = 128;  // rays to lights drawn
   static constexpr float kLikeParent = 4;  // draws: so much a group's parent tells of what is seen of it
-  static constexpr float kMixed = 2;       // draws: groups that are seen in part are taken apart while they have more of these seen and hidden
+  static constexpr float kMixed =
+      2;  // draws: groups that are seen in part are taken apart while they have more of these seen and hidden
   struct Group {
     uint32_t node;
     float part, worth;  // to take it apart; 0: none
   };
   Group group(uint32_t node, float partOfParent, float perDraw) const {
     const float asked = found_[node].asked / perDraw, found = found_[node].found / perDraw;
-    const float part = (found + kLikeParent * partOfParent) / (asked + kLikeParent), mixed = asked * part * std::max(0.0f, 1 - part);
+    const float part = (found + kLikeParent * partOfParent) / (asked + kLikeParent),
+                mixed = asked * part * std::max(0.0f, 1 - part);
     if (tree_.isLeaf(node)) return {node, part, 0};
     if (tree_.isWide(node, within_)) return {node, part, static_cast<float>(kDraws) + asked};
     return {node, part, mixed > kMixed ? mixed : 0};
   }
 
   const LightTree& tree_;
-  std::vector<LightLook> found_;   // of each node
+  std::vector<LightLook> found_;  // of each node
   std::vector<uint32_t> touched_;  // nodes of which something was found
   Bounds3 within_;
   LightLooks looks_;

@@ -25,10 +25,10 @@ template <class Add>
 void takeApart(std::span<const Triangle*> triangles, int halvings, const Add& add) {
   const Bounds3 bounds = boundsOf(triangles);
   const Vec3 size = bounds.size(), centre = bounds.centre();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1
-                                                                               : 2;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   if (halvings < kMostHalvings && size[axis] > kPieceM) {
-    const auto half = std::partition(triangles.begin(), triangles.end(), [&](const Triangle* t) { return middle(*t)[axis] < centre[axis]; });
+    const auto half = std::partition(triangles.begin(), triangles.end(),
+                                     [&](const Triangle* t) { return middle(*t)[axis] < centre[axis]; });
     const auto low = static_cast<size_t>(half - triangles.begin());
     if (low > 0 && low < triangles.size()) {
       takeApart(triangles.first(low), halvings + 1, add);
@@ -42,7 +42,9 @@ void takeApart(std::span<const Triangle*> triangles, int halvings, const Add& ad
 }  // namespace
 
 LightRays::LightRays(const Lights& lights) : lights_(lights), leaves_(lights.emitterCount()) {
-  const auto isSmall = [&](size_t i) { return lights.emitterAreaM2(i) * (lights.emitterShinesTwice(i) ? 2 : 1) <= kWidestM2; };
+  const auto isSmall = [&](size_t i) {
+    return lights.emitterAreaM2(i) * (lights.emitterShinesTwice(i) ? 2 : 1) <= kWidestM2;
+  };
   double most = lights.lampFluxLm(), flux = 0;
   for (size_t i = 0; i < lights.emitterCount(); ++i) most += isSmall(i) ? lights.emitterFluxLm(i) : 0;
   for (size_t i = 0; i < lights.emitterCount(); ++i) {
@@ -87,20 +89,22 @@ LightRay LightRays::sample(Sampler& sampler) const {
     return ray;
   }
   const float choice = sampler.next1();
-  const size_t i = std::min(static_cast<size_t>(std::upper_bound(cdf_.begin(), cdf_.end(), choice) - cdf_.begin()), cdf_.size() - 1);
+  const size_t i =
+      std::min(static_cast<size_t>(std::upper_bound(cdf_.begin(), cdf_.end(), choice) - cdf_.begin()), cdf_.size() - 1);
   LightRay ray = lights_.sampleEmitterRay(emitters_[i], sampler);
   ray.fluxLm = ray.fluxLm / ((1 - shareOfLamps_) * (cdf_[i] - (i > 0 ? cdf_[i - 1] : 0)));
   return ray;
 }
 
-// A convex body that shines evenly sends towards w its area as seen from there: of a closed one a quarter of its area on average, of a flat
-// one its area times the cosine. |n w| summed over triangles is taken for a mixture of both.
+// A convex body that shines evenly sends towards w its area as seen from there: of a closed one a quarter of its area
+// on average, of a flat one its area times the cosine. |n w| summed over triangles is taken for a mixture of both.
 float LightRays::densityM2(const Piece& piece, Vec3 p, Vec3 n) const {
   const Vec3 d = piece.centre - p;
   // Where the horizon cuts the sphere some of it is above.
   const float height = dot(n, d), above = height >= piece.radius ? height : 0.5f * (height + piece.radius);
   if (above <= 0) return 0;
-  const float inverse2 = 1 / std::max(lengthSquared(d), 1e-8f), inverse = std::sqrt(inverse2), facing = -dot(piece.facing, d) * inverse;
+  const float inverse2 = 1 / std::max(lengthSquared(d), 1e-8f), inverse = std::sqrt(inverse2),
+              facing = -dot(piece.facing, d) * inverse;
   const float towards = 1 - piece.flatness + 2 * (std::abs(facing) + facing);
   return std::min(piece.raysPerSr * towards * above * inverse2 * inverse, piece.mostPerM2);
 }

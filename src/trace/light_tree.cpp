@@ -40,7 +40,8 @@ void join(Vec3& axis, float& halfAngle, Vec3 otherAxis, float otherHalf) {
 
 }  // namespace
 
-LightTree::LightTree(const std::vector<Light>& lights) : order_(lights.size()), placeOf_(lights.size()), leafOf_(lights.size()) {
+LightTree::LightTree(const std::vector<Light>& lights)
+    : order_(lights.size()), placeOf_(lights.size()), leafOf_(lights.size()) {
   if (lights.empty()) return;
   std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(2 * (lights.size() / (kLeaf / 2) + 1));
@@ -67,8 +68,7 @@ uint32_t LightTree::build(const std::vector<Light>& lights, uint32_t first, uint
     return at;
   }
   const Vec3 size = centres.size();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1
-                                                                               : 2;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const uint32_t half = count / 2;
   const auto begin = order_.begin() + first;
   std::nth_element(begin, begin + half, begin + count, [&](uint32_t a, uint32_t b) {

@@ -1,5 +1,6 @@
-// Chooses one of many lights by what groups of them could give at a place: a binary tree over their places, with bounds on where they shine (after Conty Estevez &
-// Kulla 2018, "Importance sampling of many lights with adaptive tree splitting"). Without shadows.
+// Chooses one of many lights by what groups of them could give at a place: a binary tree over their places, with bounds
+// on where they shine (after Conty Estevez & Kulla 2018, "Importance sampling of many lights with adaptive tree
+// splitting"). Without shadows.
 #pragma once
 
 #include <algorithm>
@@ -15,21 +16,22 @@ namespace roomlight {
 class LightTree {
  public:
   struct Light {
-    Bounds3 bounds;      // m
-    float intensityCd;   // where it is strongest
+    Bounds3 bounds;  // m
+    float intensityCd;  // where it is strongest
     Vec3 axis{0, 1, 0};  // unit
     float halfAngle = kPi;  // rad: it shines only within this angle of the axis
   };
   struct Choice {
     size_t index = 0;
     float chance = 0;  // 0: nothing chosen
-    float rest = 0;    // what is left of u, rescaled to [0, 1)
+    float rest = 0;  // what is left of u, rescaled to [0, 1)
   };
 
   LightTree() = default;
   explicit LightTree(const std::vector<Light>& lights);
   bool empty() const { return nodes_.empty(); }
-  // `u` in [0, 1); weigh(index): what that light could give at p, 0 only where it gives nothing. Groups near p are taken apart first, so that no light beside it is lost in one.
+  // `u` in [0, 1); weigh(index): what that light could give at p, 0 only where it gives nothing. Groups near p are
+  // taken apart first, so that no light beside it is lost in one.
   template <class Weigh>
   Choice choose(Vec3 p, float u, const Weigh& weigh) const;
   // Chance with which choose(p) chooses light `index`.
@@ -44,7 +46,8 @@ class LightTree {
   uint32_t parent(uint32_t node) const { return nodes_[node].parent; }
   uint32_t leafOf(size_t index) const { return leafOf_[index]; }
   bool holds(uint32_t node, size_t index) const { return placeOf_[index] - nodes_[node].first < nodes_[node].count; }
-  // Whether it is seen from somewhere within `from` under so wide an angle that one weight says little of all its lights.
+  // Whether it is seen from somewhere within `from` under so wide an angle that one weight says little of all its
+  // lights.
   bool isWide(uint32_t node, const Bounds3& from) const;
   // What its lights could give at p.
   template <class Weigh>
@@ -62,10 +65,10 @@ class LightTree {
     Vec3 centre, axis;
     float radius2, halfAngle, cd;
     uint32_t first, count;  // of order_, in leaves
-    uint32_t right = 0;     // the left child follows; 0: a leaf
+    uint32_t right = 0;  // the left child follows; 0: a leaf
     uint32_t parent = 0;
   };
-  static constexpr uint32_t kLeaf = 8;      // lights that are weighed one by one
+  static constexpr uint32_t kLeaf = 8;  // lights that are weighed one by one
   static constexpr uint32_t kMostCut = 48;  // groups that are weighed beside one another
   // Nodes that hold all lights, large ones only far from p.
   struct Cut {

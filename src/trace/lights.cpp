@@ -32,7 +32,10 @@ Lights::Lights(const Scene& scene, bool sunApart) : scene_(scene), suns_(scene.s
   addAllLocal();
 }
 
-Lights::Lights(const Scene& scene, Lights&& before) : scene_(scene), suns_(std::move(before.suns_)), sky_(std::move(before.sky_)) { addAllLocal(); }
+Lights::Lights(const Scene& scene, Lights&& before)
+    : scene_(scene), suns_(std::move(before.suns_)), sky_(std::move(before.sky_)) {
+  addAllLocal();
+}
 
 void Lights::addAllLocal() {
   for (const Lamp& lamp : scene_.lamps) {
@@ -65,10 +68,17 @@ void Lights::addLamps() {
     const Lamp& lamp = lamps_[i];
     const bool point = lamp.kind == LampKind::Point;
     const float solidAngle = lampDirections_[i].fluxPerCandela(), share = lampShare_[i] /= flux;
-    LampTerms terms{lamp.position, lamp.direction, luminance(lamp.intensityCd), point ? -1 : std::cos(lamp.innerConeRad), point ? -1 : std::cos(lamp.outerConeRad),
-                    share / solidAngle, point ? -kInfinity : 1 - solidAngle / (2 * kPi), lamp.web ? &lamp : nullptr};
+    LampTerms terms{lamp.position,
+                    lamp.direction,
+                    luminance(lamp.intensityCd),
+                    point ? -1 : std::cos(lamp.innerConeRad),
+                    point ? -1 : std::cos(lamp.outerConeRad),
+                    share / solidAngle,
+                    point ? -kInfinity : 1 - solidAngle / (2 * kPi),
+                    lamp.web ? &lamp : nullptr};
     if (lamp.web) terms.shinesUp = shinesUp(*lamp.web);
-    if (lamp.extended) terms.radius2 = 0.25f * (lamp.web->sizeC0M * lamp.web->sizeC0M + lamp.web->sizeC90M * lamp.web->sizeC90M);
+    if (lamp.extended)
+      terms.radius2 = 0.25f * (lamp.web->sizeC0M * lamp.web->sizeC0M + lamp.web->sizeC90M * lamp.web->sizeC90M);
     lampTerms_.push_back(terms);
   }
 }
@@ -98,7 +108,8 @@ void Lights::addEmitter(uint32_t index, MeanEmission& means) {
     const float flip = scene_.instances[index].worldFromObject.determinant() < 0 ? -1.0f : 1.0f;
     const Vec3 n = twiceArea * (flip / (2 * area));
     if (e.triangles.empty()) normal = n;
-    flat = flat && dot(n, normal) > 0.9999f && std::abs(dot(v.a - (e.triangles.empty() ? v.a : e.centre), normal)) < 1e-3f;
+    flat =
+        flat && dot(n, normal) > 0.9999f && std::abs(dot(v.a - (e.triangles.empty() ? v.a : e.centre), normal)) < 1e-3f;
     if (e.triangles.empty()) e.centre = v.a;
     e.bounds.add(v.a), e.bounds.add(v.b), e.bounds.add(v.c);
     flux += lm, e.areaM2 += area;
@@ -145,7 +156,9 @@ float Lights::importance(const LampTerms& lamp, Vec3 p) const {
   if (lamp.web) return webImportance(lamp, p);
   const Vec3 d = p - lamp.position;
   const float distance = length(d), cd = lamp.intensityCd / std::max(distance * distance, 1e-4f);
-  return lamp.cosOuter <= -1 ? cd : cd * spotFalloff(dot(d, lamp.direction) / std::max(distance, 1e-12f), lamp.cosInner, lamp.cosOuter);
+  return lamp.cosOuter <= -1
+             ? cd
+             : cd * spotFalloff(dot(d, lamp.direction) / std::max(distance, 1e-12f), lamp.cosInner, lamp.cosOuter);
 }
 
 // Zero only where no place of the lamp gives light to p.
@@ -220,7 +233,8 @@ LightRay Lights::sampleEmitterRay(size_t index, Sampler& sampler) const {
   const EmitterTriangle& t = chosenTriangle(e, sampler.next1());
   const TriangleVertices& v = t.v;
   const Vec2 b = sampleTriangle(sampler.next2());
-  const Vec3 local = sampleCosineHemisphere(sampler.next2()), n = e.doubleSided && sampler.next1() < 0.5f ? -t.normal : t.normal;
+  const Vec3 local = sampleCosineHemisphere(sampler.next2()),
+             n = e.doubleSided && sampler.next1() < 0.5f ? -t.normal : t.normal;
   LightRay ray;
   ray.emitter = static_cast<int32_t>(index);
   ray.origin = offsetOrigin(v.a * (1 - b.x - b.y) + v.b * b.x + v.c * b.y, n);
@@ -229,12 +243,15 @@ LightRay Lights::sampleEmitterRay(size_t index, Sampler& sampler) const {
   return ray;
 }
 
-LightSample Lights::sampleEmitter(const Emitter& e, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice, float chance) const {
+LightSample Lights::sampleEmitter(const Emitter& e, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice,
+                                  float chance) const {
   const EmitterPieces::Choice piece = e.pieces.choose(pieces, choice);
   if (!(piece.chance > 0)) return {};
   const float before = piece.first > 0 ? e.cdf[piece.first - 1] : 0, end = e.cdf[piece.first + piece.count - 1];
   const auto begin = e.cdf.begin() + piece.first;
-  const auto at = std::min<size_t>(static_cast<size_t>(std::upper_bound(begin, begin + piece.count, before + piece.rest * (end - before)) - begin), piece.count - 1);
+  const auto at = std::min<size_t>(
+      static_cast<size_t>(std::upper_bound(begin, begin + piece.count, before + piece.rest * (end - before)) - begin),
+      piece.count - 1);
   const EmitterTriangle& t = e.triangles[piece.first + at];
   return sampleOnTriangle(e, t, chance * piece.chance * t.share / piece.share, p, u);
 }
@@ -302,7 +319,8 @@ LightTree::Choice Lights::choose(const Range& among, Vec3 p, float choice) const
 }
 
 float Lights::chanceOf(const Range& among, size_t index, Vec3 p) const {
-  if (!among.tree.empty()) return among.tree.chance(index - among.first, p, [&](size_t i) { return localImportance(among.first + i, p); });
+  if (!among.tree.empty())
+    return among.tree.chance(index - among.first, p, [&](size_t i) { return localImportance(among.first + i, p); });
   float total = 0;
   for (size_t i = among.first; i < among.last; ++i) total += localImportance(i, p);
   return total > 0 ? localImportance(index, p) / total : 0;

@@ -34,14 +34,16 @@ class Lights {
     Vec3 normal; // unit, of the front
   };
 
-  // `sunApart`: the sun in an image of the sky counts as one of the suns. The same light, for who takes care of sharp shadows.
+  // `sunApart`: the sun in an image of the sky counts as one of the suns. The same light, for who takes care of sharp
+  // shadows.
   explicit Lights(const Scene& scene, bool sunApart = false);
   // Of a scene that was edited where it stands; suns and sky are as before, and taken from there.
   Lights(const Scene& scene, Lights&& before);
   Lights(Lights&&) = default;
   Lights(const Lights&) = delete;
 
-  // One of the lamps, of the emissive meshes, or of both (lamps first), by what each could give at p without shadows; and the chance with which a certain one is chosen.
+  // One of the lamps, of the emissive meshes, or of both (lamps first), by what each could give at p without shadows;
+  // and the chance with which a certain one is chosen.
   LightTree::Choice chooseLamp(Vec3 p, float choice) const { return choose(lampRange(), p, choice); }
   float chanceOfLamp(size_t index, Vec3 p) const { return chanceOf(lampRange(), index, p); }
   LightTree::Choice chooseEmitter(Vec3 p, float choice) const;
@@ -49,8 +51,12 @@ class Lights {
   LightTree::Choice chooseLocal(Vec3 p, float choice) const { return choose(localRange(), p, choice); }
   float chanceOfLocal(size_t index, Vec3 p) const { return chanceOf(localRange(), index, p); }
   size_t localCount() const { return lamps_.size() + emitters_.size(); }
-  float localImportance(size_t index, Vec3 p) const { return index < lamps_.size() ? importance(lampTerms_[index], p) : importance(emitterTerms_[index - lamps_.size()], p); }
-  // Groups of lamps, of emissive meshes and of both, whose numbers are as everywhere here; empty where there are at most kMostOneByOne.
+  float localImportance(size_t index, Vec3 p) const {
+    return index < lamps_.size() ? importance(lampTerms_[index], p)
+                                 : importance(emitterTerms_[index - lamps_.size()], p);
+  }
+  // Groups of lamps, of emissive meshes and of both, whose numbers are as everywhere here; empty where there are at
+  // most kMostOneByOne.
   static constexpr size_t kMostOneByOne = 64;
   const LightTree& lampTree() const { return lampTree_; }
   const LightTree& emitterTree() const { return emitterTree_; }
@@ -66,19 +72,25 @@ class Lights {
   LightRay sampleLampRay(Sampler& sampler) const;
   // The same of one of them alone.
   LightRay sampleLampRay(size_t index, Sampler& sampler) const;
-  // Such rays per m² of a surface element at p with normal n, of all rays, if nothing stands between. Of an extended lamp as if all
-  // came from its centre.
+  // Such rays per m² of a surface element at p with normal n, of all rays, if nothing stands between. Of an extended
+  // lamp as if all came from its centre.
   float lampDensity(Vec3 p, Vec3 n) const;
   // One sample among emissive meshes only, and its density.
   LightSample sampleEmitters(Vec3 p, Vec2 u, float choice) const;
   float pdfEmitters(Vec3 p, const SurfacePoint& q) const;
   // The same of one alone, as if there were no other, and what its light at p could be without shadows, for choosing.
-  LightSample sampleEmitter(size_t index, Vec3 p, Vec2 u, float choice) const { return sampleEmitter(index, emitterPieces(index, p), p, u, choice); }
+  LightSample sampleEmitter(size_t index, Vec3 p, Vec2 u, float choice) const {
+    return sampleEmitter(index, emitterPieces(index, p), p, u, choice);
+  }
   // For several samples of it at one place: what its pieces could give there.
   EmitterPieces::Weights emitterPieces(size_t index, Vec3 p) const { return emitters_[index].pieces.weights(p); }
-  LightSample sampleEmitter(size_t index, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice) const { return sampleEmitter(emitters_[index], pieces, p, u, choice, 1); }
+  LightSample sampleEmitter(size_t index, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice) const {
+    return sampleEmitter(emitters_[index], pieces, p, u, choice, 1);
+  }
   // A point of one triangle of it, chosen with that chance; dark where the triangle does not shine towards p.
-  LightSample sampleEmitterTriangle(size_t index, size_t triangle, float chance, Vec3 p, Vec2 u) const { return sampleOnTriangle(emitters_[index], emitters_[index].triangles[triangle], chance, p, u); }
+  LightSample sampleEmitterTriangle(size_t index, size_t triangle, float chance, Vec3 p, Vec2 u) const {
+    return sampleOnTriangle(emitters_[index], emitters_[index].triangles[triangle], chance, p, u);
+  }
   float pdfEmitter(size_t index, Vec3 p, const SurfacePoint& q) const { return pdfInEmitter(emitters_[index], p, q); }
   float emitterImportance(size_t index, Vec3 p) const { return importance(emitterTerms_[index], p); }
   float lampImportance(size_t index, Vec3 p) const { return importance(lampTerms_[index], p); }
@@ -106,7 +118,7 @@ class Lights {
   bool hasLocal() const { return !lamps_.empty() || !emitters_.empty(); }
   bool hasEmitters() const { return !emitters_.empty(); }
   double emittedFluxLm() const { return emitterFluxLm_; }  // of emissive meshes
-  double lampFluxLm() const { return lampFluxLm_; }        // by which lamps share rays: of a spot as if without falloff
+  double lampFluxLm() const { return lampFluxLm_; }  // by which lamps share rays: of a spot as if without falloff
 
  private:
   struct Emitter {
@@ -116,26 +128,27 @@ class Lights {
     float areaM2 = 0;
     float fluxLm = 0;
     bool doubleSided = false;
-    bool even = true;     // emits the same everywhere
-    Vec3 emission;        // if so
+    bool even = true;  // emits the same everywhere
+    Vec3 emission;  // if so
     EmitterPieces pieces;
     std::vector<EmitterTriangle> triangles;  // by piece
-    std::vector<float> cdf;                  // upper ends of their shares
+    std::vector<float> cdf;  // upper ends of their shares
     std::vector<int32_t> slotOfTriangle;  // mesh triangle -> index into triangles, -1: does not emit
   };
   struct EmitterTerms {  // of emitters_[i], worked out once
     Vec3 centre, normal;  // normal: zero unless it lies in a plane and shines to one side
-    float cd;             // its flux over pi
-    float least2;         // m2, of the distance at least
+    float cd;  // its flux over pi
+    float least2;  // m2, of the distance at least
   };
   struct LampTerms {  // of lamps_[i], worked out once
     Vec3 position, direction;
-    float intensityCd;           // luminance
-    float cosInner, cosOuter;    // of a spot; -1 for a point
-    float raysPerSr, cosSpread;  // density of lamp rays, of all lamps' rays, inside the cone of that cosine; without a web
-    const Lamp* web;             // the lamp, where it has a web
-    float radius2 = 0;           // m²; of an extended lamp
-    bool shinesUp = true;        // of a web
+    float intensityCd;  // luminance
+    float cosInner, cosOuter;  // of a spot; -1 for a point
+    float raysPerSr,
+        cosSpread;  // density of lamp rays, of all lamps' rays, inside the cone of that cosine; without a web
+    const Lamp* web;  // the lamp, where it has a web
+    float radius2 = 0;  // m²; of an extended lamp
+    bool shinesUp = true;  // of a web
   };
   // Lamps, emissive meshes, or both, as indices into the list "lamps, then emissive meshes".
   struct Range {
@@ -156,8 +169,11 @@ class Lights {
   float webImportance(const LampTerms& lamp, Vec3 p) const;
   void addLamps();
   LightRay lampRay(size_t index, Vec2 u, float chance, Sampler& sampler) const;
-  LightSample sampleEmitter(const Emitter& e, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice, float chance) const;
-  LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const { return sampleEmitter(e, e.pieces.weights(p), p, u, choice, chance); }
+  LightSample sampleEmitter(const Emitter& e, const EmitterPieces::Weights& pieces, Vec3 p, Vec2 u, float choice,
+                            float chance) const;
+  LightSample sampleEmitter(const Emitter& e, Vec3 p, Vec2 u, float choice, float chance) const {
+    return sampleEmitter(e, e.pieces.weights(p), p, u, choice, chance);
+  }
   LightSample sampleOnTriangle(const Emitter& e, const EmitterTriangle& t, float chance, Vec3 p, Vec2 u) const;
   float pdfInEmitter(const Emitter& e, Vec3 p, const SurfacePoint& q) const;
   static void takePieces(Emitter& e);

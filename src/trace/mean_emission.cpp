@@ -53,7 +53,9 @@ float meanOfSamples(const Scene& scene, const Mesh& mesh, uint32_t triangle, siz
 
 }  // namespace
 
-bool emitsEvenly(const Material& material) { return material.emissionTexture.texture < 0 && material.alphaMode == AlphaMode::Opaque; }
+bool emitsEvenly(const Material& material) {
+  return material.emissionTexture.texture < 0 && material.alphaMode == AlphaMode::Opaque;
+}
 
 BlockSums::BlockSums(const Texture& texture, Of what)
     : texture_(texture),
@@ -66,8 +68,12 @@ BlockSums::BlockSums(const Texture& texture, Of what)
       // Where four texels meet a look-up is their mean.
       double sum = 0;
       for (int k = 0; k < kBlock * kBlock / 4; ++k) {
-        const size_t tx = x * kBlock + static_cast<size_t>(2 * (k % (kBlock / 2)) + 1), ty = y * kBlock + static_cast<size_t>(2 * (k / (kBlock / 2)) + 1);
-        const Rgba value = sampleTexture(texture, {static_cast<float>(tx) / static_cast<float>(texture.width), static_cast<float>(ty) / static_cast<float>(texture.height)}, true);
+        const size_t tx = x * kBlock + static_cast<size_t>(2 * (k % (kBlock / 2)) + 1),
+                     ty = y * kBlock + static_cast<size_t>(2 * (k / (kBlock / 2)) + 1);
+        const Rgba value = sampleTexture(texture,
+                                         {static_cast<float>(tx) / static_cast<float>(texture.width),
+                                          static_cast<float>(ty) / static_cast<float>(texture.height)},
+                                         true);
         sum += static_cast<double>(what == Of::Light ? luminance(value.rgb) : value.a);
       }
       sums_[(y + 1) * stride + x + 1] = static_cast<uint64_t>(std::ceil(sum / (kBlock * kBlock / 4) * kOne));
@@ -108,8 +114,10 @@ std::vector<float> MeanEmission::compute(const Mesh& mesh) {
     const auto triangle = static_cast<uint32_t>(t);
     const float around = meanAround(light, mesh, triangle, emission) * meanAround(alpha, mesh, triangle, base);
     if (!(around > 0)) return static_cast<void>(means[t] = 0);
-    const float texels = std::max(texelsOn(scene_, mesh, triangle, emission), holes ? texelsOn(scene_, mesh, triangle, base) : 0);
-    const auto samples = static_cast<size_t>(std::max(static_cast<float>(kFewestSamples), std::min(static_cast<float>(most), texels / kTexelsPerSample)));
+    const float texels =
+        std::max(texelsOn(scene_, mesh, triangle, emission), holes ? texelsOn(scene_, mesh, triangle, base) : 0);
+    const auto samples = static_cast<size_t>(
+        std::max(static_cast<float>(kFewestSamples), std::min(static_cast<float>(most), texels / kTexelsPerSample)));
     const float sampled = meanOfSamples(scene_, mesh, triangle, samples);
     means[t] = light || alpha ? std::max(sampled, kLeast * means[t] * around) : sampled;
   });

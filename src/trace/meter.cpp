@@ -20,7 +20,8 @@ class Sums {
  public:
   void add(Vec3 lux) {
     const double l = static_cast<double>(luminance(lux));
-    r_ += static_cast<double>(lux.x), g_ += static_cast<double>(lux.y), b_ += static_cast<double>(lux.z), squares_ += l * l;
+    r_ += static_cast<double>(lux.x), g_ += static_cast<double>(lux.y), b_ += static_cast<double>(lux.z),
+        squares_ += l * l;
     ++count_;
   }
   void add(const Sums& sums) {
@@ -56,7 +57,8 @@ double meanLux(const std::vector<Sums>& all) {
 }
 
 // What comes straight from the sky.
-void lightBySky(const RayScene& rays, const OpenSky& sky, const SurfaceElement& element, const Batch& batch, uint64_t seed, std::span<Vec3> lux) {
+void lightBySky(const RayScene& rays, const OpenSky& sky, const SurfaceElement& element, const Batch& batch,
+                uint64_t seed, std::span<Vec3> lux) {
   const Vec3 origin = offsetOrigin(element.position, element.normal);
   std::vector<Ray> shadows;
   std::vector<Vec3> left(lux.size());
@@ -72,8 +74,10 @@ void lightBySky(const RayScene& rays, const OpenSky& sky, const SurfaceElement& 
 
 }  // namespace
 
-std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings, const SampleMeter& sample,
-                                     const Progress& progress, const PrepareMeters& prepare) {
+std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
+                                     std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                     const SampleMeter& sample, const Progress& progress,
+                                     const PrepareMeters& prepare) {
   const size_t n = elements.size();
   std::vector<std::optional<OpenSky>> skies(lights.sky().present() ? n : 0);
   parallelFor(skies.size(), 8, [&](size_t i) { skies[i].emplace(rays, lights, elements[i], settings.seed + i); });
@@ -81,11 +85,13 @@ std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
   std::vector<size_t> open(n);
   for (size_t i = 0; i < n; ++i) open[i] = i;
   uint32_t round = 0;
-  for (int done = 0, count = settings.fewestSamples; !open.empty() && count <= settings.mostSamples; done = count, count *= 2) {
+  for (int done = 0, count = settings.fewestSamples; !open.empty() && count <= settings.mostSamples;
+       done = count, count *= 2) {
     if (prepare) prepare(round++, open.size() * static_cast<size_t>(count - done));
     std::vector<Batch> batches;
     for (const size_t i : open) {
-      for (int first = done; first < count; first += kAtOnce) batches.push_back({i, first, std::min(kAtOnce, count - first), {}});
+      for (int first = done; first < count; first += kAtOnce)
+        batches.push_back({i, first, std::min(kAtOnce, count - first), {}});
     }
     parallelFor(batches.size(), 1, [&](size_t b) {
       if (progress.stop()) return;
@@ -100,7 +106,8 @@ std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
     const double dark = kOfMean * meanLux(sums);
     std::erase_if(open, [&](size_t i) {
       const MeterReading m = sums[i].reading();
-      return m.standardErrorLux <= settings.tolerance * std::max(static_cast<double>(luminance(m.illuminanceLux)), dark);
+      return m.standardErrorLux <=
+             settings.tolerance * std::max(static_cast<double>(luminance(m.illuminanceLux)), dark);
     });
     progress.at(1 - static_cast<float>(open.size()) / static_cast<float>(n));
   }

@@ -13,7 +13,8 @@
 
 namespace roomlight {
 
-// A small flat piece that light falls on from the side its unit normal points to, such as the dome of an incident meter.
+// A small flat piece that light falls on from the side its unit normal points to, such as the dome of an incident
+// meter.
 struct SurfaceElement {
   Vec3 position, normal{0, 1, 0};
 };
@@ -30,17 +31,20 @@ struct MeterSettings {
   uint64_t seed = 0;
 };
 
-// Light on elements but what comes straight from the sky: that of `count` samples of one of them, from the one numbered `first` on,
-// is added to `lux`.
+// Light on elements but what comes straight from the sky: that of `count` samples of one of them, from the one numbered
+// `first` on, is added to `lux`.
 using SampleMeter = std::function<void(size_t element, int first, int count, std::span<Vec3> lux)>;
 
 // Called before every round, with its number and how many samples all meters take in it.
 using PrepareMeters = std::function<void(uint32_t round, size_t samples)>;
 
-// A reading for each element; `sample` is called from many threads. The sky is sampled here, where it is open (open_sky.h).
-// Every meter takes fewestSamples; those that are not yet as certain as the tolerance asks, or as a hundredth of what meters show on average
-// needs, go on to twice as many, up to mostSamples. Does not depend on the number of threads. Once `progress` says stop, readings are those so far.
-std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights, std::span<const SurfaceElement> elements, const MeterSettings& settings, const SampleMeter& sample,
-                                     const Progress& progress = {}, const PrepareMeters& prepare = {});
+// A reading for each element; `sample` is called from many threads. The sky is sampled here, where it is open
+// (open_sky.h). Every meter takes fewestSamples; those that are not yet as certain as the tolerance asks, or as a
+// hundredth of what meters show on average needs, go on to twice as many, up to mostSamples. Does not depend on the
+// number of threads. Once `progress` says stop, readings are those so far.
+std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
+                                     std::span<const SurfaceElement> elements, const MeterSettings& settings,
+                                     const SampleMeter& sample, const Progress& progress = {},
+                                     const PrepareMeters& prepare = {});
 
 }  // namespace roomlight

@@ -29,7 +29,8 @@ OpenSky::OpenSky(const RayScene& rays, const Lights& lights, const SurfaceElemen
     forAround(i, [&](int other) { brightest = std::max(brightest, found[static_cast<size_t>(other)]); });
     sum += weight[static_cast<size_t>(i)] = std::max(found[static_cast<size_t>(i)], kNeighbour * brightest);
   }
-  for (size_t i = 0; i < kCells; ++i) upTo_[i] = upTo += sum > 0 ? kAnywhere / kCells + (1 - kAnywhere) * weight[i] / sum : 1.0f / kCells;
+  for (size_t i = 0; i < kCells; ++i)
+    upTo_[i] = upTo += sum > 0 ? kAnywhere / kCells + (1 - kAnywhere) * weight[i] / sum : 1.0f / kCells;
 }
 
 template <class Body>
@@ -40,7 +41,8 @@ void OpenSky::forAround(int cell, Body&& body) {
   }
 }
 
-// Mean luminance of the sky that is seen in each cell: a ray each, and more where there is some. What is seen through an opening hangs together.
+// Mean luminance of the sky that is seen in each cell: a ray each, and more where there is some. What is seen through
+// an opening hangs together.
 std::array<float, OpenSky::kCells> OpenSky::look(const RayScene& rays, Vec3 origin, uint64_t seed) const {
   std::array<float, kCells> sum{}, count{};
   std::array<bool, kCells> looked{};
@@ -76,7 +78,8 @@ std::array<float, OpenSky::kCells> OpenSky::look(const RayScene& rays, Vec3 orig
 
 // Parts even in azimuth and in the square of the sine of the angle from the normal.
 Vec3 OpenSky::direction(int cell, Vec2 u) const {
-  const float azimuth = 2 * kPi * (static_cast<float>(cell % kAround) + u.x) / kAround, sin2 = (static_cast<float>(cell / kAround) + u.y) / kUp;
+  const float azimuth = 2 * kPi * (static_cast<float>(cell % kAround) + u.x) / kAround,
+              sin2 = (static_cast<float>(cell / kAround) + u.y) / kUp;
   const float sine = std::sqrt(sin2);
   return frame_.toWorld({sine * std::cos(azimuth), sine * std::sin(azimuth), std::sqrt(std::max(0.0f, 1 - sin2))});
 }
@@ -84,7 +87,8 @@ Vec3 OpenSky::direction(int cell, Vec2 u) const {
 LightSample OpenSky::sample(Vec2 u) const {
   LightSample out;
   const float pick = u.x * upTo_[kCells - 1];
-  const auto cell = std::min<size_t>(static_cast<size_t>(std::upper_bound(upTo_.begin(), upTo_.end(), pick) - upTo_.begin()), kCells - 1);
+  const auto cell = std::min<size_t>(
+      static_cast<size_t>(std::upper_bound(upTo_.begin(), upTo_.end(), pick) - upTo_.begin()), kCells - 1);
   const float before = cell > 0 ? upTo_[cell - 1] : 0, chance = upTo_[cell] - before;
   out.wi = direction(static_cast<int>(cell), {std::clamp((pick - before) / chance, 0.0f, 0x1.fffffep-1f), u.y});
   out.pdf = chance * kCells * std::max(dot(out.wi, frame_.toWorld({0, 0, 1})), 1e-6f) / kPi;

@@ -1,5 +1,5 @@
-// Where a light meter sees the sky: found by a few rays, and then sampled there. A window that fills a hundredth of the sky is hit by every ray
-// instead of by every hundredth.
+// Where a light meter sees the sky: found by a few rays, and then sampled there. A window that fills a hundredth of the
+// sky is hit by every ray instead of by every hundredth.
 #pragma once
 
 #include <array>
@@ -15,12 +15,14 @@ struct SurfaceElement;
 
 class OpenSky {
  public:
-  // Sends a ray into each of kCells parts of the hemisphere over the element that count alike for illuminance, and more around those that see the sky.
+  // Sends a ray into each of kCells parts of the hemisphere over the element that count alike for illuminance, and more
+  // around those that see the sky.
   OpenSky(const RayScene& rays, const Lights& lights, const SurfaceElement& element, uint64_t seed);
 
   // Whether there is a sky at all.
   bool present() const { return present_; }
-  // A direction above the element in which the sky is probably seen. `radiance` is divided by the density, which is above zero wherever the element can see.
+  // A direction above the element in which the sky is probably seen. `radiance` is divided by the density, which is
+  // above zero wherever the element can see.
   LightSample sample(Vec2 u) const;
 
  private:

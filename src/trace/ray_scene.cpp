@@ -85,12 +85,12 @@ struct RayScene::State {
   RTCScene top = nullptr;
   // Once anything has moved: what was there at first, and what has moved, which `top` holds then. Both in world space.
   RTCScene still = nullptr, moving = nullptr;
-  std::vector<uint8_t> gone;      // per instance: what `still` holds of it is no longer there; empty before that
-  std::vector<int> movingMesh;    // per instance: the mesh whose geometry `moving` has for it, or -1; empty before that
-  bool shares = false;               // meshes are Embree instances, below which there can be no more
+  std::vector<uint8_t> gone;  // per instance: what `still` holds of it is no longer there; empty before that
+  std::vector<int> movingMesh;  // per instance: the mesh whose geometry `moving` has for it, or -1; empty before that
+  bool shares = false;  // meshes are Embree instances, below which there can be no more
   RayLog* log = nullptr;
   std::vector<RTCScene> meshScenes;  // of instanced meshes, else null
-  std::vector<GeometryTag> tags;     // one per mesh
+  std::vector<GeometryTag> tags;  // one per mesh
   std::once_flag surfacesMade;
   std::unique_ptr<Surfaces> surfaces;
 
@@ -210,7 +210,8 @@ RTCScene RayScene::State::newScene() const {
   return made;
 }
 
-// A filter for all surfaces takes some hundredths of the rays' time, a build of the whole without what has moved a second.
+// A filter for all surfaces takes some hundredths of the rays' time, a build of the whole without what has moved a
+// second.
 void RayScene::State::begin(Query& query) const {
   rtcInitIntersectContext(&query.base);
   query.gone = gone.empty() ? nullptr : gone.data();
@@ -224,7 +225,8 @@ void RayScene::State::commitTop() {
   bounds = {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
 }
 
-// Nothing has moved yet: all stays in one hierarchy, below a top that has room for another, in which each thing has its own, refitted as it moves on.
+// Nothing has moved yet: all stays in one hierarchy, below a top that has room for another, in which each thing has its
+// own, refitted as it moves on.
 void RayScene::State::part() {
   still = top;
   moving = newScene(), top = newScene();
@@ -248,7 +250,8 @@ void RayScene::State::move(uint32_t index) {
   int& known = movingMesh[index];
   if (known == instance.mesh) {
     RTCGeometry geometry = rtcGetGeometry(moving, index);
-    placeVertices(static_cast<Vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)), mesh, instance.worldFromObject);
+    placeVertices(static_cast<Vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)), mesh,
+                  instance.worldFromObject);
     rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     setFilters(geometry, mesh);
     rtcCommitGeometry(geometry);
@@ -297,12 +300,23 @@ Hit RayScene::intersect(const Ray& ray) const {
   Query query{};
   state_->begin(query);
   RTCRayHit r;
-  r.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.tMin, ray.direction.x, ray.direction.y, ray.direction.z,
-           0, ray.tMax, 0xffffffffu, 0, 0};
+  r.ray = {ray.origin.x,
+           ray.origin.y,
+           ray.origin.z,
+           ray.tMin,
+           ray.direction.x,
+           ray.direction.y,
+           ray.direction.z,
+           0,
+           ray.tMax,
+           0xffffffffu,
+           0,
+           0};
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->top, &query.base, &r);
-  return state_->hit(r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
+  return state_->hit(r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar,
+                     {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
 }
 
 Vec3 RayScene::transmittance(const Ray& ray) const {
@@ -310,8 +324,18 @@ Vec3 RayScene::transmittance(const Ray& ray) const {
   Query query{};
   state_->begin(query);
   query.left = &left;
-  RTCRay r{ray.origin.x, ray.origin.y, ray.origin.z, ray.tMin, ray.direction.x, ray.direction.y, ray.direction.z,
-           0, ray.tMax, 0xffffffffu, 0, 0};
+  RTCRay r{ray.origin.x,
+           ray.origin.y,
+           ray.origin.z,
+           ray.tMin,
+           ray.direction.x,
+           ray.direction.y,
+           ray.direction.z,
+           0,
+           ray.tMax,
+           0xffffffffu,
+           0,
+           0};
   rtcOccluded1(state_->top, &query.base, &r);
   return r.tfar < 0 ? Vec3(0) : left;
 }
@@ -330,7 +354,9 @@ void setLane(Ray8& r, unsigned i, const Ray& ray) {
 }  // namespace
 
 void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const { intersectPackets(rays, hits, false); }
-void RayScene::intersectClose(std::span<const Ray> rays, std::span<Hit> hits) const { intersectPackets(rays, hits, true); }
+void RayScene::intersectClose(std::span<const Ray> rays, std::span<Hit> hits) const {
+  intersectPackets(rays, hits, true);
+}
 
 void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, bool close) const {
   state_->note(close ? RayLog::Kind::NearestClose : RayLog::Kind::Nearest, rays);
@@ -350,7 +376,8 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
     rtcIntersect8(valid, state_->top, &query.base, &r);
     for (unsigned i = 0; i < n; ++i) {
       const Vec3 ng{r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]};
-      hits[first + i] = state_->hit(r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i], ng);
+      hits[first + i] =
+          state_->hit(r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i], ng);
     }
   }
 }

@@ -29,9 +29,7 @@ struct Hit {
 
 // Rays in the order in which they were traced, many at a time, for measuring.
 struct RayLog {
-  enum class Kind : uint8_t { Nearest,
-                              NearestClose,
-                              Shadow };
+  enum class Kind : uint8_t { Nearest, NearestClose, Shadow };
   struct Batch {
     Kind kind;
     size_t first, count;
@@ -60,10 +58,10 @@ class RayScene {
   Vec3 transmittance(const Ray& ray) const;
   void transmittance(std::span<const Ray> rays, std::span<Vec3> left) const;
 
-  // Follows the scene, edited where it stands, after these instances moved or got another mesh (one without triangles hides them). What
-  // has moved once has a hierarchy of its own from then on, and where it was at first is no longer met: this costs a build of what moves. With meshes
-  // shared, in scenes of millions of triangles, the whole is built anew.
-  // The same hits, bit for bit, as of a RayScene made anew. No ray may be under way.
+  // Follows the scene, edited where it stands, after these instances moved or got another mesh (one without triangles
+  // hides them). What has moved once has a hierarchy of its own from then on, and where it was at first is no longer
+  // met: this costs a build of what moves. With meshes shared, in scenes of millions of triangles, the whole is built
+  // anew. The same hits, bit for bit, as of a RayScene made anew. No ray may be under way.
   void update(std::span<const uint32_t> changedInstances);
 
   // From here on, what is traced many rays at a time is added to `log`, by one thread only; null ends that.

@@ -7,14 +7,13 @@ namespace roomlight {
 namespace {
 
 constexpr int kMaxTableWidth = 512, kConstantTableWidth = 64;
-// What stands apart as a spot: a part of the sky's light this large, within this angle of the brightest cell, of cells at least so bright
-// beside it.
+// What stands apart as a spot: a part of the sky's light this large, within this angle of the brightest cell, of cells
+// at least so bright beside it.
 constexpr double kSpotShare = 0.05, kSpotContrast = 0.02;
 constexpr float kSpotRad = 0.06f;
 
 Vec3 texel(const Image& image, int x, int y) {
-  x = x < 0 ? x + image.width : x >= image.width ? x - image.width
-                                                 : x;
+  x = x < 0 ? x + image.width : x >= image.width ? x - image.width : x;
   y = std::clamp(y, 0, image.height - 1);
   return image.at(x, y);
 }
@@ -27,7 +26,9 @@ int countUpTo(const float* ends, int count, float v) {
 }
 
 // Where v lies between two values (0..1).
-float placeWithin(float begin, float end, float v) { return end > begin ? std::clamp((v - begin) / (end - begin), 0.0f, 0.999999f) : 0.5f; }
+float placeWithin(float begin, float end, float v) {
+  return end > begin ? std::clamp((v - begin) / (end - begin), 0.0f, 0.999999f) : 0.5f;
+}
 
 // Index of the cell of an increasing table in which v falls, and where in it (0..1).
 int findCell(const float* cdf, int count, float v, float& within) {
@@ -56,12 +57,13 @@ SkyDistribution::SkyDistribution(const Sky& sky, bool spotApart) : sky_(sky) {
   double total = 0;
   Vec3 sum;
   double area = 0;
-  // Cells take every texel under them and its neighbours, because look-ups are bilinear: no radiance without density. Images
-  // smaller than the table are walked in steps of its cells.
+  // Cells take every texel under them and its neighbours, because look-ups are bilinear: no radiance without density.
+  // Images smaller than the table are walked in steps of its cells.
   const int rows = std::max(image.height, height_), columns = std::max(image.width, width_);
   for (int j = 0; j < rows; ++j) {
     const double s = std::sin(kPi * (j + 0.5) / rows);
-    const int row = static_cast<int>(static_cast<int64_t>(j) * height_ / rows), y = static_cast<int>(static_cast<int64_t>(j) * image.height / rows);
+    const int row = static_cast<int>(static_cast<int64_t>(j) * height_ / rows),
+              y = static_cast<int>(static_cast<int64_t>(j) * image.height / rows);
     for (int i = 0; i < columns; ++i) {
       const int x = static_cast<int>(static_cast<int64_t>(i) * image.width / columns);
       const Vec3 c = texel(image, x, y);
@@ -83,9 +85,12 @@ SkyDistribution::SkyDistribution(const Sky& sky, bool spotApart) : sky_(sky) {
   tabulate(weights, total);
 }
 
-// Takes cells around the brightest out of the table, where they hold a good part of the sky's light. Returns their weight.
+// Takes cells around the brightest out of the table, where they hold a good part of the sky's light. Returns their
+// weight.
 double SkyDistribution::takeSpot(std::vector<double>& weights) {
-  const auto density = [&](size_t i) { return weights[i] / std::sin(kPi * (static_cast<double>(i / static_cast<size_t>(width_)) + 0.5) / height_); };
+  const auto density = [&](size_t i) {
+    return weights[i] / std::sin(kPi * (static_cast<double>(i / static_cast<size_t>(width_)) + 0.5) / height_);
+  };
   size_t brightest = 0;
   double total = 0;
   for (size_t i = 0; i < weights.size(); ++i) {
@@ -93,10 +98,12 @@ double SkyDistribution::takeSpot(std::vector<double>& weights) {
     if (density(i) > density(brightest)) brightest = i;
   }
   const double least = kSpotContrast * density(brightest);
-  const Vec3 middle = directionIn(static_cast<int>(brightest % static_cast<size_t>(width_)), static_cast<int>(brightest / static_cast<size_t>(width_)), 0.5f, 0.5f);
+  const Vec3 middle = directionIn(static_cast<int>(brightest % static_cast<size_t>(width_)),
+                                  static_cast<int>(brightest / static_cast<size_t>(width_)), 0.5f, 0.5f);
   double taken = 0;
   for (size_t i = 0; i < weights.size(); ++i) {
-    const int row = static_cast<int>(i / static_cast<size_t>(width_)), column = static_cast<int>(i % static_cast<size_t>(width_));
+    const int row = static_cast<int>(i / static_cast<size_t>(width_)),
+              column = static_cast<int>(i % static_cast<size_t>(width_));
     if (density(i) < least || dot(directionIn(column, row, 0.5f, 0.5f), middle) < std::cos(kSpotRad)) continue;
     spot_.push_back({static_cast<int64_t>(i), cellMean(column, row), 1, 0});
     taken += weights[i];
@@ -132,17 +139,20 @@ Vec3 SkyDistribution::cellMean(int column, int row) const {
 }
 
 SkyDistribution::Sample SkyDistribution::sampleSpot(Vec2 u) const {
-  const auto it = std::upper_bound(spot_.begin(), spot_.end(), u.x, [](float v, const SpotCell& c) { return v < c.upTo; });
+  const auto it =
+      std::upper_bound(spot_.begin(), spot_.end(), u.x, [](float v, const SpotCell& c) { return v < c.upTo; });
   const SpotCell& c = it == spot_.end() ? spot_.back() : *it;
   const float within = std::clamp((u.x - (c.upTo - c.share)) / c.share, 0.0f, 0.999999f);
-  return {directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_), within, u.y), spotPdf(c), {}};
+  return {
+      directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_), within, u.y), spotPdf(c), {}};
 }
 
 Bounds3 SkyDistribution::spotDirections() const {
   Bounds3 out;
   for (const SpotCell& c : spot_) {
     for (int corner = 0; corner < 4; ++corner) {
-      out.add(directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_), static_cast<float>(corner & 1), static_cast<float>(corner >> 1)));
+      out.add(directionIn(static_cast<int>(c.cell % width_), static_cast<int>(c.cell / width_),
+                          static_cast<float>(corner & 1), static_cast<float>(corner >> 1)));
     }
   }
   const Vec3 bulge(0.01f);  // of the sphere within a cell
@@ -152,7 +162,8 @@ Bounds3 SkyDistribution::spotDirections() const {
 const SkyDistribution::SpotCell* SkyDistribution::spotAt(Vec2 uv) const {
   if (spot_.empty()) return nullptr;
   const int64_t cell = cellAt(uv);
-  const auto it = std::lower_bound(spot_.begin(), spot_.end(), cell, [](const SpotCell& c, int64_t v) { return c.cell < v; });
+  const auto it =
+      std::lower_bound(spot_.begin(), spot_.end(), cell, [](const SpotCell& c, int64_t v) { return c.cell < v; });
   return it == spot_.end() || it->cell != cell ? nullptr : &*it;
 }
 
@@ -162,7 +173,10 @@ Vec3 SkyDistribution::spotRadiance(Vec3 d, float& pdf) const {
   return c ? c->radiance : Vec3(0);
 }
 
-float SkyDistribution::spotPdf(const SpotCell& c) const { return c.share / solidAngleAt(std::sin(kPi * (static_cast<float>(c.cell / width_) + 0.5f) / static_cast<float>(height_))); }
+float SkyDistribution::spotPdf(const SpotCell& c) const {
+  return c.share /
+         solidAngleAt(std::sin(kPi * (static_cast<float>(c.cell / width_) + 0.5f) / static_cast<float>(height_)));
+}
 
 void SkyDistribution::tabulateConstant() {
   width_ = kConstantTableWidth, height_ = kConstantTableWidth / 2;
@@ -188,7 +202,8 @@ void SkyDistribution::tabulate(const std::vector<double>& weights, double total)
       const double w = weights[static_cast<size_t>(y) * width_ + x];
       cells_[static_cast<size_t>(y) * width_ + x] = static_cast<float>(w / total);
       running += w;
-      columnCdf_[static_cast<size_t>(y) * (width_ + 1) + x + 1] = rowSum > 0 ? static_cast<float>(running / rowSum) : static_cast<float>(x + 1) / static_cast<float>(width_);
+      columnCdf_[static_cast<size_t>(y) * (width_ + 1) + x + 1] =
+          rowSum > 0 ? static_cast<float>(running / rowSum) : static_cast<float>(x + 1) / static_cast<float>(width_);
     }
     rows += rowSum;
     rowCdf_[static_cast<size_t>(y) + 1] = static_cast<float>(rows / total);
@@ -208,7 +223,8 @@ void SkyDistribution::tabulate(const std::vector<double>& weights, double total)
     float* rowEnds = &blockRows_[block * high];
     for (size_t y = 1; y < high; ++y) rowEnds[y] += rowEnds[y - 1];
     const float whole = rowEnds[high - 1];
-    for (size_t y = 0; y < high; ++y) rowEnds[y] = whole > 0 ? rowEnds[y] / whole : static_cast<float>(y + 1) / static_cast<float>(high);
+    for (size_t y = 0; y < high; ++y)
+      rowEnds[y] = whole > 0 ? rowEnds[y] / whole : static_cast<float>(y + 1) / static_cast<float>(high);
   }
 }
 
@@ -224,7 +240,9 @@ int64_t SkyDistribution::cellAt(Vec2 uv) const {
   return static_cast<int64_t>(row) * width_ + column;
 }
 
-float SkyDistribution::solidAngleAt(float sinTheta) const { return (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(sinTheta, 1e-6f); }
+float SkyDistribution::solidAngleAt(float sinTheta) const {
+  return (2 * kPi / static_cast<float>(width_)) * (kPi / static_cast<float>(height_)) * std::max(sinTheta, 1e-6f);
+}
 
 Vec3 SkyDistribution::radianceAt(Vec2 uv) const {
   const Image& image = sky_.image;
@@ -269,7 +287,8 @@ Vec3 SkyDistribution::directionIn(int column, int row, float dx, float dy) const
 }
 
 SkyDistribution::Sample SkyDistribution::inCell(int column, int row, float dx, float dy) const {
-  const Vec2 uv{(static_cast<float>(column) + dx) / static_cast<float>(width_), (static_cast<float>(row) + dy) / static_cast<float>(height_)};
+  const Vec2 uv{(static_cast<float>(column) + dx) / static_cast<float>(width_),
+                (static_cast<float>(row) + dy) / static_cast<float>(height_)};
   const Vec3 d = directionIn(column, row, dx, dy);
   return {d, cells_[static_cast<size_t>(row) * width_ + column] / solidAngleAt(std::sqrt(d.x * d.x + d.z * d.z)), uv};
 }
@@ -287,9 +306,12 @@ SkyDistribution::Sample SkyDistribution::sampleBlock(int block, Vec2 u) const {
 }
 
 int SkyDistribution::blockAt(Vec2 uv) const {
-  return std::clamp(static_cast<int>(uv.y * kBlocksY), 0, kBlocksY - 1) * kBlocksX + std::clamp(static_cast<int>(uv.x * kBlocksX), 0, kBlocksX - 1);
+  return std::clamp(static_cast<int>(uv.y * kBlocksY), 0, kBlocksY - 1) * kBlocksX +
+         std::clamp(static_cast<int>(uv.x * kBlocksX), 0, kBlocksX - 1);
 }
 
-float SkyDistribution::pdfAt(Vec2 uv) const { return cells_.empty() ? 0 : cells_[static_cast<size_t>(cellAt(uv))] / solidAngleAt(std::sin(kPi * uv.y)); }
+float SkyDistribution::pdfAt(Vec2 uv) const {
+  return cells_.empty() ? 0 : cells_[static_cast<size_t>(cellAt(uv))] / solidAngleAt(std::sin(kPi * uv.y));
+}
 
 }  // namespace roomlight

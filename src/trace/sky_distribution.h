@@ -10,7 +10,8 @@ namespace roomlight {
 
 class SkyDistribution {
  public:
-  // `spotApart`: whether a small and bright part of an image, as a sun is, is no part of all else here but stands in spot...().
+  // `spotApart`: whether a small and bright part of an image, as a sun is, is no part of all else here but stands in
+// spot...().
   explicit SkyDistribution(const Sky& sky, bool spotApart = false);
 
   bool present() const { return present_; }
@@ -32,19 +33,21 @@ class SkyDistribution {
   float pdfAt(Vec2 uv) const;
   Vec2 toUv(Vec3 d) const;
 
-  // The spot that stands apart, of even light within each cell of the table. Its samples all give the same luminance over density,
-  // except for what cells differ in colour.
+  // The spot that stands apart, of even light within each cell of the table. Its samples all give the same luminance
+  // over density, except for what cells differ in colour.
   bool hasSpot() const { return !spot_.empty(); }
   Sample sampleSpot(Vec2 u) const;
   Bounds3 spotDirections() const;  // a box that holds all unit directions of it
   Vec3 spotRadiance(Vec3 d, float& pdf) const;  // cd/m² and density of sampleSpot() there; 0 outside
 
-  // The sphere in kBlocks parts of the map, for callers that know which of them are worth while. `pdf` of a sample is that of
-  // sample(): blockShare(block) times the density inside its block.
+  // The sphere in kBlocks parts of the map, for callers that know which of them are worth while. `pdf` of a sample is
+  // that of sample(): blockShare(block) times the density inside its block.
   static constexpr int kBlocksX = 32, kBlocksY = 16, kBlocks = kBlocksX * kBlocksY;
   int blockOf(Vec3 d) const { return blockAt(toUv(d)); }
   int blockAt(Vec2 uv) const;
-  float blockShare(int block) const { return blockShare_[static_cast<size_t>(block)]; }  // of the sky's light, weighted as in sample(); sums to 1
+  float blockShare(int block) const {
+    return blockShare_[static_cast<size_t>(block)];
+  }  // of the sky's light, weighted as in sample(); sums to 1
   Sample sampleBlock(int block, Vec2 u) const;
 
  private:
@@ -65,12 +68,12 @@ class SkyDistribution {
   Sample inCell(int column, int row, float dx, float dy) const;
   const Sky& sky_;
   bool present_ = false;
-  int width_ = 0, height_ = 0;   // of the table
+  int width_ = 0, height_ = 0;  // of the table
   float cosRotation_ = 1, sinRotation_ = 0;
   Vec3 mean_;
-  std::vector<float> cells_;     // density per cell, sums to 1
-  std::vector<float> rowCdf_;    // height + 1
-  std::vector<float> columnCdf_; // (width + 1) per row
+  std::vector<float> cells_;  // density per cell, sums to 1
+  std::vector<float> rowCdf_;  // height + 1
+  std::vector<float> columnCdf_;  // (width + 1) per row
   std::vector<float> blockShare_;
   std::vector<float> blockRows_;  // per block: up to the end of each of its rows of cells, the last 1
   std::vector<SpotCell> spot_;

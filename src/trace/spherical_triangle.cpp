@@ -10,11 +10,13 @@ float triangleSolidAngle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   return 2 * (half < 0 ? half + kPi : half);
 }
 
-SphericalTriangle::SphericalTriangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, float solidAngle) : a_(normalize(a - p)), b_(normalize(b - p)), c_(normalize(c - p)), solidAngle_(solidAngle) {
+SphericalTriangle::SphericalTriangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, float solidAngle)
+    : a_(normalize(a - p)), b_(normalize(b - p)), c_(normalize(c - p)), solidAngle_(solidAngle) {
   // The angle between the planes of the arcs AB and AC.
   const Vec3 ab = cross(a_, b_), ac = cross(a_, c_);
   const float l = std::sqrt(lengthSquared(ab) * lengthSquared(ac));
-  if (l > 0) cosAlpha_ = std::clamp(dot(ab, ac) / l, -1.0f, 1.0f), sinAlpha_ = std::min(1.0f, length(cross(ab, ac)) / l);
+  if (l > 0)
+    cosAlpha_ = std::clamp(dot(ab, ac) / l, -1.0f, 1.0f), sinAlpha_ = std::min(1.0f, length(cross(ab, ac)) / l);
   cosC_ = dot(a_, b_);
 }
 

@@ -1,5 +1,5 @@
-// Sampling a triangle uniformly in the solid angle it subtends at a point (Arvo 1995), so that a lamp near the point has no
-// 1/distance² spikes.
+// Sampling a triangle uniformly in the solid angle it subtends at a point (Arvo 1995), so that a lamp near the point
+// has no 1/distance² spikes.
 #pragma once
 
 #include "base/vec.h"

@@ -11,13 +11,15 @@ Vec3 unit(Vec3 v) {
 
 // What place and normals are worked out from.
 struct PlacedTriangle {
-  PlacedTriangle(const Scene& scene, const Hit& hit) : instance(scene.instances[hit.instance]), mesh(scene.meshes[static_cast<size_t>(instance.mesh)]) {
+  PlacedTriangle(const Scene& scene, const Hit& hit)
+      : instance(scene.instances[hit.instance]), mesh(scene.meshes[static_cast<size_t>(instance.mesh)]) {
     const uint32_t* i = &mesh.indices[size_t{3} * hit.triangle];
     const Vec3 a = mesh.positions[i[0]], b = mesh.positions[i[1]], c = mesh.positions[i[2]];
     // Barycentric interpolation of the vertices is closer to the surface than origin + t * direction.
     p = instance.worldFromObject.point(a * (1 - hit.b1 - hit.b2) + b * hit.b1 + c * hit.b2);
     objectNormal = unit(cross(b - a, c - a));
-    // The cofactor matrix points backwards under a mirroring transform; front is what it is in object space (glTF 2.0, 3.7.4).
+    // The cofactor matrix points backwards under a mirroring transform; front is what it is in object space
+// (glTF 2.0, 3.7.4).
     mirrors = instance.worldFromObject.determinant() < 0;
   }
   SurfacePlace seenAlong(Vec3 direction, const Scene& scene) const {
@@ -42,11 +44,14 @@ TriangleVertices worldTriangle(const Scene& scene, uint32_t instanceIndex, uint3
 }
 
 MaterialSample materialAt(const Scene& scene, const Hit& hit) {
-  return materialAt(scene, scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)], {hit.triangle, hit.b1, hit.b2});
+  return materialAt(scene, scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)],
+                    {hit.triangle, hit.b1, hit.b2});
 }
 
 void prefetchSurfaces(const Scene& scene, std::span<const Hit> hits) {
-  const auto meshOf = [&](const Hit& hit) -> const Mesh& { return scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)]; };
+  const auto meshOf = [&](const Hit& hit) -> const Mesh& {
+    return scene.meshes[static_cast<size_t>(scene.instances[hit.instance].mesh)];
+  };
   for (const Hit& hit : hits) __builtin_prefetch(&meshOf(hit).indices[size_t{3} * hit.triangle]);
   for (const Hit& hit : hits) {
     const Mesh& mesh = meshOf(hit);
@@ -59,9 +64,13 @@ void prefetchSurfaces(const Scene& scene, std::span<const Hit> hits) {
   }
 }
 
-SurfacePlace placeAt(const Scene& scene, const Hit& hit, Vec3 direction) { return PlacedTriangle(scene, hit).seenAlong(direction, scene); }
+SurfacePlace placeAt(const Scene& scene, const Hit& hit, Vec3 direction) {
+  return PlacedTriangle(scene, hit).seenAlong(direction, scene);
+}
 
-SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) { return surfaceAt(scene, hit, direction, materialAt(scene, hit)); }
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction) {
+  return surfaceAt(scene, hit, direction, materialAt(scene, hit));
+}
 
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material) {
   const PlacedTriangle triangle(scene, hit);
@@ -72,7 +81,8 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const
   s.instance = hit.instance;
   s.triangle = hit.triangle;
   s.material = place.material;
-  s.ns = unit(triangle.instance.worldFromObject.normal(shadingNormalAt(scene, triangle.mesh, {hit.triangle, hit.b1, hit.b2}, triangle.objectNormal)));
+  s.ns = unit(triangle.instance.worldFromObject.normal(
+      shadingNormalAt(scene, triangle.mesh, {hit.triangle, hit.b1, hit.b2}, triangle.objectNormal)));
   if (triangle.mirrors == s.front) s.ns = -s.ns;
   s.smooth = s.ns;
   s.ns = bentNormal(s.ns, s.ng, direction);

@@ -35,12 +35,14 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction);
 // With material values from elsewhere.
 SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3 direction, const MaterialSample& material);
 MaterialSample materialAt(const Scene& scene, const Hit& hit);
-// Has what these read of triangles fetched into the processor's cache: what many hits need comes at once, not one after the other.
+// Has what these read of triangles fetched into the processor's cache: what many hits need comes at once, not one after
+// the other.
 void prefetchSurfaces(const Scene& scene, std::span<const Hit> hits);
 // A shading normal that a ray sees from behind would reflect into the surface: bent to just above grazing.
 Vec3 bentNormal(Vec3 ns, Vec3 ng, Vec3 direction);
 
-// Flux spreads by the true surface, but scattering sees the shading normal (Veach 1997, 5.3): what a path coming the other way would find.
+// Flux spreads by the true surface, but scattering sees the shading normal (Veach 1997, 5.3): what a path coming the
+// other way would find.
 inline float shadingCorrection(const SurfacePoint& s, Vec3 wi, Vec3 wo) {
   const float below = std::max(dot(s.ng, wi), 1e-6f) * std::max(dot(s.ns, wo), 1e-6f);
   return std::max(dot(s.ns, wi), 0.0f) * std::max(dot(s.ng, wo), 0.0f) / below;

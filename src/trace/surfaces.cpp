@@ -10,10 +10,12 @@ T interpolate(const T values[3], const Hit& hit) {
   return values[0] * (1 - hit.b1 - hit.b2) + values[1] * hit.b1 + values[2] * hit.b2;
 }
 
-// Takes normals as Affine::normal() does, to the front even where the transform mirrors, and without under- or overflow.
+// Takes normals as Affine::normal() does, to the front even where the transform mirrors, and without under- or
+// overflow.
 Affine worldFromNormal(const Affine& m) {
   const Vec3 x = cross(m.y, m.z), y = cross(m.z, m.x), z = cross(m.x, m.y);
-  const float scale = (m.determinant() < 0 ? -1.0f : 1.0f) / std::max({maxComponent(abs(x)), maxComponent(abs(y)), maxComponent(abs(z))});
+  const float scale = (m.determinant() < 0 ? -1.0f : 1.0f) /
+                      std::max({maxComponent(abs(x)), maxComponent(abs(y)), maxComponent(abs(z))});
   return {x * scale, y * scale, z * scale, {}};
 }
 
@@ -59,7 +61,8 @@ Surfaces::Triangle Surfaces::record(const Mesh& mesh, const Material& material, 
     if (!mesh.uv[0].empty()) t.uv[k] = mesh.uv[0][i[k]];
     t.normal[k] = mesh.normals.empty() ? t.ng : mesh.normals[i[k]];
   }
-  if (hasNormalMap(material, mesh) && mesh.tangents.empty()) t.tangent = triangleTangent(mesh, material.normalTexture, triangle, t.tangentSign);
+  if (hasNormalMap(material, mesh) && mesh.tangents.empty())
+    t.tangent = triangleTangent(mesh, material.normalTexture, triangle, t.tangentSign);
   return t;
 }
 
@@ -87,8 +90,10 @@ SurfacePoint Surfaces::at(const Hit& hit, Vec3 direction) const {
   return s;
 }
 
-Vec3 Surfaces::shadingNormal(const Placed& placed, const Triangle& t, const Hit& hit, const VertexValues& values) const {
-  if (placed.bumped && !placed.mesh->tangents.empty()) return shadingNormalAt(scene_, *placed.mesh, {hit.triangle, hit.b1, hit.b2}, t.ng);
+Vec3 Surfaces::shadingNormal(const Placed& placed, const Triangle& t, const Hit& hit,
+                             const VertexValues& values) const {
+  if (placed.bumped && !placed.mesh->tangents.empty())
+    return shadingNormalAt(scene_, *placed.mesh, {hit.triangle, hit.b1, hit.b2}, t.ng);
   const Vec3 sum = interpolate(t.normal, hit);
   const float l = length(sum);
   const Vec3 n = l > 1e-6f ? sum / l : t.ng;

@@ -23,10 +23,10 @@ class Surfaces {
  private:
   struct alignas(64) Triangle {  // object space
     Vec3 a, b, c;
-    Vec3 ng;           // unit
-    Vec2 uv[3];        // set 0
+    Vec3 ng;  // unit
+    Vec2 uv[3];  // set 0
     Vec3 normal[3];
-    Vec3 tangent;      // for the normal map, where the mesh has no tangents
+    Vec3 tangent;  // for the normal map, where the mesh has no tangents
     float tangentSign;
   };
   struct Placed {  // an instance
@@ -34,8 +34,8 @@ class Surfaces {
     const Material* material = nullptr;
     size_t firstTriangle = 0;
     Affine worldFromObject, worldFromNormal;
-    bool plain = true;      // no vertex values but set 0 of the texture coordinates
-    bool bumped = false;    // by a normal map
+    bool plain = true;  // no vertex values but set 0 of the texture coordinates
+    bool bumped = false;  // by a normal map
   };
   Placed placed(const Instance& instance) const;
   Triangle record(const Mesh& mesh, const Material& material, uint32_t triangle) const;

@@ -30,7 +30,8 @@ struct ValidationCase {
 // Made one after the other: scenes may be large.
 using MakeCase = ValidationCase (*)();
 
-// Closed forms and furnaces; lamps and reflections of CIE 171:2006, 5.2 to 5.4 and 5.6 to 5.8; daylight of the same, 5.9 to 5.14.
+// Closed forms and furnaces; lamps and reflections of CIE 171:2006, 5.2 to 5.4 and 5.6 to 5.8; daylight of the
+// same, 5.9 to 5.14.
 const std::vector<MakeCase>& closedFormCases();
 const std::vector<MakeCase>& lampCases();
 const std::vector<MakeCase>& daylightCases();
@@ -40,7 +41,8 @@ Quantity reading(const std::string& place, const SurfaceElement& element, double
 
 // Axes of CIE 171, where z is up, in ours: its (x, y, z) is (x, z, y). Rooms there are 4 x 4 x 3 m.
 inline Vec3 cie(float x, float y, float z) { return {x, z, y}; }
-// Points A to F of the wall at `y`, looking into the room, from 2.75 m down to 0.25 m, and G to N of the floor, from y = 0.25 m to 3.75 m; x = 2 m.
+// Points A to F of the wall at `y`, looking into the room, from 2.75 m down to 0.25 m, and G to N of the floor, from y
+// = 0.25 m to 3.75 m; x = 2 m.
 SurfaceElement wallPoint(int i, float y = 0);
 SurfaceElement floorPoint(int i);
 std::string wallName(int i);

@@ -17,8 +17,8 @@ struct GlareRoom {
 // The nineteen of CIE 117 (1995) and CIE 190 (2010).
 const std::vector<GlareRoom>& glareRooms();
 
-// H = 2 m, eye at 1.2 m in the middle of a wall, looking along y; Lambertian panels of 0.3 x 0.3 m and 1000 lm in the ceiling, 0.25 H apart; ceiling, walls and floor reflect
-// 0.7, 0.5, 0.2.
+// H = 2 m, eye at 1.2 m in the middle of a wall, looking along y; Lambertian panels of 0.3 x 0.3 m and 1000 lm in the
+// ceiling, 0.25 H apart; ceiling, walls and floor reflect 0.7, 0.5, 0.2.
 struct GlareSetUp {
   Scene scene;
   Vec3 eye, view;
@@ -33,6 +33,7 @@ struct GlareRow {
   double expected = 0, got = 0;
 };
 // Of every room or, where brief, every fourth. Fewer once cancelled.
-Result<std::vector<GlareRow>> validateGlare(const std::string& technique, bool brief, const RenderSettings& render, const Progress& progress = {});
+Result<std::vector<GlareRow>> validateGlare(const std::string& technique, bool brief, const RenderSettings& render,
+                                            const Progress& progress = {});
 
 }  // namespace roomlight

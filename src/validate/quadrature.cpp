@@ -50,7 +50,8 @@ double illuminance(const Element& element, const Rectangle& rectangle, const Arr
           const double r2 = dot(d, d);
           const Point w = d * (1 / std::sqrt(r2));
           const double cosine = dot(element.normal, w);
-          if (cosine > 0) sum += rule.weight[a] * rule.weight[b] * dA * arriving(q, w) * cosine * std::abs(dot(normal, w)) / r2;
+          if (cosine > 0)
+            sum += rule.weight[a] * rule.weight[b] * dA * arriving(q, w) * cosine * std::abs(dot(normal, w)) / r2;
         }
       }
     }
@@ -70,7 +71,8 @@ double integral(const std::function<double(double)>& f, double a, double b, int 
 
 double configurationFactor(const Element& element, const Rectangle& rectangle) {
   // Corners above the horizon, the polygon cut where it sinks below.
-  const Point corners[4] = {rectangle.corner, rectangle.corner + rectangle.u, rectangle.corner + rectangle.u + rectangle.v, rectangle.corner + rectangle.v};
+  const Point corners[4] = {rectangle.corner, rectangle.corner + rectangle.u,
+                            rectangle.corner + rectangle.u + rectangle.v, rectangle.corner + rectangle.v};
   std::vector<Point> seen;
   for (int i = 0; i < 4; ++i) {
     const Point a = corners[i] - element.position, b = corners[(i + 1) % 4] - element.position;
@@ -89,10 +91,16 @@ double configurationFactor(const Element& element, const Rectangle& rectangle) {
 
 std::vector<Radiosity> unitCube(double albedo, double exitanceOfFloor) {
   const Point o, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  return {{{o, z, x}, albedo, exitanceOfFloor}, {{y, x, z}, albedo, 0}, {{o, y, z}, albedo, 0}, {{x, z, y}, albedo, 0}, {{o, x, y}, albedo, 0}, {{z, y, x}, albedo, 0}};
+  return {{{o, z, x}, albedo, exitanceOfFloor},
+          {{y, x, z}, albedo, 0},
+          {{o, y, z}, albedo, 0},
+          {{x, z, y}, albedo, 0},
+          {{o, x, y}, albedo, 0},
+          {{z, y, x}, albedo, 0}};
 }
 
-std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::vector<Element>& elements, int cells, const std::function<double(const Element&)>& direct) {
+std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::vector<Element>& elements, int cells,
+                                const std::function<double(const Element&)>& direct) {
   struct Patch {
     Rectangle rectangle;
     Element middle;
@@ -112,7 +120,8 @@ std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::
   const size_t n = patches.size(), each = static_cast<size_t>(cells) * static_cast<size_t>(cells);
   std::vector<double> factor(n * n);
   for (size_t i = 0; i < n; ++i) {
-    for (size_t j = 0; j < n; ++j) factor[i * n + j] = i / each == j / each ? 0 : configurationFactor(patches[i].middle, patches[j].rectangle);
+    for (size_t j = 0; j < n; ++j)
+      factor[i * n + j] = i / each == j / each ? 0 : configurationFactor(patches[i].middle, patches[j].rectangle);
   }
   std::vector<double> radiosity(n);
   for (double change = 1; change > 1e-10;) {
@@ -130,7 +139,8 @@ std::vector<double> illuminance(const std::vector<Radiosity>& scene, const std::
     double sum = 0;
     // The rectangle that an element lies on does not light it.
     for (size_t j = 0; j < n; ++j) {
-      if (std::abs(dot(patches[j].middle.position - e.position, patches[j].middle.normal)) > 1e-9) sum += configurationFactor(e, patches[j].rectangle) * radiosity[j];
+      if (std::abs(dot(patches[j].middle.position - e.position, patches[j].middle.normal)) > 1e-9)
+        sum += configurationFactor(e, patches[j].rectangle) * radiosity[j];
     }
     out.push_back(sum);
   }

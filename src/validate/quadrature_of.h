@@ -6,7 +6,9 @@
 
 namespace roomlight {
 
-inline quadrature::Point exact(Vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+inline quadrature::Point exact(Vec3 v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 inline quadrature::Element exact(const SurfaceElement& e) { return {exact(e.position), exact(e.normal)}; }
 
 }  // namespace roomlight

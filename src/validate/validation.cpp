@@ -16,11 +16,13 @@ namespace {
 constexpr double kNextToNothing = 0.01;
 constexpr const char* kGlareCase = "UGR";
 constexpr size_t kGlareSteps = 10;
-constexpr double kMeterTolerance = 0.002, kBriefTolerance = 0.005;  // relative standard error of one reading, where it is a value by itself
+constexpr double kMeterTolerance = 0.002,
+                 kBriefTolerance = 0.005;  // relative standard error of one reading, where it is a value by itself
 
 std::vector<MakeCase> allCases() {
   std::vector<MakeCase> out;
-  for (const auto* group : {&closedFormCases(), &lampCases(), &daylightCases()}) out.insert(out.end(), group->begin(), group->end());
+  for (const auto* group : {&closedFormCases(), &lampCases(), &daylightCases()})
+    out.insert(out.end(), group->begin(), group->end());
   return out;
 }
 
@@ -30,7 +32,8 @@ MeterSettings meterSettings(const ValidationCase& of, bool brief, uint64_t seed)
   double smallest = 1;
   for (const Quantity& q : of.quantities) {
     fewest = std::min(fewest, q.elements.size());
-    if (q.offset != 0) smallest = std::min(smallest, std::abs(q.expected) / (std::abs(q.expected) + std::abs(q.offset)));
+    if (q.offset != 0)
+      smallest = std::min(smallest, std::abs(q.expected) / (std::abs(q.expected) + std::abs(q.offset)));
   }
   MeterSettings meter;
   meter.tolerance = (brief ? kBriefTolerance : kMeterTolerance) * std::sqrt(static_cast<double>(fewest)) * smallest;
@@ -40,12 +43,14 @@ MeterSettings meterSettings(const ValidationCase& of, bool brief, uint64_t seed)
   return meter;
 }
 
-std::vector<double> values(const ValidationCase& of, const LitScene& lit, const ValidationSettings& settings, const Progress& progress) {
+std::vector<double> values(const ValidationCase& of, const LitScene& lit, const ValidationSettings& settings,
+                           const Progress& progress) {
   std::vector<SurfaceElement> elements;
   for (const Quantity& q : of.quantities) elements.insert(elements.end(), q.elements.begin(), q.elements.end());
   Progress quiet;
   quiet.cancelled = progress.cancelled;
-  const std::vector<MeterReading> readings = lit.illuminance(elements, meterSettings(of, settings.brief, settings.render.seed), quiet);
+  const std::vector<MeterReading> readings =
+      lit.illuminance(elements, meterSettings(of, settings.brief, settings.render.seed), quiet);
   std::vector<double> out;
   size_t next = 0;
   for (const Quantity& q : of.quantities) {
@@ -57,15 +62,18 @@ std::vector<double> values(const ValidationCase& of, const LitScene& lit, const 
 }
 
 // Rows of one case and technique.
-std::vector<ValidationRow> judged(const ValidationCase& of, const std::string& technique, const std::vector<double>& got) {
+std::vector<ValidationRow> judged(const ValidationCase& of, const std::string& technique,
+                                  const std::vector<double>& got) {
   double largest = 0, all = 0, sum = 0;
-  for (size_t i = 0; i < got.size(); ++i) largest = std::max(largest, std::abs(of.quantities[i].expected)), all += of.quantities[i].expected, sum += got[i];
+  for (size_t i = 0; i < got.size(); ++i)
+    largest = std::max(largest, std::abs(of.quantities[i].expected)), all += of.quantities[i].expected, sum += got[i];
   const double allowed = allowedPercent(technique), total = all != 0 ? 100 * (sum / all - 1) : 0;
   std::vector<ValidationRow> rows;
   for (size_t i = 0; i < got.size(); ++i) {
     const Quantity& q = of.quantities[i];
     const double error = 100 * (got[i] - q.expected) / std::max(std::abs(q.expected), kNextToNothing * largest);
-    rows.push_back({of.name, of.title, of.unit, of.basis, q.place, technique, q.expected, got[i], error, "%", std::abs(technique == "cone" ? total : error) <= allowed});
+    rows.push_back({of.name, of.title, of.unit, of.basis, q.place, technique, q.expected, got[i], error, "%",
+                    std::abs(technique == "cone" ? total : error) <= allowed});
   }
   return rows;
 }
@@ -74,12 +82,14 @@ std::vector<ValidationRow> judged(const ValidationCase& of, const std::string& t
 ValidationCase chosen(ValidationCase of, const ValidationSettings& settings) {
   std::vector<Quantity> some;
   const bool wanted = of.name.find(settings.only) != std::string::npos;
-  for (size_t i = 0; i < of.quantities.size() && wanted; i += settings.brief ? 3 : 1) some.push_back(std::move(of.quantities[i]));
+  for (size_t i = 0; i < of.quantities.size() && wanted; i += settings.brief ? 3 : 1)
+    some.push_back(std::move(of.quantities[i]));
   of.quantities = std::move(some);
   return of;
 }
 
-Result<std::vector<ValidationRow>> measured(const ValidationCase& of, const std::string& technique, const ValidationSettings& settings, const Progress& progress) {
+Result<std::vector<ValidationRow>> measured(const ValidationCase& of, const std::string& technique,
+                                            const ValidationSettings& settings, const Progress& progress) {
   RenderSettings render = settings.render;
   render.technique = technique;
   RenderStats stats;
@@ -97,15 +107,15 @@ ValidationSummary summary(const std::vector<ValidationRow>& rows, const std::str
   for (const ValidationRow& r : rows) {
     if (r.technique != technique) continue;
     ++out.places, out.passed += r.pass;
-    if (r.errorUnit == "%" && std::abs(r.error) > std::abs(out.worstPercent)) out.worstPercent = r.error, out.worstPlace = r.name + ", " + r.place;
+    if (r.errorUnit == "%" && std::abs(r.error) > std::abs(out.worstPercent))
+      out.worstPercent = r.error, out.worstPlace = r.name + ", " + r.place;
   }
   return out;
 }
 
 }  // namespace
 
-double allowedPercent(const std::string& technique) { return technique == "path" ? 1 : technique == "cone" ? 10
-                                                                                                           : 3; }
+double allowedPercent(const std::string& technique) { return technique == "path" ? 1 : technique == "cone" ? 10 : 3; }
 
 bool Validation::pass() const {
   return std::all_of(rows.begin(), rows.end(), [](const ValidationRow& r) { return r.pass; });
@@ -136,8 +146,11 @@ Result<Validation> validateTechniques(const ValidationSettings& settings, const 
     if (!rows) return Error{rows.error()};
     for (const GlareRow& r : rows.value()) {
       const double error = r.got - r.expected;
-      out.rows.push_back({kGlareCase, "glare by a ceiling of Lambertian panels in the rooms of CIE 117, H = 2 m, 0.25 H apart", "UGR", "panels summed up one by one, background by radiosity on 12 x 12 patches a surface",
-                          fmt::format("{} H x {} H", r.room.x, r.room.y), technique, r.expected, r.got, error, "UGR", std::abs(error) <= kAllowedUgr});
+      out.rows.push_back({kGlareCase,
+                          "glare by a ceiling of Lambertian panels in the rooms of CIE 117, H = 2 m, 0.25 H apart",
+                          "UGR", "panels summed up one by one, background by radiosity on 12 x 12 patches a surface",
+                          fmt::format("{} H x {} H", r.room.x, r.room.y), technique, r.expected, r.got, error, "UGR",
+                          std::abs(error) <= kAllowedUgr});
     }
     step(kGlareSteps);
   }

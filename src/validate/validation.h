@@ -14,8 +14,8 @@ struct ValidationRow {
   std::string name, title, unit, basis;  // of the case
   std::string place, technique;
   double expected = 0, got = 0;
-  // In per cent of what is expected there or, where that is next to nothing, of a hundredth of the largest value that the case expects; of glare
-  // ratings the difference.
+  // In per cent of what is expected there or, where that is next to nothing, of a hundredth of the largest value that
+  // the case expects; of glare ratings the difference.
   double error = 0;
   std::string errorUnit = "%";  // or "UGR"
   bool pass = false;
@@ -24,7 +24,7 @@ struct ValidationRow {
 struct ValidationSummary {
   std::string technique;
   double allowedPercent = 0;  // at each place; for technique "cone" of the sum over a case
-  double worstPercent = 0;    // of the same, of values that are judged in per cent
+  double worstPercent = 0;  // of the same, of values that are judged in per cent
   std::string worstPlace;
   int passed = 0, places = 0;
 };
@@ -38,12 +38,13 @@ struct Validation {
 
 struct ValidationSettings {
   std::vector<std::string> techniques = {"path", "hybrid", "cone"};
-  std::string only;       // cases whose name holds this
-  bool brief = false;     // every third place and every fourth room, less certain meters: a quick look
+  std::string only;  // cases whose name holds this
+  bool brief = false;  // every third place and every fourth room, less certain meters: a quick look
   RenderSettings render;  // technique is overruled
 };
 
-// How far a technique may be off, in per cent: path 1, others 3 at each place; cone 10 over a case. Of glare ratings, each.
+// How far a technique may be off, in per cent: path 1, others 3 at each place; cone 10 over a case. Of glare ratings,
+// each.
 double allowedPercent(const std::string& technique);
 constexpr double kAllowedUgr = 0.5;
 

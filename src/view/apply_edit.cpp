@@ -19,7 +19,9 @@ std::optional<size_t> numberIn(const std::string& target, std::string_view prefi
   return value;
 }
 
-ViewError refused(const Edit& edit, const char* code, const char* field, std::string message) { return {edit.id, code, field, std::move(message)}; }
+ViewError refused(const Edit& edit, const char* code, const char* field, std::string message) {
+  return {edit.id, code, field, std::move(message)};
+}
 
 struct Field {
   const char* name;
@@ -28,12 +30,26 @@ struct Field {
 
 std::optional<ViewError> refuseOthers(const Edit& edit, std::initializer_list<const char*> known, const char* what) {
   const EditFields& s = edit.set;
-  const Field fields[] = {{"position", s.position.has_value()}, {"direction", s.direction.has_value()}, {"dim", s.dim.has_value()}, {"on", s.on.has_value()}, {"temperatureK", s.temperatureK.has_value()}, {"fluxLm", s.fluxLm.has_value()}, {"color", s.color.has_value()}, {"move", s.move.has_value()}, {"turn", s.turnDeg.has_value()}, {"hidden", s.hidden.has_value()}, {"material", s.material.has_value()}, {"open", s.open.has_value()}, {"date", s.year.has_value()}, {"hour", s.hour.has_value()}};
+  const Field fields[] = {{"position", s.position.has_value()},
+                          {"direction", s.direction.has_value()},
+                          {"dim", s.dim.has_value()},
+                          {"on", s.on.has_value()},
+                          {"temperatureK", s.temperatureK.has_value()},
+                          {"fluxLm", s.fluxLm.has_value()},
+                          {"color", s.color.has_value()},
+                          {"move", s.move.has_value()},
+                          {"turn", s.turnDeg.has_value()},
+                          {"hidden", s.hidden.has_value()},
+                          {"material", s.material.has_value()},
+                          {"open", s.open.has_value()},
+                          {"date", s.year.has_value()},
+                          {"hour", s.hour.has_value()}};
   bool any = false;
   for (const Field& f : fields) {
     if (!f.given) continue;
     any = true;
-    const bool isKnown = std::any_of(known.begin(), known.end(), [&](const char* k) { return std::string_view(k) == f.name; });
+    const bool isKnown =
+        std::any_of(known.begin(), known.end(), [&](const char* k) { return std::string_view(k) == f.name; });
     if (!isKnown) return refused(edit, "badField", f.name, fmt::format("{} has no '{}'", what, f.name));
   }
   if (!any) return refused(edit, "badField", "target", "the edit sets no field");
@@ -41,7 +57,8 @@ std::optional<ViewError> refuseOthers(const Edit& edit, std::initializer_list<co
 }
 
 std::optional<ViewError> editLamp(const EditableHome& home, size_t k, const Edit& edit, Edited& out) {
-  if (auto e = refuseOthers(edit, {"position", "direction", "dim", "on", "temperatureK", "color", "fluxLm"}, "a lamp")) return e;
+  if (auto e = refuseOthers(edit, {"position", "direction", "dim", "on", "temperatureK", "color", "fluxLm"}, "a lamp"))
+    return e;
   const EditableLamp& lamp = home.lamps[k];
   LampState& s = out.state.lamps[k];
   const EditFields& set = edit.set;
@@ -80,17 +97,20 @@ std::optional<ViewError> paint(const EditableObject& object, const Scene& scene,
     if (edit.set.material && scene.materials[object.paints[p].material].name != *edit.set.material) continue;
     s.colors[p] = color, any = true;
   }
-  if (!any) return refused(edit, "unknownThing", "material", fmt::format("no material '{}'", printable(*edit.set.material)));
+  if (!any)
+    return refused(edit, "unknownThing", "material", fmt::format("no material '{}'", printable(*edit.set.material)));
   return {};
 }
 
-std::optional<ViewError> editObject(const EditableHome& home, const Scene& scene, size_t k, const Edit& edit, Edited& out) {
+std::optional<ViewError> editObject(const EditableHome& home, const Scene& scene, size_t k, const Edit& edit,
+                                    Edited& out) {
   if (auto e = refuseOthers(edit, {"move", "turn", "hidden", "color", "material", "open"}, "an object")) return e;
   const EditableObject& object = home.objects[k];
   ObjectState& s = out.state.objects[k];
   const EditFields& set = edit.set;
   const char* verb = "Change";
-  if ((set.move || set.turnDeg) && !object.movable) return refused(edit, "notPossible", set.move ? "move" : "turn", "it stands still");
+  if ((set.move || set.turnDeg) && !object.movable)
+    return refused(edit, "notPossible", set.move ? "move" : "turn", "it stands still");
   if (set.open && !object.opens) return refused(edit, "notPossible", "open", "nothing of it opens");
   if (set.move) s.move = *set.move, verb = "Move";
   if (set.turnDeg) s.turnDeg = *set.turnDeg, verb = set.move ? "Move" : "Turn";
@@ -110,13 +130,15 @@ std::optional<ViewError> editSun(const Edit& edit, Edited& out) {
   SunState& s = *out.state.sun;
   if (edit.set.year) s.year = *edit.set.year, s.month = *edit.set.month, s.day = *edit.set.day;
   if (edit.set.hour) s.hour = *edit.set.hour;
-  out.label = fmt::format("Sun to {:04}-{:02}-{:02} {:02}:{:02}", s.year, s.month, s.day, static_cast<int>(s.hour), static_cast<int>(std::fmod(s.hour, 1) * 60));
+  out.label = fmt::format("Sun to {:04}-{:02}-{:02} {:02}:{:02}", s.year, s.month, s.day, static_cast<int>(s.hour),
+                          static_cast<int>(std::fmod(s.hour, 1) * 60));
   return {};
 }
 
 }  // namespace
 
-std::optional<ViewError> applyEdit(const EditableHome& home, const Scene& scene, const Edit& edit, const HomeState& now, Edited& out) {
+std::optional<ViewError> applyEdit(const EditableHome& home, const Scene& scene, const Edit& edit, const HomeState& now,
+                                   Edited& out) {
   out.state = now;
   if (edit.target == "sun") return editSun(edit, out);
   if (const auto k = numberIn(edit.target, "lamp:", home.lamps.size())) return editLamp(home, *k, edit, out);

@@ -15,6 +15,7 @@ struct Edited {
 };
 
 // Errors name the field: one that the thing does not have, or that goes against another.
-std::optional<ViewError> applyEdit(const EditableHome& home, const Scene& scene, const Edit& edit, const HomeState& now, Edited& out);
+std::optional<ViewError> applyEdit(const EditableHome& home, const Scene& scene, const Edit& edit, const HomeState& now,
+                                   Edited& out);
 
 }  // namespace roomlight::view

@@ -24,7 +24,10 @@ Json namedJson(const std::vector<std::pair<std::string, std::string>>& list) {
 }
 
 Json cameraJson(const ViewCamera& c) {
-  return {{"position", vectorJson(c.position)}, {"direction", vectorJson(c.direction)}, {"up", vectorJson(c.up)}, {"verticalFov", rounded(c.yFovDeg)}};
+  return {{"position", vectorJson(c.position)},
+          {"direction", vectorJson(c.direction)},
+          {"up", vectorJson(c.up)},
+          {"verticalFov", rounded(c.yFovDeg)}};
 }
 
 template <class T>
@@ -40,8 +43,9 @@ Json displayJson(const ViewDisplay& d) {
           {"compensation", rounded(d.compensationEv)},
           {"curve", toneCurveName(d.display.tone.curve)},
           {"whiteBalance", white},
-          {"falseColor", d.falseColour == FalseColour::Off ? "off" : d.falseColour == FalseColour::Luminance ? "luminance"
-                                                                                                             : "illuminance"},
+          {"falseColor", d.falseColour == FalseColour::Off         ? "off"
+                         : d.falseColour == FalseColour::Luminance ? "luminance"
+                                                                   : "illuminance"},
           {"low", orNull(d.low)},
           {"high", orNull(d.high)}};
 }
@@ -111,15 +115,21 @@ Json objectJson(const EditableHome& home, const Scene& scene, size_t index, cons
   Json colors = Json::array();
   for (size_t k = 0; k < object.paints.size(); ++k) {
     const Material& m = scene.materials[object.paints[k].material];
-    colors.push_back({{"material", m.name}, {"color", vectorJson(s.colors[k])}, {"textured", m.baseColorTexture.texture >= 0}});
+    colors.push_back(
+        {{"material", m.name}, {"color", vectorJson(s.colors[k])}, {"textured", m.baseColorTexture.texture >= 0}});
   }
-  return {{"id", objectId(index)}, {"name", object.name}, {"low", vectorJson(b.lo)}, {"high", vectorJson(b.hi)}, {"movable", object.movable}, {"move", vectorJson(s.move)}, {"turn", rounded(s.turnDeg)}, {"hidden", s.hidden}, {"colors", colors}, {"open", object.opens ? Json(rounded(s.open)) : Json(nullptr)}};
+  return {{"id", objectId(index)},      {"name", object.name},
+          {"low", vectorJson(b.lo)},    {"high", vectorJson(b.hi)},
+          {"movable", object.movable},  {"move", vectorJson(s.move)},
+          {"turn", rounded(s.turnDeg)}, {"hidden", s.hidden},
+          {"colors", colors},           {"open", object.opens ? Json(rounded(s.open)) : Json(nullptr)}};
 }
 
 Json sunJson(const ViewHome& home, const HomeState& state) {
   if (!state.sun || !home.sun) return nullptr;
   const SunState& s = *state.sun;
-  const SunPosition p = sunPosition({s.year, s.month, s.day, s.hour - home.sun->utcOffsetH}, home.sun->latitudeDeg, home.sun->longitudeDeg);
+  const SunPosition p = sunPosition({s.year, s.month, s.day, s.hour - home.sun->utcOffsetH}, home.sun->latitudeDeg,
+                                    home.sun->longitudeDeg);
   const double deg = 180 / static_cast<double>(kPi);
   return {{"date", fmt::format("{:04}-{:02}-{:02}", s.year, s.month, s.day)},
           {"hour", s.hour},
@@ -134,7 +144,8 @@ Json sunJson(const ViewHome& home, const HomeState& state) {
 Json homeJson(const ViewHome& home) {
   const Bounds3 b = home.scene.bounds();
   Json legend = Json::array();
-  for (int i = 0; i < kLegendColours; ++i) legend.push_back(hexColour(falseColour(static_cast<double>(i) / (kLegendColours - 1))));
+  for (int i = 0; i < kLegendColours; ++i)
+    legend.push_back(hexColour(falseColour(static_cast<double>(i) / (kLegendColours - 1))));
   return {{"type", "welcome"},
           {"protocol", 1},
           {"version", version()},
@@ -146,7 +157,13 @@ Json homeJson(const ViewHome& home) {
           {"qualities", namedJson(qualities())},
           {"curves", {"neutral", "agx", "filmic", "clip"}},
           {"legend", legend},
-          {"limits", {{"frameWidth", kMostFrameWidth}, {"frameHeight", kMostFrameHeight}, {"renderWidth", 7680}, {"renderHeight", 4320}, {"messageBytes", kMostMessageBytes}, {"messagesPerSecond", 240}}}};
+          {"limits",
+           {{"frameWidth", kMostFrameWidth},
+            {"frameHeight", kMostFrameHeight},
+            {"renderWidth", 7680},
+            {"renderHeight", 4320},
+            {"messageBytes", kMostMessageBytes},
+            {"messagesPerSecond", 240}}}};
 }
 
 void addWindow(const Window& window, Json& welcome) {
@@ -154,13 +171,19 @@ void addWindow(const Window& window, Json& welcome) {
   welcome["camera"] = cameraJson(window.camera);
   welcome["technique"] = window.technique;
   welcome["display"] = displayJson(window.display);
-  welcome["split"] = window.split ? Json({{"left", sideJson(window.split->left)}, {"right", sideJson(window.split->right)}}) : Json(nullptr);
+  welcome["split"] = window.split
+                         ? Json({{"left", sideJson(window.split->left)}, {"right", sideJson(window.split->right)}})
+                         : Json(nullptr);
 }
 
 std::string textOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 std::string errorText(const ViewError& e) {
-  return textOf({{"type", "error"}, {"id", orNull(e.id)}, {"code", e.code}, {"field", e.field.empty() ? Json(nullptr) : Json(e.field)}, {"message", e.message}});
+  return textOf({{"type", "error"},
+                 {"id", orNull(e.id)},
+                 {"code", e.code},
+                 {"field", e.field.empty() ? Json(nullptr) : Json(e.field)},
+                 {"message", e.message}});
 }
 
 std::string okText(uint32_t id) { return textOf({{"type", "ok"}, {"id", id}}); }

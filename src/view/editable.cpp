@@ -18,7 +18,9 @@ constexpr size_t kMostToPart = 6'000'000;
 // What stands still: as long as a room, or as high as a door and thin like a wall.
 constexpr float kLongM = 4, kHighM = 1.9f, kThinM = 0.45f;
 
-const Material& materialOf(const Scene& scene, const Instance& instance) { return scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)]; }
+const Material& materialOf(const Scene& scene, const Instance& instance) {
+  return scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)];
+}
 
 bool isRoom(const Scene& scene, const std::string& name) {
   return std::any_of(scene.rooms.begin(), scene.rooms.end(), [&](const Room& r) { return r.name == name; });
@@ -35,7 +37,8 @@ std::optional<Leaf> leafOf(const Scene& scene, const Instance& instance) {
   return scene.leaves[static_cast<size_t>(instance.leaf)];
 }
 
-// The mean is strictly between shut and wide open where the leaves differ, so that from there all of them can go either way.
+// The mean is strictly between shut and wide open where the leaves differ, so that from there all of them can go either
+// way.
 void findOpening(EditableObject& o) {
   float sum = 0, count = 0;
   for (const EditableObject::Part& part : o.parts) {
@@ -60,7 +63,8 @@ std::map<int, int> findObjects(const Scene& scene, bool parted, EditableHome& ho
     object.parts.push_back({i, instance.worldFromObject, instance.mesh, bounds, leafOf(scene, instance)});
     object.bounds.add(bounds);
     const auto material = static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material);
-    if (parted && !shines(scene, instance) && materials[k].insert(material).second) object.paints.push_back({material, scene.materials[material].baseColor});
+    if (parted && !shines(scene, instance) && materials[k].insert(material).second)
+      object.paints.push_back({material, scene.materials[material].baseColor});
   }
   for (EditableObject& o : home.objects) o.movable = !standsStill(scene, o), findOpening(o);
   return numbers;
@@ -70,8 +74,10 @@ Vec3 lightOf(const Lamp& lamp) { return lamp.kind == LampKind::Area ? lamp.lumin
 
 double fluxOf(const Lamp& lamp) {
   const double cd = static_cast<double>(luminance(lamp.intensityCd));
-  if (lamp.kind == LampKind::Area) return std::numbers::pi * static_cast<double>(luminance(lamp.luminanceCdM2) * lamp.widthM * lamp.heightM);
-  if (lamp.kind == LampKind::Spot) return cd * spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
+  if (lamp.kind == LampKind::Area)
+    return std::numbers::pi * static_cast<double>(luminance(lamp.luminanceCdM2) * lamp.widthM * lamp.heightM);
+  if (lamp.kind == LampKind::Spot)
+    return cd * spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
   if (lamp.web) return lamp.web->peakCd > 0 ? cd * lamp.web->fluxLm / static_cast<double>(lamp.web->peakCd) : 0;
   return 4 * std::numbers::pi * cd;
 }
@@ -85,7 +91,8 @@ const char* kindOf(const Lamp& lamp) {
 double areaM2(const Mesh& mesh, const Affine& m) {
   double sum = 0;
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-    const Vec3 a = m.point(mesh.positions[mesh.indices[t]]), b = m.point(mesh.positions[mesh.indices[t + 1]]), c = m.point(mesh.positions[mesh.indices[t + 2]]);
+    const Vec3 a = m.point(mesh.positions[mesh.indices[t]]), b = m.point(mesh.positions[mesh.indices[t + 1]]),
+               c = m.point(mesh.positions[mesh.indices[t + 2]]);
     sum += 0.5 * static_cast<double>(length(cross(b - a, c - a)));
   }
   return sum;
@@ -113,7 +120,8 @@ Vec3 measureGlow(const Scene& scene, EditableLamp& l) {
     const Instance& instance = scene.instances[i];
     const Material& m = materialOf(scene, instance);
     bounds.add(instanceBounds(scene, instance));
-    const double area = areaM2(scene.meshes[static_cast<size_t>(instance.mesh)], instance.worldFromObject) * (m.doubleSided ? 2 : 1);
+    const double area =
+        areaM2(scene.meshes[static_cast<size_t>(instance.mesh)], instance.worldFromObject) * (m.doubleSided ? 2 : 1);
     l.fluxLm += std::numbers::pi * area * static_cast<double>(luminance(m.emission));
     light += m.emission * static_cast<float>(area);
     textured = textured || m.emissionTexture.texture >= 0;
@@ -123,7 +131,8 @@ Vec3 measureGlow(const Scene& scene, EditableLamp& l) {
   return light;
 }
 
-EditableLamp editableLamp(const Scene& scene, const SceneLamp& from, const std::map<int, int>& objects, EditableHome& home) {
+EditableLamp editableLamp(const Scene& scene, const SceneLamp& from, const std::map<int, int>& objects,
+                          EditableHome& home) {
   EditableLamp l;
   l.name = from.name, l.instances = from.instances;
   if (from.object >= 0) l.object = objects.at(from.object);

@@ -1,5 +1,5 @@
-// What can be changed in a home while it is looked at: its lamps and its things, found in the scene once, and the state of all of them as a
-// value. A state is put into a scene by stage(); going back is going to an earlier state.
+// What can be changed in a home while it is looked at: its lamps and its things, found in the scene once, and the state
+// of all of them as a value. A state is put into a scene by stage(); going back is going to an earlier state.
 #pragma once
 
 #include <optional>
@@ -13,24 +13,24 @@ namespace roomlight::view {
 
 // Whatever gives light and can be dimmed apart: lamps of one name in one thing, or the parts of a thing that shine.
 struct EditableLamp {
-  struct Source {        // as the file has it
-    size_t lamp;         // of the scene's
+  struct Source {  // as the file has it
+    size_t lamp;  // of the scene's
     Lamp full;
   };
-  struct Glow {          // a material that nothing else uses
+  struct Glow {  // a material that nothing else uses
     size_t material;
     Vec3 emission;
   };
   std::string name, kind;  // "point", "spot", "area", "photometric", "glow"
-  int object = -1;         // that it belongs to and moves with; -1: none
+  int object = -1;  // that it belongs to and moves with; -1: none
   std::vector<Source> sources;
   std::vector<Glow> glows;
   std::vector<uint32_t> instances;  // that shine
-  Vec3 position, direction;         // of the first source, or the middle of what shines
-  bool aimed = false;               // has a direction that can be turned
-  Vec3 color{1, 1, 1};              // of luminance 1
+  Vec3 position, direction;  // of the first source, or the middle of what shines
+  bool aimed = false;  // has a direction that can be turned
+  Vec3 color{1, 1, 1};  // of luminance 1
   std::optional<float> temperatureK;  // of a black body of that colour, where there is one
-  double fluxLm = 0;                // 0: unknown
+  double fluxLm = 0;  // 0: unknown
 };
 
 struct EditableObject {
@@ -47,7 +47,7 @@ struct EditableObject {
   };
   std::string name;
   bool movable = false;
-  bool opens = false;    // has leaves
+  bool opens = false;  // has leaves
   float openAtRest = 0;  // how far the file has them open, on the average
   bool lampBody = false;  // the shining rectangle of a lamp that is edited as one, no thing
   std::vector<Part> parts;
@@ -92,10 +92,11 @@ struct EditableHome {
   std::vector<EditableLamp> lamps;
   std::vector<EditableObject> objects;
   int hiddenMesh = 0;  // one without triangles
-  HomeState atStart;   // without the sun
+  HomeState atStart;  // without the sun
 };
 
-// Parts the materials of things and lamps from each other, so that each can be changed alone; what is seen stays as it is.
+// Parts the materials of things and lamps from each other, so that each can be changed alone; what is seen stays as it
+// is.
 EditableHome makeEditable(Scene& scene);
 
 // Brings a scene from one state to another and says what that changed; the sun and the sky are not its business.

@@ -24,7 +24,9 @@ Result<std::string> packFrame(const FrameInfo& info, const ByteImage& picture) {
   put(out, static_cast<uint32_t>(picture.width), 2), put(out, static_cast<uint32_t>(picture.height), 2);
   put(out, info.side, 1), put(out, info.flags, 1), put(out, info.jpegQuality, 2);
   put(out, info.camera, 4), put(out, info.revision, 4), put(out, info.samples, 4);
-  for (const float v : {info.relativeError, info.ev100, info.scaleLow, info.scaleHigh, info.latencyMs, info.pictureMs, info.whiteK}) put(out, v);
+  for (const float v :
+       {info.relativeError, info.ev100, info.scaleLow, info.scaleHigh, info.latencyMs, info.pictureMs, info.whiteK})
+    put(out, v);
   put(out, 0, 4), put(out, 0, 4);
   return out + jpeg.value();
 }

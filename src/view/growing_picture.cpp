@@ -8,7 +8,8 @@ namespace {
 constexpr uint32_t kMostAverages = 64, kBeforePaths = 24;
 constexpr uint32_t kOneByOne = 4, kTogether = 4;
 constexpr double kShowAgain = 1.4;  // times the samples of what was shown last
-// The first average is shown with so many, or after so long: with fewer it would be noisier than the frame that reused light.
+// The first average is shown with so many, or after so long: with fewer it would be noisier than the frame that reused
+// light.
 constexpr uint32_t kFirstShown = 4;
 constexpr double kFirstShownS = 0.3;
 
@@ -20,19 +21,24 @@ void GrowingPicture::showQuick(Image image, double pictureMs, bool reduced) {
   sinceQuick_ = Stopwatch();
 }
 
-bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, Kind kind, const std::atomic<bool>& newer) {
+bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, Kind kind,
+                          const std::atomic<bool>& newer) {
   const Stopwatch watch;
   // A few together cost less than one by one, but at first somebody waits.
   const uint32_t count = samples_ < kOneByOne ? 1 : kTogether;
-  const Image next = home.lit->pictureOf(camera, {whole.first, whole.second, static_cast<int>(count), samples_, kind.white, true, nullptr}, {{}, &newer});
+  const Image next = home.lit->pictureOf(
+      camera, {whole.first, whole.second, static_cast<int>(count), samples_, kind.white, true, nullptr}, {{}, &newer});
   if (newer || next.width == 0) return false;
   pictureMs_ = watch.seconds() * 1e3;
-  if (samples_ == 0 || std::pair(sum_.width, sum_.height) != std::pair(next.width, next.height)) sum_ = Image(next.width, next.height), samples_ = shownAt_ = 0;
-  parallelFor(sum_.pixels.size(), 16384, [&](size_t i) { sum_.pixels[i] += next.pixels[i] * static_cast<float>(count); });
+  if (samples_ == 0 || std::pair(sum_.width, sum_.height) != std::pair(next.width, next.height))
+    sum_ = Image(next.width, next.height), samples_ = shownAt_ = 0;
+  parallelFor(sum_.pixels.size(), 16384,
+              [&](size_t i) { sum_.pixels[i] += next.pixels[i] * static_cast<float>(count); });
   samples_ += count;
   averaged_ = samples_ >= (kind.refines ? kBeforePaths : kMostAverages);
   settled_ = averaged_ && !kind.refines;
-  const bool worth = shownAt_ == 0 ? samples_ >= kFirstShown || sinceQuick_.seconds() > kFirstShownS : samples_ >= kShowAgain * shownAt_;
+  const bool worth = shownAt_ == 0 ? samples_ >= kFirstShown || sinceQuick_.seconds() > kFirstShownS
+                                   : samples_ >= kShowAgain * shownAt_;
   if (!averaged_ && !worth) return false;
   shownAt_ = samples_;
   quick_ = false;

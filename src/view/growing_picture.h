@@ -30,8 +30,10 @@ class GrowingPicture {
     bool white;    // PictureWish::white, always the same until restart()
     bool refines;  // after it is averaged somebody refines it
   };
-  // Adds to the average of whole pictures; one of another size begins anew. True: there is something new to show. Given up, without a trace, when `newer` becomes true.
-  bool step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, Kind kind, const std::atomic<bool>& newer);
+  // Adds to the average of whole pictures; one of another size begins anew. True: there is something new to show. Given
+  // up, without a trace, when `newer` becomes true.
+  bool step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, Kind kind,
+            const std::atomic<bool>& newer);
 
   const Image& image() const { return *image_; }  // cd/m²
   std::shared_ptr<const Image> shared() const { return image_; }  // stays as it is

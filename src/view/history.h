@@ -10,7 +10,8 @@ namespace roomlight::view {
 
 class History {
  public:
-  // `now` becomes `next`; edits of one gesture that follow each other are one step. An empty gesture is a step of its own.
+  // `now` becomes `next`; edits of one gesture that follow each other are one step. An empty gesture is a step of its
+  // own.
   void step(const HomeState& now, const std::string& label, const std::string& gesture);
   bool canUndo() const { return !past_.empty(); }
   bool canRedo() const { return !future_.empty(); }

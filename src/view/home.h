@@ -37,13 +37,15 @@ struct LightingSource {
 };
 
 struct ViewHome {
-  ViewHome(std::string homeName, Scene homeScene) : name(std::move(homeName)), scene(std::move(homeScene)), editable(makeEditable(scene)) {}
+  ViewHome(std::string homeName, Scene homeScene)
+      : name(std::move(homeName)), scene(std::move(homeScene)), editable(makeEditable(scene)) {}
 
   std::string name;
   Scene scene;
   EditableHome editable;
   HomeState atStart() const;
-  std::optional<HomeState> opened;  // the lamps as the lighting file has them, where it dims some; `scene` has them undimmed
+  std::optional<HomeState>
+      opened;  // the lamps as the lighting file has them, where it dims some; `scene` has them undimmed
   std::optional<SunByDate> sun;
   LightingSource lighting;
 };
@@ -51,8 +53,8 @@ struct ViewHome {
 // The scene in that state, with its sun.
 Result<Scene> sceneIn(const ViewHome& home, const HomeState& state);
 
-// Brings a scene of the home from one state to another, its sun and sky too, and says what that changed. Where SunByDate::at has no light for the moment, suns and sky
-// stay as they are.
+// Brings a scene of the home from one state to another, its sun and sky too, and says what that changed. Where
+// SunByDate::at has no light for the moment, suns and sky stay as they are.
 SceneChange bring(const ViewHome& home, const HomeState& from, const HomeState& to, Scene& scene);
 
 }  // namespace roomlight::view

@@ -22,7 +22,9 @@ Image illuminancePicture(const RayScene& rays, const Camera& camera, const Image
   const CameraRays view(camera, light.width, light.height);
   parallelFor(static_cast<size_t>(light.height), 4, [&](size_t row) {
     const int y = static_cast<int>(row);
-    for (int x = 0; x < light.width; ++x) out.at(x, y) = Vec3(luxAt(rays, view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), light.at(x, y)));
+    for (int x = 0; x < light.width; ++x)
+      out.at(x, y) =
+          Vec3(luxAt(rays, view.ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f), light.at(x, y)));
   });
   return out;
 }

@@ -7,7 +7,8 @@
 
 namespace roomlight::view {
 
-void LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready) {
+void LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads,
+                          std::function<void()> ready) {
   finish();
   home_ = &home, done_ = cancelled_ = false;
   thread_ = std::thread([this, &all, &home, wanted = std::move(wanted), threads, ready = std::move(ready)] {
@@ -42,7 +43,8 @@ void LightFollower::cancel() {
 FollowedLight LightFollower::finish() {
   if (!thread_.joinable()) return {};
   thread_.join();
-  FollowedLight out{std::exchange(home_, nullptr), std::move(change_), std::exchange(light_, nullptr), std::exchange(error_, {})};
+  FollowedLight out{std::exchange(home_, nullptr), std::move(change_), std::exchange(light_, nullptr),
+                    std::exchange(error_, {})};
   change_.reset();
   return out;
 }

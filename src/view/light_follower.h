@@ -22,8 +22,9 @@ struct FollowedLight {
 class LightFollower {
  public:
   ~LightFollower() { cancel(); }
-  // Brings the home to a state that it can follow to, or goes on with bounces that it still owes; one at a time. Nobody else may touch `home`, but for its front, until
-  // finish() has returned. `ready` is called from the follower's thread.
+  // Brings the home to a state that it can follow to, or goes on with bounces that it still owes; one at a time. Nobody
+  // else may touch `home`, but for its front, until finish() has returned. `ready` is called from the follower's
+  // thread.
   void begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready);
   const LitHome* home() const { return home_; }  // null: none
   bool done() const { return done_; }

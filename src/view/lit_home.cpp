@@ -7,14 +7,16 @@
 namespace roomlight::view {
 namespace {
 
-Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder::Work& work, const RenderProgress& progress) {
+Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder::Work& work,
+                                       const RenderProgress& progress) {
   auto out = std::make_unique<LitHome>(work.key, work.state);
   Result<Scene> scene = sceneIn(home, work.state);
   if (!scene) return Error{scene.error()};
   out->scene = std::move(scene).value();
   RenderStats stats;
   Stages stages(progress, stats);
-  Result<std::unique_ptr<LitScene>> lit = lightScene(out->scene, work.settings, stages, {true, work.camera ? &*work.camera : nullptr});
+  Result<std::unique_ptr<LitScene>> lit =
+      lightScene(out->scene, work.settings, stages, {true, work.camera ? &*work.camera : nullptr});
   if (!lit) return Error{lit.error()};
   if (!lit.value() || stages.cancelled()) return std::unique_ptr<LitHome>();
   out->lit = std::move(lit.value());

@@ -27,7 +27,8 @@ struct LightKey {
 class FrontHome {
  public:
   // Of a copy of the scene.
-  FrontHome(Scene scene, HomeState state, Stages& stages) : scene_(std::move(scene)), state_(std::move(state)), base_(scene_, true, stages) {}
+  FrontHome(Scene scene, HomeState state, Stages& stages)
+      : scene_(std::move(scene)), state_(std::move(state)), base_(scene_, true, stages) {}
   // Brings the home to a state and says what that changed.
   SceneChange follow(const ViewHome& home, HomeState wanted);
   // Light of the state that `lit` is in.
@@ -79,7 +80,8 @@ class LightBuilder {
   void begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready);
   bool busy() const { return thread_.joinable(); }
   const Work& work() const { return work_; }
-  // What has come of it, once ready() was called; the builder is free then. An error's message, or the home; a null one where it was given up.
+  // What has come of it, once ready() was called; the builder is free then. An error's message, or the home; a null one
+  // where it was given up.
   std::optional<Result<std::unique_ptr<LitHome>>> take();
   void giveUp() { cancelled_ = true; }  // and nobody waits
   void cancel();

@@ -64,23 +64,30 @@ Message readCamera(const JsonPlace& j) {
   return camera;
 }
 
-std::optional<double> endOfScale(const JsonPlace& j) { return j.isNull() ? std::optional<double>() : j.number(1e-6, 1e9); }
+std::optional<double> endOfScale(const JsonPlace& j) {
+  return j.isNull() ? std::optional<double>() : j.number(1e-6, 1e9);
+}
 
 Message readDisplay(const JsonPlace& j) {
-  if (!j.isObject({"type", "exposure", "compensation", "curve", "whiteBalance", "falseColor", "low", "high"})) return {};
+  if (!j.isObject({"type", "exposure", "compensation", "curve", "whiteBalance", "falseColor", "low", "high"}))
+    return {};
   DisplayChange out;
-  if (j.has("exposure")) out.ev100.emplace(j["exposure"].isText("auto") ? std::optional<float>() : static_cast<float>(j["exposure"].number(-10, 25)));
+  if (j.has("exposure"))
+    out.ev100.emplace(j["exposure"].isText("auto") ? std::optional<float>()
+                                                   : static_cast<float>(j["exposure"].number(-10, 25)));
   if (j.has("compensation")) out.compensationEv = static_cast<float>(j["compensation"].number(-10, 10));
   if (j.has("curve")) out.curve = toneCurveFromName(j["curve"].oneOf({"neutral", "agx", "filmic", "clip"})).value();
   if (j.has("whiteBalance")) {
     const JsonPlace white = j["whiteBalance"];
     out.automaticWhite = white.isText("auto");
-    out.whiteK.emplace(*out.automaticWhite || white.isText("none") ? std::optional<double>() : white.number(kLowestWhiteK, kHighestWhiteK));
+    out.whiteK.emplace(*out.automaticWhite || white.isText("none") ? std::optional<double>()
+                                                                   : white.number(kLowestWhiteK, kHighestWhiteK));
   }
   if (j.has("falseColor")) {
     const std::string word = j["falseColor"].oneOf({"off", "illuminance", "luminance"});
-    out.falseColour = word == "off" ? FalseColour::Off : word == "luminance" ? FalseColour::Luminance
-                                                                             : FalseColour::Illuminance;
+    out.falseColour = word == "off"         ? FalseColour::Off
+                      : word == "luminance" ? FalseColour::Luminance
+                                            : FalseColour::Illuminance;
   }
   if (j.has("low")) out.low.emplace(endOfScale(j["low"]));
   if (j.has("high")) out.high.emplace(endOfScale(j["high"]));
@@ -99,12 +106,15 @@ Message readSplit(const JsonPlace& j) {
   if (!j.isObject({"type", "id", "split"})) return {};
   ChooseSplit out{whole(j["id"]), {}};
   const JsonPlace split = j["split"];
-  if (!split.isNull() && split.isObject({"left", "right"})) out.split = Split{readSide(split["left"]), readSide(split["right"])};
+  if (!split.isNull() && split.isObject({"left", "right"}))
+    out.split = Split{readSide(split["left"]), readSide(split["right"])};
   return out;
 }
 
 Message readEdit(const JsonPlace& j) {
-  if (!j.isObject({"type", "id", "target", "gesture", "position", "direction", "dim", "on", "temperatureK", "color", "fluxLm", "move", "turn", "hidden", "material", "open", "date", "hour"})) return {};
+  if (!j.isObject({"type", "id", "target", "gesture", "position", "direction", "dim", "on", "temperatureK", "color",
+                   "fluxLm", "move", "turn", "hidden", "material", "open", "date", "hour"}))
+    return {};
   Edit edit{whole(j["id"]), shortText(j["target"], kLongestName), {}, readEditFields(j)};
   if (j.has("gesture")) edit.gesture = shortText(j["gesture"], kLongestGesture);
   return edit;
@@ -113,8 +123,10 @@ Message readEdit(const JsonPlace& j) {
 Message readPlan(const JsonPlace& j) {
   if (!j.isObject({"type", "id", "do", "name"})) return {};
   const std::string what = j["do"].oneOf({"keep", "apply", "drop"});
-  return EditPlan{whole(j["id"]), what == "keep" ? EditPlan::Do::Keep : what == "apply" ? EditPlan::Do::Apply
-                                                                                        : EditPlan::Do::Drop,
+  return EditPlan{whole(j["id"]),
+                  what == "keep"    ? EditPlan::Do::Keep
+                  : what == "apply" ? EditPlan::Do::Apply
+                                    : EditPlan::Do::Drop,
                   shortText(j["name"], kLongestName)};
 }
 
@@ -129,7 +141,8 @@ Message readRender(const JsonPlace& j) {
   wish.id = whole(j["id"]);
   wish.panorama = j["kind"].oneOf({"picture", "panorama"}) == "panorama";
   if (j.has("width") != j.has("height")) j.fail("needs 'width' and 'height', or neither");
-  wish.width = static_cast<int>(j.number("width", 16, 7680, 0)), wish.height = static_cast<int>(j.number("height", 16, 4320, 0));
+  wish.width = static_cast<int>(j.number("width", 16, 7680, 0)),
+  wish.height = static_cast<int>(j.number("height", 16, 4320, 0));
   if (j.has("technique")) wish.technique = shortText(j["technique"], kLongestName);
   if (j.has("quality")) wish.quality = shortText(j["quality"], kLongestName);
   if (j.has("format")) wish.format = j["format"].oneOf({"png", "jpg", "exr"});
@@ -150,7 +163,12 @@ constexpr std::array kReaders = {
     Reader{"viewport", readViewport},
     Reader{"camera", readCamera},
     Reader{"display", readDisplay},
-    Reader{"technique", [](const JsonPlace& j) -> Message { return j.isObject({"type", "id", "technique"}) ? Message(ChooseTechnique{whole(j["id"]), shortText(j["technique"], kLongestName)}) : Message(); }},
+    Reader{"technique",
+           [](const JsonPlace& j) -> Message {
+             return j.isObject({"type", "id", "technique"})
+                        ? Message(ChooseTechnique{whole(j["id"]), shortText(j["technique"], kLongestName)})
+                        : Message();
+           }},
     Reader{"split", readSplit},
     Reader{"edit", readEdit},
     Reader{"undo", [](const JsonPlace& j) { return readStep(j, true); }},
@@ -159,10 +177,24 @@ constexpr std::array kReaders = {
     Reader{"pick", [](const JsonPlace& j) { return readPoint(j, false); }},
     Reader{"meter", [](const JsonPlace& j) { return readPoint(j, true); }},
     Reader{"render", readRender},
-    Reader{"cancel", [](const JsonPlace& j) -> Message { return j.isObject({"type", "id", "job"}) ? Message(CancelJob{whole(j["id"]), shortText(j["job"], kLongestName)}) : Message(); }},
-    Reader{"save", [](const JsonPlace& j) -> Message { return j.isObject({"type", "id"}) ? Message(SaveLighting{whole(j["id"])}) : Message(); }},
-    Reader{"ack", [](const JsonPlace& j) -> Message { return j.isObject({"type", "frame"}) ? Message(Ack{whole(j["frame"])}) : Message(); }},
-    Reader{"ping", [](const JsonPlace& j) -> Message { return j.isObject({"type", "id"}) ? Message(Ping{whole(j["id"])}) : Message(); }},
+    Reader{"cancel",
+           [](const JsonPlace& j) -> Message {
+             return j.isObject({"type", "id", "job"})
+                        ? Message(CancelJob{whole(j["id"]), shortText(j["job"], kLongestName)})
+                        : Message();
+           }},
+    Reader{"save",
+           [](const JsonPlace& j) -> Message {
+             return j.isObject({"type", "id"}) ? Message(SaveLighting{whole(j["id"])}) : Message();
+           }},
+    Reader{"ack",
+           [](const JsonPlace& j) -> Message {
+             return j.isObject({"type", "frame"}) ? Message(Ack{whole(j["frame"])}) : Message();
+           }},
+    Reader{"ping",
+           [](const JsonPlace& j) -> Message {
+             return j.isObject({"type", "id"}) ? Message(Ping{whole(j["id"])}) : Message();
+           }},
 };
 
 // The id of a request, if it can be read, so that who asked hears of its error.
@@ -185,13 +217,15 @@ ViewError badField(std::optional<uint32_t> id, const std::string& error) {
 }  // namespace
 
 Message readMessage(std::string_view text) {
-  if (text.size() > kMostMessageBytes) return ViewError{{}, "badMessage", "", fmt::format("longer than {} bytes", kMostMessageBytes)};
+  if (text.size() > kMostMessageBytes)
+    return ViewError{{}, "badMessage", "", fmt::format("longer than {} bytes", kMostMessageBytes)};
   const Result<nlohmann::json> document = parseJson(text);
   if (!document) return ViewError{{}, "badMessage", "", document.error()};
   std::string error;
   const JsonPlace j(document.value(), "", error);
   const std::optional<uint32_t> id = idOf(document.value());
-  if (!document.value().is_object() || !j.has("type") || !document.value()["type"].is_string()) return ViewError{id, "badMessage", "type", "must be an object with a type"};
+  if (!document.value().is_object() || !j.has("type") || !document.value()["type"].is_string())
+    return ViewError{id, "badMessage", "type", "must be an object with a type"};
   const std::string type = j["type"].text();
   for (const Reader& reader : kReaders) {
     if (type != reader.type) continue;

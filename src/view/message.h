@@ -1,4 +1,5 @@
-// What a browser says, read strictly (docs/formats/view.md): an unknown key, a wrong type or a value out of range is an error that names the key.
+// What a browser says, read strictly (docs/formats/view.md): an unknown key, a wrong type or a value out of range is an
+// error that names the key.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@ constexpr size_t kMostMessageBytes = 64 << 10;
 
 struct ViewError {
   std::optional<uint32_t> id;  // of the request, where it could be read
-  std::string code;            // "badMessage", "badField", "unknownThing", "notPossible", "failed"
-  std::string field;           // the key that is wrong; empty: none
+  std::string code;  // "badMessage", "badField", "unknownThing", "notPossible", "failed"
+  std::string field;  // the key that is wrong; empty: none
   std::string message;
 };
 
@@ -32,9 +33,7 @@ struct ViewCamera {
   float yFovDeg = 55;
 };
 
-enum class FalseColour : uint8_t { Off,
-                                   Illuminance,
-                                   Luminance };
+enum class FalseColour : uint8_t { Off, Illuminance, Luminance };
 
 // What of the display a message changes.
 struct DisplayChange {
@@ -84,9 +83,7 @@ struct StepHistory {
 };
 
 struct EditPlan {
-  enum class Do : uint8_t { Keep,
-                            Apply,
-                            Drop };
+  enum class Do : uint8_t { Keep, Apply, Drop };
   uint32_t id;
   Do what;
   std::string name;
@@ -103,7 +100,7 @@ struct RenderWish {
   bool panorama = false;
   int width = 0, height = 0;  // 0: chosen
   std::string technique, quality, format = "png";  // empty: the window's, good
-  double seconds = 0;         // 0: until the quality is reached
+  double seconds = 0;  // 0: until the quality is reached
 };
 
 struct CancelJob {
@@ -120,7 +117,8 @@ struct Ping {
   uint32_t id;
 };
 
-using Message = std::variant<ViewError, Viewport, ViewCamera, DisplayChange, ChooseTechnique, ChooseSplit, Edit, StepHistory, EditPlan, Point, RenderWish, CancelJob, SaveLighting, Ack, Ping>;
+using Message = std::variant<ViewError, Viewport, ViewCamera, DisplayChange, ChooseTechnique, ChooseSplit, Edit,
+                             StepHistory, EditPlan, Point, RenderWish, CancelJob, SaveLighting, Ack, Ping>;
 
 // Names of techniques, qualities, plans and things are left to who knows them.
 Message readMessage(std::string_view text);

@@ -35,9 +35,11 @@ void readDate(const JsonPlace& j, EditFields& out) {
   int year = 0;
   unsigned month = 0, day = 0;
   const std::string_view t = text;
-  const bool shaped = t.size() == 10 && t[4] == '-' && t[7] == '-' && digits(t.substr(0, 4), year) && digits(t.substr(5, 2), month) && digits(t.substr(8, 2), day);
+  const bool shaped = t.size() == 10 && t[4] == '-' && t[7] == '-' && digits(t.substr(0, 4), year) &&
+                      digits(t.substr(5, 2), month) && digits(t.substr(8, 2), day);
   const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)};
-  if (!shaped || !date.ok() || year < 1950 || year > 2050) return j.fail("must be a date from 1950 to 2050 as \"2026-06-21\"");
+  if (!shaped || !date.ok() || year < 1950 || year > 2050)
+    return j.fail("must be a date from 1950 to 2050 as \"2026-06-21\"");
   out.year = year, out.month = static_cast<int>(month), out.day = static_cast<int>(day);
 }
 

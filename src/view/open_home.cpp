@@ -28,7 +28,8 @@ std::string wrongDimming(const nlohmann::json& document, const Scene& scene) {
 bool keepsOwnSun(const nlohmann::json& document) {
   if (!document.is_object()) return true;
   const nlohmann::json scene = document.value("scene", nlohmann::json::object());
-  return !document.contains("daylight") && !document.contains("sun") && !document.contains("sky") && scene.value("suns", "keep") == "keep" && scene.value("sky", "keep") == "keep";
+  return !document.contains("daylight") && !document.contains("sun") && !document.contains("sky") &&
+         scene.value("suns", "keep") == "keep" && scene.value("sky", "keep") == "keep";
 }
 
 // What was added comes after what the file says, as it does in the scene; its sky and sun replace others.
@@ -61,7 +62,8 @@ Result<OpenedView> openHome(home::OpenWish wish) {
   if (!result) return Error{result.error()};
   home::OpenedHome& opened = result.value();
   if (!wish.lighting.empty()) {
-    if (const std::string wrong = wrongDimming(source.document, opened.scene); !wrong.empty()) return Error{fmt::format("{}: {}", wish.lighting.string(), wrong)};
+    if (const std::string wrong = wrongDimming(source.document, opened.scene); !wrong.empty())
+      return Error{fmt::format("{}: {}", wish.lighting.string(), wrong)};
   }
   if (!opened.lighting.is_null()) merge(opened.lighting, source.document);
   if (source.document.contains("lamps")) source.lamps = source.document["lamps"].size();
@@ -70,7 +72,8 @@ Result<OpenedView> openHome(home::OpenWish wish) {
   home.opened = stateOfFile(home, home.lighting.document);
   const nlohmann::json& document = home.lighting.document;
   home.sun = sunOfLighting(document, home.lighting.folder);
-  if (keepsOwnSun(document) && !opened.daylight.empty()) home.sun = sunOfDaylight(nlohmann::json::parse(opened.daylight), {});
+  if (keepsOwnSun(document) && !opened.daylight.empty())
+    home.sun = sunOfDaylight(nlohmann::json::parse(opened.daylight), {});
   return OpenedView{std::move(home), std::move(opened)};
 }
 

@@ -24,13 +24,17 @@ std::pair<int, int> Pace::sizeFor(double ms, std::pair<int, int> whole) {
   const double pixels = static_cast<double>(whole.first) * whole.second;
   const auto pixelsAt = [&](int step) { return pixels * scaleOf(step) * scaleOf(step); };
   const auto cost = [&](int step) { return msPerMegapixel_ * pixelsAt(step) / 1e6; };
-  const auto mayShrink = [&](int step) { return std::min(whole.first, whole.second) * scaleOf(step + 1) >= kNarrowest; };
+  const auto mayShrink = [&](int step) {
+    return std::min(whole.first, whole.second) * scaleOf(step + 1) >= kNarrowest;
+  };
   const int before = step_;
   while (step_ > 0 && measured_ >= kBeforeGrowing && cost(step_ - 1) < kRoom * ms) --step_;
   while ((cost(step_) > ms / kRoom || pixelsAt(step_) > kMostPixels) && mayShrink(step_)) ++step_;
   while (step_ > 0 && !mayShrink(step_ - 1)) --step_;
   if (step_ != before) measured_ = 0;
-  const auto scaled = [&](int edge) { return std::clamp(static_cast<int>(std::lround(edge * scaleOf(step_))), 1, edge); };
+  const auto scaled = [&](int edge) {
+    return std::clamp(static_cast<int>(std::lround(edge * scaleOf(step_))), 1, edge);
+  };
   return {scaled(whole.first), scaled(whole.second)};
 }
 
@@ -56,7 +60,8 @@ int Line::quality() const {
 float Line::scale() const {
   if (bytesAFrame_ <= 0 || quality() > kWorst) return 1;
   const double fits = std::sqrt(bytesPerMs_ * 2 * kLineMs / bytesAFrame_);
-  return static_cast<float>(scaleOf(std::clamp(static_cast<int>(std::ceil(-std::log2(fits) / kStepOctaves)), 0, kMostLineSteps)));
+  return static_cast<float>(
+      scaleOf(std::clamp(static_cast<int>(std::ceil(-std::log2(fits) / kStepOctaves)), 0, kMostLineSteps)));
 }
 
 }  // namespace roomlight::view

@@ -27,7 +27,8 @@ bool isSeen(const RayScene& rays, Vec3 eye, Vec3 place) {
   return !isBlack(rays.transmittance({eye, way, 0, 0.999f}));
 }
 
-int bodilessLampAt(const EditableHome& home, const HomeState& state, const RayScene& rays, const Camera& camera, std::pair<int, int> size, float px, float py, float reach) {
+int bodilessLampAt(const EditableHome& home, const HomeState& state, const RayScene& rays, const Camera& camera,
+                   std::pair<int, int> size, float px, float py, float reach) {
   const CameraRays view(camera, size.first, size.second);
   int best = -1;
   float nearest = reach;
@@ -37,14 +38,16 @@ int bodilessLampAt(const EditableHome& home, const HomeState& state, const RaySc
     const std::optional<Vec2> at = view.pixelOf(place);
     if (!at) continue;
     const float distance = std::hypot(at->x - px, at->y - py);
-    if (distance < nearest && isSeen(rays, camera.worldFromCamera.w, place)) best = static_cast<int>(k), nearest = distance;
+    if (distance < nearest && isSeen(rays, camera.worldFromCamera.w, place))
+      best = static_cast<int>(k), nearest = distance;
   }
   return best;
 }
 
 }  // namespace
 
-std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& state, const RayScene& rays, const Camera& camera, std::pair<int, int> size, float x, float y, float pixels) {
+std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& state, const RayScene& rays,
+                                  const Camera& camera, std::pair<int, int> size, float x, float y, float pixels) {
   const float px = x * static_cast<float>(size.first), py = y * static_cast<float>(size.second);
   const Ray ray = CameraRays(camera, size.first, size.second).ray(px, py);
   const Hit hit = rays.intersect(ray);
@@ -58,9 +61,15 @@ std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& sta
     return out;
   }
   const SurfacePoint p = surfaceAt(rays.scene(), hit, ray.direction);
-  out.point = p.p, out.normal = p.ng, out.distanceM = length(p.p - camera.worldFromCamera.w), out.material = p.material->name;
-  out.object = numberOf(home.objects, [&](const EditableObject& o) { return !o.lampBody && std::any_of(o.parts.begin(), o.parts.end(), [&](const auto& part) { return part.instance == hit.instance; }); });
-  out.lamp = lamp >= 0 ? lamp : numberOf(home.lamps, [&](const EditableLamp& l) { return std::find(l.instances.begin(), l.instances.end(), hit.instance) != l.instances.end(); });
+  out.point = p.p, out.normal = p.ng, out.distanceM = length(p.p - camera.worldFromCamera.w),
+  out.material = p.material->name;
+  out.object = numberOf(home.objects, [&](const EditableObject& o) {
+    return !o.lampBody &&
+           std::any_of(o.parts.begin(), o.parts.end(), [&](const auto& part) { return part.instance == hit.instance; });
+  });
+  out.lamp = lamp >= 0 ? lamp : numberOf(home.lamps, [&](const EditableLamp& l) {
+    return std::find(l.instances.begin(), l.instances.end(), hit.instance) != l.instances.end();
+  });
   return out;
 }
 
@@ -69,11 +78,14 @@ std::optional<Metered> meterAt(const LitHome& lit, const PickedPoint& at, Vec3 e
   MeterSettings settings;
   settings.tolerance = kTolerance, settings.fewestSamples = kFewest, settings.mostSamples = kMost;
   const std::vector<MeterReading> readings = lit.lit->illuminance({&element, 1}, settings, {{}, &stop});
-  const Image spot = lit.lit->pictureOf(cameraAt(eye, normalize(at.point - eye), kSpotRad), {kSpotPixels, kSpotPixels, kSpotSamples, {}}, {{}, &stop});
+  const Image spot = lit.lit->pictureOf(cameraAt(eye, normalize(at.point - eye), kSpotRad),
+                                        {kSpotPixels, kSpotPixels, kSpotSamples, {}}, {{}, &stop});
   if (stop || readings.empty() || spot.pixels.empty()) return {};
   Metered out;
-  out.illuminanceLux = static_cast<double>(luminance(readings[0].illuminanceLux)), out.standardErrorLux = readings[0].standardErrorLux;
-  for (const Vec3& p : spot.pixels) out.luminanceCdM2 += static_cast<double>(luminance(p)) / static_cast<double>(spot.pixels.size());
+  out.illuminanceLux = static_cast<double>(luminance(readings[0].illuminanceLux)),
+  out.standardErrorLux = readings[0].standardErrorLux;
+  for (const Vec3& p : spot.pixels)
+    out.luminanceCdM2 += static_cast<double>(luminance(p)) / static_cast<double>(spot.pixels.size());
   return out;
 }
 

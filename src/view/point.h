@@ -15,8 +15,10 @@ struct PickedPoint {
   std::string material;
 };
 
-// `x`, `y`: fractions of the picture of `size`. A lamp without a body is found within 12 of the viewport's `pixels` of height where nothing stands before it.
-std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& state, const RayScene& rays, const Camera& camera, std::pair<int, int> size, float x, float y, float pixels);
+// `x`, `y`: fractions of the picture of `size`. A lamp without a body is found within 12 of the viewport's `pixels` of
+// height where nothing stands before it.
+std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& state, const RayScene& rays,
+                                  const Camera& camera, std::pair<int, int> size, float x, float y, float pixels);
 
 struct Metered {
   double illuminanceLux = 0, standardErrorLux = 0;  // on the side that is seen

@@ -15,7 +15,8 @@ constexpr float kGoodEnough = 0.002f;  // relative error: less cannot be seen
 
 }  // namespace
 
-void Refiner::begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first, int firstLook) {
+void Refiner::begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first,
+                    int firstLook) {
   stop();
   cancelled_ = false, failed_ = false, working_ = true;
   home_ = &home;
@@ -41,7 +42,8 @@ bool Refiner::tracePasses(PathTracer& tracer, int until) {
   return !cancelled_;
 }
 
-void Refiner::run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first, int firstLook) {
+void Refiner::run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first,
+                  int firstLook) {
   std::optional<PathTracer> made;
   {
     const std::lock_guard lock(usesHome_);
@@ -49,7 +51,8 @@ void Refiner::run(const LitHome& home, const Camera& camera, const PathSettings&
     made.emplace(home.lit->rays(), home.lit->lights(), camera, settings, true);
   }
   PathTracer& tracer = *made;
-  for (int samples = firstLook; tracePasses(tracer, samples); samples = std::min(kMostSamples, static_cast<int>(kLookAgain * samples))) {
+  for (int samples = firstLook; tracePasses(tracer, samples);
+       samples = std::min(kMostSamples, static_cast<int>(kLookAgain * samples))) {
     Blend best = blend(first, tracer.mean(), tracer.variance(), tracer.features());
     const auto error = static_cast<float>(best.relativeError);
     const bool last = samples >= kMostSamples || error < kGoodEnough;

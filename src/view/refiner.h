@@ -32,9 +32,10 @@ class Refiner {
   explicit Refiner(std::function<void()> ready) : ready_(std::move(ready)) {}
   ~Refiner() { stop(); }
 
-  // Begins anew with a picture that has little noise; `home` must stay as it is until it was let go. Tells of the first picture after so many samples.
-  // Waits for what is still working.
-  void begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first, int firstLook);
+  // Begins anew with a picture that has little noise; `home` must stay as it is until it was let go. Tells of the first
+  // picture after so many samples. Waits for what is still working.
+  void begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first,
+             int firstLook);
   const LitHome* home() const { return home_; }  // null: none
   bool working() const { return working_; }
   bool failed() const { return failed_; }  // no further picture comes of what was begun last
@@ -56,7 +57,7 @@ class Refiner {
   const LitHome* home_ = nullptr;
   std::atomic<bool> cancelled_{false}, working_{false}, failed_{false};
   std::mutex usesHome_;  // held while the home is looked at
-  std::mutex mutex_;     // of the picture
+  std::mutex mutex_;  // of the picture
   std::optional<RefinedPicture> picture_;
   std::thread thread_;
 };

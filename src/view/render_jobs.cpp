@@ -31,7 +31,9 @@ std::string newId() {
 // Tells now and then how far a job is.
 class Teller {
  public:
-  Teller(const RenderWork& work, const std::function<void(const JobNews&)>& tell) : tell_(tell) { news_.job = work.job, news_.window = work.window; }
+  Teller(const RenderWork& work, const std::function<void(const JobNews&)>& tell) : tell_(tell) {
+    news_.job = work.job, news_.window = work.window;
+  }
   void report(const std::string& stage, float fraction) {
     if (stage != news_.stage) stageWatch_ = Stopwatch();
     const bool isNew = stage != news_.stage;
@@ -53,7 +55,8 @@ class Teller {
 
 }  // namespace
 
-RenderJobs::RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell) : home_(home), tell_(std::move(tell)) {
+RenderJobs::RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell)
+    : home_(home), tell_(std::move(tell)) {
   std::error_code code;
   std::string pattern = (std::filesystem::temp_directory_path(code) / "roomlight-renders-XXXXXX").string();
   if (!code && mkdtemp(pattern.data())) folder_ = pattern;
@@ -89,7 +92,8 @@ bool RenderJobs::cancel(const std::string& job) {
       cancelled_ = true;
       return true;
     }
-    const auto waits = std::find_if(waiting_.begin(), waiting_.end(), [&](const RenderWork& w) { return w.job == job; });
+    const auto waits =
+        std::find_if(waiting_.begin(), waiting_.end(), [&](const RenderWork& w) { return w.job == job; });
     if (waits == waiting_.end()) return false;
     news.job = job, news.window = waits->window, news.state = "cancelled";
     waiting_.erase(waits);
@@ -172,7 +176,8 @@ JobNews RenderJobs::work(const RenderWork& work) {
       Result<FinishedFile> file = write(work, rendered.value());
       if (!file) return failed(file.error());
       std::error_code ignored;
-      news.fileId = newId(), news.fileName = file.value().name, news.bytes = std::filesystem::file_size(file.value().path, ignored);
+      news.fileId = newId(), news.fileName = file.value().name,
+      news.bytes = std::filesystem::file_size(file.value().path, ignored);
       keep(news.fileId, std::move(file).value());
     }
     return news;

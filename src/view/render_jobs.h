@@ -1,4 +1,5 @@
-// Final pictures and panoramas, made one after the other in the background while the home is looked at; each is kept until it was fetched.
+// Final pictures and panoramas, made one after the other in the background while the home is looked at; each is kept
+ // until it was fetched.
 #pragma once
 
 #include <atomic>

@@ -14,7 +14,9 @@ namespace {
 using nlohmann::json;
 
 double rounded(double v) { return std::round(v * 1e5) / 1e5; }
-json list(Vec3 v) { return {rounded(static_cast<double>(v.x)), rounded(static_cast<double>(v.y)), rounded(static_cast<double>(v.z))}; }
+json list(Vec3 v) {
+  return {rounded(static_cast<double>(v.x)), rounded(static_cast<double>(v.y)), rounded(static_cast<double>(v.z))};
+}
 
 void putColour(const LampState& s, json& entry) {
   if (!s.temperatureK && !s.color) return;
@@ -51,7 +53,8 @@ json ownLamp(const EditableLamp& lamp, size_t number, const LampState& s) {
 }
 
 void makeAbsolute(const std::filesystem::path& folder, const char* key, json& j) {
-  if (j.is_object() && j.contains(key) && j[key].is_string()) j[key] = std::filesystem::absolute(folder / j[key].get<std::string>()).lexically_normal().string();
+  if (j.is_object() && j.contains(key) && j[key].is_string())
+    j[key] = std::filesystem::absolute(folder / j[key].get<std::string>()).lexically_normal().string();
 }
 
 void putSun(const ViewHome& home, const HomeState& state, json& document) {
@@ -123,7 +126,9 @@ json withoutDimming(json document) {
 HomeState stateOfFile(const ViewHome& home, const json& document) {
   HomeState state = home.editable.atStart;
   std::string ignored;  // the file was read before: nothing is wrong in it
-  const std::vector<OwnLamp> own = document.is_object() && document.contains("own") ? readOwnLamps(JsonPlace(document["own"], "own", ignored)) : std::vector<OwnLamp>();
+  const std::vector<OwnLamp> own = document.is_object() && document.contains("own")
+                                       ? readOwnLamps(JsonPlace(document["own"], "own", ignored))
+                                       : std::vector<OwnLamp>();
   std::map<std::string, size_t> numbers;
   for (size_t i = 0; i < home.editable.lamps.size(); ++i) {
     const EditableLamp& lamp = home.editable.lamps[i];

@@ -15,7 +15,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kLookAgain{250};  // at lines that may have become free, windows that were lost
 constexpr milliseconds kSoon{20}, kTellEvery{100};
 constexpr milliseconds kAfterFailure{2000};
-// Around the home. The light of everything is found in one box: a thing that is carried out of sight would make that absurdly large.
+// Around the home. The light of everything is found in one box: a thing that is carried out of sight would make that
+// absurdly large.
 constexpr float kFarthestOutM = 100;
 
 Bounds3 reachOf(const ViewHome& home) {
@@ -27,7 +28,15 @@ Bounds3 reachOf(const ViewHome& home) {
 
 }  // namespace
 
-Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox) : home_(std::move(home)), reach_(reachOf(home_)), settings_(settings), frames_(frameSettings(settings)), outbox_(std::move(outbox)), homeJson_(homeJson(home_)), refiner_([this] { tellRefined(); }), jobs_(home_, [this](const JobNews& news) { takeNews(news); }) {
+Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox)
+    : home_(std::move(home)),
+      reach_(reachOf(home_)),
+      settings_(settings),
+      frames_(frameSettings(settings)),
+      outbox_(std::move(outbox)),
+      homeJson_(homeJson(home_)),
+      refiner_([this] { tellRefined(); }),
+      jobs_(home_, [this](const JobNews& news) { takeNews(news); }) {
   state_ = home_.atStart();
   plans_["start"] = state_;
   thread_ = std::thread([this] { withThreads(settings_.threads, [this] { run(); }); });
@@ -50,7 +59,8 @@ void Session::close(Connection connection) { push(connection, Closed{}); }
 
 void Session::receive(Connection connection, const std::string& text) {
   Message message = readMessage(text);
-  if (const auto* ping = std::get_if<Ping>(&message)) return outbox_.text(connection, textOf({{"type", "pong"}, {"id", ping->id}}));
+  if (const auto* ping = std::get_if<Ping>(&message))
+    return outbox_.text(connection, textOf({{"type", "pong"}, {"id", ping->id}}));
   push(connection, std::move(message));
 }
 
@@ -74,11 +84,15 @@ bool Session::isOfFrames(const What& what) {
   return std::holds_alternative<Packed>(what) || (message && std::holds_alternative<Ack>(*message));
 }
 
-// Of places and sizes of a window only the newest counts. The one before it, if nothing that could depend on it came between; with the lock held.
+// Of places and sizes of a window only the newest counts. The one before it, if nothing that could depend on it came
+// between; with the lock held.
 Session::Event* Session::outdatedBy(const Event& event) {
   const auto* message = std::get_if<Message>(&event.what);
-  if (!message || !(std::holds_alternative<ViewCamera>(*message) || std::holds_alternative<Viewport>(*message))) return nullptr;
-  const auto before = std::find_if(events_.rbegin(), events_.rend(), [&](const Event& e) { return e.connection == event.connection && !isOfFrames(e.what); });
+  if (!message || !(std::holds_alternative<ViewCamera>(*message) || std::holds_alternative<Viewport>(*message)))
+    return nullptr;
+  const auto before = std::find_if(events_.rbegin(), events_.rend(), [&](const Event& e) {
+    return e.connection == event.connection && !isOfFrames(e.what);
+  });
   const auto* said = before == events_.rend() ? nullptr : std::get_if<Message>(&before->what);
   return said && said->index() == message->index() ? &*before : nullptr;
 }
@@ -93,7 +107,9 @@ void Session::run() {
       tellFailure(fmt::format("something went wrong: {}", e.what()));
     }
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, pause, [&] { return stop_ || built_ || refinedReady_ || lightReady_ || progress_ || !jobNews_.empty() || !events_.empty(); });
+    wake_.wait_for(lock, pause, [&] {
+      return stop_ || built_ || refinedReady_ || lightReady_ || progress_ || !jobNews_.empty() || !events_.empty();
+    });
   }
 }
 

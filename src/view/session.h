@@ -1,7 +1,8 @@
-// One home looked at through several windows. Knows messages and frames, no network: who owns it hands in what browsers say and carries
-// away what they are told. Of its threads the loop (session.cpp) makes quick frames and owns windows and state; others work in the background and wake it: one lights
-// homes anew (LightBuilder), one brings their light to where the home is (LightFollower), one refines a picture (Refiner), one makes final pictures (RenderJobs), one
-// packs frames (FrameSender).
+// One home looked at through several windows. Knows messages and frames, no network: who owns it hands in what browsers
+// say and carries away what they are told. Of its threads the loop (session.cpp) makes quick frames and owns windows
+// and state; others work in the background and wake it: one lights homes anew (LightBuilder), one brings their light to
+// where the home is (LightFollower), one refines a picture (Refiner), one makes final pictures (RenderJobs), one packs
+// frames (FrameSender).
 #pragma once
 
 #include <condition_variable>
@@ -131,11 +132,13 @@ class Session {
   void lookFrom(LitHome& home, const Camera& camera);
   FrameHistory* historyOf(Side& side, Window& window);
   bool showQuick(Window& window, Side& side, LitHome& home, const Camera& camera);
-  enum class Next { Nothing,
-                    Wait,   // for rest, or for light
-                    Again,  // the same picture is shown otherwise
-                    Quick,
-                    Better };
+  enum class Next {
+    Nothing,
+    Wait,  // for rest, or for light
+    Again,  // the same picture is shown otherwise
+    Quick,
+    Better
+  };
   Next nextOf(const Window& window, const Side& side, const LitHome& home) const;
   bool somebodyMoves() const;
   bool makeFrame(Window& window);
@@ -159,9 +162,9 @@ class Session {
   void tellRefined();
 
   const ViewHome home_;
-  const Bounds3 reach_;            // how far things may be moved
+  const Bounds3 reach_;  // how far things may be moved
   const RenderSettings settings_;  // of renders
-  const RenderSettings frames_;    // of what is shown meanwhile
+  const RenderSettings frames_;  // of what is shown meanwhile
   const Outbox outbox_;
   HomeState state_;
   uint32_t revision_ = 1;
@@ -174,7 +177,7 @@ class Session {
   Json homeJson_;
   LightFollower follower_;
   uint64_t followings_ = 0;  // so far
-  uint32_t followed_ = 0;    // revision to which it follows
+  uint32_t followed_ = 0;  // revision to which it follows
   bool soon_ = false;  // a window rests in a moment
   struct Refining {  // whose picture it is; of an older serial it is of no more use
     std::string window;

@@ -15,27 +15,34 @@
 namespace roomlight::view {
 namespace {
 
-constexpr double kQuickMs = 32;  // of 50: the rest is for light that follows, and showing and packing, which take a part of the same cores
+constexpr double kQuickMs =
+    32;  // of 50: the rest is for light that follows, and showing and packing, which take a part of the same cores
 constexpr double kEditMs = 65;  // where the scene changes: ten frames a second, and light that follows meanwhile
 constexpr double kForRays = 0.7;  // of that, at most: the rest is for light
-constexpr double kRestMs = 80;  // without an input: before that a better picture is not begun, since the next input would end it
-constexpr double kForLightMs = 2500;  // after an input that was shown, at most: light that follows it has the machine for itself
+constexpr double kRestMs =
+    80;  // without an input: before that a better picture is not begun, since the next input would end it
+constexpr double kForLightMs =
+    2500;  // after an input that was shown, at most: light that follows it has the machine for itself
 constexpr double kLookAtColourMs = 250;
 constexpr int kColourRays = 32;  // along both edges
 constexpr size_t kMostHistories = 4;
 
-double millisecondsSince(TimePoint at) { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - at).count(); }
+double millisecondsSince(TimePoint at) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - at).count();
+}
 
 }  // namespace
 
 Window* Session::windowOf(Connection connection) {
-  const auto w = std::find_if(windows_.begin(), windows_.end(), [&](const Window& x) { return x.connection == connection; });
+  const auto w =
+      std::find_if(windows_.begin(), windows_.end(), [&](const Window& x) { return x.connection == connection; });
   return w == windows_.end() ? nullptr : &*w;
 }
 
 // Null for an empty name.
 Window* Session::windowNamed(const std::string& name) {
-  const auto w = std::find_if(windows_.begin(), windows_.end(), [&](const Window& x) { return !name.empty() && x.name == name; });
+  const auto w =
+      std::find_if(windows_.begin(), windows_.end(), [&](const Window& x) { return !name.empty() && x.name == name; });
   return w == windows_.end() ? nullptr : &*w;
 }
 
@@ -50,7 +57,8 @@ void Session::tellAll(const std::string& text) const {
 void Session::chooseSides(Window& window) {
   std::vector<Side> sides;
   if (window.split) {
-    for (const SplitSide& s : {window.split->left, window.split->right}) sides.emplace_back().key = {s.technique.empty() ? window.technique : s.technique, s.plan};
+    for (const SplitSide& s : {window.split->left, window.split->right})
+      sides.emplace_back().key = {s.technique.empty() ? window.technique : s.technique, s.plan};
   } else {
     sides.emplace_back().key = {window.technique, ""};
   }
@@ -82,7 +90,8 @@ FrameHistory* Session::historyOf(Side& side, Window& window) {
   size_t count = 0;
   Window* oldest = nullptr;
   for (Window& w : windows_) {
-    const auto kept = static_cast<size_t>(std::count_if(w.sides.begin(), w.sides.end(), [](const Side& s) { return s.history.has_value(); }));
+    const auto kept = static_cast<size_t>(
+        std::count_if(w.sides.begin(), w.sides.end(), [](const Side& s) { return s.history.has_value(); }));
     count += kept;
     if (kept > 0 && &w != &window && (!oldest || w.lastFrameAt < oldest->lastFrameAt)) oldest = &w;
   }
@@ -95,7 +104,8 @@ FrameHistory* Session::historyOf(Side& side, Window& window) {
 
 // An input of any window ends what better pictures of others have begun, so that these would only take time from it.
 bool Session::somebodyMoves() const {
-  return std::any_of(windows_.begin(), windows_.end(), [](const Window& w) { return w.connection && millisecondsSince(w.inputAt) < kRestMs; });
+  return std::any_of(windows_.begin(), windows_.end(),
+                     [](const Window& w) { return w.connection && millisecondsSince(w.inputAt) < kRestMs; });
 }
 
 // What a side of a window needs next.
@@ -105,7 +115,8 @@ Session::Next Session::nextOf(const Window& window, const Side& side, const LitH
   if (!current || side.lightCame) return Next::Quick;
   if (side.again) return Next::Again;
   if (home.front && !isUpToDate(home)) {
-    const bool waits = millisecondsSince(window.inputAt) < kForLightMs || side.picture.samples() > 0 || side.quick.settled();
+    const bool waits =
+        millisecondsSince(window.inputAt) < kForLightMs || side.picture.samples() > 0 || side.quick.settled();
     return waits ? Next::Wait : Next::Quick;
   }
   if (!isUpToDate(home)) return Next::Wait;
@@ -139,16 +150,19 @@ bool Session::showQuick(Window& window, Side& side, LitHome& home, const Camera&
   const bool edits = home.front && !isUpToDate(home);
   const double ms = edits ? kEditMs : kQuickMs;
   Pace& pace = edits ? side.editPace : side.pace;
-  const std::pair<int, int> whole = frameSize(window.viewport, window.line.scale()), size = pace.sizeFor(home.front ? kForRays * ms : ms, whole);
+  const std::pair<int, int> whole = frameSize(window.viewport, window.line.scale()),
+                            size = pace.sizeFor(home.front ? kForRays * ms : ms, whole);
   const Stopwatch watch;
   Image image;
   double costMs = 0;
   if (home.front) {
-    image = side.quick.make(home.front->quick(window.display.white()), camera, size.first, size.second, ms, {{}, &stop_});
+    image =
+        side.quick.make(home.front->quick(window.display.white()), camera, size.first, size.second, ms, {{}, &stop_});
     costMs = side.quick.count().otherMs / std::max(1, threadCount());  // light takes what time is left
   } else {
     const bool white = window.display.white();
-    image = home.lit->pictureOf(camera, {size.first, size.second, 1, {}, white, true, white ? nullptr : historyOf(side, window)}, {{}, &stop_});
+    image = home.lit->pictureOf(
+        camera, {size.first, size.second, 1, {}, white, true, white ? nullptr : historyOf(side, window)}, {{}, &stop_});
     costMs = watch.seconds() * 1e3;
   }
   if (stop_ || image.width == 0) return false;
@@ -171,7 +185,8 @@ bool Session::stepSide(Window& window, size_t index) {
   if (next == Next::Better) {
     if (!home.front) lookFrom(home, camera);  // another window may have had it elsewhere
     // Of the whole size on slow lines too: nobody waits for the next.
-    const bool shows = side.picture.step(home, camera, frameSize(window.viewport, 1), {window.display.white(), refines(window, side)}, newer_);
+    const bool shows = side.picture.step(home, camera, frameSize(window.viewport, 1),
+                                         {window.display.white(), refines(window, side)}, newer_);
     if (shows) sendFrame(window, index, home);
     return true;
   }
@@ -201,7 +216,9 @@ void Session::sendFrame(Window& window, size_t index, LitHome& home) {
   info.side = window.sides.size() > 1 ? static_cast<uint8_t>(index + 1) : uint8_t{0};
   const bool sunBehind = !home.canFollow(stateOf(side.key).sun), lightBehind = !isUpToDate(home);
   const auto flag = [](bool on, uint8_t bit) { return on ? bit : uint8_t{0}; };
-  info.flags = static_cast<uint8_t>(flag(picture.quick(), kQuick) | flag(picture.settled(), kSettled) | flag(picture.refined(), kRefined) | flag(sunBehind || lightBehind || side.shownRevision != revision_, kLightIsBehind));
+  info.flags = static_cast<uint8_t>(flag(picture.quick(), kQuick) | flag(picture.settled(), kSettled) |
+                                    flag(picture.refined(), kRefined) |
+                                    flag(sunBehind || lightBehind || side.shownRevision != revision_, kLightIsBehind));
   info.jpegQuality = static_cast<uint16_t>(window.line.quality());
   info.camera = window.camera.number, info.revision = side.shownRevision, info.samples = picture.samples();
   info.relativeError = picture.relativeError();
@@ -212,34 +229,40 @@ void Session::sendFrame(Window& window, size_t index, LitHome& home) {
   window.lastFrameAt = std::chrono::steady_clock::now();
   FrameSender::Make make;
   if (window.display.falseColour == FalseColour::Off) {
-    if (window.display.display.automaticWhite && (isBlack(side.lightColour) || millisecondsSince(side.lightColourAt) > kLookAtColourMs)) {
-      side.lightColour = lightColour(rays, cameraOf(window.camera), picture.image(), kColourRays), side.lightColourAt = window.lastFrameAt;
+    if (window.display.display.automaticWhite &&
+        (isBlack(side.lightColour) || millisecondsSince(side.lightColourAt) > kLookAtColourMs)) {
+      side.lightColour = lightColour(rays, cameraOf(window.camera), picture.image(), kColourRays),
+      side.lightColourAt = window.lastFrameAt;
     }
     const Vec3 colour = window.display.display.automaticWhite ? side.lightColour : Vec3();
-    make = [light = picture.shared(), colour, display = window.display, sinceLast, eye = window.eye[index], info]() mutable {
+    make = [light = picture.shared(), colour, display = window.display, sinceLast, eye = window.eye[index],
+            info]() mutable {
       const ByteImage shown = showPicture(*light, colour, display, sinceLast, *eye, info);
       return packFrame(info, shown);
     };
   } else {
     info.flags |= kFalseColour;
     const bool lux = window.display.falseColour == FalseColour::Illuminance;
-    auto amounts = std::make_shared<const Image>(lux ? illuminancePicture(rays, cameraOf(window.camera), picture.image()) : luminanceOnly(picture.image()));
+    auto amounts = std::make_shared<const Image>(
+        lux ? illuminancePicture(rays, cameraOf(window.camera), picture.image()) : luminanceOnly(picture.image()));
     make = [amounts = std::move(amounts), display = window.display, info]() mutable {
       const ByteImage shown = showAmounts(*amounts, display, info);
       return packFrame(info, shown);
     };
   }
   window.underWay.push_back({info.number, 0, window.lastFrameAt});
-  sender_.push(std::move(make), [this, connection = *window.connection, number = info.number](Result<std::string> bytes) {
-    push(connection, Packed{number, bytes ? bytes.value().size() : 0});
-    if (bytes) return outbox_.frame(connection, std::move(bytes).value());
-    outbox_.text(connection, errorText({{}, "failed", "", bytes.error()}));
-  });
+  sender_.push(std::move(make),
+               [this, connection = *window.connection, number = info.number](Result<std::string> bytes) {
+                 push(connection, Packed{number, bytes ? bytes.value().size() : 0});
+                 if (bytes) return outbox_.frame(connection, std::move(bytes).value());
+                 outbox_.text(connection, errorText({{}, "failed", "", bytes.error()}));
+               });
 }
 
 // How long frames are on their way counts from here.
 void Session::packed(Window& window, const Packed& p, TimePoint at) {
-  const auto frame = std::find_if(window.underWay.begin(), window.underWay.end(), [&](const SentFrame& f) { return f.number == p.number; });
+  const auto frame = std::find_if(window.underWay.begin(), window.underWay.end(),
+                                  [&](const SentFrame& f) { return f.number == p.number; });
   if (frame == window.underWay.end()) return;
   frame->bytes = p.bytes, frame->at = at;
   if (p.bytes == 0) window.underWay.erase(frame);

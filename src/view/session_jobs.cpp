@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kUsualWidth = 1920, kPanoramaWidth = 4096;
 constexpr double kBytesAPixel = 450;   // of a render: pictures, what the filter needs, paths' sums
-constexpr double kMostOfMemory = 0.6;  // of what is free: the kernel ends programs without a word where there is none left
+constexpr double kMostOfMemory =
+    0.6;  // of what is free: the kernel ends programs without a word where there is none left
 
 // Of memory, as Linux tells; elsewhere there is no end to it.
 double availableBytes() {
@@ -32,13 +33,22 @@ Json positive(double value) { return value < 0 ? Json(nullptr) : Json(value); }
 Json jobJson(const JobNews& n) {
   Json file = nullptr;
   if (!n.fileId.empty()) file = {{"path", "/files/" + n.fileId}, {"name", n.fileName}, {"bytes", n.bytes}};
-  return {{"type", "job"}, {"job", n.job}, {"stage", n.stage}, {"fraction", n.fraction}, {"secondsLeft", positive(n.secondsLeft)}, {"estimatedError", positive(n.estimatedError)}, {"state", n.state}, {"file", file}, {"message", n.message.empty() ? Json(nullptr) : Json(n.message)}};
+  return {{"type", "job"},
+          {"job", n.job},
+          {"stage", n.stage},
+          {"fraction", n.fraction},
+          {"secondsLeft", positive(n.secondsLeft)},
+          {"estimatedError", positive(n.estimatedError)},
+          {"state", n.state},
+          {"file", file},
+          {"message", n.message.empty() ? Json(nullptr) : Json(n.message)}};
 }
 
 // What any file system and header takes.
 std::string safeName(std::string name) {
   for (char& c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
     if (!plain) c = '_';
   }
   return name.empty() ? "home" : name.substr(0, 60);
@@ -58,34 +68,52 @@ void Session::on(Window& window, const Event&, const RenderWish& m) {
   RenderWork work;
   work.settings = settings_;
   if (!m.quality.empty()) {
-    if (const Status s = applyQuality(m.quality, work.settings); !s) return tell(window, errorText({m.id, "unknownThing", "quality", s.error()}));
+    if (const Status s = applyQuality(m.quality, work.settings); !s)
+      return tell(window, errorText({m.id, "unknownThing", "quality", s.error()}));
   }
   work.settings.technique = m.technique.empty() ? window.technique : m.technique;
-  if (!isTechnique(work.settings.technique)) return tell(window, errorText({m.id, "unknownThing", "technique", fmt::format("no technique '{}'", printable(m.technique))}));
-  const double aspect = m.panorama ? 2 : window.viewport.width > 0 ? static_cast<double>(window.viewport.width) / window.viewport.height
-                                                                   : 16.0 / 9;
-  work.settings.width = m.width > 0 ? m.width : m.panorama ? kPanoramaWidth
-                                                           : kUsualWidth;
-  work.settings.height = m.height > 0 ? m.height : std::max(16, static_cast<int>(std::lround(work.settings.width / aspect)));
+  if (!isTechnique(work.settings.technique))
+    return tell(window, errorText({m.id, "unknownThing", "technique",
+                                   fmt::format("no technique '{}'", printable(m.technique))}));
+  const double aspect = m.panorama ? 2
+                        : window.viewport.width > 0
+                            ? static_cast<double>(window.viewport.width) / window.viewport.height
+                            : 16.0 / 9;
+  work.settings.width = m.width > 0 ? m.width : m.panorama ? kPanoramaWidth : kUsualWidth;
+  work.settings.height =
+      m.height > 0 ? m.height : std::max(16, static_cast<int>(std::lround(work.settings.width / aspect)));
   const double bytes = kBytesAPixel * work.settings.width * work.settings.height;
-  if (bytes > kMostOfMemory * availableBytes()) return tell(window, errorText({m.id, "notPossible", "width", fmt::format("a picture of {} x {} takes about {:.1f} GB of memory, more than there is to spare; make it smaller", work.settings.width, work.settings.height, bytes / 1e9)}));
+  if (bytes > kMostOfMemory * availableBytes())
+    return tell(
+        window,
+        errorText(
+            {m.id, "notPossible", "width",
+             fmt::format(
+                 "a picture of {} x {} takes about {:.1f} GB of memory, more than there is to spare; make it smaller",
+                 work.settings.width, work.settings.height, bytes / 1e9)}));
   work.settings.timeLimitS = m.seconds;
   work.camera = m.panorama ? panoramaAt(window.camera) : cameraOf(window.camera);
   work.state = state_, work.display = window.display;
   work.format = m.format, work.window = window.name, work.job = fmt::format("job:{}", nextJob_++);
   work.fileName = fmt::format("{}-{}.{}", safeName(home_.name), m.panorama ? "panorama" : "picture", m.format);
   const std::string job = work.job;
-  if (!jobs_.add(std::move(work))) return tell(window, errorText({m.id, "notPossible", "", "too many pictures are waiting; cancel one"}));
+  if (!jobs_.add(std::move(work)))
+    return tell(window, errorText({m.id, "notPossible", "", "too many pictures are waiting; cancel one"}));
   tell(window, textOf({{"type", "ok"}, {"id", m.id}, {"job", job}}));
 }
 
 void Session::on(Window& window, const Event&, const CancelJob& m) {
-  if (!jobs_.cancel(m.job)) return tell(window, errorText({m.id, "unknownThing", "job", fmt::format("no job '{}' is under way", printable(m.job))}));
+  if (!jobs_.cancel(m.job))
+    return tell(window,
+                errorText({m.id, "unknownThing", "job", fmt::format("no job '{}' is under way", printable(m.job))}));
   tell(window, okText(m.id));
 }
 
 void Session::on(Window& window, const Event&, const SaveLighting& m) {
-  tell(window, textOf({{"type", "saved"}, {"id", m.id}, {"name", safeName(home_.name) + "-lighting.json"}, {"text", lightingFile(home_, state_)}}));
+  tell(window, textOf({{"type", "saved"},
+                       {"id", m.id},
+                       {"name", safeName(home_.name) + "-lighting.json"},
+                       {"text", lightingFile(home_, state_)}}));
 }
 
 void Session::tellJobs(const std::vector<JobNews>& news) {

@@ -1,4 +1,5 @@
-// Lit homes: which there are, made by the builder in the background, and how each comes to the state that windows want, by the follower.
+// Lit homes: which there are, made by the builder in the background, and how each comes to the state that windows want,
+// by the follower.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,12 +31,16 @@ LitHome* Session::litFor(const LightKey& key) {
 }
 
 bool Session::needs(const LightKey& key) const {
-  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return w.connection && std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; }); });
+  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) {
+    return w.connection && std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; });
+  });
 }
 
 // The same of windows that were lost but may come back.
 bool Session::isShown(const LightKey& key) const {
-  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; }); });
+  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) {
+    return std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == key; });
+  });
 }
 
 size_t Session::lightsNeeded() const {
@@ -58,18 +63,20 @@ void Session::beginBuilding() {
     for (size_t k = 0; k < w.sides.size() && w.connection; ++k) {
       const Side& s = w.sides[k];
       const auto lit = std::find_if(lit_.begin(), lit_.end(), [&](const auto& l) { return l->key == s.key; });
-      if (failedBuilds_.contains(s.key.technique) || (lit != lit_.end() && (*lit)->canFollow(stateOf(s.key).sun))) continue;
+      if (failedBuilds_.contains(s.key.technique) || (lit != lit_.end() && (*lit)->canFollow(stateOf(s.key).sun)))
+        continue;
       RenderSettings settings = frames_;
       settings.technique = s.key.technique;
       RenderProgress progress;
       progress.report = [this](const std::string& stage, float fraction) { tellProgress(stage, fraction); };
-      builder_.begin(home_, {s.key, stateOf(s.key), settings, cameraOf(w.camera), revision_}, std::move(progress), [this] {
-        {
-          const std::lock_guard lock(mutex_);
-          built_ = true;
-        }
-        wake_.notify_all();
-      });
+      builder_.begin(home_, {s.key, stateOf(s.key), settings, cameraOf(w.camera), revision_}, std::move(progress),
+                     [this] {
+                       {
+                         const std::lock_guard lock(mutex_);
+                         built_ = true;
+                       }
+                       wake_.notify_all();
+                     });
       return;
     }
   }
@@ -109,7 +116,8 @@ bool Session::refinerLeaves(const LitHome& home) {
   return refiner_.tryLetGo();
 }
 
-// The ones that nobody looks at and were not used for longest, beyond a few; those that a thread still works on another time.
+// The ones that nobody looks at and were not used for longest, beyond a few; those that a thread still works on another
+// time.
 void Session::dropLights() {
   for (auto l = lit_.end(); l != lit_.begin() && lit_.size() > kMostLit;) {
     --l;
@@ -138,14 +146,19 @@ bool Session::isUpToDate(const LitHome& home) const {
   return wantedOf(home) == home.state && home.lit->settled();
 }
 
-// Whether there is something to make pictures of. Without a front a home is looked at as its light is, and not while that follows.
+// Whether there is something to make pictures of. Without a front a home is looked at as its light is, and not while
+// that follows.
 bool Session::canBeShown(const LitHome& home) const { return home.front || follower_.home() != &home; }
 
-// Whether a window is to see light that came before it goes on, or, where only bounces are missing, what its eye has come to.
+// Whether a window is to see light that came before it goes on, or, where only bounces are missing, what its eye has
+// come to.
 bool Session::isOwedAFrame(const LitHome& home) const {
   const bool bounces = wantedOf(home) == home.state;
   return std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) {
-    return w.connection && w.viewport.width > 0 && w.underWay.size() < kMostUnderWay && std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) { return s.key == home.key && (s.lightCame || (bounces && s.shownSerial != w.serial)); });
+    return w.connection && w.viewport.width > 0 && w.underWay.size() < kMostUnderWay &&
+           std::any_of(w.sides.begin(), w.sides.end(), [&](const Side& s) {
+             return s.key == home.key && (s.lightCame || (bounces && s.shownSerial != w.serial));
+           });
   });
 }
 
@@ -167,7 +180,8 @@ void Session::followFront(LitHome& home) {
   }
 }
 
-// Begins to find the light of a home that windows look at and that has changed, or goes on with bounces that it still owes: of several in turn.
+// Begins to find the light of a home that windows look at and that has changed, or goes on with bounces that it still
+// owes: of several in turn.
 void Session::followLight() {
   if (follower_.home()) return;
   LitHome* next = nullptr;

@@ -24,7 +24,9 @@ bool isWithin(const Bounds3& b, Vec3 p) { return minComponent(min(p - b.lo, b.hi
 
 std::string tooMany() { return fmt::format("windows show {} techniques and plans already; end a split", kMostAtOnce); }
 
-ViewError noTechnique(uint32_t id, const char* field, const std::string& name) { return {id, "unknownThing", field, fmt::format("no technique '{}'", printable(name))}; }
+ViewError noTechnique(uint32_t id, const char* field, const std::string& name) {
+  return {id, "unknownThing", field, fmt::format("no technique '{}'", printable(name))};
+}
 
 }  // namespace
 
@@ -83,7 +85,8 @@ void Session::closeWindow(Window& window, TimePoint at) {
 
 void Session::forgetLostWindows() {
   const TimePoint now = std::chrono::steady_clock::now();
-  windows_.remove_if([&](const Window& w) { return !w.connection && (now - w.leftAt > kKept || windows_.size() > kMostWindows); });
+  windows_.remove_if(
+      [&](const Window& w) { return !w.connection && (now - w.leftAt > kKept || windows_.size() > kMostWindows); });
 }
 
 void Session::on(Window& window, const Event& event, const Viewport& m) {
@@ -125,8 +128,11 @@ void Session::on(Window& window, const Event& event, const ChooseSplit& m) {
     const std::pair<const char*, const SplitSide*> sides[] = {{"left", &m.split->left}, {"right", &m.split->right}};
     for (const auto& [name, side] : sides) {
       const std::string field = fmt::format("split.{}", name);
-      if (!side->technique.empty() && !isTechnique(side->technique)) return tell(window, errorText(noTechnique(m.id, (field + ".technique").c_str(), side->technique)));
-      if (!side->plan.empty() && !plans_.contains(side->plan)) return tell(window, errorText({m.id, "unknownThing", field + ".plan", fmt::format("no plan '{}'", printable(side->plan))}));
+      if (!side->technique.empty() && !isTechnique(side->technique))
+        return tell(window, errorText(noTechnique(m.id, (field + ".technique").c_str(), side->technique)));
+      if (!side->plan.empty() && !plans_.contains(side->plan))
+        return tell(window, errorText({m.id, "unknownThing", field + ".plan",
+                                       fmt::format("no plan '{}'", printable(side->plan))}));
     }
   }
   const std::optional<Split> before = std::exchange(window.split, m.split);
@@ -142,10 +148,14 @@ void Session::on(Window& window, const Event& event, const ChooseSplit& m) {
 }
 
 std::optional<ViewError> Session::tooFar(const Edit& edit, const HomeState& next) const {
-  const auto refused = [&](const char* field) { return ViewError{edit.id, "badField", field, "is too far from the home"}; };
+  const auto refused = [&](const char* field) {
+    return ViewError{edit.id, "badField", field, "is too far from the home"};
+  };
   if (edit.set.position && !isWithin(reach_, *edit.set.position)) return refused("position");
   for (size_t i = 0; edit.set.move && i < next.objects.size(); ++i) {
-    if (!(next.objects[i] == state_.objects[i]) && !isWithin(reach_, boundsOf(home_.editable.objects[i], next.objects[i]).centre())) return refused("move");
+    if (!(next.objects[i] == state_.objects[i]) &&
+        !isWithin(reach_, boundsOf(home_.editable.objects[i], next.objects[i]).centre()))
+      return refused("move");
   }
   return {};
 }
@@ -154,12 +164,14 @@ std::optional<ViewError> Session::tooFar(const Edit& edit, const HomeState& next
 std::optional<ViewError> Session::noLightAt(const Edit& edit, const HomeState& next) const {
   if (!home_.sun || next.sun == state_.sun || next.sun == home_.sun->atStart) return {};
   const Result<SunLight> light = home_.sun->at(*next.sun);
-  return light ? std::nullopt : std::optional(ViewError{edit.id, "notPossible", edit.set.hour ? "hour" : "date", light.error()});
+  return light ? std::nullopt
+               : std::optional(ViewError{edit.id, "notPossible", edit.set.hour ? "hour" : "date", light.error()});
 }
 
 void Session::on(Window& window, const Event&, const Edit& m) {
   Edited edited;
-  if (const auto error = applyEdit(home_.editable, home_.scene, m, state_, edited)) return tell(window, errorText(*error));
+  if (const auto error = applyEdit(home_.editable, home_.scene, m, state_, edited))
+    return tell(window, errorText(*error));
   if (const auto error = tooFar(m, edited.state)) return tell(window, errorText(*error));
   if (const auto error = noLightAt(m, edited.state)) return tell(window, errorText(*error));
   tell(window, okText(m.id));
@@ -170,14 +182,17 @@ void Session::on(Window& window, const Event&, const Edit& m) {
 }
 
 void Session::on(Window& window, const Event&, const StepHistory& m) {
-  if (m.back ? !history_.canUndo() : !history_.canRedo()) return tell(window, errorText({m.id, "notPossible", "", m.back ? "there is nothing to undo" : "there is nothing to redo"}));
+  if (m.back ? !history_.canUndo() : !history_.canRedo())
+    return tell(window,
+                errorText({m.id, "notPossible", "", m.back ? "there is nothing to undo" : "there is nothing to redo"}));
   tell(window, okText(m.id));
   setState(m.back ? history_.undo(state_) : history_.redo(state_), window);
 }
 
 void Session::on(Window& window, const Event& event, const EditPlan& m) {
   const auto known = plans_.find(m.name);
-  if (m.what != EditPlan::Do::Keep && known == plans_.end()) return tell(window, errorText({m.id, "unknownThing", "name", fmt::format("no plan '{}'", printable(m.name))}));
+  if (m.what != EditPlan::Do::Keep && known == plans_.end())
+    return tell(window, errorText({m.id, "unknownThing", "name", fmt::format("no plan '{}'", printable(m.name))}));
   if (m.what == EditPlan::Do::Apply) {
     HomeState next = state_;
     next.lamps = known->second.lamps, next.sun = known->second.sun;
@@ -186,8 +201,11 @@ void Session::on(Window& window, const Event& event, const EditPlan& m) {
     history_.step(state_, fmt::format("Plan {}", m.name), "");
     return setState(std::move(next), window);
   }
-  if (m.name == "start") return tell(window, errorText({m.id, "notPossible", "name", "the plan 'start' stays as it is"}));
-  if (m.what == EditPlan::Do::Keep && known == plans_.end() && plans_.size() >= kMostPlans) return tell(window, errorText({m.id, "notPossible", "name", fmt::format("there are {} plans already; drop one", kMostPlans)}));
+  if (m.name == "start")
+    return tell(window, errorText({m.id, "notPossible", "name", "the plan 'start' stays as it is"}));
+  if (m.what == EditPlan::Do::Keep && known == plans_.end() && plans_.size() >= kMostPlans)
+    return tell(window, errorText({m.id, "notPossible", "name",
+                                   fmt::format("there are {} plans already; drop one", kMostPlans)}));
   if (m.what == EditPlan::Do::Keep) {
     plans_[m.name] = state_;
     for (Window& w : windows_) {
@@ -215,7 +233,8 @@ void Session::on(Window& window, const Event& event, const Ack& m) {
   auto& sent = window.underWay;
   const auto frame = std::find_if(sent.begin(), sent.end(), [&](const SentFrame& f) { return f.number == m.frame; });
   // Before it goes out nobody can have seen it: who says so only wants more frames than the line takes.
-  if (frame == sent.end() || frame->bytes == 0) return tell(window, errorText({{}, "badField", "frame", fmt::format("no frame {} is under way", m.frame)}));
+  if (frame == sent.end() || frame->bytes == 0)
+    return tell(window, errorText({{}, "badField", "frame", fmt::format("no frame {} is under way", m.frame)}));
   window.line.sent(frame->bytes, std::chrono::duration<double, std::milli>(event.at - frame->at).count());
   sent.erase(sent.begin(), std::next(frame));
 }

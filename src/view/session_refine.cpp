@@ -1,4 +1,5 @@
-// On to the reference: one picture at a time is refined by paths while nothing else is to be done. Where several could be, they take turns.
+// On to the reference: one picture at a time is refined by paths while nothing else is to be done. Where several could
+ // be, they take turns.
 #include <algorithm>
 
 #include "view/session.h"
@@ -6,19 +7,23 @@
 namespace roomlight::view {
 namespace {
 
-constexpr uint32_t kFirstTurn = 60, kMostDoublings = 8;  // samples of a turn; each is twice as long as the one before, for only then errors go on falling
+constexpr uint32_t kFirstTurn = 60, kMostDoublings = 8;  // samples of a turn; each is twice as long as the one before,
+                                                         // for only then errors go on falling
 
 uint32_t turnAfter(uint32_t turns) { return kFirstTurn << std::min(turns, kMostDoublings); }
 
 // As good as averages make it, and to be seen: the window takes frames.
 bool couldBeRefined(const Window& w, const Side& s) {
-  return w.connection && w.underWay.size() < kMostUnderWay && s.shownSerial == w.serial && s.failedSerial != w.serial && s.picture.averaged() && !s.picture.settled();
+  return w.connection && w.underWay.size() < kMostUnderWay && s.shownSerial == w.serial && s.failedSerial != w.serial &&
+         s.picture.averaged() && !s.picture.settled();
 }
 
 }  // namespace
 
 // Other techniques show what they find, not what is true; of illuminance the averages are good enough.
-bool Session::refines(const Window& window, const Side& side) const { return !window.display.white() && (side.key.technique == "hybrid" || side.key.technique == "path"); }
+bool Session::refines(const Window& window, const Side& side) const {
+  return !window.display.white() && (side.key.technique == "hybrid" || side.key.technique == "path");
+}
 
 void Session::tellRefined() {
   {
@@ -37,7 +42,8 @@ std::pair<Window*, size_t> Session::nextToRefine() {
       if (isUnderWay || !couldBeRefined(w, w.sides[k])) continue;
       const LitHome* home = litFor(w.sides[k].key);
       if (!home || follower_.home() == home) continue;
-      if (!next.first || w.sides[k].picture.samples() < next.first->sides[next.second].picture.samples()) next = {&w, k};
+      if (!next.first || w.sides[k].picture.samples() < next.first->sides[next.second].picture.samples())
+        next = {&w, k};
     }
   }
   return next;
@@ -46,7 +52,8 @@ std::pair<Window*, size_t> Session::nextToRefine() {
 bool Session::isTurnOver(const Side& next) {
   const Window* window = windowNamed(refining_->window);
   if (!window || refining_->side >= window->sides.size()) return true;
-  return refining_->samples >= refining_->turn && next.picture.samples() < window->sides[refining_->side].picture.samples();
+  return refining_->samples >= refining_->turn &&
+         next.picture.samples() < window->sides[refining_->side].picture.samples();
 }
 
 void Session::beginRefining() {
@@ -90,7 +97,8 @@ bool Session::takeRefined() {
   }
   Side& side = window->sides[k];
   if (picture) {
-    side.picture.refine(std::move(picture->image), side.samplesBefore + picture->samples, picture->relativeError, picture->last);
+    side.picture.refine(std::move(picture->image), side.samplesBefore + picture->samples, picture->relativeError,
+                        picture->last);
     side.again = true;
     refining_->samples = picture->samples;
   }

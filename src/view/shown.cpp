@@ -17,7 +17,9 @@ constexpr double kExposurePixels = 16384;
 ByteImage bytesOf(const Image& encoded) {
   ByteImage out(encoded.width, encoded.height, 3);
   parallelFor(encoded.pixels.size(), 16384, [&](size_t i) {
-    for (int c = 0; c < 3; ++c) out.samples[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(std::clamp(encoded.pixels[i][c], 0.0f, 1.0f) * 255 + 0.5f);
+    for (int c = 0; c < 3; ++c)
+      out.samples[3 * i + static_cast<size_t>(c)] =
+          static_cast<uint8_t>(std::clamp(encoded.pixels[i][c], 0.0f, 1.0f) * 255 + 0.5f);
   });
   return out;
 }
@@ -38,7 +40,9 @@ const std::array<Colour, kColours>& colours() {
     std::array<Colour, kColours> t;
     for (int i = 0; i < kColours; ++i) {
       const Vec3 c = falseColour(static_cast<double>(i) / (kColours - 1));
-      for (int k = 0; k < 3; ++k) t[static_cast<size_t>(i)][static_cast<size_t>(k)] = static_cast<uint8_t>(std::clamp(c[k], 0.0f, 1.0f) * 255 + 0.5f);
+      for (int k = 0; k < 3; ++k)
+        t[static_cast<size_t>(i)][static_cast<size_t>(k)] =
+            static_cast<uint8_t>(std::clamp(c[k], 0.0f, 1.0f) * 255 + 0.5f);
     }
     return t;
   }();
@@ -76,7 +80,8 @@ void Adaptation::follow(float wantedEv100, const White& wanted, double seconds) 
   }
 }
 
-ByteImage showPicture(const Image& light, Vec3 lightColour, const ViewDisplay& d, double seconds, Adaptation& eye, FrameInfo& info) {
+ByteImage showPicture(const Image& light, Vec3 lightColour, const ViewDisplay& d, double seconds, Adaptation& eye,
+                      FrameInfo& info) {
   // What is set by hand holds at once.
   eye.follow(ev100Of(d.display, sparse(light)), whiteOf(d.display, lightColour), d.display.ev100 ? kInfinity : seconds);
   if (d.display.whiteK) eye.white = whiteOf(d.display, lightColour);
@@ -105,8 +110,10 @@ ByteImage showAmounts(const Image& amounts, const ViewDisplay& d, FrameInfo& inf
   ByteImage out(amounts.width, amounts.height, 3);
   parallelFor(amounts.pixels.size(), 4096, [&](size_t i) {
     if (amounts.pixels[i].x < 0) return;  // black
-    const auto place = static_cast<size_t>(std::lround(scale.position(static_cast<double>(amounts.pixels[i].x)) * (kColours - 1)));
-    std::copy(colours()[place].begin(), colours()[place].end(), out.samples.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    const auto place =
+        static_cast<size_t>(std::lround(scale.position(static_cast<double>(amounts.pixels[i].x)) * (kColours - 1)));
+    std::copy(colours()[place].begin(), colours()[place].end(),
+              out.samples.begin() + static_cast<std::ptrdiff_t>(3 * i));
   });
   return out;
 }

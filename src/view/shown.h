@@ -1,4 +1,5 @@
-// From light to what a browser shows: exposure that follows like an eye, white balance and tone curve, or false colours.
+// From light to what a browser shows: exposure that follows like an eye, white balance and tone curve, or false
+ // colours.
 #pragma once
 
 #include <optional>
@@ -30,8 +31,10 @@ struct Adaptation {
   void follow(float wantedEv100, const White& wanted, double seconds);
 };
 
-// `lightColour`: of the light in the picture, for the automatic white; `seconds`: since the window's last frame. Fills in the frame's exposure and white.
-ByteImage showPicture(const Image& light, Vec3 lightColour, const ViewDisplay& display, double seconds, Adaptation& eye, FrameInfo& info);
+// `lightColour`: of the light in the picture, for the automatic white; `seconds`: since the window's last frame. Fills
+// in the frame's exposure and white.
+ByteImage showPicture(const Image& light, Vec3 lightColour, const ViewDisplay& display, double seconds, Adaptation& eye,
+                      FrameInfo& info);
 // `amounts`: lx or cd/m² in every channel; negative where there is none. Fills in the frame's scale.
 ByteImage showAmounts(const Image& amounts, const ViewDisplay& display, FrameInfo& info);
 

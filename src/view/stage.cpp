@@ -29,17 +29,22 @@ float openingOf(const EditableObject& object, const Leaf& leaf, float open) {
 // Of a leaf that is opened by that much more (Rodrigues' formula).
 Affine swing(const Leaf& leaf, float by) {
   const float turnRad = by * leaf.turnRad, c = std::cos(turnRad), s = std::sin(turnRad);
-  const auto turned = [&](Vec3 p) { return p * c + cross(leaf.axis, p) * s + leaf.axis * (dot(leaf.axis, p) * (1 - c)); };
+  const auto turned = [&](Vec3 p) {
+    return p * c + cross(leaf.axis, p) * s + leaf.axis * (dot(leaf.axis, p) * (1 - c));
+  };
   Affine place{turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1}), {}};
   place.w = leaf.hinge - place.vector(leaf.hinge) + leaf.slideM * by;
   return place;
 }
 
-bool isSwung(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state) { return part.leaf && state.open != object.openAtRest; }
+bool isSwung(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state) {
+  return part.leaf && state.open != object.openAtRest;
+}
 
 Bounds3 movedBox(const Bounds3& b, const Affine& motion) {
   Bounds3 out;
-  for (int corner = 0; corner < 8; ++corner) out.add(motion.point({corner & 1 ? b.hi.x : b.lo.x, corner & 2 ? b.hi.y : b.lo.y, corner & 4 ? b.hi.z : b.lo.z}));
+  for (int corner = 0; corner < 8; ++corner)
+    out.add(motion.point({corner & 1 ? b.hi.x : b.lo.x, corner & 2 ? b.hi.y : b.lo.y, corner & 4 ? b.hi.z : b.lo.z}));
   return out;
 }
 
@@ -128,7 +133,8 @@ void stageObject(const EditableHome& home, size_t index, const HomeState& to, Sc
     const bool rests = isAtRest(state) && !isSwung(object, part, state);
     const Affine place = rests ? part.atRest : motionOf(object, part, state) * part.atRest;
     const int mesh = state.hidden ? home.hiddenMesh : part.mesh;
-    if (!painted && instance.mesh == mesh && instance.worldFromObject == place) continue;  // the frame of a door that opens
+    if (!painted && instance.mesh == mesh && instance.worldFromObject == place)
+      continue;  // the frame of a door that opens
     change.before[part.instance] = movedBox(part.bounds, instance.worldFromObject * inverse(part.atRest));
     instance.worldFromObject = place, instance.mesh = mesh;
     change.moved.push_back(part.instance);
@@ -149,7 +155,8 @@ SceneChange stage(const EditableHome& home, const HomeState& from, const HomeSta
   }
   for (size_t i = 0; i < home.lamps.size(); ++i) {
     const int object = home.lamps[i].object;
-    const bool carried = object >= 0 && !(from.objects[static_cast<size_t>(object)] == to.objects[static_cast<size_t>(object)]);
+    const bool carried =
+        object >= 0 && !(from.objects[static_cast<size_t>(object)] == to.objects[static_cast<size_t>(object)]);
     if (carried || !(from.lamps[i] == to.lamps[i])) stageLamp(home, i, to, scene, change);
   }
   sortOnce(change.moved), sortOnce(change.glow);
@@ -165,6 +172,8 @@ Bounds3 boundsOf(const EditableObject& object, const ObjectState& state) {
   return bounds;
 }
 
-Vec3 positionOf(const EditableHome& home, size_t lamp, const HomeState& state) { return lampPlace(home, lamp, state).point(home.lamps[lamp].position); }
+Vec3 positionOf(const EditableHome& home, size_t lamp, const HomeState& state) {
+  return lampPlace(home, lamp, state).point(home.lamps[lamp].position);
+}
 
 }  // namespace roomlight::view

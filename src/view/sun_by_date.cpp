@@ -34,7 +34,9 @@ double utcOffsetOf(const std::string& text) {
   return (text[sign] == '-' ? -1 : 1) * (hours + minutes / 60.0);
 }
 
-std::optional<double> number(const json& j, const char* key) { return j.contains(key) && j[key].is_number() ? std::optional(j[key].get<double>()) : std::nullopt; }
+std::optional<double> number(const json& j, const char* key) {
+  return j.contains(key) && j[key].is_number() ? std::optional(j[key].get<double>()) : std::nullopt;
+}
 
 // Where the weather was measured.
 std::optional<std::pair<double, double>> placeOfWeather(const json& j, const std::filesystem::path& folder) {
@@ -69,7 +71,8 @@ json atTime(const SunByDate& sun, const SunState& state) {
   return source;
 }
 
-// Asked of a moment again, a function of those of late answers from memory: an hour that was set is asked for by all who follow it. From any thread.
+// Asked of a moment again, a function of those of late answers from memory: an hour that was set is asked for by all
+// who follow it. From any thread.
 std::function<Result<SunLight>(const SunState&)> remembering(std::function<Result<SunLight>(const SunState&)> find) {
   struct Memory {
     std::mutex mutex;
@@ -95,7 +98,8 @@ std::string skyInWords(const json& sky) {
 std::string timeText(const SunState& s, double utcOffsetH) {
   const int seconds = std::min(86399, static_cast<int>(std::lround(s.hour * 3600)));
   const int offset = static_cast<int>(std::lround(std::abs(utcOffsetH) * 60));
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}", s.year, s.month, s.day, seconds / 3600, seconds / 60 % 60, seconds % 60, utcOffsetH < 0 ? '-' : '+', offset / 60, offset % 60);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}{}{:02}:{:02}", s.year, s.month, s.day, seconds / 3600,
+                     seconds / 60 % 60, seconds % 60, utcOffsetH < 0 ? '-' : '+', offset / 60, offset % 60);
 }
 
 std::optional<SunByDate> sunOfDaylight(const json& daylight, const std::filesystem::path& folder) {

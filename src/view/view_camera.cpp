@@ -6,7 +6,8 @@
 namespace roomlight::view {
 
 std::pair<int, int> frameSize(const Viewport& viewport, float scale) {
-  const double width = static_cast<double>(viewport.width) * static_cast<double>(viewport.pixelRatio), height = static_cast<double>(viewport.height) * static_cast<double>(viewport.pixelRatio);
+  const double width = static_cast<double>(viewport.width) * static_cast<double>(viewport.pixelRatio),
+               height = static_cast<double>(viewport.height) * static_cast<double>(viewport.pixelRatio);
   const double fits = std::min({1.0, kMostFrameWidth / width, kMostFrameHeight / height}) * static_cast<double>(scale);
   const auto pixels = [&](double v) { return std::max(16, static_cast<int>(std::lround(v * fits))); };
   return {pixels(width), pixels(height)};

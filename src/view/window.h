@@ -23,7 +23,8 @@ namespace roomlight::view {
 using Connection = uint64_t;
 using TimePoint = std::chrono::steady_clock::time_point;
 
-constexpr size_t kMostUnderWay = 2;  // frames of a window that were not acknowledged; before one of them is, no other is made
+constexpr size_t kMostUnderWay =
+    2;  // frames of a window that were not acknowledged; before one of them is, no other is made
 
 struct SentFrame {
   uint32_t number;
@@ -44,11 +45,14 @@ struct Side {
   uint32_t shownSerial = 0;    // input that the picture shows
   uint32_t shownRevision = 0;  // state of the light that it shows
   bool again = false;          // to be shown once more: only the display is another
-  // Of its refinement: turns so far, samples of those before the one it has, and the input whose picture could not be refined.
+  // Of its refinement: turns so far, samples of those before the one it has, and the input whose picture could not be
+  // refined.
   uint32_t turns = 0, samplesBefore = 0, failedSerial = 0;
 
   // The next picture is made from nothing, and until then there is none that takes memory.
-  void restart() { picture.restart(), history.reset(), quick = QuickFrames(), lightCame = again = false, shownSerial = 0; }
+  void restart() {
+    picture.restart(), history.reset(), quick = QuickFrames(), lightCame = again = false, shownSerial = 0;
+  }
 };
 
 struct Window {
@@ -61,8 +65,8 @@ struct Window {
   std::string technique;
   std::optional<Split> split;
   std::vector<Side> sides;
-  uint32_t serial = 1;        // counts inputs that need other pictures
-  TimePoint inputAt;          // the newest of them
+  uint32_t serial = 1;  // counts inputs that need other pictures
+  TimePoint inputAt;  // the newest of them
   bool inputShown = true;
   std::deque<SentFrame> underWay;
   uint32_t nextFrame = 1;
@@ -71,8 +75,8 @@ struct Window {
   std::shared_ptr<Adaptation> eye[2] = {std::make_shared<Adaptation>(), std::make_shared<Adaptation>()};
   TimePoint lastFrameAt;
   std::optional<Point> pick, meter;  // wait to be answered
-  TimePoint meterAt;                 // since when,
-  uint32_t meterRevision = 0;        // of which state
+  TimePoint meterAt;  // since when,
+  uint32_t meterRevision = 0;  // of which state
   std::map<std::string, JobNews> jobs;  // the last of each, as far as it may have to be told again
 };
 

@@ -13,7 +13,8 @@ BrickView viewOf(const Voxelisation& v, size_t brick, uint32_t place) {
   view.place = place;
   view.occupied = v.voxels.bricks[brick].occupied;
   const size_t firstVoxel = v.voxels.bricks[brick].firstVoxel;
-  const size_t endVoxel = brick + 1 < v.voxels.bricks.size() ? v.voxels.bricks[brick + 1].firstVoxel : v.voxels.voxels.size();
+  const size_t endVoxel =
+      brick + 1 < v.voxels.bricks.size() ? v.voxels.bricks[brick + 1].firstVoxel : v.voxels.voxels.size();
   view.voxels = std::span(v.voxels.voxels).subspan(firstVoxel, endVoxel - firstVoxel);
   if (!view.voxels.empty()) {
     const SurfaceVoxel& last = view.voxels.back();
@@ -21,7 +22,8 @@ BrickView viewOf(const Voxelisation& v, size_t brick, uint32_t place) {
     const size_t endSlot = last.firstSlot + static_cast<size_t>(std::popcount(last.faces));
     view.slots = std::span(v.voxels.slots).subspan(view.slotBase, endSlot - view.slotBase);
   }
-  view.references = std::span(v.references).subspan(v.firstReference[brick], v.firstReference[brick + 1] - v.firstReference[brick]);
+  view.references =
+      std::span(v.references).subspan(v.firstReference[brick], v.firstReference[brick + 1] - v.firstReference[brick]);
   return view;
 }
 

@@ -45,8 +45,8 @@ class Accumulators {
 // Walls often stand on the middle of a floor's voxels: in their plane a place would be on neither side.
 constexpr float kOffCentre = 0.04f;  // of the way to a corner
 
-void addPiece(const Polygon& polygon, Vec3 corner, const LatticeTriangle& t, const Shade& shade, bool emitsBack, uint32_t instance,
-              VoxelSums& sums, std::vector<Layer>& layers) {
+void addPiece(const Polygon& polygon, Vec3 corner, const LatticeTriangle& t, const Shade& shade, bool emitsBack,
+              uint32_t instance, VoxelSums& sums, std::vector<Layer>& layers) {
   const AreaCentroid g = areaOf(polygon);
   if (!(g.area > 0)) return;
   sums.mask |= subVoxelMask(polygon, corner, g.vectorArea);
@@ -65,14 +65,17 @@ void addPiece(const Polygon& polygon, Vec3 corner, const LatticeTriangle& t, con
   sums.slots[static_cast<size_t>(face ^ 1)].add(piece, face ^ 1, layers);
 }
 
-void addTriangle(const Scene& scene, const Lattice& lattice, Int3 brick, Voxelisation::Reference ref, Accumulators& sums) {
+void addTriangle(const Scene& scene, const Lattice& lattice, Int3 brick, Voxelisation::Reference ref,
+                 Accumulators& sums) {
   const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[ref.instance].mesh)];
   const bool emitsBack = scene.materials[static_cast<size_t>(mesh.material)].doubleSided;
   const LatticeTriangle t = latticeTriangle(scene, lattice, ref.instance, ref.triangle);
   if (!(t.area > 0)) return;
   Polygon polygon;
   polygon.add(t.a), polygon.add(t.b), polygon.add(t.c);
-  if (!keepCell(polygon, 0, kBrickSize, brick.x) || !keepCell(polygon, 1, kBrickSize, brick.y) || !keepCell(polygon, 2, kBrickSize, brick.z)) return;
+  if (!keepCell(polygon, 0, kBrickSize, brick.x) || !keepCell(polygon, 1, kBrickSize, brick.y) ||
+      !keepCell(polygon, 2, kBrickSize, brick.z))
+    return;
   const TriangleShader shader(scene, mesh, ref.triangle, t);
   const auto local = [](int cell, int first) { return std::clamp(cell - first * kBrickSize, 0, kBrickSize - 1); };
   cutIntoCells(polygon, 0, 1, [&](int x, const Polygon& px) {
@@ -83,7 +86,8 @@ void addTriangle(const Scene& scene, const Lattice& lattice, Int3 brick, Voxelis
         const int lx = local(x, brick.x), ly = local(y, brick.y), lz = local(z, brick.z);
         const Vec3 corner{static_cast<float>(brick.x * kBrickSize + lx), static_cast<float>(brick.y * kBrickSize + ly),
                           static_cast<float>(brick.z * kBrickSize + lz)};
-        addPiece(pz, corner, t, shade, emitsBack, ref.instance, sums.at(lx + kBrickSize * (ly + kBrickSize * lz)), sums.layers());
+        addPiece(pz, corner, t, shade, emitsBack, ref.instance, sums.at(lx + kBrickSize * (ly + kBrickSize * lz)),
+                 sums.layers());
       });
     });
   });
@@ -108,7 +112,8 @@ LatticeTriangle latticeTriangle(const Scene& scene, const Lattice& lattice, uint
   return t;
 }
 
-BrickRecords buildBrick(const Scene& scene, const Lattice& lattice, Int3 brick, std::span<const Voxelisation::Reference> references) {
+BrickRecords buildBrick(const Scene& scene, const Lattice& lattice, Int3 brick,
+                        std::span<const Voxelisation::Reference> references) {
   thread_local Accumulators sums;
   sums.clear();
   for (const Voxelisation::Reference& ref : references) addTriangle(scene, lattice, brick, ref, sums);

@@ -24,6 +24,7 @@ struct BrickRecords {
 };
 
 // `brick` in bricks from the world's origin, like `references` of the triangles that reach into it.
-BrickRecords buildBrick(const Scene& scene, const Lattice& lattice, Int3 brick, std::span<const Voxelisation::Reference> references);
+BrickRecords buildBrick(const Scene& scene, const Lattice& lattice, Int3 brick,
+                        std::span<const Voxelisation::Reference> references);
 
 }  // namespace roomlight

@@ -12,7 +12,8 @@ namespace {
 constexpr size_t kTriangleChunk = 4096;
 
 // Every brick in which a piece of the triangle lies, by the same cuts that buildBrick() makes.
-void bricksOfTriangle(const Scene& scene, const Lattice& lattice, Voxelisation::Reference ref, std::vector<BrickReference>& out) {
+void bricksOfTriangle(const Scene& scene, const Lattice& lattice, Voxelisation::Reference ref,
+                      std::vector<BrickReference>& out) {
   const LatticeTriangle t = latticeTriangle(scene, lattice, ref.instance, ref.triangle);
   if (!(t.area > 0)) return;
   Polygon polygon;
@@ -26,7 +27,8 @@ void bricksOfTriangle(const Scene& scene, const Lattice& lattice, Voxelisation::
 
 }  // namespace
 
-std::vector<BrickReference> referencesOf(const Scene& scene, const Lattice& lattice, std::span<const uint32_t> instances) {
+std::vector<BrickReference> referencesOf(const Scene& scene, const Lattice& lattice,
+                                         std::span<const uint32_t> instances) {
   std::vector<size_t> first(instances.size() + 1, 0);
   for (size_t i = 0; i < instances.size(); ++i) {
     first[i + 1] = first[i] + scene.meshes[static_cast<size_t>(scene.instances[instances[i]].mesh)].triangleCount();

@@ -14,8 +14,9 @@ struct BrickReference {
   Voxelisation::Reference triangle;
 };
 
-// All references of the listed instances (in ascending order), sorted by brick, within a brick by instance and triangle.
-// Cost: triangles plus bricks they touch plus places in the dense index.
-std::vector<BrickReference> referencesOf(const Scene& scene, const Lattice& lattice, std::span<const uint32_t> instances);
+// All references of the listed instances (in ascending order), sorted by brick, within a brick by instance and
+// triangle. Cost: triangles plus bricks they touch plus places in the dense index.
+std::vector<BrickReference> referencesOf(const Scene& scene, const Lattice& lattice,
+                                         std::span<const uint32_t> instances);
 
 }  // namespace roomlight

@@ -28,7 +28,8 @@ inline AreaCentroid areaOf(const Polygon& polygon) {
   Vec3 moment;
   for (int i = 1; i + 1 < polygon.count; ++i) {
     // Relative to a corner: coordinates may be far larger than the piece.
-    const Vec3 b = polygon.v[static_cast<size_t>(i)] - polygon.v[0], c = polygon.v[static_cast<size_t>(i) + 1] - polygon.v[0];
+    const Vec3 b = polygon.v[static_cast<size_t>(i)] - polygon.v[0],
+               c = polygon.v[static_cast<size_t>(i) + 1] - polygon.v[0];
     const Vec3 n = cross(b, c) * 0.5f;
     const float area = length(n);
     r.vectorArea += n;

@@ -23,7 +23,8 @@ bool feasible(const Bounds3& bounds, double h) {
 
 Vec3 Lattice::originM() const {
   const double edge = static_cast<double>(voxelSizeM) * kBrickSize;
-  return {static_cast<float>(firstBrick.x * edge), static_cast<float>(firstBrick.y * edge), static_cast<float>(firstBrick.z * edge)};
+  return {static_cast<float>(firstBrick.x * edge), static_cast<float>(firstBrick.y * edge),
+          static_cast<float>(firstBrick.z * edge)};
 }
 
 uint32_t Lattice::place(Int3 b) const {
@@ -59,7 +60,8 @@ Lattice fitLattice(const Bounds3& bounds, float voxelSizeM) {
 Lattice latticeOf(const Voxels& voxels) {
   const double edge = static_cast<double>(voxels.voxelSizeM) * kBrickSize;
   const auto first = [&](float origin) { return edge > 0 ? static_cast<int>(std::lround(origin / edge)) : 0; };
-  return {voxels.voxelSizeM, {first(voxels.origin.x), first(voxels.origin.y), first(voxels.origin.z)}, voxels.brickDims};
+  return {
+      voxels.voxelSizeM, {first(voxels.origin.x), first(voxels.origin.y), first(voxels.origin.z)}, voxels.brickDims};
 }
 
 float feasibleVoxelSizeM(const Bounds3& bounds, float wantedM) {

@@ -9,8 +9,8 @@
 
 namespace roomlight {
 
-// Brings the voxels up to date and returns the boxes outside which the change left the scene as it was: one an object, or two where it
-// went far.
+// Brings the voxels up to date and returns the boxes outside which the change left the scene as it was: one an object,
+// or two where it went far.
 std::vector<Bounds3> followMoves(Voxelisation& voxels, const Scene& scene, const SceneChange& change);
 
 }  // namespace roomlight

@@ -24,7 +24,8 @@ TrianglePoint barycentric(const LatticeTriangle& t, uint32_t triangle, Vec3 p) {
   const float d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), p1 = dot(d, e1), p2 = dot(d, e2);
   const float det = d11 * d22 - d12 * d12;
   if (!(det > 0)) return {triangle, 1 / 3.f, 1 / 3.f};
-  return {triangle, std::clamp((d22 * p1 - d12 * p2) / det, 0.0f, 1.0f), std::clamp((d11 * p2 - d12 * p1) / det, 0.0f, 1.0f)};
+  return {triangle, std::clamp((d22 * p1 - d12 * p2) / det, 0.0f, 1.0f),
+          std::clamp((d11 * p2 - d12 * p1) / det, 0.0f, 1.0f)};
 }
 
 // Point of a convex polygon for (u, v) in the unit square: uniform in (u, v) is uniform over its area.
@@ -51,7 +52,8 @@ TriangleShader::TriangleShader(const Scene& scene, const Mesh& mesh, uint32_t tr
   const Material& m = scene.materials[static_cast<size_t>(mesh.material)];
   uniform_ = mesh.colors.empty() && mesh.colorAlphas.empty();
   float texels = 0;
-  for (const TextureRef* ref : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.emissionTexture, &m.transmissionTexture}) {
+  for (const TextureRef* ref :
+       {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.emissionTexture, &m.transmissionTexture}) {
     if (ref->texture < 0) continue;
     uniform_ = false;
     texels = std::max(texels, texelsOn(scene, mesh, triangle, *ref));

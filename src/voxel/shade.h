@@ -9,7 +9,7 @@ namespace roomlight {
 
 struct Shade {
   Vec3 albedo, emission;  // mean over the opaque part; emission in cd/m², so that emission * coverage is what leaves
-  float coverage = 1;     // opaque fraction
+  float coverage = 1;  // opaque fraction
 };
 
 // Shades the pieces of one triangle. A piece is sampled at points spread evenly over it, as many as its texels ask for.
@@ -27,7 +27,7 @@ class TriangleShader {
   uint32_t triangle_;
   float texelsPerArea_ = 0;  // of the finest texture, per voxel²
   bool uniform_ = false;
-  Shade shade_;              // where uniform
+  Shade shade_;  // where uniform
 };
 
 }  // namespace roomlight

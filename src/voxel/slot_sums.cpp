@@ -24,8 +24,8 @@ void SlotSums::add(const SlotPiece& piece, int face, std::vector<Layer>& layers)
   firstLayer_ = static_cast<int32_t>(layers.size()) - 1;
 }
 
-// Surfaces that together cover the cross-section more than once hide one another: from the foremost back, each counts with
-// what is left of the cross-section. So the two boards of a thin wall do not mix their colours.
+// Surfaces that together cover the cross-section more than once hide one another: from the foremost back, each counts
+// with what is left of the cross-section. So the two boards of a thin wall do not mix their colours.
 Vec3 SlotSums::meanAlbedo(const std::vector<Layer>& layers) const {
   if (projected_ <= kFull) return albedo_ / area_;
   thread_local std::vector<int32_t> order;

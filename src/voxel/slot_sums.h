@@ -35,8 +35,8 @@ class SlotSums {
 
   float area_ = 0, wholeArea_ = 0, projected_ = 0;
   Vec3 normal_, albedo_, emission_;
-  // Centroid of one piece, so that it really lies on a surface: of the foremost among the large ones. Light reaches the front
-  // of a panel on a wall, not the plaster behind it, though both may lie in one voxel.
+  // Centroid of one piece, so that it really lies on a surface: of the foremost among the large ones. Light reaches the
+  // front of a panel on a wall, not the plaster behind it, though both may lie in one voxel.
   Vec3 position_;
   float pieceArea_ = 0, height_ = 0;
   // Pieces come in order of instances, so the largest is known when the run of one instance ends.

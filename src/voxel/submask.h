@@ -7,12 +7,12 @@
 
 namespace roomlight {
 
-// `polygon` lies within the voxel whose lower corner is `corner` (voxel units); `normal` need not be unit. Conservative:
-// no touched cell is missing. Columns along the axis nearest to the normal; within a column the plane bounds the height.
+// `polygon` lies within the voxel whose lower corner is `corner` (voxel units); `normal` need not be unit.
+// Conservative: no touched cell is missing. Columns along the axis nearest to the normal; within a column the plane
+// bounds the height.
 inline uint64_t subVoxelMask(const Polygon& polygon, Vec3 corner, Vec3 normal) {
   const Vec3 an = abs(normal);
-  const int a = an.x >= an.y && an.x >= an.z ? 0 : an.y >= an.z ? 1
-                                                                : 2;
+  const int a = an.x >= an.y && an.x >= an.z ? 0 : an.y >= an.z ? 1 : 2;
   const int u = (a + 1) % 3, v = (a + 2) % 3;
   float lo[3] = {kInfinity, kInfinity, kInfinity}, hi[3] = {-kInfinity, -kInfinity, -kInfinity};
   std::array<Vec3, 10> q;
@@ -24,7 +24,9 @@ inline uint64_t subVoxelMask(const Polygon& polygon, Vec3 corner, Vec3 normal) {
     }
   }
   const auto cellLo = [](float x) { return std::clamp(static_cast<int>(std::floor(x)), 0, 3); };
-  const auto cellHi = [&](float l, float h) { return std::max(cellLo(l), std::clamp(static_cast<int>(std::ceil(h)) - 1, 0, 3)); };
+  const auto cellHi = [&](float l, float h) {
+    return std::max(cellLo(l), std::clamp(static_cast<int>(std::ceil(h)) - 1, 0, 3));
+  };
   const int shift[3] = {0, 2, 4};  // bit = x + 4 y + 16 z
   const float du = -normal[u] / normal[a], dv = -normal[v] / normal[a];
   const float h0 = q[0][a] - du * q[0][u] - dv * q[0][v];

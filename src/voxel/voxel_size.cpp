@@ -25,7 +25,8 @@ float chooseVoxelSize(const Scene& scene, const VoxelSettings& settings) {
     const Affine& m = scene.instances[i].worldFromObject;
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-      const Vec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]], c = mesh.positions[mesh.indices[t + 2]];
+      const Vec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]],
+                 c = mesh.positions[mesh.indices[t + 2]];
       areas[i] += areaOfTriangle(m.vector(b - a), m.vector(c - a));
     }
   });

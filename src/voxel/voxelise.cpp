@@ -22,7 +22,8 @@ struct Plan {
   BrickRecords records;
 };
 
-void refreshBounds(Voxelisation& v, const Scene& scene, std::span<const uint32_t> changed, std::span<const uint8_t> hidden) {
+void refreshBounds(Voxelisation& v, const Scene& scene, std::span<const uint32_t> changed,
+                   std::span<const uint8_t> hidden) {
   v.instanceBounds.resize(scene.instances.size());
   parallelFor(changed.size(), 1, [&](size_t k) {
     const uint32_t i = changed[k];
@@ -41,13 +42,15 @@ Bounds3 unionOf(std::span<const Bounds3> each) {
 std::vector<uint8_t> bricksLeft(const Voxelisation& v, std::span<const uint8_t> isChanged) {
   std::vector<uint8_t> left(v.voxels.bricks.size(), 0);
   parallelFor(left.size(), 256, [&](size_t b) {
-    for (uint32_t r = v.firstReference[b]; r < v.firstReference[b + 1] && !left[b]; ++r) left[b] = isChanged[v.references[r].instance];
+    for (uint32_t r = v.firstReference[b]; r < v.firstReference[b + 1] && !left[b]; ++r)
+      left[b] = isChanged[v.references[r].instance];
   });
   return left;
 }
 
 // Old bricks and those the changed instances enter, merged in order of their place in the new lattice.
-std::vector<Plan> planBricks(const Voxelisation& v, const Lattice& lattice, std::span<const uint8_t> left, std::span<const BrickReference> entering) {
+std::vector<Plan> planBricks(const Voxelisation& v, const Lattice& lattice, std::span<const uint8_t> left,
+                             std::span<const BrickReference> entering) {
   const Lattice old = latticeOf(v.voxels);
   std::vector<Plan> plans;
   size_t next = 0;
@@ -94,7 +97,8 @@ void gatherReferences(const Voxelisation& v, std::span<const uint8_t> isChanged,
 }
 
 // `v` in the grid `lattice` with the changed instances taken out and, where visible, put in as they are now.
-Voxelisation rebuilt(const Voxelisation& v, const Scene& scene, const Lattice& lattice, std::span<const uint32_t> changed) {
+Voxelisation rebuilt(const Voxelisation& v, const Scene& scene, const Lattice& lattice,
+                     std::span<const uint32_t> changed) {
   std::vector<uint8_t> isChanged(scene.instances.size(), 0);
   for (const uint32_t i : changed) isChanged[i] = 1;
   std::vector<uint32_t> visible;
@@ -137,7 +141,8 @@ Voxelisation voxelise(const Scene& scene, const VoxelSettings& settings, std::sp
   return v;
 }
 
-void update(Voxelisation& v, const Scene& scene, std::span<const uint32_t> changedInstances, std::span<const uint8_t> hidden) {
+void update(Voxelisation& v, const Scene& scene, std::span<const uint32_t> changedInstances,
+            std::span<const uint8_t> hidden) {
   assert(v.instanceBounds.size() <= scene.instances.size());
   refreshBounds(v, scene, changedInstances, hidden);
   const Bounds3 bounds = unionOf(v.instanceBounds);

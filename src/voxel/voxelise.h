@@ -33,17 +33,18 @@ struct Voxelisation {
   };
   std::vector<uint32_t> firstReference;  // bricks + 1
   std::vector<Reference> references;
-  std::vector<Bounds3> instanceBounds;   // world; empty where hidden
+  std::vector<Bounds3> instanceBounds;  // world; empty where hidden
 };
 
-// Cost: proportional to triangles plus voxels touched. `hidden[i]` true leaves instance i out; empty means none is hidden.
-// Where the scene's extent is absurd for the voxel size (see feasibleVoxelSizeM in lattice.h), the voxels come out larger.
+// Cost: proportional to triangles plus voxels touched. `hidden[i]` true leaves instance i out; empty means none is
+// hidden. Where the scene's extent is absurd for the voxel size (see feasibleVoxelSizeM in lattice.h), the voxels come
+// out larger.
 Voxelisation voxelise(const Scene& scene, const VoxelSettings& settings, std::span<const uint8_t> hidden = {});
 
 // Brings `v` up to date after the listed instances of `scene` changed (transform, or hidden: `hidden[i]` true removes
-// instance i; empty means none is hidden); new instances at the end of `scene` count as changed. Same result, bit for bit,
-// as voxelise() of the scene as it is now with the voxel size that v had at first, also where the grid grows or shrinks. Cost: the bricks that
-// changed instances left and entered, plus a copy of the rest.
+// instance i; empty means none is hidden); new instances at the end of `scene` count as changed. Same result, bit for
+// bit, as voxelise() of the scene as it is now with the voxel size that v had at first, also where the grid grows or
+// shrinks. Cost: the bricks that changed instances left and entered, plus a copy of the rest.
 void update(Voxelisation& v, const Scene& scene, std::span<const uint32_t> changedInstances,
             std::span<const uint8_t> hidden = {});
 

@@ -42,34 +42,34 @@ struct FaceSlot {
   Vec3 position;   // world; centre of the foremost large piece of surface on this side, so it lies on a surface
   Vec3 normal;     // unit, mean of their normals, pointing to this side
   Vec3 albedo;     // bihemispherical, area-weighted mean, 0..1
-  Vec3 emission;   // luminance in cd/m² to this side, area-weighted mean: emission * areaM2 * pi is the exact flux in lm
+  Vec3 emission;  // luminance in cd/m² to this side, area-weighted mean: emission * areaM2 * pi is the exact flux in lm
   float areaM2 = 0;  // true (not projected) area of the opaque part of the surfaces on this side
-  float opacity = 1;   // 0..1, opaque share of those surfaces: below 1 for panes, veils and leaves cut out by a mask
+  float opacity = 1;  // 0..1, opaque share of those surfaces: below 1 for panes, veils and leaves cut out by a mask
   uint32_t instance = 0;  // the instance with the largest area here
   uint8_t face = 0;
 };
 
 struct SurfaceVoxel {
-  uint64_t mask = 0;     // 4x4x4 sub-cells touched; bit x + 4 y + 16 z
-  Vec3 opacity;          // 0..1, fraction of the voxel's cross-section that is covered, seen along x, y, z
+  uint64_t mask = 0;  // 4x4x4 sub-cells touched; bit x + 4 y + 16 z
+  Vec3 opacity;  // 0..1, fraction of the voxel's cross-section that is covered, seen along x, y, z
   uint32_t firstSlot = 0;
-  uint8_t faces = 0;     // bit f: a slot for face f exists; slots follow in order of f
+  uint8_t faces = 0;  // bit f: a slot for face f exists; slots follow in order of f
 };
 
 struct Brick {
-  Int3 coord;                        // in bricks, from the grid's origin
+  Int3 coord;  // in bricks, from the grid's origin
   uint32_t firstVoxel = 0;
   std::array<uint64_t, 8> occupied{};  // word z, bit x + 8 y
-  std::array<uint16_t, 8> before{};    // records of this brick in words before this one
+  std::array<uint16_t, 8> before{};  // records of this brick in words before this one
 };
 
 // Where there are voxels.
 struct BrickGrid {
   float voxelSizeM = 0;
-  Vec3 origin;       // world position of the lower corner of brick (0,0,0); a multiple of the brick's edge
+  Vec3 origin;  // world position of the lower corner of brick (0,0,0); a multiple of the brick's edge
   Int3 brickDims;
   std::vector<int32_t> brickIndex;  // x fastest
-  std::vector<Brick> bricks;        // in order of their position in brickIndex
+  std::vector<Brick> bricks;  // in order of their position in brickIndex
 
   int32_t brickAt(Int3 b) const {
     if (b.x < 0 || b.y < 0 || b.z < 0 || b.x >= brickDims.x || b.y >= brickDims.y || b.z >= brickDims.z) return -1;
@@ -100,8 +100,8 @@ int64_t slotOf(const Voxel& voxel, int face) {
 }
 
 struct Voxels : BrickGrid {
-  std::vector<SurfaceVoxel> voxels; // grouped by brick, x fastest
-  std::vector<FaceSlot> slots;      // grouped by voxel
+  std::vector<SurfaceVoxel> voxels;  // grouped by brick, x fastest
+  std::vector<FaceSlot> slots;  // grouped by voxel
 
   size_t bytes() const;
   int64_t slotAt(const SurfaceVoxel& voxel, int face) const { return slotOf(voxel, face); }

@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace roomlight;
   const Result<Epw> weather = parseEpw({reinterpret_cast<const char*>(data), size});
   if (!weather) {
-    if (weather.error().empty() || weather.error().size() > 500 || weather.error().find('\n') != std::string::npos) std::abort();
+    if (weather.error().empty() || weather.error().size() > 500 || weather.error().find('\n') != std::string::npos)
+      std::abort();
     return 0;
   }
   for (const EpwHour& h : weather.value().hours) {

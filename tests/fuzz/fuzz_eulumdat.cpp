@@ -1,4 +1,5 @@
-// Any bytes as an EULUMDAT file: no crash, no hang. An error is one short line; what is accepted is a finite web that can be sampled.
+// Any bytes as an EULUMDAT file: no crash, no hang. An error is one short line; what is accepted is a finite web that
+ // can be sampled.
 #include "fuzz/photometric.h"
 #include "photometry/eulumdat.h"
 

@@ -1,4 +1,5 @@
-// Any bytes as what a reader's process sends back: nothing in them is believed. A model that is taken is one that all stages can read.
+// Any bytes as what a reader's process sends back: nothing in them is believed. A model that is taken is one that all
+ // stages can read.
 #include "import/failure.h"
 #include "import/foreign_lights.h"
 #include "import/foreign_model.h"
@@ -18,7 +19,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     addForeignLights(lights, 1, scene, warnings);
     standUpright(scene, std::nullopt, 1, UpAxis::Z, warnings);
     (void)validate(scene);
-  } catch (const Failure&) {
-  }
+  } catch (const Failure&) {}
   return 0;
 }

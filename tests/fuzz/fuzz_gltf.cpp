@@ -1,5 +1,5 @@
-// Any bytes as a glTF file: a scene or one line of error. Bytes that are no binary glTF are taken as JSON, a zero byte, and
-// the binary chunk, so that the fuzzer need not keep the lengths of a container right.
+// Any bytes as a glTF file: a scene or one line of error. Bytes that are no binary glTF are taken as JSON, a zero byte,
+// and the binary chunk, so that the fuzzer need not keep the lengths of a container right.
 #include <cstdlib>
 #include <cstring>
 
@@ -17,7 +17,8 @@ std::string asBinary(const std::string& input) {
   if (input.starts_with("glTF")) return input;
   const size_t end = std::min(input.find('\0'), input.size());
   const std::string json = input.substr(0, end), chunk = input.substr(std::min(end + 1, input.size()));
-  return "glTF" + word(2) + word(28 + json.size() + chunk.size()) + word(json.size()) + "JSON" + json + word(chunk.size()) + std::string("BIN\0", 4) + chunk;
+  return "glTF" + word(2) + word(28 + json.size() + chunk.size()) + word(json.size()) + "JSON" + json +
+         word(chunk.size()) + std::string("BIN\0", 4) + chunk;
 }
 
 }  // namespace

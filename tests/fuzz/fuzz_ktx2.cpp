@@ -10,7 +10,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Warnings warnings;
   const DecodedPicture picture = tryPictures({{"picture", bytes}}, warnings)[0];
   const auto& t = picture.texture;
-  if (picture.failure.empty()) roomlight::fuzz::require(t.width > 0 && t.height > 0 && t.rgba.size() == 4 * static_cast<size_t>(t.width) * static_cast<size_t>(t.height));
+  if (picture.failure.empty())
+    roomlight::fuzz::require(t.width > 0 && t.height > 0 &&
+                             t.rgba.size() == 4 * static_cast<size_t>(t.width) * static_cast<size_t>(t.height));
   roomlight::fuzz::require(picture.failure.find('\n') == std::string::npos);
   return 0;
 }

@@ -1,5 +1,5 @@
-// Any bytes as a lighting file: no crash, no hang. An error is one short line and leaves the scene alone; what is accepted
-// holds finite light only.
+// Any bytes as a lighting file: no crash, no hang. An error is one short line and leaves the scene alone; what is
+// accepted holds finite light only.
 #include <unistd.h>
 
 #include <cstdint>
@@ -44,7 +44,8 @@ const std::filesystem::path& inputFile() {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  std::ofstream(inputFile(), std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  std::ofstream(inputFile(), std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   Scene scene = smallScene();
   const Status status = applyLightingFile(inputFile(), scene);
   if (status) {

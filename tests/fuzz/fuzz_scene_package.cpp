@@ -25,7 +25,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (!names.empty()) (void)importers::meantName(names, "a/", names.back());
   try {
     (void)importers::pickScene(files);
-  } catch (const importers::Failure&) {
-  }
+  } catch (const importers::Failure&) {}
   return 0;
 }

@@ -1,4 +1,5 @@
-// Any bytes as a browser's message: no crash, no hang. What is refused says why in one short line; what is taken can be applied to a home.
+// Any bytes as a browser's message: no crash, no hang. What is refused says why in one short line; what is taken can be
+// applied to a home.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -28,11 +29,15 @@ const view::ViewHome& smallHome() {
   return home;
 }
 
-void check(const view::ViewError& e) { require(!e.code.empty() && !e.message.empty() && e.message.size() < 2000 && e.message.find('\n') == std::string::npos); }
+void check(const view::ViewError& e) {
+  require(!e.code.empty() && !e.message.empty() && e.message.size() < 2000 &&
+          e.message.find('\n') == std::string::npos);
+}
 
 void check(const view::ViewCamera& c) {
   const Affine frame = view::cameraOf(c).worldFromCamera;
-  require(isFinite(frame.x) && isFinite(frame.y) && isFinite(frame.z) && isFinite(frame.w) && std::abs(frame.determinant() - 1) < 1e-3f);
+  require(isFinite(frame.x) && isFinite(frame.y) && isFinite(frame.z) && isFinite(frame.w) &&
+          std::abs(frame.determinant() - 1) < 1e-3f);
 }
 
 void check(const view::Viewport& v) {
@@ -43,11 +48,13 @@ void check(const view::Viewport& v) {
 void check(const view::Edit& edit) {
   const view::ViewHome& home = smallHome();
   view::Edited out;
-  if (const auto refused = view::applyEdit(home.editable, home.scene, edit, home.atStart(), out)) return check(*refused);
+  if (const auto refused = view::applyEdit(home.editable, home.scene, edit, home.atStart(), out))
+    return check(*refused);
   Scene scene = home.scene;
   view::stage(home.editable, home.atStart(), out.state, scene);
   for (const Instance& i : scene.instances) require(isFinite(i.worldFromObject.w) && isFinite(i.worldFromObject.x));
-  for (const Lamp& l : scene.lamps) require(isFinite(l.position) && isFinite(l.intensityCd) && minComponent(l.intensityCd) >= 0);
+  for (const Lamp& l : scene.lamps)
+    require(isFinite(l.position) && isFinite(l.intensityCd) && minComponent(l.intensityCd) >= 0);
 }
 
 void check(const view::DisplayChange& change) {

@@ -12,7 +12,9 @@
 
 namespace roomlight::fuzz {
 
-inline bool isOneLine(const std::string& s) { return !s.empty() && s.size() < 1000 && s.find('\n') == std::string::npos; }
+inline bool isOneLine(const std::string& s) {
+  return !s.empty() && s.size() < 1000 && s.find('\n') == std::string::npos;
+}
 
 inline void check(const Result<WebFile>& file) {
   if (!file) return require(isOneLine(file.error()));

@@ -34,7 +34,8 @@ Block blockOf(const Image& image, const Image* variance, int x0, int y0, int x1,
 std::vector<Block> blocksOf(const Image& image, const Image* variance) {
   std::vector<Block> blocks;
   for (int y = 0; y < image.height; y += kBlock) {
-    for (int x = 0; x < image.width; x += kBlock) blocks.push_back(blockOf(image, variance, x, y, x + kBlock, y + kBlock));
+    for (int x = 0; x < image.width; x += kBlock)
+      blocks.push_back(blockOf(image, variance, x, y, x + kBlock, y + kBlock));
   }
   blocks.push_back(blockOf(image, variance, 0, 0, image.width, image.height));
   return blocks;
@@ -60,15 +61,20 @@ PathResult pathOf(const Scene& scene, const Camera& camera, int samples, uint64_
   return pathTrace(rays, lights, camera, settings);
 }
 
-std::string goldenFile(const std::string& scene) { return std::string(ROOMLIGHT_SOURCE_DIR) + "/tests/golden/data/" + scene + ".txt"; }
+std::string goldenFile(const std::string& scene) {
+  return std::string(ROOMLIGHT_SOURCE_DIR) + "/tests/golden/data/" + scene + ".txt";
+}
 
 Status writeGolden(const std::string& scene, const std::vector<Block>& blocks, int samples) {
   std::ofstream out(goldenFile(scene));
-  out << fmt::format("# Scene {} by path, {} samples a pixel, {}x{}: made by golden_images {}. For each block of {}x{} pixels, row by row\n", scene,
-                     samples, kGoldenWidth, kGoldenHeight, samples, kBlock, kBlock);
+  out << fmt::format(
+      "# Scene {} by path, {} samples a pixel, {}x{}: made by golden_images {}. For each block of {}x{} pixels, row by "
+      "row\n",
+      scene, samples, kGoldenWidth, kGoldenHeight, samples, kBlock, kBlock);
   out << "# from the top, and at last for the whole picture: mean R G B in cd/m2, standard error of each.\n";
   for (const Block& b : blocks) {
-    out << fmt::format("{:.6g} {:.6g} {:.6g}  {:.3g} {:.3g} {:.3g}\n", b.mean[0], b.mean[1], b.mean[2], b.standardError[0], b.standardError[1], b.standardError[2]);
+    out << fmt::format("{:.6g} {:.6g} {:.6g}  {:.3g} {:.3g} {:.3g}\n", b.mean[0], b.mean[1], b.mean[2],
+                       b.standardError[0], b.standardError[1], b.standardError[2]);
   }
   if (!out.flush()) return Error{goldenFile(scene) + ": cannot be written"};
   return Ok{};
@@ -86,7 +92,8 @@ Result<std::vector<Block>> readGolden(const std::string& scene) {
     if (!words) return Error{goldenFile(scene) + ": a line does not hold six numbers"};
     blocks.push_back(b);
   }
-  if (blocks.size() != kGoldenWidth / kBlock * (kGoldenHeight / kBlock) + 1) return Error{goldenFile(scene) + ": has the wrong number of lines; run golden_images"};
+  if (blocks.size() != kGoldenWidth / kBlock * (kGoldenHeight / kBlock) + 1)
+    return Error{goldenFile(scene) + ": has the wrong number of lines; run golden_images"};
   return blocks;
 }
 
@@ -94,13 +101,15 @@ Deviation largestDeviation(const std::vector<Block>& golden, const std::vector<B
   Deviation worst;
   for (size_t i = 0; i < golden.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      const double error = std::hypot(golden[i].standardError[c], fresh[i].standardError[c], kRounding * golden[i].mean[c]);
+      const double error =
+          std::hypot(golden[i].standardError[c], fresh[i].standardError[c], kRounding * golden[i].mean[c]);
       const double z = std::abs(fresh[i].mean[c] - golden[i].mean[c]) / std::max(error, 1e-30);
       if (z <= worst.z) continue;
       const size_t row = kGoldenWidth / kBlock;
       const std::string where = i + 1 == golden.size() ? "whole picture" : fmt::format("block {},{}", i % row, i / row);
-      worst = {z, fmt::format("{}, channel {}: {:.5g} +- {:.2g} instead of {:.5g} +- {:.2g} cd/m2", where, c, fresh[i].mean[c], fresh[i].standardError[c],
-                              golden[i].mean[c], golden[i].standardError[c])};
+      worst = {z,
+               fmt::format("{}, channel {}: {:.5g} +- {:.2g} instead of {:.5g} +- {:.2g} cd/m2", where, c,
+                           fresh[i].mean[c], fresh[i].standardError[c], golden[i].mean[c], golden[i].standardError[c])};
     }
   }
   return worst;

@@ -1,4 +1,5 @@
-// Means over blocks of a picture with their standard errors, as golden pictures are kept, and the test between two of them.
+// Means over blocks of a picture with their standard errors, as golden pictures are kept, and the test between two of
+ // them.
 #pragma once
 
 #include <string>
@@ -16,7 +17,8 @@ struct Block {
   double mean[3] = {}, standardError[3] = {};  // cd/m² per channel
 };
 
-// The blocks row by row from the top, at last the whole picture. Without `variance` (of each pixel's mean) errors are 0.
+// The blocks row by row from the top, at last the whole picture. Without `variance` (of each pixel's mean) errors are
+// 0.
 std::vector<Block> blocksOf(const Image& image, const Image* variance = nullptr);
 
 double luminanceOf(const Block& block);

@@ -1,5 +1,6 @@
-// Pictures of small rooms against golden ones: `path` by a z-test of every block, `cone` within stated tolerances. A picture
-// that fails is written as golden_<scene>_<what>.exr beside the test, with the difference of the blocks as .png.
+// Pictures of small rooms against golden ones: `path` by a z-test of every block, `cone` within stated tolerances. A
+// picture that fails is written as golden_<scene>_<what>.exr beside the test, with the difference of the blocks as
+// .png.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,9 @@ namespace {
 constexpr int kSamples = 288;
 constexpr double kFalseAlarm = 1e-6;  // over all scenes, blocks and channels
 
-double limit() { return threshold(kFalseAlarm, goldenScenes().size() * 3 * (kGoldenWidth / kBlock * kGoldenHeight / kBlock + 1)); }
+double limit() {
+  return threshold(kFalseAlarm, goldenScenes().size() * 3 * (kGoldenWidth / kBlock * kGoldenHeight / kBlock + 1));
+}
 
 void keepPicture(const std::string& name, const Image& image, const std::vector<Block>& golden) {
   EXPECT_TRUE(writeExr(name + ".exr", image, {}).ok());
@@ -87,14 +90,16 @@ TEST_P(Golden, hybridAgreesWithinTolerance) {
     for (size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] += r.value().image.pixels[i] / kPictures;
   }
   const Errors e = errorsOf(golden_, mean);
-  const std::string figures = fmt::format("mean {:.2f} rms {:.2f} worst {:.2f} %", e.meanPercent, e.rmsPercent, e.worstPercent);
+  const std::string figures =
+      fmt::format("mean {:.2f} rms {:.2f} worst {:.2f} %", e.meanPercent, e.rmsPercent, e.worstPercent);
   EXPECT_LT(std::abs(e.meanPercent), 1.5) << figures;
   EXPECT_LT(e.rmsPercent, 4) << figures;
   EXPECT_LT(e.worstPercent, 15) << figures;
   if (HasFailure()) keepPicture(fmt::format("golden_{}_hybrid", g_.name), mean, golden_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rooms, Golden, testing::Values(0, 1, 2), [](const auto& room) { return goldenScenes()[static_cast<size_t>(room.param)].name; });
+INSTANTIATE_TEST_SUITE_P(Rooms, Golden, testing::Values(0, 1, 2),
+                         [](const auto& room) { return goldenScenes()[static_cast<size_t>(room.param)].name; });
 
 TEST(GoldenThreshold, isThatOfTheNormalDistribution) {
   EXPECT_NEAR(threshold(0.05, 1), 1.95996, 1e-4);

@@ -25,7 +25,8 @@ Mesh ball(int material, int n) {
   mesh.material = material;
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= 2 * n; ++i) {
-      const float theta = kPi * static_cast<float>(j) / static_cast<float>(n), phi = kPi * static_cast<float>(i) / static_cast<float>(n);
+      const float theta = kPi * static_cast<float>(j) / static_cast<float>(n),
+                  phi = kPi * static_cast<float>(i) / static_cast<float>(n);
       mesh.positions.push_back({std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi)});
     }
   }
@@ -43,21 +44,24 @@ Mesh ball(int material, int n) {
 GoldenScene boxes() {
   GoldenScene g{"boxes", {}, lookAt({1.5f, 1.4f, 3.2f}, {1.5f, 1.15f, 0}, 1.0f)};
   Scene& s = g.scene;
-  const int white = addColour(s, {0.75f, 0.75f, 0.75f}), red = addColour(s, {0.6f, 0.08f, 0.06f}), green = addColour(s, {0.1f, 0.5f, 0.12f});
+  const int white = addColour(s, {0.75f, 0.75f, 0.75f}), red = addColour(s, {0.6f, 0.08f, 0.06f}),
+            green = addColour(s, {0.1f, 0.5f, 0.12f});
   addRoom(s, {0, 0, 0}, {3, 2.5f, 3.3f}, {red, green, white, white, white, white});
   addRectangle(s, {1.1f, 2.49f, 1.1f}, {0.8f, 0, 0}, {0, 0, 0.8f}, addMaterial(s, lambertian(0, 900)));
   addBox(s, {1.7f, 0, 1.3f}, {2.4f, 0.7f, 2.0f}, white);
   const size_t first = s.instances.size();
   addBox(s, {-0.35f, 0, -0.35f}, {0.35f, 1.4f, 0.35f}, white);
   const float c = std::cos(0.35f), d = std::sin(0.35f);
-  for (size_t i = first; i < s.instances.size(); ++i) s.instances[i].worldFromObject = {{c, 0, -d}, {0, 1, 0}, {d, 0, c}, {0.85f, 0, 0.95f}};
+  for (size_t i = first; i < s.instances.size(); ++i)
+    s.instances[i].worldFromObject = {{c, 0, -d}, {0, 1, 0}, {d, 0, c}, {0.85f, 0, 0.95f}};
   return g;
 }
 
 GoldenScene window() {
   GoldenScene g{"window", {}, lookAt({3.6f, 1.5f, 3.1f}, {0.9f, 1.05f, 0.9f}, 1.05f)};
   Scene& s = g.scene;
-  const int wall = addColour(s, {0.8f, 0.78f, 0.72f}), wood = addColour(s, {0.45f, 0.3f, 0.18f}), ground = addColour(s, {0.2f, 0.22f, 0.16f});
+  const int wall = addColour(s, {0.8f, 0.78f, 0.72f}), wood = addColour(s, {0.45f, 0.3f, 0.18f}),
+            ground = addColour(s, {0.2f, 0.22f, 0.16f});
   const float w = 4, h = 2.6f, d = 3.4f;
   addRectangle(s, {0, 0, 0}, {0, 0, d}, {w, 0, 0}, wood);
   addRectangle(s, {0, h, 0}, {w, 0, 0}, {0, 0, d}, wall);
@@ -80,7 +84,8 @@ GoldenScene window() {
   s.sky.image = Image(32, 16);
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 32; ++x) {
-      const float up = std::cos(kPi * (static_cast<float>(y) + 0.5f) / 16), west = 0.5f + 0.5f * std::cos(2 * kPi * (static_cast<float>(x) - 7.5f) / 32);
+      const float up = std::cos(kPi * (static_cast<float>(y) + 0.5f) / 16),
+                  west = 0.5f + 0.5f * std::cos(2 * kPi * (static_cast<float>(x) - 7.5f) / 32);
       const float l = up < 0 ? 0 : 2500 + 3000 * (1 - up) * (1 - up) + 3000 * west * west;
       s.sky.image.at(x, y) = lerp(Vec3{0.75f, 1, 1.5f}, Vec3{1, 1, 1.05f}, 1 - std::max(up, 0.0f)) * l;
     }
@@ -119,12 +124,16 @@ GoldenScene lamps() {
   metal.baseColor = {0.95f, 0.8f, 0.6f};
   metal.roughness = 0.4f;
   s.meshes.push_back(ball(addMaterial(s, metal), 24));
-  s.instances.push_back({"ball", static_cast<int>(s.meshes.size()) - 1, 100, {{0.4f, 0, 0}, {0, 0.4f, 0}, {0, 0, 0.4f}, {1.1f, 0.4f, 1.1f}}});
+  s.instances.push_back({"ball",
+                         static_cast<int>(s.meshes.size()) - 1,
+                         100,
+                         {{0.4f, 0, 0}, {0, 0.4f, 0}, {0, 0, 0.4f}, {1.1f, 0.4f, 1.1f}}});
   Material glass;
   glass.baseColor = {0.85f, 0.95f, 0.9f};
   glass.metallic = glass.roughness = 0;
   glass.transmission = 1;
-  addBox(s, {2.0f, 0.01f, 0.9f}, {2.6f, 0.9f, 1.4f}, addMaterial(s, glass));  // not on the floor itself: which of two surfaces in one place a ray finds is chance
+  addBox(s, {2.0f, 0.01f, 0.9f}, {2.6f, 0.9f, 1.4f},
+         addMaterial(s, glass));  // not on the floor itself: which of two surfaces in one place a ray finds is chance
 
   s.lamps.push_back(pointLamp({0.7f, 1.9f, 0.6f}, 40));
   s.lamps.back().intensityCd = Vec3{1.3f, 0.97f, 0.5f} * 40;

@@ -28,9 +28,11 @@ void expectWithinOnePercent(double measured, double expected, const std::string&
 
 TEST(ClosedForms, UnitSquareSeenOnItsAxis) {
   Scene scene;
-  test::addRectangle(scene, {-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}, test::addMaterial(scene, test::lambertian(0, 100)));
+  test::addRectangle(scene, {-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1},
+                     test::addMaterial(scene, test::lambertian(0, 100)));
   const double expected = 4 * 100 * std::atan(1 / std::sqrt(5.0)) / std::sqrt(5.0);
-  expectWithinOnePercent(measure(scene, {0, 0, 0}, {0, 1, 0}), expected, kRectangles, "unit square of 100 cd/m² on its axis at 1 m");
+  expectWithinOnePercent(measure(scene, {0, 0, 0}, {0, 1, 0}), expected, kRectangles,
+                         "unit square of 100 cd/m² on its axis at 1 m");
 }
 
 TEST(ClosedForms, CornerAlignedParallelRectangle) {
@@ -38,7 +40,8 @@ TEST(ClosedForms, CornerAlignedParallelRectangle) {
   test::addRectangle(scene, {0, 2, 0}, {1.5f, 0, 0}, {0, 0, 2.5f}, test::addMaterial(scene, test::lambertian(0, 50)));
   const double X = 1.5 / 2, Y = 2.5 / 2, sx = std::sqrt(1 + X * X), sy = std::sqrt(1 + Y * Y);
   const double f = (X / sx * std::atan(Y / sx) + Y / sy * std::atan(X / sy)) / (2 * kDPi);
-  expectWithinOnePercent(measure(scene, {0, 0, 0}, {0, 1, 0}), kDPi * 50 * f, kRectangles, "parallel, 1.5 m x 2.5 m at 2 m from its corner, 50 cd/m²");
+  expectWithinOnePercent(measure(scene, {0, 0, 0}, {0, 1, 0}), kDPi * 50 * f, kRectangles,
+                         "parallel, 1.5 m x 2.5 m at 2 m from its corner, 50 cd/m²");
 }
 
 TEST(ClosedForms, CornerAlignedPerpendicularRectangle) {
@@ -49,7 +52,8 @@ TEST(ClosedForms, CornerAlignedPerpendicularRectangle) {
                      test::addMaterial(scene, test::lambertian(0, 80)));
   const double r = std::sqrt(a * a + c * c);
   const double f = (std::atan(b / a) - a / r * std::atan(b / r)) / (2 * kDPi);
-  expectWithinOnePercent(measure(scene, {0, 0, 0}, {0, 1, 0}), kDPi * 80 * f, kRectangles, "perpendicular, 2 m x 1.5 m at 1.2 m from its corner, 80 cd/m²");
+  expectWithinOnePercent(measure(scene, {0, 0, 0}, {0, 1, 0}), kDPi * 80 * f, kRectangles,
+                         "perpendicular, 2 m x 1.5 m at 1.2 m from its corner, 80 cd/m²");
 }
 
 // Mean exitance over a face of the unit cube whose floor emits an exitance of 1.
@@ -61,11 +65,10 @@ double cubeExitance(const Scene& scene, int face, double emitted) {
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
       const float u = (static_cast<float>(i) + 0.5f) / n, v = (static_cast<float>(j) + 0.5f) / n;
-      const Vec3 p = face == 0 ? Vec3{u, 0, v} : face == 1 ? Vec3{u, 1, v}
-                                                           : Vec3{0, u, v};
-      const Vec3 normal = face == 0 ? Vec3{0, 1, 0} : face == 1 ? Vec3{0, -1, 0}
-                                                                : Vec3{1, 0, 0};
-      sum += luminance(measureIlluminance(rays, lights, p, normal, 512, static_cast<uint64_t>(j * n + i)).illuminanceLux);
+      const Vec3 p = face == 0 ? Vec3{u, 0, v} : face == 1 ? Vec3{u, 1, v} : Vec3{0, u, v};
+      const Vec3 normal = face == 0 ? Vec3{0, 1, 0} : face == 1 ? Vec3{0, -1, 0} : Vec3{1, 0, 0};
+      sum +=
+          luminance(measureIlluminance(rays, lights, p, normal, 512, static_cast<uint64_t>(j * n + i)).illuminanceLux);
     }
   }
   return emitted + 0.5 * sum / (n * n);
@@ -90,9 +93,9 @@ struct Patch {
   double b = 0;
 };
 
-// The radiosity solution of the unit cube with n x n patches a face, floor exitance 1, albedo 0.5; mean exitance of floor,
-// ceiling and one wall. One patch a face gives science's 1.090909, .181746, .181836; the continuous limit differs, because
-// the exitance is not uniform over a face.
+// The radiosity solution of the unit cube with n x n patches a face, floor exitance 1, albedo 0.5; mean exitance of
+// floor, ceiling and one wall. One patch a face gives science's 1.090909, .181746, .181836; the continuous limit
+// differs, because the exitance is not uniform over a face.
 std::array<double, 3> cubeRadiosity(int n) {
   std::vector<Patch> patches;
   const float s = 1 / static_cast<float>(n);
@@ -116,7 +119,8 @@ std::array<double, 3> cubeRadiosity(int n) {
   std::vector<double> f(count * count, 0);
   for (size_t i = 0; i < count; ++i) {
     for (size_t j = 0; j < count; ++j) {
-      if (patches[i].face != patches[j].face) f[i * count + j] = elementToPolygon(patches[i].centre, patches[i].normal, patches[j].corners);
+      if (patches[i].face != patches[j].face)
+        f[i * count + j] = elementToPolygon(patches[i].centre, patches[i].normal, patches[j].corners);
     }
   }
   for (int iteration = 0; iteration < 60; ++iteration) {
@@ -128,9 +132,7 @@ std::array<double, 3> cubeRadiosity(int n) {
   }
   std::array<double, 3> mean{};
   for (const Patch& p : patches) {
-    const int slot = p.face == 2 ? 0 : p.face == 3 ? 1
-                                   : p.face == 0   ? 2
-                                                   : -1;
+    const int slot = p.face == 2 ? 0 : p.face == 3 ? 1 : p.face == 0 ? 2 : -1;
     if (slot >= 0) mean[static_cast<size_t>(slot)] += p.b / (n * n);
   }
   return mean;
@@ -141,8 +143,10 @@ TEST(ClosedForms, CubeViewFactors) {
   const int wall = test::addMaterial(scene, test::lambertian(0));
   const int floor = test::addMaterial(scene, test::lambertian(0, 1 / kPi));
   test::addRoom(scene, {0, 0, 0}, {1, 1, 1}, {wall, wall, floor, wall, wall, wall});
-  expectWithinOnePercent(2 * cubeExitance(scene, 1, 0), 0.199825, "Cube of six unit faces", "view factor to the opposite face");
-  expectWithinOnePercent(2 * cubeExitance(scene, 2, 0), 0.200044, "Cube of six unit faces", "view factor to a face beside");
+  expectWithinOnePercent(2 * cubeExitance(scene, 1, 0), 0.199825, "Cube of six unit faces",
+                         "view factor to the opposite face");
+  expectWithinOnePercent(2 * cubeExitance(scene, 2, 0), 0.200044, "Cube of six unit faces",
+                         "view factor to a face beside");
   const double opposite = 0.199825, adjacent = 0.200044;
   // Six uniform patches: B = M + rho F B, solved by symmetry of the four walls.
   double bf = 1, bc = 0, bw = 0;
@@ -165,7 +169,8 @@ TEST(ClosedForms, CubeOfSixFacesIsTheRadiositySolution) {
   const char* names[] = {"floor", "ceiling", "wall"};
   for (int face = 0; face < 3; ++face) {
     const double e = expected[static_cast<size_t>(face)];
-    expectWithinOnePercent(cubeExitance(scene, face, face == 0 ? 1 : 0), e, "Cube of six unit faces", std::string("mean exitance, albedo 0.5, floor 1: ") + names[face]);
+    expectWithinOnePercent(cubeExitance(scene, face, face == 0 ? 1 : 0), e, "Cube of six unit faces",
+                           std::string("mean exitance, albedo 0.5, floor 1: ") + names[face]);
   }
 }
 

@@ -1,4 +1,5 @@
-// Technique cone held against closed forms: furnaces at any voxel size and orientation, occlusion, independence of settings.
+// Technique cone held against closed forms: furnaces at any voxel size and orientation, occlusion, independence of
+ // settings.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +65,9 @@ Scene furnace(float rho) {
 struct Furnace {
   float voxelSizeM, angleRad, halfAngleDeg, tolerance;
 };
-void PrintTo(const Furnace& f, std::ostream* out) { *out << f.voxelSizeM << " m, turned " << f.angleRad << ", cones of " << f.halfAngleDeg << " degrees"; }
+void PrintTo(const Furnace& f, std::ostream* out) {
+  *out << f.voxelSizeM << " m, turned " << f.angleRad << ", cones of " << f.halfAngleDeg << " degrees";
+}
 
 class ConeFurnace : public testing::TestWithParam<Furnace> {};
 
@@ -75,18 +78,23 @@ TEST_P(ConeFurnace, radianceIsEmissionOverOneMinusAlbedo) {
   s.gather.coneHalfAngleDeg = GetParam().halfAngleDeg;
   const double measured = mean(render(furnace(0.5f), {1.7f, 1.4f, 2.6f}, s, {GetParam().angleRad}).image);
   test::record("Furnace, walls of 10 cd/m² each, luminance",
-               fmt::format("albedo 0.5, voxels of {} m turned by {} rad, cones of {}°", GetParam().voxelSizeM, GetParam().angleRad, GetParam().halfAngleDeg),
+               fmt::format("albedo 0.5, voxels of {} m turned by {} rad, cones of {}°", GetParam().voxelSizeM,
+                           GetParam().angleRad, GetParam().halfAngleDeg),
                "cone", 20, measured);
   EXPECT_NEAR(measured, 20, 20 * GetParam().tolerance);
 }
 INSTANTIATE_TEST_SUITE_P(Rooms, ConeFurnace,
-                         testing::Values(Furnace{0.1f, 0, 5, 0.02f}, Furnace{0.05f, 0, 5, 0.02f}, Furnace{0.2f, 0, 5, 0.02f}, Furnace{0.1f, 0.5f, 5, 0.02f},
-                                         Furnace{0.1f, 0.785398f, 5, 0.02f}, Furnace{0.1f, 0, 15, 0.02f}, Furnace{0.1f, 0.5f, 15, 0.02f}));
+                         testing::Values(Furnace{0.1f, 0, 5, 0.02f}, Furnace{0.05f, 0, 5, 0.02f},
+                                         Furnace{0.2f, 0, 5, 0.02f}, Furnace{0.1f, 0.5f, 5, 0.02f},
+                                         Furnace{0.1f, 0.785398f, 5, 0.02f}, Furnace{0.1f, 0, 15, 0.02f},
+                                         Furnace{0.1f, 0.5f, 15, 0.02f}));
 
 // A room with a lamp, a table, a shelf and a partition that does not reach the ceiling.
 Scene furnishedRoom() {
   Scene scene;
-  const int white = test::addMaterial(scene, test::lambertian(0.75f)), floor = test::addMaterial(scene, test::lambertian(0.35f)), wood = test::addMaterial(scene, test::lambertian(0.5f));
+  const int white = test::addMaterial(scene, test::lambertian(0.75f)),
+            floor = test::addMaterial(scene, test::lambertian(0.35f)),
+            wood = test::addMaterial(scene, test::lambertian(0.5f));
   test::addRoom(scene, {0, 0, 0}, {4.13f, 2.57f, 3.61f}, {white, white, floor, white, white, white});
   test::addBox(scene, {0.6f, 0.7f, 0.5f}, {1.9f, 0.74f, 1.3f}, wood);
   test::addBox(scene, {3.2f, 0, 0.01f}, {4.0f, 1.9f, 0.35f}, wood);
@@ -119,7 +127,8 @@ TEST(Cone, lightOutdoorsDoesNotShortenBouncesIndoors) {
   EXPECT_NEAR(mean(render(scene, {1.9f, 1.5f, 3.4f}, s).image), alone, 0.01 * alone);
 }
 
-// A lamp-lit room whose walls have no thickness, with a window frame in one of them, before and after sunrise: no daylight comes in.
+// A lamp-lit room whose walls have no thickness, with a window frame in one of them, before and after sunrise: no
+// daylight comes in.
 TEST(Cone, daylightStaysOutside) {
   Scene night;
   const int wall = test::addMaterial(night, test::lambertian(0.6f));
@@ -133,7 +142,8 @@ TEST(Cone, daylightStaysOutside) {
   sun.illuminanceLux = Vec3(50000);
   day.suns.push_back(sun);
   day.sky.luminanceCdM2 = Vec3(3000);
-  const double dark = mean(render(night, {1.5f, 1.3f, 2.7f}, small()).image), bright = mean(render(day, {1.5f, 1.3f, 2.7f}, small()).image);
+  const double dark = mean(render(night, {1.5f, 1.3f, 2.7f}, small()).image),
+               bright = mean(render(day, {1.5f, 1.3f, 2.7f}, small()).image);
   EXPECT_NEAR(bright, dark, 0.02 * dark);
 }
 
@@ -151,7 +161,8 @@ TEST(Cone, sameBitsWithAnyNumberOfThreads) {
 }
 
 // In a room of metres, f(r) = 1 / (1 + r) of its walls lies between that of the nearest and of the farthest point.
-// Asked to stop at any of its reports, illuminate traces nothing more and leaves no light that could be taken for all of it.
+// Asked to stop at any of its reports, illuminate traces nothing more and leaves no light that could be taken for all
+// of it.
 TEST(Cone, illuminateStopsWhereItIs) {
   const Scene scene = furnishedRoom();
   const RayScene rays(scene);

@@ -39,7 +39,8 @@ class LambertianFurnace : public testing::TestWithParam<float> {};
 TEST_P(LambertianFurnace, RadianceIsEmissionOverOneMinusAlbedo) {
   const float rho = GetParam();
   const double mean = meanLuminance(renderFurnace(test::lambertian(rho, 10), rho > 0.9f ? 1024 : 256).image);
-  test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}", rho), "path", 10 / (1 - rho), mean);
+  test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}", rho), "path", 10 / (1 - rho),
+               mean);
   EXPECT_NEAR(mean, 10 / (1 - rho), 0.01 * 10 / (1 - rho));
 }
 INSTANTIATE_TEST_SUITE_P(Albedos, LambertianFurnace, testing::Values(0.0f, 0.2f, 0.5f, 0.8f, 0.95f));

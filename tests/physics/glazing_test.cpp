@@ -10,7 +10,8 @@
 namespace roomlight {
 namespace {
 
-// Between panes that absorb nothing and an even sky all around everything is as bright as the sky: what is not let through is reflected.
+// Between panes that absorb nothing and an even sky all around everything is as bright as the sky: what is not let
+// through is reflected.
 TEST(GlazingInAFurnace, isInvisible) {
   for (const int panes : {1, 2}) {
     Scene scene;
@@ -21,7 +22,8 @@ TEST(GlazingInAFurnace, isInvisible) {
     const RayScene rays(scene);
     const Lights lights(scene);
     for (const Vec3 n : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0.6f, 0, 0.8f}}) {
-      const double e = static_cast<double>(luminance(measureIlluminance(rays, lights, n * -0.2f, n, 1 << 16, 5).illuminanceLux));
+      const double e =
+          static_cast<double>(luminance(measureIlluminance(rays, lights, n * -0.2f, n, 1 << 16, 5).illuminanceLux));
       EXPECT_NEAR(e, 100 * std::numbers::pi, 0.005 * 100 * std::numbers::pi) << panes;
     }
   }

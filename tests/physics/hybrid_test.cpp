@@ -29,8 +29,15 @@ struct Lit {
     settings.still = true;  // as still pictures are lit
     return settings;
   }
-  Lit(Scene s, float voxelSizeM) : scene(std::move(s)), rays(scene), lights(scene), voxels(voxelise(scene, {.voxelSizeM = voxelSizeM})), field(illuminate(rays, lights, voxels.voxels, still())) {}
-  Image hybrid(const Camera& camera, RayGatherSettings settings = small()) const { return gatherRays(rays, lights, voxels.voxels, field, camera, settings).image; }
+  Lit(Scene s, float voxelSizeM)
+      : scene(std::move(s)),
+        rays(scene),
+        lights(scene),
+        voxels(voxelise(scene, {.voxelSizeM = voxelSizeM})),
+        field(illuminate(rays, lights, voxels.voxels, still())) {}
+  Image hybrid(const Camera& camera, RayGatherSettings settings = small()) const {
+    return gatherRays(rays, lights, voxels.voxels, field, camera, settings).image;
+  }
   Image cone(const Camera& camera) const {
     GatherSettings settings;
     settings.width = settings.height = 48;
@@ -78,8 +85,10 @@ class HybridFurnace : public testing::TestWithParam<float> {};
 TEST_P(HybridFurnace, radianceIsEmissionOverOneMinusAlbedo) {
   const float rho = GetParam();
   const Lit lit = furnace(rho);
-  const double measured = mean(lit.hybrid(cameraAt({1.7f, 1.4f, 2.6f}, {1, 1, 0}))), expected = 10 / (1 - static_cast<double>(rho));
-  test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}, voxels of 0.1 m", rho), "hybrid", expected, measured);
+  const double measured = mean(lit.hybrid(cameraAt({1.7f, 1.4f, 2.6f}, {1, 1, 0}))),
+               expected = 10 / (1 - static_cast<double>(rho));
+  test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}, voxels of 0.1 m", rho), "hybrid",
+               expected, measured);
   EXPECT_NEAR(measured, expected, 0.01 * expected);
 }
 
@@ -96,7 +105,8 @@ TEST_P(HybridFurnace, sparseGatherLeavesNoPixelOut) {
 }
 INSTANTIATE_TEST_SUITE_P(Albedos, HybridFurnace, testing::Values(0.0f, 0.5f, 0.8f));
 
-// Two rooms on one floor under one ceiling, a wall between them; a lamp on one side. Nothing of its light belongs on the other.
+// Two rooms on one floor under one ceiling, a wall between them; a lamp on one side. Nothing of its light belongs on
+// the other.
 Scene twoRooms(float wallM) {
   Scene scene;
   const int white = test::addMaterial(scene, test::lambertian(0.7f));
@@ -114,16 +124,22 @@ Scene twoRooms(float wallM) {
 struct Leak {
   float wallM, voxelSizeM;
 };
-void PrintTo(const Leak& leak, std::ostream* out) { *out << leak.wallM << " m of wall, voxels of " << leak.voxelSizeM << " m"; }
+void PrintTo(const Leak& leak, std::ostream* out) {
+  *out << leak.wallM << " m of wall, voxels of " << leak.voxelSizeM << " m";
+}
 
 class SealedRoom : public testing::TestWithParam<Leak> {};
 
 TEST_P(SealedRoom, staysDark) {
   const auto [wallM, voxelSizeM] = GetParam();
   const Lit lit(twoRooms(wallM), voxelSizeM);
-  const Camera inBright = cameraAt({0.3f, 1.4f, 2.8f}, {2.9f, 0.7f, 0.4f}), inDark = cameraAt({5.8f, 1.4f, 2.8f}, {3.1f + wallM, 0.7f, 0.4f});
-  const double bright = mean(lit.hybrid(inBright)), hybrid = mean(lit.hybrid(inDark)) / bright, cone = mean(lit.cone(inDark)) / bright;
-  const std::string place = fmt::format("{}, voxels of {} cm", wallM > 0 ? fmt::format("wall of {} cm", 100 * wallM) : std::string("a single polygon"), 100 * voxelSizeM);
+  const Camera inBright = cameraAt({0.3f, 1.4f, 2.8f}, {2.9f, 0.7f, 0.4f}),
+               inDark = cameraAt({5.8f, 1.4f, 2.8f}, {3.1f + wallM, 0.7f, 0.4f});
+  const double bright = mean(lit.hybrid(inBright)), hybrid = mean(lit.hybrid(inDark)) / bright,
+               cone = mean(lit.cone(inDark)) / bright;
+  const std::string place = fmt::format(
+      "{}, voxels of {} cm", wallM > 0 ? fmt::format("wall of {} cm", 100 * wallM) : std::string("a single polygon"),
+      100 * voxelSizeM);
   test::record("Sealed room beside a bright one, share of its luminance", place, "hybrid", 0, hybrid);
   test::record("Sealed room beside a bright one, share of its luminance", place, "cone", 0, cone);
   EXPECT_GT(bright, 1);
@@ -139,7 +155,8 @@ std::vector<Leak> leaks() {
 }
 INSTANTIATE_TEST_SUITE_P(Walls, SealedRoom, testing::ValuesIn(leaks()));
 
-// Their backs share voxels and a facing with the lit side of the wall. A lamp of the room's own says what light is expected there: without any a leak is bounded to nothing.
+// Their backs share voxels and a facing with the lit side of the wall. A lamp of the room's own says what light is
+// expected there: without any a leak is bounded to nothing.
 TEST(Hybrid, staysDarkBetweenThingsAndAThinWall) {
   constexpr float kVoxelM = 0.12f;
   Scene scene = twoRooms(0);
@@ -154,14 +171,17 @@ TEST(Hybrid, staysDarkBetweenThingsAndAThinWall) {
   const double alone = mean(Lit(scene, kVoxelM).hybrid(camera));
   scene.lamps[0].intensityCd = Vec3(10'000);
   const double beside = mean(Lit(scene, kVoxelM).hybrid(camera));
-  test::record("Slats 2 cm before a thin wall, with a thousand times the light behind it: luminance", "voxels of 12 cm", "hybrid", alone, beside);
+  test::record("Slats 2 cm before a thin wall, with a thousand times the light behind it: luminance", "voxels of 12 cm",
+               "hybrid", alone, beside);
   EXPECT_NEAR(beside / alone, 1, 0.05);
 }
 
 // A table on legs of 2 cm with a cup on it, on the floor of a room with a window.
 Scene tableWithCup() {
   Scene scene;
-  const int wall = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f)), cup = test::addMaterial(scene, test::lambertian(0.8f));
+  const int wall = test::addMaterial(scene, test::lambertian(0.7f)),
+            wood = test::addMaterial(scene, test::lambertian(0.4f)),
+            cup = test::addMaterial(scene, test::lambertian(0.8f));
   const int window = test::addMaterial(scene, test::lambertian(0, 2000));
   test::addRoom(scene, {0, 0, 0}, {3.1f, 2.5f, 3.3f}, std::vector<int>(6, wall));
   test::addRectangle(scene, {0.01f, 1.0f, 1.0f}, {0, 1.1f, 0}, {0, 0, 1.1f}, window);
@@ -181,11 +201,14 @@ std::vector<bool> around(const Camera& camera, const std::vector<Vec3>& points, 
   std::vector<bool> mask(kWidth * kHeight);
   const float scale = 0.5f * kHeight / std::tan(0.5f * camera.yFovRad);
   for (const Vec3 p : points) {
-    const Vec3 d = p - camera.worldFromCamera.w, local{dot(d, camera.worldFromCamera.x), dot(d, camera.worldFromCamera.y), -dot(d, camera.worldFromCamera.z)};
+    const Vec3 d = p - camera.worldFromCamera.w,
+               local{dot(d, camera.worldFromCamera.x), dot(d, camera.worldFromCamera.y),
+                     -dot(d, camera.worldFromCamera.z)};
     const float px = 0.5f * kWidth + scale * local.x / local.z, py = 0.5f * kHeight - scale * local.y / local.z;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        if (std::hypot(static_cast<float>(x) + 0.5f - px, static_cast<float>(y) + 0.5f - py) < radius) mask[static_cast<size_t>(y * kWidth + x)] = true;
+        if (std::hypot(static_cast<float>(x) + 0.5f - px, static_cast<float>(y) + 0.5f - py) < radius)
+          mask[static_cast<size_t>(y * kWidth + x)] = true;
       }
     }
   }
@@ -218,10 +241,13 @@ TEST(Hybrid, keepsContact) {
   RayGatherSettings settings;
   settings.width = kWidth, settings.height = kHeight;
   const Image picture = lit.hybrid(camera, settings);
-  const std::vector<Vec3> contacts{{1.49f, 0.72f, 1.18f}, {1.53f, 0.72f, 1.14f}, {1.12f, 0, 1.39f}, {1.89f, 0, 1.39f}, {1.89f, 0, 0.91f}, {1.12f, 0, 0.91f}};
-  const double all = errorIn(std::vector<bool>(kWidth * kHeight, true), picture, a, b), contact = errorIn(around(camera, contacts, 6), picture, a, b);
+  const std::vector<Vec3> contacts{{1.49f, 0.72f, 1.18f}, {1.53f, 0.72f, 1.14f}, {1.12f, 0, 1.39f},
+                                   {1.89f, 0, 1.39f},     {1.89f, 0, 0.91f},     {1.12f, 0, 0.91f}};
+  const double all = errorIn(std::vector<bool>(kWidth * kHeight, true), picture, a, b),
+               contact = errorIn(around(camera, contacts, 6), picture, a, b);
   test::record("Table with a cup, mse of the whole picture and where things touch", "whole picture", "hybrid", 0, all);
-  test::record("Table with a cup, mse of the whole picture and where things touch", "within 6 pixels of contacts", "hybrid", 0, contact);
+  test::record("Table with a cup, mse of the whole picture and where things touch", "within 6 pixels of contacts",
+               "hybrid", 0, contact);
   EXPECT_LE(contact, 2 * all);
   // Measured 1.3 %, and a third more at most; over three seeds, for one picture has blotches by chance.
   double squares = 0;
@@ -230,7 +256,8 @@ TEST(Hybrid, keepsContact) {
     const double found = blotches(a, b, lit.hybrid(camera, settings)).blotchesPercent;
     squares += found * found / 3;
   }
-  test::record("Table with a cup, blotches of walls and floor in per cent", "whole picture", "hybrid", 0, std::sqrt(squares));
+  test::record("Table with a cup, blotches of walls and floor in per cent", "whole picture", "hybrid", 0,
+               std::sqrt(squares));
   EXPECT_LE(std::sqrt(squares), 4.0 / 3 * kMeasuredBlotchesPercent);
   settings.seed = 0;
   // Where one pixel in 4 gathers, those at contacts still do.
@@ -244,8 +271,11 @@ Scene webRoom(bool extended) {
   const int white = test::addMaterial(scene, test::lambertian(0.6f));
   test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {3.1f, 2.5f, 3.3f}, std::vector<int>(6, white));
   test::addBox(scene, {1.0f, 0, 1.1f}, {1.7f, 0.7f, 1.6f}, white);
-  const auto web = [&](float c, float g) { return 200 * std::pow(std::cos(0.5f * g), 6.0f) * (1 + 0.5f * std::cos(c)); };
-  scene.lamps.push_back(test::webLamp({1.4f, 2.3f, 1.7f}, test::makeWeb(web, 180, 10, extended ? 0.9f : 0, extended ? 0.2f : 0)));
+  const auto web = [&](float c, float g) {
+    return 200 * std::pow(std::cos(0.5f * g), 6.0f) * (1 + 0.5f * std::cos(c));
+  };
+  scene.lamps.push_back(
+      test::webLamp({1.4f, 2.3f, 1.7f}, test::makeWeb(web, 180, 10, extended ? 0.9f : 0, extended ? 0.2f : 0)));
   return scene;
 }
 
@@ -255,14 +285,18 @@ class HybridLuminaire : public testing::TestWithParam<bool> {};
 TEST_P(HybridLuminaire, agreesWithPath) {
   const Lit lit(webRoom(GetParam()), 0.06f);
   const Camera camera = cameraAt({2.8f, 1.5f, 3.0f}, {1.2f, 0.8f, 1.2f});
-  const double expected = meanByPath(lit.rays, lit.lights, camera, 512), measured = mean(lit.hybrid(camera)), cone = mean(lit.cone(camera));
-  test::record("Room lit by a photometric web, mean luminance, cd/m²", GetParam() ? "as large as its opening" : "as a point", "hybrid", expected, measured);
-  test::record("Room lit by a photometric web, mean luminance, cd/m²", GetParam() ? "as large as its opening" : "as a point", "cone", expected, cone);
+  const double expected = meanByPath(lit.rays, lit.lights, camera, 512), measured = mean(lit.hybrid(camera)),
+               cone = mean(lit.cone(camera));
+  test::record("Room lit by a photometric web, mean luminance, cd/m²",
+               GetParam() ? "as large as its opening" : "as a point", "hybrid", expected, measured);
+  test::record("Room lit by a photometric web, mean luminance, cd/m²",
+               GetParam() ? "as large as its opening" : "as a point", "cone", expected, cone);
   EXPECT_NEAR(measured, expected, 0.01 * expected);
 }
 INSTANTIATE_TEST_SUITE_P(Sizes, HybridLuminaire, testing::Bool());
 
-// A face whose voxel keeps the light of another within a block, in a home most of which is dark: it is as bright as it is all the same.
+// A face whose voxel keeps the light of another within a block, in a home most of which is dark: it is as bright as it
+// is all the same.
 TEST(Hybrid, hiddenSlotDoesNotDarken) {
   Scene scene;
   const int white = test::addMaterial(scene, test::lambertian(0.7f));
@@ -276,14 +310,16 @@ TEST(Hybrid, hiddenSlotDoesNotDarken) {
   Camera camera = cameraAt({3.6f, 1, 1.3f}, {1.8f, 0.425f, 1.25f});
   camera.yFovRad = 0.06f;
   const double expected = meanByPath(lit.rays, lit.lights, camera, 256), measured = mean(lit.hybrid(camera));
-  test::record("Face above one hidden in a block, mean luminance, cd/m²", "voxels of 0.5 m", "hybrid", expected, measured);
+  test::record("Face above one hidden in a block, mean luminance, cd/m²", "voxels of 0.5 m", "hybrid", expected,
+               measured);
   EXPECT_NEAR(measured, expected, 0.1 * expected);
 }
 
 // A room whose surfaces lie on borders of voxels, ground close below its floor, open to the sun.
 TEST(Hybrid, surfacesOnBordersOfVoxelsAreLitAsOthers) {
   Scene scene;
-  const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+  const int white = test::addMaterial(scene, test::lambertian(0.7f)),
+            wood = test::addMaterial(scene, test::lambertian(0.4f));
   test::addRoom(scene, {0, 0, 0}, {4, 2.4f, 4.8f}, std::vector<int>(6, white));
   scene.meshes.pop_back(), scene.instances.pop_back();
   test::addRectangle(scene, {-8, -0.01f, -8}, {0, 0, 20}, {20, 0, 0}, white);
@@ -294,14 +330,17 @@ TEST(Hybrid, surfacesOnBordersOfVoxelsAreLitAsOthers) {
   const Lit lit(std::move(scene), 0.1f);
   const Camera camera = cameraAt({3.4f, 1.5f, 4.2f}, {1.2f, 1.3f, 0});
   const double expected = meanByPath(lit.rays, lit.lights, camera, 1024), measured = mean(lit.hybrid(camera));
-  test::record("Room on the lattice in the sun, mean luminance, cd/m²", "ground 1 cm below its floor", "hybrid", expected, measured);
+  test::record("Room on the lattice in the sun, mean luminance, cd/m²", "ground 1 cm below its floor", "hybrid",
+               expected, measured);
   EXPECT_NEAR(measured, expected, 0.02 * expected);
 }
 
-// A lamp with a shade of two sheets over a table: what the shade's inside reflects is found once, by points or by what is hit, not by both.
+// A lamp with a shade of two sheets over a table: what the shade's inside reflects is found once, by points or by what
+// is hit, not by both.
 TEST(Hybrid, insideOfAShadeIsCountedOnce) {
   Scene scene;
-  const int grey = test::addMaterial(scene, test::lambertian(0.6f)), metal = test::addMaterial(scene, test::lambertian(0.8f));
+  const int grey = test::addMaterial(scene, test::lambertian(0.6f)),
+            metal = test::addMaterial(scene, test::lambertian(0.8f));
   test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4.03f, 2.53f, 3.53f}, std::vector<int>(6, grey));
   test::addBox(scene, {1.2f, 0.7f, 1.1f}, {2.8f, 0.74f, 2.1f}, grey);
   for (const float radius : {0.155f, 0.165f}) test::addTube(scene, {2.02f, 1.5f, 1.6f}, radius, 0.24f, metal);
@@ -312,12 +351,14 @@ TEST(Hybrid, insideOfAShadeIsCountedOnce) {
   const double expected = meanByPath(RayScene(scene), Lights(scene), camera, 1024);
   for (const float voxelM : {0.07f, 0.1f, 0.13f}) {
     const double measured = mean(Lit(scene, voxelM).hybrid(camera));
-    test::record("Table under a lamp with a shade, mean luminance, cd/m²", fmt::format("voxels of {} m", voxelM), "hybrid", expected, measured);
+    test::record("Table under a lamp with a shade, mean luminance, cd/m²", fmt::format("voxels of {} m", voxelM),
+                 "hybrid", expected, measured);
     EXPECT_NEAR(measured, expected, 0.02 * expected) << voxelM;
   }
 }
 
-// Places on a floor of albedo .02, above which a strip of polished metal stands that throws light down on it: x from 0.15 to 1.35 m, z from -0.6 to 0.6 m.
+// Places on a floor of albedo .02, above which a strip of polished metal stands that throws light down on it: x from
+// 0.15 to 1.35 m, z from -0.6 to 0.6 m.
 struct Strip {
   static constexpr int kPixels = 96;
   static constexpr float kHeightM = 3, kHalfM = 0.6f, kMiddleX = 0.75f, kReflectance = 0.9f;
@@ -329,7 +370,9 @@ struct Strip {
     test::addRectangle(scene, {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, dark);
     Material metal;
     metal.metallic = 1, metal.roughness = 0.02f, metal.baseColor = Vec3(kReflectance);
-    if (mirror) test::addRectangle(scene, {0, kLow, kHalfWidthM}, {0, 0, -2 * kHalfWidthM}, {0, kHigh - kLow, 0}, test::addMaterial(scene, metal));
+    if (mirror)
+      test::addRectangle(scene, {0, kLow, kHalfWidthM}, {0, 0, -2 * kHalfWidthM}, {0, kHigh - kLow, 0},
+                         test::addMaterial(scene, metal));
     Material glass;
     glass.metallic = 0, glass.roughness = 0, glass.transmission = 1;
     if (pane) test::addRectangle(scene, {-4, 0.3f, -4}, {0, 0, 8}, {8, 0, 0}, test::addMaterial(scene, glass));
@@ -346,7 +389,8 @@ struct Strip {
     const auto at = [](int i) { return kHalfM * (2 * (static_cast<float>(i) + 0.5f) / kPixels - 1); };
     return {kMiddleX + at(x), 0, at(y)};
   }
-  // How far inside the strip the straight line from `image`, a light's place behind its plane, to p crosses that; negative: outside, by so much on the floor.
+  // How far inside the strip the straight line from `image`, a light's place behind its plane, to p crosses that;
+// negative: outside, by so much on the floor.
   static float inside(Vec3 image, Vec3 p) {
     const float t = -image.x / (p.x - image.x), y = image.y + (p.y - image.y) * t, z = image.z + (p.z - image.z) * t;
     return std::min({y - kLow, kHigh - y, kHalfWidthM - std::abs(z)});
@@ -378,8 +422,14 @@ std::vector<Thrown> thrown() {
           {"sun", false, [](Scene& s) { addSun(s, 0.0046f); }, farAway, true},
           {"sun behind a pane", true, [](Scene& s) { addSun(s, 0.0046f); }, farAway, true},
           {"point lamp", false, lamp, kMirroredLamp},
-          {"bulb", false, [](Scene& s) { test::addSphere(s, kLampPlace, 0.02f, test::addMaterial(s, test::lambertian(0, 100'000))); }, kMirroredLamp},
-          {"two lamps", false, [](Scene& s) { for (int k = 0; k < 2; ++k) s.lamps.push_back(test::pointLamp(kLampPlace, 50)); }, kMirroredLamp}};
+          {"bulb", false,
+           [](Scene& s) { test::addSphere(s, kLampPlace, 0.02f, test::addMaterial(s, test::lambertian(0, 100'000))); },
+           kMirroredLamp},
+          {"two lamps", false,
+           [](Scene& s) {
+             for (int k = 0; k < 2; ++k) s.lamps.push_back(test::pointLamp(kLampPlace, 50));
+           },
+           kMirroredLamp}};
 }
 
 class PolishedStrip : public testing::TestWithParam<Thrown> {};
@@ -409,7 +459,8 @@ TEST_P(PolishedStrip, throwsLightAsFromTheImage) {
       }
     }
   }
-  test::record("Floor under a strip of polished metal, part of the direct light that it adds", t.name, "hybrid", expectedSum / static_cast<double>(inside), sum / static_cast<double>(inside));
+  test::record("Floor under a strip of polished metal, part of the direct light that it adds", t.name, "hybrid",
+               expectedSum / static_cast<double>(inside), sum / static_cast<double>(inside));
   // Noise of a bulb's straight light is in it, too.
   EXPECT_NEAR(sum, expectedSum, 0.02 * expectedSum + 0.004 * static_cast<double>(inside));
   EXPECT_LE(std::sqrt(squares / static_cast<double>(inside)), 0.12);
@@ -441,7 +492,8 @@ TEST(Hybrid, chromeKeepsTheFurnace) {
   test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4, 2.6f, 3}, std::vector<int>(6, wall));
   test::addBox(scene, {1.2f, 0.6f, 1.0f}, {2.0f, 0.65f, 1.9f}, test::addMaterial(scene, mirror));
   const double measured = mean(Lit(scene, 0.1f).hybrid(cameraAt({3.3f, 1.4f, 2.6f}, {1.6f, 0.4f, 1.3f})));
-  test::record("Furnace, walls of 10 cd/m² each, luminance", "a shelf of polished metal, albedo 0.5", "hybrid", 20, measured);
+  test::record("Furnace, walls of 10 cd/m² each, luminance", "a shelf of polished metal, albedo 0.5", "hybrid", 20,
+               measured);
   EXPECT_NEAR(measured, 20, 0.2);
 }
 
@@ -475,7 +527,8 @@ TEST(Hybrid, polishedSheetOverASunlitFloor) {
   Camera camera = cameraAt({3.4f, 0.25f, 2}, {2, 0, 2});
   camera.yFovRad = 0.35f;
   const double expected = meanByPath(lit.rays, lit.lights, camera, 1024), measured = mean(lit.hybrid(camera));
-  test::record("Floor under a sheet of polished metal, mean luminance, cd/m²", "sunlit around", "hybrid", expected, measured);
+  test::record("Floor under a sheet of polished metal, mean luminance, cd/m²", "sunlit around", "hybrid", expected,
+               measured);
   EXPECT_NEAR(measured, expected, 0.03 * expected);
 }
 
@@ -496,14 +549,16 @@ TEST(Hybrid, sunGlintsOfAFloorReachTheWall) {
   camera.yFovRad = 0.5f;
   const Lit lit(std::move(scene), 0.08f);
   const double expected = meanByPath(lit.rays, lit.lights, camera, 1024), measured = mean(lit.hybrid(camera));
-  test::record("Wall on which a varnished floor in the sun glints, mean luminance, cd/m²", "roughness 0.4", "hybrid", expected, measured);
+  test::record("Wall on which a varnished floor in the sun glints, mean luminance, cd/m²", "roughness 0.4", "hybrid",
+               expected, measured);
   EXPECT_NEAR(measured, expected, 0.02 * expected);
 }
 
 // By night, in a pane: a card beside a bulb stands out from the wall behind it as it does without the filter.
 TEST(Hybrid, panesShowBrightThingsAsSharpAsTheyAre) {
   Scene scene;
-  const int grey = test::addMaterial(scene, test::lambertian(0.5f)), black = test::addMaterial(scene, test::lambertian(0.002f));
+  const int grey = test::addMaterial(scene, test::lambertian(0.5f)),
+            black = test::addMaterial(scene, test::lambertian(0.002f));
   test::addRoom(scene, {0.013f, 0.007f, 0.021f}, {4, 2.4f, 4}, std::vector<int>(6, grey));
   test::addRectangle(scene, {0, 0, 0.1f}, {4, 0, 0}, {0, 2.4f, 0}, black);
   Material glass;
@@ -521,21 +576,26 @@ TEST(Hybrid, panesShowBrightThingsAsSharpAsTheyAre) {
   const Image plain = lit.hybrid(camera, settings);
   // What is as bright as the card, and pixels beside that.
   const float bright = 2 * static_cast<float>(mean(plain));
-  const auto isBright = [&](int x, int y) { return luminance(plain.at(std::clamp(x, 0, 95), std::clamp(y, 0, 95))) > bright; };
+  const auto isBright = [&](int x, int y) {
+    return luminance(plain.at(std::clamp(x, 0, 95), std::clamp(y, 0, 95))) > bright;
+  };
   double wall = 0, expected = 0;
   int beside = 0;
   for (int y = 8; y < 88; ++y) {
     for (int x = 8; x < 88; ++x) {
       int near = 0, touching = 0;
       for (int j = -6; j <= 6; ++j) {
-        for (int i = -6; i <= 6; ++i) near += isBright(x + i, y + j), touching += std::max(std::abs(i), std::abs(j)) <= 1 && isBright(x + i, y + j);
+        for (int i = -6; i <= 6; ++i)
+          near += isBright(x + i, y + j), touching += std::max(std::abs(i), std::abs(j)) <= 1 && isBright(x + i, y + j);
       }
       if (near == 0 || touching > 0) continue;
-      wall += static_cast<double>(luminance(shown.at(x, y))), expected += static_cast<double>(luminance(plain.at(x, y))), ++beside;
+      wall += static_cast<double>(luminance(shown.at(x, y))),
+          expected += static_cast<double>(luminance(plain.at(x, y))), ++beside;
     }
   }
   ASSERT_GT(beside, 50);
-  test::record("Wall seen in a pane by night beside a bright card, luminance, cd/m²", "6 pixels around", "hybrid", expected / beside, wall / beside);
+  test::record("Wall seen in a pane by night beside a bright card, luminance, cd/m²", "6 pixels around", "hybrid",
+               expected / beside, wall / beside);
   EXPECT_NEAR(wall, expected, 0.1 * expected);
 }
 

@@ -1,4 +1,5 @@
-// Light in layers: what lamps, suns and sky give apart adds up to the whole picture, and each part is the light of that lamp alone.
+// Light in layers: what lamps, suns and sky give apart adds up to the whole picture, and each part is the light of that
+// lamp alone.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +27,8 @@ Camera camera() {
   return out;
 }
 
-// A room of 4 x 2.6 x 3 m with a window in the wall x = 0, a glossy box, a pane and a glowing globe; three lamps in it, one in a cellar without doors.
+// A room of 4 x 2.6 x 3 m with a window in the wall x = 0, a glossy box, a pane and a glowing globe; three lamps in it,
+// one in a cellar without doors.
 Scene home() {
   Scene scene;
   const int white = addMaterial(scene, lambertian(0.7f)), floor = addMaterial(scene, lambertian(0.4f));
@@ -51,8 +53,9 @@ Scene home() {
   scene.instances[globe].name = "Globe";
   const std::vector<int> cellar(6, white);
   addRoom(scene, {8, 0, 0}, {11, 2.5f, 3}, cellar);
-  scene.lamps = {lampAt("Ceiling", {2, 2.2f, 1.5f}, {110, 100, 80}), lampAt("Red. \"spot\"", {0.6f, 1.9f, 0.5f}, {30, 6, 3}), lampAt("Dim", {3.4f, 0.6f, 0.6f}, {1.5f, 2, 3}),
-                 lampAt("Cellar", {9.5f, 2, 1.5f}, {200, 200, 200})};
+  scene.lamps = {lampAt("Ceiling", {2, 2.2f, 1.5f}, {110, 100, 80}),
+                 lampAt("Red. \"spot\"", {0.6f, 1.9f, 0.5f}, {30, 6, 3}),
+                 lampAt("Dim", {3.4f, 0.6f, 0.6f}, {1.5f, 2, 3}), lampAt("Cellar", {9.5f, 2, 1.5f}, {200, 200, 200})};
   scene.suns = {{"", normalize(Vec3{-1, 0.7f, 0.25f}), {20000, 19000, 17000}, 0.00465f}};
   scene.sky.luminanceCdM2 = {1500, 2000, 2600};
   return scene;
@@ -87,7 +90,8 @@ double blockError(const Image& a, const Image& b) {
   for (int y = 0; y + 8 <= a.height; y += 8) {
     for (int x = 0; x + 8 <= a.width; x += 8, ++blocks) {
       double d = 0;
-      for (int i = 0; i < 64; ++i) d += static_cast<double>(luminance(a.at(x + i % 8, y + i / 8) - b.at(x + i % 8, y + i / 8))) / 64;
+      for (int i = 0; i < 64; ++i)
+        d += static_cast<double>(luminance(a.at(x + i % 8, y + i / 8) - b.at(x + i % 8, y + i / 8))) / 64;
       squares += d * d;
     }
   }
@@ -97,7 +101,7 @@ double blockError(const Image& a, const Image& b) {
 // One picture of several seeds, against two references.
 struct Trial {
   double mean = 0, meanError = 0;  // over seeds, relative to the references'; standard error of that, with theirs
-  double blocks = 0;               // root mean square of block errors
+  double blocks = 0;  // root mean square of block errors
 };
 
 constexpr uint64_t kSeeds = 8;
@@ -119,9 +123,12 @@ Trial trialOf(const std::vector<Image>& pictures, const Image& first, const Imag
 }
 
 // What meters of a technique promise at every place (validate/validation.h), and three standard errors.
-double allowed(const std::string& technique, const Trial& t) { return (technique == "path" ? 0.01 : 0.03) + 3 * t.meanError; }
+double allowed(const std::string& technique, const Trial& t) {
+  return (technique == "path" ? 0.01 : 0.03) + 3 * t.meanError;
+}
 
-// `path` renders the same picture with layers and without. `hybrid` with layers asks every light, however little it gives to the whole: its picture differs by noise.
+// `path` renders the same picture with layers and without. `hybrid` with layers asks every light, however little it
+// gives to the whole: its picture differs by noise.
 void expectSum(const std::string& technique, const Rendered& layered, const Image& plain) {
   if (technique == "path") {
     ASSERT_TRUE(layered.image.pixels == plain.pixels) << "layers changed the picture itself";
@@ -136,7 +143,9 @@ void expectSum(const std::string& technique, const Rendered& layered, const Imag
       ASSERT_GE(minComponent(l.image.pixels[i]), 0) << l.light.name;
     }
     const Vec3 whole = layered.image.pixels[i];
-    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(static_cast<double>(sum[c] - whole[c])) / std::max(1e-12, static_cast<double>(whole[c])));
+    for (int c = 0; c < 3; ++c)
+      worst = std::max(
+          worst, std::abs(static_cast<double>(sum[c] - whole[c])) / std::max(1e-12, static_cast<double>(whole[c])));
   }
   EXPECT_LE(worst, 1e-5);
 }
@@ -190,7 +199,8 @@ std::vector<Rendered> seeded(const Scene& scene, const std::string& technique, b
   std::vector<Rendered> out;
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
     RenderSettings s = settingsOf(technique, technique == "path" ? 64 : 0);
-    s.hybrid.hitCellM = -1;  // a layer and its lamp alone by the same rays: with cells these follow the noise of what is in the picture
+    s.hybrid.hitCellM =
+        -1;  // a layer and its lamp alone by the same rays: with cells these follow the noise of what is in the picture
     s.seed = seed;
     out.push_back(rendered(scene, s, layers));
   }
@@ -206,16 +216,18 @@ std::pair<Image, Image> references(const Scene& scene) {
 }
 
 // Each picture of `parts` and of `alone` against paths that know nothing of layers.
-void expectSame(const std::string& technique, const std::string& name, const std::vector<Image>& parts, const Scene& alone) {
+void expectSame(const std::string& technique, const std::string& name, const std::vector<Image>& parts,
+                const Scene& alone) {
   const auto [first, second] = references(alone);
   std::vector<Image> own;
   for (Rendered& r : seeded(alone, technique, false)) own.push_back(std::move(r.image));
   const Trial layer = trialOf(parts, first, second), single = trialOf(own, first, second);
-  fmt::print("{} {}: mean {:.4f} +- {:.4f}, block error {:.4f}; rendered alone {:.4f} +- {:.4f}, {:.4f}\n", technique, name, layer.mean, layer.meanError, layer.blocks, single.mean, single.meanError, single.blocks);
+  fmt::print("{} {}: mean {:.4f} +- {:.4f}, block error {:.4f}; rendered alone {:.4f} +- {:.4f}, {:.4f}\n", technique,
+             name, layer.mean, layer.meanError, layer.blocks, single.mean, single.meanError, single.blocks);
   EXPECT_NEAR(layer.mean, 1, allowed(technique, layer)) << name;
   EXPECT_NEAR(single.mean, 1, allowed(technique, single)) << name;
-  // As little error as alone: 24 blocks of 8 seeds tell each root mean square to 5 %, their ratio to 7. Technique path asks one lamp at a time, so its dim
-  // lamps have more (docs/methods/layers.md).
+  // As little error as alone: 24 blocks of 8 seeds tell each root mean square to 5 %, their ratio to 7. Technique path
+  // asks one lamp at a time, so its dim lamps have more (docs/methods/layers.md).
   if (technique == "hybrid") {
     EXPECT_LE(layer.blocks, 1.2 * single.blocks) << name;
   }
@@ -239,8 +251,9 @@ TEST_P(Layers, mixLikeDimmedLamps) {
   for (const Rendered& layered : seeded(home(), GetParam(), true)) {
     Image mix(kWidth, kHeight);
     for (size_t i = 0; i < mix.pixels.size(); ++i) {
-      mix.pixels[i] = layerOf(layered, "Ceiling").image.pixels[i] * 0.2f + layerOf(layered, "Red. \"spot\"").image.pixels[i] * Vec3{0.5f, 2, 8} + layerOf(layered, "Dim").image.pixels[i] +
-                      layerOf(layered, "Globe").image.pixels[i];
+      mix.pixels[i] = layerOf(layered, "Ceiling").image.pixels[i] * 0.2f +
+                      layerOf(layered, "Red. \"spot\"").image.pixels[i] * Vec3{0.5f, 2, 8} +
+                      layerOf(layered, "Dim").image.pixels[i] + layerOf(layered, "Globe").image.pixels[i];
     }
     mixes.push_back(std::move(mix));
   }
@@ -260,17 +273,21 @@ TEST(LayersOfCells, areThoseOfTheirLights) {
     for (const Rendered& r : layered) parts.push_back(layerOf(r, name).image);
     const auto [first, second] = references(alone(name));
     const Trial layer = trialOf(parts, first, second);
-    fmt::print("with cells, {}: mean {:.4f} +- {:.4f}, block error {:.4f}\n", name, layer.mean, layer.meanError, layer.blocks);
+    fmt::print("with cells, {}: mean {:.4f} +- {:.4f}, block error {:.4f}\n", name, layer.mean, layer.meanError,
+               layer.blocks);
     EXPECT_NEAR(layer.mean, 1, allowed("hybrid", layer)) << name;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Layers, testing::Values("hybrid", "path"), [](const auto& which) { return which.param; });
+INSTANTIATE_TEST_SUITE_P(Techniques, Layers, testing::Values("hybrid", "path"),
+                         [](const auto& which) { return which.param; });
 
 TEST(LayersOfManyLamps, addUpAndADimOneHasLittleMoreNoise) {
   Scene scene = home();
   scene.suns.clear(), scene.sky = {};
-  for (int i = 0; i < 8; ++i) scene.lamps.push_back(lampAt(fmt::format("row {}", i), {0.4f + 0.4f * static_cast<float>(i), 2.4f, 2.5f}, Vec3(4 + static_cast<float>(i))));
+  for (int i = 0; i < 8; ++i)
+    scene.lamps.push_back(lampAt(fmt::format("row {}", i), {0.4f + 0.4f * static_cast<float>(i), 2.4f, 2.5f},
+                                 Vec3(4 + static_cast<float>(i))));
   const RenderSettings settings = settingsOf("hybrid");
   const Rendered layered = rendered(scene, settings, true);
   ASSERT_EQ(layered.layers.size(), 13u);
@@ -280,9 +297,10 @@ TEST(LayersOfManyLamps, addUpAndADimOneHasLittleMoreNoise) {
   for (const Rendered& r : seeded(scene, "hybrid", true)) parts.push_back(layerOf(r, "Dim").image);
   for (const Rendered& r : seeded(alone("Dim"), "hybrid", false)) own.push_back(r.image);
   const Trial layer = trialOf(parts, first, second), single = trialOf(own, first, second);
-  fmt::print("Dim among many: mean {:.4f}, block error {:.4f}; rendered alone {:.4f}\n", layer.mean, layer.blocks, single.blocks);
-  // A lamp of a fiftieth of another's light gets fewer of the samples that twelve share: 1.45 times the error it has alone was measured, and stands as a shortcoming in
-  // docs/methods/layers.md. Ratios are told to 7 %.
+  fmt::print("Dim among many: mean {:.4f}, block error {:.4f}; rendered alone {:.4f}\n", layer.mean, layer.blocks,
+             single.blocks);
+  // A lamp of a fiftieth of another's light gets fewer of the samples that twelve share: 1.45 times the error it has
+  // alone was measured, and stands as a shortcoming in docs/methods/layers.md. Ratios are told to 7 %.
   EXPECT_LE(layer.blocks, 1.45 * 1.2 * single.blocks);
 }
 

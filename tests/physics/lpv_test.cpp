@@ -34,7 +34,8 @@ GatheredPicture render(const Scene& scene, Vec3 eye, const LpvSettings& settings
   return gatherPicture(rays, lights, LpvShader(rays, lights, light, settings), test::cameraAt(eye), settings, {});
 }
 
-// Mean indirect illuminance on the floor of a cube of 4 m with a lamp of 1000 lm in the middle, and its truth rho / (1 - rho) 1000 / 96.
+// Mean indirect illuminance on the floor of a cube of 4 m with a lamp of 1000 lm in the middle, and its truth rho / (1
+// - rho) 1000 / 96.
 double floorLux(float rho, const LpvSettings& settings) {
   Scene scene;
   test::addRoom(scene, {0, 0, 0}, {4, 4, 4}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(rho))));
@@ -45,15 +46,16 @@ double floorLux(float rho, const LpvSettings& settings) {
   double sum = 0;
   constexpr int kPlaces = 12;
   for (int i = 0; i < kPlaces * kPlaces; ++i) {
-    const Vec3 p{4 * (static_cast<float>(i % kPlaces) + 0.5f) / kPlaces, 0, 4 * (static_cast<float>(i / kPlaces) + 0.5f) / kPlaces};
+    const Vec3 p{4 * (static_cast<float>(i % kPlaces) + 0.5f) / kPlaces, 0,
+                 4 * (static_cast<float>(i / kPlaces) + 0.5f) / kPlaces};
     sum += static_cast<double>(lpvIrradiance(light, p, {0, 1, 0}, {0, 1, 0}, settings).x * kPi) / (kPlaces * kPlaces);
   }
   return sum;
 }
 
-// Of the light that one reflection sends about a room: never more than there is, and as much as a grid without gains keeps. A wall lets a quarter of
-// what meets it
-// straight through, and surfaces stop some of the light that goes along them; with few steps, light is still on its way.
+// Of the light that one reflection sends about a room: never more than there is, and as much as a grid without gains
+// keeps. A wall lets a quarter of what meets it straight through, and surfaces stop some of the light that goes along
+// them; with few steps, light is still on its way.
 TEST(Lpv, oneReflectionIsFoundButForWhatWallsLetThrough) {
   const float rho = 0.5f;
   const double truth = static_cast<double>(rho) * 1000 / 96;
@@ -62,8 +64,10 @@ TEST(Lpv, oneReflectionIsFoundButForWhatWallsLetThrough) {
   const double all = floorLux(rho, s) / truth;
   s.steps = 16;
   const double few = floorLux(rho, s) / truth;
-  test::record("Cube of 4 m, lamp of 1000 lm, illuminance once reflected, of the truth", "16 cells, 200 steps", "lpv", 1, all);
-  test::record("Cube of 4 m, lamp of 1000 lm, illuminance once reflected, of the truth", "16 cells, 16 steps", "lpv", 1, few);
+  test::record("Cube of 4 m, lamp of 1000 lm, illuminance once reflected, of the truth", "16 cells, 200 steps", "lpv",
+               1, all);
+  test::record("Cube of 4 m, lamp of 1000 lm, illuminance once reflected, of the truth", "16 cells, 16 steps", "lpv", 1,
+               few);
   EXPECT_GT(all, 0.55);
   EXPECT_LT(all, 1);
   EXPECT_GT(few, 0.35);
@@ -84,13 +88,15 @@ TEST(Lpv, bouncesAddLightButNeverTooMuch) {
 
 class LpvFurnace : public testing::TestWithParam<float> {};
 
-// Every wall emits 10 and reflects a share rho: L = 10 / (1 - rho). Emitted light comes by shadow rays in full: so at least half of what lies between
-// 10 (1 + rho) and all is there, never more than there is.
+// Every wall emits 10 and reflects a share rho: L = 10 / (1 - rho). Emitted light comes by shadow rays in full: so at
+// least half of what lies between 10 (1 + rho) and all is there, never more than there is.
 TEST_P(LpvFurnace, findsMoreThanHalfOfTheIndirectLight) {
   const float rho = GetParam();
   Scene scene;
-  test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 3}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(rho, 10))));
-  const double measured = test::meanLuminance(render(scene, {1.7f, 1.4f, 2.6f}, settled()).image), direct = 10 * (1 + static_cast<double>(rho)), all = 10 / (1 - static_cast<double>(rho));
+  test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 3},
+                std::vector<int>(6, test::addMaterial(scene, test::lambertian(rho, 10))));
+  const double measured = test::meanLuminance(render(scene, {1.7f, 1.4f, 2.6f}, settled()).image),
+               direct = 10 * (1 + static_cast<double>(rho)), all = 10 / (1 - static_cast<double>(rho));
   test::record("Furnace, walls of 10 cd/m² each, luminance", fmt::format("albedo {}", rho), "lpv", all, measured);
   EXPECT_GT(measured, rho > 0 ? direct + 0.55 * (all - direct) : 0.995 * all);
   EXPECT_LT(measured, 1.005 * all);

@@ -38,7 +38,8 @@ class Measure : public testing::TestWithParam<const char*> {
   Stages stages_{quiet_, stats_};
 };
 
-// Light on a parallel element under a rectangle's corner: π L F by quadrants (the configuration factor of a parallel rectangle).
+// Light on a parallel element under a rectangle's corner: π L F by quadrants (the configuration factor of a parallel
+// rectangle).
 double quadrant(double a, double b, double c) {
   const double x = a / c, y = b / c, u = std::sqrt(1 + x * x), v = std::sqrt(1 + y * y);
   return (x / u * std::atan(y / u) + y / v * std::atan(x / v)) / 2;
@@ -48,7 +49,8 @@ double quadrant(double a, double b, double c) {
 TEST_P(Measure, gridUnderAnAreaLamp) {
   Scene scene;
   test::addRoom(scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(0))));
-  test::addRectangle(scene, {1.5f, 2.999f, 1.5f}, {1, 0, 0}, {0, 0, 1}, test::addMaterial(scene, test::lambertian(0, 1000)));
+  test::addRectangle(scene, {1.5f, 2.999f, 1.5f}, {1, 0, 0}, {0, 0, 1},
+                     test::addMaterial(scene, test::lambertian(0, 1000)));
   RoomPlan room;
   room.room.floor = {{0, 0}, {0, 4}, {4, 4}, {4, 0}};
   room.workPlaneM = 1;
@@ -61,7 +63,8 @@ TEST_P(Measure, gridUnderAnAreaLamp) {
   for (const SurfaceElement& e : elements) {
     double lux = 0;
     for (const int k : {0, 1, 2, 3}) {  // corners of the lamp, with sign
-      const double a = (k & 1 ? 2.5 : 1.5) - static_cast<double>(e.position.x), b = (k & 2 ? 2.5 : 1.5) - static_cast<double>(e.position.z);
+      const double a = (k & 1 ? 2.5 : 1.5) - static_cast<double>(e.position.x),
+                   b = (k & 2 ? 2.5 : 1.5) - static_cast<double>(e.position.z);
       const double sign = ((k & 1) != 0) == ((k & 2) != 0) ? 1 : -1;
       lux += sign * (a < 0 ? -1 : 1) * (b < 0 ? -1 : 1) * 1000 * quadrant(std::abs(a), std::abs(b), 1.999);
     }
@@ -86,11 +89,13 @@ TEST_P(Measure, spotMeterOnALambertianWall) {
   expectNear(m.spots[0].luminanceCdM2, 0.5 * 100 / kPiD, "spot meter on a wall, cd/m²");
 }
 
-// A square lamp on the line of sight in a furnace: the background is the furnace's luminance where the lamp does not hide it.
+// A square lamp on the line of sight in a furnace: the background is the furnace's luminance where the lamp does not
+// hide it.
 TEST_P(Measure, glareOfASquareBeforeAnEvenBackground) {
   Scene scene;
   scene.sky.luminanceCdM2 = Vec3(50);
-  test::addRectangle(scene, {-0.25f, -0.25f, -2}, {0.5f, 0, 0}, {0, 0.5f, 0}, test::addMaterial(scene, test::lambertian(0, 4000)));
+  test::addRectangle(scene, {-0.25f, -0.25f, -2}, {0.5f, 0, 0}, {0, 0.5f, 0},
+                     test::addMaterial(scene, test::lambertian(0, 4000)));
   MeterPlan plan;
   plan.glares = {{"eye", {0, 0, 0}, {0, 0, -1}, {}}};
   const Measurements m = run(scene, plan, 0.01);
@@ -116,10 +121,12 @@ TEST_P(Measure, daylightFactorIsAHundredInTheOpenAndLessOnAWall) {
   addDaylight(m, *lit, settings.meters, stages_);
   expectNear(*m.points[0].daylightPercent, 100, "daylight factor in the open, %");
   // On a vertical plane: L_z/3 (π/2 + 4/3), of 7π/9 L_z.
-  expectNear(*m.points[1].daylightPercent, 100 * (kPiD / 2 + 4.0 / 3) / 3 / (7 * kPiD / 9), "daylight factor on a wall in the open, %");
+  expectNear(*m.points[1].daylightPercent, 100 * (kPiD / 2 + 4.0 / 3) / 3 / (7 * kPiD / 9),
+             "daylight factor on a wall in the open, %");
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Measure, testing::Values("path", "hybrid"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Techniques, Measure, testing::Values("path", "hybrid"),
+                         [](const auto& p) { return std::string(p.param); });
 
 }  // namespace
 }  // namespace roomlight

@@ -1,4 +1,5 @@
-// Light meters of every technique: in the air, and with any number of threads. What they read where light is known: src/validate.
+// Light meters of every technique: in the air, and with any number of threads. What they read where light is known:
+ // src/validate.
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
@@ -19,7 +20,9 @@ class Meters : public testing::TestWithParam<const char*> {
     MeterSettings meter;
     meter.tolerance = 0.002;
     std::vector<double> lux;
-    for (const MeterReading& r : lightScene(scene, settings, stages, {.changes = false}).value()->illuminance(elements, meter)) lux.push_back(static_cast<double>(luminance(r.illuminanceLux)));
+    for (const MeterReading& r :
+         lightScene(scene, settings, stages, {.changes = false}).value()->illuminance(elements, meter))
+      lux.push_back(static_cast<double>(luminance(r.illuminanceLux)));
     return lux;
   }
 };
@@ -27,8 +30,10 @@ class Meters : public testing::TestWithParam<const char*> {
 // In the middle of the air there are no voxels.
 TEST_P(Meters, hangInTheAir) {
   Scene scene;
-  test::addRoom(scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(0.5f, 100))));
-  for (const double lux : read(scene, {{{2, 1.5f, 2}, {0, 1, 0}}, {{1, 0.85f, 3}, {0, 0.6f, 0.8f}}})) EXPECT_NEAR(lux, 200 * kPi, 0.01 * 200 * kPi);
+  test::addRoom(scene, {0, 0, 0}, {4, 3, 4},
+                std::vector<int>(6, test::addMaterial(scene, test::lambertian(0.5f, 100))));
+  for (const double lux : read(scene, {{{2, 1.5f, 2}, {0, 1, 0}}, {{1, 0.85f, 3}, {0, 0.6f, 0.8f}}}))
+    EXPECT_NEAR(lux, 200 * kPi, 0.01 * 200 * kPi);
 }
 
 TEST_P(Meters, doNotDependOnThreads) {
@@ -36,11 +41,15 @@ TEST_P(Meters, doNotDependOnThreads) {
   test::addRoom(scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(0.5f))));
   scene.lamps.push_back(test::pointLamp({1, 2, 2}, 100));
   std::vector<double> lux[2];
-  for (const int threads : {1, 2}) withThreads(threads, [&] { lux[threads - 1] = read(scene, {{{2, 0, 2}, {0, 1, 0}}, {{1, 1.5f, 3}, {0, 0.6f, 0.8f}}}); });
+  for (const int threads : {1, 2})
+    withThreads(threads, [&] {
+      lux[threads - 1] = read(scene, {{{2, 0, 2}, {0, 1, 0}}, {{1, 1.5f, 3}, {0, 0.6f, 0.8f}}});
+    });
   EXPECT_EQ(lux[0], lux[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Meters, testing::Values("path", "hybrid", "cone"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Techniques, Meters, testing::Values("path", "hybrid", "cone"),
+                         [](const auto& p) { return std::string(p.param); });
 
 }  // namespace
 }  // namespace roomlight

@@ -30,7 +30,8 @@ double absorbed(const Lit& lit) {
   double sum = 0;
   for (size_t i = 0; i < lit.field.irradianceLux.size(); ++i) {
     const FaceSlot& slot = lit.voxelisation.voxels.slots[i];
-    sum += static_cast<double>(luminance(lit.field.irradianceLux[i] * (Vec3(1) - slot.albedo))) * static_cast<double>(slot.areaM2);
+    sum += static_cast<double>(luminance(lit.field.irradianceLux[i] * (Vec3(1) - slot.albedo))) *
+           static_cast<double>(slot.areaM2);
   }
   return sum;
 }
@@ -52,7 +53,9 @@ TEST(LampsBeforeAWall, allTheirFluxIsAbsorbed) {
   Scene scene;
   const int wall = test::addMaterial(scene, test::lambertian(0.5f));
   test::addRoom(scene, {0, 0, 0}, {2.03f, 2.03f, 2.03f}, std::vector<int>(6, wall));
-  for (int i = 0; i < 114; ++i) scene.lamps.push_back(test::pointLamp({0.04f, 0.3f + 0.0125f * static_cast<float>(i), 0.5f + 0.1f * static_cast<float>(i % 10)}, 1));
+  for (int i = 0; i < 114; ++i)
+    scene.lamps.push_back(
+        test::pointLamp({0.04f, 0.3f + 0.0125f * static_cast<float>(i), 0.5f + 0.1f * static_cast<float>(i % 10)}, 1));
   EXPECT_NEAR(absorbed(light(scene, 0.1f)), 114 * 4 * kPi, 0.02 * 114 * 4 * kPi);
 }
 
@@ -66,13 +69,14 @@ TEST(NarrowCone, arrivesFromAfar) {
   EXPECT_LT(marchCone(lit.field, {{11999.9f, 2.03f, 2.03f}, {-1, 0, 0}}, {-1, 0, 0}, {0, 0}, 0).left, 0.01f);
 }
 
-// A lamp in a closed lantern as thin as voxels: the room gets nothing, though cones of coarse voxels cut its edges. They leave its
-// light to points, none of which is seen from outside.
+// A lamp in a closed lantern as thin as voxels: the room gets nothing, though cones of coarse voxels cut its edges.
+// They leave its light to points, none of which is seen from outside.
 TEST(LampInACavity, roomGetsWhatComesOut) {
   double seen = 0, sent = 0;
   for (const float size : {0.05f, 0.08f, 0.11f}) {
     Scene scene;
-    const int wall = test::addMaterial(scene, test::lambertian(0.5f)), black = test::addMaterial(scene, test::lambertian(0));
+    const int wall = test::addMaterial(scene, test::lambertian(0.5f)),
+              black = test::addMaterial(scene, test::lambertian(0));
     test::addRoom(scene, {0, 0, 0}, {2, 2, 2}, std::vector<int>(6, black));
     Scene lantern;
     test::addBox(lantern, Vec3(-0.5f * size), Vec3(0.5f * size), wall);
@@ -90,11 +94,18 @@ TEST(LampInACavity, roomGetsWhatComesOut) {
     for (uint32_t i = 0; i < 8000; ++i) {
       Sampler sampler(i, 0, 1);
       const Vec2 u = sampler.next2();
-      const Vec3 from{2 * u.x, 2 * u.y, 0.002f}, to = Vec3{1.013f, 1.021f, 1.007f} + (Vec3{sampler.next1(), sampler.next1(), sampler.next1()} - Vec3(0.5f)) * (1.5f * size);
+      const Vec3 from{2 * u.x, 2 * u.y, 0.002f},
+          to = Vec3{1.013f, 1.021f, 1.007f} +
+               (Vec3{sampler.next1(), sampler.next1(), sampler.next1()} - Vec3(0.5f)) * (1.5f * size);
       const Vec3 d = normalize(to - from);
-      seen += static_cast<double>(luminance(marchCone(lit.field, {from, {0, 0, 1}}, d, {0.02f, 0, d.z / kPi}, 0).radiance)) / 24000;
+      seen += static_cast<double>(
+                  luminance(marchCone(lit.field, {from, {0, 0, 1}}, d, {0.02f, 0, d.z / kPi}, 0).radiance)) /
+              24000;
       const LightSample g = lit.field.glow.sample(from, {0, 0, 1}, 1, 0.02f, sampler).light;
-      if (g.valid()) sent += static_cast<double>(luminance(g.radiance * rays.transmittance({from, g.wi, 0, g.distance * (1 - 1e-4f)}))) * static_cast<double>(g.wi.z) / 24000;
+      if (g.valid())
+        sent +=
+            static_cast<double>(luminance(g.radiance * rays.transmittance({from, g.wi, 0, g.distance * (1 - 1e-4f)}))) *
+            static_cast<double>(g.wi.z) / 24000;
     }
   }
   // Inside it has some 100 000 cd/m².
@@ -102,11 +113,12 @@ TEST(LampInACavity, roomGetsWhatComesOut) {
   EXPECT_LT(sent, 0.1);
 }
 
-// A lamp over a small white plate sends all its light there. Points and cones together give the room what the plate reflects: its
-// flux through the ceiling, by the form factor of a Lambertian disc seen as a point.
+// A lamp over a small white plate sends all its light there. Points and cones together give the room what the plate
+// reflects: its flux through the ceiling, by the form factor of a Lambertian disc seen as a point.
 TEST(LampOverAPlate, ceilingGetsItsReflectionOnce) {
   Scene scene;
-  const int white = test::addMaterial(scene, test::lambertian(0.8f)), black = test::addMaterial(scene, test::lambertian(0));
+  const int white = test::addMaterial(scene, test::lambertian(0.8f)),
+            black = test::addMaterial(scene, test::lambertian(0));
   test::addRoom(scene, {0, 0, 0}, {3, 3, 3}, std::vector<int>(6, black));
   test::addRectangle(scene, {1.47f, 1.47f, 0.5f}, {0.06f, 0, 0}, {0, 0.06f, 0}, white);
   Lamp lamp = test::pointLamp({1.5f, 1.5f, 0.55f}, 100);
@@ -121,11 +133,16 @@ TEST(LampOverAPlate, ceilingGetsItsReflectionOnce) {
     Sampler sampler(i, 0, 3);
     const Vec3 from{1.5f, 1.5f, 2.999f}, n{0, 0, -1};
     const Vec3 d = Frame(n).toWorld(sampleCosineHemisphere(sampler.next2()));
-    cones += static_cast<double>(luminance(marchCone(lit.field, {from, n}, d, {0.005f, 0, -d.z / kPi}, 0).radiance)) * kPi / kSamples;
+    cones += static_cast<double>(luminance(marchCone(lit.field, {from, n}, d, {0.005f, 0, -d.z / kPi}, 0).radiance)) *
+             kPi / kSamples;
     const GlowSample g = lit.field.glow.sample(from, n, 1, 0.005f, sampler);
     ASSERT_TRUE(g.light.valid());
-    const float cosSurface = -g.light.wi.z, share = lit.field.glow.pointShare(g.point, from, {cosSurface / kPi, 0.005f});
-    points += static_cast<double>(luminance(g.light.radiance * rays.transmittance({from, g.light.wi, 0, g.light.distance * (1 - 1e-4f)})) * cosSurface * share) / kSamples;
+    const float cosSurface = -g.light.wi.z,
+                share = lit.field.glow.pointShare(g.point, from, {cosSurface / kPi, 0.005f});
+    points += static_cast<double>(luminance(g.light.radiance *
+                                            rays.transmittance({from, g.light.wi, 0, g.light.distance * (1 - 1e-4f)})) *
+                                  cosSurface * share) /
+              kSamples;
   }
   EXPECT_NEAR(points + cones, exact, 0.02 * exact);
 }
@@ -242,7 +259,8 @@ TEST(FoldedCloth, frontDoesNotSeeItsOwnBack) {
     const Vec3 p{x, 0.5f + u.y, kDepth * (down ? 1 - phase : phase)};
     const Vec3 n = normalize(Vec3{down ? kDepth : -kDepth, 0, kFold});
     const Vec3 d = Frame(n).toWorld(sampleCosineHemisphere(sampler.next2()));
-    seen += static_cast<double>(luminance(marchCone(lit.field, {p + n * 0.0035f, n}, d, {0.02f, 0}, 0).radiance)) / 4000;
+    seen +=
+        static_cast<double>(luminance(marchCone(lit.field, {p + n * 0.0035f, n}, d, {0.02f, 0}, 0).radiance)) / 4000;
   }
   // The back has 25 cd/m².
   EXPECT_LT(seen, 0.5);

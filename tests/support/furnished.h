@@ -6,7 +6,8 @@
 namespace roomlight::test {
 
 // A wall along x from x0 to x1 at z with a window between, sill at 0.9 m, of the given thickness inwards from z.
-inline void addWindowWall(Scene& scene, float x0, float x1, float height, float z, float thick, float w0, float w1, int material) {
+inline void addWindowWall(Scene& scene, float x0, float x1, float height, float z, float thick, float w0, float w1,
+                          int material) {
   addBox(scene, {x0, 0, z}, {x1, 0.9f, z + thick}, material);
   addBox(scene, {x0, 2.1f, z}, {x1, height, z + thick}, material);
   addBox(scene, {x0, 0.9f, z}, {w0, 2.1f, z + thick}, material);

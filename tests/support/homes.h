@@ -42,9 +42,11 @@ inline std::string homeXml(const std::string& elements, const std::string& attri
 }
 
 // A wall from (x0, y0) to (x1, y1) in cm; `more`: further attributes.
-inline std::string wallXml(const std::string& id, double x0, double y0, double x1, double y1, double thickness, const std::string& more = "") {
+inline std::string wallXml(const std::string& id, double x0, double y0, double x1, double y1, double thickness,
+                           const std::string& more = "") {
   const auto n = [](double v) { return std::to_string(v); };
-  return "<wall id='" + id + "' xStart='" + n(x0) + "' yStart='" + n(y0) + "' xEnd='" + n(x1) + "' yEnd='" + n(y1) + "' thickness='" + n(thickness) + "' " + more + "/>\n";
+  return "<wall id='" + id + "' xStart='" + n(x0) + "' yStart='" + n(y0) + "' xEnd='" + n(x1) + "' yEnd='" + n(y1) +
+         "' thickness='" + n(thickness) + "' " + more + "/>\n";
 }
 
 // Four joined walls around a rectangle on their axes, clockwise on the plan: their right sides look inwards.

@@ -10,7 +10,8 @@
 
 namespace roomlight::test {
 
-// Of a sample of an emissive mesh from p, where a ray that way meets the mesh and nothing before it: `pdfAt(point)` is that of the sample. Whether it could be compared.
+// Of a sample of an emissive mesh from p, where a ray that way meets the mesh and nothing before it: `pdfAt(point)` is
+// that of the sample. Whether it could be compared.
 template <class PdfAt>
 bool expectDensityOfItsPoint(const RayScene& rays, Vec3 p, const LightSample& s, const PdfAt& pdfAt) {
   if (!s.valid() || !(s.pdf > 0)) return false;

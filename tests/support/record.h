@@ -1,4 +1,5 @@
-// Rows for docs/measured/closed_forms.md: where ROOMLIGHT_RECORD names a file, tests append what they expected and measured.
+// Rows for docs/measured/closed_forms.md: where ROOMLIGHT_RECORD names a file, tests append what they expected and
+ // measured.
 #pragma once
 
 #include <cstdlib>
@@ -7,8 +8,10 @@
 
 namespace roomlight::test {
 
-// `measured` by `technique` ("path", "cone"). One line a row: group, place, technique, expected, measured, parted by tabs.
-inline void record(const std::string& group, const std::string& place, const std::string& technique, double expected, double measured) {
+// `measured` by `technique` ("path", "cone"). One line a row: group, place, technique, expected, measured, parted by
+// tabs.
+inline void record(const std::string& group, const std::string& place, const std::string& technique, double expected,
+                   double measured) {
   const char* file = std::getenv("ROOMLIGHT_RECORD");
   if (!file) return;
   std::ofstream out(file, std::ios::app);

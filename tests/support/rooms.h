@@ -16,7 +16,8 @@ using roomlight::addTube;
 using roomlight::lambertian;
 using roomlight::pointLamp;
 
-// A lamp on a table in a grey room, its shade open above and below: a white bulb, which takes none of the light, or a point as bright.
+// A lamp on a table in a grey room, its shade open above and below: a white bulb, which takes none of the light, or a
+// point as bright.
 inline Scene tableLamp(bool bulb) {
   constexpr float kRadiusM = 0.03f, kLuminance = 30000;
   Scene scene;

@@ -10,13 +10,15 @@
 namespace roomlight::test {
 
 // Candela at every degree of gamma up to `lastGammaDeg` and every `stepDeg` of C. Sizes in metres; 0: a point.
-inline std::shared_ptr<const PhotometricWeb> makeWeb(const std::function<float(float cRad, float gammaRad)>& candela, int lastGammaDeg = 90, int stepDeg = 90,
-                                                     float sizeC0M = 0, float sizeC90M = 0, bool round = false) {
+inline std::shared_ptr<const PhotometricWeb> makeWeb(const std::function<float(float cRad, float gammaRad)>& candela,
+                                                     int lastGammaDeg = 90, int stepDeg = 90, float sizeC0M = 0,
+                                                     float sizeC90M = 0, bool round = false) {
   auto web = std::make_shared<PhotometricWeb>();
   for (int g = 0; g <= lastGammaDeg; ++g) web->gammaRad.push_back(static_cast<float>(g) * kPi / 180);
   for (int c = 0; c <= 360; c += stepDeg) {
     web->cRad.push_back(static_cast<float>(c) * kPi / 180);
-    for (const float gamma : web->gammaRad) web->candela.push_back(std::max(0.0f, candela(static_cast<float>(c % 360) * kPi / 180, gamma)));
+    for (const float gamma : web->gammaRad)
+      web->candela.push_back(std::max(0.0f, candela(static_cast<float>(c % 360) * kPi / 180, gamma)));
   }
   web->sizeC0M = sizeC0M, web->sizeC90M = sizeC90M, web->round = round;
   sumUp(*web);
@@ -33,7 +35,8 @@ inline Lamp webLamp(Vec3 position, std::shared_ptr<const PhotometricWeb> web) {
   return lamp;
 }
 
-inline std::shared_ptr<const PhotometricWeb> lambertianWeb(float peakCd, float sizeC0M = 0, float sizeC90M = 0, bool round = false) {
+inline std::shared_ptr<const PhotometricWeb> lambertianWeb(float peakCd, float sizeC0M = 0, float sizeC90M = 0,
+                                                           bool round = false) {
   return makeWeb([=](float, float g) { return peakCd * std::cos(g); }, 90, 90, sizeC0M, sizeC90M, round);
 }
 

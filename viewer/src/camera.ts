@@ -1,5 +1,19 @@
-// Where the eye is and looks: pure functions on a pose. Yaw 0 looks along -z and grows counter-clockwise seen from above; pitch grows upwards.
-import { add, clamp, cross, dot, kRadPerDegree, length, mix, normalize, rotateAbout, scale, subtract, type Vec3 } from "./vector.js";
+// Where the eye is and looks: pure functions on a pose. Yaw 0 looks along -z and grows counter-clockwise seen from
+// above; pitch grows upwards.
+import {
+  add,
+  clamp,
+  cross,
+  dot,
+  kRadPerDegree,
+  length,
+  mix,
+  normalize,
+  rotateAbout,
+  scale,
+  subtract,
+  type Vec3,
+} from "./vector.js";
 
 export interface Pose {
   readonly position: Vec3;
@@ -51,7 +65,11 @@ export function anglesOf(direction: Vec3): { yawRad: number; pitchRad: number } 
 }
 
 export function poseFrom(camera: { position: Vec3; direction: Vec3; verticalFov: number }): Pose {
-  return { position: camera.position, ...anglesOf(camera.direction), fovRad: clamp(camera.verticalFov, 15, 110) * kRadPerDegree };
+  return {
+    position: camera.position,
+    ...anglesOf(camera.direction),
+    fovRad: clamp(camera.verticalFov, 15, 110) * kRadPerDegree,
+  };
 }
 
 export function basisOf(pose: Pose): Basis {
@@ -60,7 +78,8 @@ export function basisOf(pose: Pose): Basis {
   return { right, up: cross(right, forward), forward };
 }
 
-// The vertical angle of view in this viewport: on an upright screen it grows, so that the sides of the room stay in the picture.
+// The vertical angle of view in this viewport: on an upright screen it grows, so that the sides of the room stay in the
+// picture.
 export function verticalFovRad(pose: Pose, viewport: Viewport): number {
   const aspect = viewport.width / viewport.height;
   if (aspect >= kNarrowestAspect) return pose.fovRad;
@@ -79,11 +98,20 @@ export function project(pose: Pose, viewport: Viewport, point: Vec3): ScreenPoin
   const depthM = dot(offset, forward);
   if (depthM < kNearM) return null;
   const pixels = pixelsPerTangent(pose, viewport) / depthM;
-  return { x: viewport.width / 2 + dot(offset, right) * pixels, y: viewport.height / 2 - dot(offset, up) * pixels, depthM };
+  return {
+    x: viewport.width / 2 + dot(offset, right) * pixels,
+    y: viewport.height / 2 - dot(offset, up) * pixels,
+    depthM,
+  };
 }
 
 // Both ends of a segment on the screen, cut where it passes behind the eye; null if none of it is before the eye.
-export function projectSegment(pose: Pose, viewport: Viewport, from: Vec3, to: Vec3): readonly [ScreenPoint, ScreenPoint] | null {
+export function projectSegment(
+  pose: Pose,
+  viewport: Viewport,
+  from: Vec3,
+  to: Vec3,
+): readonly [ScreenPoint, ScreenPoint] | null {
   const { forward } = basisOf(pose);
   const a = dot(subtract(from, pose.position), forward);
   const b = dot(subtract(to, pose.position), forward);
@@ -111,14 +139,21 @@ export function look(pose: Pose, viewport: Viewport, dxPx: number, dyPx: number)
 }
 
 export function turned(pose: Pose, yawRad: number, pitchRad: number): Pose {
-  return { ...pose, yawRad: pose.yawRad + yawRad, pitchRad: clamp(pose.pitchRad + pitchRad, -kMaxPitchRad, kMaxPitchRad) };
+  return {
+    ...pose,
+    yawRad: pose.yawRad + yawRad,
+    pitchRad: clamp(pose.pitchRad + pitchRad, -kMaxPitchRad, kMaxPitchRad),
+  };
 }
 
 // On the level, whatever the eye looks at: the height of the eye changes by upM alone.
 export function walk(pose: Pose, forwardM: number, rightM: number, upM = 0): Pose {
   const ahead = directionOf(pose.yawRad, 0);
   const { right } = basisOf(pose);
-  return { ...pose, position: add(add(pose.position, scale(ahead, forwardM)), add(scale(right, rightM), scale(kUp, upM))) };
+  return {
+    ...pose,
+    position: add(add(pose.position, scale(ahead, forwardM)), add(scale(right, rightM), scale(kUp, upM))),
+  };
 }
 
 // About a pivot, which stays where it is in the picture.

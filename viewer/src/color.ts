@@ -1,4 +1,5 @@
-// Colours for the controls: linear Rec.709 to and from what the browser shows, the colour of a black body, and the false-colour scale.
+// Colours for the controls: linear Rec.709 to and from what the browser shows, the colour of a black body, and the
+// false-colour scale.
 import { clamp, type Vec3 } from "./vector.js";
 
 // Transfer function of IEC 61966-2-1, 0 to 1.
@@ -12,7 +13,13 @@ function decode(encoded: number): number {
 }
 
 export function hexFromLinear(color: Vec3): string {
-  return `#${color.map((v) => Math.round(255 * encode(v)).toString(16).padStart(2, "0")).join("")}`;
+  return `#${color
+    .map(v =>
+      Math.round(255 * encode(v))
+        .toString(16)
+        .padStart(2, "0"),
+    )
+    .join("")}`;
 }
 
 export function linearFromHex(hex: string): Vec3 {
@@ -26,7 +33,8 @@ export function brightest(color: Vec3): Vec3 {
   return top > 0 ? [color[0] / top, color[1] / top, color[2] / top] : [0, 0, 0];
 }
 
-// Chromaticity of the Planckian locus from 1667 to 25000 K (cubic fit of Kim et al., 2002), as linear Rec.709, brightest channel 1.
+// Chromaticity of the Planckian locus from 1667 to 25000 K (cubic fit of Kim et al., 2002), as linear Rec.709,
+// brightest channel 1.
 export function blackBody(kelvin: number): Vec3 {
   const t = clamp(kelvin, 1667, 25000);
   const u = 1000 / t;
@@ -50,7 +58,8 @@ export function blackBody(kelvin: number): Vec3 {
   return brightest([Math.max(0, linear[0]), Math.max(0, linear[1]), Math.max(0, linear[2])]);
 }
 
-// Ticks at 1, 2 and 5 times powers of ten, and where they stand on a logarithmic scale: 0 at the low end, 1 at the high one.
+// Ticks at 1, 2 and 5 times powers of ten, and where they stand on a logarithmic scale: 0 at the low end, 1 at the high
+// one.
 export function scaleTicks(low: number, high: number): { value: number; at: number }[] {
   const ticks: { value: number; at: number }[] = [];
   const span = Math.log(high / low);

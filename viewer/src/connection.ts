@@ -1,7 +1,15 @@
-// The line to the server: opened with the token of the link, taken up again when it is lost, requests paired with their answers.
+// The line to the server: opened with the token of the link, taken up again when it is lost, requests paired with their
+// answers.
 import { ConnectionLost } from "./edits.js";
 import { decodeFrame, type FrameHeader } from "./frame.js";
-import { decodeMessage, type Notice, type Request, type ServerError, type ServerMessage, type Welcome } from "./protocol.js";
+import {
+  decodeMessage,
+  type Notice,
+  type Request,
+  type ServerError,
+  type ServerMessage,
+  type Welcome,
+} from "./protocol.js";
 import { BadMessage } from "./schema.js";
 
 export type Link =
@@ -55,7 +63,8 @@ export function tokenOf(place: { hash: string; search: string }): string {
   return named ?? (fragment || (new URLSearchParams(place.search).get("token") ?? ""));
 }
 
-// Waits before the attempts to connect: doubled each time, with a random quarter so that several windows do not come at once.
+// Waits before the attempts to connect: doubled each time, with a random quarter so that several windows do not come at
+// once.
 export function retryDelayMs(attempt: number, random: number): number {
   const delay = Math.min(kLongestDelayMs, kFirstDelayMs * 2 ** Math.min(attempt, 10));
   return delay * (0.75 + 0.25 * random);
@@ -86,7 +95,10 @@ export class Connection {
     window.clearTimeout(this.retryTimer);
     if (this.socket) return;
     if (!this.token) {
-      this.listener.linked({ state: "refused", reason: "This link has no token. Open the link that roomlight view printed." });
+      this.listener.linked({
+        state: "refused",
+        reason: "This link has no token. Open the link that roomlight view printed.",
+      });
       return;
     }
     this.listener.linked({ state: "opening" });
@@ -100,7 +112,7 @@ export class Connection {
     this.greeted = false;
     this.greetingTimer = window.setTimeout(() => socket.close(), kGreetingMs);
     socket.onmessage = (event: MessageEvent<unknown>) => this.receive(event.data);
-    socket.onclose = (event) => {
+    socket.onclose = event => {
       window.clearTimeout(this.greetingTimer);
       this.closed(event);
     };
@@ -116,7 +128,8 @@ export class Connection {
   }
 
   request(request: Request): Promise<ServerMessage> {
-    if (!this.isOpen || this.pending.size >= kMaxPending) return Promise.reject(new ConnectionLost("There is no connection to roomlight."));
+    if (!this.isOpen || this.pending.size >= kMaxPending)
+      return Promise.reject(new ConnectionLost("There is no connection to roomlight."));
     const id = this.nextId;
     this.nextId = id >= 2 ** 32 - 1 ? 1 : id + 1;
     return new Promise((resolve, reject) => {
@@ -135,7 +148,9 @@ export class Connection {
       }
     } catch (error) {
       if (!(error instanceof BadMessage)) throw error;
-      this.listener.trouble(`The server sent something that this page does not understand (${error.message}). Reload the page.`);
+      this.listener.trouble(
+        `The server sent something that this page does not understand (${error.message}). Reload the page.`,
+      );
     }
   }
 
@@ -178,7 +193,8 @@ export class Connection {
     this.retryTimer = window.setTimeout(() => this.open(), delay);
   }
 
-  // Browsers do not tell why an upgrade was refused. A plain request of the same address does: 403 for a token that is not the server's.
+  // Browsers do not tell why an upgrade was refused. A plain request of the same address does: 403 for a token that is
+  // not the server's.
   private async explain(): Promise<void> {
     const url = new URL("live", this.origin);
     url.searchParams.set("token", this.token);
@@ -189,12 +205,16 @@ export class Connection {
       // No server there at all.
     }
     if (status === 403) {
-      const reason = "roomlight refuses this link: its token is not that of the running program. Open the link that roomlight view printed.";
+      const reason =
+        "roomlight refuses this link: its token is not that of the running program. " +
+        "Open the link that roomlight view printed.";
       this.listener.linked({ state: "refused", reason });
     } else if (status === 503) {
       this.retryLater("Too many windows are open on this home. Close one of them.");
     } else {
-      this.retryLater(status === 0 ? "roomlight does not answer. Is the program running?" : "The connection could not be made.");
+      this.retryLater(
+        status === 0 ? "roomlight does not answer. Is the program running?" : "The connection could not be made.",
+      );
     }
   }
 }

@@ -20,7 +20,8 @@ export class EditQueue {
   private queued: Queued[] = [];
   private waiting: (() => void)[] = [];
 
-  // send resolves once the server has done the edit, and rejects if it would not; done is told of each, with what went wrong or null.
+  // send resolves once the server has done the edit, and rejects if it would not; done is told of each, with what went
+  // wrong or null.
   constructor(
     private readonly send: (edit: Edit) => Promise<unknown>,
     private readonly done: (edit: Edit, failure: unknown) => void,
@@ -47,7 +48,7 @@ export class EditQueue {
 
   // Resolves when nothing waits any more.
   empty(): Promise<void> {
-    return this.queued.length === 0 ? Promise.resolve() : new Promise((resolve) => this.waiting.push(resolve));
+    return this.queued.length === 0 ? Promise.resolve() : new Promise(resolve => this.waiting.push(resolve));
   }
 
   // There is a connection again. What was under way is sent once more; values are absolute, so that does no harm.
@@ -71,7 +72,7 @@ export class EditQueue {
   private finish(entry: Queued, failure: unknown): void {
     this.queued.shift();
     this.done(entry.edit, failure);
-    if (this.queued.length === 0) this.waiting.splice(0).forEach((resolve) => resolve());
+    if (this.queued.length === 0) this.waiting.splice(0).forEach(resolve => resolve());
     this.pump();
   }
 }

@@ -38,14 +38,15 @@ export class Eye {
     this.touch();
   }
 
-  // Marks the camera as new: it is sent at once, or where one has just been sent with an animation frame after it, the newest pose only.
+  // Marks the camera as new: it is sent at once, or where one has just been sent with an animation frame after it, the
+  // newest pose only.
   touch(): void {
     this.dirty = true;
     this.changed();
     if (this.ticking) return;
     if (!this.move) this.flushIfDue();
     this.ticking = this.dirty || this.move !== null;
-    if (this.ticking) requestAnimationFrame((now) => this.tick(now));
+    if (this.ticking) requestAnimationFrame(now => this.tick(now));
   }
 
   // What is asked about the picture next must be asked of the newest camera.
@@ -94,6 +95,6 @@ export class Eye {
     }
     this.flushIfDue();
     this.ticking = this.dirty || this.move !== null;
-    if (this.ticking) requestAnimationFrame((now) => this.tick(now));
+    if (this.ticking) requestAnimationFrame(now => this.tick(now));
   }
 }

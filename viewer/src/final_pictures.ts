@@ -1,4 +1,5 @@
-// Renders that were asked for, and the finished pictures: the server gives each away once, so they are kept here to look at and download.
+// Renders that were asked for, and the finished pictures: the server gives each away once, so they are kept here to
+// look at and download.
 import type { Job } from "./protocol.js";
 
 const kMostKept = 16; // each may hold a file of many megabytes
@@ -15,11 +16,11 @@ export class FinalPictures {
   ) {}
 
   get busy(): boolean {
-    return this.jobs.some((job) => job.state === "running");
+    return this.jobs.some(job => job.state === "running");
   }
 
   update(job: Job): void {
-    const jobs = [job, ...this.jobs.filter((other) => other.job !== job.job)];
+    const jobs = [job, ...this.jobs.filter(other => other.job !== job.job)];
     this.jobs = jobs.slice(0, kMostKept);
     for (const old of jobs.slice(kMostKept)) this.release(old.job);
     if (job.file && !this.fetched.has(job.file.path)) void this.fetch(job.job, job.file.path);
@@ -28,7 +29,7 @@ export class FinalPictures {
 
   // A server that was started afresh knows nothing of them.
   forgetRunning(): void {
-    this.jobs = this.jobs.filter((job) => job.state !== "running");
+    this.jobs = this.jobs.filter(job => job.state !== "running");
     this.changed();
   }
 
@@ -39,10 +40,13 @@ export class FinalPictures {
       if (!response.ok) throw new Error(`the server answered ${response.status}`);
       const picture = await response.blob();
       this.release(job);
-      if (this.jobs.some((other) => other.job === job)) this.addresses.set(job, URL.createObjectURL(picture));
+      if (this.jobs.some(other => other.job === job)) this.addresses.set(job, URL.createObjectURL(picture));
     } catch (error) {
       this.fetched.delete(path);
-      this.failed(`The picture could not be fetched: ${error instanceof Error ? error.message : "unknown"}. Reload the page to try again, or render it again.`);
+      this.failed(
+        `The picture could not be fetched: ${error instanceof Error ? error.message : "unknown"}. ` +
+          `Reload the page to try again, or render it again.`,
+      );
     }
     this.changed();
   }

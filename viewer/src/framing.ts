@@ -25,8 +25,10 @@ export function roomAround(rooms: readonly Room[], place: Vec3): Room | null {
   const heightGap = 0.3;
   return (
     rooms.find(
-      (room) =>
-        place[1] >= room.low[1] - heightGap && place[1] <= room.high[1] + heightGap && overFloor(room.floor, place[0], place[2]),
+      room =>
+        place[1] >= room.low[1] - heightGap &&
+        place[1] <= room.high[1] + heightGap &&
+        overFloor(room.floor, place[0], place[2]),
     ) ?? null
   );
 }
@@ -43,7 +45,7 @@ function corners(room: Room): Vec3[] {
       const inwards = normalize([cx - x, 0, cz - z]);
       return eyeIn(room, x + inwards[0] * kWallGapM * 1.5, z + inwards[2] * kWallGapM * 1.5);
     })
-    .filter((place) => overFloor(room.floor, place[0], place[2]));
+    .filter(place => overFloor(room.floor, place[0], place[2]));
 }
 
 // In the corner from which most of the room lies ahead, looking at its middle a little below the eye.
@@ -82,7 +84,7 @@ export function poseForThing(box: Box, rooms: readonly Room[], from: Pose): Pose
     const eye = add(center, scale(aside, wanted));
     candidates.push([eye[0], eyeHeight, eye[2]]);
   }
-  const good = room ? candidates.find((eye) => overFloor(room.floor, eye[0], eye[2])) : candidates[0];
+  const good = room ? candidates.find(eye => overFloor(room.floor, eye[0], eye[2])) : candidates[0];
   const middleOfRoom = room ? eyeIn(room, middle(room)[0], middle(room)[2]) : from.position;
   const position = good ?? middleOfRoom;
   return { ...from, position, ...anglesOf(subtract(center, position)) };

@@ -1,5 +1,5 @@
-// The handles with which a lamp or a thing is moved: three arrows along the axes, a disc for the floor plane, a ring to turn. All in CSS pixels
-// of the stage, projected by camera.ts; drags are found by rays.
+// The handles with which a lamp or a thing is moved: three arrows along the axes, a disc for the floor plane, a ring to
+// turn. All in CSS pixels of the stage, projected by camera.ts; drags are found by rays.
 import { pixelsPerTangent, project, type Pose, type Ray, type ScreenPoint, type Viewport } from "./camera.js";
 import { add, dot, scale, subtract, type Vec3 } from "./vector.js";
 

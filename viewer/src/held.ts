@@ -1,4 +1,5 @@
-// What the handles take hold of: a lamp that can be moved, or the thing that is selected or to which the selected lamp belongs.
+// What the handles take hold of: a lamp that can be moved, or the thing that is selected or to which the selected lamp
+// belongs.
 import type { Drag } from "./gizmo.js";
 import { middle } from "./framing.js";
 import type { Model } from "./model.js";
@@ -29,7 +30,12 @@ function heldThing(thing: Thing): Held | null {
 
 function heldLamp(lamp: Lamp): Held {
   const { position } = lamp;
-  return { target: lamp.id, place: position, canTurn: false, dragged: ({ by }) => ({ position: tidy(add(position, by)) }) };
+  return {
+    target: lamp.id,
+    place: position,
+    canTurn: false,
+    dragged: ({ by }) => ({ position: tidy(add(position, by)) }),
+  };
 }
 
 export function heldBy(model: Model, selection: Selection | null): Held | null {

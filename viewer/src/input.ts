@@ -1,4 +1,5 @@
-// Hands on the stage: pointers, wheel and keys become moves of the eye, pulls of handles, picks and the place of the light meter.
+// Hands on the stage: pointers, wheel and keys become moves of the eye, pulls of handles, picks and the place of the
+// light meter.
 import { dolly, look, orbit, pixelsPerTangent, rayThrough, turned, walk, type Pose, type Ray } from "./camera.js";
 import { dragBy, gizmoAt, handleAt, type Gizmo, type Handle } from "./gizmo.js";
 import { heldBy, type Held } from "./held.js";
@@ -70,14 +71,14 @@ export class Input {
     private readonly redraw: () => void,
   ) {
     const { signal } = this.abort;
-    stage.addEventListener("pointerdown", (event) => this.down(event), { signal });
-    stage.addEventListener("pointermove", (event) => this.moved(event), { signal });
-    stage.addEventListener("pointerup", (event) => this.up(event, true), { signal });
-    stage.addEventListener("pointercancel", (event) => this.up(event, false), { signal });
-    stage.addEventListener("wheel", (event) => this.wheel(event), { signal, passive: false });
-    stage.addEventListener("contextmenu", (event) => event.preventDefault(), { signal });
+    stage.addEventListener("pointerdown", event => this.down(event), { signal });
+    stage.addEventListener("pointermove", event => this.moved(event), { signal });
+    stage.addEventListener("pointerup", event => this.up(event, true), { signal });
+    stage.addEventListener("pointercancel", event => this.up(event, false), { signal });
+    stage.addEventListener("wheel", event => this.wheel(event), { signal, passive: false });
+    stage.addEventListener("contextmenu", event => event.preventDefault(), { signal });
     stage.addEventListener("blur", () => this.keys.clear(), { signal });
-    window.addEventListener("keyup", (event) => this.keyUp(event), { signal });
+    window.addEventListener("keyup", event => this.keyUp(event), { signal });
     window.addEventListener("blur", () => this.keys.clear(), { signal });
   }
 
@@ -112,7 +113,7 @@ export class Input {
     if (this.ticking) return;
     this.ticking = true;
     this.lastTickMs = performance.now();
-    requestAnimationFrame((now) => this.tick(now));
+    requestAnimationFrame(now => this.tick(now));
   }
 
   private tick(nowMs: number): void {
@@ -131,7 +132,7 @@ export class Input {
     if (this.keys.size > 0) {
       const pose = walk(this.session.eye.pose, ahead * metres, aside * metres, above * metres);
       this.session.eye.set(turned(pose, turn * kTurnRadPerS * seconds, 0));
-      requestAnimationFrame((now) => this.tick(now));
+      requestAnimationFrame(now => this.tick(now));
     } else {
       this.ticking = false;
     }
@@ -209,7 +210,13 @@ export class Input {
     const { eye, pivot, selection } = this.session;
     const box = selection && this.session.boxOf(selection);
     if (box) return middle(box);
-    return pivot ?? add(eye.pose.position, scale(this.ray(eye.pose, eye.viewport.width / 2, eye.viewport.height / 2).direction, kMetresAheadToOrbit));
+    return (
+      pivot ??
+      add(
+        eye.pose.position,
+        scale(this.ray(eye.pose, eye.viewport.width / 2, eye.viewport.height / 2).direction, kMetresAheadToOrbit),
+      )
+    );
   }
 
   private drag(dx: number, dy: number): void {
@@ -228,7 +235,7 @@ export class Input {
 
   // Each finger does half. Two that pull the floor towards them or spread walk forward.
   private twoFingers(pointer: Pointer, dx: number, dy: number): void {
-    const other = [...this.pointers.values()].find((p) => p !== pointer);
+    const other = [...this.pointers.values()].find(p => p !== pointer);
     if (!other) return;
     other.moved = pointer.moved = true;
     const before = Math.hypot(pointer.x - dx - other.x, pointer.y - dy - other.y);

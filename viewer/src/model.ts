@@ -1,5 +1,5 @@
-// What the page knows of the home: the server's state, and on top of it the edits of this window that are not yet answered, so that controls
-// follow the hand at once. Pure functions from one model to the next.
+// What the page knows of the home: the server's state, and on top of it the edits of this window that are not yet
+// answered, so that controls follow the hand at once. Pure functions from one model to the next.
 import type { EditFields, Lamp, StateChange, Sun, Target, Thing, Welcome } from "./protocol.js";
 import { add, subtract } from "./vector.js";
 
@@ -15,7 +15,7 @@ export interface Model {
 }
 
 function byId<T extends { readonly id: string }>(items: readonly T[]): Map<string, T> {
-  return new Map(items.map((item) => [item.id, item]));
+  return new Map(items.map(item => [item.id, item]));
 }
 
 export function modelFrom(welcome: Welcome): Model {
@@ -73,7 +73,10 @@ function editedThing(thing: Thing, fields: EditFields): Thing {
   if (fields.hidden !== undefined) next.hidden = fields.hidden;
   if (fields.open !== undefined) next.open = fields.open;
   const { color, material } = fields;
-  if (color) next.colors = thing.colors.map((paint) => (material === undefined || paint.material === material ? { ...paint, color } : paint));
+  if (color)
+    next.colors = thing.colors.map(paint =>
+      material === undefined || paint.material === material ? { ...paint, color } : paint,
+    );
   return next;
 }
 
@@ -81,7 +84,10 @@ function editedThing(thing: Thing, fields: EditFields): Thing {
 export function edited(model: Model, target: Target, fields: EditFields): Model {
   if (target === "sun") {
     if (!model.sun) return model;
-    return { ...model, sun: { ...model.sun, date: fields.date ?? model.sun.date, hour: fields.hour ?? model.sun.hour } };
+    return {
+      ...model,
+      sun: { ...model.sun, date: fields.date ?? model.sun.date, hour: fields.hour ?? model.sun.hour },
+    };
   }
   const lamp = model.lamps.get(target);
   if (lamp) return { ...model, lamps: new Map([...model.lamps, [target, editedLamp(lamp, fields)]]) };
@@ -91,7 +97,9 @@ export function edited(model: Model, target: Target, fields: EditFields): Model 
   if (fields.move) {
     // Lamps move with the thing that they belong to.
     const by = subtract(fields.move, thing.move);
-    lamps = new Map([...lamps].map(([id, l]) => [id, l.object === target ? { ...l, position: add(l.position, by) } : l]));
+    lamps = new Map(
+      [...lamps].map(([id, l]) => [id, l.object === target ? { ...l, position: add(l.position, by) } : l]),
+    );
   }
   return { ...model, lamps, things: new Map([...model.things, [target, editedThing(thing, fields)]]) };
 }

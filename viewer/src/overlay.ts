@@ -16,7 +16,13 @@ export interface OverlayScene {
 
 const kAccent = "#f0b954";
 const kCasing = "rgba(0, 0, 0, 0.55)";
-const kHandleColors: Readonly<Record<Handle, string>> = { x: "#ff7a6b", y: "#86d97a", z: "#7db3ff", floor: "#ffffff", turn: "#f0b954" };
+const kHandleColors: Readonly<Record<Handle, string>> = {
+  x: "#ff7a6b",
+  y: "#86d97a",
+  z: "#7db3ff",
+  floor: "#ffffff",
+  turn: "#f0b954",
+};
 
 // A line with a dark casing, to be seen on any picture.
 function stroke(context: CanvasRenderingContext2D, color: string, widthPx: number): void {
@@ -57,7 +63,12 @@ function drawFloor(context: CanvasRenderingContext2D, scene: OverlayScene, room:
   stroke(context, kAccent, 1.5);
 }
 
-function drawArrowHead(context: CanvasRenderingContext2D, gizmo: Gizmo, tip: { x: number; y: number }, color: string): void {
+function drawArrowHead(
+  context: CanvasRenderingContext2D,
+  gizmo: Gizmo,
+  tip: { x: number; y: number },
+  color: string,
+): void {
   const angle = Math.atan2(tip.y - gizmo.center.y, tip.x - gizmo.center.x);
   context.beginPath();
   for (const [along, aside] of [
@@ -82,7 +93,7 @@ function drawGizmo(context: CanvasRenderingContext2D, gizmo: Gizmo, active: Hand
   const width = (handle: Handle) => (handle === active ? 4.5 : 2.5);
   if (gizmo.ring.length > 1) {
     context.beginPath();
-    gizmo.ring.forEach((point) => context.lineTo(point.x, point.y));
+    gizmo.ring.forEach(point => context.lineTo(point.x, point.y));
     stroke(context, kHandleColors.turn, width("turn"));
   }
   for (const { handle, tip } of gizmo.arrows) {
@@ -129,4 +140,3 @@ export function drawOverlay(canvas: HTMLCanvasElement, scene: OverlayScene): voi
   if (scene.gizmo) drawGizmo(context, scene.gizmo, scene.active);
   if (scene.cross) drawCross(context, scene.cross[0], scene.cross[1]);
 }
-

@@ -1,4 +1,5 @@
-// Messages between this page and `roomlight view`, as docs/formats/view.md states them. Whatever comes from the server passes a check here.
+// Messages between this page and `roomlight view`, as docs/formats/view.md states them. Whatever comes from the server
+// passes a check here.
 import * as c from "./schema.js";
 
 const box = c.shape({ low: c.triple, high: c.triple });

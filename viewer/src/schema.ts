@@ -1,4 +1,5 @@
-// Small checks that turn unknown data from the network into typed values, or throw BadMessage with the path of what is wrong.
+// Small checks that turn unknown data from the network into typed values, or throw BadMessage with the path of what is
+// wrong.
 
 export class BadMessage extends Error {}
 
@@ -6,13 +7,15 @@ export type Check<T> = (value: unknown, at: string) => T;
 export type Checked<C> = C extends Check<infer T> ? T : never;
 
 function refuse(at: string, wanted: string, value: unknown): never {
-  const seen = value === null ? "null" : Array.isArray(value) ? "a list" : value === undefined ? "nothing" : `a ${typeof value}`;
+  const seen =
+    value === null ? "null" : Array.isArray(value) ? "a list" : value === undefined ? "nothing" : `a ${typeof value}`;
   throw new BadMessage(`${at || "message"}: expected ${wanted}, got ${seen}`);
 }
 
 export const text: Check<string> = (value, at) => (typeof value === "string" ? value : refuse(at, "a text", value));
 
-export const flag: Check<boolean> = (value, at) => (typeof value === "boolean" ? value : refuse(at, "true or false", value));
+export const flag: Check<boolean> = (value, at) =>
+  typeof value === "boolean" ? value : refuse(at, "true or false", value);
 
 export const real: Check<number> = (value, at) =>
   typeof value === "number" && Number.isFinite(value) ? value : refuse(at, "a number", value);
@@ -22,7 +25,7 @@ export const whole: Check<number> = (value, at) =>
 
 export function literal<const T extends string>(...choices: readonly T[]): Check<T> {
   return (value, at) => {
-    const found = choices.find((choice) => choice === value);
+    const found = choices.find(choice => choice === value);
     return found ?? refuse(at, `one of ${choices.join(", ")}`, value);
   };
 }
@@ -47,7 +50,8 @@ export function either<A, B>(first: Check<A>, second: Check<B>): Check<A | B> {
 }
 
 export function listOf<T>(check: Check<T>): Check<readonly T[]> {
-  return (value, at) => (Array.isArray(value) ? value.map((item, i) => check(item, `${at}[${i}]`)) : refuse(at, "a list", value));
+  return (value, at) =>
+    Array.isArray(value) ? value.map((item, i) => check(item, `${at}[${i}]`)) : refuse(at, "a list", value);
 }
 
 export const triple: Check<readonly [number, number, number]> = (value, at) =>

@@ -1,5 +1,5 @@
-// All that this window knows and does: the line to the server, the model of the home, the eye, and what the controls show. Components read
-// its fields, call its methods, and listen to topics.
+// All that this window knows and does: the line to the server, the model of the home, the eye, and what the controls
+// show. Components read its fields, call its methods, and listen to topics.
 import { poseFrom, type Pose, type Viewport } from "./camera.js";
 import { Connection, Refused, type Link, type Listener } from "./connection.js";
 import { ConnectionLost, EditQueue } from "./edits.js";
@@ -65,13 +65,10 @@ export class Session implements Listener {
   private frameTimesMs: number[] = [];
   private noticeTimer = 0;
 
-  constructor(
-    origin: URL,
-    token: string,
-  ) {
+  constructor(origin: URL, token: string) {
     this.connection = new Connection(origin, token, this);
     this.eye = new Eye(
-      (notice) => this.connection.notify(notice),
+      notice => this.connection.notify(notice),
       () => this.emit("camera"),
     );
     this.meter = new LightMeter(
@@ -81,7 +78,7 @@ export class Session implements Listener {
     this.pictures = new FinalPictures(
       token,
       () => this.emit("jobs"),
-      (message) => this.tell(message, true),
+      message => this.tell(message, true),
     );
     this.edits = new EditQueue(
       ({ target, gesture, fields }) => this.connection.request({ type: "edit", target, gesture, ...fields }),
@@ -119,7 +116,8 @@ export class Session implements Listener {
       // The server may have been started afresh: it is told what this window shows.
       if (this.display) this.connection.notify({ type: "display", ...this.display });
       if (this.technique !== welcome.technique) void this.ask({ type: "technique", technique: this.technique });
-      if (JSON.stringify(this.split) !== JSON.stringify(welcome.split)) void this.ask({ type: "split", split: this.split });
+      if (JSON.stringify(this.split) !== JSON.stringify(welcome.split))
+        void this.ask({ type: "split", split: this.split });
       this.pictures.forgetRunning();
     } else {
       document.title = `${welcome.home} – roomlight`;
@@ -153,7 +151,7 @@ export class Session implements Listener {
   frame(header: FrameHeader, picture: Uint8Array): void {
     const now = performance.now();
     this.meter.shown(header);
-    this.frameTimesMs = [...this.frameTimesMs.filter((time) => now - time < 1000), now];
+    this.frameTimesMs = [...this.frameTimesMs.filter(time => now - time < 1000), now];
     this.lastFrame = header;
     this.onFrame?.(header, picture);
     this.emit("frame");
@@ -162,7 +160,7 @@ export class Session implements Listener {
   // Of the last second.
   framesPerSecond(): number {
     const now = performance.now();
-    return this.frameTimesMs.filter((time) => now - time < 1000).length;
+    return this.frameTimesMs.filter(time => now - time < 1000).length;
   }
 
   trouble(message: string): void {
@@ -298,10 +296,13 @@ export class Session implements Listener {
   tell(text: string, bad: boolean): void {
     this.notice = { text, bad };
     window.clearTimeout(this.noticeTimer);
-    this.noticeTimer = window.setTimeout(() => {
-      this.notice = null;
-      this.emit("ui");
-    }, bad ? 9000 : 5000);
+    this.noticeTimer = window.setTimeout(
+      () => {
+        this.notice = null;
+        this.emit("ui");
+      },
+      bad ? 9000 : 5000,
+    );
     this.emit("ui");
   }
 
@@ -324,7 +325,8 @@ export class Session implements Listener {
     this.connection.notify({ type: "viewport", width: Math.max(16, width), height: Math.max(16, height), pixelRatio });
   }
 
-  // What counts on the edits made so far is asked once they are done; not at all without a connection, for who knows when that would be.
+  // What counts on the edits made so far is asked once they are done; not at all without a connection, for who knows
+  // when that would be.
   private async afterEdits(request: Request): Promise<ServerMessage | null> {
     if (!this.connection.isOpen) return null;
     await this.edits.empty();
@@ -361,6 +363,6 @@ export class Session implements Listener {
   }
 
   private emit(topic: Topic): void {
-    this.listeners.get(topic)?.forEach((listener) => listener());
+    this.listeners.get(topic)?.forEach(listener => listener());
   }
 }

@@ -30,7 +30,8 @@ inline ::testing::AssertionResult fits(const std::vector<double>& counts, const 
   const double k = 2 / (9 * freedom);
   const double z = (std::cbrt(chi / freedom) - (1 - k)) / std::sqrt(k);
   if (z < 4.75) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "chi-square " << chi << " for " << freedom << " degrees of freedom, z = " << z;
+  return ::testing::AssertionFailure() << "chi-square " << chi << " for " << freedom
+                                       << " degrees of freedom, z = " << z;
 }
 
 inline ::testing::AssertionResult fitsUniform(const std::vector<double>& counts) {

@@ -204,7 +204,8 @@ TEST(ImageIo, webpWithoutLossKeepsBytesAndAlpha) {
   ASSERT_TRUE(writeWebp(folder / "a.webp", image, kLossless).ok());
   const std::string bytes = readFile(folder / "a.webp");
   int width = 0, height = 0;
-  const std::unique_ptr<uint8_t, void (*)(void*)> decoded(WebPDecodeRGBA(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &width, &height), WebPFree);
+  const std::unique_ptr<uint8_t, void (*)(void*)> decoded(
+      WebPDecodeRGBA(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &width, &height), WebPFree);
   ASSERT_TRUE(decoded && width == 5 && height == 3);
   EXPECT_TRUE(std::equal(image.samples.begin(), image.samples.end(), decoded.get()));
   EXPECT_FALSE(writeWebp(folder / "b.webp", ByteImage(20000, 1, 3), 80).ok()) << "wider than WebP can be";

@@ -23,8 +23,10 @@ Image noise(int width, int height, uint64_t seed) {
 LayeredImage picture(int layers) {
   LayeredImage out;
   out.whole = noise(61, 37, 0);
-  for (int i = 0; i < layers; ++i) out.layers.push_back({"lamp_" + std::to_string(10 + i), noise(61, 37, static_cast<uint64_t>(i) + 1)});
-  out.metadata = {{kLayersKey, R"({"version":1,"layers":[{"channel":"lamp_10","name":"Küche. Lampe"}]})"}, {"roomlight.seed", "7"}};
+  for (int i = 0; i < layers; ++i)
+    out.layers.push_back({"lamp_" + std::to_string(10 + i), noise(61, 37, static_cast<uint64_t>(i) + 1)});
+  out.metadata = {{kLayersKey, R"({"version":1,"layers":[{"channel":"lamp_10","name":"Küche. Lampe"}]})"},
+                  {"roomlight.seed", "7"}};
   return out;
 }
 

@@ -33,7 +33,11 @@ TEST(Parallel, threadCapIsSeenInside) {
 }
 
 TEST(Parallel, exceptionsReachTheCaller) {
-  EXPECT_THROW(parallelFor(100, 1, [](size_t i) { if (i == 50) throw std::runtime_error("fifty"); }), std::runtime_error);
+  EXPECT_THROW(parallelFor(100, 1,
+                           [](size_t i) {
+                             if (i == 50) throw std::runtime_error("fifty");
+                           }),
+               std::runtime_error);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace {
 constexpr int kSamples = 400'000, kPolar = 32, kAzimuth = 32;
 
 // Chi-square of directions against a density per steradian, on a grid uniform in cos(theta) and azimuth.
-::testing::AssertionResult directionsFit(const std::function<Vec3(Vec2)>& sample, const std::function<double(Vec3)>& pdf) {
+::testing::AssertionResult directionsFit(const std::function<Vec3(Vec2)>& sample,
+                                         const std::function<double(Vec3)>& pdf) {
   std::vector<double> counts(kPolar * kAzimuth), expected(kPolar * kAzimuth);
   Rng rng(11, 12, 13);
   for (int i = 0; i < kSamples; ++i) {
@@ -45,13 +46,15 @@ TEST(Sampling, sphereIsUniform) {
 }
 
 TEST(Sampling, cosineHemisphereFollowsItsDensity) {
-  EXPECT_TRUE(directionsFit(sampleCosineHemisphere, [](Vec3 d) { return static_cast<double>(cosineHemispherePdf(d.z)); }));
+  EXPECT_TRUE(
+      directionsFit(sampleCosineHemisphere, [](Vec3 d) { return static_cast<double>(cosineHemispherePdf(d.z)); }));
 }
 
 TEST(Sampling, coneFollowsItsDensity) {
   for (float cosHalf : {-0.5f, 0.25f, 0.75f}) {
-    EXPECT_TRUE(directionsFit([=](Vec2 u) { return sampleCone(u, 1 - cosHalf); },
-                              [=](Vec3 d) { return d.z >= cosHalf ? static_cast<double>(conePdf(1 - cosHalf)) : 0.0; }));
+    EXPECT_TRUE(
+        directionsFit([=](Vec2 u) { return sampleCone(u, 1 - cosHalf); },
+                      [=](Vec3 d) { return d.z >= cosHalf ? static_cast<double>(conePdf(1 - cosHalf)) : 0.0; }));
   }
 }
 
@@ -63,7 +66,8 @@ TEST(Sampling, visibleNormalsFollowTheirDensity) {
       EXPECT_TRUE(directionsFit([&](Vec2 u) { return sampleVisibleNormal(wo, alpha, u); },
                                 [&](Vec3 h) -> double {
                                   if (h.z <= 0) return 0;
-                                  return static_cast<double>(ggxG1(wo.z, alpha) * std::max(0.0f, dot(wo, h)) * ggxD(h.z, alpha) / wo.z);
+                                  return static_cast<double>(ggxG1(wo.z, alpha) * std::max(0.0f, dot(wo, h)) *
+                                                             ggxD(h.z, alpha) / wo.z);
                                 }))
           << "alpha " << alpha << ", cos " << cosO;
     }
@@ -95,9 +99,7 @@ TEST(Sampling, triangleIsUniformInArea) {
     ASSERT_GE(b.x, 0);
     ASSERT_GE(b.y, 0);
     ASSERT_LE(b.x + b.y, 1.00001f);
-    counts[b.x > 0.5f ? 1 : b.y > 0.5f     ? 2
-                        : b.x + b.y < 0.5f ? 3
-                                           : 0]++;
+    counts[b.x > 0.5f ? 1 : b.y > 0.5f ? 2 : b.x + b.y < 0.5f ? 3 : 0]++;
     sum1 += b.x, sum2 += b.y, product += static_cast<double>(b.x) * b.y;
   }
   EXPECT_TRUE(testing::fitsUniform(counts));

@@ -10,7 +10,8 @@
 
 #include "base/half.h"
 
-#if defined(ROOMLIGHT_WITHOUT_AVX2) && (defined(__AVX2__) || defined(__FMA__) || defined(__F16C__) || defined(__SSE4_1__))
+#if defined(ROOMLIGHT_WITHOUT_AVX2) && \
+    (defined(__AVX2__) || defined(__FMA__) || defined(__F16C__) || defined(__SSE4_1__))
 #error "compiled for a newer processor than asked for"
 #endif
 
@@ -86,13 +87,15 @@ TEST(Simd, joinsTopBits) {
     high[i] = static_cast<uint16_t>(bits >> 15), low[i] = static_cast<uint8_t>(bits >> 7);
   }
   const Eight joined = lanes(fromTopBits(high.data(), low.data()));
-  for (size_t i = 0; i < 8; ++i) EXPECT_EQ(std::bit_cast<uint32_t>(joined[i]), std::bit_cast<uint32_t>(values[i]) & ~0x7fu);
+  for (size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(std::bit_cast<uint32_t>(joined[i]), std::bit_cast<uint32_t>(values[i]) & ~0x7fu);
 }
 
 // What IEEE 754 says a half is.
 float valueOfHalf(uint16_t h) {
   const int exponent = h >> 10 & 31, mantissa = h & 1023;
-  const float size = exponent == 31  ? (mantissa ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity())
+  const float size = exponent == 31
+                         ? (mantissa ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity())
                      : exponent == 0 ? std::ldexp(static_cast<float>(mantissa), -24)
                                      : std::ldexp(static_cast<float>(1024 + mantissa), exponent - 25);
   return h & 0x8000 ? -size : size;
@@ -124,7 +127,8 @@ TEST(Half, everyFiniteHalfComesBack) {
 
 TEST(Half, roundsToTheNearestAndTiesToEven) {
   for (uint16_t h = 0; h < 0x7bff; ++h) {
-    const float below = valueOfHalf(h), above = valueOfHalf(static_cast<uint16_t>(h + 1)), middle = 0.5f * (below + above);
+    const float below = valueOfHalf(h), above = valueOfHalf(static_cast<uint16_t>(h + 1)),
+                middle = 0.5f * (below + above);
     const auto even = static_cast<uint16_t>(h + (h & 1)), next = static_cast<uint16_t>(h + 1);
     ASSERT_EQ(toHalf(middle), even) << h;
     ASSERT_EQ(toHalf(-middle), even | 0x8000) << h;

@@ -27,16 +27,21 @@ TEST(Tone, fastPowersAreAsGoodAsFloats) {
     EXPECT_NEAR(fastLog2(x), std::log2(x), 2e-7f + 1e-7f * std::abs(std::log2(x))) << x;
     EXPECT_NEAR(fastPow(x, 1 / 2.4f) / std::pow(static_cast<double>(x), 1 / 2.4), 1, 2e-6) << x;
   }
-  for (float y = -20; y < 20; y += 0.0137f) EXPECT_NEAR(static_cast<double>(fastExp2(y)) / std::exp2(static_cast<double>(y)), 1, 2e-7) << y;
+  for (float y = -20; y < 20; y += 0.0137f)
+    EXPECT_NEAR(static_cast<double>(fastExp2(y)) / std::exp2(static_cast<double>(y)), 1, 2e-7) << y;
 }
 
 TEST(FastMath, arcTangentIsAsGoodAsAFloat) {
   for (double angle = -3.1415; angle < 3.1416; angle += 0.00137) {
     for (const double r : {1e-20, 1.0, 7e12}) {
-      EXPECT_NEAR(static_cast<double>(fastAtan2(static_cast<float>(r * std::sin(angle)), static_cast<float>(r * std::cos(angle)))), angle, 5e-7) << angle;
+      EXPECT_NEAR(static_cast<double>(
+                      fastAtan2(static_cast<float>(r * std::sin(angle)), static_cast<float>(r * std::cos(angle)))),
+                  angle, 5e-7)
+          << angle;
     }
   }
-  for (const auto& [y, x] : {std::pair{0.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}, {1.0f, 0.0f}, {-1.0f, 0.0f}}) EXPECT_FLOAT_EQ(fastAtan2(y, x), std::atan2(y, x));
+  for (const auto& [y, x] : {std::pair{0.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}, {1.0f, 0.0f}, {-1.0f, 0.0f}})
+    EXPECT_FLOAT_EQ(fastAtan2(y, x), std::atan2(y, x));
 }
 
 TEST(Tone, whatIsNotANumberStaysSo) {
@@ -97,7 +102,8 @@ TEST(Tone, neutralAndFilmicKeepHues) {
   };
   for (const ToneCurve curve : {ToneCurve::PbrNeutral, ToneCurve::Filmic}) {
     for (const float light : {0.05f, 0.5f, 2.0f, 8.0f}) {
-      const Vec3 in{light, 0.45f * light, 0.1f * light}, out = toneMap(constant(in), std::log2(1 / 1.2f), curve).pixels[0];
+      const Vec3 in{light, 0.45f * light, 0.1f * light},
+          out = toneMap(constant(in), std::log2(1 / 1.2f), curve).pixels[0];
       const Vec3 linear{srgbDecode(out.x), srgbDecode(out.y), srgbDecode(out.z)};
       if (maxComponent(linear) - minComponent(linear) < 0.03f) continue;  // as good as white
       EXPECT_NEAR(hue(linear), hue(in), 0.02f) << toneCurveName(curve) << " at " << light;
@@ -122,7 +128,8 @@ TEST(Tone, contrastTurnsAboutMiddleGreyAndSaturationAboutGrey) {
 }
 
 TEST(Tone, namesRoundTripAndUnknownNamesListTheChoice) {
-  for (const char* name : {"neutral", "agx", "filmic", "clip"}) EXPECT_EQ(toneCurveName(toneCurveFromName(name).value()), name);
+  for (const char* name : {"neutral", "agx", "filmic", "clip"})
+    EXPECT_EQ(toneCurveName(toneCurveFromName(name).value()), name);
   const auto wrong = toneCurveFromName("sepia");
   ASSERT_FALSE(wrong.ok());
   EXPECT_NE(wrong.error().find("neutral, agx, filmic, clip"), std::string::npos);

@@ -19,8 +19,8 @@ TEST(LpvWalls, shareOutTheSphere) {
     sum += w.solidAngleSr;
     mean += w.direction * w.solidAngleSr;
     EXPECT_NE(w.wall, w.side ^ 1) << "light does not go back";
-    // Of a square of edge 1 at distance 1.5, and one from 0.5 to 1.5 at distance 0.5 along its own middle: 4 atan(ab / (h sqrt(a² + b² + h²))) for a
-    // quarter.
+    // Of a square of edge 1 at distance 1.5, and one from 0.5 to 1.5 at distance 0.5 along its own middle: 4 atan(ab /
+    // (h sqrt(a² + b² + h²))) for a quarter.
     EXPECT_NEAR(w.solidAngleSr, w.wall == w.side ? 0.40067f : 0.42343f, 2e-4);
     EXPECT_NEAR(w.weight[0], w.solidAngleSr * 0.282095f, 1e-6);
   }
@@ -41,7 +41,8 @@ TEST(LpvGrid, aLobeHasItsFluxAndPointsAlongItsNormal) {
   EXPECT_NEAR(kSh0 * i[0][0] + kSh1 * (i[0][1] * n.x + i[0][2] * n.y + i[0][3] * n.z), 0.75 * 3 / kPi, 1e-5);
 }
 
-// Light in free space goes on and on: none is lost, none is made. The paper's clamping of negative lobes alone makes up to an eighth a step.
+// Light in free space goes on and on: none is lost, none is made. The paper's clamping of negative lobes alone makes up
+// to an eighth a step.
 TEST(LpvGrid, propagationInFreeSpaceKeepsTheFlux) {
   LpvGrid grid(cube(24));
   grid.addLobe(grid.lattice().index({12, 12, 12}), {0, 1, 0}, {100, 10, 1});
@@ -58,7 +59,8 @@ TEST(LpvGrid, neverHoldsLessThanNothing) {
   LpvGrid grid(cube(12));
   grid.addLobe(grid.lattice().index({6, 1, 6}), {0, 1, 0}, Vec3(100));
   const LpvGrid out = propagate(grid, LpvGeometry(grid.lattice()), 12, false);
-  for (int i = 0; i < 12 * 12 * 12; ++i) ASSERT_GE(out.get(out.lattice().index({i % 12 + 1, i / 12 % 12 + 1, i / 144 + 1}))[0][0], 0);
+  for (int i = 0; i < 12 * 12 * 12; ++i)
+    ASSERT_GE(out.get(out.lattice().index({i % 12 + 1, i / 12 % 12 + 1, i / 144 + 1}))[0][0], 0);
 }
 
 // A wall of surfels in the plane x = 4, seen from the left.
@@ -97,8 +99,9 @@ TEST(LpvGeometry, aWhiteWallSendsBackWhatItStops) {
   EXPECT_GT(last(0.5f, true), last(0, true) + 10);
 }
 
-// Only a fifth of what enters a cell leaves it by the far wall, and what reaches a side wall goes on about that wall's normal: light wanders more
-// than it flies. These are the shares of the true irradiance that docs/methods/lpv.md states, once all light has left the grid.
+// Only a fifth of what enters a cell leaves it by the far wall, and what reaches a side wall goes on about that wall's
+// normal: light wanders more than it flies. These are the shares of the true irradiance that docs/methods/lpv.md
+// states, once all light has left the grid.
 TEST(LpvGrid, farFromASmallSourceIrradianceFallsShortAsTheBeamWidens) {
   LpvGrid grid(cube(33));
   grid.addLobe(grid.lattice().index({17, 5, 17}), {0, 1, 0}, Vec3(100));
@@ -107,7 +110,9 @@ TEST(LpvGrid, farFromASmallSourceIrradianceFallsShortAsTheBeamWidens) {
   LpvSettings settings;
   settings.lookUpCells = 0;
   const auto found = [&](float d) {
-    return static_cast<double>(lpvIrradiance(light, {16.5f, 4.5f + d, 16.5f}, {0, -1, 0}, {0, -1, 0}, settings).x * kPi) / (100 / static_cast<double>(kPi * d * d));
+    return static_cast<double>(lpvIrradiance(light, {16.5f, 4.5f + d, 16.5f}, {0, -1, 0}, {0, -1, 0}, settings).x *
+                               kPi) /
+           (100 / static_cast<double>(kPi * d * d));
   };
   EXPECT_NEAR(found(4), 0.71, 0.01);
   EXPECT_NEAR(found(8), 0.73, 0.01);

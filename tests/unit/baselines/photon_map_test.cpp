@@ -47,7 +47,8 @@ TEST_P(PhotonMapOf, FindsTheNearestAsASearchOfAllDoes) {
     for (size_t i = 0; i < map.size(); ++i) {
       if (dot(map.normal(i), query.n) < query.cosNormal) continue;
       const Vec3 d = map.place(i) - query.p;
-      const float along = dot(d, query.n), d2 = lengthSquared(d) + (query.flatness * query.flatness - 1) * along * along;
+      const float along = dot(d, query.n),
+                  d2 = lengthSquared(d) + (query.flatness * query.flatness - 1) * along * along;
       if (d2 <= query.radiusM * query.radiusM) expected.push_back(d2);
     }
     std::sort(expected.begin(), expected.end());

@@ -27,8 +27,15 @@ ImportonStart lookAround(Vec3 from) {
 }
 
 struct Traced {
-  explicit Traced(const Scene& scene, const PhotonSettings& settings, Vec3 from = {2, 1.5f, 2.5f}, bool indirectOnly = false)
-      : rays(scene), lights(scene), importance(rays, lights, lookAround(from), settings.importons, settings.seed), survey(surveySky(rays, lights, {}, 4, 0)), tracer(rays, lights, importance, survey, settings), global(tracer.global(indirectOnly, {})), caustic(tracer.caustics({})) {}
+  explicit Traced(const Scene& scene, const PhotonSettings& settings, Vec3 from = {2, 1.5f, 2.5f},
+                  bool indirectOnly = false)
+      : rays(scene),
+        lights(scene),
+        importance(rays, lights, lookAround(from), settings.importons, settings.seed),
+        survey(surveySky(rays, lights, {}, 4, 0)),
+        tracer(rays, lights, importance, survey, settings),
+        global(tracer.global(indirectOnly, {})),
+        caustic(tracer.caustics({})) {}
   RayScene rays;
   Lights lights;
   PhotonImportance importance;
@@ -69,7 +76,8 @@ TEST(PhotonTracer, SendsEmissiveMeshesAndLampsByTheirFlux) {
   Scene scene = room(kNearlyBlack);
   scene.lamps.push_back(test::pointLamp({1, 2, 2}, 10));
   scene.lamps.push_back(test::pointLamp({3, 1, 2}, 50));
-  test::addRectangle(scene, {1, 2.9f, 1}, {1, 0, 0}, {0, 0, 1}, test::addMaterial(scene, test::lambertian(kNearlyBlack, 100)));
+  test::addRectangle(scene, {1, 2.9f, 1}, {1, 0, 0}, {0, 0, 1},
+                     test::addMaterial(scene, test::lambertian(kNearlyBlack, 100)));
   const double lm = 60 * 4 * static_cast<double>(kPi) + 100 * static_cast<double>(kPi);
   const Traced traced(scene, few());
   EXPECT_NEAR(flux(traced.global.photons), lm, 0.005 * lm);
@@ -141,7 +149,8 @@ TEST(PhotonTracer, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-// A mirror on the floor throws lamp light on the ceiling: a caustic. By the image of the lamp behind the mirror, of albedo 1.
+// A mirror on the floor throws lamp light on the ceiling: a caustic. By the image of the lamp behind the mirror, of
+// albedo 1.
 TEST(PhotonTracer, KeepsCausticsApart) {
   Scene scene = room(kNearlyBlack);
   scene.lamps.push_back(test::pointLamp({2, 1, 2.5f}, 100));

@@ -78,8 +78,10 @@ TEST(VxgiClipmap, coarserVoxelsShowWhatIsInFront) {
     }
   }
   map.buildCoarser();
-  const Int3 v{(map.corner(0).x + 8) / 2 - map.corner(1).x, (map.corner(0).y + 8) / 2 - map.corner(1).y, (map.corner(0).z + 8) / 2 - map.corner(1).z};
-  const auto fromPlus = numbers(map.get(1, v, 0)), fromMinus = numbers(map.get(1, v, 1)), above = numbers(map.get(1, v, 2));
+  const Int3 v{(map.corner(0).x + 8) / 2 - map.corner(1).x, (map.corner(0).y + 8) / 2 - map.corner(1).y,
+               (map.corner(0).z + 8) / 2 - map.corner(1).z};
+  const auto fromPlus = numbers(map.get(1, v, 0)), fromMinus = numbers(map.get(1, v, 1)),
+             above = numbers(map.get(1, v, 2));
   EXPECT_NEAR(fromPlus[0], 0.5, 1e-3);
   EXPECT_NEAR(fromPlus[1], 0.5, 1e-3);
   EXPECT_NEAR(fromPlus[3], 1, 1e-3);
@@ -95,7 +97,8 @@ TEST(VxgiCone, opacityDoesNotDependOnTheStep) {
   for (const float step : {0.1f, 0.25f, 0.5f, 1.0f}) {
     VxgiTracing tracing;
     tracing.step = step, tracing.maxSamples = 1000;
-    EXPECT_NEAR(traceVxgiCone(map, {-1, 0, 0}, {1, 0, 0}, 0, tracing).x, 10 * (1 - std::pow(0.9, 5)), 0.02 * 4.1) << step;
+    EXPECT_NEAR(traceVxgiCone(map, {-1, 0, 0}, {1, 0, 0}, 0, tracing).x, 10 * (1 - std::pow(0.9, 5)), 0.02 * 4.1)
+        << step;
   }
 }
 

@@ -33,7 +33,8 @@ class CompareCommand : public ::testing::Test {
 };
 
 TEST_F(CompareCommand, jsonHoldsEveryMeasure) {
-  const ProgramRun run = runProgram({"compare", path("reference.exr"), path("bright.exr"), "--json", "--difference", path("d.png")});
+  const ProgramRun run =
+      runProgram({"compare", path("reference.exr"), path("bright.exr"), "--json", "--difference", path("d.png")});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   const Report report = compare(ramp(20, 1), ramp(20, 1.1f)).value();
@@ -48,7 +49,8 @@ TEST_F(CompareCommand, jsonHoldsEveryMeasure) {
 TEST_F(CompareCommand, tableAndDifferencePictureBesideThePictureByDefault) {
   const ProgramRun run = runProgram({"compare", path("reference.exr"), path("reference.exr")});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  for (const char* key : {"mse", "relMse", "ssim", "flip", "meanLuminanceErrorPercent"}) EXPECT_NE(run.out.find(key), std::string::npos);
+  for (const char* key : {"mse", "relMse", "ssim", "flip", "meanLuminanceErrorPercent"})
+    EXPECT_NE(run.out.find(key), std::string::npos);
   EXPECT_TRUE(readImage(path("reference.exr.difference.png")).ok());
 }
 
@@ -60,7 +62,8 @@ TEST_F(CompareCommand, tonemappedPicturesAreComparedAsShown) {
   ASSERT_TRUE(writePng(path("lighter.png"), lighter, {}).ok());
   ASSERT_TRUE(writeJpeg(path("lighter.jpg"), lighter, SIZE_MAX).ok());
   for (const char* file : {"lighter.png", "lighter.jpg"}) {
-    const ProgramRun run = runProgram({"compare", path("grey.png"), path(file), "--json", "--difference", path("d.png")});
+    const ProgramRun run =
+        runProgram({"compare", path("grey.png"), path(file), "--json", "--difference", path("d.png")});
     ASSERT_EQ(run.exitStatus, 0) << run.err;
     const auto json = nlohmann::json::parse(run.out);
     EXPECT_EQ(json["space"], "display");
@@ -79,7 +82,9 @@ TEST_F(CompareCommand, linearAndToneMappedPicturesAreNotCompared) {
   for (const auto& [a, b] : {std::pair("reference.exr", "shown.png"), std::pair("shown.png", "reference.exr")}) {
     const ProgramRun run = runProgram({"compare", path(a), path(b)});
     EXPECT_EQ(run.exitStatus, 2);
-    EXPECT_NE(run.err.find("reference.exr holds linear light and " + path("shown.png") + " a tone-mapped picture"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("reference.exr holds linear light and " + path("shown.png") + " a tone-mapped picture"),
+              std::string::npos)
+        << run.err;
   }
   EXPECT_EQ(runProgram({"compare", path("shown.png"), path("shown.png"), "--second", path("shown.png")}).exitStatus, 2);
 }
@@ -88,18 +93,22 @@ TEST_F(CompareCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   testing::writeFile(path("text.exr"), "no picture");
   testing::writeFile(path("torn.jpg"), "\xff\xd8\xff\xe0 no more");
   const size_t before = folder_.fileCount();
-  const std::vector<std::vector<std::string>> cases = {{"compare", path("reference.exr"), path("wide.exr")},
-                                                       {"compare", path("reference.exr"), path("missing.exr")},
-                                                       {"compare", path("text.exr"), path("reference.exr")},
-                                                       {"compare", path("torn.jpg"), path("torn.jpg")},
-                                                       {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("no/d.png")},
-                                                       {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("d.exr")},
-                                                       {"compare", path("reference.exr"), path("bright.exr"), "--difference", ""},
-                                                       {"compare", path("reference.exr"), path("bright.exr"), "--band", path("b.png")},
-                                                       {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band", path("bright.exr")},
-                                                       {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band", path("no/b.png")},
-                                                       {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band", path("b.png"), "--difference", path("b.png")},
-                                                       {"compare", path("reference.exr")}};
+  const std::vector<std::vector<std::string>> cases = {
+      {"compare", path("reference.exr"), path("wide.exr")},
+      {"compare", path("reference.exr"), path("missing.exr")},
+      {"compare", path("text.exr"), path("reference.exr")},
+      {"compare", path("torn.jpg"), path("torn.jpg")},
+      {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("no/d.png")},
+      {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("d.exr")},
+      {"compare", path("reference.exr"), path("bright.exr"), "--difference", ""},
+      {"compare", path("reference.exr"), path("bright.exr"), "--band", path("b.png")},
+      {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band",
+       path("bright.exr")},
+      {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band",
+       path("no/b.png")},
+      {"compare", path("reference.exr"), path("bright.exr"), "--second", path("reference.exr"), "--band", path("b.png"),
+       "--difference", path("b.png")},
+      {"compare", path("reference.exr")}};
   for (const auto& arguments : cases) {
     const ProgramRun run = runProgram(arguments);
     EXPECT_EQ(run.exitStatus, 2) << run.err;

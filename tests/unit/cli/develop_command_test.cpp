@@ -35,7 +35,9 @@ TEST(DevelopCommand, aJpegIsAsSmallAsAsked) {
   uint32_t state = 1;
   for (Vec3& p : noise.pixels) p = Vec3(static_cast<float>((state = state * 1664525u + 1013904223u) >> 20));
   ASSERT_TRUE(writeExr(folder / "noise.exr", noise, {}));
-  ASSERT_EQ(runProgram({"develop", folder / "noise.exr", "-o", folder / "noise.jpg", "--most-kilobytes", "25"}).exitStatus, 0);
+  ASSERT_EQ(
+      runProgram({"develop", folder / "noise.exr", "-o", folder / "noise.jpg", "--most-kilobytes", "25"}).exitStatus,
+      0);
   const auto size = std::filesystem::file_size(folder / "noise.jpg");
   EXPECT_GT(size, 1000u);
   EXPECT_LE(size, 25000u);
@@ -49,7 +51,8 @@ TEST(DevelopCommand, finishedPicturesAreRefused) {
   for (const char* name : {"a.png", "a.jpg"}) {
     const ProgramRun run = runProgram({"develop", folder / name, "-o", folder / "o.png"});
     EXPECT_EQ(run.exitStatus, 2);
-    EXPECT_NE(run.err.find("is exposed and tone-mapped already; develop takes linear pictures"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("is exposed and tone-mapped already; develop takes linear pictures"), std::string::npos)
+        << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "o.png"));
   }
 }
@@ -57,7 +60,11 @@ TEST(DevelopCommand, finishedPicturesAreRefused) {
 TEST(DevelopCommand, badInputIsExitStatusTwo) {
   const TemporaryFolder folder;
   const std::string a = flat(folder, "a.exr", 8, 6, 1), b = flat(folder, "b.exr", 8, 5, 1), out = folder / "o.png";
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"develop", a, b, "-o", out}, {"develop", folder / "none.exr", "-o", out}, {"develop", a, "-o", folder / "o.gif"}, {"develop", a, "-o", out, "--tone", "sepia"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"develop", a, b, "-o", out},
+                                             {"develop", folder / "none.exr", "-o", out},
+                                             {"develop", a, "-o", folder / "o.gif"},
+                                             {"develop", a, "-o", out, "--tone", "sepia"}}) {
     EXPECT_EQ(runProgram(arguments).exitStatus, 2);
     EXPECT_FALSE(std::filesystem::exists(out));
   }

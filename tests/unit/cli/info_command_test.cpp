@@ -52,19 +52,22 @@ TEST(InfoCommand, tableNamesCamerasAndLamps) {
   const ProgramRun run = runProgram({"info", testing::writeRoom(folder)});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   for (const char* word : {"triangles", "Front", "Back", "Bulb", "200 cd", "4.00 x 3.00 x 4.00 m"}) {
-    EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n"
-                                                     << run.out;
+    EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
   }
 }
 
 TEST(InfoCommand, aPhotometricFileIsShown) {
   const TemporaryFolder folder;
-  testing::writeFile(folder / "even.ies", "IESNA:LM-63-2002\n[LUMINAIRE] globe\nTILT=NONE\n1 1000 1 2 1 1 2 -0.3 -0.3 0 1 1 9\n0 180\n0\n100 100\n");
+  testing::writeFile(
+      folder / "even.ies",
+      "IESNA:LM-63-2002\n[LUMINAIRE] globe\nTILT=NONE\n1 1000 1 2 1 1 2 -0.3 -0.3 0 1 1 9\n0 180\n0\n100 100\n");
   const ProgramRun run = runProgram({"info", folder / "even.ies"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  for (const char* word : {"'globe'", "1256.64 lm", "100 cd", "0.3 m along C0", "round", "LM-63-2002, type C"}) EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n"
-                                                                                                                                                                 << run.out;
-  EXPECT_NE(run.err.find("even.ies: the intensities add up to 1256.64 lm, 126 % of the 1000 lm stated for its lamps"), std::string::npos) << run.err;
+  for (const char* word : {"'globe'", "1256.64 lm", "100 cd", "0.3 m along C0", "round", "LM-63-2002, type C"})
+    EXPECT_NE(run.out.find(word), std::string::npos) << word << "\n" << run.out;
+  EXPECT_NE(run.err.find("even.ies: the intensities add up to 1256.64 lm, 126 % of the 1000 lm stated for its lamps"),
+            std::string::npos)
+      << run.err;
   const auto json = nlohmann::json::parse(runProgram({"info", folder / "even.ies", "--json"}).out);
   EXPECT_NEAR(json["fileFluxLm"].get<double>(), 1256.637, 0.01);
   testing::writeFile(folder / "cut.ies", "IESNA91\nTILT=NONE\n1 1000\n");

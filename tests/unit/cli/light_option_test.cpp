@@ -37,7 +37,8 @@ class LightOption : public ::testing::Test {
  protected:
   LightOption() { writeFile(folder_ / "room.obj", kRoom); }
   ProgramRun render(std::vector<std::string> more) const {
-    std::vector<std::string> words = {"render", path("room.obj"), "--size", "32x18", "--technique", "path", "--samples", "4"};
+    std::vector<std::string> words = {"render",      path("room.obj"), "--size",    "32x18",
+                                      "--technique", "path",           "--samples", "4"};
     words.insert(words.end(), more.begin(), more.end());
     return runProgram(words);
   }

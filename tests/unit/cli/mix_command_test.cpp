@@ -54,11 +54,17 @@ TEST(MixCommand, withoutDialsTheMixIsTheWholePicture) {
 TEST(MixCommand, dimsSwitchesAndColours) {
   const TemporaryFolder folder;
   const auto layers = writeHome(folder);
-  ASSERT_EQ(runProgram({"mix", layers, "--lamp", "sofa=60%", "--lamp", "Desk=off", "--sky", "50%", "-o", folder / "a.exr"}).exitStatus, 0);
+  ASSERT_EQ(
+      runProgram({"mix", layers, "--lamp", "sofa=60%", "--lamp", "Desk=off", "--sky", "50%", "-o", folder / "a.exr"})
+          .exitStatus,
+      0);
   const Image a = readImage(folder / "a.exr").value();
   EXPECT_NEAR(a.at(1, 1).x, 6.5f, 1e-3f);
   EXPECT_NEAR(a.at(14, 1).x, 0.5f, 1e-4f);
-  ASSERT_EQ(runProgram({"mix", layers, "--kelvin", "2700", "--lamp", "Desk=100%,#0000ff", "--sky", "off", "--sun", "off", "-o", folder / "b.exr"}).exitStatus, 0);
+  ASSERT_EQ(runProgram({"mix", layers, "--kelvin", "2700", "--lamp", "Desk=100%,#0000ff", "--sky", "off", "--sun",
+                        "off", "-o", folder / "b.exr"})
+                .exitStatus,
+            0);
   const Image b = readImage(folder / "b.exr").value();
   EXPECT_NEAR(luminance(b.at(1, 1)), 10, 1e-3f) << "the flux stays";
   EXPECT_GT(b.at(1, 1).x, 2 * b.at(1, 1).z) << "and turns warm";
@@ -70,7 +76,10 @@ TEST(MixCommand, aFixedExposureShowsStatesAlike) {
   const TemporaryFolder folder;
   const auto layers = writeHome(folder);
   for (const char* name : {"c.png", "c.jpg", "c.webp"}) {
-    ASSERT_EQ(runProgram({"mix", layers, "--look", "technical", "--exposure", "5", "--tone", "clip", "--white-balance", "none", "-o", folder / name}).exitStatus, 0);
+    ASSERT_EQ(runProgram({"mix", layers, "--look", "technical", "--exposure", "5", "--tone", "clip", "--white-balance",
+                          "none", "-o", folder / name})
+                  .exitStatus,
+              0);
     EXPECT_GT(std::filesystem::file_size(folder / name), 30u);
   }
   const Image png = readImage(folder / "c.png").value();
@@ -83,12 +92,15 @@ TEST(MixCommand, localExposureIsThatOfTheUnmixedPicture) {
   const TemporaryFolder folder;
   const auto layers = writeHome(folder);
   const auto shown = [&](std::vector<std::string> options) {
-    std::vector<std::string> arguments = {"mix", layers.string(), "--look", "technical", "--exposure", "6", "--tone", "clip", "--white-balance", "none", "-o", (folder / "m.png").string()};
+    std::vector<std::string> arguments = {
+        "mix",    layers.string(), "--look",          "technical", "--exposure", "6",
+        "--tone", "clip",          "--white-balance", "none",      "-o",         (folder / "m.png").string()};
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(runProgram({arguments.begin(), arguments.end()}).exitStatus, 0);
     return readImage(folder / "m.png").value();
   };
-  const Image plain = shown({}), local = shown({"--local-exposure", "1"}), half = shown({"--local-exposure", "1", "--lamp", "*=50%", "--sky", "50%"});
+  const Image plain = shown({}), local = shown({"--local-exposure", "1"}),
+              half = shown({"--local-exposure", "1", "--lamp", "*=50%", "--sky", "50%"});
   EXPECT_LT(local.at(14, 4).y / local.at(1, 4).y, 0.97f * plain.at(14, 4).y / plain.at(1, 4).y);
   for (size_t i = 0; i < half.pixels.size(); ++i) ASSERT_NEAR(half.pixels[i].y, 0.5f * local.pixels[i].y, 0.003f);
 }
@@ -104,7 +116,8 @@ TEST(MixCommand, listsLayers) {
 TEST(MixCommand, everyStateIsItsOwnMix) {
   const TemporaryFolder folder;
   const auto layers = writeHome(folder);
-  const ProgramRun run = runProgram({"mix", layers, "--states", folder / "s", "--format", "png", "--exposure", "4", "--white-balance", "none", "--quiet"});
+  const ProgramRun run = runProgram({"mix", layers, "--states", folder / "s", "--format", "png", "--exposure", "4",
+                                     "--white-balance", "none", "--quiet"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   const auto index = nlohmann::json::parse(readFile(folder / "s/states.json"));
   ASSERT_EQ(index.at("states").size(), 4u);
@@ -113,7 +126,11 @@ TEST(MixCommand, everyStateIsItsOwnMix) {
     const int mask = state.at("mask");
     const std::string file = state.at("file");
     EXPECT_EQ(file, std::string(mask & 1 ? "1" : "0") + (mask & 2 ? "1" : "0") + ".png");
-    ASSERT_EQ(runProgram({"mix", layers, "--lamp", mask & 1 ? "Sofa lamp=on" : "Sofa lamp=off", "--lamp", mask & 2 ? "Desk=on" : "Desk=off", "--exposure", "4", "--white-balance", "none", "-o", folder / "one.png"}).exitStatus, 0);
+    ASSERT_EQ(runProgram({"mix", layers, "--lamp", mask & 1 ? "Sofa lamp=on" : "Sofa lamp=off", "--lamp",
+                          mask & 2 ? "Desk=on" : "Desk=off", "--exposure", "4", "--white-balance", "none", "-o",
+                          folder / "one.png"})
+                  .exitStatus,
+              0);
     EXPECT_TRUE(readImage(folder / "s" / file).value().pixels == readImage(folder / "one.png").value().pixels) << file;
   }
   ASSERT_EQ(runProgram({"mix", layers, "--states", folder / "t", "--only", "desk", "--quiet"}).exitStatus, 0);
@@ -122,9 +139,13 @@ TEST(MixCommand, everyStateIsItsOwnMix) {
 
 TEST(MixCommand, overlaysComeWithPageIndexAndCard) {
   const TemporaryFolder folder;
-  const ProgramRun run = runProgram({"mix", writeHome(folder), "--overlays", folder / "o", "--home-assistant", folder / "card.yaml", "--dimmed", "--entity", "Desk=switch.desk", "--url-prefix", "/local/home"});
+  const ProgramRun run =
+      runProgram({"mix", writeHome(folder), "--overlays", folder / "o", "--home-assistant", folder / "card.yaml",
+                  "--dimmed", "--entity", "Desk=switch.desk", "--url-prefix", "/local/home"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  for (const char* file : {"o/base.png", "o/sofa_lamp.png", "o/desk.png", "o/index.html", "o/overlays.json", "card.yaml", "card_sensors.yaml"}) EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+  for (const char* file : {"o/base.png", "o/sofa_lamp.png", "o/desk.png", "o/index.html", "o/overlays.json",
+                           "card.yaml", "card_sensors.yaml"})
+    EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
   const std::string card = readFile(folder / "card.yaml");
   EXPECT_NE(card.find("image: \"/local/home/base.png\""), std::string::npos);
   EXPECT_NE(card.find("entity: switch.desk"), std::string::npos);
@@ -152,34 +173,48 @@ TEST(MixCommand, onlyNamesLampsWithCommas) {
     std::filesystem::remove_all(folder / "s");
     const ProgramRun run = runProgram({"mix", layers, "--states", folder / "s", "--only", name, "--quiet"});
     ASSERT_EQ(run.exitStatus, 0) << run.err;
-    EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps"), (std::vector<std::string>{"Desk, left"})) << name;
+    EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps"),
+              (std::vector<std::string>{"Desk, left"}))
+        << name;
   }
-  ASSERT_EQ(runProgram({"mix", layers, "--states", folder / "s", "--only", "Desk\\, left,sofa", "--quiet"}).exitStatus, 0);
+  ASSERT_EQ(runProgram({"mix", layers, "--states", folder / "s", "--only", "Desk\\, left,sofa", "--quiet"}).exitStatus,
+            0);
   EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps").size(), 2u);
-  ASSERT_EQ(runProgram({"mix", layers, "--states", folder / "s", "--only", "sofa", "--only", "Desk, left", "--quiet"}).exitStatus, 0);
+  ASSERT_EQ(runProgram({"mix", layers, "--states", folder / "s", "--only", "sofa", "--only", "Desk, left", "--quiet"})
+                .exitStatus,
+            0);
   EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s/states.json")).at("lamps").size(), 2u);
 }
 
-// The technical look has no local exposure, so that picture and mix can be compared pixel by pixel; the technical look has none.
+// The technical look has no local exposure, so that picture and mix can be compared pixel by pixel; the technical look
+// has none.
 TEST(MixCommand, plansShowSectionsAndBackdropAsTheirRenderDoes) {
   const TemporaryFolder folder;
   const auto room = testing::writeRoom(folder);
-  const ProgramRun rendered = runProgram({"render", room, "--view", "plan", "--cut", "1.2", "--size", "60x60", "--samples", "4", "--layers", "--look", "technical", "--exposure", "6", "--white-balance", "none", "-o", folder / "l.exr", "-o", folder / "l.png", "--quiet"});
+  const ProgramRun rendered = runProgram(
+      {"render",    room, "--view",         "plan",   "--cut",          "1.2",        "--size", "60x60",
+       "--samples", "4",  "--layers",       "--look", "technical",      "--exposure", "6",      "--white-balance",
+       "none",      "-o", folder / "l.exr", "-o",     folder / "l.png", "--quiet"});
   ASSERT_EQ(rendered.exitStatus, 0) << rendered.err;
-  const ProgramRun mixed = runProgram({"mix", folder / "l.exr", "--look", "technical", "--exposure", "6", "--white-balance", "none", "-o", folder / "m.png", "-o", folder / "m.exr", "--quiet"});
+  const ProgramRun mixed =
+      runProgram({"mix", folder / "l.exr", "--look", "technical", "--exposure", "6", "--white-balance", "none", "-o",
+                  folder / "m.png", "-o", folder / "m.exr", "--quiet"});
   ASSERT_EQ(mixed.exitStatus, 0) << mixed.err;
   const Image wanted = readImage(folder / "l.png").value(), got = readImage(folder / "m.png").value();
   const Image light = readImage(folder / "l.exr").value(), same = readImage(folder / "m.exr").value();
   int sections = 0;
   size_t dark = 0;
   for (size_t i = 0; i < wanted.pixels.size(); ++i) {
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(srgbEncode(got.pixels[i][c]), srgbEncode(wanted.pixels[i][c]), 1.6f / 255) << i;
-    // Beside walls without thickness a sample may see light in a pixel that is otherwise all section: the mix shows none there.
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(srgbEncode(got.pixels[i][c]), srgbEncode(wanted.pixels[i][c]), 1.6f / 255) << i;
+    // Beside walls without thickness a sample may see light in a pixel that is otherwise all section: the mix shows
+    // none there.
     if (same.pixels[i].y > 0)
       EXPECT_NEAR(same.pixels[i].y, light.pixels[i].y, 1e-4f * light.pixels[i].y + 1e-6f);
     else
       dark += light.pixels[i].y > 0;
-    sections += std::abs(srgbEncode(wanted.pixels[i].x) - 0.2f) < 0.01f && std::abs(srgbEncode(wanted.pixels[i].z) - 0.22f) < 0.01f;
+    sections += std::abs(srgbEncode(wanted.pixels[i].x) - 0.2f) < 0.01f &&
+                std::abs(srgbEncode(wanted.pixels[i].z) - 0.22f) < 0.01f;
   }
   EXPECT_LT(dark, wanted.pixels.size() / 50);
   EXPECT_GT(sections, 10) << "the pillar is cut";
@@ -204,14 +239,16 @@ TEST(MixCommand, badInputIsOneLineAndExitStatusTwo) {
   refused({layers, "--kelvin", "10", "-o", out}, "must be from 1000 to 40000 K");
   refused({layers, "--sun", "50%", "-o", out}, "has no layer of the sun");
   refused({layers, "--overlays", folder / "plan", "--home-assistant", out}, "name a .yaml file");
-  refused({layers, "--overlays", folder / "plan", "--home-assistant", folder / "card.yaml", "--entity", "Desk=sofa"}, "write an entity id");
+  refused({layers, "--overlays", folder / "plan", "--home-assistant", folder / "card.yaml", "--entity", "Desk=sofa"},
+          "write an entity id");
   refused({layers, "-o", folder / "o.gif"}, "unknown kind of picture");
   refused({layers, "-o", out, "--tone", "sepia"}, "unknown tone curve");
   refused({layers, "--lamp", "*=off", "--states", folder / "s"}, "no lamp to switch");
   refused({layers, "--lamp", "Desk=off", "--only", "Desk", "--states", folder / "s"}, "is switched off by --lamp");
   refused({layers, "--overlays", folder / "s", "--format", "jpg"}, "overlays are transparent");
   refused({layers, "-o", out, "--home-assistant", folder / "c.yaml"}, "go with --overlays");
-  refused({layers, "--overlays", folder / "s", "--home-assistant", folder / "c.yaml", "--entity", "Desk=Light Desk"}, "write an entity id");
+  refused({layers, "--overlays", folder / "s", "--home-assistant", folder / "c.yaml", "--entity", "Desk=Light Desk"},
+          "write an entity id");
   refused({layers, "--overlays", folder / "s", "--blend", "multiply"}, "write auto, screen");
   refused({layers, "--overlays", folder / "s", "--url-prefix", "/local/a\"b"}, "--url-prefix");
   refused({layers, "--overlays", folder / "s", "--url-prefix", "/a\nb/"}, "--url-prefix");

@@ -56,8 +56,10 @@ class OptimiseCommand : public ::testing::Test {
     writeFile(files_ / "catalogue.toml", kCatalogue);
     writeFile(files_ / "study.toml", kStudy);
   }
-  ProgramRun optimise(const std::string& folder, std::vector<std::string> more = {}, const std::string& interruptAt = "") const {
-    std::vector<std::string> arguments = {"optimise", room_, files_ / "study.toml", "-o", files_ / folder, "--quality", "draft"};
+  ProgramRun optimise(const std::string& folder, std::vector<std::string> more = {},
+                      const std::string& interruptAt = "") const {
+    std::vector<std::string> arguments = {"optimise",  room_,  files_ / "study.toml", "-o", files_ / folder,
+                                          "--quality", "draft"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runProgram(arguments, interruptAt);
   }
@@ -75,7 +77,8 @@ TEST_F(OptimiseCommand, WritesThePageTheFrontAndLightingFilesThatCanBeRendered) 
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   EXPECT_NE(run.out.find("design 1"), std::string::npos) << run.out;
   const std::string html = written("out/index.html");
-  for (const char* part : {"<!doctype html>", "id=\"front\"", "Design 1", "predicted", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
+  for (const char* part : {"<!doctype html>", "id=\"front\"", "Design 1", "predicted", "</html>"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
   const auto json = nlohmann::json::parse(written("out/run.json"));
   EXPECT_EQ(json["methods"].size(), 2u);
   EXPECT_GT(json["methods"][0]["hypervolume"].get<double>(), 0);
@@ -84,7 +87,8 @@ TEST_F(OptimiseCommand, WritesThePageTheFrontAndLightingFilesThatCanBeRendered) 
   // What an earlier run left is gone, what is the user's is not.
   EXPECT_FALSE(std::filesystem::exists(files_ / "out/design_99.json"));
   EXPECT_TRUE(std::filesystem::exists(files_ / "out/design_notes.json"));
-  const ProgramRun picture = runProgram({"render", room_, "--lighting", files_ / "out/design_1.json", "--size", "32x18", "--quality", "draft", "-o", files_ / "a.png"});
+  const ProgramRun picture = runProgram({"render", room_, "--lighting", files_ / "out/design_1.json", "--size", "32x18",
+                                         "--quality", "draft", "-o", files_ / "a.png"});
   EXPECT_EQ(picture.exitStatus, 0) << picture.err;
 }
 
@@ -121,8 +125,10 @@ TEST_F(OptimiseCommand, WhatIsWrongIsOneLineAndExitStatusTwo) {
   const std::pair<std::string, const char*> cases[] = {
       {"lighting = \"number.json\"\n" + std::string(kStudy), "number.json: scene: must be an object"},
       {"lighting = \"object.json\"\n" + std::string(kStudy), "object.json: lamps: must be a list"},
-      {std::string(kStudy) + "[[condition]]\nname = \"day\"\ndaylight = { sky = \"green\" }\n", "study.toml:22: condition 'day': daylight"},
-      {std::string(kStudy) + "[[condition]]\nname = \"day\"\ndaylight = \"none\"\nweight = 0\n", "study.toml:22: condition[0]: all have weight 0"},
+      {std::string(kStudy) + "[[condition]]\nname = \"day\"\ndaylight = { sky = \"green\" }\n",
+       "study.toml:22: condition 'day': daylight"},
+      {std::string(kStudy) + "[[condition]]\nname = \"day\"\ndaylight = \"none\"\nweight = 0\n",
+       "study.toml:22: condition[0]: all have weight 0"},
       {std::string(kStudy) + "colour = 3\n", "study.toml:22: search: unknown key 'colour'"},
   };
   for (const auto& [study, says] : cases) {

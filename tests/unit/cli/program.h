@@ -14,8 +14,8 @@ struct ProgramRun {
   std::string out, err;
 };
 
-// Runs `roomlight ARGUMENTS` with stdout and stderr in files, so neither is a terminal. With `interruptAt`, sends SIGINT
-// as soon as stderr contains that text.
+// Runs `roomlight ARGUMENTS` with stdout and stderr in files, so neither is a terminal. With `interruptAt`, sends
+// SIGINT as soon as stderr contains that text.
 ProgramRun runProgram(const std::vector<std::string>& arguments, const std::string& interruptAt = "");
 
 // A closed white room of 4 x 3 x 4 m with a point light of 200 cd, a pillar and the cameras "Front" and "Back", as

@@ -44,16 +44,19 @@ class RenderCommand : public ::testing::Test {
 };
 
 TEST_F(RenderCommand, writesLinearAndToneMappedPicturesThatSayHowTheyWereMade) {
-  const ProgramRun run = render({"-o", path("a.exr"), "-o", path("a.png"), "--technique", "path", "--samples", "8", "--seed", "7"});
+  const ProgramRun run =
+      render({"-o", path("a.exr"), "-o", path("a.png"), "--technique", "path", "--samples", "8", "--seed", "7"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   const Image image = picture("a.exr");
   EXPECT_EQ(image.width, 32);
   EXPECT_EQ(image.height, 18);
-  EXPECT_TRUE(std::all_of(image.pixels.begin(), image.pixels.end(), [](Vec3 p) { return isFinite(p) && luminance(p) > 0; }));
+  EXPECT_TRUE(
+      std::all_of(image.pixels.begin(), image.pixels.end(), [](Vec3 p) { return isFinite(p) && luminance(p) > 0; }));
   EXPECT_EQ(picture("a.png").width, 32);
   for (const char* name : {"a.exr", "a.png"}) {
     const Metadata m = metadata(name);
-    for (const char* key : {"roomlight.version", "roomlight.timesMs", "roomlight.exposureEv100"}) EXPECT_TRUE(m.count(key)) << key;
+    for (const char* key : {"roomlight.version", "roomlight.timesMs", "roomlight.exposureEv100"})
+      EXPECT_TRUE(m.count(key)) << key;
     EXPECT_EQ(m.at("roomlight.seed"), "7");
     const Json settings = Json::parse(m.at("roomlight.settings"));
     EXPECT_EQ(settings["technique"], "path");
@@ -83,8 +86,8 @@ TEST_F(RenderCommand, statisticsNameTimeAndMemoryOfEachStage) {
 TEST_F(RenderCommand, sameSeedGivesTheSameBitsWithOneAndTwoThreads) {
   for (const char* technique : {"path", "cone"}) {
     for (const char* threads : {"1", "2"}) {
-      const ProgramRun run = render({"-o", path(std::string(threads) + ".exr"), "--technique", technique, "--samples", "4", "--seed", "3",
-                                     "--threads", threads});
+      const ProgramRun run = render({"-o", path(std::string(threads) + ".exr"), "--technique", technique, "--samples",
+                                     "4", "--seed", "3", "--threads", threads});
       ASSERT_EQ(run.exitStatus, 0) << technique << ": " << run.err;
     }
     EXPECT_TRUE(picture("1.exr").pixels == picture("2.exr").pixels) << technique;
@@ -93,7 +96,9 @@ TEST_F(RenderCommand, sameSeedGivesTheSameBitsWithOneAndTwoThreads) {
 
 TEST_F(RenderCommand, theSeedMatters) {
   for (const char* seed : {"1", "2"}) {
-    ASSERT_EQ(render({"-o", path(std::string(seed) + ".exr"), "--technique", "path", "--samples", "1", "--seed", seed}).exitStatus, 0);
+    ASSERT_EQ(render({"-o", path(std::string(seed) + ".exr"), "--technique", "path", "--samples", "1", "--seed", seed})
+                  .exitStatus,
+              0);
   }
   EXPECT_FALSE(picture("1.exr").pixels == picture("2.exr").pixels);
 }
@@ -105,7 +110,9 @@ TEST_F(RenderCommand, settingsFromAPictureMakeThePictureAgain) {
   ASSERT_EQ(again.exitStatus, 0) << again.err;
   EXPECT_TRUE(picture("a.exr").pixels == picture("b.exr").pixels);
   // An option goes before the file.
-  ASSERT_EQ(runProgram({"render", scene_, "-o", path("c.exr"), "--settings", path("settings.json"), "--seed", "12"}).exitStatus, 0);
+  ASSERT_EQ(runProgram({"render", scene_, "-o", path("c.exr"), "--settings", path("settings.json"), "--seed", "12"})
+                .exitStatus,
+            0);
   EXPECT_EQ(metadata("c.exr").at("roomlight.seed"), "12");
   EXPECT_EQ(Json::parse(metadata("c.exr").at("roomlight.settings"))["samples"], 3);
 }
@@ -122,9 +129,12 @@ TEST_F(RenderCommand, camerasGoByNameOrNumber) {
 }
 
 TEST_F(RenderCommand, severalCamerasMakeAPictureEach) {
-  const auto only = [&](const char* camera, const char* name) { EXPECT_EQ(render({"-o", path(name), "--camera", camera}).exitStatus, 0); };
+  const auto only = [&](const char* camera, const char* name) {
+    EXPECT_EQ(render({"-o", path(name), "--camera", camera}).exitStatus, 0);
+  };
   only("Front", "f.exr"), only("Back", "b.exr");
-  const ProgramRun both = render({"-o", path("p.exr"), "-o", path("p.png"), "--stats", path("s.json"), "--camera", "Back", "--camera", "front", "--camera", "1"});
+  const ProgramRun both = render({"-o", path("p.exr"), "-o", path("p.png"), "--stats", path("s.json"), "--camera",
+                                  "Back", "--camera", "front", "--camera", "1"});
   ASSERT_EQ(both.exitStatus, 0) << both.err;
   EXPECT_TRUE(picture("p_Front.exr").pixels == picture("f.exr").pixels) << "as one by one";
   EXPECT_TRUE(picture("p_Back.exr").pixels == picture("b.exr").pixels);
@@ -132,13 +142,15 @@ TEST_F(RenderCommand, severalCamerasMakeAPictureEach) {
   EXPECT_FALSE(std::filesystem::exists(path("p.exr")) || std::filesystem::exists(path("p_Back_2.exr")));
   const auto lit = [&](const char* stats) {
     const Json json = Json::parse(readFile(path(stats)));
-    return std::any_of(json["stages"].begin(), json["stages"].end(), [](const Json& s) { return s["name"] == "illuminate"; });
+    return std::any_of(json["stages"].begin(), json["stages"].end(),
+                       [](const Json& s) { return s["name"] == "illuminate"; });
   };
   EXPECT_TRUE(lit("s_Back.json"));
   EXPECT_FALSE(lit("s_Front.json")) << "light is found once";
   // Names are checked as they will be, with the camera's.
   writeFile(path("l_Back.json"), R"({"lamps": []})");
-  const ProgramRun over = render({"-o", path("l.png"), "--stats", path("l.json"), "--lighting", path("l_Back.json"), "--camera", "Front", "--camera", "Back"});
+  const ProgramRun over = render({"-o", path("l.png"), "--stats", path("l.json"), "--lighting", path("l_Back.json"),
+                                  "--camera", "Front", "--camera", "Back"});
   EXPECT_EQ(over.exitStatus, 2) << over.err;
   EXPECT_EQ(readFile(path("l_Back.json")), R"({"lamps": []})");
   const ProgramRun all = render({"-o", path("a.png"), "--camera", "all"});
@@ -149,7 +161,8 @@ TEST_F(RenderCommand, severalCamerasMakeAPictureEach) {
 TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
   const auto meanLuminance = [&](const std::string& lamps, const std::string& name) {
     writeFile(path("rig.json"), R"({"scene": {"lamps": "off"}, "lamps": [)" + lamps + "]}");
-    const ProgramRun run = render({"-o", path(name), "--technique", "path", "--samples", "16", "--lighting", path("rig.json")});
+    const ProgramRun run =
+        render({"-o", path(name), "--technique", "path", "--samples", "16", "--lighting", path("rig.json")});
     EXPECT_EQ(run.exitStatus, 0) << run.err;
     EXPECT_EQ(metadata(name).at("roomlight.lighting"), path("rig.json"));
     double sum = 0;
@@ -167,7 +180,8 @@ TEST_F(RenderCommand, aLightingFileReplacesTheScenesLight) {
 
 // The room is 4 x 4 m: at 0.1 m a pixel, with 0.3 m around everything, 46 pixels.
 TEST_F(RenderCommand, planHasItsScaleAndATransparentBackdrop) {
-  const ProgramRun run = runProgram({"render", scene_, "-o", path("p.png"), "--view", "plan", "--metres-per-pixel", "0.1", "--samples", "2"});
+  const ProgramRun run = runProgram(
+      {"render", scene_, "-o", path("p.png"), "--view", "plan", "--metres-per-pixel", "0.1", "--samples", "2"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   EXPECT_NE(run.err.find("one pixel is 0.1 m"), std::string::npos) << run.err;
   EXPECT_NEAR(picture("p.png").width, 46, 1);
@@ -181,10 +195,12 @@ TEST_F(RenderCommand, planHasItsScaleAndATransparentBackdrop) {
 }
 
 TEST_F(RenderCommand, panoramaTellsViewersWhatItIs) {
-  const ProgramRun run = runProgram({"render", scene_, "-o", path("p.jpg"), "-o", path("p.png"), "--view", "panorama", "--size", "64x32", "--samples", "2"});
+  const ProgramRun run = runProgram({"render", scene_, "-o", path("p.jpg"), "-o", path("p.png"), "--view", "panorama",
+                                     "--size", "64x32", "--samples", "2"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
   EXPECT_NE(readFile(path("p.jpg")).find("GPano:FullPanoWidthPixels=\"64\""), std::string::npos);
-  EXPECT_NE(metadata("p.png").at("XML:com.adobe.xmp").find("GPano:ProjectionType=\"equirectangular\""), std::string::npos);
+  EXPECT_NE(metadata("p.png").at("XML:com.adobe.xmp").find("GPano:ProjectionType=\"equirectangular\""),
+            std::string::npos);
 }
 
 TEST_F(RenderCommand, eyeAndTargetMakeACamera) {
@@ -234,16 +250,19 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--voxel-size", "-1"}, "voxelSizeM"},
       {{"render", scene_, "-o", a, "--metres-per-unit", "0"}, "--metres-per-unit"},
       {{"render", scene_, "-o", a, "--settings", path("unknown.json")}, "sampels"},
-      {{"render", scene_, "-o", a, "--settings", path("limits.json")}, "voxel.smallestM: must not be above voxel.largestM: 0.2 > 0.1"},
+      {{"render", scene_, "-o", a, "--settings", path("limits.json")},
+       "voxel.smallestM: must not be above voxel.largestM: 0.2 > 0.1"},
       {{"render", scene_, "-o", a, "--settings", path("odd.json")}, "vxgi.resolution: must be even"},
       {{"render", scene_, "-o", a, "--settings", path("missing.json")}, "missing.json"},
-      {{"render", scene_, "-o", a, "--lighting", path("rig.json")}, "rig.json: lamps[0].flux: has no unit; write \"800 lm\""},
+      {{"render", scene_, "-o", a, "--lighting", path("rig.json")},
+       "rig.json: lamps[0].flux: has no unit; write \"800 lm\""},
       {{"render", scene_, "-o", a, "--lighting", path("missing.json")}, "missing.json: no such file"},
       {{"render", scene_, "-o", a, "--view", "side"}, "camera, top, plan, panorama, stereo"},
       {{"render", scene_, "-o", a, "--view", "panorama", "--cut", "2"}, "--cut: is of no use with --view panorama"},
       {{"render", scene_, "-o", a, "--view", "panorama", "--size", "64x30"}, "twice as wide as high; write 64x32"},
       {{"render", scene_, "-o", a, "--view", "plan", "--cut", "-1"}, "--cut -1"},
-      {{"render", scene_, "-o", a, "--view", "plan", "--level", "3"}, "--level 3: no such level; there are 0 at 0.00 m"},
+      {{"render", scene_, "-o", a, "--view", "plan", "--level", "3"},
+       "--level 3: no such level; there are 0 at 0.00 m"},
       {{"render", scene_, "-o", a, "--view", "plan", "--room", "Attic"}, "--room Attic: no such room"},
       {{"render", scene_, "-o", a, "--view", "plan", "--camera", "Front"}, "--camera: is of no use with --view plan"},
       {{"render", scene_, "-o", a, "--view", "plan", "--metres-per-pixel", "0"}, "--metres-per-pixel 0"},
@@ -272,7 +291,8 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
 }
 
 TEST_F(RenderCommand, interruptKeepsTheBestPictureSoFar) {
-  const ProgramRun run = render({"-o", path("a.exr"), "-o", path("a.png"), "--technique", "path", "--time-limit", "100"}, "lights");
+  const ProgramRun run =
+      render({"-o", path("a.exr"), "-o", path("a.png"), "--technique", "path", "--time-limit", "100"}, "lights");
   EXPECT_EQ(run.exitStatus, 130) << run.err;
   EXPECT_NE(run.err.find("stopped early"), std::string::npos) << run.err;
   EXPECT_EQ(picture("a.exr").width, 32);
@@ -282,7 +302,9 @@ TEST_F(RenderCommand, interruptKeepsTheBestPictureSoFar) {
 
 TEST_F(RenderCommand, bestGoesOnUntilInterruptedAndTellsTheErrorThatIsLeft) {
   writeFile(path("endless.json"), R"({"blendUntilMse": 1e-12})");
-  const ProgramRun run = render({"-o", path("a.exr"), "--quality", "best", "--settings", path("endless.json"), "--stats", path("s.json")}, "gather");
+  const ProgramRun run =
+      render({"-o", path("a.exr"), "--quality", "best", "--settings", path("endless.json"), "--stats", path("s.json")},
+             "gather");
   EXPECT_EQ(run.exitStatus, 130) << run.err;
   EXPECT_EQ(picture("a.exr").width, 32);
   const ProgramRun limited = render({"-o", path("b.exr"), "--time-limit", "2", "--stats", path("s.json")});
@@ -292,7 +314,9 @@ TEST_F(RenderCommand, bestGoesOnUntilInterruptedAndTellsTheErrorThatIsLeft) {
 }
 
 TEST_F(RenderCommand, qualityIsAStartThatSingleSettingsChange) {
-  ASSERT_EQ(render({"-o", path("a.exr"), "--quality", "draft", "--voxel-size", "0.3", "--stats", path("s.json")}).exitStatus, 0);
+  ASSERT_EQ(
+      render({"-o", path("a.exr"), "--quality", "draft", "--voxel-size", "0.3", "--stats", path("s.json")}).exitStatus,
+      0);
   EXPECT_NEAR(Json::parse(readFile(path("s.json")))["numbers"]["voxelSizeM"].get<double>(), 0.3, 1e-6);
   const Json settings = Json::parse(metadata("a.exr").at("roomlight.settings"));
   EXPECT_EQ(settings["quality"], "draft");
@@ -300,7 +324,8 @@ TEST_F(RenderCommand, qualityIsAStartThatSingleSettingsChange) {
 }
 
 TEST_F(RenderCommand, interruptBeforeThereIsAPictureSaysSo) {
-  const ProgramRun run = render({"-o", path("a.exr"), "--stats", path("a.json"), "--technique", "cone", "--voxel-size", "0.015"}, "bvh");
+  const ProgramRun run =
+      render({"-o", path("a.exr"), "--stats", path("a.json"), "--technique", "cone", "--voxel-size", "0.015"}, "bvh");
   EXPECT_EQ(run.exitStatus, 130) << run.err;
   EXPECT_NE(run.err.find("interrupted before there was a picture; nothing was written"), std::string::npos) << run.err;
   EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
@@ -341,16 +366,20 @@ TEST_F(RenderCommand, exposureAndToneChangeThePngAndNotTheExr) {
 }
 
 TEST_F(RenderCommand, whiteBalanceTurnsLampLightTowardsWhiteInThePngAlone) {
-  writeFile(path("warm.json"), R"({"scene": {"lamps": "off"}, "lamps": [{"type": "point", "position": [0, 2.5, 0], "flux": "800 lm", "temperature": "2700 K"}]})");
+  writeFile(
+      path("warm.json"),
+      R"({"scene": {"lamps": "off"}, "lamps": [{"type": "point", "position": [0, 2.5, 0], "flux": "800 lm", "temperature": "2700 K"}]})");
   const auto redOverBlue = [&](const std::string& white) {
-    const ProgramRun run = render({"-o", path(white + ".exr"), "-o", path(white + ".png"), "--technique", "path", "--samples", "16", "--exposure", "7", "--tone", "clip",
-                                   "--lighting", path("warm.json"), "--white-balance", white});
+    const ProgramRun run =
+        render({"-o", path(white + ".exr"), "-o", path(white + ".png"), "--technique", "path", "--samples", "16",
+                "--exposure", "7", "--tone", "clip", "--lighting", path("warm.json"), "--white-balance", white});
     EXPECT_EQ(run.exitStatus, 0) << run.err;
     Vec3 sum;
     for (const Vec3 p : picture(white + ".png").pixels) sum += p;
     return sum.x / sum.z;
   };
-  const float none = redOverBlue("none"), automatic = redOverBlue("auto"), own = redOverBlue("0%"), full = redOverBlue("2700");
+  const float none = redOverBlue("none"), automatic = redOverBlue("auto"), own = redOverBlue("0%"),
+              full = redOverBlue("2700");
   EXPECT_GT(none, 1.5f * full);
   EXPECT_GT(full, automatic) << "light between warm walls is warmer than their lamp";
   EXPECT_NEAR(own, 0.7f / 0.5f, 0.1f) << "walls look like their albedo";
@@ -362,7 +391,11 @@ TEST_F(RenderCommand, whiteBalanceTurnsLampLightTowardsWhiteInThePngAlone) {
 }
 
 TEST(Program, helpHasExamplesAndVersionHasANumber) {
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"render", "--help"}, {"compare", "--help"}, {"develop", "--help"}, {"info", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"render", "--help"},
+                                                    {"compare", "--help"},
+                                                    {"develop", "--help"},
+                                                    {"info", "--help"}}) {
     const ProgramRun run = runProgram(arguments);
     EXPECT_EQ(run.exitStatus, 0);
     EXPECT_NE(run.out.find("Example"), std::string::npos) << run.out;
@@ -375,15 +408,20 @@ TEST(Program, helpHasExamplesAndVersionHasANumber) {
 
 TEST(RenderCommandOfHomes, takesSizeAndQualityOfTheHomesPhotoWhereNoneAreGiven) {
   const TemporaryFolder folder;
-  writeFile(folder / "home.sh3d", testing::zipped({{"Home.xml", testing::homeXml(testing::boxWalls(400, 300, 10) + testing::roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}) +
-                                                                                 "<environment photoWidth='48' photoHeight='27' photoQuality='1'/>")}}));
+  writeFile(folder / "home.sh3d",
+            testing::zipped(
+                {{"Home.xml", testing::homeXml(testing::boxWalls(400, 300, 10) +
+                                               testing::roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}) +
+                                               "<environment photoWidth='48' photoHeight='27' photoQuality='1'/>")}}));
   const auto rendered = [&](std::initializer_list<std::string> more) {
     std::vector<std::string> words = {"render", folder / "home.sh3d", "-o", folder / "a.exr", "--quiet"};
     words.insert(words.end(), more);
     EXPECT_EQ(runProgram(words).exitStatus, 0);
     return readImage(folder / "a.exr").value();
   };
-  const auto settings = [&] { return nlohmann::json::parse(readMetadata(folder / "a.exr").value().at("roomlight.settings")); };
+  const auto settings = [&] {
+    return nlohmann::json::parse(readMetadata(folder / "a.exr").value().at("roomlight.settings"));
+  };
   EXPECT_EQ(rendered({}).width, 48);
   EXPECT_EQ(settings()["quality"], "draft");
   EXPECT_EQ(rendered({"--size", "32x24", "--quality", "good"}).width, 32);

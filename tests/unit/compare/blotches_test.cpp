@@ -20,7 +20,9 @@ Image wall(float cdM2 = 10) {
 Image rippled(float period, float amplitude) {
   Image image = wall();
   for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) image.at(x, y) *= 1 + amplitude * std::sin(2 * kPi * static_cast<float>(x) / period) * std::sin(2 * kPi * static_cast<float>(y) / period);
+    for (int x = 0; x < kSide; ++x)
+      image.at(x, y) *= 1 + amplitude * std::sin(2 * kPi * static_cast<float>(x) / period) *
+                                std::sin(2 * kPi * static_cast<float>(y) / period);
   }
   return image;
 }
@@ -35,7 +37,8 @@ Image noisy(unsigned seed, float deviation) {
 
 TEST(Blotches, areWhatIsWrongBetween4And32Pixels) {
   EXPECT_EQ(blotches(wall(), wall(), wall()).blotchesPercent, 0);
-  // Root mean square of the product of two sines is half of the amplitude; a Gaussian of 4 pixels leaves exp(-(2 pi 4 / 48)^2) of it, that of 32 nothing.
+  // Root mean square of the product of two sines is half of the amplitude; a Gaussian of 4 pixels leaves exp(-(2 pi 4 /
+  // 48)^2) of it, that of 32 nothing.
   const double left = std::exp(-std::pow(2 * 3.14159265 * 4 / 48, 2));
   EXPECT_NEAR(blotches(wall(), wall(), rippled(48, 0.04f)).blotchesPercent, 100 * 0.02 * left, 0.1);
   EXPECT_LT(blotches(wall(), wall(), rippled(8, 0.04f)).blotchesPercent, 0.05);
@@ -46,7 +49,8 @@ TEST(Blotches, areWhatIsWrongBetween4And32Pixels) {
 TEST(Blotches, noiseOfReferencesDropsOut) {
   const double clean = blotches(wall(), wall(), rippled(48, 0.04f)).blotchesPercent;
   double mean = 0;
-  for (unsigned i = 0; i < 8; ++i) mean += blotches(noisy(2 * i + 1, 0.2f), noisy(2 * i + 2, 0.2f), rippled(48, 0.04f)).blotchesPercent / 8;
+  for (unsigned i = 0; i < 8; ++i)
+    mean += blotches(noisy(2 * i + 1, 0.2f), noisy(2 * i + 2, 0.2f), rippled(48, 0.04f)).blotchesPercent / 8;
   EXPECT_NEAR(mean, clean, 0.15);  // with one reference it is 1.4 times as much
 }
 

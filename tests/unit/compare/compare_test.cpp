@@ -14,7 +14,8 @@ Image gradient(int width = 64, int height = 48) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const float v = 20 + 60 * static_cast<float>(x) / static_cast<float>(width) + 15 * std::sin(static_cast<float>(y) * 0.7f);
+      const float v =
+          20 + 60 * static_cast<float>(x) / static_cast<float>(width) + 15 * std::sin(static_cast<float>(y) * 0.7f);
       image.at(x, y) = {v, v * 0.8f, v * 0.6f};
     }
   }

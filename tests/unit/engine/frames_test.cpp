@@ -1,4 +1,5 @@
-// Frames that reuse the light of frames before: as right as pictures made anew, and less noisy; nothing is left where it no longer is.
+// Frames that reuse the light of frames before: as right as pictures made anew, and less noisy; nothing is left where
+ // it no longer is.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,10 +76,15 @@ class Frames : public ::testing::TestWithParam<std::string> {
   RenderSettings settings(int samples = 1, int filterPasses = 5) const {
     RenderSettings s = small(GetParam());
     s.samples = samples;
-    for (PictureSettings* p : {static_cast<PictureSettings*>(&s.hybrid), static_cast<PictureSettings*>(&s.gather), static_cast<PictureSettings*>(&s.vxgi), static_cast<PictureSettings*>(&s.lpv), static_cast<PictureSettings*>(&s.photon)}) p->filterPasses = filterPasses;
+    for (PictureSettings* p : {static_cast<PictureSettings*>(&s.hybrid), static_cast<PictureSettings*>(&s.gather),
+                               static_cast<PictureSettings*>(&s.vxgi), static_cast<PictureSettings*>(&s.lpv),
+                               static_cast<PictureSettings*>(&s.photon)})
+      p->filterPasses = filterPasses;
     return s;
   }
-  std::unique_ptr<LitScene> open(const RenderSettings& s) { return std::move(lightScene(home_.scene, s, stages_).value()); }
+  std::unique_ptr<LitScene> open(const RenderSettings& s) {
+    return std::move(lightScene(home_.scene, s, stages_).value());
+  }
   static Camera cameraAt(float x) { return test::cameraAt({x, 1.4f, 4.6f}); }
   // Pixels that lie within one surface.
   std::vector<uint8_t> inner(const RayScene& rays, const Camera& camera) const {
@@ -87,7 +93,9 @@ class Frames : public ::testing::TestWithParam<std::string> {
     for (size_t i = 0; i < out.size(); ++i) {
       const float x = static_cast<float>(i % kWidth), y = static_cast<float>(i / kWidth);
       const uint32_t first = rays.intersect(through.ray(x, y)).instance;
-      out[i] = first == rays.intersect(through.ray(x + 1, y)).instance && first == rays.intersect(through.ray(x, y + 1)).instance && first == rays.intersect(through.ray(x + 1, y + 1)).instance;
+      out[i] = first == rays.intersect(through.ray(x + 1, y)).instance &&
+               first == rays.intersect(through.ray(x, y + 1)).instance &&
+               first == rays.intersect(through.ray(x + 1, y + 1)).instance;
     }
     return out;
   }
@@ -117,12 +125,14 @@ TEST_P(Frames, ofAStillCameraGetBetter) {
   EXPECT_LT(rms(last, truth), 0.7 * rms(first, truth));
 }
 
-// Light that moves from pixel to pixel loses its even spread: errors stay of the size of frames made anew, and do not grow.
+// Light that moves from pixel to pixel loses its even spread: errors stay of the size of frames made anew, and do not
+// grow.
 TEST_P(Frames, alongAWallAreAboutAsGoodAsOnesMadeAnew) {
   const auto one = open(settings()), many = open(settings(64));
   FrameHistory history;
   Image last;
-  for (int k = 0; k < 24; ++k) last = one->picture(cameraAt(1.8f + 0.02f * static_cast<float>(k)), kWidth, kHeight, {}, &history);
+  for (int k = 0; k < 24; ++k)
+    last = one->picture(cameraAt(1.8f + 0.02f * static_cast<float>(k)), kWidth, kHeight, {}, &history);
   const Camera there = cameraAt(1.8f + 0.02f * 23);
   const Image anew = one->picture(there, kWidth, kHeight), truth = many->picture(there, kWidth, kHeight);
   const std::vector<uint8_t> where = inner(one->rays(), there);
@@ -135,14 +145,17 @@ TEST_P(Frames, leaveNoGhostsWhereSomethingWasUncovered) {
   const auto lit = open(settings(1, 0));
   FrameHistory history;
   Image last;
-  for (int k = 0; k < 8; ++k) last = lit->picture(cameraAt(2 + 0.1f * static_cast<float>(k)), kWidth, kHeight, {}, &history);
+  for (int k = 0; k < 8; ++k)
+    last = lit->picture(cameraAt(2 + 0.1f * static_cast<float>(k)), kWidth, kHeight, {}, &history);
   const Camera there = cameraAt(2.7f);
   const CameraRays through(there, kWidth, kHeight);
   const std::vector<uint8_t> where = inner(lit->rays(), there);
   int greens = 0;
   for (size_t i = 0; i < where.size(); ++i) {
-    const Hit hit = lit->rays().intersect(through.ray(static_cast<float>(i % kWidth) + 0.5f, static_cast<float>(i / kWidth) + 0.5f));
-    const Material& m = home_.scene.materials[static_cast<size_t>(home_.scene.meshes[static_cast<size_t>(home_.scene.instances[hit.instance].mesh)].material)];
+    const Hit hit = lit->rays().intersect(
+        through.ray(static_cast<float>(i % kWidth) + 0.5f, static_cast<float>(i / kWidth) + 0.5f));
+    const Material& m = home_.scene.materials[static_cast<size_t>(
+        home_.scene.meshes[static_cast<size_t>(home_.scene.instances[hit.instance].mesh)].material)];
     if (!where[i] || m.baseColor.y < 0.5f || m.baseColor.x > 0.2f) continue;
     ++greens;
     EXPECT_LT(last.pixels[i].x, 0.35f * last.pixels[i].y) << i;
@@ -177,7 +190,8 @@ TEST_P(Frames, followAThingThatMoves) {
   history.sceneChanged(change, home_.scene);
   Image last;
   for (int k = 0; k < 4; ++k) last = lit->picture(cameraAt(2), kWidth, kHeight, {}, &history);
-  const Image anew = lit->picture(cameraAt(2), kWidth, kHeight), settled = open(settings(64))->picture(cameraAt(2), kWidth, kHeight);
+  const Image anew = lit->picture(cameraAt(2), kWidth, kHeight),
+              settled = open(settings(64))->picture(cameraAt(2), kWidth, kHeight);
   const std::vector<uint8_t> where = inner(lit->rays(), cameraAt(2));
   EXPECT_LT(rms(last, settled, where), 1.5 * rms(anew, settled, where));
 }
@@ -188,14 +202,16 @@ TEST_P(Frames, doNotDependOnThreads) {
     FrameHistory history;
     Image last;
     withThreads(threads, [&] {
-      for (int k = 0; k < 5; ++k) last = lit->picture(cameraAt(2 + 0.03f * static_cast<float>(k)), kWidth, kHeight, {}, &history);
+      for (int k = 0; k < 5; ++k)
+        last = lit->picture(cameraAt(2 + 0.03f * static_cast<float>(k)), kWidth, kHeight, {}, &history);
     });
     return last;
   };
   EXPECT_TRUE(walk(1).pixels == walk(4).pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Frames, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Techniques, Frames, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon"),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace roomlight

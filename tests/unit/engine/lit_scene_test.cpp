@@ -22,7 +22,8 @@ struct Home {
   uint32_t panel = 0;
 
   Home() {
-    const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+    const int white = test::addMaterial(scene, test::lambertian(0.7f)),
+              wood = test::addMaterial(scene, test::lambertian(0.4f));
     const int shining = test::addMaterial(scene, test::lambertian(0, 900));
     test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
     test::addBox(scene, {2.5f, 0, 1}, {3.5f, 0.7f, 2.5f}, wood);
@@ -42,7 +43,8 @@ struct Home {
   }
   SceneChange dim(float lamp, float emission) {
     scene.lamps[0].intensityCd = Vec3(80 * lamp);
-    scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[panel].mesh)].material)].emission = Vec3(900 * emission);
+    scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[panel].mesh)].material)]
+        .emission = Vec3(900 * emission);
     return {{}, {panel}, true};
   }
 };
@@ -70,7 +72,9 @@ class LitSceneUpdate : public ::testing::TestWithParam<std::string> {
   Camera camera_ = test::cameraAt({2, 1.4f, 4.6f});
 
   // For no camera: one that a thing has moved before would tell another room to vxgi and lpv.
-  std::unique_ptr<LitScene> open(const Scene& scene) { return std::move(lightScene(scene, small(GetParam()), stages_).value()); }
+  std::unique_ptr<LitScene> open(const Scene& scene) {
+    return std::move(lightScene(scene, small(GetParam()), stages_).value());
+  }
   Image picture(const LitScene& lit) const { return lit.picture(camera_, kWidth, kHeight); }
 
   // What bounces leave out is all that may differ.
@@ -96,7 +100,9 @@ TEST_P(LitSceneUpdate, aMovedThingIsWhereItIs) {
   lit->update(home.moveBox({-1.1f, 0, -1.3f}), stages_);
   expectSame(picture(*lit), before);
   double differs = 0;
-  for (size_t i = 0; i < moved.pixels.size(); ++i) differs = std::max<double>(differs, std::abs(luminance(moved.pixels[i] - before.pixels[i])) / (luminance(before.pixels[i]) + 1));
+  for (size_t i = 0; i < moved.pixels.size(); ++i)
+    differs = std::max<double>(
+        differs, std::abs(luminance(moved.pixels[i] - before.pixels[i])) / (luminance(before.pixels[i]) + 1));
   EXPECT_GT(differs, 0.2);  // it was seen to move
 }
 
@@ -185,7 +191,9 @@ TEST_P(LitSceneUpdate, theSunMoves) {
   expectSame(picture(*lit), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon", "path"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate,
+                         ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon", "path"),
+                         [](const auto& test) { return test.param; });
 
 TEST(MeasureWalk, playsEveryFrameAndPutsAllBack) {
   Home home;

@@ -34,7 +34,8 @@ TEST(Quality, eachDoesMoreThanTheOneBefore) {
 }
 
 TEST(Quality, singleSettingsGoBeforeItWhereverTheyStand) {
-  for (const char* text : {R"({"quality": "draft", "radiance": {"links": 77}})", R"({"radiance": {"links": 77}, "quality": "draft"})"}) {
+  for (const char* text :
+       {R"({"quality": "draft", "radiance": {"links": 77}})", R"({"radiance": {"links": 77}, "quality": "draft"})"}) {
     const RenderSettings s = read(text);
     EXPECT_EQ(s.radiance.links, 77);
     EXPECT_EQ(s.voxel.sizeFactor, read(R"({"quality": "draft"})").voxel.sizeFactor);
@@ -58,7 +59,8 @@ TEST(Quality, settingsThatWereWrittenAreReadBack) {
 TEST(Quality, unknownNamesAreErrorsThatListTheKnown) {
   RenderSettings s;
   EXPECT_EQ(applyQuality("perfect", s).error(), "quality: unknown name 'perfect'; there are draft, good, best");
-  EXPECT_EQ(settingsFromJson(R"({"quality": "perfect"})", "s.json").error(), "s.json: quality: unknown name 'perfect'; there are draft, good, best");
+  EXPECT_EQ(settingsFromJson(R"({"quality": "perfect"})", "s.json").error(),
+            "s.json: quality: unknown name 'perfect'; there are draft, good, best");
   s.quality = "perfect";
   EXPECT_FALSE(checkSettings(s));
 }

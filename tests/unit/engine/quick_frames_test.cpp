@@ -1,4 +1,5 @@
-// Frames for walking: what they keep is what they would find anew, nothing is left where it no longer is, and their light is that of meters.
+// Frames for walking: what they keep is what they would find anew, nothing is left where it no longer is, and their
+ // light is that of meters.
 #include "gather/quick_frames.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +51,9 @@ class QuickFramesTest : public ::testing::Test {
     c.worldFromCamera = looking({x, 1.5f, 4.6f}, {0.1f, -0.2f, -1});
     return c;
   }
-  Image frame(QuickFrames& frames, const Camera& c, double ms = kPlenty, int width = kWidth, int height = kHeight) { return frames.make({lit_->rays(), lit_->lights(), *light_, moved_}, c, width, height, ms); }
+  Image frame(QuickFrames& frames, const Camera& c, double ms = kPlenty, int width = kWidth, int height = kHeight) {
+    return frames.make({lit_->rays(), lit_->lights(), *light_, moved_}, c, width, height, ms);
+  }
   Image fresh(const Camera& c) {
     QuickFrames frames;
     for (int i = 0; i < 20; ++i) frame(frames, c);
@@ -59,7 +62,8 @@ class QuickFramesTest : public ::testing::Test {
   // Share of pixels that are off by more than a tenth, those beside edges included.
   static double off(const Image& a, const Image& b) {
     double wrong = 0;
-    for (size_t i = 0; i < a.pixels.size(); ++i) wrong += std::abs(luminance(a.pixels[i]) - luminance(b.pixels[i])) > 0.1f * luminance(b.pixels[i]);
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+      wrong += std::abs(luminance(a.pixels[i]) - luminance(b.pixels[i])) > 0.1f * luminance(b.pixels[i]);
     return wrong / static_cast<double>(a.pixels.size());
   }
   static double meanOf(const Image& a) {
@@ -224,7 +228,9 @@ TEST_F(QuickFramesTest, manyFaintLampsAreAsBrightAsOne) {
   constexpr int kLamps = 150;
   const auto bright = [&](int lamps) {
     scene_.lamps.clear();
-    for (int i = 0; i < lamps; ++i) scene_.lamps.push_back(test::pointLamp({3.1f + 1e-4f * static_cast<float>(i), 2.2f, 3.9f}, 80.0f / static_cast<float>(lamps)));
+    for (int i = 0; i < lamps; ++i)
+      scene_.lamps.push_back(
+          test::pointLamp({3.1f + 1e-4f * static_cast<float>(i), 2.2f, 3.9f}, 80.0f / static_cast<float>(lamps)));
     RenderSettings s;
     s.voxel.voxelSizeM = 0.15f;
     lit_ = lightScene(scene_, s, stages_).value();

@@ -113,7 +113,9 @@ TEST(TimeLimit, whatIsStoppedWhileItIsPutRightIsKept) {
   RenderProgress progress;
   progress.cancelled = &cancelled;
   int estimates = 0;
-  progress.estimate = [&](double, double) { cancelled = ++estimates > 1; };  // the first is that of the gathered picture
+  progress.estimate = [&](double, double) {
+    cancelled = ++estimates > 1;
+  };  // the first is that of the gathered picture
   const Rendered rendered = render(room.scene, room.camera, settings, progress).value();
   EXPECT_FALSE(rendered.complete);
   EXPECT_GT(number(rendered, "pathSamples"), 1);

@@ -19,8 +19,8 @@ Room room(const std::string& name, Vec2 low, Vec2 high, float elevationM, float 
 
 // Two storeys; the lower has a cupboard and a step.
 std::vector<Room> house() {
-  return {room("bedroom", {0, 0}, {4, 3}, 2.8f, 2.4f), room("hall", {0, 0}, {5, 3}, 0, 2.5f), room("living", {5, 0}, {9, 6}, -0.4f, 2.9f),
-          room("cupboard", {4, 3}, {5, 4}, 0, 1.2f)};
+  return {room("bedroom", {0, 0}, {4, 3}, 2.8f, 2.4f), room("hall", {0, 0}, {5, 3}, 0, 2.5f),
+          room("living", {5, 0}, {9, 6}, -0.4f, 2.9f), room("cupboard", {4, 3}, {5, 4}, 0, 1.2f)};
 }
 
 Viewed view(const Scene& scene, std::span<const Room> rooms, const ViewWish& wish) {
@@ -68,7 +68,8 @@ TEST(Views, topFitsTheLevelAtTheCut) {
   const Viewed top = view({}, house(), wish);
   const CameraRays rays(top.camera, top.width, top.height);
   EXPECT_LT(length(rays.ray(0, 0).origin - Vec3{-1, 2.45f, -1}), 0.02f);
-  EXPECT_LT(length(rays.ray(static_cast<float>(top.width), static_cast<float>(top.height)).origin - Vec3{10, 2.45f, 7}), 0.02f);
+  EXPECT_LT(length(rays.ray(static_cast<float>(top.width), static_cast<float>(top.height)).origin - Vec3{10, 2.45f, 7}),
+            0.02f);
 }
 
 TEST(Views, panoramaStandsInTheMiddleOfARoom) {
@@ -80,7 +81,8 @@ TEST(Views, panoramaStandsInTheMiddleOfARoom) {
   wish.room.clear();
   wish.eye = Vec3{1, 1, 1}, wish.target = Vec3{5, 0.2f, 1};
   const Viewed viewed = view({}, house(), wish);
-  EXPECT_LT(length(CameraRays(viewed.camera, 200, 100).ray(100, 50).direction - Vec3{1, 0, 0}), 1e-6f) << "upright, to the target's side";
+  EXPECT_LT(length(CameraRays(viewed.camera, 200, 100).ray(100, 50).direction - Vec3{1, 0, 0}), 1e-6f)
+      << "upright, to the target's side";
   EXPECT_EQ(viewed.width, 2 * viewed.height);
 }
 
@@ -128,7 +130,8 @@ TEST(Views, sectionsAndBackdropCoverExactPixels) {
   camera.emptyBackdrop = true;
   const Sights sights = sightsOf(RayScene(scene), camera, 400, 200);
   double section = 0, backdrop = 0;
-  for (size_t i = 0; i < sights.section.size(); ++i) section += static_cast<double>(sights.section[i]), backdrop += static_cast<double>(sights.backdrop[i]);
+  for (size_t i = 0; i < sights.section.size(); ++i)
+    section += static_cast<double>(sights.section[i]), backdrop += static_cast<double>(sights.backdrop[i]);
   EXPECT_NEAR(section, 100 * 50, 1);
   EXPECT_NEAR(400 * 200 - section - backdrop, 50 * 50, 1);
 }
@@ -142,7 +145,8 @@ TEST(Views, sectionsAreDrawnOverTheRest) {
   EXPECT_EQ(rest.pixels[0], Vec3(0));
   Image encoded(4, 1);
   encoded.pixels = {Vec3(0), Vec3(0.8f), Vec3(0), Vec3(0.4f)};
-  const Image onPaper = drawn(encoded, sights, Vec3(0.2f), Vec3(1)), clear = drawn(encoded, sights, Vec3(0.2f), std::nullopt);
+  const Image onPaper = drawn(encoded, sights, Vec3(0.2f), Vec3(1)),
+              clear = drawn(encoded, sights, Vec3(0.2f), std::nullopt);
   EXPECT_FLOAT_EQ(onPaper.pixels[0].x, 0.2f);
   EXPECT_FLOAT_EQ(onPaper.pixels[1].x, 0.25f * 0.8f + 0.5f * 0.2f + 0.25f);
   EXPECT_FLOAT_EQ(onPaper.pixels[2].x, 1);
@@ -184,7 +188,8 @@ TEST_P(ViewsByTechnique, furnaceIsEvenAllAround) {
   }
 }
 
-// What the floor sends up in a plan is what a meter on it reads, with a lamp and a white ceiling above the cut: the cut takes no light away.
+// What the floor sends up in a plan is what a meter on it reads, with a lamp and a white ceiling above the cut: the cut
+// takes no light away.
 TEST_P(ViewsByTechnique, cutTakesNoLightAway) {
   Scene scene;
   const int white = test::addMaterial(scene, test::lambertian(0.7f));
@@ -205,14 +210,14 @@ TEST_P(ViewsByTechnique, cutTakesNoLightAway) {
     for (int j = 0; j < 4; ++j) {
       for (int i = 0; i < 4; ++i) {
         seen += static_cast<double>(luminance(image.at(x + i, y + j))) / 16;
-        places.push_back({{1 + (static_cast<float>(x + i) + 0.5f) / 8, 0, 1 + (static_cast<float>(y + j) + 0.5f) / 8}, {0, 1, 0}});
+        places.push_back(
+            {{1 + (static_cast<float>(x + i) + 0.5f) / 8, 0, 1 + (static_cast<float>(y + j) + 0.5f) / 8}, {0, 1, 0}});
       }
     }
-    for (const MeterReading& reading : measureIlluminance(rays, lights, places, {0, 1 << 14, 1 << 14, 3})) lux += static_cast<double>(luminance(reading.illuminanceLux)) / 16;
+    for (const MeterReading& reading : measureIlluminance(rays, lights, places, {0, 1 << 14, 1 << 14, 3}))
+      lux += static_cast<double>(luminance(reading.illuminanceLux)) / 16;
     const double expected = lux * 0.7 / std::acos(-1.0);
-    EXPECT_NEAR(seen, expected, (isPath() ? 0.02 : isHybrid() ? 0.03
-                                                              : 0.1) *
-                                    expected);
+    EXPECT_NEAR(seen, expected, (isPath() ? 0.02 : isHybrid() ? 0.03 : 0.1) * expected);
   }
 }
 

@@ -44,7 +44,8 @@ double luxOf(const Image& picture, int strip) {
   double sum = 0;
   int count = 0;
   for (int y = 2; y < kHeight - 2; ++y) {
-    for (int x = strip * kStripPixels + 3; x < (strip + 1) * kStripPixels - 3; ++x) sum += static_cast<double>(kPi * luminance(picture.pixels[static_cast<size_t>(y * kWidth + x)])), ++count;
+    for (int x = strip * kStripPixels + 3; x < (strip + 1) * kStripPixels - 3; ++x)
+      sum += static_cast<double>(kPi * luminance(picture.pixels[static_cast<size_t>(y * kWidth + x)])), ++count;
   }
   return sum / count;
 }
@@ -67,7 +68,10 @@ class WhiteStrips : public ::testing::Test {
   // By the meter, on what luxOf() sees.
   static double metered(const LitScene& lit, int strip) {
     std::vector<SurfaceElement> places;
-    for (int i = 0; i < 9; ++i) places.push_back({{1.88f + 0.12f * static_cast<float>(i / 3), 0.011f, 1.15f + 0.1f * static_cast<float>(i % 3) + 0.5f * static_cast<float>(strip)}, {0, 1, 0}});
+    for (int i = 0; i < 9; ++i)
+      places.push_back({{1.88f + 0.12f * static_cast<float>(i / 3), 0.011f,
+                         1.15f + 0.1f * static_cast<float>(i % 3) + 0.5f * static_cast<float>(strip)},
+                        {0, 1, 0}});
     double sum = 0;
     for (const MeterReading& r : lit.illuminance(places, {})) sum += static_cast<double>(luminance(r.illuminanceLux));
     return sum / static_cast<double>(places.size());
@@ -87,7 +91,8 @@ TEST_P(WhiteBy, picturesAreIlluminance) {
   EXPECT_LT(luxOf(seen, 1), 0.1 * luxOf(white, 1));  // the picture itself shows it black
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, WhiteBy, ::testing::Values("hybrid", "cone", "path"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Techniques, WhiteBy, ::testing::Values("hybrid", "cone", "path"),
+                         [](const auto& test) { return test.param; });
 
 TEST_F(WhiteStrips, quickFramesAreIlluminance) {
   const auto lit = this->lit("hybrid");

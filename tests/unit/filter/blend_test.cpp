@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 
-// A wall lit by `true` light; a picture of it with this relative error, in patches of some pixels, and samples with noise.
+// A wall lit by `true` light; a picture of it with this relative error, in patches of some pixels, and samples with
+// noise.
 struct Case {
   Image truth{kWidth, kHeight}, first{kWidth, kHeight}, mean{kWidth, kHeight}, variance{kWidth, kHeight};
   FilterInput guide = test::noisyWall(kWidth, kHeight, 1, 0);
@@ -48,10 +49,13 @@ TEST_P(Blending, IsNoWorseThanEitherPicture) {
   const auto [error, patch, deviation] = GetParam();
   for (const int samples : {2, 4, 16, 64}) {
     const Case c(error, patch, deviation, samples);
-    EXPECT_LT(c.error(c.blended().image), 1.05 * std::min(c.error(c.first), c.error(c.mean)) + 0.01 * c.error(c.mean)) << samples;
+    EXPECT_LT(c.error(c.blended().image), 1.05 * std::min(c.error(c.first), c.error(c.mean)) + 0.01 * c.error(c.mean))
+        << samples;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Errors, Blending, testing::Combine(testing::Values(0.0f, 0.02f, 0.2f), testing::Values(1, 4, 40), testing::Values(0.3f, 3.0f)));
+INSTANTIATE_TEST_SUITE_P(Errors, Blending,
+                         testing::Combine(testing::Values(0.0f, 0.02f, 0.2f), testing::Values(1, 4, 40),
+                                          testing::Values(0.3f, 3.0f)));
 
 TEST(Blend, ConvergesToTheSamples) {
   const Case few(0.2f, 8, 0.5f, 4), many(0.2f, 8, 0.5f, 1024);
@@ -69,7 +73,8 @@ TEST(Blend, EstimatesWhatIsLeft) {
     const Case c(0.1f, 8, 0.5f, samples);
     const Blend b = c.blended();
     double truth = 0;
-    for (size_t i = 0; i < b.image.pixels.size(); ++i) truth += lengthSquared((b.image.pixels[i] - c.truth.pixels[i]) / c.truth.pixels[i]) / 3;
+    for (size_t i = 0; i < b.image.pixels.size(); ++i)
+      truth += lengthSquared((b.image.pixels[i] - c.truth.pixels[i]) / c.truth.pixels[i]) / 3;
     truth = std::sqrt(truth / static_cast<double>(b.image.pixels.size()));
     EXPECT_LT(b.relativeError, 1.5 * truth) << samples;
     EXPECT_GT(b.relativeError, truth / 1.5) << samples;

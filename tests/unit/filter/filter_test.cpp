@@ -22,10 +22,12 @@ TEST(Filter, takesNoiseAwayAndKeepsTheMean) {
 TEST(Filter, leavesAPictureWithoutNoise) {
   FilterInput in = noisyWall(40, 30, 10, 0);
   for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 40; ++x) in.at(x, y).diffuse = Vec3(x < 20 ? 5.0f : 1.0f), in.at(x, y).sharp = Vec3(y < 15 ? 3.0f : 0.0f);
+    for (int x = 0; x < 40; ++x)
+      in.at(x, y).diffuse = Vec3(x < 20 ? 5.0f : 1.0f), in.at(x, y).sharp = Vec3(y < 15 ? 3.0f : 0.0f);
   }
   const Image before = composed(in), after = filtered(in, 5);
-  for (size_t i = 0; i < before.pixels.size(); ++i) EXPECT_NEAR(luminance(after.pixels[i]), luminance(before.pixels[i]), 1e-4f);
+  for (size_t i = 0; i < before.pixels.size(); ++i)
+    EXPECT_NEAR(luminance(after.pixels[i]), luminance(before.pixels[i]), 1e-4f);
 }
 
 TEST(Filter, keepsTexturesSharp) {
@@ -72,7 +74,8 @@ TEST(Filter, rareLightStopsWhereOtherLightDiffers) {
 TEST(Filter, varianceOfFilteredLuminanceFollowsTheNoise) {
   const auto told = [](float deviation, int passes) {
     const FilterInput wall = noisyWall(97, 61, 10, deviation);
-    const std::vector<float> variance = filteredLuminance(wall, passes, [&](size_t i) { return wall.pixels[i]; }).variance;
+    const std::vector<float> variance =
+        filteredLuminance(wall, passes, [&](size_t i) { return wall.pixels[i]; }).variance;
     double mean = 0;
     for (const float v : variance) mean += static_cast<double>(v) / static_cast<double>(variance.size());
     return mean;
@@ -89,7 +92,8 @@ TEST(Filter, filteredLuminanceIsThatOfThePicture) {
   const std::vector<float> found = filteredLuminance(wall, 5, [&](size_t i) { return wall.pixels[i]; }).luminance;
   const Image shown = filtered(wall, 5);
   double a = 0, b = 0;
-  for (size_t i = 0; i < found.size(); ++i) a += static_cast<double>(found[i]), b += static_cast<double>(luminance(shown.pixels[i]));
+  for (size_t i = 0; i < found.size(); ++i)
+    a += static_cast<double>(found[i]), b += static_cast<double>(luminance(shown.pixels[i]));
   EXPECT_NEAR(a, b, 0.01 * b);
 }
 
@@ -115,8 +119,10 @@ TEST(Filter, mixesNoReflectionsOfDifferentThings) {
     for (int x = 0; x < 64; ++x) {
       Rng rng(static_cast<uint64_t>(64 * y + x), 0, 7);
       FilterPixel& p = in.at(x, y);
-      p.diffuse = {}, p.specular = Vec3(std::max(0.0f, (x < 32 ? 5.0f : 3.0f) + 2 * test::gaussian(rng))), p.specularVariance = 4;
-      in.reflected[static_cast<size_t>(64 * y + x)] = {Vec3{0, 0, 2}, Vec3{p.position.x, p.position.y, x < 32 ? 1.0f : 3.0f} * 2, 2};
+      p.diffuse = {}, p.specular = Vec3(std::max(0.0f, (x < 32 ? 5.0f : 3.0f) + 2 * test::gaussian(rng))),
+      p.specularVariance = 4;
+      in.reflected[static_cast<size_t>(64 * y + x)] = {Vec3{0, 0, 2},
+                                                       Vec3{p.position.x, p.position.y, x < 32 ? 1.0f : 3.0f} * 2, 2};
     }
   }
   const Image after = filtered(in, 5);
@@ -195,14 +201,15 @@ TEST(Filter, givesTheSameOnEveryInstructionSet) {
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     const Image other = filtered(in, 5);
-    for (size_t i = 0; i < best.pixels.size(); ++i) EXPECT_NEAR(luminance(other.pixels[i]), luminance(best.pixels[i]), 1e-4f) << hwy::TargetName(target);
+    for (size_t i = 0; i < best.pixels.size(); ++i)
+      EXPECT_NEAR(luminance(other.pixels[i]), luminance(best.pixels[i]), 1e-4f) << hwy::TargetName(target);
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().DeInit();
 }
 
-// Of a noisy texture, where light was sampled in one pixel of 16; unsampled pixels hold nothing. A wall that meets it at a right angle, with other light
-// and samples of its own, gives it none.
+// Of a noisy texture, where light was sampled in one pixel of 16; unsampled pixels hold nothing. A wall that meets it
+// at a right angle, with other light and samples of its own, gives it none.
 TEST(Filter, givesUnsampledPixelsTheLightOfTheirSurface) {
   FilterInput in = noisyWall(96, 64, 10, 0.5f), beside = noisyWall(96, 64, 40, 0.5f, 1);
   for (int y = 0; y < 64; ++y) {
@@ -212,17 +219,19 @@ TEST(Filter, givesUnsampledPixelsTheLightOfTheirSurface) {
       const Vec3 albedo = (x + y) % 2 ? Vec3(0.8f) : Vec3(0.1f);
       p.diffuse = p.diffuse / p.albedo * albedo, p.albedo = albedo;
       p.specular = Vec3(3);
-      if (x % 4 != 1 || y % 4 != 2) p.diffuse = p.specular = {}, p.diffuseVariance = p.diffuseShare = p.specularShare = 0;
+      if (x % 4 != 1 || y % 4 != 2)
+        p.diffuse = p.specular = {}, p.diffuseVariance = p.diffuseShare = p.specularShare = 0;
     }
   }
   const Image after = filtered(in, 5);
   for (int y = 0; y < 64; ++y) {
-    for (int x = 0; x < 96; ++x) EXPECT_NEAR(luminance((after.at(x, y) - Vec3(3)) / in.at(x, y).albedo), x < 62 ? 10 : 40, 1) << x << ' ' << y;
+    for (int x = 0; x < 96; ++x)
+      EXPECT_NEAR(luminance((after.at(x, y) - Vec3(3)) / in.at(x, y).albedo), x < 62 ? 10 : 40, 1) << x << ' ' << y;
   }
 }
 
-// One sample in eight finds light; pixels that found some with their first four samples get sixteen more, which makes it rarer there.
-// A mean of pixels would be 47 % too dark, that of samples is not.
+// One sample in eight finds light; pixels that found some with their first four samples get sixteen more, which makes
+// it rarer there. A mean of pixels would be 47 % too dark, that of samples is not.
 TEST(Filter, weighsPixelsByTheirSamples) {
   FilterInput in = noisyWall(128, 96, 10, 0);
   for (int y = 0; y < 96; ++y) {

@@ -93,7 +93,9 @@ TEST(Levels, lonePixelsOfOpennessLeaveNoSpecks) {
 }
 
 TEST(Levels, softShadowsStay) {
-  const auto light = [](int x, int y) { return 10 + 4 * std::sin(0.12f * static_cast<float>(x)) + 0.02f * static_cast<float>(y); };
+  const auto light = [](int x, int y) {
+    return 10 + 4 * std::sin(0.12f * static_cast<float>(x)) + 0.02f * static_cast<float>(y);
+  };
   EXPECT_LT(errorOf(filtered(wallWith(light, 0.4f), kPasses), light, inside), 0.05);
   EXPECT_LT(errorOf(filtered(wallWith(light, 0.05f), kPasses), light, inside), 0.015);
 }
@@ -102,7 +104,11 @@ TEST(Levels, edgesOfLightStay) {
   const auto light = [](int x, int) { return x < kWidth / 2 ? 10.0f : 2.0f; };
   const Image after = filtered(wallWith(light, 0.1f), kPasses);
   EXPECT_LT(errorOf(after, light, [](int x, int y) { return inside(x, y) && std::abs(x - kWidth / 2) > 6; }), 0.04);
-  EXPECT_LT(errorOf(after, light, [](int x, int y) { return inside(x, y) && std::abs(x - kWidth / 2) > 1 && std::abs(x - kWidth / 2) <= 6; }), 0.1);
+  EXPECT_LT(errorOf(after, light,
+                    [](int x, int y) {
+                      return inside(x, y) && std::abs(x - kWidth / 2) > 1 && std::abs(x - kWidth / 2) <= 6;
+                    }),
+            0.1);
 }
 
 // Pixels far brighter than their variance tells.
@@ -137,7 +143,8 @@ TEST(Levels, theNoiseLeftIsTold) {
   double told = 0, found = 0;
   constexpr int kSeeds = 6;
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const Image a = filtered(wallWith(light, 0.3f, 2 * seed), kPasses), b = filtered(wallWith(light, 0.3f, 2 * seed + 1), kPasses);
+    const Image a = filtered(wallWith(light, 0.3f, 2 * seed), kPasses),
+                b = filtered(wallWith(light, 0.3f, 2 * seed + 1), kPasses);
     for (size_t i = 0; i < a.pixels.size(); ++i) {
       const double off = static_cast<double>(luminance(a.pixels[i]) - luminance(b.pixels[i]));
       found += off * off / 2 / kSeeds;
@@ -163,11 +170,13 @@ TEST(Levels, everyNumberOfPassesCleansWithinThePicture) {
     for (size_t i = 0; i < tall.pixels.size(); ++i) {
       FilterPixel& p = tall.pixels[i];
       Rng rng(i, 2, 0);
-      p.diffuse = p.albedo * (10 * std::max(0.0f, 1 + 0.3f * test::gaussian(rng))), p.diffuseVariance = 9, p.rare = Vec3(1e-6f);
+      p.diffuse = p.albedo * (10 * std::max(0.0f, 1 + 0.3f * test::gaussian(rng))), p.diffuseVariance = 9,
+      p.rare = Vec3(1e-6f);
     }
     const Image after = filtered(tall, passes);
     double square = 0;
-    for (const Vec3& p : after.pixels) square += std::pow(static_cast<double>(luminance(p)) / 5 - 1, 2) / static_cast<double>(after.pixels.size());
+    for (const Vec3& p : after.pixels)
+      square += std::pow(static_cast<double>(luminance(p)) / 5 - 1, 2) / static_cast<double>(after.pixels.size());
     EXPECT_LT(square, before) << passes;
     before = 1.1 * square;
     const FilteredLuminance left = filteredLuminance(tall, passes, [&](size_t k) { return tall.pixels[k]; });
@@ -198,12 +207,15 @@ TEST(Levels, unsampledPixelsGetRareLightToo) {
   }
 }
 
-// A bulb of one pixel before a wall: no pixel beside it shows its surface, far ones lie where its plane might be. It leaves no copies of itself 16 pixels away.
+// A bulb of one pixel before a wall: no pixel beside it shows its surface, far ones lie where its plane might be. It
+// leaves no copies of itself 16 pixels away.
 TEST(Levels, aLonelyBrightPixelStaysWhereItIs) {
   const auto light = [](int, int) { return 2.0f; };
   FilterInput in = wallWith(light, 0.1f);
   for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) in.at(x, y).position = Vec3{0.01f * static_cast<float>(x), -0.01f * static_cast<float>(y), 0}, in.at(x, y).normal = {0, 0, 1};
+    for (int x = 0; x < kWidth; ++x)
+      in.at(x, y).position = Vec3{0.01f * static_cast<float>(x), -0.01f * static_cast<float>(y), 0},
+               in.at(x, y).normal = {0, 0, 1};
   }
   FilterPixel& bulb = in.at(kWidth / 2, kHeight / 2);
   bulb.position.z = 0.2f;
@@ -228,7 +240,8 @@ TEST(Levels, aPanoramaHasNoSeam) {
   double across = 0, elsewhere = 0;
   for (int y = 0; y < kHeight; ++y) {
     across += std::pow(static_cast<double>(luminance(after.at(0, y)) - luminance(after.at(kWidth - 1, y))), 2);
-    elsewhere += std::pow(static_cast<double>(luminance(after.at(kWidth / 2, y)) - luminance(after.at(kWidth / 2 - 1, y))), 2);
+    elsewhere +=
+        std::pow(static_cast<double>(luminance(after.at(kWidth / 2, y)) - luminance(after.at(kWidth / 2 - 1, y))), 2);
   }
   EXPECT_LT(across, 4 * elsewhere + 1e-3);
 }

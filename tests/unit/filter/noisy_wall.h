@@ -13,7 +13,8 @@ inline float gaussian(Rng& rng) {
   return sum;
 }
 
-// A wall of albedo 0.5, 1 cm a pixel, that diffuse light of this irradiance / pi falls on, with noise of this standard deviation.
+// A wall of albedo 0.5, 1 cm a pixel, that diffuse light of this irradiance / pi falls on, with noise of this standard
+// deviation.
 inline FilterInput noisyWall(int w, int h, float light, float deviation, uint64_t seed = 0) {
   FilterInput in(w, h);
   for (int y = 0; y < h; ++y) {
@@ -38,7 +39,8 @@ struct Moments {
 inline Moments momentsOf(const Image& image, int x0, int x1) {
   double sum = 0, squares = 0;
   for (int y = 0; y < image.height; ++y) {
-    for (int x = x0; x < x1; ++x) sum += luminance(image.at(x, y)), squares += luminance(image.at(x, y)) * luminance(image.at(x, y));
+    for (int x = x0; x < x1; ++x)
+      sum += luminance(image.at(x, y)), squares += luminance(image.at(x, y)) * luminance(image.at(x, y));
   }
   const double n = static_cast<double>(image.height) * (x1 - x0), mean = sum / n;
   return {mean, squares / n - mean * mean};

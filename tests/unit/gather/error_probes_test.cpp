@@ -26,7 +26,11 @@ struct Furnace {
 
 class Probes : public testing::Test {
  protected:
-  Probes() : rays_(furnace_.scene), lights_(furnace_.scene), voxels_(voxelise(furnace_.scene, {.voxelSizeM = 0.1f}).voxels), field_(illuminate(rays_, lights_, voxels_, {})) {
+  Probes()
+      : rays_(furnace_.scene),
+        lights_(furnace_.scene),
+        voxels_(voxelise(furnace_.scene, {.voxelSizeM = 0.1f}).voxels),
+        field_(illuminate(rays_, lights_, voxels_, {})) {
     settings_.width = settings_.height = 64, settings_.hitCellM = -1;
   }
   ErrorLeft errorOf(const Image& picture, bool closely = false) const {
@@ -89,7 +93,8 @@ TEST(ErrorOfNoise, isToldThroughTheNoiseOfProbes) {
   double mean = 0, squares = 0;
   for (const Vec3& p : many.pixels) mean += static_cast<double>(luminance(p)) / static_cast<double>(many.pixels.size());
   for (size_t i = 0; i < many.pixels.size(); ++i) {
-    const double level = static_cast<double>(luminance(few.pixels[i])) + 0.05 * mean, off = std::clamp(static_cast<double>(luminance(few.pixels[i] - many.pixels[i])) / level, -1.0, 1.0);
+    const double level = static_cast<double>(luminance(few.pixels[i])) + 0.05 * mean,
+                 off = std::clamp(static_cast<double>(luminance(few.pixels[i] - many.pixels[i])) / level, -1.0, 1.0);
     squares += off * off / static_cast<double>(many.pixels.size());
   }
   const ErrorProbes probes(rays, lights, shader, camera, settings, true, {});

@@ -1,4 +1,5 @@
-// Guides only choose directions: their densities must be those of what they draw, and what they draw must go to what is bright.
+// Guides only choose directions: their densities must be those of what they draw, and what they draw must go to what is
+// bright.
 #include "gather/hit_guide.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ std::vector<GuideRay> raysToCeiling(int count) {
   for (int i = 0; i < count; ++i) {
     const Vec3 local = sampleCosineHemisphere(rng.uniform2()), d{local.x, local.z, local.y};
     GuideRay ray;
-    ray.from = kFrom, ray.normal = kUp, ray.arrives = true, ray.to = kFrom + d * (2 / std::max(d.y, 0.05f)), ray.weight = 1;
+    ray.from = kFrom, ray.normal = kUp, ray.arrives = true, ray.to = kFrom + d * (2 / std::max(d.y, 0.05f)),
+    ray.weight = 1;
     ray.light = length(ray.to - kBright) < 0.2f ? 100.0f : 1.0f;
     rays.push_back(ray);
   }
@@ -50,14 +52,15 @@ TEST(HitGuide, densityIsThatOfItsSamples) {
   for (int i = 0; i < kCount; ++i) {
     const Vec3 even = sampleSphere(rng.uniform2());
     const float pdf = cones.pdf(even);
-    whole += 4 * static_cast<double>(kPi) * static_cast<double>(pdf) / kCount, covered += pdf > 0 ? 4 * static_cast<double>(kPi) / kCount : 0;
+    whole += 4 * static_cast<double>(kPi) * static_cast<double>(pdf) / kCount,
+        covered += pdf > 0 ? 4 * static_cast<double>(kPi) / kCount : 0;
     const float own = cones.pdf(cones.sample(rng.uniform2(), rng.uniform()));
     inverse += own > 0 ? 1 / static_cast<double>(own) / kCount : 0;
     outside += own > 0 ? 0 : 1;
   }
-  EXPECT_LT(outside, kCount / 100'000);        // by rounding, on the very edge of a cone
-  EXPECT_NEAR(whole, 1, 0.03);                 // integrates to 1,
-  EXPECT_NEAR(inverse / covered, 1, 0.03);     // and its samples are spread by it
+  EXPECT_LT(outside, kCount / 100'000);  // by rounding, on the very edge of a cone
+  EXPECT_NEAR(whole, 1, 0.03);  // integrates to 1,
+  EXPECT_NEAR(inverse / covered, 1, 0.03);  // and its samples are spread by it
 }
 
 TEST(HitGuide, leavesEvenLightToChance) {

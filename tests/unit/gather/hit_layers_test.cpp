@@ -14,7 +14,9 @@ constexpr size_t kLayers = 3;
 
 class LitFloor : public testing::Test {
  protected:
-  LitFloor() { test::addRectangle(scene_, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, test::addMaterial(scene_, test::lambertian(0.5f))); }
+  LitFloor() {
+    test::addRectangle(scene_, {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, test::addMaterial(scene_, test::lambertian(0.5f)));
+  }
 
   // A sample at x whose light is `soft` of one layer and `sharp` of another.
   void add(float x, int32_t softLayer, float soft, int32_t sharpLayer = 0, float sharp = 0) {
@@ -31,7 +33,8 @@ class LitFloor : public testing::Test {
     LayerSums sums(kLayers);
     for (const LitHit& hit : samples_) {
       sums.resize(1);
-      sums.add(0, LayerSums::kDiffuse, softLayers_[hit.number], hit.even), sums.add(0, LayerSums::kSharp, sharpLayers_[hit.number], hit.sharp);
+      sums.add(0, LayerSums::kDiffuse, softLayers_[hit.number], hit.even),
+          sums.add(0, LayerSums::kSharp, sharpLayers_[hit.number], hit.sharp);
       layers.take(hit.number, sums, 0);
     }
     HitCache cells(kCellM, kVoxelM);
@@ -60,7 +63,8 @@ TEST_F(LitFloor, aCellHasTheSharesOfAllItsSamples) {
 
 // Two cells beside one another: what comes straight from lamps is each cell's own.
 TEST_F(LitFloor, lightStraightFromLampsIsNotToldByNeighbours) {
-  for (int i = 0; i < 4; ++i) add(0.001f * static_cast<float>(i), 0, 1, 2, 2), add(0.1f + 0.001f * static_cast<float>(i), 0, 1);
+  for (int i = 0; i < 4; ++i)
+    add(0.001f * static_cast<float>(i), 0, 1, 2, 2), add(0.1f + 0.001f * static_cast<float>(i), 0, 1);
   const std::vector<float> lit = sharesAt(0.001f), beside = sharesAt(0.101f);
   EXPECT_NEAR(lit[0], 1 / 3.0f, 1e-3f);
   EXPECT_NEAR(lit[2], 2 / 3.0f, 1e-3f);
@@ -68,7 +72,8 @@ TEST_F(LitFloor, lightStraightFromLampsIsNotToldByNeighbours) {
   EXPECT_EQ(beside[2], 0);
 }
 
-// Samples all over a floor, each lit by one of two layers by chance: cells come out near half and half, whatever their own samples found.
+// Samples all over a floor, each lit by one of two layers by chance: cells come out near half and half, whatever their
+// own samples found.
 TEST_F(LitFloor, softLightIsToldByNeighbours) {
   Rng rng(7, 0, 1);
   for (int i = 0; i < 400; ++i) add(0.004f * static_cast<float>(i), rng.uniform() < 0.5f ? 0 : 1, 1);

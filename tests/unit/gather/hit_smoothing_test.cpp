@@ -28,7 +28,8 @@ std::vector<LitHit> noisyFloor(size_t count, Light&& light) {
     const Vec2 u = sampler.next2(), noise = sampler.next2();
     const Vec3 p{4 * u.x - 2, 0, 4 * u.y - 2};
     samples[i].at = {p, {0, 1, 0}, 0};
-    samples[i].albedo = Vec3(1), samples[i].even = Vec3(light(p) * (noise.x < 0.25f ? 4.0f : 0.0f));  // relative variance 3
+    samples[i].albedo = Vec3(1),
+    samples[i].even = Vec3(light(p) * (noise.x < 0.25f ? 4.0f : 0.0f));  // relative variance 3
   }
   return samples;
 }
@@ -92,7 +93,8 @@ TEST(HitSmoothing, theMeanOverAllRaysStays) {
   for (LitHit& s : samples) s.rays = s.at.p.x > 1 ? 20 : 1;
   const auto mean = [&] {
     double sum = 0, rays = 0;
-    for (const LitHit& s : samples) sum += static_cast<double>(s.rays * luminance(s.even + s.rare)), rays += static_cast<double>(s.rays);
+    for (const LitHit& s : samples)
+      sum += static_cast<double>(s.rays * luminance(s.even + s.rare)), rays += static_cast<double>(s.rays);
     return sum / rays;
   };
   const double before = mean();

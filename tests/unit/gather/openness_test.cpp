@@ -39,7 +39,8 @@ TEST(Openness, isLessBesideThingsAndWholeOnAPlainWall) {
   EXPECT_EQ(findOpenness(rays, camera, 1, pixels), 8u * kSide * kSide);
   // The box takes the middle 12 pixels or so of each row.
   double beside = 0, plain = 0, top = 0;
-  for (int y = kSide / 2 - 4; y < kSide / 2 + 4; ++y) beside += static_cast<double>(pixels.at(kSide / 2 - 7, y).open + pixels.at(kSide / 2 + 6, y).open) / 16;
+  for (int y = kSide / 2 - 4; y < kSide / 2 + 4; ++y)
+    beside += static_cast<double>(pixels.at(kSide / 2 - 7, y).open + pixels.at(kSide / 2 + 6, y).open) / 16;
   for (int y = 0; y < kSide; ++y) plain += static_cast<double>(pixels.at(1, y).open) / kSide;
   for (int i = -3; i < 3; ++i) top += static_cast<double>(pixels.at(kSide / 2 + i, kSide / 2).open) / 6;
   EXPECT_GT(plain, 0.97);

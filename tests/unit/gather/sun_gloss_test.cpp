@@ -38,7 +38,13 @@ struct SunlitFloor {
     return settings;
   }
   explicit SunlitFloor(const Material& material)
-      : scene(floorOf(material)), rays(scene), lights(scene), voxels(voxelise(scene, {.voxelSizeM = 0.1f})), field(illuminate(rays, lights, voxels.voxels, still())), patches(rays, voxels.voxels, field.sunPoints, {}, 0, 1), gloss(rays, patches, kToSun) {}
+      : scene(floorOf(material)),
+        rays(scene),
+        lights(scene),
+        voxels(voxelise(scene, {.voxelSizeM = 0.1f})),
+        field(illuminate(rays, lights, voxels.voxels, still())),
+        patches(rays, voxels.voxels, field.sunPoints, {}, 0, 1),
+        gloss(rays, patches, kToSun) {}
 };
 
 Material varnished(float roughness) {
@@ -52,11 +58,13 @@ TEST(SunGloss, isOneOnWhatReflectsEvenly) {
   const SunlitFloor floor(test::lambertian(0.3f));
   ASSERT_GT(floor.patches.pointCount(), 1000u);
   for (size_t i = 0; i < floor.patches.pointCount(); i += 97) {
-    for (const Vec3 wo : {Vec3{0, 1, 0}, normalize(Vec3{-1, 1, 0}), normalize(Vec3{1, 0.2f, 0})}) EXPECT_NEAR(luminance(floor.gloss.at(i, wo)), 1, 1e-3f);
+    for (const Vec3 wo : {Vec3{0, 1, 0}, normalize(Vec3{-1, 1, 0}), normalize(Vec3{1, 0.2f, 0})})
+      EXPECT_NEAR(luminance(floor.gloss.at(i, wo)), 1, 1e-3f);
   }
 }
 
-// Where the sun's image is seen it is several times as bright; all directions together send out what the floor reflects of light from there.
+// Where the sun's image is seen it is several times as bright; all directions together send out what the floor reflects
+// of light from there.
 TEST(SunGloss, throwsLightWhereTheSunGlints) {
   const SunlitFloor floor(varnished(0.4f));
   const size_t point = floor.patches.pointCount() / 2;
@@ -70,7 +78,8 @@ TEST(SunGloss, throwsLightWhereTheSunGlints) {
     const Vec3 d = sampleCosineHemisphere(u);
     sent += static_cast<double>(luminance(floor.gloss.at(point, {d.x, d.z, d.y}))) / (kSide * kSide);
   }
-  const double reflected = static_cast<double>(luminance(Bsdf(m, {0, 1, 0}, {0, 1, 0}, kToSun).albedo()) / luminance(bihemisphericalAlbedo(m)));
+  const double reflected = static_cast<double>(luminance(Bsdf(m, {0, 1, 0}, {0, 1, 0}, kToSun).albedo()) /
+                                               luminance(bihemisphericalAlbedo(m)));
   EXPECT_NEAR(sent, reflected, 0.02 * reflected);
 }
 

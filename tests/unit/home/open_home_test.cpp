@@ -21,7 +21,9 @@ std::string objOf(const Scene& scene, float scale = 1) {
       const Vec3 q = instance.worldFromObject.point(p) * scale;
       text += fmt::format("v {} {} {}\n", q.x, q.y, q.z);
     }
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) text += fmt::format("f {} {} {}\n", first + mesh.indices[i], first + mesh.indices[i + 1], first + mesh.indices[i + 2]);
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+      text += fmt::format("f {} {} {}\n", first + mesh.indices[i], first + mesh.indices[i + 1],
+                          first + mesh.indices[i + 2]);
     first += mesh.positions.size();
   }
   return text;
@@ -58,7 +60,9 @@ TEST_F(OpenHome, inMillimetresIsTheSameRoom) {
   const OpenedHome millimetres = open();
   EXPECT_EQ(millimetres.metresPerUnit, 0.001);
   EXPECT_NE(millimetres.notes.front().find("taken as millimetres"), std::string::npos);
-  EXPECT_NEAR(length(defaultCamera(metres.scene).worldFromCamera.w - defaultCamera(millimetres.scene).worldFromCamera.w), 0, 0.01);
+  EXPECT_NEAR(
+      length(defaultCamera(metres.scene).worldFromCamera.w - defaultCamera(millimetres.scene).worldFromCamera.w), 0,
+      0.01);
   EXPECT_EQ(metres.lighting["daylight"], millimetres.lighting["daylight"]);
   OpenWish wish;
   wish.metresPerUnit = 0.01f;
@@ -87,7 +91,8 @@ TEST_F(OpenHome, lightIsAsWished) {
 
 TEST_F(OpenHome, aLightingFileIsLightOfItsOwn) {
   write(test::furnishedRoom());
-  testing::writeFile(folder_ / "lamp.json", R"({"lamps": [{"type": "point", "position": [2, 2, 2], "flux": "800 lm"}]})");
+  testing::writeFile(folder_ / "lamp.json",
+                     R"({"lamps": [{"type": "point", "position": [2, 2, 2], "flux": "800 lm"}]})");
   OpenWish wish;
   wish.lighting = folder_ / "lamp.json";
   const OpenedHome home = open(wish);

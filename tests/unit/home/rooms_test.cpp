@@ -13,7 +13,8 @@ TEST(Rooms, haveTheOutlineOfTheirFloor) {
   Scene scene;
   const int white = test::addMaterial(scene, test::lambertian(0.7f));
   test::addRoom(scene, {0, 0, 0}, {6, 2.5f, 4}, std::vector<int>(6, white));
-  test::addBox(scene, {3, 0.005f, 2}, {5.995f, 2.495f, 3.995f}, white);  // of two surfaces in one place either may be met
+  test::addBox(scene, {3, 0.005f, 2}, {5.995f, 2.495f, 3.995f},
+               white);  // of two surfaces in one place either may be met
   const RayScene rays(scene);
   const std::vector<Room> rooms = findRooms(rays);
   ASSERT_EQ(rooms.size(), 1u);

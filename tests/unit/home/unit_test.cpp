@@ -43,7 +43,8 @@ TEST(Unit, aHallWithTablesIsNoRoomInFeet) {
   Scene hall;
   const int grey = test::addMaterial(hall, test::lambertian(0.5f));
   test::addRoom(hall, {0, 0, 0}, {14, 8, 12}, std::vector<int>(6, grey));
-  for (int i = 0; i < 4; ++i) test::addBox(hall, {1 + 3.0f * static_cast<float>(i), 0, 2}, {3 + 3.0f * static_cast<float>(i), 0.75f, 9}, grey);
+  for (int i = 0; i < 4; ++i)
+    test::addBox(hall, {1 + 3.0f * static_cast<float>(i), 0, 2}, {3 + 3.0f * static_cast<float>(i), 0.75f, 9}, grey);
   EXPECT_EQ(guessOf(hall, 1, StatedUnit::Stated).metres, 1);
 }
 
@@ -51,7 +52,10 @@ TEST(Unit, namesOfThingsTell) {
   Proportions p;
   p.extent = 40;
   const auto box = [](float x, float low, float high) { return Bounds3{{x, low, 0}, {x + 10, high, 10}}; };
-  p.things = {{"Office Chair 1", box(0, 0, 40)}, {"chair.002", box(20, 0, 38)}, {"Chair_3 leg", box(40, 0, 20)}, {"Chair_3 back", box(40, 19, 41)}};
+  p.things = {{"Office Chair 1", box(0, 0, 40)},
+              {"chair.002", box(20, 0, 38)},
+              {"Chair_3 leg", box(40, 0, 20)},
+              {"Chair_3 back", box(40, 19, 41)}};
   EXPECT_EQ(guessUnit(p, StatedUnit::Stated).metres, 0.0254);
 }
 

@@ -47,7 +47,8 @@ void expectGrid(const Result<Imported>& imported) {
   float area = 0;
   const Mesh& mesh = scene.meshes.at(0);
   for (size_t t = 0; t < mesh.indices.size(); t += 3) {
-    const Vec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]], c = mesh.positions[mesh.indices[t + 2]];
+    const Vec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]],
+               c = mesh.positions[mesh.indices[t + 2]];
     area += cross(b - a, c - a).z / 2;
   }
   EXPECT_NEAR(area, kSide * kSide, 0.5f);
@@ -74,7 +75,8 @@ GltfFile dracoGrid(int method) {
   f.json["accessors"][0] = {{"componentType", 5126}, {"count", mesh->num_points()}, {"type", "VEC3"}};
   f.json["accessors"][1] = {{"componentType", 5125}, {"count", 6 * kSide * kSide}, {"type", "SCALAR"}};
   f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-  f.primitive()["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view}, {"attributes", {{"POSITION", mesh->attribute(0)->unique_id()}}}};
+  f.primitive()["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", view}, {"attributes", {{"POSITION", mesh->attribute(0)->unique_id()}}}};
   return f;
 }
 
@@ -86,21 +88,33 @@ GltfFile meshoptGrid(const char* indexMode) {
   std::vector<uint8_t> filtered(grid.positions.size() * 4), vertices(meshopt_encodeVertexBufferBound(count, 12));
   meshopt_encodeFilterExp(filtered.data(), count, 12, 20, grid.positions.data());
   vertices.resize(meshopt_encodeVertexBuffer(vertices.data(), vertices.size(), filtered.data(), count, 12));
-  std::vector<uint8_t> indices(meshopt_encodeIndexSequenceBound(grid.indices.size(), count) + meshopt_encodeIndexBufferBound(grid.indices.size(), count));
+  std::vector<uint8_t> indices(meshopt_encodeIndexSequenceBound(grid.indices.size(), count) +
+                               meshopt_encodeIndexBufferBound(grid.indices.size(), count));
   const bool triangles = std::string(indexMode) == "TRIANGLES";
-  indices.resize(triangles ? meshopt_encodeIndexBuffer(indices.data(), indices.size(), grid.indices.data(), grid.indices.size())
-                           : meshopt_encodeIndexSequence(indices.data(), indices.size(), grid.indices.data(), grid.indices.size()));
+  indices.resize(
+      triangles
+          ? meshopt_encodeIndexBuffer(indices.data(), indices.size(), grid.indices.data(), grid.indices.size())
+          : meshopt_encodeIndexSequence(indices.data(), indices.size(), grid.indices.data(), grid.indices.size()));
 
-  f.json["buffers"].push_back({{"byteLength", 100'000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
-  const auto compress = [&](const std::vector<uint8_t>& bytes, size_t elements, size_t stride, const char* mode, const char* filter) {
+  f.json["buffers"].push_back(
+      {{"byteLength", 100'000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+  const auto compress = [&](const std::vector<uint8_t>& bytes, size_t elements, size_t stride, const char* mode,
+                            const char* filter) {
     const int packed = f.addView(std::string(bytes.begin(), bytes.end()));
     nlohmann::json extension = f.json["bufferViews"][static_cast<size_t>(packed)];
     extension.update({{"count", elements}, {"byteStride", stride}, {"mode", mode}, {"filter", filter}});
-    f.json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", elements * stride}, {"extensions", {{"EXT_meshopt_compression", extension}}}});
+    f.json["bufferViews"].push_back(
+        {{"buffer", 1}, {"byteLength", elements * stride}, {"extensions", {{"EXT_meshopt_compression", extension}}}});
     return f.json["bufferViews"].size() - 1;
   };
-  f.json["accessors"][0] = {{"bufferView", compress(vertices, count, 12, "ATTRIBUTES", "EXPONENTIAL")}, {"componentType", 5126}, {"count", count}, {"type", "VEC3"}};
-  f.json["accessors"][1] = {{"bufferView", compress(indices, grid.indices.size(), 4, indexMode, "NONE")}, {"componentType", 5125}, {"count", grid.indices.size()}, {"type", "SCALAR"}};
+  f.json["accessors"][0] = {{"bufferView", compress(vertices, count, 12, "ATTRIBUTES", "EXPONENTIAL")},
+                            {"componentType", 5126},
+                            {"count", count},
+                            {"type", "VEC3"}};
+  f.json["accessors"][1] = {{"bufferView", compress(indices, grid.indices.size(), 4, indexMode, "NONE")},
+                            {"componentType", 5125},
+                            {"count", grid.indices.size()},
+                            {"type", "SCALAR"}};
   f.json["extensionsRequired"] = {"EXT_meshopt_compression"};
   return f;
 }
@@ -111,7 +125,8 @@ class Compression : public ::testing::Test {
 };
 
 TEST_F(Compression, dracoOfBothMethods) {
-  for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) expectGrid(dracoGrid(method).import(folder_ / "a.glb"));
+  for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING})
+    expectGrid(dracoGrid(method).import(folder_ / "a.glb"));
 }
 
 TEST_F(Compression, meshoptTrianglesAndSequences) {
@@ -120,7 +135,8 @@ TEST_F(Compression, meshoptTrianglesAndSequences) {
 
 // Every byte of the packed data broken once: a clean error or some triangles, never a crash.
 TEST_F(Compression, damagedStreamsNeverCrash) {
-  for (const GltfFile& original : {dracoGrid(draco::MESH_SEQUENTIAL_ENCODING), dracoGrid(draco::MESH_EDGEBREAKER_ENCODING), meshoptGrid("TRIANGLES")}) {
+  for (const GltfFile& original : {dracoGrid(draco::MESH_SEQUENTIAL_ENCODING),
+                                   dracoGrid(draco::MESH_EDGEBREAKER_ENCODING), meshoptGrid("TRIANGLES")}) {
     for (size_t i = 44; i < original.bytes.size(); i += 1 + i / 40) {
       for (const int bits : {0xff, 0x80, 0x01}) {
         GltfFile f = original;
@@ -141,7 +157,9 @@ TEST_F(Compression, streamsThatClaimTooMuchAreRefusedBeforeMemoryIsTaken) {
   std::copy(sequential.begin(), sequential.end(), f.bytes.begin());
   const auto draco = f.import(folder_ / "a.glb");
   ASSERT_FALSE(draco);
-  EXPECT_NE(draco.error().find("meshes[0].primitives[0].extensions.KHR_draco_mesh_compression: claims far more"), std::string::npos) << draco.error();
+  EXPECT_NE(draco.error().find("meshes[0].primitives[0].extensions.KHR_draco_mesh_compression: claims far more"),
+            std::string::npos)
+      << draco.error();
 
   GltfFile m = meshoptGrid("TRIANGLES");
   m.json["bufferViews"].back()["extensions"]["EXT_meshopt_compression"]["count"] = 3'000'000'000u;
@@ -160,7 +178,8 @@ TEST_F(Compression, streamsThatClaimTooMuchAreRefusedBeforeMemoryIsTaken) {
 // The same rooms written by other programs, plain and compressed.
 TEST_F(Compression, filesOfOtherProgramsShowTheSameScene) {
   const char* given = std::getenv("ROOMLIGHT_SHARED_DATA");
-  const std::filesystem::path data = (given ? std::filesystem::path(given) : std::filesystem::path(ROOMLIGHT_SOURCE_DIR) / "../shared/data") / "gltf";
+  const std::filesystem::path data =
+      (given ? std::filesystem::path(given) : std::filesystem::path(ROOMLIGHT_SOURCE_DIR) / "../shared/data") / "gltf";
   if (!std::filesystem::exists(data / "base.glb")) GTEST_SKIP() << "no shared data";
   const auto base = importScene(data / "base.glb");
   ASSERT_TRUE(base) << base.error();

@@ -18,17 +18,19 @@ Imported imported(const TemporaryFolder& folder, const std::string& name, const 
 }
 
 bool says(const Imported& imported, const std::string& text) {
-  return std::any_of(imported.warnings.begin(), imported.warnings.end(), [&](const std::string& w) { return w.find(text) != std::string::npos; });
+  return std::any_of(imported.warnings.begin(), imported.warnings.end(),
+                     [&](const std::string& w) { return w.find(text) != std::string::npos; });
 }
 
 // A triangle by a node that stands at `x`, and a camera with a lamp at `cameraX`.
 std::string gltf(double x, double cameraX) {
-  return fmt::format(R"({{"asset": {{"version": "2.0"}}, "extensionsUsed": ["KHR_lights_punctual"], "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point", "intensity": 80}}]}}}},
+  return fmt::format(
+      R"({{"asset": {{"version": "2.0"}}, "extensionsUsed": ["KHR_lights_punctual"], "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point", "intensity": 80}}]}}}},
     "scenes": [{{"nodes": [0, 1]}}], "nodes": [{{"mesh": 0, "translation": [{}, 0, 0]}}, {{"camera": 0, "translation": [{}, 0, 2], "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
     "cameras": [{{"name": "Eye", "type": "perspective", "perspective": {{"yfov": 1, "znear": 0.1}}}}],
     "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}], "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}}],
     "bufferViews": [{{"buffer": 0, "byteLength": 36}}], "buffers": [{{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
-                     x, cameraX);
+      x, cameraX);
 }
 
 TEST(FarScene, ofACountrysGridComesToTheOrigin) {

@@ -153,7 +153,13 @@ TEST_F(ForeignFormats, colladaInMetresWithLightsAndCamera) {
 
 TEST_F(ForeignFormats, stlPlyAnd3dsStandOnTheFloor) {
   const Triangles z = tableZUp(), y = turnedYUp(z);
-  const std::pair<const char*, std::string> files[] = {{"t.stl", stlText(z)}, {"b.stl", stlBytes(z)}, {"t.ply", ply(z, false, {255, 0, 128})}, {"b.ply", ply(z, true, {255, 0, 128})}, {"a.3ds", studio3d(z)}, {"y.stl", stlText(y)}, {"y.ply", ply(y, true, {255, 0, 128})}};
+  const std::pair<const char*, std::string> files[] = {{"t.stl", stlText(z)},
+                                                       {"b.stl", stlBytes(z)},
+                                                       {"t.ply", ply(z, false, {255, 0, 128})},
+                                                       {"b.ply", ply(z, true, {255, 0, 128})},
+                                                       {"a.3ds", studio3d(z)},
+                                                       {"y.stl", stlText(y)},
+                                                       {"y.ply", ply(y, true, {255, 0, 128})}};
   for (const auto& [name, bytes] : files) {
     SCOPED_TRACE(name);
     const Imported i = read(name, bytes);
@@ -174,7 +180,8 @@ TEST_F(ForeignFormats, stlPlyAnd3dsStandOnTheFloor) {
   ASSERT_EQ(camera.scene.cameras.size(), 1u);
   expectNear(camera.scene.cameras[0].worldFromCamera.w, {0, 2, 5});
   expectNear(camera.scene.cameras[0].worldFromCamera.vector({0, 0, -1}), {0, 0, -1});
-  EXPECT_NEAR(camera.scene.cameras[0].yFovRad, 2 * std::atan(std::tan(24 * kPi / 180) / 1.5), 1e-4);  // 48 degrees across
+  EXPECT_NEAR(camera.scene.cameras[0].yFovRad, 2 * std::atan(std::tan(24 * kPi / 180) / 1.5),
+              1e-4);  // 48 degrees across
 }
 
 // The library would look for it until its time is over.
@@ -196,15 +203,26 @@ TEST_F(ForeignFormats, verticesThatAreNoPlaceCostTheirTriangles) {
 // The parent never crashes, whatever becomes of the reader.
 TEST(DamagedFiles, giveASceneOrOneLine) {
   const Triangles t = tableZUp();
-  const std::pair<const char*, std::string> files[] = {{"a.fbx", fbxText(fbxScene(redBmp()))}, {"b.fbx", fbxBytes(fbxScene(redBmp()))}, {"a.dae", colladaScene()}, {"a.3ds", studio3d(t)}, {"a.stl", stlText(t)}, {"b.stl", stlBytes(t)}, {"a.ply", ply(t, false, {1, 2, 3})}, {"b.ply", ply(t, true, {1, 2, 3})}, {"a.obj", obj(t)}};
+  const std::pair<const char*, std::string> files[] = {{"a.fbx", fbxText(fbxScene(redBmp()))},
+                                                       {"b.fbx", fbxBytes(fbxScene(redBmp()))},
+                                                       {"a.dae", colladaScene()},
+                                                       {"a.3ds", studio3d(t)},
+                                                       {"a.stl", stlText(t)},
+                                                       {"b.stl", stlBytes(t)},
+                                                       {"a.ply", ply(t, false, {1, 2, 3})},
+                                                       {"b.ply", ply(t, true, {1, 2, 3})},
+                                                       {"a.obj", obj(t)}};
   const TemporaryFolder folder;
   uint32_t state = 1;
-  const auto random = [&](size_t below) { return (state = state * 1664525u + 1013904223u) / 65536u % static_cast<uint32_t>(below); };
+  const auto random = [&](size_t below) {
+    return (state = state * 1664525u + 1013904223u) / 65536u % static_cast<uint32_t>(below);
+  };
   for (const auto& [name, whole] : files) {
     for (int round = 0; round < 24; ++round) {
       std::string bytes = whole;
       if (round % 3 == 0) bytes.resize(bytes.size() * random(1000) / 1000);
-      for (int k = 0; round % 3 != 0 && k < 1 + round; ++k) bytes[random(60000) % bytes.size()] = static_cast<char>(random(256));
+      for (int k = 0; round % 3 != 0 && k < 1 + round; ++k)
+        bytes[random(60000) % bytes.size()] = static_cast<char>(random(256));
       writeFile(folder / name, bytes);
       const Result<Imported> r = importScene(folder / name, {.maxTriangles = 1 << 20});
       if (r) continue;

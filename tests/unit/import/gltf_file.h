@@ -27,7 +27,10 @@ class GltfFile {
     std::string data(numbers.size() * sizeof(T), '\0');
     std::memcpy(data.data(), numbers.data(), data.size());
     const size_t width = type == "SCALAR" ? 1 : static_cast<size_t>(type.back() - '0');
-    json["accessors"].push_back({{"bufferView", addView(data)}, {"componentType", componentType}, {"count", numbers.size() / width}, {"type", type}});
+    json["accessors"].push_back({{"bufferView", addView(data)},
+                                 {"componentType", componentType},
+                                 {"count", numbers.size() / width},
+                                 {"type", type}});
     if (normalized) json["accessors"].back()["normalized"] = true;
     return static_cast<int>(json["accessors"].size()) - 1;
   }
@@ -37,7 +40,8 @@ class GltfFile {
   nlohmann::json& node() { return json["nodes"][0]; }
 
   std::string glb() const;  // the whole file; buffer 0's length is filled in
-  Result<Imported> import(const std::filesystem::path& file, const ImportOptions& options = {}) const;  // writes .glb, then reads
+  Result<Imported> import(const std::filesystem::path& file,
+                          const ImportOptions& options = {}) const;  // writes .glb, then reads
 };
 
 // A picture of one colour.

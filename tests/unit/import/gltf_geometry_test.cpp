@@ -43,8 +43,9 @@ TEST_F(GltfGeometry, primitivesWithoutMaterialAreGrey) {
 TEST_F(GltfGeometry, nodesMultiplyTheirTransforms) {
   GltfFile f = GltfFile::triangle();
   const float s = std::sqrt(0.5f);
-  f.json["nodes"] = {{{"children", {1}}, {"translation", {10, 0, 0}}, {"rotation", {0, s, 0, s}}},  // 90 degrees about y
-                     {{"mesh", 0}, {"matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 1, 1}}}};  // twice as large, 1 along z
+  f.json["nodes"] = {
+      {{"children", {1}}, {"translation", {10, 0, 0}}, {"rotation", {0, s, 0, s}}},  // 90 degrees about y
+      {{"mesh", 0}, {"matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 1, 1}}}};  // twice as large, 1 along z
   const Imported imported = read(f);
   const Affine& world = imported.scene.instances.at(0).worldFromObject;
   expectNear(world.point({0, 0, 0}), {11, 0, 0});
@@ -97,14 +98,16 @@ TEST_F(GltfGeometry, stripsFansAndPlainListsGiveTheSameSide) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["attributes"]["POSITION"] = f.addFloats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
     f.primitive()["mode"] = mode;
-    const std::vector<uint8_t> indices = mode == 4 ? std::vector<uint8_t>{0, 1, 2, 0, 2, 3} : mode == 5 ? std::vector<uint8_t>{0, 1, 3, 2}
-                                                                                                        : std::vector<uint8_t>{0, 1, 2, 3};
+    const std::vector<uint8_t> indices = mode == 4   ? std::vector<uint8_t>{0, 1, 2, 0, 2, 3}
+                                         : mode == 5 ? std::vector<uint8_t>{0, 1, 3, 2}
+                                                     : std::vector<uint8_t>{0, 1, 2, 3};
     f.primitive()["indices"] = f.addAccessor(indices, 5121, "SCALAR");
     const Imported imported = read(f);
     const Mesh& mesh = imported.scene.meshes.at(0);
     ASSERT_EQ(mesh.triangleCount(), 2u) << mode;
     for (size_t t = 0; t < 6; t += 3) {
-      const Vec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]], c = mesh.positions[mesh.indices[t + 2]];
+      const Vec3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]],
+                 c = mesh.positions[mesh.indices[t + 2]];
       EXPECT_FLOAT_EQ(cross(b - a, c - a).z, 1) << mode;
     }
   }
@@ -119,7 +122,8 @@ TEST_F(GltfGeometry, trianglesWithoutIndices) {
 TEST_F(GltfGeometry, onlyTheVerticesThatAPrimitiveUsesAreKept) {
   GltfFile f = GltfFile::triangle();
   std::vector<float> positions;
-  for (int i = 0; i < 100; ++i) positions.insert(positions.end(), {static_cast<float>(i), static_cast<float>(i * i), 0});
+  for (int i = 0; i < 100; ++i)
+    positions.insert(positions.end(), {static_cast<float>(i), static_cast<float>(i * i), 0});
   f.primitive()["attributes"]["POSITION"] = f.addFloats(positions, "VEC3");
   f.primitive()["indices"] = f.addAccessor<uint32_t>({90, 7, 50}, 5125, "SCALAR");
   const Imported imported = read(f);
@@ -136,7 +140,8 @@ TEST_F(GltfGeometry, attributesAreReadAndMadeUnit) {
   attributes["TANGENT"] = f.addFloats({3, 0, 0, -1, 3, 0, 0, -1, 3, 0, 0, 1}, "VEC4");
   attributes["TEXCOORD_0"] = f.addAccessor<uint8_t>({0, 0, 255, 0, 0, 255}, 5121, "VEC2", true);
   attributes["TEXCOORD_1"] = f.addFloats({0, 0, 0.5f, 0, 0, 0.25f}, "VEC2");
-  attributes["COLOR_0"] = f.addAccessor<uint16_t>({65535, 0, 0, 0, 0, 65535, 0, 65535, 0, 0, 65535, 65535}, 5123, "VEC4", true);
+  attributes["COLOR_0"] =
+      f.addAccessor<uint16_t>({65535, 0, 0, 0, 0, 65535, 0, 65535, 0, 0, 65535, 65535}, 5123, "VEC4", true);
   const Imported imported = read(f);
   const Mesh& mesh = imported.scene.meshes.at(0);
   EXPECT_EQ(mesh.normals.at(1), Vec3(0, 0, 1));
@@ -158,7 +163,9 @@ TEST_F(GltfGeometry, quantizedPositionsStridedViewsAndSparseValues) {
   const int indices = f.addView(std::string(1, 2));
   const int values = f.addView(std::string("\0\0\xff\x7f\0\0", 6));
   f.json["accessors"][static_cast<size_t>(accessor)]["sparse"] = {
-      {"count", 1}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
+      {"count", 1},
+      {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+      {"values", {{"bufferView", values}}}};
   f.primitive()["attributes"]["POSITION"] = accessor;
   f.json["extensionsRequired"] = {"KHR_mesh_quantization"};
   const Imported imported = read(f);

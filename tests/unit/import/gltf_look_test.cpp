@@ -35,7 +35,8 @@ class GltfLook : public ::testing::Test {
 
 TEST_F(GltfLook, materialFactorsAndExtensions) {
   material_ = {{"name", "glass"},
-               {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.6}}},
+               {"pbrMetallicRoughness",
+                {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.6}}},
                {"emissiveFactor", {1, 0.5, 0}},
                {"alphaMode", "MASK"},
                {"alphaCutoff", 0.25},
@@ -45,7 +46,8 @@ TEST_F(GltfLook, materialFactorsAndExtensions) {
                  {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
                  {"KHR_materials_ior", {{"ior", 1.33}}},
                  {"KHR_materials_specular", {{"specularFactor", 0.7}, {"specularColorFactor", {1, 0.9, 0.8}}}},
-                 {"KHR_materials_volume", {{"thicknessFactor", 0.02}, {"attenuationDistance", 0.5}, {"attenuationColor", {0.5, 1, 1}}}}}}};
+                 {"KHR_materials_volume",
+                  {{"thicknessFactor", 0.02}, {"attenuationDistance", 0.5}, {"attenuationColor", {0.5, 1, 1}}}}}}};
   const Imported imported = read();
   const Material& m = imported.scene.materials.at(0);
   EXPECT_EQ(m.baseColor, Vec3(0.1f, 0.2f, 0.3f));
@@ -91,7 +93,8 @@ TEST_F(GltfLook, texturesOfEveryUse) {
   EXPECT_EQ(imported.scene.textures[0].width, 3);
   EXPECT_EQ(imported.scene.textures[0].height, 2);
   EXPECT_EQ(imported.scene.textures[0].rgba, std::vector<uint8_t>(24, 255));
-  for (const TextureRef& ref : {m.baseColorTexture, m.metallicRoughnessTexture, m.emissionTexture, m.transmissionTexture}) {
+  for (const TextureRef& ref :
+       {m.baseColorTexture, m.metallicRoughnessTexture, m.emissionTexture, m.transmissionTexture}) {
     EXPECT_EQ(ref.texture, 0);
     EXPECT_EQ(ref.uvSet, 1);
   }
@@ -105,7 +108,10 @@ TEST_F(GltfLook, wrapModesAndTransformOfATexture) {
   file_.json["textures"][0]["sampler"] = 0;
   const float quarter = kPi / 2;
   material_["pbrMetallicRoughness"]["baseColorTexture"] = {
-      {"index", texture}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"rotation", quarter}, {"scale", {2, 3}}, {"texCoord", 1}}}}}};
+      {"index", texture},
+      {"extensions",
+       {{"KHR_texture_transform",
+         {{"offset", {0.5, 0.25}}, {"rotation", quarter}, {"scale", {2, 3}}, {"texCoord", 1}}}}}};
   const Imported imported = read();
   const TextureRef& ref = imported.scene.materials.at(0).baseColorTexture;
   EXPECT_EQ(imported.scene.textures.at(0).wrapU, Wrap::ClampToEdge);
@@ -121,7 +127,8 @@ TEST_F(GltfLook, oneImageWithTwoSamplersIsTwoTextures) {
   addTexture(testing::pngOf(2, 2, 1));
   file_.json["samplers"] = {{{"wrapS", 33071}}};
   file_.json["textures"].push_back({{"source", 0}, {"sampler", 0}});
-  material_["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}};
+  material_["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}},
+                                       {"metallicRoughnessTexture", {{"index", 1}}}};
   EXPECT_EQ(read().scene.textures.size(), 2u);
 }
 
@@ -140,7 +147,8 @@ TEST_F(GltfLook, jpegAndWebpPictures) {
   WebPFree(webp);
   file_.json["textures"].push_back({{"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}});
   file_.json["extensionsRequired"] = {"EXT_texture_webp"};
-  material_["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}};
+  material_["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}},
+                                       {"metallicRoughnessTexture", {{"index", 1}}}};
   const Imported imported = read();
   ASSERT_EQ(imported.scene.textures.size(), 2u);
   EXPECT_EQ(imported.scene.textures[0].rgba, rgba);
@@ -173,10 +181,14 @@ TEST_F(GltfLook, materialsOfPicturesThatCannotBeDecodedAreNeutral) {
   file_.json["textures"] = {{{"extensions", {{"MSFT_texture_dds", {{"source", 0}}}}}}};
   file_.json["extensionsRequired"] = {"MSFT_texture_dds"};
   const json info = {{"index", 0}};
-  material_ = {{"pbrMetallicRoughness", {{"baseColorTexture", info}, {"metallicRoughnessTexture", info}}}, {"normalTexture", info}, {"emissiveTexture", info}, {"emissiveFactor", {1, 1, 1}}};
+  material_ = {{"pbrMetallicRoughness", {{"baseColorTexture", info}, {"metallicRoughnessTexture", info}}},
+               {"normalTexture", info},
+               {"emissiveTexture", info},
+               {"emissiveFactor", {1, 1, 1}}};
   const Imported imported = read();
   const Material& m = imported.scene.materials.at(0);
-  for (const TextureRef& ref : {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture}) EXPECT_EQ(ref.texture, -1);
+  for (const TextureRef& ref : {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture})
+    EXPECT_EQ(ref.texture, -1);
   EXPECT_EQ(m.baseColor, Vec3(0.6f));
   EXPECT_EQ(m.metallic, 0);
   EXPECT_TRUE(isBlack(m.emission));
@@ -198,7 +210,8 @@ TEST_F(GltfLook, refinementsOfMaterialsAreOneWarning) {
   material_["extensions"] = {{"KHR_materials_clearcoat", json::object()}, {"KHR_materials_sheen", json::object()}};
   file_.json["extensionsRequired"] = {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_animation_pointer"};
   const Imported imported = read();
-  EXPECT_EQ(imported.warnings, (std::vector<std::string>{"looks that are not supported show as their base material: KHR_materials_clearcoat, KHR_materials_sheen (2 times)"}));
+  EXPECT_EQ(imported.warnings, (std::vector<std::string>{"looks that are not supported show as their base material: "
+                                                         "KHR_materials_clearcoat, KHR_materials_sheen (2 times)"}));
 }
 
 TEST_F(GltfLook, lightsAndCameras) {
@@ -206,10 +219,12 @@ TEST_F(GltfLook, lightsAndCameras) {
       {{"type", "point"}, {"intensity", 50}, {"color", {1, 0.5, 0}}, {"name", "bulb"}},
       {{"type", "spot"}, {"intensity", 70}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.3}}}},
       {{"type", "directional"}, {"intensity", 1000}}};
-  file_.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"aspectRatio", 1.5}, {"znear", 0.1}}}},
-                           {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}}}}};
+  file_.json["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"aspectRatio", 1.5}, {"znear", 0.1}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}}}}};
   for (int i = 0; i < 3; ++i) {
-    file_.json["nodes"].push_back({{"name", "n"}, {"translation", {i, 0, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    file_.json["nodes"].push_back(
+        {{"name", "n"}, {"translation", {i, 0, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
     file_.json["scenes"][0]["nodes"].push_back(i + 1);
   }
   file_.node()["camera"] = 0;
@@ -249,11 +264,15 @@ TEST_F(GltfLook, eachKindThatCannotBeHonouredIsOneWarningWithItsCount) {
   file_.json["nodes"].push_back({{"scale", {0, 1, 1}}, {"mesh", 0}});
   file_.json["scenes"][0]["nodes"].push_back(1);
   const Imported imported = read();
-  const char* expected[] = {"looks that are not supported show as their base material: KHR_materials_clearcoat (once)", "animations are ignored, things stay where their nodes put them (2 times)",
-                            "morph targets are ignored, meshes keep their base shape (once)", "points and lines are ignored (2 times)",
-                            "scenes other than the default one are ignored (once)", "skins are ignored, meshes keep their rest pose (once)"};
+  const char* expected[] = {"looks that are not supported show as their base material: KHR_materials_clearcoat (once)",
+                            "animations are ignored, things stay where their nodes put them (2 times)",
+                            "morph targets are ignored, meshes keep their base shape (once)",
+                            "points and lines are ignored (2 times)",
+                            "scenes other than the default one are ignored (once)",
+                            "skins are ignored, meshes keep their rest pose (once)"};
   EXPECT_EQ(imported.warnings, std::vector<std::string>(std::begin(expected), std::end(expected)));
-  EXPECT_EQ(imported.faults, std::vector<std::string>{"nodes scaled to nothing are left out with all below them (once)"});
+  EXPECT_EQ(imported.faults,
+            std::vector<std::string>{"nodes scaled to nothing are left out with all below them (once)"});
   EXPECT_EQ(imported.faultCount, 1u);
 }
 

@@ -48,7 +48,8 @@ TEST_F(GltfLuminaire, aNodeIsNamedAfterItsFile) {
 }
 
 TEST_F(GltfLuminaire, extrasSayMore) {
-  add({{"name", "left"}, {"extras", {{"roomlight", {{"ies", "odd.ies"}, {"fluxLm", 500}, {"dimming", 0.5}, {"as", "point"}}}}}});
+  add({{"name", "left"},
+       {"extras", {{"roomlight", {{"ies", "odd.ies"}, {"fluxLm", 500}, {"dimming", 0.5}, {"as", "point"}}}}}});
   const Result<Imported> imported = read();
   ASSERT_TRUE(imported) << imported.error();
   const Lamp& lamp = imported.value().scene.lamps.at(0);

@@ -42,7 +42,8 @@ class GltfMended : public ::testing::Test {
       EXPECT_GE(imported.value().scene.triangleCount(), 1u) << c.name;
       std::vector<std::string> warnings = imported.value().warnings;
       warnings.insert(warnings.end(), imported.value().faults.begin(), imported.value().faults.end());
-      ASSERT_EQ(warnings.size(), std::string(c.expected).empty() ? 0u : 1u) << c.name << (warnings.empty() ? "" : ": " + warnings[0]);
+      ASSERT_EQ(warnings.size(), std::string(c.expected).empty() ? 0u : 1u)
+          << c.name << (warnings.empty() ? "" : ": " + warnings[0]);
       if (warnings.empty()) continue;
       EXPECT_NE(warnings[0].find(c.expected), std::string::npos) << c.name << ": " << warnings[0];
     }
@@ -56,8 +57,17 @@ TEST_F(GltfMended, containers) {
       {"version is a number", [](GltfFile& f) { f.json["asset"]["version"] = 2.0; }, ""},
       {"buffer without a length", [](GltfFile& f) { f.json["buffers"][0].erase("byteLength"); }, ""},
       {"view longer than the buffer", [](GltfFile& f) { f.json["bufferViews"][1]["byteLength"] = 4096; }, ""},
-      {"nulls", [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = f.node()["extras"] = f.node()["camera"] = f.json["materials"][0]["normalTexture"] = nullptr; }, ""},
-      {"harmless extension", [](GltfFile& f) { f.json["extensionsRequired"] = {"KHR_xmp_json_ld", "MSFT_lod"}; }, ""},
+      {"nulls",
+       [](GltfFile& f) {
+         f.json["accessors"][0]["byteOffset"] = f.node()["extras"] = f.node()["camera"] =
+             f.json["materials"][0]["normalTexture"] = nullptr;
+       },
+       ""},
+      {"harmless extension",
+       [](GltfFile& f) {
+         f.json["extensionsRequired"] = {"KHR_xmp_json_ld", "MSFT_lod"};
+       },
+       ""},
   });
 }
 
@@ -70,7 +80,8 @@ TEST_F(GltfMended, lengthsAndBytesAroundTheJson) {
   testing::writeFile(folder_ / "a.bin", text.bytes);
   std::string latin = text.json.dump();
   latin.replace(latin.find("thing"), 5, "t\xfcr e");
-  for (const std::string& bytes : {whole + "trailing", wrong, "\xef\xbb\xbf" + text.json.dump(), text.json.dump() + std::string(3, '\0'), latin}) {
+  for (const std::string& bytes :
+       {whole + "trailing", wrong, "\xef\xbb\xbf" + text.json.dump(), text.json.dump() + std::string(3, '\0'), latin}) {
     testing::writeFile(folder_ / "a.gltf", bytes);
     const auto imported = importScene(folder_ / "a.gltf");
     ASSERT_TRUE(imported) << imported.error();
@@ -79,22 +90,24 @@ TEST_F(GltfMended, lengthsAndBytesAroundTheJson) {
 }
 
 TEST_F(GltfMended, materials) {
-  const auto material = [](json value) {
-    return [value](GltfFile& f) { f.json["materials"][0] = value; };
-  };
+  const auto material = [](json value) { return [value](GltfFile& f) { f.json["materials"][0] = value; }; };
   const char* limited = "values of materials outside their range";
   expectAllMended({
       {"bright paint", material({{"pbrMetallicRoughness", {{"baseColorFactor", {1.5, 0.5, 0.5, 1}}}}}), limited},
       {"rough metal", material({{"pbrMetallicRoughness", {{"roughnessFactor", 1.00001}}}}), limited},
-      {"attenuation at once", material({{"extensions", {{"KHR_materials_volume", {{"attenuationDistance", 0}}}}}}), limited},
-      {"attenuation backwards", material({{"extensions", {{"KHR_materials_volume", {{"attenuationDistance", -1}}}}}}), limited},
+      {"attenuation at once", material({{"extensions", {{"KHR_materials_volume", {{"attenuationDistance", 0}}}}}}),
+       limited},
+      {"attenuation backwards", material({{"extensions", {{"KHR_materials_volume", {{"attenuationDistance", -1}}}}}}),
+       limited},
       {"thin air", material({{"extensions", {{"KHR_materials_ior", {{"ior", 0.9}}}}}}), limited},
-      {"more than all light", material({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1.1}}}}}}), limited},
+      {"more than all light",
+       material({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1.1}}}}}}), limited},
       {"cut off below nothing", material({{"alphaMode", "MASK"}, {"alphaCutoff", -0.5}}), limited},
       {"alpha mode", material({{"alphaMode", "GLASS"}}), "unknown alphaMode"},
       {"texture out of range", material({{"normalTexture", {{"index", 3}}}}), "pictures are missing"},
       {"material out of range", [](GltfFile& f) { f.primitive()["material"] = -1; }, "without a material"},
-      {"wrap mode", [](GltfFile& f) {
+      {"wrap mode",
+       [](GltfFile& f) {
          f.json["images"] = {{{"bufferView", f.addView(testing::pngOf(1, 1, 1))}, {"mimeType", "image/jpeg"}}};
          f.json["samplers"] = {{{"wrapS", 10496}}};
          f.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
@@ -121,14 +134,27 @@ TEST_F(GltfMended, geometry) {
   };
   expectAllMended({
       {"index out of range", indices({0, 1, 2, 0, 1, 3}), "a vertex that does not exist are left out (once)"},
-      {"signed indices", [](GltfFile& f) { f.primitive()["indices"] = f.addAccessor<int16_t>({0, 1, 2, 0, 1, -1}, 5122, "SCALAR"); }, "a vertex that does not exist are left out (once)"},
+      {"signed indices",
+       [](GltfFile& f) {
+         f.primitive()["indices"] = f.addAccessor<int16_t>({0, 1, 2, 0, 1, -1}, 5122, "SCALAR");
+       },
+       "a vertex that does not exist are left out (once)"},
       {"four indices", indices({0, 1, 2, 0}), "make no whole triangle"},
-      {"empty mesh", [](GltfFile& f) { f.json["meshes"].push_back({{"primitives", json::array()}}); }, ""},
+      {"empty mesh",
+       [](GltfFile& f) {
+         f.json["meshes"].push_back({{"primitives", json::array()}});
+       },
+       ""},
       {"mesh without primitives", [](GltfFile& f) { f.json["meshes"].push_back(json::object()); }, ""},
-      {"no vertices", beside([](GltfFile& f, json& p) { p.erase("indices"), p["attributes"]["POSITION"] = f.addFloats({}, "VEC3"); }), ""},
+      {"no vertices",
+       beside([](GltfFile& f, json& p) { p.erase("indices"), p["attributes"]["POSITION"] = f.addFloats({}, "VEC3"); }),
+       ""},
       {"no positions", beside([](GltfFile&, json& p) { p["attributes"].erase("POSITION"); }), "without positions"},
       {"mode 99", beside([](GltfFile&, json& p) { p["mode"] = 99; }), "unknown kind"},
-      {"NaN vertex", beside([](GltfFile& f, json& p) { p["attributes"]["POSITION"] = f.addFloats({0, 0, 0, 1, kNaN, 0, 0, 1, 0}, "VEC3"); }), "a vertex that is no finite number"},
+      {"NaN vertex", beside([](GltfFile& f, json& p) {
+         p["attributes"]["POSITION"] = f.addFloats({0, 0, 0, 1, kNaN, 0, 0, 1, 0}, "VEC3");
+       }),
+       "a vertex that is no finite number"},
       {"NaN coordinates", attribute("TEXCOORD_0", {0, 0, kNaN, 0, 0, 1}, "VEC2"), "texture coordinates"},
       {"too few normals", attribute("NORMAL", {0, 0, 1}, "VEC3"), "do not fit"},
       {"flat normals", attribute("NORMAL", {0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC2"), "do not fit"},
@@ -149,17 +175,40 @@ TEST_F(GltfMended, normalsWithoutADirectionAreMadeAnew) {
 TEST_F(GltfMended, nodes) {
   expectAllMended({
       {"own child", [](GltfFile& f) { f.node()["children"] = {0}; }, "second parent"},
-      {"circle", [](GltfFile& f) { f.node()["children"] = {1}, f.json["nodes"].push_back({{"children", {0}}}); }, "second parent"},
-      {"two parents", [](GltfFile& f) { f.json["nodes"].push_back({{"children", {0}}}), f.json["scenes"][0]["nodes"] = {1, 0}; }, "second parent"},
+      {"circle",
+       [](GltfFile& f) {
+         f.node()["children"] = {1}, f.json["nodes"].push_back({{"children", {0}}});
+       },
+       "second parent"},
+      {"two parents",
+       [](GltfFile& f) {
+         f.json["nodes"].push_back({{"children", {0}}}), f.json["scenes"][0]["nodes"] = {1, 0};
+       },
+       "second parent"},
       {"child out of range", [](GltfFile& f) { f.node()["children"] = {12}; }, "do not exist"},
-      {"mesh out of range", [](GltfFile& f) { f.json["nodes"].push_back({{"mesh", 7}}), f.node()["children"] = {1}; }, "do not exist"},
-      {"mesh -1", [](GltfFile& f) { f.json["nodes"].push_back({{"mesh", -1}}), f.node()["children"] = {1}; }, ""},
+      {"mesh out of range",
+       [](GltfFile& f) {
+         f.json["nodes"].push_back({{"mesh", 7}}), f.node()["children"] = {1};
+       },
+       "do not exist"},
+      {"mesh -1",
+       [](GltfFile& f) {
+         f.json["nodes"].push_back({{"mesh", -1}}), f.node()["children"] = {1};
+       },
+       ""},
       {"scene out of range", [](GltfFile& f) { f.json["scene"] = 4; }, "do not exist"},
       {"empty scene", [](GltfFile& f) { f.json["scenes"][0] = json::object(); }, ""},
-      {"no nodes", [](GltfFile& f) { f.json.erase("nodes"), f.json.erase("scenes"), f.json.erase("scene"); }, "at the origin"},
-      {"zero rotation", [](GltfFile& f) { f.node()["rotation"] = {0, 0, 0, 0}; }, ""},
-      {"almost affine matrix", [](GltfFile& f) { f.node()["matrix"] = {1, 0, 0, 1e-9, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }, ""},
-      {"hidden node", [](GltfFile& f) {
+      {"no nodes", [](GltfFile& f) { f.json.erase("nodes"), f.json.erase("scenes"), f.json.erase("scene"); },
+       "at the origin"},
+      {"zero rotation",
+       [](GltfFile& f) {
+         f.node()["rotation"] = {0, 0, 0, 0};
+       },
+       ""},
+      {"almost affine matrix",
+       [](GltfFile& f) { f.node()["matrix"] = {1, 0, 0, 1e-9, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }, ""},
+      {"hidden node",
+       [](GltfFile& f) {
          f.json["nodes"].push_back({{"mesh", 0}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
          f.node()["children"] = {1};
          f.json["extensionsRequired"] = {"KHR_node_visibility"};
@@ -181,9 +230,14 @@ TEST_F(GltfMended, lightsAndCameras) {
   expectAllMended({
       {"negative light", light({{"type", "point"}, {"intensity", -5}}), "values of lights"},
       {"unknown light", light({{"type", "laser"}}), "unknown kind"},
-      {"cones swapped", light({{"type", "spot"}, {"spot", {{"innerConeAngle", 1}, {"outerConeAngle", 0.5}}}}), "values of lights"},
+      {"cones swapped", light({{"type", "spot"}, {"spot", {{"innerConeAngle", 1}, {"outerConeAngle", 0.5}}}}),
+       "values of lights"},
       {"no cone", light({{"type", "spot"}, {"spot", {{"outerConeAngle", 0}}}}), "values of lights"},
-      {"no lights", [](GltfFile& f) { f.node()["extensions"]["KHR_lights_punctual"] = {{"light", 0}}; }, "do not exist"},
+      {"no lights",
+       [](GltfFile& f) {
+         f.node()["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
+       },
+       "do not exist"},
       {"no field of view", camera({{"type", "perspective"}, {"perspective", {{"yfov", 0}}}}), "see nothing"},
       {"field of view", camera({{"type", "perspective"}, {"perspective", {{"yfov", 7}}}}), "see nothing"},
       {"no aspect", camera({{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"aspectRatio", 0}}}}), ""},
@@ -197,7 +251,8 @@ TEST_F(GltfMended, companionsUnderOtherNames) {
   testing::writeFile(folder_ / "Textures/My Oak.PNG", testing::pngOf(1, 1, 0));
   testing::writeFile(folder_ / "50%.png", testing::pngOf(1, 1, 0));
   testing::writeFile(folder_ / "wood.png", testing::pngOf(1, 1, 0));
-  for (const char* uri : {"textures/my%20oak.png", "Textures\\My Oak.PNG", "./textures//MY OAK.png", "50%.png", "50%25.png", "../maps/wood.png", "C:\\models\\wood.png"}) {
+  for (const char* uri : {"textures/my%20oak.png", "Textures\\My Oak.PNG", "./textures//MY OAK.png", "50%.png",
+                          "50%25.png", "../maps/wood.png", "C:\\models\\wood.png"}) {
     GltfFile f = GltfFile::triangle();
     f.json["images"] = {{{"uri", uri}}};
     f.json["textures"] = {{{"source", 0}}};
@@ -212,9 +267,12 @@ TEST_F(GltfMended, missingPicturesAreCountedByName) {
   GltfFile f = GltfFile::triangle();
   f.json["images"] = {{{"uri", "a.png"}}, {{"uri", "b.png"}}};
   f.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
-  f.json["materials"][0] = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}, {"normalTexture", {{"index", 1}}}};
+  f.json["materials"][0] = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                            {"normalTexture", {{"index", 1}}}};
   const Imported imported = read(f);
-  EXPECT_EQ(imported.warnings, (std::vector<std::string>{"pictures are missing, their materials show without them: a.png, b.png (2 times)"}));
+  EXPECT_EQ(
+      imported.warnings,
+      (std::vector<std::string>{"pictures are missing, their materials show without them: a.png, b.png (2 times)"}));
   EXPECT_EQ(imported.scene.materials[0].baseColor, Vec3(0.6f));
 }
 
@@ -230,15 +288,21 @@ TEST_F(GltfMended, firstVersionInItsOwnContainer) {
   testing::writeFile(folder_ / "a.glb", std::string("glTF\x01\0\0\0\x20\0\0\0\x04\0\0\0\0\0\0\0{}  ", 24));
   const auto imported = importScene(folder_ / "a.glb");
   ASSERT_FALSE(imported);
-  EXPECT_NE(imported.error().find("glTF 1.0 is not read; convert it to 2.0, for example with Blender or gltf-pipeline"), std::string::npos) << imported.error();
+  EXPECT_NE(imported.error().find("glTF 1.0 is not read; convert it to 2.0, for example with Blender or gltf-pipeline"),
+            std::string::npos)
+      << imported.error();
 }
 
 // A few hundred files of all that is new here, cut and scrambled: a scene or one line.
 TEST_F(GltfMended, damagedFilesNeverCrash) {
   GltfFile f = GltfFile::triangle();
-  f.json["images"] = {{{"bufferView", f.addView(testing::pngOf(4, 4, 0.5f))}}, {{"bufferView", f.addView(testing::basisLzPicture().bytes())}}};
+  f.json["images"] = {{{"bufferView", f.addView(testing::pngOf(4, 4, 0.5f))}},
+                      {{"bufferView", f.addView(testing::basisLzPicture().bytes())}}};
   f.json["textures"] = {{{"source", 0}}, {{"extensions", {{"KHR_texture_basisu", {{"source", 1}}}}}}};
-  f.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {{"diffuseTexture", {{"index", 0}}}, {"specularGlossinessTexture", {{"index", 1}}}, {"specularFactor", {0.9, 0.5, 0.1}}};
+  f.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+      {"diffuseTexture", {{"index", 0}}},
+      {"specularGlossinessTexture", {{"index", 1}}},
+      {"specularFactor", {0.9, 0.5, 0.1}}};
   f.json["extensionsRequired"] = {"KHR_texture_basisu", "KHR_materials_pbrSpecularGlossiness"};
   f.primitive()["attributes"]["NORMAL"] = f.addFloats({1, 0, 0, 0, 0, 0, kNaN, 0, 0}, "VEC3");
   f.primitive()["attributes"]["TEXCOORD_0"] = f.addFloats({0, 0, 1, 0, 0, 1}, "VEC2");

@@ -49,7 +49,8 @@ class SpecularGlossinessFile : public ::testing::Test {
 };
 
 TEST_F(SpecularGlossinessFile, factorsAlone) {
-  extension_ = {{"diffuseFactor", {0.5, 0.25, 0.1, 0.75}}, {"specularFactor", {0.04, 0.04, 0.04}}, {"glossinessFactor", 0.25}};
+  extension_ = {
+      {"diffuseFactor", {0.5, 0.25, 0.1, 0.75}}, {"specularFactor", {0.04, 0.04, 0.04}}, {"glossinessFactor", 0.25}};
   const Material m = read().materials.at(0);
   EXPECT_NEAR(m.baseColor.x, 0.5f, 1e-3f);
   EXPECT_FLOAT_EQ(m.alpha, 0.75f);
@@ -71,9 +72,12 @@ TEST_F(SpecularGlossinessFile, aDiffuseTextureOfPlasticStaysAsItIs) {
   EXPECT_EQ(scene.materials.at(0).baseColorTexture.texture, 0);
 }
 
-// A black diffuse picture under a grey mirrored one is a grey metal; the smaller picture is stretched over the larger one.
+// A black diffuse picture under a grey mirrored one is a grey metal; the smaller picture is stretched over the larger
+// one.
 TEST_F(SpecularGlossinessFile, texturesAreConvertedTexelByTexel) {
-  extension_ = {{"diffuseTexture", addTexture(1, 1, 0)}, {"specularGlossinessTexture", addTexture(4, 2, 0.5f)}, {"glossinessFactor", 0.5}};
+  extension_ = {{"diffuseTexture", addTexture(1, 1, 0)},
+                {"specularGlossinessTexture", addTexture(4, 2, 0.5f)},
+                {"glossinessFactor", 0.5}};
   const Scene scene = read();
   const Material& m = scene.materials.at(0);
   ASSERT_GE(m.baseColorTexture.texture, 0);

@@ -53,7 +53,8 @@ struct Ktx2File {
     std::string out("\xabKTX 20\xbb\r\n\x1a\n", 12);
     const auto word = [&](uint64_t v, size_t size = 4) { out.append(reinterpret_cast<const char*>(&v), size); };
     const uint32_t descriptorAt = 104, descriptorBytes = 44, globalAt = descriptorAt + descriptorBytes;
-    for (const uint32_t v : {format, 1u, width, height, 0u, 0u, 1u, 1u, scheme, descriptorAt, descriptorBytes, 0u, 0u}) word(v);
+    for (const uint32_t v : {format, 1u, width, height, 0u, 0u, 1u, 1u, scheme, descriptorAt, descriptorBytes, 0u, 0u})
+      word(v);
     word(global.empty() ? 0 : globalAt, 8), word(global.size(), 8);
     word(globalAt + global.size(), 8), word(level.size(), 8), word(level.size(), 8);
     std::string descriptor(descriptorBytes, '\0');
@@ -62,7 +63,8 @@ struct Ktx2File {
   }
 };
 
-// 8 x 8 texels of four blocks: two endpoints, two selectors, every way to name them, and an alpha slice of the same blocks.
+// 8 x 8 texels of four blocks: two endpoints, two selectors, every way to name them, and an alpha slice of the same
+// blocks.
 inline Ktx2File basisLzPicture() {
   BitWriter endpoints, selectors, tables, slice;
   endpoints.table(32, 5).table(32, 5).table(32, 5).table(8, 3).put(0, 1);
@@ -79,7 +81,8 @@ inline Ktx2File basisLzPicture() {
   f.width = f.height = 8, f.scheme = 1, f.model = 163;
   f.level = slice.bytes + slice.bytes;
   const auto word = [&](size_t v, size_t size = 4) { f.global.append(reinterpret_cast<const char*>(&v), size); };
-  word(2, 2), word(2, 2), word(endpoints.bytes.size()), word(selectors.bytes.size()), word(tables.bytes.size()), word(0);
+  word(2, 2), word(2, 2), word(endpoints.bytes.size()), word(selectors.bytes.size()), word(tables.bytes.size()),
+      word(0);
   word(0), word(0), word(slice.bytes.size()), word(slice.bytes.size()), word(slice.bytes.size());
   f.global += endpoints.bytes + selectors.bytes + tables.bytes;
   return f;

@@ -29,7 +29,9 @@ std::vector<uint8_t> texelsOf(const std::string& file) {
   return picture.texture.rgba;
 }
 
-std::vector<uint8_t> texel(const std::vector<uint8_t>& rgba, size_t i) { return {rgba.begin() + 4 * static_cast<std::ptrdiff_t>(i), rgba.begin() + 4 * static_cast<std::ptrdiff_t>(i) + 4}; }
+std::vector<uint8_t> texel(const std::vector<uint8_t>& rgba, size_t i) {
+  return {rgba.begin() + 4 * static_cast<std::ptrdiff_t>(i), rgba.begin() + 4 * static_cast<std::ptrdiff_t>(i) + 4};
+}
 
 using Texel = std::vector<uint8_t>;
 

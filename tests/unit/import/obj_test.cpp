@@ -49,15 +49,17 @@ TEST_F(Obj, readsPositionsNormalsAndTextureCoordinates) {
 }
 
 TEST_F(Obj, understandsRelativeIndicesJoinedLinesCommentsAndWindowsLineEnds) {
-  const auto imported = read("# a comment\r\nv 0 0 0 # corner\r\nv +1 0 0\r\nv 1 1e0 0\r\nv 0 1 0\r\nf -4 -3 \\\r\n -2 -1 # face\r\n");
+  const auto imported =
+      read("# a comment\r\nv 0 0 0 # corner\r\nv +1 0 0\r\nv 1 1e0 0\r\nv 0 1 0\r\nf -4 -3 \\\r\n -2 -1 # face\r\n");
   ASSERT_TRUE(imported) << imported.error();
   EXPECT_EQ(imported.value().scene.triangleCount(), 2u);
 }
 
 TEST_F(Obj, objectsAndMaterialsMakeMeshes) {
   writeFile(folder_ / "my colours.mtl", "newmtl red\nKd 1 0 0\nnewmtl lamp\nKe 50 40 30\nKd 0 0 0\n");
-  const auto imported = read("mtllib my colours.mtl\n" + kSquare +
-                             "o chair\nusemtl red\nf 1 2 3\ng seat\nusemtl lamp\nf 1 3 4\no table\nusemtl red\nf 1 2 3 4\n");
+  const auto imported =
+      read("mtllib my colours.mtl\n" + kSquare +
+           "o chair\nusemtl red\nf 1 2 3\ng seat\nusemtl lamp\nf 1 3 4\no table\nusemtl red\nf 1 2 3 4\n");
   ASSERT_TRUE(imported) << imported.error();
   const Scene& scene = imported.value().scene;
   ASSERT_EQ(scene.instances.size(), 3u);
@@ -74,7 +76,8 @@ TEST_F(Obj, readsMaterialValues) {
             "newmtl glass\nKd 0.5 0.5 0.5\nd 0.25\nNi 1.52\nKs 1 1 1\nNs 998\n"
             "newmtl steel\nKd 0.6 0.6 0.6\nPr 0.3\nPm 1\n"
             "newmtl paint\nKd 0.7 0.7 0.7\nTr 0.5\n");
-  const auto imported = read("mtllib a.mtl\n" + kSquare + "usemtl glass\nf 1 2 3\nusemtl steel\nf 1 2 3\nusemtl paint\nf 1 2 3\n");
+  const auto imported =
+      read("mtllib a.mtl\n" + kSquare + "usemtl glass\nf 1 2 3\nusemtl steel\nf 1 2 3\nusemtl paint\nf 1 2 3\n");
   ASSERT_TRUE(imported) << imported.error();
   const auto& m = imported.value().scene.materials;
   EXPECT_FLOAT_EQ(m[0].alpha, 0.25f);
@@ -91,13 +94,16 @@ TEST_F(Obj, combinesPictures) {
   writePicture("kd.tga", {10, 20, 30, 255}, {40, 50, 60, 255});
   writePicture("mask.tga", {0, 0, 0, 255}, {128, 128, 128, 255});
   writePicture("metal.tga", {255, 255, 255, 255}, {7, 7, 7, 255});
-  writeFile(folder_ / "a.mtl", "newmtl m\nmap_Kd -s 2 3 -o 0.5 0.25 kd.tga\nKd 1 1 1\nmap_d mask.tga\nmap_Pm metal.tga\n");
+  writeFile(folder_ / "a.mtl",
+            "newmtl m\nmap_Kd -s 2 3 -o 0.5 0.25 kd.tga\nKd 1 1 1\nmap_d mask.tga\nmap_Pm metal.tga\n");
   const auto imported = read("mtllib a.mtl\n" + kSquare + "usemtl m\nf 1 2 3\n");
   ASSERT_TRUE(imported) << imported.error();
   const Scene& scene = imported.value().scene;
   const Material& m = scene.materials[0];
-  EXPECT_EQ(scene.textures.at(static_cast<size_t>(m.baseColorTexture.texture)).rgba, (std::vector<uint8_t>{10, 20, 30, 0, 40, 50, 60, 128}));
-  EXPECT_EQ(scene.textures.at(static_cast<size_t>(m.metallicRoughnessTexture.texture)).rgba, (std::vector<uint8_t>{0, 255, 255, 255, 0, 255, 7, 255}));
+  EXPECT_EQ(scene.textures.at(static_cast<size_t>(m.baseColorTexture.texture)).rgba,
+            (std::vector<uint8_t>{10, 20, 30, 0, 40, 50, 60, 128}));
+  EXPECT_EQ(scene.textures.at(static_cast<size_t>(m.metallicRoughnessTexture.texture)).rgba,
+            (std::vector<uint8_t>{0, 255, 255, 255, 0, 255, 7, 255}));
   EXPECT_FLOAT_EQ(m.metallic, 1);
   // The file's v = 0 (the scene's 1) reads the file's 0.25, which is the scene's 0.75.
   EXPECT_FLOAT_EQ(m.baseColorTexture.m[1][1] * 1 + m.baseColorTexture.m[1][2], 0.75f);
@@ -112,12 +118,15 @@ TEST_F(Obj, unitsScaleTheInstances) {
 
 TEST_F(Obj, whatCannotBeHonouredIsOneWarningAKind) {
   writeFile(folder_ / "a.mtl", "newmtl a\nmap_Kd missing.png\nmap_bump b.png\nnewmtl b\nmap_bump b.png\n");
-  const auto imported = read("mtllib a.mtl\nmtllib none.mtl\n" + kSquare +
-                             "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl d\nf 1 2 3\nf 1 1 2\nl 1 2\np 1\nf 1 2\n");
+  const auto imported =
+      read("mtllib a.mtl\nmtllib none.mtl\n" + kSquare +
+           "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl d\nf 1 2 3\nf 1 1 2\nl 1 2\np 1\nf 1 2\n");
   ASSERT_TRUE(imported) << imported.error();
   const auto& warnings = imported.value().warnings;
   const auto has = [&](const std::string& text, const std::string& times) {
-    return std::count_if(warnings.begin(), warnings.end(), [&](const std::string& w) { return w.find(text) != std::string::npos && w.ends_with("(" + times + ")"); }) == 1;
+    return std::count_if(warnings.begin(), warnings.end(), [&](const std::string& w) {
+             return w.find(text) != std::string::npos && w.ends_with("(" + times + ")");
+           }) == 1;
   };
   EXPECT_TRUE(has("none.mtl' is missing", "once"));
   EXPECT_TRUE(has("no MTL file holds", "2 times"));
@@ -132,8 +141,10 @@ TEST_F(Obj, smallFaultsAreMendedAndCountedApart) {
   const auto imported = read("mtllib a.mtl\n" + kSquare + "usemtl a\nf 1 2 3\nf 1 1 2\nf 1 2\nf 3 4\n");
   ASSERT_TRUE(imported) << imported.error();
   EXPECT_TRUE(imported.value().warnings.empty());
-  EXPECT_EQ(imported.value().faults, (std::vector<std::string>{"triangles without area are left out (once)", "faces with fewer than three corners are ignored (2 times)",
-                                                               "Kd of a material is outside 0 to 1 and limited (2 times)"}));
+  EXPECT_EQ(imported.value().faults,
+            (std::vector<std::string>{"triangles without area are left out (once)",
+                                      "faces with fewer than three corners are ignored (2 times)",
+                                      "Kd of a material is outside 0 to 1 and limited (2 times)"}));
   EXPECT_EQ(imported.value().faultCount, 5u);
 }
 
@@ -148,7 +159,8 @@ TEST_F(Obj, damagedFilesAreOneLineThatNamesFileAndLine) {
       {"infinite", "v 0 0 0\nv 1e99 0 0\nf 1 2 1\n", "line 3: vertex 2"},
       {"words", "v a b c\nf 1 1 1\n", "line 2: vertex 1"},
       {"too few numbers", "v 1 2\nf 1 1 1\n", "line 2: vertex 1"},
-      {"index out of range", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: vertex 4 does not exist, there are 3 so far"},
+      {"index out of range", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
+       "line 4: vertex 4 does not exist, there are 3 so far"},
       {"relative index out of range", "v 0 0 0\nf -1 -2 -1\n", "line 2: vertex -2"},
       {"zero index", "v 0 0 0\nf 0 1 1\n", "line 2"},
       {"index overflow", "v 0 0 0\nf 4294967297 1 1\n", "line 2"},
@@ -167,8 +179,12 @@ TEST_F(Obj, damagedFacesCostOnlyThemselves) {
   const auto imported = read(kSquare + "v nan 0 0\nv 1,5 0 0\nf 1 2 3\nf 1 3 4\nf 1 2 99\nf 1 2 5\nf 1//7 2//7 6//7\n");
   ASSERT_TRUE(imported) << imported.error();
   EXPECT_EQ(imported.value().scene.triangleCount(), 2u);  // of (1.5 0 0), a decimal comma, one without area
-  EXPECT_EQ(imported.value().warnings, (std::vector<std::string>{"faces of vertices that do not exist are left out (once)", "faces of vertices that are no finite place are left out (once)"}));
-  EXPECT_EQ(imported.value().faults, (std::vector<std::string>{"triangles without area are left out (once)", "texture coordinates and normals that do not exist are left out (3 times)"}));
+  EXPECT_EQ(imported.value().warnings,
+            (std::vector<std::string>{"faces of vertices that do not exist are left out (once)",
+                                      "faces of vertices that are no finite place are left out (once)"}));
+  EXPECT_EQ(imported.value().faults,
+            (std::vector<std::string>{"triangles without area are left out (once)",
+                                      "texture coordinates and normals that do not exist are left out (3 times)"}));
 }
 
 TEST_F(Obj, namesOfOtherMachines) {
@@ -199,7 +215,8 @@ TEST_F(Obj, nothingIsInvisible) {
     writeFile(folder_ / "a.mtl", mtl);
     const auto imported = read("mtllib a.mtl\n" + use);
     EXPECT_TRUE(imported) << imported.error();
-    return imported ? std::pair(imported.value().scene.materials[0].alpha, imported.value().scene.materials[1].alpha) : std::pair(-1.0f, -1.0f);
+    return imported ? std::pair(imported.value().scene.materials[0].alpha, imported.value().scene.materials[1].alpha)
+                    : std::pair(-1.0f, -1.0f);
   };
   EXPECT_EQ(alphas("newmtl a\nTr 0\nnewmtl b\nTr 0.75\n"), std::pair(1.0f, 0.25f));    // as the format says it
   EXPECT_EQ(alphas("newmtl a\nTr 1\nnewmtl b\nTr 0.25\n"), std::pair(1.0f, 0.25f));    // Tr as opacity

@@ -60,7 +60,11 @@ TEST_F(ScenePackage, aFolderOpensWithItsCompanions) {
 }
 
 TEST_F(ScenePackage, aZipOpensAndLeavesNothingBehind) {
-  writeFile(folder_ / "room.zip", zipped({{"room/Source/room.obj", obj_}, {"room/Source/room.mtl", mtl_}, {"room/tex/red.bmp", redBmp()}, {"__MACOSX/._a", "x"}, {"../evil.obj", obj_}}));
+  writeFile(folder_ / "room.zip", zipped({{"room/Source/room.obj", obj_},
+                                          {"room/Source/room.mtl", mtl_},
+                                          {"room/tex/red.bmp", redBmp()},
+                                          {"__MACOSX/._a", "x"},
+                                          {"../evil.obj", obj_}}));
   const auto unpacked = [] {
     size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path())) {
@@ -98,7 +102,9 @@ TEST_F(ScenePackage, contentDecidesWhereTheNameIsWrong) {
   EXPECT_EQ(error("room.txt"), "");
   writeFile(folder_ / "room.gltf", obj_);
   EXPECT_EQ(error("room.gltf"), "");
-  writeFile(folder_ / "home.zip", zipped({{"Home.xml", homeXml("<room name='r' areaVisible='true'><point x='0' y='0'/><point x='100' y='0'/><point x='100' y='100'/></room>")}}));
+  writeFile(folder_ / "home.zip",
+            zipped({{"Home.xml", homeXml("<room name='r' areaVisible='true'><point x='0' y='0'/><point x='100' "
+                                         "y='0'/><point x='100' y='100'/></room>")}}));
   EXPECT_EQ(error("home.zip"), "");
   GltfFile f = GltfFile::triangle();
   writeFile(folder_ / "t.obj", f.glb());
@@ -115,7 +121,8 @@ TEST_F(ScenePackage, formatsOfProgramsSayWhatToExport) {
 }
 
 TEST(CompanionSearch, findsWhatExportersMean) {
-  const std::vector<std::string> names{"maps/oak.png", "maps/stone/oak.png", "room.mtl", "tex/Wood Floor.JPG", "tex/brick.webp"};
+  const std::vector<std::string> names{"maps/oak.png", "maps/stone/oak.png", "room.mtl", "tex/Wood Floor.JPG",
+                                       "tex/brick.webp"};
   EXPECT_EQ(meantName(names, "", "room.mtl"), "room.mtl");
   EXPECT_EQ(meantName(names, "", "C:\\Users\\x\\MAPS\\Oak.png"), "maps/oak.png");
   EXPECT_EQ(meantName(names, "", "/home/x/stone/oak.png"), "maps/stone/oak.png");
@@ -130,7 +137,8 @@ TEST(CompanionSearch, neverLeavesTheRoot) {
   writeFile(folder / "secret.mtl", "x");
   std::filesystem::create_symlink(folder / "secret.mtl", folder / "scene/link.mtl");
   const ReadCompanion read = companionsAround(folder / "scene/a.obj", {});
-  for (const char* name : {"../secret.mtl", "link.mtl", "/etc/passwd", "..\\secret.mtl"}) EXPECT_FALSE(read(name, "")) << name;
+  for (const char* name : {"../secret.mtl", "link.mtl", "/etc/passwd", "..\\secret.mtl"})
+    EXPECT_FALSE(read(name, "")) << name;
   EXPECT_TRUE(companionsAround(folder / "scene/a.obj", folder.path())("../secret.mtl", ""));
 }
 

@@ -15,7 +15,8 @@ inline Result<Imported> importBytes(const std::string& bytes, const ImportOption
   return importScene(folder / "home.sh3d", options);
 }
 
-inline Result<Imported> importHome(const std::string& elements, const ZipEntries& more = {}, const std::string& attributes = "wallHeight='250'") {
+inline Result<Imported> importHome(const std::string& elements, const ZipEntries& more = {},
+                                   const std::string& attributes = "wallHeight='250'") {
   ZipEntries entries{{"Home.xml", homeXml(elements, attributes)}};
   entries.insert(entries.end(), more.begin(), more.end());
   return importBytes(zipped(entries));
@@ -63,7 +64,8 @@ inline Bounds3 boundsOf(const Scene& scene, const std::string& name) {
   return b;
 }
 
-// Of a closed body whose fronts look outwards; bottoms that openings leave lie at the body's lowest height and count nothing.
+// Of a closed body whose fronts look outwards; bottoms that openings leave lie at the body's lowest height and count
+// nothing.
 inline double volumeM3(const Scene& scene, const std::string& name) {
   const Bounds3 b = boundsOf(scene, name);
   const Vec3 o = b.lo;

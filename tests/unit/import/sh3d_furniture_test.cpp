@@ -11,7 +11,8 @@ namespace {
 
 using namespace testing;
 
-// A wedge without symmetry: full depth at its left, front right corner missing. 2 x 3 x 4 of its own unit, off its origin.
+// A wedge without symmetry: full depth at its left, front right corner missing. 2 x 3 x 4 of its own unit, off its
+// origin.
 const std::string kWedge =
     "mtllib wedge.mtl\n"
     "v 5 1 0\nv 7 1 0\nv 5 1 4\nv 5 4 0\nv 7 4 0\nv 5 4 4\n"
@@ -19,11 +20,14 @@ const std::string kWedge =
 const std::string kWedgeMtl = "newmtl red\nKd 0.8 0 0\nnewmtl blue\nKd 0 0 0.8\n";
 const ZipEntries kModel{{"1/wedge.obj", kWedge}, {"1/wedge.mtl", kWedgeMtl}};
 
-std::string pieceXml(const std::string& more, const std::string& inside = "", const std::string& kind = "pieceOfFurniture") {
-  return "<" + kind + " name='piece' x='300' y='200' width='100' depth='50' height='80' model='1/wedge.obj' " + more + ">" + inside + "</" + kind + ">";
+std::string pieceXml(const std::string& more, const std::string& inside = "",
+                     const std::string& kind = "pieceOfFurniture") {
+  return "<" + kind + " name='piece' x='300' y='200' width='100' depth='50' height='80' model='1/wedge.obj' " + more +
+         ">" + inside + "</" + kind + ">";
 }
 
-Scene pieceScene(const std::string& more, const std::string& inside = "", const ZipEntries& model = kModel, const std::string& kind = "pieceOfFurniture") {
+Scene pieceScene(const std::string& more, const std::string& inside = "", const ZipEntries& model = kModel,
+                 const std::string& kind = "pieceOfFurniture") {
   Result<Imported> imported = importHome(pieceXml(more, inside, kind), model);
   if (!imported) {
     ADD_FAILURE() << imported.error();
@@ -80,7 +84,8 @@ TEST(Sh3dFurniture, modelRotationComesBeforeTheSize) {
   const Scene scene = pieceScene("modelRotation='1 0 0 0 0 1 0 -1 0'");
   expectBox(scene, {2.5f, 0, 1.75f}, {3.5f, 0.8f, 2.25f});
   double level = 0;
-  for (const Face& f : facesOf(scene, "piece")) level += std::abs(f.normal.y) > 0.9f ? static_cast<double>(f.areaM2) : 0;
+  for (const Face& f : facesOf(scene, "piece"))
+    level += std::abs(f.normal.y) > 0.9f ? static_cast<double>(f.areaM2) : 0;
   EXPECT_NEAR(level, 1 * 0.5, 1e-5);  // one rectangle instead of two triangles of half
 }
 
@@ -92,9 +97,12 @@ TEST(Sh3dFurniture, pitchAndRollTiltAndKeepItOnTheFloor) {
 }
 
 TEST(Sh3dFurniture, levelsAndGroupsCarryPieces) {
-  const std::string levels = "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/><level id='l1' name='1' elevation='260' floorThickness='12' height='250'/>";
-  const std::string group = "<furnitureGroup name='g' level='l1'><furnitureGroup name='h'>" + pieceXml("") + "</furnitureGroup>" +
-                            "<furnitureGroup name='hidden' visible='false'>" + pieceXml("elevation='900'") + "</furnitureGroup></furnitureGroup>";
+  const std::string levels =
+      "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/><level id='l1' name='1' elevation='260' "
+      "floorThickness='12' height='250'/>";
+  const std::string group = "<furnitureGroup name='g' level='l1'><furnitureGroup name='h'>" + pieceXml("") +
+                            "</furnitureGroup>" + "<furnitureGroup name='hidden' visible='false'>" +
+                            pieceXml("elevation='900'") + "</furnitureGroup></furnitureGroup>";
   const Result<Imported> imported = importHome(levels + group, kModel);
   ASSERT_TRUE(imported.ok()) << imported.error();
   expectBox(imported.value().scene, {2.5f, 2.6f, 1.75f}, {3.5f, 3.4f, 2.25f});
@@ -105,7 +113,8 @@ TEST(Sh3dFurniture, transformationsMoveTheirGroups) {
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
       "g frame\nf 1 2 3 4\ng sweethome3d_opening_on_hinge_1\nf 5 6 7 8\ng sweethome3d_window_pane_on_hinge_1\nf 5 6 7\n"
       "g sweethome3d_opening_on_hinge_12\nf 1 5 8 4\n";
-  const Scene scene = pieceScene("", "<transformation name='sweethome3d_hinge_1' matrix='1 0 0 0 0 1 0 0 0 0 1 1'/>", {{"1/wedge.obj", door}});
+  const Scene scene = pieceScene("", "<transformation name='sweethome3d_hinge_1' matrix='1 0 0 0 0 1 0 0 0 0 1 1'/>",
+                                 {{"1/wedge.obj", door}});
   // The model is 2 deep with its leaf moved by 1: the frame's group of the other name ends in the middle.
   expectBox(scene, {2.5f, 0, 1.75f}, {3.5f, 0.8f, 2.25f});
   float deepest = 0;
@@ -115,8 +124,8 @@ TEST(Sh3dFurniture, transformationsMoveTheirGroups) {
   EXPECT_NEAR(deepest, 2, 1e-5);
 }
 
-// A door of 1 x 0.8 x 0.5 of its unit that fills its piece: a frame, a leaf with a handle in its middle plane, a pin before the leaf's left edge. The
-// groups that move stand inside objects, and the frame goes on behind the pin.
+// A door of 1 x 0.8 x 0.5 of its unit that fills its piece: a frame, a leaf with a handle in its middle plane, a pin
+// before the leaf's left edge. The groups that move stand inside objects, and the frame goes on behind the pin.
 const std::string kDoor =
     "v 0 0 0\nv 1 0 0\nv 1 0.8 0.5\nv 0 0.8 0.5\n"
     "v 0.1 0.1 0.25\nv 0.3 0.1 0.25\nv 0.3 0.7 0.25\nv 0.1 0.7 0.25\n"
@@ -129,7 +138,8 @@ const std::string kDoor =
 std::string turnedAboutPin(double turnRad) {
   const double c = std::cos(turnRad), s = std::sin(turnRad), x = 0.1, z = 0.285;
   std::string matrix;
-  for (const double v : {c, 0.0, s, x - c * x - s * z, 0.0, 1.0, 0.0, 0.0, -s, 0.0, c, z + s * x - c * z}) matrix += std::to_string(v) + " ";
+  for (const double v : {c, 0.0, s, x - c * x - s * z, 0.0, 1.0, 0.0, 0.0, -s, 0.0, c, z + s * x - c * z})
+    matrix += std::to_string(v) + " ";
   return "<transformation name='sweethome3d_hinge_1' matrix='" + matrix.substr(0, matrix.size() - 1) + "'/>";
 }
 
@@ -168,8 +178,10 @@ TEST(Sh3dLeaves, areAtRestAsTheHomeHasThem) {
 
 TEST(Sh3dLeaves, slideToTheFarEndOfTheirRail) {
   const std::string slider =
-      "v 0 0 0\nv 1 0 0\nv 1 0.8 0.5\nv 0 0.8 0.5\nv 0.5 0.1 0.25\nv 1 0.1 0.25\nv 1 0.7 0.25\nv 0 0.1 0.3\nv 0.5 0.1 0.3\nv 0.5 0.7 0.3\n"
-      "g sweethome3d_unique_rail_frame\nf 1 2 3 4\ng sweethome3d_opening_on_rail_1\nf 5 6 7\ng sweethome3d_opening_on_rail_2\nf 8 9 10\n";
+      "v 0 0 0\nv 1 0 0\nv 1 0.8 0.5\nv 0 0.8 0.5\nv 0.5 0.1 0.25\nv 1 0.1 0.25\nv 1 0.7 0.25\nv 0 0.1 0.3\nv 0.5 0.1 "
+      "0.3\nv 0.5 0.7 0.3\n"
+      "g sweethome3d_unique_rail_frame\nf 1 2 3 4\ng sweethome3d_opening_on_rail_1\nf 5 6 7\ng "
+      "sweethome3d_opening_on_rail_2\nf 8 9 10\n";
   const Scene scene = pieceScene("", "", {{"1/wedge.obj", slider}});
   ASSERT_EQ(scene.leaves.size(), 1u);
   EXPECT_NEAR(length(scene.leaves[0].slideM - Vec3(-0.5f, 0, 0)), 0, 1e-5);
@@ -182,12 +194,18 @@ TEST(Sh3dFurniture, edgesAreHiddenWhereTheModelSaysSo) {
   EXPECT_EQ(facesOf(pieceScene("modelFlags='2'", "", {{"1/wedge.obj", edged}}), "piece").size(), 1u);
 }
 
-// A checkered floor of 2 x 1 m a picture, moved by a quarter picture to the right and half a one up, then turned by a right angle.
+// A checkered floor of 2 x 1 m a picture, moved by a quarter picture to the right and half a one up, then turned by a
+// right angle.
 TEST(Sh3dTextures, areLaidByTheirSizeOffsetAndAngle) {
-  const std::string bmp("BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x01\0\0\0\x01\0\0\0\x01\0\x18\0\0\0\0\0\x04\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x40\x80\xff\0", 58);
+  const std::string bmp(
+      "BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x01\0\0\0\x01\0\0\0\x01\0\x18\0\0\0\0\0\x04\0\0\0\0\0\0\0\0\0\0\0\0\0\0"
+      "\0\0\0\0\0\x40\x80\xff\0",
+      58);
   const auto map = [&](const std::string& more, Vec2 at) {
-    const std::string room = "<room name='R' ceilingVisible='false'><texture attribute='floorTexture' name='t' image='7' width='200' height='100' " + more +
-                             "/><point x='0' y='0'/><point x='400' y='0'/><point x='400' y='300'/></room>";
+    const std::string room =
+        "<room name='R' ceilingVisible='false'><texture attribute='floorTexture' name='t' image='7' width='200' "
+        "height='100' " +
+        more + "/><point x='0' y='0'/><point x='400' y='0'/><point x='400' y='300'/></room>";
     const Result<Imported> r = importHome(room, {{"7", bmp}});
     EXPECT_TRUE(r.ok()) << r.error();
     if (!r) return Vec2();
@@ -210,7 +228,9 @@ TEST(Sh3dFurniture, coloursReplaceThoseOfTheModel) {
   const auto colours = [](const Scene& scene) {
     std::vector<Vec3> out;
     for (const Instance& i : scene.instances) {
-      if (i.name == "piece") out.push_back(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].baseColor);
+      if (i.name == "piece")
+        out.push_back(
+            scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].baseColor);
     }
     return out;
   };
@@ -228,12 +248,15 @@ TEST(Sh3dFurniture, coloursReplaceThoseOfTheModel) {
 }
 
 TEST(Sh3dFurniture, veilsInDoorsAndWindowsAreGlass) {
-  const ZipEntries model{{"1/wedge.obj", kWedge}, {"1/wedge.mtl", "newmtl red\nKd 0.8 0.8 0.8\nd 0.5\nnewmtl blue\nKd 0.8 0.8 0.8\nd 0.9\n"}};
+  const ZipEntries model{{"1/wedge.obj", kWedge},
+                         {"1/wedge.mtl", "newmtl red\nKd 0.8 0.8 0.8\nd 0.5\nnewmtl blue\nKd 0.8 0.8 0.8\nd 0.9\n"}};
   const auto panes = [&](const std::string& kind, const std::string& inside) {
     const Scene scene = pieceScene("", inside, model, kind);
     std::vector<int> out;
     for (const Instance& i : scene.instances) {
-      if (i.name == "piece") out.push_back(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].glazing.panes);
+      if (i.name == "piece")
+        out.push_back(
+            scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(i.mesh)].material)].glazing.panes);
     }
     return out;
   };
@@ -257,21 +280,25 @@ TEST(Sh3dFurniture, missingModelsAreBoxesWithAWarning) {
 }
 
 TEST(Sh3dFurniture, namesOfModelsMayBeEscaped) {
-  const Result<Imported> r = importHome("<pieceOfFurniture name='piece' x='300' y='200' width='100' depth='50' height='80' model='1/my%20we%25ge.obj'/>" +
-                                            std::string("<pieceOfFurniture name='q' x='0' y='0' width='1' depth='1' height='1' model='1/50%.obj'/>"),
-                                        {{"1/my we%ge.obj", kWedge}, {"1/wedge.mtl", kWedgeMtl}, {"1/50%.obj", kWedge}});
+  const Result<Imported> r = importHome(
+      "<pieceOfFurniture name='piece' x='300' y='200' width='100' depth='50' height='80' model='1/my%20we%25ge.obj'/>" +
+          std::string("<pieceOfFurniture name='q' x='0' y='0' width='1' depth='1' height='1' model='1/50%.obj'/>"),
+      {{"1/my we%ge.obj", kWedge}, {"1/wedge.mtl", kWedgeMtl}, {"1/50%.obj", kWedge}});
   ASSERT_TRUE(r.ok()) << r.error();
   EXPECT_EQ(facesOf(r.value().scene, "piece").size(), 8u);
   EXPECT_EQ(facesOf(r.value().scene, "q").size(), 8u);
 }
 
 TEST(Sh3dFurniture, texturesOfModelsHaveNoSize) {
-  const std::string paint = "<material name='red' shininess='3'><texture name='t' width='-1' height='-1' image='none'/></material>";
+  const std::string paint =
+      "<material name='red' shininess='3'><texture name='t' width='-1' height='-1' image='none'/></material>";
   EXPECT_EQ(facesOf(pieceScene("", paint), "piece").size(), 8u);
 }
 
 TEST(Sh3dFurniture, modelsInAZipFileOfTheirOwn) {
-  const Scene scene = pieceScene("", "", {{"1/wedge.obj", zipped({{"textures/x.txt", "x"}, {"m/wedge.obj", kWedge}, {"m/wedge.mtl", kWedgeMtl}})}});
+  const Scene scene = pieceScene(
+      "", "",
+      {{"1/wedge.obj", zipped({{"textures/x.txt", "x"}, {"m/wedge.obj", kWedge}, {"m/wedge.mtl", kWedgeMtl}})}});
   expectBox(scene, {2.5f, 0, 1.75f}, {3.5f, 0.8f, 2.25f});
 }
 
@@ -284,7 +311,8 @@ double fluxLm(const Scene& scene) {
     EXPECT_FALSE(m.doubleSided && !isBlack(m.emission));
     for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
       const Affine& w = i.worldFromObject;
-      const Vec3 a = w.point(mesh.positions[mesh.indices[t]]), b = w.point(mesh.positions[mesh.indices[t + 1]]), c = w.point(mesh.positions[mesh.indices[t + 2]]);
+      const Vec3 a = w.point(mesh.positions[mesh.indices[t]]), b = w.point(mesh.positions[mesh.indices[t + 1]]),
+                 c = w.point(mesh.positions[mesh.indices[t + 2]]);
       sum += std::numbers::pi * static_cast<double>(luminance(m.emission) * length(cross(b - a, c - a))) / 2;
     }
   }
@@ -292,11 +320,14 @@ double fluxLm(const Scene& scene) {
 }
 
 TEST(Sh3dLights, sourcesShareTheFluxOfThePower) {
-  const std::string two = "<lightSource x='0' y='0' z='1' color='FFBCBCBC'/><lightSource x='1' y='1' z='0' color='FFFFFFFF' diameter='0.1'/>";
+  const std::string two =
+      "<lightSource x='0' y='0' z='1' color='FFBCBCBC'/><lightSource x='1' y='1' z='0' color='FFFFFFFF' "
+      "diameter='0.1'/>";
   const Scene scene = pieceScene("power='0.5' elevation='20'", two, kModel, "light");
   EXPECT_NEAR(fluxLm(scene), 800, 0.1);
   ASSERT_EQ(scene.lamps.size(), 1u);
-  EXPECT_NEAR(4 * std::numbers::pi * static_cast<double>(luminance(scene.lamps[0].intensityCd)), 800 * 0.502886 / 1.502886, 0.05);  // sRGB 188 of 255 is 0.502886
+  EXPECT_NEAR(4 * std::numbers::pi * static_cast<double>(luminance(scene.lamps[0].intensityCd)),
+              800 * 0.502886 / 1.502886, 0.05);  // sRGB 188 of 255 is 0.502886
   // Left, front, top; the ball lies right, back, bottom and is 10 cm wide.
   EXPECT_NEAR(length(scene.lamps[0].position - Vec3(2.5f, 1, 2.25f)), 0, 1e-5);
   const Bounds3 ball = boundsOf(scene, "piece (light)");
@@ -315,8 +346,12 @@ TEST(Sh3dLights, coloursTintButDoNotDim) {
 
 TEST(Sh3dLights, turnAndMirrorWithTheirPiece) {
   const std::string source = "<lightSource x='0' y='0' z='1' color='FFFFFFFF'/>";
-  EXPECT_NEAR(length(pieceScene("angle='1.5707963'", source, kModel, "light").lamps[0].position - Vec3(2.75f, 0.8f, 1.5f)), 0, 1e-5);
-  EXPECT_NEAR(length(pieceScene("modelMirrored='true'", source, kModel, "light").lamps[0].position - Vec3(3.5f, 0.8f, 2.25f)), 0, 1e-5);
+  EXPECT_NEAR(
+      length(pieceScene("angle='1.5707963'", source, kModel, "light").lamps[0].position - Vec3(2.75f, 0.8f, 1.5f)), 0,
+      1e-5);
+  EXPECT_NEAR(
+      length(pieceScene("modelMirrored='true'", source, kModel, "light").lamps[0].position - Vec3(3.5f, 0.8f, 2.25f)),
+      0, 1e-5);
 }
 
 TEST(Sh3dLights, powerScalesAndZeroIsDark) {

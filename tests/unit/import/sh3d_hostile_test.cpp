@@ -18,7 +18,9 @@ void expectRefused(const std::string& bytes, const std::string& because) {
   EXPECT_EQ(r.error().find('\n'), std::string::npos);
   EXPECT_LT(r.error().size(), 700u);
 }
-void expectXmlRefused(const std::string& xml, const std::string& because) { expectRefused(zipped({{"Home.xml", xml}}), because); }
+void expectXmlRefused(const std::string& xml, const std::string& because) {
+  expectRefused(zipped({{"Home.xml", xml}}), because);
+}
 
 const std::string kWall = wallXml("w", 0, 0, 400, 0, 10);
 
@@ -46,7 +48,9 @@ TEST(HostileSh3d, bombsAreNotUnpacked) {
   EXPECT_LT(bomb.size(), 200'000u);
   expectRefused(bomb, "which no home does");
   // As a model it costs only that model.
-  const Result<Imported> r = importHome(kWall + "<pieceOfFurniture name='p' x='0' y='0' width='10' depth='10' height='10' model='9'/>", {{"9", std::string(100 << 20, '\0')}});
+  const Result<Imported> r =
+      importHome(kWall + "<pieceOfFurniture name='p' x='0' y='0' width='10' depth='10' height='10' model='9'/>",
+                 {{"9", std::string(100 << 20, '\0')}});
   ASSERT_TRUE(r.ok()) << r.error();
   EXPECT_NE(r.value().warnings[0].find("which no home does"), std::string::npos);
 }
@@ -64,13 +68,15 @@ TEST(HostileSh3d, limitsOfArchivesCountTogether) {
 
 TEST(HostileSh3d, namesThatClimbOutAreLeftOut) {
   EXPECT_EQ(normalisedEntryName("a//./b\\c"), "a/b/c");
-  for (const char* name : {"../a", "a/../../b", "/etc/passwd", "\\a", "C:\\a", "", ".", "a/.."}) EXPECT_EQ(normalisedEntryName(name), std::nullopt) << name;
+  for (const char* name : {"../a", "a/../../b", "/etc/passwd", "\\a", "C:\\a", "", ".", "a/.."})
+    EXPECT_EQ(normalisedEntryName(name), std::nullopt) << name;
   const Result<Imported> r = importHome(kWall, {{"../evil", "x"}, {"/abs", "x"}});
   ASSERT_TRUE(r.ok()) << r.error();
   EXPECT_NE(r.value().warnings[0].find("lead out of the file are left out (2 times)"), std::string::npos);
   // A model's companions cannot climb either: they are missing.
-  const Result<Imported> climbing = importHome("<pieceOfFurniture name='p' x='0' y='0' width='10' depth='10' height='10' model='1/a.obj'/>",
-                                               {{"1/a.obj", "mtllib ../../x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}});
+  const Result<Imported> climbing =
+      importHome("<pieceOfFurniture name='p' x='0' y='0' width='10' depth='10' height='10' model='1/a.obj'/>",
+                 {{"1/a.obj", "mtllib ../../x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}});
   ASSERT_TRUE(climbing.ok()) << climbing.error();
   EXPECT_NE(climbing.value().warnings[0].find("is missing, its materials are grey"), std::string::npos);
 }
@@ -79,22 +85,30 @@ TEST(HostileSh3d, brokenXmlNamesItsLine) {
   expectXmlRefused("", "Home.xml");
   expectXmlRefused("<home>\n<wall\n</home>", "Home.xml: line 3");
   expectXmlRefused("<?xml version='1.0'?><house/>", "is not a home");
-  expectXmlRefused(homeXml("\n" + wallXml("w7", 0, 0, 1, 1, 5, "height='tall'")), "line 4: wall 'w7': height is 'tall'");
+  expectXmlRefused(homeXml("\n" + wallXml("w7", 0, 0, 1, 1, 5, "height='tall'")),
+                   "line 4: wall 'w7': height is 'tall'");
   expectXmlRefused(homeXml("<wall id='w'/>"), "xStart is missing");
   expectXmlRefused(homeXml(kWall + kWall), "is that of another wall");
   expectXmlRefused(homeXml(wallXml("w", 0, 0, 1, 1, 5, "level='nope'")), "names 'nope'");
   expectXmlRefused(homeXml(wallXml("w", 0, 0, 1, 1, 5, "leftSideColor='pink'")), "no colour");
   expectXmlRefused(homeXml("<room floorVisible='maybe'/>"), "neither true nor false");
-  expectXmlRefused(homeXml("<pieceOfFurniture name='p' x='0' y='0' width='1' depth='1' height='1' modelRotation='1 0 0'/>"), "3 numbers instead of 9");
+  expectXmlRefused(
+      homeXml("<pieceOfFurniture name='p' x='0' y='0' width='1' depth='1' height='1' modelRotation='1 0 0'/>"),
+      "3 numbers instead of 9");
 }
 
 TEST(HostileSh3d, absurdNumbersAreRefused) {
   for (const char* v : {"NaN", "Infinity", "-Infinity", "1e30", "-1e30", "1e400", "0x10", "", "1 2", "1,5"}) {
-    expectXmlRefused(homeXml("<wall id='w' xStart='" + std::string(v) + "' yStart='0' xEnd='1' yEnd='1' thickness='5'/>"), "xStart is ");
+    expectXmlRefused(
+        homeXml("<wall id='w' xStart='" + std::string(v) + "' yStart='0' xEnd='1' yEnd='1' thickness='5'/>"),
+        "xStart is ");
     expectXmlRefused(homeXml("<room><point x='0' y='" + std::string(v) + "'/></room>"), "y is ");
   }
   expectXmlRefused(homeXml(wallXml("w", 0, 0, 1, 1, -5)), "thickness is ");
-  expectXmlRefused(homeXml(kWall + "<observerCamera attribute='observerCamera' x='0' y='0' z='0' yaw='0' pitch='0' fieldOfView='9'/>"), "fieldOfView is ");
+  expectXmlRefused(
+      homeXml(kWall +
+              "<observerCamera attribute='observerCamera' x='0' y='0' z='0' yaw='0' pitch='0' fieldOfView='9'/>"),
+      "fieldOfView is ");
 }
 
 TEST(HostileSh3d, deepNestingIsAnswered) {
@@ -115,15 +129,20 @@ TEST(HostileSh3d, workThatGrowsWithProductsEnds) {
     for (int i = 0; i < count; ++i) out += make(i);
     return out;
   };
-  const auto walls = [](int i) { return wallXml("w" + std::to_string(i), 0, i % 7, 400, i % 7, 30, "arcExtent='0.5'"); };
-  const auto doors = [](int i) { return "<doorOrWindow name='d' x='" + std::to_string(i % 300) + "' y='5' width='90' depth='90' height='90'/>"; };
+  const auto walls = [](int i) {
+    return wallXml("w" + std::to_string(i), 0, i % 7, 400, i % 7, 30, "arcExtent='0.5'");
+  };
+  const auto doors = [](int i) {
+    return "<doorOrWindow name='d' x='" + std::to_string(i % 300) + "' y='5' width='90' depth='90' height='90'/>";
+  };
   expectXmlRefused(homeXml(many(3000, doors) + many(3000, walls)), "more often than those of any home");
   const auto rooms = [](int i) { return roomXml({{0.01 * i, 0}, {400, 0}, {400, 300 - 0.01 * i}, {0, 300}}); };
   expectXmlRefused(homeXml(many(20000, rooms)), "more often than those of any home");
   const auto houses = [](int i) {
     const double x = i % 30 * 1000, y = i / 30 * 1000;
     const std::string n = std::to_string(i);
-    return "<doorOrWindow name='d' x='" + std::to_string(x + 200) + "' y='" + std::to_string(y) + "' width='90' depth='20' height='90'/>" + wallXml("a" + n, x, y, x + 400, y, 10) +
+    return "<doorOrWindow name='d' x='" + std::to_string(x + 200) + "' y='" + std::to_string(y) +
+           "' width='90' depth='20' height='90'/>" + wallXml("a" + n, x, y, x + 400, y, 10) +
            wallXml("b" + n, x, y, x, y + 300, 10) + roomXml({{x, y}, {x + 400, y}, {x + 400, y + 300}, {x, y + 300}});
   };
   EXPECT_TRUE(importHome(many(900, houses)).ok());
@@ -131,16 +150,21 @@ TEST(HostileSh3d, workThatGrowsWithProductsEnds) {
 
 TEST(HostileSh3d, degenerateThingsDoNoHarm) {
   const std::string flat = "<pieceOfFurniture name='p' x='0' y='0' width='0' depth='0' height='0'/>";
-  const std::string nothing = "<doorOrWindow name='d' x='0' y='0' width='0' depth='0' height='100'/>" + std::string("<doorOrWindow name='d' x='200' y='0' width='90' depth='9' height='90' cutOutShape='M0,0 L9e9'/>");
-  const Result<Imported> r = importHome(kWall + wallXml("z", 5, 5, 5, 5, 10) + wallXml("self", 0, 50, 90, 50, 10, "wallAtEnd='self' wallAtStart='gone'") +
-                                        wallXml("thin", 0, 90, 90, 90, 0) + wallXml("whole", 0, 200, 1, 200, 10, "arcExtent='6.2831'") + flat + nothing +
-                                        roomXml({{0, 0}, {1, 1}}) + roomXml({{0, 0}, {100, 100}, {100, 0}, {0, 100}}));
+  const std::string nothing =
+      "<doorOrWindow name='d' x='0' y='0' width='0' depth='0' height='100'/>" +
+      std::string("<doorOrWindow name='d' x='200' y='0' width='90' depth='9' height='90' cutOutShape='M0,0 L9e9'/>");
+  const Result<Imported> r = importHome(
+      kWall + wallXml("z", 5, 5, 5, 5, 10) + wallXml("self", 0, 50, 90, 50, 10, "wallAtEnd='self' wallAtStart='gone'") +
+      wallXml("thin", 0, 90, 90, 90, 0) + wallXml("whole", 0, 200, 1, 200, 10, "arcExtent='6.2831'") + flat + nothing +
+      roomXml({{0, 0}, {1, 1}}) + roomXml({{0, 0}, {100, 100}, {100, 0}, {0, 100}}));
   EXPECT_TRUE(r.ok()) << r.error();
 }
 
 TEST(HostileSh3d, svgPathsAreReadOrEmpty) {
   using sh3d::svgPath;
-  for (const char* path : {"", "x", "M", "M0,0 L", "0 0", "M0 0 L1e300 0", "M0,0 h1 v1 q", "Z Z 1", "M0,0 C1 1 1 1", "M0 0 h1e"}) EXPECT_TRUE(svgPath(path).empty()) << path;
+  for (const char* path :
+       {"", "x", "M", "M0,0 L", "0 0", "M0 0 L1e300 0", "M0,0 h1 v1 q", "Z Z 1", "M0,0 C1 1 1 1", "M0 0 h1e"})
+    EXPECT_TRUE(svgPath(path).empty()) << path;
   EXPECT_NEAR(areaOf(svgPath("M0,0 v1 h1 v-1 z")), 1, 1e-12);
   EXPECT_NEAR(areaOf(svgPath("M0,0 v1 h1 v-1 z M.25.25h.5v.5h-.5z")), 0.75, 1e-12);
   EXPECT_NEAR(areaOf(svgPath("M0,1 C0,0.4477 0.4477,0 1,0 L1,1 Z")), 0.7854, 2e-3);

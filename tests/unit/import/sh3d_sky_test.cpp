@@ -16,8 +16,10 @@ using namespace testing;
 using importers::sh3d::utcOffsetSeconds;
 
 std::string homeAt(const std::string& timeMs, const std::string& compass) {
-  return wallXml("w", 0, 0, 100, 0, 10) + "<compass x='0' y='0' diameter='1' latitude='0.8527' longitude='0.0410' " + compass + "/>" +
-         "<observerCamera attribute='observerCamera' x='0' y='0' z='170' yaw='0' pitch='0' fieldOfView='1' time='" + timeMs + "'/>";
+  return wallXml("w", 0, 0, 100, 0, 10) + "<compass x='0' y='0' diameter='1' latitude='0.8527' longitude='0.0410' " +
+         compass + "/>" +
+         "<observerCamera attribute='observerCamera' x='0' y='0' z='170' yaw='0' pitch='0' fieldOfView='1' time='" +
+         timeMs + "'/>";
 }
 const std::string kObserver = "camera='observerCamera'";
 
@@ -37,10 +39,12 @@ TEST(Sh3dSky, timeZonesKnowSummerAndWinter) {
 TEST(Sh3dSky, theSunStandsByCompassAndClock) {
   const Scene scene = homeScene(homeAt(kAfternoon, "timeZone='Etc/GMT-2' northDirection='0'"), kObserver);  // UTC+2
   ASSERT_EQ(scene.suns.size(), 1u);
-  const SunPosition p = sunPosition({2024, 6, 21, 12}, 0.8527 * 180 / std::numbers::pi, 0.0410 * 180 / std::numbers::pi);
+  const SunPosition p =
+      sunPosition({2024, 6, 21, 12}, 0.8527 * 180 / std::numbers::pi, 0.0410 * 180 / std::numbers::pi);
   EXPECT_NEAR(scene.suns[0].toLight.y, std::sin(p.altitudeRad), 1e-5);
   EXPECT_NEAR(scene.suns[0].toLight.x, std::sin(p.bearingRad) * std::cos(p.altitudeRad), 1e-5);
-  EXPECT_NEAR(scene.suns[0].toLight.z, -std::cos(p.bearingRad) * std::cos(p.altitudeRad), 1e-5);  // in the south: towards the viewer
+  EXPECT_NEAR(scene.suns[0].toLight.z, -std::cos(p.bearingRad) * std::cos(p.altitudeRad),
+              1e-5);  // in the south: towards the viewer
   EXPECT_GT(scene.suns[0].toLight.z, 0.2f);
   EXPECT_TRUE(scene.sky.present());
 }
@@ -72,9 +76,11 @@ TEST(Sh3dSky, theGroundLiesAroundTheHomeAndSparesCellars) {
 
 // The stored view is seen at another time than the one in use.
 TEST(Sh3dSky, theWantedCameraSaysTheTime) {
-  const std::string home = homeAt(kAfternoon, "timeZone='Etc/GMT-2'") +
-                           "<camera attribute='storedCamera' name='Night' x='0' y='0' z='170' yaw='0' pitch='0' fieldOfView='1' time='1718928000000'/>"
-                           "<camera attribute='storedCamera' name='Timeless' x='0' y='0' z='170' yaw='0' pitch='0' fieldOfView='1'/>";
+  const std::string home =
+      homeAt(kAfternoon, "timeZone='Etc/GMT-2'") +
+      "<camera attribute='storedCamera' name='Night' x='0' y='0' z='170' yaw='0' pitch='0' fieldOfView='1' "
+      "time='1718928000000'/>"
+      "<camera attribute='storedCamera' name='Timeless' x='0' y='0' z='170' yaw='0' pitch='0' fieldOfView='1'/>";
   const auto suns = [&](const std::string& camera) {
     const Result<Imported> r = importBytes(zipped({{"Home.xml", homeXml(home, kObserver)}}), {.camera = camera});
     if (!r) ADD_FAILURE() << r.error();
@@ -88,29 +94,38 @@ TEST(Sh3dSky, theWantedCameraSaysTheTime) {
   EXPECT_EQ(suns("gone"), 1u);
 }
 
-std::string bmp2x2(const std::string& bottomLeft, const std::string& bottomRight, const std::string& topLeft, const std::string& topRight) {
+std::string bmp2x2(const std::string& bottomLeft, const std::string& bottomRight, const std::string& topLeft,
+                   const std::string& topRight) {
   const auto w = [](unsigned v) { return std::string{static_cast<char>(v), 0, 0, 0}; };
   const std::string pad(2, '\0');
-  return "BM" + w(70) + w(0) + w(54) + w(40) + w(2) + w(2) + std::string("\x01\0\x18\0", 4) + w(0) + w(16) + w(0) + w(0) + w(0) + w(0) + bottomLeft + bottomRight + pad + topLeft + topRight + pad;
+  return "BM" + w(70) + w(0) + w(54) + w(40) + w(2) + w(2) + std::string("\x01\0\x18\0", 4) + w(0) + w(16) + w(0) +
+         w(0) + w(0) + w(0) + bottomLeft + bottomRight + pad + topLeft + topRight + pad;
 }
-const std::string kBlue = std::string("\xff\0\0", 3), kRed = std::string("\0\0\xff", 3), kGreen = std::string("\0\xff\0", 3), kWhite = "\xff\xff\xff";
+const std::string kBlue = std::string("\xff\0\0", 3), kRed = std::string("\0\0\xff", 3),
+                  kGreen = std::string("\0\xff\0", 3), kWhite = "\xff\xff\xff";
 
 // In cd/m² along a direction, through the conventions of Sky::image.
 Vec3 skyAt(const Scene& scene, Vec3 d) {
   d = normalize(d);
   const Image& image = scene.sky.image;
-  const float x = (std::atan2(d.x, -d.z) / (2 * kPi) + 0.5f) * static_cast<float>(image.width), y = std::acos(d.y) / kPi * static_cast<float>(image.height);
+  const float x = (std::atan2(d.x, -d.z) / (2 * kPi) + 0.5f) * static_cast<float>(image.width),
+              y = std::acos(d.y) / kPi * static_cast<float>(image.height);
   return image.at(std::min(static_cast<int>(x), image.width - 1), std::min(static_cast<int>(y), image.height - 1));
 }
 
 TEST(Sh3dSky, aPictureOfTheSkyStandsAsInTheProgram) {
-  const std::string sky = "<environment groundColor='FFA8A8A8' skyColor='FFCCE4FC' lightColor='FFD0D0D0' wallsAlpha='0'><texture attribute='skyTexture' name='t' image='5' width='100' height='100'/></environment>";
-  const Result<Imported> with = importBytes(zipped({{"Home.xml", homeXml(sky + homeAt(kAfternoon, "timeZone='Etc/GMT-2'"), kObserver)}, {"5", bmp2x2(kRed, kGreen, kBlue, kWhite)}}));
+  const std::string sky =
+      "<environment groundColor='FFA8A8A8' skyColor='FFCCE4FC' lightColor='FFD0D0D0' wallsAlpha='0'><texture "
+      "attribute='skyTexture' name='t' image='5' width='100' height='100'/></environment>";
+  const Result<Imported> with =
+      importBytes(zipped({{"Home.xml", homeXml(sky + homeAt(kAfternoon, "timeZone='Etc/GMT-2'"), kObserver)},
+                          {"5", bmp2x2(kRed, kGreen, kBlue, kWhite)}}));
   ASSERT_TRUE(with.ok()) << with.error();
   const Scene& scene = with.value().scene;
   ASSERT_GT(scene.sky.image.width, 0);
   // The left half begins at +x and goes by +z; it is red near the horizon and blue above.
-  const Vec3 low = skyAt(scene, {0.5f, 0.2f, 1}), high = skyAt(scene, {0.1f, 2, 0.2f}), otherLow = skyAt(scene, {0.5f, 0.2f, -1});
+  const Vec3 low = skyAt(scene, {0.5f, 0.2f, 1}), high = skyAt(scene, {0.1f, 2, 0.2f}),
+             otherLow = skyAt(scene, {0.5f, 0.2f, -1});
   EXPECT_GT(low.x, 0);
   EXPECT_EQ(low.y + low.z, 0);
   EXPECT_GT(high.z, 0);
@@ -123,7 +138,8 @@ TEST(Sh3dSky, aPictureOfTheSkyStandsAsInTheProgram) {
     const Image& image = s.sky.image;
     for (int y = 0; 2 * y < image.height; ++y) {
       const double polar = std::numbers::pi * (y + 0.5) / image.height;
-      for (int x = 0; x < image.width; ++x) sum += static_cast<double>(luminance(image.at(x, y))) * std::sin(polar) * std::cos(polar);
+      for (int x = 0; x < image.width; ++x)
+        sum += static_cast<double>(luminance(image.at(x, y))) * std::sin(polar) * std::cos(polar);
     }
     return sum * 2 * std::numbers::pi * std::numbers::pi / (image.width * static_cast<double>(image.height));
   };
@@ -132,18 +148,24 @@ TEST(Sh3dSky, aPictureOfTheSkyStandsAsInTheProgram) {
 }
 
 TEST(Sh3dSky, theColourOfLightTintsAndKeepsItsAmount) {
-  const auto at = [](const std::string& light) { return homeScene("<environment lightColor='" + light + "'/>" + homeAt(kAfternoon, "timeZone='Etc/GMT-2'"), kObserver); };
+  const auto at = [](const std::string& light) {
+    return homeScene("<environment lightColor='" + light + "'/>" + homeAt(kAfternoon, "timeZone='Etc/GMT-2'"),
+                     kObserver);
+  };
   const Scene grey = at("FF808080"), warm = at("FFFFC080");
   ASSERT_EQ(warm.suns.size(), 1u);
-  EXPECT_NEAR(luminance(warm.suns[0].illuminanceLux), luminance(grey.suns[0].illuminanceLux), 1e-4f * luminance(grey.suns[0].illuminanceLux));
+  EXPECT_NEAR(luminance(warm.suns[0].illuminanceLux), luminance(grey.suns[0].illuminanceLux),
+              1e-4f * luminance(grey.suns[0].illuminanceLux));
   EXPECT_GT(warm.suns[0].illuminanceLux.x, 2 * warm.suns[0].illuminanceLux.z);
   EXPECT_EQ(grey.suns[0].illuminanceLux.x, grey.suns[0].illuminanceLux.z);
 }
 
 TEST(Sh3dTextures, fitTheirRoom) {
   const std::string room = roomXml({{100, 50}, {500, 50}, {500, 350}, {100, 350}}, "name='hall'");
-  const std::string inside = "<texture attribute='floorTexture' name='t' image='5' width='20' height='20' angle='0.5' fittingArea='true'/>";
-  const Result<Imported> r = importHome(room.substr(0, room.rfind("</room>")) + inside + "</room>", {{"5", bmp2x2(kRed, kGreen, kBlue, kWhite)}});
+  const std::string inside =
+      "<texture attribute='floorTexture' name='t' image='5' width='20' height='20' angle='0.5' fittingArea='true'/>";
+  const Result<Imported> r = importHome(room.substr(0, room.rfind("</room>")) + inside + "</room>",
+                                        {{"5", bmp2x2(kRed, kGreen, kBlue, kWhite)}});
   ASSERT_TRUE(r.ok()) << r.error();
   const Scene& scene = r.value().scene;
   int checked = 0;
@@ -163,7 +185,9 @@ TEST(Sh3dTextures, fitTheirRoom) {
 
 TEST(Sh3dPolylines, thoseOf3DAreBands) {
   const std::string points = "<point x='0' y='0'/><point x='100' y='0'/><point x='100' y='200'/>";
-  const Scene scene = homeScene(wallXml("w", 0, 900, 100, 900, 10) + "<polyline thickness='4' color='FFFF0000' elevation='2'>" + points + "</polyline><polyline thickness='4' color='FFFF0000'>" + points + "</polyline>");
+  const Scene scene =
+      homeScene(wallXml("w", 0, 900, 100, 900, 10) + "<polyline thickness='4' color='FFFF0000' elevation='2'>" +
+                points + "</polyline><polyline thickness='4' color='FFFF0000'>" + points + "</polyline>");
   // Two bands, each half a thickness longer at both ends; the second line is the plan's own.
   EXPECT_NEAR(areaFacing(scene, "line", {0, 1, 0}), (1.04 + 2.04) * 0.04, 1e-5);
   const Bounds3 b = boundsOf(scene, "line");

@@ -38,7 +38,8 @@ TEST(Sh3dWalls, slopedWallsAreTrapezoids) {
 
 // The top is a plane that rises along the axis: at a mitre the longer side goes on rising.
 TEST(Sh3dWalls, slopesGoOnInMitres) {
-  const Scene scene = homeScene(wallXml("w0", 0, 0, 300, 0, 20, "height='200' heightAtEnd='300' wallAtEnd='w1'") + wallXml("w1", 300, 0, 300, 300, 20, "height='300' wallAtStart='w0'"));
+  const Scene scene = homeScene(wallXml("w0", 0, 0, 300, 0, 20, "height='200' heightAtEnd='300' wallAtEnd='w1'") +
+                                wallXml("w1", 300, 0, 300, 300, 20, "height='300' wallAtStart='w0'"));
   EXPECT_NEAR(boundsOf(scene, "w0").hi.y, 2 + 3.1 / 3, 1e-5);
   EXPECT_NEAR(volumeM3(scene, "w0"), 3 * 0.2 * 2.5 + 0.2 * 0.1 * 0.1 / 3 / 6, 1e-5);
 }
@@ -53,7 +54,8 @@ TEST(Sh3dWalls, joinedCornersAreMitred) {
 }
 
 TEST(Sh3dWalls, thickAndThinWallsMeetAtTheirSides) {
-  const Scene scene = homeScene(wallXml("a", 0, 0, 400, 0, 40, "wallAtEnd='b'") + wallXml("b", 400, 0, 400, 300, 10, "wallAtStart='a'"));
+  const Scene scene = homeScene(wallXml("a", 0, 0, 400, 0, 40, "wallAtEnd='b'") +
+                                wallXml("b", 400, 0, 400, 300, 10, "wallAtStart='a'"));
   // The thick wall ends between (4.05, -0.2) and (3.95, 0.2); the thin one begins there.
   EXPECT_NEAR(volumeM3(scene, "a"), 0.4 * 4.0 * 2.5, 1e-4);
   EXPECT_NEAR(volumeM3(scene, "b"), 0.1 * 3.0 * 2.5, 1e-4);
@@ -66,8 +68,10 @@ TEST(Sh3dWalls, thickAndThinWallsMeetAtTheirSides) {
 TEST(Sh3dWalls, jointsOfEveryDirectionFillTheSameSpace) {
   for (const bool turnA : {false, true}) {
     for (const bool turnB : {false, true}) {
-      const std::string a = turnA ? wallXml("a", 400, 0, 0, 0, 20, "wallAtStart='b'") : wallXml("a", 0, 0, 400, 0, 20, "wallAtEnd='b'");
-      const std::string b = turnB ? wallXml("b", 400, 300, 400, 0, 20, "wallAtEnd='a'") : wallXml("b", 400, 0, 400, 300, 20, "wallAtStart='a'");
+      const std::string a =
+          turnA ? wallXml("a", 400, 0, 0, 0, 20, "wallAtStart='b'") : wallXml("a", 0, 0, 400, 0, 20, "wallAtEnd='b'");
+      const std::string b = turnB ? wallXml("b", 400, 300, 400, 0, 20, "wallAtEnd='a'")
+                                  : wallXml("b", 400, 0, 400, 300, 20, "wallAtStart='a'");
       const Scene scene = homeScene(a + b);
       EXPECT_NEAR(volumeM3(scene, "a"), 4 * 0.2 * 2.5, 1e-4);
       EXPECT_NEAR(volumeM3(scene, "b"), 3 * 0.2 * 2.5, 1e-4);
@@ -78,7 +82,8 @@ TEST(Sh3dWalls, jointsOfEveryDirectionFillTheSameSpace) {
 }
 
 TEST(Sh3dWalls, sharpCornersDoNotGrowSpikes) {
-  const Scene scene = homeScene(wallXml("a", 0, 0, 400, 0, 20, "wallAtEnd='b'") + wallXml("b", 400, 0, 0, 20, 20, "wallAtStart='a'"));
+  const Scene scene =
+      homeScene(wallXml("a", 0, 0, 400, 0, 20, "wallAtEnd='b'") + wallXml("b", 400, 0, 0, 20, 20, "wallAtStart='a'"));
   EXPECT_LT(boundsOf(scene, "a").hi.x, 4.41f);
 }
 
@@ -99,7 +104,8 @@ TEST(Sh3dWalls, levelsStandOnEachOtherAndReachThroughTheSlab) {
       "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>"
       "<level id='l1' name='1' elevation='262' floorThickness='12' height='250'/>"
       "<level id='l2' name='2' elevation='524' floorThickness='12' height='250' viewable='false'/>";
-  const Scene scene = homeScene(levels + wallXml("a", 0, 0, 400, 0, 20, "level='l0'") + wallXml("b", 0, 0, 400, 0, 20, "level='l1' height='200'") +
+  const Scene scene = homeScene(levels + wallXml("a", 0, 0, 400, 0, 20, "level='l0'") +
+                                wallXml("b", 0, 0, 400, 0, 20, "level='l1' height='200'") +
                                 wallXml("c", 0, 0, 400, 0, 20, "level='l2'"));
   EXPECT_EQ(boundsOf(scene, "a").hi.y, 2.5f);
   EXPECT_EQ(boundsOf(scene, "b").lo.y, 2.5f);
@@ -119,7 +125,9 @@ TEST(Sh3dRooms, floorsAndCeilingsHaveTheirAreas) {
 
 // Sweet Home 3D draws a floor's slab where stairs and edges show it, and from below where no room's ceiling hides it.
 TEST(Sh3dRooms, slabsOfUpperLevelsAreSeenWhereNoCeilingHidesThem) {
-  const auto room = [](double width, const std::string& more) { return roomXml({{0, 0}, {width, 0}, {width, 300}, {0, 300}}, more); };
+  const auto room = [](double width, const std::string& more) {
+    return roomXml({{0, 0}, {width, 0}, {width, 300}, {0, 300}}, more);
+  };
   const std::string levels =
       "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>"
       "<level id='l1' name='1' elevation='262' floorThickness='12' height='250'/>";
@@ -133,30 +141,37 @@ TEST(Sh3dRooms, slabsOfUpperLevelsAreSeenWhereNoCeilingHidesThem) {
   // A terrace over half a room: what juts out is seen from below, of the rest the room's ceiling.
   EXPECT_NEAR(areaFacing(homeScene(levels + upper + room(300, "level='l0'")), "R", {0, -1, 0}), 3, 1e-5);
   EXPECT_NEAR(areaFacing(homeScene(levels + upper + room(400, "level='l0'")), "R", {0, -1, 0}), 0, 1e-9);
-  EXPECT_NEAR(areaFacing(homeScene(levels + upper + room(400, "level='l0' ceilingVisible='false'")), "R", {0, -1, 0}), 12, 1e-5);
+  EXPECT_NEAR(areaFacing(homeScene(levels + upper + room(400, "level='l0' ceilingVisible='false'")), "R", {0, -1, 0}),
+              12, 1e-5);
 }
 
 TEST(Sh3dRooms, laterRoomsLieOnTop) {
-  const Scene scene = homeScene(roomXml({{0, 0}, {500, 0}, {500, 400}, {0, 400}}, "name='A' ceilingVisible='false'") +
-                                roomXml({{100, 100}, {300, 100}, {300, 200}, {100, 200}}, "name='B' ceilingVisible='false'"));
+  const Scene scene =
+      homeScene(roomXml({{0, 0}, {500, 0}, {500, 400}, {0, 400}}, "name='A' ceilingVisible='false'") +
+                roomXml({{100, 100}, {300, 100}, {300, 200}, {100, 200}}, "name='B' ceilingVisible='false'"));
   EXPECT_NEAR(areaFacing(scene, "A", {0, 1, 0}), 18, 1e-5);
   EXPECT_NEAR(areaFacing(scene, "B", {0, 1, 0}), 2, 1e-5);
   EXPECT_NEAR(areaFacing(scene, "A", {0, -1, 0}), 0, 1e-9);
 }
 
 TEST(Sh3dRooms, ceilingsFollowTheWallsOfTheHighestLevel) {
-  const std::string walls = wallXml("a", 0, 0, 400, 0, 10, "height='200'") + wallXml("b", 0, 300, 400, 300, 10, "height='350'");
-  const Scene scene = homeScene(walls + roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' floorVisible='false'"));
+  const std::string walls =
+      wallXml("a", 0, 0, 400, 0, 10, "height='200'") + wallXml("b", 0, 300, 400, 300, 10, "height='350'");
+  const Scene scene =
+      homeScene(walls + roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' floorVisible='false'"));
   EXPECT_NEAR(boundsOf(scene, "R").lo.y, 2, 1e-6);
   EXPECT_NEAR(boundsOf(scene, "R").hi.y, 3.5, 1e-6);
   EXPECT_FLOAT_EQ(scene.rooms[0].heightM, 3.5f);
-  const Scene flat = homeScene(walls + roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' floorVisible='false' ceilingFlat='true'"));
+  const Scene flat = homeScene(
+      walls + roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}, "name='R' floorVisible='false' ceilingFlat='true'"));
   EXPECT_EQ(boundsOf(flat, "R").lo.y, boundsOf(flat, "R").hi.y);
 }
 
-// As Sweet Home 3D has it: a ceiling is as high as walls are at the room's corners; what stands beside its edges in between pulls it nowhere.
+// As Sweet Home 3D has it: a ceiling is as high as walls are at the room's corners; what stands beside its edges in
+// between pulls it nowhere.
 TEST(Sh3dRooms, lowScreensWithinARoomLeaveItsCeilingLevel) {
-  const std::string room = roomXml({{0, 0}, {400, 0}, {400, 300}, {200, 300}, {200, 250}, {0, 250}}, "name='R' floorVisible='false'");
+  const std::string room =
+      roomXml({{0, 0}, {400, 0}, {400, 300}, {200, 300}, {200, 250}, {0, 250}}, "name='R' floorVisible='false'");
   const Scene scene = homeScene(boxWalls(400, 300, 10) + wallXml("screen", 200, 10, 200, 40, 1, "height='135'") + room);
   EXPECT_NEAR(boundsOf(scene, "R").lo.y, 2.5, 1e-6);
 }
@@ -166,7 +181,8 @@ TEST(Sh3dRooms, staircasesCutTheFloorThatTheyComeUpThrough) {
       "<level id='l0' name='0' elevation='0' floorThickness='12' height='250'/>"
       "<level id='l1' name='1' elevation='262' floorThickness='12' height='250'/>";
   const std::string stairs =
-      "<pieceOfFurniture name='stairs' level='l0' x='200' y='200' width='100' depth='200' height='262' angle='1.5707963' "
+      "<pieceOfFurniture name='stairs' level='l0' x='200' y='200' width='100' depth='200' height='262' "
+      "angle='1.5707963' "
       "staircaseCutOutShape='M0,0 v1 h1 v-1 z'/>";
   const auto square = [](const char* level, const char* name) {
     return roomXml({{0, 0}, {500, 0}, {500, 400}, {0, 400}}, std::string("level='") + level + "' name='" + name + "'");
@@ -179,8 +195,9 @@ TEST(Sh3dRooms, staircasesCutTheFloorThatTheyComeUpThrough) {
 }
 
 TEST(Sh3dCameras, wideLensesBecomePinholes) {
-  const Result<Imported> r = importHome(wallXml("w", 0, 0, 100, 0, 10) +
-                                        "<camera attribute='storedCamera' lens='SPHERICAL' x='0' y='0' z='0' yaw='0' pitch='0' fieldOfView='6.28'/>");
+  const Result<Imported> r = importHome(
+      wallXml("w", 0, 0, 100, 0, 10) +
+      "<camera attribute='storedCamera' lens='SPHERICAL' x='0' y='0' z='0' yaw='0' pitch='0' fieldOfView='6.28'/>");
   ASSERT_TRUE(r.ok()) << r.error();
   EXPECT_LT(r.value().scene.cameras[0].yFovRad, 3.1f);
 }
@@ -191,7 +208,8 @@ TEST(Sh3dCameras, lookWhereTheyAreTurned) {
           "<environment photoWidth='800' photoHeight='400'/>"
           "<observerCamera attribute='observerCamera' x='100' y='200' z='170' yaw='0' pitch='0' fieldOfView='1.1'/>"
           "<camera attribute='topCamera' x='0' y='0' z='1000' yaw='3.14159265' pitch='0.7853982' fieldOfView='1.1'/>"
-          "<observerCamera name='west' attribute='storedCamera' x='0' y='0' z='0' yaw='1.5707963' pitch='0' fieldOfView='1.1'/>",
+          "<observerCamera name='west' attribute='storedCamera' x='0' y='0' z='0' yaw='1.5707963' pitch='0' "
+          "fieldOfView='1.1'/>",
       "camera='observerCamera'");
   ASSERT_EQ(scene.cameras.size(), 3u);
   const auto forward = [&](size_t i) { return -scene.cameras[i].worldFromCamera.z; };
@@ -203,12 +221,15 @@ TEST(Sh3dCameras, lookWhereTheyAreTurned) {
   for (const Camera& c : scene.cameras) {
     EXPECT_NEAR(length(cross(c.worldFromCamera.x, c.worldFromCamera.y) - c.worldFromCamera.z), 0, 1e-6);
     EXPECT_GT(c.worldFromCamera.y.y, 0);
-    EXPECT_NEAR(std::tan(c.yFovRad / 2) * 2, std::tan(1.1 / 2), 1e-6);  // 1.1 rad across the width, which is twice the height
+    EXPECT_NEAR(std::tan(c.yFovRad / 2) * 2, std::tan(1.1 / 2),
+                1e-6);  // 1.1 rad across the width, which is twice the height
   }
 }
 
 TEST(Sh3dPhoto, sizeAndQualityAreToldWhereSomebodyChoseThem) {
-  const auto photo = [](const std::string& attributes) { return importHome(wallXml("w", 0, 0, 100, 0, 10) + "<environment " + attributes + "/>").value().photo; };
+  const auto photo = [](const std::string& attributes) {
+    return importHome(wallXml("w", 0, 0, 100, 0, 10) + "<environment " + attributes + "/>").value().photo;
+  };
   EXPECT_FALSE(photo(""));
   EXPECT_FALSE(photo("photoWidth='400' photoHeight='300' photoQuality='0'")) << "as a new home has it";
   const auto wide = photo("photoWidth='800' photoHeight='300' photoAspectRatio='RATIO_16_9' photoQuality='2'");

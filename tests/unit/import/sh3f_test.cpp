@@ -14,10 +14,14 @@ namespace {
 using namespace testing;
 using namespace importers;
 
-std::map<std::string, std::string> properties(const std::string& text) { return javaProperties({reinterpret_cast<const uint8_t*>(text.data()), text.size()}); }
+std::map<std::string, std::string> properties(const std::string& text) {
+  return javaProperties({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
 
 TEST(JavaProperties, linesKeysAndEscapes) {
-  const auto p = properties("# a comment\n! another \\\n  id=x\r\nname#1 = Caf\\u00e9 \\\n    au lait\nb:c\nd e\n\\ k\\=1=v\\\\w\\t.\nempty\nlatin=\xe9\nface=\\ud83d\\ude00\nlone=\\ud83d!\nlast=1\nlast=2");
+  const auto p = properties(
+      "# a comment\n! another \\\n  id=x\r\nname#1 = Caf\\u00e9 \\\n    au lait\nb:c\nd e\n\\ "
+      "k\\=1=v\\\\w\\t.\nempty\nlatin=\xe9\nface=\\ud83d\\ude00\nlone=\\ud83d!\nlast=1\nlast=2");
   EXPECT_EQ(p.at("id"), "x");
   EXPECT_EQ(p.at("name#1"), "Caf\xc3\xa9 au lait");
   EXPECT_EQ(p.at("b"), "c");
@@ -55,7 +59,8 @@ const std::string kBox = "v 0 0 0\nv 1 0 0\nv 0 1 1\nv 1 1 1\nf 1 2 4 3\n";
 TEST(Sh3f, piecesStandInRowsApart) {
   std::string catalogue = "id=lib\n";
   for (int i = 1; i <= 30; ++i) {
-    catalogue += fmt::format("name#{0}=piece {0}\nmodel#{0}=/m/box.obj\nwidth#{0}={1}\ndepth#{0}={2}\nheight#{0}=80\n", i, 40 + 7 * i, 150 - 4 * i);
+    catalogue += fmt::format("name#{0}=piece {0}\nmodel#{0}=/m/box.obj\nwidth#{0}={1}\ndepth#{0}={2}\nheight#{0}=80\n",
+                             i, 40 + 7 * i, 150 - 4 * i);
   }
   const Result<Imported> r = library(catalogue, {{"m/box.obj", kBox}});
   ASSERT_TRUE(r.ok()) << r.error();
@@ -73,7 +78,8 @@ TEST(Sh3f, piecesStandInRowsApart) {
     EXPECT_GE(boxes[a].lo.x, floor.lo.x);
     EXPECT_LE(boxes[a].hi.z, floor.hi.z);
     for (size_t b = 0; b < a; ++b) {
-      const bool apart = boxes[a].lo.x > boxes[b].hi.x + 0.4f || boxes[b].lo.x > boxes[a].hi.x + 0.4f || boxes[a].lo.z > boxes[b].hi.z + 0.4f || boxes[b].lo.z > boxes[a].hi.z + 0.4f;
+      const bool apart = boxes[a].lo.x > boxes[b].hi.x + 0.4f || boxes[b].lo.x > boxes[a].hi.x + 0.4f ||
+                         boxes[a].lo.z > boxes[b].hi.z + 0.4f || boxes[b].lo.z > boxes[a].hi.z + 0.4f;
       EXPECT_TRUE(apart) << a << " " << b;
     }
   }
@@ -88,7 +94,8 @@ TEST(Sh3f, piecesStandInRowsApart) {
 
 TEST(Sh3f, lightSourcesAreInCentimetres) {
   const Result<Imported> r = library(
-      "name#3=Lamp\nmodel#3=m/box.obj\nwidth#3=40\ndepth#3=20\nheight#3=60\nelevation#3=100\nlightSourceX#3=10 30\nlightSourceY#3=10 10\nlightSourceZ#3=45 45\n"
+      "name#3=Lamp\nmodel#3=m/box.obj\nwidth#3=40\ndepth#3=20\nheight#3=60\nelevation#3=100\nlightSourceX#3=10 "
+      "30\nlightSourceY#3=10 10\nlightSourceZ#3=45 45\n"
       "lightSourceColor#3=#FFFFFF #FFFFFF\n",
       {{"m/box.obj", kBox}});
   ASSERT_TRUE(r.ok()) << r.error();
@@ -100,7 +107,9 @@ TEST(Sh3f, lightSourcesAreInCentimetres) {
 }
 
 TEST(Sh3f, damagedPiecesAreLeftOut) {
-  const Result<Imported> r = library("name#1=good\nwidth#1=10\ndepth#1=10\nheight#1=10\nname#2=bad\nwidth#2=wide\nname#4=far\nwidth#4=1e300\nname#x=none\n");
+  const Result<Imported> r = library(
+      "name#1=good\nwidth#1=10\ndepth#1=10\nheight#1=10\nname#2=bad\nwidth#2=wide\nname#4=far\nwidth#4=1e300\nname#x="
+      "none\n");
   ASSERT_TRUE(r.ok()) << r.error();
   EXPECT_EQ(facesOf(r.value().scene, "good").size(), 12u);  // a box, as it has no model
   EXPECT_NE(r.value().warnings[0].find("width#2: is 'wide'"), std::string::npos) << r.value().warnings[0];

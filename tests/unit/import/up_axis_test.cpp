@@ -11,7 +11,8 @@ namespace {
 
 // A scene made with y up, and the same as a program with z up writes it.
 Scene withZUp(Scene scene) {
-  for (Instance& i : scene.instances) i.worldFromObject = Affine{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {}} * i.worldFromObject;
+  for (Instance& i : scene.instances)
+    i.worldFromObject = Affine{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {}} * i.worldFromObject;
   return scene;
 }
 
@@ -62,7 +63,8 @@ TEST(UpAxis, doubtStaysWithTheUsual) {
   const Scene cube = room({2, 2, 2}), tall = room({5, 3.5f, 2.6f});
   Scene openFront = room({2, 2, 2});
   openFront.instances.pop_back(), openFront.meshes.pop_back();
-  for (const Scene* s : std::array<const Scene*, 4>{&picture, &cube, &tall, &openFront}) EXPECT_EQ(guessUpAxis(*s, 1, UpAxis::Y), UpAxis::Y);
+  for (const Scene* s : std::array<const Scene*, 4>{&picture, &cube, &tall, &openFront})
+    EXPECT_EQ(guessUpAxis(*s, 1, UpAxis::Y), UpAxis::Y);
   EXPECT_EQ(guessUpAxis(cube, 1, UpAxis::Z), UpAxis::Z);
 }
 

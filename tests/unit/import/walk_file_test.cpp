@@ -12,12 +12,14 @@ namespace {
 // A floor, two chairs and a lamp of each kind.
 Scene home() {
   Scene scene;
-  const int grey = test::addMaterial(scene, test::lambertian(0.5f)), shining = test::addMaterial(scene, test::lambertian(0, 100));
+  const int grey = test::addMaterial(scene, test::lambertian(0.5f)),
+            shining = test::addMaterial(scene, test::lambertian(0, 100));
   test::addRectangle(scene, {0, 0, 0}, {0, 0, 4}, {4, 0, 0}, grey);
   for (const float x : {1.0f, 2.0f}) {
     const size_t first = scene.instances.size();
     test::addBox(scene, {x, 0, 1}, {x + 0.5f, 1, 1.5f}, grey);
-    for (size_t i = first; i < scene.instances.size(); ++i) scene.instances[i].name = "Chair", scene.instances[i].object = scene.instances[first].object;
+    for (size_t i = first; i < scene.instances.size(); ++i)
+      scene.instances[i].name = "Chair", scene.instances[i].object = scene.instances[first].object;
   }
   test::addRectangle(scene, {0, 2, 0}, {1, 0, 0}, {0, 0, 1}, shining);
   scene.instances.back().name = "Bulb (light)";
@@ -50,7 +52,9 @@ class WalkFile : public ::testing::Test {
     EXPECT_NE(walk.error().find("walk.json"), std::string::npos);
   }
   void expectErrorOf(const std::string& entries, const std::string& part) {
-    expectError(R"({"seconds": 2, "camera": [{"time": 0, "position": [0, 1, 0], "target": [1, 1, 1]}], )" + entries + "}", part);
+    expectError(
+        R"({"seconds": 2, "camera": [{"time": 0, "position": [0, 1, 0], "target": [1, 1, 1]}], )" + entries + "}",
+        part);
   }
 };
 
@@ -76,7 +80,8 @@ TEST_F(WalkFile, thingsMoveAboutTheirMiddleAndComeBack) {
   EXPECT_NEAR(now.size().x, 0.5f, 1e-5);
   EXPECT_TRUE(stage(walk, 1, scene_).moved.empty());
   stage(walk, 2, scene_);
-  for (size_t i = 0; i < scene_.instances.size(); ++i) EXPECT_EQ(scene_.instances[i].worldFromObject.w, before.instances[i].worldFromObject.w);
+  for (size_t i = 0; i < scene_.instances.size(); ++i)
+    EXPECT_EQ(scene_.instances[i].worldFromObject.w, before.instances[i].worldFromObject.w);
 }
 
 TEST_F(WalkFile, lampsAreDimmed) {
@@ -109,13 +114,18 @@ TEST_F(WalkFile, errorsSayWhere) {
   expectError(R"({"seconds": 2})", "needs seconds and camera");
   expectError(R"({"seconds": 2, "camera": [], "speed": 1})", "speed");
   expectError(R"({"seconds": 2, "camera": []})", "camera");
-  expectError(R"({"seconds": 2, "camera": [{"time": 0, "position": [0, 1, 0], "target": [0, 1, 0]}]})", "camera[0].target");
-  expectError(R"({"seconds": 2, "camera": [{"time": 1, "position": [0, 1, 0], "target": [1, 1, 0]}, {"time": 1, "position": [0, 1, 0], "target": [1, 1, 0]}]})", "must be later");
+  expectError(R"({"seconds": 2, "camera": [{"time": 0, "position": [0, 1, 0], "target": [0, 1, 0]}]})",
+              "camera[0].target");
+  expectError(
+      R"({"seconds": 2, "camera": [{"time": 1, "position": [0, 1, 0], "target": [1, 1, 0]}, {"time": 1, "position": [0, 1, 0], "target": [1, 1, 0]}]})",
+      "must be later");
   expectErrorOf(R"("objects": [{"name": "Table", "keys": [{"time": 0}]}])", "there are");
   expectErrorOf(R"("objects": [{"name": "Table", "keys": [{"time": 0}]}])", "'Chair'");
   expectErrorOf(R"("objects": [{"name": "Chair", "keys": [{"time": 0}]}])", "\"number\": 1 to 2");
   expectErrorOf(R"("objects": [{"name": "Chair", "number": 3, "keys": [{"time": 0}]}])", "objects[0].number");
-  expectErrorOf(R"("objects": [{"name": "Chair", "number": 1, "keys": [{"time": 0}]}, {"name": "Chair", "number": 1, "keys": [{"time": 0}]}])", "second time");
+  expectErrorOf(
+      R"("objects": [{"name": "Chair", "number": 1, "keys": [{"time": 0}]}, {"name": "Chair", "number": 1, "keys": [{"time": 0}]}])",
+      "second time");
   expectErrorOf(R"("objects": [{"name": "Chair", "number": 1, "keys": [{"time": 0, "by": 1}]}])", "by");
   expectErrorOf(R"("lamps": [{"name": "Sun", "keys": [{"time": 0, "dimming": 1}]}])", "'Bulb', 'Pendant'");
   expectErrorOf(R"("lamps": [{"name": "Bulb", "keys": [{"time": 0, "dimming": 2}]}])", "lamps[0].keys[0].dimming");

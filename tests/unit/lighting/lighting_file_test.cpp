@@ -43,12 +43,14 @@ class LightingFile : public ::testing::Test {
 // Flux in lumen of a point or spot lamp by numerical integration of what the renderer sends out.
 double fluxOf(const Lamp& lamp) {
   constexpr int kSteps = 400'000;
-  const double widest = lamp.kind == LampKind::Point ? 2 : 1.02 * (1 - std::cos(static_cast<double>(lamp.outerConeRad)));  // of 1 - cos
+  const double widest =
+      lamp.kind == LampKind::Point ? 2 : 1.02 * (1 - std::cos(static_cast<double>(lamp.outerConeRad)));  // of 1 - cos
   const Frame frame(lamp.direction);
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const double h = widest * (i + 0.5) / kSteps;
-    sum += luminance(lampIntensity(lamp, frame.toWorld({static_cast<float>(std::sqrt(h * (2 - h))), 0, static_cast<float>(1 - h)})));
+    sum += luminance(
+        lampIntensity(lamp, frame.toWorld({static_cast<float>(std::sqrt(h * (2 - h))), 0, static_cast<float>(1 - h)})));
   }
   return 2 * std::numbers::pi * sum * widest / kSteps;
 }
@@ -69,15 +71,20 @@ TEST_F(LightingFile, pointAndSpotLampsGiveTheFluxTheyWereGiven) {
 }
 
 TEST_F(LightingFile, narrowSpotsKeepTheirFlux) {
-  const char* cones[] = {R"("innerCone": 30, "outerCone": 30)", R"("innerCone": 1, "outerCone": 1)", R"("outerCone": 0.5)", R"("innerCone": 0.4, "outerCone": 0.5)"};
+  const char* cones[] = {R"("innerCone": 30, "outerCone": 30)", R"("innerCone": 1, "outerCone": 1)",
+                         R"("outerCone": 0.5)", R"("innerCone": 0.4, "outerCone": 0.5)"};
   for (const char* cone : cones) {
-    ASSERT_TRUE(apply(std::string(R"({"lamps": [{"type": "spot", "position": [0, 0, 0], "direction": [1, 2, 3], "flux": "1000 lm", )") + cone + "}]}"));
+    ASSERT_TRUE(
+        apply(std::string(
+                  R"({"lamps": [{"type": "spot", "position": [0, 0, 0], "direction": [1, 2, 3], "flux": "1000 lm", )") +
+              cone + "}]}"));
     EXPECT_NEAR(fluxOf(scene_.lamps.back()), 1000, 10) << cone;
   }
 }
 
 TEST_F(LightingFile, areaLampsBecomeEmissiveRectanglesOfTheirFlux) {
-  const Status s = apply(R"({"lamps": [{"type": "area", "position": [0, 2, 0], "direction": [0, -1, 0], "width": 0.6, "height": 0.3, "flux": "1000 lm"}]})");
+  const Status s = apply(
+      R"({"lamps": [{"type": "area", "position": [0, 2, 0], "direction": [0, -1, 0], "width": 0.6, "height": 0.3, "flux": "1000 lm"}]})");
   ASSERT_TRUE(s) << s.error();
   ASSERT_EQ(scene_.meshes.size(), 1u);
   EXPECT_NEAR(luminance(scene_.materials[1].emission) * std::numbers::pi * 0.18, 1000, 0.01);
@@ -152,14 +159,19 @@ TEST_F(LightingFile, errorsNameFileAndPlaceAndLeaveTheSceneAlone) {
       {R"({"lamps": [{)" + lamp + R"(, "flux": "-1 lm"}]})", "out of range"},
       {R"({"lamps": [{)" + lamp + R"(}]})", "exactly one of flux, intensity"},
       {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "intensity": "1 cd"}]})", "exactly one of flux, intensity"},
-      {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "width": 2}]})", "lamps[0].width: means nothing for a lamp of type point"},
+      {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "width": 2}]})",
+       "lamps[0].width: means nothing for a lamp of type point"},
       {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "temperature": "900 K"}]})", "out of range"},
       {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "temperature": "2700 K", "color": [1, 1, 1]}]})", "not both"},
-      {R"({"lamps": [{"type": "tube", "position": [0, 0, 0], "flux": "1 lm"}]})", "unknown 'tube'; there are point, spot, area, photometric"},
-      {R"({"lamps": [{"type": "point", "position": [0, 0], "flux": "1 lm"}]})", "lamps[0].position: must be a list of three numbers"},
+      {R"({"lamps": [{"type": "tube", "position": [0, 0, 0], "flux": "1 lm"}]})",
+       "unknown 'tube'; there are point, spot, area, photometric"},
+      {R"({"lamps": [{"type": "point", "position": [0, 0], "flux": "1 lm"}]})",
+       "lamps[0].position: must be a list of three numbers"},
       {R"({"lamps": [{"type": "point", "position": [0, 1e30, 0], "flux": "1 lm"}]})", "lamps[0].position[1]"},
-      {R"({"lamps": [{"type": "spot", "position": [0, 0, 0], "direction": [0, 0, 0], "flux": "1 lm"}]})", "lamps[0].direction: must not be zero"},
-      {R"({"lamps": [{"type": "spot", "position": [0, 0, 0], "direction": [0, 1, 0], "flux": "1 lm", "innerCone": 40, "outerCone": 20}]})", "innerCone"},
+      {R"({"lamps": [{"type": "spot", "position": [0, 0, 0], "direction": [0, 0, 0], "flux": "1 lm"}]})",
+       "lamps[0].direction: must not be zero"},
+      {R"({"lamps": [{"type": "spot", "position": [0, 0, 0], "direction": [0, 1, 0], "flux": "1 lm", "innerCone": 40, "outerCone": 20}]})",
+       "innerCone"},
       {R"({"lamps": [{)" + area + R"(, "up": [0, 2, 0], "flux": "1 lm"}]})", "lamps[0].up"},
       {R"({"lamps": [{)" + area + R"(, "intensity": "1 cd"}]})", "lamps[0].intensity"},
       {R"({"sun": {"direction": [0, 1, 0]}})", "'illuminance' is missing"},
@@ -171,17 +183,21 @@ TEST_F(LightingFile, errorsNameFileAndPlaceAndLeaveTheSceneAlone) {
       {R"({"scene": {"lamps": "dim"}})", "scene.lamps: unknown 'dim'; there are keep, off"},
       {R"({"scene": {"emission": -1}})", "scene.emission"},
       {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "color": [0, 0, 0]}]})", "lamps[0].color: must not be black"},
-      {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "color": [1e-40, 0, 0]}]})", "lamps[0].color: must not be black"},
+      {R"({"lamps": [{)" + lamp + R"(, "flux": "1 lm", "color": [1e-40, 0, 0]}]})",
+       "lamps[0].color: must not be black"},
       {R"({"lamps": [{)" + lamp + R"(, "flux": "1e999 lm"}]})", "lamps[0].flux"},
       {R"({"lamps": [{)" + lamp + R"(, "flux": "nan lm"}]})", "lamps[0].flux"},
       {R"({"lamps": [{)" + lamp + R"(, "name": 3, "flux": "1 lm"}]})", "lamps[0].name: must be a text"},
-      {R"({"lamps": [{"type": "area", "position": [0, 0, 0], "direction": [0, 1, 0], "width": 1e-4, "height": 1e-4, "flux": "1e12 lm"}]})", "lamps[0].flux: is more than"},
-      {R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": "1 lm"}], "lamps": []})", "the key 'lamps' is given twice"},
+      {R"({"lamps": [{"type": "area", "position": [0, 0, 0], "direction": [0, 1, 0], "width": 1e-4, "height": 1e-4, "flux": "1e12 lm"}]})",
+       "lamps[0].flux: is more than"},
+      {R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": "1 lm"}], "lamps": []})",
+       "the key 'lamps' is given twice"},
       {R"({"a\nb": 1})", "unknown key 'a b'"},
       {R"({"sky": {"luminance": "1 cd/m2", "image": "a.hdr"}})", "sky: give exactly one of luminance, image"},
       {R"({"sky": {"image": ".", "unit": "1 cd/m2"}})", "sky.image: is not a file"},
       {R"({"sky": {"luminance": "3000 lx"}})", "sky.luminance: '3000 lx' is in lx, where cd/m2 is needed"},
-      {R"({"sun": [{"direction": [0, 1, 0], "illuminance": "1 lx"}, {"direction": [0, 1, 0], "illuminance": "1 lx", "angularDiameter": 91}]})", "sun[1].angularDiameter"},
+      {R"({"sun": [{"direction": [0, 1, 0], "illuminance": "1 lx"}, {"direction": [0, 1, 0], "illuminance": "1 lx", "angularDiameter": 91}]})",
+       "sun[1].angularDiameter"},
       {R"({"scene": {"emission": 2e6}})", "scene.emission"},
       {R"({"sun": {"latitude": 1, "longitude": 0, "time": ")" + std::string(1'000'000, 'x') + "\"}}", "sun.time"},
       {R"({"sky": {"unit": "1 cd/m2", "image": ")" + std::string(1'000'000, 'x') + "\"}}", "sky.image"},
@@ -224,7 +240,9 @@ TEST_F(LightingFile, glazingMakesWindowsOfMaterials) {
   }
   const Status missing = apply(R"({"glazing": [{"material": "Pane"}]})");
   ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().find("glazing[0].material: no material is called 'Pane'; there are '', 'Glass', 'Glass'"), std::string::npos) << missing.error();
+  EXPECT_NE(missing.error().find("glazing[0].material: no material is called 'Pane'; there are '', 'Glass', 'Glass'"),
+            std::string::npos)
+      << missing.error();
 }
 
 }  // namespace

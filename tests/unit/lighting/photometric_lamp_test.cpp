@@ -28,7 +28,8 @@ class PhotometricLamp : public ::testing::Test {
   // One lamp with these keys.
   Status apply(const std::string& keys) {
     scene_ = {}, warnings_ = {};
-    testing::writeFile(folder_ / "rig.json", R"({"lamps": [{"type": "photometric", "position": [1, 2, 3], )" + keys + "}]}");
+    testing::writeFile(folder_ / "rig.json",
+                       R"({"lamps": [{"type": "photometric", "position": [1, 2, 3], )" + keys + "}]}");
     return applyLightingFile(folder_ / "rig.json", scene_, &warnings_);
   }
   Lamp lamp(const std::string& keys) {
@@ -36,7 +37,9 @@ class PhotometricLamp : public ::testing::Test {
     EXPECT_TRUE(s) << s.error();
     return s ? scene_.lamps.at(0) : Lamp{};
   }
-  static double fluxLm(const Lamp& l) { return static_cast<double>(luminance(l.intensityCd) / l.web->peakCd) * l.web->fluxLm; }
+  static double fluxLm(const Lamp& l) {
+    return static_cast<double>(luminance(l.intensityCd) / l.web->peakCd) * l.web->fluxLm;
+  }
 
   testing::TemporaryFolder folder_;
   Scene scene_;
@@ -60,7 +63,10 @@ TEST_F(PhotometricLamp, pointsDownWithC0AlongX) {
 TEST_F(PhotometricLamp, fluxIsThatOfTheFileOrAsAskedFor) {
   EXPECT_NEAR(fluxLm(lamp(R"("file": "strip.ldt")")), 1000, 2);
   EXPECT_NEAR(fluxLm(lamp(R"("file": "strip.ldt", "flux": "500 lm")")), 500, 0.01);
-  EXPECT_NEAR(fluxLm(lamp(R"("file": "strip.ldt", "flux": "500 lm", "dimming": 0.5, "lightLossFactor": 0.8, "temperature": "2700 K")")), 200, 0.01);
+  EXPECT_NEAR(
+      fluxLm(lamp(
+          R"("file": "strip.ldt", "flux": "500 lm", "dimming": 0.5, "lightLossFactor": 0.8, "temperature": "2700 K")")),
+      200, 0.01);
   EXPECT_EQ(fluxLm(lamp(R"("file": "strip.ldt", "dimming": 0)")), 0);
 }
 
@@ -97,11 +103,14 @@ TEST_F(PhotometricLamp, mistakesNameTheirPlace) {
       {R"("flux": "1 lm")", "lamps[0]: 'file' is missing"},
       {R"("file": "none.ies")", "lamps[0].file: 'none.ies': there is no such file"},
       {R"("file": "rig.json")", "lamps[0].file: 'rig.json': unknown kind of photometric file; use .ies or .ldt"},
-      {R"("file": "damaged.ldt")", "lamps[0].file: 'damaged.ldt': line 3: line 3, the symmetry: 9 is not a whole number from 0 to 4"},
-      {R"("file": "outside.ies")", "lamps[0].file: 'outside.ies': line 5: TILT file: '../secret.tlt' leaves the scene's folder"},
+      {R"("file": "damaged.ldt")",
+       "lamps[0].file: 'damaged.ldt': line 3: line 3, the symmetry: 9 is not a whole number from 0 to 4"},
+      {R"("file": "outside.ies")",
+       "lamps[0].file: 'outside.ies': line 5: TILT file: '../secret.tlt' leaves the scene's folder"},
       {R"("file": "strip.ldt", "as": "area")", "lamps[0].as: must be point: the file states no luminous opening"},
       {R"("file": "strip.ldt", "as": "disc")", "lamps[0].as: unknown 'disc'; there are point, area"},
-      {R"("file": "strip.ldt", "intensity": "1 cd")", "lamps[0].intensity: means nothing for a lamp of type photometric"},
+      {R"("file": "strip.ldt", "intensity": "1 cd")",
+       "lamps[0].intensity: means nothing for a lamp of type photometric"},
       {R"("file": "strip.ldt", "dimming": 1.1)", "lamps[0].dimming"},
       {R"("file": "strip.ldt", "lightLossFactor": 0)", "lamps[0].lightLossFactor"},
       {R"("file": "strip.ldt", "up": [0, 1, 0])", "lamps[0].up: must not point along 'direction'"},

@@ -43,7 +43,8 @@ TEST(LookedAt, theMiddleCountsMoreThanTheEdges) {
 TEST(HeldGrounds, liePutAtMostTwoThirdsOfAStopAboveTheRooms) {
   Image plan(20, 10);
   std::vector<bool> rooms(plan.pixels.size());
-  for (size_t i = 0; i < plan.pixels.size(); ++i) rooms[i] = i % 20 < 10, plan.pixels[i] = rooms[i] ? Vec3(100) : Vec3(4000, 5000, 2000);
+  for (size_t i = 0; i < plan.pixels.size(); ++i)
+    rooms[i] = i % 20 < 10, plan.pixels[i] = rooms[i] ? Vec3(100) : Vec3(4000, 5000, 2000);
   const float ev100 = lookedAtEv100(pixelsWhere(plan, rooms, true));
   holdGrounds(plan, rooms, ev100);
   EXPECT_EQ(plan.pixels[3], Vec3(100));
@@ -51,7 +52,8 @@ TEST(HeldGrounds, liePutAtMostTwoThirdsOfAStopAboveTheRooms) {
   EXPECT_NEAR(plan.pixels[15].y / plan.pixels[15].x, 1.25f, 1e-4f);
   const Image before = plan;
   holdGrounds(plan, rooms, ev100);
-  for (size_t i = 0; i < plan.pixels.size(); ++i) EXPECT_NEAR(plan.pixels[i].y, before.pixels[i].y, 1e-3f * before.pixels[i].y);
+  for (size_t i = 0; i < plan.pixels.size(); ++i)
+    EXPECT_NEAR(plan.pixels[i].y, before.pixels[i].y, 1e-3f * before.pixels[i].y);
 }
 
 void expose(Image& image, const Plane& gains) {
@@ -83,14 +85,16 @@ TEST(LocalExposure, bringsWindowAndRoomNearerAndKeepsHues) {
   }
 }
 
-// Edges stay where they are: beside six stops the quick one differs by a rim as wide as its windows, elsewhere by nothing that is seen.
+// Edges stay where they are: beside six stops the quick one differs by a rim as wide as its windows, elsewhere by
+// nothing that is seen.
 TEST(LocalExposure, theQuickOneFollowsEdges) {
   const Image image = room(0.06f, 4, 0.4);
   const float ev100 = std::log2(1 / 1.2f);
   const Plane exact = localExposure(image, ev100, 1), quick = quickLocalExposure(image, ev100, 1);
   for (int x = 0; x < image.width; ++x) {
     const bool beside = std::abs(2 * x - 95) < 16;
-    for (int y = 0; y < image.height; ++y) EXPECT_LT(std::abs(std::log2(quick.at(x, y) / exact.at(x, y))), beside ? 0.7f : 0.15f) << x << " " << y;
+    for (int y = 0; y < image.height; ++y)
+      EXPECT_LT(std::abs(std::log2(quick.at(x, y) / exact.at(x, y))), beside ? 0.7f : 0.15f) << x << " " << y;
   }
 }
 

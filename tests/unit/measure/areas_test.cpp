@@ -42,7 +42,8 @@ TEST(Areas, leaveOutWhatIsInAWardrobe) {
   EXPECT_TRUE(insideThing(rays, {2, 0.85f, 1.5f}));
   EXPECT_FALSE(insideThing(rays, {2, 0.85f, 3}));
   for (const Area& area : findAreas(rays, 0.85, {})) {
-    for (const SurfaceElement& e : area.points.elements()) EXPECT_FALSE(e.position.x > 1 && e.position.x < 3 && e.position.z > 1 && e.position.z < 2);
+    for (const SurfaceElement& e : area.points.elements())
+      EXPECT_FALSE(e.position.x > 1 && e.position.x < 3 && e.position.z > 1 && e.position.z < 2);
   }
 }
 

@@ -21,7 +21,9 @@ double area(const std::vector<ContourPoint>& loop) {
 std::vector<float> cone(int n) {
   std::vector<float> values;
   for (int y = 0; y < n; ++y) {
-    for (int x = 0; x < n; ++x) values.push_back(static_cast<float>(n) - std::hypot(static_cast<float>(x) + 0.5f - static_cast<float>(n) / 2, static_cast<float>(y) + 0.5f - static_cast<float>(n) / 2));
+    for (int x = 0; x < n; ++x)
+      values.push_back(static_cast<float>(n) - std::hypot(static_cast<float>(x) + 0.5f - static_cast<float>(n) / 2,
+                                                          static_cast<float>(y) + 0.5f - static_cast<float>(n) / 2));
   }
   return values;
 }
@@ -72,7 +74,8 @@ TEST(FalseColour, growsEvenlyInLightness) {
     EXPECT_LE(maxComponent(c), 1);
     const auto linear = [](float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); };
     // CIE 1976 lightness of the colour: it must rise by much the same at every step.
-    const double y = static_cast<double>(luminance({linear(c.x), linear(c.y), linear(c.z)})), lightness = y > 0.008856 ? 116 * std::cbrt(y) - 16 : 903.3 * y;
+    const double y = static_cast<double>(luminance({linear(c.x), linear(c.y), linear(c.z)})),
+                 lightness = y > 0.008856 ? 116 * std::cbrt(y) - 16 : 903.3 * y;
     if (before >= 0) {
       EXPECT_GT(lightness - before, 0.4) << i;
       EXPECT_LT(lightness - before, 1.4) << i;

@@ -14,7 +14,8 @@ const Vec3 kView{0, 0, -1};
 
 Vec3 towards(double degreesRight, double degreesUp) {
   const double a = degreesRight * 0.017453292519943295, b = degreesUp * 0.017453292519943295;
-  return {static_cast<float>(std::sin(a) * std::cos(b)), static_cast<float>(std::sin(b)), static_cast<float>(-std::cos(a) * std::cos(b))};
+  return {static_cast<float>(std::sin(a) * std::cos(b)), static_cast<float>(std::sin(b)),
+          static_cast<float>(-std::cos(a) * std::cos(b))};
 }
 
 TEST(PositionIndex, isOneOnTheLineOfSight) {
@@ -35,7 +36,8 @@ TEST(PositionIndex, agreesWithHandComputation) {
 }
 
 TEST(PositionIndex, isTheSameToBothSidesAndTurnsWithTheHead) {
-  EXPECT_FLOAT_EQ(static_cast<float>(positionIndex(towards(25, 15), kView)), static_cast<float>(positionIndex(towards(-25, 15), kView)));
+  EXPECT_FLOAT_EQ(static_cast<float>(positionIndex(towards(25, 15), kView)),
+                  static_cast<float>(positionIndex(towards(-25, 15), kView)));
   const Vec3 east{1, 0, 0}, d = towards(25, 15);
   EXPECT_NEAR(positionIndex({-d.z, d.y, d.x}, east), positionIndex(d, kView), 1e-4);
 }
@@ -55,10 +57,12 @@ TEST(Ugr, smallSourcesCountByTheirIntensity) {
   EXPECT_NEAR(s.luminanceCdM2 * s.luminanceCdM2 * s.solidAngleSr, 200 * 100.0 * 100 / 4, 1e-6);
 }
 
-// A square of 0.6 m that faces the eye 3 m away, exactly: its solid angle 4 atan(a² / (4 d sqrt(d² + a²/2))), its light on the eye π L F.
+// A square of 0.6 m that faces the eye 3 m away, exactly: its solid angle 4 atan(a² / (4 d sqrt(d² + a²/2))), its light
+// on the eye π L F.
 TEST(SeenLamps, measureASquareExactly) {
   Scene scene;
-  test::addRectangle(scene, {-0.3f, -0.3f, -3}, {0.6f, 0, 0}, {0, 0.6f, 0}, test::addMaterial(scene, test::lambertian(0, 1000)), 3);
+  test::addRectangle(scene, {-0.3f, -0.3f, -3}, {0.6f, 0, 0}, {0, 0.6f, 0},
+                     test::addMaterial(scene, test::lambertian(0, 1000)), 3);
   const RayScene rays(scene);
   const SeenLamps seen = seenLamps(rays, {0, 0, 0}, kView);
   ASSERT_EQ(seen.sources.size(), 1u);
@@ -74,7 +78,8 @@ TEST(SeenLamps, measureASquareExactly) {
 
 TEST(SeenLamps, lessIsSeenBehindAnEdge) {
   Scene scene;
-  test::addRectangle(scene, {-0.3f, -0.3f, -3}, {0.6f, 0, 0}, {0, 0.6f, 0}, test::addMaterial(scene, test::lambertian(0, 1000)));
+  test::addRectangle(scene, {-0.3f, -0.3f, -3}, {0.6f, 0, 0}, {0, 0.6f, 0},
+                     test::addMaterial(scene, test::lambertian(0, 1000)));
   test::addRectangle(scene, {0, -2, -2}, {2, 0, 0}, {0, 4, 0}, test::addMaterial(scene, test::lambertian(0.5f)));
   const RayScene rays(scene);
   const SeenLamps seen = seenLamps(rays, {0, 0, 0}, kView);

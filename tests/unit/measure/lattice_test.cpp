@@ -36,7 +36,8 @@ TEST(Lattice, floorOfARoomLeavesTheBorderOut) {
 TEST(Lattice, smallRoomsKeepMostOfTheirFloor) {
   const std::vector<Vec2> bath = {{0, 0}, {0, 2}, {1, 2}, {1, 0}};
   double nearest = 1;
-  for (const SurfaceElement& e : floorLattice(bath, 0, {0.01, 0.5, 0.15}).elements()) nearest = std::min(nearest, distanceToEdgeM(bath, {e.position.x, e.position.z}));
+  for (const SurfaceElement& e : floorLattice(bath, 0, {0.01, 0.5, 0.15}).elements())
+    nearest = std::min(nearest, distanceToEdgeM(bath, {e.position.x, e.position.z}));
   EXPECT_NEAR(nearest, 0.155, 0.002);
 }
 

@@ -71,7 +71,9 @@ TEST(Report, whatStandsWhereNoMeterBelongsIsMarked) {
   EXPECT_EQ(j["grids"][0]["leftOut"][0]["cell"], 1);
   EXPECT_EQ(j["grids"][0]["leftOut"][0]["place"], "wall");
   EXPECT_EQ(j["points"][0]["place"], "furniture");
-  for (const char* part : {"Drawer <span class=\"soft\">(furniture)</span>", "2 <span class=\"soft\">of 3</span>", "in a wall, floor or ceiling: 1 point of grids left out of means and minima (1 of &#39;Study"}) {
+  for (const char* part :
+       {"Drawer <span class=\"soft\">(furniture)</span>", "2 <span class=\"soft\">of 3</span>",
+        "in a wall, floor or ceiling: 1 point of grids left out of means and minima (1 of &#39;Study"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
 }
@@ -81,15 +83,20 @@ TEST(Report, htmlIsWhatAPlannerHandsOver) {
   m.grids[0].areaM2 = 10;
   m.rooms[0].room.floor = {{0, 0}, {0, 2}, {5, 2}, {5, 0}};
   Luminaire l;
-  l.name = "Desk <lamp>", l.kind = "photometric", l.room = "Study", l.fluxLm = 900, l.wattsW = 9, l.kelvin = 2990, l.position = {1, 1, 1};
+  l.name = "Desk <lamp>", l.kind = "photometric", l.room = "Study", l.fluxLm = 900, l.wattsW = 9, l.kelvin = 2990,
+  l.position = {1, 1, 1};
   m.luminaires = {l, l};
   m.certainty = {2, 0.02, 0.008};
   ReportHeader h;
-  h.scene = "homes/flat.sh3d", h.technique = "hybrid", h.quality = "good", h.version = "9.9", h.date = "3 May 2031", h.pictureJpeg = "JPEG", h.pictureOf = "View from 'A & B'";
+  h.scene = "homes/flat.sh3d", h.technique = "hybrid", h.quality = "good", h.version = "9.9", h.date = "3 May 2031",
+  h.pictureJpeg = "JPEG", h.pictureOf = "View from 'A & B'";
   const std::string html = reportHtml(h, m, {});
   // Twice 900 lm at 9 W: a hundred lumen a watt.
-  for (const char* part : {"<p class=\"project\">flat</p>", "3 May 2031", "roomlight 9.9, hybrid, good", "src=\"data:image/jpeg;base64,SlBFRw==\"", "A &amp; B", "class=\"plan\"", "Targets by room", "by its name", "≥ 500 lx", "Luminaire schedule",
-                           "Desk &lt;lamp&gt;", "<td>100</td><td>3000</td>", "1800 lm", "18.0 W", "What these figures are worth", "was off by at most 1.5 %", "Not modelled"}) {
+  for (const char* part :
+       {"<p class=\"project\">flat</p>", "3 May 2031", "roomlight 9.9, hybrid, good",
+        "src=\"data:image/jpeg;base64,SlBFRw==\"", "A &amp; B", "class=\"plan\"", "Targets by room", "by its name",
+        "≥ 500 lx", "Luminaire schedule", "Desk &lt;lamp&gt;", "<td>100</td><td>3000</td>", "1800 lm", "18.0 W",
+        "What these figures are worth", "was off by at most 1.5 %", "Not modelled"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
   for (const char* part : {"<script", "src=\"http", "href="}) EXPECT_EQ(html.find(part), std::string::npos) << part;
@@ -99,8 +106,8 @@ TEST(Report, htmlIsWhatAPlannerHandsOver) {
 
 TEST(Report, tableSaysWhatWasMissed) {
   const std::string table = reportTable(sample());
-  for (const char* word : {"600", "0.67", "MISSED", "met", "<= 6.00 W/m²"}) EXPECT_NE(table.find(word), std::string::npos) << word << "\n"
-                                                                                                                           << table;
+  for (const char* word : {"600", "0.67", "MISSED", "met", "<= 6.00 W/m²"})
+    EXPECT_NE(table.find(word), std::string::npos) << word << "\n" << table;
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ TEST(Dial, readsLevelsTemperaturesAndColours) {
 }
 
 TEST(Dial, badDialsAreOneClearLine) {
-  for (const char* text : {"", "60", "bright", "-1%", "1001%", "nan%", "900K", "50000K", "#12345", "#12345g", "#000000", "60%,", ",60%", "60%;2700K"}) {
+  for (const char* text : {"", "60", "bright", "-1%", "1001%", "nan%", "900K", "50000K", "#12345", "#12345g", "#000000",
+                           "60%,", ",60%", "60%;2700K"}) {
     const Result<Dial> dial = parseDial(text);
     ASSERT_FALSE(dial.ok()) << text;
     EXPECT_EQ(dial.error().find('\n'), std::string::npos);

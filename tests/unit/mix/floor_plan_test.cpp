@@ -38,7 +38,9 @@ TEST(FloorPlan, equalNamesAreNumberedAndNoneIsTheBase) {
 }
 
 TEST(FloorPlan, theCardIsWhatHomeAssistantReads) {
-  EXPECT_EQ(cardOf(somePlan(), "/local/floorplan/", false), R"(# A card of Home Assistant (type: picture-elements), made by roomlight mix. Its pictures are served from the folder config/www.
+  EXPECT_EQ(
+      cardOf(somePlan(), "/local/floorplan/", false),
+      R"(# A card of Home Assistant (type: picture-elements), made by roomlight mix. Its pictures are served from the folder config/www.
 type: picture-elements
 image: "/local/floorplan/base.png"
 elements:
@@ -110,7 +112,8 @@ TEST(FloorPlan, thePageNamesEveryPictureAndEscapesNames) {
   FloorPlan plan = somePlan();
   plan.lamps[0].name = "<b>\"Sofa\" & co";
   const std::string page = pageOf(plan);
-  for (const char* part : {"src=\"base.png\"", "src=\"sofa_lamp.png\"", "&lt;b&gt;&quot;Sofa&quot; &amp; co", "mix-blend-mode: screen", "left: 25.00%"}) {
+  for (const char* part : {"src=\"base.png\"", "src=\"sofa_lamp.png\"", "&lt;b&gt;&quot;Sofa&quot; &amp; co",
+                           "mix-blend-mode: screen", "left: 25.00%"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(page.find("<b>\""), std::string::npos);

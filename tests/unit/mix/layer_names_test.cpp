@@ -39,13 +39,17 @@ TEST(LayerNames, severalNamesInAnotherCaseAreTold) {
   std::vector<LayerInfo> layers = testing::someLayers();
   layers[0].name = "Sofa", layers[1].name = "SOFA";
   EXPECT_EQ(findLamps(layers, "SOFA").value(), Found{1});
-  EXPECT_EQ(findLamps(layers, "sofa").error(), "'sofa' may be 'Sofa', 'SOFA'; write capital and small letters as there");
+  EXPECT_EQ(findLamps(layers, "sofa").error(),
+            "'sofa' may be 'Sofa', 'SOFA'; write capital and small letters as there");
 }
 
 TEST(LayerNames, wrongNamesListThoseThereAre) {
   const std::vector<LayerInfo> layers = testing::someLayers();
-  EXPECT_EQ(findLamps(layers, "Hall").error(), "no lamp 'Hall'; there are 'Sofa lamp', 'Kitchen ceiling', 'Kitchen sink'");
-  EXPECT_EQ(findLamps(layers, "kitchen").error(), "'kitchen' may be 'Kitchen ceiling', 'Kitchen sink'; write more of the name, or 'kitchen*' for all of them");
+  EXPECT_EQ(findLamps(layers, "Hall").error(),
+            "no lamp 'Hall'; there are 'Sofa lamp', 'Kitchen ceiling', 'Kitchen sink'");
+  EXPECT_EQ(
+      findLamps(layers, "kitchen").error(),
+      "'kitchen' may be 'Kitchen ceiling', 'Kitchen sink'; write more of the name, or 'kitchen*' for all of them");
   EXPECT_FALSE(findLamps(layers, "").ok());
   EXPECT_FALSE(findLamps(layers, "Sky").ok());
   EXPECT_FALSE(findLamps(layers, "x*").ok());
@@ -67,9 +71,16 @@ TEST(LayerInfo, badJsonIsOneClearLine) {
   const auto errorOf = [](const char* text) { return layersFromJson(text, "a.exr").error(); };
   EXPECT_NE(errorOf("{").find("a.exr: "), std::string::npos);
   EXPECT_EQ(errorOf(R"({"version": 2, "layers": []})"), "a.exr: is of version 2, this program reads 1");
-  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A"}]})").find("a.exr: layers[0]: key 'kind' not found"), std::string::npos);
-  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "moon"}]})").find("unknown kind 'moon'"), std::string::npos);
-  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "colour": [1, -1, 0]}]})").find("'colour'"), std::string::npos);
+  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A"}]})")
+                .find("a.exr: layers[0]: key 'kind' not found"),
+            std::string::npos);
+  EXPECT_NE(errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "moon"}]})")
+                .find("unknown kind 'moon'"),
+            std::string::npos);
+  EXPECT_NE(
+      errorOf(R"({"version": 1, "layers": [{"channel": "a", "name": "A", "kind": "lamp", "colour": [1, -1, 0]}]})")
+          .find("'colour'"),
+      std::string::npos);
 }
 
 }  // namespace

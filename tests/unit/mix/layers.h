@@ -22,9 +22,11 @@ inline Image poolOfLight(const LayerInfo& layer, size_t index, int width, int he
   const float u0 = 0.2f + 0.2f * static_cast<float>(index), v0 = index % 2 ? 0.3f : 0.7f;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const float u = static_cast<float>(x) / static_cast<float>(width) - u0, v = static_cast<float>(y) / static_cast<float>(height) - v0;
+      const float u = static_cast<float>(x) / static_cast<float>(width) - u0,
+                  v = static_cast<float>(y) / static_cast<float>(height) - v0;
       const float grain = 1 + 0.1f * std::sin(0.7f * static_cast<float>(x)) * std::cos(1.3f * static_cast<float>(y));
-      image.at(x, y) = layer.colour * (0.5f + 60 * grain * std::exp(-12 * (u * u + v * v)) + (u * u + v * v < 0.001f ? 3000.0f : 0.0f));
+      image.at(x, y) = layer.colour * (0.5f + 60 * grain * std::exp(-12 * (u * u + v * v)) +
+                                       (u * u + v * v < 0.001f ? 3000.0f : 0.0f));
     }
   }
   return image;

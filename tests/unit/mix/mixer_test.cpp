@@ -34,7 +34,8 @@ TEST(Mixer, lightsOffAreBlackAndNothingIsLeftOfThem) {
   for (const Vec3 p : mixLinear(stack, std::vector<Vec3>(4)).pixels) ASSERT_TRUE(isBlack(p));
 }
 
-// What the picture shows differs from that of unpacked floats by less than 1/512 of a display step, before it is rounded to bytes.
+// What the picture shows differs from that of unpacked floats by less than 1/512 of a display step, before it is
+// rounded to bytes.
 TEST(Mixer, packingIsBelowOneFiveHundredTwelfthOfADisplayStep) {
   const std::vector<Image> pictures = somePictures(kWidth, kHeight);
   const std::vector<Vec3> gains = {{0.7f, 0.9f, 1.5f}, Vec3(1), Vec3(0.05f), Vec3(1)};
@@ -43,7 +44,8 @@ TEST(Mixer, packingIsBelowOneFiveHundredTwelfthOfADisplayStep) {
     for (const float ev100 : {1.0f, 4.0f, 8.0f}) {
       const Image a = toneMap(exact, ev100, tone), b = toneMap(mixed, ev100, tone);
       float worst = 0;
-      for (size_t p = 0; p < a.pixels.size(); ++p) worst = std::max(worst, maxComponent(abs(a.pixels[p] - b.pixels[p])) * 255);
+      for (size_t p = 0; p < a.pixels.size(); ++p)
+        worst = std::max(worst, maxComponent(abs(a.pixels[p] - b.pixels[p])) * 255);
       EXPECT_LT(worst, 1.0f / 512) << toneCurveName(tone) << " at EV " << ev100;
     }
   }
@@ -54,14 +56,19 @@ TEST(Mixer, bytesAreThoseOfTheToneMappedMixDithered) {
   const LayerStack stack = stackOf(pictures);
   const std::vector<Vec3> gains(4, Vec3(1));
   const Affine balance{{0.6f, 0, 0}, {0, 1.1f, 0}, {0, 0, 2.5f}, {}};
-  for (const Tone& tone : {Tone(ToneCurve::PbrNeutral), Tone(ToneCurve::AgX), Tone(ToneCurve::Filmic), Tone(ToneCurve::Clip), Tone(ToneCurve::PbrNeutral, 1.2f, 0.9f)}) {
+  for (const Tone& tone : {Tone(ToneCurve::PbrNeutral), Tone(ToneCurve::AgX), Tone(ToneCurve::Filmic),
+                           Tone(ToneCurve::Clip), Tone(ToneCurve::PbrNeutral, 1.2f, 0.9f)}) {
     Image light = mixLinear(stack, gains);
     for (Vec3& p : light.pixels) p = balance.vector(p);
     const Image expected = toneMap(light, 4, tone);
     const ByteImage bytes = mixDisplay(stack, gains, {4, tone, balance});
     ASSERT_EQ(bytes.samples.size(), 3 * expected.pixels.size());
     for (size_t i = 0; i < bytes.samples.size(); ++i) {
-      ASSERT_NEAR(static_cast<float>(bytes.samples[i]), expected.pixels[i / 3][static_cast<int>(i % 3)] * 255 - 0.5f + ditherAt(static_cast<int>(i / 3) % kWidth, static_cast<int>(i / 3) / kWidth), 0.501f) << toneCurveName(tone.curve);
+      ASSERT_NEAR(static_cast<float>(bytes.samples[i]),
+                  expected.pixels[i / 3][static_cast<int>(i % 3)] * 255 - 0.5f +
+                      ditherAt(static_cast<int>(i / 3) % kWidth, static_cast<int>(i / 3) / kWidth),
+                  0.501f)
+          << toneCurveName(tone.curve);
     }
   }
 }

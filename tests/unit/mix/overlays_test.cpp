@@ -40,7 +40,8 @@ TEST(Overlays, oneLampOverTheBaseIsExactToRoundingWithEveryBlend) {
       const ByteImage lit = mixDisplay(stack, gainsOfState(kThreeLamps, lamp), kLook);
       const std::vector<float> shown = composite(base, {overlayOf(base, lit, blend)}, std::vector<float>{1}, blend);
       for (size_t i = 0; i < shown.size(); ++i) {
-        // The neutral curve's toe darkens a channel by a few steps where another one gets light; that only normal can show.
+        // The neutral curve's toe darkens a channel by a few steps where another one gets light; that only normal can
+        // show.
         const uint8_t expected = blend == Blend::Normal ? lit.samples[i] : std::max(lit.samples[i], base.samples[i]);
         ASSERT_LE(expected - lit.samples[i], 4);
         ASSERT_NEAR(shown[i], static_cast<float>(expected), 0.75f) << cssName(blend);
@@ -60,15 +61,18 @@ TEST(Overlays, whereTheLampDoesNotReachTheyAreTransparent) {
   }
 }
 
-// The errors that are told are those of states laid together by hand; lighten is too dark, plus-lighter too bright, and brighter than screen.
+// The errors that are told are those of states laid together by hand; lighten is too dark, plus-lighter too bright, and
+// brighter than screen.
 TEST(Overlays, theTrialTellsTheErrorOfStates) {
   const LayerStack stack = stackOf(somePictures(200, 112));
   const OverlayTrial trial = tryOverlays(stack, kThreeLamps, kLook);
   EXPECT_LT(trial.errors[0].rms, trial.errors[2].rms);
-  const ByteImage base = mixDisplay(stack, gainsOfState(kThreeLamps, 0), kLook), all = mixDisplay(stack, gainsOfState(kThreeLamps, 7), kLook);
+  const ByteImage base = mixDisplay(stack, gainsOfState(kThreeLamps, 0), kLook),
+                  all = mixDisplay(stack, gainsOfState(kThreeLamps, 7), kLook);
   for (size_t blend = 0; blend < kBlends.size(); ++blend) {
     std::vector<ByteImage> overlays;
-    for (const uint64_t lamp : {1, 2, 4}) overlays.push_back(overlayOf(base, mixDisplay(stack, gainsOfState(kThreeLamps, lamp), kLook), kBlends[blend]));
+    for (const uint64_t lamp : {1, 2, 4})
+      overlays.push_back(overlayOf(base, mixDisplay(stack, gainsOfState(kThreeLamps, lamp), kLook), kBlends[blend]));
     const std::vector<float> shown = composite(base, overlays, std::vector<float>{1, 1, 1}, kBlends[blend]);
     double squares = 0, signedSum = 0;
     for (size_t i = 0; i < shown.size(); ++i) {
@@ -76,7 +80,8 @@ TEST(Overlays, theTrialTellsTheErrorOfStates) {
       squares += d * d, signedSum += d;
     }
     const double rms = std::sqrt(squares / static_cast<double>(shown.size()));
-    EXPECT_LT(trial.errors[blend].rms, rms * 1.05) << "all lamps at once are the hardest state: " << cssName(kBlends[blend]);
+    EXPECT_LT(trial.errors[blend].rms, rms * 1.05)
+        << "all lamps at once are the hardest state: " << cssName(kBlends[blend]);
     EXPECT_GT(trial.errors[blend].rms, rms * 0.2) << cssName(kBlends[blend]);
     EXPECT_TRUE(kBlends[blend] != Blend::PlusLighter || signedSum > 0);
     EXPECT_TRUE(kBlends[blend] != Blend::Lighten || signedSum < 0);

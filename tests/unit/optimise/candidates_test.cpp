@@ -46,7 +46,9 @@ TEST(Candidates, OnWallsFaceTheRoom) {
 }
 
 TEST(Candidates, StandOnTheTableAndNowhereElse) {
-  const SmallProblem p(replaced(kStudy, "on = \"ceiling\"\nroom = \"Room\"\nluminaires = [\"Bulb\", \"Spot\"]\nspacing = 1.5\nfromWalls = 0.8", "on = \"table\"\nroom = \"Room\"\nluminaires = [\"Bulb\"]\nspacing = 0.2\nfromWalls = 0.1"));
+  const SmallProblem p(replaced(
+      kStudy, "on = \"ceiling\"\nroom = \"Room\"\nluminaires = [\"Bulb\", \"Spot\"]\nspacing = 1.5\nfromWalls = 0.8",
+      "on = \"table\"\nroom = \"Room\"\nluminaires = [\"Bulb\"]\nspacing = 0.2\nfromWalls = 0.1"));
   size_t onTable = 0;
   for (const Candidate& c : p.candidates.candidates) {
     const Place& place = p.candidates.places[c.place];
@@ -59,7 +61,8 @@ TEST(Candidates, StandOnTheTableAndNowhereElse) {
 }
 
 TEST(Candidates, AreLeftOutInsideThings) {
-  SmallStudy s(replaced(kStudy, "luminaires = [\"Bulb\", \"Spot\"]", "luminaires = [\"Bulb\"]\nat = [[1, 0, 1], [2.5, 0, 2]]"));
+  SmallStudy s(
+      replaced(kStudy, "luminaires = [\"Bulb\", \"Spot\"]", "luminaires = [\"Bulb\"]\nat = [[1, 0, 1], [2.5, 0, 2]]"));
   ASSERT_TRUE(s.read) << s.read.error();
   // A cupboard up to the ceiling around the first place.
   addBox(s.home, {0.6f, 0, 0.6f}, {1.4f, 2.55f, 1.4f}, 0);
@@ -120,21 +123,26 @@ TEST(Candidates, HangOnWallsAsHighAsTheyWereAskedFor) {
 }
 
 TEST(Candidates, AnEndlessGridIsRefusedWithItsLine) {
-  const SmallStudy s(replaced(kStudy, "room = \"Room\"\nluminaires = [\"Bulb\", \"Spot\"]\nspacing = 1.5", "room = \"Hall\"\nfloor = [[0, 0], [900, 0], [900, 900], [0, 900]]\nluminaires = [\"Bulb\", \"Spot\"]\nspacing = 0.1"));
+  const SmallStudy s(replaced(kStudy, "room = \"Room\"\nluminaires = [\"Bulb\", \"Spot\"]\nspacing = 1.5",
+                              "room = \"Hall\"\nfloor = [[0, 0], [900, 0], [900, 900], [0, 900]]\nluminaires = "
+                              "[\"Bulb\", \"Spot\"]\nspacing = 0.1"));
   ASSERT_TRUE(s.read) << s.read.error();
   const RayScene rays(s.home);
   const auto c = findCandidates(s.study(), rays);
   ASSERT_FALSE(c);
-  EXPECT_NE(c.error().find("study.toml:19: place 'Ceiling': its grid has more than 100000 places"), std::string::npos) << c.error();
+  EXPECT_NE(c.error().find("study.toml:19: place 'Ceiling': its grid has more than 100000 places"), std::string::npos)
+      << c.error();
 }
 
 TEST(Meters, TooManyPointsAreRefusedWithTheirLine) {
-  const SmallStudy s(replaced(kStudy, "room = \"Room\"\nmean", "room = \"Hall\"\nfloor = [[0, 0], [900, 0], [900, 900], [0, 900]]\nmean"));
+  const SmallStudy s(replaced(kStudy, "room = \"Room\"\nmean",
+                              "room = \"Hall\"\nfloor = [[0, 0], [900, 0], [900, 900], [0, 900]]\nmean"));
   ASSERT_TRUE(s.read) << s.read.error();
   const RayScene rays(s.home);
   const auto m = placeMeters(s.study(), rays);
   ASSERT_FALSE(m);
-  EXPECT_NE(m.error().find("study.toml:8: zone 'Room': there are more than 20000 points"), std::string::npos) << m.error();
+  EXPECT_NE(m.error().find("study.toml:8: zone 'Room': there are more than 20000 points"), std::string::npos)
+      << m.error();
 }
 
 TEST(Candidates, AnErrorNamesTheRuleThatHasNoPlace) {

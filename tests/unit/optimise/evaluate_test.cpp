@@ -22,13 +22,18 @@ search::Genomes anyDesigns(const Model& m, size_t count) {
   search::Genomes out = testing::darkDesigns(m, count);
   Rng random(1, 2, 3);
   for (size_t i = 0; i < count; ++i) {
-    for (size_t p = 0; p < m.places(); ++p) out[i].integers[p] = static_cast<int32_t>(random.uniform() * static_cast<float>(m.firstOption[p + 1] - m.firstOption[p] + 1));
+    for (size_t p = 0; p < m.places(); ++p)
+      out[i].integers[p] =
+          static_cast<int32_t>(random.uniform() * static_cast<float>(m.firstOption[p + 1] - m.firstOption[p] + 1));
     for (double& d : out[i].reals) d = static_cast<double>(random.uniform());
   }
   return out;
 }
 
-const std::string kTwoConditions = replaced(kStudy, "hours = 1000\n", "hours = 1000\n[[condition]]\nname = \"day\"\nweight = 3\nhours = 500\ndaylight = { sky = \"overcast\", horizontalIlluminance = \"8 klx\" }\n");
+const std::string kTwoConditions =
+    replaced(kStudy, "hours = 1000\n",
+             "hours = 1000\n[[condition]]\nname = \"day\"\nweight = 3\nhours = 500\ndaylight = { sky = \"overcast\", "
+             "horizontalIlluminance = \"8 klx\" }\n");
 
 // By the definitions, in the plainest way, from the response itself.
 TEST(Evaluate, IsWhatTheDefinitionsSay) {
@@ -50,16 +55,20 @@ TEST(Evaluate, IsWhatTheDefinitionsSay) {
         if (choice == 0) continue;
         const LampOption& o = p.candidates.options[p.candidates.firstOption[place] + static_cast<size_t>(choice) - 1];
         const Luminaire& l = p.file.study().catalogue.luminaires[p.candidates.candidates[o.candidate].luminaire];
-        for (size_t e = 0; e < lux.size(); ++e) lux[e] += d * static_cast<double>(luminance(p.response.of(o.candidate)[e] * blackBodyColour(o.kelvin)));
-        glare += d * d * p.response.glareOf(o.candidate)[0].term, direct += d * p.response.glareOf(o.candidate)[0].directLux;
+        for (size_t e = 0; e < lux.size(); ++e)
+          lux[e] += d * static_cast<double>(luminance(p.response.of(o.candidate)[e] * blackBodyColour(o.kelvin)));
+        glare += d * d * p.response.glareOf(o.candidate)[0].term,
+            direct += d * p.response.glareOf(o.candidate)[0].directLux;
         kWh += d * l.wattsW * (c ? 500 : 1000) / 1000;
         if (c == 0) cost += l.price;
       }
       double sum = 0, least = 1e30;
       for (size_t e = 0; e < p.meters.points(); ++e) sum += lux[e], least = std::min(least, lux[e]);
-      const double mean = sum / static_cast<double>(p.meters.points()), background = (lux[p.meters.firstEye] - direct) / 3.14159265;
+      const double mean = sum / static_cast<double>(p.meters.points()),
+                   background = (lux[p.meters.firstEye] - direct) / 3.14159265;
       const double ugr = glare > 0 ? std::max(0.0, 8 * std::log10(0.25 * glare / background)) : 0;
-      for (const double term : {1 - mean / 100, 1 - least / mean / 0.4, ugr / 19 - 1}) miss += weight * std::clamp(term, 0.0, 1.0), weights += weight;
+      for (const double term : {1 - mean / 100, 1 - least / mean / 0.4, ugr / 19 - 1})
+        miss += weight * std::clamp(term, 0.0, 1.0), weights += weight;
     }
     EXPECT_NEAR(objectives[3 * i], 100 * miss / weights, 1e-3) << i;
     EXPECT_NEAR(objectives[3 * i + 1], kWh, 1e-6) << i;
@@ -101,7 +110,9 @@ TEST(Evaluate, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Repair, LeavesNothingBrokenAndGoodDesignsAlone) {
-  const SmallProblem p(replaced(replaced(kStudy, "apart = 0.5", "apart = 1.8\nmost = 3") + "[limits]\nwatts = 26\ncost = 120\nfittings = 4\n", "spacing = 1.5", "spacing = 0.7"));
+  const SmallProblem p(replaced(
+      replaced(kStudy, "apart = 0.5", "apart = 1.8\nmost = 3") + "[limits]\nwatts = 26\ncost = 120\nfittings = 4\n",
+      "spacing = 1.5", "spacing = 0.7"));
   search::Genomes designs = anyDesigns(p.model, 300);
   size_t broken = 0;
   for (size_t i = 0; i < designs.count; ++i) {
@@ -156,7 +167,8 @@ TEST(Box, OfFourObjectivesManyPointsAreThinned) {
   front.objectivesEach = 4, front.designs.count = kHypervolumePoints + 50;
   for (size_t i = 0; i < front.size(); ++i) {
     const double x = static_cast<double>(i) / static_cast<double>(front.size());
-    for (const double share : {x, 1 - x, 0.5, 0.5}) front.objectives.push_back(share * box.reference[front.objectives.size() % 4]);
+    for (const double share : {x, 1 - x, 0.5, 0.5})
+      front.objectives.push_back(share * box.reference[front.objectives.size() % 4]);
   }
   // Steps below the line x + y = 1: a half of two objectives, a half of each other.
   EXPECT_NEAR(hypervolumeOf(p.model, front), 0.125, 0.005);
@@ -168,7 +180,8 @@ TEST(Search, TheSameSeedGivesTheSameFrontAndAnotherAnother) {
   const auto front = [&](uint64_t seed, int threads) {
     search::State state;
     withThreads(threads, [&] {
-      state = search::start(problem, {.seed = seed, .evaluations = 2000, .population = 40}, sparseDesigns(p.model, 40, seed));
+      state = search::start(problem, {.seed = seed, .evaluations = 2000, .population = 40},
+                            sparseDesigns(p.model, 40, seed));
       search::run(problem, state);
     });
     return state.archive.objectives;

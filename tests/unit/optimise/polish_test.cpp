@@ -65,10 +65,12 @@ TEST(Polish, NeverMakesTheWeightedSumWorseWhereGoalsAreMeans) {
     for (const double dimming : {0.05, 0.4, 1.0}) {
       search::Genomes design = allLamps(m, dimming);
       const DesignResult before = resultOf(m, design[0]);
-      const std::vector<double> weights = {miss / 100, (1 - miss) / 50 + 1e-6, 0}, objectives = {before.missPercent, before.kWhPerYear, before.cost};
+      const std::vector<double> weights = {miss / 100, (1 - miss) / 50 + 1e-6, 0},
+                                objectives = {before.missPercent, before.kWhPerYear, before.cost};
       polish(m, design[0], {weights, objectives});
       const DesignResult after = resultOf(m, design[0]);
-      EXPECT_LE(weights[0] * after.missPercent + weights[1] * after.kWhPerYear, weights[0] * before.missPercent + weights[1] * before.kWhPerYear + 1e-9);
+      EXPECT_LE(weights[0] * after.missPercent + weights[1] * after.kWhPerYear,
+                weights[0] * before.missPercent + weights[1] * before.kWhPerYear + 1e-9);
       for (const double d : design[0].reals) EXPECT_TRUE(d >= 0 && d <= 1);
     }
   }
@@ -153,12 +155,15 @@ void expectGoodFirstDesigns(const Model& m) {
 }
 
 TEST(Relaxation, GivesDesignsThatHoldAllLimitsAndMissLessThanChanceDoes) {
-  const SmallProblem p(replaced(kStudy, "spacing = 1.5", "spacing = 0.6\nmost = 4") + "[limits]\ncost = 200\nwatts = 50\nfittings = 5\n");
+  const SmallProblem p(replaced(kStudy, "spacing = 1.5", "spacing = 0.6\nmost = 4") +
+                       "[limits]\ncost = 200\nwatts = 50\nfittings = 5\n");
   expectGoodFirstDesigns(p.model);
 }
 
 TEST(Relaxation, BuysALampOnceForAllConditions) {
-  const SmallProblem p(replaced(kStudy, "hours = 1000\n", "hours = 1000\n[[condition]]\nname = \"dusk\"\ndaylight = \"none\"\nhours = 500\n") + "[limits]\ncost = 200\nfittings = 5\n");
+  const SmallProblem p(replaced(kStudy, "hours = 1000\n",
+                                "hours = 1000\n[[condition]]\nname = \"dusk\"\ndaylight = \"none\"\nhours = 500\n") +
+                       "[limits]\ncost = 200\nfittings = 5\n");
   ASSERT_EQ(p.model.levels(), 2u);
   expectGoodFirstDesigns(p.model);
 }

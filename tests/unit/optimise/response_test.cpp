@@ -16,7 +16,8 @@ class ResponseTest : public ::testing::Test {
     Stages stages(progress, stats);
     ResponseSettings settings;
     settings.mostSamples = 4096, settings.tolerance = 0.005;
-    auto found = findResponse(problem_->file.home, problem_->file.study(), problem_->candidates, problem_->meters, settings, stages);
+    auto found = findResponse(problem_->file.home, problem_->file.study(), problem_->candidates, problem_->meters,
+                              settings, stages);
     ASSERT_TRUE(found) << found.error();
     problem_->response = *found.value();
     problem_->model = makeModel(problem_->file.study(), problem_->candidates, problem_->meters, problem_->response);
@@ -45,7 +46,8 @@ TEST_F(ResponseTest, SumOfResponsesIsTheFullSolution) {
   const RenderProgress progress;
   RenderStats stats;
   Stages stages(progress, stats);
-  const auto c = certify(problem_->file.home, problem_->file.study(), problem_->candidates, problem_->meters, m, designs[0], {}, RenderSettings(), stages);
+  const auto c = certify(problem_->file.home, problem_->file.study(), problem_->candidates, problem_->meters, m,
+                         designs[0], {}, RenderSettings(), stages);
   ASSERT_TRUE(c) << c.error();
   const Certificate::OfCondition& night = c.value()->conditions[0];
   EXPECT_EQ(night.judged, problem_->meters.points());

@@ -98,7 +98,8 @@ inline Scene smallRoom() {
 // A study read from text, beside kCatalogue.
 class SmallStudy {
  public:
-  explicit SmallStudy(const std::string& study = kStudy, const std::string& catalogue = kCatalogue) : home(smallRoom()) {
+  explicit SmallStudy(const std::string& study = kStudy, const std::string& catalogue = kCatalogue)
+      : home(smallRoom()) {
     writeFile(folder_ / "catalogue.toml", catalogue);
     writeFile(folder_ / "study.toml", study);
     read = optimise::readStudy(folder_ / "study.toml", home.rooms);
@@ -114,7 +115,8 @@ class SmallStudy {
 };
 
 // A response made up: lamps that light as the distance says, so that no light has to be computed.
-inline optimise::Response simpleResponse(const optimise::StudyFile& study, const optimise::Candidates& candidates, const optimise::Meters& meters) {
+inline optimise::Response simpleResponse(const optimise::StudyFile& study, const optimise::Candidates& candidates,
+                                         const optimise::Meters& meters) {
   optimise::Response r;
   r.elements = meters.elements.size(), r.eyes = study.eyes.size();
   for (const optimise::Candidate& c : candidates.candidates) {
@@ -122,13 +124,15 @@ inline optimise::Response simpleResponse(const optimise::StudyFile& study, const
     for (const SurfaceElement& e : meters.elements) {
       const Vec3 to = c.position - e.position;
       const float d2 = std::max(0.05f, dot(to, to));
-      r.lux.push_back(Vec3(static_cast<float>(flux) * (std::max(0.0f, dot(normalize(to), e.normal)) / (12 * d2) + 0.004f)));
+      r.lux.push_back(
+          Vec3(static_cast<float>(flux) * (std::max(0.0f, dot(normalize(to), e.normal)) / (12 * d2) + 0.004f)));
     }
     for (size_t e = 0; e < r.eyes; ++e) r.glare.push_back({0.001 * flux, 0.2 * flux});
   }
   for (size_t c = 0; c < study.conditions.size(); ++c) {
     optimise::Base base;
-    base.lux.assign(r.elements, Vec3(study.conditions[c].daylight.is_null() ? 0.5f : 40.0f)), base.glare.assign(r.eyes, {0, 0});
+    base.lux.assign(r.elements, Vec3(study.conditions[c].daylight.is_null() ? 0.5f : 40.0f)),
+        base.glare.assign(r.eyes, {0, 0});
     r.base.push_back(base);
   }
   return r;

@@ -23,7 +23,11 @@ TEST(Store, AResponseComesBackBitByBitAndOnlyForItsInputs) {
   EXPECT_EQ(back->base.size(), p.response.base.size());
   EXPECT_FALSE(loadResponse(folder / "response.bin", "abd", sizes));
   // Nor is one that has other sizes than the study.
-  for (const ResponseSizes& other : {ResponseSizes{sizes.candidates + 1, sizes.elements, 1, 1}, {sizes.candidates, sizes.elements + 1, 1, 1}, {sizes.candidates, sizes.elements, 2, 1}, {sizes.candidates, sizes.elements, 1, 2}}) EXPECT_FALSE(loadResponse(folder / "response.bin", "abc", other));
+  for (const ResponseSizes& other : {ResponseSizes{sizes.candidates + 1, sizes.elements, 1, 1},
+                                     {sizes.candidates, sizes.elements + 1, 1, 1},
+                                     {sizes.candidates, sizes.elements, 2, 1},
+                                     {sizes.candidates, sizes.elements, 1, 2}})
+    EXPECT_FALSE(loadResponse(folder / "response.bin", "abc", other));
   Response broken = p.response;
   broken.base[0].lux.pop_back();
   ASSERT_TRUE(saveResponse(folder / "broken.bin", "abc", broken));
@@ -74,7 +78,10 @@ TEST(Store, TheHashOfAHomeFollowsWhatCameFromOtherFiles) {
 }
 
 TEST(Proposal, FilesOfConditionsHaveNamesOfTheirOwn) {
-  const std::vector<Condition> conditions = {{"Late night", nullptr, 1, 0, 0}, {"late-night", nullptr, 1, 0, 0}, {"late_night_2", nullptr, 1, 0, 0}, {"day", nullptr, 1, 0, 0}};
+  const std::vector<Condition> conditions = {{"Late night", nullptr, 1, 0, 0},
+                                             {"late-night", nullptr, 1, 0, 0},
+                                             {"late_night_2", nullptr, 1, 0, 0},
+                                             {"day", nullptr, 1, 0, 0}};
   EXPECT_EQ(fileNamesOf(conditions), (std::vector<std::string>{"late_night", "late_night_2", "late_night_2_2", "day"}));
 }
 
@@ -85,7 +92,9 @@ TEST(Proposal, TheFullSolutionIsMaintainedAsThePredictionIs) {
   designs[0].integers[0] = 1, designs[0].reals[0] = 1;
   Certificate::OfCondition c;
   const Vec3* lamp = p.response.of(p.candidates.options[0].candidate);
-  for (size_t i = 0; i < p.meters.points(); ++i) c.fullLux.push_back(luminance(p.response.base[0].lux[i]) + luminance(lamp[i] * blackBodyColour(p.candidates.options[0].kelvin)));
+  for (size_t i = 0; i < p.meters.points(); ++i)
+    c.fullLux.push_back(luminance(p.response.base[0].lux[i]) +
+                        luminance(lamp[i] * blackBodyColour(p.candidates.options[0].kelvin)));
   const std::vector<float> lux = maintainedLux(p.file.study(), p.model, c, 0), rows = rowsOf(p.model, designs[0], 0);
   ASSERT_EQ(lux.size(), p.meters.points());
   for (size_t i = 0; i < lux.size(); ++i) EXPECT_NEAR(lux[i], rows[i], 1e-4f * rows[i]);
@@ -94,7 +103,8 @@ TEST(Proposal, TheFullSolutionIsMaintainedAsThePredictionIs) {
 TEST(Proposal, IsASpreadOfTheFrontWithTheBestOfEachObjective) {
   const SmallProblem p;
   const search::Problem problem = problemOf(p.model);
-  search::State state = search::start(problem, {.seed = 1, .evaluations = 3000, .population = 40}, sparseDesigns(p.model, 40, 1));
+  search::State state =
+      search::start(problem, {.seed = 1, .evaluations = 3000, .population = 40}, sparseDesigns(p.model, 40, 1));
   search::run(problem, state);
   const std::vector<size_t> chosen = spreadOf(p.model, state.archive, 6);
   ASSERT_EQ(chosen.size(), 6u);

@@ -27,7 +27,9 @@ TEST(StudyFile, IsReadWithDefaults) {
 }
 
 TEST(StudyFile, HoursOfNightAndDayAreShared) {
-  const SmallStudy s(replaced(kStudy, "hours = 1000\n", "hours = 680\n[[condition]]\nname = \"late\"\ndaylight = \"none\"\n[[condition]]\nname = \"day\"\ndaylight = { sky = \"overcast\", horizontalIlluminance = \"8 klx\" }\n"));
+  const SmallStudy s(replaced(kStudy, "hours = 1000\n",
+                              "hours = 680\n[[condition]]\nname = \"late\"\ndaylight = \"none\"\n[[condition]]\nname = "
+                              "\"day\"\ndaylight = { sky = \"overcast\", horizontalIlluminance = \"8 klx\" }\n"));
   ASSERT_TRUE(s.read) << s.read.error();
   EXPECT_DOUBLE_EQ(s.study().conditions[0].hoursPerYear, 680);
   EXPECT_DOUBLE_EQ(s.study().conditions[1].hoursPerYear, 1000);  // 1680 of the dark less 680
@@ -42,7 +44,8 @@ TEST(StudyFile, ATunableLuminaireHasStepsBetweenItsEnds) {
 }
 
 TEST(StudyFile, AWeatherFileIsFoundFromAnywhere) {
-  const SmallStudy s(replaced(kStudy, "daylight = \"none\"", "daylight = { weather = \"year.epw\", time = \"2026-01-20T12:00+01:00\" }"));
+  const SmallStudy s(replaced(kStudy, "daylight = \"none\"",
+                              "daylight = { weather = \"year.epw\", time = \"2026-01-20T12:00+01:00\" }"));
   ASSERT_TRUE(s.read) << s.read.error();
   EXPECT_EQ(s.study().conditions[0].daylight["weather"], (s.folder() / "year.epw").string());
 }
@@ -60,7 +63,8 @@ TEST(StudyFile, SaysInWhichLineWhatIsWrong) {
       {"mean = \"100 lx\"", "mean = 100", 11, "has no unit; write \"100 lx\""},
       {"mean = \"100 lx\"", "mean = \"100 lm\"", 11, "lx"},
       {"room = \"Room\"", "room = \"Attic\"", 10, "there is no room 'Attic'; there are 'Room'"},
-      {"\"Bulb\", \"Spot\"", "\"Bulb\", \"Sopt\"", 23, "there is no 'Sopt' in the catalogue; there are 'Bulb', 'Spot', 'Wall light'"},
+      {"\"Bulb\", \"Spot\"", "\"Bulb\", \"Sopt\"", 23,
+       "there is no 'Sopt' in the catalogue; there are 'Bulb', 'Spot', 'Wall light'"},
       {"\"Bulb\", \"Spot\"", "\"Wall light\"", 23, "'Wall light' is not for mounting on a ceiling"},
       {"aims = [\"up\", \"out\"]", "aims = [\"sideways\"]", 32, "aims[0]: must be one of"},
       {"\"cost\"]", "\"cost\", \"beauty\"]", 3, "must be one of"},
@@ -76,7 +80,8 @@ TEST(StudyFile, SaysInWhichLineWhatIsWrong) {
   for (const Wrong& w : wrong) {
     const SmallStudy s(replaced(kStudy, w.what, w.by));
     ASSERT_FALSE(s.read) << w.by;
-    EXPECT_NE(s.read.error().find(fmt::format("study.toml:{}: ", w.line)), std::string::npos) << w.by << " gave: " << s.read.error();
+    EXPECT_NE(s.read.error().find(fmt::format("study.toml:{}: ", w.line)), std::string::npos)
+        << w.by << " gave: " << s.read.error();
     EXPECT_NE(s.read.error().find(w.says), std::string::npos) << s.read.error();
     EXPECT_EQ(s.read.error().find('\n'), std::string::npos);
   }
@@ -94,7 +99,8 @@ TEST(Catalogue, SaysInWhichLineWhatIsWrong) {
   for (const Wrong& w : wrong) {
     const SmallStudy s(kStudy, replaced(kCatalogue, w.what, w.by));
     ASSERT_FALSE(s.read) << w.by;
-    EXPECT_NE(s.read.error().find(fmt::format("catalogue.toml:{}: ", w.line)), std::string::npos) << w.by << " gave: " << s.read.error();
+    EXPECT_NE(s.read.error().find(fmt::format("catalogue.toml:{}: ", w.line)), std::string::npos)
+        << w.by << " gave: " << s.read.error();
     EXPECT_NE(s.read.error().find(w.says), std::string::npos) << s.read.error();
   }
 }

@@ -15,7 +15,10 @@ constexpr double kPiD = std::numbers::pi;
 SkyFunction sky(int type, double sunAltitudeDeg) {
   const double altitude = sunAltitudeDeg * kPiD / 180;
   const Vec3 sun{0, static_cast<float>(std::sin(altitude)), static_cast<float>(std::cos(altitude))};
-  return [=](Vec3 d) { return cieSkyLuminance(type, static_cast<double>(d.y), std::acos(std::clamp(static_cast<double>(dot(d, sun)), -1.0, 1.0)), kPiD / 2 - altitude); };
+  return [=](Vec3 d) {
+    return cieSkyLuminance(type, static_cast<double>(d.y),
+                           std::acos(std::clamp(static_cast<double>(dot(d, sun)), -1.0, 1.0)), kPiD / 2 - altitude);
+  };
 }
 
 TEST(CieSky, isOneAtTheZenithWhereverTheSunStands) {
@@ -35,8 +38,8 @@ TEST(CieSky, theStandardOvercastOneIsThreeTimesAsBrightAtTheZenithAsAtTheHorizon
   EXPECT_NEAR(cieSkyLuminance(16, 1e-9, 1, 1), 1 / 3.0, 1e-6);
 }
 
-// Type 12, the clear sky of low turbidity, is the older CIE clear sky: L = f(chi) (1 - exp(-0.32 / cos Z)) / (f(Z_s) (1 - exp(-0.32)))
-// with f = 0.91 + 10 exp(-3 chi) + 0.45 cos² chi (CIE S 003:1996).
+// Type 12, the clear sky of low turbidity, is the older CIE clear sky: L = f(chi) (1 - exp(-0.32 / cos Z)) / (f(Z_s) (1
+// - exp(-0.32))) with f = 0.91 + 10 exp(-3 chi) + 0.45 cos² chi (CIE S 003:1996).
 TEST(CieSky, theClearOneIsThatOfTheOlderStandard) {
   const auto f = [](double chi) { return 0.91 + 10 * std::exp(-3 * chi) + 0.45 * std::cos(chi) * std::cos(chi); };
   for (const double cosZenith : {0.05, 0.3, 0.9}) {

@@ -10,7 +10,11 @@ TEST(ColourTemperature, liesOnThePlanckianLocus) {
   const struct {
     double kelvin;
     float x, y;
-  } known[] = {{2000, 0.5267f, 0.4133f}, {2855.5, 0.4476f, 0.4074f}, {4000, 0.3805f, 0.3768f}, {6500, 0.3135f, 0.3237f}, {10000, 0.2807f, 0.2884f}};
+  } known[] = {{2000, 0.5267f, 0.4133f},
+               {2855.5, 0.4476f, 0.4074f},
+               {4000, 0.3805f, 0.3768f},
+               {6500, 0.3135f, 0.3237f},
+               {10000, 0.2807f, 0.2884f}};
   for (const auto& k : known) {
     const Vec2 c = blackBodyChromaticity(k.kelvin);
     EXPECT_NEAR(c.x, k.x, 0.003) << k.kelvin;

@@ -6,9 +6,12 @@ namespace roomlight {
 namespace {
 
 const std::string kHeader =
-    "LOCATION,Porto Alegre,RS,BRA,SWERA,839710,-30.00,-51.18,-3.0,3.0\r\nDESIGN CONDITIONS,0\r\nTYPICAL/EXTREME PERIODS,0\r\nGROUND TEMPERATURES,0\r\n"
-    "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0\r\nCOMMENTS 1,none\r\nCOMMENTS 2,none\r\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\r\n";
-const std::string kNoon = "1996,3,1,12,60,?9?9?9,24.5,17.1,61,101200,1000,1400,400,800,650,210,88000,64000,24000,3000,90,2.0,4,4\r\n";
+    "LOCATION,Porto Alegre,RS,BRA,SWERA,839710,-30.00,-51.18,-3.0,3.0\r\nDESIGN CONDITIONS,0\r\nTYPICAL/EXTREME "
+    "PERIODS,0\r\nGROUND TEMPERATURES,0\r\n"
+    "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0\r\nCOMMENTS 1,none\r\nCOMMENTS 2,none\r\nDATA "
+    "PERIODS,1,1,Data,Sunday,1/1,12/31\r\n";
+const std::string kNoon =
+    "1996,3,1,12,60,?9?9?9,24.5,17.1,61,101200,1000,1400,400,800,650,210,88000,64000,24000,3000,90,2.0,4,4\r\n";
 
 TEST(Epw, readsPlaceAndHours) {
   const Result<Epw> r = parseEpw(kHeader + kNoon);
@@ -39,14 +42,18 @@ TEST(Epw, findsTheHourThatEndsAfterTheMoment) {
 }
 
 TEST(Epw, missingValuesAreMissing) {
-  const Result<Epw> r = parseEpw(kHeader + "1996,3,1,12,60,?9,24.5,99.9,61,101200,1000,1400,400,800,9999,9999,999999,999900,0,3000,90,2.0,4,4\n");
+  const Result<Epw> r = parseEpw(
+      kHeader + "1996,3,1,12,60,?9,24.5,99.9,61,101200,1000,1400,400,800,9999,9999,999999,999900,0,3000,90,2.0,4,4\n");
   ASSERT_TRUE(r) << r.error();
   const EpwHour& h = r.value().hours[0];
   EXPECT_FALSE(h.directNormalWm2 || h.diffuseHorizontalWm2 || h.directNormalLux || h.dewPointC);
 }
 
 TEST(Epw, zeroLuxBesideIrradianceAreMissingToo) {
-  const EpwHour h = parseEpw(kHeader + "1996,3,1,12,60,?9,24.5,9,61,101200,1000,1400,400,800,650,210,0,0,0,0,90,2.0,4,4\n").value().hours[0];
+  const EpwHour h =
+      parseEpw(kHeader + "1996,3,1,12,60,?9,24.5,9,61,101200,1000,1400,400,800,650,210,0,0,0,0,90,2.0,4,4\n")
+          .value()
+          .hours[0];
   EXPECT_FALSE(h.directNormalLux || h.diffuseHorizontalLux);
   EXPECT_EQ(h.directNormalWm2, 650);
 }
@@ -61,8 +68,10 @@ TEST(Epw, saysInWhichLineWhatIsWrong) {
       {kHeader + kNoon + "1996,3,1\n", "line 10: has 3 fields"},
       {kHeader + "1996,inf" + kNoon.substr(6), "line 9: field 2 (month) is not a number"},
       {kHeader + "1996,13" + kNoon.substr(6), "line 9: field 2 (month) is 13"},
-      {kHeader + "1996,3,1,12,60,?9,24.5,9,61,101200,1000,1400,400,800,many,210,0,0,0,0,90,2.0,4,4\n", "line 9: field 15 (direct normal irradiance) is not a number"},
-      {kHeader + "1996,3,1,12,60,?9,24.5,9,61,101200,1000,1400,400,800,-5,210,0,0,0,0,90,2.0,4,4\n", "line 9: field 15 (direct normal irradiance) is -5"},
+      {kHeader + "1996,3,1,12,60,?9,24.5,9,61,101200,1000,1400,400,800,many,210,0,0,0,0,90,2.0,4,4\n",
+       "line 9: field 15 (direct normal irradiance) is not a number"},
+      {kHeader + "1996,3,1,12,60,?9,24.5,9,61,101200,1000,1400,400,800,-5,210,0,0,0,0,90,2.0,4,4\n",
+       "line 9: field 15 (direct normal irradiance) is -5"},
   };
   for (const auto& [text, expected] : cases) {
     const Result<Epw> r = parseEpw(text);

@@ -29,7 +29,8 @@ std::string warningsOf(const std::string& text) {
 
 double at(const PhotometricWeb& web, double cDeg, double gammaDeg) {
   const double c = radians(cDeg), g = radians(gammaDeg);
-  return intensityCd(web, {static_cast<float>(std::sin(g) * std::cos(c)), static_cast<float>(std::sin(g) * std::sin(c)), static_cast<float>(-std::cos(g))});
+  return intensityCd(web, {static_cast<float>(std::sin(g) * std::cos(c)), static_cast<float>(std::sin(g) * std::sin(c)),
+                           static_cast<float>(-std::cos(g))});
 }
 
 // The n-th line, from 1, replaced.
@@ -41,17 +42,19 @@ std::string withLine(const std::string& text, int n, const std::string& line) {
 
 TEST(Eulumdat, symmetriesAreUnfolded) {
   const auto about = [](double c) { return std::cos(radians(c)); };
-  const testing::Intensity intensities[] = {
-      [&](double c, double g) { return 100 + g + 50 * about(c - 60); }, [](double, double g) { return 100 + g; },
-      [&](double c, double g) { return 100 + g + 50 * about(c); }, [&](double c, double g) { return 100 + g + 50 * about(c - 90); },
-      [&](double c, double g) { return 100 + g + 50 * about(2 * c); }};
+  const testing::Intensity intensities[] = {[&](double c, double g) { return 100 + g + 50 * about(c - 60); },
+                                            [](double, double g) { return 100 + g; },
+                                            [&](double c, double g) { return 100 + g + 50 * about(c); },
+                                            [&](double c, double g) { return 100 + g + 50 * about(c - 90); },
+                                            [&](double c, double g) { return 100 + g + 50 * about(2 * c); }};
   for (int symmetry = 0; symmetry <= 4; ++symmetry) {
     LdtText file;
     file.symmetry = symmetry, file.candelaPerKlm = intensities[symmetry], file.lumens = 2000;
     const Result<WebFile> web = parseEulumdat(file.text());
     ASSERT_TRUE(web) << web.error();
     for (const double c : steps(0, 345, 15)) {
-      for (const double g : {10.0, 45.0, 85.0}) EXPECT_NEAR(at(web.value().web, c, g), 2 * file.candelaPerKlm(c, g), 4e-3) << symmetry << " " << c << " " << g;
+      for (const double g : {10.0, 45.0, 85.0})
+        EXPECT_NEAR(at(web.value().web, c, g), 2 * file.candelaPerKlm(c, g), 4e-3) << symmetry << " " << c << " " << g;
     }
   }
 }
@@ -67,7 +70,8 @@ TEST(Eulumdat, fluxIsThatOfTheLampsTimesTheRatio) {
   EXPECT_EQ(web.watts, 11);
   EXPECT_EQ(warningsOf(file.text()), "");
   file.ratioPercent = 80;
-  EXPECT_EQ(warningsOf(file.text()), "the intensities add up to 999.975 lm, 125 % of the 800 lm stated for the luminaire; ");
+  EXPECT_EQ(warningsOf(file.text()),
+            "the intensities add up to 999.975 lm, 125 % of the 800 lm stated for the luminaire; ");
   file.factor = 0.8;
   EXPECT_EQ(warningsOf(file.text()), "");
   // Absolute: what is stated is the luminaire's.
@@ -127,7 +131,8 @@ TEST(Eulumdat, damagedFilesAreOneLineWithItsNumber) {
   EXPECT_EQ(errorOf("hello\n1\n"), "line 2: the file ends before line 3, the symmetry");
   EXPECT_EQ(errorOf(withLine(plain, 3, "7")), "line 3: line 3, the symmetry: 7 is not a whole number from 0 to 4");
   EXPECT_EQ(errorOf(withLine(plain, 6, "many")), "line 6: line 6, the number of gammas: 'many' is not a number");
-  EXPECT_EQ(errorOf(withLine(plain, 29, "0")), "line 29: the flux of the lamps is 0 lm; without it intensities in cd/klm mean nothing");
+  EXPECT_EQ(errorOf(withLine(plain, 29, "0")),
+            "line 29: the flux of the lamps is 0 lm; without it intensities in cd/klm mean nothing");
   EXPECT_EQ(errorOf(withLine(plain, 4, "700")).substr(0, 34), "line 104: the file ends before the");
   EXPECT_EQ(errorOf(plain.substr(0, plain.size() / 2)).find("the file ends before") == std::string::npos, false);
   LdtText bad;

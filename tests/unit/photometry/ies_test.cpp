@@ -29,12 +29,16 @@ std::string warningsOf(const std::string& text) {
 
 Vec3 towards(double cDeg, double gammaDeg) {
   const double c = radians(cDeg), g = radians(gammaDeg);
-  return {static_cast<float>(std::sin(g) * std::cos(c)), static_cast<float>(std::sin(g) * std::sin(c)), static_cast<float>(-std::cos(g))};
+  return {static_cast<float>(std::sin(g) * std::cos(c)), static_cast<float>(std::sin(g) * std::sin(c)),
+          static_cast<float>(-std::cos(g))};
 }
 
 TEST(Ies, everyEditionIsRead) {
-  const std::pair<const char*, const char*> editions[] = {
-      {"a downlight\nof 1986\n", "1986"}, {"IESNA91\n", "1991"}, {"IESNA:LM-63-1995\n", "1995"}, {"IESNA:LM-63-2002\n", "2002"}, {"IES:LM-63-2019\n", "2019"}};
+  const std::pair<const char*, const char*> editions[] = {{"a downlight\nof 1986\n", "1986"},
+                                                          {"IESNA91\n", "1991"},
+                                                          {"IESNA:LM-63-1995\n", "1995"},
+                                                          {"IESNA:LM-63-2002\n", "2002"},
+                                                          {"IES:LM-63-2019\n", "2019"}};
   for (const auto& [first, name] : editions) {
     IesText file;
     file.edition = first;
@@ -50,7 +54,8 @@ TEST(Ies, everyEditionIsRead) {
 
 // The second ballast factor was set aside in 2002 and tells of something else since 2019.
 TEST(Ies, factorsMultiplyTheCandela) {
-  for (const auto& [edition, expected] : {std::pair{"IESNA91\n", 1000 * 2 * 0.9 * 0.5}, std::pair{"IES:LM-63-2019\n", 1000 * 2 * 0.9}}) {
+  for (const auto& [edition, expected] :
+       {std::pair{"IESNA91\n", 1000 * 2 * 0.9 * 0.5}, std::pair{"IES:LM-63-2019\n", 1000 * 2 * 0.9}}) {
     IesText file;
     file.edition = edition;
     file.multiplier = 2, file.ballast = 0.9, file.ballastLamp = 0.5;
@@ -63,7 +68,8 @@ TEST(Ies, fluxIsThatOfClosedForms) {
   IesText file;
   for (const double step : {1.0, 5.0}) {
     file.vertical = steps(0, 90, step);
-    EXPECT_NEAR(webOf(file.text()).fluxLm / (std::numbers::pi * 1000), 1 - radians(step) * radians(step) / 12, 2e-5) << step;
+    EXPECT_NEAR(webOf(file.text()).fluxLm / (std::numbers::pi * 1000), 1 - radians(step) * radians(step) / 12, 2e-5)
+        << step;
   }
   file.vertical = steps(0, 180, 7.5);
   file.candela = [](double, double) { return 100; };
@@ -97,7 +103,9 @@ TEST(Ies, symmetriesAreUnfolded) {
     const PhotometricWeb web = webOf(text);
     EXPECT_EQ(warningsOf(text), "");
     for (const double c : steps(0, 345, 15)) {
-      for (const double g : {10.0, 45.0, 85.0}) EXPECT_NEAR(intensityCd(web, towards(c, g)), k.candela(c, g), 2e-3) << k.horizontal.size() << " " << c << " " << g;
+      for (const double g : {10.0, 45.0, 85.0})
+        EXPECT_NEAR(intensityCd(web, towards(c, g)), k.candela(c, g), 2e-3)
+            << k.horizontal.size() << " " << c << " " << g;
     }
     EXPECT_EQ(intensityCd(web, towards(0, 100)), 0);
   }
@@ -134,7 +142,8 @@ TEST(Ies, typesAAndBAreTurnedIntoC) {
   EXPECT_NEAR(a.fluxLm / b.fluxLm, 1, 2e-3);
   double exact = 0;
   for (const double h : steps(-89.75, 89.75, 0.5)) {
-    for (const double v : steps(-89.75, 89.75, 0.5)) exact += 1000 * beam(h, v) * std::cos(radians(v)) * radians(0.5) * radians(0.5);
+    for (const double v : steps(-89.75, 89.75, 0.5))
+      exact += 1000 * beam(h, v) * std::cos(radians(v)) * radians(0.5) * radians(0.5);
   }
   EXPECT_NEAR(b.fluxLm / exact, 1, 5e-3);
   // From 0 on: both sides alike.
@@ -173,7 +182,8 @@ TEST(Ies, tiltTablesAreRead) {
   EXPECT_NEAR(tiltFactor(web, kPi), 0.6f, 1e-5f);
   file.tilt = "TILT = lamp.tlt\n";
   std::string asked;
-  const PhotometricWeb other = webOf(file.text(), [&](const std::string& name) { return asked = name, Result<std::string>(table); });
+  const PhotometricWeb other =
+      webOf(file.text(), [&](const std::string& name) { return asked = name, Result<std::string>(table); });
   EXPECT_EQ(asked, "lamp.tlt");
   EXPECT_EQ(other.tiltFactor, web.tiltFactor);
   EXPECT_EQ(parseIes(file.text()).error(), "line 5: TILT file: files beside it are not read");
@@ -183,7 +193,8 @@ TEST(Ies, oddFilesAreReadWithAWarning) {
   const std::string plain = IesText().text();
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string s = plain;
-    for (size_t at = s.find(from); at != std::string::npos; at = s.find(from, at + to.size())) s.replace(at, from.size(), to);
+    for (size_t at = s.find(from); at != std::string::npos; at = s.find(from, at + to.size()))
+      s.replace(at, from.size(), to);
     return s;
   };
   EXPECT_EQ(warningsOf(with("\n", "\r\n")), "");
@@ -207,7 +218,8 @@ TEST(Ies, oddFilesAreReadWithAWarning) {
   open.horizontal = steps(0, 345, 15);
   EXPECT_EQ(warningsOf(open.text()), "horizontal angles end at 345; the circle is closed; ");
   open.horizontal = steps(15, 345, 15);
-  EXPECT_EQ(warningsOf(open.text()), "horizontal angles end at 345; the circle is closed; there is no plane C0; it is interpolated; ");
+  EXPECT_EQ(warningsOf(open.text()),
+            "horizontal angles end at 345; the circle is closed; there is no plane C0; it is interpolated; ");
   open.horizontal = steps(0, 360, 15);
   open.candela = [](double c, double) { return c < 360 ? 100 : 50; };
   EXPECT_EQ(warningsOf(open.text()), "plane 0 is there twice with different values; the first counts; ");
@@ -221,7 +233,8 @@ TEST(Ies, fluxThatIsNotAsStatedIsAWarning) {
   file.lumens = 3150;
   EXPECT_EQ(warningsOf(file.text()), "");
   file.lumens = 4000;
-  EXPECT_EQ(warningsOf(file.text()), "the intensities add up to 3141.51 lm, 78.5 % of the 4000 lm stated for its lamps; ");
+  EXPECT_EQ(warningsOf(file.text()),
+            "the intensities add up to 3141.51 lm, 78.5 % of the 4000 lm stated for its lamps; ");
   file.lumens = -1;
   EXPECT_EQ(warningsOf(file.text()), "");
 }
@@ -231,7 +244,8 @@ TEST(Ies, damagedFilesAreOneLineWithItsNumber) {
   const auto errorOf = [&](const IesText& f) { return parseIes(f.text()).error(); };
   const auto cut = [&](size_t bytes) { return parseIes(file.text().substr(0, file.text().size() - bytes)).error(); };
   EXPECT_EQ(parseIes("").error(), "is empty");
-  EXPECT_EQ(parseIes("hello\nworld").error(), "line 2: there is no line TILT=; this is no IES file, or it is cut short");
+  EXPECT_EQ(parseIes("hello\nworld").error(),
+            "line 2: there is no line TILT=; this is no IES file, or it is cut short");
   EXPECT_EQ(cut(20), "line 10: the file ends before candela of horizontal angle 1");
   EXPECT_EQ(parseIes(std::string("IESNA91\0\n", 9)).error(), "line 1: holds a NUL character; it is no text");
   IesText bad = file;
@@ -244,7 +258,8 @@ TEST(Ies, damagedFilesAreOneLineWithItsNumber) {
   bad = file, bad.vertical = {0, 200};
   EXPECT_EQ(errorOf(bad), "line 8: vertical angle 200 is not between 0 and 180");
   bad = file, bad.horizontal = {0, 30, 60};
-  EXPECT_NE(errorOf(bad).find("line 9: horizontal angles from 0 to 60 do not tell what is symmetric"), std::string::npos);
+  EXPECT_NE(errorOf(bad).find("line 9: horizontal angles from 0 to 60 do not tell what is symmetric"),
+            std::string::npos);
   bad = file, bad.multiplier = 0;
   EXPECT_NE(errorOf(bad).find("must be above 0"), std::string::npos);
   bad = file, bad.candela = [](double, double) { return 0; };

@@ -18,7 +18,8 @@ TEST(Quantity, saysWhatIsWrong) {
   EXPECT_NE(parseQuantity("800", Unit::Lumen).error().find("write '800 lm'"), std::string::npos);
   EXPECT_NE(parseQuantity("800 lx", Unit::Lumen).error().find("is in lx, where lm is needed"), std::string::npos);
   EXPECT_NE(parseQuantity("800 watt", Unit::Lumen).error().find("unknown unit 'watt'"), std::string::npos);
-  for (const char* text : {"", "lm", "nan lm", "inf lm", "1e999 lm"}) EXPECT_FALSE(parseQuantity(text, Unit::Lumen).ok()) << text;
+  for (const char* text : {"", "lm", "nan lm", "inf lm", "1e999 lm"})
+    EXPECT_FALSE(parseQuantity(text, Unit::Lumen).ok()) << text;
 }
 
 }  // namespace

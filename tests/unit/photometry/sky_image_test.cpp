@@ -20,7 +20,8 @@ SkyColour clearSky() {
 
 TEST(SkyImage, coloursChangeNoLuminance) {
   const Image grey = skyImage(sky, 10000, Vec3(1)), coloured = skyImage(sky, 10000, clearSky());
-  for (size_t i = 0; i < grey.pixels.size() / 2; ++i) ASSERT_NEAR(luminance(coloured.pixels[i]) / luminance(grey.pixels[i]), 1, 1e-3f) << i;
+  for (size_t i = 0; i < grey.pixels.size() / 2; ++i)
+    ASSERT_NEAR(luminance(coloured.pixels[i]) / luminance(grey.pixels[i]), 1, 1e-3f) << i;
 }
 
 TEST(SkyImage, clearSkiesAreBluestWhereTheyAreDarkest) {

@@ -18,15 +18,15 @@ TEST(Sun, standsWhereThePublishedExamplePutsIt) {
   EXPECT_NEAR(p.bearingRad * kDeg, 194.34024, 0.02);
 }
 
-// Meeus, Astronomical Algorithms, example 25.a: 1992-10-13 0h TD (58 s after UTC), apparent declination -7.78507 degrees. Seen
-// from the pole that is the altitude.
+// Meeus, Astronomical Algorithms, example 25.a: 1992-10-13 0h TD (58 s after UTC), apparent declination -7.78507
+// degrees. Seen from the pole that is the altitude.
 TEST(Sun, hasThePublishedDeclination) {
   EXPECT_NEAR(sunPosition(parseMoment("1992-10-12T23:59:02Z").value(), 90, 0).altitudeRad * kDeg, -7.78507, 0.01);
   EXPECT_NEAR(sunPosition(parseMoment("1992-10-12T23:59:02Z").value(), -90, 0).altitudeRad * kDeg, 7.78507, 0.01);
 }
 
-// By another theory: longitude of the earth from the leading terms of VSOP87, nutation, aberration and apparent sidereal time (Meeus 1998,
-// chapters 12, 22 and 25); it has the example of NREL SPA within 0.002 degrees.
+// By another theory: longitude of the earth from the leading terms of VSOP87, nutation, aberration and apparent
+// sidereal time (Meeus 1998, chapters 12, 22 and 25); it has the example of NREL SPA within 0.002 degrees.
 TEST(Sun, standsWhereAFinerTheoryHasIt) {
   const struct {
     const char* where;
@@ -79,7 +79,8 @@ TEST(Sun, clearSkyLightFallsWithAltitude) {
 TEST(Sun, momentsNeedAnOffsetAndARealDate) {
   EXPECT_NEAR(parseMoment("2026-06-21T14:30+02:00").value().hour, 12.5, 1e-12);
   EXPECT_NEAR(parseMoment("2026-06-21T00:30:36Z").value().hour, 0.51, 1e-12);
-  for (const char* text : {"", "noon", "2026-06-21T14:30", "2026-02-29T14:30Z", "2026-13-01T14:30Z", "2026-06-21T25:30Z", "1816-06-21T12:00Z", "2026-06-21T14:30+02:00x"}) {
+  for (const char* text : {"", "noon", "2026-06-21T14:30", "2026-02-29T14:30Z", "2026-13-01T14:30Z",
+                           "2026-06-21T25:30Z", "1816-06-21T12:00Z", "2026-06-21T14:30+02:00x"}) {
     EXPECT_FALSE(parseMoment(text).ok()) << text;
   }
 }

@@ -17,7 +17,9 @@ using testing::steps;
 PhotometricWeb lopsided() {
   IesText file;
   file.vertical = {0, 2.5, 10, 30, 45, 47, 90, 110, 180}, file.horizontal = {0, 10, 45, 90, 200, 300, 360};
-  file.candela = [](double c, double g) { return c == 90 || g == 110 || g == 180 ? 0 : 100 + 3 * g + 80 * std::cos(radians(c)); };
+  file.candela = [](double c, double g) {
+    return c == 90 || g == 110 || g == 180 ? 0 : 100 + 3 * g + 80 * std::cos(radians(c));
+  };
   return parseIes(file.text()).value().web;
 }
 
@@ -30,9 +32,13 @@ TEST(WebSampler, directionsFollowTheLight) {
   double total = 0;
   for (int p = 0; p < kPolar * kFine; ++p) {
     for (int a = 0; a < kAzimuth * kFine; ++a) {
-      const double z = -1 + 2 * (p + 0.5) / (kPolar * kFine), phi = 2 * std::numbers::pi * (a + 0.5) / (kAzimuth * kFine), r = std::sqrt(1 - z * z);
+      const double z = -1 + 2 * (p + 0.5) / (kPolar * kFine),
+                   phi = 2 * std::numbers::pi * (a + 0.5) / (kAzimuth * kFine), r = std::sqrt(1 - z * z);
       const double steradians = 4 * std::numbers::pi / (kPolar * kAzimuth * kFine * kFine);
-      const double share = static_cast<double>(sampler.pdf({static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)), static_cast<float>(z)})) * steradians;
+      const double share =
+          static_cast<double>(sampler.pdf(
+              {static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)), static_cast<float>(z)})) *
+          steradians;
       expected[static_cast<size_t>(p / kFine * kAzimuth + a / kFine)] += share * kSamples;
       total += share;
     }
@@ -48,7 +54,8 @@ TEST(WebSampler, directionsFollowTheLight) {
     flux += static_cast<double>(intensityCd(web, d) / pdf) / kSamples;
     double turn = std::atan2(static_cast<double>(d.y), static_cast<double>(d.x)) / (2 * std::numbers::pi);
     turn -= std::floor(turn);
-    const int p = std::min(kPolar - 1, static_cast<int>((static_cast<double>(d.z) + 1) / 2 * kPolar)), a = std::min(kAzimuth - 1, static_cast<int>(turn * kAzimuth));
+    const int p = std::min(kPolar - 1, static_cast<int>((static_cast<double>(d.z) + 1) / 2 * kPolar)),
+              a = std::min(kAzimuth - 1, static_cast<int>(turn * kAzimuth));
     counts[static_cast<size_t>(p * kAzimuth + a)] += 1;
   }
   EXPECT_TRUE(testing::fits(counts, expected));

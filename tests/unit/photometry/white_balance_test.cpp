@@ -29,7 +29,8 @@ TEST(WhiteBalance, coloursOfWhitesAreThoseOfBlackBodiesAndDaylight) {
 }
 
 TEST(WhiteBalance, nearestWhiteFindsTheTemperatureBack) {
-  for (const double kelvin : {1800.0, 2700.0, 3500.0}) EXPECT_NEAR(nearestWhiteK(blackBodyColour(kelvin)), kelvin, 0.01 * kelvin);
+  for (const double kelvin : {1800.0, 2700.0, 3500.0})
+    EXPECT_NEAR(nearestWhiteK(blackBodyColour(kelvin)), kelvin, 0.01 * kelvin);
   EXPECT_NEAR(nearestWhiteK({1, 1, 1}), 6504, 30);
   EXPECT_EQ(nearestWhiteK({1, 0, 0}), kLowestWhiteK);
   EXPECT_EQ(nearestWhiteK({0, 0.1f, 1}), kHighestWhiteK);

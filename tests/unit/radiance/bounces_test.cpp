@@ -16,7 +16,8 @@ double furnace(float rho, float angleRad, const RadianceSettings& settings) {
   const int wall = test::addMaterial(scene, test::lambertian(rho, kLe));
   test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 3}, std::vector<int>(6, wall));
   const float c = std::cos(angleRad), s = std::sin(angleRad);
-  for (Instance& i : scene.instances) i.worldFromObject = Affine{{c, 0, -s}, {0, 1, 0}, {s, 0, c}, {0.013f, 0.007f, 0.021f}} * i.worldFromObject;
+  for (Instance& i : scene.instances)
+    i.worldFromObject = Affine{{c, 0, -s}, {0, 1, 0}, {s, 0, c}, {0.013f, 0.007f, 0.021f}} * i.worldFromObject;
   VoxelSettings voxel;
   voxel.voxelSizeM = 0.1f;
   const Voxelisation v = voxelise(scene, voxel);
@@ -28,7 +29,8 @@ double furnace(float rho, float angleRad, const RadianceSettings& settings) {
     const FaceSlot& slot = v.voxels.slots[i];
     const Vec3 inwards = Vec3{2, 1.3f, 1.5f} - roomFromWorld.point(slot.position);
     if (dot(roomFromWorld.vector(slot.normal), inwards) < 0) continue;
-    sum += static_cast<double>(luminance(field.irradianceLux[i]) * slot.areaM2), area += static_cast<double>(slot.areaM2);
+    sum += static_cast<double>(luminance(field.irradianceLux[i]) * slot.areaM2),
+        area += static_cast<double>(slot.areaM2);
   }
   return kLe + static_cast<double>(rho) * sum / area / kPi;
 }

@@ -1,4 +1,5 @@
-// What is bright by reflection, sampled by place: against sums over all places, and light found by it against light found by chance.
+// What is bright by reflection, sampled by place: against sums over all places, and light found by it against light
+ // found by chance.
 #include "radiance/bright_patches.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ struct SunnyRoom {
   Scene scene;
   Voxels voxels;
   SunnyRoom() {
-    const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+    const int white = test::addMaterial(scene, test::lambertian(0.7f)),
+              wood = test::addMaterial(scene, test::lambertian(0.4f));
     test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
     scene.meshes.pop_back(), scene.instances.pop_back();
     test::addBox(scene, {2.5f, 0, 1}, {3.5f, 0.7f, 2.5f}, wood);
@@ -32,14 +34,16 @@ struct SunnyRoom {
 
 RadianceField lit(const SunnyRoom& room, bool still, int links, uint64_t seed) {
   RadianceSettings settings;
-  settings.pyramid = false, settings.still = still, settings.links = links, settings.seed = seed, settings.residual = 1e-4f;
+  settings.pyramid = false, settings.still = still, settings.links = links, settings.seed = seed,
+  settings.residual = 1e-4f;
   const RayScene rays(room.scene);
   return illuminate(rays, Lights(room.scene), room.voxels, settings);
 }
 
 double flux(const SunnyRoom& room, const RadianceField& field) {
   double sum = 0;
-  for (size_t i = 0; i < field.irradianceLux.size(); ++i) sum += static_cast<double>((luminance(field.irradianceLux[i]) - field.sunLux[i]) * room.voxels.slots[i].areaM2);
+  for (size_t i = 0; i < field.irradianceLux.size(); ++i)
+    sum += static_cast<double>((luminance(field.irradianceLux[i]) - field.sunLux[i]) * room.voxels.slots[i].areaM2);
   return sum;
 }
 
@@ -54,7 +58,9 @@ TEST(BrightPatches, samplesAverageToTheSumOverAllPoints) {
   for (const GlowPoint& g : field.sunPoints) {
     const Vec3 d = g.p - p;
     const float cosSurface = dot(d, n), cosLight = -dot(d, g.n);
-    if (cosSurface > 0 && cosLight > 0) all += static_cast<double>(luminance(g.fluxLm) * cosSurface * cosLight / (kPi * lengthSquared(d) * lengthSquared(d)));
+    if (cosSurface > 0 && cosLight > 0)
+      all += static_cast<double>(luminance(g.fluxLm) * cosSurface * cosLight /
+                                 (kPi * lengthSquared(d) * lengthSquared(d)));
   }
   ASSERT_GT(all, 0);
   // Chosen by what a side sees, and by flux alone in the air.
@@ -82,7 +88,8 @@ TEST(BrightPatches, pointsAndRaysShareAllOfTheLight) {
     const Vec3 d = p - g.p;
     const float distance = length(d), cosLight = dot(d, g.n) / distance;
     if (cosLight <= 0.01f) continue;
-    const float byPoints = BrightPatches::pointShare(patches.densityAt(i, p, side), 0.2f), byRays = patches.rayShare(g.slot, g.radianceCdM2, distance, cosLight, side, 0.2f);
+    const float byPoints = BrightPatches::pointShare(patches.densityAt(i, p, side), 0.2f),
+                byRays = patches.rayShare(g.slot, g.radianceCdM2, distance, cosLight, side, 0.2f);
     if (distance < 0.2f) {
       EXPECT_EQ(byPoints, 0);
     } else {
@@ -101,13 +108,17 @@ TEST(BrightPatches, sharesStayNumbersHoweverSmallAPatchIs) {
     const BrightPatches patches(rays, room.voxels, field.sunPoints, {}, 0, 1);
     const int32_t side = brickSideAt(room.voxels, p, n);
     for (const float rayPdf : {0.0f, 0.2f, 1e30f}) {
-      EXPECT_TRUE(std::isfinite(BrightPatches::pointShare(patches.densityAt(0, p, side), rayPdf))) << flux << ' ' << rayPdf;
-      EXPECT_TRUE(std::isfinite(patches.rayShare(patches.point(0).slot, patches.point(0).radianceCdM2, 2, 0.01f, side, rayPdf))) << flux << ' ' << rayPdf;
+      EXPECT_TRUE(std::isfinite(BrightPatches::pointShare(patches.densityAt(0, p, side), rayPdf)))
+          << flux << ' ' << rayPdf;
+      EXPECT_TRUE(
+          std::isfinite(patches.rayShare(patches.point(0).slot, patches.point(0).radianceCdM2, 2, 0.01f, side, rayPdf)))
+          << flux << ' ' << rayPdf;
     }
   }
 }
 
-// The last of four parts with the highest number below 1 rounds to 1, where nothing is known of the place as where something is.
+// The last of four parts with the highest number below 1 rounds to 1, where nothing is known of the place as where
+// something is.
 TEST(BrightPatches, aNumberThatRoundsToOneChoosesThePatchBefore) {
   const SunnyRoom room;
   const RayScene rays(room.scene);
@@ -164,7 +175,8 @@ TEST(BrightPatches, areOfOneSunAndNotOnMetal) {
 TEST(BrightPatches, lightByPlaceIsThatFoundByChance) {
   const SunnyRoom room;
   double byPlace = 0, byChance = 0;
-  for (const uint64_t seed : {1u, 2u, 3u, 4u}) byPlace += flux(room, lit(room, true, 16, seed)) / 4, byChance += flux(room, lit(room, false, 128, seed)) / 4;
+  for (const uint64_t seed : {1u, 2u, 3u, 4u})
+    byPlace += flux(room, lit(room, true, 16, seed)) / 4, byChance += flux(room, lit(room, false, 128, seed)) / 4;
   EXPECT_NEAR(byPlace / byChance, 1, 0.02);
 }
 

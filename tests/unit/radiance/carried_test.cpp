@@ -17,7 +17,9 @@ Bounds3 boxAt(Sampler& sampler, float size) {
   return {lo, lo + next3() * size};
 }
 
-Vec3 within(const Bounds3& box, Sampler& sampler) { return box.lo + box.size() * Vec3{sampler.next1(), sampler.next1(), sampler.next1()}; }
+Vec3 within(const Bounds3& box, Sampler& sampler) {
+  return box.lo + box.size() * Vec3{sampler.next1(), sampler.next1(), sampler.next1()};
+}
 
 TEST(MayMeetBetween, holdsForEverySegmentThatMeetsABox) {
   int met = 0, spared = 0;
@@ -40,7 +42,8 @@ TEST(MayMeetBetween, holdsForEverySegmentThatMeetsABox) {
 // The hull of two equal boxes one behind the other is a corridor: what stands beside it is never met.
 TEST(MayMeetBetween, sparesWhatStandsBesideTheWay) {
   const Bounds3 from{{0, 0, 0}, {1, 1, 1}}, to{{4, 4, 0}, {5, 5, 1}};
-  const Bounds3 corner{{0, 3.2f, 0}, {1.8f, 5, 1}}, middle{{2, 2, 0}, {2.1f, 2.1f, 1}}, behind{{5.1f, 5.1f, 0}, {6, 6, 1}};
+  const Bounds3 corner{{0, 3.2f, 0}, {1.8f, 5, 1}}, middle{{2, 2, 0}, {2.1f, 2.1f, 1}},
+      behind{{5.1f, 5.1f, 0}, {6, 6, 1}};
   EXPECT_FALSE(mayMeetBetween(from, to, std::span(&corner, 1)));
   EXPECT_TRUE(mayMeetBetween(from, to, std::span(&middle, 1)));
   EXPECT_FALSE(mayMeetBetween(from, to, std::span(&behind, 1)));
@@ -52,7 +55,8 @@ TEST(SkyWay, keepsADirectionToWhatItSays) {
     ASSERT_LT(length(SkyWay(d).direction() - d), SkyWay::kOff) << i;
   }
   EXPECT_TRUE(isBlack(SkyWay().direction()));
-  for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}}) EXPECT_LT(length(SkyWay(axis).direction() - axis), SkyWay::kOff);
+  for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}})
+    EXPECT_LT(length(SkyWay(axis).direction() - axis), SkyWay::kOff);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct Home {
   std::vector<uint32_t> box;  // instances
 
   explicit Home(bool sky = false) {
-    const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+    const int white = test::addMaterial(scene, test::lambertian(0.7f)),
+              wood = test::addMaterial(scene, test::lambertian(0.4f));
     test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
     if (sky) scene.meshes.pop_back(), scene.instances.pop_back(), scene.sky.luminanceCdM2 = Vec3(500);
     test::addBox(scene, {2.5f, 0, 1}, {3.5f, 0.7f, 2.5f}, wood);
@@ -56,7 +57,9 @@ RadianceSettings exact() {
   return settings;
 }
 
-LightCache lit(const Home& home, const RadianceSettings& settings = exact()) { return LightCache(RayScene(home.scene), Lights(home.scene), home.voxels(), settings); }
+LightCache lit(const Home& home, const RadianceSettings& settings = exact()) {
+  return LightCache(RayScene(home.scene), Lights(home.scene), home.voxels(), settings);
+}
 
 void expectSame(const LightCache& a, const LightCache& b, float tolerance) {
   ASSERT_EQ(a.field().irradianceLux.size(), b.field().irradianceLux.size());
@@ -157,7 +160,8 @@ struct GlowingHome : Home {
   std::vector<uint32_t> panelAlone;  // instances
   GlowingHome() {
     scene.lamps.clear();
-    panel = test::addMaterial(scene, test::lambertian(0, 300)), cube = test::addMaterial(scene, test::lambertian(0, 4000));
+    panel = test::addMaterial(scene, test::lambertian(0, 300)),
+    cube = test::addMaterial(scene, test::lambertian(0, 4000));
     test::addRectangle(scene, {1.2f, 2.5f, 2}, {0, 0, 1}, {-0.8f, 0, 0}, panel);
     panelAlone = {static_cast<uint32_t>(scene.instances.size() - 1)};
     test::addBox(scene, {3.02f, 1.2f, 3.61f}, {3.08f, 1.26f, 3.67f}, cube);
@@ -231,7 +235,8 @@ TEST(LightCache, emissiveMeshesApartGiveTheSameFlux) {
   double flux[2] = {};
   for (const bool isApart : {false, true}) {
     const LightCache cache = lit(home, isApart ? apart() : exact());
-    for (size_t s = 0; s < home.voxels().slots.size(); ++s) flux[isApart] += static_cast<double>(luminance(cache.field().irradianceLux[s]) * home.voxels().slots[s].areaM2);
+    for (size_t s = 0; s < home.voxels().slots.size(); ++s)
+      flux[isApart] += static_cast<double>(luminance(cache.field().irradianceLux[s]) * home.voxels().slots[s].areaM2);
   }
   EXPECT_NEAR(flux[1] / flux[0], 1, 0.005);
 }
@@ -349,7 +354,8 @@ TEST(FollowDaylight, equalsASceneLitAnew) {
     if (!isBlack(sun.illuminanceLux)) home.scene.suns.push_back(sun);
     home.scene.sky.luminanceCdM2 = Vec3(skyCdM2);
   };
-  const Sun noon{"noon", normalize(Vec3(0.2f, 0.9f, 1.5f)), Vec3(60000), 0.0047f}, evening{"evening", normalize(Vec3(-0.6f, 0.3f, 1)), Vec3(9000, 7000, 4000), 0.0047f};
+  const Sun noon{"noon", normalize(Vec3(0.2f, 0.9f, 1.5f)), Vec3(60000), 0.0047f},
+      evening{"evening", normalize(Vec3(-0.6f, 0.3f, 1)), Vec3(9000, 7000, 4000), 0.0047f};
   light(noon, 3000);
   LightCache cache = lit(home);
   const LightCache first = lit(home);
@@ -377,7 +383,8 @@ TEST(Update, underASkyEqualsASceneLitAnewButForNoise) {
   double a = 0, b = 0;
   for (size_t s = 0; s < fresh.field().irradianceLux.size(); ++s) {
     const double area = static_cast<double>(home.voxels().slots[s].areaM2);
-    a += area * static_cast<double>(luminance(cache.field().irradianceLux[s])), b += area * static_cast<double>(luminance(fresh.field().irradianceLux[s]));
+    a += area * static_cast<double>(luminance(cache.field().irradianceLux[s])),
+        b += area * static_cast<double>(luminance(fresh.field().irradianceLux[s]));
   }
   EXPECT_NEAR(a, b, 0.01 * b);
 }
@@ -400,12 +407,14 @@ TEST(Update, bouncesFewAtOnceGoOnUntilTheyAreSettled) {
   expectSame(cache, lit(home), 3e-3f);
 }
 
-// Lit together lamps are chosen among, and their particles are few and kept together: the same light as each for itself.
+// Lit together lamps are chosen among, and their particles are few and kept together: the same light as each for
+// itself.
 TEST(LightCache, manyLampsTogetherGiveTheSameLight) {
   Home home;
   home.scene.lamps.clear();
   for (int i = 0; i < 80; ++i) {
-    home.scene.lamps.push_back(test::pointLamp({0.2f + 0.4f * static_cast<float>(i % 10), 2.3f, 0.3f + 0.6f * static_cast<float>(i / 10)}, 5));
+    home.scene.lamps.push_back(
+        test::pointLamp({0.2f + 0.4f * static_cast<float>(i % 10), 2.3f, 0.3f + 0.6f * static_cast<float>(i / 10)}, 5));
     home.scene.lamps.back().intensityCd *= Vec3(1, 0.9f, i % 2 ? 0.2f : 0.9f);
   }
   double flux[2] = {}, glow[2] = {};
@@ -419,7 +428,8 @@ TEST(LightCache, manyLampsTogetherGiveTheSameLight) {
         EXPECT_EQ(cache.lampsApart(Lights(home.scene)), !together);
         lux.push_back(cache.field().irradianceLux);
         if (threads > 1) return;
-        for (size_t s = 0; s < lux.back().size(); ++s) flux[together] += static_cast<double>(luminance(lux.back()[s]) * home.voxels().slots[s].areaM2);
+        for (size_t s = 0; s < lux.back().size(); ++s)
+          flux[together] += static_cast<double>(luminance(lux.back()[s]) * home.voxels().slots[s].areaM2);
         for (const GlowPoint& g : cache.field().glow.points()) {
           glow[together] += static_cast<double>(luminance(g.fluxLm));
           EXPECT_GE(g.lamp, 0);
@@ -434,7 +444,9 @@ TEST(LightCache, manyLampsTogetherGiveTheSameLight) {
 
 TEST(HasSurfaces, onlyBesideThem) {
   const Home home;
-  const auto has = [&](Vec3 at) { return hasSurfaces(home.voxels(), LightSurroundings(test::pointLamp(at, 1), home.voxels().voxelSizeM)); };
+  const auto has = [&](Vec3 at) {
+    return hasSurfaces(home.voxels(), LightSurroundings(test::pointLamp(at, 1), home.voxels().voxelSizeM));
+  };
   EXPECT_TRUE(has({0.3f, 1.5f, 3}));
   EXPECT_TRUE(has({2, 2.3f, 4}));
   EXPECT_FALSE(has({2, 1.3f, 4}));

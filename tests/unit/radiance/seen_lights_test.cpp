@@ -19,7 +19,8 @@ struct TwoRooms {
   Scene scene;
   Voxels voxels;
   explicit TwoRooms(int perRoom) {
-    const int grey = test::addMaterial(scene, test::lambertian(0.5f)), shining = test::addMaterial(scene, test::lambertian(0, 2000));
+    const int grey = test::addMaterial(scene, test::lambertian(0.5f)),
+              shining = test::addMaterial(scene, test::lambertian(0, 2000));
     for (const float x : {0.0f, 3.2f}) {
       test::addRoom(scene, {x, 0, 0}, {3, 2.5f, 4}, std::vector<int>(6, grey));
       for (int i = 0; i < perRoom; ++i) {
@@ -41,10 +42,16 @@ struct Known {
   SlotPaths paths;
   uint64_t count = 0;
   SeenLights seen;
-  explicit Known(const TwoRooms& rooms) : rays(rooms.scene), lights(rooms.scene), paths(rays, rooms.voxels, 1, {}), seen(rays, lights, rooms.voxels, paths, 1, count) {}
+  explicit Known(const TwoRooms& rooms)
+      : rays(rooms.scene),
+        lights(rooms.scene),
+        paths(rays, rooms.voxels, 1, {}),
+        seen(rays, lights, rooms.voxels, paths, 1, count) {}
 };
 
-double lux(const LightSample& light, Vec3 n) { return light.valid() ? static_cast<double>(luminance(light.radiance) * std::max(0.0f, dot(light.wi, n))) : 0; }
+double lux(const LightSample& light, Vec3 n) {
+  return light.valid() ? static_cast<double>(luminance(light.radiance) * std::max(0.0f, dot(light.wi, n))) : 0;
+}
 
 const Vec3 kPlace{1.5f, 0.001f, 1.9f}, kUp{0, 1, 0};
 
@@ -62,7 +69,8 @@ TEST(SeenLights, samplesAverageToAllLights) {
       sampledLamps += lux(known.seen.sampleLamps(known.lights, kPlace, side, sampler), kUp) / kSamples;
       const Vec2 u = sampler.next2();
       sampledEmitters += lux(known.seen.sampleEmitters(known.lights, kPlace, side, u, sampler.next1()), kUp) / kSamples;
-      for (size_t i = 0; k < kSamples / 16 && i < known.lights.emitterCount(); ++i) emitters += lux(known.lights.sampleEmitter(i, kPlace, u, sampler.fast1()), kUp) / (kSamples / 16);
+      for (size_t i = 0; k < kSamples / 16 && i < known.lights.emitterCount(); ++i)
+        emitters += lux(known.lights.sampleEmitter(i, kPlace, u, sampler.fast1()), kUp) / (kSamples / 16);
     }
     EXPECT_NEAR(sampledLamps, lamps, 0.03 * lamps) << perRoom;
     EXPECT_NEAR(sampledEmitters, emitters, 0.03 * emitters) << perRoom;
@@ -95,7 +103,9 @@ TEST(SeenLights, whatFewPlacesSeeIsNotLost) {
 TEST(SeenLights, manyLampsHaveNoMoreNoiseThanUnseen) {
   TwoRooms rooms(0);
   for (int i = 0; i < 20; ++i) {
-    for (int k = 0; k < 20; ++k) rooms.scene.lamps.push_back(test::pointLamp({0.1f + 0.14f * static_cast<float>(i), 2.4f, 0.1f + 0.19f * static_cast<float>(k)}, 100));
+    for (int k = 0; k < 20; ++k)
+      rooms.scene.lamps.push_back(
+          test::pointLamp({0.1f + 0.14f * static_cast<float>(i), 2.4f, 0.1f + 0.19f * static_cast<float>(k)}, 100));
   }
   const Known known(rooms);
   const Vec3 p{0.6f, 0.001f, 0.9f};
@@ -103,7 +113,8 @@ TEST(SeenLights, manyLampsHaveNoMoreNoiseThanUnseen) {
   double seen = 0, seen2 = 0, blind = 0, blind2 = 0;
   for (uint32_t k = 0; k < kSamples; ++k) {
     Sampler a(3, k, 0), b(3, k, 0);
-    const double s = lux(known.seen.sampleLamps(known.lights, p, side, a), kUp), u = lux(known.lights.sampleLamps(p, b), kUp);
+    const double s = lux(known.seen.sampleLamps(known.lights, p, side, a), kUp),
+                 u = lux(known.lights.sampleLamps(p, b), kUp);
     seen += s, seen2 += s * s, blind += u, blind2 += u * u;
   }
   EXPECT_NEAR(seen, blind, 0.02 * blind);
@@ -120,7 +131,11 @@ TEST(SeenLights, densityIsThatOfTheChoice) {
       Sampler sampler(5, k, 0);
       const Vec2 u = sampler.next2();
       const LightSample s = known.seen.sampleEmitters(known.lights, kPlace, side, u, sampler.next1());
-      compared += test::expectDensityOfItsPoint(known.rays, kPlace, s, [&](const SurfacePoint& q) { return known.seen.pdfEmitters(known.lights, kPlace, side, q); }) ? 1 : 0;
+      compared += test::expectDensityOfItsPoint(
+                      known.rays, kPlace, s,
+                      [&](const SurfacePoint& q) { return known.seen.pdfEmitters(known.lights, kPlace, side, q); })
+                      ? 1
+                      : 0;
     }
     EXPECT_GT(compared, perRoom < 10 ? 300 : 30) << perRoom;  // many stand before one another
   }
@@ -156,7 +171,8 @@ TEST(SeenLights, chancesAreThoseOfTheChoiceAndAddUpToAll) {
       const LightSample s = known.seen.sampleLamps(known.lights, kPlace, side, sampler);
       const auto i = static_cast<size_t>(s.lamp);
       chosen[i] += 1.0 / kSamples;
-      chance[i] = static_cast<double>(luminance(known.lights.sampleLamp(i, kPlace, {}).radiance) / luminance(s.radiance));
+      chance[i] =
+          static_cast<double>(luminance(known.lights.sampleLamp(i, kPlace, {}).radiance) / luminance(s.radiance));
     }
     double sum = 0;
     for (size_t i = 0; i < chance.size(); ++i) {
@@ -172,7 +188,8 @@ TEST(SeenLights, knowsNothingOffTheSurfaces) {
   const Known known(rooms);
   for (uint32_t k = 0; k < 100; ++k) {
     Sampler a(5, k, 0), b(5, k, 0);
-    const LightSample known1 = known.seen.sampleLamps(known.lights, kPlace, -1, a), blind = known.lights.sampleLamps(kPlace, b);
+    const LightSample known1 = known.seen.sampleLamps(known.lights, kPlace, -1, a),
+                      blind = known.lights.sampleLamps(kPlace, b);
     EXPECT_EQ(known1.lamp, blind.lamp);
     EXPECT_EQ(known1.radiance, blind.radiance);
   }

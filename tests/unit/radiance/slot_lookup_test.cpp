@@ -53,12 +53,14 @@ TEST_P(SlotLookup, borderOfVoxelsFindsTheSurfaceItself) {
 }
 
 TEST_P(SlotLookup, brickIsThatOfTheSlot) {
-  const int32_t above = brickAtSurface(over.voxels, {0.52f, 0.0f, 0.9f}, kUp), below = brickAtSurface(over.voxels, {0.52f, kGroundM, 0.9f}, kUp);
+  const int32_t above = brickAtSurface(over.voxels, {0.52f, 0.0f, 0.9f}, kUp),
+                below = brickAtSurface(over.voxels, {0.52f, kGroundM, 0.9f}, kUp);
   ASSERT_GE(above, 0);
   ASSERT_GE(below, 0);
   EXPECT_NE(above, below);
   EXPECT_EQ(brickAtSurface(over.voxels, {0.52f, -2e-7f, 0.9f}, kUp), above);
-  EXPECT_EQ(brickSideAt(over.voxels, {0.52f, -2e-7f, 0.9f}, kUp), brickSide(static_cast<size_t>(above), dominantFace(kUp)));
+  EXPECT_EQ(brickSideAt(over.voxels, {0.52f, -2e-7f, 0.9f}, kUp),
+            brickSide(static_cast<size_t>(above), dominantFace(kUp)));
 }
 
 TEST_P(SlotLookup, whereNoSurfaceIsThereIsNoSlot) {

@@ -41,13 +41,15 @@ TEST(LightVertices, LieAsDenselyAsPredicted) {
   // The floor in half metres.
   double counts[8][8] = {}, chi2 = 0;
   for (const LightVertex& v : vertices.all()) {
-    if (v.p.y < 1e-3f && v.ng.y > 0.9f) counts[std::min(7, static_cast<int>(v.p.z * 2))][std::min(7, static_cast<int>(v.p.x * 2))] += 1;
+    if (v.p.y < 1e-3f && v.ng.y > 0.9f)
+      counts[std::min(7, static_cast<int>(v.p.z * 2))][std::min(7, static_cast<int>(v.p.x * 2))] += 1;
   }
   for (int j = 0; j < 8; ++j) {
     for (int i = 0; i < 8; ++i) {
       double expected = 0;
       for (int k = 0; k < 400; ++k) {
-        const float x = 0.5f * (static_cast<float>(i) + (static_cast<float>(k % 20) + 0.5f) / 20), z = 0.5f * (static_cast<float>(j) + (static_cast<float>(k / 20) + 0.5f) / 20);
+        const float x = 0.5f * (static_cast<float>(i) + (static_cast<float>(k % 20) + 0.5f) / 20),
+                    z = 0.5f * (static_cast<float>(j) + (static_cast<float>(k / 20) + 0.5f) / 20);
         expected += lights.lampDensity({x, 0, z}, {0, 1, 0}) * 0.25 / 400 * paths;
       }
       chi2 += (counts[j][i] - expected) * (counts[j][i] - expected) / expected;
@@ -58,7 +60,8 @@ TEST(LightVertices, LieAsDenselyAsPredicted) {
 
 TEST(PathTracer, ClosedShadeLetsNoLightOut) {
   Scene scene = room(test::lambertian(0.6f));
-  test::addRoom(scene, {1.6f, 1.8f, 1.2f}, {1.9f, 2.1f, 1.5f}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(0.7f))));
+  test::addRoom(scene, {1.6f, 1.8f, 1.2f}, {1.9f, 2.1f, 1.5f},
+                std::vector<int>(6, test::addMaterial(scene, test::lambertian(0.7f))));
   scene.lamps.push_back(test::pointLamp({1.87f, 1.95f, 1.35f}, 100));
   EXPECT_LT(meanLuminance(render(scene, 64, true).image), 1e-3);
 }
@@ -84,7 +87,8 @@ TEST_P(Shade, MeanIsThatOfPathsWithoutConnections) {
   EXPECT_LT(connectedError, plainError);
   EXPECT_NEAR(difference, 0, 3.5 * std::sqrt(variance));
 }
-INSTANTIATE_TEST_SUITE_P(Materials, Shade, testing::Values(std::tuple{1.0f, 0.0f}, std::tuple{0.35f, 1.0f}, std::tuple{0.25f, 1.0f}));
+INSTANTIATE_TEST_SUITE_P(Materials, Shade,
+                         testing::Values(std::tuple{1.0f, 0.0f}, std::tuple{0.35f, 1.0f}, std::tuple{0.25f, 1.0f}));
 
 TEST(PathTracer, ConnectionsKeepTheMeanWithinOnePercent) {
   const Scene scene = shadedLamp(test::lambertian(0.5f), 0.5f, 1);

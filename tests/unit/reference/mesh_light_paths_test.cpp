@@ -19,7 +19,8 @@ enum class Bulb {
 
 void addBulb(Scene& scene, Bulb kind, Vec3 at) {
   Material m = test::lambertian(kind == Bulb::White ? 0.8f : 0, 20000);
-  if (kind == Bulb::Black || kind == Bulb::White) return test::addSphere(scene, at, 0.02f, test::addMaterial(scene, m), 12);
+  if (kind == Bulb::Black || kind == Bulb::White)
+    return test::addSphere(scene, at, 0.02f, test::addMaterial(scene, m), 12);
   if (kind == Bulb::Cluster) {
     test::addSphere(scene, at, 0.015f, test::addMaterial(scene, m), 12);
     Mesh& mesh = scene.meshes.back();
@@ -51,8 +52,11 @@ TEST(MeshLightPaths, FirstVerticesHoldAllTheirLight) {
     double lumens = 0;
     for (const LightVertex& v : vertices.all()) lumens += static_cast<double>(luminance(v.flux));
     // Of the flux that Lights knows of a textured one, a sampled mean, the rays do not depend: areas do.
-    const double sheet = 2 * std::numbers::pi * 20000 * 0.0016, expected = kind == Bulb::Sheet ? sheet : kind == Bulb::Textured ? sheet / 2
-                                                                                                                                : lights.emittedFluxLm() + (kind == Bulb::Cluster ? 40 * std::numbers::pi : 0);
+    const double sheet = 2 * std::numbers::pi * 20000 * 0.0016,
+                 expected = kind == Bulb::Sheet ? sheet
+                            : kind == Bulb::Textured
+                                ? sheet / 2
+                                : lights.emittedFluxLm() + (kind == Bulb::Cluster ? 40 * std::numbers::pi : 0);
     EXPECT_NEAR(lumens, expected, 0.01 * expected) << static_cast<int>(kind);
   }
 }
@@ -76,7 +80,8 @@ TEST_P(BulbInShade, MeanIsThatOfPathsWithoutConnections) {
   EXPECT_LT(connectedError, plainError);
   EXPECT_NEAR(difference, 0, 3.5 * std::sqrt(variance)) << "of " << mean;
 }
-INSTANTIATE_TEST_SUITE_P(Kinds, BulbInShade, testing::Values(Bulb::Black, Bulb::White, Bulb::Sheet, Bulb::Textured, Bulb::Cluster));
+INSTANTIATE_TEST_SUITE_P(Kinds, BulbInShade,
+                         testing::Values(Bulb::Black, Bulb::White, Bulb::Sheet, Bulb::Textured, Bulb::Cluster));
 
 // A globe under the ceiling, above the camera: little noise either way.
 TEST(MeshLightPaths, ConnectionsKeepTheMeanWithinOnePercent) {
@@ -105,7 +110,8 @@ TEST(MeshLightPaths, LeaveWideEmittersAlone) {
 TEST(MeshLightPaths, SmallFurnaceStaysUniform) {
   for (const float rho : {0.3f, 0.7f}) {
     Scene scene;
-    test::addRoom(scene, {0, 0, 0}, {0.2f, 0.2f, 0.2f}, std::vector<int>(6, test::addMaterial(scene, test::lambertian(rho, 10))));
+    test::addRoom(scene, {0, 0, 0}, {0.2f, 0.2f, 0.2f},
+                  std::vector<int>(6, test::addMaterial(scene, test::lambertian(rho, 10))));
     const RayScene rays(scene);
     const Lights lights(scene);
     ASSERT_TRUE(LightRays(lights).hasAllLight());
@@ -114,7 +120,8 @@ TEST(MeshLightPaths, SmallFurnaceStaysUniform) {
     camera.yFovRad = 1.2f;
     PathSettings settings;
     settings.width = settings.height = 20, settings.samples = 512;
-    EXPECT_NEAR(meanLuminance(pathTrace(rays, lights, camera, settings).image), 10 / (1 - static_cast<double>(rho)), 0.01 * 10 / (1 - static_cast<double>(rho)));
+    EXPECT_NEAR(meanLuminance(pathTrace(rays, lights, camera, settings).image), 10 / (1 - static_cast<double>(rho)),
+                0.01 * 10 / (1 - static_cast<double>(rho)));
   }
 }
 

@@ -63,7 +63,8 @@ TEST(PathFeatures, PartsMakeTheWholeAndTellWhatIsSeen) {
       Sampler one(static_cast<uint64_t>(i), 0, 0), two = one;
       const Ray ray = cameraRays.ray(static_cast<float>(i % 32) + 0.5f, static_cast<float>(i / 32) + 0.5f);
       FilterPixel p;
-      const Vec3 all = walk.radiance(ray, one, count), again = walk.radiance(ray, two, count, p), sum = p.diffuse + p.sharp + p.specular + p.rest;
+      const Vec3 all = walk.radiance(ray, one, count), again = walk.radiance(ray, two, count, p),
+                 sum = p.diffuse + p.sharp + p.specular + p.rest;
       EXPECT_EQ(all, again);
       EXPECT_NEAR(luminance(sum), luminance(all), 1e-4f * luminance(all) + 1e-6f);
       if (p.surface <= 0) continue;
@@ -142,7 +143,9 @@ TEST(PathTracer, BlendOfARoomConverges) {
     before = error;
     double mean = 0, relative = 0;
     for (const Vec3& p : truth.pixels) mean += luminance(p) / static_cast<double>(truth.pixels.size());
-    for (size_t i = 0; i < truth.pixels.size(); ++i) relative += lengthSquared(b.image.pixels[i] - truth.pixels[i]) / 3 / std::pow(luminance(truth.pixels[i]) + 0.05 * mean, 2);
+    for (size_t i = 0; i < truth.pixels.size(); ++i)
+      relative += lengthSquared(b.image.pixels[i] - truth.pixels[i]) / 3 /
+                  std::pow(luminance(truth.pixels[i]) + 0.05 * mean, 2);
     relative = std::sqrt(relative / static_cast<double>(truth.pixels.size()));
     EXPECT_LT(b.relativeError, 1.5 * relative) << samples;
     EXPECT_GT(b.relativeError, relative / 5) << samples;

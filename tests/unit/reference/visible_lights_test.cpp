@@ -23,10 +23,13 @@ struct TwoRooms {
   Scene scene;
   Camera camera;
   explicit TwoRooms(int lamps = 1) {
-    const int grey = test::addMaterial(scene, test::lambertian(0.5f)), shining = test::addMaterial(scene, test::lambertian(0, 2000));
+    const int grey = test::addMaterial(scene, test::lambertian(0.5f)),
+              shining = test::addMaterial(scene, test::lambertian(0, 2000));
     for (const float x : {0.0f, 3.2f}) {
       test::addRoom(scene, {x, 0, 0}, {3, 2.5f, 4}, std::vector<int>(6, grey));
-      for (int i = 0; i < lamps; ++i) scene.lamps.push_back(test::pointLamp({x + 1, 2.1f, 2 + 0.02f * static_cast<float>(i)}, 100 / static_cast<float>(lamps)));
+      for (int i = 0; i < lamps; ++i)
+        scene.lamps.push_back(
+            test::pointLamp({x + 1, 2.1f, 2 + 0.02f * static_cast<float>(i)}, 100 / static_cast<float>(lamps)));
       for (const float z : {1.0f, 3.0f}) test::addSphere(scene, {x + 2, 2.1f, z}, 0.05f, shining, 8);
     }
     camera.worldFromCamera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1.5f, 1.4f, 3.9f}};
@@ -38,13 +41,17 @@ struct Known {
   RayScene rays;
   Lights lights;
   VisibleLights visible;
-  explicit Known(const TwoRooms& rooms) : rays(rooms.scene), lights(rooms.scene), visible(lights) { visible.learn(rays, CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight, 4000, 1); }
+  explicit Known(const TwoRooms& rooms) : rays(rooms.scene), lights(rooms.scene), visible(lights) {
+    visible.learn(rays, CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight, 4000, 1);
+  }
 };
 
 // On the floor beside the wall, where lights of the other room are as near.
 const Vec3 kPlace{2.9f, 0.001f, 2}, kUp{0, 1, 0};
 
-size_t numberOf(const Lights& lights, const LightSample& s) { return s.lamp >= 0 ? static_cast<size_t>(s.lamp) : lights.lampCount() + static_cast<size_t>(s.emitter); }
+size_t numberOf(const Lights& lights, const LightSample& s) {
+  return s.lamp >= 0 ? static_cast<size_t>(s.lamp) : lights.lampCount() + static_cast<size_t>(s.emitter);
+}
 
 // Of few lights each is known, of many groups are.
 class VisibleLightsOf : public testing::TestWithParam<int> {};
@@ -86,10 +93,21 @@ TEST_P(VisibleLightsOf, chancesAreThoseOfTheChoiceAndAddUpToAll) {
     const LightSample s = sampleLocal(known.lights, parts, kPlace, u, choice);
     const size_t i = numberOf(known.lights, s);
     chosen[i] += 1.0 / kSamples;
-    if (s.lamp >= 0) chance[i] = static_cast<double>(luminance(known.lights.sampleLamp(i, kPlace, {}).radiance) / luminance(s.radiance));
+    if (s.lamp >= 0)
+      chance[i] =
+          static_cast<double>(luminance(known.lights.sampleLamp(i, kPlace, {}).radiance) / luminance(s.radiance));
     // Of a mesh from any of its points, behind the wall too.
-    if (s.emitter >= 0 && s.valid()) chance[i] = pdfThere(s, [&](const SurfacePoint& q) { return pdfLocal(known.lights, parts, kPlace, q); }) / pdfThere(s, [&](const SurfacePoint& q) { return known.lights.pdfEmitter(static_cast<size_t>(s.emitter), kPlace, q); });
-    if (k < 2000) compared += test::expectDensityOfItsPoint(known.rays, kPlace, s, [&](const SurfacePoint& p) { return pdfLocal(known.lights, parts, kPlace, p); }) ? 1 : 0;
+    if (s.emitter >= 0 && s.valid())
+      chance[i] = pdfThere(s, [&](const SurfacePoint& q) { return pdfLocal(known.lights, parts, kPlace, q); }) /
+                  pdfThere(s, [&](const SurfacePoint& q) {
+                    return known.lights.pdfEmitter(static_cast<size_t>(s.emitter), kPlace, q);
+                  });
+    if (k < 2000)
+      compared +=
+          test::expectDensityOfItsPoint(known.rays, kPlace, s,
+                                        [&](const SurfacePoint& p) { return pdfLocal(known.lights, parts, kPlace, p); })
+              ? 1
+              : 0;
   }
   EXPECT_GT(compared, 300);
   double sum = 0;
@@ -112,7 +130,8 @@ TEST_P(VisibleLightsOf, theMeanStays) {
     uint64_t rays = 0;
     for (uint32_t k = 0; k < kSamples; ++k) {
       Sampler sampler(k, 0, 3);
-      const double v = luminance(walk.radiance(cameraRays.ray(sampler.next1() * kWidth, sampler.next1() * kHeight), sampler, rays));
+      const double v =
+          luminance(walk.radiance(cameraRays.ray(sampler.next1() * kWidth, sampler.next1() * kHeight), sampler, rays));
       mean[learned] += v / kSamples, square[learned] += v * v / kSamples;
     }
   }
@@ -120,7 +139,8 @@ TEST_P(VisibleLightsOf, theMeanStays) {
   EXPECT_NEAR(mean[1], mean[0], 3 * std::sqrt(variance));
 }
 
-INSTANTIATE_TEST_SUITE_P(, VisibleLightsOf, testing::Values(1, 100), [](const auto& one) { return std::to_string(one.param) + "LampsARoom"; });
+INSTANTIATE_TEST_SUITE_P(, VisibleLightsOf, testing::Values(1, 100),
+                         [](const auto& one) { return std::to_string(one.param) + "LampsARoom"; });
 
 TEST(VisibleLights, sameBitsWithAnyNumberOfThreads) {
   const TwoRooms rooms;
@@ -129,7 +149,8 @@ TEST(VisibleLights, sameBitsWithAnyNumberOfThreads) {
   PathSettings settings;
   settings.width = kWidth, settings.height = kHeight, settings.samples = 2;
   std::vector<Image> images;
-  for (const int threads : {1, 4}) withThreads(threads, [&] { images.push_back(pathTrace(rays, lights, rooms.camera, settings).image); });
+  for (const int threads : {1, 4})
+    withThreads(threads, [&] { images.push_back(pathTrace(rays, lights, rooms.camera, settings).image); });
   EXPECT_TRUE(images[0].pixels == images[1].pixels);
 }
 
@@ -139,7 +160,8 @@ TEST(VisibleLights, knowNothingOnceStopped) {
   const Lights lights(rooms.scene);
   VisibleLights visible(lights);
   std::atomic<int> asked = 0;
-  visible.learn(rays, CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight, 4000, 1, [&] { return ++asked > 10; });
+  visible.learn(rays, CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight, 4000, 1,
+                [&] { return ++asked > 10; });
   EXPECT_EQ(visible.cellCount(), 0u);
   EXPECT_TRUE(visible.partsAt(kPlace, kUp).empty());
 }

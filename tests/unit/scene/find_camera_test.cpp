@@ -23,7 +23,8 @@ TEST(FindCamera, takesNamesNumbersAndWhatOnlyOneNameCanMean) {
 
 TEST(FindCamera, saysWhatMayHaveBeenMeant) {
   const Scene scene = withCameras({"Kitchen", "Living room", "Living corner"});
-  EXPECT_EQ(findCamera(scene, "Kitchn").error(), "no camera 'Kitchn'; did you mean 'Kitchen'? There are 'Kitchen', 'Living room', 'Living corner'");
+  EXPECT_EQ(findCamera(scene, "Kitchn").error(),
+            "no camera 'Kitchn'; did you mean 'Kitchen'? There are 'Kitchen', 'Living room', 'Living corner'");
   EXPECT_EQ(findCamera(scene, "living").error(), "camera 'living' may be any of 'Living room', 'Living corner'");
 }
 

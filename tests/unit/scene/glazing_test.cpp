@@ -21,7 +21,8 @@ TEST(Glazing, aPaneLetsThroughWhatTheSlabDoes) {
 // Light followed to and fro between the faces of one pane or two, term by term.
 TEST(Glazing, panesAreTheSumOfAllReflectionsInside) {
   for (const float degrees : {0.f, 40.f, 70.f, 85.f}) {
-    const double c = std::cos(degrees * 3.14159265358979 / 180), n = 1.6, ct = std::sqrt(1 - (1 - c * c) / (n * n)), a = std::pow(0.9, 1 / ct);
+    const double c = std::cos(degrees * 3.14159265358979 / 180), n = 1.6, ct = std::sqrt(1 - (1 - c * c) / (n * n)),
+                 a = std::pow(0.9, 1 / ct);
     double t[2] = {0, 0}, r[2] = {0, 0};  // one pane, two
     for (const double amplitude : {(c - n * ct) / (c + n * ct), (n * c - ct) / (n * c + ct)}) {
       const double f = amplitude * amplitude;
@@ -73,9 +74,9 @@ TEST(Glazing, isDarkToGrazingLightAndAMirrorThere) {
   EXPECT_GT(grazing.reflected, 0.99f);
 }
 
-// Of one interface without losses the hemispherical reflectance is known: n = 1.52 gives 0.0947 (Egan & Hilgeman 1973 have the closed
-// form); two faces with all reflections between them, of unpolarised light taken as one: 2 r / (1 + r) = 0.173. With s and p apart at each
-// angle it is a little less.
+// Of one interface without losses the hemispherical reflectance is known: n = 1.52 gives 0.0947 (Egan & Hilgeman 1973
+// have the closed form); two faces with all reflections between them, of unpolarised light taken as one: 2 r / (1 + r)
+// = 0.173. With s and p apart at each angle it is a little less.
 TEST(Glazing, reflectsOfAnEvenSkyWhatIsExpected) {
   const float mean = glazingHemisphericalReflectance({1, 1.52f, 1});
   double sum = 0;

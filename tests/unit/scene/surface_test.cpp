@@ -33,7 +33,9 @@ TEST(Surface, whatPassesIsThatOfAllItsValues) {
       for (int i = 0; i < 64; ++i) {
         const TrianglePoint p{0, static_cast<float>(i % 8) / 16, static_cast<float>(i / 8) / 16};
         const MaterialSample m = materialAt(scene, scene.meshes[0], p);
-        EXPECT_EQ(straightTransmittance(scene, scene.meshes[0], p, 0.7f), straightTransmittance(scene.materials[0], m, 0.7f)) << i;
+        EXPECT_EQ(straightTransmittance(scene, scene.meshes[0], p, 0.7f),
+                  straightTransmittance(scene.materials[0], m, 0.7f))
+            << i;
       }
     }
   }

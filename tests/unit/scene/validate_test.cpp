@@ -18,7 +18,8 @@ Scene oneRectangle() {
 void expectTooLarge(const Scene& scene) {
   const Status status = validate(scene);
   ASSERT_FALSE(status.ok());
-  EXPECT_NE(status.error().find("instance 0 'table': its bounds in the world are not finite"), std::string::npos) << status.error();
+  EXPECT_NE(status.error().find("instance 0 'table': its bounds in the world are not finite"), std::string::npos)
+      << status.error();
 }
 
 TEST(Validate, plainSceneIsFine) {

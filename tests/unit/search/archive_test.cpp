@@ -45,12 +45,15 @@ TEST(Archive, keepsExactlyWhatIsNotDominated) {
     std::vector<int32_t> expected;
     for (size_t i = 0; i < count; ++i) {
       bool stays = true;
-      for (size_t j = 0; j < count; ++j) stays &= !dominates(point(j), point(i)) && !(j < i && std::equal(point(j).begin(), point(j).end(), point(i).begin()));
+      for (size_t j = 0; j < count; ++j)
+        stays &= !dominates(point(j), point(i)) &&
+                 !(j < i && std::equal(point(j).begin(), point(j).end(), point(i).begin()));
       if (stays) expected.push_back(static_cast<int32_t>(i));
     }
     EXPECT_EQ(archive.designs.integers, expected) << m;
     for (size_t i = 0; i < archive.size(); ++i)
-      EXPECT_TRUE(std::equal(archive.objectivesOf(i).begin(), archive.objectivesOf(i).end(), point(static_cast<size_t>(expected[i])).begin()));
+      EXPECT_TRUE(std::equal(archive.objectivesOf(i).begin(), archive.objectivesOf(i).end(),
+                             point(static_cast<size_t>(expected[i])).begin()));
   }
 }
 

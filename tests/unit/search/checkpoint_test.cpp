@@ -40,14 +40,17 @@ TEST_P(Checkpoints, goOnAsIfNeverStopped) {
   expectEqual(resumed, through);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, Checkpoints, ::testing::Values(Method::hybrid, Method::nsga2, Method::pagmoNsga2, Method::weightedSum, Method::random),
+INSTANTIATE_TEST_SUITE_P(Table, Checkpoints,
+                         ::testing::Values(Method::hybrid, Method::nsga2, Method::pagmoNsga2, Method::weightedSum,
+                                           Method::random),
                          [](const auto& row) { return std::string(nameOf(row.param)); });
 
 TEST(Checkpoint, ofAnotherProblemIsRefused) {
   const State state = start(lampRow().problem, {});
   const auto other = stateFromJson(toJson(state), mixedZdt1().problem, "old.json");
   ASSERT_FALSE(other);
-  EXPECT_EQ(other.error(), "old.json: population: designs of another problem; go on with the study the checkpoint was made from");
+  EXPECT_EQ(other.error(),
+            "old.json: population: designs of another problem; go on with the study the checkpoint was made from");
 }
 
 TEST(Checkpoint, thatIsDamagedIsRefused) {
@@ -57,7 +60,10 @@ TEST(Checkpoint, thatIsDamagedIsRefused) {
   EXPECT_FALSE(stateFromJson("[]", problem, "x"));
   EXPECT_FALSE(stateFromJson(text.substr(0, text.size() / 2), problem, "x"));
   using Change = std::pair<std::string, std::string>;
-  for (const auto& [from, to] : {Change{"\"version\":1", "\"version\":2"}, {"\"hybrid\"", "\"other\""}, {"\"population\":100", "\"population\":7"}, {"\"generation\"", "\"gen\""}}) {
+  for (const auto& [from, to] : {Change{"\"version\":1", "\"version\":2"},
+                                 {"\"hybrid\"", "\"other\""},
+                                 {"\"population\":100", "\"population\":7"},
+                                 {"\"generation\"", "\"gen\""}}) {
     std::string damaged = text;
     const size_t at = damaged.find(from);
     ASSERT_NE(at, std::string::npos) << from;

@@ -39,7 +39,8 @@ LinearProgram randomProgram(size_t rows, size_t columns, uint64_t seed) {
 }
 
 TEST(LinearProgram, ofTwoLampsByHand) {
-  // Lamp 0 gives 2 and 1, lamp 1 gives 1 and 2; both points want 1.5; watts 1 and 3. Cheapest: x0 = 1, then point 1 needs x1 = 0.25.
+  // Lamp 0 gives 2 and 1, lamp 1 gives 1 and 2; both points want 1.5; watts 1 and 3. Cheapest: x0 = 1, then point 1
+// needs x1 = 0.25.
   LinearProgram p;
   p.a = {2, 2, {2, 1, 1, 2}};
   p.atLeast = {1.5, 1.5};
@@ -89,7 +90,8 @@ TEST(LinearProgram, agreesWithTryingEveryDimming) {
       for (int k = 0; k <= kSteps; ++k) {
         const std::vector<double> x{i / double{kSteps}, j / double{kSteps}, k / double{kSteps}};
         bool good = true;
-        for (size_t r = 0; r < p.a.rows && good; ++r) good = received(p.a, r, x) >= p.atLeast[r] && received(p.a, r, x) <= p.atMost[r];
+        for (size_t r = 0; r < p.a.rows && good; ++r)
+          good = received(p.a, r, x) >= p.atLeast[r] && received(p.a, r, x) <= p.atMost[r];
         if (good) best = std::min(best, p.cost[0] * x[0] + p.cost[1] * x[1] + p.cost[2] * x[2]);
       }
   EXPECT_LE(solution.value().cost, best + 1e-9);
@@ -103,7 +105,8 @@ TEST(LinearProgram, saysWhichRowCannotBeMet) {
   p.cost = {1, 1};
   const auto solution = minimise(p);
   ASSERT_FALSE(solution);
-  EXPECT_EQ(solution.error(), "infeasible: row 1 gets 0.3 instead of at least 0.5 when all rows together miss least; ask for less");
+  EXPECT_EQ(solution.error(),
+            "infeasible: row 1 gets 0.3 instead of at least 0.5 when all rows together miss least; ask for less");
   const auto least = leastMiss(p);
   ASSERT_TRUE(least) << least.error();
   EXPECT_NEAR(least.value().sum, 0.2, 1e-9);
@@ -136,7 +139,8 @@ TEST(LeastSquares, withoutBoundsInReachSolvesTheSystem) {
   EXPECT_NEAR(missOf(equations, x), 0, 1e-9);
 }
 
-// At a lower bound the slope may only be positive, at an upper one only negative, between them it is zero: enough for a convex problem.
+// At a lower bound the slope may only be positive, at an upper one only negative, between them it is zero: enough for a
+// convex problem.
 TEST(LeastSquares, meetsItsOptimalityConditions) {
   for (const size_t columns : {3, 20, 60}) {
     const DenseMatrix a = randomMatrix(3 * columns, columns, columns);
@@ -175,7 +179,9 @@ TEST(LeastSquares, agreesWithTryingEveryDimming) {
   double best = kUnbounded;
   for (int i = 0; i <= kSteps; ++i)
     for (int j = 0; j <= kSteps; ++j)
-      for (int k = 0; k <= kSteps; ++k) best = std::min(best, missOf(equations, std::vector<double>{i / double{kSteps}, j / double{kSteps}, k / double{kSteps}}));
+      for (int k = 0; k <= kSteps; ++k)
+        best = std::min(
+            best, missOf(equations, std::vector<double>{i / double{kSteps}, j / double{kSteps}, k / double{kSteps}}));
   EXPECT_LE(missOf(equations, x), best + 1e-12);
   EXPECT_GT(missOf(equations, x), best - 0.05);
 }
@@ -195,7 +201,8 @@ TEST(LeastSquares, takesEqualAndDarkLamps) {
 }
 
 TEST(LeastSquares, withAPriceComesCloseToTheLinearProgramsLuxForItsWatts) {
-  // What the program needs for its lux is the least: least squares that spend as much cannot have every point at the target and more.
+  // What the program needs for its lux is the least: least squares that spend as much cannot have every point at the
+  // target and more.
   const LinearProgram p = randomProgram(40, 6, 4);
   const auto solution = minimise(p);
   ASSERT_TRUE(solution) << solution.error();

@@ -1,4 +1,5 @@
-// The hypervolumes that are asked of the searches: 20,000 evaluations, reference point 1.1. docs/measured/search.md has ten seeds.
+// The hypervolumes that are asked of the searches: 20,000 evaluations, reference point 1.1. docs/measured/search.md has
+// ten seeds.
 #include <gtest/gtest.h>
 
 #include "search/hypervolume.h"
@@ -27,7 +28,8 @@ TEST_P(Fronts, ofNsga2ReachTheHypervolumeAsked) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Asked, Fronts, ::testing::Values(zdt1, zdt2, dtlz2), [](const auto& row) { return row.param().name; });
+INSTANTIATE_TEST_SUITE_P(Asked, Fronts, ::testing::Values(zdt1, zdt2, dtlz2),
+                         [](const auto& row) { return row.param().name; });
 
 TEST(Fronts, ofTheMixedProblemAreFoundByTheHybrid) {
   const TestProblem test = mixedZdt1();
@@ -44,7 +46,8 @@ TEST(Fronts, ofTheHybridNeedFewerEvaluations) {
 
 TEST(Fronts, ofRandomDesignsAndWeightedSumsAreWorse) {
   const TestProblem test = lampRow();
-  const double random = volumeAfter(test, Method::random, 10'000), weighted = volumeAfter(test, Method::weightedSum, 10'000);
+  const double random = volumeAfter(test, Method::random, 10'000),
+               weighted = volumeAfter(test, Method::weightedSum, 10'000);
   EXPECT_GT(weighted, random);
   EXPECT_GT(volumeAfter(test, Method::nsga2, 10'000), weighted);
 }

@@ -14,7 +14,8 @@ namespace {
 
 struct Counted {
   Problem problem;
-  std::shared_ptr<std::atomic<size_t>> evaluated = std::make_shared<std::atomic<size_t>>(0), polishes = std::make_shared<std::atomic<size_t>>(0);
+  std::shared_ptr<std::atomic<size_t>> evaluated = std::make_shared<std::atomic<size_t>>(0),
+                                       polishes = std::make_shared<std::atomic<size_t>>(0);
 };
 
 // A problem that counts what is asked of it, and fails where a design was not repaired.
@@ -32,10 +33,11 @@ Counted counted(const Problem& plain) {
     }
     plain.evaluate(designs, out);
   };
-  if (plain.polish) c.problem.polish = [plain, n = c.polishes](Genome d, const Wish& wish) {
-    ++*n;
-    return plain.polish(d, wish);
-  };
+  if (plain.polish)
+    c.problem.polish = [plain, n = c.polishes](Genome d, const Wish& wish) {
+      ++*n;
+      return plain.polish(d, wish);
+    };
   return c;
 }
 
@@ -57,10 +59,11 @@ TEST_P(EveryMethod, countsEveryEvaluationAndStopsAtTheBudget) {
 TEST_P(EveryMethod, givesTheSameFrontWithAnyNumberOfThreads) {
   const Problem problem = lampRow().problem;
   std::vector<State> states;
-  for (int threads : {1, 2}) withThreads(threads, [&] {
-    states.push_back(start(problem, {.method = GetParam(), .seed = 5, .evaluations = 2000}));
-    run(problem, states.back());
-  });
+  for (int threads : {1, 2})
+    withThreads(threads, [&] {
+      states.push_back(start(problem, {.method = GetParam(), .seed = 5, .evaluations = 2000}));
+      run(problem, states.back());
+    });
   EXPECT_EQ(states[1].archive.objectives, states[0].archive.objectives);
   EXPECT_EQ(states[1].archive.designs.reals, states[0].archive.designs.reals);
   EXPECT_EQ(states[1].population.integers, states[0].population.integers);
@@ -73,14 +76,17 @@ TEST_P(EveryMethod, keepsTheObjectivesOfItsDesigns) {
   const Problem problem = lampRow().problem;
   State state = start(problem, {.method = GetParam(), .evaluations = 2000});
   run(problem, state);
-  for (const auto& [designs, objectives] : {std::pair{state.population, state.objectives}, {state.archive.designs, state.archive.objectives}}) {
+  for (const auto& [designs, objectives] :
+       {std::pair{state.population, state.objectives}, {state.archive.designs, state.archive.objectives}}) {
     std::vector<double> again(objectives.size());
     problem.evaluate(designs, again);
     EXPECT_EQ(again, objectives);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, EveryMethod, ::testing::Values(Method::hybrid, Method::nsga2, Method::pagmoNsga2, Method::weightedSum, Method::random),
+INSTANTIATE_TEST_SUITE_P(Table, EveryMethod,
+                         ::testing::Values(Method::hybrid, Method::nsga2, Method::pagmoNsga2, Method::weightedSum,
+                                           Method::random),
                          [](const auto& row) { return std::string(nameOf(row.param)); });
 
 TEST(Search, startsFromGivenDesigns) {
@@ -122,7 +128,8 @@ TEST(Search, endsByTheClock) {
 TEST(Search, hybridWithoutPolishIsNsga2) {
   Problem problem = lampRow().problem;
   problem.polish = nullptr;
-  State hybrid = start(problem, {.method = Method::hybrid, .evaluations = 1000}), plain = start(problem, {.method = Method::nsga2, .evaluations = 1000});
+  State hybrid = start(problem, {.method = Method::hybrid, .evaluations = 1000}),
+        plain = start(problem, {.method = Method::nsga2, .evaluations = 1000});
   run(problem, hybrid), run(problem, plain);
   EXPECT_EQ(hybrid.archive.objectives, plain.archive.objectives);
 }

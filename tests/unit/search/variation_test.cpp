@@ -62,7 +62,8 @@ TEST(Mutation, happensAtItsRate) {
   EXPECT_NEAR(static_cast<double>(changed) / 400, 1, 0.15);  // one over their number; three standard deviations
 }
 
-// Simulated binary crossover keeps the mean of the parents in the middle of the range, and the spread of its density is symmetric.
+// Simulated binary crossover keeps the mean of the parents in the middle of the range, and the spread of its density is
+// symmetric.
 TEST(Crossover, ofRealsKeepsTheMeanAndStaysInside) {
   const Problem problem = shaped({}, {{}});
   double sum = 0;
@@ -84,11 +85,16 @@ TEST(Crossover, ofRealsKeepsTheMeanAndStaysInside) {
 }
 
 TEST(Crossover, inheritsGroupsWhole) {
-  const Problem problem = shaped({{.cardinality = 9, .group = 0}, {.cardinality = 9, .group = 0}, {.cardinality = 9, .group = 1}, {.cardinality = 9}}, {});
+  const Problem problem = shaped({{.cardinality = 9, .group = 0},
+                                  {.cardinality = 9, .group = 0},
+                                  {.cardinality = 9, .group = 1},
+                                  {.cardinality = 9}},
+                                 {});
   std::set<std::vector<int32_t>> seen;
   for (size_t i = 0; i < 200; ++i) {
     Genomes two = problem.none();
-    two.append(ConstGenome{std::vector<int32_t>{1, 1, 1, 1}, {}}), two.append(ConstGenome{std::vector<int32_t>{2, 2, 2, 2}, {}});
+    two.append(ConstGenome{std::vector<int32_t>{1, 1, 1, 1}, {}}),
+        two.append(ConstGenome{std::vector<int32_t>{2, 2, 2, 2}, {}});
     Draws draws(1, 0, Purpose::vary, i);
     cross(problem, {.crossoverRate = 1}, two[0], two[1], draws);
     EXPECT_EQ(two.integers[0], two.integers[1]);
@@ -101,7 +107,8 @@ TEST(Crossover, inheritsGroupsWhole) {
 // Two blocks of two groups, each of a kind and a real; a variable that belongs to none.
 Problem inBlocks() {
   Problem problem;
-  for (int32_t g = 0; g < 4; ++g) problem.integers.push_back({.cardinality = 9, .group = g}), problem.reals.push_back({.group = g});
+  for (int32_t g = 0; g < 4; ++g)
+    problem.integers.push_back({.cardinality = 9, .group = g}), problem.reals.push_back({.group = g});
   problem.integers.push_back({.cardinality = 9});
   problem.blockOfGroup = {0, 0, 1, 1};
   return problem;
@@ -113,7 +120,8 @@ TEST(Blocks, areExchangedWhole) {
   std::set<std::vector<int32_t>> seen;
   for (size_t i = 0; i < 100; ++i) {
     Genomes two = problem.none();
-    two.append(ConstGenome{std::vector<int32_t>(5, 1), std::vector<double>(4, 0.1)}), two.append(ConstGenome{std::vector<int32_t>(5, 2), std::vector<double>(4, 0.2)});
+    two.append(ConstGenome{std::vector<int32_t>(5, 1), std::vector<double>(4, 0.1)}),
+        two.append(ConstGenome{std::vector<int32_t>(5, 2), std::vector<double>(4, 0.2)});
     Draws draws(1, 0, Purpose::vary, i);
     blocks.exchange(two[0], two[1], draws);
     for (size_t k = 0; k < 5; ++k) EXPECT_EQ(two.integers[k] + two.integers[5 + k], 3);
@@ -164,9 +172,11 @@ TEST(Offspring, areRepairedAndNew) {
     Genomes again = children;
     problem.repair(again[i]);
     EXPECT_EQ(again.integers, children.integers);
-    seen.insert({{children[i].integers.begin(), children[i].integers.end()}, {children[i].reals.begin(), children[i].reals.end()}});
+    seen.insert({{children[i].integers.begin(), children[i].integers.end()},
+                 {children[i].reals.begin(), children[i].reals.end()}});
   }
-  seen.insert({{parents[0].integers.begin(), parents[0].integers.end()}, {parents[0].reals.begin(), parents[0].reals.end()}});
+  seen.insert(
+      {{parents[0].integers.begin(), parents[0].integers.end()}, {parents[0].reals.begin(), parents[0].reals.end()}});
   EXPECT_EQ(seen.size(), 41u);
 }
 

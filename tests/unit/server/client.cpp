@@ -25,7 +25,8 @@ std::string hostOf(uint16_t port) { return fmt::format("127.0.0.1:{}", port); }
 
 uint32_t number(const std::string& bytes, size_t at, int count) {
   uint32_t v = 0;
-  for (int k = 0; k < count; ++k) v |= static_cast<uint32_t>(static_cast<unsigned char>(bytes[at + static_cast<size_t>(k)])) << (8 * k);
+  for (int k = 0; k < count; ++k)
+    v |= static_cast<uint32_t>(static_cast<unsigned char>(bytes[at + static_cast<size_t>(k)])) << (8 * k);
   return v;
 }
 
@@ -36,7 +37,8 @@ ReceivedFrame frameOf(const std::string& b) {
   f.width = static_cast<int>(number(b, 8, 2)), f.height = static_cast<int>(number(b, 10, 2));
   f.side = static_cast<int>(number(b, 12, 1)), f.flags = static_cast<int>(number(b, 13, 1));
   f.camera = number(b, 16, 4), f.revision = number(b, 20, 4), f.samples = number(b, 24, 4);
-  f.ev100 = std::bit_cast<float>(number(b, 32, 4)), f.scaleLow = std::bit_cast<float>(number(b, 36, 4)), f.scaleHigh = std::bit_cast<float>(number(b, 40, 4)), f.latencyMs = std::bit_cast<float>(number(b, 44, 4));
+  f.ev100 = std::bit_cast<float>(number(b, 32, 4)), f.scaleLow = std::bit_cast<float>(number(b, 36, 4)),
+  f.scaleHigh = std::bit_cast<float>(number(b, 40, 4)), f.latencyMs = std::bit_cast<float>(number(b, 44, 4));
   f.jpeg = b.substr(64);
   return f;
 }
@@ -65,7 +67,8 @@ Reply get(uint16_t port, const std::string& target, const Headers& headers) {
   Reply reply;
   reply.status = static_cast<int>(parser.get().result_int());
   reply.body = parser.get().body();
-  for (const auto& field : parser.get()) reply.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
+  for (const auto& field : parser.get())
+    reply.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
   return reply;
 }
 
@@ -107,7 +110,8 @@ bool Client::read(double seconds) {
   bool done = false;
   state_->stream.async_read(state_->buffer, [&](beast::error_code c, size_t) { code = c, done = true; });
   state_->context.restart();
-  state_->context.run_for(std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds)));
+  state_->context.run_for(
+      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds)));
   if (!done) {
     drop();
     state_->context.run();
@@ -147,8 +151,7 @@ ReceivedFrame Client::see(const std::function<bool(const ReceivedFrame&)>& wante
 }
 
 int Client::closeCode(double seconds) {
-  while (read(seconds)) {
-  }
+  while (read(seconds)) {}
   return state_->stream.reason().code;
 }
 

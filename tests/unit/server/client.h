@@ -39,8 +39,8 @@ class Client {
 
   void say(const nlohmann::json& message) { sayText(message.dump()); }
   void sayText(const std::string& text, bool binary = false);
-  // The next text message of the type, with `id` where given; everything before it is taken and frames are acknowledged. Throws after `seconds`,
-  // or when the connection is closed.
+  // The next text message of the type, with `id` where given; everything before it is taken and frames are
+  // acknowledged. Throws after `seconds`, or when the connection is closed.
   nlohmann::json hear(const std::string& type, std::optional<uint32_t> id = {}, double seconds = 20);
   // The next frame that is as `wanted` says; acknowledged.
   ReceivedFrame see(const std::function<bool(const ReceivedFrame&)>& wanted, double seconds = 20);

@@ -14,13 +14,15 @@ namespace roomlight::testing {
 // A room with a lamp, a shining panel, a box and a camera that looks at the box.
 inline Scene servedScene() {
   Scene scene;
-  const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+  const int white = test::addMaterial(scene, test::lambertian(0.7f)),
+            wood = test::addMaterial(scene, test::lambertian(0.4f));
   const int shining = test::addMaterial(scene, test::lambertian(0, 300));
   scene.materials[static_cast<size_t>(wood)].name = "Wood";
   test::addRoom(scene, {0, 0, 0}, {4, 2.6f, 5}, std::vector<int>(6, white));
   const auto first = static_cast<uint32_t>(scene.instances.size());
   test::addBox(scene, {1.5f, 0, 1}, {2.5f, 0.7f, 2}, wood);
-  for (uint32_t i = first; i < scene.instances.size(); ++i) scene.instances[i].object = scene.instances[first].object, scene.instances[i].name = "Box";
+  for (uint32_t i = first; i < scene.instances.size(); ++i)
+    scene.instances[i].object = scene.instances[first].object, scene.instances[i].name = "Box";
   test::addRectangle(scene, {0.5f, 2.55f, 2}, {0.5f, 0, 0}, {0, 0, 0.5f}, shining);
   scene.instances.back().name = "Panel";
   scene.lamps = {test::pointLamp({2, 2.2f, 2.5f}, 200)};
@@ -34,7 +36,8 @@ inline Scene servedScene() {
 
 // Under a clear sky at noon in summer.
 inline view::ViewHome underTheSun(std::string name, Scene scene) {
-  const auto sun = view::sunOfDaylight({{"sky", "clear"}, {"latitude", 48}, {"longitude", 11}, {"time", "2026-06-21T13:00+02:00"}}, {});
+  const auto sun = view::sunOfDaylight(
+      {{"sky", "clear"}, {"latitude", 48}, {"longitude", 11}, {"time", "2026-06-21T13:00+02:00"}}, {});
   view::SunLight light = sun->at(sun->atStart).value();
   scene.suns = light.suns, scene.sky = *light.sky;
   view::ViewHome home(std::move(name), std::move(scene));
@@ -58,7 +61,8 @@ class ServedHome {
 
   explicit ServedHome(view::ViewHome home = view::ViewHome("test", servedScene()), server::Options options = {}) {
     options.token = kToken;
-    server::StaticFiles page = {{"/", {"<!doctype html>page", "text/html"}}, {"/index.html", {"<!doctype html>page", "text/html"}}};
+    server::StaticFiles page = {{"/", {"<!doctype html>page", "text/html"}},
+                                {"/index.html", {"<!doctype html>page", "text/html"}}};
     std::promise<std::string> link;
     server::Served tell;
     tell.listening = [&](const std::string& l) { link.set_value(l); };
@@ -74,7 +78,9 @@ class ServedHome {
   }
   const std::string& link() const { return link_; }
   uint16_t port() const { return static_cast<uint16_t>(std::stoi(link_.substr(link_.rfind(':') + 1))); }
-  std::string live(const std::string& window = "") const { return std::string("/live?token=") + kToken + (window.empty() ? "" : "&window=" + window); }
+  std::string live(const std::string& window = "") const {
+    return std::string("/live?token=") + kToken + (window.empty() ? "" : "&window=" + window);
+  }
 
  private:
   std::string link_;

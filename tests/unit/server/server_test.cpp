@@ -11,7 +11,10 @@ using namespace roomlight::testing;
 
 // The status of an attempt to open a WebSocket; 101 is let in.
 int opened(const ServedHome& home, const std::string& target, const Headers& more = {}) {
-  Headers headers = {{"Upgrade", "websocket"}, {"Connection", "Upgrade"}, {"Sec-WebSocket-Version", "13"}, {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="}};
+  Headers headers = {{"Upgrade", "websocket"},
+                     {"Connection", "Upgrade"},
+                     {"Sec-WebSocket-Version", "13"},
+                     {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="}};
   headers.emplace_back("Origin", "http://127.0.0.1:" + std::to_string(home.port()));
   headers.insert(headers.end(), more.begin(), more.end());
   return get(home.port(), target, headers).status;
@@ -32,10 +35,13 @@ TEST(Admission, hostsAreThisMachinesOwn) {
   EXPECT_TRUE(isOwnHost("127.0.0.1:80", 80, true));
   EXPECT_TRUE(isOwnHost("localhost:80", 80, true));
   EXPECT_TRUE(isOwnHost("[::1]:80", 80, true));
-  for (const char* host : {"", "127.0.0.1", "127.0.0.1:81", "evil.example:80", "127.0.0.1.evil.example:80", "192.168.1.7:80"}) EXPECT_FALSE(isOwnHost(host, 80, true)) << host;
+  for (const char* host :
+       {"", "127.0.0.1", "127.0.0.1:81", "evil.example:80", "127.0.0.1.evil.example:80", "192.168.1.7:80"})
+    EXPECT_FALSE(isOwnHost(host, 80, true)) << host;
   EXPECT_TRUE(isOwnHost("192.168.1.7:80", 80, false));
   EXPECT_TRUE(isOwnHost("[fe80::1]:80", 80, false));
-  for (const char* host : {"evil.example:80", ":80", "[]:80", "192.168.1.7.nip.io:80"}) EXPECT_FALSE(isOwnHost(host, 80, false)) << host;
+  for (const char* host : {"evil.example:80", ":80", "[]:80", "192.168.1.7.nip.io:80"})
+    EXPECT_FALSE(isOwnHost(host, 80, false)) << host;
 }
 
 TEST(Admission, queriesAreTakenApart) {
@@ -59,7 +65,8 @@ TEST(Server, otherSitesAreRefused) {
   const std::string port = std::to_string(home.port());
   EXPECT_EQ(opened(home, home.live(), {{"Origin", "http://evil.example"}}), 403);
   EXPECT_EQ(opened(home, home.live(), {{"Origin", "null"}}), 403);
-  EXPECT_EQ(opened(home, home.live(), {{"Host", "evil.example:" + port}, {"Origin", "http://evil.example:" + port}}), 403);
+  EXPECT_EQ(opened(home, home.live(), {{"Host", "evil.example:" + port}, {"Origin", "http://evil.example:" + port}}),
+            403);
   EXPECT_EQ(get(home.port(), "/", {{"Host", "evil.example:" + port}}).status, 403);
   EXPECT_EQ(get(home.port(), "/", {{"Origin", "http://evil.example"}}).status, 403);
 }
@@ -71,7 +78,9 @@ TEST(Server, onlyThePageIsServed) {
   EXPECT_EQ(page.body, "<!doctype html>page");
   EXPECT_EQ(page.header("X-Content-Type-Options"), "nosniff");
   EXPECT_NE(page.header("Content-Security-Policy").find("default-src 'none'"), std::string::npos);
-  for (const char* target : {"/../../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/index.html/../../x", "/secret.txt", "*", "/%00", "/index.html%00"}) EXPECT_EQ(get(home.port(), target).status, 404) << target;
+  for (const char* target : {"/../../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/index.html/../../x",
+                             "/secret.txt", "*", "/%00", "/index.html%00"})
+    EXPECT_EQ(get(home.port(), target).status, 404) << target;
   EXPECT_EQ(get(home.port(), "/live").status, 403);
 }
 

@@ -56,7 +56,9 @@ TEST(Session, splitsShowTwoPlans) {
   client.say({{"type", "plan"}, {"id", 2}, {"do", "keep"}, {"name", "Dim"}});
   client.hear("ok", 2);
   EXPECT_EQ(client.hear("state")["plans"], json({"Dim", "start"}));
-  client.say({{"type", "split"}, {"id", 3}, {"split", {{"left", {{"plan", "start"}}}, {"right", {{"plan", "Dim"}, {"technique", "cone"}}}}}});
+  client.say({{"type", "split"},
+              {"id", 3},
+              {"split", {{"left", {{"plan", "start"}}}, {"right", {{"plan", "Dim"}, {"technique", "cone"}}}}}});
   client.hear("ok", 3);
   client.say({{"type", "display"}, {"exposure", 7}});
   const ReceivedFrame left = client.see([](const ReceivedFrame& f) { return f.side == 1 && f.samples >= 4; });
@@ -105,14 +107,19 @@ TEST(Session, splitsOfTechniquesAllFollow) {
   const std::string lamp = named(client.hear("welcome")["lamps"], "Pendant")["id"];
   client.say(kViewport);
   for (const char* technique : {"cone", "vxgi", "lpv", "photon", "path"}) {
-    client.say({{"type", "split"}, {"id", 1}, {"split", {{"left", {{"technique", technique}}}, {"right", {{"technique", "hybrid"}}}}}});
+    client.say({{"type", "split"},
+                {"id", 1},
+                {"split", {{"left", {{"technique", technique}}}, {"right", {{"technique", "hybrid"}}}}}});
     client.hear("ok", 1);
     client.see([](const ReceivedFrame& f) { return f.side == 1 && f.samples >= 4; });
     const double before = lux(client, 2);
     client.say({{"type", "edit"}, {"id", 3}, {"target", lamp}, {"dim", 0.25}});
     client.hear("ok", 3);
     const uint32_t revision = client.hear("state")["revision"];
-    for (const int side : {1, 2}) client.see([&](const ReceivedFrame& f) { return f.side == side && f.revision >= revision && !(f.flags & view::kLightIsBehind); });
+    for (const int side : {1, 2})
+      client.see([&](const ReceivedFrame& f) {
+        return f.side == side && f.revision >= revision && !(f.flags & view::kLightIsBehind);
+      });
     EXPECT_LT(lux(client, 4), 0.6 * before) << technique;
     client.say({{"type", "undo"}, {"id", 5}});
     client.hear("ok", 5);
@@ -148,7 +155,13 @@ TEST(Session, picturesOfRestWaitWhileAFinalPictureIsMade) {
   Client client(home.port(), home.live());
   client.say(kViewport);
   client.see(isWhole);
-  client.say({{"type", "render"}, {"id", 1}, {"kind", "picture"}, {"width", 640}, {"height", 480}, {"technique", "path"}, {"seconds", 600}});
+  client.say({{"type", "render"},
+              {"id", 1},
+              {"kind", "picture"},
+              {"width", 640},
+              {"height", 480},
+              {"technique", "path"},
+              {"seconds", 600}});
   const std::string job = client.hear("ok", 1)["job"];
   uint32_t first = 0, last = 0;
   const auto noneEnds = [&](const ReceivedFrame& f) {
@@ -169,10 +182,10 @@ TEST(Session, picturesThatNobodyFetchedAreToldOfAgain) {
   {
     Client client(home.port(), home.live());
     window = client.hear("welcome")["window"];
-    client.say({{"type", "render"}, {"id", 1}, {"kind", "picture"}, {"width", 48}, {"height", 27}, {"quality", "draft"}});
+    client.say(
+        {{"type", "render"}, {"id", 1}, {"kind", "picture"}, {"width", 48}, {"height", 27}, {"quality", "draft"}});
     job = client.hear("ok", 1)["job"];
-    while (client.hear("job")["state"] == "running") {
-    }
+    while (client.hear("job")["state"] == "running") {}
     client.drop();
   }
   Client again(home.port(), home.live(window));
@@ -186,7 +199,14 @@ TEST(Session, picturesThatNobodyFetchedAreToldOfAgain) {
 TEST(Session, rendersCanBeCancelled) {
   const ServedHome home;
   Client client(home.port(), home.live());
-  client.say({{"type", "render"}, {"id", 1}, {"kind", "panorama"}, {"technique", "path"}, {"width", 256}, {"height", 128}, {"seconds", 600}, {"format", "exr"}});
+  client.say({{"type", "render"},
+              {"id", 1},
+              {"kind", "panorama"},
+              {"technique", "path"},
+              {"width", 256},
+              {"height", 128},
+              {"seconds", 600},
+              {"format", "exr"}});
   const std::string job = client.hear("ok", 1)["job"];
   client.hear("job");
   client.say({{"type", "cancel"}, {"id", 2}, {"job", job}});

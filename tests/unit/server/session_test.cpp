@@ -18,7 +18,8 @@ using nlohmann::json;
 std::pair<int, int> jpegSize(const std::string& jpeg) {
   const std::unique_ptr<void, int (*)(tjhandle)> reader(tjInitDecompress(), tjDestroy);
   int width = 0, height = 0, sub = 0, space = 0;
-  tjDecompressHeader3(reader.get(), reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size(), &width, &height, &sub, &space);
+  tjDecompressHeader3(reader.get(), reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size(), &width, &height,
+                      &sub, &space);
   return {width, height};
 }
 
@@ -67,7 +68,8 @@ TEST(Session, slowLinesGetSmallFramesWhileTheyMoveAndWholeOnesAtRest) {
   client.say(kViewport);
   bool small = false, whole = false;
   for (int i = 0; i < 40 && !(small && whole); ++i) {
-    if (i % 8 == 0) client.say({{"type", "camera"}, {"number", i + 1}, {"position", {2 + 0.05 * i, 1.5, 4}}, {"target", {2, 1, 0}}});
+    if (i % 8 == 0)
+      client.say({{"type", "camera"}, {"number", i + 1}, {"position", {2 + 0.05 * i, 1.5, 4}}, {"target", {2, 1, 0}}});
     const ReceivedFrame frame = client.see([](const ReceivedFrame&) { return true; });
     small |= frame.width < 96;
     if (frame.samples > 0) {
@@ -142,9 +144,17 @@ TEST(Session, aGestureOnAnotherThingIsAnotherStep) {
   const ServedHome home;
   Client client(home.port(), home.live());
   const json welcome = client.hear("welcome");
-  client.say({{"type", "edit"}, {"id", 1}, {"target", named(welcome["lamps"], "Pendant")["id"]}, {"dim", 0.5}, {"gesture", "slide 1"}});
+  client.say({{"type", "edit"},
+              {"id", 1},
+              {"target", named(welcome["lamps"], "Pendant")["id"]},
+              {"dim", 0.5},
+              {"gesture", "slide 1"}});
   EXPECT_EQ(client.hear("state")["undo"], "Dim Pendant");
-  client.say({{"type", "edit"}, {"id", 2}, {"target", named(welcome["objects"], "Box")["id"]}, {"turn", 45}, {"gesture", "slide 1"}});
+  client.say({{"type", "edit"},
+              {"id", 2},
+              {"target", named(welcome["objects"], "Box")["id"]},
+              {"turn", 45},
+              {"gesture", "slide 1"}});
   EXPECT_EQ(client.hear("state")["undo"], "Turn Box");
   client.say({{"type", "undo"}, {"id", 3}});
   const json state = client.hear("state");

@@ -56,9 +56,7 @@ TEST(StudyCurves, RatioIsOfTheLeastErrorThatBothReach) {
   EXPECT_FALSE(timeRatioAtEqualError(quick, curve({})));
 }
 
-TEST(StudyCurves, ErrorBelowTheReferencesNoiseCountsAsNone) {
-  EXPECT_EQ(errorOf(point(1, 1, -0.001)), kLeastMse);
-}
+TEST(StudyCurves, ErrorBelowTheReferencesNoiseCountsAsNone) { EXPECT_EQ(errorOf(point(1, 1, -0.001)), kLeastMse); }
 
 }  // namespace
 }  // namespace roomlight

@@ -27,7 +27,8 @@ class StudyPlanTest : public ::testing::Test {
 };
 
 TEST_F(StudyPlanTest, ReadsScenesLightsAndTechniques) {
-  const auto plan = read(R"({"version": 1, "scenes": [{"name": "Room", "scene": "room.glb", "camera": 2, "lights": [{"name": "daylight", "lighting": "day.json"}, {"name": "dim", "dimLamp": "150 lm"}, {"name": "own"}]}],
+  const auto plan = read(
+      R"({"version": 1, "scenes": [{"name": "Room", "scene": "room.glb", "camera": 2, "lights": [{"name": "daylight", "lighting": "day.json"}, {"name": "dim", "dimLamp": "150 lm"}, {"name": "own"}]}],
     "techniques": [{"name": "slow lpv", "technique": "lpv", "settings": {"lpv": {"steps": 99}}}]})");
   ASSERT_TRUE(plan) << plan.error();
   const StudyScene& s = plan.value().scenes.at(0);
@@ -62,24 +63,32 @@ TEST_F(StudyPlanTest, WithoutTechniquesTakesTheUsualOnes) {
 TEST(StudyTechniques, TheUsualOnesAreThereWithSettingsThatAreTaken) {
   const auto known = techniques();
   for (const StudyTechnique& t : usualTechniques()) {
-    EXPECT_TRUE(std::any_of(known.begin(), known.end(), [&](const auto& k) { return k.first == t.technique; })) << t.name;
+    EXPECT_TRUE(std::any_of(known.begin(), known.end(), [&](const auto& k) { return k.first == t.technique; }))
+        << t.name;
     const auto settings = settingsFromJson(t.settings, t.name);
     EXPECT_TRUE(settings) << settings.error();
   }
 }
 
 TEST_F(StudyPlanTest, SaysWhatIsWrongAndWhere) {
-  const auto scene = [](const std::string& lights, const std::string& more = "") { return fmt::format(R"({{"scenes": [{{"name": "Room", "scene": "room.glb", "lights": [{}]}}]{}}})", lights, more); };
+  const auto scene = [](const std::string& lights, const std::string& more = "") {
+    return fmt::format(R"({{"scenes": [{{"name": "Room", "scene": "room.glb", "lights": [{}]}}]{}}})", lights, more);
+  };
   const std::pair<std::string, std::string> wrong[] = {
       {R"({"scenes": []})", "scenes"},
       {R"({"scenes": [{"name": "Room", "scene": "gone.glb", "lights": [{"name": "own"}]}]})", "gone.glb"},
       {scene(R"({"name": "a"}, {"name": "a"})"), "lights[1].name: 'a' is there twice"},
       {scene(R"({"name": "a", "lighting": "day.json", "dimLamp": "1 lm"})"), "one of lighting, dimLamp"},
       {scene(R"({"name": "a", "dimLamp": 150})"), "dimLamp"},
-      {R"({"scenes": [{"name": "Room", "scene": "room.glb", "camera": 1.6, "lights": [{"name": "own"}]}]})", "scenes[0].camera: 1.6 is no camera"},
-      {R"({"scenes": [{"name": "Room", "scene": "room.glb", "camera": -1, "lights": [{"name": "own"}]}]})", "scenes[0].camera"},
-      {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "radiosity"}])"), "unknown technique 'radiosity'"},
-      {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "lpv", "settings": {"lpv": {"stepps": 1}}}])"), "stepps"},
+      {R"({"scenes": [{"name": "Room", "scene": "room.glb", "camera": 1.6, "lights": [{"name": "own"}]}]})",
+       "scenes[0].camera: 1.6 is no camera"},
+      {R"({"scenes": [{"name": "Room", "scene": "room.glb", "camera": -1, "lights": [{"name": "own"}]}]})",
+       "scenes[0].camera"},
+      {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "radiosity"}])"),
+       "unknown technique 'radiosity'"},
+      {scene(R"({"name": "a"})",
+             R"(, "techniques": [{"name": "x", "technique": "lpv", "settings": {"lpv": {"stepps": 1}}}])"),
+       "stepps"},
       {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "lpv", "kind": "friend"}])"), "kind"},
       {scene(R"({"name": "a"})", R"(, "techniques": [{"name": "x", "technique": "lpv", "only": "sundays"}])"), "only"},
   };

@@ -35,10 +35,15 @@ class StudyTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* name : {"room.glb", "day.json", "walk.json"}) std::ofstream(folder_.path() / name) << name;
-    plan_.scenes = {{"Room", folder_.path() / "room.glb", "", {{"daylight", folder_.path() / "day.json"}}, folder_.path() / "walk.json"}};
+    plan_.scenes = {{"Room",
+                     folder_.path() / "room.glb",
+                     "",
+                     {{"daylight", folder_.path() / "day.json"}},
+                     folder_.path() / "walk.json"}};
     plan_.scenes[0].walkLight = plan_.scenes[0].lights[0];
     plan_.techniques = {{"cone", "cone", "{}", "ours"}, {"vxgi", "vxgi", "{}", "rival"}, {"lpv", "lpv", "{}", "rival"}};
-    settings_.width = kWidth, settings_.height = kHeight, settings_.runs = 2, settings_.mostSeconds = 1000, settings_.program = "test";
+    settings_.width = kWidth, settings_.height = kHeight, settings_.runs = 2, settings_.mostSeconds = 1000,
+    settings_.program = "test";
     settings_.reference = {.roundS = 1, .mostS = 6, .noiseMse = 1e-9};
     tools_.render = [this](const StudyRender& r) { return render(r); };
     tools_.walk = [this](const StudyWalk& w) -> Result<WalkCost> {
@@ -52,11 +57,13 @@ class StudyTest : public ::testing::Test {
     ++renders_;
     if (renders_ == cancelAt_) cancelled_ = true;
     if (cancelled_) return Error{"interrupted"};
-    const double bias = r.technique == "vxgi" ? 0.2 : r.technique == "cone" ? 0.05
-                                                                            : 0;
+    const double bias = r.technique == "vxgi" ? 0.2 : r.technique == "cone" ? 0.05 : 0;
     if (r.technique == "lpv") return Error{"out of luck"};
     const double samples = r.samples > 0 ? r.samples : 1000;
-    if (const Status s = writeExr(r.picture, picture(bias, 0.5 / std::sqrt(samples), r.seed * 77 + static_cast<uint64_t>(r.samples)), {}); !s) return Error{s.error()};
+    if (const Status s = writeExr(
+            r.picture, picture(bias, 0.5 / std::sqrt(samples), r.seed * 77 + static_cast<uint64_t>(r.samples)), {});
+        !s)
+      return Error{s.error()};
     return RenderCost{0.5 + 0.1 * samples * (r.technique == "path" ? 0.01 : 1), 1, 100, samples, {}};
   }
 
@@ -237,7 +244,8 @@ TEST_F(StudyTest, APictureOfAnotherThatCannotBeComparedIsARemark) {
   EXPECT_TRUE(r.value().cases[0].externals.empty());
   EXPECT_FALSE(r.value().cases[0].curves.at(0).points.empty());
   ASSERT_FALSE(r.value().remarks.empty());
-  EXPECT_NE(r.value().remarks[0].find("Room, daylight: --external offline: left out"), std::string::npos) << r.value().remarks[0];
+  EXPECT_NE(r.value().remarks[0].find("Room, daylight: --external offline: left out"), std::string::npos)
+      << r.value().remarks[0];
 }
 
 TEST_F(StudyTest, ReportsAreWholeAndAgree) {
@@ -248,14 +256,17 @@ TEST_F(StudyTest, ReportsAreWholeAndAgree) {
   header.techniques = {{"program", "technique lpv, settings {}"}};
   const auto json = nlohmann::json::parse(studyJson(header, r.value()));
   EXPECT_EQ(json["about"]["program"], "test");
-  EXPECT_EQ(json["about"]["techniques"]["program"], "technique lpv, settings {}") << "a technique may have the name of another row";
+  EXPECT_EQ(json["about"]["techniques"]["program"], "technique lpv, settings {}")
+      << "a technique may have the name of another row";
   EXPECT_EQ(json["cases"][0]["curves"].size(), 3u);
   const std::string csv = studyCsv(r.value());
   size_t points = 0;
   for (const StudyCurve& c : r.value().cases[0].curves) points += c.points.size();
-  EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + points + 2) << "a head, points, two walks";
+  EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + points + 2)
+      << "a head, points, two walks";
   for (size_t from = 0, end; (end = csv.find('\n', from)) != std::string::npos; from = end + 1) {
-    EXPECT_EQ(std::count(csv.begin() + static_cast<long>(from), csv.begin() + static_cast<long>(end), ','), 12) << csv.substr(from, end - from);
+    EXPECT_EQ(std::count(csv.begin() + static_cast<long>(from), csv.begin() + static_cast<long>(end), ','), 12)
+        << csv.substr(from, end - from);
   }
   const Result<std::string> html = studyHtml(header, r.value(), folder_.path() / "runs");
   ASSERT_TRUE(html) << html.error();
@@ -265,8 +276,10 @@ TEST_F(StudyTest, ReportsAreWholeAndAgree) {
 }
 
 TEST_F(StudyTest, NamesThatLookAlikeInFilesDoNotMeet) {
-  plan_.techniques = {{"lpv, 256", "cone", "{}", "ours"}, {"lpv 256", "vxgi", "{}", "rival"}, {"reference", "cone", "{}", "ours"}};
-  plan_.scenes = {{"居間", folder_.path() / "room.glb", "", {{"day", folder_.path() / "day.json"}}, {}}, {"寝室", folder_.path() / "room.glb", "2", {{"day", folder_.path() / "day.json"}}, {}}};
+  plan_.techniques = {
+      {"lpv, 256", "cone", "{}", "ours"}, {"lpv 256", "vxgi", "{}", "rival"}, {"reference", "cone", "{}", "ours"}};
+  plan_.scenes = {{"居間", folder_.path() / "room.glb", "", {{"day", folder_.path() / "day.json"}}, {}},
+                  {"寝室", folder_.path() / "room.glb", "2", {{"day", folder_.path() / "day.json"}}, {}}};
   const Result<StudyResults> r = run();
   ASSERT_TRUE(r) << r.error();
   std::set<std::string> pictures;
@@ -325,7 +338,8 @@ TEST_F(StudyTest, PublishedFiguresAreInReportsOfPlansThatAskForThem) {
     ASSERT_TRUE(html) << html.error();
     for (const std::string& page : {html.value(), studyMarkdown({}, r.value())}) {
       // 48.2: of the published first table.
-      for (const char* word : {"ublished study", "48.2", "vxgi .0051", "vxgi 28"}) EXPECT_EQ(page.find(word) != std::string::npos, asked) << word;
+      for (const char* word : {"ublished study", "48.2", "vxgi .0051", "vxgi 28"})
+        EXPECT_EQ(page.find(word) != std::string::npos, asked) << word;
       EXPECT_NE(page.find(page.starts_with("#") ? "settles at mse" : "Error where it settles"), std::string::npos);
     }
   }
@@ -345,7 +359,8 @@ TEST_F(StudyTest, VerdictsTellWhoWins) {
   };
   EXPECT_TRUE(found("cone settles below").met);
   EXPECT_TRUE(found("frames a second").met);
-  EXPECT_NE(found("frames a second").measured.find("quickest of ours: 'cone'"), std::string::npos) << found("frames a second").measured;
+  EXPECT_NE(found("frames a second").measured.find("quickest of ours: 'cone'"), std::string::npos)
+      << found("frames a second").measured;
 }
 
 TEST(StudyBars, PublishedTicksAreInRatioToCone) {
@@ -358,7 +373,8 @@ TEST(StudyBars, PublishedTicksAreInRatioToCone) {
   const Bar vxgi{"vxgi", "#000", 9, 28}, cone{"cone", "#000", 18, 36};
   EXPECT_EQ(ticks({vxgi}), 0u) << "nothing to be in ratio to";
   EXPECT_EQ(ticks({vxgi, cone}), 2u);
-  EXPECT_NE(barsSvg({vxgi, cone}, "/s").find("class='published' x1='470.0'"), std::string::npos) << "cone's own stands at its end, the longest, whichever comes first";
+  EXPECT_NE(barsSvg({vxgi, cone}, "/s").find("class='published' x1='470.0'"), std::string::npos)
+      << "cone's own stands at its end, the longest, whichever comes first";
 }
 
 TEST(StudyStore, AFolderIsOfOneStudyAtATime) {

@@ -14,7 +14,9 @@ Camera cameraOf(Projection projection) {
   return camera;
 }
 
-void expectNear(Vec3 a, Vec3 b, float tolerance = 1e-6f) { EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z; }
+void expectNear(Vec3 a, Vec3 b, float tolerance = 1e-6f) {
+  EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
+}
 
 TEST(CameraRays, panoramaLooksAllAround) {
   const CameraRays rays(cameraOf(Projection::Panorama), 400, 200);
@@ -54,7 +56,9 @@ TEST(CameraRays, solidAngleIsThatOfTheRays) {
   for (const Projection projection : {Projection::Panorama, Projection::Perspective}) {
     const CameraRays rays(cameraOf(projection), 100, 50);
     for (const auto& [x, y] : {std::pair{50, 25}, {3, 7}, {80, 44}}) {
-      const auto at = [&](float u, float v) { return rays.ray(static_cast<float>(x) + u, static_cast<float>(y) + v).direction; };
+      const auto at = [&](float u, float v) {
+        return rays.ray(static_cast<float>(x) + u, static_cast<float>(y) + v).direction;
+      };
       const float area = length(cross(at(1, 0.5f) - at(0, 0.5f), at(0.5f, 1) - at(0.5f, 0)));
       EXPECT_NEAR(static_cast<double>(area) / rays.solidAngleSr(x, y), 1, 0.01);
     }
@@ -131,7 +135,8 @@ TEST(CameraRays, tellsWhatIsInsideOfBodies) {
   const RayScene rays(scene);
   for (const float x : {0.01f, 1.5f, 2.2f, 4.9f}) {
     for (const float z : {0.01f, 0.09f, 0.19f}) EXPECT_TRUE(insideBody(rays, {x, 1.2f, z})) << x << " " << z;
-    for (const float z : {-1.5f, -1.01f, -0.5f, -0.01f, 0.3f, 0.85f, 1.3f}) EXPECT_FALSE(insideBody(rays, {x, 1.2f, z})) << x << " " << z;
+    for (const float z : {-1.5f, -1.01f, -0.5f, -0.01f, 0.3f, 0.85f, 1.3f})
+      EXPECT_FALSE(insideBody(rays, {x, 1.2f, z})) << x << " " << z;
     EXPECT_FALSE(insideBody(rays, {x, 2.6f, 0.1f}));
   }
 }
@@ -162,7 +167,8 @@ TEST(CameraRays, roomsInsideOutAreNotFilled) {
   EXPECT_FALSE(insideBody(RayScene(scene), {1.5f, 1.2f, 1.5f}));
 }
 
-// A pixel's width where it sees something, also from above a cut, across a stereo pair's halves and without perspective.
+// A pixel's width where it sees something, also from above a cut, across a stereo pair's halves and without
+// perspective.
 TEST(CameraRays, pixelWidths) {
   Camera camera;
   camera.worldFromCamera.w = {0, 2, 0};
@@ -173,7 +179,8 @@ TEST(CameraRays, pixelWidths) {
   EXPECT_NEAR(CameraRays(camera, 64, 64).pixelWidthM(32, 32, {0, 2, -3}), 3 * 2 * std::tan(0.5f) / 64, 1e-3f);
   camera.projection = Projection::StereoPanorama;
   const CameraRays stereo(camera, 512, 512);
-  for (const int y : {127, 128, 383}) EXPECT_NEAR(stereo.pixelWidthM(10, y, {0, 2, -1.5f}), 1.5f * 2 * kPi / 512, 2e-3f) << y;
+  for (const int y : {127, 128, 383})
+    EXPECT_NEAR(stereo.pixelWidthM(10, y, {0, 2, -1.5f}), 1.5f * 2 * kPi / 512, 2e-3f) << y;
   camera.projection = Projection::Orthographic;
   const CameraRays flat(camera, 64, 64);
   EXPECT_EQ(flat.pixelWidthM(3, 4, {0, 0, -7}), flat.metresPerPixel());

@@ -21,7 +21,8 @@ double illuminance(Vec3 n, const Luminance& luminance) {
     const double altitude = std::numbers::pi * ((row + 0.5) / kRows - 0.5);
     for (int column = 0; column < kColumns; ++column) {
       const double bearing = 2 * std::numbers::pi * (column + 0.5) / kColumns;
-      const Vec3 d{static_cast<float>(std::sin(bearing) * std::cos(altitude)), static_cast<float>(std::sin(altitude)), static_cast<float>(-std::cos(bearing) * std::cos(altitude))};
+      const Vec3 d{static_cast<float>(std::sin(bearing) * std::cos(altitude)), static_cast<float>(std::sin(altitude)),
+                   static_cast<float>(-std::cos(bearing) * std::cos(altitude))};
       const double cosine = static_cast<double>(dot(d, n));
       if (cosine > 0) sum += luminance(d) * cosine * std::cos(altitude);
     }
@@ -31,7 +32,10 @@ double illuminance(Vec3 n, const Luminance& luminance) {
 
 SkyFunction cieSky(int type, Vec3 sun) {
   const double zenith = std::acos(static_cast<double>(sun.y));
-  return [=](Vec3 d) { return cieSkyLuminance(type, static_cast<double>(d.y), std::acos(std::clamp(static_cast<double>(dot(d, sun)), -1.0, 1.0)), zenith); };
+  return [=](Vec3 d) {
+    return cieSkyLuminance(type, static_cast<double>(d.y),
+                           std::acos(std::clamp(static_cast<double>(dot(d, sun)), -1.0, 1.0)), zenith);
+  };
 }
 
 // What the picture of a sky of 10 klx over ground of 700 cd/m² gives to roofs and facades.
@@ -42,7 +46,8 @@ void expectTheSameLight(const SkyFunction& exact) {
   paintGround(sky.image, Vec3(static_cast<float>(ground * std::numbers::pi / 10'000)), Vec3(0), 0);
   sky.horizonEdge = true;
   const SkyDistribution picture(sky);
-  for (const Vec3 n : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, -1}, Vec3{0, 0, 1}, normalize(Vec3{1, 1, 0})}) {
+  for (const Vec3 n :
+       {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, -1}, Vec3{0, 0, 1}, normalize(Vec3{1, 1, 0})}) {
     const double expected = illuminance(n, [&](Vec3 d) { return d.y > 0 ? scale * exact(d) : ground; });
     const double measured = illuminance(n, [&](Vec3 d) { return static_cast<double>(luminance(picture.radiance(d))); });
     EXPECT_NEAR(measured, expected, 0.002 * expected) << n.x << ' ' << n.y << ' ' << n.z;
@@ -53,14 +58,19 @@ void expectTheSameLight(const SkyFunction& exact) {
 }
 
 class CiePicture : public testing::TestWithParam<int> {};
-TEST_P(CiePicture, lightsRoofsAndFacadesAsTheFormulaDoes) { expectTheSameLight(cieSky(GetParam(), normalize(Vec3{0.5f, 0.6f, -0.4f}))); }
+TEST_P(CiePicture, lightsRoofsAndFacadesAsTheFormulaDoes) {
+  expectTheSameLight(cieSky(GetParam(), normalize(Vec3{0.5f, 0.6f, -0.4f})));
+}
 INSTANTIATE_TEST_SUITE_P(Types, CiePicture, testing::Range(1, kCieSkyTypes + 1));
 
 class PerezPicture : public testing::TestWithParam<double> {};
 TEST_P(PerezPicture, lightsRoofsAndFacadesAsTheFormulaDoes) {
   const Vec3 sun = normalize(Vec3{0.5f, 0.4f, -0.4f});
   const PerezSky sky = perezSky({GetParam() * 120, 120}, std::acos(static_cast<double>(sun.y)));
-  expectTheSameLight([=](Vec3 d) { return perezLuminance(sky, static_cast<double>(d.y), std::acos(std::clamp(static_cast<double>(dot(d, sun)), -1.0, 1.0))); });
+  expectTheSameLight([=](Vec3 d) {
+    return perezLuminance(sky, static_cast<double>(d.y),
+                          std::acos(std::clamp(static_cast<double>(dot(d, sun)), -1.0, 1.0)));
+  });
 }
 INSTANTIATE_TEST_SUITE_P(DirectOverDiffuse, PerezPicture, testing::Values(0, 0.2, 0.5, 1, 1.8, 3, 6, 8));
 

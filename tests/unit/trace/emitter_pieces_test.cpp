@@ -1,4 +1,5 @@
-// Emissive meshes sampled by pieces: against sums over all triangles, and against a choice that does not look where they shine.
+// Emissive meshes sampled by pieces: against sums over all triangles, and against a choice that does not look where
+ // they shine.
 #include "trace/emitter_pieces.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,9 @@ struct Moments {
   double deviation() const { return std::sqrt(std::max(0.0, squares / kSamples - mean() * mean())); }
 };
 
-double lux(const LightSample& light, Vec3 n) { return light.valid() ? static_cast<double>(luminance(light.radiance) * std::max(0.0f, dot(light.wi, n))) : 0; }
+double lux(const LightSample& light, Vec3 n) {
+  return light.valid() ? static_cast<double>(luminance(light.radiance) * std::max(0.0f, dot(light.wi, n))) : 0;
+}
 
 TEST(EmitterPieces, giveTheLightOfAllTrianglesWithLessNoise) {
   for (const bool doubleSided : {false, true}) {
@@ -78,7 +81,10 @@ TEST(EmitterPieces, densityOfASampleIsThatOfItsPoint) {
       const Vec3 p = outside(sampler);
       const Vec2 u = sampler.next2();
       const LightSample s = lights.sampleEmitter(0, p, u, sampler.next1());
-      compared += test::expectDensityOfItsPoint(rays, p, s, [&](const SurfacePoint& q) { return lights.pdfEmitter(0, p, q); }) ? 1 : 0;
+      compared +=
+          test::expectDensityOfItsPoint(rays, p, s, [&](const SurfacePoint& q) { return lights.pdfEmitter(0, p, q); })
+              ? 1
+              : 0;
     }
     EXPECT_GT(compared, 100);
   }

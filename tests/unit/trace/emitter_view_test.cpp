@@ -20,7 +20,9 @@ Scene withBall(bool doubleSided) {
   shining.doubleSided = doubleSided;
   const auto at = [](int i, int k) {
     const double polar = std::numbers::pi * i / kRings, turn = 2 * std::numbers::pi * k / kSectors;
-    return Vec3{static_cast<float>(std::sin(polar) * std::cos(turn)), static_cast<float>(std::cos(polar)), static_cast<float>(-std::sin(polar) * std::sin(turn))} * static_cast<float>(kRadiusM);
+    return Vec3{static_cast<float>(std::sin(polar) * std::cos(turn)), static_cast<float>(std::cos(polar)),
+                static_cast<float>(-std::sin(polar) * std::sin(turn))} *
+           static_cast<float>(kRadiusM);
   };
   Mesh mesh;
   mesh.material = test::addMaterial(scene, shining);
@@ -51,7 +53,8 @@ Moments illuminance(Vec3 p, const Sample& sample) {
     Sampler sampler(1, i, 0);
     const Vec2 u = sampler.next2();
     const LightSample light = sample(p, u, sampler.next1());
-    const double lux = light.valid() ? static_cast<double>(luminance(light.radiance) * std::max(0.0f, dot(light.wi, n))) : 0;
+    const double lux =
+        light.valid() ? static_cast<double>(luminance(light.radiance) * std::max(0.0f, dot(light.wi, n))) : 0;
     sum += lux, squares += lux * lux;
   }
   const double mean = sum / kSamples;
@@ -66,9 +69,11 @@ TEST(EmitterView, givesTheLightOfTheWholeMesh) {
   const EmitterView view(lights, 0, place);
   ASSERT_FALSE(view.dark());
   for (const Vec3 p : {place.lo, place.centre(), place.hi}) {
-    const double d2 = static_cast<double>(lengthSquared(p)), expected = std::numbers::pi * kEmission * kRadiusM * kRadiusM / d2;
+    const double d2 = static_cast<double>(lengthSquared(p)),
+                 expected = std::numbers::pi * kEmission * kRadiusM * kRadiusM / d2;
     const Moments seen = illuminance(p, [&](Vec3 q, Vec2 u, float choice) { return view.sample(q, u, choice); });
-    const Moments whole = illuminance(p, [&](Vec3 q, Vec2 u, float choice) { return lights.sampleEmitter(0, q, u, choice); });
+    const Moments whole =
+        illuminance(p, [&](Vec3 q, Vec2 u, float choice) { return lights.sampleEmitter(0, q, u, choice); });
     EXPECT_NEAR(seen.mean, whole.mean, 0.02 * whole.mean);
     EXPECT_NEAR(seen.mean, expected, 0.02 * expected);  // the ball has corners
     EXPECT_LT(seen.deviation, 0.75 * seen.mean);

@@ -35,7 +35,8 @@ Shot shoot(const LightRays& light, Vec3 p, Vec3 n, float half) {
 
 TEST(LightRays, leaveLampsAndSmallMeshesInProportionToFlux) {
   Scene scene;
-  const int bright = test::addMaterial(scene, test::lambertian(0, 5000)), dim = test::addMaterial(scene, test::lambertian(0, 100));
+  const int bright = test::addMaterial(scene, test::lambertian(0, 5000)),
+            dim = test::addMaterial(scene, test::lambertian(0, 100));
   test::addSphere(scene, {0, 2, 0}, 0.05f, bright);
   test::addRectangle(scene, {1, 2, 0}, {0.2f, 0, 0}, {0, 0, 0.3f}, bright);
   test::addRectangle(scene, {-4, 3, -4}, {8, 0, 0}, {0, 0, 8}, dim);  // a glowing ceiling
@@ -45,7 +46,8 @@ TEST(LightRays, leaveLampsAndSmallMeshesInProportionToFlux) {
   EXPECT_TRUE(light.leaveEmitter(0) && light.leaveEmitter(1));
   EXPECT_FALSE(light.leaveEmitter(2));
   EXPECT_FALSE(light.hasAllLight());
-  const double lamps = 4 * std::numbers::pi * 30, meshes = static_cast<double>(lights.emitterFluxLm(0) + lights.emitterFluxLm(1));
+  const double lamps = 4 * std::numbers::pi * 30,
+               meshes = static_cast<double>(lights.emitterFluxLm(0) + lights.emitterFluxLm(1));
   const Shot shot = shoot(light, {0, 0, 0}, {0, 1, 0}, 1);
   EXPECT_NEAR(shot.lumens, lamps + meshes, 1e-3 * (lamps + meshes));
   EXPECT_NEAR(shot.byLamps, lamps, 3e-3 * lamps);
@@ -87,8 +89,10 @@ double predicted(const LightRays& light, const Place& place) {
   const Frame frame(place.n);
   double sum = 0;
   for (int i = 0; i < kCells * kCells; ++i) {
-    const float x = (static_cast<float>(i % kCells) + 0.5f) / kCells * 2 - 1, y = (static_cast<float>(i / kCells) + 0.5f) / kCells * 2 - 1;
-    sum += static_cast<double>(light.densityM2(place.p + frame.toWorld({x * place.half, y * place.half, 0}), place.n)) / (kCells * kCells);
+    const float x = (static_cast<float>(i % kCells) + 0.5f) / kCells * 2 - 1,
+                y = (static_cast<float>(i / kCells) + 0.5f) / kCells * 2 - 1;
+    sum += static_cast<double>(light.densityM2(place.p + frame.toWorld({x * place.half, y * place.half, 0}), place.n)) /
+           (kCells * kCells);
   }
   return sum;
 }
@@ -98,21 +102,26 @@ void expectDensities(const Scene& scene, std::initializer_list<Place> places) {
   const Lights lights(scene);
   const LightRays light(lights);
   for (const Place& place : places) {
-    const double counted = shoot(light, place.p, place.n, place.half).onPatch, expected = predicted(light, place) * 4 * static_cast<double>(place.half * place.half);
+    const double counted = shoot(light, place.p, place.n, place.half).onPatch,
+                 expected = predicted(light, place) * 4 * static_cast<double>(place.half * place.half);
     EXPECT_NEAR(expected / counted, 1, place.tolerance + 3 / std::sqrt(counted * kRays)) << place.name;
   }
 }
 
-// Of a ball the law of a point holds down to its surface; a flat one's cosine is known; a chandelier's bulbs are told apart.
+// Of a ball the law of a point holds down to its surface; a flat one's cosine is known; a chandelier's bulbs are told
+// apart.
 TEST(LightRays, landAboutAsDenselyAsPredicted) {
   {
     Scene ball;
     test::addSphere(ball, {0, 1, 0}, 0.04f, test::addMaterial(ball, test::lambertian(0, 1000)), 48);
-    expectDensities(ball, {{"below", {0, 0, 0}, {0, 1, 0}, 0.2f, 0.01}, {"aside", {0.8f, 0, 0}, {0, 1, 0}, 0.2f, 0.01}, {"close by", {0, 0.94f, 0}, {0, 1, 0}, 0.01f, 0.02}});
+    expectDensities(ball, {{"below", {0, 0, 0}, {0, 1, 0}, 0.2f, 0.01},
+                           {"aside", {0.8f, 0, 0}, {0, 1, 0}, 0.2f, 0.01},
+                           {"close by", {0, 0.94f, 0}, {0, 1, 0}, 0.01f, 0.02}});
   }
   {
     Scene flat;
-    test::addRectangle(flat, {-0.05f, 1, -0.05f}, {0.1f, 0, 0}, {0, 0, 0.1f}, test::addMaterial(flat, test::lambertian(0, 1000)));
+    test::addRectangle(flat, {-0.05f, 1, -0.05f}, {0.1f, 0, 0}, {0, 0, 0.1f},
+                       test::addMaterial(flat, test::lambertian(0, 1000)));
     expectDensities(flat, {{"below", {0, 0, 0}, {0, 1, 0}, 0.2f, 0.01}, {"aside", {1, 0, 0}, {0, 1, 0}, 0.2f, 0.01}});
     const Lights lights(flat);
     EXPECT_EQ(LightRays(lights).densityM2({0, 2, 0}, {0, -1, 0}), 0) << "nothing goes back";
@@ -126,7 +135,8 @@ TEST(LightRays, landAboutAsDenselyAsPredicted) {
     for (const uint32_t i : one.indices) mesh.indices.push_back(i + static_cast<uint32_t>(one.positions.size()));
     for (const Vec3 p : one.positions) mesh.positions.push_back(p + Vec3{1, 0, 0});
     mesh.normals.insert(mesh.normals.end(), one.normals.begin(), one.normals.end());
-    expectDensities(two, {{"under one", {0.5f, 0.9f, 0}, {0, 1, 0}, 0.02f, 0.03}, {"between", {0, 0.5f, 0}, {0, 1, 0}, 0.2f, 0.03}});
+    expectDensities(two, {{"under one", {0.5f, 0.9f, 0}, {0, 1, 0}, 0.02f, 0.03},
+                          {"between", {0, 0.5f, 0}, {0, 1, 0}, 0.2f, 0.03}});
   }
 }
 

@@ -24,7 +24,8 @@ Scene manyLamps() {
   for (int i = 0; i < kLamps; ++i) {
     Lamp lamp;
     lamp.position = place(sampler), lamp.intensityCd = Vec3(1 + 50 * sampler.next1());
-    if (i % 2) lamp.kind = LampKind::Spot, lamp.direction = {0, -1, 0}, lamp.innerConeRad = 0.2f, lamp.outerConeRad = 0.7f;
+    if (i % 2)
+      lamp.kind = LampKind::Spot, lamp.direction = {0, -1, 0}, lamp.innerConeRad = 0.2f, lamp.outerConeRad = 0.7f;
     scene.lamps.push_back(lamp);
   }
   return scene;
@@ -63,7 +64,8 @@ struct Points {
     tree = LightTree(lights);
   }
   auto weigh(Vec3 p) const {
-    return [this, p](size_t i) { return lights[i].intensityCd / std::max(lengthSquared(p - lights[i].bounds.lo), 1e-4f); };
+    return
+        [this, p](size_t i) { return lights[i].intensityCd / std::max(lengthSquared(p - lights[i].bounds.lo), 1e-4f); };
   }
 };
 
@@ -73,7 +75,8 @@ TEST(LightTree, chancesOfAllLightsAreOne) {
   for (int k = 0; k < 10; ++k) {
     const Vec3 p = place(sampler);
     double sum = 0;
-    for (size_t i = 0; i < points.lights.size(); ++i) sum += static_cast<double>(points.tree.chance(i, p, points.weigh(p)));
+    for (size_t i = 0; i < points.lights.size(); ++i)
+      sum += static_cast<double>(points.tree.chance(i, p, points.weigh(p)));
     EXPECT_NEAR(sum, 1, 1e-3);
   }
 }
@@ -92,7 +95,10 @@ TEST(LightTree, choosesWithTheChanceThatItTells) {
       ASSERT_LT(c.rest, 1);
       ++chosen[c.index];
     }
-    for (size_t i = 0; i < chosen.size(); ++i) EXPECT_NEAR(static_cast<double>(chosen[i]) / kTries, static_cast<double>(points.tree.chance(i, p, points.weigh(p))), 2e-4) << i;
+    for (size_t i = 0; i < chosen.size(); ++i)
+      EXPECT_NEAR(static_cast<double>(chosen[i]) / kTries,
+                  static_cast<double>(points.tree.chance(i, p, points.weigh(p))), 2e-4)
+          << i;
   }
 }
 
@@ -106,12 +112,15 @@ TEST(LightTree, choosesNearlyByWhatEachCouldGive) {
     double all = 0;
     for (size_t i = 0; i < points.lights.size(); ++i) all += static_cast<double>(weigh(i));
     double squares = 0;  // second moment of the estimate of `all`, in units of its square
-    for (size_t i = 0; i < points.lights.size(); ++i) squares += static_cast<double>(weigh(i)) / all * static_cast<double>(weigh(i)) / all / static_cast<double>(points.tree.chance(i, p, weigh));
+    for (size_t i = 0; i < points.lights.size(); ++i)
+      squares += static_cast<double>(weigh(i)) / all * static_cast<double>(weigh(i)) / all /
+                 static_cast<double>(points.tree.chance(i, p, weigh));
     EXPECT_LT(squares, 1.1) << k;
   }
 }
 
-// The light of all lamps, for what one of them stands for is divided by its chance: every sum over even random numbers is the sum of the lamps.
+// The light of all lamps, for what one of them stands for is divided by its chance: every sum over even random numbers
+// is the sum of the lamps.
 TEST(LightTree, oneOfManyLampsStandsForAll) {
   const Scene scene = manyLamps();
   const Lights lights(scene);
@@ -119,7 +128,8 @@ TEST(LightTree, oneOfManyLampsStandsForAll) {
   for (int k = 0; k < 10; ++k) {
     const Vec3 p = place(sampler);
     double all = 0, sum = 0;
-    for (size_t i = 0; i < lights.lampCount(); ++i) all += static_cast<double>(luminance(lights.sampleLamp(i, p, {}).radiance));
+    for (size_t i = 0; i < lights.lampCount(); ++i)
+      all += static_cast<double>(luminance(lights.sampleLamp(i, p, {}).radiance));
     constexpr int kTries = 200000;
     for (int t = 0; t < kTries; ++t) {
       const LightSample s = sampleLocal(lights, {}, p, {0.5f, 0.5f}, (static_cast<float>(t) + 0.5f) / kTries);
@@ -135,7 +145,8 @@ TEST(LightTree, choosesWhatIsNear) {
   const Lights lights(scene);
   const Vec3 p = scene.lamps[0].position - Vec3{0, 0.02f, 0};
   int near = 0;
-  for (int t = 0; t < 1000; ++t) near += sampleLocal(lights, {}, p, {0.5f, 0.5f}, (static_cast<float>(t) + 0.5f) / 1000).lamp == 0 ? 1 : 0;
+  for (int t = 0; t < 1000; ++t)
+    near += sampleLocal(lights, {}, p, {0.5f, 0.5f}, (static_cast<float>(t) + 0.5f) / 1000).lamp == 0 ? 1 : 0;
   EXPECT_GT(near, 800);
 }
 
@@ -150,7 +161,9 @@ TEST(LightTree, densityOfASampleOnManyPanelsIsThatOfItsPoint) {
     const Vec3 p = place(sampler);
     const Vec2 u = sampler.next2();
     const LightSample s = lights.sampleEmitters(p, u, sampler.next1());
-    compared += test::expectDensityOfItsPoint(rays, p, s, [&](const SurfacePoint& q) { return lights.pdfEmitters(p, q); }) ? 1 : 0;
+    compared +=
+        test::expectDensityOfItsPoint(rays, p, s, [&](const SurfacePoint& q) { return lights.pdfEmitters(p, q); }) ? 1
+                                                                                                                   : 0;
   }
   EXPECT_GT(compared, 200);
 }

@@ -31,7 +31,8 @@ double integratedFlux(const Lamp& lamp) {
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const double h = widest * (i + 0.5) / kSteps;
-    sum += luminance(lampIntensity(lamp, Vec3{static_cast<float>(std::sqrt(h * (2 - h))), static_cast<float>(h - 1), 0}));
+    sum +=
+        luminance(lampIntensity(lamp, Vec3{static_cast<float>(std::sqrt(h * (2 - h))), static_cast<float>(h - 1), 0}));
   }
   return 2 * std::numbers::pi * sum * widest / kSteps;
 }
@@ -50,16 +51,19 @@ TEST(Lights, fluxPerCandelaOfASpotIsTheIntegralOfItsFalloff) {
 TEST(Lights, aSpotIsChosenHoweverClose) {
   Scene scene;
   Lamp lamp;
-  lamp.kind = LampKind::Spot, lamp.direction = {0, 0, -1}, lamp.innerConeRad = 0.2f, lamp.outerConeRad = 0.8f, lamp.intensityCd = Vec3(10);
+  lamp.kind = LampKind::Spot, lamp.direction = {0, 0, -1}, lamp.innerConeRad = 0.2f, lamp.outerConeRad = 0.8f,
+  lamp.intensityCd = Vec3(10);
   scene.lamps.push_back(lamp);
   const Lights lights(scene);
-  for (const float z : {0.002f, 0.005f, 0.02f}) EXPECT_NEAR(luminance(sampleLocal(lights, {}, {0, 0, -z}, {0.5f, 0.5f}, 0.5f).radiance) * z * z, 10, 0.01f) << z;
+  for (const float z : {0.002f, 0.005f, 0.02f})
+    EXPECT_NEAR(luminance(sampleLocal(lights, {}, {0, 0, -z}, {0.5f, 0.5f}, 0.5f).radiance) * z * z, 10, 0.01f) << z;
 }
 
 // Rays of a lamp land as densely as lampDensity says: both follow the web.
 TEST(Lights, raysLeaveAWebByItsLight) {
   Scene scene;
-  scene.lamps.push_back(test::webLamp({0, 0, 0}, test::makeWeb([](float c, float g) { return (1 + std::cos(c)) * (2 - g); }, 100, 15)));
+  scene.lamps.push_back(
+      test::webLamp({0, 0, 0}, test::makeWeb([](float c, float g) { return (1 + std::cos(c)) * (2 - g); }, 100, 15)));
   scene.lamps.push_back(test::pointLamp({0, 0, 0}, 0.3f));
   const Lights lights(scene);
   constexpr int kPolar = 16, kAzimuth = 16, kRays = 400'000, kFine = 32;
@@ -69,15 +73,20 @@ TEST(Lights, raysLeaveAWebByItsLight) {
     Sampler sampler(static_cast<uint64_t>(i), 0, 5);
     const LightRay ray = lights.sampleLampRay(sampler);
     flux += static_cast<double>(luminance(ray.fluxLm)) / kRays;
-    const double turn = 0.5 + std::atan2(static_cast<double>(ray.direction.z), static_cast<double>(ray.direction.x)) / (2 * std::numbers::pi);
-    const int p = std::min(kPolar - 1, static_cast<int>((static_cast<double>(ray.direction.y) + 1) / 2 * kPolar)), a = std::min(kAzimuth - 1, static_cast<int>(turn * kAzimuth));
+    const double turn = 0.5 + std::atan2(static_cast<double>(ray.direction.z), static_cast<double>(ray.direction.x)) /
+                                  (2 * std::numbers::pi);
+    const int p = std::min(kPolar - 1, static_cast<int>((static_cast<double>(ray.direction.y) + 1) / 2 * kPolar)),
+              a = std::min(kAzimuth - 1, static_cast<int>(turn * kAzimuth));
     counts[static_cast<size_t>(p * kAzimuth + a)] += 1;
   }
   for (int i = 0; i < kPolar * kFine * kAzimuth * kFine; ++i) {
     const int p = i / (kAzimuth * kFine), a = i % (kAzimuth * kFine);
-    const double y = -1 + 2 * (p + 0.5) / (kPolar * kFine), phi = 2 * std::numbers::pi * ((a + 0.5) / (kAzimuth * kFine) - 0.5), r = std::sqrt(1 - y * y);
+    const double y = -1 + 2 * (p + 0.5) / (kPolar * kFine),
+                 phi = 2 * std::numbers::pi * ((a + 0.5) / (kAzimuth * kFine) - 0.5), r = std::sqrt(1 - y * y);
     const Vec3 d{static_cast<float>(r * std::cos(phi)), static_cast<float>(y), static_cast<float>(r * std::sin(phi))};
-    expected[static_cast<size_t>(p / kFine * kAzimuth + a / kFine)] += kRays * static_cast<double>(lights.lampDensity(d, -d)) * 4 * std::numbers::pi / (kPolar * kFine * kAzimuth * kFine);
+    expected[static_cast<size_t>(p / kFine * kAzimuth + a / kFine)] +=
+        kRays * static_cast<double>(lights.lampDensity(d, -d)) * 4 * std::numbers::pi /
+        (kPolar * kFine * kAzimuth * kFine);
   }
   EXPECT_TRUE(testing::fits(counts, expected));
   const double exact = scene.lamps[0].web->fluxLm + 0.3 * 4 * std::numbers::pi;
@@ -117,7 +126,8 @@ TEST(Lights, aSunGivesItsIlluminanceWhateverItsSize) {
     constexpr int kSide = 64;
     double sum = 0;
     for (int i = 0; i < kSide * kSide; ++i) {
-      const LightSample s = lights.sampleSun(0, {(static_cast<float>(i % kSide) + 0.5f) / kSide, (static_cast<float>(i / kSide) + 0.5f) / kSide});
+      const LightSample s = lights.sampleSun(
+          0, {(static_cast<float>(i % kSide) + 0.5f) / kSide, (static_cast<float>(i / kSide) + 0.5f) / kSide});
       sum += luminance(s.radiance) * dot(s.wi, scene.suns[0].toLight);
     }
     EXPECT_NEAR(sum / (kSide * kSide), 1000, 0.1) << diameterDeg;
@@ -130,7 +140,9 @@ TEST(Lights, aSunDiscIsSeenInsideItsAngleOnly) {
     scene.suns.push_back({"sun", {0, 1, 0}, Vec3(1000), static_cast<float>(rad(halfDeg))});
     const Lights lights(scene);
     float pdf = 0;
-    const auto at = [](double angleDeg) { return Vec3{static_cast<float>(std::sin(rad(angleDeg))), static_cast<float>(std::cos(rad(angleDeg))), 0}; };
+    const auto at = [](double angleDeg) {
+      return Vec3{static_cast<float>(std::sin(rad(angleDeg))), static_cast<float>(std::cos(rad(angleDeg))), 0};
+    };
     const double solidAngle = 4 * std::numbers::pi * std::pow(std::sin(rad(halfDeg) / 2), 2);
     EXPECT_GT(luminance(lights.sunDisc(0, at(0.98 * halfDeg), pdf)), 0) << halfDeg;
     EXPECT_NEAR(pdf * solidAngle, 1, 1e-4) << halfDeg;
@@ -139,8 +151,9 @@ TEST(Lights, aSunDiscIsSeenInsideItsAngleOnly) {
   }
 }
 
-// Rays of a square of 100 cd/m2 that pass through the square opposite, one metre away: its flux times their form factor, which for unit squares is
-// (2 / pi) (ln(2 / sqrt 3) + 2 sqrt 2 atan(1 / sqrt 2) - pi / 2) (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, C-11).
+// Rays of a square of 100 cd/m2 that pass through the square opposite, one metre away: its flux times their form
+// factor, which for unit squares is (2 / pi) (ln(2 / sqrt 3) + 2 sqrt 2 atan(1 / sqrt 2) - pi / 2) (Howell, A Catalog
+// of Radiation Heat Transfer Configuration Factors, C-11).
 TEST(Lights, raysLeaveAnEmissiveMeshByCosine) {
   for (const bool doubleSided : {false, true}) {
     Scene scene;
@@ -158,7 +171,10 @@ TEST(Lights, raysLeaveAnEmissiveMeshByCosine) {
       const Vec3 there = ray.origin + ray.direction / ray.direction.z;
       if (ray.direction.z > 0 && there.x > 0 && there.x < 1 && there.y > 0 && there.y < 1) through += lm;
     }
-    const double side = 100 * kPi, formFactor = 2 / std::numbers::pi * (std::log(2 / std::sqrt(3.0)) + 2 * std::sqrt(2.0) * std::atan(1 / std::sqrt(2.0)) - std::numbers::pi / 2);
+    const double side = 100 * kPi,
+                 formFactor = 2 / std::numbers::pi *
+                              (std::log(2 / std::sqrt(3.0)) + 2 * std::sqrt(2.0) * std::atan(1 / std::sqrt(2.0)) -
+                               std::numbers::pi / 2);
     EXPECT_NEAR(all, doubleSided ? 2 * side : side, 1e-3 * side);
     EXPECT_NEAR(through, side * formFactor, 0.01 * side * formFactor);
   }
@@ -174,21 +190,27 @@ Scene halfSquare(AlphaMode mode, uint8_t alpha) {
   scene.meshes[0].uv[0] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
   scene.textures.push_back({"half", 64, 1, Wrap::ClampToEdge, Wrap::ClampToEdge, {}});
   for (int x = 0; x < 64; ++x) {
-    for (const uint8_t v : {uint8_t{255}, uint8_t{255}, uint8_t{255}, x < 32 ? uint8_t{255} : alpha}) scene.textures[0].rgba.push_back(v);
+    for (const uint8_t v : {uint8_t{255}, uint8_t{255}, uint8_t{255}, x < 32 ? uint8_t{255} : alpha})
+      scene.textures[0].rgba.push_back(v);
   }
   return scene;
 }
 
 // Rays and light samples must agree on what shines; holes do not, and a veil as far as it is there.
 TEST(Lights, onlyTheOpaquePartOfASurfaceEmits) {
-  const std::tuple<AlphaMode, uint8_t, float> cases[] = {{AlphaMode::Mask, 0, 0.0f}, {AlphaMode::Blend, 0, 0.0f}, {AlphaMode::Blend, 51, 20.0f}, {AlphaMode::Opaque, 51, 100.0f}};
+  const std::tuple<AlphaMode, uint8_t, float> cases[] = {{AlphaMode::Mask, 0, 0.0f},
+                                                         {AlphaMode::Blend, 0, 0.0f},
+                                                         {AlphaMode::Blend, 51, 20.0f},
+                                                         {AlphaMode::Opaque, 51, 100.0f}};
   for (const auto& [mode, alpha, expected] : cases) {
     const Scene scene = halfSquare(mode, alpha);
     const Lights lights(scene);
     const Vec3 p{0.5f, 0.5f, 1};
     EXPECT_NEAR(lights.emittedFluxLm(), kPi * (50 + 0.5f * expected), 0.15 * kPi * 100);
     for (int i = 0; i < 256; ++i) {
-      const LightSample s = lights.sampleEmitters(p, {(static_cast<float>(i % 16) + 0.5f) / 16, (static_cast<float>(i / 16) + 0.5f) / 16}, static_cast<float>(i % 2) * 0.5f + 0.25f);
+      const LightSample s =
+          lights.sampleEmitters(p, {(static_cast<float>(i % 16) + 0.5f) / 16, (static_cast<float>(i / 16) + 0.5f) / 16},
+                                static_cast<float>(i % 2) * 0.5f + 0.25f);
       const float x = p.x - s.wi.x / s.wi.z;
       if (std::abs(x - 0.5f) < 0.02f) continue;
       EXPECT_NEAR(luminance(s.radiance) * s.pdf, x < 0.5f ? 100 : expected, 0.1) << x;
@@ -206,7 +228,8 @@ Scene spottedSquare(Wrap wrap, int spotTexels, float shift) {
   Material m = test::lambertian(0.5f, 100);
   m.emissionTexture.texture = 0;
   test::addRectangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, test::addMaterial(scene, m));
-  for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) scene.meshes[0].uv[0].push_back({uv.x + shift, uv.y});
+  for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}})
+    scene.meshes[0].uv[0].push_back({uv.x + shift, uv.y});
   scene.textures.push_back({"spot", kSide, kSide, wrap, wrap, std::vector<uint8_t>(size_t{4} * kSide * kSide)});
   for (int i = 0; i < spotTexels * spotTexels; ++i) {
     const int x = kFrom + i % spotTexels, y = kFrom - 200 + i / spotTexels;

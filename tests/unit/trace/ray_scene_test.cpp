@@ -27,7 +27,8 @@ Scene home() {
 void expectSameHits(const RayScene& rays, const Scene& scene) {
   const RayScene anew(scene);
   std::vector<Ray> sent;
-  for (uint32_t i = 0; i < 4000; ++i) sent.push_back({{2, 1.3f, 3.5f}, sampleSphere(Sampler(0, i, 0).next2()), 0, kInfinity});
+  for (uint32_t i = 0; i < 4000; ++i)
+    sent.push_back({{2, 1.3f, 3.5f}, sampleSphere(Sampler(0, i, 0).next2()), 0, kInfinity});
   std::vector<Hit> hits(sent.size()), expected(sent.size());
   rays.intersect(sent, hits), anew.intersect(sent, expected);
   for (size_t i = 0; i < sent.size(); ++i) {
@@ -35,7 +36,8 @@ void expectSameHits(const RayScene& rays, const Scene& scene) {
     ASSERT_EQ(hits[i].triangle, expected[i].triangle) << i;
     ASSERT_EQ(hits[i].t, expected[i].t) << i;
     ASSERT_EQ(hits[i].ng, expected[i].ng) << i;
-    ASSERT_EQ(rays.surfaces().at(hits[i], sent[i].direction).p, anew.surfaces().at(expected[i], sent[i].direction).p) << i;
+    ASSERT_EQ(rays.surfaces().at(hits[i], sent[i].direction).p, anew.surfaces().at(expected[i], sent[i].direction).p)
+        << i;
   }
   EXPECT_EQ(rays.bounds().lo, anew.bounds().lo);
   EXPECT_EQ(rays.bounds().hi, anew.bounds().hi);
@@ -84,7 +86,8 @@ TEST(RaySceneUpdate, aMeshWithoutTrianglesHides) {
   const Ray down{{3, 2, 2}, {0, -1, 0}, 0, kInfinity};
   EXPECT_FLOAT_EQ(rays.intersect(down).t, 1.3f);
   std::vector<int> meshes;
-  for (const uint32_t i : box) meshes.push_back(std::exchange(scene.instances[i].mesh, static_cast<int>(scene.meshes.size()) - 1));
+  for (const uint32_t i : box)
+    meshes.push_back(std::exchange(scene.instances[i].mesh, static_cast<int>(scene.meshes.size()) - 1));
   rays.update(box);
   EXPECT_FLOAT_EQ(rays.intersect(down).t, 2);
   for (size_t k = 0; k < box.size(); ++k) scene.instances[box[k]].mesh = meshes[k];

@@ -31,7 +31,8 @@ TEST(Validation, techniquesKeepWhatTheyPromise) {
   ValidationSettings settings;
   settings.brief = true;
   const Validation v = validateTechniques(settings).value();
-  for (const ValidationRow& r : v.rows) EXPECT_TRUE(r.pass) << r.name << ", " << r.place << ", " << r.technique << ": " << r.got << " for " << r.expected;
+  for (const ValidationRow& r : v.rows)
+    EXPECT_TRUE(r.pass) << r.name << ", " << r.place << ", " << r.technique << ": " << r.got << " for " << r.expected;
   EXPECT_TRUE(v.pass());
   ASSERT_EQ(v.techniques.size(), 3u);
   EXPECT_EQ(v.techniques[0].places, v.techniques[2].places);

@@ -14,12 +14,15 @@ namespace {
 // Two boxes of one material and one mesh each, two panels that share a material, a spot, an area lamp.
 ViewHome smallHome() {
   Scene scene;
-  const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f)), shining = test::addMaterial(scene, test::lambertian(0, 100));
+  const int white = test::addMaterial(scene, test::lambertian(0.7f)),
+            wood = test::addMaterial(scene, test::lambertian(0.4f)),
+            shining = test::addMaterial(scene, test::lambertian(0, 100));
   test::addRoom(scene, {0, 0, 0}, {6, 2.6f, 5}, std::vector<int>(6, white));
   for (const float x : {1.0f, 3.0f}) {
     const auto first = static_cast<uint32_t>(scene.instances.size());
     test::addBox(scene, {x, 0, 1}, {x + 1, 0.7f, 2}, wood);
-    for (uint32_t i = first; i < scene.instances.size(); ++i) scene.instances[i].object = scene.instances[first].object, scene.instances[i].name = "Box";
+    for (uint32_t i = first; i < scene.instances.size(); ++i)
+      scene.instances[i].object = scene.instances[first].object, scene.instances[i].name = "Box";
   }
   for (const float x : {1.0f, 3.0f}) {
     test::addRectangle(scene, {x, 2.55f, 2}, {0.5f, 0, 0}, {0, 0, 0.5f}, shining);
@@ -28,17 +31,20 @@ ViewHome smallHome() {
   Lamp spot;
   spot.name = "Spot", spot.kind = LampKind::Spot, spot.position = {2, 2.4f, 2}, spot.intensityCd = Vec3(100);
   Lamp area;
-  area.name = "Area", area.kind = LampKind::Area, area.position = {4, 2.4f, 2}, area.direction = {0, -1, 0}, area.up = {0, 0, -1};
+  area.name = "Area", area.kind = LampKind::Area, area.position = {4, 2.4f, 2}, area.direction = {0, -1, 0},
+  area.up = {0, 0, -1};
   area.widthM = 1, area.heightM = 0.5f, area.luminanceCdM2 = Vec3(500);
   scene.lamps = {spot, area};
   addAreaLampMeshes(scene);
   return ViewHome("small", std::move(scene));
 }
 
-// A door that shuts the wall at z = 2: its frame, a leaf at its left half that turns by a right angle to +z, one at its right half that slides to the right.
+// A door that shuts the wall at z = 2: its frame, a leaf at its left half that turns by a right angle to +z, one at its
+// right half that slides to the right.
 ViewHome homeWithDoor(float firstAtRest = 0) {
   Scene scene;
-  const int white = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.4f));
+  const int white = test::addMaterial(scene, test::lambertian(0.7f)),
+            wood = test::addMaterial(scene, test::lambertian(0.4f));
   test::addRoom(scene, {0, 0, 0}, {6, 2.6f, 5}, std::vector<int>(6, white));
   scene.leaves.resize(2);
   scene.leaves[0].hinge = {2, 0, 2}, scene.leaves[0].turnRad = -kPi / 2, scene.leaves[0].atRest = firstAtRest;
@@ -169,7 +175,8 @@ TEST(Editable, leavesOpenAndTheirFrameStays) {
   const SceneChange change = stage(home.editable, home.atStart(), next, scene);
   EXPECT_EQ(change.moved, (std::vector<uint32_t>{object.parts[1].instance, object.parts[2].instance}));
   EXPECT_FALSE(change.lamps);
-  const Bounds3 turned = instanceBounds(scene, scene.instances[object.parts[1].instance]), slid = instanceBounds(scene, scene.instances[object.parts[2].instance]);
+  const Bounds3 turned = instanceBounds(scene, scene.instances[object.parts[1].instance]),
+                slid = instanceBounds(scene, scene.instances[object.parts[2].instance]);
   EXPECT_NEAR(length(turned.lo - Vec3{2, 0, 2}), 0, 1e-5f);
   EXPECT_NEAR(length(turned.hi - Vec3{2, 2, 2.5f}), 0, 1e-5f);
   EXPECT_NEAR(length(slid.hi - Vec3{3.5f, 2, 2}), 0, 1e-5f);
@@ -192,7 +199,8 @@ TEST(Editable, leavesTurnWithTheirThing) {
   EXPECT_NEAR(length(turned.hi - Vec3{3, 2, 3}), 0, 1e-5f);
 }
 
-// One leaf is wide open, the other shut: that stays when the door is painted, and from there both can be shut and both opened.
+// One leaf is wide open, the other shut: that stays when the door is painted, and from there both can be shut and both
+// opened.
 TEST(Editable, leavesThatTheFileHasOpen) {
   const ViewHome home = homeWithDoor(1);
   const size_t door = objectNamed(home, "Door");
@@ -202,7 +210,8 @@ TEST(Editable, leavesThatTheFileHasOpen) {
   next.objects[door].colors[0] = {0.9f, 0, 0};
   Scene scene = home.scene;
   EXPECT_EQ(stage(home.editable, home.atStart(), next, scene).moved.size(), 3u);
-  for (const EditableObject::Part& part : object.parts) EXPECT_TRUE(scene.instances[part.instance].worldFromObject == part.atRest);
+  for (const EditableObject::Part& part : object.parts)
+    EXPECT_TRUE(scene.instances[part.instance].worldFromObject == part.atRest);
   HomeState shut = next, wide = next;
   shut.objects[door].open = 0, wide.objects[door].open = 1;
   EXPECT_EQ(stage(home.editable, next, shut, scene).moved, std::vector<uint32_t>{object.parts[1].instance});
@@ -234,7 +243,9 @@ TEST(ApplyEdit, refusesAsAWhole) {
     const auto e = applyEdit(home.editable, home.scene, edit, now, out);
     return e ? e->field : "taken";
   };
-  const std::string spot = "lamp:" + std::to_string(lampNamed(home, "Spot")), panel = "lamp:" + std::to_string(lampNamed(home, "Panel")), box = "object:" + std::to_string(objectNamed(home, "Box"));
+  const std::string spot = "lamp:" + std::to_string(lampNamed(home, "Spot")),
+                    panel = "lamp:" + std::to_string(lampNamed(home, "Panel")),
+                    box = "object:" + std::to_string(objectNamed(home, "Box"));
   EXPECT_EQ(refused(spot, [](EditFields& s) { s.direction = Vec3(1, 0, 0); }), "taken");
   EXPECT_EQ(refused(spot, [](EditFields& s) { s.move = Vec3(1, 0, 0); }), "move");
   EXPECT_EQ(refused(panel, [](EditFields& s) { s.position = Vec3(1, 0, 0); }), "position");
@@ -244,8 +255,10 @@ TEST(ApplyEdit, refusesAsAWhole) {
   EXPECT_EQ(refused(box, [](EditFields& s) { s.open = 1; }), "open");
   EXPECT_EQ(refused(box, [](EditFields&) {}), "target");
   EXPECT_EQ(refused("object:0", [](EditFields& s) { s.move = Vec3(1); }), "move");  // a wall
-  EXPECT_EQ(refused("object:" + std::to_string(objectNamed(home, "Area")), [](EditFields& s) { s.hidden = true; }), "target");
-  for (const char* target : {"lamp:", "lamp:-1", "lamp:99", "lamp:1x", "object", "sky", ""}) EXPECT_EQ(refused(target, [](EditFields& s) { s.dim = 0; }), "target") << target;
+  EXPECT_EQ(refused("object:" + std::to_string(objectNamed(home, "Area")), [](EditFields& s) { s.hidden = true; }),
+            "target");
+  for (const char* target : {"lamp:", "lamp:-1", "lamp:99", "lamp:1x", "object", "sky", ""})
+    EXPECT_EQ(refused(target, [](EditFields& s) { s.dim = 0; }), "target") << target;
   EXPECT_EQ(refused("sun", [](EditFields& s) { s.hour = 3; }), "target");
 }
 

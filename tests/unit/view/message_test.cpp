@@ -21,7 +21,8 @@ ViewError refused(const std::string& text) {
 }
 
 TEST(Message, camerasLookAtTargetsOrAlongDirections) {
-  const auto a = read<ViewCamera>(R"({"type": "camera", "number": 3, "position": [1, 2, 3], "target": [1, 2, 1], "verticalFov": 60})");
+  const auto a = read<ViewCamera>(
+      R"({"type": "camera", "number": 3, "position": [1, 2, 3], "target": [1, 2, 1], "verticalFov": 60})");
   EXPECT_EQ(a.number, 3u);
   EXPECT_EQ(a.direction, Vec3(0, 0, -1));
   EXPECT_EQ(a.yFovDeg, 60);
@@ -30,7 +31,8 @@ TEST(Message, camerasLookAtTargetsOrAlongDirections) {
   EXPECT_EQ(refused(R"({"type": "camera", "position": [0, 0, 0], "target": [0, 0, 0]})").field, "target");
   EXPECT_EQ(refused(R"({"type": "camera", "position": [0, 0], "direction": [0, 0, 1]})").field, "position");
   EXPECT_EQ(refused(R"({"type": "camera", "direction": [0, 0, 1]})").field, "position");
-  EXPECT_EQ(refused(R"({"type": "camera", "position": [0, 0, 0], "direction": [0, 0, 1], "verticalFov": 1})").field, "verticalFov");
+  EXPECT_EQ(refused(R"({"type": "camera", "position": [0, 0, 0], "direction": [0, 0, 1], "verticalFov": 1})").field,
+            "verticalFov");
   EXPECT_NE(refused(R"({"type": "camera", "position": [0, 0, 0]})").message.find("target"), std::string::npos);
 }
 
@@ -53,7 +55,8 @@ TEST(Message, errorsCarryTheIdOfTheRequest) {
 }
 
 TEST(Message, editsSetWhatTheySay) {
-  const auto e = read<Edit>(R"({"type": "edit", "id": 4, "target": "lamp:2", "dim": 0.5, "on": false, "temperatureK": 2700, "gesture": "g"})");
+  const auto e = read<Edit>(
+      R"({"type": "edit", "id": 4, "target": "lamp:2", "dim": 0.5, "on": false, "temperatureK": 2700, "gesture": "g"})");
   EXPECT_EQ(e.target, "lamp:2");
   EXPECT_EQ(e.gesture, "g");
   EXPECT_EQ(e.set.dim, 0.5f);
@@ -61,7 +64,8 @@ TEST(Message, editsSetWhatTheySay) {
   EXPECT_EQ(e.set.temperatureK, 2700);
   EXPECT_FALSE(e.set.position);
   EXPECT_EQ(refused(R"({"type": "edit", "id": 4, "target": "a", "on": 1})").field, "on");
-  EXPECT_EQ(refused(R"({"type": "edit", "id": 4, "target": "a", "color": [1, 1, 1], "temperatureK": 3000})").field, "temperatureK");
+  EXPECT_EQ(refused(R"({"type": "edit", "id": 4, "target": "a", "color": [1, 1, 1], "temperatureK": 3000})").field,
+            "temperatureK");
   EXPECT_EQ(refused(R"({"type": "edit", "id": 4, "target": "a", "direction": [0, 0, 0]})").field, "direction");
 }
 
@@ -69,13 +73,17 @@ TEST(Message, datesAreRealDays) {
   const auto e = read<Edit>(R"({"type": "edit", "id": 1, "target": "sun", "date": "2028-02-29", "hour": 24})");
   EXPECT_EQ(e.set.year, 2028);
   EXPECT_EQ(e.set.day, 29);
-  for (const char* date : {"2027-02-29", "2027-13-01", "1949-01-01", "27-01-01", "2027-1-1", "2027-01-01T", "aaaa-bb-cc"}) {
-    EXPECT_EQ(refused(std::string(R"({"type": "edit", "id": 1, "target": "sun", "date": ")") + date + "\"}").field, "date") << date;
+  for (const char* date :
+       {"2027-02-29", "2027-13-01", "1949-01-01", "27-01-01", "2027-1-1", "2027-01-01T", "aaaa-bb-cc"}) {
+    EXPECT_EQ(refused(std::string(R"({"type": "edit", "id": 1, "target": "sun", "date": ")") + date + "\"}").field,
+              "date")
+        << date;
   }
 }
 
 TEST(Message, displaysChangeOnlyWhatIsSaid) {
-  const auto d = read<DisplayChange>(R"({"type": "display", "exposure": "auto", "whiteBalance": 4000, "falseColor": "illuminance", "low": null})");
+  const auto d = read<DisplayChange>(
+      R"({"type": "display", "exposure": "auto", "whiteBalance": 4000, "falseColor": "illuminance", "low": null})");
   ASSERT_TRUE(d.ev100);
   EXPECT_FALSE(*d.ev100);
   EXPECT_EQ(**d.whiteK, 4000);
@@ -88,19 +96,23 @@ TEST(Message, displaysChangeOnlyWhatIsSaid) {
 }
 
 TEST(Message, splitsNameTheirSides) {
-  const auto s = read<ChooseSplit>(R"({"type": "split", "id": 1, "split": {"left": {"technique": "path"}, "right": {"plan": "start"}}})");
+  const auto s = read<ChooseSplit>(
+      R"({"type": "split", "id": 1, "split": {"left": {"technique": "path"}, "right": {"plan": "start"}}})");
   EXPECT_EQ(s.split->left.technique, "path");
   EXPECT_EQ(s.split->right.plan, "start");
   EXPECT_FALSE(read<ChooseSplit>(R"({"type": "split", "id": 1, "split": null})").split);
-  EXPECT_EQ(refused(R"({"type": "split", "id": 1, "split": {"left": {"plan": 3}, "right": {}}})").field, "split.left.plan");
+  EXPECT_EQ(refused(R"({"type": "split", "id": 1, "split": {"left": {"plan": 3}, "right": {}}})").field,
+            "split.left.plan");
 }
 
 TEST(Message, rendersAreBounded) {
-  const auto r = read<RenderWish>(R"({"type": "render", "id": 1, "kind": "panorama", "width": 7680, "height": 3840, "seconds": 60, "format": "exr"})");
+  const auto r = read<RenderWish>(
+      R"({"type": "render", "id": 1, "kind": "panorama", "width": 7680, "height": 3840, "seconds": 60, "format": "exr"})");
   EXPECT_TRUE(r.panorama);
   EXPECT_EQ(r.width, 7680);
   EXPECT_EQ(refused(R"({"type": "render", "id": 1, "kind": "picture", "width": 7681, "height": 100})").field, "width");
-  EXPECT_NE(refused(R"({"type": "render", "id": 1, "kind": "picture", "width": 100})").message.find("height"), std::string::npos);
+  EXPECT_NE(refused(R"({"type": "render", "id": 1, "kind": "picture", "width": 100})").message.find("height"),
+            std::string::npos);
   EXPECT_EQ(refused(R"({"type": "render", "id": 1, "kind": "film"})").field, "kind");
 }
 

@@ -25,7 +25,8 @@ constexpr const char* kHome = R"({"asset": {"version": "2.0"}, "scene": 0, "scen
   "bufferViews": [{"buffer": 0, "byteLength": 36}],
   "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAA"}]})";
 
-constexpr const char* kLighting = R"({"lamps": [{"name": "Desk", "type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0], "flux": "300 lm", "dimming": 0.5, "temperature": "3000 K"}],
+constexpr const char* kLighting =
+    R"({"lamps": [{"name": "Desk", "type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0], "flux": "300 lm", "dimming": 0.5, "temperature": "3000 K"}],
   "own": [{"name": "Panel", "number": 2, "dimming": 0.25}],
   "daylight": {"sky": "clear", "latitude": 48, "longitude": 11, "time": "2026-06-21T12:00+02:00"}})";
 
@@ -56,11 +57,15 @@ class SaveLighting : public ::testing::Test {
   static void expectSameLight(const Scene& a, const Scene& b) {
     ASSERT_EQ(a.lamps.size(), b.lamps.size());
     for (size_t i = 0; i < a.lamps.size(); ++i) {
-      EXPECT_NEAR(luminance(a.lamps[i].intensityCd), luminance(b.lamps[i].intensityCd), 1e-3 * static_cast<double>(luminance(b.lamps[i].intensityCd)) + 1e-6) << i;
+      EXPECT_NEAR(luminance(a.lamps[i].intensityCd), luminance(b.lamps[i].intensityCd),
+                  1e-3 * static_cast<double>(luminance(b.lamps[i].intensityCd)) + 1e-6)
+          << i;
       EXPECT_NEAR(length(a.lamps[i].position - b.lamps[i].position), 0, 1e-4) << i;
       EXPECT_NEAR(length(a.lamps[i].direction - b.lamps[i].direction), 0, 1e-4) << i;
     }
-    const auto emission = [](const Scene& s, size_t i) { return s.materials[static_cast<size_t>(s.meshes[static_cast<size_t>(s.instances[i].mesh)].material)].emission; };
+    const auto emission = [](const Scene& s, size_t i) {
+      return s.materials[static_cast<size_t>(s.meshes[static_cast<size_t>(s.instances[i].mesh)].material)].emission;
+    };
     for (size_t i = 0; i < b.instances.size(); ++i) EXPECT_NEAR(length(emission(a, i) - emission(b, i)), 0, 1e-3) << i;
     ASSERT_EQ(a.suns.size(), b.suns.size());
     for (size_t i = 0; i < a.suns.size(); ++i) EXPECT_NEAR(length(a.suns[i].toLight - b.suns[i].toLight), 0, 1e-4);
@@ -88,7 +93,8 @@ TEST_F(SaveLighting, whatWasChangedIsSaved) {
   const ViewHome home = open("light.json");
   HomeState state = home.atStart();
   LampState& desk = state.lamps[lampNamed(home, "Desk")];
-  desk.dim = 0.8f, desk.position = {0.5f, 1.5f, 0}, desk.direction = {1, 0, 0}, desk.temperatureK = 4000, desk.fluxLm = 600;
+  desk.dim = 0.8f, desk.position = {0.5f, 1.5f, 0}, desk.direction = {1, 0, 0}, desk.temperatureK = 4000,
+  desk.fluxLm = 600;
   state.lamps[lampNamed(home, "Panel")].on = false;
   LampState& bulb = state.lamps[lampNamed(home, "Bulb")];
   bulb.fluxLm *= 2, bulb.position = {0, 2, 1}, bulb.color = Vec3(1, 1, 1);
@@ -98,7 +104,8 @@ TEST_F(SaveLighting, whatWasChangedIsSaved) {
   const ViewHome again = open("saved.json");
   EXPECT_EQ(again.atStart().lamps[lampNamed(again, "Desk")].dim, 0.8f);
   EXPECT_NEAR(again.atStart().sun->hour, 17.5, 1e-3);
-  EXPECT_EQ(json::parse(lightingFile(again, again.atStart()))["lamps"], json::parse(lightingFile(home, state))["lamps"]);
+  EXPECT_EQ(json::parse(lightingFile(again, again.atStart()))["lamps"],
+            json::parse(lightingFile(home, state))["lamps"]);
 }
 
 TEST_F(SaveLighting, homesWithoutAFileSaveWhatWasChanged) {
@@ -122,7 +129,8 @@ TEST_F(SaveLighting, ofAddedLight) {
 }
 
 TEST_F(SaveLighting, wrongDimmingIsRefused) {
-  for (const char* text : {R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": "1 lm", "dimming": 3}]})", R"({"own": [{"name": "Nobody"}]})", R"({"own": [{"name": "Panel", "number": 3}]})"}) {
+  for (const char* text : {R"({"lamps": [{"type": "point", "position": [0, 0, 0], "flux": "1 lm", "dimming": 3}]})",
+                           R"({"own": [{"name": "Nobody"}]})", R"({"own": [{"name": "Panel", "number": 3}]})"}) {
     roomlight::testing::writeFile(folder_ / "wrong.json", text);
     EXPECT_FALSE(view::openHome(wishFor("wrong.json")).ok()) << text;
   }

@@ -14,7 +14,8 @@ Sums sumsOf(const Voxels& voxels) {
   Sums sums;
   for (const FaceSlot& slot : voxels.slots) {
     sums.areaM2 += static_cast<double>(slot.areaM2);
-    sums.fluxLm += static_cast<double>(luminance(slot.emission)) * static_cast<double>(slot.areaM2) * static_cast<double>(kPi);
+    sums.fluxLm +=
+        static_cast<double>(luminance(slot.emission)) * static_cast<double>(slot.areaM2) * static_cast<double>(kPi);
   }
   return sums;
 }

@@ -21,7 +21,8 @@ bool escapes(const Voxels& voxels, Vec3 from, Vec3 direction) {
   const std::array<int, 3> end{voxels.brickDims.x * 32, voxels.brickDims.y * 32, voxels.brickDims.z * 32};
   for (size_t k = 0; k < 3; ++k) {
     const int axis = static_cast<int>(k);
-    const double q = (static_cast<double>(from[axis]) - static_cast<double>(voxels.origin[axis])) / sub, d = static_cast<double>(direction[axis]);
+    const double q = (static_cast<double>(from[axis]) - static_cast<double>(voxels.origin[axis])) / sub,
+                 d = static_cast<double>(direction[axis]);
     cell[k] = static_cast<int>(std::floor(q));
     step[k] = d < 0 ? -1 : 1;
     delta[k] = d == 0 ? 1e30 : 1 / std::abs(d);
@@ -65,13 +66,15 @@ Scene closedRoom(int cells) {
 }
 
 TEST(VoxelMasks, HoldEveryRayInARoomAlongTheAxes) {
-  for (const float h : {0.05f, 0.1f, 0.33f}) EXPECT_EQ(countEscapes(closedRoom(1), h, {0.013f, 0.021f, 0.017f}, 20000), 0) << h;
+  for (const float h : {0.05f, 0.1f, 0.33f})
+    EXPECT_EQ(countEscapes(closedRoom(1), h, {0.013f, 0.021f, 0.017f}, 20000), 0) << h;
 }
 
 TEST(VoxelMasks, HoldEveryRayInATurnedRoomOfSmallTriangles) {
   for (int turn = 1; turn <= 8; ++turn) {
     Scene scene = closedRoom(9);
-    const Affine m = test::turned(0.37f * static_cast<float>(turn), {1, 0.3f * static_cast<float>(turn), 2}, {3, 1, -7});
+    const Affine m =
+        test::turned(0.37f * static_cast<float>(turn), {1, 0.3f * static_cast<float>(turn), 2}, {3, 1, -7});
     for (Instance& instance : scene.instances) instance.worldFromObject = m;
     EXPECT_EQ(countEscapes(scene, 0.09f, {3, 1, -7}, 20000), 0) << turn;
   }
@@ -86,16 +89,19 @@ int cellsSetAlongX(const Voxels& voxels, int y, int z) {
 TEST(VoxelMasks, AFlatWallIsOneSubVoxelThickWhereverItStands) {
   for (const float x : {0.0f, 0.1f, 0.125f, 0.15f, 0.175f, 0.1834f, 0.8f, -0.4f, -0.025f}) {
     Scene scene;
-    test::addRectangle(scene, {x, -0.4f, -0.4f}, {0, 0.8f, 0}, {0, 0, 0.8f}, test::addMaterial(scene, test::lambertian(0.5f)), 3);
+    test::addRectangle(scene, {x, -0.4f, -0.4f}, {0, 0.8f, 0}, {0, 0, 0.8f},
+                       test::addMaterial(scene, test::lambertian(0.5f)), 3);
     const Voxels voxels = voxelise(scene, test::withSize(0.1f)).voxels;
     const Int3 middle = voxels.voxelOf({x, 0, 0});
-    for (int k = -12; k < 12; ++k) EXPECT_EQ(cellsSetAlongX(voxels, middle.y * 4 + k, middle.z * 4 + k), 1) << x << ' ' << k;
+    for (int k = -12; k < 12; ++k)
+      EXPECT_EQ(cellsSetAlongX(voxels, middle.y * 4 + k, middle.z * 4 + k), 1) << x << ' ' << k;
   }
 }
 
 TEST(VoxelMasks, ASlantedWallIsAtMostThreeSubVoxelsThick) {
   Scene scene;
-  test::addRectangle(scene, {0.03f, 0, 0}, {0.8f, 1.0f, 0.1f}, {0.2f, -0.1f, 1.1f}, test::addMaterial(scene, test::lambertian(0.5f)));
+  test::addRectangle(scene, {0.03f, 0, 0}, {0.8f, 1.0f, 0.1f}, {0.2f, -0.1f, 1.1f},
+                     test::addMaterial(scene, test::lambertian(0.5f)));
   const Voxels voxels = voxelise(scene, test::withSize(0.1f)).voxels;
   int thickest = 0;
   for (int y = 0; y < voxels.brickDims.y * 32; ++y) {

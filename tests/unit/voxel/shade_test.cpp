@@ -62,7 +62,8 @@ TEST(VoxelAlbedo, OfAFineCheckerIsGreyInEveryVoxel) {
 
 TEST(VoxelAlbedo, IsThatOfEachSideOfAThinWall) {
   Scene scene;
-  const int dark = test::addMaterial(scene, test::lambertian(0.1f)), bright = test::addMaterial(scene, test::lambertian(0.9f));
+  const int dark = test::addMaterial(scene, test::lambertian(0.1f)),
+            bright = test::addMaterial(scene, test::lambertian(0.9f));
   test::addRectangle(scene, {0.052f, 0, 0}, {0, 1, 0}, {0, 0, 1}, dark);    // faces +x
   test::addRectangle(scene, {0.032f, 0, 0}, {0, 0, 1}, {0, 1, 0}, bright);  // faces -x, 2 cm apart
   const Voxels voxels = voxelise(scene, test::withSize(0.1f)).voxels;

@@ -10,7 +10,8 @@ Scene roomWithSoup(float scale) {
   Scene scene = test::triangleSoup(2000, 6, 9);
   test::addRoom(scene, {-3, -3, -3}, {3, 3, 3}, std::vector<int>(6, 0));
   for (Instance& instance : scene.instances) {
-    for (Vec3* column : {&instance.worldFromObject.x, &instance.worldFromObject.y, &instance.worldFromObject.z}) *column *= scale;
+    for (Vec3* column : {&instance.worldFromObject.x, &instance.worldFromObject.y, &instance.worldFromObject.z})
+      *column *= scale;
   }
   return scene;
 }
@@ -26,7 +27,8 @@ TEST(ChooseVoxelSize, KeepsToTheMemoryBudget) {
     const Voxelisation v = voxelise(scene, settings);
     // The budget also covers the light: about three times what the voxels alone take.
     EXPECT_LT(static_cast<double>(v.voxels.bytes()) / 1048576, static_cast<double>(budgetMiB)) << settings.voxelSizeM;
-    EXPECT_GT(static_cast<double>(v.voxels.bytes()) / 1048576, 0.1 * static_cast<double>(budgetMiB)) << settings.voxelSizeM;
+    EXPECT_GT(static_cast<double>(v.voxels.bytes()) / 1048576, 0.1 * static_cast<double>(budgetMiB))
+        << settings.voxelSizeM;
   }
 }
 
@@ -106,7 +108,8 @@ TEST(Voxelise, FarFromTheOriginKeepsItsAreas) {
   Scene scene = test::triangleSoup(300, 3, 4);
   scene.instances[0].worldFromObject.w = {900, 20, -1100};
   double slots = 0;
-  for (const FaceSlot& slot : voxelise(scene, test::withSize(0.04f)).voxels.slots) slots += static_cast<double>(slot.areaM2);
+  for (const FaceSlot& slot : voxelise(scene, test::withSize(0.04f)).voxels.slots)
+    slots += static_cast<double>(slot.areaM2);
   EXPECT_NEAR(slots, 2 * test::meshAreaM2(scene), 0.005 * slots);
 }
 

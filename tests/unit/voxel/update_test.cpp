@@ -12,7 +12,8 @@ constexpr float kVoxelSizeM = 0.09f;
 // A room whose twelve boxes move about, also out of it.
 Scene furnishedRoom() {
   Scene scene;
-  const int wall = test::addMaterial(scene, test::lambertian(0.7f)), wood = test::addMaterial(scene, test::lambertian(0.3f)),
+  const int wall = test::addMaterial(scene, test::lambertian(0.7f)),
+            wood = test::addMaterial(scene, test::lambertian(0.3f)),
             lamp = test::addMaterial(scene, test::lambertian(0.1f, 500));
   test::addRoom(scene, {0, 0, 0}, {4, 2.5f, 5}, std::vector<int>(6, wall));
   for (int i = 0; i < 12; ++i) {
@@ -32,7 +33,8 @@ class Movers {
   float uniform(float lo, float hi) { return std::uniform_real_distribution<float>(lo, hi)(random_); }
   size_t below(size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(random_); }
   Affine pose(float reachM) {
-    return test::turned(uniform(0, 6), {uniform(-1, 1), 1, uniform(-1, 1)}, {uniform(-reachM, reachM), uniform(-reachM, reachM), uniform(-reachM, reachM)});
+    return test::turned(uniform(0, 6), {uniform(-1, 1), 1, uniform(-1, 1)},
+                        {uniform(-reachM, reachM), uniform(-reachM, reachM), uniform(-reachM, reachM)});
   }
 
  private:

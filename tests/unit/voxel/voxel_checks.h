@@ -18,8 +18,9 @@ inline VoxelSettings withSize(float voxelSizeM) {
 inline bool sameBits(Vec3 a, Vec3 b) { return std::memcmp(&a, &b, sizeof(Vec3)) == 0; }
 
 inline bool sameBits(const FaceSlot& a, const FaceSlot& b) {
-  return sameBits(a.position, b.position) && sameBits(a.normal, b.normal) && sameBits(a.albedo, b.albedo) && sameBits(a.emission, b.emission) &&
-         std::memcmp(&a.areaM2, &b.areaM2, sizeof(float)) == 0 && a.opacity == b.opacity && a.instance == b.instance && a.face == b.face;
+  return sameBits(a.position, b.position) && sameBits(a.normal, b.normal) && sameBits(a.albedo, b.albedo) &&
+         sameBits(a.emission, b.emission) && std::memcmp(&a.areaM2, &b.areaM2, sizeof(float)) == 0 &&
+         a.opacity == b.opacity && a.instance == b.instance && a.face == b.face;
 }
 
 inline bool sameBits(const SurfaceVoxel& a, const SurfaceVoxel& b) {

@@ -221,16 +221,17 @@ export class App extends SessionElement {
       <aside class="panel" aria-label="Panel">
         <div role="tablist" aria-label="Panel" @keydown=${this.tabKey}>
           ${kTabs.map(
-            ([tab, name]) => html`<button
-              role="tab"
-              id=${`tab-${tab}`}
-              aria-selected=${tab === session.tab}
-              aria-controls="sheet"
-              tabindex=${tab === session.tab ? 0 : -1}
-              @click=${() => session.show({ tab, sheetOpen: true })}
-            >
-              ${name}
-            </button>`,
+            ([tab, name]) =>
+              html`<button
+                role="tab"
+                id=${`tab-${tab}`}
+                aria-selected=${tab === session.tab}
+                aria-controls="sheet"
+                tabindex=${tab === session.tab ? 0 : -1}
+                @click=${() => session.show({ tab, sheetOpen: true })}
+              >
+                ${name}
+              </button>`,
           )}
           <button
             class="fold"
@@ -241,11 +242,15 @@ export class App extends SessionElement {
             ${session.sheetOpen ? "▾" : "▴"}
           </button>
         </div>
-        <div role="tabpanel" id="sheet" aria-labelledby=${`tab-${session.tab}`} ?hidden=${!session.sheetOpen}>${this.tab()}</div>
+        <div role="tabpanel" id="sheet" aria-labelledby=${`tab-${session.tab}`} ?hidden=${!session.sheetOpen}>
+          ${this.tab()}
+        </div>
       </aside>
       <rl-status .session=${session}></rl-status>
       ${session.notice
-        ? html`<div class="notice ${session.notice.bad ? "bad" : ""}" role=${session.notice.bad ? "alert" : "status"}>${session.notice.text}</div>`
+        ? html`<div class="notice ${session.notice.bad ? "bad" : ""}" role=${session.notice.bad ? "alert" : "status"}>
+            ${session.notice.text}
+          </div>`
         : nothing}
       <rl-help></rl-help>
     `;
@@ -259,28 +264,52 @@ export class App extends SessionElement {
     const walking = navigation === "walk";
     return html`<header>
       <h1>${model?.welcome.home ?? "roomlight"}</h1>
-      <button aria-label="Undo" title=${undo === null ? "Nothing to undo" : `Undo: ${undo} (Ctrl+Z)`} ?disabled=${undo === null} @click=${() => session.undo()}>
+      <button
+        aria-label="Undo"
+        title=${undo === null ? "Nothing to undo" : `Undo: ${undo} (Ctrl+Z)`}
+        ?disabled=${undo === null}
+        @click=${() => session.undo()}
+      >
         ${undoIcon}
       </button>
-      <button aria-label="Redo" title=${redo === null ? "Nothing to redo" : `Redo: ${redo} (Ctrl+Shift+Z)`} ?disabled=${redo === null} @click=${() => session.redo()}>
+      <button
+        aria-label="Redo"
+        title=${redo === null ? "Nothing to redo" : `Redo: ${redo} (Ctrl+Shift+Z)`}
+        ?disabled=${redo === null}
+        @click=${() => session.redo()}
+      >
         ${redoIcon}
       </button>
       <span class="gap"></span>
       <button
-        aria-label=${walking ? "Dragging looks around; change to going around" : "Dragging goes around; change to looking around"}
+        aria-label=${walking
+          ? "Dragging looks around; change to going around"
+          : "Dragging goes around; change to looking around"}
         title="What dragging does (O)"
         @click=${() => this.toggleNavigation()}
       >
         ${walking ? walkIcon : orbitIcon}<span class="word">${walking ? "Walk" : "Orbit"}</span>
       </button>
-      <button aria-label="Light meter" title="Light meter (M)" aria-pressed=${meter.on} @click=${() => this.toggleMeter()}>
+      <button
+        aria-label="Light meter"
+        title="Light meter (M)"
+        aria-pressed=${meter.on}
+        @click=${() => this.toggleMeter()}
+      >
         ${meterIcon}<span class="word">Meter</span>
       </button>
       <span class="gap"></span>
-      <button aria-label="Save as lighting file" title="Save as lighting file (Ctrl+S)" ?disabled=${!model} @click=${() => void session.save()}>
+      <button
+        aria-label="Save as lighting file"
+        title="Save as lighting file (Ctrl+S)"
+        ?disabled=${!model}
+        @click=${() => void session.save()}
+      >
         ${saveIcon}<span class="word">Save</span>
       </button>
-      <button aria-label="Keys and gestures" title="Keys and gestures (?)" @click=${() => this.help.open()}>${helpIcon}</button>
+      <button aria-label="Keys and gestures" title="Keys and gestures (?)" @click=${() => this.help.open()}>
+        ${helpIcon}
+      </button>
     </header>`;
   }
 
@@ -330,14 +359,16 @@ export class App extends SessionElement {
   private key(event: KeyboardEvent): void {
     const target = event.composedPath()[0];
     const typing =
-      target instanceof HTMLSelectElement || (target instanceof HTMLInputElement && !["range", "checkbox", "color"].includes(target.type));
+      target instanceof HTMLSelectElement ||
+      (target instanceof HTMLInputElement && !["range", "checkbox", "color"].includes(target.type));
     if (this.shortcut(event, typing)) event.preventDefault();
   }
 
   // True if the key was one of ours.
   private shortcut(event: KeyboardEvent, typing: boolean): boolean {
     const { session } = this;
-    if (event.defaultPrevented || this.renderRoot.querySelector("rl-help")?.shadowRoot?.querySelector("dialog[open]")) return false;
+    if (event.defaultPrevented || this.renderRoot.querySelector("rl-help")?.shadowRoot?.querySelector("dialog[open]"))
+      return false;
     const key = event.key.toLowerCase();
     if ((event.ctrlKey || event.metaKey) && !event.altKey) {
       if (key === "s") void session.save();

@@ -42,7 +42,7 @@ export class CompareTab extends SessionElement {
       <section class="section" aria-label="Technique">
         <label class="field">
           <span>Technique</span>
-          ${this.techniqueSelect(technique, "Technique", (name) => this.session.setTechnique(name))}
+          ${this.techniqueSelect(technique, "Technique", name => this.session.setTechnique(name))}
         </label>
         ${about ? html`<p class="muted">${about}</p>` : nothing}
       </section>
@@ -51,7 +51,8 @@ export class CompareTab extends SessionElement {
           <input
             type="checkbox"
             .checked=${split !== null}
-            @change=${(event: Event) => this.session.setSplit((event.target as HTMLInputElement).checked ? this.firstSplit() : null)}
+            @change=${(event: Event) =>
+              this.session.setSplit((event.target as HTMLInputElement).checked ? this.firstSplit() : null)}
           />
           Split view
         </label>
@@ -75,11 +76,20 @@ export class CompareTab extends SessionElement {
         </form>
         <ul>
           ${model.plans.map(
-            (plan) => html`<li class="row">
-              <span class="grow name">${plan}</span>
-              <button aria-label=${`Apply ${plan}`} @click=${() => this.session.plan("apply", plan)}>Apply</button>
-              <button class="plain" ?hidden=${plan === kFirstPlan} aria-label=${`Drop ${plan}`} title="Drop" @click=${() => this.session.plan("drop", plan)}>✕</button>
-            </li>`,
+            plan =>
+              html`<li class="row">
+                <span class="grow name">${plan}</span>
+                <button aria-label=${`Apply ${plan}`} @click=${() => this.session.plan("apply", plan)}>Apply</button>
+                <button
+                  class="plain"
+                  ?hidden=${plan === kFirstPlan}
+                  aria-label=${`Drop ${plan}`}
+                  title="Drop"
+                  @click=${() => this.session.plan("drop", plan)}
+                >
+                  ✕
+                </button>
+              </li>`,
           )}
         </ul>
       </section>
@@ -96,7 +106,10 @@ export class CompareTab extends SessionElement {
   }
 
   private techniqueSelect(chosen: string, label: string, choose: (name: string) => void) {
-    return html`<select aria-label=${label} @change=${(event: Event) => choose((event.target as HTMLSelectElement).value)}>
+    return html`<select
+      aria-label=${label}
+      @change=${(event: Event) => choose((event.target as HTMLSelectElement).value)}
+    >
       ${this.session.model?.welcome.techniques.map(
         ({ name, about }) => html`<option value=${name} title=${about} ?selected=${name === chosen}>${name}</option>`,
       )}
@@ -112,10 +125,17 @@ export class CompareTab extends SessionElement {
     };
     return html`<fieldset class="field">
       <legend class="muted">${title}</legend>
-      ${this.techniqueSelect(side.technique ?? this.session.technique, `${title}: technique`, (technique) => set({ technique }))}
-      <select aria-label=${`${title}: plan`} @change=${(event: Event) => set({ plan: (event.target as HTMLSelectElement).value })}>
+      ${this.techniqueSelect(side.technique ?? this.session.technique, `${title}: technique`, technique =>
+        set({ technique }),
+      )}
+      <select
+        aria-label=${`${title}: plan`}
+        @change=${(event: Event) => set({ plan: (event.target as HTMLSelectElement).value })}
+      >
         <option value=${kEdited} ?selected=${side.plan === undefined}>As it is now</option>
-        ${this.session.model?.plans.map((plan) => html`<option value=${plan} ?selected=${plan === side.plan}>${plan}</option>`)}
+        ${this.session.model?.plans.map(
+          plan => html`<option value=${plan} ?selected=${plan === side.plan}>${plan}</option>`,
+        )}
       </select>
     </fieldset>`;
   }

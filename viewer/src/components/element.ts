@@ -15,7 +15,7 @@ export class SessionElement extends LitElement {
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
-    this.stops.splice(0).forEach((stop) => stop());
+    this.stops.splice(0).forEach(stop => stop());
   }
 
   protected override willUpdate(changed: PropertyValues): void {
@@ -23,7 +23,7 @@ export class SessionElement extends LitElement {
   }
 
   private listen(): void {
-    this.stops.splice(0).forEach((stop) => stop());
+    this.stops.splice(0).forEach(stop => stop());
     if (!this.session || !this.isConnected) return;
     for (const topic of this.topics) this.stops.push(this.session.on(topic, () => this.requestUpdate()));
   }

@@ -94,12 +94,19 @@ export class Help extends LitElement {
       </div>
       <div class="columns">
         ${kKeys.map(
-          ([title, keys]) => html`<section>
-            <h3>${title}</h3>
-            <dl>
-              ${keys.map(([key, does]) => html`<div><dt>${key}</dt><dd>${does}</dd></div>`)}
-            </dl>
-          </section>`,
+          ([title, keys]) =>
+            html`<section>
+              <h3>${title}</h3>
+              <dl>
+                ${keys.map(
+                  ([key, does]) =>
+                    html`<div>
+                      <dt>${key}</dt>
+                      <dd>${does}</dd>
+                    </div>`,
+                )}
+              </dl>
+            </section>`,
         )}
       </div>
     </dialog>`;

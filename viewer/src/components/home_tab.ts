@@ -143,7 +143,10 @@ export class HomeTab extends SessionElement {
     const wanted = this.search.trim().toLocaleLowerCase();
     const kinds = wanted ? kKinds : kKinds.filter(([kind]) => kind === this.kind);
     const groups = kinds
-      .map(([kind, title]) => ({ title, entries: this.entries(kind).filter((e) => e.name.toLocaleLowerCase().includes(wanted)) }))
+      .map(([kind, title]) => ({
+        title,
+        entries: this.entries(kind).filter(e => e.name.toLocaleLowerCase().includes(wanted)),
+      }))
       .filter(({ entries }) => entries.length > 0);
     return html`
       ${this.editor()}
@@ -160,7 +163,10 @@ export class HomeTab extends SessionElement {
           />
           <div class="segments" role="radiogroup" aria-label="What the list shows" ?hidden=${wanted !== ""}>
             ${kKinds.map(
-              ([kind, title]) => html`<button role="radio" aria-checked=${kind === this.kind} @click=${() => (this.kind = kind)}>${title}</button>`,
+              ([kind, title]) =>
+                html`<button role="radio" aria-checked=${kind === this.kind} @click=${() => (this.kind = kind)}>
+                  ${title}
+                </button>`,
             )}
           </div>
         </div>
@@ -168,10 +174,16 @@ export class HomeTab extends SessionElement {
           ${groups.map(
             ({ title, entries }) => html`
               ${wanted ? html`<h3 role="presentation">${title}</h3>` : nothing}
-              ${repeat(entries, (entry) => entry.kind + entry.id, (entry) => this.option(entry, entry === groups[0]?.entries[0]))}
+              ${repeat(
+                entries,
+                entry => entry.kind + entry.id,
+                entry => this.option(entry, entry === groups[0]?.entries[0]),
+              )}
             `,
           )}
-          ${groups.length ? nothing : html`<p class="muted none">${wanted ? "Nothing has that name." : "The home has none."}</p>`}
+          ${groups.length
+            ? nothing
+            : html`<p class="muted none">${wanted ? "Nothing has that name." : "The home has none."}</p>`}
         </div>
       </div>
     `;
@@ -189,13 +201,22 @@ export class HomeTab extends SessionElement {
         <div class="row">
           <h2 class="grow">${name}</h2>
           <button title="Turn the eye to it (F)" @click=${() => this.session.select(selection, true)}>Show</button>
-          <button class="plain" aria-label="Select nothing" title="Select nothing (Esc)" @click=${() => this.session.select(null, false)}>✕</button>
+          <button
+            class="plain"
+            aria-label="Select nothing"
+            title="Select nothing (Esc)"
+            @click=${() => this.session.select(null, false)}
+          >
+            ✕
+          </button>
         </div>
         ${selection.kind === "lamp"
           ? html`<rl-lamp-editor .session=${this.session}></rl-lamp-editor>`
           : html`<rl-object-editor .session=${this.session}></rl-object-editor>`}
         ${body
-          ? html`<button @click=${() => this.session.select({ kind: "object", id: body.id }, false)}>Part of ${body.name}</button>`
+          ? html`<button @click=${() => this.session.select({ kind: "object", id: body.id }, false)}>
+              Part of ${body.name}
+            </button>`
           : nothing}
         ${this.partsOf(selection)}
       </section>
@@ -205,9 +226,12 @@ export class HomeTab extends SessionElement {
   // Lamps of the selected thing.
   private partsOf({ kind, id }: Selection) {
     if (kind !== "object") return nothing;
-    const lamps = [...(this.session.model?.lamps.values() ?? [])].filter((lamp) => lamp.object === id);
+    const lamps = [...(this.session.model?.lamps.values() ?? [])].filter(lamp => lamp.object === id);
     return lamps.map(
-      (lamp) => html`<button @click=${() => this.session.select({ kind: "lamp", id: lamp.id }, false)}>Its light: ${lamp.name}</button>`,
+      lamp =>
+        html`<button @click=${() => this.session.select({ kind: "lamp", id: lamp.id }, false)}>
+          Its light: ${lamp.name}
+        </button>`,
     );
   }
 
@@ -227,9 +251,11 @@ export class HomeTab extends SessionElement {
       case "camera":
         return model.welcome.cameras.map((camera, i) => entry(String(i), camera.name, ""));
       case "lamp":
-        return [...model.lamps.values()].map((lamp) => entry(lamp.id, lamp.name, lampDetail(lamp), lamp.on ? lampColor(lamp) : "#333333"));
+        return [...model.lamps.values()].map(lamp =>
+          entry(lamp.id, lamp.name, lampDetail(lamp), lamp.on ? lampColor(lamp) : "#333333"),
+        );
       case "object":
-        return [...model.things.values()].map((thing) => entry(thing.id, thing.name, thing.hidden ? "hidden" : ""));
+        return [...model.things.values()].map(thing => entry(thing.id, thing.name, thing.hidden ? "hidden" : ""));
     }
   }
 
@@ -289,7 +315,8 @@ export class HomeTab extends SessionElement {
 
   protected override updated(): void {
     const { selection } = this.session;
-    if (selection !== this.followed) this.renderRoot.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
+    if (selection !== this.followed)
+      this.renderRoot.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
     this.followed = selection;
   }
 }

@@ -76,7 +76,7 @@ export class LampEditor extends SessionElement {
         step="1"
         .value=${lamp.dim * 100}
         ?disabled=${!lamp.on}
-        @slide=${(event: CustomEvent<Slide>) => this.slide(lamp, event, (value) => ({ dim: value / 100 }))}
+        @slide=${(event: CustomEvent<Slide>) => this.slide(lamp, event, value => ({ dim: value / 100 }))}
       ></rl-slider>
       ${fluxLm === null
         ? html`<p class="muted">Its luminous flux is not known.</p>`
@@ -92,7 +92,7 @@ export class LampEditor extends SessionElement {
               logarithmic
               .value=${fluxLm}
               ?disabled=${!lamp.on}
-              @slide=${(event: CustomEvent<Slide>) => this.slide(lamp, event, (value) => ({ fluxLm: value }))}
+              @slide=${(event: CustomEvent<Slide>) => this.slide(lamp, event, value => ({ fluxLm: value }))}
             ></rl-slider>
             <p class="muted number">Gives ${lamp.on ? withUnit(fluxLm * lamp.dim, "lm") : "no light"} now.</p>
           `}
@@ -103,8 +103,14 @@ export class LampEditor extends SessionElement {
     const white = lamp.color === null;
     return html`
       <div class="segments" role="radiogroup" aria-label="Colour of the light">
-        <button role="radio" aria-checked=${white} @click=${() => white || this.set(lamp, { temperatureK: kUsualK })}>White</button>
-        <button role="radio" aria-checked=${!white} @click=${() => white && this.set(lamp, { color: blackBody(lamp.temperatureK ?? kUsualK) })}>
+        <button role="radio" aria-checked=${white} @click=${() => white || this.set(lamp, { temperatureK: kUsualK })}>
+          White
+        </button>
+        <button
+          role="radio"
+          aria-checked=${!white}
+          @click=${() => white && this.set(lamp, { color: blackBody(lamp.temperatureK ?? kUsualK) })}
+        >
           Colour
         </button>
       </div>
@@ -120,14 +126,15 @@ export class LampEditor extends SessionElement {
             step="50"
             precision="1"
             .value=${lamp.temperatureK ?? 6500}
-            @slide=${(event: CustomEvent<Slide>) => this.slide(lamp, event, (value) => ({ temperatureK: value }))}
+            @slide=${(event: CustomEvent<Slide>) => this.slide(lamp, event, value => ({ temperatureK: value }))}
           ></rl-slider>`
         : html`<label class="row">
             <span class="grow">Colour of the light</span>
             <input
               type="color"
               .value=${lampColor(lamp)}
-              @input=${(event: Event) => this.set(lamp, { color: linearFromHex((event.target as HTMLInputElement).value) }, "colour")}
+              @input=${(event: Event) =>
+                this.set(lamp, { color: linearFromHex((event.target as HTMLInputElement).value) }, "colour")}
               @change=${() => ++changes}
             />
           </label>`}

@@ -36,7 +36,9 @@ export class LightTab extends SessionElement {
     const { model } = this.session;
     const sun = model?.sun;
     if (!sun) {
-      return html`<p class="section muted">This home has no daylight by date. Start roomlight view with a lighting file that has "daylight".</p>`;
+      return html`<p class="section muted">
+        This home has no daylight by date. Start roomlight view with a lighting file that has "daylight".
+      </p>`;
     }
     const year = sun.date.slice(0, 4);
     const below = sun.altitude < 0;
@@ -44,11 +46,18 @@ export class LightTab extends SessionElement {
       <section class="section" aria-label="Daylight">
         <label class="field">
           <span>Date</span>
-          <input type="date" .value=${sun.date} @change=${(event: Event) => this.setDate((event.target as HTMLInputElement).value)} />
+          <input
+            type="date"
+            .value=${sun.date}
+            @change=${(event: Event) => this.setDate((event.target as HTMLInputElement).value)}
+          />
         </label>
         <div class="segments" role="group" aria-label="Beginning of a season">
           ${kSeasons.map(
-            ([day, name]) => html`<button aria-pressed=${sun.date.endsWith(day)} @click=${() => this.setDate(`${year}-${day}`)}>${name}</button>`,
+            ([day, name]) =>
+              html`<button aria-pressed=${sun.date.endsWith(day)} @click=${() => this.setDate(`${year}-${day}`)}>
+                ${name}
+              </button>`,
           )}
         </div>
         <rl-slider
@@ -60,7 +69,8 @@ export class LightTab extends SessionElement {
           step="0.05"
           .value=${sun.hour}
           .valueText=${clock(sun.hour)}
-          @slide=${(event: CustomEvent<Slide>) => this.session.edit("sun", { hour: event.detail.value }, event.detail.gesture)}
+          @slide=${(event: CustomEvent<Slide>) =>
+            this.session.edit("sun", { hour: event.detail.value }, event.detail.gesture)}
           bare
           ><input
             class="time"
@@ -70,9 +80,13 @@ export class LightTab extends SessionElement {
             @change=${(event: Event) => this.setTime((event.target as HTMLInputElement).value)}
         /></rl-slider>
         <p class="muted number">
-          ${below ? `The sun is ${Math.abs(sun.altitude).toFixed(0)}° below the horizon` : `Sun ${sun.altitude.toFixed(0)}° high`}
-          in the ${kPoints[Math.round((((sun.azimuth % 360) + 360) % 360) / 45) % 8]}; sky ${sun.sky}. UTC${sun.utcOffset < 0 ? "−" : "+"}${Math.abs(sun.utcOffset)},
-          ${Math.abs(sun.latitude).toFixed(1)}°${sun.latitude < 0 ? "S" : "N"} ${Math.abs(sun.longitude).toFixed(1)}°${sun.longitude < 0 ? "W" : "E"}.
+          ${below
+            ? `The sun is ${Math.abs(sun.altitude).toFixed(0)}° below the horizon`
+            : `Sun ${sun.altitude.toFixed(0)}° high`}
+          in the ${kPoints[Math.round((((sun.azimuth % 360) + 360) % 360) / 45) % 8]}; sky ${sun.sky}.
+          UTC${sun.utcOffset < 0 ? "−" : "+"}${Math.abs(sun.utcOffset)},
+          ${Math.abs(sun.latitude).toFixed(1)}°${sun.latitude < 0 ? "S" : "N"}
+          ${Math.abs(sun.longitude).toFixed(1)}°${sun.longitude < 0 ? "W" : "E"}.
         </p>
       </section>
     `;

@@ -60,7 +60,13 @@ export class Meter extends SessionElement {
     const { width, height } = eye.viewport;
     const left = x + kGapPx + kWidthPx > width ? Math.max(0, x - kGapPx - kWidthPx) : x + kGapPx;
     const top = Math.max(0, y + kGapPx + kHeightPx > height ? y - kGapPx - kHeightPx : y + kGapPx);
-    return html`<div class="chip number" role="status" .style=${`transform:translate(${Math.round(left)}px,${Math.round(top)}px)`}>${this.reading(meter.reading)}</div>`;
+    return html`<div
+      class="chip number"
+      role="status"
+      .style=${`transform:translate(${Math.round(left)}px,${Math.round(top)}px)`}
+    >
+      ${this.reading(meter.reading)}
+    </div>`;
   }
 
   private reading({ hit }: Reading) {

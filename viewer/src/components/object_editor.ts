@@ -40,7 +40,7 @@ export class ObjectEditor extends SessionElement {
     const thing = selection?.kind === "object" ? model?.things.get(selection.id) : undefined;
     if (!thing) return nothing;
     const size = subtract(thing.high, thing.low);
-    const moved = thing.turn !== 0 || thing.move.some((m) => m !== 0);
+    const moved = thing.turn !== 0 || thing.move.some(m => m !== 0);
     return html`
       <div class="stack">
         <div class="row">
@@ -66,7 +66,7 @@ export class ObjectEditor extends SessionElement {
       max="100"
       step="1"
       .value=${open * 100}
-      @slide=${(event: CustomEvent<Slide>) => this.slide(thing, event, (value) => ({ open: value / 100 }))}
+      @slide=${(event: CustomEvent<Slide>) => this.slide(thing, event, value => ({ open: value / 100 }))}
     ></rl-slider>`;
   }
 
@@ -84,7 +84,7 @@ export class ObjectEditor extends SessionElement {
         max="180"
         step="1"
         .value=${((((thing.turn + 180) % 360) + 360) % 360) - 180}
-        @slide=${(event: CustomEvent<Slide>) => this.slide(thing, event, (value) => ({ turn: value }))}
+        @slide=${(event: CustomEvent<Slide>) => this.slide(thing, event, value => ({ turn: value }))}
       ></rl-slider>
     `;
   }
@@ -93,7 +93,7 @@ export class ObjectEditor extends SessionElement {
     return html`
       <h3>Colours</h3>
       <ul class="paints">
-        ${thing.colors.map((paint) => html`<li>${this.paint(thing, paint)}</li>`)}
+        ${thing.colors.map(paint => html`<li>${this.paint(thing, paint)}</li>`)}
       </ul>
     `;
   }

@@ -70,21 +70,42 @@ export class RenderTab extends SessionElement {
       <section class="section" aria-label="A final picture">
         <div class="segments" role="radiogroup" aria-label="Kind of picture">
           ${(["picture", "panorama"] as const).map(
-            (kind) => html`<button role="radio" aria-checked=${kind === this.kind} @click=${() => this.choose(kind)}>
-              ${kind === "picture" ? "Picture" : "Panorama"}
-            </button>`,
+            kind =>
+              html`<button role="radio" aria-checked=${kind === this.kind} @click=${() => this.choose(kind)}>
+                ${kind === "picture" ? "Picture" : "Panorama"}
+              </button>`,
           )}
         </div>
         <div class="two">
-          ${this.select("Size", this.sizes().map(([w, h], i) => [String(i), `${w} × ${h}`]), String(this.size), (v) => (this.size = Number(v)))}
-          ${this.select("File", kFormats.map((f) => [f, f.toUpperCase()]), this.format, (v) => (this.format = v as typeof this.format))}
-          ${this.select("Quality", qualities.map(({ name }) => [name, name]), quality, (v) => (this.quality = v))}
-          ${this.select("Time", kTimes.map(([s, name]) => [String(s), name]), String(this.seconds), (v) => (this.seconds = Number(v)))}
+          ${this.select(
+            "Size",
+            this.sizes().map(([w, h], i) => [String(i), `${w} × ${h}`]),
+            String(this.size),
+            v => (this.size = Number(v)),
+          )}
+          ${this.select(
+            "File",
+            kFormats.map(f => [f, f.toUpperCase()]),
+            this.format,
+            v => (this.format = v as typeof this.format),
+          )}
+          ${this.select(
+            "Quality",
+            qualities.map(({ name }) => [name, name]),
+            quality,
+            v => (this.quality = v),
+          )}
+          ${this.select(
+            "Time",
+            kTimes.map(([s, name]) => [String(s), name]),
+            String(this.seconds),
+            v => (this.seconds = Number(v)),
+          )}
         </div>
         <p class="muted">${qualities.find(({ name }) => name === quality)?.about ?? ""}</p>
         <button class="main" ?disabled=${pictures.busy} @click=${this.start}>Render</button>
       </section>
-      <div aria-live="polite">${pictures.jobs.map((job) => this.job(job))}</div>
+      <div aria-live="polite">${pictures.jobs.map(job => this.job(job))}</div>
     `;
   }
 
@@ -96,7 +117,7 @@ export class RenderTab extends SessionElement {
   // The last one asked for; at first good, where there is one.
   private chosenQuality(): string {
     const names = this.session.model?.welcome.qualities.map(({ name }) => name) ?? [];
-    return names.find((name) => name === this.quality) ?? names.find((name) => name === "good") ?? names[0] ?? "";
+    return names.find(name => name === this.quality) ?? names.find(name => name === "good") ?? names[0] ?? "";
   }
 
   private choose(kind: Kind): void {
@@ -104,7 +125,12 @@ export class RenderTab extends SessionElement {
     this.size = 1;
   }
 
-  private select(label: string, options: readonly (readonly string[])[], chosen: string, choose: (value: string) => void) {
+  private select(
+    label: string,
+    options: readonly (readonly string[])[],
+    chosen: string,
+    choose: (value: string) => void,
+  ) {
     return html`<label class="field">
       <span>${label}</span>
       <select @change=${(event: Event) => choose((event.target as HTMLSelectElement).value)}>
@@ -142,8 +168,12 @@ export class RenderTab extends SessionElement {
     const { file } = job;
     return html`<section class="section" aria-label="A finished picture">
       ${job.state === "failed" ? html`<p class="bad">${job.message ?? "The picture could not be made."}</p>` : nothing}
-      ${job.state === "cancelled" ? html`<p class="muted">Cancelled${file ? ": this is the best picture so far." : "."}</p>` : nothing}
-      ${file ? this.file(this.session.pictures.addresses.get(job.job), file.name, `${bytes(file.bytes)}${error}`) : nothing}
+      ${job.state === "cancelled"
+        ? html`<p class="muted">Cancelled${file ? ": this is the best picture so far." : "."}</p>`
+        : nothing}
+      ${file
+        ? this.file(this.session.pictures.addresses.get(job.job), file.name, `${bytes(file.bytes)}${error}`)
+        : nothing}
     </section>`;
   }
 
@@ -151,7 +181,9 @@ export class RenderTab extends SessionElement {
     if (address === undefined) return html`<p class="muted">${name} is on its way.</p>`;
     return html`
       ${name.endsWith(".exr") ? nothing : html`<img src=${address} alt=${`The rendered picture ${name}`} />`}
-      <div class="row"><a class="grow" href=${address} download=${name}>Download ${name}</a><span class="muted number">${detail}</span></div>
+      <div class="row">
+        <a class="grow" href=${address} download=${name}>Download ${name}</a><span class="muted number">${detail}</span>
+      </div>
     `;
   }
 }

@@ -1,4 +1,5 @@
-// A slider with a field for the number. Tells of each change as "slide", with the name of the gesture that it belongs to.
+// A slider with a field for the number. Tells of each change as "slide", with the name of the gesture that it belongs
+// to.
 import { css, html, LitElement } from "lit";
 import { customElement, property } from "lit/decorators.js";
 import { roundTo } from "../numbers.js";

@@ -13,6 +13,8 @@ import "./meter.js";
 import { controls } from "./styles.js";
 
 const kDividerStep = 0.02; // of the width, by arrow keys
+const kLabel =
+  "The picture. W, A, S, D or arrows walk, drag to look around, click to select; question mark for all keys.";
 
 @customElement("rl-stage")
 export class Stage extends SessionElement {
@@ -173,7 +175,7 @@ export class Stage extends SessionElement {
         @pointerdown=${() => this.hands.classList.add("pointed")}
         @blur=${() => this.hands.classList.remove("pointed")}
         role="application"
-        aria-label="The picture. W, A, S, D or arrows walk, drag to look around, click to select; question mark for all keys."
+        aria-label=${kLabel}
       ></div>
       ${split
         ? html`${this.sideLabel("left")}${this.sideLabel("right")}
@@ -187,7 +189,8 @@ export class Stage extends SessionElement {
               aria-valuemax="100"
               aria-valuenow=${Math.round(dividerAt * 100)}
               .style=${`margin-left:${dividerAt * 100}%`}
-              @pointerdown=${(event: PointerEvent) => (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId)}
+              @pointerdown=${(event: PointerEvent) =>
+                (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId)}
               @pointermove=${this.dividerMoved}
               @keydown=${this.dividerKey}
             ></div>`
@@ -196,10 +199,15 @@ export class Stage extends SessionElement {
       <rl-meter .session=${this.session}></rl-meter>
       ${progress
         ? html`<div class="finding">
-            <progress max="1" .value=${progress.fraction} aria-label=${progress.stage}></progress><span>${progress.stage}</span>
+            <progress max="1" .value=${progress.fraction} aria-label=${progress.stage}></progress
+            ><span>${progress.stage}</span>
           </div>`
         : nothing}
-      ${this.shown ? nothing : html`<p class="empty">${this.session.link.state === "refused" ? this.session.link.reason : "The first picture is on its way."}</p>`}
+      ${this.shown
+        ? nothing
+        : html`<p class="empty">
+            ${this.session.link.state === "refused" ? this.session.link.reason : "The first picture is on its way."}
+          </p>`}
     `;
   }
 
@@ -219,9 +227,9 @@ export class Stage extends SessionElement {
     const { session } = this;
     this.picture = new Picture(
       this.pictureCanvas,
-      (frame) => session.acknowledge(frame),
-      (header) => this.frameDrawn(header),
-      (message) => session.trouble(message),
+      frame => session.acknowledge(frame),
+      header => this.frameDrawn(header),
+      message => session.trouble(message),
     );
     session.onFrame = (header, bytes) => void this.picture?.accept(header, bytes);
     session.onNewLine = () => this.picture?.forget();
@@ -244,7 +252,9 @@ export class Stage extends SessionElement {
 
   private sideLabel(which: "left" | "right") {
     const side = this.session.split?.[which];
-    return html`<span class="side ${which}">${side?.technique ?? this.session.technique} · ${side?.plan ?? "as it is now"}</span>`;
+    return html`<span class="side ${which}"
+      >${side?.technique ?? this.session.technique} · ${side?.plan ?? "as it is now"}</span
+    >`;
   }
 
   private resized(): void {

@@ -81,7 +81,9 @@ export class Status extends SessionElement {
     return html`
       <span class="link">
         <span role="status">${this.link()}</span>
-        ${link.state === "lost" ? html`Trying again in ${seconds} s.<button @click=${() => this.session.reconnect()}>Now</button>` : nothing}
+        ${link.state === "lost"
+          ? html`Trying again in ${seconds} s.<button @click=${() => this.session.reconnect()}>Now</button>`
+          : nothing}
       </span>
       <span class="picture number">${this.picture()}</span>
     `;
@@ -108,7 +110,8 @@ export class Status extends SessionElement {
     else if (progress || frame.lightBehind) parts.push("light is being found");
     else if (frame.refining) parts.push("refining");
     else parts.push(`${this.session.framesPerSecond()} frames/s`);
-    if (frame.relativeError !== null && !frame.quick) parts.push(`error ${(100 * frame.relativeError).toFixed(1)}\u202f%`);
+    if (frame.relativeError !== null && !frame.quick)
+      parts.push(`error ${(100 * frame.relativeError).toFixed(1)}\u202f%`);
     if (frame.ev100 !== null) parts.push(`EV ${frame.ev100.toFixed(1)}`);
     return parts.join(" · ");
   }

@@ -7,7 +7,12 @@ import "./slider.js";
 import type { Slide } from "./slider.js";
 import { controls } from "./styles.js";
 
-const kCurves: Readonly<Record<string, string>> = { neutral: "Neutral", agx: "AgX", filmic: "Filmic", clip: "None (clip)" };
+const kCurves: Readonly<Record<string, string>> = {
+  neutral: "Neutral",
+  agx: "AgX",
+  filmic: "Filmic",
+  clip: "None (clip)",
+};
 const kFalse: readonly (readonly [Display["falseColor"], string])[] = [
   ["off", "Picture"],
   ["illuminance", "Illuminance"],
@@ -28,7 +33,11 @@ export class ViewTab extends SessionElement {
         <div class="segments" role="radiogroup" aria-label="What is shown">
           ${kFalse.map(
             ([kind, name]) =>
-              html`<button role="radio" aria-checked=${display.falseColor === kind} @click=${() => this.set({ falseColor: kind, low: null, high: null })}>
+              html`<button
+                role="radio"
+                aria-checked=${display.falseColor === kind}
+                @click=${() => this.set({ falseColor: kind, low: null, high: null })}
+              >
                 ${name}
               </button>`,
           )}
@@ -49,7 +58,11 @@ export class ViewTab extends SessionElement {
           type="checkbox"
           .checked=${automatic}
           @change=${(event: Event) =>
-            this.set((event.target as HTMLInputElement).checked ? { low: null, high: null } : { low: rounded(low ?? 1), high: rounded(high ?? 1000) })}
+            this.set(
+              (event.target as HTMLInputElement).checked
+                ? { low: null, high: null }
+                : { low: rounded(low ?? 1), high: rounded(high ?? 1000) },
+            )}
         />
         Scale from the picture
       </label>
@@ -57,21 +70,25 @@ export class ViewTab extends SessionElement {
         ? nothing
         : html`<div class="two">
             ${(["low", "high"] as const).map(
-              (end) => html`<label class="field">
-                <span>${end === "low" ? "From" : "To"}, ${unit}</span>
-                <input
-                  class="number"
-                  type="number"
-                  min="0"
-                  step="any"
-                  .value=${String(display[end] ?? "")}
-                  @change=${(event: Event) => this.setEnd(display, end, event.target as HTMLInputElement)}
-                />
-              </label>`,
+              end =>
+                html`<label class="field">
+                  <span>${end === "low" ? "From" : "To"}, ${unit}</span>
+                  <input
+                    class="number"
+                    type="number"
+                    min="0"
+                    step="any"
+                    .value=${String(display[end] ?? "")}
+                    @change=${(event: Event) => this.setEnd(display, end, event.target as HTMLInputElement)}
+                  />
+                </label>`,
             )}
           </div>`}
       <p class="muted">
-        ${display.falseColor === "illuminance" ? "Light that falls on each surface." : "Light that comes from each place to the eye."} The scale is logarithmic.
+        ${display.falseColor === "illuminance"
+          ? "Light that falls on each surface."
+          : "Light that comes from each place to the eye."}
+        The scale is logarithmic.
       </p>
     `;
   }
@@ -123,7 +140,8 @@ export class ViewTab extends SessionElement {
           <span>Tone curve</span>
           <select @change=${(event: Event) => this.set({ curve: (event.target as HTMLSelectElement).value })}>
             ${this.session.model?.welcome.curves.map(
-              (curve) => html`<option value=${curve} ?selected=${curve === display.curve}>${kCurves[curve] ?? curve}</option>`,
+              curve =>
+                html`<option value=${curve} ?selected=${curve === display.curve}>${kCurves[curve] ?? curve}</option>`,
             )}
           </select>
         </label>
@@ -134,7 +152,8 @@ export class ViewTab extends SessionElement {
 
   private whiteBalance({ whiteBalance }: Display) {
     const kind = typeof whiteBalance === "number" ? "kelvin" : whiteBalance;
-    const choose = (value: string) => this.set({ whiteBalance: value === "kelvin" ? this.whiteNow() : (value as "auto" | "none") });
+    const choose = (value: string) =>
+      this.set({ whiteBalance: value === "kelvin" ? this.whiteNow() : (value as "auto" | "none") });
     return html`
       <label class="field">
         <span>White balance</span>

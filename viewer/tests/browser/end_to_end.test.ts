@@ -5,7 +5,19 @@ import { after, before, test } from "node:test";
 import type { Browser } from "playwright-core";
 import type { Session } from "../../src/session.js";
 import { kLampName, lineTo, noProgram, startProgram, type Program } from "./program.js";
-import { choose, frameWith, kPhone, launch, meanColor, noBrowser, stageBox, tab, until, visit, type Visit } from "./support.js";
+import {
+  choose,
+  frameWith,
+  kPhone,
+  launch,
+  meanColor,
+  noBrowser,
+  stageBox,
+  tab,
+  until,
+  visit,
+  type Visit,
+} from "./support.js";
 
 const skip = noBrowser() || noProgram();
 let browser: Browser;
@@ -33,13 +45,15 @@ async function upToDate(visited: Visit): Promise<void> {
   });
   await frameWith(
     visited,
-    ({ revision, camera, whole }) => whole === "true" && Number(revision) >= newest.revision && Number(camera) >= newest.camera,
+    ({ revision, camera, whole }) =>
+      whole === "true" && Number(revision) >= newest.revision && Number(camera) >= newest.camera,
     kSlowMs,
   );
 }
 
 // A picture for people.
-const clean = (visited: Visit): Promise<void> => frameWith(visited, ({ whole, samples }) => whole === "true" && Number(samples) >= 8, kSlowMs);
+const clean = (visited: Visit): Promise<void> =>
+  frameWith(visited, ({ whole, samples }) => whole === "true" && Number(samples) >= 8, kSlowMs);
 
 const position = (page: Visit["page"], axis: string) => page.getByRole("spinbutton", { name: `Position, m, ${axis}` });
 
@@ -116,7 +130,11 @@ test("a lamp that is moved changes the measured light, and undo brings it back",
   await clean(visited);
   await visited.shot("view_moved");
   await visited.page.getByRole("button", { name: "Undo" }).click();
-  await until("the number is back", async () => Number(await position(visited.page, "x").inputValue()) === start, kSlowMs);
+  await until(
+    "the number is back",
+    async () => Number(await position(visited.page, "x").inputValue()) === start,
+    kSlowMs,
+  );
   await upToDate(visited);
   const back = await luxAt(visited, ...place);
   assert.ok(Math.abs(back / before - 1) < 0.05, `${before} lx and then ${back} lx`);
@@ -169,7 +187,9 @@ test("a door opens into the room, and undo shuts it", { skip }, async () => {
   const door = () =>
     visited.page.evaluate(() => {
       const { session } = document.querySelector("rl-app") as unknown as { session: Session };
-      const thing = [...(session.model?.things.values() ?? [])].find(({ name, open }) => name === "Door" && open !== null);
+      const thing = [...(session.model?.things.values() ?? [])].find(
+        ({ name, open }) => name === "Door" && open !== null,
+      );
       if (!thing) throw new Error("no door of this home opens");
       return { open: thing.open, width: thing.high[0] - thing.low[0] };
     });
@@ -179,7 +199,8 @@ test("a door opens into the room, and undo shuts it", { skip }, async () => {
   const before = await meanColor(visited, 0.3, 0.3, 0.7, 0.7);
   await visited.page.getByRole("spinbutton", { name: "Open, %" }).fill("100");
   await visited.page.keyboard.press("Enter");
-  const changed = async () => Math.hypot(...(await meanColor(visited, 0.3, 0.3, 0.7, 0.7)).map((v, i) => v - before[i]!));
+  const changed = async () =>
+    Math.hypot(...(await meanColor(visited, 0.3, 0.3, 0.7, 0.7)).map((v, i) => v - before[i]!));
   await until("another picture", async () => (await changed()) > 2, kSlowMs);
   const wide = await door();
   assert.equal(wide.open, 1);
@@ -266,7 +287,10 @@ test("a wrong token is refused", { skip }, async () => {
   await visited.page.getByText("its token is not that of the running program").first().waitFor();
   assert.equal(await visited.stage.getAttribute("data-frame"), null);
   // The browser may complain of refused requests, and of nothing else.
-  assert.deepEqual(visited.complaints.filter((line) => !line.includes("403")), []);
+  assert.deepEqual(
+    visited.complaints.filter(line => !line.includes("403")),
+    [],
+  );
   visited.complaints.length = 0;
   await visited.end();
 });

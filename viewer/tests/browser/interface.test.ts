@@ -4,14 +4,26 @@ import { after, before, beforeEach, test } from "node:test";
 import type { Browser } from "playwright-core";
 import { Desk } from "../double/desk.js";
 import { startDouble, type Double } from "../double/server.js";
-import { choose, frameWith, kPhone, launch, meanColor, noBrowser, settled, stageBox, tab, until, visit } from "./support.js";
+import {
+  choose,
+  frameWith,
+  kPhone,
+  launch,
+  meanColor,
+  noBrowser,
+  settled,
+  stageBox,
+  tab,
+  until,
+  visit,
+} from "./support.js";
 
 const skip = noBrowser();
 let browser: Browser;
 let double: Double;
 
 const desk = (): Desk => double.desk;
-const lamp = (id: string) => desk().home.lamps.find((l) => l.id === id)!;
+const lamp = (id: string) => desk().home.lamps.find(l => l.id === id)!;
 
 if (!skip) {
   before(async () => {
@@ -115,11 +127,14 @@ test("a lamp is moved by its handle, and the picture follows", { skip }, async (
   await visited.page.mouse.move(x + width / 2 + 90, y + height / 2 + 1, { steps: 5 });
   await visited.shot("interface_move");
   await visited.page.mouse.up();
-  await until("the lamp has moved", () => Math.hypot(lamp("lamp:1").position[0] - 0.6, lamp("lamp:1").position[2] - 0.6) > 0.1);
+  await until(
+    "the lamp has moved",
+    () => Math.hypot(lamp("lamp:1").position[0] - 0.6, lamp("lamp:1").position[2] - 0.6) > 0.1,
+  );
   assert.ok(Math.abs(lamp("lamp:1").position[1] - 1.5) < 1e-6, "its height stays");
   assert.equal(desk().done.length, 1, "one pull is one step of undo");
   const revision = desk().revision;
-  await frameWith(visited, (data) => Number(data.revision) >= revision);
+  await frameWith(visited, data => Number(data.revision) >= revision);
   const after = await meanColor(visited, 0.3, 0.3, 0.7, 0.7);
   assert.ok(Math.hypot(...after.map((v, i) => v - before[i]!)) > 2, `${before} and ${after}`);
   await visited.page.getByRole("button", { name: "Undo" }).click();
@@ -214,7 +229,10 @@ test("exposure, tone curve and white balance are told to the server", { skip }, 
   await until("a brighter picture", async () => (await meanColor(visited, 0.3, 0.3, 0.7, 0.7))[0] > before[0] + 20);
   await visited.page.getByLabel("Tone curve").selectOption("agx");
   await visited.page.getByLabel("White balance").selectOption("kelvin");
-  await until("told", () => double.lastDisplay()?.curve === "agx" && typeof double.lastDisplay()?.whiteBalance === "number");
+  await until(
+    "told",
+    () => double.lastDisplay()?.curve === "agx" && typeof double.lastDisplay()?.whiteBalance === "number",
+  );
   await visited.end();
 });
 
@@ -233,7 +251,10 @@ test("a plan is kept, and compared with by a split view with a divider", { skip 
   await visited.page.getByLabel("Split view", { exact: true }).last().check();
   await visited.page.getByText("hybrid · Evening").waitFor();
   const brightness = async (left: number, right: number) => (await meanColor(visited, left, 0.3, right, 0.9))[0];
-  await until("the kept plan is brighter", async () => (await brightness(0.1, 0.45)) > (await brightness(0.55, 0.9)) + 8);
+  await until(
+    "the kept plan is brighter",
+    async () => (await brightness(0.1, 0.45)) > (await brightness(0.55, 0.9)) + 8,
+  );
   await visited.shot("interface_split");
   const divider = visited.page.getByRole("separator");
   await divider.focus();
@@ -292,7 +313,10 @@ test("a wrong token is refused, in words", { skip }, async () => {
   const visited = await visit(browser, double.link.replace(/#.*/, "#wrong"));
   await visited.page.getByText("its token is not that of the running program").first().waitFor();
   // Refused requests are all that the browser may complain of.
-  assert.ok(visited.complaints.length > 0 && visited.complaints.every((line) => /403/.test(line)), visited.complaints.join("\n"));
+  assert.ok(
+    visited.complaints.length > 0 && visited.complaints.every(line => /403/.test(line)),
+    visited.complaints.join("\n"),
+  );
   visited.complaints.length = 0;
   await visited.shot("interface_refused");
   await visited.end();
@@ -338,7 +362,17 @@ test("the page fits a phone, and fingers look, walk and select", { skip }, async
   await visited.page.getByRole("button", { name: "Fold the panel" }).click();
   await until("the picture grows", async () => (await stageBox(visited)).height > h + 200);
   const before = double.lastCamera()!;
-  await fingers(visited.page, [[x + 100, y + 200], [x + 200, y + 200]], [[x + 60, y + 200], [x + 240, y + 200]]);
+  await fingers(
+    visited.page,
+    [
+      [x + 100, y + 200],
+      [x + 200, y + 200],
+    ],
+    [
+      [x + 60, y + 200],
+      [x + 240, y + 200],
+    ],
+  );
   await until("spread fingers walk", () => double.lastCamera()!.position[0] !== before.position[0]);
   await settled(visited);
   await visited.shot("interface_phone_folded");
@@ -348,9 +382,11 @@ test("the page fits a phone, and fingers look, walk and select", { skip }, async
 // Puts fingers on the screen and moves them.
 async function fingers(page: import("playwright-core").Page, from: number[][], to: number[][]): Promise<void> {
   const session = await page.context().newCDPSession(page);
-  const points = (t: number) => from.map(([x, y], i) => ({ x: x! + t * (to[i]![0]! - x!), y: y! + t * (to[i]![1]! - y!), id: i }));
+  const points = (t: number) =>
+    from.map(([x, y], i) => ({ x: x! + t * (to[i]![0]! - x!), y: y! + t * (to[i]![1]! - y!), id: i }));
   await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: points(0) });
-  for (let step = 1; step <= 5; ++step) await session.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: points(step / 5) });
+  for (let step = 1; step <= 5; ++step)
+    await session.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: points(step / 5) });
   await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
 }
 
@@ -367,7 +403,8 @@ test("everything that can be worked has a name and can be reached by keys", { sk
           if (element.shadowRoot) walk(element.shadowRoot);
           if (!element.matches("button, input, select, a, [tabindex]") || element.closest("[hidden]")) continue;
           const labels = (element as HTMLInputElement).labels;
-          const said = element.getAttribute("aria-label") || element.textContent?.trim() || labels?.[0]?.textContent?.trim();
+          const said =
+            element.getAttribute("aria-label") || element.textContent?.trim() || labels?.[0]?.textContent?.trim();
           if (!said) found.push(element.outerHTML);
         }
       };

@@ -21,7 +21,8 @@ const kLighting = {
 };
 
 export function noProgram(): string | false {
-  if (!existsSync(kProgram)) return `${kProgram} is missing: run scripts/build, or name the program by ROOMLIGHT_PROGRAM`;
+  if (!existsSync(kProgram))
+    return `${kProgram} is missing: run scripts/build, or name the program by ROOMLIGHT_PROGRAM`;
   if (!existsSync(kHome)) return `${kHome} is missing: run scripts/make-samples`;
   return false;
 }
@@ -38,7 +39,18 @@ export function startProgram(port = 0): Promise<Program> {
   const lighting = join(folder, "evening.json");
   writeFileSync(lighting, JSON.stringify(kLighting));
   const page = resolve("dist");
-  const options = ["view", kHome, "--lighting", lighting, "--no-open", "--quiet", "--viewer", page, "--port", String(port)];
+  const options = [
+    "view",
+    kHome,
+    "--lighting",
+    lighting,
+    "--no-open",
+    "--quiet",
+    "--viewer",
+    page,
+    "--port",
+    String(port),
+  ];
   const child = spawn(kProgram, options, { stdio: ["ignore", "pipe", "pipe"] });
   return new Promise((done, failed) => {
     let said = "";
@@ -46,8 +58,8 @@ export function startProgram(port = 0): Promise<Program> {
       child.kill("SIGKILL");
       failed(new Error(`no link within ${kStartMs} ms: ${said}`));
     }, kStartMs);
-    child.stderr.on("data", (data) => (said += String(data)));
-    child.stdout.on("data", (data) => {
+    child.stderr.on("data", data => (said += String(data)));
+    child.stdout.on("data", data => {
       said += String(data);
       const link = /http:\/\/\S+/.exec(said)?.[0];
       if (!link) return;
@@ -55,7 +67,7 @@ export function startProgram(port = 0): Promise<Program> {
       done({ link, port: Number(new URL(link).port), end: () => ended(child, folder) });
     });
     child.on("error", failed);
-    child.on("exit", (code) => {
+    child.on("exit", code => {
       clearTimeout(timer);
       failed(new Error(`the program ended with ${code}: ${said}`));
     });
@@ -63,7 +75,7 @@ export function startProgram(port = 0): Promise<Program> {
 }
 
 function ended(child: ChildProcess, folder: string): Promise<number | null> {
-  return new Promise((done) => {
+  return new Promise(done => {
     const kill = setTimeout(() => child.kill("SIGKILL"), 20000);
     const gone = (code: number | null) => {
       clearTimeout(kill);
@@ -84,14 +96,16 @@ export interface Line {
 
 // A request as the program takes it: to its own address, of a page from there. What is no request stays as it is.
 function addressed(bytes: Buffer, host: string): Buffer {
-  return bytes.subarray(0, 4).equals(Buffer.from("GET ")) ? Buffer.from(bytes.toString("latin1").replaceAll(host, "127.0.0.1"), "latin1") : bytes;
+  return bytes.subarray(0, 4).equals(Buffer.from("GET "))
+    ? Buffer.from(bytes.toString("latin1").replaceAll(host, "127.0.0.1"), "latin1")
+    : bytes;
 }
 
 // The program by way of another address of this machine, where the connection can be cut.
 export async function lineTo(program: Program): Promise<Line> {
   const host = "127.0.0.2";
   const sockets = new Set<Socket>();
-  const server: Server = createServer((near) => {
+  const server: Server = createServer(near => {
     const far = connect(program.port, "127.0.0.1");
     for (const [a, b] of [
       [near, far],
@@ -108,7 +122,7 @@ export async function lineTo(program: Program): Promise<Line> {
     }
   });
   await new Promise<void>((listening, failed) => server.once("error", failed).listen(program.port, host, listening));
-  const drop = () => sockets.forEach((socket) => socket.destroy());
+  const drop = () => sockets.forEach(socket => socket.destroy());
   const link = program.link.replace("127.0.0.1", host);
   assert.notEqual(link, program.link);
   return {
@@ -116,7 +130,7 @@ export async function lineTo(program: Program): Promise<Line> {
     drop,
     close: () => {
       drop();
-      return new Promise((closed) => server.close(() => closed()));
+      return new Promise(closed => server.close(() => closed()));
     },
   };
 }

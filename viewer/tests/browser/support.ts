@@ -8,7 +8,9 @@ const kShots = process.env.ROOMLIGHT_SHOTS ?? "build/shots";
 
 // Why the tests that need a browser cannot run; false if they can.
 export function noBrowser(): string | false {
-  return existsSync(kBrowser) ? false : `${kBrowser} is missing: install Debian's chromium, or name one by ROOMLIGHT_CHROMIUM`;
+  return existsSync(kBrowser)
+    ? false
+    : `${kBrowser} is missing: install Debian's chromium, or name one by ROOMLIGHT_CHROMIUM`;
 }
 
 export const kDesktop: BrowserContextOptions = { viewport: { width: 1280, height: 720 }, reducedMotion: "reduce" };
@@ -38,11 +40,11 @@ export async function visit(browser: Browser, link: string, options: BrowserCont
   const page = await context.newPage();
   page.setDefaultTimeout(60000);
   const complaints: string[] = [];
-  page.on("console", (message) => {
+  page.on("console", message => {
     if (["error", "warning"].includes(message.type())) complaints.push(`${message.type()}: ${message.text()}`);
   });
-  page.on("pageerror", (error) => complaints.push(`script: ${error.message}`));
-  page.on("request", (request) => {
+  page.on("pageerror", error => complaints.push(`script: ${error.message}`));
+  page.on("request", request => {
     const { origin, protocol } = new URL(request.url());
     if (protocol !== "blob:" && origin !== new URL(link).origin) complaints.push(`request to ${origin}`);
   });
@@ -51,7 +53,7 @@ export async function visit(browser: Browser, link: string, options: BrowserCont
     page,
     stage: page.locator("rl-stage"),
     complaints,
-    shot: async (name) => void (await page.screenshot({ path: `${kShots}/${name}.png` })),
+    shot: async name => void (await page.screenshot({ path: `${kShots}/${name}.png` })),
     end: async () => {
       await context.close();
       assert.deepEqual(complaints, []);
@@ -60,10 +62,14 @@ export async function visit(browser: Browser, link: string, options: BrowserCont
 }
 
 // Waits until the page shows a frame that fits.
-export async function frameWith(visited: Visit, fits: (data: DOMStringMap) => boolean, timeoutMs = 60000): Promise<void> {
+export async function frameWith(
+  visited: Visit,
+  fits: (data: DOMStringMap) => boolean,
+  timeoutMs = 60000,
+): Promise<void> {
   const end = Date.now() + timeoutMs;
   for (;;) {
-    const data = await visited.stage.evaluate((stage) => ({ ...(stage as HTMLElement).dataset }));
+    const data = await visited.stage.evaluate(stage => ({ ...(stage as HTMLElement).dataset }));
     if (data.frame !== undefined && fits(data)) return;
     assert.ok(Date.now() < end, `no such frame within ${timeoutMs} ms; the last: ${JSON.stringify(data)}`);
     await visited.page.waitForTimeout(50);
@@ -73,7 +79,13 @@ export async function frameWith(visited: Visit, fits: (data: DOMStringMap) => bo
 export const settled = (visited: Visit): Promise<void> => frameWith(visited, ({ settled: done }) => done === "true");
 
 // Mean of the red, green and blue of a part of the picture, 0 to 255; places as fractions of it.
-export function meanColor(visited: Visit, left: number, top: number, right: number, bottom: number): Promise<[number, number, number]> {
+export function meanColor(
+  visited: Visit,
+  left: number,
+  top: number,
+  right: number,
+  bottom: number,
+): Promise<[number, number, number]> {
   return visited.page.locator("rl-stage #picture").evaluate(
     (canvas, [l, t, r, b]) => {
       const { width, height } = canvas as HTMLCanvasElement;
@@ -86,7 +98,7 @@ export function meanColor(visited: Visit, left: number, top: number, right: numb
       const { data } = copy.getImageData(0, 0, w, h);
       const sum = [0, 0, 0];
       for (let i = 0; i < data.length; i += 4) for (let c = 0; c < 3; ++c) sum[c]! += data[i + c]!;
-      return sum.map((s) => s / (w * h)) as [number, number, number];
+      return sum.map(s => s / (w * h)) as [number, number, number];
     },
     [left, top, right, bottom],
   );
@@ -112,6 +124,6 @@ export async function until(what: string, holds: () => boolean | Promise<boolean
   const end = Date.now() + timeoutMs;
   while (!(await holds())) {
     assert.ok(Date.now() < end, `not within ${timeoutMs} ms: ${what}`);
-    await new Promise((resolve) => setTimeout(resolve, 40));
+    await new Promise(resolve => setTimeout(resolve, 40));
   }
 }

@@ -21,7 +21,8 @@ export class Desk {
     if (!known && target !== "sun") return false;
     const last = this.done.at(-1);
     const name = `${by} ${gesture}`;
-    if (!gesture || last?.gesture !== name) this.done.push({ what: `change ${known?.name ?? "the sun"}`, gesture: name, before: this.home });
+    if (!gesture || last?.gesture !== name)
+      this.done.push({ what: `change ${known?.name ?? "the sun"}`, gesture: name, before: this.home });
     this.undone = [];
     this.replace(fromModel(edited(this.model(), target, fields)));
     return true;
@@ -88,10 +89,31 @@ export class Desk {
         { name: "good", about: "For most pictures." },
       ],
       curves: ["neutral", "agx", "filmic", "clip"],
-      display: { exposure: 4, compensation: 0, curve: "neutral", whiteBalance: "auto", falseColor: "off", low: null, high: null },
+      display: {
+        exposure: 4,
+        compensation: 0,
+        curve: "neutral",
+        whiteBalance: "auto",
+        falseColor: "off",
+        low: null,
+        high: null,
+      },
       split: null,
-      legend: Array.from({ length: 17 }, (_, i) => `#00${Math.round((255 * i) / 16).toString(16).padStart(2, "0")}00`),
-      limits: { frameWidth: 1920, frameHeight: 1080, renderWidth: 7680, renderHeight: 4320, messageBytes: 65536, messagesPerSecond: 240 },
+      legend: Array.from(
+        { length: 17 },
+        (_, i) =>
+          `#00${Math.round((255 * i) / 16)
+            .toString(16)
+            .padStart(2, "0")}00`,
+      ),
+      limits: {
+        frameWidth: 1920,
+        frameHeight: 1080,
+        renderWidth: 7680,
+        renderHeight: 4320,
+        messageBytes: 65536,
+        messagesPerSecond: 240,
+      },
       revision: this.revision,
       lamps: this.home.lamps,
       objects: this.home.objects,

@@ -1,4 +1,5 @@
-// The double's home: one room of boxes with three lamps, and the light in it by the inverse-square law. Enough to see a change, no more.
+// The double's home: one room of boxes with three lamps, and the light in it by the inverse-square law. Enough to see a
+// change, no more.
 import { blackBody } from "../../src/color.js";
 import { rayThrough, verticalFovRad, type Pose, type Ray, type Viewport } from "../../src/camera.js";
 import type { Lamp, Sun, Thing } from "../../src/protocol.js";
@@ -143,7 +144,14 @@ export function light(home: Home, { point, normal }: Hit): Vec3 {
 export const luminance = (c: Vec3): number => 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 
 // Shows a fixed exposure; false colours are shades of green.
-export function draw(home: Home, pose: Pose, width: number, height: number, falseColor: boolean, ev: number): Uint8Array {
+export function draw(
+  home: Home,
+  pose: Pose,
+  width: number,
+  height: number,
+  falseColor: boolean,
+  ev: number,
+): Uint8Array {
   const rgb = new Uint8Array(3 * width * height);
   for (let y = 0; y < height; ++y) {
     for (let x = 0; x < width; ++x) {
@@ -167,4 +175,3 @@ export function poseOf(camera: { position: Vec3; direction: Vec3; verticalFov: n
   const widened = Math.tan(verticalFovRad(pose, viewport) / 2) / Math.tan(pose.fovRad / 2);
   return { ...pose, fovRad: 2 * Math.atan(tangent / widened) };
 }
-

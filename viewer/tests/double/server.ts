@@ -1,5 +1,5 @@
-// A double of `roomlight view` for tests of the page: speaks docs/formats/view.md about a home of boxes. Its frames are PNG, which browsers
-// tell from JPEG by themselves.
+// A double of `roomlight view` for tests of the page: speaks docs/formats/view.md about a home of boxes. Its frames are
+// PNG, which browsers tell from JPEG by themselves.
 import { randomBytes } from "node:crypto";
 import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
@@ -18,7 +18,8 @@ const kTypes: Readonly<Record<string, string>> = {
   ".svg": "image/svg+xml",
 };
 export const kPolicy =
-  "default-src 'self'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+  "default-src 'self'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'; " +
+  "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 export interface Double {
   readonly link: string;
@@ -40,7 +41,10 @@ async function page(folder: string, path: string, response: ServerResponse): Pro
   }
   try {
     const data = await readFile(join(folder, name));
-    response.writeHead(200, { "content-type": kTypes[extname(name)] ?? "application/octet-stream", "content-security-policy": kPolicy });
+    response.writeHead(200, {
+      "content-type": kTypes[extname(name)] ?? "application/octet-stream",
+      "content-security-policy": kPolicy,
+    });
     response.end(data);
   } catch {
     response.writeHead(404).end();
@@ -52,13 +56,15 @@ export async function startDouble(folder: string, port = 0, token = randomBytes(
   const windows = new Set<Window>();
   const given = new Set<string>(); // files are given away once
   const sockets = new Set<Socket>();
-  const allowed = (request: IncomingMessage) => new URL(request.url ?? "/", "http://here").searchParams.get("token") === token;
+  const allowed = (request: IncomingMessage) =>
+    new URL(request.url ?? "/", "http://here").searchParams.get("token") === token;
   const server: Server = createServer((request, response) => {
     const { pathname } = new URL(request.url ?? "/", "http://here");
     if (pathname === "/live") response.writeHead(allowed(request) ? 426 : 403).end();
     else if (pathname.startsWith("/files/")) {
       if (allowed(request) && given.has(pathname)) response.writeHead(404).end();
-      else if (allowed(request) && given.add(pathname)) response.writeHead(200, { "content-type": "image/png" }).end(encodePng(new Uint8Array(12).fill(160), 2, 2));
+      else if (allowed(request) && given.add(pathname))
+        response.writeHead(200, { "content-type": "image/png" }).end(encodePng(new Uint8Array(12).fill(160), 2, 2));
       else response.writeHead(403).end();
     } else void page(folder, pathname, response);
   });
@@ -68,8 +74,8 @@ export async function startDouble(folder: string, port = 0, token = randomBytes(
       socket.end("HTTP/1.1 403 Forbidden\r\nConnection: close\r\nContent-Length: 0\r\n\r\n");
       return;
     }
-    live.handleUpgrade(request, socket, head, (line) => {
-      const window = new Window(desk, line, (change) => windows.forEach((w) => w.tell(change)));
+    live.handleUpgrade(request, socket, head, line => {
+      const window = new Window(desk, line, change => windows.forEach(w => w.tell(change)));
       windows.add(window);
       line.on("close", () => {
         window.close();
@@ -77,26 +83,26 @@ export async function startDouble(folder: string, port = 0, token = randomBytes(
       });
     });
   });
-  server.on("connection", (socket) => {
+  server.on("connection", socket => {
     sockets.add(socket);
     socket.on("close", () => sockets.delete(socket));
   });
-  await new Promise<void>((resolve) => server.listen(port, "127.0.0.1", resolve));
+  await new Promise<void>(resolve => server.listen(port, "127.0.0.1", resolve));
   const bound = (server.address() as AddressInfo).port;
-  const dropAll = () => sockets.forEach((socket) => socket.destroy());
+  const dropAll = () => sockets.forEach(socket => socket.destroy());
   return {
     link: `http://127.0.0.1:${bound}/#${token}`,
     port: bound,
     token,
     desk,
     dropAll,
-    sendAll: (data) => windows.forEach((window) => window.sendRaw(data)),
+    sendAll: data => windows.forEach(window => window.sendRaw(data)),
     lastCamera: () => [...windows].at(-1)?.eye ?? null,
     lastDisplay: () => [...windows].at(-1)?.display ?? null,
     close: async () => {
       dropAll();
       live.close();
-      await new Promise<void>((resolve) => server.close(() => resolve()));
+      await new Promise<void>(resolve => server.close(() => resolve()));
     },
   };
 }

@@ -102,7 +102,12 @@ export class Window {
         return this.show();
       case "edit": {
         const { target, gesture, type: _type, id: _id, ...fields } = message;
-        const worked = this.desk.edit(target as string, fields as EditFields, (gesture as string | undefined) ?? "", this.name);
+        const worked = this.desk.edit(
+          target as string,
+          fields as EditFields,
+          (gesture as string | undefined) ?? "",
+          this.name,
+        );
         return this.changed(id, worked, "There is no such thing.");
       }
       case "undo":
@@ -148,7 +153,11 @@ export class Window {
 
   private pick(message: Incoming): void {
     const { point, normal, distanceM, object } = this.hit(message);
-    this.send({ type: "picked", id: message.id, hit: { point, normal, distanceM, object, lamp: null, material: null } });
+    this.send({
+      type: "picked",
+      id: message.id,
+      hit: { point, normal, distanceM, object, lamp: null, material: null },
+    });
   }
 
   private meter(message: Incoming): void {
@@ -186,8 +195,19 @@ export class Window {
   }
 
   private jobState(state: string, fraction: number): void {
-    const file = state === "done" ? { path: `/files/${this.name}${++files}`, name: "box_home.png", bytes: 81234 } : null;
-    this.send({ type: "job", job: "job:1", stage: "light", fraction, secondsLeft: 1, estimatedError: 0.02, state, file, message: null });
+    const file =
+      state === "done" ? { path: `/files/${this.name}${++files}`, name: "box_home.png", bytes: 81234 } : null;
+    this.send({
+      type: "job",
+      job: "job:1",
+      stage: "light",
+      fraction,
+      secondsLeft: 1,
+      estimatedError: 0.02,
+      state,
+      file,
+      message: null,
+    });
   }
 
   private show(): void {
@@ -215,7 +235,11 @@ export class Window {
     const ev = this.display.exposure === "auto" ? 4 : this.display.exposure;
     const plan = side === 1 ? this.split?.left.plan : side === 2 ? this.split?.right.plan : undefined;
     const home = this.desk.plans.get(plan ?? "") ?? this.desk.home;
-    const png = encodePng(draw(home, this.pose(), width, height, falseColor, ev - this.display.compensation), width, height);
+    const png = encodePng(
+      draw(home, this.pose(), width, height, falseColor, ev - this.display.compensation),
+      width,
+      height,
+    );
     const header = Buffer.alloc(64);
     header.set([1, 1, 64, 0]);
     header.writeUInt32LE(++this.frames, 4);

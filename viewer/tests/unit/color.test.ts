@@ -12,10 +12,10 @@ test("colours come back from what the browser shows", () => {
 
 test("lamps get bluer with their temperature; 6500 K is all but white", () => {
   const kelvins = [1800, 2700, 4000, 6500, 10000];
-  const blueness = kelvins.map((k) => blackBody(k)[2] / blackBody(k)[0]);
+  const blueness = kelvins.map(k => blackBody(k)[2] / blackBody(k)[0]);
   for (let i = 1; i < blueness.length; ++i) assert.ok(blueness[i]! > blueness[i - 1]!);
   const white = blackBody(6500);
-  white.forEach((channel) => assert.ok(channel > 0.93, String(white)));
+  white.forEach(channel => assert.ok(channel > 0.93, String(white)));
   // CIE tables: 2700 K at x 0.4599, y 0.4106, in linear Rec.709 with red 1.
   const [, green, blue] = blackBody(2700);
   near(green, 0.4234, 0.02);
@@ -24,15 +24,28 @@ test("lamps get bluer with their temperature; 6500 K is all but white", () => {
 
 test("a scale has ticks at 1, 2 and 5, in their places", () => {
   const ticks = scaleTicks(10, 1000);
-  assert.deepEqual(ticks.map(({ value }) => value), [10, 20, 50, 100, 200, 500, 1000]);
+  assert.deepEqual(
+    ticks.map(({ value }) => value),
+    [10, 20, 50, 100, 200, 500, 1000],
+  );
   near(ticks[3]!.at, 0.5);
-  assert.deepEqual(scaleTicks(1, 1e6).map(({ value }) => value), [1, 10, 100, 1000, 10000, 100000, 1000000]);
+  assert.deepEqual(
+    scaleTicks(1, 1e6).map(({ value }) => value),
+    [1, 10, 100, 1000, 10000, 100000, 1000000],
+  );
   assert.deepEqual(scaleTicks(0, 10), []);
   assert.deepEqual(scaleTicks(10, 10), []);
 });
 
 test("numbers are told to three digits", () => {
-  assert.deepEqual([0, 0.00123, 0.123456, 12.345, 212.4, 12345].map(threeDigits), ["0", "0.0012", "0.123", "12.3", "212", "12345"]);
+  assert.deepEqual([0, 0.00123, 0.123456, 12.345, 212.4, 12345].map(threeDigits), [
+    "0",
+    "0.0012",
+    "0.123",
+    "12.3",
+    "212",
+    "12345",
+  ]);
   assert.equal(clock(17.5), "17:30");
   assert.equal(clock(9.999), "10:00");
   assert.equal(duration(0.2), "1\u202fs");

@@ -49,11 +49,11 @@ let links: Link[] = [];
 let troubles: string[] = [];
 let status = 403;
 const listener: Listener = {
-  linked: (link) => void links.push(link),
+  linked: link => void links.push(link),
   welcome: () => {},
   message: () => {},
   frame: () => {},
-  trouble: (message) => void troubles.push(message),
+  trouble: message => void troubles.push(message),
 };
 
 function opened(): { connection: Connection; socket: Socket } {
@@ -109,7 +109,7 @@ test("a connection without a welcome is given up and tried again", async () => {
   status = 426;
   opened();
   clock.tick(15000);
-  await new Promise((resolve) => setImmediate(resolve));
+  await new Promise(resolve => setImmediate(resolve));
   assert.equal(links.at(-1)?.state, "lost");
   clock.tick(500);
   assert.equal(Socket.all.length, 2);
@@ -118,7 +118,7 @@ test("a connection without a welcome is given up and tried again", async () => {
 test("a wrong token is not tried again", async () => {
   status = 403;
   opened().socket.close();
-  await new Promise((resolve) => setImmediate(resolve));
+  await new Promise(resolve => setImmediate(resolve));
   assert.equal(links.at(-1)?.state, "refused");
   clock.tick(60000);
   assert.equal(Socket.all.length, 1);
@@ -128,12 +128,12 @@ test("answers go to who asked; errors reject", async () => {
   const { connection, socket } = greeted();
   const first = connection.request({ type: "save" });
   const second = connection.request({ type: "undo" });
-  const [save, undo] = socket.sent.map((text) => JSON.parse(text) as { id: number; type: string });
+  const [save, undo] = socket.sent.map(text => JSON.parse(text) as { id: number; type: string });
   assert.deepEqual([save!.type, undo!.type], ["save", "undo"]);
   socket.say({ type: "error", id: undo!.id, code: "notPossible", field: null, message: "There is nothing to undo." });
   socket.say({ type: "saved", id: save!.id, name: "a.json", text: "{}" });
   assert.equal((await first).type, "saved");
-  await assert.rejects(second, (error) => error instanceof Refused && error.message === "There is nothing to undo.");
+  await assert.rejects(second, error => error instanceof Refused && error.message === "There is nothing to undo.");
 });
 
 test("what waits for an answer is told when the line is lost", async () => {

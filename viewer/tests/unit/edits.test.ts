@@ -14,22 +14,28 @@ function queue() {
   const sent: Sent[] = [];
   const done: { edit: Edit; failure: unknown }[] = [];
   const edits = new EditQueue(
-    (edit) => new Promise((resolve, reject) => sent.push({ edit, succeed: () => resolve(null), fail: reject })),
+    edit => new Promise((resolve, reject) => sent.push({ edit, succeed: () => resolve(null), fail: reject })),
     (edit, failure) => done.push({ edit, failure }),
   );
   return { edits, sent, done };
 }
 
-const turn = () => new Promise((resolve) => setImmediate(resolve));
+const turn = () => new Promise(resolve => setImmediate(resolve));
 const dim = (value: number, gesture = "a"): Edit => ({ target: "lamp:0", gesture, fields: { dim: value } });
 
 test("one is under way at a time, and the newest values of a gesture win", async () => {
   const { edits, sent } = queue();
   for (const value of [0.1, 0.2, 0.3, 0.4]) edits.push(dim(value));
-  assert.deepEqual(sent.map(({ edit }) => edit.fields.dim), [0.1]);
+  assert.deepEqual(
+    sent.map(({ edit }) => edit.fields.dim),
+    [0.1],
+  );
   sent[0]!.succeed();
   await turn();
-  assert.deepEqual(sent.map(({ edit }) => edit.fields.dim), [0.1, 0.4]);
+  assert.deepEqual(
+    sent.map(({ edit }) => edit.fields.dim),
+    [0.1, 0.4],
+  );
 });
 
 test("two gestures stay two steps of undo, two materials two messages", async () => {

@@ -20,7 +20,7 @@ function frame(change: (view: DataView) => void = () => {}, bytes = 70): ArrayBu
 
 test("a header is read field by field", () => {
   const { header, picture } = decodeFrame(
-    frame((view) => {
+    frame(view => {
       view.setUint8(12, 2);
       view.setUint8(13, 1 + 8);
       view.setUint32(20, 9, true);
@@ -58,23 +58,23 @@ test("a header is read field by field", () => {
 });
 
 test("a longer header of a later server is passed over", () => {
-  const { picture } = decodeFrame(frame((view) => view.setUint16(2, 68, true)));
+  const { picture } = decodeFrame(frame(view => view.setUint16(2, 68, true)));
   assert.equal(picture.length, 2);
 });
 
 test("what is no frame is refused", () => {
   assert.throws(() => decodeFrame(frame(undefined, 64)), /too few/);
-  assert.throws(() => decodeFrame(frame((view) => view.setUint8(0, 2))), /unknown kind 2/);
-  assert.throws(() => decodeFrame(frame((view) => view.setUint8(1, 9))), /version 9/);
-  assert.throws(() => decodeFrame(frame((view) => view.setUint16(2, 12, true))), /header of 12 bytes/);
-  assert.throws(() => decodeFrame(frame((view) => view.setUint16(2, 70, true))), /header of 70 bytes/);
-  assert.throws(() => decodeFrame(frame((view) => view.setUint8(12, 3))), /side 3/);
-  assert.throws(() => decodeFrame(frame((view) => view.setUint16(8, 0, true))), /empty/);
+  assert.throws(() => decodeFrame(frame(view => view.setUint8(0, 2))), /unknown kind 2/);
+  assert.throws(() => decodeFrame(frame(view => view.setUint8(1, 9))), /version 9/);
+  assert.throws(() => decodeFrame(frame(view => view.setUint16(2, 12, true))), /header of 12 bytes/);
+  assert.throws(() => decodeFrame(frame(view => view.setUint16(2, 70, true))), /header of 70 bytes/);
+  assert.throws(() => decodeFrame(frame(view => view.setUint8(12, 3))), /side 3/);
+  assert.throws(() => decodeFrame(frame(view => view.setUint16(8, 0, true))), /empty/);
 });
 
 test("a scale without order is none", () => {
   const { header } = decodeFrame(
-    frame((view) => {
+    frame(view => {
       view.setFloat32(36, 10, true);
       view.setFloat32(40, 1, true);
     }),

@@ -5,8 +5,30 @@ import { overFloor, poseForRoom, poseForThing, roomAround } from "../../src/fram
 import { dot, kRadPerDegree, normalize, subtract } from "../../src/vector.js";
 import { near } from "./near.js";
 
-const square = { name: "Square", low: [0, 0, 0], high: [4, 2.6, 4], floor: [[0, 0], [4, 0], [4, 4], [0, 4]] } as const;
-const ell = { name: "L", low: [5, 0, 0], high: [11, 2.6, 6], floor: [[5, 0], [11, 0], [11, 2], [7, 2], [7, 6], [5, 6]] } as const;
+const square = {
+  name: "Square",
+  low: [0, 0, 0],
+  high: [4, 2.6, 4],
+  floor: [
+    [0, 0],
+    [4, 0],
+    [4, 4],
+    [0, 4],
+  ],
+} as const;
+const ell = {
+  name: "L",
+  low: [5, 0, 0],
+  high: [11, 2.6, 6],
+  floor: [
+    [5, 0],
+    [11, 0],
+    [11, 2],
+    [7, 2],
+    [7, 6],
+    [5, 6],
+  ],
+} as const;
 const rooms = [square, ell];
 const pose: Pose = { position: [1, 1.6, 1], yawRad: 0, pitchRad: 0, fovRad: 55 * kRadPerDegree };
 
@@ -23,7 +45,9 @@ test("a room is seen from inside it, its middle ahead", () => {
     const seen = poseForRoom(room, pose);
     assert.ok(overFloor(room.floor, seen.position[0], seen.position[2]), room.name);
     near(seen.position[1], 1.6);
-    const toMiddle = normalize(subtract([(room.low[0] + room.high[0]) / 2, seen.position[1], (room.low[2] + room.high[2]) / 2], seen.position));
+    const toMiddle = normalize(
+      subtract([(room.low[0] + room.high[0]) / 2, seen.position[1], (room.low[2] + room.high[2]) / 2], seen.position),
+    );
     assert.ok(dot(toMiddle, directionOf(seen.yawRad, 0)) > 0.99, room.name);
   }
 });

@@ -24,7 +24,10 @@ test("handles are as large near the eye as far from it", () => {
 test("an arrow that points at the eye is left out, and nothing is drawn behind it", () => {
   const level = { ...pose, yawRad: 0, pitchRad: 0 };
   const gizmo = gizmoAt(level, viewport, [0, 1.6, 0], false)!;
-  assert.deepEqual(gizmo.arrows.map(({ handle }) => handle), ["x", "y"]);
+  assert.deepEqual(
+    gizmo.arrows.map(({ handle }) => handle),
+    ["x", "y"],
+  );
   assert.equal(gizmo.ring.length, 0);
   assert.equal(gizmoAt(level, viewport, [0, 1.6, 5], true), null);
 });

@@ -3,13 +3,13 @@ import { test } from "node:test";
 import { LightMeter } from "../../src/light_meter.js";
 import type { FrameHeader } from "../../src/frame.js";
 
-const turn = () => new Promise((resolve) => setImmediate(resolve));
+const turn = () => new Promise(resolve => setImmediate(resolve));
 const frame = (camera: number, quick = false) => ({ camera, revision: 1, quick }) as FrameHeader;
 
 function meter() {
   const asked: { at: [number, number]; answer: (hit: null | undefined) => void }[] = [];
   const light = new LightMeter(
-    (x, y) => new Promise((resolve) => asked.push({ at: [x, y], answer: resolve })),
+    (x, y) => new Promise(resolve => asked.push({ at: [x, y], answer: resolve })),
     () => {},
   );
   light.turn(true);
@@ -19,10 +19,16 @@ function meter() {
 test("one question is under way, and the newest place is asked for next", async () => {
   const { light, asked } = meter();
   for (const x of [1, 2, 3]) light.hold(x, 0);
-  assert.deepEqual(asked.map(({ at }) => at[0]), [1]);
+  assert.deepEqual(
+    asked.map(({ at }) => at[0]),
+    [1],
+  );
   asked[0]!.answer(null);
   await turn();
-  assert.deepEqual(asked.map(({ at }) => at[0]), [1, 3]);
+  assert.deepEqual(
+    asked.map(({ at }) => at[0]),
+    [1, 3],
+  );
   assert.deepEqual(light.reading, { at: [1, 0], hit: null });
 });
 

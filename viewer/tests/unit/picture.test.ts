@@ -32,7 +32,8 @@ beforeEach(() => {
   acknowledged = [];
   broken = 0;
   Object.assign(globalThis, {
-    createImageBitmap: () => new Promise((done, fail) => decoding.push({ done, fail: () => fail(new Error("no picture")) })),
+    createImageBitmap: () =>
+      new Promise((done, fail) => decoding.push({ done, fail: () => fail(new Error("no picture")) })),
     requestAnimationFrame: (run: () => void) => frames.push(run),
   });
 });
@@ -40,7 +41,7 @@ beforeEach(() => {
 const picture = () =>
   new Picture(
     canvas,
-    (frame) => acknowledged.push(frame),
+    frame => acknowledged.push(frame),
     () => {},
     () => ++broken,
   );
@@ -56,8 +57,8 @@ const bitmap = (name: string): Bitmap => ({
 
 // Lets decoded frames arrive, then the browser draw.
 async function paint(): Promise<void> {
-  await new Promise((resolve) => setImmediate(resolve));
-  frames.splice(0).forEach((run) => run());
+  await new Promise(resolve => setImmediate(resolve));
+  frames.splice(0).forEach(run => run());
 }
 
 test("a frame that is decoded late is neither shown nor acknowledged after a newer one", async () => {

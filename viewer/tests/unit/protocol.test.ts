@@ -17,9 +17,18 @@ test("a welcome is read, with all that it holds", () => {
 test("what is wrong is named by its place", () => {
   const broken = (change: object) => () => decode({ ...welcome(), ...change });
   assert.throws(broken({ revision: "12" }), /revision: expected a whole number, got a string/);
-  assert.throws(broken({ lamps: [{ ...welcome().lamps[0], dim: null }] }), /lamps\[0\]\.dim: expected a number, got null/);
-  assert.throws(broken({ rooms: [{ name: "A", low: [0, 0], high: [1, 1, 1], floor: [] }] }), /rooms\[0\]\.low: expected three numbers/);
-  assert.throws(broken({ display: { ...welcome().display, falseColor: "red" } }), /display\.falseColor: expected one of off/);
+  assert.throws(
+    broken({ lamps: [{ ...welcome().lamps[0], dim: null }] }),
+    /lamps\[0\]\.dim: expected a number, got null/,
+  );
+  assert.throws(
+    broken({ rooms: [{ name: "A", low: [0, 0], high: [1, 1, 1], floor: [] }] }),
+    /rooms\[0\]\.low: expected three numbers/,
+  );
+  assert.throws(
+    broken({ display: { ...welcome().display, falseColor: "red" } }),
+    /display\.falseColor: expected one of off/,
+  );
 });
 
 test("messages of no known type, and what is no message, are refused", () => {
@@ -33,7 +42,16 @@ test("a state may leave out what did not change; null is another thing", () => {
   const state = decode({ type: "state", revision: 4, lamps: [], objects: [], undo: null, redo: "move Sofa", by: "a" });
   assert.ok(state.type === "state");
   assert.equal("sun" in state, false);
-  const none = decode({ type: "state", revision: 4, lamps: [], objects: [], sun: null, undo: null, redo: null, by: "a" });
+  const none = decode({
+    type: "state",
+    revision: 4,
+    lamps: [],
+    objects: [],
+    sun: null,
+    undo: null,
+    redo: null,
+    by: "a",
+  });
   assert.ok(none.type === "state" && none.sun === null);
 });
 
