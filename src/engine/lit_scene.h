@@ -2,11 +2,12 @@
 // also while things in it move and lamps are dimmed. What each keeps when something changes:
 //   path    nothing: its rays follow the scene, and every picture is traced anew
 //   hybrid  bricks of voxels, links, rays to lights and particles that what moved has nothing to do with
-//   (radiance/light_cache.h) cone    the same; its pyramid is built anew vxgi    as hybrid in every level's voxels, and
-//   openness of surfaces; its clipmap is filled anew, and stays where it is while the camera stays in one room lpv
-//   surfels and the sky's light on them; maps, injection and propagation are done anew, as in every frame of that
-//   method; its grids
-//           stay as vxgi's do
+//           (radiance/light_cache.h)
+//   cone    the same; its pyramid is built anew
+//   vxgi    as hybrid in every level's voxels, and openness of surfaces; its clipmap is filled anew, and stays where it
+//           is while the camera stays in one room
+//   lpv     surfels and the sky's light on them; maps, injection and propagation are done anew, as in every frame of
+//           that method; its grids stay as vxgi's do
 //   photon  nothing: photons are sent anew for every picture, to where its camera looks
 #pragma once
 

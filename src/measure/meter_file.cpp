@@ -1,9 +1,11 @@
 // Meter files, version 1 (docs/formats/meters.md):
 //   { "version": 1, "comment", "border": 0.5, "spacing": 0.25, "maintenanceFactor": 0.8, "groundReflectance": 0.2,
-//     "rooms": [ { "name", "use", "floor": [[x, z], ..], "elevation", "height", "workPlane", "surfaces": ["workPlane",
-//     "floor", "walls"], "watts", targets } ], "grids": [ { "name", "corner": [x,y,z], "u": [..], "v": [..], targets }
-//     ], "points": [ { "name", "position", "normal", "target" } ], "spots": [ { "name", "position", "direction" |
-//     "lookAt", "angle" } ], "glare": [ { "name", "position", "direction" | "lookAt", "ugr" } ] }
+//     "rooms": [ { "name", "use", "floor": [[x, z], ..], "elevation", "height", "workPlane",
+//                  "surfaces": ["workPlane", "floor", "walls"], "watts", targets } ],
+//     "grids": [ { "name", "corner": [x,y,z], "u": [..], "v": [..], targets } ],
+//     "points": [ { "name", "position", "normal", "target" } ],
+//     "spots": [ { "name", "position", "direction" | "lookAt", "angle" } ],
+//     "glare": [ { "name", "position", "direction" | "lookAt", "ugr" } ] }
 //   targets: "target": "150 lx", "uniformity": 0.6, "ugr": 19, "powerDensity": 6
 #include "measure/meter_file.h"
 

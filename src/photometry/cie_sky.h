@@ -1,7 +1,8 @@
 // Luminance of the sky by direction after ISO 15469:2004 / CIE S 011 (Spatial distribution of daylight: CIE standard
 // general sky), and what such a sky is worth in lux where nobody measured it.
-//   L / L_z = f(chi) phi(Z) / (f(Z_s) phi(0)),  phi(Z) = 1 + a exp(b / cos Z),  f(chi) = 1 + c (exp(d chi) - exp(d pi /
-//   2)) + e cos² chi
+//   L / L_z = f(chi) phi(Z) / (f(Z_s) phi(0))
+//   phi(Z) = 1 + a exp(b / cos Z)
+//   f(chi) = 1 + c (exp(d chi) - exp(d pi / 2)) + e cos² chi
 // Z: angle of the direction from the zenith, chi: from the sun, Z_s: of the sun from the zenith.
 #pragma once
 

@@ -1,8 +1,9 @@
 // Weather files of EnergyPlus (.epw): text, one record a line, fields parted by commas.
 //   8 header records: "LOCATION,city,region,country,source,WMO,latitude,longitude,hours from UTC,elevation" comes
-//   first, "DATA PERIODS,.." last then one an hour: year, month, day, hour 1..24, minute, flags, dry bulb, dew point
-//   (°C) .. field 15: direct normal, 16: diffuse horizontal (Wh/m²) .. field 18: direct normal, 19: diffuse horizontal
-//   illuminance (lx)
+//   first, "DATA PERIODS,.." last
+//   then one an hour: year, month, day, hour 1..24, minute, flags, dry bulb, dew point (°C) ..
+//   field 15: direct normal, 16: diffuse horizontal (Wh/m²) ..
+//   field 18: direct normal, 19: diffuse horizontal illuminance (lx)
 // Hour h holds what fell from h - 1 to h of local standard time. Years are those the records were taken from: they
 // differ from month to month. Missing: 9999 of irradiance, 999900 and more of illuminance, 99.9 of the dew point.
 // Source: EnergyPlus, Auxiliary Programs, "EnergyPlus Weather File (EPW) Data Dictionary".

@@ -1,7 +1,8 @@
 // { "version": 1, "comment", "againstPublished": false,
-//   "scenes": [ { "name", "scene": "flat.sh3d", "camera": "Kitchen" | 2, "lights": [ { "name", "lighting": "day.json" |
-//   "dimLamp": "150 lm" } ], "walk": "walk.json" } ], "techniques": [ { "name", "technique", "settings": { .. },
-//   "kind": "ours" | "rival" | "judge", "only": "pictures" | "walks" } ] }
+//   "scenes": [ { "name", "scene": "flat.sh3d", "camera": "Kitchen" | 2,
+//                 "lights": [ { "name", "lighting": "day.json" | "dimLamp": "150 lm" } ], "walk": "walk.json" } ],
+//   "techniques": [ { "name", "technique", "settings": { .. }, "kind": "ours" | "rival" | "judge",
+//                     "only": "pictures" | "walks" } ] }
 #include "study/study_plan.h"
 
 #include <fmt/format.h>
