@@ -18,6 +18,9 @@ constexpr int kFar = 5;  // passes after which a lone bright line leaves copies 
                          // looks; short passes after them take these away
 constexpr int kBack = 3;
 constexpr int kNoiseReach = 3;  // pixels
+// Of a pixel's light what its panes reflect, at least, where the surfaces seen in them tell what is filtered together:
+// half of what glass reflects.
+constexpr float kLeastShown = 0.02f;
 constexpr int kFarthestPool =
     32;  // pixels: powers of levels are pooled over their step and twice that, but over no more
 
@@ -67,7 +70,7 @@ void pack(std::span<const FilterPixel> pixels, const ReflectedPlace* reflected, 
   for (const FilterPixel& p : pixels) {
     store(at + FilterRows::kNormal * pitch, pitch, p.surface > 0 ? p.normal : Vec3());
     store(at + FilterRows::kPosition * pitch, pitch, p.position);
-    const bool shows = reflected && reflected->weight > 0 && length(reflected->normal) > 0;
+    const bool shows = reflected && reflected->weight > kLeastShown * p.weight && length(reflected->normal) > 0;
     store(at + FilterRows::kReflected * pitch, pitch,
           shows           ? normalize(reflected->normal)
           : p.surface > 0 ? p.normal

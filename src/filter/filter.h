@@ -34,6 +34,7 @@ struct FilterPixel {
 struct ReflectedPlace {  // sums of unit normals and places, and of what they weigh
   Vec3 normal, position;
   float weight = 0;
+  void scale(float by) { normal *= by, position *= by, weight *= by; }
   void add(const ReflectedPlace& other, float by) {
     normal += other.normal * by, position += other.position * by, weight += other.weight * by;
   }

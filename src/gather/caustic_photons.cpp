@@ -382,11 +382,6 @@ class CausticTracer {
 
 }  // namespace
 
-bool throwsLight(const Material& m) {
-  constexpr float kPolished = 0.2f;  // roughness
-  return isPolishedMetal(m) || m.glazing.panes > 0 || (m.transmission > 0 && m.roughness < kPolished);
-}
-
 std::vector<CausticPhoton> traceCausticPhotons(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen,
                                                size_t count, bool apart, uint64_t seed, uint64_t& rayCount) {
   CausticTracer tracer(rays, lights, seen, apart, seed);

@@ -17,14 +17,11 @@ struct CausticPhoton {
   int32_t lamp = -1, emitter = -1;  // whose it was; neither: a sun's
 };
 
-// Polished metal and smooth panes.
-bool throwsLight(const Material& m);
-
-// The light of suns, lamps and emissive meshes that such surfaces reflect, once or several times in a row, where it
-// then meets other surfaces: through panes and veils, on each of which it is kept too. Of the sky there is none. About
-// `count` photons arrive near the places `seen`; the flux of all is right in the mean everywhere. None where such
-// surfaces get no light. `apart`: that of each lamp and emissive mesh is wanted apart. The same for any number of
-// threads.
+// The light of suns, lamps and emissive meshes that surfaces which throw light reflect (throwsLight(),
+// scene/surface.h), once or several times in a row, where it then meets other surfaces: through panes and veils, on
+// each of which it is kept too. Of the sky there is none. About `count` photons arrive near the places `seen`; the flux
+// of all is right in the mean everywhere. None where such surfaces get no light. `apart`: that of each lamp and
+// emissive mesh is wanted apart. The same for any number of threads.
 std::vector<CausticPhoton> traceCausticPhotons(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen,
                                                size_t count, bool apart, uint64_t seed, uint64_t& rayCount);
 

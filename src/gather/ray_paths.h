@@ -53,7 +53,7 @@ struct GatherVertex {
   const GuideCones* cones = nullptr;  // that part of the rays which gather diffuse light follow
 
   // Whether what its glossy lobe reflects is seen as a picture.
-  bool picture() const { return first && clear && s.m.roughness < kMirrorRoughness; }
+  bool picture() const { return first && apart && clear && s.m.roughness < kMirrorRoughness; }
   // Density of such rays, where that of unguided ones is known.
   float guided(float pdf, Vec3 wi) const {
     return cones ? (1 - cones->share) * pdf + cones->share * cones->pdf(wi) : pdf;

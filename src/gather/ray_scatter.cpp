@@ -99,9 +99,10 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
   const Lobes sum{f.diffuse * light.radiance, f.specular * light.radiance};
   const float likeIt =
       light.emitter >= 0 ? static_cast<float>(emitterSamples(v.depth)) : 1;  // samples that share a kind of light
-  const float weight = w.layers ? 1
-                                : askingWeight(likeIt * luminance(sum.diffuse + sum.specular), v.estimate,
-                                               w);  // what gives the picture little may be all that a layer has
+  const float weight = w.layers || v.picture()
+                           ? 1
+                           : askingWeight(likeIt * luminance(sum.diffuse + sum.specular), v.estimate,
+                                          w);  // what gives the picture little may be all that a layer has
   if (weight > 0 && (!isBlack(sum.diffuse) || !isBlack(sum.specular)))
     w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light),
              {sum.diffuse * weight, sum.specular * weight}, origin, layersOnly, v.picture() && light.emitter >= 0);

@@ -58,7 +58,7 @@ RayShader::RayShader(const RayScene& rays, const Lights& lights, const Voxels& v
   if (lights.sunCount() == 1) {
     const LightSample sun = lights.sampleSun(0, {0.5f, 0.5f});
     sunDirection_ = sun.wi, sunColour_ = sun.radiance / luminance(sun.radiance);
-    sunGloss_ = SunGloss(rays, patches_, sunDirection_);
+    sunGloss_ = SunGloss(rays, voxels, patches_, sunDirection_);
   }
   double sum = 0, flux = 0, area = 0;
   for (size_t i = 0; i < voxels.slots.size(); ++i) {
@@ -98,6 +98,7 @@ void RayShader::shade(std::span<const Shading> work, std::span<const Shadow> sha
     const auto n = static_cast<size_t>(estimates(work[i]));
     sumUp(std::span(w.found).subspan(first, n), std::span(w.rare).subspan(first, n),
           std::span(w.mirrored).subspan(first, n), light[i]);
+    if (n > 1) light[i].reflected.scale(1 / static_cast<float>(n));
     first += n;
   }
   count.rays += w.rayCount;
@@ -311,9 +312,12 @@ void RayShader::addBackground(const GatherPath& path, GatherWork& w) const {
   if (w.arrivals) return w.arrive(path, {}, {}, -1, false);
   const LightLayers* layers = w.layers ? field_.layers.lights.get() : nullptr;
   w.add(path.estimate, path.factor, skyAlong(path), LightOrigin::ofLayer(layers ? layers->sky : -1), path.depth == 1);
-  if (const Vec3 suns = sunsAlong(path); !isBlack(suns))
-    w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), suns,
-          LightOrigin::ofLayer(layers ? layers->sun : -1), path.depth == 1);
+  const Vec3 suns = sunsAlong(path);
+  if (isBlack(suns)) return;
+  const LightOrigin origin = LightOrigin::ofLayer(layers ? layers->sun : -1);
+  const Lobes added = w.add(path.estimate, withoutCaustics(path.factor, path.causticsKnown && path.depth > 1), suns,
+                            origin, path.depth == 1);
+  if (path.picture && path.depth == 1) w.takeMirrored(path.estimate, added.specular, origin);
 }
 
 // What a path finds where its ray ends, and how it goes on from there.
@@ -549,7 +553,8 @@ void RayShader::addCached(const GatherPath& path, const Hit& hit, Vec3 even, flo
 
 RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p,
                                                 Vec3 n, float light) const {
-  if (!(path.pdf > 0) || patches_.empty() || slot < 0) return {};
+  // Of what is seen as a picture points give nothing.
+  if (path.clear || !(path.pdf > 0) || patches_.empty() || slot < 0) return {};
   const auto i = static_cast<size_t>(slot);
   const float distance = length(p - path.from);
   const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM;

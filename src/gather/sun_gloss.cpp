@@ -10,7 +10,8 @@ namespace roomlight {
 namespace {
 
 constexpr float kGrazing = 0.05f;  // cosine
-constexpr float kReachM = 0.3f;    // from a point back to its surface, at most
+constexpr float kFrom = 0.1f, kReach = 0.3f;  // voxels: over a point a ray starts, back to its surface
+constexpr float kSameFacing = 0.7f;           // cosine
 
 constexpr float kLeastAlbedo = 1e-3f;
 
@@ -18,7 +19,7 @@ float cosineOf(Vec3 n, Vec3 toSun) { return std::max(dot(n, toSun), kGrazing); }
 
 }  // namespace
 
-SunGloss::SunGloss(const RayScene& rays, const BrightPatches& patches, Vec3 toSun)
+SunGloss::SunGloss(const RayScene& rays, const Voxels& voxels, const BrightPatches& patches, Vec3 toSun)
     : surfaceOf_(patches.pointCount(), -1), toSun_(toSun) {
   // Points of one slot follow one another, and share what the first of them finds.
   std::vector<size_t> first;
@@ -31,14 +32,16 @@ SunGloss::SunGloss(const RayScene& rays, const BrightPatches& patches, Vec3 toSu
   surfaces_.resize(first.size());
   parallelFor(first.size(), 256, [&](size_t k) {
     const GlowPoint& g = patches.point(first[k]);
-    const Ray ray{g.p, -g.n, 0, kReachM};
+    const FaceSlot& slot = voxels.slots[static_cast<size_t>(g.slot)];
+    const Ray ray{g.p + g.n * (kFrom * voxels.voxelSizeM), -g.n, 0, kReach * voxels.voxelSizeM};
     const Hit hit = rays.intersect(ray);
-    if (!hit.valid()) return;
+    if (!hit.valid() || hit.instance != slot.instance) return;
+    const SurfacePoint s = surfaceAt(rays.scene(), hit, ray.direction);
+    if (dot(s.ng, g.n) < kSameFacing) return;
     Surface& out = surfaces_[k];
-    out.s = surfaceAt(rays.scene(), hit, ray.direction);
-    const Vec3 albedo = bihemisphericalAlbedo(out.s.m);
+    out.s = s;
     out.s.m.roughness = std::max(out.s.m.roughness, kSpread);
-    out.even = bihemisphericalAlbedo(out.s.m) / kPi, out.scale = Vec3(kPi) / max(albedo, Vec3(kLeastAlbedo)),
+    out.even = bihemisphericalAlbedo(out.s.m) / kPi, out.scale = Vec3(kPi) / max(slot.albedo, Vec3(kLeastAlbedo)),
     out.cosSun = cosineOf(g.n, toSun);
   });
 }
@@ -55,7 +58,7 @@ Vec3 SunGloss::at(size_t point, Vec3 wo) const {
   const int32_t of = surfaceOf_.empty() ? -1 : surfaceOf_[point];
   if (of < 0) return Vec3(1);
   const Surface& surface = surfaces_[static_cast<size_t>(of)];
-  if (!surface.s.material) return Vec3(1);
+  if (!surface.s.material || dot(wo, surface.s.ng) <= 0) return Vec3(1);
   return max(Vec3(0), Vec3(1) + (Bsdf(surface.s.m, surface.s.ns, surface.s.ng, wo).evaluate(toSun_) / surface.cosSun -
                                  surface.even) *
                                     surface.scale);

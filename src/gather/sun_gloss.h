@@ -14,7 +14,7 @@ class SunGloss {
  public:
   SunGloss() = default;
   // Materials of the points that the sun lights. `toSun`: unit.
-  SunGloss(const RayScene& rays, const BrightPatches& patches, Vec3 toSun);
+  SunGloss(const RayScene& rays, const Voxels& voxels, const BrightPatches& patches, Vec3 toSun);
   // What a sunlit surface reflects towards `wo`, of an illuminance of 1 lx on a plane with normal `n`, in cd/m²: with
   // gloss, less what it would without. `s.m.roughness` is at least kSpread.
   static Vec3 bend(const SurfacePoint& s, Vec3 n, Vec3 toSun, Vec3 wo);

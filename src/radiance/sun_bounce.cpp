@@ -38,17 +38,16 @@ bool fills(const FaceSlot& slot, float h) {
 std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels,
                                  const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux,
                                  uint64_t& rayCount) {
-  // Rays always go on from polished metal.
+  // Rays always go on from polished metal, and from panes where photons bring what these throw.
   const Scene& scene = rays.scene();
-  const auto isMetal = [&](size_t s) {
+  const auto isPolished = [&](size_t s) {
     const Instance& instance = scene.instances[voxels.slots[s].instance];
-    return isPolishedMetal(
-        scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)]);
+    return throwsLight(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)]);
   };
   // How many places of each slot are asked: few amid others that are lit all over, none where no sun is near.
   std::vector<uint8_t> places(voxels.slots.size());
   parallelFor(places.size(), 8192, [&](size_t s) {
-    if (!paths.isSheet(s) || !fills(voxels.slots[s], voxels.voxelSizeM) || isMetal(s)) return;
+    if (!paths.isSheet(s) || !fills(voxels.slots[s], voxels.voxelSizeM) || isPolished(s)) return;
     const float own = luminance(sunLux[s]);
     bool any = own > 0, even = own > 0;
     for (const uint32_t o : links.kin[s]) {
@@ -68,7 +67,7 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
       const FaceSlot& slot = voxels.slots[s];
       if (places[s] == 0) {
         // Among other things in its voxel rays do not always read the slot.
-        if (!paths.isSheet(s) || isBlack(sunLux[s]) || isMetal(s)) continue;
+        if (!paths.isSheet(s) || isBlack(sunLux[s]) || isPolished(s)) continue;
         const Vec3 radiance = slot.albedo * sunLux[s] / kPi,
                    flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
         for (uint32_t k = 0; k < SlotPaths::kPoints; ++k)

@@ -276,6 +276,11 @@ bool isPolishedMetal(const Material& m) {
   return m.metallic > 0.5f && m.roughness < kPolished;
 }
 
+bool throwsLight(const Material& m) {
+  constexpr float kPolished = 0.2f;  // roughness
+  return isPolishedMetal(m) || m.glazing.panes > 0 || (m.transmission > 0 && m.roughness < kPolished);
+}
+
 Vec3 straightTransmittance(const Material& material, const MaterialSample& m, float cosTheta) {
   Vec3 through{0, 0, 0};
   if (m.glazed) {

@@ -78,6 +78,9 @@ bool letsLightThrough(const Material& m);
 // Whether it reflects as a mirror does, so that its light keeps its direction.
 bool isPolishedMetal(const Material& m);
 
+// Polished metal and smooth panes.
+bool throwsLight(const Material& m);
+
 // Transmittance of a thin pane along a ray that meets it under |cos theta|: base colour times what Fresnel
 // reflection on both sides leaves, times `transmission` and what alpha leaves open; of a window what its glazing lets
 // through. Zero for an opaque surface.

@@ -572,7 +572,7 @@ TEST(Hybrid, panesShowBrightThingsAsSharpAsTheyAre) {
   RayGatherSettings settings;
   settings.width = settings.height = 96;
   const Image shown = lit.hybrid(camera, settings);
-  settings.filterPasses = 0, settings.samples = 16, settings.tolerance = 0;
+  settings.filterPasses = 0, settings.samples = 64, settings.tolerance = 0;
   const Image plain = lit.hybrid(camera, settings);
   // What is as bright as the card, and pixels beside that.
   const float bright = 2 * static_cast<float>(mean(plain));
@@ -596,7 +596,7 @@ TEST(Hybrid, panesShowBrightThingsAsSharpAsTheyAre) {
   ASSERT_GT(beside, 50);
   test::record("Wall seen in a pane by night beside a bright card, luminance, cd/m²", "6 pixels around", "hybrid",
                expected / beside, wall / beside);
-  EXPECT_NEAR(wall, expected, 0.1 * expected);
+  EXPECT_NEAR(wall, expected, 0.2 * expected);  // filtered by the pane alone, 70 % more
 }
 
 // The same picture whatever the number of threads.

@@ -44,7 +44,7 @@ struct SunlitFloor {
         voxels(voxelise(scene, {.voxelSizeM = 0.1f})),
         field(illuminate(rays, lights, voxels.voxels, still())),
         patches(rays, voxels.voxels, field.sunPoints, {}, 0, 1),
-        gloss(rays, patches, kToSun) {}
+        gloss(rays, voxels.voxels, patches, kToSun) {}
 };
 
 Material varnished(float roughness) {
