@@ -296,22 +296,20 @@ const Surfaces& RayScene::surfaces() const {
   return *state_->surfaces;
 }
 
+namespace {
+
+RTCRay rtcRay(const Ray& ray) {
+  const Vec3 o = ray.origin, d = ray.direction;
+  return {o.x, o.y, o.z, ray.tMin, d.x, d.y, d.z, 0, ray.tMax, 0xffffffffu, 0, 0};
+}
+
+}  // namespace
+
 Hit RayScene::intersect(const Ray& ray) const {
   Query query{};
   state_->begin(query);
   RTCRayHit r;
-  r.ray = {ray.origin.x,
-           ray.origin.y,
-           ray.origin.z,
-           ray.tMin,
-           ray.direction.x,
-           ray.direction.y,
-           ray.direction.z,
-           0,
-           ray.tMax,
-           0xffffffffu,
-           0,
-           0};
+  r.ray = rtcRay(ray);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->top, &query.base, &r);
@@ -324,18 +322,7 @@ Vec3 RayScene::transmittance(const Ray& ray) const {
   Query query{};
   state_->begin(query);
   query.left = &left;
-  RTCRay r{ray.origin.x,
-           ray.origin.y,
-           ray.origin.z,
-           ray.tMin,
-           ray.direction.x,
-           ray.direction.y,
-           ray.direction.z,
-           0,
-           ray.tMax,
-           0xffffffffu,
-           0,
-           0};
+  RTCRay r = rtcRay(ray);
   rtcOccluded1(state_->top, &query.base, &r);
   return r.tfar < 0 ? Vec3(0) : left;
 }

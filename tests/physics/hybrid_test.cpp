@@ -554,6 +554,29 @@ TEST(Hybrid, sunGlintsOfAFloorReachTheWall) {
   EXPECT_NEAR(measured, expected, 0.02 * expected);
 }
 
+// A sunlit wall in a black floor of satin lacquer: a faint picture, whose rays alone bring it.
+TEST(Hybrid, satinLacquerShowsASunlitWall) {
+  Scene scene;
+  const int white = test::addMaterial(scene, test::lambertian(0.6f));
+  test::addRoom(scene, {0, 0, 0}, {4, 2.4f, 4}, std::vector<int>(6, white));
+  scene.instances.erase(scene.instances.begin() + 1);  // the eastern wall
+  Material lacquer;
+  lacquer.metallic = 0, lacquer.roughness = 0.09f, lacquer.baseColor = Vec3(0.001f);
+  test::addRectangle(scene, {0, 0.02f, 0}, {0, 0, 4}, {4, 0, 0}, test::addMaterial(scene, lacquer));
+  test::addBox(scene, {3.5f, 0, 0}, {3.6f, 2.4f, 1.6f}, white),
+      test::addBox(scene, {3.5f, 0, 2}, {3.6f, 2.4f, 4}, white);
+  Sun sun;
+  sun.toLight = normalize(Vec3{1, 0.1f, 0.02f}), sun.illuminanceLux = Vec3(50'000), sun.halfAngleRad = 0.0046f;
+  scene.suns = {sun};
+  Camera camera = cameraAt({2.6f, 1.2f, 2}, {1.2f, 0.02f, 1.9f});
+  camera.yFovRad = 0.3f;
+  const Lit lit(std::move(scene), 0.08f);
+  const double expected = meanByPath(lit.rays, lit.lights, camera, 1024), measured = mean(lit.hybrid(camera));
+  test::record("Satin lacquer that shows a sunlit wall, mean luminance, cd/m²", "roughness 0.09", "hybrid", expected,
+               measured);
+  EXPECT_NEAR(measured, expected, 0.05 * expected);
+}
+
 // By night, in a pane: a card beside a bulb stands out from the wall behind it as it does without the filter.
 TEST(Hybrid, panesShowBrightThingsAsSharpAsTheyAre) {
   Scene scene;
