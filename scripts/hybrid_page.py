@@ -24,6 +24,9 @@ def asked(rows, records, benches):
             yield f"{way}: mse at most {limit}, {name}", f"{count} of {len(rows)}; largest {worst(rows, way, key)[0]:.5f}, {worst(rows, way, key)[1]}", count == len(rows)
     bright = sum(abs(r["good"]["meanLuminanceErrorPercent"]) <= 2 for r in rows)
     yield "good: mean luminance within 2 %", f"{bright} of {len(rows)}; largest {worst(rows, 'good', 'meanLuminanceErrorPercent')[0]:.1f} %, {worst(rows, 'good', 'meanLuminanceErrorPercent')[1]}", bright == len(rows)
+    for way, key, limit in (("good", "blotchesPercent", 1), ("good", "grainPercent", 1), ("draft", "blotchesPercent", 2)):
+        values = [r[way][key] for r in rows if r[way][key] is not None]
+        yield f"{way}: {key.removesuffix('Percent')} at most {limit} %", f"{sum(v <= limit for v in values)} of {len(values)}; median {median(values):.1f} %, largest {max(values):.1f} %", max(values) <= limit
     for filtered, limit in ((False, 1 / 100), (True, 1 / 10)):
         ratio = median(r["good"]["seconds"] / r["good"]["path"][filtered][0] for r in rows)
         yield f"good: time at most 1/{1 / limit:.0f} of path's {'with' if filtered else 'without'} filter for the same mse, median", f"1/{1 / ratio:.0f}" if ratio < 0.5 else f"{ratio:.1f} times", ratio <= limit
@@ -44,6 +47,14 @@ def asked(rows, records, benches):
     contact = [m for g, _, _, m in records if "cup" in g]
     if len(contact) == 2:
         yield "contact: error at most twice the whole picture's", f"{contact[1] / contact[0]:.2f}", contact[1] <= 2 * contact[0]
+
+
+def unevenness(rows):
+    yield "| scene, rig |" + "".join(f" {way}: blotches | grain |" for way in ("draft", "good", "best"))
+    yield "|---" * 7 + "|"
+    for r in rows:
+        cells = ["–" if r[way][key] is None else f"{r[way][key]:.1f} %" for way in ("draft", "good", "best") for key in ("blotchesPercent", "grainPercent")]
+        yield f"| {r['name'].replace('_', ' ')} | " + " | ".join(cells) + " |"
 
 
 def errors(rows):
@@ -113,6 +124,7 @@ def page(rows, records, benches, pictures, args):
              "## Asked", "", "| asked | measured | |", "|---|---|---|"]
     lines += [f"| {text} | {measured} | {verdict(met)} |" for text, measured, met in asked(rows, records, benches)]
     lines += ["", "## Errors", "", *errors(rows)]
+    lines += ["", "Blotches and grain as [blotches.md](blotches.md) defines them, beyond the noise of the references:", "", *unevenness(rows)]
     counts = ", ".join(map(str, args.samples))
     lines += ["", "## Time for the same error", "",
               f"Seconds after loading that `path` needs for the mse beyond noise of `draft` and of `good`, from its own runs with {counts} samples a pixel: without its",
