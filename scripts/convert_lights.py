@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Turns the lights.json beside test scenes into lighting files that roomlight reads (docs/formats/lighting.md).
+"""Turns the lights.json beside test scenes into lighting files that roomlight reads (docs/reference/lighting.md).
 
     scripts/convert_lights.py SCENES_DIR OUT_DIR
 

@@ -237,7 +237,7 @@ Registered addMeasure(CLI::App& program) {
   addSceneOptions(*app, *o, "SCENE");
   app->add_option(
       "--meters", o->meters,
-      "Meter file: rooms, grids, points, spot meters and eyes (docs/formats/meters.md); without it, every room");
+      "Meter file: rooms, grids, points, spot meters and eyes (docs/reference/meters.md); without it, every room");
   app->add_option("--point", o->points,
                   "Incident meter at x,y,z, or x,y,z,nx,ny,nz for a receptor that does not face up; may be repeated")
       ->expected(1)

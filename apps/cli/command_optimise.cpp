@@ -143,7 +143,7 @@ Registered addOptimise(CLI::App& program) {
   CLI::App* app = program.add_subcommand(
       "optimise", "Propose lighting: places, kinds, aims and dimming of lamps on the best trade-offs between goals");
   app->add_option("HOME", o->home, "Home or room: " + supportedFiles())->required();
-  app->add_option("STUDY", o->study, "Study file: goals, places, catalogue, limits (docs/formats/optimise.md)")
+  app->add_option("STUDY", o->study, "Study file: goals, places, catalogue, limits (docs/reference/optimise.md)")
       ->required();
   app->add_option(
          "-o,--output", o->folder,

@@ -480,7 +480,7 @@ Registered addRender(CLI::App& program) {
                   "(technique path), of every pixel (hybrid)");
   app->add_flag("--layers", o->layers,
                 "The light of every lamp, emissive mesh, sun and sky apart: .exr with a layer for each, which add up "
-                "to the picture (docs/formats/layers.md)");
+                "to the picture (docs/reference/layers.md)");
   app->add_option("--layer-groups", o->layerGroups,
                   "name: lamps of one name, or of one group in the lighting file, are one layer (the default); room: "
                   "those of one room are");

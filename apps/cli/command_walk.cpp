@@ -185,7 +185,7 @@ Registered addWalk(CLI::App& program) {
       "walk", "Walk through a home in which things move, and tell how many frames a second that makes");
   addSceneOptions(*app, *o, "SCENE");
   app->add_option("--walk", o->walk,
-                  "Walk file: the camera's way, what moves, which lamps are dimmed (docs/formats/walk.md)")
+                  "Walk file: the camera's way, what moves, which lamps are dimmed (docs/reference/walk.md)")
       ->required();
   app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
   app->add_option("--quality", o->quality, listed("How much is done, if nothing else says so:", qualities()));

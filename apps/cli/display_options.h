@@ -1,4 +1,4 @@
-// How pictures in cd/m² are shown, as options of commands say it (docs/conventions.md, exposure and display).
+// How pictures in cd/m² are shown, as options of commands say it (docs/reference/conventions.md, exposure and display).
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// Light layers on their way into a file (docs/formats/layers.md).
+// Light layers on their way into a file (docs/reference/layers.md).
 #pragma once
 
 #include "base/image_layers.h"

@@ -12,7 +12,7 @@ namespace roomlight::cli {
 void addSceneOptions(CLI::App& app, SceneOptions& o, const std::string& positional) {
   app.add_option(positional, o.scene, "Home or room: " + supportedFiles())->required();
   app.add_option("--lighting", o.lighting,
-                 "Lighting file: lamps, sun and sky with their units (docs/formats/lighting.md)");
+                 "Lighting file: lamps, sun and sky with their units (docs/reference/lighting.md)");
   app.add_option("--light", o.light, listed("Light of a scene that --lighting does not light:", home::lightWishes()))
       ->capture_default_str();
   app.add_option("--write-lighting", o.writeLighting,

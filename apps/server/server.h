@@ -1,4 +1,4 @@
-// HTTP and WebSockets for the page of `roomlight view` (docs/formats/view.md): who may connect, what is served, how
+// HTTP and WebSockets for the page of `roomlight view` (docs/reference/view-protocol.md): who may connect, what is served, how
 // fast anybody may talk. Knows nothing of homes.
 #pragma once
 

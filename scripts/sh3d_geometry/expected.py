@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Areas of rooms and volumes of walls of a Sweet Home 3D home, from Home.xml by the rules in docs/formats/sh3d.md and nothing of the importer.
+"""Areas of rooms and volumes of walls of a Sweet Home 3D home, from Home.xml by the rules in docs/reference/sh3d.md and nothing of the importer.
 
     scripts/sh3d_geometry/expected.py HOME.sh3d
 

@@ -10,7 +10,7 @@
 
 namespace roomlight {
 
-// The header's string attribute that tells what the layers are, as JSON (docs/formats/layers.md).
+// The header's string attribute that tells what the layers are, as JSON (docs/reference/layers.md).
 constexpr const char* kLayersKey = "roomlight:layers";
 
 struct PictureLayer {

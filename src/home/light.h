@@ -35,7 +35,7 @@ enum class Mood {
   Night,  // the same under a sky that is all but dark
 };
 
-// Light for a scene, as a lighting file has it (docs/formats/lighting.md).
+// Light for a scene, as a lighting file has it (docs/reference/lighting.md).
 struct AddedLight {
   nlohmann::ordered_json document;
   std::string summary;  // "daylight and 3 ceiling lamps"

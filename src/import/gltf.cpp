@@ -1,4 +1,4 @@
-// glTF 2.0, JSON and binary (Khronos specification 2.0.1): docs/formats/import.md says what is honoured.
+// glTF 2.0, JSON and binary (Khronos specification 2.0.1): docs/reference/import.md says what is honoured.
 #include "import/gltf_document.h"
 #include "import/gltf_materials.h"
 #include "import/gltf_meshes.h"

@@ -1,4 +1,4 @@
-// Sun and sky that belong together, from the `daylight` of a lighting file (docs/formats/lighting.md). What is wrong is
+// Sun and sky that belong together, from the `daylight` of a lighting file (docs/reference/lighting.md). What is wrong is
 // told to the place; see json_reader.h.
 #pragma once
 

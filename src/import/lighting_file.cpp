@@ -1,4 +1,4 @@
-// Lighting files, version 1 (docs/formats/lighting.md):
+// Lighting files, version 1 (docs/reference/lighting.md):
 //   { "scene": { "lamps": "keep"|"off", "suns": .., "sky": .., "emission": "keep"|"off"|factor },
 //     "lamps": [ { "type": "point"|"spot"|"area"|"photometric", "position": [x,y,z], "flux"|"intensity"|"luminance":
 //     "800 lm", .. } ], "sun": { "direction": [x,y,z], "illuminance": "75000 lx" } or { "latitude", "longitude", "time"

@@ -1,4 +1,4 @@
-// The lighting file: JSON with lamps, sun and sky in photometric units. Schema: docs/formats/lighting.md.
+// The lighting file: JSON with lamps, sun and sky in photometric units. Schema: docs/reference/lighting.md.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Windows of a lighting file (docs/formats/lighting.md). What is wrong is told to the place; see json_reader.h.
+// Windows of a lighting file (docs/reference/lighting.md). What is wrong is told to the place; see json_reader.h.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Lamps that a scene has itself, as a lighting file changes them (docs/formats/lighting.md, `own`). What is wrong is
+// Lamps that a scene has itself, as a lighting file changes them (docs/reference/lighting.md, `own`). What is wrong is
  // told to the place; see json_reader.h.
 #pragma once
 

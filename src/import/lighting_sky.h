@@ -1,4 +1,4 @@
-// Sun and sky of a lighting file (docs/formats/lighting.md). What is wrong is told to the place; see json_reader.h.
+// Sun and sky of a lighting file (docs/reference/lighting.md). What is wrong is told to the place; see json_reader.h.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Walk files, version 1 (docs/formats/walk.md):
+// Walk files, version 1 (docs/reference/walk.md):
 //   { "version": 1, "comment", "seconds": 6, "framesPerSecond": 10,
 //     "camera": [ { "time", "position": [x,y,z], "target": [x,y,z], "verticalFov": degrees }, .. ],
 //     "objects": [ { "name", "number", "about": [x,y,z], "keys": [ { "time", "move": [x,y,z], "turn": degrees }, .. ]

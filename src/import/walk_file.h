@@ -1,5 +1,5 @@
 // The walk file: JSON with a camera's way through a home and what moves or is dimmed meanwhile. Schema:
- // docs/formats/walk.md.
+ // docs/reference/walk.md.
 #pragma once
 
 #include <filesystem>

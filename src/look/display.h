@@ -1,4 +1,4 @@
-// How pictures in cd/m² are shown: exposure, white balance, tone curve (docs/conventions.md, exposure and display).
+// How pictures in cd/m² are shown: exposure, white balance, tone curve (docs/reference/conventions.md, exposure and display).
 #pragma once
 
 #include <optional>

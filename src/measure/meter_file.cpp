@@ -1,4 +1,4 @@
-// Meter files, version 1 (docs/formats/meters.md):
+// Meter files, version 1 (docs/reference/meters.md):
 //   { "version": 1, "comment", "border": 0.5, "spacing": 0.25, "maintenanceFactor": 0.8, "groundReflectance": 0.2,
 //     "rooms": [ { "name", "use", "floor": [[x, z], ..], "elevation", "height", "workPlane",
 //                  "surfaces": ["workPlane", "floor", "walls"], "watts", targets } ],

@@ -1,4 +1,4 @@
-// The meter file: JSON that says what to measure. Schema: docs/formats/meters.md.
+// The meter file: JSON that says what to measure. Schema: docs/reference/meters.md.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What the layers of a layered picture are: the header's JSON (docs/formats/layers.md) as plain data.
+// What the layers of a layered picture are: the header's JSON (docs/reference/layers.md) as plain data.
 #pragma once
 
 #include <optional>

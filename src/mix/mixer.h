@@ -9,7 +9,7 @@
 
 namespace roomlight {
 
-// How a mixed picture is shown (docs/conventions.md, exposure and display).
+// How a mixed picture is shown (docs/reference/conventions.md, exposure and display).
 struct Look {
   float ev100 = 0;
   Tone tone;

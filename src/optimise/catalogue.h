@@ -1,5 +1,5 @@
 // Luminaires that a design may choose from: their light, watts, price, and where they may go. Schema:
- // docs/formats/optimise.md.
+ // docs/reference/optimise.md.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// What a designer states: goals for rooms, what may change, what must hold. Schema: docs/formats/optimise.md.
+// What a designer states: goals for rooms, what may change, what must hold. Schema: docs/reference/optimise.md.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // How a luminaire's light leaves it: luminous intensity over directions, as measured by a goniophotometer and written
 // into IES LM-63 and EULUMDAT files. Directions are C, gamma (CIE 121): gamma from the nadir up, C about the vertical,
 // counter-clockwise seen from above. Own axes: x towards C0, y towards C90, z up, away from the nadir
-// (docs/formats/luminaires.md).
+// (docs/reference/luminaires.md).
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // What a study compares: scenes, each under several conditions of light, by several techniques. Study files, version 1:
-// docs/formats/study.md.
+// docs/reference/study.md.
 #pragma once
 
 #include <filesystem>
@@ -43,7 +43,7 @@ struct StudyPlan {
   std::vector<StudyTechnique> techniquesIn(const std::string& what) const;
 };
 
-// cone and hybrid, the three rivals with what the study's parameters leave open (docs/formats/study.md), and path.
+// cone and hybrid, the three rivals with what the study's parameters leave open (docs/reference/study.md), and path.
 std::vector<StudyTechnique> usualTechniques();
 
 // Paths in the file are relative to it. Errors: as of every file (json_reader.h), a file named in it that is not there,

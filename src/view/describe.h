@@ -1,4 +1,4 @@
-// The home and its state as messages to browsers have them (docs/formats/view.md).
+// The home and its state as messages to browsers have them (docs/reference/view-protocol.md).
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// A frame as it goes to the browser: a header of 64 bytes and a JPEG (docs/formats/view.md).
+// A frame as it goes to the browser: a header of 64 bytes and a JPEG (docs/reference/view-protocol.md).
 #pragma once
 
 #include <cstdint>

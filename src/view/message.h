@@ -1,4 +1,4 @@
-// What a browser says, read strictly (docs/formats/view.md): an unknown key, a wrong type or a value out of range is an
+// What a browser says, read strictly (docs/reference/view-protocol.md): an unknown key, a wrong type or a value out of range is an
 // error that names the key.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Messages between this page and `roomlight view`, as docs/formats/view.md states them. Whatever comes from the server
+// Messages between this page and `roomlight view`, as docs/reference/view-protocol.md states them. Whatever comes from the server
 // passes a check here.
 import * as c from "./schema.js";
 

@@ -1,4 +1,4 @@
-// A double of `roomlight view` for tests of the page: speaks docs/formats/view.md about a home of boxes. Its frames are
+// A double of `roomlight view` for tests of the page: speaks docs/reference/view-protocol.md about a home of boxes. Its frames are
 // PNG, which browsers tell from JPEG by themselves.
 import { randomBytes } from "node:crypto";
 import { readFile } from "node:fs/promises";
