@@ -1,5 +1,6 @@
 """The page that scripts/measure_hybrid writes."""
 import os
+import textwrap
 from statistics import median
 
 
@@ -109,32 +110,37 @@ def tests(records):
     yield "|---|---|---|"
     for place, by in leaks.items():
         yield f"| {place} | {100 * by['hybrid']:.4f} % | {100 * by['cone']:.4f} % |"
-    yield from ("", "Table on legs of 2 cm with a cup on it, mse beyond noise:", "", "| | hybrid |", "|---|---|")
+    yield from ("", "A table on legs of 2 cm with a cup on it, mse beyond noise:", "", "| | hybrid |", "|---|---|")
     for group, place, _, measured in records:
         if "cup" in group:
             yield f"| {place} | {measured:.6f} |"
 
 
 def page(rows, records, benches, pictures, args):
-    lines = ["# Technique hybrid, measured", "",
-             f"Made by `scripts/measure_hybrid` on {os.cpu_count()} cores: errors and the times beside them at {args.size}, times and memory of stages at {args.time_size}.",
-             "`mse` is against the mean of two references of `path`; `beyond noise` is mse without the noise that these still hold. `mean` is the",
-             f"error of the mean luminance. `best` goes on until it estimates an mse of 0.0002, for {args.best_seconds:g} s at most; `estimated` is what it says of itself, – where no time was left for paths.", "",
-             *([] if any(r["name"].startswith("home_") for r in rows) else ["The sample homes have a page of their own: [homes.md](homes.md).", ""]),
+    homes = any(r["name"].startswith("home_") for r in rows)
+    lines = [f"# Technique hybrid in {'the sample homes' if homes else 'the test rooms'}", "",
+             *textwrap.wrap(f"Error, time and memory of `hybrid` at each quality, beside `cone` and `path`, on {os.cpu_count()} cores. Made by `scripts/measure_hybrid`. "
+                            f"Errors and the seconds beside them are at {args.size}, times and memory of the stages at {args.time_size}."
+                            + ("" if homes else " The sample homes have their own page: [homes](homes.md)."), 120), "",
+             "- `mse` is against the mean of two references by `path`; `beyond noise` is the mse without the references' noise.",
+             "- `mean` is the error of the mean luminance.",
+             f"- `best` stops at an estimated mse of 0.0002 or after {args.best_seconds:g} s. `estimated` is its own estimate; – means that no",
+             "  time was left for paths.", "",
              "## Asked", "", "| asked | measured | |", "|---|---|---|"]
     lines += [f"| {text} | {measured} | {verdict(met)} |" for text, measured, met in asked(rows, records, benches)]
     lines += ["", "## Errors", "", *errors(rows)]
-    lines += ["", "Blotches and grain as [blotches.md](blotches.md) defines them, beyond the noise of the references:", "", *unevenness(rows)]
+    lines += ["", "[Blotches and grain](../reference/conventions.md#measures-of-error), without the noise of the references:", "", *unevenness(rows)]
     counts = ", ".join(map(str, args.samples))
     lines += ["", "## Time for the same error", "",
-              f"Seconds after loading that `path` needs for the mse beyond noise of `draft` and of `good`, from its own runs with {counts} samples a pixel: without its",
-              "filter as error = constant / samples, with it between the runs; ~ is beyond the longest run.", "", *ratios(rows)]
-    lines += ["", "## Times and memory", "", f"Seconds after loading; the quickest of {args.runs}. Cores busy: processor time over time, of {os.cpu_count()}.", "",
-              "What each core does while one picture is made (`scripts/trace_cores`):", "", "![processor time of every thread over time](../pictures/cores.svg)", "", *speeds(rows)]
+              *textwrap.wrap(f"Seconds after loading that `path` needs for the mse beyond noise of `draft` and of `good`. They come from its runs with {counts} "
+                             "samples a pixel: without its filter from error = constant / samples, with it by interpolation between the runs. ~ marks "
+                             "an extrapolation beyond the longest run.", 120), "", *ratios(rows)]
+    lines += ["", "## Times and memory", "", f"Seconds after loading; runs: {args.runs}, of which the quickest counts.", f"Cores busy: processor time over wall-clock time, of {os.cpu_count()} cores.", "",
+              "Processor time of every thread while one picture is made (`scripts/trace_cores`):", "", "![processor time of every thread over time](../pictures/cores.svg)", "", *speeds(rows)]
     if records:
-        lines += ["", "## Leaks and contact", "", "From `tests/physics/hybrid_test.cpp`: mean luminance of a sealed room beside a bright one, in per cent of the bright one's.", "", *tests(records)]
+        lines += ["", "## Leaks and contact", "", "Mean luminance of a sealed room beside a bright one, as a share of the bright room's (tests/physics/hybrid_test.cpp):", "", *tests(records)]
     if pictures:
-        lines += ["", "## Equal time", "", "From left to right: `hybrid` good, `path` and `path` with filter for as long, the reference."]
+        lines += ["", "## Equal time", "", "From left to right: `hybrid` good, `path` and filtered `path` in the same time, the reference."]
         for name in pictures:
             seconds = next(r["good"]["seconds"] for r in rows if r["name"] == name)
             lines += ["", f"{name.replace('_', ' ')}, {seconds:.1f} s:", "", f"![{name.replace('_', ' ')}](../pictures/equal_time_{name}.jpg)"]
