@@ -17,7 +17,7 @@ void gatherHome(benchmark::State& state, const Home& home) {
   settings.width = 480, settings.height = 270;
   double traced = 0, cones = 0;
   for (auto _ : state) {
-    const GatheredPicture result = gatherCones(rays, lights, v.voxels, field, home.camera, settings);
+    const GatheredPicture result = gatherCones({rays, lights}, v.voxels, field, home.camera, settings);
     traced += static_cast<double>(result.rays), cones += static_cast<double>(result.cones);
   }
   state.counters["MraysPerS"] = benchmark::Counter(traced / 1e6, benchmark::Counter::kIsRate);
@@ -57,12 +57,12 @@ void gatherByRays(benchmark::State& state, const Home& home) {
   withThreads(1, [&] {
     RayLog log;
     rays.record(&log);
-    gatherRays(rays, lights, voxels, field, home.camera, settings);
+    gatherRays({rays, lights}, voxels, field, home.camera, settings);
     rays.record(nullptr);
     double gatherS = 0, bareS = 0;
     for (auto _ : state) {
       const double start = cpuSeconds();
-      benchmark::DoNotOptimize(gatherRays(rays, lights, voxels, field, home.camera, settings).image.pixels.data());
+      benchmark::DoNotOptimize(gatherRays({rays, lights}, voxels, field, home.camera, settings).image.pixels.data());
       gatherS += cpuSeconds() - start;
       bareS += bareSeconds(rays, log);
     }

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "engine/quality.h"
-#include "engine/render.h"
+#include "engine/technique.h"
 #include "output_files.h"
 
 namespace roomlight::cli {
@@ -79,12 +79,8 @@ Status checkDistinct(const std::vector<std::string>& files) {
 }
 
 Status checkTechnique(const std::string& wanted) {
-  std::string names;
-  for (const auto& [name, explanation] : techniques()) {
-    if (name == wanted) return Ok{};
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  return Error{fmt::format("unknown technique '{}'; there are {}", wanted, names)};
+  const Result<const Technique*> found = techniqueNamed(wanted);
+  return found ? Status(Ok{}) : Error{found.error()};
 }
 
 std::string listed(std::string text, const std::vector<std::pair<std::string, std::string>>& choices) {

@@ -11,6 +11,7 @@
 #include "console.h"
 #include "engine/quality.h"
 #include "engine/version.h"
+#include "engine/technique.h"
 #include "interrupt.h"
 #include "measure/daylight.h"
 #include "measure/measure.h"
@@ -244,7 +245,7 @@ Registered addMeasure(CLI::App& program) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app->add_option("--eye", o->eye, "Where glare (UGR) is judged: x,y,z");
   app->add_option("--view", o->view, "Direction that eye looks along: x,y,z");
-  app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
+  app->add_option("--technique", o->technique, listed("How light is computed:", describedTechniques()));
   app->add_option("--quality", o->quality, listed("How much is done, if nothing else says so:", qualities()));
   app->add_option("--tolerance", o->tolerance, "Relative standard error at which a meter is read")
       ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "arguments.h"
+#include "base/held_folder.h"
 #include "base/parallel.h"
 #include "commands.h"
 #include "console.h"
@@ -125,9 +126,12 @@ int runOptimise(const OptimiseOptions& o) {
   interrupted();  // from here on Ctrl-C is ours
   const Result<optimise::RunWish> wish = wishOf(o);
   if (!wish) return failed(wish.error());
-  std::error_code code;
-  std::filesystem::create_directories(o.folder, code);
-  if (code) return failed(fmt::format("{}: cannot be made: {}", o.folder, code.message()));
+  // Held until all is written; where nothing was, the folder goes again.
+  const Result<HeldFolder> held = holdFolder(o.folder);
+  if (!held) return failed(held.error());
+  if (!held.value())
+    return failed(fmt::format("{}: is in use by another run of optimise; wait for it or name another", o.folder),
+                  kFailed);
   for (const char* out : optimise::Run::kFiles) {
     if (const Status s = checkWritable(wish.value().folder / out); !s) return failed(s.error());
   }

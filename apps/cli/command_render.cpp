@@ -13,6 +13,7 @@
 #include "drawing_colours.h"
 #include "engine/quality.h"
 #include "engine/render.h"
+#include "engine/technique.h"
 #include "engine/stages.h"
 #include "engine/version.h"
 #include "home/reach.h"
@@ -116,8 +117,9 @@ Result<RenderPlan> planRender(const RenderOptions& o) {
         o.kind)};
   }
   if (const Status status = checkTechnique(s.technique); !status) return Error{status.error()};
-  if (s.layers && s.technique != "hybrid" && s.technique != "path")
-    return Error{fmt::format("--layers: technique {} does not keep lamps apart; use hybrid or path", s.technique)};
+  if (s.layers && !findTechnique(s.technique)->layers)
+    return Error{fmt::format("--layers: technique {} does not keep lamps apart; use {}", s.technique,
+                             techniquesWith(&Technique::layers))};
   const Result<ViewWish> view = readViewWish(o.view, !o.cameras.empty());
   if (!view) return Error{view.error()};
   plan.view = view.value();
@@ -157,6 +159,21 @@ Metadata metadataOfPicture(const RenderOptions& o, const RenderPlan& plan, const
   return metadata;
 }
 
+// What all pictures of a call have in common.
+struct RenderTask {
+  const RenderOptions& options;
+  const RenderPlan& plan;
+  const Scene& scene;  // as opened, whole
+};
+
+// How a picture for displays is made of its light.
+struct Development {
+  const Display& display;
+  White white;
+  float ev100 = 0;
+  std::vector<bool> rooms;  // of plans: the pixels inside rooms; empty: every other picture
+};
+
 // A picture, and the files it goes into.
 struct Shot {
   Camera camera;
@@ -192,13 +209,13 @@ std::string panoramaXmp(int width, int height) {
       width, height);
 }
 
-Status writePicture(const std::string& out, const RenderPlan& plan, const Camera& camera, const Rendered& rendered,
-                    const White& white, float ev100, const std::vector<bool>& rooms, Metadata metadata) {
+Status writePicture(const std::string& out, const Camera& camera, const Rendered& rendered, const Development& how,
+                    Metadata metadata) {
   const std::string extension = lowerExtension(out);
   if (extension == ".exr") return writeExr(out, rendered.image, metadata);
   Image light = unmixed(rendered.image, rendered.sights);
-  if (!rooms.empty()) holdGrounds(light, rooms, ev100);
-  const Image display = displayed(light, plan.display, white, ev100);
+  if (!how.rooms.empty()) holdGrounds(light, how.rooms, how.ev100);
+  const Image display = displayed(light, how.display, how.white, how.ev100);
   const std::string xmp = camera.projection == Projection::Panorama ? panoramaXmp(display.width, display.height) : "";
   if (extension == ".jpg")
     return writeJpeg(out, drawn(display, rendered.sights, kSectionColour, kPaperColour), SIZE_MAX, xmp);
@@ -211,10 +228,11 @@ Status writePicture(const std::string& out, const RenderPlan& plan, const Camera
 }
 
 // Writes all outputs; returns the EV100 that they are exposed for.
-Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Shot& shot,
-                            Rendered& rendered) {
+Result<float> writePictures(const RenderTask& task, const Shot& shot, Rendered& rendered) {
+  const RenderOptions& o = task.options;
+  const RenderPlan& plan = task.plan;
   const Camera& camera = shot.camera;
-  const std::vector<bool> rooms = roomMask(scene, camera, rendered.image.width, rendered.image.height);
+  const std::vector<bool> rooms = roomMask(task.scene, camera, rendered.image.width, rendered.image.height);
   const float ev100 = ev100Of(plan.display, rooms.empty() ? rendered.image : pixelsWhere(rendered.image, rooms, true));
   const White white = whiteOf(plan.display, rendered.lightColour);
   const Metadata metadata = metadataOfPicture(o, plan, camera, rendered, ev100, white);
@@ -223,11 +241,12 @@ Result<float> writePictures(const RenderOptions& o, const RenderPlan& plan, cons
     return s ? Result<float>(ev100) : Error{s.error()};
   }
   std::optional<LayeredImage> layered;
-  if (plan.settings.layers) layered = layeredImage(scene, camera, rendered, metadata);
+  if (plan.settings.layers) layered = layeredImage(task.scene, camera, rendered, metadata);
+  const Development development{plan.display, white, ev100, rooms};
   for (const std::string& out : shot.outputs) {
     const Status s = layered && lowerExtension(out) == ".exr"
                          ? writeLayers(out, *layered)
-                         : writePicture(out, plan, camera, rendered, white, ev100, rooms, metadata);
+                         : writePicture(out, camera, rendered, development, metadata);
     if (!s) return Error{s.error()};
   }
   return ev100;
@@ -249,7 +268,7 @@ struct HomeInView {
 // Of large scenes the part whose light comes to the cameras. The reference sees everything, layers name every lamp, and
 // plans see all rooms.
 std::optional<Scene> partInReach(const HomeInView& home, const RenderPlan& plan) {
-  if (plan.settings.technique == "path" || plan.settings.layers) return std::nullopt;
+  if (findTechnique(plan.settings.technique)->role == TechniqueRole::Judge || plan.settings.layers) return std::nullopt;
   if (std::any_of(home.cameras.begin(), home.cameras.end(),
                   [](const Camera& c) { return c.projection == Projection::Orthographic || c.cutHeightM < kInfinity; }))
     return std::nullopt;
@@ -358,14 +377,14 @@ void tellSharedLight(const RenderOptions& o, const home::OpenedHome& opened, con
 }
 
 // Writes what was rendered and says so; returns the exit status.
-int keepPicture(const RenderOptions& o, const RenderPlan& plan, const Scene& scene, const Shot& shot,
-                Rendered& rendered, const Stopwatch& total, ProgressDisplay& display) {
+int keepPicture(const RenderTask& task, const Shot& shot, Rendered& rendered, const Stopwatch& total,
+                ProgressDisplay& display) {
   // The times inside a picture cannot hold the time it takes to write it; the statistics can.
   RenderStats writeStage;
   RenderProgress silent;
   Stages writing(silent, writeStage);
   const Result<float> written =
-      writing.run("write", [&](const Progress&) { return writePictures(o, plan, scene, shot, rendered); });
+      writing.run("write", [&](const Progress&) { return writePictures(task, shot, rendered); });
   if (!written) return failed(written.error(), kFailed);
   rendered.stats.stages.push_back(writeStage.stages.front());
   for (const auto& [name, value] : rendered.stats.numbers) {
@@ -373,7 +392,7 @@ int keepPicture(const RenderOptions& o, const RenderPlan& plan, const Scene& sce
       printWarnings({fmt::format("{} pixels are negative or not finite: a defect, please report it", value)});
   }
   if (!shot.stats.empty()) {
-    addView(scene, shot.camera, rendered.stats);
+    addView(task.scene, shot.camera, rendered.stats);
     if (const Status s = writeStats(shot.stats, rendered.stats, total.seconds() * 1e3); !s)
       return failed(s.error(), kFailed);
   }
@@ -382,7 +401,7 @@ int keepPicture(const RenderOptions& o, const RenderPlan& plan, const Scene& sce
     display.line(fmt::format("one pixel is {:.4g} m",
                              CameraRays(shot.camera, rendered.image.width, rendered.image.height).metresPerPixel()));
   for (const std::string& out : shot.outputs) {
-    const std::string exposed = o.kind == "picture" && lowerExtension(out) != ".exr"
+    const std::string exposed = task.options.kind == "picture" && lowerExtension(out) != ".exr"
                                     ? fmt::format(", exposed for EV100 {:.1f}", written.value())
                                     : "";
     display.line(
@@ -423,6 +442,7 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
                              scene.triangleCount(), shots.value().size() > 1 ? "s" : "", part->triangleCount()));
   Result<Renderer> renderer = Renderer::of(part ? *part : scene, plan.settings);
   if (!renderer) return failed(renderer.error());
+  const RenderTask task{o, plan, scene};
   for (const Shot& shot : shots.value()) {
     if (interrupted()) return noPicture();
     if (any) watch.emplace();
@@ -433,8 +453,7 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
       rendered.value().stats.stages.insert(rendered.value().stats.stages.begin(), loadStats.stages.begin(),
                                            loadStats.stages.end());
     any = true;
-    if (const int status = keepPicture(o, plan, scene, shot, rendered.value(), *watch, display); status != kOk)
-      return status;
+    if (const int status = keepPicture(task, shot, rendered.value(), *watch, display); status != kOk) return status;
   }
   return kOk;
 }
@@ -468,7 +487,7 @@ Registered addRender(CLI::App& program) {
   addViewOptions(*app, o->view);
   app->add_option("--size", o->size,
                   "Width and height in pixels, for example 960x540; views other than camera choose their own");
-  app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
+  app->add_option("--technique", o->technique, listed("How light is computed:", describedTechniques()));
   app->add_option("--quality", o->quality,
                   listed("How much is done for a picture, if nothing else says so:", qualities()));
   app->add_option("--samples", o->samples, "Samples per pixel; 0: the technique's default");

@@ -352,7 +352,8 @@ Registered addStudy(CLI::App& program) {
   const auto o = std::make_shared<StudyOptions>();
   CLI::App* app = program.add_subcommand(
       "study", "Compare techniques: error, time, frames a second and memory, on scenes in several lights");
-  app->add_option("PLAN", o->plan, "Study file: scenes, lights, walks, techniques (docs/reference/study.md)")->required();
+  app->add_option("PLAN", o->plan, "Study file: scenes, lights, walks, techniques (docs/reference/study.md)")
+      ->required();
   app->add_option(
          "-o,--output", o->folder,
          "Folder for study.html, .json, .csv, .md and all pictures; what it holds of the same is not measured again")

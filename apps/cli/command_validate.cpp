@@ -41,7 +41,7 @@ void printValidation(const Validation& v) {
   }
   for (const ValidationSummary& s : v.techniques) {
     fmt::print("{}: {} of {} places met ({:g} %{}; glare ratings {:g})", s.technique, s.passed, s.places,
-               s.allowedPercent, s.technique == "cone" ? " of the sum over a case" : "", kAllowedUgr);
+               s.allowedPercent, s.ofSum ? " of the sum over a case" : "", kAllowedUgr);
     fmt::print("{}\n",
                s.worstPlace.empty() ? "" : fmt::format("; largest error {:+.2f} %, {}", s.worstPercent, s.worstPlace));
   }

@@ -1,6 +1,12 @@
 // roomlight view: walk through a home in a browser.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
+#include <cstring>
 #include <memory>
 
 #include "arguments.h"
@@ -9,6 +15,7 @@
 #include "console.h"
 #include "engine/quality.h"
 #include "engine/stages.h"
+#include "engine/technique.h"
 #include "interrupt.h"
 #include "scene_options.h"
 #include "server/view_server.h"
@@ -21,7 +28,7 @@ struct ViewOptions : SceneOptions {
   std::string viewer, quality, address = "127.0.0.1";
   std::optional<std::string> technique;
   std::optional<int> threads;
-  int port = 0;
+  int port = 0, windows = 8;
   bool noOpen = false, quiet = false;
 };
 
@@ -48,7 +55,39 @@ std::filesystem::path viewerFolder() {
   return places[0].lexically_normal();
 }
 
+// While it lives, a reader that is gone is an error of the write, not the program's end without a word.
+class PipesMayBreak {
+ public:
+  PipesMayBreak() {
+    struct sigaction ignore = {};
+    ignore.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &ignore, &before_);
+  }
+  ~PipesMayBreak() { sigaction(SIGPIPE, &before_, nullptr); }
+  PipesMayBreak(const PipesMayBreak&) = delete;
+  PipesMayBreak& operator=(const PipesMayBreak&) = delete;
+
+ private:
+  struct sigaction before_ = {};
+};
+
+// Past stdio, which would try again at the end what could not be written. Error: nobody can read them.
+Status printLinks(const std::vector<std::string>& links) {
+  const PipesMayBreak whileWriting;
+  const std::string text = fmt::format("{}\n", fmt::join(links, "\n"));
+  for (size_t done = 0; done < text.size();) {
+    const ssize_t n = write(STDOUT_FILENO, text.data() + done, text.size() - done);
+    if (n < 0 && errno != EINTR)
+      return Error{fmt::format("nobody can read the page's link: standard output: {}", std::strerror(errno))};
+    done += n > 0 ? static_cast<size_t>(n) : 0;
+  }
+  return Ok{};
+}
+
 int runView(const ViewOptions& o) {
+  // Before the number is that of another file.
+  if (fcntl(STDOUT_FILENO, F_GETFD) < 0)
+    return failed("nobody can read the page's link: standard output is closed; leave it open", kFailed);
   const std::atomic<bool>& stop = interrupted();  // from here on Ctrl-C is ours
   const Result<RenderSettings> settings = readSettings(o);
   if (!settings) return failed(settings.error());
@@ -69,20 +108,23 @@ int runView(const ViewOptions& o) {
   server::Options options;
   options.address = o.address;
   options.port = static_cast<uint16_t>(o.port);
+  options.mostWindows = static_cast<size_t>(o.windows);
   std::optional<BrowserPage> shown;
+  Status told = Ok{};
   server::Served tell;
-  tell.listening = [&](const std::string& link) {
+  tell.listening = [&](const server::Links& links) {
     if (o.address != "127.0.0.1" && o.address != "::1")
       printWarnings({fmt::format(
           "--address {}: everybody who can reach it and has the link may look and change; nothing is encrypted",
           o.address)});
-    fmt::print("{}\n", link);
-    std::fflush(stdout);
-    if (!o.noOpen) shown.emplace(link);
+    told = printLinks(links.all);
+    if (told && !o.noOpen) shown.emplace(links.here);
+    return told;
   };
   tell.failed = [](const std::string& line) { printError(line); };
   const Status served =
       server::serveHome(std::move(home.value().home), settings.value(), options, std::move(page).value(), tell, stop);
+  if (!told) return failed(told.error(), kFailed);
   return served ? kOk : failed(served.error());
 }
 
@@ -92,13 +134,18 @@ Registered addView(CLI::App& program) {
   const auto o = std::make_shared<ViewOptions>();
   CLI::App* app = program.add_subcommand("view", "Walk through a home in a browser, move things, dim lamps, read lux");
   addSceneOptions(*app, *o, "HOME");
-  app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
+  app->add_option("--technique", o->technique, listed("How light is computed:", describedTechniques()));
   app->add_option("--quality", o->quality, listed("How fine the light is kept:", qualities()));
   app->add_option("--port", o->port, "Port to listen on; 0: any that is free")
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));
-  app->add_option("--address", o->address, "Address to listen on; anything but this machine's own lets others in")
+  app->add_option("--address", o->address,
+                  "Address to listen on; anything but this machine's own lets others in; 0.0.0.0: all it has, with a "
+                  "link for each")
       ->capture_default_str();
+  app->add_option("--windows", o->windows, "Windows that may be open at once")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
   app->add_option("--viewer", o->viewer, "Folder of the built page");
   app->add_flag("--no-open", o->noOpen, "Print the link only, open no browser");
   app->add_option("--threads", o->threads, "Threads; 0: all cores");

@@ -13,6 +13,7 @@
 #include "engine/live_walk.h"
 #include "engine/quality.h"
 #include "engine/stages.h"
+#include "engine/technique.h"
 #include "import/walk_file.h"
 #include "interrupt.h"
 #include "json_output.h"
@@ -187,7 +188,7 @@ Registered addWalk(CLI::App& program) {
   app->add_option("--walk", o->walk,
                   "Walk file: the camera's way, what moves, which lamps are dimmed (docs/reference/walk.md)")
       ->required();
-  app->add_option("--technique", o->technique, listed("How light is computed:", techniques()));
+  app->add_option("--technique", o->technique, listed("How light is computed:", describedTechniques()));
   app->add_option("--quality", o->quality, listed("How much is done, if nothing else says so:", qualities()));
   app->add_option("--size", o->size, "Width and height of a frame in pixels, by default 960x540");
   app->add_option("--samples", o->samples, "Samples per pixel of a frame, by default 1; 0: those of a picture");

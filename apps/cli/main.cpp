@@ -6,7 +6,9 @@
 
 #include "commands.h"
 #include "console.h"
+#include "base/resource_error.h"
 #include "engine/version.h"
+#include "memory_limit.h"
 #include "words.h"
 
 namespace {
@@ -30,6 +32,7 @@ int runProgram(int argc, char** argv) {
       roomlight::cli::addDevelop(program), roomlight::cli::addInfo(program)};
   // An empty word, as an unset variable of a shell leaves it, would pass for "not given".
   for (const roomlight::cli::Registered& command : commands) {
+    roomlight::cli::addMemoryLimit(*command.app);
     for (CLI::Option* option : command.app->get_options()) {
       if (option->get_items_expected_max() > 0)
         option->check([](const std::string& value) { return std::string(value.empty() ? "has an empty value" : ""); },
@@ -62,7 +65,11 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
     roomlight::cli::printError("standard output cannot be written");
   } catch (const std::bad_alloc&) {
-    roomlight::cli::printError("not enough memory");
+    roomlight::cli::printError(roomlight::cli::outOfMemoryWords());
+    return roomlight::cli::kNoRoom;
+  } catch (const roomlight::ResourceError& e) {
+    roomlight::cli::printError(e.what());
+    return roomlight::cli::kNoRoom;
   } catch (const std::exception& e) {
     roomlight::cli::printError(std::string("unexpected: ") + e.what());
   }

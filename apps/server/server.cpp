@@ -7,6 +7,7 @@
 #include <boost/asio/detached.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -19,6 +20,7 @@
 #include <map>
 
 #include "admission.h"
+#include "stranger.h"
 
 namespace roomlight::server {
 namespace {
@@ -32,8 +34,8 @@ using boost::system::error_code;
 using Request = http::request<http::empty_body>;
 
 constexpr uint32_t kMostHeaderBytes = 16 << 10;
-constexpr std::chrono::seconds kRequestTime{5}, kSilence{60}, kFileTime{600};
-constexpr std::chrono::milliseconds kLastLook{10};
+constexpr std::chrono::seconds kHandshakeTime{5}, kSilence{60}, kFileTime{600};
+constexpr std::chrono::milliseconds kLookAgain{50}, kLastLook{10};
 constexpr int kLastLooks = 50;
 constexpr size_t kMostWaiting = 4096, kMostWaitingBytes = 64 << 20;  // a browser that takes nothing more is let go
 
@@ -103,22 +105,26 @@ struct Server::State {
   const Options options;
   const StaticFiles page;
   const Handlers handlers;
+  Stranger::List strangers;  // outlive the context: who is served when that ends leaves them then
+  size_t files = 0;          // under way
   asio::io_context context{1};
   tcp::acceptor acceptor;
   bool loopbackOnly = true;
-  size_t connections = 0;
   Connection nextPeer = 1;
   std::map<Connection, std::shared_ptr<Peer>> peers;
 
   asio::awaitable<void> acceptAll();
   asio::awaitable<void> serve(tcp::socket socket);
-  asio::awaitable<bool> answer(beast::tcp_stream& stream, const Request& request);
+  asio::awaitable<bool> answer(beast::tcp_stream& stream, Stranger& stranger, const Request& request);
   asio::awaitable<bool> sendFile(beast::tcp_stream& stream, const Request& request, const Target& target,
                                  const std::string& host);
+  http::response<http::string_body> answerOf(const Request& request, const Target& target,
+                                             const std::string& host) const;
+  http::response<http::string_body> liveAnswer(const Request& request, const std::string& host) const;
   asio::awaitable<void> talk(tcp::socket socket, Request request);
   asio::awaitable<void> readAll(Connection number, std::shared_ptr<Peer> peer);
   asio::awaitable<void> writeAll(std::shared_ptr<Peer> peer);
-  asio::awaitable<void> endSoon();
+  asio::awaitable<void> endOnce(const std::atomic<bool>& stop);
   void enqueue(Connection to, std::string message, bool binary);
   std::string refusal(const Request& request, const Target& target) const;
 };
@@ -129,13 +135,12 @@ asio::awaitable<void> Server::State::acceptAll() {
     tcp::socket socket = co_await acceptor.async_accept(into(code));
     if (code == asio::error::operation_aborted) co_return;
     if (code) {  // too many open files: wait for some to close
+      if (code == asio::error::no_descriptors && !strangers.empty()) strangers.front()->close();
       asio::steady_timer pause(context, std::chrono::milliseconds(100));
       co_await pause.async_wait(into(code));
       continue;
     }
-    if (connections >= options.mostConnections) continue;  // closed at once
-    ++connections;
-    asio::co_spawn(context, serve(std::move(socket)), [this](const std::exception_ptr&) { --connections; });
+    asio::co_spawn(context, serve(std::move(socket)), asio::detached);
   }
 }
 
@@ -145,62 +150,55 @@ std::string Server::State::refusal(const Request& request, const Target& target)
   const bool live = target.path == "/live";
   if (!isOwnHost(host, acceptor.local_endpoint().port(), loopbackOnly)) return "wrong host";
   const bool hasOrigin = request.find(http::field::origin) != request.end();
-  if ((live || hasOrigin) && !isOwnOrigin(text(request[http::field::origin]), host)) return "wrong origin";
+  if ((websocket::is_upgrade(request) || hasOrigin) && !isOwnOrigin(text(request[http::field::origin]), host))
+    return "wrong origin";
   const bool secret = live || target.path.starts_with("/files/");
   if (secret && !sameSecret(queryValue(target.query, "token"), options.token))
     return "wrong token; use the link that roomlight view printed";
   return {};
 }
 
+// Whoever comes is served, so that who has the token can show it; who has shown it is safe from those who come later.
 asio::awaitable<void> Server::State::serve(tcp::socket socket) {
   beast::tcp_stream stream(std::move(socket));
+  Stranger stranger(strangers, stream);
+  while (strangers.size() > options.mostStrangers) strangers.front()->close();
   beast::flat_buffer buffer;
   error_code code;
   for (bool more = true; more;) {
     http::request_parser<http::empty_body> parser;
     parser.header_limit(kMostHeaderBytes);
-    stream.expires_after(kRequestTime);
+    stream.expires_after(options.strangersTime);
     co_await http::async_read_header(stream, buffer, parser, into(code));
     if (code) break;
+    stranger.speaks();
     const Target target = targetOf(parser.get());
     if (websocket::is_upgrade(parser.get()) && target.path == "/live" && refusal(parser.get(), target).empty() &&
         peers.size() < options.mostWindows) {
+      stranger.leave();
       stream.expires_never();
       co_await talk(stream.release_socket(), parser.release());
       co_return;
     }
     if (!parser.is_done()) break;  // a body: nothing here takes one
-    more = co_await answer(stream, parser.get());
+    more = co_await answer(stream, stranger, parser.get());
   }
   stream.socket().shutdown(tcp::socket::shutdown_send, code);
 }
 
 // Whether the connection goes on.
-asio::awaitable<bool> Server::State::answer(beast::tcp_stream& stream, const Request& request) {
+asio::awaitable<bool> Server::State::answer(beast::tcp_stream& stream, Stranger& stranger, const Request& request) {
   const Target target = targetOf(request);
   const std::string host = text(request[http::field::host]);
   http::response<http::string_body> response;
-  const auto file = page.find(target.path);
   if (const std::string refused = refusal(request, target); !refused.empty()) {
     response = textResponse(request, http::status::forbidden, refused,
                             fmt::format("127.0.0.1:{}", acceptor.local_endpoint().port()));
-  } else if (request.method() != http::verb::get && request.method() != http::verb::head) {
-    response = textResponse(request, http::status::method_not_allowed, "only GET", host);
-  } else if (target.path == "/live") {
-    const bool full = websocket::is_upgrade(request);
-    response = textResponse(request, full ? http::status::service_unavailable : http::status::upgrade_required,
-                            full ? "too many windows are open" : "this is for WebSockets", host);
-  } else if (target.path.starts_with("/files/")) {
+  } else if (target.path.starts_with("/files/") && request.method() == http::verb::get) {
+    stranger.leave();
     co_return co_await sendFile(stream, request, target, host);
-  } else if (file == page.end()) {
-    response = textResponse(request, http::status::not_found, "no such page", host);
   } else {
-    response = http::response<http::string_body>(http::status::ok, request.version());
-    response.set(http::field::content_type, file->second.type);
-    addSafety(response, host);
-    response.keep_alive(request.keep_alive());
-    response.body() = file->second.bytes;
-    response.prepare_payload();
+    response = answerOf(request, target, host);
   }
   if (request.method() == http::verb::head) response.body().clear();
   error_code code;
@@ -208,17 +206,48 @@ asio::awaitable<bool> Server::State::answer(beast::tcp_stream& stream, const Req
   co_return !code && response.keep_alive();
 }
 
+http::response<http::string_body> Server::State::answerOf(const Request& request, const Target& target,
+                                                          const std::string& host) const {
+  if (request.method() != http::verb::get && request.method() != http::verb::head)
+    return textResponse(request, http::status::method_not_allowed, "only GET", host);
+  if (target.path == "/live") return liveAnswer(request, host);
+  const auto file = page.find(target.path);
+  if (file == page.end()) return textResponse(request, http::status::not_found, "no such page", host);
+  http::response<http::string_body> response(http::status::ok, request.version());
+  response.set(http::field::content_type, file->second.type);
+  addSafety(response, host);
+  response.keep_alive(request.keep_alive());
+  response.body() = file->second.bytes;
+  response.prepare_payload();
+  return response;
+}
+
+// Why there is no window for who has the token. The page asks here without a WebSocket: browsers do not tell it why
+// that was refused.
+http::response<http::string_body> Server::State::liveAnswer(const Request& request, const std::string& host) const {
+  if (peers.size() < options.mostWindows)
+    return textResponse(request, http::status::upgrade_required, "this is for WebSockets", host);
+  return textResponse(request, http::status::service_unavailable,
+                      fmt::format("as many windows are open as there may be ({}); close one, or start roomlight view "
+                                  "with more (--windows)",
+                                  options.mostWindows),
+                      host);
+}
+
 asio::awaitable<bool> Server::State::sendFile(beast::tcp_stream& stream, const Request& request, const Target& target,
                                               const std::string& host) {
   const std::string id = target.path.substr(std::string_view("/files/").size());
-  const std::optional<HeldFile> file =
-      handlers.findFile && request.method() == http::verb::get ? handlers.findFile(id) : std::nullopt;
+  const bool full = files >= options.mostFiles;
+  const std::optional<HeldFile> file = handlers.findFile && !full ? handlers.findFile(id) : std::nullopt;
   error_code code;
   if (!file) {
-    auto response = textResponse(request, http::status::not_found, "no such file, or it was fetched already", host);
+    auto response =
+        full ? textResponse(request, http::status::service_unavailable, "too many files are being fetched", host)
+             : textResponse(request, http::status::not_found, "no such file, or it was fetched already", host);
     co_await http::async_write(stream, response, into(code));
     co_return false;
   }
+  const Place place(files);
   http::response<http::file_body> response(http::status::ok, request.version());
   response.body().open(file->path.c_str(), beast::file_mode::scan, code);
   if (!code) {
@@ -237,7 +266,7 @@ asio::awaitable<bool> Server::State::sendFile(beast::tcp_stream& stream, const R
 asio::awaitable<void> Server::State::talk(tcp::socket socket, Request request) {
   const auto peer = std::make_shared<Peer>(std::move(socket));
   auto& stream = peer->stream;
-  stream.set_option(websocket::stream_base::timeout{kRequestTime, kSilence, true});
+  stream.set_option(websocket::stream_base::timeout{kHandshakeTime, kSilence, true});
   stream.read_message_max(options.mostMessageBytes);
   stream.auto_fragment(false);
   const Connection number = nextPeer++;
@@ -306,10 +335,19 @@ asio::awaitable<void> Server::State::writeAll(std::shared_ptr<Peer> peer) {
   }
 }
 
-// Once all have closed; those that do not answer are not waited for.
-asio::awaitable<void> Server::State::endSoon() {
+// Waits for `stop`, then until all have closed; those that do not answer are not waited for.
+asio::awaitable<void> Server::State::endOnce(const std::atomic<bool>& stop) {
   asio::steady_timer pause(context);
   error_code code;
+  while (!stop) {
+    pause.expires_after(kLookAgain);
+    co_await pause.async_wait(into(code));
+  }
+  acceptor.close(code);
+  for (auto& [number, peer] : peers) {
+    peer->closing = websocket::close_reason(websocket::close_code::going_away, "roomlight has ended");
+    peer->wake.cancel();
+  }
   for (int i = 0; i < kLastLooks && !peers.empty(); ++i) {
     pause.expires_after(kLastLook);
     co_await pause.async_wait(into(code));
@@ -342,6 +380,8 @@ Result<std::unique_ptr<Server>> Server::listen(const Options& options, StaticFil
   const tcp::endpoint endpoint(address, options.port);
   state->acceptor.open(endpoint.protocol(), code);
   if (!code) state->acceptor.set_option(asio::socket_base::reuse_address(true), code);
+  if (!code && address.is_v6() && address.is_unspecified())  // all there are, also IPv4's
+    state->acceptor.set_option(asio::ip::v6_only(false), code);
   if (!code) state->acceptor.bind(endpoint, code);
   if (!code) state->acceptor.listen(asio::socket_base::max_listen_connections, code);
   if (code) return Error{fmt::format("{} port {}: {}", options.address, options.port, code.message())};
@@ -350,21 +390,10 @@ Result<std::unique_ptr<Server>> Server::listen(const Options& options, StaticFil
 
 uint16_t Server::port() const { return state_->acceptor.local_endpoint().port(); }
 
-void Server::run() {
+void Server::run(const std::atomic<bool>& stop) {
   asio::co_spawn(state_->context, state_->acceptAll(), asio::detached);
+  asio::co_spawn(state_->context, state_->endOnce(stop), asio::detached);
   state_->context.run();
-}
-
-void Server::stop() {
-  asio::post(state_->context, [this] {
-    error_code ignored;
-    state_->acceptor.close(ignored);
-    for (auto& [number, peer] : state_->peers) {
-      peer->closing = websocket::close_reason(websocket::close_code::going_away, "roomlight has ended");
-      peer->wake.cancel();
-    }
-    asio::co_spawn(state_->context, state_->endSoon(), asio::detached);
-  });
 }
 
 void Server::send(Connection to, std::string message, bool binary) {

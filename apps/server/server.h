@@ -1,8 +1,9 @@
-// HTTP and WebSockets for the page of `roomlight view` (docs/reference/view-protocol.md): who may connect, what is served, how
-// fast anybody may talk. Knows nothing of homes.
+// HTTP and WebSockets for the page of `roomlight view` (docs/reference/view-protocol.md): who may connect, what is
+// served, how fast anybody may talk. Knows nothing of homes.
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -21,7 +22,12 @@ struct Options {
   std::string address = "127.0.0.1";
   uint16_t port = 0;  // 0: any that is free
   std::string token;  // asked of WebSockets and of finished files
-  size_t mostWindows = 8, mostConnections = 64;
+  size_t mostWindows = 8;
+  size_t mostFiles = 32;  // that are fetched at once
+  // Connections that have not shown the token, as those that fetch the page; beyond it the one that was silent for
+  // longest is closed. And for how long each may be silent.
+  size_t mostStrangers = 32;
+  std::chrono::milliseconds strangersTime{5000};
   size_t mostMessageBytes = 64 << 10;
   double messagesPerSecond = 240, messagesAtOnce = 480;
 };
@@ -48,10 +54,9 @@ class Server {
   ~Server();
 
   uint16_t port() const;
-  // Until stop() is called; all connections are closed then.
-  void run();
-  // From any thread, also from a handler.
-  void stop();
+  // Until `stop` becomes true; all connections are closed then.
+  void run(const std::atomic<bool>& stop);
+  // From any thread.
   void send(Connection to, std::string message, bool binary);
 
  private:

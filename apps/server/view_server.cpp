@@ -1,28 +1,13 @@
 #include "view_server.h"
 
-#include <fmt/format.h>
-
-#include <thread>
+#include <optional>
+#include <system_error>
 
 #include "admission.h"
+#include "base/resource_error.h"
 #include "view/session.h"
 
 namespace roomlight::server {
-namespace {
-
-constexpr std::chrono::milliseconds kLookAgain{50};
-
-std::string linkTo(const Options& o, uint16_t port) {
-  const bool v6 = o.address.find(':') != std::string::npos;
-  const bool any = o.address == "0.0.0.0" || o.address == "::";
-  return fmt::format("http://{}:{}/#{}",
-                     any  ? "127.0.0.1"
-                     : v6 ? fmt::format("[{}]", o.address)
-                          : o.address,
-                     port, o.token);
-}
-
-}  // namespace
 
 Status serveHome(view::ViewHome home, const RenderSettings& settings, Options options, StaticFiles page,
                  const Served& tell, const std::atomic<bool>& stop) {
@@ -45,15 +30,16 @@ Status serveHome(view::ViewHome home, const RenderSettings& settings, Options op
   outbox.text = [&](Connection c, std::string text) { server.send(c, std::move(text), false); };
   outbox.frame = [&](Connection c, std::string bytes) { server.send(c, std::move(bytes), true); };
   outbox.failed = tell.failed;
-  view::Session running(std::move(home), settings, std::move(outbox));
-  session = &running;
-  tell.listening(linkTo(options, server.port()));
-  // Ends with this function, also where that throws.
-  const std::jthread watch([&](const std::stop_token& ended) {
-    while (!stop && !ended.stop_requested()) std::this_thread::sleep_for(kLookAgain);
-    server.stop();
-  });
-  server.run();
+  std::optional<view::Session> running;
+  try {
+    running.emplace(std::move(home), settings, std::move(outbox), tell.start);
+  } catch (const std::system_error& e) {
+    throw ResourceError(view::noThreadWords(e));
+  }
+  session = &*running;
+  if (const Status told = tell.listening(linksTo(options.address, server.port(), options.token)); !told)
+    return Error{told.error()};
+  server.run(stop);
   return Ok{};
 }
 

@@ -1,10 +1,10 @@
 #include "base/parallel.h"
 
-#include <pmmintrin.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "base/flush_to_zero.h"
 #include "base/give_way.h"
 
 namespace roomlight {
@@ -12,9 +12,7 @@ namespace roomlight {
 void parallelRanges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
   if (count == 0) return;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain ? grain : 1), [&](const tbb::blocked_range<size_t>& r) {
-    // Embree asks for flush-to-zero; set in every thread so that results never depend on which ran.
-    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+    const FlushToZero flushing;
     body(r.begin(), r.end());
   });
 }

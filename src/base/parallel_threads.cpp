@@ -1,7 +1,6 @@
 // parallel.h over plain threads, in place of parallel.cpp under the thread sanitizer: it cannot see how oneTBB, a
 // package built without it, hands work over, and would take every loop for a race. Here it sees all, and only threads'
 // start and end order it.
-#include <pmmintrin.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/flush_to_zero.h"
 #include "base/give_way.h"
 #include "base/parallel.h"
 
@@ -28,8 +28,7 @@ void parallelRanges(size_t count, size_t grain, const std::function<void(size_t,
   std::mutex failing;
   std::exception_ptr failure;  // the first one; goes on in the caller, as oneTBB has it
   const auto work = [&] {
-    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+    const FlushToZero flushing;
     const bool outer = std::exchange(gInLoop, true);
     try {
       for (size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < ranges;)

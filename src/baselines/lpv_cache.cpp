@@ -64,7 +64,7 @@ LpvCache::LpvCache(const RayScene& rays, const Lights& lights, const Bounds3& ro
   voxel.voxelSizeM = kSurfelCells * fine_.cellM;
   voxels_ = voxelise(rays.scene(), voxel);
   marks_ = marksOf(voxels_.voxels);
-  followVoxels(rays, lights, carry({}, marks_, voxels_.voxels, {}), {}, progress);
+  followVoxels(rays, lights, remapSlots({}, marks_, voxels_.voxels, {}), {}, progress);
   light(rays, lights, progress);
 }
 
@@ -73,9 +73,9 @@ void LpvCache::update(const RayScene& rays, const Lights& lights, const SceneCha
   if (!change.moved.empty()) {
     const std::vector<Bounds3> places = followMoves(voxels_, rays.scene(), change);
     std::vector<BrickMark> marks = marksOf(voxels_.voxels);
-    const Carried carried = carry(marks_, marks, voxels_.voxels, places);
+    const SlotRemap remap = remapSlots(marks_, marks, voxels_.voxels, places);
     marks_ = std::move(marks);
-    followVoxels(rays, lights, carried, places, progress);
+    followVoxels(rays, lights, remap, places, progress);
   }
   light(rays, lights, progress);
 }
@@ -87,13 +87,13 @@ LpvLight LpvCache::take() {
 
 // Sides that materials show, and the sky's light on them: of those in bricks that are carried what crosses none of the
 // changed places stays.
-void LpvCache::followVoxels(const RayScene& rays, const Lights& lights, const Carried& carried,
+void LpvCache::followVoxels(const RayScene& rays, const Lights& lights, const SlotRemap& remap,
                             std::span<const Bounds3> places, const Progress& progress) {
   const Voxels& voxels = voxels_.voxels;
   if (lights.sky().present())
-    light_.guide = carriedGuide(
-        light_.guide, surveySky(rays, lights, voxels, &carried, kSurveyRays, settings_.seed, light_.rays, progress),
-        carried);
+    light_.guide = keptGuide(
+        light_.guide, surveySky({rays, lights}, voxels, &remap, {kSurveyRays, settings_.seed}, light_.rays, progress),
+        remap);
   light_.voxels = voxels;  // for guideAt
   shown_ = shownSides(rays, voxels);
   std::vector<UnderSky> now(lights.sky().present() ? voxels.slots.size() : 0);
@@ -101,16 +101,16 @@ void LpvCache::followVoxels(const RayScene& rays, const Lights& lights, const Ca
   parallelFor(now.empty() ? 0 : voxels.bricks.size(), 4, [&](size_t b) {
     if (progress.stop()) return;
     const auto [first, last] = slotsOfBrick(voxels, b);
-    const float reach = SkyWay::kOff * length(home_.size());
+    const float reach = SkyDirection::kOff * length(home_.size());
     std::vector<Bounds3> ahead;
     for (size_t s = first; s < last; ++s) {
       if (!shown_[s]) continue;
-      bool anew = !carried.keeps(b);
+      bool anew = !remap.keeps(b);
       if (!anew) {
-        UnderSky& before = underSky_[carried.firstOld[b] + (s - first)];
+        UnderSky& before = underSky_[remap.firstOld[b] + (s - first)];
         const FaceSlot& slot = voxels.slots[s];
         inFront(slot, places, voxels.voxelSizeM, ahead);
-        for (const SkyWay way : before.ways)
+        for (const SkyDirection way : before.ways)
           anew = anew || (!ahead.empty() && crosses({slot.position, way.direction(), 0, kInfinity}, ahead, reach));
         if (!anew) now[s] = std::move(before);
       }

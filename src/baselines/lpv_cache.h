@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "baselines/lpv.h"
-#include "radiance/carried.h"
-#include "radiance/sky_ways.h"
+#include "radiance/slot_remap.h"
+#include "radiance/sky_directions.h"
 #include "scene/scene_change.h"
 #include "voxel/voxelise.h"
 
@@ -30,9 +30,9 @@ class LpvCache {
   // Of a side of a voxel: what it reflects of the sky, and where its rays went.
   struct UnderSky {
     Vec3 fluxLm;
-    std::vector<SkyWay> ways;
+    std::vector<SkyDirection> ways;
   };
-  void followVoxels(const RayScene& rays, const Lights& lights, const Carried& carried, std::span<const Bounds3> places,
+  void followVoxels(const RayScene& rays, const Lights& lights, const SlotRemap& remap, std::span<const Bounds3> places,
                     const Progress& progress);
   UnderSky askSky(const RayScene& rays, const Lights& lights, size_t slot) const;
   void light(const RayScene& rays, const Lights& lights, const Progress& progress);

@@ -25,7 +25,7 @@ PhotonLight lightPhotons(const RayScene& rays, const Lights& lights, const Impor
   out.rays = importance.rays();
   VoxelSettings coarse;
   coarse.sizeFactor = kSurveyVoxelFactor;
-  out.survey = surveySky(rays, lights, coarse, kSurveyRays, settings.seed, progress);
+  out.survey = surveySky({rays, lights}, coarse, {kSurveyRays, settings.seed}, progress);
   out.rays += out.survey.rays;
   const PhotonTracer tracer(rays, lights, importance, out.survey, settings);
   const auto keep = [&](const TracedPhotons& traced) {

@@ -123,9 +123,9 @@ Vec3 PhotonShader::lit(const SurfacePoint& s, Vec3 direction, float distanceM, i
   white.m = {};
   white.m.baseColor = Vec3(1);
   const Bsdf bsdf(white.m, s.ns, s.ng, -direction);
+  const LitSurface at{white, bsdf, Reflection::Cone};
   float unused = 0;
-  const Vec3 direct = soft(white, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse +
-                      sharp(white, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
+  const Vec3 direct = soft(at, guideOf(s), sampler, count).diffuse + sharp(at, {}, sampler, count, unused).diffuse;
   return (direct + gathered(s, 1, depth + 1, sampler, count) + causticsAt(s, count)) * kPi;
 }
 

@@ -7,26 +7,26 @@
 
 namespace roomlight {
 
-SkyGuide surveySky(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Carried* carried,
-                   int raysPerSlot, uint64_t seed, uint64_t& rayCount, const Progress& progress) {
-  SkyGuideBuilder guide(voxels, lights.sky());
+SkyGuide surveySky(const TracedScene& scene, const Voxels& voxels, const SlotRemap* remap, const SurveyRays& use,
+                   uint64_t& rayCount, const Progress& progress) {
+  SkyGuideBuilder guide(voxels, scene.lights.sky());
   std::atomic<uint64_t> count = 0;
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
-    if (progress.stop() || (carried && carried->keeps(b))) return;
+    if (progress.stop() || (remap && remap->keeps(b))) return;
     const auto [first, last] = slotsOfBrick(voxels, b);
     std::vector<Ray> tries;
     for (size_t s = first; s < last; ++s) {
       const FaceSlot& slot = voxels.slots[s];
       const Frame frame(slot.normal);
-      for (int k = 0; k < raysPerSlot; ++k) {
-        const Vec3 d = frame.toWorld(sampleCosineHemisphere(Sampler(s, static_cast<uint32_t>(k), seed).next2()));
+      for (int k = 0; k < use.perSlot; ++k) {
+        const Vec3 d = frame.toWorld(sampleCosineHemisphere(Sampler(s, static_cast<uint32_t>(k), use.seed).next2()));
         tries.push_back({offsetOrigin(slot.position, slot.normal), d, 0, kInfinity});
       }
     }
     std::vector<Vec3> left(tries.size());
-    rays.transmittance(tries, left);
+    scene.rays.transmittance(tries, left);
     for (size_t i = 0; i < tries.size(); ++i) {
-      guide.add(b, voxels.slots[first + i / static_cast<size_t>(raysPerSlot)].face, tries[i].direction,
+      guide.add(b, voxels.slots[first + i / static_cast<size_t>(use.perSlot)].face, tries[i].direction,
                 luminance(left[i]));
     }
     count += tries.size();
@@ -35,12 +35,12 @@ SkyGuide surveySky(const RayScene& rays, const Lights& lights, const Voxels& vox
   return guide.finish(progress);
 }
 
-SkySurvey surveySky(const RayScene& rays, const Lights& lights, const VoxelSettings& settings, int raysPerSlot,
-                    uint64_t seed, const Progress& progress) {
+SkySurvey surveySky(const TracedScene& scene, const VoxelSettings& settings, const SurveyRays& use,
+                    const Progress& progress) {
   SkySurvey out;
-  if (!lights.sky().present()) return out;
-  out.voxels = voxelise(rays.scene(), settings).voxels;
-  out.guide = surveySky(rays, lights, out.voxels, nullptr, raysPerSlot, seed, out.rays, progress);
+  if (!scene.lights.sky().present()) return out;
+  out.voxels = voxelise(scene.rays.scene(), settings).voxels;
+  out.guide = surveySky(scene, out.voxels, nullptr, use, out.rays, progress);
   return out;
 }
 

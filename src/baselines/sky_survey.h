@@ -2,8 +2,9 @@
 // it they sample the sky through windows as well as the others do.
 #pragma once
 
-#include "radiance/carried.h"
+#include "radiance/slot_remap.h"
 #include "radiance/radiance_field.h"
+#include "trace/traced_scene.h"
 #include "voxel/voxelise.h"
 
 namespace roomlight {
@@ -14,12 +15,18 @@ struct SkySurvey {
   uint64_t rays = 0;
 };
 
-// Of given voxels. Where bricks are carried only the others are asked, whose guides alone come out (see carriedGuide).
-SkyGuide surveySky(const RayScene& rays, const Lights& lights, const Voxels& voxels, const Carried* carried,
-                   int raysPerSlot, uint64_t seed, uint64_t& rayCount, const Progress& progress = {});
+// From every side of every voxel, spread by the cosine.
+struct SurveyRays {
+  int perSlot;
+  uint64_t seed;
+};
 
-// `raysPerSlot` rays from every side of every voxel, spread by the cosine. Only chooses directions: it never biases.
-SkySurvey surveySky(const RayScene& rays, const Lights& lights, const VoxelSettings& settings, int raysPerSlot,
-                    uint64_t seed, const Progress& progress = {});
+// Of given voxels. Where bricks are carried only the others are asked, whose guides alone come out (see keptGuide).
+SkyGuide surveySky(const TracedScene& scene, const Voxels& voxels, const SlotRemap* remap, const SurveyRays& use,
+                   uint64_t& rayCount, const Progress& progress = {});
+
+// Only chooses directions: it never biases.
+SkySurvey surveySky(const TracedScene& scene, const VoxelSettings& settings, const SurveyRays& use,
+                    const Progress& progress = {});
 
 }  // namespace roomlight

@@ -30,9 +30,13 @@ struct VxgiCones {
   float tanHalf = 0;
 };
 
-// Irradiance / pi, cd/m², of a surface at p with unit normals ng (true) and ns (for shading). `turnRad` rotates the
-// cones.
-Vec3 traceVxgiDiffuse(const VxgiClipmap& map, Vec3 p, Vec3 ng, Vec3 ns, const VxgiCones& cones, float turnRad,
+// A place on a surface with unit normals, the true one and that for shading.
+struct VxgiReceiver {
+  Vec3 p, ng, ns;
+};
+
+// Irradiance / pi, cd/m². `turnRad` rotates the cones.
+Vec3 traceVxgiDiffuse(const VxgiClipmap& map, const VxgiReceiver& at, const VxgiCones& cones, float turnRad,
                       const VxgiTracing& tracing);
 
 struct VxgiLight {

@@ -98,7 +98,7 @@ void VxgiCache::bounce(int most, const Progress& progress) {
   for (light_.bounces = 0; light_.bounces < most && !progress.stop();) {
     parallelFor(sources_.sides.size(), 256, [&](size_t i) {
       VxgiSide& s = sources_.sides[i];
-      s.indirectLux = traceVxgiDiffuse(light_.map, s.p, s.n, s.n, cones, 0, tracing) * kPi;
+      s.indirectLux = traceVxgiDiffuse(light_.map, {s.p, s.n, s.n}, cones, 0, tracing) * kPi;
     });
     inject(sources_, light_.map);
     ++light_.bounces;

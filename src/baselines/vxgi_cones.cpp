@@ -59,12 +59,12 @@ VxgiCones::VxgiCones(int count) {
   tanHalf = std::sqrt(1 - cosHalf * cosHalf) / cosHalf;
 }
 
-Vec3 traceVxgiDiffuse(const VxgiClipmap& map, Vec3 p, Vec3 ng, Vec3 ns, const VxgiCones& cones, float turnRad,
+Vec3 traceVxgiDiffuse(const VxgiClipmap& map, const VxgiReceiver& at, const VxgiCones& cones, float turnRad,
                       const VxgiTracing& tracing) {
-  const int level = map.levelAt(p);
+  const int level = map.levelAt(at.p);
   if (level == map.levels()) return {};
-  const Frame frame(ns);
-  const Vec3 origin = p + ng * (tracing.startOffsetVoxels * map.voxelSizeM(level));
+  const Frame frame(at.ns);
+  const Vec3 origin = at.p + at.ng * (tracing.startOffsetVoxels * map.voxelSizeM(level));
   const float c = std::cos(turnRad), s = std::sin(turnRad);
   Vec3 sum;
   for (size_t i = 0; i < cones.direction.size(); ++i) {

@@ -13,7 +13,7 @@ VxgiShader::VxgiShader(const RayScene& rays, const Lights& lights, const VxgiLig
 
 Vec3 VxgiShader::indirect(const SurfacePoint& s, Sampler& sampler, GatherCounters& count, float&) const {
   count.cones += cones_.direction.size();
-  return traceVxgiDiffuse(map_, s.p, s.ng, s.ns, cones_, rotate_ ? 2 * kPi * sampler.next1() : 0, tracing_);
+  return traceVxgiDiffuse(map_, {s.p, s.ng, s.ns}, cones_, rotate_ ? 2 * kPi * sampler.next1() : 0, tracing_);
 }
 
 // One cone about the direction of a mirror's reflection. Half of a GGX lobe's reflections lie within twice the atan of

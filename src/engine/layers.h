@@ -3,7 +3,8 @@
 
 #include <memory>
 
-#include "engine/techniques.h"
+#include "engine/render.h"
+#include "trace/lights.h"
 
 namespace roomlight {
 

@@ -1,16 +1,9 @@
 // A scene made ready by one technique, to be asked as often as one likes: for meters and for pictures of any camera,
-// also while things in it move and lamps are dimmed. What each keeps when something changes:
-//   path    nothing: its rays follow the scene, and every picture is traced anew
-//   hybrid  bricks of voxels, links, rays to lights and particles that what moved has nothing to do with
-//           (radiance/light_cache.h)
-//   cone    the same; its pyramid is built anew
-//   vxgi    as hybrid in every level's voxels, and openness of surfaces; its clipmap is filled anew, and stays where it
-//           is while the camera stays in one room
-//   lpv     surfels and the sky's light on them; maps, injection and propagation are done anew, as in every frame of
-//           that method; its grids stay as vxgi's do
-//   photon  nothing: photons are sent anew for every picture, to where its camera looks
+// also while things in it move and lamps are dimmed. What each technique can do, and keeps when something changes, is
+// in its row of the registry (engine/technique.h).
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,6 +19,7 @@ namespace roomlight {
 
 class FrameHistory;
 class SlotSnapshot;
+struct Technique;
 
 // One of many pictures of a lit scene, such as frames, or those that are averaged.
 struct PictureWish {
@@ -39,6 +33,14 @@ struct PictureWish {
   // Of frames before, of this scene alone, which is told of what changes; frames of one sample a pixel reuse their
   // light. `path` does not.
   FrameHistory* history = nullptr;
+};
+
+// A still picture and what is told of it.
+struct Picture {
+  Image image;  // linear, cd/m²; empty if cancelled before there was one
+  Vec3 lightColour;  // see light_colour.h
+  Sights sights;
+  std::vector<RenderedLayer> layers;
 };
 
 // Rays and lights of a scene that is edited where it stands.
@@ -60,6 +62,7 @@ class SceneRays {
 class LitScene {
  public:
   virtual ~LitScene() = default;
+  const Technique& technique() const { return technique_; }
   // What falls on each element.
   virtual std::vector<MeterReading> illuminance(std::span<const SurfaceElement> elements, const MeterSettings& settings,
                                                 const Progress& progress = {}) const = 0;
@@ -77,12 +80,16 @@ class LitScene {
   }
   virtual Image pictureOf(const Camera& camera, const PictureWish& wish, const Progress& progress = {}) const = 0;
 
-  // Follows the scene; suns and sky must be as before unless followsDaylight(). The same light as of a scene lit anew,
-  // up to what bounces leave out (see RadianceSettings::residual, and bouncesAtOnce: what those leave out follows with
-  // later calls, also where nothing has changed). Stages "rays", "lights" and those of the technique. Cancelled, it is
-  // of no further use.
+  // A still picture with all that the settings ask for (layers, limits, refinement), after lookFrom(camera), of a scene
+  // that was lit for stills (LitUse). `seconds` are left for it; infinite without a time limit. Numbers of the
+  // technique and its stages go to `stages`. Cancelled, the best so far. Errors: layers that cannot be told apart.
+  virtual Result<Picture> still(const Camera& camera, double seconds, Stages& stages) = 0;
+
+  // Follows the scene; suns and sky must be as before unless the technique follows daylight. The same light as of a
+  // scene lit anew, up to what bounces leave out (see RadianceSettings::residual, and bouncesAtOnce: what those leave
+  // out follows with later calls, also where nothing has changed). Stages "rays", "lights" and those of the technique.
+  // Cancelled, it is of no further use.
   void update(const SceneChange& change, Stages& stages);
-  virtual bool followsDaylight() const { return true; }
   // Whether update() has no more to do (see bouncesAtOnce).
   virtual bool settled() const { return true; }
   // What holds light about one place only (vxgi, lpv: finest there) has it where this camera is, if it has left that
@@ -97,11 +104,15 @@ class LitScene {
   const Lights& lights() const { return base_.lights(); }
 
  protected:
-  LitScene(const Scene& scene, bool sunApart, Stages& stages) : base_(scene, sunApart, stages) {}
+  LitScene(const Technique& technique, const Scene& scene, bool sunApart, Stages& stages)
+      : technique_(technique), base_(scene, sunApart, stages) {}
+  // With what is seen in it.
+  Picture finished(const Camera& camera, Image image, std::vector<RenderedLayer> layers) const;
   // After rays and lights have followed.
   virtual void relight(const SceneChange&, Stages&) {}
 
  private:
+  const Technique& technique_;
   SceneRays base_;
 };
 
@@ -110,10 +121,12 @@ struct LitUse {
   bool changes = true;  // there will be updates; without them `hybrid` also lights places that its voxels know nothing
                         // of (radiance/hidden_light.h), and looks for lights where they are seen
   const Camera* camera = nullptr;  // the first to be looked from; none: light is found for the whole scene at once
+  bool stills = false;  // LitScene::still will be called; not with `changes`
+  double seconds = std::numeric_limits<double>::infinity();  // for stills: about half of it for light
 };
 
 // Refers to the scene, which must be validated and stay where it is. Errors: an unknown technique, settings out of
-// range. Null if cancelled.
+// range, layers that the technique or the scene does not have. Null if cancelled.
 Result<std::unique_ptr<LitScene>> lightScene(const Scene& scene, const RenderSettings& settings, Stages& stages,
                                              const LitUse& use = {});
 

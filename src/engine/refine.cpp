@@ -21,27 +21,32 @@ PathSettings pathSettings(const RenderSettings& settings) {
   return path;
 }
 
-double secondsOfAPass(const RayScene& rays, const Lights& lights, const Camera& camera, PathSettings path) {
+double secondsOfAPass(const TracedScene& scene, const Camera& camera, PathSettings path) {
   const double pixels = static_cast<double>(path.width) * path.height;
   const int divisor = triedPart(path.width, path.height);
   path.width = (path.width + divisor - 1) / divisor, path.height = (path.height + divisor - 1) / divisor;
-  PathTracer small(rays, lights, camera, path, true);
+  PathTracer small(scene.rays, scene.lights, camera, path, true);
   const Stopwatch watch;
   small.pass();
   return watch.seconds() * pixels / (static_cast<double>(path.width) * path.height);
 }
 
+struct TimeLeft {
+  double seconds;  // altogether
+  double pass;     // that a pass takes, as tried
+};
+
 class Refinement {
  public:
-  Refinement(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings,
-             double seconds, double pass, const Stages& stages, const Image& picture)
+  Refinement(const TracedScene& scene, const Camera& camera, const RenderSettings& settings, const TimeLeft& time,
+             const Stages& stages, const Image& picture)
       : aim_(settings.blendUntilMse),
-        seconds_(seconds),
-        longest_(pass),
-        blendSeconds_(kBlendInPasses * pass),
+        seconds_(time.seconds),
+        longest_(time.pass),
+        blendSeconds_(kBlendInPasses * time.pass),
         stages_(stages),
         picture_(picture),
-        tracer_(rays, lights, camera, pathSettings(settings), true) {}
+        tracer_(scene.rays, scene.lights, camera, pathSettings(settings), true) {}
 
   void run(const Progress& progress) {
     Progress inner;
@@ -91,13 +96,13 @@ class Refinement {
 
 }  // namespace
 
-bool refineByPath(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings,
-                  double seconds, Stages& stages, Image& picture) {
+bool refineByPath(const TracedScene& scene, const Camera& camera, const RenderSettings& settings, double seconds,
+                  Stages& stages, Image& picture) {
   const Stopwatch watch;
-  const double pass = std::isfinite(seconds) ? secondsOfAPass(rays, lights, camera, pathSettings(settings)) : 0;
+  const double pass = std::isfinite(seconds) ? secondsOfAPass(scene, camera, pathSettings(settings)) : 0;
   const double left = seconds - watch.seconds();
   if ((kFewestSamples + kBlendInPasses) * pass > left) return false;
-  Refinement refinement(rays, lights, camera, settings, left, pass, stages, picture);
+  Refinement refinement(scene, camera, settings, {left, pass}, stages, picture);
   stages.run("refine", [&](const Progress& progress) { return refinement.run(progress), true; });
   if (refinement.improved()) {
     stages.number("estimatedError", refinement.best().relativeError);

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "engine/stages.h"
-#include "trace/lights.h"
-#include "trace/ray_scene.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 
@@ -12,7 +11,7 @@ namespace roomlight {
 // passes and the blend, found out by a small picture, `picture` stays as it is. Numbers "pathSamples", "pathRays",
 // "estimatedError" (root mean square, relative luminance) and "estimatedMse" (of the encoded picture) go to the
 // statistics, the latter two to the caller's progress as well. Whether there are such estimates.
-bool refineByPath(const RayScene& rays, const Lights& lights, const Camera& camera, const RenderSettings& settings,
-                  double seconds, Stages& stages, Image& picture);
+bool refineByPath(const TracedScene& scene, const Camera& camera, const RenderSettings& settings, double seconds,
+                  Stages& stages, Image& picture);
 
 }  // namespace roomlight

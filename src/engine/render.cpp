@@ -1,37 +1,15 @@
 #include "engine/render.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cassert>
+#include <limits>
 
+#include "base/clock.h"
 #include "base/parallel.h"
-#include "engine/light_colour.h"
-#include "engine/techniques.h"
+#include "engine/technique.h"
 
 namespace roomlight {
 namespace {
-
-// Every picture by itself.
-template <auto kRender>
-PictureOf oneByOne(const Scene& scene, const RenderSettings& settings) {
-  return [&scene, &settings](const Camera& camera, Stages& stages) { return kRender(scene, camera, settings, stages); };
-}
-
-struct Technique {
-  const char* name;
-  const char* explanation;
-  PictureOf (*pictures)(const Scene&, const RenderSettings&);
-};
-
-// The default first.
-constexpr Technique kTechniques[] = {
-    {"hybrid", "exact rays that read light cached in voxels: fast, without leaks", picturesByRays},
-    {"cone", "light cached in voxels, gathered by cones: fast", picturesByCones},
-    {"vxgi", "voxel cone tracing with clipmaps, for comparison", oneByOne<renderVxgi>},
-    {"lpv", "light propagation volumes, for comparison", oneByOne<renderLpv>},
-    {"photon", "photon mapping with final gathering, for comparison", oneByOne<renderPhoton>},
-    {"path", "path tracing: the reference, slow and exact up to noise", oneByOne<renderPath>},
-};
 
 // Pixels that no light can explain. There must be none; a picture that has them says so instead of hiding them.
 size_t brokenPixels(const Image& image) {
@@ -44,19 +22,28 @@ size_t brokenPixels(const Image& image) {
 
 }  // namespace
 
-Picture finished(const RayScene& rays, const Camera& camera, Image image, std::vector<RenderedLayer> layers) {
-  const Vec3 colour = lightColour(rays, camera, image);
-  Sights sights = sightsOf(rays, camera, image.width, image.height);
-  return {std::move(image), colour, std::move(sights), std::move(layers)};
-}
-
 struct Renderer::State {
-  State(const Scene& s, const RenderSettings& how, const Technique& technique)
-      : scene(s), settings(how), pictures(technique.pictures(s, settings)) {}
   const Scene& scene;
   const RenderSettings settings;
-  const PictureOf pictures;
+  std::unique_ptr<LitScene> lit;  // null: there is no light yet
+
+  Result<Picture> picture(const Camera& camera, Stages& stages);
 };
+
+// What lighting takes counts against the time of the picture it was found for. Once cancelled it leaves no light.
+Result<Picture> Renderer::State::picture(const Camera& camera, Stages& stages) {
+  const Stopwatch watch;
+  const double limit = settings.timeLimitS > 0 ? settings.timeLimitS : std::numeric_limits<double>::infinity();
+  if (!lit) {
+    auto made = lightScene(scene, settings, stages, {false, &camera, true, limit});
+    if (!made) return Error{made.error()};
+    lit = std::move(made).value();
+  } else {
+    lit->lookFrom(camera, stages);
+  }
+  if (!lit || stages.cancelled()) return Picture{};
+  return lit->still(camera, std::max(0.0, limit - watch.seconds()), stages);
+}
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
@@ -64,12 +51,8 @@ Renderer::~Renderer() = default;
 
 Result<Renderer> Renderer::of(const Scene& scene, const RenderSettings& settings) {
   if (const Status status = checkSettings(settings); !status) return Error{status.error()};
-  std::string names;
-  for (const Technique& t : kTechniques) {
-    if (settings.technique == t.name) return Renderer(std::make_unique<State>(scene, settings, t));
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", t.name);
-  }
-  return Error{fmt::format("technique: unknown name '{}'; there are {}", settings.technique, names)};
+  if (const auto technique = techniqueNamed(settings.technique); !technique) return Error{technique.error()};
+  return Renderer(std::unique_ptr<State>(new State{scene, settings, {}}));
 }
 
 Result<Rendered> Renderer::picture(const Camera& camera, const RenderProgress& progress) {
@@ -78,7 +61,7 @@ Result<Rendered> Renderer::picture(const Camera& camera, const RenderProgress& p
   stages.number("triangles", static_cast<double>(state_->scene.triangleCount()));
   std::string error;
   withThreads(state_->settings.threads, [&] {
-    Result<Picture> picture = state_->pictures(camera, stages);
+    Result<Picture> picture = state_->picture(camera, stages);
     if (!picture) return static_cast<void>(error = picture.error());
     result.image = std::move(picture.value().image);
     result.lightColour = picture.value().lightColour;
@@ -98,12 +81,6 @@ Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSe
   Result<Renderer> renderer = Renderer::of(scene, settings);
   if (!renderer) return Error{renderer.error()};
   return renderer.value().picture(camera, progress);
-}
-
-std::vector<std::pair<std::string, std::string>> techniques() {
-  std::vector<std::pair<std::string, std::string>> list;
-  for (const Technique& t : kTechniques) list.emplace_back(t.name, t.explanation);
-  return list;
 }
 
 }  // namespace roomlight

@@ -51,8 +51,8 @@ struct RenderProgress {
   std::function<void(double relativeError, double srgbMse)> estimate;
 };
 
-// Pictures of one scene, one after the other. Techniques `hybrid` and `cone` find light in voxels with the first, and
-// keep it.
+// Pictures of one scene, one after the other: its technique lights the scene (engine/lit_scene.h) with the first, and
+// keeps that.
 class Renderer {
  public:
   // Errors: an unknown technique, settings out of range. `scene` must be validated; it is referred to.
@@ -70,8 +70,5 @@ class Renderer {
 // One picture. Errors: as Renderer::of.
 Result<Rendered> render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                         const RenderProgress& progress = {});
-
-// Names for --technique, the default first, each with one line of explanation.
-std::vector<std::pair<std::string, std::string>> techniques();
 
 }  // namespace roomlight

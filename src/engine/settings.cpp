@@ -29,9 +29,129 @@ constexpr Choice<BounceBy> kBounces[] = {{"rays", BounceBy::Rays}, {"cones", Bou
 constexpr Choice<PhotonKernel> kKernels[] = {
     {"disc", PhotonKernel::Disc}, {"cone", PhotonKernel::Cone}, {"epanechnikov", PhotonKernel::Epanechnikov}};
 
-// The one list of members: name, where it is, smallest and largest value. Reader, writer and range check all walk it.
-template <class Visitor, class Settings>
-void visitMembers(Visitor& v, Settings& s) {
+// The one list of members, by groups: name, where it is, smallest and largest value. Reader, writer and range check all
+// walk it as `v`; the settings are constant for all but the reader.
+void visitPath(auto& v, auto& s) {
+  v.flag("lightPaths", s.lightPaths);
+  v.flag("filter", s.filter);
+}
+
+void visitVoxel(auto& v, auto& s) {
+  v.number("voxelSizeM", s.voxelSizeM, 0, 10);
+  v.number("sizeFactor", s.sizeFactor, 0.1, 10);
+  v.number("memoryBudgetMiB", s.memoryBudgetMiB, 1, 1e6);
+  v.number("smallestM", s.smallestM, 1e-4, 10);
+  v.number("largestM", s.largestM, 1e-4, 10);
+}
+
+void visitRadiance(auto& v, auto& s) {
+  v.choice("attenuation", s.attenuation, kAttenuations);
+  v.number("directSamples", s.directSamples, 1, 4096);
+  v.number("links", s.links, 1, 4096);
+  v.choice("bounceBy", s.bounceBy, kBounces);
+  v.number("residual", s.residual, 1e-6, 1);
+  v.number("maxBounces", s.maxBounces, 0, 100000);
+  v.number("bouncesAtOnce", s.bouncesAtOnce, 0, 100000);
+  v.flag("emittersApart", s.emittersApart);
+}
+
+void visitHybrid(auto& v, auto& s) {
+  v.number("firstSamples", s.firstSamples, 1, 8);
+  v.number("tolerance", s.tolerance, 0, 1);
+  v.number("raysPerShading", s.raysPerShading, 1, 8);
+  v.number("estimates", s.estimates, 1, 256);
+  v.number("gatherEvery", s.gatherEvery, 1, 16);
+  v.number("nearVoxels", s.nearVoxels, 0, 1000);
+  v.number("hitCellM", s.hitCellM, -1, 10);
+  v.number("hitSamples", s.hitSamples, 1, 4096);
+  v.number("causticPhotons", s.causticPhotons, 0, 1 << 26);
+  v.number("rayRoughness", s.rayRoughness, 0, 1);
+  v.number("filterPasses", s.filterPasses, 0, 8);
+}
+
+void visitGather(auto& v, auto& s) {
+  v.number("raysPerShading", s.raysPerShading, 1, 8);
+  v.number("conesPerShading", s.conesPerShading, 1, 4096);
+  v.number("coneHalfAngleDeg", s.coneHalfAngleDeg, 0.1, 60);
+  v.number("startOffsetVoxels", s.startOffsetVoxels, 0, 8);
+  v.number("rayRoughness", s.rayRoughness, 0, 1);
+  v.number("filterPasses", s.filterPasses, 0, 8);
+  v.number("occlusionLambda", s.occlusionLambda, 0, 1000);
+  v.color("ambientCdM2", s.ambientCdM2, 1e9);
+}
+
+void visitVxgi(auto& v, auto& s) {
+  v.number("resolution", s.resolution, 8, 256);
+  v.number("levels", s.levels, 1, 8);
+  v.number("voxelSizeM", s.voxelSizeM, 0, 10);
+  v.number("cones", s.cones, 1, 4096);
+  v.number("tracingStep", s.tracingStep, 0.05, 4);
+  v.number("maxSamples", s.maxSamples, 1, 65536);
+  v.number("startOffsetVoxels", s.startOffsetVoxels, 0, 16);
+  v.flag("rotateCones", s.rotateCones);
+  v.number("directSamples", s.directSamples, 1, 4096);
+  v.number("residual", s.residual, 1e-6, 1);
+  v.number("maxBounces", s.maxBounces, 0, 100000);
+  v.number("bouncesAtOnce", s.bouncesAtOnce, 0, 100000);
+  v.number("raysPerShading", s.raysPerShading, 1, 8);
+  v.number("rayRoughness", s.rayRoughness, 0, 1);
+  v.number("filterPasses", s.filterPasses, 0, 8);
+}
+
+void visitLpv(auto& v, auto& s) {
+  v.number("cells", s.cells, 8, 256);
+  v.number("coarseCells", s.coarseCells, 0, 256);
+  v.number("coarseReach", s.coarseReach, 0, 100);
+  v.number("steps", s.steps, 0, 100000);
+  v.number("mapSize", s.mapSize, 8, 8192);
+  v.number("mostMaps", s.mostMaps, 1, 65536);
+  v.number("skySamples", s.skySamples, 1, 4096);
+  v.flag("geometry", s.geometry);
+  v.flag("bounces", s.bounces);
+  v.flag("dampening", s.dampening);
+  v.number("lookUpCells", s.lookUpCells, 0, 4);
+  v.number("glossySteps", s.glossySteps, 1, 1024);
+  v.number("raysPerShading", s.raysPerShading, 1, 8);
+  v.number("rayRoughness", s.rayRoughness, 0, 1);
+  v.number("filterPasses", s.filterPasses, 0, 8);
+}
+
+void visitPhoton(auto& v, auto& s) {
+  v.number("photons", s.photons, 1000, 100000000);
+  v.number("causticPhotons", s.causticPhotons, 0, 100000000);
+  v.number("nearest", s.nearest, 2, 10000);
+  v.number("causticNearest", s.causticNearest, 2, 10000);
+  v.choice("kernel", s.kernel, kKernels);
+  v.number("flatness", s.flatness, 1, 100);
+  v.number("largestRadiusM", s.largestRadiusM, 1e-3, 1000);
+  v.number("edgeRays", s.edgeRays, 0, 64);
+  v.number("finalGather", s.finalGather, 0, 65536);
+  v.number("irradianceEvery", s.irradianceEvery, 1, 1000);
+  v.number("nearRadii", s.nearRadii, 0, 100);
+  v.number("rouletteDepth", s.rouletteDepth, 0, 1000);
+  v.number("importons", s.importons, 256, 1 << 24);
+  v.number("mostEmitted", s.mostEmitted, 1, 1e6);
+  v.number("raysPerShading", s.raysPerShading, 1, 8);
+  v.number("rayRoughness", s.rayRoughness, 0, 1);
+  v.number("filterPasses", s.filterPasses, 0, 8);
+}
+
+void visitFrames(auto& v, auto& s) {
+  v.flag("reuse", s.reuse);
+  v.number("every", s.every, 1, 256);
+  v.number("everyStill", s.everyStill, 1, 256);
+  v.number("everyStale", s.everyStale, 1, 256);
+  v.number("everyVeil", s.everyVeil, 1, 256);
+  v.number("mostOfVeil", s.mostOfVeil, 1, 1e6);
+  v.number("quickMs", s.quickMs, 0, 1e6);
+  v.number("mostEstimates", s.mostEstimates, 1, 1e6);
+  v.number("smoothEstimates", s.smoothEstimates, 0, 1e6);
+  v.number("staleEstimates", s.staleEstimates, 1e-6, 1e6);
+  v.number("mostWhileMoving", s.mostWhileMoving, 1, 1e6);
+  v.number("nearM", s.nearM, 0, 1000);
+}
+
+void visitMembers(auto& v, auto& s) {
   v.text("technique", s.technique);
   v.text("quality", s.quality);
   v.number("width", s.width, 1, 65536);
@@ -45,117 +165,15 @@ void visitMembers(Visitor& v, Settings& s) {
   v.number("threads", s.threads, 0, 1024);
   v.flag("blend", s.blend);
   v.number("blendUntilMse", s.blendUntilMse, 0, 1);
-  v.group("path", [&](auto& g) {
-    g.flag("lightPaths", s.path.lightPaths);
-    g.flag("filter", s.path.filter);
-  });
-  v.group("voxel", [&](auto& g) {
-    g.number("voxelSizeM", s.voxel.voxelSizeM, 0, 10);
-    g.number("sizeFactor", s.voxel.sizeFactor, 0.1, 10);
-    g.number("memoryBudgetMiB", s.voxel.memoryBudgetMiB, 1, 1e6);
-    g.number("smallestM", s.voxel.smallestM, 1e-4, 10);
-    g.number("largestM", s.voxel.largestM, 1e-4, 10);
-  });
-  v.group("radiance", [&](auto& g) {
-    g.choice("attenuation", s.radiance.attenuation, kAttenuations);
-    g.number("directSamples", s.radiance.directSamples, 1, 4096);
-    g.number("links", s.radiance.links, 1, 4096);
-    g.choice("bounceBy", s.radiance.bounceBy, kBounces);
-    g.number("residual", s.radiance.residual, 1e-6, 1);
-    g.number("maxBounces", s.radiance.maxBounces, 0, 100000);
-    g.number("bouncesAtOnce", s.radiance.bouncesAtOnce, 0, 100000);
-    g.flag("emittersApart", s.radiance.emittersApart);
-  });
-  v.group("hybrid", [&](auto& g) {
-    g.number("firstSamples", s.hybrid.firstSamples, 1, 8);
-    g.number("tolerance", s.hybrid.tolerance, 0, 1);
-    g.number("raysPerShading", s.hybrid.raysPerShading, 1, 8);
-    g.number("estimates", s.hybrid.estimates, 1, 256);
-    g.number("gatherEvery", s.hybrid.gatherEvery, 1, 16);
-    g.number("nearVoxels", s.hybrid.nearVoxels, 0, 1000);
-    g.number("hitCellM", s.hybrid.hitCellM, -1, 10);
-    g.number("hitSamples", s.hybrid.hitSamples, 1, 4096);
-    g.number("causticPhotons", s.hybrid.causticPhotons, 0, 1 << 26);
-    g.number("rayRoughness", s.hybrid.rayRoughness, 0, 1);
-    g.number("filterPasses", s.hybrid.filterPasses, 0, 8);
-  });
-  v.group("gather", [&](auto& g) {
-    g.number("raysPerShading", s.gather.raysPerShading, 1, 8);
-    g.number("conesPerShading", s.gather.conesPerShading, 1, 4096);
-    g.number("coneHalfAngleDeg", s.gather.coneHalfAngleDeg, 0.1, 60);
-    g.number("startOffsetVoxels", s.gather.startOffsetVoxels, 0, 8);
-    g.number("rayRoughness", s.gather.rayRoughness, 0, 1);
-    g.number("filterPasses", s.gather.filterPasses, 0, 8);
-    g.number("occlusionLambda", s.gather.occlusionLambda, 0, 1000);
-    g.color("ambientCdM2", s.gather.ambientCdM2, 1e9);
-  });
-  v.group("vxgi", [&](auto& g) {
-    g.number("resolution", s.vxgi.resolution, 8, 256);
-    g.number("levels", s.vxgi.levels, 1, 8);
-    g.number("voxelSizeM", s.vxgi.voxelSizeM, 0, 10);
-    g.number("cones", s.vxgi.cones, 1, 4096);
-    g.number("tracingStep", s.vxgi.tracingStep, 0.05, 4);
-    g.number("maxSamples", s.vxgi.maxSamples, 1, 65536);
-    g.number("startOffsetVoxels", s.vxgi.startOffsetVoxels, 0, 16);
-    g.flag("rotateCones", s.vxgi.rotateCones);
-    g.number("directSamples", s.vxgi.directSamples, 1, 4096);
-    g.number("residual", s.vxgi.residual, 1e-6, 1);
-    g.number("maxBounces", s.vxgi.maxBounces, 0, 100000);
-    g.number("bouncesAtOnce", s.vxgi.bouncesAtOnce, 0, 100000);
-    g.number("raysPerShading", s.vxgi.raysPerShading, 1, 8);
-    g.number("rayRoughness", s.vxgi.rayRoughness, 0, 1);
-    g.number("filterPasses", s.vxgi.filterPasses, 0, 8);
-  });
-  v.group("lpv", [&](auto& g) {
-    g.number("cells", s.lpv.cells, 8, 256);
-    g.number("coarseCells", s.lpv.coarseCells, 0, 256);
-    g.number("coarseReach", s.lpv.coarseReach, 0, 100);
-    g.number("steps", s.lpv.steps, 0, 100000);
-    g.number("mapSize", s.lpv.mapSize, 8, 8192);
-    g.number("mostMaps", s.lpv.mostMaps, 1, 65536);
-    g.number("skySamples", s.lpv.skySamples, 1, 4096);
-    g.flag("geometry", s.lpv.geometry);
-    g.flag("bounces", s.lpv.bounces);
-    g.flag("dampening", s.lpv.dampening);
-    g.number("lookUpCells", s.lpv.lookUpCells, 0, 4);
-    g.number("glossySteps", s.lpv.glossySteps, 1, 1024);
-    g.number("raysPerShading", s.lpv.raysPerShading, 1, 8);
-    g.number("rayRoughness", s.lpv.rayRoughness, 0, 1);
-    g.number("filterPasses", s.lpv.filterPasses, 0, 8);
-  });
-  v.group("photon", [&](auto& g) {
-    g.number("photons", s.photon.photons, 1000, 100000000);
-    g.number("causticPhotons", s.photon.causticPhotons, 0, 100000000);
-    g.number("nearest", s.photon.nearest, 2, 10000);
-    g.number("causticNearest", s.photon.causticNearest, 2, 10000);
-    g.choice("kernel", s.photon.kernel, kKernels);
-    g.number("flatness", s.photon.flatness, 1, 100);
-    g.number("largestRadiusM", s.photon.largestRadiusM, 1e-3, 1000);
-    g.number("edgeRays", s.photon.edgeRays, 0, 64);
-    g.number("finalGather", s.photon.finalGather, 0, 65536);
-    g.number("irradianceEvery", s.photon.irradianceEvery, 1, 1000);
-    g.number("nearRadii", s.photon.nearRadii, 0, 100);
-    g.number("rouletteDepth", s.photon.rouletteDepth, 0, 1000);
-    g.number("importons", s.photon.importons, 256, 1 << 24);
-    g.number("mostEmitted", s.photon.mostEmitted, 1, 1e6);
-    g.number("raysPerShading", s.photon.raysPerShading, 1, 8);
-    g.number("rayRoughness", s.photon.rayRoughness, 0, 1);
-    g.number("filterPasses", s.photon.filterPasses, 0, 8);
-  });
-  v.group("frames", [&](auto& g) {
-    g.flag("reuse", s.frames.reuse);
-    g.number("every", s.frames.every, 1, 256);
-    g.number("everyStill", s.frames.everyStill, 1, 256);
-    g.number("everyStale", s.frames.everyStale, 1, 256);
-    g.number("everyVeil", s.frames.everyVeil, 1, 256);
-    g.number("mostOfVeil", s.frames.mostOfVeil, 1, 1e6);
-    g.number("quickMs", s.frames.quickMs, 0, 1e6);
-    g.number("mostEstimates", s.frames.mostEstimates, 1, 1e6);
-    g.number("smoothEstimates", s.frames.smoothEstimates, 0, 1e6);
-    g.number("staleEstimates", s.frames.staleEstimates, 1e-6, 1e6);
-    g.number("mostWhileMoving", s.frames.mostWhileMoving, 1, 1e6);
-    g.number("nearM", s.frames.nearM, 0, 1000);
-  });
+  v.group("path", [&](auto& g) { visitPath(g, s.path); });
+  v.group("voxel", [&](auto& g) { visitVoxel(g, s.voxel); });
+  v.group("radiance", [&](auto& g) { visitRadiance(g, s.radiance); });
+  v.group("hybrid", [&](auto& g) { visitHybrid(g, s.hybrid); });
+  v.group("gather", [&](auto& g) { visitGather(g, s.gather); });
+  v.group("vxgi", [&](auto& g) { visitVxgi(g, s.vxgi); });
+  v.group("lpv", [&](auto& g) { visitLpv(g, s.lpv); });
+  v.group("photon", [&](auto& g) { visitPhoton(g, s.photon); });
+  v.group("frames", [&](auto& g) { visitFrames(g, s.frames); });
 }
 
 template <class T>

@@ -10,6 +10,7 @@
 #include "baselines/lpv.h"
 #include "baselines/vxgi_settings.h"
 #include "baselines/photon_settings.h"
+#include "engine/technique_names.h"
 #include "gather/cone_gather.h"
 #include "gather/frame_settings.h"
 #include "gather/ray_gather.h"
@@ -20,7 +21,7 @@
 namespace roomlight {
 
 struct RenderSettings {
-  std::string technique = "hybrid";  // a name of techniques()
+  std::string technique = technique::kHybrid;  // a row of the registry (engine/technique.h)
   std::string quality = "good";      // a name of qualities(); what it stands for is in the members below
   int width = 960, height = 540;
   int samples = 0;         // per pixel; 0: the technique's default, or no limit where time or noise ends the work

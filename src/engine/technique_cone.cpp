@@ -1,47 +1,50 @@
-#include "engine/technique_settings.h"
-#include "engine/techniques.h"
-#include "engine/voxel_stages.h"
-#include "gather/cone_gather.h"
+// Technique `cone`: cones walk the light in voxels, as in the published study.
+#include "engine/technique.h"
+#include "engine/technique_names.h"
+#include "engine/voxel_scene.h"
+#include "gather/cone_shader.h"
 
 namespace roomlight {
 namespace {
 
-// A scene with light in voxels.
-struct ConeScene {
-  RayScene rays;
-  Lights lights;
-  VoxelLight light;
+class ConeScene final : public VoxelScene<ConeShader, GatherSettings> {
+ public:
+  ConeScene(const Scene& scene, const RenderSettings& settings, const LitUse& use, Stages& stages)
+      : VoxelScene(kConeTechnique, scene, stageOf(settings, settings.gather), stages) {
+    RadianceSettings radiance = settings.radiance;
+    radiance.seed = settings.seed;
+    // Pictures of the study's method know voxels alone; its meters also what lies beside them.
+    radiance.still = !use.changes && !use.stills;
+    LitUse whole = use;
+    whole.seconds = std::numeric_limits<double>::infinity();  // a time limit is the gather's
+    light(settings.voxel, radiance, whole, stages);
+  }
+  Result<Picture> still(const Camera& camera, double seconds, Stages& stages) override {
+    const GatherSettings use = within(seconds, gatherSettings());
+    GatheredPicture result = stages.run(
+        "gather", [&](const Progress& p) { return gatherPicture(rays(), lights(), *shader(), camera, use, p); });
+    tellNumbers(voxels(), field(), result, stages);
+    stages.number("cones", static_cast<double>(result.cones));
+    return finished(camera, std::move(result.image), {});
+  }
 };
 
-std::unique_ptr<const ConeScene> lightForCones(const Scene& scene, const StageSettings<GatherSettings>& use,
-                                               Stages& stages) {
-  RayScene rays = stages.run("bvh", [&](const Progress&) { return RayScene(scene); });
-  Lights lights = stages.run("lights", [&](const Progress&) { return Lights(scene, true); });
-  auto out = std::make_unique<ConeScene>(ConeScene{std::move(rays), std::move(lights), {}});
-  out->light = lightVoxels(out->rays, out->lights, use.voxel, use.radiance, stages);
-  return stages.cancelled() ? nullptr : std::move(out);
+Result<std::unique_ptr<LitScene>> light(const Scene& scene, const RenderSettings& settings, const LitUse& use,
+                                        Stages& stages) {
+  return std::unique_ptr<LitScene>(std::make_unique<ConeScene>(scene, settings, use, stages));
 }
 
 }  // namespace
 
-PictureOf picturesByCones(const Scene& scene, const RenderSettings& settings) {
-  return [&scene, &settings, kept = std::shared_ptr<const ConeScene>()](const Camera& camera,
-                                                                        Stages& stages) mutable -> Result<Picture> {
-    if (settings.layers) return Error{"layers: technique cone does not keep lamps apart; use hybrid or path"};
-    const Stopwatch watch;
-    StageSettings<GatherSettings> use = coneStages(settings);
-    if (!kept) kept = lightForCones(scene, use, stages);
-    if (!kept) return Picture{};
-    // What the stages before took counts against the limit; the gather never ends before its first pass.
-    if (settings.timeLimitS > 0) use.gather.timeLimitS = std::max(1e-3, settings.timeLimitS - watch.seconds());
-    GatheredPicture result = stages.run("gather", [&](const Progress& p) {
-      return gatherCones(kept->rays, kept->lights, kept->light.voxels, kept->light.field, camera, use.gather, p);
-    });
-
-    tellNumbers(kept->light, result, stages);
-    stages.number("cones", static_cast<double>(result.cones));
-    return finished(kept->rays, camera, std::move(result.image), {});
-  };
-}
+const Technique kConeTechnique{
+    .name = technique::kCone,
+    .about = "light cached in voxels, gathered by cones: fast",
+    .role = TechniqueRole::Published,
+    .followsDaylight = true,
+    .keepsWhatStands = true,
+    .hasSnapshots = true,
+    .meters = {.allowedPercent = 10, .ofSum = true, .isValidated = true, .places = 181, .worstPercent = 0.88},
+    .light = light,
+};
 
 }  // namespace roomlight

@@ -1,24 +1,23 @@
 // What the settings of a picture mean for the stages of each technique.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/lit_scene.h"
 #include "engine/settings.h"
 
 namespace roomlight {
 
-template <class Gather>
-struct StageSettings {
-  VoxelSettings voxel;
-  RadianceSettings radiance;
-  Gather gather;
-};
-
-StageSettings<RayGatherSettings> hybridStages(const RenderSettings& settings);
-StageSettings<GatherSettings> coneStages(const RenderSettings& settings);
-VxgiSettings vxgiStage(const RenderSettings& settings);
-LpvSettings lpvStage(const RenderSettings& settings);
-PhotonSettings photonStage(const RenderSettings& settings);
-PathSettings pathStage(const RenderSettings& settings);
+// Size, samples and seed of all techniques in the settings of one.
+template <class Settings>
+Settings stageOf(const RenderSettings& from, Settings to) {
+  to.width = from.width;
+  to.height = from.height;
+  to.seed = from.seed;
+  if (from.samples > 0) to.samples = from.samples;
+  return to;
+}
 
 // For a picture of another size.
 template <class Settings>
@@ -36,6 +35,13 @@ Settings asked(const Settings& settings, const PictureWish& wish) {
   out.white = wish.white;
   if constexpr (requires { out.orNothing; }) out.orNothing = wish.orNothing;
   return out;
+}
+
+// For a gather that ends after `seconds`, where they are finite, but never before its first pass.
+template <class Settings>
+Settings within(double seconds, Settings settings) {
+  if (std::isfinite(seconds)) settings.timeLimitS = std::max(1e-3, seconds);
+  return settings;
 }
 
 }  // namespace roomlight

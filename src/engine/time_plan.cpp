@@ -23,16 +23,16 @@ constexpr double kFilterShare = 0.1;  // of the time of the first pass
 
 }  // namespace
 
-VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights& lights, const VoxelSettings& voxel,
+VoxelLight lightVoxelsWithin(double seconds, const TracedScene& scene, const VoxelSettings& voxel,
                              const RadianceSettings& radiance, Stages& stages) {
   const Stopwatch watch;
-  const float wanted = chooseVoxelSize(rays.scene(), voxel);
+  const float wanted = chooseVoxelSize(scene.rays.scene(), voxel);
   VoxelSettings tried = voxel;
   tried.voxelSizeM = kTriedSize * wanted;
   VoxelLight light = stages.run("plan", [&](const Progress& p) {
     VoxelLight out;
-    out.voxels = voxelise(rays.scene(), tried).voxels;
-    out.field = illuminate(rays, lights, out.voxels, radiance, p);
+    out.voxels = voxelise(scene.rays.scene(), tried).voxels;
+    out.field = illuminate(scene.rays, scene.lights, out.voxels, radiance, p);
     return out;
   });
   if (stages.cancelled()) return light;
@@ -42,7 +42,7 @@ VoxelLight lightVoxelsWithin(double seconds, const RayScene& rays, const Lights&
   if (affordable > kHardlyFiner) return light;
   VoxelSettings fine = voxel;
   fine.voxelSizeM = std::max(1.0f, affordable) * wanted;
-  VoxelLight finer = lightVoxelsBefore(kPatience * allowed, rays, lights, fine, radiance, stages);
+  VoxelLight finer = lightVoxelsBefore(kPatience * allowed, scene.rays, scene.lights, fine, radiance, stages);
   return finer.field.irradianceLux.empty() ? light : finer;
 }
 
@@ -51,10 +51,10 @@ int triedPart(int width, int height) {
       std::clamp(std::sqrt(static_cast<double>(width) * height / kTriedPixels), 1.0, static_cast<double>(kTriedPart)));
 }
 
-GatheredPicture gatherWithin(double seconds, const RayScene& rays, const Lights& lights, const RayShader& shader,
-                             const Camera& camera, RayGatherSettings gather, const Progress& progress) {
+GatheredPicture gatherWithin(double seconds, const TracedScene& scene, const RayShader& shader, const Camera& camera,
+                             RayGatherSettings gather, const Progress& progress) {
   const Stopwatch watch;
-  const RayGather prepared(rays, lights, shader, camera, gather, progress);
+  const RayGather prepared(scene.rays, scene.lights, shader, camera, gather, progress);
   const double preparing = watch.seconds();
   gather.untilMse = 0, gather.tellsError = false;  // time ends it, and is for the picture
   RayGatherSettings small = gather;

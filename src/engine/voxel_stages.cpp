@@ -31,22 +31,22 @@ VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights&
   return out;
 }
 
-void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages& stages) {
-  stages.number("voxelSizeM", static_cast<double>(light.voxels.voxelSizeM));
-  stages.number("voxels", static_cast<double>(light.voxels.voxels.size()));
-  stages.number("slots", static_cast<double>(light.voxels.slots.size()));
-  stages.number("voxelMiB", static_cast<double>(light.voxels.bytes()) / 1048576);
-  stages.number("radianceMiB", static_cast<double>(light.field.bytes()) / 1048576);
-  stages.number("bounces", light.field.bounces);
-  stages.number("residual", light.field.residual);
-  if (!light.field.layers.empty()) {
+void tellNumbers(const Voxels& voxels, const RadianceField& field, const GatheredPicture& picture, Stages& stages) {
+  stages.number("voxelSizeM", static_cast<double>(voxels.voxelSizeM));
+  stages.number("voxels", static_cast<double>(voxels.voxels.size()));
+  stages.number("slots", static_cast<double>(voxels.slots.size()));
+  stages.number("voxelMiB", static_cast<double>(voxels.bytes()) / 1048576);
+  stages.number("radianceMiB", static_cast<double>(field.bytes()) / 1048576);
+  stages.number("bounces", field.bounces);
+  stages.number("residual", field.residual);
+  if (!field.layers.empty()) {
     stages.number("layers", static_cast<double>(picture.layers.size()));
-    stages.number("layersMiB", static_cast<double>(light.field.layers.bytes() + picture.layerBytes +
+    stages.number("layersMiB", static_cast<double>(field.layers.bytes() + picture.layerBytes +
                                                    picture.layers.size() * picture.image.pixels.size() * sizeof(Vec3)) /
                                    1048576);
   }
   stages.number("samples", picture.samples);
-  stages.number("rays", static_cast<double>(light.field.rays + picture.rays));
+  stages.number("rays", static_cast<double>(field.rays + picture.rays));
 }
 
 }  // namespace roomlight

@@ -23,6 +23,6 @@ VoxelLight lightVoxelsBefore(double seconds, const RayScene& rays, const Lights&
                              const RadianceSettings& radiance, Stages& stages);
 
 // Sizes of voxels and light, and what was traced.
-void tellNumbers(const VoxelLight& light, const GatheredPicture& picture, Stages& stages);
+void tellNumbers(const Voxels& voxels, const RadianceField& field, const GatheredPicture& picture, Stages& stages);
 
 }  // namespace roomlight

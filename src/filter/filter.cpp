@@ -130,128 +130,186 @@ struct Also {
   Round round = {};
 };
 
-Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
-  const int w = input.width, h = input.height, farthest = 1 << std::max(0, passes - 1);
-  const auto pixelsOfRow = [&](int y) {
-    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(w);
-    if (!also.mean) return std::span(input.pixels).subspan(row, static_cast<size_t>(w));
-    thread_local std::vector<FilterPixel> means;
-    means.resize(static_cast<size_t>(w));
-    for (size_t x = 0; x < means.size(); ++x) means[x] = (*also.mean)(row + x);
-    return std::span<const FilterPixel>(means);
+// Filters a picture that has edges in bands of rows, one after the other, each with as many rows beside it as all
+// passes reach: the whole picture at once would take far more memory than all else. A pass filters as many of these
+// rows as those after it look at.
+class BandFilter {
+ public:
+  BandFilter(const FilterInput& input, int passes, const Also& also)
+      : input_(input),
+        also_(also),
+        passes_(passes),
+        w_(input.width),
+        h_(input.height),
+        kinds_(kindsIn(input)),
+        levels_(kinds_.rare || input.byLevels),
+        steps_(stepsOf(passes)),
+        around_(levels_ && also.left ? kNoiseReach : 0),
+        reach_(reachOf(steps_) + (levels_ ? poolReachOf(passes) + around_ + kCompanyReach : 0)),
+        rows_(w_, std::min(h_, kBand + 2 * reach_), margin()) {}
+
+  Image run() {
+    Image out(w_, h_);
+    if (also_.once) also_.once->resize(out.pixels.size());
+    if (also_.irradiance) also_.irradiance->resize(out.pixels.size());
+    if (also_.left) also_.left->variance.resize(out.pixels.size()), also_.left->luminance.resize(out.pixels.size());
+    for (first_ = 0; first_ < h_; first_ += kBand) {
+      begin_ = std::max(0, first_ - reach_), end_ = std::min(h_, first_ + kBand + reach_),
+      last_ = std::min(h_, first_ + kBand);
+      rows_.useRows(end_ - begin_);
+      packBand();
+      pass_ = {};
+      pass_.levels = levels_;
+      left_ = reach_;
+      if (levels_) startLevels();
+      for (int k = 0; k < static_cast<int>(steps_.size()); ++k) {
+        passOver(k);
+        if (k == 0 && also_.once) tellOnce();
+      }
+      if (levels_) forRows(around_, [&](int y) { addKept(rows_, pass_.place[0], y); });
+      if (around_ > 0) poolNoise();
+      forRows(0, [&](int y) { tell(y, out); });
+    }
+    return out;
+  }
+
+ private:
+  struct Kinds {
+    bool sharp, rare;
   };
-  std::atomic<bool> sharp = false, rare = false;
-  parallelFor(input.pixels.size(), 65536, [&](size_t i) {
-    if (!isBlack(input.pixels[i].sharp)) sharp = true;
-    if (!isBlack(input.pixels[i].rare)) rare = true;
-  });
-  // Bands of rows, one after the other, each with as many rows beside it as all passes reach: the whole picture at once
-  // would take far more memory than all else. A pass filters as many of these rows as those after it look at.
-  const std::vector<int> steps = stepsOf(passes);
-  const bool levels = rare || input.byLevels;
-  const int around = levels && also.left ? kNoiseReach : 0;  // rows whose noise tells that of a pixel
-  const int pooled = levels ? poolReachOf(passes) + around : 0,
-            reach = reachOf(steps) + pooled + (levels ? kCompanyReach : 0),
-            margin = levels ? std::max({secondPool(farthest), around, kCompanyReach}) : farthest;
-  Image out(w, h);
-  if (also.once) also.once->resize(out.pixels.size());
-  if (also.irradiance) also.irradiance->resize(out.pixels.size());
-  if (also.left) also.left->variance.resize(out.pixels.size()), also.left->luminance.resize(out.pixels.size());
-  FilterRows rows(w, std::min(h, kBand + 2 * reach), margin);
-  int cleared = 0;  // rows whose margins are; passes leave them so
-  for (int first = 0; first < h; first += kBand) {
-    const int begin = std::max(0, first - reach), end = std::min(h, first + kBand + reach),
-              last = std::min(h, first + kBand);
-    rows.useRows(end - begin);
-    const auto forRows = [&](int beside, auto&& body) {
-      const int from = std::max(begin, first - beside), to = std::min(end, last + beside);
-      parallelFor(static_cast<size_t>(to - from), 4, [&](size_t i) { body(from - begin + static_cast<int>(i)); });
-    };
-    forRows(reach, [&](int y) {
-      if (y >= cleared) rows.clearMargins(y);
-      const std::span<const FilterPixel> pixels = pixelsOfRow(begin + y);
-      pack(
-          pixels,
-          input.reflected.empty() ? nullptr : &input.reflected[static_cast<size_t>(begin + y) * static_cast<size_t>(w)],
-          rows, y);
-      if (levels) packNoise(pixels, rows, y, static_cast<size_t>(begin + y) * static_cast<size_t>(w), also.round);
+  // Of light, apart from diffuse and specular: whether there is any.
+  static Kinds kindsIn(const FilterInput& input) {
+    std::atomic<bool> sharp = false, rare = false;
+    parallelFor(input.pixels.size(), 65536, [&](size_t i) {
+      if (!isBlack(input.pixels[i].sharp)) sharp = true;
+      if (!isBlack(input.pixels[i].rare)) rare = true;
     });
-    cleared = std::max(cleared, end - begin);
-    FilterPass pass;
-    pass.levels = levels;
-    if (levels) {
-      forRows(around, [&](int y) {
-        for (int c = 0; c < 4; ++c) std::fill_n(rows.line(FilterRows::kKept + c, y), w, 0.0f);
-      });
+    return {sharp, rare};
+  }
+
+  int margin() const {
+    const int farthest = 1 << std::max(0, passes_ - 1);
+    return levels_ ? std::max({secondPool(farthest), around_, kCompanyReach}) : farthest;
+  }
+
+  size_t rowOf(int y) const { return static_cast<size_t>(begin_ + y) * static_cast<size_t>(w_); }
+
+  std::span<const FilterPixel> pixelsOfRow(int y) const {
+    const size_t row = rowOf(y);
+    if (!also_.mean) return std::span(input_.pixels).subspan(row, static_cast<size_t>(w_));
+    thread_local std::vector<FilterPixel> means;
+    means.resize(static_cast<size_t>(w_));
+    for (size_t x = 0; x < means.size(); ++x) means[x] = (*also_.mean)(row + x);
+    return std::span<const FilterPixel>(means);
+  }
+
+  // Of the band, and so many rows beside it.
+  template <class Body>
+  void forRows(int beside, const Body& body) const {
+    const int from = std::max(begin_, first_ - beside), to = std::min(end_, last_ + beside);
+    parallelFor(static_cast<size_t>(to - from), 4, [&](size_t i) { body(from - begin_ + static_cast<int>(i)); });
+  }
+
+  void packBand() {
+    forRows(reach_, [&](int y) {
+      if (y >= cleared_) rows_.clearMargins(y);
+      const std::span<const FilterPixel> pixels = pixelsOfRow(y);
+      pack(pixels, input_.reflected.empty() ? nullptr : &input_.reflected[rowOf(y)], rows_, y);
+      if (levels_) packNoise(pixels, rows_, y, rowOf(y), also_.round);
+    });
+    cleared_ = std::max(cleared_, end_ - begin_);
+  }
+
+  void startLevels() {
+    forRows(around_, [&](int y) {
+      for (int c = 0; c < 4; ++c) std::fill_n(rows_.line(FilterRows::kKept + c, y), w_, 0.0f);
+    });
+    left_ -= kCompanyReach;
+    forRows(left_, [&](int y) { findCompany(rows_, y); });
+    forRows(left_, [&](int y) { leaveLonely(rows_, y); });
+  }
+
+  void passOver(int k) {
+    pass_.step = steps_[static_cast<size_t>(k)], pass_.correlated = also_.left ? correlatedAfter(k) : 1;
+    pass_.filter[0] = !levels_ || k < passes_, pass_.filter[1] = kinds_.sharp, pass_.filter[2] = k < kSpecularPasses,
+    pass_.filter[3] = kinds_.rare && !also_.left;
+    forRows(left_ - 1, [&](int y) { prepareRow(rows_, pass_, y); });
+    left_ -= pass_.step + 1;
+    forRows(left_, [&](int y) { filterRow(rows_, pass_, y); });
+    if (levels_ && pass_.filter[0]) takeLevel(k);
+    for (int l = 0; l < kFilterLights; ++l) pass_.place[l] ^= pass_.filter[l] ? 1 : 0;
+  }
+
+  void takeLevel(int k) {
+    const int wide = secondPool(pass_.step), pool = pass_.step + wide;
+    const auto poolTwice = [&](int beside) {
+      forRows(beside + wide, [&](int y) { poolRow(rows_, pass_.step, 0, y); });
+      forRows(beside, [&](int y) { poolRow(rows_, wide, 1, y); });
+    };
+    forRows(around_ + (hasOutliers(k) ? 2 : 1) * pool, [&](int y) { takePower(rows_, pass_.place[0], y); });
+    if (hasOutliers(k)) {
+      poolTwice(around_ + pool);
+      forRows(around_ + pool, [&](int y) { boundPower(rows_, pass_.place[0], y); });
     }
-    int left = reach;
-    if (levels) {
-      left -= kCompanyReach;
-      forRows(left, [&](int y) { findCompany(rows, y); });
-      forRows(left, [&](int y) { leaveLonely(rows, y); });
-    }
-    for (int k = 0; k < static_cast<int>(steps.size()); ++k) {
-      pass.step = steps[static_cast<size_t>(k)], pass.correlated = also.left ? correlatedAfter(k) : 1;
-      pass.filter[0] = !levels || k < passes, pass.filter[1] = sharp, pass.filter[2] = k < kSpecularPasses,
-      pass.filter[3] = rare && !also.left;
-      forRows(left - 1, [&](int y) { prepareRow(rows, pass, y); });
-      left -= pass.step + 1;
-      forRows(left, [&](int y) { filterRow(rows, pass, y); });
-      if (levels && pass.filter[0]) {
-        const int wide = secondPool(pass.step), pool = pass.step + wide;
-        const auto poolTwice = [&](int beside) {
-          forRows(beside + wide, [&](int y) { poolRow(rows, pass.step, 0, y); });
-          forRows(beside, [&](int y) { poolRow(rows, wide, 1, y); });
-        };
-        forRows(around + (hasOutliers(k) ? 2 : 1) * pool, [&](int y) { takePower(rows, pass.place[0], y); });
-        if (hasOutliers(k)) {
-          poolTwice(around + pool);
-          forRows(around + pool, [&](int y) { boundPower(rows, pass.place[0], y); });
-        }
-        poolTwice(around);
-        forRows(around, [&](int y) { keepLevel(rows, k, pass.place[0], y); });
-      }
-      for (int l = 0; l < kFilterLights; ++l) pass.place[l] ^= pass.filter[l] ? 1 : 0;
-      if (k > 0 || !also.once) continue;
-      forRows(0, [&](int y) {
-        const float* at = rows.line(FilterRows::light(0, pass.place[0]), y);
-        for (int x = 0; x < w; ++x)
-          (*also.once)[static_cast<size_t>(begin + y) * static_cast<size_t>(w) + static_cast<size_t>(x)] =
-              fetch(at + x, rows.pitch());
-      });
-    }
-    if (levels) forRows(around, [&](int y) { addKept(rows, pass.place[0], y); });
-    if (around > 0) {
-      forRows(around, [&](int y) { takeNoise(rows, pass.place[0], y); });
-      forRows(2, [&](int y) { poolRow(rows, 1, 0, y); });
-      forRows(0, [&](int y) { poolRow(rows, 2, 1, y); });
-    }
+    poolTwice(around_);
+    forRows(around_, [&](int y) { keepLevel(rows_, k, pass_.place[0], y); });
+  }
+
+  void poolNoise() {
+    forRows(around_, [&](int y) { takeNoise(rows_, pass_.place[0], y); });
+    forRows(2, [&](int y) { poolRow(rows_, 1, 0, y); });
+    forRows(0, [&](int y) { poolRow(rows_, 2, 1, y); });
+  }
+
+  void tellOnce() {
     forRows(0, [&](int y) {
-      const size_t row = static_cast<size_t>(begin + y) * static_cast<size_t>(w);
-      const float *at = rows.line(FilterRows::light(0, pass.place[0]), y),
-                  *spread = rows.line(FilterRows::light(3, pass.place[3]), y);
-      const std::span<const FilterPixel> pixels = pixelsOfRow(begin + y);
-      if (!also.left) compose(pixels, rows, pass, y, &out.at(0, begin + y));
-      for (int x = 0; also.irradiance && x < w; ++x)
-        (*also.irradiance)[row + static_cast<size_t>(x)] =
-            fetch(at + x, rows.pitch()) + fetch(spread + x, rows.pitch());
-      for (int x = 0; also.left && x < w; ++x) {
-        const FilterPixel& p = pixels[static_cast<size_t>(x)];
-        const size_t i = row + static_cast<size_t>(x);
-        const auto of = [&](int k) {
-          return rows.line(FilterRows::light(k, pass.place[k]) + FilterRows::kVariance, y)[x];
-        };
-        const auto light = [&](int k) {
-          return fetch(rows.line(FilterRows::light(k, pass.place[k]), y) + x, rows.pitch());
-        };
-        const float albedo = luminance(divisor(p.albedo));
-        also.left->luminance[i] = luminance(divisor(p.albedo) * (light(0) + light(1)) + light(2) + p.rest);
-        const float diffuse = levels ? rows.line(FilterRows::pool(0), y)[x] : correlatedAfter(passes) * of(0);
-        also.left->variance[i] = albedo * albedo * (diffuse + of(1)) + correlatedAfter(kSpecularPasses) * of(2);
-      }
+      const float* at = rows_.line(FilterRows::light(0, pass_.place[0]), y);
+      for (int x = 0; x < w_; ++x) (*also_.once)[rowOf(y) + static_cast<size_t>(x)] = fetch(at + x, rows_.pitch());
     });
   }
-  return out;
+
+  void tell(int y, Image& out) const {
+    const size_t row = rowOf(y);
+    const float *at = rows_.line(FilterRows::light(0, pass_.place[0]), y),
+                *spread = rows_.line(FilterRows::light(3, pass_.place[3]), y);
+    const std::span<const FilterPixel> pixels = pixelsOfRow(y);
+    if (!also_.left) compose(pixels, rows_, pass_, y, &out.at(0, begin_ + y));
+    for (int x = 0; also_.irradiance && x < w_; ++x)
+      (*also_.irradiance)[row + static_cast<size_t>(x)] =
+          fetch(at + x, rows_.pitch()) + fetch(spread + x, rows_.pitch());
+    for (int x = 0; also_.left && x < w_; ++x) {
+      const FilterPixel& p = pixels[static_cast<size_t>(x)];
+      const size_t i = row + static_cast<size_t>(x);
+      const auto of = [&](int k) {
+        return rows_.line(FilterRows::light(k, pass_.place[k]) + FilterRows::kVariance, y)[x];
+      };
+      const auto light = [&](int k) {
+        return fetch(rows_.line(FilterRows::light(k, pass_.place[k]), y) + x, rows_.pitch());
+      };
+      const float albedo = luminance(divisor(p.albedo));
+      also_.left->luminance[i] = luminance(divisor(p.albedo) * (light(0) + light(1)) + light(2) + p.rest);
+      const float diffuse = levels_ ? rows_.line(FilterRows::pool(0), y)[x] : correlatedAfter(passes_) * of(0);
+      also_.left->variance[i] = albedo * albedo * (diffuse + of(1)) + correlatedAfter(kSpecularPasses) * of(2);
+    }
+  }
+
+  const FilterInput& input_;
+  const Also& also_;
+  const int passes_, w_, h_;
+  const Kinds kinds_;
+  const bool levels_;  // diffuse light is filtered by levels
+  const std::vector<int> steps_;
+  const int around_;  // rows whose noise tells that of a pixel
+  const int reach_;
+  FilterRows rows_;
+  int cleared_ = 0;  // rows whose margins are; passes leave them so
+  int begin_ = 0, end_ = 0, first_ = 0, last_ = 0;  // rows in memory, and those of the band among them
+  int left_ = 0;  // rows beside the band that passes still look at
+  FilterPass pass_;
+};
+
+Image filteredFlat(const FilterInput& input, int passes, const Also& also) {
+  return BandFilter(input, passes, also).run();
 }
 
 // A picture with as many columns of its other side beside each edge as all passes reach.

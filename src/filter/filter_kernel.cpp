@@ -193,103 +193,132 @@ struct Sum {
 
 enum Diffuse { kNone, kByNoise, kByLevels };
 
+// Pixels that are filtered together.
+struct Centre {
+  float* here;
+  ptrdiff_t pitch;
+  Place own, reflected;
+  V roughness;
+};
+
+// Pixels as far from all of these.
+struct Beside {
+  const float* there;
+  int off;  // steps
+  V facing, kernel, offPlane;
+};
+
+template <Diffuse kDiffuse>
+HWY_INLINE Sum ownLight(const FilterPass& pass, int k, const Centre& c) {
+  const float* at = c.here + FilterRows::light(k, pass.place[k]) * c.pitch;
+  if (k == 0 && kDiffuse == kByLevels)
+    return Sum::ofLevel(load3(at, c.pitch), load(at + FilterRows::kVariance * c.pitch),
+                        load(at + FilterRows::kWeight * c.pitch),
+                        load(c.here + FilterRows::open(pass.place[0]) * c.pitch));
+  return Sum(load3(at, c.pitch), load(at + FilterRows::kVariance * c.pitch), load(at + FilterRows::kWeight * c.pitch),
+             load(c.here + (FilterRows::kSeen + k) * c.pitch), load(c.here + (FilterRows::kNoise + k) * c.pitch));
+}
+
+HWY_INLINE void addLevel(const FilterPass& pass, const Centre& c, const Beside& b, Sum& s) {
+  const float* at = b.there + FilterRows::light(0, pass.place[0]) * c.pitch;
+  s.addLevel(load3(at, c.pitch), load(at + FilterRows::kVariance * c.pitch),
+             load(b.there + FilterRows::open(pass.place[0]) * c.pitch), load(at + FilterRows::kWeight * c.pitch),
+             hn::Mul(hn::Mul(set(kSmooth[b.off]), b.facing), falloff(b.offPlane)));
+}
+
+// Its own noise tells nothing: what other diffuse light there is tells where it changes.
+HWY_INLINE void addRare(const FilterPass& pass, const Centre& c, const Beside& b, Sum& s) {
+  const D d;
+  const V one = load(c.here + FilterRows::kSeen * c.pitch), two = load(b.there + FilterRows::kSeen * c.pitch);
+  const V apart =
+      hn::Div(hn::Abs(hn::Sub(one, two)),
+              hn::MulAdd(set(kSameLevel), hn::Add(hn::Max(one, hn::Zero(d)), hn::Max(two, hn::Zero(d))), set(1e-6f)));
+  const V level =
+      hn::IfThenElseZero(hn::Ge(hn::Min(one, two), hn::Zero(d)), hn::Mul(apart, apart));  // unseen: like everything
+  const float* at = b.there + FilterRows::light(3, pass.place[3]) * c.pitch;
+  s.add(load3(at, c.pitch), hn::Zero(d), load(at + FilterRows::kWeight * c.pitch),
+        hn::Mul(b.kernel, falloff(hn::Add(b.offPlane, level))));
+}
+
+HWY_INLINE void addByNoise(const FilterPass& pass, int k, const Centre& c, const Beside& b, Sum& s) {
+  const D d;
+  // How far the light of two pixels differs, in units of their noise together: as seen from either, so that as much
+  // passes from a bright spot to its surroundings as back.
+  const V noise = hn::Sqrt(hn::Add(s.noise, load(b.there + (FilterRows::kNoise + k) * c.pitch)));
+  const V seen = load(b.there + (FilterRows::kSeen + k) * c.pitch);
+  const V between = hn::IfThenElseZero(hn::Ge(hn::Min(seen, s.seen), hn::Zero(d)), hn::Abs(hn::Sub(seen, s.seen)));
+  V apart = b.offPlane, like = b.kernel;
+  if (k == 2) {
+    const Place reflected = reflectedAt(b.there, c.pitch);
+    apart = hn::Max(b.offPlane, offPlane(c.reflected, reflected));
+    like = hn::Mul(set(kKernel[b.off]), hn::Min(b.facing, likeness(dot(c.reflected.n, reflected.n))));
+  }
+  V weight = hn::Mul(like, falloff(hn::Add(apart, hn::Div(between, hn::MulAdd(set(kSigmas[k]), noise, set(1e-6f))))));
+  if (k == 2) {
+    const V r = load(b.there + FilterRows::kRoughness * c.pitch);
+    const auto alike =
+        hn::And(hn::Ge(r, set(kMirrorRoughness)), hn::Le(hn::Abs(hn::Sub(r, c.roughness)), set(kSameRoughness)));
+    weight = hn::IfThenElseZero(alike, weight);
+  }
+  const float* at = b.there + FilterRows::light(k, pass.place[k]) * c.pitch;
+  s.add(load3(at, c.pitch), load(at + FilterRows::kVariance * c.pitch), load(at + FilterRows::kWeight * c.pitch),
+        weight);
+}
+
+template <Diffuse kDiffuse>
+HWY_INLINE void storeMean(const FilterPass& pass, int k, const Centre& c, const Sum& s) {
+  const D d;
+  const V inverse = hn::Div(set(1), hn::Max(s.total, set(kNoSamples)));
+  const auto kept = hn::Lt(c.roughness, set(k == 2 ? kMirrorRoughness : -1));
+  float* at = c.here + FilterRows::light(k, 1 - pass.place[k]) * c.pitch;
+  hn::StoreU(hn::IfThenElse(kept, s.own.x, hn::Mul(s.light.x, inverse)), d, at);
+  hn::StoreU(hn::IfThenElse(kept, s.own.y, hn::Mul(s.light.y, inverse)), d, at + c.pitch);
+  hn::StoreU(hn::IfThenElse(kept, s.own.z, hn::Mul(s.light.z, inverse)), d, at + 2 * c.pitch);
+  if (k == 0 && kDiffuse == kByLevels)
+    hn::StoreU(hn::Mul(s.open, inverse), d, c.here + FilterRows::open(1 - pass.place[0]) * c.pitch);
+  const V spread = k == 0 && kDiffuse == kByLevels ? inverse : hn::Mul(inverse, inverse);
+  hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, spread)), d, at + FilterRows::kVariance * c.pitch);
+  hn::StoreU(hn::IfThenElse(kept, s.ownWeight, hn::Div(s.total, s.kernel)), d, at + FilterRows::kWeight * c.pitch);
+}
+
 template <Diffuse kDiffuse, bool kSharp, bool kSpecular, bool kRare>
 void filterPixels(FilterRows& rows, const FilterPass& pass, int y) {
   const D d;
   constexpr bool kUsed[kFilterLights] = {kDiffuse != kNone, kSharp, kSpecular, kRare};
   const ptrdiff_t pitch = rows.pitch();
-  const float* row = rows.line(0, y);
+  float* row = rows.line(0, y);
   for (ptrdiff_t x = 0; x < rows.width(); x += static_cast<ptrdiff_t>(hn::Lanes(d))) {
-    const float* here = row + x;
+    float* here = row + x;
     const Place own = placeAt(here, pitch);
-    const Place ownReflected = kSpecular ? reflectedAt(here, pitch) : own;
-    const V roughness = load(here + FilterRows::kRoughness * pitch);
+    const Centre centre{here, pitch, own, kSpecular ? reflectedAt(here, pitch) : own,
+                        load(here + FilterRows::kRoughness * pitch)};
     Sum sums[kFilterLights];
     for (int k = 0; k < kFilterLights; ++k) {
-      if (!kUsed[k]) continue;
-      const float* at = here + FilterRows::light(k, pass.place[k]) * pitch;
-      if (k == 0 && kDiffuse == kByLevels) {
-        sums[k] =
-            Sum::ofLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch),
-                         load(at + FilterRows::kWeight * pitch), load(here + FilterRows::open(pass.place[0]) * pitch));
-        continue;
-      }
-      sums[k] = Sum(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch),
-                    load(here + (FilterRows::kSeen + k) * pitch), load(here + (FilterRows::kNoise + k) * pitch));
+      if (kUsed[k]) sums[k] = ownLight<kDiffuse>(pass, k, centre);
     }
     for (int j = -1; j <= 1; ++j) {
       if (y + j * pass.step < 0 || y + j * pass.step >= rows.height()) continue;
       for (int i = -1; i <= 1; ++i) {
         if (i == 0 && j == 0) continue;
         const float* there = here + j * pass.step * rows.rowPitch() + i * pass.step;
+        const int off = std::abs(i) + std::abs(j);
         const Place other = placeAt(there, pitch);
-        const V facing = likeness(dot(own.n, other.n)),
-                kernel = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]), facing), off = offPlane(own, other);
+        const V facing = likeness(dot(own.n, other.n));
+        const Beside beside{there, off, facing, hn::Mul(set(kKernel[off]), facing), offPlane(own, other)};
         for (int k = 0; k < kFilterLights; ++k) {
           if (!kUsed[k]) continue;
-          Sum& s = sums[k];
           if (k == 0 && kDiffuse == kByLevels) {
-            const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-            s.addLevel(load3(at, pitch), load(at + FilterRows::kVariance * pitch),
-                       load(there + FilterRows::open(pass.place[0]) * pitch), load(at + FilterRows::kWeight * pitch),
-                       hn::Mul(hn::Mul(set(kSmooth[std::abs(i) + std::abs(j)]), facing), falloff(off)));
-            continue;
+            addLevel(pass, centre, beside, sums[k]);
+          } else if (k == 3) {
+            addRare(pass, centre, beside, sums[k]);
+          } else {
+            addByNoise(pass, k, centre, beside, sums[k]);
           }
-          if (k == 3) {
-            // Its own noise tells nothing: what other diffuse light there is tells where it changes.
-            const V one = load(here + FilterRows::kSeen * pitch), two = load(there + FilterRows::kSeen * pitch);
-            const V apart = hn::Div(
-                hn::Abs(hn::Sub(one, two)),
-                hn::MulAdd(set(kSameLevel), hn::Add(hn::Max(one, hn::Zero(d)), hn::Max(two, hn::Zero(d))), set(1e-6f)));
-            const V level = hn::IfThenElseZero(hn::Ge(hn::Min(one, two), hn::Zero(d)),
-                                               hn::Mul(apart, apart));  // unseen: like everything
-            const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-            s.add(load3(at, pitch), hn::Zero(d), load(at + FilterRows::kWeight * pitch),
-                  hn::Mul(kernel, falloff(hn::Add(off, level))));
-            continue;
-          }
-          // How far the light of two pixels differs, in units of their noise together: as seen from either, so that as
-          // much passes from a bright spot to its surroundings as back.
-          const V noise = hn::Sqrt(hn::Add(s.noise, load(there + (FilterRows::kNoise + k) * pitch)));
-          const V seen = load(there + (FilterRows::kSeen + k) * pitch);
-          const V between =
-              hn::IfThenElseZero(hn::Ge(hn::Min(seen, s.seen), hn::Zero(d)), hn::Abs(hn::Sub(seen, s.seen)));
-          V apart = off, like = kernel;
-          if (k == 2) {
-            const Place reflected = reflectedAt(there, pitch);
-            apart = hn::Max(off, offPlane(ownReflected, reflected));
-            like = hn::Mul(set(kKernel[std::abs(i) + std::abs(j)]),
-                           hn::Min(facing, likeness(dot(ownReflected.n, reflected.n))));
-          }
-          V weight =
-              hn::Mul(like, falloff(hn::Add(apart, hn::Div(between, hn::MulAdd(set(kSigmas[k]), noise, set(1e-6f))))));
-          if (k == 2) {
-            const V r = load(there + FilterRows::kRoughness * pitch);
-            const auto alike =
-                hn::And(hn::Ge(r, set(kMirrorRoughness)), hn::Le(hn::Abs(hn::Sub(r, roughness)), set(kSameRoughness)));
-            weight = hn::IfThenElseZero(alike, weight);
-          }
-          const float* at = there + FilterRows::light(k, pass.place[k]) * pitch;
-          s.add(load3(at, pitch), load(at + FilterRows::kVariance * pitch), load(at + FilterRows::kWeight * pitch),
-                weight);
         }
       }
     }
     for (int k = 0; k < kFilterLights; ++k) {
-      if (!kUsed[k]) continue;
-      const Sum& s = sums[k];
-      const V inverse = hn::Div(set(1), hn::Max(s.total, set(kNoSamples)));
-      const auto kept = hn::Lt(roughness, set(k == 2 ? kMirrorRoughness : -1));
-      float* at = rows.line(FilterRows::light(k, 1 - pass.place[k]), y) + x;
-      hn::StoreU(hn::IfThenElse(kept, s.own.x, hn::Mul(s.light.x, inverse)), d, at);
-      hn::StoreU(hn::IfThenElse(kept, s.own.y, hn::Mul(s.light.y, inverse)), d, at + pitch);
-      hn::StoreU(hn::IfThenElse(kept, s.own.z, hn::Mul(s.light.z, inverse)), d, at + 2 * pitch);
-      if (k == 0 && kDiffuse == kByLevels)
-        hn::StoreU(hn::Mul(s.open, inverse), d, rows.line(FilterRows::open(1 - pass.place[0]), y) + x);
-      const V spread = k == 0 && kDiffuse == kByLevels ? inverse : hn::Mul(inverse, inverse);
-      hn::StoreU(hn::IfThenElse(kept, s.ownVariance, hn::Mul(s.variance, spread)), d,
-                 at + FilterRows::kVariance * pitch);
-      hn::StoreU(hn::IfThenElse(kept, s.ownWeight, hn::Div(s.total, s.kernel)), d, at + FilterRows::kWeight * pitch);
+      if (kUsed[k]) storeMean<kDiffuse>(pass, k, centre, sums[k]);
     }
   }
 }

@@ -382,9 +382,9 @@ class CausticTracer {
 
 }  // namespace
 
-std::vector<CausticPhoton> traceCausticPhotons(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen,
-                                               size_t count, bool apart, uint64_t seed, uint64_t& rayCount) {
-  CausticTracer tracer(rays, lights, seen, apart, seed);
+std::vector<CausticPhoton> traceCausticPhotons(const TracedScene& scene, std::span<const Vec3> seen, size_t count,
+                                               bool apart, uint64_t seed, uint64_t& rayCount) {
+  CausticTracer tracer(scene.rays, scene.lights, seen, apart, seed);
   std::vector<CausticPhoton> photons = tracer.trace(count);
   rayCount += tracer.rayCount();
   return photons;

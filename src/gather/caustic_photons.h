@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "trace/lights.h"
-#include "trace/ray_scene.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 
@@ -22,7 +21,7 @@ struct CausticPhoton {
 // each of which it is kept too. Of the sky there is none. About `count` photons arrive near the places `seen`; the flux
 // of all is right in the mean everywhere. None where such surfaces get no light. `apart`: that of each lamp and
 // emissive mesh is wanted apart. The same for any number of threads.
-std::vector<CausticPhoton> traceCausticPhotons(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen,
-                                               size_t count, bool apart, uint64_t seed, uint64_t& rayCount);
+std::vector<CausticPhoton> traceCausticPhotons(const TracedScene& scene, std::span<const Vec3> seen, size_t count,
+                                               bool apart, uint64_t seed, uint64_t& rayCount);
 
 }  // namespace roomlight

@@ -4,9 +4,9 @@
 
 namespace roomlight {
 
-GatheredPicture gatherCones(const RayScene& rays, const Lights& lights, const Voxels& voxels,
-                            const RadianceField& field, const Camera& camera, const GatherSettings& settings,
-                            const Progress& progress) {
+GatheredPicture gatherCones(const TracedScene& scene, const Voxels& voxels, const RadianceField& field,
+                            const Camera& camera, const GatherSettings& settings, const Progress& progress) {
+  const auto& [rays, lights] = scene;
   return gatherPicture(rays, lights, ConeShader(rays, lights, voxels, field, settings), camera, settings, progress);
 }
 

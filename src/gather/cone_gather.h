@@ -5,6 +5,7 @@
 
 #include "gather/picture.h"
 #include "radiance/radiance_field.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 
@@ -17,8 +18,7 @@ struct GatherSettings : PictureSettings {
   Vec3 ambientCdM2{0, 0, 0};      // luminance of light that ambient occlusion attenuates; 0: physical light only
 };
 
-GatheredPicture gatherCones(const RayScene& rays, const Lights& lights, const Voxels& voxels,
-                            const RadianceField& field, const Camera& camera, const GatherSettings& settings,
-                            const Progress& progress = {});
+GatheredPicture gatherCones(const TracedScene& scene, const Voxels& voxels, const RadianceField& field,
+                            const Camera& camera, const GatherSettings& settings, const Progress& progress = {});
 
 }  // namespace roomlight

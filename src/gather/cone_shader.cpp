@@ -97,9 +97,9 @@ Vec3 ConeShader::seen(Ray ray, const Reflected& from, Vec3 startLux, Sampler& sa
     if (const int64_t slot = slotAtSurface(voxels_, s.p, s.ng);
         slot >= 0 && isParted(static_cast<size_t>(slot), s, count)) {
       const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
+      const LitSurface at{s, bsdf, Reflection::Cone};
       float unused = 0;
-      const Vec3 direct = soft(s, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse +
-                          sharp(s, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
+      const Vec3 direct = soft(at, guideOf(s), sampler, count).diffuse + sharp(at, {}, sampler, count, unused).diffuse;
       sum += left * (direct + bsdf.diffuseAlbedo() * startLux / kPi) * s.m.alpha;
     } else {
       sum += left * bihemisphericalAlbedo(s.m) * reflectedIrradiance(s, ray.direction, from, sampler, count) *

@@ -31,17 +31,18 @@ SurfaceLight DirectShader::shade(const Shading& work, std::span<const Shadow> sh
   const Reflection by = work.followed                   ? Reflection::Followed
                         : s.m.roughness < rayRoughness_ ? Reflection::Ray
                                                         : Reflection::Cone;
+  const LitSurface at{s, bsdf, by};
   const int32_t guide = guideOf(s);
   SurfaceLight out;
-  const Lobes soft = this->soft(s, bsdf, by, guide, sampler, count, !work.skyKnown),
-              sharp = this->sharp(s, bsdf, by, shadows, sampler, count, out.sharpVariance);
+  const Lobes soft = this->soft(at, guide, sampler, count, !work.skyKnown),
+              sharp = this->sharp(at, shadows, sampler, count, out.sharpVariance);
   out.albedo = bsdf.diffuseAlbedo();
   out.diffuse = soft.diffuse;
   out.sharp = sharp.diffuse;
   out.specular = soft.specular + sharp.specular;
   if (maxComponent(out.albedo) > 1e-4f) out.diffuse += out.albedo * indirect(s, sampler, count, out.occlusion);
   if (!work.followed && maxComponent(bsdf.specularAlbedo()) > 1e-4f)
-    out.specular += reflection(s, work.wo, bsdf, by, guide, sampler, count);
+    out.specular += reflection(at, work.wo, guide, sampler, count);
   return out;
 }
 
@@ -56,24 +57,24 @@ Vec3 DirectShader::visible(const SurfacePoint& s, const LightSample& light, cons
 // Both lobes towards a light. Where reflections follow rays they find extended lights too; both ways share the specular
 // lobe by multiple importance sampling, and from mirrors rays alone look for them. `strategies` is how many light
 // samples compete.
-Lobes DirectShader::towards(const LightSample& light, const Bsdf& bsdf, Reflection by, float strategies) const {
+Lobes DirectShader::towards(const LightSample& light, const LitSurface& at, float strategies) const {
   if (!light.valid()) return {};
-  Lobes f{bsdf.evaluateDiffuse(light.wi), bsdf.evaluateSpecular(light.wi)};
-  if (by == Reflection::Ray && light.pdf > 0)
-    f.specular *= misWeight(strategies * light.pdf, bsdf.pdfSpecular(light.wi));
-  if (by == Reflection::Followed && light.pdf > 0) f.specular = {};
+  Lobes f{at.bsdf.evaluateDiffuse(light.wi), at.bsdf.evaluateSpecular(light.wi)};
+  if (at.by == Reflection::Ray && light.pdf > 0)
+    f.specular *= misWeight(strategies * light.pdf, at.bsdf.pdfSpecular(light.wi));
+  if (at.by == Reflection::Followed && light.pdf > 0) f.specular = {};
   return f;
 }
 
 // Light of suns and lamps. Their shadows are given, or traced where `shadows` is empty.
-Lobes DirectShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows,
-                          Sampler& sampler, GatherCounters& count, float& variance) const {
+Lobes DirectShader::sharp(const LitSurface& at, std::span<const Shadow> shadows, Sampler& sampler,
+                          GatherCounters& count, float& variance) const {
   Lobes sum;
   for (size_t i = 0; i < sharp_.count(); ++i) {
-    const LightSample light = sharp_.sample(i, s.p, sampler.next2());
-    const Lobes f = towards(light, bsdf, by, 1);
+    const LightSample light = sharp_.sample(i, at.s.p, sampler.next2());
+    const Lobes f = towards(light, at, 1);
     if (shadows.empty()) {
-      sum.add(f, light.radiance * visible(s, light, f, count));
+      sum.add(f, light.radiance * visible(at.s, light, f, count));
     } else {
       sum.add(f, light.radiance * shadows[i].left);
       const float l = luminance(f.diffuse * light.radiance);
@@ -84,20 +85,20 @@ Lobes DirectShader::sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by
 }
 
 // Light of the sky, emissive meshes and, where they are many, lamps.
-Lobes DirectShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler,
-                         GatherCounters& count, bool skyToo) const {
+Lobes DirectShader::soft(const LitSurface& at, int32_t guide, Sampler& sampler, GatherCounters& count,
+                         bool skyToo) const {
   Lobes sum;
   const auto take = [&](const LightSample& light, float strategies, float weight) {
-    const Lobes f = towards(light, bsdf, by, strategies);
-    sum.add(f, light.radiance * visible(s, light, f, count) * weight);
+    const Lobes f = towards(light, at, strategies);
+    sum.add(f, light.radiance * visible(at.s, light, f, count) * weight);
   };
   if (lights_.lampCount() + lights_.sunCount() > sharp_.count()) {
-    for (int k = 0; k < kLampSamples; ++k) take(lights_.sampleLamps(s.p, sampler), 1, 1.0f / kLampSamples);
+    for (int k = 0; k < kLampSamples; ++k) take(lights_.sampleLamps(at.s.p, sampler), 1, 1.0f / kLampSamples);
   }
   if (lights_.hasEmitters()) {
     const float choice = sampler.next1();
     for (int k = 0; k < kEmitterSamples; ++k) {
-      take(lights_.sampleEmitters(s.p, sampler.next2(), (choice + static_cast<float>(k)) / kEmitterSamples),
+      take(lights_.sampleEmitters(at.s.p, sampler.next2(), (choice + static_cast<float>(k)) / kEmitterSamples),
            kEmitterSamples, 1.0f / kEmitterSamples);
     }
   }
@@ -107,15 +108,16 @@ Lobes DirectShader::soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by,
       take(sampleSkyGuided(guide_, guide, lights_, u, sampler.next1()), kSkySamples, 1.0f / kSkySamples);
     }
   }
-  addNear(s, bsdf, by, sampler, sum, count);
+  addNear(at.s, at.bsdf, at.by, sampler, sum, count);
   return sum;
 }
 
-Vec3 DirectShader::reflection(const SurfacePoint& s, Vec3 wo, const Bsdf& bsdf, Reflection by, int32_t guide,
-                              Sampler& sampler, GatherCounters& count) const {
-  const BsdfSample r = bsdf.sampleSpecular(sampler.next2());
+Vec3 DirectShader::reflection(const LitSurface& at, Vec3 wo, int32_t guide, Sampler& sampler,
+                              GatherCounters& count) const {
+  const SurfacePoint& s = at.s;
+  const BsdfSample r = at.bsdf.sampleSpecular(sampler.next2());
   if (!r.valid() || isBlack(r.weight)) return {};
-  if (by == Reflection::Ray)
+  if (at.by == Reflection::Ray)
     return r.weight * along({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity},
                             {s.p, r.mirror ? 0 : r.pdf, guide, s.m.roughness < kSharpRoughness}, sampler, count);
   return r.weight * glossy(s, wo, r, sampler, count);
@@ -134,13 +136,12 @@ Vec3 DirectShader::along(Ray ray, Reflected from, Sampler& sampler, GatherCounte
       sum += left * emitted * from.weight(kEmitterSamples * lights_.pdfEmitters(from.p, s));
     const Bsdf bsdf(s.m, s.ns, s.ng, -ray.direction);
     const bool glossy = s.m.roughness < kChainRoughness;
-    const Reflection by = glossy ? Reflection::Ray : Reflection::Cone;
+    const LitSurface at{s, bsdf, glossy ? Reflection::Ray : Reflection::Cone};
     const Vec3 rho = glossy ? bsdf.diffuseAlbedo() : bihemisphericalAlbedo(s.m);
     const int32_t guide = from.sharp ? guideOf(s) : -1;
     if (from.sharp) {
       float unused = 0;
-      const Lobes light = soft(s, bsdf, by, guide, sampler, count),
-                  point = sharp(s, bsdf, by, {}, sampler, count, unused);
+      const Lobes light = soft(at, guide, sampler, count), point = sharp(at, {}, sampler, count, unused);
       Vec3 lit = light.diffuse + light.specular + point.diffuse + point.specular;
       if (maxComponent(rho) > 1e-4f) lit += rho * indirect(s, sampler, count, unused);
       sum += left * lit * s.m.alpha;
@@ -187,9 +188,9 @@ Vec3 DirectShader::reflectedIrradiance(const SurfacePoint& s, Vec3 direction, co
   white.m = {};
   white.m.baseColor = Vec3(1);
   const Bsdf bsdf(white.m, s.ns, s.ng, -direction);
+  const LitSurface at{white, bsdf, Reflection::Cone};
   float unused = 0;
-  const Vec3 direct = soft(white, bsdf, Reflection::Cone, guideOf(s), sampler, count).diffuse +
-                      sharp(white, bsdf, Reflection::Cone, {}, sampler, count, unused).diffuse;
+  const Vec3 direct = soft(at, guideOf(s), sampler, count).diffuse + sharp(at, {}, sampler, count, unused).diffuse;
   return (direct + indirect(white, sampler, count, unused)) * kPi;
 }
 

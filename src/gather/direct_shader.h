@@ -18,6 +18,13 @@ enum class Reflection : uint8_t {
   Followed  // the caller, who sends rays on from mirrors
 };
 
+// A surface that is lit, with its BSDF towards where it is seen from.
+struct LitSurface {
+  const SurfacePoint& s;
+  const Bsdf& bsdf;
+  Reflection by;
+};
+
 class DirectShader : public SurfaceShader {
  public:
   // `guide`, over the bricks of `voxels`, says where the sky is seen; it may be empty. Below `rayRoughness` reflections
@@ -59,10 +66,9 @@ class DirectShader : public SurfaceShader {
                        GatherCounters& count) const;
 
   Vec3 visible(const SurfacePoint& s, const LightSample& light, const Lobes& f, GatherCounters& count) const;
-  Lobes sharp(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, std::span<const Shadow> shadows, Sampler& sampler,
-              GatherCounters& count, float& variance) const;
-  Lobes soft(const SurfacePoint& s, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler,
-             GatherCounters& count, bool skyToo = true) const;
+  Lobes sharp(const LitSurface& at, std::span<const Shadow> shadows, Sampler& sampler, GatherCounters& count,
+              float& variance) const;
+  Lobes soft(const LitSurface& at, int32_t guide, Sampler& sampler, GatherCounters& count, bool skyToo = true) const;
   int32_t guideOf(const SurfacePoint& s) const;
 
   const RayScene& rays_;
@@ -72,9 +78,8 @@ class DirectShader : public SurfaceShader {
 
  private:
   SurfaceLight shade(const Shading& work, std::span<const Shadow> shadows, GatherCounters& count) const;
-  Lobes towards(const LightSample& light, const Bsdf& bsdf, Reflection by, float strategies) const;
-  Vec3 reflection(const SurfacePoint& s, Vec3 wo, const Bsdf& bsdf, Reflection by, int32_t guide, Sampler& sampler,
-                  GatherCounters& count) const;
+  Lobes towards(const LightSample& light, const LitSurface& at, float strategies) const;
+  Vec3 reflection(const LitSurface& at, Vec3 wo, int32_t guide, Sampler& sampler, GatherCounters& count) const;
   Vec3 along(Ray ray, Reflected from, Sampler& sampler, GatherCounters& count) const;
   Vec3 reflectedBackground(Vec3 d, const Reflected& from) const;
 

@@ -52,7 +52,7 @@ class MeanSquare {
 
 }  // namespace
 
-ErrorProbes::ErrorProbes(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+ErrorProbes::ErrorProbes(const TracedScene& scene, const SurfaceShader& shader, const Camera& camera,
                          const PictureSettings& settings, bool closely, const Progress& progress) {
   const auto pixels = static_cast<size_t>(settings.width) * static_cast<size_t>(settings.height);
   const size_t count = std::min(pixels, std::clamp(pixels / kOneIn, kFewestPixels, kMostPixels));
@@ -62,8 +62,8 @@ ErrorProbes::ErrorProbes(const RayScene& rays, const Lights& lights, const Surfa
   // Parts of one well-distributed set would not be independent.
   PictureSettings other = own;
   other.seed = mix64(own.seed);
-  const PixelRays places[2] = {{rays, camera, own}, {rays, camera, other}};
-  const PixelShader pixelShader(rays, lights, own, false);
+  const PixelRays places[2] = {{scene.rays, camera, own}, {scene.rays, camera, other}};
+  const PixelShader pixelShader(scene.rays, scene.lights, own, false);
   probes_.resize(count);
   std::atomic<uint64_t> rayCount = 0;
   parallelRanges(count, kAtOnce, [&](size_t begin, size_t end) {

@@ -10,13 +10,14 @@
 
 #include "base/progress.h"
 #include "gather/picture.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 
 class ErrorProbes {
  public:
   // `closely`: for pictures whose error shall be small.
-  ErrorProbes(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+  ErrorProbes(const TracedScene& scene, const SurfaceShader& shader, const Camera& camera,
               const PictureSettings& settings, bool closely, const Progress& progress);
   // Of a picture of the same size; nothing is known of one of a few pixels.
   ErrorLeft of(const Image& picture) const;

@@ -392,19 +392,19 @@ void FrameMaker::make(int x0, int y0, GatherCounters& count) const {
 
 }  // namespace
 
-Image gatherView(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+Image gatherView(const TracedScene& scene, const SurfaceShader& shader, const Camera& camera,
                  const PictureSettings& settings, FrameHistory* history, const Progress& progress) {
   if (history && history->settings().reuse && settings.samples == 1 && !settings.white)
-    return gatherFrame(rays, lights, shader, camera, settings, *history, progress);
-  return gatherPicture(rays, lights, shader, camera, settings, progress).image;
+    return gatherFrame(scene, shader, camera, settings, *history, progress);
+  return gatherPicture(scene.rays, scene.lights, shader, camera, settings, progress).image;
 }
 
-Image gatherFrame(const RayScene& rays, const Lights& lights, const SurfaceShader& shader, const Camera& camera,
+Image gatherFrame(const TracedScene& scene, const SurfaceShader& shader, const Camera& camera,
                   const PictureSettings& settings, FrameHistory& history, const Progress& progress) {
   PictureSettings use = settings;
   use.samples = kPlaces;
-  history.begin(camera, use.width, use.height, lights);
-  const FrameMaker maker(rays, lights, shader, camera, use, history);
+  history.begin(camera, use.width, use.height, scene.lights);
+  const FrameMaker maker(scene.rays, scene.lights, shader, camera, use, history);
   const size_t across = static_cast<size_t>((use.width + kTile - 1) / kTile),
                tiles = across * static_cast<size_t>((use.height + kTile - 1) / kTile);
   parallelRanges(tiles, kTilesAtOnce, [&](size_t begin, size_t end) {

@@ -26,6 +26,26 @@ constexpr size_t kAtOnce = 4096;  // samples
 
 float cellM(const HitCache& cells, int level) { return cells.cellM() * static_cast<float>(1 << level); }
 
+// A cell of one level.
+struct Node {
+  size_t begin, end;  // of its samples in the order
+  Vec3 mean;
+  float weight, off2, noise;
+};
+
+// A cell of the next larger level.
+struct Parent {
+  size_t begin, end;  // nodes
+  float weight = 0, mean = 0;
+  double signal = 0, freedom = 0;  // how far its cells are off one another beyond noise, and how free they are to be
+};
+
+struct NestedCells {
+  std::vector<uint32_t> order;  // of samples
+  std::vector<Node> nodes;
+  std::vector<Parent> parents;
+};
+
 struct Smoothing {
   const RayScene& rays;
   const HitCache& cells;
@@ -44,6 +64,10 @@ struct Smoothing {
   void findClusters();
   void boundSamples();
   void startAtTop();
+  std::vector<uint32_t> nestedOrder(const std::vector<uint64_t>& keys, const std::vector<uint64_t>& larger) const;
+  NestedCells cellsOf(const std::vector<uint64_t>& keys, const std::vector<uint64_t>& larger) const;
+  float findSpread(NestedCells& nested) const;
+  void drawTowards(const Parent& parent, float spread2, NestedCells& nested);
   void refine(int level);
 };
 
@@ -135,28 +159,23 @@ void Smoothing::startAtTop() {
   });
 }
 
-void Smoothing::refine(int level) {
-  // Cells of this level, those in one of the next larger one after the other.
-  const std::vector<uint64_t> keys = keysOf(level), larger = keysOf(level + 1);
+// Samples by cells of this level, those in one of the next larger one after the other.
+std::vector<uint32_t> Smoothing::nestedOrder(const std::vector<uint64_t>& keys,
+                                             const std::vector<uint64_t>& larger) const {
   const std::vector<uint32_t> byKey = sortedBy(keys);
   std::vector<uint64_t> largerOf(keys.size());
   for (size_t i = 0; i < keys.size(); ++i) largerOf[i] = larger[byKey[i]];
   const std::vector<uint32_t> second = sortedBy(largerOf);
   std::vector<uint32_t> order(keys.size());
   for (size_t i = 0; i < keys.size(); ++i) order[i] = byKey[second[i]];
-  struct Node {
-    size_t begin, end;
-    Vec3 mean;
-    float weight, off2, noise;
-  };
-  struct Parent {
-    size_t begin, end;  // nodes
-    float weight = 0, mean = 0;
-    double signal = 0, freedom = 0;  // how far its cells are off one another beyond noise, and how free they are to be
-  };
-  std::vector<Node> nodes;
-  std::vector<Parent> parents;
-  double signal = 0, all = 0;
+  return order;
+}
+
+NestedCells Smoothing::cellsOf(const std::vector<uint64_t>& keys, const std::vector<uint64_t>& larger) const {
+  NestedCells out{nestedOrder(keys, larger), {}, {}};
+  const std::vector<uint32_t>& order = out.order;
+  std::vector<Node>& nodes = out.nodes;
+  std::vector<Parent>& parents = out.parents;
   forRuns(keys, order, [&](size_t begin, size_t end) {
     if (cluster[order[begin]] == kClusters) return;
     Node node{begin, end, {}, 0, 0, 0};
@@ -175,12 +194,19 @@ void Smoothing::refine(int level) {
     parents.back().end = nodes.size(), parents.back().weight += node.weight,
     parents.back().mean += node.weight * luminance(node.mean);
   });
-  for (Parent& parent : parents) {
-    const float known = luminance(even[order[nodes[parent.begin].begin]]);
+  return out;
+}
+
+// Of all cells of a level, relative and squared: how far they differ from the larger ones that they are in, beyond
+// noise. Tells it of each larger one, too.
+float Smoothing::findSpread(NestedCells& nested) const {
+  double signal = 0, all = 0;
+  for (Parent& parent : nested.parents) {
+    const float known = luminance(even[nested.order[nested.nodes[parent.begin].begin]]);
     double signalAlone = 0;
     for (size_t c = parent.begin; c < parent.end; ++c) {
       // A mean that holds the cell itself differs from it by less.
-      const Node& node = nodes[c];
+      const Node& node = nested.nodes[c];
       const float off = luminance(node.mean) - parent.mean / parent.weight, free = 1 - node.weight / parent.weight;
       signalAlone += static_cast<double>(node.weight * (off * off - free * node.noise));
       parent.signal += static_cast<double>(node.weight * (off * off - kChance * free * node.noise)),
@@ -188,32 +214,40 @@ void Smoothing::refine(int level) {
     }
     signal += signalAlone, all += parent.freedom * static_cast<double>(known * known);
   }
-  const float spread2 =
-      all > 0 ? std::clamp(static_cast<float>(signal / all), kLeastSpread * kLeastSpread, kMostSpread * kMostSpread)
-              : 0;
-  parallelFor(parents.size(), 64, [&](size_t i) {
-    const Parent& parent = parents[i];
-    const Vec3 whole = even[order[nodes[parent.begin].begin]];
-    // As much as all cells of this level differ, or as those of the same larger one do.
-    const float known = luminance(whole),
-                own = parent.freedom > 0 ? static_cast<float>(parent.signal / parent.freedom) : 0,
-                prior = std::max(spread2 * known * known, own);
-    Vec3 sum;
-    float weight = 0;
-    for (size_t c = parent.begin; c < parent.end; ++c) {
-      Node& node = nodes[c];
-      float share = prior > 0 ? prior / (prior + node.noise) : 1;
-      if (node.end - node.begin >= kFewest && node.off2 > kStandsOut * node.noise)
-        share = std::max(share, 1 - node.noise / node.off2);
-      node.mean = whole + (node.mean - whole) * share;
-      sum += node.mean * node.weight, weight += node.weight;
-    }
-    // What stands out by chance is brighter more often than darker: all together stay as bright as they were.
-    const Vec3 most = sum / weight, keep = whole / max(most, Vec3(1e-20f));
-    for (size_t c = parent.begin; c < parent.end; ++c) {
-      for (size_t k = nodes[c].begin; k < nodes[c].end; ++k) even[order[k]] = nodes[c].mean * keep;
-    }
-  });
+  return all > 0 ? std::clamp(static_cast<float>(signal / all), kLeastSpread * kLeastSpread, kMostSpread * kMostSpread)
+                 : 0;
+}
+
+// What the cells of a larger one tell, each drawn towards what that does.
+void Smoothing::drawTowards(const Parent& parent, float spread2, NestedCells& nested) {
+  const std::vector<uint32_t>& order = nested.order;
+  std::vector<Node>& nodes = nested.nodes;
+  const Vec3 whole = even[order[nodes[parent.begin].begin]];
+  // As much as all cells of this level differ, or as those of the same larger one do.
+  const float known = luminance(whole),
+              own = parent.freedom > 0 ? static_cast<float>(parent.signal / parent.freedom) : 0,
+              prior = std::max(spread2 * known * known, own);
+  Vec3 sum;
+  float weight = 0;
+  for (size_t c = parent.begin; c < parent.end; ++c) {
+    Node& node = nodes[c];
+    float share = prior > 0 ? prior / (prior + node.noise) : 1;
+    if (node.end - node.begin >= kFewest && node.off2 > kStandsOut * node.noise)
+      share = std::max(share, 1 - node.noise / node.off2);
+    node.mean = whole + (node.mean - whole) * share;
+    sum += node.mean * node.weight, weight += node.weight;
+  }
+  // What stands out by chance is brighter more often than darker: all together stay as bright as they were.
+  const Vec3 most = sum / weight, keep = whole / max(most, Vec3(1e-20f));
+  for (size_t c = parent.begin; c < parent.end; ++c) {
+    for (size_t k = nodes[c].begin; k < nodes[c].end; ++k) even[order[k]] = nodes[c].mean * keep;
+  }
+}
+
+void Smoothing::refine(int level) {
+  NestedCells nested = cellsOf(keysOf(level), keysOf(level + 1));
+  const float spread2 = findSpread(nested);
+  parallelFor(nested.parents.size(), 64, [&](size_t i) { drawTowards(nested.parents[i], spread2, nested); });
 }
 
 }  // namespace

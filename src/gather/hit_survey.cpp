@@ -159,7 +159,7 @@ CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShade
   if (settings.causticPhotons <= 0) return {};
   std::vector<Vec3> seen;
   for (const Arrivals::Origin& o : all.origins) seen.push_back(o.p);
-  return CausticMap(traceCausticPhotons(rays, lights, seen, static_cast<size_t>(settings.causticPhotons),
+  return CausticMap(traceCausticPhotons({rays, lights}, seen, static_cast<size_t>(settings.causticPhotons),
                                         shader.layers() != nullptr, settings.seed, rayCount),
                     shader.layers());
 }

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {
@@ -24,17 +25,24 @@ SurfacePoint whitePatch(const SurfaceElement& element) {
   return s;
 }
 
+// Random numbers of a meter's samples, from one of them on.
+struct MeterStream {
+  size_t meter;
+  int first;
+  uint64_t seed;
+};
+
 // Samples of one element, ready to be shaded.
 struct MeterSamples {
   std::vector<Shading> shadings;
   std::vector<Shadow> shadows;
-  void take(const SharpLights& sharp, const SurfaceElement& element, size_t meter, int first, int count, uint64_t seed,
+  void take(const SharpLights& sharp, const SurfaceElement& element, const MeterStream& stream, int count,
             bool lampsKnown = false) {
     shadings.clear(), shadows.clear();
     const SurfacePoint s = whitePatch(element);
     const Vec3 origin = offsetOrigin(s.p, s.ng);
     for (int k = 0; k < count; ++k) {
-      Sampler sampler(mix64(meter + kMeterKey), static_cast<uint32_t>(first + k), seed);
+      Sampler sampler(mix64(stream.meter + kMeterKey), static_cast<uint32_t>(stream.first + k), stream.seed);
       const auto firstShadow = static_cast<uint32_t>(shadows.size());
       for (size_t i = 0; i < sharp.count(); ++i) {
         const Vec2 u = sampler.next2();
@@ -81,8 +89,9 @@ class LayerMeter {
 
 // Straight from all lamps that are extended, by so many places on each, or from all that are points: each is asked, so
 // that no layer has the noise of a choice among them.
-void addLamps(const RayScene& rays, const Lights& lights, const LightLayers& layers, const SurfaceElement& element,
-              bool extended, std::span<const Sampler> places, std::vector<Vec3>& lux) {
+void addLamps(const TracedScene& scene, const LightLayers& layers, const SurfaceElement& element, bool extended,
+              std::span<const Sampler> places, std::vector<Vec3>& lux) {
+  const Lights& lights = scene.lights;
   thread_local std::vector<Ray> shadowRays;
   thread_local std::vector<std::pair<size_t, Vec3>> arrives;
   thread_local std::vector<Vec3> left;
@@ -100,17 +109,17 @@ void addLamps(const RayScene& rays, const Lights& lights, const LightLayers& lay
     }
   }
   left.resize(shadowRays.size());
-  rays.transmittance(shadowRays, left);
+  scene.rays.transmittance(shadowRays, left);
   for (size_t k = 0; k < arrives.size(); ++k) lux[arrives[k].first] += arrives[k].second * left[k];
 }
 
 // Adds the means of one batch of all but lamps' direct light.
-void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const SurfaceElement& element, size_t meter,
-                  int first, uint64_t seed, std::vector<Vec3>& means) {
+void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const SurfaceElement& element,
+                  const MeterStream& stream, std::vector<Vec3>& means) {
   thread_local MeterSamples samples;
   thread_local std::vector<SurfaceLight> light;
   thread_local LayerSums sums;
-  samples.take(sharp, element, meter, first, kBatch, seed, true);
+  samples.take(sharp, element, stream, kBatch, true);
   light.assign(samples.shadings.size(), {});
   sums = LayerSums(means.size(), true);
   sums.resize(samples.shadings.size());
@@ -129,13 +138,13 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
   const auto sample = [&](size_t meter, int first, int count, std::span<Vec3> lux) {
     thread_local MeterSamples samples;
     thread_local std::vector<SurfaceLight> light;
-    samples.take(sharp, elements[meter], meter, first, count, settings.seed);
+    samples.take(sharp, elements[meter], {meter, first, settings.seed}, count);
     light.assign(samples.shadings.size(), {});
     GatherCounters counters;
     shader.shade(samples.shadings, samples.shadows, light, counters);
     for (size_t k = 0; k < light.size(); ++k) lux[k] += (light[k].diffuse + light[k].rare + light[k].sharp) * kPi;
   };
-  return readMeters(rays, lights, elements, settings, sample, progress);
+  return readMeters(rays, lights, elements, settings, {sample}, progress);
 }
 
 LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, const SurfaceShader& shader,
@@ -154,7 +163,7 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
       std::vector<Sampler> places;
       for (int k = 0; k < count; ++k)
         places.emplace_back(mix64(i + kLampKey), static_cast<uint32_t>(firstPlace + k), settings.seed);
-      addLamps(rays, lights, *shader.layers(), elements[i], extended, places, lux);
+      addLamps({rays, lights}, *shader.layers(), elements[i], extended, places, lux);
     };
     lamps(false, 0, 1, steady);
     for (int first = 0, count = std::max(settings.fewestSamples, 2 * kBatch);
@@ -162,7 +171,7 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
       for (; first < count && !progress.stop(); first += kBatch) {
         means = steady;
         if (lights.hasExtendedLamps()) lamps(true, first / kBatch * kPlaces, kPlaces, means);
-        sampleLayers(sharp, shader, elements[i], i, first, settings.seed, means);
+        sampleLayers(sharp, shader, elements[i], {i, first, settings.seed}, means);
         meter.add(means);
       }
       if (meter.sureTo(settings.tolerance)) break;

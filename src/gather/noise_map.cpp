@@ -37,6 +37,27 @@ Look lookOf(const FilterPixel& sum, const PixelCount& count) {
   return l;
 }
 
+struct Looks {
+  std::vector<Look> pixels;
+  float dark;  // luminance where noise is hardly seen
+};
+
+Looks looksOf(const FilterInput& sums, const std::vector<PixelCount>& counts) {
+  std::vector<Look> looks(counts.size());
+  std::vector<double> rows(static_cast<size_t>(sums.height)), known(rows.size());
+  parallelFor(rows.size(), 8, [&](size_t y) {
+    for (size_t x = 0; x < static_cast<size_t>(sums.width); ++x) {
+      const size_t i = y * static_cast<size_t>(sums.width) + x;
+      looks[i] = lookOf(sums.pixels[i], counts[i]);
+      if (looks[i].known) rows[y] += static_cast<double>(looks[i].luminance), known[y] += 1;
+    }
+  });
+  double mean = 0, allKnown = 0;
+  for (const double k : known) allKnown += k;
+  for (const double r : rows) mean += r / std::max(1.0, allKnown);
+  return {std::move(looks), kDark * static_cast<float>(mean)};
+}
+
 bool alike(const Look& a, const Look& b) {
   return b.surface > 0 && onOneSurface(a.normal, a.position, b.normal, b.position);
 }
@@ -82,25 +103,13 @@ std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<Pixe
                                  const FilteredLuminance& left, float tolerance) {
   const bool isFiltered = !left.variance.empty();
   const int width = sums.width, height = sums.height;
-  std::vector<Look> looks(counts.size());
-  std::vector<double> rows(static_cast<size_t>(height)), known(static_cast<size_t>(height));
-  parallelFor(static_cast<size_t>(height), 8, [&](size_t y) {
-    for (size_t x = 0; x < static_cast<size_t>(width); ++x) {
-      const size_t i = y * static_cast<size_t>(width) + x;
-      looks[i] = lookOf(sums.pixels[i], counts[i]);
-      if (looks[i].known) rows[y] += static_cast<double>(looks[i].luminance), known[y] += 1;
-    }
-  });
-  double mean = 0, allKnown = 0;
-  for (const double k : known) allKnown += k;
-  for (const double r : rows) mean += r / std::max(1.0, allKnown);
-  const float dark = kDark * static_cast<float>(mean);
+  const Looks looks = looksOf(sums, counts);
   std::vector<uint16_t> out(counts.size());
   parallelFor(static_cast<size_t>(height), 4, [&](size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
       const size_t i = row * static_cast<size_t>(width) + static_cast<size_t>(x);
-      const Look& own = looks[i];
+      const Look& own = looks.pixels[i];
       // Nothing here may follow the pixel's own luminance: refining those that came out dark would make pictures too
       // bright.
       float variance = 0, like = 0, around = 0, all = 0, level = 0, sharp = 0, beside = 0, low = kInfinity, high = 0;
@@ -109,7 +118,7 @@ std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<Pixe
           const int qx = sums.wraps ? (x + dx + width) % width : x + dx, qy = y + dy;
           if (qx < 0 || qy < 0 || qx >= width || qy >= height) continue;
           const size_t q = static_cast<size_t>(qy) * static_cast<size_t>(width) + static_cast<size_t>(qx);
-          const Look& o = looks[q];
+          const Look& o = looks.pixels[q];
           if (std::max(std::abs(dx), std::abs(dy)) <= 1) sharp += o.sharpVariance, beside += 1;
           if (!o.known) continue;
           if (std::max(std::abs(dx), std::abs(dy)) <= 1) {
@@ -125,7 +134,7 @@ std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<Pixe
         }
       }
       all = std::max(all, 1.0f), like = std::max(like, 1.0f);  // what is known of none is believed to be as it should
-      level = level / all + dark;
+      level = level / all + looks.dark;
       // The variance of a few pixels, each of few samples, may be too small by chance.
       variance =
           isFiltered ? left.variance[i] : std::max(variance / (like * like), around / (all * like)) + sharp / beside;

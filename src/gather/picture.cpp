@@ -294,7 +294,8 @@ GatheredPicture gatherPicture(const RayScene& rays, const Lights& lights, const 
     GatheredPicture& picture = gathering.picture();
     if ((settings.tellsError || gathering.hasAim()) && !gathering.isLate()) {
       if (!probes)
-        picture.rays += probes.emplace(rays, lights, shader, camera, settings, gathering.hasAim(), progress).rays();
+        picture.rays +=
+            probes.emplace(TracedScene{rays, lights}, shader, camera, settings, gathering.hasAim(), progress).rays();
       picture.error = probes->of(picture.image);
     }
     if (!mayGoOn || progress.stop() || picture.error.srgbMse <= settings.untilMse) return gathering.result();

@@ -126,6 +126,27 @@ struct PixelShader::Group {
   size_t count = 0;
 };
 
+// One of a pixel's surfaces, as rays of a layer see it.
+struct PixelShader::SeenSurface {
+  const Group& group;
+  const Layer& layer;
+  const PixelSequence& sequence;
+  uint32_t surface;  // its number
+  size_t rays;       // of the pixel
+  Sampler forShadow(size_t ray) const { return sequence.forShadow(surface, static_cast<uint32_t>(ray)); }
+};
+
+// For how many of the rays that see a surface it is shaded.
+struct PixelShader::ShadingPlan {
+  bool mirror, pane;
+  bool further;      // an earlier pass told what there is
+  size_t most;       // shadings, were all of the pixel's rays to see it
+  size_t shadings;
+  float weight;      // rays that each stands for
+  Vec3 left;         // of its light
+  float survival;    // probability that it is lit at all
+};
+
 PixelShader::Group* PixelShader::groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const {
   for (size_t i = 0; i < used; ++i) {
     if (groups[i].instance == hit.instance && groups[i].triangle == hit.triangle) return &groups[i];
@@ -143,7 +164,9 @@ PixelShader::Group* PixelShader::groupOf(const Ray& ray, const Hit& hit, std::sp
   return &groups[used++];
 }
 
-MaterialSample PixelShader::meanMaterial(const Group& group, const Layer& layer, bool uniform) const {
+MaterialSample PixelShader::meanMaterial(const SeenSurface& seen, bool uniform) const {
+  const Group& group = seen.group;
+  const Layer& layer = seen.layer;
   if (uniform) return materialAt(rays_.scene(), layer.hit[group.member[0]]);
   MaterialSample mean{{}, 0, 0, 0, 0, {}, {}, {}, nullptr};
   for (size_t i = 0; i < group.count; ++i)
@@ -152,9 +175,10 @@ MaterialSample PixelShader::meanMaterial(const Group& group, const Layer& layer,
 }
 
 // Whether any ray of the group could see a light that stands there in a smooth surface.
-bool PixelShader::glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight) const {
-  for (size_t i = 0; i < group.count; ++i) {
-    const size_t k = group.member[i];
+bool PixelShader::glints(const SeenSurface& seen, const MaterialSample& m, Vec3 toLight) const {
+  const Layer& layer = seen.layer;
+  for (size_t i = 0; i < seen.group.count; ++i) {
+    const size_t k = seen.group.member[i];
     const SurfacePoint s = surfaceAt(rays_.scene(), layer.hit[k], layer.ray[k].direction, m);
     if (luminance(Bsdf(s.m, s.ns, s.ng, -layer.ray[k].direction).evaluate(toLight)) > kGlint) return true;
   }
@@ -163,8 +187,10 @@ bool PixelShader::glints(const Group& group, const Layer& layer, const MaterialS
 
 // Of all sharp lights, seen from every ray of the group; of a `smooth` surface only of those that it could show.
 // Returns where they begin in `out`.
-uint32_t PixelShader::shadows(const Group& group, const Layer& layer, const MaterialSample* smooth, uint32_t surface,
-                              const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const {
+uint32_t PixelShader::shadows(const SeenSurface& seen, const MaterialSample* smooth, std::vector<Shadow>& out,
+                              GatherCounters& count) const {
+  const Group& group = seen.group;
+  const Layer& layer = seen.layer;
   const auto begin = static_cast<uint32_t>(out.size());
   out.resize(begin + sharp_.count());
   if (sharp_.count() == 0) return begin;
@@ -174,54 +200,64 @@ uint32_t PixelShader::shadows(const Group& group, const Layer& layer, const Mate
     const size_t k = group.member[i];
     points[i] = offsetOrigin(layer.place(k), group.ng);
   }
-  for (size_t i = 0; i < group.count; ++i) u[i] = sequence.forShadow(surface, static_cast<uint32_t>(i)).next2();
+  for (size_t i = 0; i < group.count; ++i) u[i] = seen.forShadow(i).next2();
   for (size_t l = 0; l < sharp_.count(); ++l) {
     // No normal of the group, nor a shading normal worth the name, faces a light so far behind.
     const Vec3 toLight = sharp_.sample(l, group.p, u[0]).wi;
-    if (dot(toLight, group.ng) < kBehind || (smooth && !glints(group, layer, *smooth, toLight))) continue;
+    if (dot(toLight, group.ng) < kBehind || (smooth && !glints(seen, *smooth, toLight))) continue;
     out[begin + l] = sharp_.shadow(l, std::span(points).first(group.count), std::span(u).first(group.count));
     count.rays += group.count;
   }
   return begin;
 }
 
+PixelShader::ShadingPlan PixelShader::planned(const SeenSurface& seen, const MaterialSample& m, bool clear,
+                                              const PixelCount& known) const {
+  const Group& group = seen.group;
+  ShadingPlan plan;
+  plan.most = std::max(std::min(static_cast<size_t>(settings_.fewestShadings), seen.rays),
+                       seen.rays / static_cast<size_t>(settings_.raysPerShading));
+  plan.mirror = isMirror(m, clear);
+  plan.pane = isPane(m, clear);
+  // What panes reflect is a picture: every ray shows its own of it, at first. Panes behind others show the same again.
+  plan.further = known.rays > 0 && settings_.tolerance > 0 && !byLayer_;
+  for (size_t i = 0; i < group.count; ++i)
+    plan.left += seen.layer.left[group.member[i]] / static_cast<float>(group.count);
+  const bool hind = luminance(plan.left) < kUnobstructed;
+  const size_t raysPerPane = (plan.further ? 2 : 1) * (hind ? 2 : 1);
+  plan.shadings =
+      plan.pane ? (group.count + raysPerPane - 1) / raysPerPane : (group.count * plan.most + seen.rays - 1) / seen.rays;
+  plan.weight = static_cast<float>(group.count) / static_cast<float>(plan.shadings);
+  // Of cloth behind cloth little light comes through: few are lit for all.
+  plan.survival = settings_.gatherEvery <= 1 && hind && !plan.pane && clear
+                      ? std::clamp(luminance(plan.left), kLeastSurvival, 1.0f)
+                      : 1.0f;
+  return plan;
+}
+
 // One surface: to be shaded for some of the rays with the mean of their materials, for all where it shows a picture.
-void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint32_t surface,
-                      const PixelSequence& sequence, PixelSum pixel, TileWork& work, Layer& behind,
+void PixelShader::see(const SeenSurface& seen, PixelSum pixel, TileWork& work, Layer& behind,
                       GatherCounters& count) const {
+  const Group& group = seen.group;
+  const Layer& layer = seen.layer;
   const Scene& scene = rays_.scene();
   const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[group.instance].mesh)];
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-  const MaterialSample mean = meanMaterial(group, layer, isUniform(material, mesh)),
+  const MaterialSample mean = meanMaterial(seen, isUniform(material, mesh)),
                        m = settings_.white ? whitened(mean) : mean;
   const float cosTheta = std::abs(dot(group.ng, layer.ray[group.member[0]].direction));
   const Vec3 through = passing(m, material, cosTheta);
   const bool solid = luminance(through) < 0.5f;
-
-  const size_t most = std::max(std::min(static_cast<size_t>(settings_.fewestShadings), rays),
-                               rays / static_cast<size_t>(settings_.raysPerShading));
-  const bool mirror = isMirror(m, !isBlack(through));
-  const bool pane = isPane(m, !isBlack(through));
-  // What panes reflect is a picture: every ray shows its own of it, at first. Panes behind others show the same again.
-  const bool further =
-      pixel.count->rays > 0 && settings_.tolerance > 0 && !byLayer_;  // the first pass told what there is
-  Vec3 left;
-  for (size_t i = 0; i < group.count; ++i) left += layer.left[group.member[i]] / static_cast<float>(group.count);
-  const bool hind = luminance(left) < kUnobstructed;
-  const size_t raysPerPane = (further ? 2 : 1) * (hind ? 2 : 1);
-  const size_t shadings = pane ? (group.count + raysPerPane - 1) / raysPerPane : (group.count * most + rays - 1) / rays;
-  const float weight = static_cast<float>(group.count) / static_cast<float>(shadings);
-  // Of cloth behind cloth little light comes through: few are lit for all.
-  const float survival = settings_.gatherEvery <= 1 && hind && !pane && !isBlack(through)
-                             ? std::clamp(luminance(left), kLeastSurvival, 1.0f)
-                             : 1.0f;
-  const bool isLit = survival >= 1 || sequence.forShadow(surface, 0).fast1() < survival;
-  const uint32_t shadow =
-      !isLit ? 0 : shadows(group, layer, pane ? &m : nullptr, surface, sequence, work.shadows, count);
+  const ShadingPlan plan = planned(seen, m, !isBlack(through), *pixel.count);
+  const size_t shadings = plan.shadings;
+  const float weight = plan.weight;
+  const Vec3 left = plan.left;
+  const bool isLit = plan.survival >= 1 || seen.forShadow(0).fast1() < plan.survival;
+  const uint32_t shadow = !isLit ? 0 : shadows(seen, plan.pane ? &m : nullptr, work.shadows, count);
 
   FilterPixel& sum = *pixel.sum;
   work.parts.push_back({pixel, static_cast<uint32_t>(work.shadings.size()), isLit ? static_cast<uint32_t>(shadings) : 0,
-                        left * m.alpha, weight, sequence.gathers()});
+                        left * m.alpha, weight, seen.sequence.gathers()});
   for (size_t j = 0; j < shadings; ++j) {
     const size_t i = group.member[(2 * j + 1) * group.count / (2 * shadings)];
     const SurfacePoint s = surfaceAt(scene, layer.hit[i], layer.ray[i].direction, m);
@@ -229,7 +265,7 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
     sum.rest += emitted;
     if (const int32_t emitter = byLayer_ ? lights_.emitterOf(group.instance) : -1; emitter >= 0)
       byLayer_->add(pixel.index, LayerSums::kRest, layers_->ofEmitter[static_cast<size_t>(emitter)], emitted);
-    if (!mirror && !layer.seen[i]) {
+    if (!plan.mirror && !layer.seen[i]) {
       TileWork::Part& part = work.parts.back();
       part.veil = !solid;
       part.normal += s.ns * weight, part.position += veiledPlace(s, layer.left[i]) * weight;
@@ -240,16 +276,17 @@ void PixelShader::see(const Group& group, const Layer& layer, size_t rays, uint3
           left * m.alpha * Bsdf(s.m, s.ns, s.ng, -layer.ray[i].direction).diffuseAlbedo() * weight;
       continue;
     }
-    work.shadings.push_back(
-        {s, -layer.ray[i].direction,
-         sequence.forShading(surface, static_cast<uint32_t>(j), static_cast<uint32_t>(std::max(most, shadings))),
-         shadow, mirror});
-    work.shadings.back().once = work.parts.back().once = (further || pane || survival < 1) && weight <= (pane ? 4 : 1);
+    work.shadings.push_back({s, -layer.ray[i].direction,
+                             seen.sequence.forShading(seen.surface, static_cast<uint32_t>(j),
+                                                      static_cast<uint32_t>(std::max(plan.most, shadings))),
+                             shadow, plan.mirror});
+    work.shadings.back().once = work.parts.back().once =
+        (plan.further || plan.pane || plan.survival < 1) && weight <= (plan.pane ? 4 : 1);
   }
-  work.parts.back().survival = survival;
+  work.parts.back().survival = plan.survival;
   if (!keepsFragments_ && solid) addPlace(work.parts.back());
-  if (!isBlack(through)) passOn(group, layer, through, solid, behind);
-  if (mirror) reflectOn(group, layer, m, surface, sequence, behind);
+  if (!isBlack(through)) passOn(seen, through, solid, behind);
+  if (plan.mirror) reflectOn(seen, m, behind);
 }
 
 // A lamp's shade that fills a twentieth of a pixel of the wall would spread over the wall, as hot as it is; its light
@@ -483,7 +520,9 @@ void PixelShader::addVariance(std::span<const SurfaceLight> light, const TileWor
 }
 
 // Sends the group's rays on through their pane.
-void PixelShader::passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind) {
+void PixelShader::passOn(const SeenSurface& seen, Vec3 through, bool solid, Layer& behind) {
+  const Group& group = seen.group;
+  const Layer& layer = seen.layer;
   for (size_t i = 0; i < group.count; ++i) {
     const size_t k = group.member[i];
     const Vec3 left = layer.left[k] * through;
@@ -494,13 +533,13 @@ void PixelShader::passOn(const Group& group, const Layer& layer, Vec3 through, b
 }
 
 // Sends them on as a mirror reflects them.
-void PixelShader::reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface,
-                            const PixelSequence& sequence, Layer& behind) const {
-  for (size_t i = 0; i < group.count; ++i) {
-    const size_t k = group.member[i];
+void PixelShader::reflectOn(const SeenSurface& seen, const MaterialSample& m, Layer& behind) const {
+  const Layer& layer = seen.layer;
+  for (size_t i = 0; i < seen.group.count; ++i) {
+    const size_t k = seen.group.member[i];
     const Vec3 d = layer.ray[k].direction;
     const SurfacePoint s = surfaceAt(rays_.scene(), layer.hit[k], d, m);
-    const Vec2 u = sequence.forShadow(surface, static_cast<uint32_t>(i)).next2();
+    const Vec2 u = seen.forShadow(i).next2();
     const BsdfSample r = Bsdf(s.m, s.ns, s.ng, -d).sampleSpecular(u);
     if (r.valid() && !isBlack(r.weight))
       behind.add({offsetOrigin(s.p, s.ng), r.wi, 0, kInfinity}, layer.left[k] * r.weight, layer.seen[k]);
@@ -532,7 +571,7 @@ void PixelShader::see(std::span<const Ray> rays, const PixelSequence& sequence, 
     }
     pixel.count->edge |= used > 1 || (pane == 0 && used == 1 && groups[0].count < rays.size());
     for (size_t i = 0; i < used; ++i)
-      see(groups[i], layer, rays.size(), surface++, sequence, pixel, work, behind, count);
+      see({groups[i], layer, sequence, surface++, rays.size()}, pixel, work, behind, count);
   }
   const auto n = static_cast<uint32_t>(rays.size());
   pixel.count->rays += n, pixel.count->gathered += n, pixel.count->glossy += n;

@@ -102,23 +102,24 @@ class PixelShader {
  private:
   struct Layer;
   struct Group;
+  struct SeenSurface;
+  struct ShadingPlan;
   Group* groupOf(const Ray& ray, const Hit& hit, std::span<Group> groups, size_t& used) const;
-  MaterialSample meanMaterial(const Group& group, const Layer& layer, bool uniform) const;
-  bool glints(const Group& group, const Layer& layer, const MaterialSample& m, Vec3 toLight) const;
-  uint32_t shadows(const Group& group, const Layer& layer, const MaterialSample* smooth, uint32_t surface,
-                   const PixelSequence& sequence, std::vector<Shadow>& out, GatherCounters& count) const;
-  void see(const Group& group, const Layer& layer, size_t rays, uint32_t surface, const PixelSequence& sequence,
-           PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
+  MaterialSample meanMaterial(const SeenSurface& seen, bool uniform) const;
+  bool glints(const SeenSurface& seen, const MaterialSample& m, Vec3 toLight) const;
+  uint32_t shadows(const SeenSurface& seen, const MaterialSample* smooth, std::vector<Shadow>& out,
+                   GatherCounters& count) const;
+  ShadingPlan planned(const SeenSurface& seen, const MaterialSample& m, bool clear, const PixelCount& known) const;
+  void see(const SeenSurface& seen, PixelSum pixel, TileWork& work, Layer& behind, GatherCounters& count) const;
   static void addPlace(const TileWork::Part& part);
   static void addFragment(const TileWork::Part& part, std::span<const SurfaceLight> shadings, Fragments& fragments);
   static void addPart(const TileWork::Part& part, std::span<const SurfaceLight> shadings);
   static void addVariance(std::span<const SurfaceLight> light, const TileWork::Part& part);
-  static void passOn(const Group& group, const Layer& layer, Vec3 through, bool solid, Layer& behind);
+  static void passOn(const SeenSurface& seen, Vec3 through, bool solid, Layer& behind);
   void addVarianceOfLayers(const TileWork::Part& part, std::span<const SurfaceLight> whole,
                            const LayerSums& light) const;
   void addBackground(Vec3 left, Vec3 direction, PixelSum pixel) const;
-  void reflectOn(const Group& group, const Layer& layer, const MaterialSample& m, uint32_t surface,
-                 const PixelSequence& sequence, Layer& behind) const;
+  void reflectOn(const SeenSurface& seen, const MaterialSample& m, Layer& behind) const;
 
   const RayScene& rays_;
   const Lights& lights_;

@@ -117,8 +117,14 @@ class QuickFrames::Maker {
     std::array<std::vector<uint32_t>, (Rules::kTile / Rules::kLendWithin) * (Rules::kTile / Rules::kLendWithin)> litOf;
   };
   void trace(int x0, int y0, int x1, int y1, Work& w) const;
-  void see(const Sight& sight, const Hit& hit, bool traced, Vec3 n, Work& w, Image& out) const;
-  void meet(const Sight& sight, const Hit& hit, bool traced, Vec3 p, Vec3 n, Work& w, Image& out) const;
+  // What a sight's ray meets, with its normal towards the eye.
+  struct Met {
+    const Hit& hit;
+    Vec3 n;
+    bool traced;  // the hit's place on its triangle is known
+  };
+  void see(const Sight& sight, const Met& met, Work& w, Image& out) const;
+  void meet(const Sight& sight, const Met& met, Vec3 p, Work& w, Image& out) const;
   const Pane& paneAt(const Hit& hit, Vec3 n, Vec3 direction, Work& w) const;
   const Pixel* find(uint32_t key, Vec3 p, Vec3 n) const;
   void light(Work& w, Count& count, Image& out) const;

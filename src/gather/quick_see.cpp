@@ -75,8 +75,8 @@ const QuickFrames::Maker::Pane& QuickFrames::Maker::paneAt(const Hit& hit, Vec3 
   return w.pane;
 }
 
-// `traced`: the hit's place on its triangle is known.
-void QuickFrames::Maker::see(const Sight& sight, const Hit& hit, bool traced, Vec3 n, Work& w, Image& out) const {
+void QuickFrames::Maker::see(const Sight& sight, const Met& met, Work& w, Image& out) const {
+  const Hit& hit = met.hit;
   if (!hit.valid()) {
     if (sight.panes > 0 && luminance(sight.reflectance) > Rules::kLeastReflected) {
       Asked& a = w.asked.emplace_back();
@@ -90,21 +90,21 @@ void QuickFrames::Maker::see(const Sight& sight, const Hit& hit, bool traced, Ve
   const Vec3 p = sight.ray.origin + sight.ray.direction * hit.t;
   if (clear_[hit.instance] && sight.panes < Rules::kMostPanes && luminance(sight.left) > Rules::kLeastLeft) {
     // Clear panes are looked through, what veils and leaves let pass belongs to them.
-    const Pane& pane = paneAt(hit, n, sight.ray.direction, w);
+    const Pane& pane = paneAt(hit, met.n, sight.ray.direction, w);
     if (pane.clear) {
       Sight& next = w.on.emplace_back(sight);
-      if (next.panes++ == 0) next.panePlace = p, next.paneNormal = n, next.reflectance = pane.reflected;
+      if (next.panes++ == 0) next.panePlace = p, next.paneNormal = met.n, next.reflectance = pane.reflected;
       next.left *= pane.through;
-      next.ray = {offsetOrigin(p, -n), sight.ray.direction, 0, kInfinity};
+      next.ray = {offsetOrigin(p, -met.n), sight.ray.direction, 0, kInfinity};
       return;
     }
   }
-  meet(sight, hit, traced, p, n, w, out);
+  meet(sight, met, p, w, out);
 }
 
-void QuickFrames::Maker::meet(const Sight& sight, const Hit& hit, bool traced, Vec3 p, Vec3 n, Work& w,
-                              Image& out) const {
-  const Pixel* known = find(hit.instance, p, n);
+void QuickFrames::Maker::meet(const Sight& sight, const Met& met, Vec3 p, Work& w, Image& out) const {
+  const Hit& hit = met.hit;
+  const Pixel* known = find(hit.instance, p, met.n);
   const bool stale = known && (f_.stale_ || (anyStale_ && f_.changed_.concern(p, kNearM))),
              waits = known && (stale || known->state == kLent);
   const uint32_t every = !known ? f_.everyNew_ : waits ? f_.everyOld_ : 0;
@@ -120,8 +120,8 @@ void QuickFrames::Maker::meet(const Sight& sight, const Hit& hit, bool traced, V
     return;
   }
   Asked& a = w.asked.emplace_back();
-  a.pixel = sight.pixel, a.sight = sight, a.hit = hit, a.p = p, a.n = n, a.lit = turn;
-  if (!traced) {
+  a.pixel = sight.pixel, a.sight = sight, a.hit = hit, a.p = p, a.n = met.n, a.lit = turn;
+  if (!met.traced) {
     a.hit = scene_.rays.intersect(sight.ray);
     if (!a.hit.valid() || a.hit.instance != hit.instance) a.hit = hit;
   }
@@ -277,7 +277,7 @@ void QuickFrames::Maker::make(int x0, int y0, Count& count, Image& out) {
     for (int x = x0; x < x1; ++x) {
       const Spot& spot = w.spots[static_cast<size_t>((y - y0) * Rules::kTile + x - x0)];
       first.pixel = static_cast<uint32_t>(y * out.width + x), first.ray = rayOf(x, y);
-      see(first, spot.hit, spot.traced, spot.n, w, out);
+      see(first, {spot.hit, spot.n, spot.traced}, w, out);
     }
   }
   count.traced += f_.lands_ ? w.on.size() : static_cast<size_t>((x1 - x0) * (y1 - y0));
@@ -291,7 +291,7 @@ void QuickFrames::Maker::make(int x0, int y0, Count& count, Image& out) {
       const Hit& hit = w.hits[i];
       Vec3 n = hit.valid() ? hit.ng * (1 / length(hit.ng)) : Vec3();
       if (dot(n, w.sights[i].ray.direction) > 0) n = -n;
-      see(w.sights[i], hit, true, n, w, out);
+      see(w.sights[i], {hit, n, true}, w, out);
     }
   }
   const double seen = watch.seconds();

@@ -47,8 +47,9 @@ GatheredPicture RayGather::picture(RayGatherSettings settings, const Progress& p
   return picture;
 }
 
-GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
+GatheredPicture gatherRays(const TracedScene& scene, const Voxels& voxels, const RadianceField& field,
                            const Camera& camera, const RayGatherSettings& settings, const Progress& progress) {
+  const auto& [rays, lights] = scene;
   const RayGatherSettings use = withCells(settings, voxels.voxelSizeM);
   const RayShader shader(rays, lights, voxels, field, use);
   return RayGather(rays, lights, shader, camera, use, progress).picture(use, progress);

@@ -6,6 +6,7 @@
 
 #include "gather/picture.h"
 #include "radiance/radiance_field.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 
@@ -62,7 +63,7 @@ class RayGather {
   std::unique_ptr<HitSurvey> survey_;  // null: there is none
 };
 
-GatheredPicture gatherRays(const RayScene& rays, const Lights& lights, const Voxels& voxels, const RadianceField& field,
+GatheredPicture gatherRays(const TracedScene& scene, const Voxels& voxels, const RadianceField& field,
                            const Camera& camera, const RayGatherSettings& settings, const Progress& progress = {});
 
 }  // namespace roomlight

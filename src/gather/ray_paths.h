@@ -162,10 +162,7 @@ struct GatherWork {
   void takeMirrored(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
   void takeMirroredOfLayer(uint32_t estimate, Vec3 specular, const LightOrigin& origin);
   void addToLayers(uint32_t estimate, const Lobes& light, const LightOrigin& origin);
-  void shadow(uint32_t estimate, bool sure, const Ray& ray, const Lobes& light, const LightOrigin& origin,
-              bool layersOnly = false, bool isMirrored = false) {
-    shadowRays.push_back(ray), shadowed.push_back({estimate, sure, layersOnly, isMirrored, light, origin});
-  }
+  void shadow(const Ray& ray, const Shadowed& what) { shadowRays.push_back(ray), shadowed.push_back(what); }
 };
 
 }  // namespace roomlight

@@ -104,8 +104,12 @@ void RayScatter::takeLight(const GatherVertex& v, const LightSample& light, cons
                            : askingWeight(likeIt * luminance(sum.diffuse + sum.specular), v.estimate,
                                           w);  // what gives the picture little may be all that a layer has
   if (weight > 0 && (!isBlack(sum.diffuse) || !isBlack(sum.specular)))
-    w.shadow(v.estimate, v.first, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light),
-             {sum.diffuse * weight, sum.specular * weight}, origin, layersOnly, v.picture() && light.emitter >= 0);
+    w.shadow(shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, light), {v.estimate,
+                                                                    v.first,
+                                                                    layersOnly,
+                                                                    v.picture() && light.emitter >= 0,
+                                                                    {sum.diffuse * weight, sum.specular * weight},
+                                                                    origin});
 }
 
 // What can give little beside the light expected is seldom asked for, and counts for more then; 0: not now. `most`:
@@ -317,8 +321,8 @@ void RayScatter::glowAt(const GatherVertex& v, const BrightPatches::Candidates& 
   const LightLayers* layers = field_.layers.lights.get();
   const int32_t layer = layers ? layerOf(*layers, point) : -1;
   if (!isBlack(sum.diffuse) || !isBlack(sum.specular))
-    w.shadow(v.estimate, false, shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, g.light), sum,
-             LightOrigin::ofLayer(layer));
+    w.shadow(shadowRay(offsetOrigin(v.s.p, v.s.ng), v.s.p, g.light),
+             {v.estimate, false, false, false, sum, LightOrigin::ofLayer(layer)});
 }
 
 void RayScatter::gatherAt(const GatherVertex& v, GatherWork& w) const {

@@ -516,12 +516,14 @@ void RayShader::read(const GatherPath& path, const Hit& hit, int64_t slot, Vec3 
   const bool own = hit.instance == cache_.instance(slot) && !(kind_[hit.instance] & kClearKind);
   const Vec3 even = own ? cache_.radiance(slot)
                         : bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * field_.irradianceLux[i] / kPi;
-  const float sunLux = field_.sunLux.empty() ? 0 : field_.sunLux[i];
-  const LeftToPoints points =
-      leftToPoints(path, slot, luminance(field_.irradianceLux[i]), sunLux, p, n, luminance(even));
+  const CachedLight light{even, luminance(field_.irradianceLux[i]), field_.sunLux.empty() ? 0 : field_.sunLux[i],
+                          voxels_.slots[i].normal, slot};
+  const LeftToPoints points = leftToPoints(path, light, p, n);
   const SlotLayers& layers = field_.layers;
-  addCached(path, hit, even, sunLux, voxels_.slots[i].normal, points, w.layers ? layers.at(i) : nullptr,
-            w.layers && points.glow > 0 ? layers.glowOf[i] : -1, w);
+  addCached(path, hit, light, points,
+            {-1, w.layers ? layers.at(i) : nullptr, 1, points.glow, points.sun,
+             w.layers && points.glow > 0 ? layers.glowOf[i] : -1},
+            w);
 }
 
 void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& cell, Vec3 p, Vec3 n,
@@ -529,40 +531,43 @@ void RayShader::readCell(const GatherPath& path, const Hit& hit, const HitCell& 
   // In a picture noise is filtered, light told by what lies beside would be seen, and so is a texture.
   const Vec3 even =
       path.clear ? bihemisphericalAlbedo(materialAt(rays_.scene(), hit)) * cell.ownCdM2 : cell.radianceCdM2;
-  const LeftToPoints points =
-      leftToPoints(path, cell.slot, path.clear ? cell.ownLux : cell.lux, cell.sunLux, p, n, luminance(even));
-  addCached(path, hit, even, cell.sunLux, cell.normal, points, w.layers ? w.survey->hits.shares(cell) : nullptr, -1, w);
+  const CachedLight light{even, path.clear ? cell.ownLux : cell.lux, cell.sunLux, cell.normal, cell.slot};
+  const LeftToPoints points = leftToPoints(path, light, p, n);
+  addCached(path, hit, light, points,
+            {-1, w.layers ? w.survey->hits.shares(cell) : nullptr, 1, points.glow, points.sun, -1}, w);
 }
 
-// Light that a cache has of a place: `even` as it is spread evenly, of which points take their part, and what the sun's
-// differs from that.
-void RayShader::addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal,
-                          const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const {
-  const Vec3 ofRay = even * points.ray(), bent = sunLux > 0 ? max(-even, sunward(path, hit, sunLux, normal)) : Vec3(0);
-  const Vec3 light = max(Vec3(0), ofRay + bent * (1 - points.ofSun));
-  const Lobes added = w.add(path.estimate, path.factor, light, {});
+// Of light as it is spread evenly points take their part; what the sun's differs from that is added. `origin`: of that
+// spread evenly.
+void RayShader::addCached(const GatherPath& path, const Hit& hit, const CachedLight& light, const LeftToPoints& points,
+                          const LightOrigin& origin, GatherWork& w) const {
+  const Vec3 ofRay = light.even * points.ray(),
+             bent = light.sunLux > 0 ? max(-light.even, sunward(path, hit, light.sunLux, light.normal)) : Vec3(0);
+  const Vec3 radiance = max(Vec3(0), ofRay + bent * (1 - points.ofSun));
+  const Lobes added = w.add(path.estimate, path.factor, radiance, {});
   if (!w.layers || isBlack(added.diffuse + added.specular)) return;
   // The cache's shares are of the light as it is spread evenly: what the sun's differs from that is the sun's.
-  const Vec3 ofEven = ofRay / max(light, Vec3(1e-20f)), ofSun = Vec3(1) - ofEven;
-  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven},
-                {-1, shares, 1, points.glow, points.sun, glowOf});
+  const Vec3 ofEven = ofRay / max(radiance, Vec3(1e-20f)), ofSun = Vec3(1) - ofEven;
+  w.addToLayers(path.estimate, {added.diffuse * ofEven, added.specular * ofEven}, origin);
   if (!isBlack(ofSun))
     w.addToLayers(path.estimate, {added.diffuse * ofSun, added.specular * ofSun},
                   LightOrigin::ofLayer(field_.layers.lights->sun));
 }
 
-RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p,
-                                                Vec3 n, float light) const {
+RayShader::LeftToPoints RayShader::leftToPoints(const GatherPath& path, const CachedLight& light, Vec3 p,
+                                                Vec3 n) const {
   // Of what is seen as a picture points give nothing.
-  if (path.clear || !(path.pdf > 0) || patches_.empty() || slot < 0) return {};
-  const auto i = static_cast<size_t>(slot);
+  if (path.clear || !(path.pdf > 0) || patches_.empty() || light.slot < 0) return {};
+  const auto i = static_cast<size_t>(light.slot);
+  const float luminous = luminance(light.even);
   const float distance = length(p - path.from);
   const bool near = distance < settings_.nearVoxels * voxels_.voxelSizeM;
-  const float sun = near || !patches_.holdsSun(slot) ? 0 : std::min(1.0f, sunLux / std::max(lux, 1e-30f)),
+  const float sun = near || !patches_.holdsSun(light.slot) ? 0
+                                                           : std::min(1.0f, light.sunLux / std::max(light.lux, 1e-30f)),
               glow = field_.glowShare.empty() ? 0 : field_.glowShare[i];
   const auto left = [&](float share) {
-    return share > 0 ? share * (1 - patches_.rayShare(slot, share * light, distance, -dot(n, path.ray.direction),
-                                                      path.side, path.pdf))
+    return share > 0 ? share * (1 - patches_.rayShare(light.slot, share * luminous, distance,
+                                                      -dot(n, path.ray.direction), path.side, path.pdf))
                      : 0;
   };
   const float leftOfSun = left(sun);

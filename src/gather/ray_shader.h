@@ -60,10 +60,16 @@ class RayShader final : public SurfaceShader {
     float ofSun = 0;          // and of what the sun gives it
     float ray() const { return std::max(0.0f, 1 - glow - sun); }
   };
-  LeftToPoints leftToPoints(const GatherPath& path, int64_t slot, float lux, float sunLux, Vec3 p, Vec3 n,
-                            float light) const;
-  void addCached(const GatherPath& path, const Hit& hit, Vec3 even, float sunLux, Vec3 normal,
-                 const LeftToPoints& points, const uint16_t* shares, int32_t glowOf, GatherWork& w) const;
+  // Light that a cache has of a place.
+  struct CachedLight {
+    Vec3 even;          // radiance, as it is spread evenly
+    float lux, sunLux;  // on it, luminous; and what the sun gives of that
+    Vec3 normal;        // of what the cache has there
+    int64_t slot;       // that holds it; -1: none
+  };
+  LeftToPoints leftToPoints(const GatherPath& path, const CachedLight& light, Vec3 p, Vec3 n) const;
+  void addCached(const GatherPath& path, const Hit& hit, const CachedLight& light, const LeftToPoints& points,
+                 const LightOrigin& origin, GatherWork& w) const;
   void markGlow();
   void markAround(Int3 voxel);
   bool mayBeInGlow(Int3 voxel) const;

@@ -2,18 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <assimp/config.h>
-#include <assimp/importerdesc.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-#include <assimp/IOStream.hpp>
-#include <assimp/IOSystem.hpp>
-#include <assimp/Importer.hpp>
-
-#include <algorithm>
-#include <cstring>
-
-#include "import/assimp_collect.h"
 #include "import/child_process.h"
 #include "import/failure.h"
 
@@ -22,102 +10,30 @@ namespace {
 
 constexpr size_t kMaxBytes = size_t{256} << 20;
 
-class MemoryStream : public Assimp::IOStream {
- public:
-  explicit MemoryStream(std::span<const uint8_t> bytes) : bytes_(bytes) {}
-  size_t Read(void* to, size_t size, size_t count) override {
-    if (size == 0) return 0;
-    const size_t whole = std::min(count, (bytes_.size() - at_) / size);
-    if (whole > 0) std::memcpy(to, bytes_.data() + at_, whole * size);
-    at_ += whole * size;
-    return whole;
+// A mesh in many places is stored once, and takes memory for each where they are merged. What the reader says of it is
+// not believed either.
+void checkSize(const ForeignModel& model, size_t maxTriangles) {
+  size_t triangles = 0, vertices = 0;
+  for (const ForeignInstance& i : model.instances) {
+    triangles += model.meshes[i.mesh].triangleCount(), vertices += model.meshes[i.mesh].positions.size();
+    if (triangles > maxTriangles) fail("", fmt::format("has more than {} triangles", maxTriangles));
+    if (vertices / 3 > maxTriangles) fail("", fmt::format("has more than {} vertices", 3 * maxTriangles));
   }
-  size_t Write(const void*, size_t, size_t) override { return 0; }
-  aiReturn Seek(size_t offset, aiOrigin origin) override {
-    const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
-    const size_t to = base + offset;  // backwards wraps around
-    if (to > bytes_.size()) return aiReturn_FAILURE;
-    at_ = to;
-    return aiReturn_SUCCESS;
-  }
-  size_t Tell() const override { return at_; }
-  size_t FileSize() const override { return bytes_.size(); }
-  void Flush() override {}
-
- private:
-  std::span<const uint8_t> bytes_;
-  size_t at_ = 0;
-};
-
-// A disk with one file.
-class OneFile : public Assimp::IOSystem {
- public:
-  OneFile(std::string name, std::span<const uint8_t> bytes) : name_(std::move(name)), bytes_(bytes) {}
-  bool Exists(const char* name) const override { return name == name_; }
-  char getOsSeparator() const override { return '/'; }
-  Assimp::IOStream* Open(const char* name, const char*) override {
-    return name == name_ ? new MemoryStream(bytes_) : nullptr;
-  }
-  void Close(Assimp::IOStream* stream) override { delete stream; }
-
- private:
-  std::string name_;
-  std::span<const uint8_t> bytes_;
-};
-
-struct About {
-  const char* extension;
-  UpAxis up;  // where the file does not say it
-};
-About aboutOf(AssimpFormat format) {
-  switch (format) {
-    case AssimpFormat::Collada: return {"dae", UpAxis::Y};
-    case AssimpFormat::Studio3D: return {"3ds", UpAxis::Z};
-    case AssimpFormat::Fbx: return {"fbx", UpAxis::Y};
-    case AssimpFormat::Stl: return {"stl", UpAxis::Z};
-    case AssimpFormat::Ply: break;
-  }
-  return {"ply", UpAxis::Z};
-}
-
-// Of the library's forty formats only the one that is meant.
-void keepOnly(Assimp::Importer& importer, const std::string& extension) {
-  for (size_t i = importer.GetImporterCount(); i-- > 0;) {
-    const aiImporterDesc* about = importer.GetImporterInfo(i);
-    const std::string extensions = about && about->mFileExtensions ? fmt::format(" {} ", about->mFileExtensions) : "";
-    if (extensions.find(" " + extension + " ") == std::string::npos) importer.UnregisterLoader(importer.GetImporter(i));
-  }
-}
-
-Bytes readInside(std::span<const uint8_t> bytes, AssimpFormat format, bool ignoreUp, size_t maxTriangles) {
-  Assimp::Importer importer;
-  const std::string extension = aboutOf(format).extension;
-  keepOnly(importer, extension);
-  const std::string name = "model." + extension;
-  importer.SetIOHandler(new OneFile(name, bytes));  // owned by the importer
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // of nodes, instead of their ids
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, ignoreUp);
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS,
-                           false);  // one node for each of the file's, not one for each part of its transform
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
-  unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_TransformUVCoords;
-  if (format == AssimpFormat::Stl) {
-    // Normals of facets, often wrong, which would keep their corners apart.
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS);
-    steps |= aiProcess_RemoveComponent;
-  }
-  const aiScene* scene = importer.ReadFile(name, steps);
-  if (!scene) fail("", std::string("is damaged, or of a version that is not read: ") + importer.GetErrorString());
-  return toBytes(collectForeign(*scene, format, maxTriangles));
 }
 
 }  // namespace
 
-UpAxis usualUp(AssimpFormat format) { return aboutOf(format).up; }
+UpAxis usualUp(AssimpFormat format) {
+  return format == AssimpFormat::Collada || format == AssimpFormat::Fbx ? UpAxis::Y : UpAxis::Z;
+}
 
 ForeignModel readForeign(std::span<const uint8_t> bytes, AssimpFormat format, bool ignoreUp, size_t maxTriangles) {
   if (bytes.size() > kMaxBytes) fail("", fmt::format("is larger than {} MiB", kMaxBytes >> 20));
-  return foreignModel(inChildProcess([&] { return readInside(bytes, format, ignoreUp, maxTriangles); }));
+  const std::vector<std::string> arguments{extensionOf(format), ignoreUp ? "own" : "stated",
+                                           std::to_string(maxTriangles)};
+  ForeignModel model = foreignModel(inChildProcess(modelReader(), arguments, bytes));
+  checkSize(model, maxTriangles);
+  return model;
 }
 
 Scene readByAssimp(std::span<const uint8_t> bytes, AssimpFormat format, const ReadCompanion& companions,

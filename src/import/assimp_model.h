@@ -1,6 +1,7 @@
 // FBX, COLLADA (.dae), 3D Studio (.3ds), STL and PLY by the library assimp.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "import/file_access.h"
@@ -19,11 +20,15 @@ enum class AssimpFormat {
   Ply,
 };
 
+// Their usual extensions, which also stand for them in the arguments of the reader's program.
+inline constexpr std::array<const char*, 5> kAssimpExtensions = {"dae", "3ds", "fbx", "stl", "ply"};
+inline const char* extensionOf(AssimpFormat format) { return kAssimpExtensions[static_cast<size_t>(format)]; }
+
 // What a file of the format means that does not say which axis points up.
 UpAxis usualUp(AssimpFormat format);
 
-// The file is read in a process of its own, as the library follows cycles and sizes that a hostile file claims, and
-// sees no file but these bytes. `ignoreUp`: in the file's own axes even where it says which one points up. Throws
+// The file is read by a program of its own (model_reader.h). `ignoreUp`: in the file's own axes even where it says
+// which one points up. All instances together have at most `maxTriangles`, and three times as many vertices. Throws
 // Failure.
 ForeignModel readForeign(std::span<const uint8_t> bytes, AssimpFormat format, bool ignoreUp, size_t maxTriangles);
 

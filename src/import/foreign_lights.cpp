@@ -12,6 +12,8 @@ constexpr float kLampLm = 800, kSunLux = 50'000;
 constexpr float kSunHalfAngleRad = 0.00465f;
 constexpr float kUsualAreaM = 0.3f;  // a side of an area light whose size the file does not say
 constexpr float kLeastConeRad = 0.02f;
+constexpr float kLeastSideM = 1e-3f, kMostSideM = 1e3f;
+constexpr float kFaintest = 1e-20f;  // in the file's unit; below it is none
 
 float strength(const ForeignLight& l) { return luminance(max(l.colour, Vec3(0))); }
 
@@ -33,8 +35,10 @@ Lamp lampOf(const ForeignLight& in, float metresPerUnit, Vec3 fluxLm) {
         fluxLm / static_cast<float>(spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad)));
   } else {
     lamp.kind = LampKind::Area;
-    lamp.widthM = in.width > 0 ? in.width * metresPerUnit : kUsualAreaM;
-    lamp.heightM = in.height > 0 ? in.height * metresPerUnit : kUsualAreaM;
+    const auto side = [&](float size) {
+      return size > 0 ? std::clamp(size * metresPerUnit, kLeastSideM, kMostSideM) : kUsualAreaM;
+    };
+    lamp.widthM = side(in.width), lamp.heightM = side(in.height);
     lamp.luminanceCdM2 = fluxLm / (kPi * lamp.widthM * lamp.heightM);
   }
   return lamp;
@@ -51,7 +55,7 @@ void addForeignLights(const std::vector<ForeignLight>& lights, float metresPerUn
   const size_t firstLamp = scene.lamps.size();
   size_t taken = 0;
   for (const ForeignLight& l : lights) {
-    if (!(strength(l) > 0)) {
+    if (!(strength(l) > kFaintest)) {
       warnings.mended("lights of intensity 0 are left out");
       continue;
     }

@@ -75,7 +75,7 @@ std::span<const uint8_t> range(const GltfDocument& document, const Json& json, s
   return view.bytes.subspan(std::min(offset, view.bytes.size()));
 }
 
-void openSparse(const GltfDocument& document, const Json& sparse, Accessor& a) {
+void openSparse(GltfDocument& document, const Json& sparse, Accessor& a) {
   const size_t count = sparse.at("count").integer(a.count);
   const Json indices = sparse.at("indices"), values = sparse.at("values");
   const int type = readComponentType(indices);
@@ -83,6 +83,7 @@ void openSparse(const GltfDocument& document, const Json& sparse, Accessor& a) {
     indices.fail("sparse indices must be unsigned integers");
   size_t stride = 0;
   const auto bytes = range(document, indices, count, sizeOf(type), &stride);
+  document.budget.spend(count, sparse.path());
   a.sparseIndices.resize(count);
   for (size_t i = 0; i < count; ++i) {
     a.sparseIndices[i] = static_cast<uint32_t>(component(bytes.data() + i * stride, type));
@@ -105,7 +106,7 @@ float normalizer(int componentType) {
   }
 }
 
-Accessor openAccessor(const GltfDocument& document, const Json& use) {
+Accessor openAccessor(GltfDocument& document, const Json& use) {
   const Json list = document.root().list("accessors");
   const Json json = list[static_cast<size_t>(use.index(list.size()))];
   Accessor a{.json = json, .bytes = {}, .sparseIndices = {}, .sparseBytes = {}};

@@ -22,8 +22,9 @@ struct Accessor {
   std::span<const uint8_t> sparseBytes;  // back to back
 };
 
-// The accessor that the JSON number `use` names. Throws Failure.
-Accessor openAccessor(const GltfDocument& document, const Json& use);
+// The accessor that the JSON number `use` names; its sparse indices count as elements that the file unfolds into.
+// Throws Failure.
+Accessor openAccessor(GltfDocument& document, const Json& use);
 
 // `components` numbers an element, of all elements or of those in `selection`; floats as they are, finite or not. An
 // accessor with more components gives the first ones; with fewer it is refused.

@@ -15,6 +15,7 @@ namespace roomlight::importers {
 namespace {
 
 constexpr size_t kMaxJsonDepth = 64;
+constexpr size_t kMaxJsonValues = 50'000'000;  // each takes some forty bytes, whatever it takes in the file
 
 constexpr size_t kElementsPerByte = 64;  // Draco spends a byte on about five
 
@@ -128,8 +129,8 @@ std::string cleaned(std::string_view text) {
 }
 
 // Before parsing, since everything that walks the tree later may recurse.
-void checkDepth(const std::string& json) {
-  size_t depth = 0;
+void checkShape(const std::string& json) {
+  size_t depth = 0, values = 0;
   bool text = false;
   for (size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
@@ -144,6 +145,9 @@ void checkDepth(const std::string& json) {
     } else if ((c == '}' || c == ']') && depth > 0) {
       --depth;
     }
+    // Each value but the first follows one of these.
+    if (!text && (c == '{' || c == '[' || c == ',') && ++values > kMaxJsonValues)
+      fail("JSON", fmt::format("holds more than {} values", kMaxJsonValues));
   }
 }
 
@@ -204,7 +208,7 @@ void parseContainer(GltfDocument& document) {
   std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
   if (text.starts_with("glTF")) text = jsonOfBinary(document);
   const std::string json = cleaned(text);
-  checkDepth(json);
+  checkShape(json);
   try {
     document.json = nlohmann::json::parse(json.begin(), json.end());
   } catch (const nlohmann::json::parse_error& e) {

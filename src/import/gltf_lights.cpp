@@ -15,6 +15,14 @@ namespace {
 constexpr float kBrightest = 1e12f;
 constexpr float kFarthest = 1e6f;
 
+// The axis of a node's frame, whose scale may be beyond what can be squared.
+Vec3 unit(Vec3 axis) {
+  const float squared = lengthSquared(axis);
+  if (std::isnormal(squared)) return normalize(axis);
+  const float largest = maxComponent(abs(axis));
+  return largest > 0 ? normalize(axis / largest) : Vec3(0, 0, 1);
+}
+
 std::string nameOf(const Json& thing, const std::string& nodeName) {
   const std::string name = thing.name();
   return name.empty() ? nodeName : name;
@@ -35,7 +43,7 @@ std::string photometricName(const std::string& nodeName) {
 std::optional<Camera> readGltfCamera(const Json& in, const std::string& nodeName, const Affine& world) {
   Camera camera;
   camera.name = nameOf(in, nodeName);
-  camera.worldFromCamera = {normalize(world.x), normalize(world.y), normalize(world.z), world.w};
+  camera.worldFromCamera = {unit(world.x), unit(world.y), unit(world.z), world.w};
   const std::string type = in.text("type");
   if (const auto o = in.find("orthographic"); o && type == "orthographic") {
     const float xMag = std::abs(o->number("xmag", 1));
@@ -74,13 +82,13 @@ void addGltfLight(GltfDocument& document, const Json& extension, const std::stri
   strength *= limited(in.number("intensity", 1), 0, kBrightest);
   const std::string type = in.text("type"), name = nameOf(in, nodeName);
   if (type == "directional") {
-    scene.suns.push_back({.name = name, .toLight = normalize(world.z), .illuminanceLux = strength});
+    scene.suns.push_back({.name = name, .toLight = unit(world.z), .illuminanceLux = strength});
     return;
   }
   Lamp lamp;
   lamp.name = name;
   lamp.position = world.w;
-  lamp.direction = -normalize(world.z);
+  lamp.direction = -unit(world.z);
   lamp.intensityCd = strength;
   if (type == "spot") {
     lamp.kind = LampKind::Spot;
@@ -130,8 +138,8 @@ void addGltfLuminaire(GltfDocument& document, const Json& node, const Affine& wo
   Lamp lamp;
   lamp.name = node.name().empty() ? name : node.name();
   lamp.position = world.w;
-  lamp.direction = -normalize(world.z);
-  lamp.up = perpendicular(normalize(world.y), lamp.direction);
+  lamp.direction = -unit(world.z);
+  lamp.up = perpendicular(unit(world.y), lamp.direction);
   if (isBlack(lamp.up)) fail(place, "the node's transform leaves no direction for C0");
   setWeb(lamp, web.value(), size, Vec3(1), fluxLm, factor);
   if (!(luminance(lamp.intensityCd) <= 1.001f * kBrightest)) fail(place, "an intensity is above 1e12 cd");

@@ -158,7 +158,7 @@ class Primitive {
   void readVertices() {
     mesh_.positions = vectors(values("POSITION", 3), 3);
     const size_t count = mesh_.positions.size();
-    size_t broken =
+    const size_t broken =
         dropTriangles(mesh_.indices, [&](uint32_t i) { return i >= count || !isFinite(mesh_.positions[i]); });
     document_.warnings.add("triangles with a vertex that is no finite number are left out", broken);
     for (Vec3& p : mesh_.positions) {
@@ -169,16 +169,11 @@ class Primitive {
     mesh_.tangents = vectors(tangents, 4);
     for (size_t i = 3; i < tangents.size(); i += 4) mesh_.tangentSigns.push_back(tangents[i] < 0 ? -1.0f : 1.0f);
     const char* sets[] = {"TEXCOORD_0", "TEXCOORD_1"};
-    broken = 0;
     for (size_t set = 0; set < 2; ++set) {
       const std::vector<float> uv = values(sets[set], 2);
-      for (size_t i = 0; i + 1 < uv.size(); i += 2) {
-        const bool fine = std::isfinite(uv[i]) && std::isfinite(uv[i + 1]);
-        mesh_.uv[set].push_back(fine ? Vec2{uv[i], uv[i + 1]} : Vec2{0, 0});
-        broken += fine ? 0 : 1;
-      }
+      for (size_t i = 0; i + 1 < uv.size(); i += 2) mesh_.uv[set].push_back({uv[i], uv[i + 1]});
     }
-    document_.warnings.add("texture coordinates that are no finite numbers are taken as 0", broken);
+    document_.warnings.add(kLostCoordinates, mendCoordinates(mesh_));
     readColours();
   }
 

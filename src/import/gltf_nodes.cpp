@@ -10,6 +10,7 @@ namespace roomlight::importers {
 namespace {
 
 constexpr int kMaxDepth = 512;
+constexpr size_t kMostInstances = 2'000'000;  // of parts of meshes, each of which takes memory
 
 class Walker {
  public:
@@ -126,13 +127,20 @@ class Walker {
     }
   }
 
+  void askForInstances(size_t more, const Json& place) const {
+    if (more > kMostInstances - scene_.instances.size())
+      place.fail(fmt::format("meshes are placed more than {} times, counted by their primitives", kMostInstances));
+  }
+
   void place(const Json& node, int mesh, const Affine& world) {
     if (world.determinant() == 0 || !isFinite(world.x) || !isFinite(world.y) || !isFinite(world.z) ||
         !isFinite(world.w)) {
       document_.warnings.mended("instances scaled to nothing are left out");
       return;
     }
-    for (const int primitive : primitivesOfMesh_[static_cast<size_t>(mesh)]) {
+    const std::vector<int>& primitives = primitivesOfMesh_[static_cast<size_t>(mesh)];
+    askForInstances(primitives.size(), node);
+    for (const int primitive : primitives) {
       triangles_ += scene_.meshes[static_cast<size_t>(primitive)].triangleCount();
       if (triangles_ > maxTriangles_)
         node.fail(fmt::format("all instances together have more than {} triangles", maxTriangles_));
@@ -156,6 +164,7 @@ class Walker {
         use->fail(fmt::format("has {} elements, others have {}", accessor.count, *count));
       count = accessor.count;
       document_.budget.spend(accessor.count, use->path());
+      askForInstances(accessor.count, *use);
       values[k] = readFloats(accessor, widths[k]);
     }
     std::vector<Affine> out;

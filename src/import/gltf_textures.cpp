@@ -146,11 +146,19 @@ std::vector<int> GltfTextures::decode(Scene& scene) {
       damaged.add(fmt::format("{} ({})", nameOf(image), printable(pictures[job].failure, 100)));
   }
   std::vector<int> indices;
+  size_t pixels = 0;
   for (const Use& use : uses_) {
     indices.push_back(-1);
     if (use.image < 0) continue;
     const size_t job = jobOfImage.at(use.image);
     if (!pictures[job].failure.empty()) continue;
+    // A picture that wraps in several ways is copied for each.
+    pixels += pictures[job].texture.rgba.size() / 4;
+    if (pixels > kMaxAllPixels) {
+      damaged.add(fmt::format("{} (used in so many ways that all pictures have more than {} pixels)", nameOf(use.image),
+                              kMaxAllPixels));
+      continue;
+    }
     Texture texture = --usesLeft[job] == 0 ? std::move(pictures[job].texture) : pictures[job].texture;
     const std::string name = images[static_cast<size_t>(use.image)].name();
     texture.name = name.empty() ? nameOf(use.image) : name;

@@ -1,5 +1,5 @@
-// Sun and sky that belong together, from the `daylight` of a lighting file (docs/reference/lighting.md). What is wrong is
-// told to the place; see json_reader.h.
+// Sun and sky that belong together, from the `daylight` of a lighting file (docs/reference/lighting.md). What is wrong
+// is told to the place; see json_reader.h.
 #pragma once
 
 #include <filesystem>

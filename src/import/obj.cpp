@@ -26,6 +26,8 @@ namespace roomlight {
 namespace importers {
 namespace {
 
+constexpr size_t kMostParts = 1'000'000, kLongestName = 256, kEarTestsAByte = 4;
+
 // Which position, texture coordinate and normal; -1: none.
 struct Corner {
   int v = -1, vt = -1, vn = -1;
@@ -66,7 +68,9 @@ class LostFaces {
 
 class Builder {
  public:
-  Builder(const ObjLines& lines, size_t maxTriangles) : lines_(lines), maxTriangles_(maxTriangles) {}
+  Builder(const ObjLines& lines, size_t fileBytes, size_t maxTriangles) : lines_(lines), maxTriangles_(maxTriangles) {
+    ears_.testsLeft += kEarTestsAByte * fileBytes;
+  }
 
   void position(std::string_view text) {
     std::array<float, 7> v{};
@@ -79,8 +83,9 @@ class Builder {
   void uv(std::string_view text) {
     std::array<float, 3> v{};
     numbers(text, v);
-    const bool whole = std::isfinite(v[0]) && std::isfinite(v[1]);
+    const bool whole = saysSomething({v[0], v[1]});
     uvs_.push_back(whole ? Vec2{v[0], 1 - v[1]} : Vec2{});
+    lostCoordinates_ += whole ? 0 : 1;
   }
   void normal(std::string_view text) {
     std::array<float, 3> v{};
@@ -117,7 +122,7 @@ class Builder {
     if (triangles_ > maxTriangles_)
       fail(lines_.place(), fmt::format("the file has more than {} triangles", maxTriangles_));
     Part& part = currentPart();
-    for (const auto& triangle : triangulate(points_)) {
+    for (const auto& triangle : triangulate(points_, ears_)) {
       for (const uint32_t corner : triangle) part.mesh.indices.push_back(vertexOf(part, corners_[corner]));
     }
   }
@@ -150,6 +155,8 @@ class Builder {
     }
     warnings.mended("faces with fewer than three corners are ignored", shortFaces_);
     warnings.mended("texture coordinates and normals that do not exist are left out", missingAttributes_);
+    warnings.add("faces of many corners are cut from one of them, as there are too many such faces", ears_.fans);
+    warnings.add(kLostCoordinates, lostCoordinates_);
     warnings.add("points and lines are ignored", linesAndPoints_);
     warnings.add("curves and free-form surfaces are ignored", freeForm_);
     return materialNames_;
@@ -209,8 +216,10 @@ class Builder {
     const auto [entry, isNew] = parts_.try_emplace({object_, material->second});
     part_ = &entry->second;
     if (isNew) {
+      if (parts_.size() > kMostParts)
+        fail(lines_.place(), fmt::format("the file has more than {} parts of one object and material", kMostParts));
       part_->object = object_;
-      part_->mesh.name = objectName_;
+      part_->mesh.name = printable(objectName_, kLongestName);  // copied for each part
       part_->mesh.material = material->second;
       order_.push_back(part_);
     }
@@ -239,8 +248,9 @@ class Builder {
 
   const ObjLines& lines_;
   size_t maxTriangles_ = 0, triangles_ = 0, faces_ = 0, shortFaces_ = 0, missingAttributes_ = 0, linesAndPoints_ = 0,
-         freeForm_ = 0;
+         freeForm_ = 0, lostCoordinates_ = 0;
   LostFaces lost_;
+  EarBudget ears_;
   std::vector<Vec3> positions_, normals_;
   bool coloured_ = false;
   std::vector<Vec3> colours_;  // of the vertices, in a coloured file
@@ -282,7 +292,7 @@ void readLine(std::string_view line, const ObjLines& lines, Builder& builder) {
 Scene readObj(std::span<const uint8_t> bytes, const ReadCompanion& companions, size_t maxTriangles,
               Warnings& warnings) {
   ObjLines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  Builder builder(lines, maxTriangles);
+  Builder builder(lines, bytes.size(), maxTriangles);
   for (std::string_view line; lines.next(line);) readLine(line, lines, builder);
   Scene scene;
   const std::vector<std::string> names = builder.finish(scene, warnings);

@@ -85,7 +85,10 @@ int ObjTextures::combined(const char* kind, const std::string& a, const std::str
   t.wrapU = t.wrapV = wrap;
   t.width = std::max(ta ? ta->width : 0, tb ? tb->width : 0);
   t.height = std::max(ta ? ta->height : 0, tb ? tb->height : 0);
-  t.rgba.resize(static_cast<size_t>(t.width) * static_cast<size_t>(t.height) * 4);
+  const size_t pixels = static_cast<size_t>(t.width) * static_cast<size_t>(t.height);
+  if ((madePixels_ += pixels) > kMaxAllPixels)
+    fail("", fmt::format("the pictures in all their combinations have more than {} pixels", kMaxAllPixels));
+  t.rgba.resize(4 * pixels);
   static constexpr uint8_t kWhite[4] = {255, 255, 255, 255};
   uint8_t* out = t.rgba.data();
   for (int y = 0; y < t.height; ++y) {
@@ -100,7 +103,9 @@ int ObjTextures::combined(const char* kind, const std::string& a, const std::str
 
 int ObjTextures::colourWithAlpha(const std::string& colour, const std::string& alpha, Wrap wrap, Scene& scene) {
   const Texture* mask = find(alpha);
-  const int channel = mask && hasAlpha(*mask) ? 3 : 0;
+  const auto [known, isNew] = maskChannels_.try_emplace(alpha, 0);
+  if (isNew && mask && hasAlpha(*mask)) known->second = 3;
+  const int channel = known->second;
   return combined("colour", colour, alpha, wrap, scene, [&](const uint8_t* c, const uint8_t* a, uint8_t* out) {
     std::copy(c, c + 3, out);
     out[3] = a[channel];

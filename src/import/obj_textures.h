@@ -18,7 +18,7 @@ class ObjTextures {
   ObjTextures(const ReadCompanion& companions, const std::set<std::string>& names, Warnings& warnings);
 
   // Index of the scene's texture made of the colour of one picture and the alpha of another; "" is no picture. -1 where
-  // neither was read. The same request gives the same texture.
+  // neither was read. The same request gives the same texture. Throws Failure where all of them are too large.
   int colourWithAlpha(const std::string& colour, const std::string& alpha, Wrap wrap, Scene& scene);
   // G = roughness, B = metallic, of two grey pictures; 255 for one that is not there.
   int metallicRoughness(const std::string& metallic, const std::string& roughness, Wrap wrap, Scene& scene);
@@ -30,7 +30,8 @@ class ObjTextures {
                Combine&& combine);
 
   std::map<std::string, Texture> pictures_;
-  std::map<std::string, int> made_;
+  std::map<std::string, int> made_, maskChannels_;  // of masks: where they say it, red or alpha
+  size_t madePixels_ = 0;
 };
 
 }  // namespace roomlight::importers

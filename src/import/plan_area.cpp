@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace roomlight::importers {
 namespace {
@@ -42,6 +43,101 @@ struct Edge {
     return a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
   }
 };
+
+// Over all edges, in how many of the strips between neighbouring coordinates each lies. `axis`: of x or of y.
+size_t stripsCrossed(const PlanArea& area, double PlanPoint::*axis) {
+  std::vector<double> cuts;
+  for (const PlanRing& ring : area) {
+    for (const PlanPoint& p : ring) cuts.push_back(p.*axis);
+  }
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  const auto at = [&](double v) { return std::lower_bound(cuts.begin(), cuts.end(), v) - cuts.begin(); };
+  size_t strips = 0;
+  for (const PlanRing& ring : area) {
+    for (size_t i = 0; i < ring.size(); ++i)
+      strips += static_cast<size_t>(std::abs(at(ring[i].*axis) - at(ring[(i + 1) % ring.size()].*axis)));
+  }
+  return strips;
+}
+
+struct Box {
+  PlanPoint lo{1e300, 1e300}, hi{-1e300, -1e300};
+  void add(PlanPoint p) {
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)}, hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+  }
+  bool meets(const Box& o) const { return lo.x <= o.hi.x && o.lo.x <= hi.x && lo.y <= o.hi.y && o.lo.y <= hi.y; }
+};
+
+Box boxOf(const PlanArea& area) {
+  Box box;
+  for (const PlanRing& ring : area) {
+    for (const PlanPoint& p : ring) box.add(p);
+  }
+  return box;
+}
+
+struct Line {
+  PlanPoint a, b;
+  Box box;
+  int area = 0;  // whose it is
+};
+
+// The edges that may meet something in the box.
+void addLines(const PlanArea& from, const Box& within, int area, std::vector<Line>& out) {
+  for (const PlanRing& ring : from) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      Line line{ring[i], ring[(i + 1) % ring.size()], {}, area};
+      line.box.add(line.a), line.box.add(line.b);
+      if (line.box.meets(within)) out.push_back(line);
+    }
+  }
+}
+
+double sideOf(const Line& l, PlanPoint p) { return (l.b.x - l.a.x) * (p.y - l.a.y) - (l.b.y - l.a.y) * (p.x - l.a.x); }
+
+// Not where they only touch.
+bool cross(const Line& l, const Line& m) {
+  if (!l.box.meets(m.box)) return false;
+  const auto apart = [](double s, double t) { return (s < 0 && t > 0) || (s > 0 && t < 0); };
+  return apart(sideOf(l, m.a), sideOf(l, m.b)) && apart(sideOf(m, l.a), sideOf(m, l.b));
+}
+
+struct Crossings {
+  size_t found = 0, looks = 0;
+};
+
+constexpr size_t kLooksAStep = 32;
+
+// Of the clipper's sweep along y.
+size_t sweepSteps(const PlanArea& area) {
+  constexpr size_t kStepsACorner = 8, kStripsAStep = 8;
+  size_t corners = 0;
+  for (const PlanRing& ring : area) corners += ring.size();
+  return kStepsACorner * corners + stripsCrossed(area, &PlanPoint::y) / kStripsAStep;
+}
+
+// At a crossing it walks past the edges beside it.
+size_t stepsACrossing(const std::vector<Line>& lines) { return 8 + lines.size() / 64; }
+
+// A sweep along x: each line against those that have not ended yet. `within`: of one area, otherwise of different ones.
+// Ends at more than so many found, or looks.
+Crossings crossingsIn(std::vector<Line> lines, bool within, Crossings most) {
+  std::sort(lines.begin(), lines.end(), [](const Line& l, const Line& m) { return l.box.lo.x < m.box.lo.x; });
+  Crossings out;
+  std::vector<const Line*> active;
+  for (const Line& line : lines) {
+    std::erase_if(active, [&](const Line* l) { return l->box.hi.x < line.box.lo.x; });
+    for (const Line* other : active) {
+      if (within || other->area != line.area) out.found += cross(*other, line) ? 1 : 0;
+      if (out.found > most.found) return out;
+    }
+    out.looks += active.size();
+    if (out.looks > most.looks) return out;
+    active.push_back(&line);
+  }
+  return out;
+}
 
 void addTriangle(std::vector<PlanTriangle>& out, PlanPoint a, PlanPoint b, PlanPoint c) {
   if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0) out.push_back({a, b, c});
@@ -84,6 +180,29 @@ std::vector<PlanTriangle> trianglesOf(const PlanArea& area) {
     }
   }
   return out;
+}
+
+size_t mostTrianglesOf(const PlanArea& area) { return stripsCrossed(area, &PlanPoint::x); }
+
+size_t combiningSteps(const PlanArea& a, const PlanArea& b, size_t most) {
+  const size_t steps = sweepSteps(a) + sweepSteps(b);
+  if (steps > most) return steps;
+  std::vector<Line> lines;
+  addLines(a, boxOf(b), 0, lines);
+  addLines(b, boxOf(a), 1, lines);
+  const size_t each = stepsACrossing(lines), left = std::min(most - steps, size_t{1} << 48);
+  const Crossings crossings = crossingsIn(std::move(lines), false, {left / each, kLooksAStep * left});
+  return steps + crossings.looks / kLooksAStep + crossings.found * each;
+}
+
+Tangle tangleOf(const PlanArea& area, size_t mostCrossings) {
+  std::vector<Line> lines;
+  addLines(area, boxOf(area), 0, lines);
+  const size_t each = stepsACrossing(lines);
+  const Crossings own = crossingsIn(std::move(lines), true, {mostCrossings, std::numeric_limits<size_t>::max()});
+  const size_t looking = own.looks / kLooksAStep;
+  if (own.found > mostCrossings) return {own.found, looking};
+  return {own.found, looking + sweepSteps(area) + own.found * each};
 }
 
 double signedAreaOf(const PlanRing& ring) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace roomlight::importers {
@@ -23,6 +24,19 @@ PlanArea subtracted(const PlanArea& a, const PlanArea& b);
 // edges on a cut.
 using PlanTriangle = std::array<PlanPoint, 3>;
 std::vector<PlanTriangle> trianglesOf(const PlanArea& area);
+
+// What the work on areas comes to, told before any of it is done.
+// At least as many triangles as trianglesOf() makes, and hardly more.
+size_t mostTrianglesOf(const PlanArea& area);
+// Steps, of about a tenth of a microsecond, of one of the operations above on two areas that do not cross themselves:
+// for each corner, for edges that lie side by side, for each place where the two cross. Counting ends beyond `most`.
+size_t combiningSteps(const PlanArea& a, const PlanArea& b, size_t most);
+// Pairs of its own edges that cross, and the steps of uniting it with nothing, which ends all crossings. Counting ends
+// beyond so many crossings; then the steps are those of counting.
+struct Tangle {
+  size_t crossings = 0, steps = 0;
+};
+Tangle tangleOf(const PlanArea& area, size_t mostCrossings);
 
 double areaOf(const PlanArea& area);
 double signedAreaOf(const PlanRing& ring);  // positive counter-clockwise

@@ -1,5 +1,6 @@
 #include "import/polygon.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace roomlight::importers {
@@ -35,11 +36,13 @@ struct Ears {
 
 }  // namespace
 
-std::vector<std::array<uint32_t, 3>> triangulate(std::span<const Vec3> corners) {
+std::vector<std::array<uint32_t, 3>> triangulate(std::span<const Vec3> corners, EarBudget& budget) {
   std::vector<std::array<uint32_t, 3>> triangles;
+  const size_t mostTests = std::min(kMostTests, budget.testsLeft);
+  size_t tests = 0;
   Ears ears{corners, normalOf(corners), std::vector<uint32_t>(corners.size())};
   std::iota(ears.left.begin(), ears.left.end(), 0u);
-  for (size_t k = 0, missed = 0, tests = 0; tests <= kMostTests && ears.left.size() > 3 && missed < ears.left.size();
+  for (size_t k = 0, missed = 0; tests < mostTests && ears.left.size() > 3 && missed < ears.left.size();
        tests += ears.left.size()) {
     const size_t count = ears.left.size();
     k %= count;
@@ -51,6 +54,8 @@ std::vector<std::array<uint32_t, 3>> triangulate(std::span<const Vec3> corners) 
       ++k, ++missed;
     }
   }
+  if (tests >= budget.testsLeft && ears.left.size() > 3) ++budget.fans;
+  budget.testsLeft -= std::min(tests, budget.testsLeft);
   for (size_t i = 1; i + 1 < ears.left.size(); ++i) triangles.push_back({ears.left[0], ears.left[i], ears.left[i + 1]});
   return triangles;
 }

@@ -104,18 +104,20 @@ std::vector<WallOffsets> baseboardOffsets(const Home& home) {
   return out;
 }
 
-void addBaseboards(const Wall& wall, const WallOutline& outline, const WallOutline& boards, const WallHeights& heights,
-                   std::span<const WallCut> cuts, Paints& paints, Surfaces& out) {
+void addBaseboards(const StandingWall& standing, const WallOutline& boards, Paints& paints, Surfaces& out) {
+  const Wall& wall = standing.wall;
+  const WallOutline& outline = standing.outline;
+  const WallHeights& heights = standing.heights;
   if (boards.left.size() != outline.left.size()) return;
   if (wall.leftBaseboard) {
     addSide({outline.left, boards.left, *wall.leftBaseboard, materialOf(*wall.leftBaseboard, wall.left, paints),
              heights.floorCm},
-            heights.leftTopCm, cuts, out);
+            heights.leftTopCm, standing.cuts, out);
   }
   if (wall.rightBaseboard) {
     addSide({outline.right, boards.right, *wall.rightBaseboard, materialOf(*wall.rightBaseboard, wall.right, paints),
              heights.floorCm},
-            heights.rightTopCm, cuts, out);
+            heights.rightTopCm, standing.cuts, out);
   }
 }
 

@@ -21,9 +21,16 @@ struct WallHeights {
 // The outlines' distances from the walls' axes with the baseboards on them.
 std::vector<WallOffsets> baseboardOffsets(const Home& home);
 
-// Adds the baseboards of both sides, which stand between the outlines `wall` and `boards`, without what openings cut
-// away. They have their own paint, or that of their side.
-void addBaseboards(const Wall& wall, const WallOutline& outline, const WallOutline& boards, const WallHeights& heights,
-                   std::span<const WallCut> cuts, Paints& paints, Surfaces& out);
+// A wall as it stands in the home.
+struct StandingWall {
+  const Wall& wall;
+  const WallOutline& outline;  // of its body on the plan, cm
+  const WallHeights& heights;
+  std::span<const WallCut> cuts;  // what openings take from it
+};
+
+// Adds the baseboards of both sides, which stand between the wall's outline and `boards`, that of the wall with them,
+// without what openings cut away. They have their own paint, or that of their side.
+void addBaseboards(const StandingWall& standing, const WallOutline& boards, Paints& paints, Surfaces& out);
 
 }  // namespace roomlight::importers::sh3d

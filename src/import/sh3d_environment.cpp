@@ -9,6 +9,7 @@
 
 #include "import/lighting_sky.h"
 #include "import/sh3d_cameras.h"
+#include "import/sh3d_rooms.h"
 #include "import/sh3d_surfaces.h"
 #include "import/sh3d_time_zone.h"
 #include "photometry/cie_sky.h"
@@ -162,38 +163,39 @@ Vec3 meanReflectance(const Scene& scene, int material) {
 }
 
 // A rectangle around the home without the rooms that lie below it.
-void addGround(const Home& home, int material, Scene& scene, int& object) {
-  const Bounds3 b = scene.bounds();
+void addGround(const Home& home, int material, Draft& draft) {
+  const Bounds3 b = draft.scene.bounds();
   if (b.empty()) return;
   const double x0 = static_cast<double>(b.lo.x) * 100 - kGroundMarginCm,
                x1 = static_cast<double>(b.hi.x) * 100 + kGroundMarginCm;
   const double y0 = static_cast<double>(b.lo.z) * 100 - kGroundMarginCm,
                y1 = static_cast<double>(b.hi.z) * 100 + kGroundMarginCm;
   PlanArea area{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
+  Surfaces surfaces(draft.effort, "the ground");
   for (const Room& room : home.rooms) {
-    if (isShown(home, room.level) && elevationOf(home, room.level) < -kGroundDepthCm)
-      area = subtracted(area, {room.points});
+    if (!isShown(home, room.level) || !(elevationOf(home, room.level) < -kGroundDepthCm)) continue;
+    if (const auto outline = outlineOf(room, draft.effort)) area = surfaces.without(area, *outline);
   }
-  Surfaces surfaces;
   const auto corner = [&](PlanPoint p) {
     return SurfaceCorner{toWorld(p, -kGroundDepthCm), {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
   };
-  for (const PlanTriangle& t : trianglesOf(area))
+  for (const PlanTriangle& t : surfaces.cut(area))
     surfaces.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, 1, 0});
-  surfaces.finish(scene, "ground", object++);
+  surfaces.finish(draft, "ground");
+  ++draft.object;
 }
 
 }  // namespace
 
-std::string addEnvironment(const Home& home, Paints& paints, const std::string& camera, Scene& scene, int& object,
-                           Warnings& warnings) {
+std::string addEnvironment(const Home& home, Paints& paints, const std::string& camera, Draft& draft) {
   const Environment& env = home.environment;
   Paint ground;
   ground.colour = env.groundColour.value_or(kUsualGround);
   ground.texture = env.groundTexture;
   const int material = paints.material(ground, "ground");
-  std::string daylight = addDaylight(home, paints, camera, meanReflectance(scene, material), scene, warnings);
-  addGround(home, material, scene, object);
+  std::string daylight =
+      addDaylight(home, paints, camera, meanReflectance(draft.scene, material), draft.scene, draft.warnings);
+  addGround(home, material, draft);
   return daylight;
 }
 

@@ -1,10 +1,9 @@
 // Sun, sky and ground around a home.
 #pragma once
 
+#include "import/sh3d_draft.h"
 #include "import/sh3d_home.h"
 #include "import/sh3d_paints.h"
-#include "import/warnings.h"
-#include "scene/scene.h"
 
 namespace roomlight::importers::sh3d {
 
@@ -13,8 +12,7 @@ namespace roomlight::importers::sh3d {
 // light they give is that of the time; at night there is a sky of twilight, moon and stars. Returns a `daylight` of
 // lighting files for other times, as JSON, empty where place or time is not known. Needs Scene's geometry to be
 // complete: the ground lies around it, just below the floors, out to 5 m; farther away the sky's lower half stands for
-// it.
-std::string addEnvironment(const Home& home, Paints& paints, const std::string& camera, Scene& scene, int& object,
-                           Warnings& warnings);
+// it. Throws Failure.
+std::string addEnvironment(const Home& home, Paints& paints, const std::string& camera, Draft& draft);
 
 }  // namespace roomlight::importers::sh3d

@@ -16,6 +16,7 @@ namespace roomlight::importers::sh3d {
 namespace {
 
 constexpr float kFlat = 1e-7f;  // extents below are none; in the model's unit
+constexpr size_t kMostParts = 4'000'000, kMostFinds = 50'000'000;
 constexpr int kHideEdges = 2;   // of modelFlags: materials that draw edges are not shown
 
 Affine turnedX(double a) {
@@ -69,10 +70,11 @@ std::vector<Affine> poses(const Piece& piece, const std::vector<const Mesh*>& me
   return out;
 }
 
-void addBox(const Home& home, const Piece& p, int material, Scene& scene, int object) {
+void addBox(const Home& home, const Piece& p, int material, Draft& draft) {
   const Affine m = worldFromPiece(home, p);
   const Vec3 half{cm(p.widthCm) / 2, cm(p.heightCm) / 2, cm(p.depthCm) / 2};
-  Surfaces surfaces;
+  Surfaces surfaces(draft.effort, p.place);
+  surfaces.ask(12);
   for (int axis = 0; axis < 3; ++axis) {
     for (const float sign : {-1.0f, 1.0f}) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -86,23 +88,25 @@ void addBox(const Home& home, const Piece& p, int material, Scene& scene, int ob
       surfaces.quad(material, {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, m.vector(front));
     }
   }
-  surfaces.finish(scene, p.name, object);
+  surfaces.finish(draft, p.name);
 }
 
 class Placer {
  public:
-  Placer(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, Scene& scene, Warnings& warnings)
+  Placer(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, Draft& draft)
       : home_(home),
         models_(models),
-        looks_(paints, scene),
+        looks_(paints, draft.scene),
         paints_(paints),
         maxTriangles_(maxTriangles),
-        scene_(scene),
-        warnings_(warnings) {}
+        draft_(draft),
+        scene_(draft.scene),
+        warnings_(draft.warnings) {}
 
-  void place(const Piece& p, int object) {
+  void place(const Piece& p) {
     const Model* model = p.model.empty() ? nullptr : models_.find(p.model);
-    if (!model) return standIn(p, object);
+    if (!model) return standIn(p);
+    askFor(p, *model);
     std::vector<const Mesh*> meshes;
     for (const Mesh& mesh : model->meshes) meshes.push_back(&mesh);
     const std::vector<Affine> posed = poses(p, meshes, warnings_);
@@ -114,15 +118,24 @@ class Placer {
     const std::vector<int> leaves = leavesOf(p, meshes, posed, worldFrom);
     for (size_t i = 0; i < model->meshes.size(); ++i) {
       if ((p.modelFlags & kHideEdges) && isEdge(model->meshes[i])) continue;
-      triangles_ += model->meshes[i].triangleCount();
-      if (triangles_ > maxTriangles_) fail(p.place, fmt::format("the home has more than {} triangles", maxTriangles_));
       const Affine m = worldFrom * posed[i];
       if (!(std::abs(m.determinant()) > 0)) continue;
-      scene_.instances.push_back({p.name, meshWithLook(p, p.model, i, model->meshes[i], m), object, m, leaves[i]});
+      scene_.instances.push_back({p.name, meshWithLook(p, i, model->meshes[i], m), draft_.object, m, leaves[i]});
     }
   }
 
  private:
+  // Before anything is worked out for the piece: its triangles and parts, and what has to be found among the parts.
+  void askFor(const Piece& p, const Model& model) {
+    for (const Mesh& mesh : model.meshes) triangles_ += mesh.triangleCount();
+    if (triangles_ > maxTriangles_) fail(p.place, fmt::format("the home has more than {} triangles", maxTriangles_));
+    parts_ += model.meshes.size();
+    if (parts_ > kMostParts) fail(p.place, fmt::format("the furniture up to here has more than {} parts", kMostParts));
+    finds_ += model.meshes.size() * (p.transformations.size() + p.materials.size() + p.lightSourceMaterials.size());
+    if (finds_ > kMostFinds)
+      fail(p.place, "the furniture up to here has more transformations and materials than that of any home");
+  }
+
   // Lights hang on rails to be set higher or lower: that would part their bodies from their sources.
   std::vector<int> leavesOf(const Piece& p, const std::vector<const Mesh*>& meshes, const std::vector<Affine>& posed,
                             const Affine& worldFrom) {
@@ -134,7 +147,7 @@ class Placer {
     return scene_.materials[static_cast<size_t>(mesh.material)].name.starts_with("edge_color");
   }
 
-  void standIn(const Piece& p, int object) {
+  void standIn(const Piece& p) {
     if (p.kind != PieceKind::Furniture) {
       warnings_.add("doors, windows and lights whose model is missing are not drawn");
       return;
@@ -143,21 +156,23 @@ class Placer {
     const bool painted = p.paint.colour || p.paint.texture;
     Paint grey;
     grey.colour = 0xcccccc;
-    addBox(home_, p, paints_.material(painted ? p.paint : grey, "furniture"), scene_, object);
+    addBox(home_, p, paints_.material(painted ? p.paint : grey, "furniture"), draft_);
   }
 
   // Pieces that look the same share their meshes; a texture laid by size needs coordinates of its own.
-  int meshWithLook(const Piece& p, const std::string& model, size_t i, const Mesh& mesh, const Affine& worldFrom) {
+  int meshWithLook(const Piece& p, size_t i, const Mesh& mesh, const Affine& worldFrom) {
     const Look look = looks_.of(p, mesh.name, mesh.material);
     if (!look.layBySize) {
       const auto [entry, isNew] =
-          shared_.try_emplace({model, i, look.material}, static_cast<int>(scene_.meshes.size()));
+          shared_.try_emplace({p.model, i, look.material}, static_cast<int>(scene_.meshes.size()));
       if (isNew) {
+        draft_.effort.copy(mesh, p.place);
         scene_.meshes.push_back(mesh);
         scene_.meshes.back().material = look.material;
       }
       return entry->second;
     }
+    draft_.effort.copy(2 * mesh.indices.size(), p.place);  // no corner is shared
     scene_.meshes.push_back(laidBySize(mesh, worldFrom));
     scene_.meshes.back().material = look.material;
     return static_cast<int>(scene_.meshes.size()) - 1;
@@ -167,7 +182,8 @@ class Placer {
   const Models& models_;
   Looks looks_;
   Paints& paints_;
-  size_t maxTriangles_, triangles_ = 0;
+  size_t maxTriangles_, triangles_ = 0, parts_ = 0, finds_ = 0;
+  Draft& draft_;
   Scene& scene_;
   Warnings& warnings_;
   std::map<std::tuple<std::string, size_t, int>, int> shared_;
@@ -201,15 +217,14 @@ Affine worldFromModel(const Home& home, const Piece& p, const std::vector<const 
   return moved(toWorld(p.centre, elevationOf(home, p.level) + p.elevationCm + height / 2)) * turnedY(-p.angleRad) * m;
 }
 
-void addFurniture(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, double lumenAtFullPower,
-                  Scene& scene, int& object, Warnings& warnings) {
-  Placer placer(home, models, paints, maxTriangles, scene, warnings);
+void addFurniture(const Home& home, const Models& models, Paints& paints, const ImportOptions& options, Draft& draft) {
+  Placer placer(home, models, paints, options.maxTriangles, draft);
   for (const Piece& p : home.pieces) {
     if (!isShown(home, p.level)) continue;
-    const size_t firstInstance = scene.instances.size();
-    placer.place(p, object);
-    if (p.kind == PieceKind::Light) addLight(home, p, firstInstance, lumenAtFullPower, scene, object, warnings);
-    ++object;
+    const size_t firstInstance = draft.scene.instances.size();
+    placer.place(p);
+    if (p.kind == PieceKind::Light) addLight(home, p, firstInstance, options.lumenAtFullPower, draft);
+    ++draft.object;
   }
 }
 

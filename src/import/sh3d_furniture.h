@@ -1,18 +1,18 @@
 // Pieces of furniture, doors, windows and the bodies of lights.
 #pragma once
 
+#include "import/import.h"
+#include "import/sh3d_draft.h"
 #include "import/sh3d_home.h"
 #include "import/sh3d_models.h"
 #include "import/sh3d_paints.h"
-#include "import/warnings.h"
-#include "scene/scene.h"
 
 namespace roomlight::importers::sh3d {
 
 // Every visible piece on a shown level becomes an object; a light also its sources (sh3d_lights.h). Furniture whose
 // model cannot be shown stands as a box of its size; doors, windows and lights without a model leave their place empty.
-void addFurniture(const Home& home, const Models& models, Paints& paints, size_t maxTriangles, double lumenAtFullPower,
-                  Scene& scene, int& object, Warnings& warnings);
+// Throws Failure.
+void addFurniture(const Home& home, const Models& models, Paints& paints, const ImportOptions& options, Draft& draft);
 
 // Where a model stands: its bounding box, turned by the piece's modelRotation, fills width, height and depth; that is
 // mirrored, pitched or rolled, then turned on the plan and put with its lowest point on its elevation. `positions` are

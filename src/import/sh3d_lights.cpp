@@ -13,6 +13,9 @@ namespace roomlight::importers::sh3d {
 namespace {
 
 constexpr int kRings = 6, kSectors = 12;
+constexpr size_t kBallTriangles = 2 * kSectors * (kRings - 1);
+constexpr float kDarkest = 1e-6f;  // a colour below is none
+constexpr double kBrightest = 1e12;  // cd/m², of what hardly has an area
 
 // Scaled to luminance 1; black means white, as a source of no colour would be none.
 Vec3 hue(uint32_t rgb) {
@@ -55,17 +58,22 @@ Mesh ball(float radiusM) {
   return mesh;
 }
 
+float luminanceOf(double fluxLm, double areaM2) {
+  return static_cast<float>(std::min(fluxLm / (std::numbers::pi * areaM2), kBrightest));
+}
+
 // Lambertian and black, so that the light that falls back on it is not lost or gained twice: flux = pi area luminance.
 Material glowing(const std::string& name, Vec3 colour, double fluxLm, double areaM2) {
   Material m;
   m.name = name;
   m.baseColor = {};
   m.metallic = m.specular = 0;
-  m.emission = colour * static_cast<float>(fluxLm / (std::numbers::pi * areaM2));
+  m.emission = colour * luminanceOf(fluxLm, areaM2);
   return m;
 }
 
-void addSource(const Home& home, const Piece& p, const LightSource& s, double fluxLm, Scene& scene, int object) {
+void addSource(const Home& home, const Piece& p, const LightSource& s, double fluxLm, Draft& draft) {
+  Scene& scene = draft.scene;
   const double x = (s.x - 0.5) * (p.mirrored ? -1 : 1) * p.widthCm, z = (0.5 - s.y) * p.depthCm,
                y = s.z * p.heightCm - p.heightInPlanCm.value_or(p.heightCm) / 2;
   const Vec3 at = worldFromPiece(home, p).point(
@@ -79,18 +87,20 @@ void addSource(const Home& home, const Piece& p, const LightSource& s, double fl
     scene.lamps.push_back(lamp);
     return;
   }
+  draft.effort.make(kBallTriangles, p.place);
   Mesh mesh = ball(static_cast<float>(radiusM));
   mesh.name = p.name + kLightSuffix;
   mesh.material = static_cast<int>(scene.materials.size());
   Affine place;
   place.w = at;
   scene.materials.push_back(glowing(mesh.name, hue(s.colour), fluxLm, areaOf(mesh, place)));
-  scene.instances.push_back({mesh.name, static_cast<int>(scene.meshes.size()), object, place});
+  scene.instances.push_back({mesh.name, static_cast<int>(scene.meshes.size()), draft.object, place});
   scene.meshes.push_back(std::move(mesh));
 }
 
 // The named materials glow, wherever the light uses them; returns whether there were any.
-bool lightUpMaterials(const Piece& p, size_t firstInstance, double fluxLm, Scene& scene) {
+bool lightUpMaterials(const Piece& p, size_t firstInstance, double fluxLm, Draft& draft) {
+  Scene& scene = draft.scene;
   std::vector<size_t> lit;
   double area = 0;
   for (size_t i = firstInstance; i < scene.instances.size(); ++i) {
@@ -103,14 +113,15 @@ bool lightUpMaterials(const Piece& p, size_t firstInstance, double fluxLm, Scene
   if (!(area > 0)) return false;
   std::map<int, int> made;
   for (const size_t i : lit) {
+    draft.effort.copy(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)], p.place);
     Mesh mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     const auto [entry, isNew] = made.emplace(mesh.material, static_cast<int>(scene.materials.size()));
     if (isNew) {
       Material m = scene.materials[static_cast<size_t>(mesh.material)];
-      const Vec3 colour = isBlack(m.baseColor) ? Vec3(1) : m.baseColor / luminance(m.baseColor);
+      const Vec3 colour = luminance(m.baseColor) > kDarkest ? m.baseColor / luminance(m.baseColor) : Vec3(1);
       // Shining to both sides of an open sheet would double its light.
       m.doubleSided = false;
-      m.emission = colour * static_cast<float>(fluxLm / (std::numbers::pi * area));
+      m.emission = colour * luminanceOf(fluxLm, area);
       m.emissionTexture = {};
       scene.materials.push_back(std::move(m));
     }
@@ -123,20 +134,19 @@ bool lightUpMaterials(const Piece& p, size_t firstInstance, double fluxLm, Scene
 
 }  // namespace
 
-void addLight(const Home& home, const Piece& p, size_t firstInstance, double lumenAtFullPower, Scene& scene, int object,
-              Warnings& warnings) {
+void addLight(const Home& home, const Piece& p, size_t firstInstance, double lumenAtFullPower, Draft& draft) {
   const double fluxLm = p.power * lumenAtFullPower;
   if (!(fluxLm > 0)) return;
   if (!p.lightSources.empty()) {
     double whole = 0;
     for (const LightSource& s : p.lightSources) whole += brightness(s);
     for (const LightSource& s : p.lightSources) {
-      addSource(home, p, s,
-                whole > 0 ? fluxLm * brightness(s) / whole : fluxLm / static_cast<double>(p.lightSources.size()), scene,
-                object);
+      const double itsLm =
+          whole > 0 ? fluxLm * brightness(s) / whole : fluxLm / static_cast<double>(p.lightSources.size());
+      addSource(home, p, s, itsLm, draft);
     }
-  } else if (!lightUpMaterials(p, firstInstance, fluxLm, scene)) {
-    warnings.add("lights without light sources stay dark");
+  } else if (!lightUpMaterials(p, firstInstance, fluxLm, draft)) {
+    draft.warnings.add("lights without light sources stay dark");
   }
 }
 

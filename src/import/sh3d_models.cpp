@@ -55,12 +55,18 @@ bool isModelName(const std::string& name) {
   return extension == "obj" || extension == "dae" || extension == "3ds";
 }
 
+constexpr size_t kMaxInnerBytes = size_t{4} << 30;  // of the archives in the archive, unpacked
+
 // What all models of a home may hold together.
 struct Budget {
   size_t maxTriangles = 0;
-  std::atomic<size_t> triangles{0}, pixels{0};
-  bool exceeded() const { return triangles > maxTriangles || pixels > kMaxAllPixels; }
+  std::atomic<size_t> triangles{0}, pixels{0}, innerBytes{0};
+  bool exceeded() const { return triangles > maxTriangles || pixels > kMaxAllPixels || innerBytes > kMaxInnerBytes; }
 };
+
+void spendInner(size_t bytes, Budget& budget) {
+  if ((budget.innerBytes += bytes) > kMaxInnerBytes) fail("", "unpacks to too much beside those of other models");
+}
 
 // "models/../images/oak.jpg" without the steps up; none where it climbs out of the archive.
 std::optional<std::string> withoutSteps(std::string path) {
@@ -82,10 +88,10 @@ std::optional<std::string> withoutSteps(std::string path) {
 
 // Companions of an entry: entries beside, below or, inside its own archive, above it. Some models name pictures on
 // their author's disk: of those the file's name counts, beside the model.
-ReadCompanion companionsOf(Content& content, const std::string& entry, Budget& budget) {
+ReadCompanion companionsOf(Content& content, const std::string& entry, bool isInner, Budget& budget) {
   const size_t slash = entry.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : entry.substr(0, slash + 1);
-  return [&content, &budget, folder](std::string_view reference, const std::string&) -> std::optional<Bytes> {
+  return [&content, &budget, folder, isInner](std::string_view reference, const std::string&) -> std::optional<Bytes> {
     const std::string name(reference);
     const auto path = name.starts_with('/') || name.starts_with('\\') ? std::nullopt : withoutSteps(folder + name);
     const Bytes* bytes = path ? content.read(*path) : nullptr;
@@ -93,16 +99,18 @@ ReadCompanion companionsOf(Content& content, const std::string& entry, Budget& b
     if (!bytes && lastSlash != std::string::npos && lastSlash + 1 < name.size())
       bytes = content.read(folder + name.substr(lastSlash + 1));
     if (!bytes) return {};
+    if (isInner) spendInner(bytes->size(), budget);
     if ((budget.pixels += claimedPixels(*bytes)) > kMaxAllPixels)
       fail("", "has too many pictures beside those of other models");
     return *bytes;
   };
 }
 
-Scene readModel(const std::string& entry, Content& content, size_t maxTriangles, Budget& budget, Warnings& warnings) {
+Scene readModel(const std::string& entry, Content& content, bool isInner, Budget& budget, Warnings& warnings) {
+  const size_t maxTriangles = budget.maxTriangles;
   const Bytes* bytes = content.read(entry);
   if (!bytes) fail("", "is missing");
-  const ReadCompanion companions = companionsOf(content, entry, budget);
+  const ReadCompanion companions = companionsOf(content, entry, isInner, budget);
   switch (formatOf(extensionOf(entry), *bytes)) {
     case Format::Obj: return readObj(*bytes, companions, maxTriangles, warnings);
     case Format::Collada: return readByAssimp(*bytes, AssimpFormat::Collada, companions, maxTriangles, warnings);
@@ -111,12 +119,15 @@ Scene readModel(const std::string& entry, Content& content, size_t maxTriangles,
     case Format::Gltf: fail("", "is in the format glTF, which is not read inside a home; export it as OBJ");
     case Format::Zip: break;
   }
-  // A zip file in the zip file (also .kmz): the first model in it.
+  // A zip file in the zip file (also .kmz): the first model in it. Some zip files hold themselves, without end.
+  if (isInner) fail("", "is a zip file in a zip file in the home; export it as OBJ");
   const Archive inner(*bytes, fmt::format("entry '{}'", printable(entry)),
                       {.entryBytes = size_t{256} << 20, .totalBytes = size_t{1} << 30});
   Content innerContent(inner);
   for (const std::string& name : inner.names()) {
-    if (isModelName(name)) return readModel(name, innerContent, maxTriangles, budget, warnings);
+    if (!isModelName(name)) continue;
+    spendInner(inner.sizeOf(name), budget);
+    return readModel(name, innerContent, true, budget, warnings);
   }
   fail("", "is a zip file without a model in OBJ, COLLADA or 3D Studio format; export it as OBJ");
 }
@@ -132,7 +143,7 @@ void readOne(const Archive& archive, const ContentDigests& digests, const std::s
   const std::string model = fmt::format("the model '{}' ", printable(entry));
   try {
     Content content(archive);
-    out.scene = readModel(entry, content, budget.maxTriangles, budget, out.warnings);
+    out.scene = readModel(entry, content, false, budget, out.warnings);
     if (out.scene.instances.empty()) fail("", "holds no triangles");
     budget.triangles += out.scene.triangleCount();
     const auto digest = digests.of(entry);
@@ -176,6 +187,8 @@ Models::Models(const Archive& archive, const ContentDigests& digests, const std:
   parallelOrFail(names.size(), [&](size_t i) { readOne(archive, digests, names[i], budget, read[i]); });
   if (budget.triangles > maxTriangles)
     fail("", fmt::format("the models together have more than {} triangles", maxTriangles));
+  if (budget.innerBytes > kMaxInnerBytes)
+    fail("", fmt::format("the archives of all models together unpack to more than {} MiB", kMaxInnerBytes >> 20));
   if (budget.pixels > kMaxAllPixels)
     fail("", fmt::format("the pictures of all models together have more than {} pixels", kMaxAllPixels));
   for (size_t i = 0; i < names.size(); ++i) {

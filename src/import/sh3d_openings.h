@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "import/sh3d_effort.h"
 #include "import/sh3d_home.h"
 #include "import/warnings.h"
 
@@ -16,7 +17,7 @@ struct Opening {
   bool bothSides = false;  // cuts both sides of a straight wall within a degree of its own direction, of any round one
   double reachCm = 1;  // what ends this close to a wall's side cuts it
   PlanArea shape;  // of (u, h)
-  size_t points = 0;  // of the shape
+  size_t points = 0;  // of the shape; more where cutting it is more work than that of as many points
   PlanPoint centre;  // on the plan, with all of the piece within
   double radiusCm = 0;
 
@@ -25,8 +26,8 @@ struct Opening {
 };
 
 // Of all doors and windows, whether they are bound to a wall or not, with their whole width and height: as Sweet Home
-// 3D 7 draws them. What the file says about the part in the wall is for its plan.
-std::vector<Opening> openingsOf(const Home& home, Warnings& warnings);
+// 3D 7 draws them. What the file says about the part in the wall is for its plan. Throws Failure.
+std::vector<Opening> openingsOf(const Home& home, Effort& effort, Warnings& warnings);
 
 // Rings of an SVG path in the unit square, x to the right and y down, curves as chords; empty where it cannot be read.
 PlanArea svgPath(const std::string& path);

@@ -24,18 +24,20 @@ void addBand(PlanPoint a, PlanPoint b, double thicknessCm, double heightCm, int 
 
 }  // namespace
 
-void addPolylines(const Home& home, Paints& paints, Scene& scene, int& object) {
+void addPolylines(const Home& home, Paints& paints, Draft& draft) {
   for (const Polyline& line : home.polylines) {
     if (!isShown(home, line.level) || line.points.size() < 2 || !(line.thicknessCm > 0)) continue;
     Paint paint;
     paint.colour = line.colour;
     const int material = paints.material(paint, "line");
     const double heightCm = elevationOf(home, line.level) + std::max(line.elevationCm, kLowestCm);
-    Surfaces surfaces;
+    Surfaces surfaces(draft.effort, line.place);
+    surfaces.ask(2 * line.points.size());
     for (size_t i = 0; i + 1 < line.points.size(); ++i)
       addBand(line.points[i], line.points[i + 1], line.thicknessCm, heightCm, material, surfaces);
     if (line.closed) addBand(line.points.back(), line.points.front(), line.thicknessCm, heightCm, material, surfaces);
-    surfaces.finish(scene, "line", object++);
+    surfaces.finish(draft, "line");
+    ++draft.object;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "import/sh3d_openings.h"
 #include "import/sh3d_surfaces.h"
@@ -47,6 +48,7 @@ std::vector<WallCorner> wallCorners(const Home& home, int level, const std::vect
 // What every part of the work needs of a room.
 struct Drawn {
   const Room* room = nullptr;
+  PlanArea outline;
   double floorCm = 0;
   bool flat = true;
   double ceilingCm = 0;                    // of a flat one
@@ -67,16 +69,22 @@ struct Drawn {
   }
 };
 
-// The stairs' holes on the plan: through floors that they rise through, through ceilings that they rise above.
-PlanArea stairwells(const Home& home, const std::vector<const Piece*>& stairs, double heightCm,
-                    const std::string& place, Effort& effort) {
-  PlanArea out;
-  size_t points = 0;
-  for (const Piece* piece : stairs) {
-    const Piece& p = *piece;
-    const double bottom = elevationOf(home, p.level) + p.elevationCm, top = bottom + p.heightCm;
-    if (!(bottom < heightCm - kSameHeightCm && top >= heightCm - kSameHeightCm)) continue;
+// The hole of stairs on the plan, and the heights that they rise through.
+struct Stairs {
+  PlanArea hole;
+  double bottomCm = 0, topCm = 0;
+};
+
+std::vector<Stairs> stairsOf(const Home& home, Draft& draft) {
+  std::vector<Stairs> out;
+  for (const Piece& p : home.pieces) {
+    if (p.staircaseCutOutShape.empty() || !isShown(home, p.level)) continue;
     PlanArea shape = svgPath(p.staircaseCutOutShape);
+    if (!draft.effort.untangles(shape, p.place)) {
+      draft.warnings.add(fmt::format("holes of stairs that cross themselves more than {} times are left out",
+                                     Effort::kMostOwnCrossings));
+      continue;
+    }
     const double c = std::cos(p.angleRad), s = std::sin(p.angleRad);
     for (PlanRing& ring : shape) {
       for (PlanPoint& q : ring) {
@@ -84,9 +92,18 @@ PlanArea stairwells(const Home& home, const std::vector<const Piece*>& stairs, d
         q = {p.centre.x + x * c - y * s, p.centre.y + x * s + y * c};
       }
     }
-    for (const PlanRing& ring : shape) points += ring.size();
-    effort.spend(points * 8, place);
-    out = united(out, shape);
+    const double bottom = elevationOf(home, p.level) + p.elevationCm;
+    out.push_back({united(shape, {}), bottom, bottom + p.heightCm});
+  }
+  return out;
+}
+
+// All holes at one height: in floors that stairs rise through, in ceilings that they rise above.
+PlanArea stairwells(const std::vector<Stairs>& stairs, double heightCm, Surfaces& surfaces) {
+  PlanArea out;
+  surfaces.spend(stairs.size() / 16);
+  for (const Stairs& s : stairs) {
+    if (s.bottomCm < heightCm - kSameHeightCm && s.topCm >= heightCm - kSameHeightCm) surfaces.unite(out, s.hole);
   }
   return out;
 }
@@ -112,16 +129,15 @@ double ceilingOn(const PlanArea& area, const Drawn& drawn, PlanPoint p) {
   return height;
 }
 
-void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int material, Effort& effort, Surfaces& out) {
+void addFace(const PlanArea& area, const Drawn& drawn, bool ceiling, int material, Surfaces& out) {
   const auto corner = [&](PlanPoint p) {
     return SurfaceCorner{toWorld(p, ceiling ? ceilingOn(area, drawn, p) : drawn.floorCm),
                          {static_cast<float>(p.x / 100), static_cast<float>(p.y / 100)}};
   };
-  const std::vector<PlanTriangle> triangles = trianglesOf(area);
+  const std::vector<PlanTriangle> triangles = out.cut(area);
   size_t points = 0;
   for (const PlanRing& ring : area) points += ring.size();
-  effort.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + (points * (1 + drawn.corners->size())) / 8 : 1),
-               drawn.room->place);
+  out.spend(triangles.size() * (ceiling && !drawn.flat ? 1 + (points * (1 + drawn.corners->size())) / 8 : 1));
   for (const PlanTriangle& t : triangles)
     out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), {0, ceiling ? -1.0f : 1.0f, 0});
 }
@@ -133,6 +149,7 @@ void addSlab(const PlanArea& area, const PlanArea& underside, double top, double
     return SurfaceCorner{toWorld(p, h), {static_cast<float>(s / 100), static_cast<float>(-h / 100)}};
   };
   for (const PlanRing& ring : area) {
+    out.ask(2 * ring.size());
     for (size_t i = 0; i < ring.size(); ++i) {
       const PlanPoint p = ring[i], q = ring[(i + 1) % ring.size()];
       const double length = std::hypot(q.x - p.x, q.y - p.y);
@@ -142,25 +159,22 @@ void addSlab(const PlanArea& area, const PlanArea& underside, double top, double
                front);
     }
   }
-  for (const PlanTriangle& t : trianglesOf(underside)) {
+  for (const PlanTriangle& t : out.cut(underside)) {
     out.triangle(material, corner(t[0], t[0].x, bottom), corner(t[1], t[1].x, bottom), corner(t[2], t[2].x, bottom),
                  {0, -1, 0});
   }
 }
 
 // The room without those of the same height that the file names later.
-PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling, Effort& effort) {
-  PlanArea area = united({all[i].room->points}, {});
-  effort.spend(all.size() / 16, all[i].room->place);
+PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling, Surfaces& surfaces) {
+  PlanArea area = all[i].outline;
+  surfaces.spend(all.size() / 16);
   for (size_t k = i + 1; k < all.size(); ++k) {
     const Room& other = *all[k].room;
     if (!all[i].overlaps(all[k]) || !(ceiling ? other.ceilingVisible : other.floorVisible)) continue;
     const double here = ceiling ? all[i].ceilingCm : all[i].floorCm,
                  there = ceiling ? all[k].ceilingCm : all[k].floorCm;
-    if (std::abs(here - there) >= kSameHeightCm) continue;
-    for (const PlanRing& ring : area) effort.spend(8 * ring.size(), all[i].room->place);
-    effort.spend(8 * other.points.size(), all[i].room->place);
-    area = subtracted(area, {other.points});
+    if (std::abs(here - there) < kSameHeightCm) area = surfaces.without(area, all[k].outline);
   }
   return area;
 }
@@ -168,18 +182,14 @@ PlanArea visibleArea(const std::vector<Drawn>& all, size_t i, bool ceiling, Effo
 // Of a floor the part whose slab, `bottomCm` high from below, no ceiling of a lower room closes. Ceilings that stairs
 // leave by are open there.
 PlanArea undersideOf(const PlanArea& floor, const std::vector<Drawn>& all, size_t i, double bottomCm,
-                     const PlanArea& stairwells, Effort& effort) {
+                     const PlanArea& stairwells, Surfaces& surfaces) {
   PlanArea area = floor;
-  const std::string& place = all[i].room->place;
-  effort.spend(all.size() / 16, place);
+  surfaces.spend(all.size() / 16);
   for (const Drawn& lower : all) {
     if (!lower.room->ceilingVisible || !lower.flat || std::abs(lower.ceilingCm - bottomCm) >= kSameHeightCm ||
         !lower.overlaps(all[i]))
       continue;
-    for (const PlanRing& ring : area) effort.spend(8 * ring.size(), place);
-    effort.spend(8 * lower.room->points.size(), place);
-    const PlanArea ceiling = united({lower.room->points}, {});
-    area = subtracted(area, stairwells.empty() ? ceiling : subtracted(ceiling, stairwells));
+    area = surfaces.without(area, stairwells.empty() ? lower.outline : surfaces.without(lower.outline, stairwells));
   }
   return area;
 }
@@ -201,21 +211,25 @@ void addToScene(const Drawn& drawn, Effort& effort, Scene& scene) {
   scene.rooms.push_back(std::move(room));
 }
 
-}  // namespace
-
-void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effort& effort, Warnings& warnings) {
+std::vector<Drawn> drawnRooms(const Home& home, std::map<int, std::vector<WallCorner>>& corners, Draft& draft) {
   const std::vector<WallOutline> outlines = wallOutlines(home);
-  std::map<int, std::vector<WallCorner>> corners;
   std::vector<Drawn> all;
+  Listed tangles;
   for (const Room& room : home.rooms) {
     if (!isShown(home, room.level)) continue;
     if (room.points.size() < 3 || std::abs(signedAreaOf(room.points)) < 1) {
-      warnings.mended("rooms without area are left out");
+      draft.warnings.mended("rooms without area are left out");
+      continue;
+    }
+    std::optional<PlanArea> outline = outlineOf(room, draft.effort);
+    if (!outline) {
+      tangles.add(room.place);
       continue;
     }
     const auto [entry, isNew] = corners.try_emplace(room.level);
     if (isNew) entry->second = wallCorners(home, room.level, outlines);
     all.push_back({&room,
+                   std::move(*outline),
                    elevationOf(home, room.level),
                    room.ceilingFlat || !isHighest(home, room.level),
                    levelTopCm(home, room.level),
@@ -229,32 +243,48 @@ void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effor
       drawn.hi = {std::max(drawn.hi.x, p.x), std::max(drawn.hi.y, p.y)};
     }
   }
-  std::vector<const Piece*> stairs;
-  for (const Piece& p : home.pieces) {
-    if (!p.staircaseCutOutShape.empty() && isShown(home, p.level)) stairs.push_back(&p);
+  tangles.addTo(draft.warnings, fmt::format("rooms whose outline crosses itself more than {} times are left out: ",
+                                            Effort::kMostOwnCrossings));
+  return all;
+}
+
+void addRoom(const std::vector<Drawn>& all, size_t i, double bottomCm, const std::vector<Stairs>& stairs,
+             Paints& paints, Draft& draft) {
+  const Drawn& drawn = all[i];
+  const Room& room = *drawn.room;
+  Surfaces surfaces(draft.effort, room.place);
+  if (room.floorVisible) {
+    const PlanArea area =
+        surfaces.without(visibleArea(all, i, false, surfaces), stairwells(stairs, drawn.floorCm, surfaces));
+    addFace(area, drawn, false, paints.material(room.floor, "floor"), surfaces);
+    if (bottomCm <= drawn.floorCm - kSameHeightCm) {
+      const PlanArea underside = undersideOf(area, all, i, bottomCm, stairwells(stairs, bottomCm, surfaces), surfaces);
+      addSlab(area, underside, drawn.floorCm, bottomCm, paints.plain(room.floor, "floor"), surfaces);
+    }
   }
+  if (room.ceilingVisible) {
+    const PlanArea area =
+        surfaces.without(visibleArea(all, i, true, surfaces), stairwells(stairs, drawn.ceilingCm, surfaces));
+    addFace(area, drawn, true, paints.material(room.ceiling, "ceiling"), surfaces);
+  }
+  surfaces.finish(draft, room.name.empty() ? "room" : room.name);
+  ++draft.object;
+}
+
+}  // namespace
+
+std::optional<PlanArea> outlineOf(const Room& room, Effort& effort) {
+  const PlanArea drawn{room.points};
+  return effort.untangles(drawn, room.place) ? std::optional(united(drawn, {})) : std::nullopt;
+}
+
+void addRooms(const Home& home, Paints& paints, Draft& draft) {
+  std::map<int, std::vector<WallCorner>> corners;
+  const std::vector<Drawn> all = drawnRooms(home, corners, draft);
+  const std::vector<Stairs> stairs = stairsOf(home, draft);
   for (size_t i = 0; i < all.size(); ++i) {
-    const Room& room = *all[i].room;
-    const std::string name = room.name.empty() ? "room" : room.name;
-    addToScene(all[i], effort, scene);
-    Surfaces surfaces;
-    if (room.floorVisible) {
-      const PlanArea area =
-          subtracted(visibleArea(all, i, false, effort), stairwells(home, stairs, all[i].floorCm, room.place, effort));
-      addFace(area, all[i], false, paints.material(room.floor, "floor"), effort, surfaces);
-      const double top = all[i].floorCm, bottom = top - slabBelowCm(home, room.level);
-      if (bottom <= top - kSameHeightCm) {
-        const PlanArea underside =
-            undersideOf(area, all, i, bottom, stairwells(home, stairs, bottom, room.place, effort), effort);
-        addSlab(area, underside, top, bottom, paints.plain(room.floor, "floor"), surfaces);
-      }
-    }
-    if (room.ceilingVisible) {
-      const PlanArea area =
-          subtracted(visibleArea(all, i, true, effort), stairwells(home, stairs, all[i].ceilingCm, room.place, effort));
-      addFace(area, all[i], true, paints.material(room.ceiling, "ceiling"), effort, surfaces);
-    }
-    surfaces.finish(scene, name, object++);
+    addToScene(all[i], draft.effort, draft.scene);
+    addRoom(all, i, all[i].floorCm - slabBelowCm(home, all[i].room->level), stairs, paints, draft);
   }
 }
 

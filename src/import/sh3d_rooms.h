@@ -1,18 +1,22 @@
 // Floors and ceilings.
 #pragma once
 
-#include "import/sh3d_effort.h"
+#include <optional>
+
+#include "import/sh3d_draft.h"
 #include "import/sh3d_home.h"
 #include "import/sh3d_paints.h"
-#include "import/warnings.h"
-#include "scene/scene.h"
 
 namespace roomlight::importers::sh3d {
 
 // Floors and ceilings of the rooms on shown levels as objects, and Scene::rooms. Where rooms at one height overlap, the
 // later one of the file lies on top: the earlier one is cut. Stairs with a cut-out shape cut the floor that they come
 // up through and the ceiling that they leave by. On the highest level ceilings follow the tops of the walls, unless
-// they are flat; below it they lie at the level's height.
-void addRooms(const Home& home, Paints& paints, Scene& scene, int& object, Effort& effort, Warnings& warnings);
+// they are flat; below it they lie at the level's height. Rooms whose outline is a tangle are left out with a warning.
+// Throws Failure.
+void addRooms(const Home& home, Paints& paints, Draft& draft);
+
+// The room on the plan, without crossings; none where it is a tangle (Effort::untangles).
+std::optional<PlanArea> outlineOf(const Room& room, Effort& effort);
 
 }  // namespace roomlight::importers::sh3d

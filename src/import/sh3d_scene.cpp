@@ -1,9 +1,10 @@
 #include "import/sh3d_scene.h"
 
+#include <algorithm>
 #include <set>
 
 #include "import/sh3d_cameras.h"
-#include "import/sh3d_effort.h"
+#include "import/sh3d_draft.h"
 #include "import/sh3d_environment.h"
 #include "import/sh3d_furniture.h"
 #include "import/sh3d_models.h"
@@ -14,6 +15,8 @@
 
 namespace roomlight::importers::sh3d {
 namespace {
+
+constexpr size_t kMostModelTriangles = 40'000'000;  // of all models, each counted once
 
 void addImage(const std::optional<TextureUse>& texture, std::set<std::string>& out) {
   if (texture) out.insert(texture->image);
@@ -50,15 +53,15 @@ Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests
                   Warnings& warnings, std::string& daylight) {
   Scene scene;
   Paints paints(archive, digests, imagesOf(home), scene, warnings);
-  int object = 0;
-  Effort effort;
-  addWalls(home, paints, scene, object, effort, warnings);
-  addRooms(home, paints, scene, object, effort, warnings);
-  const Models models(archive, digests, modelsOf(home), options.maxTriangles, scene, warnings);
-  addFurniture(home, models, paints, options.maxTriangles, options.lumenAtFullPower, scene, object, warnings);
-  addPolylines(home, paints, scene, object);
+  Draft draft{scene, warnings, Effort(options.maxTriangles)};
+  addWalls(home, paints, draft);
+  addRooms(home, paints, draft);
+  const Models models(archive, digests, modelsOf(home), std::min(options.maxTriangles, kMostModelTriangles), scene,
+                      warnings);
+  addFurniture(home, models, paints, options, draft);
+  addPolylines(home, paints, draft);
   addCameras(home, scene, warnings);
-  daylight = addEnvironment(home, paints, options.camera, scene, object, warnings);
+  daylight = addEnvironment(home, paints, options.camera, draft);
   return scene;
 }
 

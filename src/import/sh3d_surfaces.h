@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
+#include "import/sh3d_draft.h"
 #include "import/sh3d_home.h"
-#include "scene/scene.h"
 
 namespace roomlight::importers::sh3d {
 
@@ -19,16 +19,31 @@ struct SurfaceCorner {
   Vec2 uv;  // in metres
 };
 
-// The surfaces of one thing: a wall, a room's floor. Corners are turned so that the front looks along `front`.
+// The surfaces of one thing: a wall, a room's floor. Corners are turned so that the front looks along `front`. Throws
+// Failure that names `place` where the home would become too fine.
 class Surfaces {
  public:
+  Surfaces(Effort& effort, std::string place) : effort_(effort), place_(std::move(place)) {}
+
   void triangle(int material, SurfaceCorner a, SurfaceCorner b, SurfaceCorner c, Vec3 front);
   void quad(int material, const SurfaceCorner (&corners)[4], Vec3 front);  // cut from corner 0 to 2
 
-  // Moves everything into the scene as one new object.
-  void finish(Scene& scene, const std::string& name, int object);
+  // Before so many triangles are made, for a message that says how many; they count as they are added.
+  void ask(size_t triangles) const { effort_.ask(triangles, place_); }
+  // The area in triangles, asked for.
+  std::vector<PlanTriangle> cut(const PlanArea& area) const;
+
+  // Operations that count as effort. Neither area crosses itself.
+  void unite(PlanArea& area, const PlanArea& more);
+  PlanArea without(const PlanArea& area, const PlanArea& holes);
+  void spend(size_t units) { effort_.spend(units, place_); }
+
+  // Moves everything into the scene as the draft's next object.
+  void finish(const Draft& draft, const std::string& name);
 
  private:
+  Effort& effort_;
+  std::string place_;
   std::map<int, Mesh> meshes_;
 };
 

@@ -222,7 +222,8 @@ PlanPoint WallCut::on(const std::vector<Panel>& side, double u) const {
   return best;
 }
 
-std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings) {
+std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings, Effort& effort,
+                            const std::string& place) {
   std::vector<WallCut> cuts;
   for (const Opening& o : openings) {
     Opening merged = o;
@@ -245,6 +246,7 @@ std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> ope
       merged = *same;
       merged.vLow = std::min(merged.vLow, known.vLow), merged.vHigh = std::max(merged.vHigh, known.vHigh);
       merged.shape = united(merged.shape, {});
+      effort.spendOn(merged.shape, known.shape, place);
       merged.shape = united(merged.shape, known.shape);
       cuts.erase(cuts.begin() + static_cast<ptrdiff_t>(i));
     }
@@ -255,8 +257,11 @@ std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> ope
     cut.sides = withEnds(sides, o);
     const PlanArea left = sideInFrame(cut.sides.left, o), right = sideInFrame(cut.sides.right, o);
     cut.throughLeft = !left.empty(), cut.throughRight = !right.empty();
-    if (cut.throughLeft) o.shape = intersected(o.shape, left);
-    if (cut.throughRight) o.shape = intersected(o.shape, right);
+    for (const PlanArea* side : {&left, &right}) {
+      if (side->empty()) continue;
+      effort.spendOn(o.shape, *side, place);
+      o.shape = intersected(o.shape, *side);
+    }
     if (cut.throughLeft != cut.throughRight) makeNiche(cut);
     return (!cut.throughLeft && !cut.throughRight) || areaOf(o.shape) < kSmallestCm2;
   });

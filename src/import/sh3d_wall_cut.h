@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "import/sh3d_openings.h"
@@ -34,6 +35,8 @@ struct WallCut {
   bool throughLeft = true, throughRight = true;  // which sides it cuts; one only: a niche, whose back lies at `backV`
   double backV = 0;
 
+  size_t panels() const { return sides.left.size() + sides.right.size(); }
+
   // What this cut takes from a panel, of (distance from a, height).
   PlanArea holeIn(const Panel& panel) const;
   // The same of the wall's face at its start or end, which may stand at a right angle to the opening.
@@ -51,7 +54,8 @@ struct WallCut {
 
 // Cuts with something in them. Openings that end less than 1 cm inside a wall go through. Straight walls across
 // them (more than 60 degrees) lose what stands in the piece, if the opening is a rectangle; parts of round walls do
-// not.
-std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings);
+// not. Throws Failure that names `place` where that is more work than any home's.
+std::vector<WallCut> cutsOf(const WallSides& sides, std::span<const Opening> openings, Effort& effort,
+                            const std::string& place);
 
 }  // namespace roomlight::importers::sh3d

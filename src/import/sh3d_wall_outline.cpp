@@ -20,25 +20,36 @@ WallOutline straight(const Wall& w, WallOffsets o) {
   return {{moved(w.start, o.leftCm), moved(w.end, o.leftCm)}, {moved(w.start, -o.rightCm), moved(w.end, -o.rightCm)}};
 }
 
+bool isRound(const Wall& w) { return std::abs(w.arcExtentRad) > 1e-3 && std::abs(w.arcExtentRad) < 6.282; }
+
 // The arc's centre lies on the perpendicular bisector of its chord, chord / 2 / tan(extent / 2) to the right: a
 // positive extent bulges to the left, one beyond half a turn puts the centre on the other side.
-WallOutline round(const Wall& w, WallOffsets o) {
-  const double length = distance(w.start, w.end), extent = w.arcExtentRad;
+struct Arc {
+  PlanPoint centre;
+  double radius = 0;
+};
+
+Arc arcOf(const Wall& w) {
+  const double length = distance(w.start, w.end);
   const double nx = (w.end.y - w.start.y) / length, ny = -(w.end.x - w.start.x) / length;
-  const double toCentre = length / 2 / std::tan(extent / 2);
+  const double toCentre = length / 2 / std::tan(w.arcExtentRad / 2);
   const PlanPoint centre{(w.start.x + w.end.x) / 2 - nx * toCentre, (w.start.y + w.end.y) / 2 - ny * toCentre};
-  const double radius = distance(centre, w.start), first = std::atan2(w.start.y - centre.y, w.start.x - centre.x);
+  return {centre, distance(centre, w.start)};
+}
+
+WallOutline round(const Wall& w, WallOffsets o) {
+  const Arc arc = arcOf(w);
+  const PlanPoint centre = arc.centre;
+  const double extent = w.arcExtentRad, first = std::atan2(w.start.y - centre.y, w.start.x - centre.x);
   // From start to end with the centre at the right means clockwise on the plan: the angle grows, as y points down.
-  const double outer = radius + std::max(o.leftCm, o.rightCm);
-  const double step = 2 * std::acos(std::clamp(1 - kChordErrorCm / outer, -1.0, 1.0));
-  const int chords = std::clamp(static_cast<int>(std::ceil(std::abs(extent) / std::max(step, 1e-3))), 2, kMostChords);
+  const auto chords = static_cast<int>(chordsOf(w, o));
   const double side = extent > 0 ? 1 : -1;  // left is outside
   WallOutline out;
   for (int i = 0; i <= chords; ++i) {
     const double angle = first + extent * i / chords;
     const auto at = [&](double r) { return PlanPoint{centre.x + r * std::cos(angle), centre.y + r * std::sin(angle)}; };
-    out.left.push_back(at(std::max(radius + side * o.leftCm, 0.0)));
-    out.right.push_back(at(std::max(radius - side * o.rightCm, 0.0)));
+    out.left.push_back(at(std::max(arc.radius + side * o.leftCm, 0.0)));
+    out.right.push_back(at(std::max(arc.radius - side * o.rightCm, 0.0)));
   }
   return out;
 }
@@ -104,13 +115,21 @@ PlanRing WallOutline::ring() const {
   return out;
 }
 
+size_t chordsOf(const Wall& w, WallOffsets o) {
+  if (distance(w.start, w.end) < kShortestCm) return 0;
+  if (!isRound(w)) return 1;
+  const double outer = arcOf(w).radius + std::max(o.leftCm, o.rightCm);
+  const double step = 2 * std::acos(std::clamp(1 - kChordErrorCm / outer, -1.0, 1.0));
+  const double needed = std::ceil(std::abs(w.arcExtentRad) / std::max(step, 1e-3));
+  return static_cast<size_t>(std::clamp(static_cast<int>(needed), 2, kMostChords));
+}
+
 std::vector<WallOutline> wallOutlines(const Home& home, const std::vector<WallOffsets>& offsets) {
   std::vector<WallOutline> bare(home.walls.size());
   for (size_t i = 0; i < bare.size(); ++i) {
     const Wall& w = home.walls[i];
-    if (distance(w.start, w.end) < kShortestCm) continue;
-    bare[i] = std::abs(w.arcExtentRad) > 1e-3 && std::abs(w.arcExtentRad) < 6.282 ? round(w, offsets[i])
-                                                                                  : straight(w, offsets[i]);
+    if (!isShown(home, w.level) || distance(w.start, w.end) < kShortestCm) continue;
+    bare[i] = isRound(w) ? round(w, offsets[i]) : straight(w, offsets[i]);
   }
   std::vector<WallOutline> out = bare;
   const Joiner joiner(home, bare);

@@ -18,10 +18,13 @@ struct WallOffsets {
   double leftCm = 0, rightCm = 0;
 };
 
-// One outline a wall; those without length have none (empty sides). Round walls are cut into chords that leave the arc
-// by at most 1 mm, with their corners on it. Where two walls name each other, each side ends at its intersection with
-// the neighbour's, unless that lies farther away than twice the wall's own thickness: so are sharp corners kept from
-// growing spikes.
+// How many chords a wall's sides have: 1 where it is straight, 0 where it has no length.
+size_t chordsOf(const Wall& wall, WallOffsets offsets);
+
+// One outline a wall; those without length, or on a level that is not shown, have none (empty sides). Round walls are
+// cut into chords that leave the arc by at most 1 mm, with their corners on it. Where two walls name each other, each
+// side ends at its intersection with the neighbour's, unless that lies farther away than twice the wall's own
+// thickness: so are sharp corners kept from growing spikes.
 std::vector<WallOutline> wallOutlines(const Home& home, const std::vector<WallOffsets>& offsets);
 std::vector<WallOutline> wallOutlines(const Home& home);  // of the bare walls
 

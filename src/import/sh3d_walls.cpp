@@ -40,13 +40,9 @@ void addPanel(const Panel& p, const PlanArea& holes, int material, Vec3 front, c
   if (holes.empty()) {
     out.quad(material, {corner(outline[0]), corner(outline[1]), corner(outline[2]), corner(outline[3])}, front);
   } else {
-    for (const PlanTriangle& t : trianglesOf(subtracted({outline}, holes)))
+    for (const PlanTriangle& t : out.cut(out.without({outline}, holes)))
       out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), front);
   }
-}
-
-void unite(PlanArea& holes, const PlanArea& hole) {
-  if (!hole.empty()) holes = holes.empty() ? hole : united(holes, hole);
 }
 
 // One side of a wall: its panels without the holes. Texture coordinates run to the right as seen from that side, from
@@ -63,7 +59,7 @@ void addSide(const std::vector<Panel>& panels, bool left, std::span<const WallCu
                            {static_cast<float>(along / 100), static_cast<float>((p.baseCm - q.y) / 100)}};
     };
     PlanArea holes;
-    for (const WallCut& cut : cuts) unite(holes, cut.holeIn(p));
+    for (const WallCut& cut : cuts) out.unite(holes, cut.holeIn(p));
     addPanel(p, holes, material, front, corner, out);
     before += length;
   }
@@ -114,6 +110,7 @@ void addReveals(const WallCut& cut, const WallHeights& heights, int material, Su
       if (isLevelAt(p, q, heights.baseCm) || (heights.levelTop() && isLevelAt(p, q, heights.leftTopCm[0]))) continue;
       if (std::abs(p.x - q.x) < kTinyCm && isWallsEnd(cut, p.x)) continue;
       const std::vector<double> stops = stopsOn(cut, p, q);
+      out.ask(2 * (stops.size() - 1)), out.spend(stops.size() * cut.panels() / 2);
       // Into the opening, which lies to the left of its outline.
       const Vec3 front{static_cast<float>((p.y - q.y) * o.along.x), static_cast<float>(q.x - p.x),
                        static_cast<float>((p.y - q.y) * o.along.y)};
@@ -137,14 +134,16 @@ void addNicheBack(const WallCut& cut, int material, Surfaces& out) {
   const auto corner = [&](PlanPoint p) {
     return SurfaceCorner{toWorld(cut.back(p.x), p.y), {static_cast<float>(p.x / 100), static_cast<float>(-p.y / 100)}};
   };
-  for (const PlanTriangle& t : trianglesOf(cut.opening.shape)) {
+  const std::vector<PlanTriangle> triangles = out.cut(cut.opening.shape);
+  out.spend(triangles.size() * cut.panels() / 8);
+  for (const PlanTriangle& t : triangles) {
     const PlanPoint open = cut.throughLeft ? cut.onLeft(t[0].x) : cut.onRight(t[0].x), back = cut.back(t[0].x);
     out.triangle(material, corner(t[0]), corner(t[1]), corner(t[2]), horizontal(open.x - back.x, open.y - back.y));
   }
 }
 
 // On the plan, what openings take from the wall's bottom, or from its top where that is level.
-PlanArea footprints(std::span<const WallCut> cuts, double heightCm) {
+PlanArea footprints(std::span<const WallCut> cuts, double heightCm, Surfaces& surfaces) {
   PlanArea out;
   for (const WallCut& cut : cuts) {
     for (const PlanRing& ring : cut.opening.shape) {
@@ -152,33 +151,43 @@ PlanArea footprints(std::span<const WallCut> cuts, double heightCm) {
         const PlanPoint p = ring[i], q = ring[(i + 1) % ring.size()];
         if (!isLevelAt(p, q, heightCm)) continue;
         const std::vector<double> stops = stopsOn(cut, p, q);
+        surfaces.spend(stops.size() * cut.panels() / 4);
         PlanRing print;
         for (const double t : stops) print.push_back(cut.onLeft(between(p, q, t).x));
         for (size_t k = stops.size(); k-- > 0;) print.push_back(cut.onRight(between(p, q, stops[k]).x));
-        unite(out, united({print}, {}));
+        surfaces.unite(out, united({print}, {}));
       }
     }
   }
   return out;
 }
 
-// Top or bottom: between the sides, without what openings take; its heights are those of the corners, in a plane.
-void addCover(const WallOutline& outline, const std::vector<double>& leftCm, const std::vector<double>& rightCm,
-              const PlanArea& holes, int material, Vec3 front, Surfaces& out) {
+// Top or bottom of a wall.
+struct Cover {
+  const std::vector<double>&leftCm, &rightCm;  // heights at the corners of the sides, in a plane
+  PlanArea holes;                              // what openings take, only of a level one
+  int material = 0;
+  Vec3 front;
+};
+
+// Between the sides, without what openings take.
+void addCover(const WallOutline& outline, const Cover& cover, Surfaces& out) {
+  const std::vector<double>&leftCm = cover.leftCm, &rightCm = cover.rightCm;
   const auto corner = [&](PlanPoint p, double height) {
     return SurfaceCorner{toWorld(p, height), {static_cast<float>(p.x / 100), static_cast<float>((p.y + height) / 100)}};
   };
-  if (!holes.empty()) {  // a level one
-    for (const PlanTriangle& t : trianglesOf(subtracted({outline.ring()}, holes))) {
-      out.triangle(material, corner(t[0], leftCm[0]), corner(t[1], leftCm[0]), corner(t[2], leftCm[0]), front);
+  if (!cover.holes.empty()) {  // a level one
+    for (const PlanTriangle& t : out.cut(out.without({outline.ring()}, cover.holes))) {
+      out.triangle(cover.material, corner(t[0], leftCm[0]), corner(t[1], leftCm[0]), corner(t[2], leftCm[0]),
+                   cover.front);
     }
     return;
   }
   for (size_t i = 0; i + 1 < outline.left.size(); ++i) {
-    out.quad(material,
+    out.quad(cover.material,
              {corner(outline.left[i], leftCm[i]), corner(outline.left[i + 1], leftCm[i + 1]),
               corner(outline.right[i + 1], rightCm[i + 1]), corner(outline.right[i], rightCm[i])},
-             front);
+             cover.front);
   }
 }
 
@@ -186,9 +195,11 @@ void addCover(const WallOutline& outline, const std::vector<double>& leftCm, con
 void addRest(const WallOutline& outline, const WallHeights& h, std::span<const WallCut> cuts, int top, int rest,
              Surfaces& out) {
   const std::vector<double> base(outline.left.size(), h.baseCm);
-  addCover(outline, h.leftTopCm, h.rightTopCm, h.levelTop() ? footprints(cuts, h.leftTopCm[0]) : PlanArea(), top,
-           {0, 1, 0}, out);
-  addCover(outline, base, base, footprints(cuts, h.baseCm), rest, {0, -1, 0}, out);
+  addCover(
+      outline,
+      {h.leftTopCm, h.rightTopCm, h.levelTop() ? footprints(cuts, h.leftTopCm[0], out) : PlanArea(), top, {0, 1, 0}},
+      out);
+  addCover(outline, {base, base, footprints(cuts, h.baseCm, out), rest, {0, -1, 0}}, out);
   const size_t last = outline.left.size() - 1;
   for (const size_t i : {size_t{0}, last}) {
     const size_t inner = i == 0 ? 1 : last - 1;
@@ -198,7 +209,7 @@ void addRest(const WallOutline& outline, const WallHeights& h, std::span<const W
         horizontal(outline.left[i].x - outline.left[inner].x + outline.right[i].x - outline.right[inner].x,
                    outline.left[i].y - outline.left[inner].y + outline.right[i].y - outline.right[inner].y);
     PlanArea holes;
-    for (const WallCut& cut : cuts) unite(holes, cut.holeInEnd(end));
+    for (const WallCut& cut : cuts) out.unite(holes, cut.holeInEnd(end));
     addPanel(
         end, holes, rest, front,
         [&](PlanPoint q) {
@@ -226,36 +237,64 @@ std::vector<Opening> openingsAt(const WallOutline& outline, const std::vector<Op
   return out;
 }
 
-}  // namespace
-
-void addWalls(const Home& home, Paints& paints, Scene& scene, int& object, Effort& effort, Warnings& warnings) {
-  const std::vector<WallOutline> outlines = wallOutlines(home);
-  const std::vector<WallOutline> boards = wallOutlines(home, baseboardOffsets(home));
-  const std::vector<Opening> openings = openingsOf(home, warnings);
+// Before outlines are made: what the walls themselves come to, with no opening cut.
+void askForAll(const Home& home, const std::vector<WallOffsets>& boards, const Effort& effort) {
+  constexpr size_t kAChord = 8, kEnds = 4, kABoardsChord = 12;
+  size_t all = 0;
   for (size_t i = 0; i < home.walls.size(); ++i) {
     const Wall& w = home.walls[i];
     if (!isShown(home, w.level)) continue;
-    if (outlines[i].left.empty()) {
-      warnings.mended("walls without length are left out");
-      continue;
+    const size_t ofBody = chordsOf(w, {w.thicknessCm / 2, w.thicknessCm / 2}), ofBoards = chordsOf(w, boards[i]);
+    const size_t triangles =
+        kAChord * ofBody + kEnds + kABoardsChord * ofBoards * ((w.leftBaseboard ? 1 : 0) + (w.rightBaseboard ? 1 : 0));
+    effort.ask(triangles, w.place, all);
+    all += triangles;
+  }
+}
+
+// What is known of all walls before the first is drawn.
+struct Plan {
+  const Home& home;
+  std::vector<WallOutline> outlines, boards;
+  std::vector<Opening> openings;
+};
+
+void addWall(const Plan& plan, size_t i, Paints& paints, Draft& draft) {
+  const Wall& w = plan.home.walls[i];
+  const WallOutline& outline = plan.outlines[i];
+  const WallHeights h = heightsOf(plan.home, w, outline);
+  const std::vector<Panel> leftSide = panelsOf(outline.left, h.baseCm, h.leftTopCm),
+                           rightSide = panelsOf(outline.right, h.baseCm, h.rightTopCm);
+  const WallSides sides{leftSide, rightSide, leftSide.size() == 1 && rightSide.size() == 1};
+  std::vector<WallCut> cuts;
+  if (!sides.left.empty() && !sides.right.empty())
+    cuts = cutsOf(sides, openingsAt(outline, plan.openings, w.place, draft.effort), draft.effort, w.place);
+  Paint top;
+  top.colour = w.topColour ? w.topColour : w.left.colour;
+  Surfaces surfaces(draft.effort, w.place);
+  const int left = paints.material(w.left, "wall"), plain = paints.plain(w.left, "wall");
+  addSide(leftSide, true, cuts, left, surfaces);
+  addSide(rightSide, false, cuts, paints.material(w.right, "wall"), surfaces);
+  addRest(outline, h, cuts, paints.plain(top, "wall top"), plain, surfaces);
+  for (const WallCut& cut : cuts) addReveals(cut, h, plain, surfaces), addNicheBack(cut, plain, surfaces);
+  addBaseboards({w, outline, h, cuts}, plan.boards[i], paints, surfaces);
+  surfaces.finish(draft, w.id.empty() ? "wall" : w.id);
+  ++draft.object;
+}
+
+}  // namespace
+
+void addWalls(const Home& home, Paints& paints, Draft& draft) {
+  const std::vector<WallOffsets> boards = baseboardOffsets(home);
+  askForAll(home, boards, draft.effort);
+  const Plan plan{home, wallOutlines(home), wallOutlines(home, boards), openingsOf(home, draft.effort, draft.warnings)};
+  for (size_t i = 0; i < home.walls.size(); ++i) {
+    if (!isShown(home, home.walls[i].level)) continue;
+    if (plan.outlines[i].left.empty()) {
+      draft.warnings.mended("walls without length are left out");
+    } else {
+      addWall(plan, i, paints, draft);
     }
-    const WallHeights h = heightsOf(home, w, outlines[i]);
-    const std::vector<Panel> leftSide = panelsOf(outlines[i].left, h.baseCm, h.leftTopCm),
-                             rightSide = panelsOf(outlines[i].right, h.baseCm, h.rightTopCm);
-    const WallSides sides{leftSide, rightSide, leftSide.size() == 1 && rightSide.size() == 1};
-    std::vector<WallCut> cuts;
-    if (!sides.left.empty() && !sides.right.empty())
-      cuts = cutsOf(sides, openingsAt(outlines[i], openings, w.place, effort));
-    Paint top;
-    top.colour = w.topColour ? w.topColour : w.left.colour;
-    Surfaces surfaces;
-    const int left = paints.material(w.left, "wall"), plain = paints.plain(w.left, "wall");
-    addSide(leftSide, true, cuts, left, surfaces);
-    addSide(rightSide, false, cuts, paints.material(w.right, "wall"), surfaces);
-    addRest(outlines[i], h, cuts, paints.plain(top, "wall top"), plain, surfaces);
-    for (const WallCut& cut : cuts) addReveals(cut, h, plain, surfaces), addNicheBack(cut, plain, surfaces);
-    addBaseboards(w, outlines[i], boards[i], h, cuts, paints, surfaces);
-    surfaces.finish(scene, w.id.empty() ? "wall" : w.id, object++);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "import/failure.h"
+#include "import/printable.h"
 #include "import/sh3d_element.h"
 
 namespace roomlight::importers::sh3d {
@@ -19,7 +20,7 @@ constexpr double kNewPhotoWidth = 400, kNewPhotoHeight = 300;  // by the DTD, wi
 constexpr int kLargestPhoto = 65536;
 
 constexpr size_t kMaxXmlBytes = size_t{64} << 20;
-constexpr size_t kMaxThings = 200'000;
+constexpr size_t kMaxThings = 200'000, kLongestName = 256;
 constexpr size_t kMaxRoomPoints = 2000, kMaxLevels = 1000;
 constexpr int kDeepestGroup = 64;
 constexpr double kUsualTextureCm = 100, kWidestViewRad = 3;
@@ -248,7 +249,8 @@ class Reader {
     p.kind = door || e.flag("doorOrWindow", false) ? PieceKind::DoorOrWindow
              : light                               ? PieceKind::Light
                                                    : PieceKind::Furniture;
-    p.name = e.text("name"), p.place = e.place(), p.level = levelOf(e, level);
+    p.name = printable(e.text("name"), kLongestName);  // copied for each part of its model
+    p.place = e.place(), p.level = levelOf(e, level);
     placement(e, p);
     look(e, p);
     if (p.kind == PieceKind::DoorOrWindow) doorOrWindow(e, p);

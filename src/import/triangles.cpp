@@ -45,4 +45,15 @@ size_t dropInfinite(Mesh& mesh) {
   return dropped;
 }
 
+size_t mendCoordinates(Mesh& mesh) {
+  size_t mended = 0;
+  for (std::vector<Vec2>& set : mesh.uv) {
+    for (Vec2& uv : set) {
+      if (saysSomething(uv)) continue;
+      uv = {}, ++mended;
+    }
+  }
+  return mended;
+}
+
 }  // namespace roomlight::importers

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -14,13 +15,10 @@ namespace roomlight::importers {
 class CountedKinds {
  public:
   void add(const std::string& kind, size_t times) {
-    for (auto& [known, count] : kinds_) {
-      if (known == kind) {
-        count += times;
-        return;
-      }
-    }
-    if (times > 0) kinds_.emplace_back(kind, times);
+    if (times == 0) return;
+    const auto [entry, isNew] = numbers_.emplace(kind, kinds_.size());
+    if (isNew) kinds_.emplace_back(kind, 0);
+    kinds_[entry->second].second += times;
   }
   void add(const CountedKinds& others) {
     for (const auto& [kind, count] : others.kinds_) add(kind, count);
@@ -40,6 +38,7 @@ class CountedKinds {
 
  private:
   std::vector<std::pair<std::string, size_t>> kinds_;
+  std::unordered_map<std::string, size_t> numbers_;  // a hostile file has as many kinds as things with names
 };
 
 class Warnings {

@@ -1,4 +1,5 @@
-// How pictures in cd/m² are shown: exposure, white balance, tone curve (docs/reference/conventions.md, exposure and display).
+// How pictures in cd/m² are shown: exposure, white balance, tone curve (docs/reference/conventions.md, exposure and
+ // display).
 #pragma once
 
 #include <optional>

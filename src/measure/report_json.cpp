@@ -72,6 +72,33 @@ Json pointJson(const PointReading& p) {
   return j;
 }
 
+Json spotJson(const SpotReading& s) {
+  return {{"name", s.plan.name},
+          {"positionM", vector(s.plan.position)},
+          {"direction", vector(s.plan.direction)},
+          {"angleDeg", s.plan.angleDeg},
+          {"luminanceCdM2", s.luminanceCdM2},
+          {"ev100", finite(reflectedEv100(s.luminanceCdM2))},
+          {"place", placeName(s.place)}};
+}
+
+Json glareJson(const GlareReading& g) {
+  return {{"name", g.plan.name},
+          {"positionM", vector(g.plan.position)},
+          {"direction", vector(g.plan.direction)},
+          {"ugr", g.ugr ? Json(*g.ugr) : Json(nullptr)},
+          {"ugrStandardError", g.ugrError},
+          {"backgroundCdM2", g.backgroundCdM2},
+          {"eyeLux", g.eyeLux},
+          {"luminairesSeen", g.sources},
+          {"place", placeName(g.place)}};
+}
+
+Json verdictJson(const Verdict& v) {
+  return {{"where", v.where}, {"what", v.what}, {"unit", v.unit},    {v.atMost ? "atMost" : "atLeast", v.wanted},
+          {"found", v.got},   {"met", v.met()}, {"source", v.source}};
+}
+
 }  // namespace
 
 Json meansJson(const Measurements& m) {
@@ -105,35 +132,9 @@ std::string reportJson(const ReportHeader& header, const Measurements& m) {
   for (const RoomReading& r : m.rooms) rooms.push_back(roomJson(r));
   for (const GridReading& g : m.grids) grids.push_back(gridJson(g));
   for (const PointReading& p : m.points) points.push_back(pointJson(p));
-  for (const SpotReading& s : m.spots) {
-    spots.push_back({{"name", s.plan.name},
-                     {"positionM", vector(s.plan.position)},
-                     {"direction", vector(s.plan.direction)},
-                     {"angleDeg", s.plan.angleDeg},
-                     {"luminanceCdM2", s.luminanceCdM2},
-                     {"ev100", finite(reflectedEv100(s.luminanceCdM2))},
-                     {"place", placeName(s.place)}});
-  }
-  for (const GlareReading& g : m.glares) {
-    glares.push_back({{"name", g.plan.name},
-                      {"positionM", vector(g.plan.position)},
-                      {"direction", vector(g.plan.direction)},
-                      {"ugr", g.ugr ? Json(*g.ugr) : Json(nullptr)},
-                      {"ugrStandardError", g.ugrError},
-                      {"backgroundCdM2", g.backgroundCdM2},
-                      {"eyeLux", g.eyeLux},
-                      {"luminairesSeen", g.sources},
-                      {"place", placeName(g.place)}});
-  }
-  for (const Verdict& v : verdictsOf(m)) {
-    targets.push_back({{"where", v.where},
-                       {"what", v.what},
-                       {"unit", v.unit},
-                       {v.atMost ? "atMost" : "atLeast", v.wanted},
-                       {"found", v.got},
-                       {"met", v.met()},
-                       {"source", v.source}});
-  }
+  for (const SpotReading& s : m.spots) spots.push_back(spotJson(s));
+  for (const GlareReading& g : m.glares) glares.push_back(glareJson(g));
+  for (const Verdict& v : verdictsOf(m)) targets.push_back(verdictJson(v));
   for (const Luminaire& l : scheduleOf(m.luminaires).rows) luminaires.push_back(luminaireJson(l));
   for (const RoomTarget& t : roomTargets(m)) byRoom.push_back(roomTargetJson(t));
   const Json j = {{"roomlight", header.version},

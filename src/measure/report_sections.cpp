@@ -8,7 +8,8 @@
 #include <string_view>
 
 #include "base/html.h"
-#include "measure/accuracy.h"
+#include "engine/technique.h"
+#include "engine/technique_names.h"
 #include "measure/overview_plan.h"
 #include "measure/room_targets.h"
 
@@ -25,17 +26,16 @@ const char* originWords(const std::string& origin) {
 }
 
 std::string accuracyWords(const std::string& technique) {
-  const auto known = std::find_if(kMeasuredAccuracy.begin(), kMeasuredAccuracy.end(),
-                                  [&](const MeasuredAccuracy& a) { return a.technique == technique; });
-  if (known == kMeasuredAccuracy.end())
+  const Technique* known = findTechnique(technique);
+  if (!known || known->meters.places == 0)
     return fmt::format(
-        "Technique {} is a method of others, kept for comparison: figures to be held to are taken with <b>hybrid</b> "
-        "or <b>path</b>.",
-        htmlEscaped(technique));
+        "Technique {} is a method of others, kept for comparison: figures to be held to are taken with <b>{}</b> or "
+        "<b>{}</b>.",
+        htmlEscaped(technique), technique::kHybrid, technique::kPath);
   return fmt::format(
       "Measured error: at {} places where the light is known (closed forms, the set-ups of CIE 171:2006) technique {} "
       "was off by at most {:.1f} %.",
-      known->places, known->technique, known->worstPercent);
+      known->meters.places, known->name, known->meters.worstPercent);
 }
 
 }  // namespace
@@ -158,12 +158,13 @@ std::string worth(const ReportHeader& h, const Measurements& m) {
                                      "them (dark places are read to a hundredth of the mean).",
                                      100 * m.certainty.median, m.certainty.meters, 100 * m.certainty.worst)));
   note(accuracyWords(h.technique));
-  if (h.technique == "hybrid") {
-    note(
-        fmt::format("In a furnished flat 95 of 100 readings of hybrid were within {:g} % of the reference technique "
-                    "path, their mean within {:g} %; close to lamps in shades it may read up to 20 % high. Where a "
-                    "limit is close, measure again with <b>--technique path</b>.",
-                    kFurnishedWithinPercent, kFurnishedMeanPercent));
+  const Technique* used = findTechnique(h.technique);
+  if (used && used->meters.furnishedWithinPercent > 0) {
+    note(fmt::format(
+        "In a furnished flat 95 of 100 readings of {0} were within {1:g} % of the reference technique {3}, their mean "
+        "within {2:g} %; close to lamps in shades it may read up to 20 % high. Where a limit is close, measure again "
+        "with <b>--technique {3}</b>.",
+        used->name, used->meters.furnishedWithinPercent, used->meters.furnishedMeanPercent, technique::kPath));
   }
   const auto measured = std::count_if(m.luminaires.begin(), m.luminaires.end(),
                                       [](const Luminaire& l) { return l.kind == "photometric"; });

@@ -57,13 +57,14 @@ std::vector<double> ugrsOf(const LitScene& lit, const StudyFile& study, const Mo
 }
 
 // Lamps as new: the maintenance factor is of targets.
-std::vector<float> predictedLux(const StudyFile& study, const Model& model, search::ConstGenome design,
-                                size_t condition) {
+std::vector<float> predictedLux(const Design& design, size_t condition) {
   std::vector<float> out;
-  const std::vector<float> rows = rowsOf(model, design, condition);
+  const Model& model = design.model;
+  const std::vector<float> rows = rowsOf(model, design.genome, condition);
   for (const ModelZone& z : model.zones) {
     const auto lamplit = pointsOf(z, rows), base = pointsOf(z, {model.baseOf(condition), model.rows});
-    for (size_t i = 0; i < lamplit.size(); ++i) out.push_back(maintained(base[i], lamplit[i], 1 / study.maintenance));
+    for (size_t i = 0; i < lamplit.size(); ++i)
+      out.push_back(maintained(base[i], lamplit[i], 1 / design.study.maintenance));
   }
   return out;
 }
@@ -89,30 +90,31 @@ Image shown(const Image& light, const Camera& camera, const RayScene& rays) {
 
 }  // namespace
 
-std::vector<BillLine> billOf(const StudyFile& study, const Candidates& candidates, const Model& model,
-                             search::ConstGenome design) {
+std::vector<BillLine> billOf(const Design& design) {
   std::vector<BillLine> out;
-  for (const ChosenLamp& lamp : chosenLamps(model, design)) {
+  const Candidates& candidates = design.candidates;
+  for (const ChosenLamp& lamp : chosenLamps(design.model, design.genome)) {
     const LampOption& option = candidates.options[lamp.option];
     const Candidate& c = candidates.candidates[option.candidate];
-    const Luminaire& l = study.catalogue.luminaires[c.luminaire];
+    const Luminaire& l = design.study.catalogue.luminaires[c.luminaire];
     BillLine line{l.name, candidates.places[c.place].name, c.position, c.aim, option.kelvin, l.wattsW, l.price, {}};
-    for (size_t i = 0; i < model.conditions.size(); ++i) line.dimming.push_back(dimmingOf(model, design, lamp, i));
+    for (size_t i = 0; i < design.model.conditions.size(); ++i)
+      line.dimming.push_back(dimmingOf(design.model, design.genome, lamp, i));
     out.push_back(std::move(line));
   }
   return out;
 }
 
-json lampsOf(const StudyFile& study, const Candidates& candidates, const Model& model, search::ConstGenome design,
-             size_t condition) {
+json lampsOf(const Design& design, size_t condition) {
   json lamps = json::array();
-  for (const ChosenLamp& lamp : chosenLamps(model, design)) {
+  const Candidates& candidates = design.candidates;
+  for (const ChosenLamp& lamp : chosenLamps(design.model, design.genome)) {
     const LampOption& option = candidates.options[lamp.option];
     const Candidate& c = candidates.candidates[option.candidate];
-    json entry = lampEntry(study.catalogue.luminaires[c.luminaire], c.position, c.direction);
+    json entry = lampEntry(design.study.catalogue.luminaires[c.luminaire], c.position, c.direction);
     entry["name"] = fmt::format("{}: {}", candidates.places[c.place].name, entry["name"].get<std::string>());
     entry["temperature"] = fmt::format("{:g} K", option.kelvin);
-    entry["dimming"] = std::round(dimmingOf(model, design, lamp, condition) * 1e6) / 1e6;
+    entry["dimming"] = std::round(dimmingOf(design.model, design.genome, lamp, condition) * 1e6) / 1e6;
     lamps.push_back(std::move(entry));
   }
   return lamps;
@@ -157,16 +159,15 @@ std::vector<float> maintainedLux(const StudyFile& study, const Model& model, con
   return out;
 }
 
-Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& study, const Candidates& candidates,
-                                           const Meters& meters, const Model& model, search::ConstGenome design,
+Result<std::optional<Certificate>> certify(const Scene& home, const Design& design, const Meters& meters,
                                            std::span<const Camera> cameras, const RenderSettings& render,
                                            Stages& stages) {
   const Stopwatch watch;
+  const StudyFile& study = design.study;
   Certificate out;
   const std::span<const SurfaceElement> points = std::span(meters.elements).first(meters.points());
   for (size_t c = 0; c < study.conditions.size(); ++c) {
-    const Result<Scene> scene =
-        litBy(home, study, study.conditions[c].daylight, lampsOf(study, candidates, model, design, c), true);
+    const Result<Scene> scene = litBy(home, study, study.conditions[c].daylight, lampsOf(design, c), true);
     if (!scene) return Error{scene.error()};
     const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, stages, {.changes = false});
     if (!lit) return Error{lit.error()};
@@ -179,14 +180,14 @@ Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& s
     for (const MeterReading& m : readings)
       r.fullLux.push_back(luminance(m.illuminanceLux)),
           r.fullErrorLux.push_back(static_cast<float>(m.standardErrorLux));
-    r.fullUgr = ugrsOf(*lit.value(), study, model, c);
+    r.fullUgr = ugrsOf(*lit.value(), study, design.model, c);
     if (stages.cancelled()) return std::optional<Certificate>();
     for (const Camera& camera : c == 0 ? cameras : std::span<const Camera>()) {
       const Image light = stages.run(
           "picture", [&](const Progress& p) { return lit.value()->picture(camera, kPictureWidth, kPictureHeight, p); });
       if (light.width > 0) out.pictures.push_back(shown(light, camera, lit.value()->rays()));
     }
-    r.predictedLux = predictedLux(study, model, design, c);
+    r.predictedLux = predictedLux(design, c);
     compare(r);
     out.conditions.push_back(std::move(r));
   }

@@ -9,6 +9,14 @@
 
 namespace roomlight::optimise {
 
+// A design, and what its numbers stand for.
+struct Design {
+  const StudyFile& study;
+  const Candidates& candidates;
+  const Model& model;
+  search::ConstGenome genome;
+};
+
 // One lamp of a design, for people.
 struct BillLine {
   std::string name, place;  // "Downlight 60", "Living ceiling 3"
@@ -17,12 +25,10 @@ struct BillLine {
   double kelvin = 0, wattsW = 0, price = 0;
   std::vector<double> dimming;  // per condition
 };
-std::vector<BillLine> billOf(const StudyFile& study, const Candidates& candidates, const Model& model,
-                             search::ConstGenome design);
+std::vector<BillLine> billOf(const Design& design);
 
 // Lamps of a design in a condition as a lighting file's `lamps`: each at its level, in its colour.
-nlohmann::json lampsOf(const StudyFile& study, const Candidates& candidates, const Model& model,
-                       search::ConstGenome design, size_t condition);
+nlohmann::json lampsOf(const Design& design, size_t condition);
 
 // A whole lighting file: the study's fixed lighting, the condition's daylight, the design's lamps. Photometric files by
 // absolute path.
@@ -56,8 +62,7 @@ constexpr double kJudgedLux = 1;
 constexpr int kPictureWidth = 640, kPictureHeight = 360;
 
 // Solved by technique hybrid, with the design's lamps alone beside what is fixed. Empty where cancelled.
-Result<std::optional<Certificate>> certify(const Scene& home, const StudyFile& study, const Candidates& candidates,
-                                           const Meters& meters, const Model& model, search::ConstGenome design,
+Result<std::optional<Certificate>> certify(const Scene& home, const Design& design, const Meters& meters,
                                            std::span<const Camera> cameras, const RenderSettings& render,
                                            Stages& stages);
 

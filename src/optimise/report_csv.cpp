@@ -25,7 +25,7 @@ std::string frontCsv(const Report& r) {
     s += fmt::format("{},{}", i + 1, proposed);
     for (const ObjectiveInfo& o : objectiveTable()) s += fmt::format(",{:.6g}", d.of(o.objective));
     std::string lamps;
-    for (const BillLine& line : billOf(r.study, r.candidates, r.model, r.front.designs[i])) {
+    for (const BillLine& line : billOf({r.study, r.candidates, r.model, r.front.designs[i]})) {
       std::string levels;
       for (const double level : line.dimming) levels += fmt::format("{}{:.0f}", levels.empty() ? "" : "/", 100 * level);
       lamps +=

@@ -10,6 +10,7 @@
 #include "engine/lit_scene.h"
 #include "import/lighting_file.h"
 #include "measure/glare_meter.h"
+#include "engine/technique_names.h"
 
 namespace roomlight::optimise {
 namespace {
@@ -116,7 +117,7 @@ Status addGroup(Task& t, size_t first, size_t count) {
   const Result<Scene> scene = litBy(t.home, t.study, nullptr, layersOf(t, first, count), false);
   if (!scene) return Error{scene.error()};
   RenderSettings render = t.settings.render;
-  render.technique = "hybrid", render.layers = true;
+  render.technique = technique::kHybrid, render.layers = true;
   const Result<std::unique_ptr<LitScene>> lit = lightScene(scene.value(), render, t.stages, {.changes = false});
   if (!lit) return Error{lit.error()};
   if (!lit.value()) return Ok{};

@@ -89,11 +89,14 @@ Status Run::read() {
   const std::string settings =
       fmt::format("{} {} {} {} {} {}", version(), settingsToJson(wish_.render), response.tolerance,
                   response.fewestSamples, response.mostSamples, response.atOnce);
-  hash_ = inputHash(wish_.home, study_, settings + hashOfScene(home_));
   if (wish_.evaluations) study_.evaluations = *wish_.evaluations;
   if (wish_.certified) study_.certified = *wish_.certified;
   if (wish_.seed) study_.seed = *wish_.seed;
-  return checkConditions(home_, study_);
+  if (const Status s = checkConditions(home_, study_); !s) return s;
+  const Result<std::string> hash = inputHash(home_, study_, settings);
+  if (!hash) return Error{hash.error()};
+  hash_ = hash.value();
+  return Ok{};
 }
 
 Status Run::respond(Stages& stages) {
@@ -109,11 +112,13 @@ Status Run::respond(Stages& stages) {
   news_.line(fmt::format("{} places, {} candidate lamps, {} points, {} eyes", candidates_.places.size(),
                          candidates_.candidates.size(), meters_.points(), study_.eyes.size()));
   const std::filesystem::path file = wish_.folder / "response.bin";
-  if (auto known = loadResponse(
-          file, hash_,
-          {candidates_.candidates.size(), meters_.elements.size(), study_.eyes.size(), study_.conditions.size()})) {
+  Result<std::optional<Response>> known = loadResponse(
+      file, hash_,
+      {candidates_.candidates.size(), meters_.elements.size(), study_.eyes.size(), study_.conditions.size()});
+  if (!known) news_.warning(known.error());
+  if (known && known.value()) {
     news_.line("the response of all candidates is known from before");
-    response_ = std::move(*known);
+    response_ = std::move(*known.value());
   } else {
     ResponseSettings settings;
     settings.render = wish_.render;
@@ -153,8 +158,10 @@ Result<search::State> Run::searchBy(const search::Problem& problem, search::Meth
   const std::filesystem::path file = wish_.folder / fmt::format("search_{}.json", name);
   const std::string hash = hashOf(hash_ + fmt::format(" {} {} {}", name, settings.seed, settings.population));
   search::State state;
-  if (auto known = loadSearch(file, hash, problem); known && isWithin(*known, settings)) {
-    state = std::move(*known);
+  Result<std::optional<search::State>> known = loadSearch(file, hash, problem);
+  if (!known) news_.warning(known.error());
+  if (known && known.value() && isWithin(*known.value(), settings)) {
+    state = std::move(*known.value());
     state.settings.evaluations = settings.evaluations, state.settings.seconds = settings.seconds;
   } else {
     state = start(problem, settings);
@@ -204,7 +211,7 @@ Status Run::writeDesign(search::ConstGenome design, size_t number, Proposed& out
   const std::vector<std::string> names = fileNamesOf(study_.conditions);
   for (size_t c = 0; c < names.size(); ++c) {
     const Result<std::string> text =
-        lightingFileOf(study_, lampsOf(study_, candidates_, model_, design, c), study_.conditions[c].daylight);
+        lightingFileOf(study_, lampsOf({study_, candidates_, model_, design}, c), study_.conditions[c].daylight);
     if (!text) return Error{text.error()};
     out.lightingFiles.push_back(names.size() == 1 ? fmt::format("design_{}.json", number)
                                                   : fmt::format("design_{}_{}.json", number, names[c]));
@@ -221,7 +228,7 @@ Status Run::propose() {
     const search::ConstGenome design = std::as_const(report_.front.designs)[index];
     Proposed d{index,
                fmt::format("design {}", number),
-               billOf(study_, candidates_, model_, design),
+               billOf({study_, candidates_, model_, design}),
                resultOf(model_, design),
                {},
                {}};
@@ -241,7 +248,7 @@ Status Run::certifyAll(Stages& stages) {
   for (size_t i = 0; i < count && !stopped(); ++i) {
     Proposed& d = report_.designs[i];
     Result<std::optional<Certificate>> c =
-        certify(home_, study_, candidates_, meters_, model_, std::as_const(report_.front.designs)[d.index], cameras_,
+        certify(home_, {study_, candidates_, model_, std::as_const(report_.front.designs)[d.index]}, meters_, cameras_,
                 wish_.render, stages);
     if (!c) return Error{c.error()};
     d.certificate = std::move(c.value());

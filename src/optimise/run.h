@@ -33,7 +33,7 @@ struct RunWish {
 // What is told while it goes on.
 struct RunNews {
   std::function<void(const std::string&)> line;     // something is done
-  std::function<void(const std::string&)> warning;  // something cannot be kept for another run
+  std::function<void(const std::string&)> warning;  // something cannot be kept for another run, or was not kept whole
   std::function<void(const char* method, const search::State& state, double hypervolume, bool last)> search;
 };
 

@@ -3,18 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "base/write_file.h"
+#include "optimise/hash.h"
+#include "optimise/scene_hash.h"
 #include "search/checkpoint.h"
 
 namespace roomlight::optimise {
 namespace {
 
-constexpr std::string_view kMagic = "roomlight response 2\n";
+constexpr std::string_view kMagic = "roomlight response 3\n";
+constexpr size_t kSealSize = 16;  // of hashOf() all that is before it, at the end of a file
 
 std::optional<std::string> contentOf(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -27,28 +30,6 @@ void put(std::string& out, const std::vector<T>& values) {
   const uint64_t n = values.size();
   out.append(reinterpret_cast<const char*>(&n), sizeof(n));
   out.append(reinterpret_cast<const char*>(values.data()), n * sizeof(T));
-}
-
-class Fnv1a {
- public:
-  void add(std::string_view bytes) {
-    for (const char c : bytes) h_ = (h_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  }
-  template <class T>
-  void add(const std::vector<T>& values) {
-    add(std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)));
-  }
-  std::string text() const { return fmt::format("{:016x}", h_); }
-
- private:
-  uint64_t h_ = 0xcbf29ce484222325ull;
-};
-
-void add(Fnv1a& hash, const Material& m) {
-  hash.add(m.name);
-  hash.add(fmt::format("{} {} {} {} {} {} {} {}", m.baseColor.x, m.baseColor.y, m.baseColor.z, m.alpha, m.metallic,
-                       m.roughness, m.transmission, m.ior));
-  hash.add(fmt::format("{} {} {} {}", m.emission.x, m.emission.y, m.emission.z, m.doubleSided));
 }
 
 // Whether a response has as many numbers of each kind as its sizes say.
@@ -85,51 +66,9 @@ class Reader {
   std::string_view bytes_;
 };
 
-}  // namespace
-
-std::string hashOf(std::string_view text) {
-  Fnv1a hash;
-  hash.add(text);
-  return hash.text();
-}
-
-std::string hashOfFile(const std::filesystem::path& file) {
-  const auto content = contentOf(file);
-  return content ? hashOf(*content) : "-";
-}
-
-std::string inputHash(const std::filesystem::path& home, const StudyFile& study, const std::string& settings) {
-  std::string all = std::string(kMagic) + hashOfFile(home) + hashOfFile(study.file) + hashOfFile(study.catalogueFile) +
-                    (study.lightingFile.empty() ? "" : hashOfFile(study.lightingFile)) + settings;
-  for (const Luminaire& l : study.catalogue.luminaires) {
-    if (!l.file.empty()) all += hashOfFile(l.file);
-  }
-  return hashOf(all);
-}
-
-std::string hashOfScene(const Scene& scene) {
-  static_assert(sizeof(Vec2) == 2 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float), "no bytes between numbers");
-  Fnv1a hash;
-  for (const Mesh& m : scene.meshes) hash.add(m.positions), hash.add(m.normals), hash.add(m.uv[0]), hash.add(m.indices);
-  for (const Texture& t : scene.textures) hash.add(t.rgba);
-  for (const Material& m : scene.materials) add(hash, m);
-  return hash.text();
-}
-
-Status saveResponse(const std::filesystem::path& file, const std::string& hash, const Response& r) {
-  std::string bytes = std::string(kMagic) + hash;
-  const std::vector<uint64_t> sizes = {r.elements, r.eyes, r.base.size()};
-  put(bytes, sizes), put(bytes, r.lux), put(bytes, r.glare), put(bytes, std::vector<float>{r.worstErrorPercent});
-  for (const Base& b : r.base) put(bytes, b.lux), put(bytes, b.glare);
-  return writeWhole(file, bytes);
-}
-
-std::optional<Response> loadResponse(const std::filesystem::path& file, const std::string& hash,
-                                     const ResponseSizes& wanted) {
-  const auto bytes = contentOf(file);
-  const std::string head = std::string(kMagic) + hash;
-  if (!bytes || !bytes->starts_with(head)) return std::nullopt;
-  Reader in(std::string_view(*bytes).substr(head.size()));
+// What saveResponse() wrote behind the hash of the inputs; none where it is of other sizes.
+std::optional<Response> responseIn(std::string_view bytes, const ResponseSizes& wanted) {
+  Reader in(bytes);
   Response r;
   std::vector<uint64_t> sizes;
   std::vector<float> error;
@@ -147,17 +86,83 @@ std::optional<Response> loadResponse(const std::filesystem::path& file, const st
   return r;
 }
 
-Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state) {
-  return writeWhole(file, hash + "\n" + search::toJson(state));
+Status saveSealed(const std::filesystem::path& file, std::string bytes) {
+  bytes += hashOf(bytes);
+  return writeWhole(file, bytes);
 }
 
-std::optional<search::State> loadSearch(const std::filesystem::path& file, const std::string& hash,
-                                        const search::Problem& problem) {
-  const auto text = contentOf(file);
-  if (!text || !text->starts_with(hash + "\n")) return std::nullopt;
-  const auto state = search::stateFromJson(std::string_view(*text).substr(hash.size() + 1), problem, file.string());
-  if (!state) return std::nullopt;
-  return state.value();
+// Without its seal; none where there is no file.
+Result<std::optional<std::string>> loadSealed(const std::filesystem::path& file) {
+  std::optional<std::string> bytes = contentOf(file);
+  if (!bytes) return bytes;
+  const size_t size = bytes->size() < kSealSize ? 0 : bytes->size() - kSealSize;
+  if (hashOf(std::string_view(*bytes).substr(0, size)) != std::string_view(*bytes).substr(size))
+    return Error{fmt::format("{}: is damaged or of another version; what it held is found anew", file.string())};
+  bytes->resize(size);
+  return bytes;
+}
+
+}  // namespace
+
+std::string hashOf(std::string_view text) {
+  Hash hash;
+  hash.bytes(text);
+  return hash.text();
+}
+
+std::string hashOfFile(const std::filesystem::path& file) {
+  const auto content = contentOf(file);
+  return content ? hashOf(*content) : "-";
+}
+
+Result<std::string> inputHash(const Scene& home, const StudyFile& study, const std::string& settings) {
+  std::string all = std::string(kMagic) + hashOfFile(study.file) + hashOfFile(study.catalogueFile) + settings;
+  all += hashOfScene(home);
+  for (const Condition& c : study.conditions) {
+    const Result<Scene> lit = litBy(home, study, c.daylight, nlohmann::json::array(), true);
+    if (!lit) return Error{lit.error()};
+    all += hashOfScene(lit.value());
+  }
+  // Photometric files count as the lamps that they make.
+  std::set<size_t> used;
+  for (const PlaceRule& p : study.places) used.insert(p.luminaires.begin(), p.luminaires.end());
+  nlohmann::json lamps = nlohmann::json::array();
+  for (const size_t l : used) lamps.push_back(lampEntry(study.catalogue.luminaires[l], {0, 0, 0}, {0, -1, 0}));
+  const Result<Scene> lit = litBy(home, study, nullptr, lamps, false);
+  if (!lit) return Error{lit.error()};
+  return hashOf(all + hashOfScene(lit.value()));
+}
+
+Status saveResponse(const std::filesystem::path& file, const std::string& hash, const Response& r) {
+  std::string bytes = std::string(kMagic) + hash;
+  const std::vector<uint64_t> sizes = {r.elements, r.eyes, r.base.size()};
+  put(bytes, sizes), put(bytes, r.lux), put(bytes, r.glare), put(bytes, std::vector<float>{r.worstErrorPercent});
+  for (const Base& b : r.base) put(bytes, b.lux), put(bytes, b.glare);
+  return saveSealed(file, std::move(bytes));
+}
+
+Result<std::optional<Response>> loadResponse(const std::filesystem::path& file, const std::string& hash,
+                                             const ResponseSizes& wanted) {
+  const Result<std::optional<std::string>> bytes = loadSealed(file);
+  if (!bytes) return Error{bytes.error()};
+  const std::string head = std::string(kMagic) + hash;
+  if (!bytes.value() || !bytes.value()->starts_with(head)) return std::optional<Response>();
+  return responseIn(std::string_view(*bytes.value()).substr(head.size()), wanted);
+}
+
+Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state) {
+  return saveSealed(file, hash + "\n" + search::toJson(state));
+}
+
+Result<std::optional<search::State>> loadSearch(const std::filesystem::path& file, const std::string& hash,
+                                                const search::Problem& problem) {
+  const Result<std::optional<std::string>> text = loadSealed(file);
+  if (!text) return Error{text.error()};
+  if (!text.value() || !text.value()->starts_with(hash + "\n")) return std::optional<search::State>();
+  Result<search::State> state =
+      search::stateFromJson(std::string_view(*text.value()).substr(hash.size() + 1), problem, file.string());
+  if (!state) return std::optional<search::State>();
+  return std::optional(std::move(state.value()));
 }
 
 }  // namespace roomlight::optimise

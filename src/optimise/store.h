@@ -9,25 +9,25 @@
 
 namespace roomlight::optimise {
 
-// 64 bits (FNV-1a) in hexadecimal.
+// 64 bits in hexadecimal.
 std::string hashOf(std::string_view text);
 std::string hashOfFile(const std::filesystem::path& file);  // "-" where there is none to read
-// Of home, study, catalogue with its photometric files, lighting, and settings.
-std::string inputHash(const std::filesystem::path& home, const StudyFile& study, const std::string& settings);
-// Of what an imported home took from other files too: shapes, pictures, and what materials look like.
-std::string hashOfScene(const Scene& scene);
+// Of all that a response and a search of it depend on: study and catalogue as files, settings, and the home as it is
+// and as it is lit in every condition and by the luminaires, which is what comes of all other files. Errors: of
+// lighting files and those that they name.
+Result<std::string> inputHash(const Scene& home, const StudyFile& study, const std::string& settings);
 
-// Whole or not at all.
-Status saveResponse(const std::filesystem::path& file, const std::string& hash, const Response& response);
-// None where there is none, or one of other inputs or sizes.
+// Whole or not at all; what is loaded is what was saved, bit by bit. None where there is no file, or one of other
+// inputs or sizes; the error is of a file that is not as it was written.
 struct ResponseSizes {
   size_t candidates = 0, elements = 0, eyes = 0, conditions = 0;
 };
-std::optional<Response> loadResponse(const std::filesystem::path& file, const std::string& hash,
-                                     const ResponseSizes& sizes);
+Status saveResponse(const std::filesystem::path& file, const std::string& hash, const Response& response);
+Result<std::optional<Response>> loadResponse(const std::filesystem::path& file, const std::string& hash,
+                                             const ResponseSizes& sizes);
 
 Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state);
-std::optional<search::State> loadSearch(const std::filesystem::path& file, const std::string& hash,
-                                        const search::Problem& problem);
+Result<std::optional<search::State>> loadSearch(const std::filesystem::path& file, const std::string& hash,
+                                                const search::Problem& problem);
 
 }  // namespace roomlight::optimise

@@ -5,12 +5,14 @@
 #include <iterator>
 #include <toml++/toml.h>
 
+#include "optimise/toml_depth.h"
 #include "optimise/toml_tree.h"
 
 namespace roomlight::optimise {
 namespace {
 
 constexpr uintmax_t kLargestBytes = 16u << 20;
+constexpr size_t kDeepest = 32;
 
 TomlNode copyOf(const toml::node& from, std::string key) {
   TomlNode out;
@@ -39,6 +41,8 @@ TomlNode copyOf(const toml::node& from, std::string key) {
 }  // namespace
 
 Result<TomlNode> parseToml(const std::string& text, const std::string& where) {
+  if (const int line = lineTooDeep(text, kDeepest))
+    return Error{fmt::format("{}:{}: tables and lists are nested more than {} deep", where, line, kDeepest)};
   try {
     const toml::table table = toml::parse(text);
     return copyOf(table, {});

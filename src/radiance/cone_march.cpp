@@ -38,20 +38,20 @@ bool isSheet(const DirectionalPlanes& voxel, size_t face, Vec3 n) {
   return std::abs(voxel.distance(face) + voxel.distance(other)) < kSheet && dot(n, voxel.normal(other)) < -0.7f;
 }
 
-// Planes of one voxel that the ray crosses from their fronts between t0 and t1, nearest first. `q` is the ray's origin
-// from the voxel's middle; lengths in voxel edges. `ownNormal` is that of the surface the ray comes from, which may lie
-// behind the plane of its own voxel where it is bent, by up to `ownReach`: the plane's other side is not met then.
-int crossings(const DirectionalPlanes& voxel, Vec3 q, Vec3 d, float t0, float t1, Vec3 ownNormal, float ownReach,
-              Crossing (&out)[6]) {
+// Planes of one voxel that the ray crosses from their fronts between its tMin and tMax, nearest first. Its origin
+// counts from the voxel's middle; lengths in voxel edges. `ownNormal` is that of the surface the ray comes from, which
+// may lie behind the plane of its own voxel where it is bent, by up to `ownReach`: the plane's other side is not met
+// then.
+int crossings(const DirectionalPlanes& voxel, const Ray& ray, Vec3 ownNormal, float ownReach, Crossing (&out)[6]) {
   // All faces at once, normals in 1/127.
   const Float8 x = fromBytes(voxel.normalX.data()), y = fromBytes(voxel.normalY.data()),
                z = fromBytes(voxel.normalZ.data());
   const auto along = [&](Vec3 v) { return fma(x, Float8(v.x), fma(y, Float8(v.y), z * Float8(v.z))); };
-  const Float8 facing = along(d);
+  const Float8 facing = along(ray.direction);
   const Float8 plane =
       fma(fromBytes(voxel.plane.data()), Float8(127 * kFarthestPlane * 2 / 255), Float8(-127 * kFarthestPlane));
-  const Float8 ahead = along(q) - plane, t = (Float8(0.0f) - ahead) / facing;
-  const Float8 within = (Float8(t0) <= t) & (t < Float8(t1));
+  const Float8 ahead = along(ray.origin) - plane, t = (Float8(0.0f) - ahead) / facing;
+  const Float8 within = (Float8(ray.tMin) <= t) & (t < Float8(ray.tMax));
   // Where no surface faces a way, the normal there is 0 and so is `facing`.
   unsigned faces = topBits(within & (facing < Float8(-127 * 1e-4f))) & 0x3f;
   if (faces == 0) return 0;
@@ -62,7 +62,7 @@ int crossings(const DirectionalPlanes& voxel, Vec3 q, Vec3 d, float t0, float t1
     const auto face = static_cast<size_t>(std::countr_zero(faces));
     const Vec3 n = voxel.normal(face);
     if (aheadOf[face] < 127 * ownReach && dot(n, ownNormal) < -0.3f && isSheet(voxel, face, n)) continue;
-    const Vec3 p = q + d * tOf[face];
+    const Vec3 p = ray.origin + ray.direction * tOf[face];
     if (!isSet(voxel.mask, p + n * kMaskReach) && !isSet(voxel.mask, p - n * kMaskReach)) continue;
     int k = found++;
     for (; k > 0 && out[k - 1].t > tOf[face]; --k) out[k] = out[k - 1];
@@ -111,12 +111,52 @@ float kept(const RadianceField& field, uint8_t glow, Vec3 shown, float distance,
 
 float inverseOf(float v) { return 1 / (std::abs(v) > 1e-8f ? v : std::copysign(1e-8f, v)); }
 
+// A cone on its way, and what it has met so far.
+struct March {
+  const RadianceField& field;
+  const Vec3 ownNormal;  // of the surface where it began
+  const ConeShape& shape;
+  const float h = field.levels[0].voxelSizeM;
+  ConeLight out = {};
+  Vec3 veil = {};  // normal of the last veil or pane met,
+  float veilUntil = 0;  // and how many metres along the way it may still be the same one
+
+  // Takes the light of the planes of one voxel, for the ray as crossings() has it.
+  inline void meet(const RadianceLevel& l, size_t record, const Ray& ray) {
+    const DirectionalPlanes& planes = l.planes[record];
+    const DirectionalLight& light = l.light[record];
+    __builtin_prefetch(&light);  // on its way while planes are tested
+    Crossing met[6];
+    const int count = crossings(planes, ray, ownNormal, kOwnSheet * h / l.voxelSizeM, met);
+    for (int i = 0; i < count; ++i) {
+      const size_t face = met[i].face;
+      if (isBeyond(planes, light.behind[face], ray.origin + ray.direction * met[i].t)) continue;
+      const int opacity = light.opacity[face];
+      if (opacity < 255) {
+        // A veil or pane that spans voxels is met once, though both of their planes may be crossed on the way.
+        const Vec3 n = planes.normal(face);
+        if (met[i].t * l.voxelSizeM < veilUntil && dot(n, veil) > 0.5f) continue;
+        veil = n, veilUntil = met[i].t * l.voxelSizeM + h;
+      }
+      const float alpha = out.left * static_cast<float>(light.coverage[face] * opacity) * (1.0f / (255 * 255));
+      const auto& radiance = light.radiance[face];
+      const Vec3 shown = Vec3{fromHalf(radiance[0]), fromHalf(radiance[1]), fromHalf(radiance[2])} * field.unitCdM2;
+      out.radiance += shown * (light.glow[face] == 0 || shape.pdf == 0
+                                   ? alpha
+                                   : alpha * kept(field, light.glow[face], shown, met[i].t * l.voxelSizeM,
+                                                  -dot(planes.normal(face), ray.direction), shape.pdf));
+      out.occlusion += alpha / (1 + shape.lambda * met[i].t * l.voxelSizeM);
+      out.left -= alpha;
+    }
+    if (out.left < kOpaque) out.left = 0;
+  }
+};
+
 }  // namespace
 
 ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, const ConeShape& shape,
                     float levelShift) {
-  ConeLight out;
-  const float h = field.levels[0].voxelSizeM;
+  March march{field, from.normal, shape};
   const int coarsest = static_cast<int>(field.levels.size()) - 1;
   const Vec3 inverse{inverseOf(d.x), inverseOf(d.y), inverseOf(d.z)},
       ahead{d.x > 0 ? 1.0f : 0.0f, d.y > 0 ? 1.0f : 0.0f, d.z > 0 ? 1.0f : 0.0f};
@@ -126,11 +166,9 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
   // Lengths from here on in edges of the level's voxels: on every level the cone is two voxels wide at the same number
   // of them.
   const float widest = 2 / widening;
-  Vec3 origin = (from.origin - field.origin) / h;
+  Vec3 origin = (from.origin - field.origin) / march.h;
   int level = 0;
-  Vec3 veil;
-  float veilUntil = 0;  // metres along the way
-  for (float t = 0; out.left > 0;) {
+  for (float t = 0; march.out.left > 0;) {
     for (; t >= widest && level < coarsest; ++level) t *= 0.5f, origin *= 0.5f;
     const RadianceLevel& l = field.levels[static_cast<size_t>(level)];
     const Vec3 p = origin + d * (t + kNudge);
@@ -139,44 +177,18 @@ ConeLight marchCone(const RadianceField& field, const ConeStart& from, Vec3 d, c
     const Int3 at{v.x >> 3, v.y >> 3, v.z >> 3};
     const Brick* brick = l.brickAt(at);
     if (!brick || blockIsEmpty(*brick, v)) {
-      if (!brick && goneForGood(at, l.brickDims, d)) return out;
+      if (!brick && goneForGood(at, l.brickDims, d)) break;
       t += exitCube(p, v, inverse, ahead, brick ? kBrickSize / 2 : kBrickSize) + kNudge;
       continue;
     }
     const float leave = t + exitCube(p, v, inverse, ahead, 1) + kNudge;
     if (const int64_t record = l.find(*brick, v); record >= 0) {
-      const DirectionalPlanes& planes = l.planes[static_cast<size_t>(record)];
-      const DirectionalLight& light = l.light[static_cast<size_t>(record)];
-      __builtin_prefetch(&light);  // on its way while planes are tested
       const Vec3 middle{static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f, static_cast<float>(v.z) + 0.5f};
-      Crossing met[6];
-      const int count = crossings(planes, origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap,
-                                  from.normal, kOwnSheet * h / l.voxelSizeM, met);
-      for (int i = 0; i < count; ++i) {
-        const size_t face = met[i].face;
-        if (isBeyond(planes, light.behind[face], origin - middle + d * met[i].t)) continue;
-        const int opacity = light.opacity[face];
-        if (opacity < 255) {
-          // A veil or pane that spans voxels is met once, though both of their planes may be crossed on the way.
-          const Vec3 n = planes.normal(face);
-          if (met[i].t * l.voxelSizeM < veilUntil && dot(n, veil) > 0.5f) continue;
-          veil = n, veilUntil = met[i].t * l.voxelSizeM + h;
-        }
-        const float alpha = out.left * static_cast<float>(light.coverage[face] * opacity) * (1.0f / (255 * 255));
-        const auto& radiance = light.radiance[face];
-        const Vec3 shown = Vec3{fromHalf(radiance[0]), fromHalf(radiance[1]), fromHalf(radiance[2])} * field.unitCdM2;
-        out.radiance += shown * (light.glow[face] == 0 || shape.pdf == 0
-                                     ? alpha
-                                     : alpha * kept(field, light.glow[face], shown, met[i].t * l.voxelSizeM,
-                                                    -dot(planes.normal(face), d), shape.pdf));
-        out.occlusion += alpha / (1 + shape.lambda * met[i].t * l.voxelSizeM);
-        out.left -= alpha;
-      }
-      if (out.left < kOpaque) out.left = 0;
+      march.meet(l, static_cast<size_t>(record), {origin - middle, d, std::max(0.0f, t - kOverlap), leave + kOverlap});
     }
     t = leave;
   }
-  return out;
+  return march.out;
 }
 
 }  // namespace roomlight

@@ -79,7 +79,7 @@ FaceBits spread(const FaceBits& bits) {
 }  // namespace
 
 // Where a light's ray goes from a slot.
-struct DirectLight::Way {
+struct DirectLight::Segment {
   Vec3 direction;  // unit; zero: nowhere
   float distance = kInfinity;
 };
@@ -105,11 +105,11 @@ Bounds3 DirectLight::whereSlotsLie(size_t brick) const {
   return {bounds.lo - lifted, bounds.hi + lifted};
 }
 
-// Slots of a brick some of whose rays may cross one of the boxes; `wayOf(slot, k, p)` is that of the k-th, from p,
+// Slots of a brick some of whose rays may cross one of the boxes; `segmentOf(slot, k, p)` is that of the k-th, from p,
 // known to `off` times its length. Added to `out`, which is empty as long as there is none.
-template <class WayOf>
+template <class SegmentOf>
 void DirectLight::findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off,
-                              const WayOf& wayOf, Marks& out) const {
+                              const SegmentOf& segmentOf, Marks& out) const {
   const auto [first, last] = slotsOfBrick(voxels_, brick);
   float margin = 0;
   for (const Bounds3& box : near) {
@@ -122,7 +122,7 @@ void DirectLight::findCrossed(size_t brick, uint32_t samples, std::span<const Bo
     inFront(voxels_.slots[s], near, voxels_.voxelSizeM, ahead);
     for (uint32_t k = 0; k < samples && !ahead.empty(); ++k) {
       const Vec3 p = point(s, k);
-      const Way way = wayOf(s, k, p);
+      const Segment way = segmentOf(s, k, p);
       if (!(dot(way.direction, voxels_.slots[s].normal) > -off) || isBlack(way.direction) ||
           !crosses({p, way.direction, 0, way.distance}, ahead, margin))
         continue;
@@ -225,7 +225,7 @@ template <class Sample>
 auto DirectLight::ways(const Sample& sample) {
   return [&sample](size_t s, uint32_t k, Vec3 p) {
     const LightSample light = sample(s, k, p);
-    return light.valid() ? Way{light.wi, light.distance} : Way{};
+    return light.valid() ? Segment{light.wi, light.distance} : Segment{};
   };
 }
 
@@ -283,7 +283,7 @@ void DirectLight::suns(size_t brick, std::span<const Bounds3> near, std::span<Ve
   for (size_t i = 0; i < lights_.sunCount(); ++i) trace(brick, {1, perDelta()}, marks, lux, sampleOf(i));
 }
 
-void DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyWays& ways,
+void DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyDirections& ways,
                       std::span<Vec3> lux) {
   if (guide.guideOfBrick.empty()) return;
   const auto& guides = guide.guideOfBrick[brick];
@@ -299,14 +299,14 @@ void DirectLight::sky(const SkyGuide& guide, size_t brick, std::span<const Bound
     for (size_t s = first; s < last; ++s) {
       for (uint32_t k = 0; k < kSkySamples; ++k) {
         const LightSample light = sample(s, k, {});
-        ways[s][k] = light.valid() ? SkyWay(light.wi) : SkyWay();
+        ways[s][k] = light.valid() ? SkyDirection(light.wi) : SkyDirection();
       }
     }
   }
   const auto findMarks = [&](Marks& marks) {
     findCrossed(
-        brick, kSkySamples, near, SkyWay::kOff, [&](size_t s, uint32_t k, Vec3) { return Way{ways[s][k].direction()}; },
-        marks);
+        brick, kSkySamples, near, SkyDirection::kOff,
+        [&](size_t s, uint32_t k, Vec3) { return Segment{ways[s][k].direction()}; }, marks);
   };
   renew(brick, {kSkySamples / 2, kSkySamples}, near, lux, findMarks, sample);
 }

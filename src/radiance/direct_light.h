@@ -6,7 +6,7 @@
 
 #include "radiance/surroundings.h"
 #include "radiance/radiance_field.h"
-#include "radiance/sky_ways.h"
+#include "radiance/sky_directions.h"
 #include "radiance/slot_paths.h"
 
 namespace roomlight {
@@ -33,7 +33,8 @@ class DirectLight {
   void lamps(std::span<const LightSurroundings> around, size_t brick, std::span<Vec3> lux);
   void suns(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   // `ways`: of its slots, written where all is traced and read where only what boxes concern is.
-  void sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyWays& ways, std::span<Vec3> lux);
+  void sky(const SkyGuide& guide, size_t brick, std::span<const Bounds3> near, SkyDirections& ways,
+           std::span<Vec3> lux);
   // Of one emissive mesh alone, and of all as one light: fewer rays than one by one.
   void emitter(size_t index, size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
   void emitters(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux);
@@ -45,11 +46,11 @@ class DirectLight {
     uint32_t first,
         most;  // per slot: to begin with, and where the first and those of its neighbours do not agree on shadows
   };
-  struct Way;
+  struct Segment;
   enum Mark : uint8_t { kAsItIs, kShadowOnly, kAnew };
   using Marks = std::vector<Mark>;  // per slot of a brick
-  template <class WayOf>
-  void findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off, const WayOf& wayOf,
+  template <class SegmentOf>
+  void findCrossed(size_t brick, uint32_t samples, std::span<const Bounds3> near, float off, const SegmentOf& segmentOf,
                    Marks& out) const;
   void markAround(size_t brick, Marks& marks) const;
   template <class Sample>

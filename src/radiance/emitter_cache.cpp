@@ -28,7 +28,7 @@ bool LightCache::emittersApart(const Lights& lights) const {
   return settings_.emittersApart && lights.emitterCount() <= kMostApart;
 }
 
-void LightCache::traceEmittersTogether(const Sources& from) {
+void LightCache::traceEmitterSum(const Sources& from) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   emittersTogether_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.emitters(b, {}, lux); });
   field_.rays += direct.rayCount();
@@ -64,10 +64,10 @@ void LightCache::addEmitter(const Sources& from, size_t index, std::vector<Vec3>
 // What is known of meshes in the same place stays, scaled; the rest is traced.
 void LightCache::matchEmitters(const Sources& from) {
   const Lights& lights = from.lights;
-  const bool apart = emittersApart(lights), wereApart = knownTogether_.empty();
+  const bool apart = emittersApart(lights), wereApart = knownSum_.empty();
   if (apart != wereApart) emitters_.clear(), emittersTogether_ = {};
   std::vector<EmissiveMesh> now = emissiveMeshes(from.rays.scene(), lights);
-  if (!apart && now != knownTogether_) traceEmittersTogether(from);
+  if (!apart && now != knownSum_) traceEmitterSum(from);
   const size_t small = smallEmitters(from);
   std::vector<EmitterLight> next, dark;
   for (size_t i = 0; i < now.size(); ++i) {
@@ -88,11 +88,11 @@ void LightCache::matchEmitters(const Sources& from) {
   }
   next.insert(next.end(), std::make_move_iterator(dark.rbegin()), std::make_move_iterator(dark.rend()));
   emitters_ = std::move(next);
-  knownTogether_ = apart ? std::vector<EmissiveMesh>() : std::move(now);
+  knownSum_ = apart ? std::vector<EmissiveMesh>() : std::move(now);
 }
 
 // Of meshes where they were, as they shine now.
-void LightCache::updateEmitters(const Sources& from, const Change& change) {
+void LightCache::updateEmitters(const Sources& from, const SlotChange& change) {
   const std::vector<EmissiveMesh> now = emissiveMeshes(from.rays.scene(), from.lights);
   std::erase_if(emitters_, [&](const EmitterLight& e) {
     return std::none_of(now.begin(), now.end(), [&](const EmissiveMesh& m) { return m.shinesLike(e.mesh); });
@@ -109,7 +109,7 @@ void LightCache::updateEmitters(const Sources& from, const Change& change) {
         from, light.direct, change,
         [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.emitter(index, b, near, lux); });
   }
-  if (!emittersApart(from.lights) && now == knownTogether_) {
+  if (!emittersApart(from.lights) && now == knownSum_) {
     emittersTogether_ =
         updated(from, emittersTogether_, change,
                 [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.emitters(b, near, lux); });

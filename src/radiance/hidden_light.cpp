@@ -56,19 +56,18 @@ class HiddenLight {
 
 }  // namespace
 
-std::vector<std::vector<Vec3>> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels,
-                                             const SlotPaths& paths, const Links& links, const SkyGuide& guide,
-                                             const SeenLights& seen, const LightLayers* layers, uint64_t seed,
+std::vector<std::vector<Vec3>> lightOfHidden(const TracedScene& scene, const SlotSampling& slots, const Links& links,
+                                             const RadianceField& field, const LightLayers* layers,
                                              uint64_t& rayCount) {
-  std::vector<std::vector<Vec3>> lux(layers ? layers->size() : 1, std::vector<Vec3>(voxels.slots.size()));
+  std::vector<std::vector<Vec3>> lux(layers ? layers->size() : 1, std::vector<Vec3>(slots.voxels.slots.size()));
   if (links.hidden.empty()) return lux;
-  const HiddenLight hidden(lights, voxels, guide, seen);
+  const HiddenLight hidden(scene.lights, slots.voxels, field.guide, field.seen);
   std::atomic<uint64_t> count = 0;
   parallelFor(links.hidden.size(), 4, [&](size_t b) {
     std::vector<SlotSamples> samples(lux.size());
     uint32_t number = 0;
     for (const HiddenPlace& h : links.hidden[b]) {
-      Sampler sampler(paths.key(h.slot), number++, seed + 14);
+      Sampler sampler(slots.paths.key(h.slot), number++, slots.seed + 14);
       const float perLink = 1 / static_cast<float>(links.count(h.slot));
       hidden.at(h, layers, sampler, [&](const LightSample& light, int32_t layer) {
         const float cosine = dot(light.wi, h.n);
@@ -77,7 +76,7 @@ std::vector<std::vector<Vec3>> lightOfHidden(const RayScene& rays, const Lights&
                                                                h.left * light.radiance * (cosine * perLink));
       });
     }
-    for (size_t l = 0; l < lux.size(); ++l) count += samples[l].addTo(rays, lux[l]);
+    for (size_t l = 0; l < lux.size(); ++l) count += samples[l].addTo(scene.rays, lux[l]);
   });
   rayCount += count;
   return lux;

@@ -6,14 +6,14 @@
 
 #include "radiance/links.h"
 #include "trace/light_layers.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 
 // Lights that fall straight on hidden places along links go on to these links' slots: lx per slot, of all lights
-// together or, where layers are given, of each layer apart. What particles bring near lamps is left out.
-std::vector<std::vector<Vec3>> lightOfHidden(const RayScene& rays, const Lights& lights, const Voxels& voxels,
-                                             const SlotPaths& paths, const Links& links, const SkyGuide& guide,
-                                             const SeenLights& seen, const LightLayers* layers, uint64_t seed,
-                                             uint64_t& rayCount);
+// together or, where layers are given, of each layer apart. What particles bring near lamps is left out. `field`: with
+// what is known of where lights and the sky are seen.
+std::vector<std::vector<Vec3>> lightOfHidden(const TracedScene& scene, const SlotSampling& slots, const Links& links,
+                                             const RadianceField& field, const LightLayers* layers, uint64_t& rayCount);
 
 }  // namespace roomlight

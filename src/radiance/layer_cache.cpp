@@ -3,7 +3,7 @@
 
 #include "base/half.h"
 #include "base/parallel.h"
-#include "radiance/bounces_together.h"
+#include "radiance/layer_bounces.h"
 #include "radiance/light_cache.h"
 
 namespace roomlight {
@@ -67,8 +67,8 @@ void LightCache::splitIntoLayers(const Sources& from, const Bounces& like) {
   out.reach.assign(voxels.bricks.size(), 0);
   if (!field_.glowShare.empty()) out.glowOf.assign(voxels.slots.size(), -1);
   std::vector<float> mostGlow(out.glowOf.size(), 0);
-  for (size_t begin = 0; begin < layers.size() && !from.progress.stop(); begin += kTogether) {
-    const size_t count = std::min(kTogether, layers.size() - begin);
+  for (size_t begin = 0; begin < layers.size() && !from.progress.stop(); begin += kLayersAtOnce) {
+    const size_t count = std::min(kLayersAtOnce, layers.size() - begin);
     std::vector<std::vector<Vec3>> direct, near, held, indirect(count);
     for (size_t k = 0; k < count; ++k) {
       const size_t l = begin + k;
@@ -77,7 +77,7 @@ void LightCache::splitIntoLayers(const Sources& from, const Bounces& like) {
       direct.push_back(std::move(light.all)), near.push_back(std::move(light.near)),
           held.push_back(std::move(light.held));
     }
-    bounceTogether(voxels, links_, direct, indirect, like, from.progress);
+    bounceLayers(voxels, links_, direct, indirect, like, from.progress);
     for (size_t k = 0; k < count; ++k) {
       smooth(links_, indirect[k]);
       keepShares(begin + k, direct[k], indirect[k], near[k], held[k], mostGlow);

@@ -141,8 +141,7 @@ void LightCache::traceAllLinks(const Sources& from) {
   Steps steps(from.progress, 0, 0.5f, from.voxels.bricks.size());
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
     if (from.progress.stop()) return;
-    traceLinks(from.voxels, paths_, b, linksOfBrick(from.voxels, links_, b), settings_.seed, links_,
-               hasSky ? &guide : nullptr);
+    traceLinks(slots(from), b, linksOfBrick(from.voxels, links_, b), links_, hasSky ? &guide : nullptr);
     steps.one();
   });
   if (from.progress.stop()) return;
@@ -157,7 +156,7 @@ void LightCache::findGuide(const Sources& from) {
   SkyGuideBuilder guide(from.voxels, from.lights.sky());
   std::atomic<uint64_t> followed = 0;
   parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
-    if (!from.progress.stop()) followed += lookAtSky(from.voxels, paths_, b, settings_.seed, links_, guide);
+    if (!from.progress.stop()) followed += lookAtSky(slots(from), b, links_, guide);
   });
   field_.rays += followed;
   field_.guide = guide.finish(from.progress);
@@ -182,7 +181,7 @@ void LightCache::traceDaylight(const Sources& from) {
   if (settings_.still && from.lights.sunCount() == 1 && !suns_.empty() && !from.progress.stop()) {
     std::vector<Vec3> sun(from.voxels.slots.size());
     suns_.addTo(from.voxels, Vec3(1), sun);
-    field_.sunPoints = sunPlaces(from.rays, from.lights, from.voxels, paths_, links_, settings_.seed, sun, field_.rays);
+    field_.sunPoints = sunPlaces({from.rays, from.lights}, slots(from), links_, sun, field_.rays);
     suns_ = SlotLight(from.voxels, sun);
   }
   if (from.lights.sky().present()) {
@@ -211,12 +210,12 @@ bool LightCache::lampsApart(const Lights& lights) const {
   return !settings_.still || settings_.layers || lights.lampCount() <= kMostApart;
 }
 
-void LightCache::traceLampsTogether(const Sources& from) {
+void LightCache::traceLampSum(const Sources& from) {
   DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
   std::vector<LightSurroundings> around;
   for (size_t i = 0; i < from.lights.lampCount(); ++i) around.emplace_back(from.lights.lamp(i), from.voxels.voxelSizeM);
   lampsTogether_ = lightOfAll(from, [&](size_t b, std::vector<Vec3>& lux) { direct.lamps(around, b, lux); });
-  lampParticles_ = traceLampParticles(from.rays, from.lights, from.voxels, paths_, settings_, from.progress);
+  lampParticles_ = traceLampParticles(slots(from), from.lights, settings_.attenuation, from.progress);
   field_.rays += direct.rayCount() + lampParticles_.rays;
 }
 
@@ -228,7 +227,7 @@ ParticleSource LightCache::particlesOfLamp(const Sources& from, const Lamp& lamp
 ParticleLight LightCache::particlesFrom(const Sources& from, ParticleSource source) {
   if (from.progress.stop() || !hasSurfaces(from.voxels, source.around)) return {};
   if (fewParticles_) source.takeFewer();
-  ParticleLight light = traceParticles(from.rays, from.voxels, paths_, source, settings_, from.progress);
+  ParticleLight light = traceParticles(slots(from), source, settings_.attenuation, from.progress);
   field_.rays += light.rays;
   light.few = fewParticles_;
   if (settings_.still) light.trails = {};  // they tell what moved things change
@@ -240,7 +239,7 @@ void LightCache::matchLamps(const Sources& from) {
   lampsTogether_ = {}, lampParticles_ = {};
   if (!lampsApart(from.lights)) {
     lamps_.clear();
-    return traceLampsTogether(from);
+    return traceLampSum(from);
   }
   std::vector<LampLight> next, dark;
   std::vector<uint8_t> used(lamps_.size(), 0);
@@ -305,8 +304,7 @@ std::vector<Vec3> LightCache::sumDirect(const Sources& from) {
   }
   holdSun(from);
   if (!links_.hidden.empty()) {
-    hidden_ = lightOfHidden(from.rays, from.lights, voxels, paths_, links_, field_.guide, field_.seen,
-                            settings_.layers.get(), settings_.seed, field_.rays);
+    hidden_ = lightOfHidden({from.rays, from.lights}, slots(from), links_, field_, settings_.layers.get(), field_.rays);
     for (std::vector<Vec3>& hidden : hidden_) {
       smooth(links_, hidden);
       for (size_t i = 0; i < hidden.size(); ++i) direct_[i] += hidden[i];
@@ -338,7 +336,7 @@ void LightCache::holdSun(const Sources& from) {
     if (!patches.holdsSun(static_cast<int64_t>(i))) sun[i] = {};
     reflected[i] = voxels.slots[i].albedo * sun[i];
   });
-  sunArrives_ = lightFrom(patches, from.rays, voxels, paths_, links_, reflected, settings_.seed, field_.rays);
+  sunArrives_ = lightFrom(patches, from.rays, slots(from), links_, reflected, field_.rays);
   smooth(links_, sunArrives_);
   parallelFor(sun.size(), 8192, [&](size_t i) { direct_[i] = max(Vec3(0), direct_[i] - sun[i]) + sunArrives_[i]; });
   sunHeld_ = std::move(sun);

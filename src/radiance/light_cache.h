@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "radiance/bounces.h"
-#include "radiance/carried.h"
+#include "radiance/slot_remap.h"
 #include "radiance/emissive_mesh.h"
 #include "radiance/links.h"
 #include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
-#include "radiance/sky_ways.h"
+#include "radiance/sky_directions.h"
 #include "radiance/slot_light.h"
 #include "radiance/slot_paths.h"
 
@@ -95,30 +95,28 @@ class LightCache {
     const Voxels& voxels;
     const Progress& progress;
   };
-  struct Change {
-    const Carried& carried;
-    std::span<const Bounds3> places;
-  };
+  SlotSampling slots(const Sources& from) const { return {from.voxels, paths_, settings_.seed}; }
   void traceAllLinks(const Sources& from);
-  void updateLinks(const Sources& from, const SlotPaths& paths, const Change& change);
-  SlotLight updated(const Sources& from, const SlotLight& before, const Change& change, const BrickTracer& trace) const;
-  void updateFixedLights(const Sources& from, const Change& change);
-  void updateEmitters(const Sources& from, const Change& change);
-  void updateParticles(const Sources& from, const Change& change);
-  void updateParticlesOf(const Sources& from, const Change& change, const ParticleSource& source,
+  void updateLinks(const Sources& from, const SlotPaths& paths, const SlotChange& change);
+  SlotLight updated(const Sources& from, const SlotLight& before, const SlotChange& change,
+                    const BrickTracer& trace) const;
+  void updateFixedLights(const Sources& from, const SlotChange& change);
+  void updateEmitters(const Sources& from, const SlotChange& change);
+  void updateParticles(const Sources& from, const SlotChange& change);
+  void updateParticlesOf(const Sources& from, const SlotChange& change, const ParticleSource& source,
                          ParticleLight& particles);
-  void updateLamps(const Sources& from, const Change& change);
+  void updateLamps(const Sources& from, const SlotChange& change);
   void findGuide(const Sources& from);
   void traceDaylight(const Sources& from);
   void learnLights(const Sources& from);
   static size_t smallEmitters(const Sources& from);
-  void traceEmittersTogether(const Sources& from);
+  void traceEmitterSum(const Sources& from);
   void addEmitter(const Sources& from, size_t index, std::vector<Vec3>& lux);
   EmitterLight tracedEmitter(const Sources& from, size_t index, size_t small);
   static SlotLight lightOfAll(const Sources& from,
                               const std::function<void(size_t brick, std::vector<Vec3>& lux)>& ofBrick);
   void traceLamp(const Sources& from, LampLight& light);
-  void traceLampsTogether(const Sources& from);
+  void traceLampSum(const Sources& from);
   ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
   ParticleLight particlesFrom(const Sources& from, ParticleSource source);
   void traceAllParticles(const Sources& from);
@@ -147,8 +145,8 @@ class LightCache {
   SlotLight lampsTogether_;  // all, straight, where there are too many to keep them apart
   ParticleLight lampParticles_;  // and what their particles leave
   SlotLight emittersTogether_;  // all, where there are too many to keep them apart
-  std::vector<EmissiveMesh> knownTogether_;  // as they were then
-  SkyWays skyWays_;  // empty: no sky
+  std::vector<EmissiveMesh> knownSum_;  // as they were then
+  SkyDirections skyWays_;  // empty: no sky
   std::vector<EmitterLight> emitters_;
   std::vector<LampLight> lamps_;
   std::vector<Vec3> sunHeld_;  // straight from the sun, lx per slot, of slots whose reflection is sampled by place; not

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "base/resource_error.h"
 #include "base/sampling.h"
 
 namespace roomlight {
@@ -40,18 +41,18 @@ Kin kinOf(const Voxels& voxels, const SlotPaths& paths, size_t s, Int3 v) {
 }
 
 // What a brick's slots had for kin, where nothing around it is other than before; false where something is.
-bool carriesKin(const Voxels& voxels, const Links& before, const Carried& carried, size_t b, Links& out) {
+bool keepsKin(const Voxels& voxels, const Links& before, const SlotRemap& remap, size_t b, Links& out) {
   const Int3 c = voxels.bricks[b].coord;
   for (int k = 0; k < 27; ++k) {
     const int32_t n = voxels.brickAt({c.x + k % 3 - 1, c.y + k / 3 % 3 - 1, c.z + k / 9 - 1});
-    if (n >= 0 && !carried.keeps(static_cast<size_t>(n))) return false;
+    if (n >= 0 && !remap.keeps(static_cast<size_t>(n))) return false;
   }
   const auto [first, last] = slotsOfBrick(voxels, b);
   for (size_t s = first; s < last; ++s) {
-    const Kin& old = before.kin[carried.firstOld[b] + (s - first)];
+    const Kin& old = before.kin[remap.firstOld[b] + (s - first)];
     for (size_t i = 0; i < kKin; ++i) {
-      out.kin[s][i] = carried.newSlot[old[i]];
-      if (out.kin[s][i] == Carried::kGone) return false;
+      out.kin[s][i] = remap.newSlot[old[i]];
+      if (out.kin[s][i] == SlotRemap::kGone) return false;
     }
   }
   return true;
@@ -67,47 +68,80 @@ uint32_t binOf(Vec3 d) {
   return (d.z < 0 ? kBins * kBins : 0) + y * kBins + (y & 1 ? kBins - 1 - x : x);
 }
 
-// Of what arrived or escaped in the end: rays[k] is that of wanted[order[k]].
-void noteDetours(const Voxels& voxels, size_t brick, std::span<const LinkOf> wanted, std::span<const uint32_t> order,
-                 std::span<const Ray> rays, std::span<const Arrival> ends, std::span<const HiddenReflection> hidden,
-                 std::vector<Detour>& out) {
-  if (hidden.empty()) return;
-  const auto firstSlot = static_cast<uint32_t>(slotsOfBrick(voxels, brick).first);
+// Links of one brick as they were followed.
+struct FollowedLinks {
+  std::span<const LinkOf> wanted;
+  std::vector<uint32_t> order;  // of their rays among those wanted
+  std::vector<Ray> rays;
+  std::vector<Arrival> ends;  // of each ray
+  std::vector<HiddenReflection> hidden;
+  const LinkOf& link(size_t ray) const { return wanted[order[ray]]; }
+};
+
+// Of what arrived or escaped in the end.
+void noteLinkBounds(const FollowedLinks& followed, uint32_t firstSlot, std::vector<LinkBounds>& out) {
+  if (followed.hidden.empty()) return;
   constexpr float kAway = 1e6f;  // m: out of any scene
-  std::vector<Bounds3> within(rays.size());
-  for (const HiddenReflection& h : hidden) within[h.ray].add(h.p);
-  for (size_t k = 0; k < rays.size(); ++k) {
-    if (!ends[k].reflected) continue;
-    const Ray& last = ends[k].ray;
-    within[k].add(rays[k].origin), within[k].add(last.origin);
-    if (ends[k].slot >= 0) {
-      within[k].add(last.origin + last.direction * ends[k].hit.t);
-    } else if (ends[k].escaped) {
+  std::vector<Bounds3> within(followed.rays.size());
+  for (const HiddenReflection& h : followed.hidden) within[h.ray].add(h.p);
+  for (size_t k = 0; k < followed.rays.size(); ++k) {
+    const Arrival& end = followed.ends[k];
+    if (!end.reflected) continue;
+    const Ray& last = end.ray;
+    within[k].add(followed.rays[k].origin), within[k].add(last.origin);
+    if (end.slot >= 0) {
+      within[k].add(last.origin + last.direction * end.hit.t);
+    } else if (end.escaped) {
       within[k].add(last.origin + last.direction * kAway);
     }
-    out.push_back({wanted[order[k]].slot - firstSlot, wanted[order[k]].i, within[k]});
+    out.push_back({followed.link(k).slot - firstSlot, followed.link(k).i, within[k]});
   }
   std::sort(out.begin(), out.end(),
-            [](const Detour& a, const Detour& b) { return std::tie(a.slot, a.i) < std::tie(b.slot, b.i); });
+            [](const LinkBounds& a, const LinkBounds& b) { return std::tie(a.slot, a.i) < std::tie(b.slot, b.i); });
 }
 
-Sampler wayOf(const SlotPaths& paths, LinkOf link, uint64_t seed) { return {paths.key(link.slot), link.i, seed + 5}; }
+Sampler samplerOf(const SlotSampling& slots, LinkOf link) {
+  return {slots.paths.key(link.slot), link.i, slots.seed + 5};
+}
+
+// In order of direction: rays traced together then meet the same things. `unsorted`: rays as wanted.
+FollowedLinks followLinks(const SlotSampling& slots, std::span<const LinkOf> wanted, std::vector<Ray>& unsorted) {
+  FollowedLinks out;
+  out.wanted = wanted, out.order.resize(wanted.size());
+  std::vector<uint32_t> bins;
+  std::array<uint32_t, 2 * kBins * kBins + 1> next{};
+  for (const LinkOf& w : wanted) {
+    bins.push_back(binOf(unsorted.emplace_back(linkRay(slots, w)).direction));
+    ++next[bins.back() + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (uint32_t j = 0; j < bins.size(); ++j) out.order[next[bins[j]]++] = j;
+  std::vector<Sampler> samplers;
+  for (const uint32_t j : out.order) {
+    out.rays.push_back(unsorted[j]);
+    samplers.push_back(samplerOf(slots, wanted[j]));
+  }
+  slots.paths.follow(out.rays, samplers, out.ends, &out.hidden);
+  return out;
+}
 
 }  // namespace
 
 size_t Links::bytes() const {
-  size_t sum =
-      (first.size() + links.size()) * sizeof(uint32_t) + kin.size() * sizeof(Kin) + detours.size() * sizeof(detours[0]);
-  for (const auto& d : detours) sum += d.capacity() * sizeof(Detour);
+  size_t sum = first.size() * sizeof(first[0]) + links.size() * sizeof(Link) + kin.size() * sizeof(Kin) +
+               linkBounds.size() * sizeof(linkBounds[0]);
+  for (const auto& d : linkBounds) sum += d.capacity() * sizeof(LinkBounds);
   for (const auto& h : hidden) sum += h.capacity() * sizeof(HiddenPlace);
   return sum;
 }
 
-Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most, const Links* before, const Carried* carried) {
+Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most, const Links* before, const SlotRemap* remap) {
+  if (voxels.slots.size() >= Link::kMostSlots)
+    throw ResourceError("light is wanted at more places than can be told apart; give larger voxels (voxelSizeM)");
   Links out;
   out.kin.resize(voxels.slots.size());
   parallelFor(voxels.bricks.size(), 16, [&](size_t b) {
-    if (before && carriesKin(voxels, *before, *carried, b, out)) return;
+    if (before && keepsKin(voxels, *before, *remap, b, out)) return;
     const Brick& brick = voxels.bricks[b];
     size_t record = brick.firstVoxel;
     for (int z = 0; z < kBrickSize; ++z) {
@@ -122,15 +156,15 @@ Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most, const Li
     }
   });
   out.first.resize(voxels.slots.size() + 1);
-  uint32_t next = 0;
+  uint64_t next = 0;
   for (size_t s = 0; s < voxels.slots.size(); ++s) {
     out.first[s] = next;
     const auto kin = std::count_if(out.kin[s].begin(), out.kin[s].end(), [&](uint32_t o) { return o != s; });
-    next += static_cast<uint32_t>(kin >= kEnoughKin ? (most + 1) / 2 : most);
+    next += static_cast<uint64_t>(kin >= kEnoughKin ? (most + 1) / 2 : most);
   }
   out.first.back() = next;
   out.links.resize(next);
-  out.detours.resize(voxels.bricks.size());
+  out.linkBounds.resize(voxels.bricks.size());
   return out;
 }
 
@@ -143,63 +177,47 @@ std::vector<LinkOf> linksOfBrick(const Voxels& voxels, const Links& links, size_
   return all;
 }
 
-Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed) {
-  Sampler sampler(paths.key(link.slot), link.i, seed);
-  return {paths.point(link.slot, link.i),
-          Frame(voxels.slots[link.slot].normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
+Ray linkRay(const SlotSampling& slots, LinkOf link) {
+  Sampler sampler(slots.paths.key(link.slot), link.i, slots.seed);
+  return {slots.paths.point(link.slot, link.i),
+          Frame(slots.voxels.slots[link.slot].normal).toWorld(sampleCosineHemisphere(sampler.next2())), 0, kInfinity};
 }
 
-size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& links,
-                 SkyGuideBuilder& guide) {
-  const std::vector<LinkOf> all = linksOfBrick(voxels, links, brick);
+size_t lookAtSky(const SlotSampling& slots, size_t brick, const Links& links, SkyGuideBuilder& guide) {
+  const std::vector<LinkOf> all = linksOfBrick(slots.voxels, links, brick);
   std::vector<Ray> rays;
   std::vector<Sampler> samplers;
   for (const LinkOf& l : all) {
     if (!links.links[links.first[l.slot] + l.i].isDark()) continue;
-    rays.push_back(linkRay(voxels, paths, l, seed));
-    samplers.push_back(wayOf(paths, l, seed));
+    rays.push_back(linkRay(slots, l));
+    samplers.push_back(samplerOf(slots, l));
   }
   std::vector<Arrival> ends;
-  paths.follow(rays, samplers, ends);
+  slots.paths.follow(rays, samplers, ends);
   size_t next = 0;
   for (const LinkOf& l : all) {
     const bool followed = links.links[links.first[l.slot] + l.i].isDark();
     const float open = followed && ends[next].escaped ? luminance(ends[next].left) : 0.0f;
-    guide.add(brick, voxels.slots[l.slot].face,
-              followed ? rays[next].direction : linkRay(voxels, paths, l, seed).direction, open);
+    guide.add(brick, slots.voxels.slots[l.slot].face, followed ? rays[next].direction : linkRay(slots, l).direction,
+              open);
     next += followed;
   }
   return rays.size();
 }
 
-void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted,
-                uint64_t seed, Links& links, SkyGuideBuilder* guide) {
-  // In order of direction: rays traced together then meet the same things.
-  std::vector<Ray> unsorted, rays;
-  std::vector<uint32_t> bins, order(wanted.size());
-  std::array<uint32_t, 2 * kBins * kBins + 1> next{};
-  for (const LinkOf& w : wanted) {
-    bins.push_back(binOf(unsorted.emplace_back(linkRay(voxels, paths, w, seed)).direction));
-    ++next[bins.back() + 1];
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  for (uint32_t j = 0; j < bins.size(); ++j) order[next[bins[j]]++] = j;
-  std::vector<Sampler> samplers;
-  for (const uint32_t j : order) {
-    rays.push_back(unsorted[j]);
-    samplers.push_back(wayOf(paths, wanted[j], seed));
-  }
-  std::vector<Arrival> ends;
-  std::vector<HiddenReflection> hidden;
-  paths.follow(rays, samplers, ends, &hidden);
+void traceLinks(const SlotSampling& slots, size_t brick, std::span<const LinkOf> wanted, Links& links,
+                SkyGuideBuilder* guide) {
+  std::vector<Ray> unsorted;
+  const FollowedLinks followed = followLinks(slots, wanted, unsorted);
   if (!links.hidden.empty()) {
-    for (const HiddenReflection& h : hidden)
-      links.hidden[brick].push_back({wanted[order[h.ray]].slot, h.p, h.n, h.left});
+    for (const HiddenReflection& h : followed.hidden)
+      links.hidden[brick].push_back({followed.link(h.ray).slot, h.p, h.n, h.left});
   }
-  noteDetours(voxels, brick, wanted, order, rays, ends, hidden, links.detours[brick]);
+  noteLinkBounds(followed, static_cast<uint32_t>(slotsOfBrick(slots.voxels, brick).first), links.linkBounds[brick]);
+  const std::vector<Arrival>& ends = followed.ends;
   for (size_t k = 0; k < ends.size(); ++k) {
     const Arrival& end = ends[k];
-    const LinkOf& of = wanted[order[k]];
+    const LinkOf& of = followed.link(k);
     const bool arrives = end.slot >= 0;
     links.links[links.first[of.slot] + of.i] =
         Link(arrives ? static_cast<uint32_t>(end.slot) : of.slot, arrives ? luminance(end.left) : 0, end.reflected);
@@ -207,9 +225,9 @@ void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std:
   if (!guide) return;
   // In the order asked for, so that sums are the same.
   std::vector<float> open(ends.size());
-  for (size_t k = 0; k < ends.size(); ++k) open[order[k]] = ends[k].escaped ? luminance(ends[k].left) : 0.0f;
+  for (size_t k = 0; k < ends.size(); ++k) open[followed.order[k]] = ends[k].escaped ? luminance(ends[k].left) : 0.0f;
   for (size_t j = 0; j < open.size(); ++j)
-    guide->add(brick, voxels.slots[wanted[j].slot].face, unsorted[j].direction, open[j]);
+    guide->add(brick, slots.voxels.slots[wanted[j].slot].face, unsorted[j].direction, open[j]);
 }
 
 }  // namespace roomlight

@@ -17,6 +17,7 @@ namespace roomlight {
 // leaves. Nothing comes along a ray that arrives nowhere.
 class Link {
  public:
+  static constexpr size_t kMostSlots = size_t{1} << 27;  // that links can tell apart
   static constexpr float kUnit = 1.0f / 15;
   Link() = default;
   Link(uint32_t slot, float left, bool bent)
@@ -33,7 +34,7 @@ class Link {
   }
 
  private:
-  static constexpr uint32_t kBent = 1u << 27;
+  static constexpr uint32_t kBent = kMostSlots;
   uint32_t packed_ = 0;
 };
 
@@ -42,7 +43,7 @@ constexpr size_t kKin = 8;
 using Kin = std::array<uint32_t, kKin>;
 
 // Where the way of a bent link is known to keep within: world, m.
-struct Detour {
+struct LinkBounds {
   uint32_t slot, i;  // counted from the brick's first; of its links
   Bounds3 within;
 };
@@ -54,19 +55,20 @@ struct HiddenPlace {
 };
 
 struct Links {
-  std::vector<uint32_t> first;  // per slot, and the end: where its links begin
+  std::vector<uint64_t> first;  // per slot, and the end: where its links begin
   std::vector<Link> links;
   std::vector<Kin> kin;         // per slot
-  std::vector<std::vector<Detour>> detours;  // per brick, in order of slots and links
+  std::vector<std::vector<LinkBounds>> linkBounds;  // per brick, in order of slots and links
   std::vector<std::vector<HiddenPlace>> hidden;  // per brick, where they are kept
   size_t bytes() const;
-  size_t count(size_t slot) const { return first[slot + 1] - first[slot]; }
+  size_t count(size_t slot) const { return static_cast<size_t>(first[slot + 1] - first[slot]); }
 };
 
 // Kin of all slots, and room for as many links as each gets: `links`, half as many where neighbours on the sheet have
-// theirs. Where bricks and all around them are carried from `before`, so are their kin.
+// theirs. Where bricks and all around them are carried from `before`, so are their kin. Throws ResourceError where
+// there are more slots than links can tell apart.
 Links planLinks(const Voxels& voxels, const SlotPaths& paths, int links, const Links* before = nullptr,
-                const Carried* carried = nullptr);
+                const SlotRemap* remap = nullptr);
 
 struct LinkOf {
   uint32_t slot, i;
@@ -76,15 +78,14 @@ struct LinkOf {
 std::vector<LinkOf> linksOfBrick(const Voxels& voxels, const Links& links, size_t brick);
 
 // The ray of a link.
-Ray linkRay(const Voxels& voxels, const SlotPaths& paths, LinkOf link, uint64_t seed);
+Ray linkRay(const SlotSampling& slots, LinkOf link);
 
 // Tells `guide` what all links of a brick see of the sky: of those traced already only the ones that arrive nowhere are
 // followed again. Returns how many.
-size_t lookAtSky(const Voxels& voxels, const SlotPaths& paths, size_t brick, uint64_t seed, const Links& links,
-                 SkyGuideBuilder& guide);
+size_t lookAtSky(const SlotSampling& slots, size_t brick, const Links& links, SkyGuideBuilder& guide);
 
 // Traces the wanted links of one brick, and tells `guide` (null: no sky) what they saw of the sky.
-void traceLinks(const Voxels& voxels, const SlotPaths& paths, size_t brick, std::span<const LinkOf> wanted,
-                uint64_t seed, Links& links, SkyGuideBuilder* guide);
+void traceLinks(const SlotSampling& slots, size_t brick, std::span<const LinkOf> wanted, Links& links,
+                SkyGuideBuilder* guide);
 
 }  // namespace roomlight

@@ -15,7 +15,7 @@ namespace {
 constexpr float kSmallest =
     0.1f; // voxels²; smaller slots may get light meant for a neighbour, too much on so small an area
 constexpr size_t kMostParticles = size_t{1} << 18, kMostPerSource = size_t{1} << 15, kFewestPerSource = size_t{1} << 12,
-                 kChunk = 512, kFewestTogether = kChunk;
+                 kChunk = 512, kFewestPerLamp = kChunk;
 constexpr int kMostReflections = 64;
 constexpr size_t kFirstLook = 4;
 constexpr size_t kLampsAtOnce = 64;  // of which trails are in memory
@@ -37,8 +37,8 @@ size_t particlesFor(float sizeOfPoints, size_t sources) {
 }
 
 // Of each of many lamps that are lit together: those beside one place send theirs to the same slots.
-size_t particlesTogether(size_t lamps) {
-  return std::clamp(kMostParticles / lamps, kFewestTogether, kMostPerSource) / kChunk * kChunk;
+size_t particlesPerLamp(size_t lamps) {
+  return std::clamp(kMostParticles / lamps, kFewestPerLamp, kMostPerSource) / kChunk * kChunk;
 }
 
 // Surfaces behind the foremost take no light: a flat one fills no more of a voxel than this.
@@ -49,12 +49,10 @@ float litArea(const FaceSlot& slot, float h) {
 class Particles {
  public:
   // `pointLm`: luminous flux that a point stands for.
-  Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source,
-            const RadianceSettings& settings, float pointLm)
-      : rays_(rays), voxels_(voxels), paths_(paths), source_(source), settings_(settings), pointLm_(pointLm) {}
-  Particles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source,
-            const RadianceSettings& settings)
-      : Particles(rays, voxels, paths, source, settings,
+  Particles(const SlotSampling& slots, const ParticleSource& source, Attenuation attenuation, float pointLm)
+      : slots_(slots), source_(source), attenuation_(attenuation), pointLm_(pointLm) {}
+  Particles(const SlotSampling& slots, const ParticleSource& source, Attenuation attenuation)
+      : Particles(slots, source, attenuation,
                   source.fluxLm / std::min(kGlowPoints, static_cast<float>(source.particles))) {}
 
   // Some of a chunk step by step together, so that they can be traced together. Added to `trail`.
@@ -64,10 +62,10 @@ class Particles {
     std::vector<Sampler> samplers;
     for (const uint16_t i : which) {
       const auto number = static_cast<uint32_t>(chunk * kChunk + i);
-      Sampler sampler(source_.key, number, settings_.seed + 7);
+      Sampler sampler(source_.key, number, slots_.seed + 7);
       const LightRay ray = source_.ray(sampler);
       rays.emplace_back(ray.origin, ray.direction, 0, kInfinity);
-      samplers.emplace_back(source_.key, number, settings_.seed + 8);
+      samplers.emplace_back(source_.key, number, slots_.seed + 8);
       flights.push_back({ray.fluxLm / static_cast<float>(source_.particles), i});
     }
     for (int k = 0; k < kMostReflections && !rays.empty(); ++k) step(k > 0, rays, samplers, flights, trail);
@@ -78,42 +76,49 @@ class Particles {
     Vec3 fluxLm;
     uint16_t particle;
   };
+  // Light that leaves a surface.
+  struct Reflected {
+    Vec3 p, n;
+    const Material& material;
+    Vec3 fluxLm;
+    int64_t slot;
+    uint16_t particle;
+  };
 
   // From slot to slot while these are near the source. What falls on another slot straight from it is not ours.
   void step(bool reflected, std::vector<Ray>& rays, std::vector<Sampler>& samplers, std::vector<Flight>& flights,
             ParticleTrail& trail) const {
     std::vector<Arrival> ends;
     std::vector<HiddenReflection> hidden;
-    paths_.follow(rays, samplers, ends, &hidden);
+    slots_.paths.follow(rays, samplers, ends, &hidden);
     std::vector<Bounds3> bent(hidden.empty() ? 0 : rays.size());
     for (const HiddenReflection& h : hidden) {
       bent[h.ray].add(h.p);
       if (source_.around.contains(h.p) && !isLeftToRays(*h.material))
-        reflectedAt(h.p, h.n, *h.material, flights[h.ray].fluxLm * h.left, -1, flights[h.ray].particle, samplers[h.ray],
-                    trail);
+        addPoints({h.p, h.n, *h.material, flights[h.ray].fluxLm * h.left, -1, flights[h.ray].particle}, samplers[h.ray],
+                  trail);
     }
     size_t live = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
       const Arrival& end = ends[i];
       const auto s = static_cast<size_t>(end.slot);
       const bool arrives = end.slot >= 0;
-      const SurfacePlace place = arrives ? paths_.place(end) : SurfacePlace{};
-      addWay(rays[i], end, arrives ? place.p : end.ray.origin + end.ray.direction * kAwayM,
-             bent.empty() ? Bounds3() : bent[i], flights[i].particle, trail);
+      const SurfacePlace place = arrives ? slots_.paths.place(end) : SurfacePlace{};
+      addSegment(rays[i], end, arrives ? place.p : end.ray.origin + end.ray.direction * kAwayM,
+                 bent.empty() ? Bounds3() : bent[i], flights[i].particle, trail);
       if (!arrives) continue;
-      const FaceSlot& slot = voxels_.slots[s];
+      const FaceSlot& slot = slots_.voxels.slots[s];
       const bool isNear = source_.around.contains(slot.position), indirect = reflected || end.reflected;
       if (!indirect && !isNear) continue;
       Vec3 flux = flights[i].fluxLm * end.left;
       const float facing = -dot(slot.normal, end.ray.direction);
-      if (!indirect && facing > 0.05f)
-        flux *= attenuation(settings_.attenuation, slot.normal, -end.ray.direction) / facing;
+      if (!indirect && facing > 0.05f) flux *= attenuation(attenuation_, slot.normal, -end.ray.direction) / facing;
       const bool carriedOn = isNear && !isLeftToRays(*place.material);
       trail.deposits.push_back({flux, static_cast<uint32_t>(s), flights[i].particle, carriedOn});
       if (!carriedOn) continue;
-      const Vec3 albedo = paths_.albedo(end);
+      const Vec3 albedo = slots_.paths.albedo(end);
       Sampler sampler = samplers[i];
-      reflectedAt(place.p, place.ng, *place.material, flux * albedo, end.slot, flights[i].particle, sampler, trail);
+      addPoints({place.p, place.ng, *place.material, flux * albedo, end.slot, flights[i].particle}, sampler, trail);
       const float survive = std::min(0.95f, maxComponent(albedo));
       if (sampler.next1() >= survive) continue;
       rays[live] = {offsetOrigin(place.p, place.ng), Frame(place.ng).toWorld(sampleCosineHemisphere(sampler.next2())),
@@ -126,8 +131,8 @@ class Particles {
     flights.erase(flights.begin() + static_cast<std::ptrdiff_t>(live), flights.end());
   }
 
-  void addWay(const Ray& ray, const Arrival& end, Vec3 to, Bounds3 bent, uint16_t particle,
-              ParticleTrail& trail) const {
+  void addSegment(const Ray& ray, const Arrival& end, Vec3 to, Bounds3 bent, uint16_t particle,
+                  ParticleTrail& trail) const {
     if (!end.reflected) return trail.ways.push_back({ray.origin, to, particle, true});
     for (const Vec3 p : {ray.origin, end.ray.origin, to}) bent.add(p);
     trail.ways.push_back({bent.lo, bent.hi, particle, false});
@@ -136,20 +141,17 @@ class Particles {
   bool isLeftToRays(const Material& m) const { return source_.isSurface && isPolishedMetal(m); }
 
   // As many points as the flux asks for on average, each of `pointLm_`.
-  void reflectedAt(Vec3 p, Vec3 n, const Material& material, Vec3 flux, int64_t slot, uint16_t particle,
-                   Sampler& sampler, ParticleTrail& trail) const {
-    const float luminous = luminance(flux), copies = std::floor(luminous / pointLm_ + sampler.fast1());
+  void addPoints(const Reflected& r, Sampler& sampler, ParticleTrail& trail) const {
+    const float luminous = luminance(r.fluxLm), copies = std::floor(luminous / pointLm_ + sampler.fast1());
     for (float k = 0; k < copies; ++k)
-      trail.points.push_back(
-          {{offsetOrigin(p, n), n, flux * (pointLm_ / luminous), slot, 0, isPolishedMetal(material), -1, -1},
-           particle});
+      trail.points.push_back({{offsetOrigin(r.p, r.n), r.n, r.fluxLm * (pointLm_ / luminous), r.slot, 0,
+                               isPolishedMetal(r.material), -1, -1},
+                              r.particle});
   }
 
-  const RayScene& rays_;
-  const Voxels& voxels_;
-  const SlotPaths& paths_;
+  const SlotSampling slots_;
   const ParticleSource& source_;
-  const RadianceSettings& settings_;
+  const Attenuation attenuation_;
   const float pointLm_;
 };
 
@@ -184,16 +186,15 @@ void addUp(const Voxels& voxels, ParticleLight& light) {
 // What of a trail stays: the numbers of particles that do not are left in `again`.
 class Keeper {
  public:
-  Keeper(const Carried& carried, std::span<const Bounds3> places, float voxelSizeM)
-      : carried_(carried), places_(places), h_(voxelSizeM) {
-    for (const Bounds3& box : places) around_.add(box);
+  Keeper(const SlotChange& change, float voxelSizeM) : remap_(change.remap), places_(change.places), h_(voxelSizeM) {
+    for (const Bounds3& box : places_) around_.add(box);
   }
 
   void keep(ParticleTrail& trail, std::vector<uint16_t>& again) const {
     std::array<bool, kChunk> gone{};
     for (ParticleTrail::Deposit& d : trail.deposits) {
-      d.slot = carried_.newSlot[d.slot];
-      if (d.slot == Carried::kGone) gone[d.particle] = true;
+      d.slot = remap_.newSlot[d.slot];
+      if (d.slot == SlotRemap::kGone) gone[d.particle] = true;
     }
     for (const ParticleTrail::Piece& way : trail.ways) gone[way.particle] = gone[way.particle] || touches(way);
     for (uint16_t i = 0; i < kChunk; ++i) {
@@ -201,7 +202,7 @@ class Keeper {
     }
     for (ParticleTrail::Point& p : trail.points) {
       if (p.glow.slot >= 0 && !gone[p.particle])
-        p.glow.slot = static_cast<int64_t>(carried_.newSlot[static_cast<size_t>(p.glow.slot)]);
+        p.glow.slot = static_cast<int64_t>(remap_.newSlot[static_cast<size_t>(p.glow.slot)]);
     }
     const auto isGone = [&](const auto& x) { return gone[x.particle]; };
     std::erase_if(trail.deposits, isGone), std::erase_if(trail.points, isGone), std::erase_if(trail.ways, isGone);
@@ -221,7 +222,7 @@ class Keeper {
     return crosses(ray, {&around_, 1}, h_) && crosses(ray, places_, h_);
   }
 
-  const Carried& carried_;
+  const SlotRemap& remap_;
   std::span<const Bounds3> places_;
   const float h_;
   Bounds3 around_;
@@ -280,17 +281,17 @@ size_t ParticleLight::bytes() const {
   return sum;
 }
 
-ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths,
-                             const ParticleSource& source, const RadianceSettings& settings, const Progress& progress) {
+ParticleLight traceParticles(const SlotSampling& slots, const ParticleSource& source, Attenuation attenuation,
+                             const Progress& progress) {
   ParticleLight light;
-  const Particles particles(rays, voxels, paths, source, settings);
+  const Particles particles(slots, source, attenuation);
   std::array<uint16_t, kChunk> all;
   std::iota(all.begin(), all.end(), uint16_t{0});
   light.trails.resize(source.particles / kChunk);
   parallelFor(light.trails.size(), 1, [&](size_t chunk) {
     if (!progress.stop()) particles.trace(chunk, all, light.trails[chunk]);
   });
-  addUp(voxels, light);
+  addUp(slots.voxels, light);
   light.rays = source.particles;
   light.fluxLm = source.fluxLm;
   return light;
@@ -321,8 +322,9 @@ bool hasSurfaces(const Voxels& voxels, const LightSurroundings& around) {
   return false;
 }
 
-ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, const Voxels& voxels,
-                                 const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress) {
+ParticleLight traceLampParticles(const SlotSampling& slots, const Lights& lights, Attenuation attenuation,
+                                 const Progress& progress) {
+  const Voxels& voxels = slots.voxels;
   struct Lit {
     int32_t lamp;
     ParticleSource source;
@@ -335,7 +337,7 @@ ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, con
   for (size_t i = 0; i < lights.lampCount(); ++i) {
     Lit one{static_cast<int32_t>(i), particlesOf(lights.lamp(i), 1, voxels.voxelSizeM)};
     if (!hasSurfaces(voxels, one.source.around)) continue;
-    one.source.particles = particlesTogether(lights.lampCount());
+    one.source.particles = particlesPerLamp(lights.lampCount());
     light.fluxLm += luminous(one) * one.source.fluxLm, light.rays += one.source.particles;
     lit.push_back(std::move(one));
   }
@@ -346,8 +348,7 @@ ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, con
     const std::span<const Lit> some = std::span(lit).subspan(first, std::min(kLampsAtOnce, lit.size() - first));
     std::vector<ParticleTrail> trails(some.size());
     parallelFor(some.size(), 1, [&](size_t k) {
-      const Particles particles(rays, voxels, paths, some[k].source, settings,
-                                light.fluxLm / (kGlowPoints * luminous(some[k])));
+      const Particles particles(slots, some[k].source, attenuation, light.fluxLm / (kGlowPoints * luminous(some[k])));
       for (size_t chunk = 0; chunk < some[k].source.particles / kChunk; ++chunk) particles.trace(chunk, all, trails[k]);
     });
     for (size_t k = 0; k < some.size(); ++k)
@@ -357,13 +358,12 @@ ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, con
   return light;
 }
 
-void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source,
-                     const RadianceSettings& settings, const Carried& carried, std::span<const Bounds3> places,
-                     const Progress& progress, ParticleLight& light) {
+void updateParticles(const SlotSampling& slots, const ParticleSource& source, Attenuation attenuation,
+                     const SlotChange& change, const Progress& progress, ParticleLight& light) {
   ParticleSource same = source;
   same.particles = light.trails.size() * kChunk;  // of as many sources as there were
-  const Particles particles(rays, voxels, paths, same, settings);
-  const Keeper keeper(carried, places, voxels.voxelSizeM);
+  const Particles particles(slots, same, attenuation);
+  const Keeper keeper(change, slots.voxels.voxelSizeM);
   std::atomic<uint64_t> traced = 0;
   parallelFor(light.trails.size(), 1, [&](size_t chunk) {
     if (progress.stop()) return;
@@ -373,7 +373,7 @@ void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths
     traced += again.size();
   });
   if (progress.stop()) return;
-  addUp(voxels, light);
+  addUp(slots.voxels, light);
   light.rays = traced;
 }
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "radiance/carried.h"
+#include "radiance/slot_remap.h"
 #include "radiance/radiance_field.h"
 #include "radiance/slot_light.h"
 #include "radiance/slot_paths.h"
@@ -72,18 +72,17 @@ struct ParticleLight {
 constexpr float kGlowPoints = 32768;  // that stand for a flux like that of all sources
 
 // Ends early, with a part of the light, once `progress` says stop.
-ParticleLight traceParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths,
-                             const ParticleSource& source, const RadianceSettings& settings, const Progress& progress);
+ParticleLight traceParticles(const SlotSampling& slots, const ParticleSource& source, Attenuation attenuation,
+                             const Progress& progress);
 
 // Of lamps that are lit together, each as bright as it is: few particles of each. Points tell whose they are; there are
 // no trails.
-ParticleLight traceLampParticles(const RayScene& rays, const Lights& lights, const Voxels& voxels,
-                                 const SlotPaths& paths, const RadianceSettings& settings, const Progress& progress);
+ParticleLight traceLampParticles(const SlotSampling& slots, const Lights& lights, Attenuation attenuation,
+                                 const Progress& progress);
 
-// After instances have moved, of the same source where it was: particles that came near `places`, where these were and
-// are, are traced again, and those that left something on slots that are gone.
-void updateParticles(const RayScene& rays, const Voxels& voxels, const SlotPaths& paths, const ParticleSource& source,
-                     const RadianceSettings& settings, const Carried& carried, std::span<const Bounds3> places,
-                     const Progress& progress, ParticleLight& light);
+// After instances have moved, of the same source where it was: particles that came near the places of the change are
+// traced again, and those that left something on slots that are gone.
+void updateParticles(const SlotSampling& slots, const ParticleSource& source, Attenuation attenuation,
+                     const SlotChange& change, const Progress& progress, ParticleLight& light);
 
 }  // namespace roomlight

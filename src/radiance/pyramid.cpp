@@ -20,9 +20,16 @@ using Faces = std::array<Face, 6>;
 
 int8_t toByte(float v) { return static_cast<int8_t>(std::lround(127 * std::clamp(v, -1.0f, 1.0f))); }
 
-void pack(const Face& f, size_t face, Vec3 columns, Vec3 glow, float unit, DirectionalPlanes& planes,
-          DirectionalLight& light) {
+// Where the faces of a voxel are packed.
+struct Packed {
+  DirectionalPlanes& planes;
+  DirectionalLight& light;
+};
+
+void pack(const Face& f, size_t face, Vec3 columns, Vec3 glow, float unit, const Packed& out) {
   if (!(f.cover > 0)) return;
+  DirectionalPlanes& planes = out.planes;
+  DirectionalLight& light = out.light;
   const float distance = dot(f.point, f.normal);
   const Vec3 shown = f.radiance + glow, c = shown / unit;
   light.radiance[face] = {toHalf(c.x), toHalf(c.y), toHalf(c.z)};
@@ -54,7 +61,7 @@ void pack(const Faces& faces, uint64_t mask, const PerFace<Vec3>& glow, float un
   const Vec3 columns = columnCoverage(mask);
   for (size_t face = 0; face < 6; ++face) level.light[record].behind[face] = planesBefore(faces, face);
   for (size_t face = 0; face < 6; ++face)
-    pack(faces[face], face, columns, glow[face], unit, level.planes[record], level.light[record]);
+    pack(faces[face], face, columns, glow[face], unit, {level.planes[record], level.light[record]});
 }
 
 // The slots of a base voxel.

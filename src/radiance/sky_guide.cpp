@@ -105,12 +105,12 @@ SkyGuide SkyGuideBuilder::finish(const Progress& progress) const {
   return guide;
 }
 
-SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carried& carried) {
+SkyGuide keptGuide(const SkyGuide& before, const SkyGuide& fresh, const SlotRemap& remap) {
   SkyGuide out;
-  out.guideOfBrick.resize(carried.oldBrick.size());
+  out.guideOfBrick.resize(remap.oldBrick.size());
   for (size_t b = 0; b < out.guideOfBrick.size(); ++b) {
-    const SkyGuide& from = carried.keeps(b) ? before : fresh;
-    const auto& guides = from.guideOfBrick[carried.keeps(b) ? static_cast<size_t>(carried.oldBrick[b]) : b];
+    const SkyGuide& from = remap.keeps(b) ? before : fresh;
+    const auto& guides = from.guideOfBrick[remap.keeps(b) ? static_cast<size_t>(remap.oldBrick[b]) : b];
     for (size_t face = 0; face < 6; ++face) {
       out.guideOfBrick[b][face] = guides[face] < 0 ? -1 : static_cast<int32_t>(out.cdf.size());
       if (guides[face] >= 0) out.cdf.push_back(from.cdf[static_cast<size_t>(guides[face])]);

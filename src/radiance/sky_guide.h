@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "radiance/brick_side.h"
-#include "radiance/carried.h"
+#include "radiance/slot_remap.h"
 #include "radiance/radiance_field.h"
 
 namespace roomlight {
@@ -29,7 +29,7 @@ class SkyGuideBuilder {
 };
 
 // The guides of `fresh`, and those of `before` for bricks that are carried.
-SkyGuide carriedGuide(const SkyGuide& before, const SkyGuide& fresh, const Carried& carried);
+SkyGuide keptGuide(const SkyGuide& before, const SkyGuide& fresh, const SlotRemap& remap);
 
 // A sky direction for a surface: by `guide` (an index into SkyGuide::cdf), or where that is -1 by the sky's own
 // brightness. `radiance` is divided by the density.

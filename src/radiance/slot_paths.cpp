@@ -59,7 +59,7 @@ std::pair<size_t, size_t> slotsOfBrick(const Voxels& voxels, size_t brick) {
 }
 
 SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict,
-                     const SlotPaths* before, const Carried* carried)
+                     const Before* before)
     : rays_(&rays),
       voxels_(&voxels),
       behind_(strict ? kStrictlyBehind : kHiddenBehind),
@@ -72,8 +72,8 @@ SlotPaths::SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, 
         rays.scene().materials[static_cast<size_t>(rays.scene().meshes[static_cast<size_t>(i.mesh)].material)]));
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
     if (progress.stop()) return;
-    if (carried && carried->keeps(b)) {
-      copyFrom(*before, carried->firstOld[b], b);
+    if (before && before->remap.keeps(b)) {
+      copyFrom(before->paths, before->remap.firstOld[b], b);
     } else {
       prepare(b, seed);
     }
@@ -198,86 +198,128 @@ Vec3 SlotPaths::albedoOfTheRest(const Hit& hit, float passes) const {
   return m.alpha >= 1 ? min(albedo / std::max(1e-3f, 1 - passes), Vec3(1)) : albedo;
 }
 
+// Rays on their way to slots, step by step together, so that they can be traced together.
+class SlotPaths::Follower {
+ public:
+  Follower(const SlotPaths& paths, std::span<const Ray> rays, std::span<Sampler> samplers, std::vector<Arrival>& ends,
+           std::vector<HiddenReflection>* hidden)
+      : paths_(paths),
+        scene_(paths.rays_->scene()),
+        samplers_(samplers),
+        ends_(ends),
+        hidden_(hidden),
+        on_(rays.size()),
+        way_(rays.begin(), rays.end()) {
+    ends_.assign(rays.size(), {});
+    for (size_t i = 0; i < rays.size(); ++i) on_[i] = i, ends_[i].ray = rays[i];
+  }
+
+  bool isDone() const { return on_.empty(); }
+
+  // To the next surface, and on from there where no slot stands for it or it lets the ray through.
+  void step() {
+    hits_.resize(on_.size());
+    paths_.rays_->intersect(way_, hits_);
+    next_.clear(), meetings_.clear(), parting_.clear();
+    for (size_t j = 0; j < on_.size(); ++j) {
+      if (hits_[j].valid()) {
+        meet(j);
+      } else {
+        ends_[on_[j]].escaped = true;
+      }
+    }
+    decideMeetings();
+    on_.swap(next_);
+    way_.clear();
+    for (const size_t i : on_) way_.push_back(ends_[i].ray);
+  }
+
+ private:
+  // A surface on the way of a ray: whether a slot stands for it is known only after a look at what parts them.
+  struct Meeting {
+    size_t ray;  // index into the rays on their way
+    Vec3 p, n;
+    float passes;
+    int64_t slot;
+  };
+
+  void meet(size_t j) {
+    const Hit& hit = hits_[j];
+    Arrival& end = ends_[on_[j]];
+    const Vec3 d = end.ray.direction;
+    Meeting m{j, end.ray.origin + d * hit.t, facing(hit.ng, d), 0, -1};
+    if (paths_.clear_[hit.instance]) {
+      const SurfacePlace s = placeAt(scene_, hit, d);
+      const Vec3 through = straightTransmittance(*s.material, materialAt(scene_, hit), std::abs(dot(s.ng, d)));
+      m.passes = std::min(1.0f, luminance(through));
+      if (samplers_[on_[j]].next1() < m.passes) {
+        end.left *= through / m.passes;
+        return goOn(on_[j], {offsetOrigin(s.p, -s.ng), d, 0, kInfinity});
+      }
+    }
+    m.slot = slotAtSurface(*paths_.voxels_, m.p, m.n);
+    if (m.slot < 0) return reflect(m);
+    const auto s = static_cast<size_t>(m.slot);
+    const FaceSlot& slot = paths_.voxels_->slots[s];
+    if (dot(slot.position - m.p, slot.normal) > paths_.behind_ * paths_.voxels_->voxelSizeM) {
+      reflect(m);
+    } else if (paths_.sheet_[s]) {
+      arrive(m);
+    } else {
+      meetings_.push_back(m);
+      parting_.push_back(paths_.between(s, m.p, m.n));
+    }
+  }
+
+  void decideMeetings() {
+    left_.resize(parting_.size());
+    paths_.rays_->transmittance(parting_, left_);
+    for (size_t i = 0; i < meetings_.size(); ++i) {
+      if (luminance(left_[i]) > 0.25f) {
+        arrive(meetings_[i]);
+      } else {
+        reflect(meetings_[i]);
+      }
+    }
+  }
+
+  void goOn(size_t i, const Ray& ray) {
+    ends_[i].ray = ray;
+    if (!(luminance(ends_[i].left) < kNothingLeft)) next_.push_back(i);
+  }
+
+  void arrive(const Meeting& m) {
+    Arrival& end = ends_[on_[m.ray]];
+    end.slot = m.slot, end.hit = hits_[m.ray], end.passes = m.passes;
+  }
+
+  // Not lit as the slot's place is: behind it, or parted from it by another surface (a pane that crosses the voxel).
+  void reflect(const Meeting& m) {
+    const size_t i = on_[m.ray];
+    Arrival& end = ends_[i];
+    const SurfacePlace s = placeAt(scene_, hits_[m.ray], end.ray.direction);
+    end.left *= paths_.albedoOfTheRest(hits_[m.ray], m.passes);
+    end.reflected = true;
+    if (hidden_) hidden_->push_back({i, s.p, s.ng, end.left, m.slot, s.material});
+    goOn(i, {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(samplers_[i].next2())), 0, kInfinity});
+  }
+
+  const SlotPaths& paths_;
+  const Scene& scene_;
+  const std::span<Sampler> samplers_;
+  std::vector<Arrival>& ends_;
+  std::vector<HiddenReflection>* const hidden_;
+  std::vector<size_t> on_, next_;  // rays on their way
+  std::vector<Ray> way_, parting_;
+  std::vector<Hit> hits_;
+  std::vector<Meeting> meetings_;
+  std::vector<Vec3> left_;
+};
+
 void SlotPaths::follow(std::span<const Ray> rays, std::span<Sampler> samplers, std::vector<Arrival>& ends,
                        std::vector<HiddenReflection>* hidden) const {
-  const Scene& scene = rays_->scene();
-  ends.assign(rays.size(), {});
-  std::vector<size_t> on(rays.size()), next;  // rays on their way
-  for (size_t i = 0; i < rays.size(); ++i) on[i] = i, ends[i].ray = rays[i];
-  std::vector<Ray> way(rays.begin(), rays.end()), parting;
-  std::vector<Hit> hits;
-  std::vector<Meeting> meetings;
-  std::vector<Vec3> left;
-  const auto goOn = [&](size_t i, const Ray& ray) {
-    ends[i].ray = ray;
-    if (!(luminance(ends[i].left) < kNothingLeft)) next.push_back(i);
-  };
-  const auto arrive = [&](const Meeting& m) {
-    Arrival& end = ends[on[m.ray]];
-    end.slot = m.slot, end.hit = hits[m.ray], end.passes = m.passes;
-  };
-  // Not lit as the slot's place is: behind it, or parted from it by another surface (a pane that crosses the voxel).
-  const auto reflect = [&](const Meeting& m) {
-    const size_t i = on[m.ray];
-    Arrival& end = ends[i];
-    const SurfacePlace s = placeAt(scene, hits[m.ray], end.ray.direction);
-    end.left *= albedoOfTheRest(hits[m.ray], m.passes);
-    end.reflected = true;
-    if (hidden) hidden->push_back({i, s.p, s.ng, end.left, m.slot, s.material});
-    goOn(i, {offsetOrigin(s.p, s.ng), Frame(s.ng).toWorld(sampleCosineHemisphere(samplers[i].next2())), 0, kInfinity});
-  };
-  for (int k = 0; k < kMostPanes && !on.empty(); ++k) {
-    hits.resize(on.size());
-    rays_->intersect(way, hits);
-    next.clear(), meetings.clear(), parting.clear();
-    for (size_t j = 0; j < on.size(); ++j) {
-      const Hit& hit = hits[j];
-      Arrival& end = ends[on[j]];
-      if (!hit.valid()) {
-        end.escaped = true;
-        continue;
-      }
-      const Vec3 d = end.ray.direction;
-      Meeting m{j, end.ray.origin + d * hit.t, facing(hit.ng, d), 0, -1};
-      if (clear_[hit.instance]) {
-        const SurfacePlace s = placeAt(scene, hit, d);
-        const Vec3 through = straightTransmittance(*s.material, materialAt(scene, hit), std::abs(dot(s.ng, d)));
-        m.passes = std::min(1.0f, luminance(through));
-        if (samplers[on[j]].next1() < m.passes) {
-          end.left *= through / m.passes;
-          goOn(on[j], {offsetOrigin(s.p, -s.ng), d, 0, kInfinity});
-          continue;
-        }
-      }
-      m.slot = slotAtSurface(*voxels_, m.p, m.n);
-      if (m.slot < 0) {
-        reflect(m);
-        continue;
-      }
-      const auto s = static_cast<size_t>(m.slot);
-      const FaceSlot& slot = voxels_->slots[s];
-      if (dot(slot.position - m.p, slot.normal) > behind_ * voxels_->voxelSizeM) {
-        reflect(m);
-      } else if (sheet_[s]) {
-        arrive(m);
-      } else {
-        meetings.push_back(m);
-        parting.push_back(between(s, m.p, m.n));
-      }
-    }
-    left.resize(parting.size());
-    rays_->transmittance(parting, left);
-    for (size_t i = 0; i < meetings.size(); ++i) {
-      if (luminance(left[i]) > 0.25f) {
-        arrive(meetings[i]);
-      } else {
-        reflect(meetings[i]);
-      }
-    }
-    on.swap(next);
-    way.clear();
-    for (const size_t i : on) way.push_back(ends[i].ray);
-  }
+  Follower follower(*this, rays, samplers, ends, hidden);
+  for (int k = 0; k < kMostPanes && !follower.isDone(); ++k) follower.step();
 }
 
 }  // namespace roomlight

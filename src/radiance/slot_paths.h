@@ -8,7 +8,7 @@
 
 #include "base/progress.h"
 #include "base/sampler.h"
-#include "radiance/carried.h"
+#include "radiance/slot_remap.h"
 #include "trace/ray_scene.h"
 #include "trace/surface_point.h"
 #include "voxel/voxels.h"
@@ -41,15 +41,18 @@ class SlotPaths {
  public:
   static constexpr uint32_t kPoints = 4;
 
+  // What was known before instances moved, and what of it stays.
+  struct Before {
+    const SlotPaths& paths;
+    const SlotRemap& remap;
+  };
+
   SlotPaths() = default;
   // Of no use once `progress` says stop. Refers to rays and voxels. `strict`: surfaces a little behind a slot's place
   // are none of its, for who lights those by themselves (hidden_light.h); else their light would be lost, and the
-  // slot's stands for it.
-  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict = false)
-      : SlotPaths(rays, voxels, seed, progress, strict, nullptr, nullptr) {}
-  // Where bricks are carried from `before` what was found there stands.
-  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict,
-            const SlotPaths* before, const Carried* carried);
+  // slot's stands for it. Where bricks are carried from `before`, if given, what was found there stands.
+  SlotPaths(const RayScene& rays, const Voxels& voxels, uint64_t seed, const Progress& progress, bool strict = false,
+            const Before* before = nullptr);
 
   // The same scene and voxels, wherever they are now.
   void refer(const RayScene& rays, const Voxels& voxels) { rays_ = &rays, voxels_ = &voxels; }
@@ -79,13 +82,7 @@ class SlotPaths {
   SurfacePlace place(const Arrival& end) const { return placeAt(rays_->scene(), end.hit, end.ray.direction); }
 
  private:
-  // A surface on the way of a ray: whether a slot stands for it is known only after a look at what parts them.
-  struct Meeting {
-    size_t ray;  // index into the rays on their way
-    Vec3 p, n;
-    float passes;
-    int64_t slot;
-  };
+  class Follower;
   void prepare(size_t brick, uint64_t seed);
   void copyFrom(const SlotPaths& before, size_t firstBefore, size_t brick);
   void nameSlots(size_t brick);
@@ -104,6 +101,13 @@ class SlotPaths {
   std::vector<uint32_t> key_;
   std::vector<uint8_t> sheet_;
   std::vector<float> free_;  // metres above its place that are empty, up to the height of its probes
+};
+
+// Rays from slots: where they start, how they are followed, and what their random numbers depend on.
+struct SlotSampling {
+  const Voxels& voxels;
+  const SlotPaths& paths;
+  uint64_t seed;
 };
 
 }  // namespace roomlight

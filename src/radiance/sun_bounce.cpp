@@ -33,21 +33,19 @@ bool fills(const FaceSlot& slot, float h) {
   return slot.areaM2 > 0.9f * h * h && std::abs(slot.normal[slot.face / 2]) > 0.9f;
 }
 
-}  // namespace
+// Rays always go on from polished metal, and from panes where photons bring what these throw.
+bool isPolished(const Scene& scene, const FaceSlot& slot) {
+  const Instance& instance = scene.instances[slot.instance];
+  return throwsLight(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)]);
+}
 
-std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, const Voxels& voxels,
-                                 const SlotPaths& paths, const Links& links, uint64_t seed, std::span<Vec3> sunLux,
-                                 uint64_t& rayCount) {
-  // Rays always go on from polished metal, and from panes where photons bring what these throw.
-  const Scene& scene = rays.scene();
-  const auto isPolished = [&](size_t s) {
-    const Instance& instance = scene.instances[voxels.slots[s].instance];
-    return throwsLight(scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)]);
-  };
-  // How many places of each slot are asked: few amid others that are lit all over, none where no sun is near.
-  std::vector<uint8_t> places(voxels.slots.size());
+// How many places of each slot are asked: few amid others that are lit all over, none where no sun is near.
+std::vector<uint8_t> placesAsked(const Scene& scene, const SlotSampling& slots, const Links& links,
+                                 std::span<const Vec3> sunLux) {
+  std::vector<uint8_t> places(slots.voxels.slots.size());
   parallelFor(places.size(), 8192, [&](size_t s) {
-    if (!paths.isSheet(s) || !fills(voxels.slots[s], voxels.voxelSizeM) || isPolished(s)) return;
+    const FaceSlot& slot = slots.voxels.slots[s];
+    if (!slots.paths.isSheet(s) || !fills(slot, slots.voxels.voxelSizeM) || isPolished(scene, slot)) return;
     const float own = luminance(sunLux[s]);
     bool any = own > 0, even = own > 0;
     for (const uint32_t o : links.kin[s]) {
@@ -56,48 +54,78 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
     }
     places[s] = even ? SlotPaths::kPoints : any ? kPlaces : 0;
   });
+  return places;
+}
+
+// Of a slot whose places are not asked: it is lit evenly.
+void addEven(const SlotPaths& paths, const FaceSlot& slot, size_t s, Vec3 lux, std::vector<GlowPoint>& out) {
+  const Vec3 radiance = slot.albedo * lux / kPi,
+             flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
+  for (uint32_t k = 0; k < SlotPaths::kPoints; ++k)
+    out.push_back({paths.point(s, k), slot.normal, flux, static_cast<int64_t>(s), luminance(radiance)});
+}
+
+// Rays from places of one slot to the sun, and what arrives along them.
+struct SunRays {
+  std::vector<Ray> ways;
+  std::vector<Vec3> lux, left;
+
+  // From so many places of slot s.
+  void trace(const TracedScene& scene, const SlotSampling& slots, size_t s, uint32_t places) {
+    const FaceSlot& slot = slots.voxels.slots[s];
+    ways.clear(), lux.clear();
+    for (uint32_t i = 0; i < places; ++i) {
+      const uint32_t k = places < kPlaces ? kDiagonal * i : i;
+      Sampler sampler(slots.paths.key(s), k, slots.seed + 15);
+      const Vec2 jitter = sampler.next2();
+      const LightSample light = scene.lights.sampleSun(0, sampler.next2());
+      const Vec3 p = placeOn(slots.voxels, slot, k, jitter);
+      ways.push_back(shadowRay(p, p, light));
+      lux.push_back(light.radiance * std::max(0.0f, dot(light.wi, slot.normal)));
+    }
+    left.resize(ways.size());
+    scene.rays.transmittance(ways, left);
+  }
+
+  // `slotLux` becomes the mean of what arrives.
+  void addPoints(const FaceSlot& slot, size_t s, Vec3& slotLux, std::vector<GlowPoint>& out) {
+    Vec3 mean;
+    for (size_t i = 0; i < lux.size(); ++i) mean += (lux[i] *= left[i]) / static_cast<float>(lux.size());
+    slotLux = mean;
+    const bool all = std::none_of(lux.begin(), lux.end(), [](Vec3 v) { return isBlack(v); });
+    const size_t step = all && lux.size() == kPlaces ? kDiagonal : 1;  // of one that is lit all over a few will do
+    const float radiance = luminance(slot.albedo * mean) / kPi,
+                part = static_cast<float>(all ? SlotPaths::kPoints : lux.size());
+    for (size_t i = 0; i < lux.size(); i += step) {
+      const Vec3 flux = slot.albedo * (all ? mean : lux[i]) * (slot.areaM2 / part);
+      if (!isBlack(flux)) out.push_back({ways[i].origin, slot.normal, flux, static_cast<int64_t>(s), radiance});
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<GlowPoint> sunPlaces(const TracedScene& scene, const SlotSampling& slots, const Links& links,
+                                 std::span<Vec3> sunLux, uint64_t& rayCount) {
+  const Voxels& voxels = slots.voxels;
+  const std::vector<uint8_t> places = placesAsked(scene.rays.scene(), slots, links, sunLux);
   std::vector<std::vector<GlowPoint>> ofBrick(voxels.bricks.size());
   std::atomic<uint64_t> count = 0;
   std::vector<Vec3> finer(sunLux.begin(), sunLux.end());
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
     const auto [first, last] = slotsOfBrick(voxels, b);
-    std::vector<Ray> way;
-    std::vector<Vec3> lux, left;
+    SunRays sun;
     for (size_t s = first; s < last; ++s) {
       const FaceSlot& slot = voxels.slots[s];
       if (places[s] == 0) {
         // Among other things in its voxel rays do not always read the slot.
-        if (!paths.isSheet(s) || isBlack(sunLux[s]) || isPolished(s)) continue;
-        const Vec3 radiance = slot.albedo * sunLux[s] / kPi,
-                   flux = radiance * (kPi * slot.areaM2 / static_cast<float>(SlotPaths::kPoints));
-        for (uint32_t k = 0; k < SlotPaths::kPoints; ++k)
-          ofBrick[b].push_back({paths.point(s, k), slot.normal, flux, static_cast<int64_t>(s), luminance(radiance)});
+        if (slots.paths.isSheet(s) && !isBlack(sunLux[s]) && !isPolished(scene.rays.scene(), slot))
+          addEven(slots.paths, slot, s, sunLux[s], ofBrick[b]);
         continue;
       }
-      way.clear(), lux.clear();
-      for (uint32_t i = 0; i < places[s]; ++i) {
-        const uint32_t k = places[s] < kPlaces ? kDiagonal * i : i;
-        Sampler sampler(paths.key(s), k, seed + 15);
-        const Vec2 jitter = sampler.next2();
-        const LightSample light = lights.sampleSun(0, sampler.next2());
-        const Vec3 p = placeOn(voxels, slot, k, jitter);
-        way.push_back(shadowRay(p, p, light));
-        lux.push_back(light.radiance * std::max(0.0f, dot(light.wi, slot.normal)));
-      }
-      left.resize(way.size());
-      rays.transmittance(way, left);
-      count += way.size();
-      Vec3 mean;
-      for (size_t i = 0; i < lux.size(); ++i) mean += (lux[i] *= left[i]) / static_cast<float>(lux.size());
-      finer[s] = mean;
-      const bool all = std::none_of(lux.begin(), lux.end(), [](Vec3 v) { return isBlack(v); });
-      const size_t step = all && lux.size() == kPlaces ? kDiagonal : 1;  // of one that is lit all over a few will do
-      const float radiance = luminance(slot.albedo * mean) / kPi,
-                  part = static_cast<float>(all ? SlotPaths::kPoints : lux.size());
-      for (size_t i = 0; i < lux.size(); i += step) {
-        const Vec3 flux = slot.albedo * (all ? mean : lux[i]) * (slot.areaM2 / part);
-        if (!isBlack(flux)) ofBrick[b].push_back({way[i].origin, slot.normal, flux, static_cast<int64_t>(s), radiance});
-      }
+      sun.trace(scene, slots, s, places[s]);
+      count += sun.ways.size();
+      sun.addPoints(slot, s, finer[s], ofBrick[b]);
     }
   });
   std::copy(finer.begin(), finer.end(), sunLux.begin());
@@ -107,9 +135,10 @@ std::vector<GlowPoint> sunPlaces(const RayScene& rays, const Lights& lights, con
   return all;
 }
 
-std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, const Voxels& voxels,
-                            const SlotPaths& paths, const Links& links, std::span<const Vec3> reflectedLx,
-                            uint64_t seed, uint64_t& rayCount) {
+std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, const SlotSampling& slots,
+                            const Links& links, std::span<const Vec3> reflectedLx, uint64_t& rayCount) {
+  const Voxels& voxels = slots.voxels;
+  const SlotPaths& paths = slots.paths;
   std::vector<Vec3> lux(voxels.slots.size());
   std::atomic<uint64_t> count = 0;
   parallelFor(voxels.bricks.size(), 4, [&](size_t b) {
@@ -130,7 +159,7 @@ std::vector<Vec3> lightFrom(const BrightPatches& patches, const RayScene& rays, 
       if (!patches.reaches(sideOf(s))) continue;
       for (uint32_t k = 0; k < kSamples; ++k) {
         const Vec3 p = paths.point(s, k + paths.key(s)), n = voxels.slots[s].normal;
-        Sampler sampler(paths.key(s), k, seed + 12);
+        Sampler sampler(paths.key(s), k, slots.seed + 12);
         const GlowSample g = patches.sample(p, n, sideOf(s), sampler);
         if (!g.light.valid()) continue;
         const float share = 1 - linkShare(s, static_cast<size_t>(patches.point(g.point).slot));

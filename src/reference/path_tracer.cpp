@@ -1,5 +1,7 @@
 #include "reference/path_tracer.h"
 
+#include <algorithm>
+#include <array>
 #include <mutex>
 #include <optional>
 
@@ -28,6 +30,31 @@ constexpr size_t kFewestLearningPaths = 1024, kMostLearningPaths = 1 << 15;
 
 constexpr int kFilterPasses = 5;
 
+// Of a pixel, running: in double, for a reference of millions of samples would stand still in float.
+struct PixelSum {
+  std::array<double, 3> all{}, squares{};
+  void add(Vec3 v) {
+    for (int c = 0; c < 3; ++c) {
+      const double x = v[c];
+      all[static_cast<size_t>(c)] += x, squares[static_cast<size_t>(c)] += x * x;
+    }
+  }
+  Vec3 mean(double n) const {
+    return {static_cast<float>(all[0] / n), static_cast<float>(all[1] / n), static_cast<float>(all[2] / n)};
+  }
+  // Of the mean of n samples.
+  Vec3 variance(double n) const {
+    Vec3 out;
+    for (int c = 0; c < 3; ++c) {
+      const double m = all[static_cast<size_t>(c)] / n, s = squares[static_cast<size_t>(c)] / n;
+      out[c] = static_cast<float>(std::max(0.0, s - m * m) / std::max(1.0, n - 1));
+    }
+    return out;
+  }
+};
+
+double luminance(const std::array<double, 3>& rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
+
 }  // namespace
 
 struct PathTracer::State {
@@ -38,10 +65,9 @@ struct PathTracer::State {
         settings(s),
         vertices(r, l),
         visible(l),
-        sum(s.width, s.height),
-        squares(s.width, s.height),
-        pixels(withFeatures ? sum.pixels.size() : 0),
-        layerSums(s.layers ? sum.pixels.size() * s.layers->size() : 0) {}
+        sums(static_cast<size_t>(s.width) * static_cast<size_t>(s.height)),
+        pixels(withFeatures ? sums.size() : 0),
+        layerSums(s.layers ? sums.size() * s.layers->size() : 0) {}
 
   const RayScene& rays;
   const Lights& lights;
@@ -49,8 +75,7 @@ struct PathTracer::State {
   PathSettings settings;
   LightVertices vertices;
   VisibleLights visible;
-  // Running sums per pixel.
-  Image sum, squares;
+  std::vector<PixelSum> sums;  // per pixel
   std::vector<PixelSums> pixels;
   std::vector<Vec3> layerSums;  // per pixel, of each layer
   int samples = 0;
@@ -60,7 +85,7 @@ struct PathTracer::State {
     if (samples > 0 || visible.cellCount() > 0) return;
     const size_t paths = std::clamp(static_cast<size_t>(settings.width * settings.height / kPixelsPerLearningPath),
                                     kFewestLearningPaths, kMostLearningPaths);
-    visible.learn(rays, cameraRays, settings.width, settings.height, paths, settings.seed, stopped);
+    visible.learn(rays, {cameraRays, settings.width, settings.height}, paths, settings.seed, stopped);
   }
   void traceLightPaths() {
     if (!settings.lightPaths || !vertices.lightRays().any()) return;
@@ -120,10 +145,7 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
     }
   });
   if (stopped()) return false;
-  parallelFor(fresh.pixels.size(), 65536, [&](size_t i) {
-    st.sum.pixels[i] += fresh.pixels[i];
-    st.squares.pixels[i] += fresh.pixels[i] * fresh.pixels[i];
-  });
+  parallelFor(fresh.pixels.size(), 65536, [&](size_t i) { st.sums[i].add(fresh.pixels[i]); });
   parallelFor(seen.size(), 16384, [&](size_t i) { st.pixels[i].add(seen[i]); });
   ++st.samples;
   return true;
@@ -135,18 +157,14 @@ uint64_t PathTracer::rays() const {
 }
 
 Image PathTracer::mean() const {
-  Image out = state_->sum;
-  for (Vec3& p : out.pixels) p = p / static_cast<float>(samples());
+  Image out(state_->settings.width, state_->settings.height);
+  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = state_->sums[i].mean(samples());
   return out;
 }
 
 Image PathTracer::variance() const {
-  const float n = static_cast<float>(samples());
-  Image out = state_->squares;
-  for (size_t i = 0; i < out.pixels.size(); ++i) {
-    const Vec3 m = state_->sum.pixels[i] / n;
-    out.pixels[i] = max(out.pixels[i] / n - m * m, Vec3(0)) / std::max(1.0f, n - 1);
-  }
+  Image out(state_->settings.width, state_->settings.height);
+  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = state_->sums[i].variance(samples());
   return out;
 }
 
@@ -154,8 +172,8 @@ double PathTracer::noise() const {
   if (samples() < 2) return kInfinity;
   double error = 0, mean = 0;
   const double n = samples();
-  for (size_t i = 0; i < state_->sum.pixels.size(); ++i) {
-    const double m = luminance(state_->sum.pixels[i]) / n, s = luminance(state_->squares.pixels[i]) / n;
+  for (const PixelSum& sum : state_->sums) {
+    const double m = luminance(sum.all) / n, s = luminance(sum.squares) / n;
     error += std::sqrt(std::max(0.0, s - m * m) / (n - 1));
     mean += m;
   }
@@ -232,7 +250,7 @@ std::vector<MeterReading> measureIlluminance(const RayScene& rays, const Lights&
           walk.illuminanceButSky(elements[meter].position, elements[meter].normal, sampler, rayCount);
     }
   };
-  return readMeters(rays, lights, elements, settings, sample, progress, prepare);
+  return readMeters(rays, lights, elements, settings, {sample, prepare}, progress);
 }
 
 MeterReading measureIlluminance(const RayScene& rays, const Lights& lights, Vec3 position, Vec3 normal, int samples,

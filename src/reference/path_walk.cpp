@@ -18,6 +18,14 @@ Vec3 diffuseShare(const Bsdf& bsdf, Vec3 wi) {
 
 }  // namespace
 
+// A surface that a path has come to.
+struct PathWalk::Vertex {
+  const SurfacePoint& s;
+  const Bsdf& bsdf;
+  std::span<const LightPart> visible;  // parts of the lights there
+  float lampShare;  // of light that has light paths: what connections at earlier vertices, and there, have left to it
+};
+
 // Of light at one surface: what the diffuse lobe scatters, that of suns apart.
 struct PathWalk::Parts {
   Vec3 diffuse, sharp;
@@ -58,10 +66,10 @@ struct PathWalk::Apart {
 struct PathWalk::State {
   Ray ray;
   Vec3 throughput{1, 1, 1};
-  Vec3 lastPoint;          // where the ray was scattered last, for the density of light sampling there
+  Vec3 lastPoint;  // where the ray was scattered last, for the density of light sampling there
   std::span<const LightPart> lastVisible;  // parts of the lights there
-  float lastPdf = 0;       // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
-  bool skyKnown = false;   // the sky, if the ray sees it, is counted already
+  float lastPdf = 0;  // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
+  bool skyKnown = false;  // the sky, if the ray sees it, is counted already
   PathLayers* layers = nullptr;
   float lampShare = 1;  // of light that has light paths: what connections at earlier vertices have left to this path
 
@@ -74,6 +82,14 @@ struct PathWalk::State {
     if (sampler.next1() >= q) return false;
     throughput *= 1 / q;
     return true;
+  }
+  void scatter(const Vertex& at, const BsdfSample& next) {
+    throughput *= next.weight;
+    lastPdf = next.mirror ? 0 : next.pdf;
+    lastPoint = at.s.p, lastVisible = at.visible;
+    skyKnown = false;
+    ray = {offsetOrigin(at.s.p, at.s.ng), next.wi, 0, kInfinity};
+    lampShare = at.lampShare;
   }
 };
 
@@ -141,11 +157,12 @@ Vec3 PathWalk::illuminanceButSky(Vec3 p, Vec3 n, Sampler& sampler, uint64_t& ray
   s.ng = s.ns = n;
   s.m.baseColor = Vec3(1);
   const Bsdf bsdf(s.m, n, n, n);
-  Vec3 sum = direct<false>(s, {}, bsdf, 1, sampler, rayCount, nullptr, {}, false);
+  const Vertex at{s, bsdf, {}, 1};
+  Vec3 sum = direct<false>(at, sampler, rayCount, nullptr, {}, false);
   if (vertices_) {
     Candidates candidates;
     candidates.draw(vertices_->all(), sampler);
-    sum += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr, {});
+    sum += connected<false>(at, candidates, sampler, rayCount, nullptr, {});
   }
   const BsdfSample next = bsdf.sample(sampler.next2(), sampler.next1());
   if (next.valid()) {
@@ -181,44 +198,27 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     if (white_ && scattered == 0) s.m = whitened(s.m);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const int32_t emitter = lights_.emitterOf(s.instance);
-      const float w =
-          path.lastPdf > 0 ? misWeight(path.lastPdf, pdfLocal(lights_, path.lastVisible, path.lastPoint, s)) : 1;
-      const Vec3 light = path.throughput * emitted *
-                         (vertices_ && vertices_->lightRays().leaveEmitter(emitter) ? w * path.lampShare : w);
+      const Vec3 light = path.throughput * emitted * emissionWeight(path, s, emitter);
       sum += light;
       if (path.layers && emitter >= 0)
         path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
       if constexpr (Record::kOn) record.add(light);
     }
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
-    const std::span<const LightPart> visible = visible_.partsAt(s.p, s.ng);
-    float lampShare = path.lampShare;
-    if (vertices_ && path.lastPdf > 0 && LightVertices::connects(bsdf)) {
-      const float inverse2 = 1 / std::max(lengthSquared(s.p - path.lastPoint), 1e-12f);
-      lampShare *= 1 - LightVertices::share(path.lastPdf, -dot(s.ng, path.ray.direction), inverse2,
-                                            vertices_->lightRays().densityM2(s.p, s.ng));
-    }
+    const Vertex at{s, bsdf, visible_.partsAt(s.p, s.ng), lampShareAt(path, s, bsdf)};
     // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
     bool first = false;
     if constexpr (Record::kOn) first = record.isHere(s, bsdf);
     Vec3 here;
-    const Apart apart{path.layers, path.throughput * s.m.alpha}, apartConnected{path.layers, apart.factor * lampShare};
     if (first) {
       if constexpr (Record::kOn) {
         record.see(s, bsdf, path.throughput);
         Parts parts;
-        here = direct<true>(s, visible, bsdf, lampShare, sampler, rayCount, &parts, apart);
-        if (vertices_) {
-          Vec3 diffuse;
-          here += connected<true>(s, bsdf, candidates, sampler, rayCount, &diffuse, apartConnected) * lampShare;
-          parts.diffuse += diffuse * lampShare;
-        }
+        here = lit<true>(path, at, candidates, sampler, rayCount, &parts);
         record.add(path.throughput * here, {path.throughput * parts.diffuse, path.throughput * parts.sharp});
       }
     } else {
-      here = direct<false>(s, visible, bsdf, lampShare, sampler, rayCount, nullptr, apart);
-      if (vertices_ && !bsdf.isMirrorOnly())
-        here += connected<false>(s, bsdf, candidates, sampler, rayCount, nullptr, apartConnected) * lampShare;
+      here = lit<false>(path, at, candidates, sampler, rayCount, nullptr);
       if constexpr (Record::kOn) record.add(path.throughput * here * s.m.alpha);
     }
     sum += path.throughput * here * s.m.alpha;
@@ -230,13 +230,9 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
       if (first) record.goOn(bsdf, next);
       if (s.m.alpha < 1 || s.m.transmission > 0) record.scatteredByPane();
     }
-    path.throughput *= next.weight;
-    path.lastPdf = next.mirror ? 0 : next.pdf;
-    path.lastPoint = s.p, path.lastVisible = visible;
-    path.skyKnown = false;
-    path.ray = {offsetOrigin(s.p, s.ng), next.wi, 0, kInfinity};
-    path.lampShare = lampShare;
-    if (!path.survives(++scattered, vertices_ && vertices_->lightRays().hasAllLight() ? lampShare : 1, sampler)) break;
+    path.scatter(at, next);
+    if (!path.survives(++scattered, vertices_ && vertices_->lightRays().hasAllLight() ? at.lampShare : 1, sampler))
+      break;
   }
   return sum;
 }
@@ -260,6 +256,23 @@ Vec3 PathWalk::sunsBehind(const State& path) const {
   return sum;
 }
 
+// Of what a surface emits, against having sampled it directly or by connections.
+float PathWalk::emissionWeight(const State& path, const SurfacePoint& s, int32_t emitter) const {
+  const float w =
+      path.lastPdf > 0 ? misWeight(path.lastPdf, pdfLocal(lights_, path.lastVisible, path.lastPoint, s)) : 1;
+  return vertices_ && vertices_->lightRays().leaveEmitter(emitter) ? w * path.lampShare : w;
+}
+
+float PathWalk::lampShareAt(const State& path, const SurfacePoint& s, const Bsdf& bsdf) const {
+  float lampShare = path.lampShare;
+  if (vertices_ && path.lastPdf > 0 && LightVertices::connects(bsdf)) {
+    const float inverse2 = 1 / std::max(lengthSquared(s.p - path.lastPoint), 1e-12f);
+    lampShare *= 1 - LightVertices::share(path.lastPdf, -dot(s.ng, path.ray.direction), inverse2,
+                                          vertices_->lightRays().densityM2(s.p, s.ng));
+  }
+  return lampShare;
+}
+
 // Thin glass and blended alpha: with a chance equal to what goes straight through, the ray goes on as if nothing had
 // scattered it, so light sampling at the last point (which sees through glass too) keeps its weights.
 bool PathWalk::passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler) const {
@@ -277,40 +290,55 @@ bool PathWalk::passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf,
   return false;
 }
 
+// By samples of lights, and by connections to light paths. Always inlined, so that the compiler fuses multiplications
+// and additions as in one function.
 template <bool kParts>
-Vec3 PathWalk::contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount,
-                            Vec3* diffuse) const {
+[[gnu::always_inline]] inline Vec3 PathWalk::lit(const State& path, const Vertex& at, const Candidates& candidates,
+                                                 Sampler& sampler, uint64_t& rayCount, Parts* parts) const {
+  const Apart apart{path.layers, path.throughput * at.s.m.alpha},
+      apartConnected{path.layers, apart.factor * at.lampShare};
+  Vec3 here = direct<kParts>(at, sampler, rayCount, parts, apart);
+  if (vertices_ && !at.bsdf.isMirrorOnly()) {
+    Vec3 diffuse;
+    here += connected<kParts>(at, candidates, sampler, rayCount, &diffuse, apartConnected) * at.lampShare;
+    if constexpr (kParts) parts->diffuse += diffuse * at.lampShare;
+  }
+  return here;
+}
+
+template <bool kParts>
+Vec3 PathWalk::contribution(const Vertex& at, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const {
   if (!light.valid()) return {};
-  const BsdfValue value = bsdf.value(light.wi);
+  const BsdfValue value = at.bsdf.value(light.wi);
   if (isBlack(value.f)) return {};
   const Vec3 f = light.pdf > 0 ? value.f * misWeight(light.pdf, value.pdf) : value.f;
   ++rayCount;
-  const Vec3 all = f * light.radiance * rays_.transmittance(shadowRay(offsetOrigin(s.p, s.ng), s.p, light));
-  if constexpr (kParts) *diffuse = all * diffuseShare(bsdf, light.wi);
+  const Vec3 all = f * light.radiance * rays_.transmittance(shadowRay(offsetOrigin(at.s.p, at.s.ng), at.s.p, light));
+  if constexpr (kParts) *diffuse = all * diffuseShare(at.bsdf, light.wi);
   return all;
 }
 
 template <bool kParts>
-Vec3 PathWalk::direct(const SurfacePoint& s, std::span<const LightPart> visible, const Bsdf& bsdf, float lampShare,
-                      Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo) const {
+Vec3 PathWalk::direct(const Vertex& at, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart,
+                      bool skyToo) const {
   Vec3 sum, local, sun, sky;
   if (lights_.hasLocal()) {
     const Vec2 u = sampler.next2();
-    const LightSample light = sampleLocal(lights_, visible, s.p, u, sampler.next1());
-    const float left = vertices_ && vertices_->lightRays().leave(light) ? lampShare : 1;
-    const Vec3 value = contribution<kParts>(s, bsdf, light, rayCount, &local) * left;
+    const LightSample light = sampleLocal(lights_, at.visible, at.s.p, u, sampler.next1());
+    const float left = vertices_ && vertices_->lightRays().leave(light) ? at.lampShare : 1;
+    const Vec3 value = contribution<kParts>(at, light, rayCount, &local) * left;
     sum += value;
     apart.add(light, value);
     if constexpr (kParts) parts->diffuse += local * left;
   }
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
-    const Vec3 value = contribution<kParts>(s, bsdf, lights_.sampleSun(i, sampler.next2()), rayCount, &sun);
+    const Vec3 value = contribution<kParts>(at, lights_.sampleSun(i, sampler.next2()), rayCount, &sun);
     sum += value;
     apart.addSun(value);
     if constexpr (kParts) parts->sharp += sun, sun = {};
   }
   if (skyToo && lights_.sky().sampled()) {
-    const Vec3 value = contribution<kParts>(s, bsdf, lights_.sampleSky(sampler.next2()), rayCount, &sky);
+    const Vec3 value = contribution<kParts>(at, lights_.sampleSky(sampler.next2()), rayCount, &sky);
     sum += value;
     apart.addSky(value);
   }
@@ -321,8 +349,10 @@ Vec3 PathWalk::direct(const SurfacePoint& s, std::span<const LightPart> visible,
 // Light that reaches s from one vertex of a light path, times the part of it that is had by connections. The vertex is
 // one of a few candidates, resampled in proportion to an estimate of its light (Talbot, Cline & Egbert 2005).
 template <bool kParts>
-Vec3 PathWalk::connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler,
-                         uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const {
+Vec3 PathWalk::connected(const Vertex& at, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount,
+                         Vec3* diffuse, const Apart& apart) const {
+  const SurfacePoint& s = at.s;
+  const Bsdf& bsdf = at.bsdf;
   const LightVertex* chosen = nullptr;
   float chosenWeight = 0, chosenShare = 0, total = 0;
   for (const LightVertex* candidate : candidates.vertex) {

@@ -44,6 +44,7 @@ class PathWalk {
 
  private:
   struct State;
+  struct Vertex;
   struct Candidates;
   struct Parts;
   struct NoRecord;
@@ -53,17 +54,21 @@ class PathWalk {
   Vec3 follow(State& path, Sampler& sampler, uint64_t& rayCount, Record record) const;
   Vec3 skyBehind(const State& path) const;
   Vec3 sunsBehind(const State& path) const;
+  float emissionWeight(const State& path, const SurfacePoint& s, int32_t emitter) const;
+  float lampShareAt(const State& path, const SurfacePoint& s, const Bsdf& bsdf) const;
   bool passThrough(State& path, const SurfacePoint& s, const Bsdf& bsdf, Sampler& sampler) const;
   // What goes to `parts` and `diffuse`, where that is asked for, is contained in the value.
   template <bool kParts>
-  Vec3 contribution(const SurfacePoint& s, const Bsdf& bsdf, const LightSample& light, uint64_t& rayCount,
-                    Vec3* diffuse) const;
+  Vec3 lit(const State& path, const Vertex& at, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount,
+           Parts* parts) const;
   template <bool kParts>
-  Vec3 direct(const SurfacePoint& s, std::span<const LightPart> visible, const Bsdf& bsdf, float lampShare,
-              Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart, bool skyToo = true) const;
+  Vec3 contribution(const Vertex& at, const LightSample& light, uint64_t& rayCount, Vec3* diffuse) const;
   template <bool kParts>
-  Vec3 connected(const SurfacePoint& s, const Bsdf& bsdf, const Candidates& candidates, Sampler& sampler,
-                 uint64_t& rayCount, Vec3* diffuse, const Apart& apart) const;
+  Vec3 direct(const Vertex& at, Sampler& sampler, uint64_t& rayCount, Parts* parts, const Apart& apart,
+              bool skyToo = true) const;
+  template <bool kParts>
+  Vec3 connected(const Vertex& at, const Candidates& candidates, Sampler& sampler, uint64_t& rayCount, Vec3* diffuse,
+                 const Apart& apart) const;
 
   const RayScene& rays_;
   const Lights& lights_;

@@ -89,7 +89,7 @@ struct VisibleLights::PlacesInCell {
   }
 };
 
-void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed,
+void VisibleLights::learn(const RayScene& rays, const Picture& picture, size_t paths, uint64_t seed,
                           const std::function<bool()>& stopped) {
   const LocalChoice kind{lights_};
   if (kind.count() < 2) return;
@@ -102,8 +102,9 @@ void VisibleLights::learn(const RayScene& rays, const CameraRays& camera, int w,
     if (stopped()) return;
     for (size_t i = part * kPathsAtOnce; i < std::min(paths, (part + 1) * kPathsAtOnce); ++i) {
       Sampler sampler(kPathKey + i, 0, seed);
-      const float x = sampler.fast1() * static_cast<float>(w), y = sampler.fast1() * static_cast<float>(h);
-      const Ray ray = camera.seeing(rays, x, y);
+      const float x = sampler.fast1() * static_cast<float>(picture.width),
+                  y = sampler.fast1() * static_cast<float>(picture.height);
+      const Ray ray = picture.camera.seeing(rays, x, y);
       if (ray.tMax > 0) follow(rays, ray, sampler, parts[part].places, parts[part].rays);
     }
   });

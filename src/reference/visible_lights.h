@@ -17,10 +17,14 @@ class VisibleLights {
  public:
   // Refers to the lights. Knows nothing: they are chosen without shadows.
   explicit VisibleLights(const Lights& lights) : lights_(lights) {}
-  // By `paths` from the camera of a picture of w x h pixels. Not where there is no light to choose. Knows nothing as
-// before once `stopped` says so.
+  struct Picture {
+    const CameraRays& camera;
+    int width, height;  // pixels
+  };
+  // By `paths` from the camera of a picture. Not where there is no light to choose. Knows nothing as before once
+  // `stopped` says so.
   void learn(
-      const RayScene& rays, const CameraRays& camera, int w, int h, size_t paths, uint64_t seed,
+      const RayScene& rays, const Picture& picture, size_t paths, uint64_t seed,
       const std::function<bool()>& stopped = [] { return false; });
 
   // At a surface at p with unit normal n on its seen side: the parts of all lights that arrive. Empty: nothing is known

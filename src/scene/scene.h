@@ -1,5 +1,6 @@
 // A home as plain data: what importers produce and every later stage reads. World axes: x right, y up, z towards the
-// viewer (glTF's), metres. Colours are linear Rec.709; quantities of light are photometric (see docs/reference/conventions.md).
+// viewer (glTF's), metres. Colours are linear Rec.709; quantities of light are photometric (see
+// docs/reference/conventions.md).
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace roomlight {
 namespace {
 
@@ -22,9 +24,41 @@ bool isFiniteInWorld(const Affine& worldFromObject, const Bounds3& object) {
 
 bool isLight(Vec3 v) { return isFinite(v) && minComponent(v) >= 0; }
 
+// Beyond it floats have no room for the texture transform.
+constexpr float kFarthestCoordinate = 1e12f;
+constexpr float kWidestCone = kPi / 2 + 1e-3f;  // with what rounding adds to a right angle
+
+bool isShare(float v) { return v >= 0 && v <= 1; }
+bool isUnit(Vec3 v) { return std::abs(lengthSquared(v) - 1) < 1e-3f; }
+
 template <class T>
 bool sizeAgrees(const std::vector<T>& v, size_t n) {
   return v.empty() || v.size() == n;
+}
+
+// What of the vertices is neither place nor normal.
+std::string checkAttributes(const Mesh& mesh) {
+  for (size_t set = 0; set < 2; ++set) {
+    for (size_t i = 0; i < mesh.uv[set].size(); ++i) {
+      const Vec2 uv = mesh.uv[set][i];
+      if (!(std::abs(uv.x) <= kFarthestCoordinate && std::abs(uv.y) <= kFarthestCoordinate))
+        return fmt::format("texture coordinate {} of set {} is not finite or too large", i, set);
+    }
+  }
+  for (size_t i = 0; i < mesh.colors.size(); ++i) {
+    const Vec3 c = mesh.colors[i];
+    if (!isShare(c.x) || !isShare(c.y) || !isShare(c.z)) return fmt::format("colour {} is not from 0 to 1", i);
+  }
+  for (size_t i = 0; i < mesh.colorAlphas.size(); ++i) {
+    if (!isShare(mesh.colorAlphas[i])) return fmt::format("alpha {} of the colours is not from 0 to 1", i);
+  }
+  for (size_t i = 0; i < mesh.tangents.size(); ++i) {
+    if (!isFinite(mesh.tangents[i])) return fmt::format("tangent {} is not finite", i);
+  }
+  for (size_t i = 0; i < mesh.tangentSigns.size(); ++i) {
+    if (std::abs(mesh.tangentSigns[i]) != 1) return fmt::format("sign {} of the tangents is neither 1 nor -1", i);
+  }
+  return {};
 }
 
 std::string checkMesh(const Scene& scene, const Mesh& mesh) {
@@ -39,6 +73,7 @@ std::string checkMesh(const Scene& scene, const Mesh& mesh) {
   for (size_t i = 0; i < mesh.normals.size(); ++i) {
     if (!isFinite(mesh.normals[i])) return fmt::format("normal {} is not finite", i);
   }
+  if (const std::string what = checkAttributes(mesh); !what.empty()) return what;
   const bool sizes = sizeAgrees(mesh.normals, n) && sizeAgrees(mesh.tangents, n) &&
                      mesh.tangentSigns.size() == mesh.tangents.size() && sizeAgrees(mesh.uv[0], n) &&
                      sizeAgrees(mesh.uv[1], n) && sizeAgrees(mesh.colors, n) && sizeAgrees(mesh.colorAlphas, n);
@@ -89,27 +124,42 @@ std::string checkLeaves(const Scene& scene) {
   return {};
 }
 
+std::string checkLamp(const Lamp& lamp) {
+  if (!isLight(lamp.intensityCd) || !isLight(lamp.luminanceCdM2) || !isFinite(lamp.position) ||
+      !isFinite(lamp.direction) || !isFinite(lamp.up))
+    return "a value is negative or not finite";
+  if (lamp.kind == LampKind::Spot) {
+    const bool cones = lamp.innerConeRad >= 0 && lamp.innerConeRad <= lamp.outerConeRad && lamp.outerConeRad > 0 &&
+                       lamp.outerConeRad <= kWidestCone;
+    if (!cones) return "its cones are not 0 <= inner <= outer <= 90 degrees";
+    if (!isUnit(lamp.direction)) return "its direction is no unit vector";
+  }
+  for (const float v : {lamp.widthM, lamp.heightM, lamp.wattsW}) {
+    if (!(v >= 0) || !std::isfinite(v)) return "its size or power is negative or not finite";
+  }
+  if (!lamp.web) return {};
+  if (lamp.kind != LampKind::Point || !isUnit(lamp.direction) || !isUnit(lamp.up) ||
+      !(std::abs(dot(lamp.direction, lamp.up)) < 1e-3f))
+    return "a web needs a point lamp with its nadir and C0 perpendicular";
+  if (!(lamp.web->peakCd > 0) || (lamp.extended && !lamp.web->hasOpening()))
+    return "its web has no light or no opening";
+  return {};
+}
+
 std::string checkLights(const Scene& scene) {
   for (size_t i = 0; i < scene.lamps.size(); ++i) {
-    const Lamp& lamp = scene.lamps[i];
-    if (!isLight(lamp.intensityCd) || !isLight(lamp.luminanceCdM2) || !isFinite(lamp.position) ||
-        !isFinite(lamp.direction)) {
-      return fmt::format("lamp {} '{}': a value is negative or not finite", i, lamp.name);
-    }
-    if (!lamp.web) continue;
-    const bool frame = std::abs(lengthSquared(lamp.direction) - 1) < 1e-3f &&
-                       std::abs(lengthSquared(lamp.up) - 1) < 1e-3f && std::abs(dot(lamp.direction, lamp.up)) < 1e-3f;
-    if (lamp.kind != LampKind::Point || !frame)
-      return fmt::format("lamp {} '{}': a web needs a point lamp with its nadir and C0 perpendicular", i, lamp.name);
-    if (!(lamp.web->peakCd > 0) || (lamp.extended && !lamp.web->hasOpening()))
-      return fmt::format("lamp {} '{}': its web has no light or no opening", i, lamp.name);
+    const std::string what = checkLamp(scene.lamps[i]);
+    if (!what.empty()) return fmt::format("lamp {} '{}': {}", i, scene.lamps[i].name, what);
   }
   for (size_t i = 0; i < scene.suns.size(); ++i) {
-    if (!isLight(scene.suns[i].illuminanceLux) || !isFinite(scene.suns[i].toLight)) {
-      return fmt::format("sun {} '{}': a value is negative or not finite", i, scene.suns[i].name);
-    }
+    const Sun& sun = scene.suns[i];
+    const auto where = [&] { return fmt::format("sun {} '{}': ", i, sun.name); };
+    if (!isLight(sun.illuminanceLux)) return where() + "a value is negative or not finite";
+    if (!isUnit(sun.toLight)) return where() + "its direction is no unit vector";
+    if (!(sun.halfAngleRad >= 0 && sun.halfAngleRad <= kWidestCone)) return where() + "its disc is not 0 to 90 degrees";
   }
   if (!isLight(scene.sky.luminanceCdM2)) return "sky: luminance is negative or not finite";
+  if (!std::isfinite(scene.sky.rotationRad)) return "sky: its rotation is not finite";
   for (const Vec3 pixel : scene.sky.image.pixels) {
     if (!isLight(pixel)) return "sky: the image holds a negative or non-finite value";
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/html.h"
+#include "engine/technique_names.h"
 
 namespace roomlight {
 namespace {
@@ -123,8 +124,9 @@ std::string curvesSvg(const StudyCase& one) {
 
 std::string barsSvg(const std::vector<Bar>& bars, const std::string& unit) {
   constexpr double kName = 170, kBar = 300, kRow = 24;
-  const auto cone = std::find_if(bars.begin(), bars.end(),
-                                 [](const Bar& b) { return b.name == "cone" && b.value > 0 && b.published > 0; });
+  const auto cone = std::find_if(bars.begin(), bars.end(), [](const Bar& b) {
+    return b.name == technique::kCone && b.value > 0 && b.published > 0;
+  });
   const double scale = cone == bars.end() ? 0 : cone->value / cone->published;
   double most = 1e-9;
   for (const Bar& b : bars) most = std::max({most, b.value, b.published * scale});

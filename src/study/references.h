@@ -22,10 +22,15 @@ struct Reference {
   bool converged = false;  // noiseMse is as small as asked for
 };
 
-// `view`: what is rendered; technique, samples, seed, time and picture are set here. Goes on from what the store holds
-// under this key. `heard` is told the part of the time that is gone.
-Result<Reference> makeReference(const RunStore& store, const RunStore::Key& key, const StudyRender& view,
-                                const ReferenceSettings& settings, const StudyTools& tools,
+// Of what there shall be a reference.
+struct ReferenceWish {
+  StudyRender view;  // what is rendered; technique, samples, seed, time and picture are set by makeReference()
+  ReferenceSettings settings;
+  RunStore::Key key;  // what the store knows it by
+};
+
+// Goes on from what the store holds. `heard` is told the part of the time that is gone.
+Result<Reference> makeReference(const ReferenceWish& wish, const RunStore& store, const StudyTools& tools,
                                 const StudyProgress& progress, const std::function<void(double)>& heard = {});
 
 }  // namespace roomlight

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/technique_names.h"
 #include "study/published.h"
 #include "study/report.h"
 
@@ -76,7 +77,8 @@ std::string curvesTable(const StudyCase& c) {
       "| technique | settles at mse | beyond noise | flip | mean | samples | s | processor s | MiB | s to cone's error "
       "|\n|---|---|---|---|---|---|---|---|---|---|\n";
   const StudyCurve* cone = nullptr;
-  for (const StudyCurve& curve : c.curves) cone = curve.technique == "cone" && !curve.points.empty() ? &curve : cone;
+  for (const StudyCurve& curve : c.curves)
+    cone = curve.technique == technique::kCone && !curve.points.empty() ? &curve : cone;
   for (const StudyCurve& curve : c.curves) {
     if (curve.points.empty()) {
       s += fmt::format("| {} | – | {} | | | | | | | |\n", cell(curve.technique), cell(curve.failed));
@@ -241,7 +243,7 @@ std::string studyMarkdown(const StudyHeader& header, const StudyResults& r) {
        drawingTimes(r);
   s += "\n`>`: stopped by time or samples while the error still fell.\n";
   if (r.againstPublished) s += publishedTimes();
-  for (const char* own : {"cone", "hybrid"}) {
+  for (const char* own : {technique::kCone, technique::kHybrid}) {
     if (const std::string ratios = timeRatios(r, own); !ratios.empty())
       s += fmt::format(
                "\n## Time at equal error, {}\n\nSeconds over those of the other, at the least error that both "

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 
+#include "engine/technique_names.h"
 #include "base/html.h"
 #include "base/image_io.h"
 #include "base/tone.h"
@@ -183,7 +184,7 @@ std::string externals(const StudyResults& r) {
 std::string timesToCone(const StudyResults& r) {
   const auto coneError = [](const StudyCase& c) {
     for (const StudyCurve& curve : c.curves) {
-      if (curve.technique == "cone" && !curve.points.empty()) return errorOf(settledPoint(curve));
+      if (curve.technique == technique::kCone && !curve.points.empty()) return errorOf(settledPoint(curve));
     }
     return 0.0;
   };

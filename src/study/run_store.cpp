@@ -1,13 +1,8 @@
 #include "study/run_store.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -36,17 +31,6 @@ uint64_t fnv(uint64_t hash, std::string_view bytes) {
   return hash;
 }
 
-// Unlocked with the last copy. The file stays: another study may be about to lock it.
-Result<std::shared_ptr<void>> lockFolder(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / ".lock";
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) return Error{fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno))};
-  const std::shared_ptr<void> lock(nullptr, [file](void*) { ::close(file); });
-  if (::flock(file, LOCK_EX | LOCK_NB) == 0) return lock;
-  if (errno == EWOULDBLOCK) return Error{fmt::format("{}: is in use by another study", folder.string())};
-  return Error{fmt::format("{}: cannot be locked: {}", path.string(), std::strerror(errno))};
-}
-
 }  // namespace
 
 std::string textHash(const std::string& text) { return fmt::format("{:016x}", fnv(kFnvStart, text)); }
@@ -61,12 +45,10 @@ std::string contentHash(const std::filesystem::path& file) {
 }
 
 Result<RunStore> RunStore::open(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return Error{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
-  Result<std::shared_ptr<void>> lock = lockFolder(folder);
-  if (!lock) return Error{lock.error()};
-  return RunStore(folder, std::move(lock.value()));
+  Result<HeldFolder> held = holdFolder(folder);
+  if (!held) return Error{held.error()};
+  if (!held.value()) return Error{fmt::format("{}: is in use by another study", folder.string())};
+  return RunStore(folder, std::move(held.value()));
 }
 
 std::filesystem::path RunStore::file(const Key& key, const std::string& extension) const {

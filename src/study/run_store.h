@@ -2,12 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/held_folder.h"
 #include "base/result.h"
 
 namespace roomlight {
@@ -32,10 +32,9 @@ class RunStore {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  RunStore(std::filesystem::path folder, std::shared_ptr<void> lock)
-      : folder_(std::move(folder)), lock_(std::move(lock)) {}
+  RunStore(std::filesystem::path folder, HeldFolder held) : folder_(std::move(folder)), held_(std::move(held)) {}
   std::filesystem::path folder_;
-  std::shared_ptr<void> lock_;
+  HeldFolder held_;
 };
 
 // Letters, digits and - of a name, lower case, others as _: fit for a file.

@@ -223,7 +223,7 @@ Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& ligh
   pace_.now(doing);
   bool made = false;
   Result<Reference> reference =
-      makeReference(store_, {{"reference", scene.name, light.name}, what_}, view_, settings_.reference, tools_,
+      makeReference({view_, settings_.reference, {{"reference", scene.name, light.name}, what_}}, store_, tools_,
                     progress_, [&](double part) { made = true, pace_.now(doing, part); });
   if (!reference) return Error{reference.error()};
   pace_.unit(made);
@@ -246,25 +246,46 @@ Result<StudyCase> CaseStudy::run(const StudyScene& scene, const StudyLight& ligh
   return std::move(out_);
 }
 
-Result<WalkCost> walkOnce(const StudyScene& scene, const StudyTechnique& t, const StudySettings& settings,
-                          const RunStore& store, const StudyTools& tools, int run, bool& measured) {
+// Frames a second along the walks of scenes, measured or read from the store.
+class WalkStudy {
+ public:
+  WalkStudy(const StudySettings& settings, const RunStore& store, const StudyTools& tools,
+            const StudyProgress& progress, Pace& pace)
+      : settings_(settings), store_(store), tools_(tools), progress_(progress), pace_(pace) {}
+
+  // What goes wrong is told in the results' remarks.
+  void run(const StudyPlan& plan, StudyResults& results);
+
+ private:
+  Result<WalkCost> once(const StudyScene& scene, const StudyTechnique& t, int run, bool& measured) const;
+  std::vector<StudyFrames> through(const StudyScene& scene, const std::vector<StudyTechnique>& techniques);
+
+  const StudySettings& settings_;
+  const RunStore& store_;
+  const StudyTools& tools_;
+  const StudyProgress& progress_;
+  Pace& pace_;
+};
+
+Result<WalkCost> WalkStudy::once(const StudyScene& scene, const StudyTechnique& t, int run, bool& measured) const {
   const std::filesystem::path& lighting = scene.walkLight.lighting;
-  const std::string circumstances = fmt::format(
-      "{} | {} | {} | {} | {} {} | {}x{}, {} frames", settings.program, contentHash(scene.file), contentHash(lighting),
-      contentHash(scene.walk), t.technique, t.settings, settings.walkWidth, settings.walkHeight, settings.walkFrames);
+  const std::string circumstances =
+      fmt::format("{} | {} | {} | {} | {} {} | {}x{}, {} frames", settings_.program, contentHash(scene.file),
+                  contentHash(lighting), contentHash(scene.walk), t.technique, t.settings, settings_.walkWidth,
+                  settings_.walkHeight, settings_.walkFrames);
   const RunStore::Key key{{fmt::format("walk {}", run + 1), scene.name, t.name}, circumstances};
-  if (const auto kept = store.find(key))
+  if (const auto kept = store_.find(key))
     return WalkCost{static_cast<int>(number(*kept, "frames")), number(*kept, "framesPerSecond"),
                     number(*kept, "updateMs"), number(*kept, "pictureMs")};
   measured = true;
-  const Result<WalkCost> cost =
-      tools.walk({scene.file, lighting, scene.walk, settings.walkWidth, settings.walkHeight, t.technique, t.settings});
+  const Result<WalkCost> cost = tools_.walk(
+      {scene.file, lighting, scene.walk, settings_.walkWidth, settings_.walkHeight, t.technique, t.settings});
   if (!cost) return cost;
   const WalkCost& c = cost.value();
-  if (const Status s = store.keep(key, {{"frames", c.frames},
-                                        {"framesPerSecond", c.framesPerSecond},
-                                        {"updateMs", c.updateMs},
-                                        {"pictureMs", c.pictureMs}});
+  if (const Status s = store_.keep(key, {{"frames", c.frames},
+                                         {"framesPerSecond", c.framesPerSecond},
+                                         {"updateMs", c.updateMs},
+                                         {"pictureMs", c.pictureMs}});
       !s)
     return Error{s.error()};
   return cost;
@@ -282,33 +303,30 @@ WalkCost medianCost(const std::vector<WalkCost>& runs) {
 }
 
 // Techniques in turn, run after run.
-std::vector<StudyFrames> walkThrough(const StudyScene& scene, const std::vector<StudyTechnique>& techniques,
-                                     const StudySettings& settings, const RunStore& store, const StudyTools& tools,
-                                     const StudyProgress& progress, Pace& pace) {
+std::vector<StudyFrames> WalkStudy::through(const StudyScene& scene, const std::vector<StudyTechnique>& techniques) {
   std::vector<StudyFrames> found;
   for (const StudyTechnique& t : techniques)
     found.push_back({scene.name, scene.walkLight.name, t.name, t.kind, {}, {}, {}});
-  for (int run = 0; run < settings.runs; ++run) {
-    for (size_t i = 0; i < found.size() && !progress.stop(); ++i) {
-      pace.now(fmt::format("{}: frames a second, {}, run {}", scene.name, found[i].technique, run + 1));
+  for (int run = 0; run < settings_.runs; ++run) {
+    for (size_t i = 0; i < found.size() && !progress_.stop(); ++i) {
+      pace_.now(fmt::format("{}: frames a second, {}, run {}", scene.name, found[i].technique, run + 1));
       bool measured = false;
       if (found[i].failed.empty()) {
-        const Result<WalkCost> cost = walkOnce(scene, techniques[i], settings, store, tools, run, measured);
+        const Result<WalkCost> cost = once(scene, techniques[i], run, measured);
         if (cost) found[i].runs.push_back(cost.value());
-        if (!cost && !progress.stop()) found[i].failed = cost.error();
+        if (!cost && !progress_.stop()) found[i].failed = cost.error();
       }
-      pace.unit(measured);
+      pace_.unit(measured);
     }
   }
   return found;
 }
 
-void walkAll(const StudyPlan& plan, const StudySettings& settings, const RunStore& store, const StudyTools& tools,
-             const StudyProgress& progress, Pace& pace, StudyResults& results) {
+void WalkStudy::run(const StudyPlan& plan, StudyResults& results) {
   const std::vector<StudyTechnique> techniques = plan.techniquesIn("walks");
   for (const StudyScene& scene : plan.scenes) {
-    if (scene.walk.empty() || !tools.walk) continue;
-    for (StudyFrames& f : walkThrough(scene, techniques, settings, store, tools, progress, pace)) {
+    if (scene.walk.empty() || !tools_.walk) continue;
+    for (StudyFrames& f : through(scene, techniques)) {
       if (f.runs.empty() && f.failed.empty()) continue;  // stopped before
       f.cost = medianCost(f.runs);
       if (!f.failed.empty())
@@ -370,7 +388,7 @@ Result<StudyResults> runStudy(const StudyPlan& plan, const StudySettings& settin
       if (soFar) soFar(results);
     }
   }
-  walkAll(plan, settings, store, tools, progress, pace, results);
+  WalkStudy(settings, store, tools, progress, pace).run(plan, results);
   results.complete = !progress.stop();
   if (soFar) soFar(results);
   return results;

@@ -12,8 +12,9 @@
 #include <iterator>
 #include <set>
 
-#include "engine/render.h"
 #include "engine/settings.h"
+#include "engine/technique.h"
+#include "engine/technique_names.h"
 #include "import/json_file.h"
 #include "import/json_reader.h"
 
@@ -82,14 +83,16 @@ StudyScene readScene(const JsonPlace& j, const std::filesystem::path& folder) {
   return scene;
 }
 
+std::string kindOf(const Technique& t) {
+  return t.role == TechniqueRole::Judge ? "judge" : t.role == TechniqueRole::Rival ? "rival" : "ours";
+}
+
 StudyTechnique readTechnique(const JsonPlace& j) {
   StudyTechnique t;
   if (!j.isObject({"name", "technique", "settings", "kind", "only"})) return t;
   t.name = j["name"].text();
   t.technique = j["technique"].text();
-  const auto known = techniques();
-  if (std::none_of(known.begin(), known.end(), [&](const auto& k) { return k.first == t.technique; }))
-    j["technique"].fail(fmt::format("unknown technique '{}'", t.technique));
+  if (!findTechnique(t.technique)) j["technique"].fail(fmt::format("unknown technique '{}'", t.technique));
   if (j.has("kind")) t.kind = j["kind"].oneOf({"ours", "rival", "judge"});
   if (j.has("only")) t.only = j["only"].oneOf({"pictures", "walks"});
   if (j.has("settings")) {
@@ -110,17 +113,21 @@ std::vector<StudyTechnique> StudyPlan::techniquesIn(const std::string& what) con
 }
 
 std::vector<StudyTechnique> usualTechniques() {
-  return {{"cone", "cone", "{}", "ours"},
-          {"hybrid", "hybrid", "{}", "ours"},
-          {"hybrid, draft", "hybrid", R"({"quality": "draft"})", "ours"},
-          {"hybrid, walking", "hybrid", R"({"quality": "draft", "frames": {"quickMs": 33}})", "ours", "walks"},
-          {"vxgi", "vxgi"},
-          {"lpv", "lpv"},
-          {"lpv, 256 steps", "lpv", R"({"lpv": {"steps": 256}})"},
-          {"photon", "photon"},
-          {"photon, no gathering", "photon", R"({"photon": {"finalGather": 0}})"},
-          {"path", "path", "{}", "judge"},
-          {"path, filtered", "path", R"({"path": {"filter": true}})", "judge"}};
+  namespace t = technique;
+  std::vector<StudyTechnique> out = {
+      {t::kCone, t::kCone},
+      {t::kHybrid, t::kHybrid},
+      {"hybrid, draft", t::kHybrid, R"({"quality": "draft"})"},
+      {"hybrid, walking", t::kHybrid, R"({"quality": "draft", "frames": {"quickMs": 33}})", "", "walks"},
+      {t::kVxgi, t::kVxgi},
+      {t::kLpv, t::kLpv},
+      {"lpv, 256 steps", t::kLpv, R"({"lpv": {"steps": 256}})"},
+      {t::kPhoton, t::kPhoton},
+      {"photon, no gathering", t::kPhoton, R"({"photon": {"finalGather": 0}})"},
+      {t::kPath, t::kPath},
+      {"path, filtered", t::kPath, R"({"path": {"filter": true}})"}};
+  for (StudyTechnique& row : out) row.kind = kindOf(*findTechnique(row.technique));
+  return out;
 }
 
 Result<StudyPlan> readStudyFile(const std::filesystem::path& file) {

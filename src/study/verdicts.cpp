@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "engine/technique_names.h"
 #include "study/published.h"
 #include "study/report.h"
 
@@ -32,7 +33,7 @@ StudyVerdict settles(const StudyResults& r) {
   double worst = 0;
   std::string where;
   for (const StudyCase& c : r.cases) {
-    const StudyCurve* cone = curveOf(c, "cone");
+    const StudyCurve* cone = curveOf(c, technique::kCone);
     if (!cone) continue;
     const double e = errorOf(settledPoint(*cone));
     ++cases, met += e <= wanted;
@@ -46,7 +47,7 @@ StudyVerdict below(const StudyResults& r) {
   std::vector<std::string> lost;
   int pairs = 0, open = 0;
   for (const StudyCase& c : r.cases) {
-    const StudyCurve* cone = curveOf(c, "cone");
+    const StudyCurve* cone = curveOf(c, technique::kCone);
     if (!cone) continue;
     for (const StudyCurve& rival : c.curves) {
       if (rival.kind != "rival" || rival.points.empty()) continue;
@@ -74,7 +75,7 @@ std::vector<StudyVerdict> ratios(const StudyResults& r) {
     std::string measured;
     bool met = true, any = false;
     for (const StudyCase& c : r.cases) {
-      const StudyCurve *cone = curveOf(c, "cone"), *other = curveOf(c, rival.name);
+      const StudyCurve *cone = curveOf(c, technique::kCone), *other = curveOf(c, rival.name);
       if (c.scene != r.cases.back().scene || !cone || !other) continue;
       const double ratio = *timeRatioAtEqualError(*cone, *other);
       measured += fmt::format("{}{} {:.2f}", measured.empty() ? "" : "; ", c.light, ratio);
@@ -98,10 +99,10 @@ StudyVerdict hybridFirst(const StudyResults& r) {
     double ratio = 0;
     bool any = false;
     for (const StudyCurve& other : c.curves) {
-      if (other.kind == "judge" || other.technique.starts_with("hybrid") || other.points.empty()) continue;
+      if (other.kind == "judge" || other.technique.starts_with(technique::kHybrid) || other.points.empty()) continue;
       double best = std::numeric_limits<double>::infinity();
       for (const StudyCurve& own : c.curves) {
-        if (own.technique.starts_with("hybrid") && !own.points.empty())
+        if (own.technique.starts_with(technique::kHybrid) && !own.points.empty())
           best = std::min(best, *timeRatioAtEqualError(own, other));
       }
       if (std::isfinite(best)) ratio = std::max(ratio, best), any = true;
@@ -166,10 +167,10 @@ std::vector<StudyVerdict> studyVerdicts(const StudyResults& r) {
     });
   };
   std::vector<StudyVerdict> out;
-  if (has("cone", "")) out.push_back(settles(r));
-  if (has("cone", "") && has("", "rival")) out.push_back(below(r));
+  if (has(technique::kCone, "")) out.push_back(settles(r));
+  if (has(technique::kCone, "") && has("", "rival")) out.push_back(below(r));
   for (const StudyVerdict& v : ratios(r)) out.push_back(v);
-  if (has("hybrid", "") && has("", "rival")) out.push_back(hybridFirst(r));
+  if (has(technique::kHybrid, "") && has("", "rival")) out.push_back(hybridFirst(r));
   for (const StudyVerdict& v : frames(r)) out.push_back(v);
   return out;
 }

@@ -14,7 +14,7 @@ constexpr float kSkinM =
 
 // How far it is to where more bodies are left than entered, if that is within reach: faces turned along the direction
 // less those against it. To enter a skin and leave it is to leave the body that it lies on.
-float wayOut(const RayScene& scene, Vec3 p, Vec3 direction) {
+float distanceOut(const RayScene& scene, Vec3 p, Vec3 direction) {
   Ray ray{p, direction, 0, kThickestM};
   int left = 0;
   float entered = -kInfinity;  // where the last body was
@@ -152,10 +152,10 @@ Sight sightOf(const RayScene& scene, const Camera& camera, const Ray& ray) {
 bool insideBody(const RayScene& scene, Vec3 p) {
   const auto isOut = [](float way) { return way < kInfinity; };
   const Vec3 x(1, 0, 0), z(0, 0, 1);
-  const float right = wayOut(scene, p, x), left = wayOut(scene, p, -x);
+  const float right = distanceOut(scene, p, x), left = distanceOut(scene, p, -x);
   if (isOut(right) && isOut(left)) return true;
-  const float near = wayOut(scene, p, z),
-              far = isOut(near) || isOut(right) || isOut(left) ? wayOut(scene, p, -z) : kInfinity;
+  const float near = distanceOut(scene, p, z),
+              far = isOut(near) || isOut(right) || isOut(left) ? distanceOut(scene, p, -z) : kInfinity;
   if (isOut(near) && isOut(far)) return true;
   // Where walls abut, of the end of one and the side of the other only one may be met: at a corner two ways out must
   // do.

@@ -76,8 +76,7 @@ void lightBySky(const RayScene& rays, const OpenSky& sky, const SurfaceElement& 
 
 std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
                                      std::span<const SurfaceElement> elements, const MeterSettings& settings,
-                                     const SampleMeter& sample, const Progress& progress,
-                                     const PrepareMeters& prepare) {
+                                     const MeteredLight& light, const Progress& progress) {
   const size_t n = elements.size();
   std::vector<std::optional<OpenSky>> skies(lights.sky().present() ? n : 0);
   parallelFor(skies.size(), 8, [&](size_t i) { skies[i].emplace(rays, lights, elements[i], settings.seed + i); });
@@ -87,7 +86,7 @@ std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
   uint32_t round = 0;
   for (int done = 0, count = settings.fewestSamples; !open.empty() && count <= settings.mostSamples;
        done = count, count *= 2) {
-    if (prepare) prepare(round++, open.size() * static_cast<size_t>(count - done));
+    if (light.prepare) light.prepare(round++, open.size() * static_cast<size_t>(count - done));
     std::vector<Batch> batches;
     for (const size_t i : open) {
       for (int first = done; first < count; first += kAtOnce)
@@ -98,7 +97,7 @@ std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
       Batch& batch = batches[b];
       std::vector<Vec3> lux(static_cast<size_t>(batch.count));
       if (!skies.empty()) lightBySky(rays, *skies[batch.meter], elements[batch.meter], batch, settings.seed, lux);
-      sample(batch.meter, batch.first, batch.count, lux);
+      light.sample(batch.meter, batch.first, batch.count, lux);
       for (const Vec3& l : lux) batch.sums.add(l);
     });
     for (const Batch& b : batches) sums[b.meter].add(b.sums);

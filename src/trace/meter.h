@@ -38,13 +38,18 @@ using SampleMeter = std::function<void(size_t element, int first, int count, std
 // Called before every round, with its number and how many samples all meters take in it.
 using PrepareMeters = std::function<void(uint32_t round, size_t samples)>;
 
-// A reading for each element; `sample` is called from many threads. The sky is sampled here, where it is open
-// (open_sky.h). Every meter takes fewestSamples; those that are not yet as certain as the tolerance asks, or as a
-// hundredth of what meters show on average needs, go on to twice as many, up to mostSamples. Does not depend on the
-// number of threads. Once `progress` says stop, readings are those so far.
+// Where the light on meters comes from.
+struct MeteredLight {
+  SampleMeter sample;  // called from many threads
+  PrepareMeters prepare = {};  // may be empty
+};
+
+// A reading for each element. The sky is sampled here, where it is open (open_sky.h). Every meter takes fewestSamples;
+// those that are not yet as certain as the tolerance asks, or as a hundredth of what meters show on average needs, go
+// on to twice as many, up to mostSamples. Does not depend on the number of threads. Once `progress` says stop, readings
+// are those so far.
 std::vector<MeterReading> readMeters(const RayScene& rays, const Lights& lights,
                                      std::span<const SurfaceElement> elements, const MeterSettings& settings,
-                                     const SampleMeter& sample, const Progress& progress = {},
-                                     const PrepareMeters& prepare = {});
+                                     const MeteredLight& light, const Progress& progress = {});
 
 }  // namespace roomlight

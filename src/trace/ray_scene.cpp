@@ -3,9 +3,12 @@
 #include <embree3/rtcore.h>
 
 #include <mutex>
+#include <new>
+#include <string>
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/resource_error.h"
 #include "scene/surface.h"
 #include "trace/surfaces.h"
 
@@ -109,6 +112,7 @@ struct RayScene::State {
     meshScenes.clear();
   }
 
+  void check() const;
   RTCGeometry makeGeometry(int meshIndex, const Affine& transform);
   void placeVertices(Vec3* vertices, const Mesh& mesh, const Affine& transform) const;
   void setFilters(RTCGeometry geometry, const Mesh& mesh) const;
@@ -119,7 +123,7 @@ struct RayScene::State {
   void move(uint32_t instance);
   void begin(Query& query) const;
   void update(std::span<const uint32_t> changed);
-  Hit hit(unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t, Vec3 ng) const;
+  Hit hit(const RTCHit& met, float t) const;
   void note(RayLog::Kind kind, std::span<const Ray> rays) const {
     if (!log) return;
     log->batches.push_back({kind, log->rays.size(), rays.size()});
@@ -127,15 +131,26 @@ struct RayScene::State {
   }
 };
 
+// Embree keeps the first error of this thread until it is asked; what it could not make is null or empty.
+void RayScene::State::check() const {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE && device) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  throw ResourceError("Embree cannot trace rays of this scene here: error " + std::to_string(static_cast<int>(error)));
+}
+
 RTCGeometry RayScene::State::makeGeometry(int meshIndex, const Affine& transform) {
   const Mesh& mesh = scene->meshes[static_cast<size_t>(meshIndex)];
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  check();
   auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                               sizeof(Vec3), mesh.positions.size()));
+  check();
   placeVertices(vertices, mesh, transform);
   // Copied rather than shared: Embree reads a few bytes past the last index.
   auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                  3 * sizeof(uint32_t), mesh.triangleCount()));
+  check();
   std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
   rtcSetGeometryUserData(geometry, &tags[static_cast<size_t>(meshIndex)]);
   setFilters(geometry, mesh);
@@ -154,15 +169,18 @@ void RayScene::State::setFilters(RTCGeometry geometry, const Mesh& mesh) const {
   rtcSetGeometryOccludedFilterFunction(geometry, letsLightThrough(material) ? filterOccluded : nullptr);
 }
 
-// Embree leaves `ng` in the space of the geometry.
-Hit RayScene::State::hit(unsigned geomID, unsigned instID, unsigned primID, float u, float v, float t, Vec3 ng) const {
-  if (geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  if (!shares || instID == RTC_INVALID_GEOMETRY_ID) return {geomID, primID, u, v, t, ng};
-  return {instID, primID, u, v, t, scene->instances[instID].worldFromObject.normal(ng)};
+// Embree leaves the normal in the space of the geometry.
+Hit RayScene::State::hit(const RTCHit& met, float t) const {
+  if (met.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const unsigned instID = met.instID[0];
+  const Vec3 ng{met.Ng_x, met.Ng_y, met.Ng_z};
+  if (!shares || instID == RTC_INVALID_GEOMETRY_ID) return {met.geomID, met.primID, met.u, met.v, t, ng};
+  return {instID, met.primID, met.u, met.v, t, scene->instances[instID].worldFromObject.normal(ng)};
 }
 
 void RayScene::State::build() {
   if (!device) device = rtcNewDevice(nullptr);
+  check();
   releaseScenes();
   top = newScene();
   rtcSetSceneBuildQuality(top, RTC_BUILD_QUALITY_MEDIUM);
@@ -220,6 +238,7 @@ void RayScene::State::begin(Query& query) const {
 
 void RayScene::State::commitTop() {
   rtcCommitScene(top);
+  check();
   RTCBounds b;
   rtcGetSceneBounds(top, &b);
   bounds = {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
@@ -313,8 +332,7 @@ Hit RayScene::intersect(const Ray& ray) const {
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->top, &query.base, &r);
-  return state_->hit(r.hit.geomID, r.hit.instID[0], r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar,
-                     {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
+  return state_->hit(r.hit, r.ray.tfar);
 }
 
 Vec3 RayScene::transmittance(const Ray& ray) const {
@@ -336,6 +354,11 @@ void setLane(Ray8& r, unsigned i, const Ray& ray) {
   r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
   r.tnear[i] = ray.tMin, r.tfar[i] = ray.tMax;
   r.time[i] = 0, r.mask[i] = 0xffffffffu, r.id[i] = i, r.flags[i] = 0;
+}
+
+RTCHit laneOf(const RTCHit8& hits, unsigned i) {
+  return {hits.Ng_x[i], hits.Ng_y[i],   hits.Ng_z[i],   hits.u[i],
+          hits.v[i],    hits.primID[i], hits.geomID[i], {hits.instID[0][i]}};
 }
 
 }  // namespace
@@ -361,11 +384,7 @@ void RayScene::intersectPackets(std::span<const Ray> rays, std::span<Hit> hits, 
       valid[i] = -1;
     }
     rtcIntersect8(valid, state_->top, &query.base, &r);
-    for (unsigned i = 0; i < n; ++i) {
-      const Vec3 ng{r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]};
-      hits[first + i] =
-          state_->hit(r.hit.geomID[i], r.hit.instID[0][i], r.hit.primID[i], r.hit.u[i], r.hit.v[i], r.ray.tfar[i], ng);
-    }
+    for (unsigned i = 0; i < n; ++i) hits[first + i] = state_->hit(laneOf(r.hit, i), r.ray.tfar[i]);
   }
 }
 

@@ -139,18 +139,22 @@ ValidationCase roof(int type, float edge, bool glazed = false) {
   return out;
 }
 
-// A black room whose wall at y = 4 m has an opening of 2 x 1 m, 1 m up. Of its height the part from `low` to `high`
-// shows the sky or the ground to an element; what else `beyond` the facade shows, in the parts' order, has an even
-// luminance.
+// What an element sees through a part of the height of an opening.
 struct Part {
-  double low, high;
-  double luminance;  // below 0: sky and ground
+  double low, high;  // m above the floor
+  double luminance;  // cd/m², even; below 0: of sky and ground
 };
-using Parts = std::vector<Part> (*)(double depth, double height);  // for a point so far from the facade and so high
 
-ValidationCase facade(const std::string& name, const std::string& title, int type, const std::string& basis,
-                      void (*beyond)(Scene&), Parts parts, bool glazed = false) {
-  ValidationCase out{name, title, "% of E_hz", basis, {}, {}};
+// What stands before a facade.
+struct Outlook {
+  void (*build)(Scene&);                                      // null: nothing does
+  std::vector<Part> (*parts)(double depthM, double heightM);  // seen from so far behind the facade and so high
+};
+
+// A black room whose wall at y = 4 m has an opening of 2 x 1 m, 1 m up.
+ValidationCase facade(const std::string& name, const std::string& title, int type, const Outlook& outlook,
+                      bool glazed = false) {
+  ValidationCase out{name, title, "% of E_hz", kBasis, {}, {}};
   const int black = addMaterial(out.scene, lambertian(0));
   addRoom(out.scene, {0, 0, 0}, {4, 3, 4}, std::vector<int>(6, black));
   out.scene.instances.erase(out.scene.instances.begin() + 5);  // the facade
@@ -159,14 +163,14 @@ ValidationCase facade(const std::string& name, const std::string& title, int typ
                                    {0.0f, 1.0f, 1.0f, 1.0f},
                                    {3.0f, 1.0f, 1.0f, 1.0f}})
     addRectangle(out.scene, {x, y, 4}, {0, h, 0}, {w, 0, 0}, black);
-  if (beyond) beyond(out.scene);
+  if (outlook.build) outlook.build(out.scene);
   if (glazed) addRectangle(out.scene, {1, 1, 4}, {2, 0, 0}, {0, 1, 0}, addGlass(out.scene));
   const Daylight day(type);
   out.scene.sky = day.sky();
   const auto add = [&](const std::string& place, const SurfaceElement& e) {
     const Point p = exact(e.position);
     double lux = 0;
-    for (Part part : parts(4 - p.z, p.y)) {
+    for (Part part : outlook.parts(4 - p.z, p.y)) {
       part.low = std::clamp(part.low, 1.0, 2.0), part.high = std::clamp(part.high, 1.0, 2.0);
       // Cut where the horizon is.
       for (const auto& [from, to] : {std::pair{part.low, std::clamp(p.y, part.low, part.high)},
@@ -203,15 +207,15 @@ ValidationCase glazedRoof() {
 
 template <int kType, bool kGlazed>
 ValidationCase window() {
-  return facade(
-      fmt::format("CIE 171, 5.{} sky {}", kGlazed ? 12 : 11, kType),
-      fmt::format("{}facade opening of 2 x 1 m under CIE sky {} over ground of albedo 0.3", kGlazed ? "glazed " : "",
-                  kType),
-      kType, kBasis, nullptr,
-      [](double, double) {
-        return std::vector<Part>{{1, 2, -1}};
-      },
-      kGlazed);
+  return facade(fmt::format("CIE 171, 5.{} sky {}", kGlazed ? 12 : 11, kType),
+                fmt::format("{}facade opening of 2 x 1 m under CIE sky {} over ground of albedo 0.3",
+                            kGlazed ? "glazed " : "", kType),
+                kType,
+                {nullptr,
+                 [](double, double) {
+                   return std::vector<Part>{{1, 2, -1}};
+                 }},
+                kGlazed);
 }
 
 // The room of 5.11 with surfaces that reflect: what the sky gives to each patch, and radiosity.
@@ -296,31 +300,29 @@ double crossing(double depth, double height, double out, double up) {
 
 constexpr double kShelfDepth = 1, kShelfHeight = 2.5;
 ValidationCase shelfAbove() {
-  return facade(
-      "CIE 171, 5.13", "the same under a black horizontal mask, 0.5 m above it and 1 m deep, sky 5", 5, kBasis,
-      [](Scene& scene) {
-        addRectangle(scene, {-100, static_cast<float>(kShelfHeight), 4}, {204, 0, 0},
-                     {0, 0, static_cast<float>(kShelfDepth)}, 0);
-      },
-      [](double depth, double height) {
-        return std::vector<Part>{{1, crossing(depth, height, kShelfDepth, kShelfHeight), -1}};
-      });
+  return facade("CIE 171, 5.13", "the same under a black horizontal mask, 0.5 m above it and 1 m deep, sky 5", 5,
+                {[](Scene& scene) {
+                   addRectangle(scene, {-100, static_cast<float>(kShelfHeight), 4}, {204, 0, 0},
+                                {0, 0, static_cast<float>(kShelfDepth)}, 0);
+                 },
+                 [](double depth, double height) {
+                   return std::vector<Part>{{1, crossing(depth, height, kShelfDepth, kShelfHeight), -1}};
+                 }});
 }
 
 constexpr double kMaskDistance = 6, kMaskHeight = 4.5, kMaskLuminance = 200;
 ValidationCase maskOpposite() {
-  return facade(
-      "CIE 171, 5.14", "the same with a bright vertical mask 6 m before it, 4.5 m high, sky 5", 5, kBasis,
-      [](Scene& scene) {
-        const int bright = addMaterial(scene, lambertian(0, static_cast<float>(kMaskLuminance)));
-        addRectangle(scene, {-1000, 0, 4 + static_cast<float>(kMaskDistance)}, {0, static_cast<float>(kMaskHeight), 0},
-                     {2004, 0, 0}, bright);
-      },
-      [](double depth, double height) {
-        const double foot = crossing(depth, height, kMaskDistance, 0),
-                     top = crossing(depth, height, kMaskDistance, kMaskHeight);
-        return std::vector<Part>{{1, foot, -1}, {foot, top, kMaskLuminance}, {top, 2, -1}};
-      });
+  return facade("CIE 171, 5.14", "the same with a bright vertical mask 6 m before it, 4.5 m high, sky 5", 5,
+                {[](Scene& scene) {
+                   const int bright = addMaterial(scene, lambertian(0, static_cast<float>(kMaskLuminance)));
+                   addRectangle(scene, {-1000, 0, 4 + static_cast<float>(kMaskDistance)},
+                                {0, static_cast<float>(kMaskHeight), 0}, {2004, 0, 0}, bright);
+                 },
+                 [](double depth, double height) {
+                   const double foot = crossing(depth, height, kMaskDistance, 0),
+                                top = crossing(depth, height, kMaskDistance, kMaskHeight);
+                   return std::vector<Part>{{1, foot, -1}, {foot, top, kMaskLuminance}, {top, 2, -1}};
+                 }});
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/lit_scene.h"
+#include "engine/technique.h"
 #include "validate/cases.h"
 #include "validate/glare_tables.h"
 
@@ -67,13 +67,14 @@ std::vector<ValidationRow> judged(const ValidationCase& of, const std::string& t
   double largest = 0, all = 0, sum = 0;
   for (size_t i = 0; i < got.size(); ++i)
     largest = std::max(largest, std::abs(of.quantities[i].expected)), all += of.quantities[i].expected, sum += got[i];
-  const double allowed = allowedPercent(technique), total = all != 0 ? 100 * (sum / all - 1) : 0;
+  const MeterAccuracy& asked = findTechnique(technique)->meters;
+  const double allowed = asked.allowedPercent, total = all != 0 ? 100 * (sum / all - 1) : 0;
   std::vector<ValidationRow> rows;
   for (size_t i = 0; i < got.size(); ++i) {
     const Quantity& q = of.quantities[i];
     const double error = 100 * (got[i] - q.expected) / std::max(std::abs(q.expected), kNextToNothing * largest);
     rows.push_back({of.name, of.title, of.unit, of.basis, q.place, technique, q.expected, got[i], error, "%",
-                    std::abs(technique == "cone" ? total : error) <= allowed});
+                    std::abs(asked.ofSum ? total : error) <= allowed});
   }
   return rows;
 }
@@ -103,7 +104,8 @@ Result<std::vector<ValidationRow>> measured(const ValidationCase& of, const std:
 }
 
 ValidationSummary summary(const std::vector<ValidationRow>& rows, const std::string& technique) {
-  ValidationSummary out{technique, allowedPercent(technique), 0, "", 0, 0};
+  const MeterAccuracy& asked = findTechnique(technique)->meters;
+  ValidationSummary out{technique, asked.allowedPercent, asked.ofSum, 0, "", 0, 0};
   for (const ValidationRow& r : rows) {
     if (r.technique != technique) continue;
     ++out.places, out.passed += r.pass;
@@ -115,13 +117,24 @@ ValidationSummary summary(const std::vector<ValidationRow>& rows, const std::str
 
 }  // namespace
 
-double allowedPercent(const std::string& technique) { return technique == "path" ? 1 : technique == "cone" ? 10 : 3; }
+std::vector<std::string> validatedTechniques() {
+  std::vector<std::string> names;
+  for (const bool judge : {true, false}) {
+    for (const Technique* t : techniques()) {
+      if (t->meters.isValidated && (t->role == TechniqueRole::Judge) == judge) names.emplace_back(t->name);
+    }
+  }
+  return names;
+}
 
 bool Validation::pass() const {
   return std::all_of(rows.begin(), rows.end(), [](const ValidationRow& r) { return r.pass; });
 }
 
 Result<Validation> validateTechniques(const ValidationSettings& settings, const Progress& progress) {
+  for (const std::string& technique : settings.techniques) {
+    if (const auto known = techniqueNamed(technique); !known) return Error{known.error()};
+  }
   Validation out;
   const std::vector<MakeCase> cases = allCases();
   const bool glare = std::string(kGlareCase).find(settings.only) != std::string::npos;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/quality.h"
-#include "engine/render.h"
+#include "engine/technique.h"
 #include "engine/version.h"
 #include "measure/false_colour.h"
 #include "photometry/sun.h"
@@ -153,7 +153,7 @@ Json homeJson(const ViewHome& home) {
           {"bounds", {vectorJson(b.lo), vectorJson(b.hi)}},
           {"rooms", roomsJson(home.scene)},
           {"cameras", camerasJson(home.scene)},
-          {"techniques", namedJson(techniques())},
+          {"techniques", namedJson(describedTechniques())},
           {"qualities", namedJson(qualities())},
           {"curves", {"neutral", "agx", "filmic", "clip"}},
           {"legend", legend},

@@ -21,8 +21,8 @@ Result<std::string> made(const FrameSender::Make& make) {
 
 }  // namespace
 
-FrameSender::FrameSender() {
-  thread_ = std::thread([this] { withThreads(1, [this] { run(); }); });
+FrameSender::FrameSender(const StartThread& start) {
+  thread_ = start([this] { withThreads(1, [this] { run(); }); });
 }
 
 FrameSender::~FrameSender() {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/result.h"
+#include "view/start_thread.h"
 
 namespace roomlight::view {
 
@@ -16,7 +17,8 @@ class FrameSender {
  public:
   using Make = std::function<Result<std::string>()>;
   using Send = std::function<void(Result<std::string> bytes)>;
-  FrameSender();
+  // Throws std::system_error where there is no thread.
+  explicit FrameSender(const StartThread& start = systemThread);
   ~FrameSender();  // what has not been begun is not sent
   // Both are called from the sender's thread.
   void push(Make make, Send send);

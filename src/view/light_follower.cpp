@@ -7,11 +7,11 @@
 
 namespace roomlight::view {
 
-void LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads,
-                          std::function<void()> ready) {
+Status LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads,
+                            std::function<void()> ready) {
   finish();
-  home_ = &home, done_ = cancelled_ = false;
-  thread_ = std::thread([this, &all, &home, wanted = std::move(wanted), threads, ready = std::move(ready)] {
+  done_ = cancelled_ = false;
+  auto work = [this, &all, &home, wanted = std::move(wanted), threads, ready = std::move(ready)] {
     try {
       inBackground(threads, [&] { follow(all, home, wanted); });
     } catch (const std::exception& e) {
@@ -19,7 +19,11 @@ void LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, 
     }
     done_ = true;
     ready();
-  });
+  };
+  Result<std::thread> started = tryToStart(start_, std::move(work));
+  if (!started) return Error{started.error()};
+  home_ = &home, thread_ = std::move(started).value();
+  return Ok{};
 }
 
 void LightFollower::follow(const ViewHome& all, LitHome& home, const HomeState& wanted) {

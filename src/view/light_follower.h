@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "view/lit_home.h"
+#include "view/start_thread.h"
 
 namespace roomlight::view {
 
@@ -21,11 +23,12 @@ struct FollowedLight {
 
 class LightFollower {
  public:
+  explicit LightFollower(StartThread start = systemThread) : start_(std::move(start)) {}
   ~LightFollower() { cancel(); }
   // Brings the home to a state that it can follow to, or goes on with bounces that it still owes; one at a time. Nobody
   // else may touch `home`, but for its front, until finish() has returned. `ready` is called from the follower's
-  // thread.
-  void begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready);
+  // thread. Error: there is no thread; the home is as it was, and it may be tried again.
+  Status begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready);
   const LitHome* home() const { return home_; }  // null: none
   bool done() const { return done_; }
   // Waits for the end.
@@ -36,6 +39,7 @@ class LightFollower {
  private:
   void follow(const ViewHome& all, LitHome& home, const HomeState& wanted);
 
+  const StartThread start_;
   LitHome* home_ = nullptr;
   std::optional<SceneChange> change_;
   std::shared_ptr<const SlotSnapshot> light_;

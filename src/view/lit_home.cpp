@@ -55,24 +55,26 @@ void FrontHome::findMoved() {
   }
 }
 
-void LightBuilder::begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready) {
+Status LightBuilder::begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready) {
   cancel();
   work_ = std::move(work);
   cancelled_ = false, done_ = false;
   progress.cancelled = &cancelled_;
-  thread_ = std::thread([this, &home, progress = std::move(progress), ready = std::move(ready)] {
-    inBackground(work_.settings.threads, [&] {
-      try {
-        result_ = build(home, work_, progress);
-      } catch (const std::bad_alloc&) {
-        result_ = Result<std::unique_ptr<LitHome>>(Error{"not enough memory to light the home"});
-      } catch (const std::exception& e) {
-        result_ = Result<std::unique_ptr<LitHome>>(Error{fmt::format("the home could not be lit: {}", e.what())});
-      }
-    });
+  auto begun = [this, &home, progress = std::move(progress), ready = std::move(ready)] {
+    try {
+      inBackground(work_.settings.threads, [&] { result_ = build(home, work_, progress); });
+    } catch (const std::bad_alloc&) {
+      result_ = Result<std::unique_ptr<LitHome>>(Error{"not enough memory to light the home"});
+    } catch (const std::exception& e) {
+      result_ = Result<std::unique_ptr<LitHome>>(Error{fmt::format("the home could not be lit: {}", e.what())});
+    }
     done_ = true;
     ready();
-  });
+  };
+  Result<std::thread> started = tryToStart(start_, std::move(begun));
+  if (!started) return Error{started.error()};
+  thread_ = std::move(started).value();
+  return Ok{};
 }
 
 std::optional<Result<std::unique_ptr<LitHome>>> LightBuilder::take() {

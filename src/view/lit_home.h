@@ -11,9 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/lit_scene.h"
+#include "engine/technique.h"
 #include "gather/quick_frames.h"
 #include "view/home.h"
+#include "view/start_thread.h"
 
 namespace roomlight::view {
 
@@ -53,7 +54,9 @@ class FrontHome {
 struct LitHome {
   LitHome(LightKey lightKey, HomeState at) : key(std::move(lightKey)), state(std::move(at)), sunAtFirst(state.sun) {}
   // Whether light can follow to where the sun is wanted; else the home is lit anew.
-  bool canFollow(const std::optional<SunState>& sun) const { return lit->followsDaylight() || sun == sunAtFirst; }
+  bool canFollow(const std::optional<SunState>& sun) const {
+    return lit->technique().followsDaylight || sun == sunAtFirst;
+  }
 
   LightKey key;
   Scene scene;
@@ -67,6 +70,7 @@ struct LitHome {
 
 class LightBuilder {
  public:
+  explicit LightBuilder(StartThread start = systemThread) : start_(std::move(start)) {}
   ~LightBuilder() { cancel(); }
 
   struct Work {
@@ -76,8 +80,9 @@ class LightBuilder {
     std::optional<Camera> camera;
     uint32_t revision = 0;
   };
-  // One at a time. `home` must stay; `progress` and `ready` are called from the builder's thread.
-  void begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready);
+  // One at a time. `home` must stay; `progress` and `ready` are called from the builder's thread. Error: there is no
+  // thread; it may be tried again.
+  Status begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready);
   bool busy() const { return thread_.joinable(); }
   const Work& work() const { return work_; }
   // What has come of it, once ready() was called; the builder is free then. An error's message, or the home; a null one
@@ -87,6 +92,7 @@ class LightBuilder {
   void cancel();
 
  private:
+  const StartThread start_;
   Work work_;
   std::thread thread_;
   std::atomic<bool> cancelled_{false}, done_{false};

@@ -1,5 +1,5 @@
-// What a browser says, read strictly (docs/reference/view-protocol.md): an unknown key, a wrong type or a value out of range is an
-// error that names the key.
+// What a browser says, read strictly (docs/reference/view-protocol.md): an unknown key, a wrong type or a value out of
+// range is an error that names the key.
 #pragma once
 
 #include <cstdint>

@@ -27,18 +27,19 @@ bool isSeen(const RayScene& rays, Vec3 eye, Vec3 place) {
   return !isBlack(rays.transmittance({eye, way, 0, 0.999f}));
 }
 
-int bodilessLampAt(const EditableHome& home, const HomeState& state, const RayScene& rays, const Camera& camera,
-                   std::pair<int, int> size, float px, float py, float reach) {
-  const CameraRays view(camera, size.first, size.second);
+// `pixel`: where the pointer is in the picture.
+int bodilessLampAt(const EditableHome& home, const HomeState& state, const RayScene& rays, const Pointer& pointer,
+                   Vec2 pixel) {
+  const CameraRays view(pointer.camera, pointer.size.first, pointer.size.second);
   int best = -1;
-  float nearest = reach;
+  float nearest = kLampPixels * static_cast<float>(pointer.size.second) / std::max(1.0f, pointer.viewportHeightPx);
   for (size_t k = 0; k < home.lamps.size(); ++k) {
     if (!home.lamps[k].instances.empty()) continue;
     const Vec3 place = positionOf(home, k, state);
     const std::optional<Vec2> at = view.pixelOf(place);
     if (!at) continue;
-    const float distance = std::hypot(at->x - px, at->y - py);
-    if (distance < nearest && isSeen(rays, camera.worldFromCamera.w, place))
+    const float distance = std::hypot(at->x - pixel.x, at->y - pixel.y);
+    if (distance < nearest && isSeen(rays, pointer.camera.worldFromCamera.w, place))
       best = static_cast<int>(k), nearest = distance;
   }
   return best;
@@ -47,22 +48,22 @@ int bodilessLampAt(const EditableHome& home, const HomeState& state, const RaySc
 }  // namespace
 
 std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& state, const RayScene& rays,
-                                  const Camera& camera, std::pair<int, int> size, float x, float y, float pixels) {
-  const float px = x * static_cast<float>(size.first), py = y * static_cast<float>(size.second);
-  const Ray ray = CameraRays(camera, size.first, size.second).ray(px, py);
+                                  const Pointer& pointer) {
+  const Vec2 pixel{pointer.x * static_cast<float>(pointer.size.first),
+                   pointer.y * static_cast<float>(pointer.size.second)};
+  const Ray ray = CameraRays(pointer.camera, pointer.size.first, pointer.size.second).ray(pixel.x, pixel.y);
+  const Vec3 eye = pointer.camera.worldFromCamera.w;
   const Hit hit = rays.intersect(ray);
-  const float reach = kLampPixels * static_cast<float>(size.second) / std::max(1.0f, pixels);
-  const int lamp = bodilessLampAt(home, state, rays, camera, size, px, py, reach);
+  const int lamp = bodilessLampAt(home, state, rays, pointer, pixel);
   PickedPoint out;
   if (!hit.valid()) {
     if (lamp < 0) return {};
     out.point = positionOf(home, static_cast<size_t>(lamp), state), out.normal = -ray.direction;
-    out.distanceM = length(out.point - camera.worldFromCamera.w), out.lamp = lamp;
+    out.distanceM = length(out.point - eye), out.lamp = lamp;
     return out;
   }
   const SurfacePoint p = surfaceAt(rays.scene(), hit, ray.direction);
-  out.point = p.p, out.normal = p.ng, out.distanceM = length(p.p - camera.worldFromCamera.w),
-  out.material = p.material->name;
+  out.point = p.p, out.normal = p.ng, out.distanceM = length(p.p - eye), out.material = p.material->name;
   out.object = numberOf(home.objects, [&](const EditableObject& o) {
     return !o.lampBody &&
            std::any_of(o.parts.begin(), o.parts.end(), [&](const auto& part) { return part.instance == hit.instance; });

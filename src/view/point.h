@@ -15,10 +15,17 @@ struct PickedPoint {
   std::string material;
 };
 
-// `x`, `y`: fractions of the picture of `size`. A lamp without a body is found within 12 of the viewport's `pixels` of
-// height where nothing stands before it.
+// A pointer over a picture.
+struct Pointer {
+  const Camera& camera;
+  std::pair<int, int> size;    // of the picture, pixels
+  float x = 0, y = 0;          // fractions of the picture, from its upper left corner
+  float viewportHeightPx = 1;  // of the window that shows it
+};
+
+// A lamp without a body is found within 12 pixels of the viewport where nothing stands before it.
 std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& state, const RayScene& rays,
-                                  const Camera& camera, std::pair<int, int> size, float x, float y, float pixels);
+                                  const Pointer& pointer);
 
 struct Metered {
   double illuminanceLux = 0, standardErrorLux = 0;  // on the side that is seen

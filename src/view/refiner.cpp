@@ -15,12 +15,11 @@ constexpr float kGoodEnough = 0.002f;  // relative error: less cannot be seen
 
 }  // namespace
 
-void Refiner::begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first,
-                    int firstLook) {
+Status Refiner::begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first,
+                      int firstLook) {
   stop();
   cancelled_ = false, failed_ = false, working_ = true;
-  home_ = &home;
-  thread_ = std::thread([this, &home, camera, settings, threads, first = std::move(first), firstLook] {
+  auto work = [this, &home, camera, settings, threads, first = std::move(first), firstLook] {
     try {
       withThreads(threads, [&] { run(home, camera, settings, first, firstLook); });
     } catch (const std::exception&) {  // out of memory: the picture stays as it is
@@ -28,7 +27,14 @@ void Refiner::begin(const LitHome& home, const Camera& camera, const PathSetting
     }
     working_ = false;
     if (failed_) ready_();
-  });
+  };
+  Result<std::thread> started = tryToStart(start_, std::move(work));
+  if (!started) {
+    working_ = false;
+    return Error{started.error()};
+  }
+  home_ = &home, thread_ = std::move(started).value();
+  return Ok{};
 }
 
 // False: given up.

@@ -7,9 +7,11 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "engine/settings.h"
 #include "view/lit_home.h"
+#include "view/start_thread.h"
 
 namespace roomlight {
 
@@ -29,13 +31,14 @@ class Refiner {
   static constexpr int kFewestSamples = 4;  // before the first blend of a picture that was not refined yet
 
   // `ready` is called from its thread when there is another picture to take, or it failed.
-  explicit Refiner(std::function<void()> ready) : ready_(std::move(ready)) {}
+  explicit Refiner(std::function<void()> ready, StartThread start = systemThread)
+      : ready_(std::move(ready)), start_(std::move(start)) {}
   ~Refiner() { stop(); }
 
   // Begins anew with a picture that has little noise; `home` must stay as it is until it was let go. Tells of the first
-  // picture after so many samples. Waits for what is still working.
-  void begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first,
-             int firstLook);
+  // picture after so many samples. Waits for what is still working. Error: there is no thread; it may be tried again.
+  Status begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first,
+               int firstLook);
   const LitHome* home() const { return home_; }  // null: none
   bool working() const { return working_; }
   bool failed() const { return failed_; }  // no further picture comes of what was begun last
@@ -54,6 +57,7 @@ class Refiner {
   bool tracePasses(PathTracer& tracer, int until);
 
   const std::function<void()> ready_;
+  const StartThread start_;
   const LitHome* home_ = nullptr;
   std::atomic<bool> cancelled_{false}, working_{false}, failed_{false};
   std::mutex usesHome_;  // held while the home is looked at

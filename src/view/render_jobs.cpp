@@ -55,12 +55,11 @@ class Teller {
 
 }  // namespace
 
-RenderJobs::RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell)
-    : home_(home), tell_(std::move(tell)) {
+RenderJobs::RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell, StartThread start)
+    : home_(home), tell_(std::move(tell)), start_(std::move(start)) {
   std::error_code code;
   std::string pattern = (std::filesystem::temp_directory_path(code) / "roomlight-renders-XXXXXX").string();
   if (!code && mkdtemp(pattern.data())) folder_ = pattern;
-  thread_ = std::thread([this] { run(); });
 }
 
 RenderJobs::~RenderJobs() {
@@ -69,19 +68,24 @@ RenderJobs::~RenderJobs() {
     stop_ = true, cancelled_ = true;
   }
   wake_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
   std::error_code ignored;
   if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
 }
 
-bool RenderJobs::add(RenderWork work) {
+Status RenderJobs::add(RenderWork work) {
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= kMostWaiting) return false;
+    if (waiting_.size() >= kMostWaiting) return Error{"too many pictures are waiting; cancel one"};
+    if (!thread_.joinable()) {
+      Result<std::thread> started = tryToStart(start_, [this] { run(); });
+      if (!started) return Error{started.error()};
+      thread_ = std::move(started).value();
+    }
     waiting_.push_back(std::move(work));
   }
   wake_.notify_all();
-  return true;
+  return Ok{};
 }
 
 bool RenderJobs::cancel(const std::string& job) {
@@ -144,8 +148,7 @@ void RenderJobs::run() {
       waiting_.pop_front();
       running_ = next.job, cancelled_ = false;
     }
-    JobNews last;
-    inBackground(next.settings.threads, [&] { last = work(next); });
+    const JobNews last = work(next);
     {
       const std::lock_guard lock(mutex_);
       running_.clear();
@@ -161,31 +164,33 @@ JobNews RenderJobs::work(const RenderWork& work) {
   progress.estimate = [&](double relativeError, double) { teller.estimate(relativeError); };
   progress.cancelled = &cancelled_;
   JobNews& news = teller.news();
-  const auto failed = [&](const std::string& message) {
-    news.state = "failed", news.message = message;
-    return news;
-  };
+  Status made = Ok{};
   try {
-    Result<Scene> scene = sceneIn(home_, work.state);
-    if (!scene) return failed(scene.error());
-    const Result<Rendered> rendered = render(scene.value(), work.camera, work.settings, progress);
-    if (!rendered) return failed(rendered.error());
-    news.state = rendered.value().complete ? "done" : "cancelled";
-    news.secondsLeft = 0;
-    if (rendered.value().image.width > 0) {
-      Result<FinishedFile> file = write(work, rendered.value());
-      if (!file) return failed(file.error());
-      std::error_code ignored;
-      news.fileId = newId(), news.fileName = file.value().name,
-      news.bytes = std::filesystem::file_size(file.value().path, ignored);
-      keep(news.fileId, std::move(file).value());
-    }
-    return news;
+    inBackground(work.settings.threads, [&] { made = make(work, progress, news); });
   } catch (const std::bad_alloc&) {
-    return failed("not enough memory for this picture");
+    made = Error{"not enough memory for this picture"};
   } catch (const std::exception& e) {
-    return failed(fmt::format("the picture could not be made: {}", e.what()));
+    made = Error{fmt::format("the picture could not be made: {}", e.what())};
   }
+  if (!made) news.state = "failed", news.message = made.error();
+  return news;
+}
+
+Status RenderJobs::make(const RenderWork& work, const RenderProgress& progress, JobNews& news) {
+  Result<Scene> scene = sceneIn(home_, work.state);
+  if (!scene) return Error{scene.error()};
+  const Result<Rendered> rendered = render(scene.value(), work.camera, work.settings, progress);
+  if (!rendered) return Error{rendered.error()};
+  news.state = rendered.value().complete ? "done" : "cancelled";
+  news.secondsLeft = 0;
+  if (rendered.value().image.width == 0) return Ok{};
+  Result<FinishedFile> file = write(work, rendered.value());
+  if (!file) return Error{file.error()};
+  std::error_code ignored;
+  news.fileId = newId(), news.fileName = file.value().name,
+  news.bytes = std::filesystem::file_size(file.value().path, ignored);
+  keep(news.fileId, std::move(file).value());
+  return Ok{};
 }
 
 Result<FinishedFile> RenderJobs::write(const RenderWork& work, const Rendered& rendered) const {

@@ -16,6 +16,7 @@
 #include "view/home.h"
 #include "view/message.h"
 #include "view/shown.h"
+#include "view/start_thread.h"
 
 namespace roomlight::view {
 
@@ -46,12 +47,12 @@ struct JobNews {
 
 class RenderJobs {
  public:
-  // `tell` is called from the jobs' thread.
-  RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell);
+  // `tell` is called from the jobs' thread, which begins with the first job, and by cancel().
+  RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell, StartThread start = systemThread);
   ~RenderJobs();
 
-  // False: too many wait already.
-  bool add(RenderWork work);
+  // Errors: too many wait already; there is no thread. Either may be over in a moment.
+  Status add(RenderWork work);
   // False: there is no such job. What there is of its picture is kept.
   bool cancel(const std::string& job);
   // Whether a picture is being made or waits to be.
@@ -66,10 +67,12 @@ class RenderJobs {
   void keep(const std::string& id, FinishedFile file);
   void remove(Finished::iterator file);
   JobNews work(const RenderWork& work);  // its last news
+  Status make(const RenderWork& work, const RenderProgress& progress, JobNews& news);
   Result<FinishedFile> write(const RenderWork& work, const Rendered& rendered) const;
 
   const ViewHome& home_;
   const std::function<void(const JobNews&)> tell_;
+  const StartThread start_;
   std::filesystem::path folder_;  // of the owner's alone
   mutable std::mutex mutex_;
   std::condition_variable wake_;

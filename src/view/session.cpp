@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 #include "base/parallel.h"
 #include "engine/live_walk.h"
@@ -28,18 +29,22 @@ Bounds3 reachOf(const ViewHome& home) {
 
 }  // namespace
 
-Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox)
+Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox, const StartThread& start)
     : home_(std::move(home)),
       reach_(reachOf(home_)),
       settings_(settings),
       frames_(frameSettings(settings)),
       outbox_(std::move(outbox)),
+      builder_(start),
       homeJson_(homeJson(home_)),
-      refiner_([this] { tellRefined(); }),
-      jobs_(home_, [this](const JobNews& news) { takeNews(news); }) {
+      follower_(start),
+      refiner_([this] { tellRefined(); }, start),
+      jobs_(
+          home_, [this](const JobNews& news) { takeNews(news); }, start),
+      sender_(start) {
   state_ = home_.atStart();
   plans_["start"] = state_;
-  thread_ = std::thread([this] { withThreads(settings_.threads, [this] { run(); }); });
+  thread_ = start([this] { runWithThreads(); });
 }
 
 Session::~Session() {
@@ -97,6 +102,19 @@ Session::Event* Session::outdatedBy(const Event& event) {
   return said && said->index() == message->index() ? &*before : nullptr;
 }
 
+// Threads of parallel loops may be missing for a moment, too.
+void Session::runWithThreads() {
+  while (!stop_) {
+    try {
+      withThreads(settings_.threads, [this] { run(); });
+    } catch (const std::exception& e) {
+      tellFailure(fmt::format("something went wrong: {}", e.what()));
+      std::unique_lock lock(mutex_);
+      wake_.wait_for(lock, kAfterFailure, [&] { return stop_.load(); });
+    }
+  }
+}
+
 void Session::run() {
   while (!stop_) {
     milliseconds pause = kAfterFailure;
@@ -128,10 +146,27 @@ bool Session::workOn() {
   return false;
 }
 
-// The session goes on: memory, say, may be there again in a moment.
+// The session goes on: memory, say, may be there again in a moment. A terminal that is gone, or no memory for the
+// words, is nothing to end for.
 void Session::tellFailure(const std::string& what) {
-  if (outbox_.failed) outbox_.failed(what);
-  tellAll(errorText({{}, "failed", "", what}));
+  try {
+    tellAll(errorText({{}, "failed", "", what}));
+    if (outbox_.failed) outbox_.failed(what);
+  } catch (const std::exception&) {}
+}
+
+// Of threads that could not be started, the next try has to wait a little, while what there is is shown.
+bool Session::mayStart() const { return std::chrono::steady_clock::now() >= startAgainAt_; }
+
+// Whether a thread was started; of tries that fail one after the other only the first is told.
+bool Session::started(const char* what, const Status& begun) {
+  if (begun) {
+    toldNoThread_ = false;
+    return true;
+  }
+  startAgainAt_ = std::chrono::steady_clock::now() + kAfterFailure;
+  if (!std::exchange(toldNoThread_, true)) tellFailure(fmt::format("{}: {}", what, begun.error()));
+  return false;
 }
 
 void Session::takeNews(const JobNews& news) {

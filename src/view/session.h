@@ -20,6 +20,7 @@
 #include "view/light_follower.h"
 #include "view/refiner.h"
 #include "view/render_jobs.h"
+#include "view/start_thread.h"
 #include "view/window.h"
 
 namespace roomlight::view {
@@ -33,8 +34,9 @@ struct Outbox {
 
 class Session {
  public:
-  // `settings`: technique, quality and threads count.
-  Session(ViewHome home, const RenderSettings& settings, Outbox outbox);
+  // `settings`: technique, quality and threads count. Throws std::system_error where there is no thread for the loop
+  // or the frames; those that are missing later are tried again.
+  Session(ViewHome home, const RenderSettings& settings, Outbox outbox, const StartThread& start = systemThread);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -67,11 +69,14 @@ class Session {
   void push(Connection connection, What what);
   static bool isOfFrames(const What& what);
   Event* outdatedBy(const Event& event);
+  void runWithThreads();
   void run();
   bool workOn();
   bool handleEvents();
   bool work();
   void tellFailure(const std::string& what);
+  bool mayStart() const;
+  bool started(const char* what, const Status& begun);
   void takeNews(const JobNews& news);
   void tellProgress(const std::string& stage, float fraction);
 
@@ -187,6 +192,8 @@ class Session {
   };
   std::optional<Refining> refining_;
   int nextJob_ = 1;
+  TimePoint startAgainAt_{};  // after a thread could not be started
+  bool toldNoThread_ = false;  // since the last that could
 
   std::mutex mutex_;  // of what follows
   std::optional<std::pair<std::string, float>> progress_;  // not told yet
@@ -201,7 +208,5 @@ class Session {
   FrameSender sender_;
   std::thread thread_;  // last: it uses all of the above
 };
-
-bool isTechnique(const std::string& name);
 
 }  // namespace roomlight::view

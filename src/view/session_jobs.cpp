@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/quality.h"
+#include "engine/technique.h"
 #include "import/printable.h"
 #include "view/save_lighting.h"
 #include "view/session.h"
@@ -72,7 +73,7 @@ void Session::on(Window& window, const Event&, const RenderWish& m) {
       return tell(window, errorText({m.id, "unknownThing", "quality", s.error()}));
   }
   work.settings.technique = m.technique.empty() ? window.technique : m.technique;
-  if (!isTechnique(work.settings.technique))
+  if (!findTechnique(work.settings.technique))
     return tell(window, errorText({m.id, "unknownThing", "technique",
                                    fmt::format("no technique '{}'", printable(m.technique))}));
   const double aspect = m.panorama ? 2
@@ -97,8 +98,8 @@ void Session::on(Window& window, const Event&, const RenderWish& m) {
   work.format = m.format, work.window = window.name, work.job = fmt::format("job:{}", nextJob_++);
   work.fileName = fmt::format("{}-{}.{}", safeName(home_.name), m.panorama ? "panorama" : "picture", m.format);
   const std::string job = work.job;
-  if (!jobs_.add(std::move(work)))
-    return tell(window, errorText({m.id, "notPossible", "", "too many pictures are waiting; cancel one"}));
+  if (const Status added = jobs_.add(std::move(work)); !added)
+    return tell(window, errorText({m.id, "notPossible", "", added.error()}));
   tell(window, textOf({{"type", "ok"}, {"id", m.id}, {"job", job}}));
 }
 

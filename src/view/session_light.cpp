@@ -59,6 +59,7 @@ void Session::beginBuilding() {
     if (!isShown(builder_.work().key)) builder_.giveUp();
     return;
   }
+  if (!mayStart()) return;
   for (const Window& w : windows_) {
     for (size_t k = 0; k < w.sides.size() && w.connection; ++k) {
       const Side& s = w.sides[k];
@@ -69,14 +70,16 @@ void Session::beginBuilding() {
       settings.technique = s.key.technique;
       RenderProgress progress;
       progress.report = [this](const std::string& stage, float fraction) { tellProgress(stage, fraction); };
-      builder_.begin(home_, {s.key, stateOf(s.key), settings, cameraOf(w.camera), revision_}, std::move(progress),
-                     [this] {
-                       {
-                         const std::lock_guard lock(mutex_);
-                         built_ = true;
-                       }
-                       wake_.notify_all();
-                     });
+      const auto ready = [this] {
+        {
+          const std::lock_guard lock(mutex_);
+          built_ = true;
+        }
+        wake_.notify_all();
+      };
+      started("the home cannot be lit now",
+              builder_.begin(home_, {s.key, stateOf(s.key), settings, cameraOf(w.camera), revision_},
+                             std::move(progress), ready));
       return;
     }
   }
@@ -183,7 +186,7 @@ void Session::followFront(LitHome& home) {
 // Begins to find the light of a home that windows look at and that has changed, or goes on with bounces that it still
 // owes: of several in turn.
 void Session::followLight() {
-  if (follower_.home()) return;
+  if (follower_.home() || !mayStart()) return;
   LitHome* next = nullptr;
   for (const auto& home : lit_) {
     if (!needs(home->key) || isUpToDate(*home) || meterIsDue(*home)) continue;
@@ -195,14 +198,16 @@ void Session::followLight() {
     soon_ = true;
     return;
   }
-  next->followedAt = ++followings_, followed_ = revision_;
-  follower_.begin(home_, *next, wantedOf(*next), settings_.threads, [this] {
+  const auto ready = [this] {
     {
       const std::lock_guard lock(mutex_);
       lightReady_ = true;
     }
     wake_.notify_all();
-  });
+  };
+  next->followedAt = ++followings_, followed_ = revision_;
+  started("light cannot follow the change now",
+          follower_.begin(home_, *next, wantedOf(*next), settings_.threads, ready));
 }
 
 // Whether there was light to take.

@@ -4,7 +4,7 @@
 #include <random>
 #include <utility>
 
-#include "engine/render.h"
+#include "engine/technique.h"
 #include "import/printable.h"
 #include "view/session.h"
 
@@ -29,11 +29,6 @@ ViewError noTechnique(uint32_t id, const char* field, const std::string& name) {
 }
 
 }  // namespace
-
-bool isTechnique(const std::string& name) {
-  const auto all = techniques();
-  return std::any_of(all.begin(), all.end(), [&](const auto& t) { return t.first == name; });
-}
 
 void Session::handle(const Event& event) {
   if (const auto* opened = std::get_if<Opened>(&event.what)) return openWindow(event, opened->window);
@@ -110,7 +105,7 @@ void Session::on(Window& window, const Event& event, const DisplayChange& m) {
 }
 
 void Session::on(Window& window, const Event& event, const ChooseTechnique& m) {
-  if (!isTechnique(m.technique)) return tell(window, errorText(noTechnique(m.id, "technique", m.technique)));
+  if (!findTechnique(m.technique)) return tell(window, errorText(noTechnique(m.id, "technique", m.technique)));
   const std::string before = std::exchange(window.technique, m.technique);
   chooseSides(window);
   if (lightsNeeded() > kMostAtOnce) {
@@ -128,7 +123,7 @@ void Session::on(Window& window, const Event& event, const ChooseSplit& m) {
     const std::pair<const char*, const SplitSide*> sides[] = {{"left", &m.split->left}, {"right", &m.split->right}};
     for (const auto& [name, side] : sides) {
       const std::string field = fmt::format("split.{}", name);
-      if (!side->technique.empty() && !isTechnique(side->technique))
+      if (!side->technique.empty() && !findTechnique(side->technique))
         return tell(window, errorText(noTechnique(m.id, (field + ".technique").c_str(), side->technique)));
       if (!side->plan.empty() && !plans_.contains(side->plan))
         return tell(window, errorText({m.id, "unknownThing", field + ".plan",

@@ -76,8 +76,8 @@ bool Session::answerPoints(Window& window) {
   }
   const RayScene& rays = home->front ? home->front->rays() : home->lit->rays();
   const auto find = [&](const Point& p) {
-    return pickAt(home_.editable, home->front ? home->front->state() : home->state, rays, camera,
-                  frameSize(window.viewport, 1), p.x, p.y, static_cast<float>(window.viewport.height));
+    return pickAt(home_.editable, home->front ? home->front->state() : home->state, rays,
+                  {camera, frameSize(window.viewport, 1), p.x, p.y, static_cast<float>(window.viewport.height)});
   };
   bool answered = false;
   // What fails is not asked again.

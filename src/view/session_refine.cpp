@@ -20,9 +20,9 @@ bool couldBeRefined(const Window& w, const Side& s) {
 
 }  // namespace
 
-// Other techniques show what they find, not what is true; of illuminance the averages are good enough.
+// Of illuminance the averages are good enough.
 bool Session::refines(const Window& window, const Side& side) const {
-  return !window.display.white() && (side.key.technique == "hybrid" || side.key.technique == "path");
+  return !window.display.white() && findTechnique(side.key.technique)->refinesToTruth;
 }
 
 void Session::tellRefined() {
@@ -61,6 +61,7 @@ void Session::beginRefining() {
     if (refining_) refiner_.giveUp(), refining_.reset();
     return;
   }
+  if (!mayStart()) return;
   const auto [window, k] = nextToRefine();
   if (!window || (refining_ && !isTurnOver(window->sides[k]))) return;
   if (refining_) refiner_.giveUp(), refining_.reset();
@@ -72,11 +73,13 @@ void Session::beginRefining() {
   PathSettings settings = settings_.path;
   settings.width = s.picture.image().width, settings.height = s.picture.image().height;
   settings.seed = settings_.seed + 1 + s.turns;  // other random numbers than those of the picture so far
-  refining_ = Refining{window->name, k, window->serial, length, 0};
   // The picture of an earlier turn is better than the first looks of this one could make it.
   const int firstLook = s.turns > 0 ? static_cast<int>(length) : Refiner::kFewestSamples;
+  if (!started("the picture cannot be refined now", refiner_.begin(*litFor(s.key), cameraOf(window->camera), settings,
+                                                                   settings_.threads, s.picture.image(), firstLook)))
+    return;
   ++s.turns;
-  refiner_.begin(*litFor(s.key), cameraOf(window->camera), settings, settings_.threads, s.picture.image(), firstLook);
+  refining_ = Refining{window->name, k, window->serial, length, 0};
 }
 
 // Whether there was a picture to take.

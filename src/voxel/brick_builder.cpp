@@ -41,28 +41,41 @@ class Accumulators {
   size_t used_ = 0;
 };
 
-// Adds what one triangle leaves in one voxel: to the side its front faces, and to the opposite one.
 // Walls often stand on the middle of a floor's voxels: in their plane a place would be on neither side.
 constexpr float kOffCentre = 0.04f;  // of the way to a corner
 
-void addPiece(const Polygon& polygon, Vec3 corner, const LatticeTriangle& t, const Shade& shade, bool emitsBack,
-              uint32_t instance, VoxelSums& sums, std::vector<Layer>& layers) {
+// Where a piece comes from.
+struct Origin {
+  uint32_t instance = 0;
+  bool emitsBack = false;  // its material's emission leaves both sides
+};
+
+// Where it goes to.
+struct Target {
+  VoxelSums& sums;
+  std::vector<Layer>& layers;
+};
+
+// Adds what one triangle leaves in one voxel, whose lowest corner is `corner`: to the side its front faces, and to the
+// opposite one.
+void addPiece(const Polygon& polygon, Vec3 corner, const LatticeTriangle& t, const Shade& shade, Origin from,
+              Target to) {
   const AreaCentroid g = areaOf(polygon);
   if (!(g.area > 0)) return;
-  sums.mask |= subVoxelMask(polygon, corner, g.vectorArea);
+  to.sums.mask |= subVoxelMask(polygon, corner, g.vectorArea);
   const int face = dominantFace(t.front);
   SlotPiece piece;
   piece.area = g.area * shade.coverage, piece.wholeArea = g.area;
   const Vec3 projected = abs(t.front) * piece.area;
-  sums.projected += projected;
+  to.sums.projected += projected;
   piece.projected = projected[face / 2];
   piece.place = g.centroid + (polygon.v[0] - g.centroid) * kOffCentre, piece.normal = t.front;
   piece.albedo = shade.albedo, piece.emission = shade.emission;
-  piece.instance = instance;
-  sums.slots[static_cast<size_t>(face)].add(piece, face, layers);
+  piece.instance = from.instance;
+  to.sums.slots[static_cast<size_t>(face)].add(piece, face, to.layers);
   piece.normal = -t.front;
-  if (!emitsBack) piece.emission = Vec3(0);
-  sums.slots[static_cast<size_t>(face ^ 1)].add(piece, face ^ 1, layers);
+  if (!from.emitsBack) piece.emission = Vec3(0);
+  to.sums.slots[static_cast<size_t>(face ^ 1)].add(piece, face ^ 1, to.layers);
 }
 
 void addTriangle(const Scene& scene, const Lattice& lattice, Int3 brick, Voxelisation::Reference ref,
@@ -86,8 +99,8 @@ void addTriangle(const Scene& scene, const Lattice& lattice, Int3 brick, Voxelis
         const int lx = local(x, brick.x), ly = local(y, brick.y), lz = local(z, brick.z);
         const Vec3 corner{static_cast<float>(brick.x * kBrickSize + lx), static_cast<float>(brick.y * kBrickSize + ly),
                           static_cast<float>(brick.z * kBrickSize + lz)};
-        addPiece(pz, corner, t, shade, emitsBack, ref.instance, sums.at(lx + kBrickSize * (ly + kBrickSize * lz)),
-                 sums.layers());
+        addPiece(pz, corner, t, shade, {ref.instance, emitsBack},
+                 {sums.at(lx + kBrickSize * (ly + kBrickSize * lz)), sums.layers()});
       });
     });
   });

@@ -46,7 +46,7 @@ GatheredPicture render(Scene scene, Vec3 eye, const ConeSetup& setup, Turn turn 
   voxel.voxelSizeM = setup.voxelSizeM;
   const Voxelisation v = voxelise(scene, voxel);
   const RadianceField field = illuminate(rays, lights, v.voxels, setup.radiance);
-  return gatherCones(rays, lights, v.voxels, field, camera, setup.gather);
+  return gatherCones({rays, lights}, v.voxels, field, camera, setup.gather);
 }
 
 double mean(const Image& image) {

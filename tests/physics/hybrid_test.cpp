@@ -36,12 +36,12 @@ struct Lit {
         voxels(voxelise(scene, {.voxelSizeM = voxelSizeM})),
         field(illuminate(rays, lights, voxels.voxels, still())) {}
   Image hybrid(const Camera& camera, RayGatherSettings settings = small()) const {
-    return gatherRays(rays, lights, voxels.voxels, field, camera, settings).image;
+    return gatherRays({rays, lights}, voxels.voxels, field, camera, settings).image;
   }
   Image cone(const Camera& camera) const {
     GatherSettings settings;
     settings.width = settings.height = 48;
-    return gatherCones(rays, lights, voxels.voxels, field, camera, settings).image;
+    return gatherCones({rays, lights}, voxels.voxels, field, camera, settings).image;
   }
   static RayGatherSettings small() {
     RayGatherSettings settings;

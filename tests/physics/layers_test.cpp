@@ -299,8 +299,8 @@ TEST(LayersOfManyLamps, addUpAndADimOneHasLittleMoreNoise) {
   const Trial layer = trialOf(parts, first, second), single = trialOf(own, first, second);
   fmt::print("Dim among many: mean {:.4f}, block error {:.4f}; rendered alone {:.4f}\n", layer.mean, layer.blocks,
              single.blocks);
-  // A lamp of a fiftieth of another's light gets fewer of the samples that twelve share: 1.45 times the error it has
-  // alone was measured, and stands as a shortcoming in docs/methods/layers.md. Ratios are told to 7 %.
+  // A lamp of a fiftieth of another's light gets fewer of the samples that twelve share: up to 1.45 times the error
+  // it has alone was measured here. Ratios are told to 7 %.
   EXPECT_LE(layer.blocks, 1.45 * 1.2 * single.blocks);
 }
 

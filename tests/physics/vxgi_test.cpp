@@ -72,8 +72,8 @@ TEST(Vxgi, lampInACubeGivesItsIndirectLight) {
   for (int i = 0; i < kPlaces * kPlaces; ++i) {
     const Vec3 p{4 * (static_cast<float>(i % kPlaces) + 0.5f) / kPlaces, 0,
                  4 * (static_cast<float>(i / kPlaces) + 0.5f) / kPlaces};
-    sum += static_cast<double>(traceVxgiDiffuse(light.map, p, {0, 1, 0}, {0, 1, 0}, cones, 0.7f * static_cast<float>(i),
-                                                VxgiTracing(settings))
+    sum += static_cast<double>(traceVxgiDiffuse(light.map, {p, {0, 1, 0}, {0, 1, 0}}, cones,
+                                                0.7f * static_cast<float>(i), VxgiTracing(settings))
                                    .x *
                                kPi) /
            (kPlaces * kPlaces);
@@ -98,7 +98,7 @@ TEST(Vxgi, thinWallsLeakAsTheirTheorySays) {
   const VxgiLight light = lightVxgi(rays, lights, rays.bounds(), settings);
   const VxgiCones cones(settings.cones);
   const auto floorAt = [&](float x) {
-    return traceVxgiDiffuse(light.map, {x, 0, 1.5f}, {0, 1, 0}, {0, 1, 0}, cones, 0, VxgiTracing(settings)).x;
+    return traceVxgiDiffuse(light.map, {{x, 0, 1.5f}, {0, 1, 0}, {0, 1, 0}}, cones, 0, VxgiTracing(settings)).x;
   };
   EXPECT_GT(floorAt(4.5f), 0.01f * floorAt(1.5f));
   EXPECT_LT(floorAt(4.5f), 0.37f * floorAt(1.5f));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <pmmintrin.h>
+
 #include <atomic>
 #include <stdexcept>
 #include <vector>
@@ -30,6 +32,22 @@ TEST(Parallel, threadCapIsSeenInside) {
     withThreads(n, [&] { inside = threadCount(); });
     EXPECT_EQ(inside, n);
   }
+}
+
+// Callers may reckon with tiny numbers.
+TEST(Parallel, flushesToZeroInsideAlone) {
+  const unsigned before = _mm_getcsr();
+  for (const unsigned flags : {0u, static_cast<unsigned>(_MM_FLUSH_ZERO_ON)}) {
+    _mm_setcsr((before & ~(_MM_FLUSH_ZERO_MASK | _MM_DENORMALS_ZERO_MASK)) | flags);
+    std::atomic<int> flushing = 0;
+    parallelFor(64, 1, [&](size_t) {
+      flushing += _MM_GET_FLUSH_ZERO_MODE() == _MM_FLUSH_ZERO_ON && _MM_GET_DENORMALS_ZERO_MODE() != 0;
+    });
+    EXPECT_EQ(flushing.load(), 64);
+    EXPECT_EQ(_MM_GET_FLUSH_ZERO_MODE(), flags);
+    EXPECT_EQ(_MM_GET_DENORMALS_ZERO_MODE(), 0u);
+  }
+  _mm_setcsr(before);
 }
 
 TEST(Parallel, exceptionsReachTheCaller) {

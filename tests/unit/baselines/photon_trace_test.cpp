@@ -32,7 +32,7 @@ struct Traced {
       : rays(scene),
         lights(scene),
         importance(rays, lights, lookAround(from), settings.importons, settings.seed),
-        survey(surveySky(rays, lights, {}, 4, 0)),
+        survey(surveySky({rays, lights}, {}, {4, 0})),
         tracer(rays, lights, importance, survey, settings),
         global(tracer.global(indirectOnly, {})),
         caustic(tracer.caustics({})) {}

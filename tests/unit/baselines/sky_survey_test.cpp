@@ -32,7 +32,7 @@ TEST(SkySurvey, directionsThroughAWindowAreChosenMoreOften) {
   const Lights lights(scene);
   VoxelSettings settings;
   settings.voxelSizeM = 0.15f;
-  const SkySurvey survey = surveySky(rays, lights, settings, 8, 1);
+  const SkySurvey survey = surveySky({rays, lights}, settings, {8, 1});
   const Vec3 p{1.5f, 0, 1.5f}, n{0, 1, 0};
   const int32_t guide = guideAt(survey.guide, survey.voxels, p, n);
   ASSERT_GE(guide, 0);
@@ -45,7 +45,7 @@ TEST(SkySurvey, withoutSkyThereIsNothingToSee) {
   scene.sky = {};
   const RayScene rays(scene);
   const Lights lights(scene);
-  const SkySurvey survey = surveySky(rays, lights, {}, 8, 1);
+  const SkySurvey survey = surveySky({rays, lights}, {}, {8, 1});
   EXPECT_TRUE(survey.guide.cdf.empty());
   EXPECT_EQ(guideAt(survey.guide, survey.voxels, {1.5f, 0, 1.5f}, {0, 1, 0}), -1);
 }

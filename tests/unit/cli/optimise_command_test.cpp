@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/held_folder.h"
 #include "unit/cli/program.h"
 
 namespace roomlight {
@@ -137,7 +138,40 @@ TEST_F(OptimiseCommand, WhatIsWrongIsOneLineAndExitStatusTwo) {
     EXPECT_EQ(run.exitStatus, 2) << says;
     EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(files_ / "out")) << "made for results that there are none of";
   }
+  // A folder that was there before stays.
+  std::filesystem::create_directories(files_ / "out");
+  EXPECT_EQ(optimise("out", {"--quiet"}).exitStatus, 2);
+  EXPECT_TRUE(std::filesystem::exists(files_ / "out"));
+}
+
+TEST_F(OptimiseCommand, TheResponseIsTakenFromTheFolderUnlessItIsDamagedOrAnInputHasChanged) {
+  const std::string known = "known from before", damaged = "response.bin: is damaged";
+  const auto errOf = [&](const ProgramRun& run) {
+    EXPECT_EQ(run.exitStatus, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_EQ(errOf(optimise("out")).find(known), std::string::npos);
+  const std::string front = written("out/front.csv");
+  EXPECT_NE(errOf(optimise("out")).find(known), std::string::npos);
+  std::string bytes = written("out/response.bin");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+  writeFile(files_ / "out/response.bin", bytes);
+  const std::string again = errOf(optimise("out"));
+  EXPECT_EQ(again.find(known), std::string::npos) << again;
+  EXPECT_NE(again.find(damaged), std::string::npos) << again;
+  EXPECT_EQ(written("out/front.csv"), front);
+  EXPECT_EQ(errOf(optimise("out", {"--metres-per-unit", "1.01"})).find(known), std::string::npos);
+}
+
+TEST_F(OptimiseCommand, OneRunAtATimeWritesIntoAFolder) {
+  const Result<HeldFolder> other = holdFolder(files_ / "out");
+  ASSERT_TRUE(other && other.value());
+  const ProgramRun run = optimise("out", {"--quiet"});
+  EXPECT_EQ(run.exitStatus, 1);
+  EXPECT_NE(run.err.find("out: is in use by another run of optimise"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
 }  // namespace

@@ -428,5 +428,17 @@ TEST(RenderCommandOfHomes, takesSizeAndQualityOfTheHomesPhotoWhereNoneAreGiven) 
   EXPECT_EQ(settings()["quality"], "good");
 }
 
+TEST_F(RenderCommand, endsWithOneLineRatherThanTakeMoreMemoryThanAsked) {
+  const ProgramRun run = runProgram(
+      {"render", scene_, "-o", path("a.png"), "--memory", "200MB", "--size", "8000x8000", "--samples", "1", "--quiet"});
+  EXPECT_EQ(run.exitStatus, 3) << run.err;
+  EXPECT_NE(run.err.find("not enough memory within --memory 200MB"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+  EXPECT_EQ(render({"-o", path("b.png"), "--memory", "2GB"}).exitStatus, 0);
+  for (const char* wrong : {"2", "much", "-1GB", "1kB", "nanGB", "1MB"})
+    EXPECT_EQ(render({"-o", path("c.png"), "--memory", wrong}).exitStatus, 2) << wrong;
+}
+
 }  // namespace
 }  // namespace roomlight

@@ -1,10 +1,13 @@
 // A lit scene brought up to date shows what one lit anew shows, by every technique.
 #include "engine/lit_scene.h"
+#include "engine/technique.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <thread>
 
 #include "base/clock.h"
@@ -75,18 +78,31 @@ class LitSceneUpdate : public ::testing::TestWithParam<std::string> {
   std::unique_ptr<LitScene> open(const Scene& scene) {
     return std::move(lightScene(scene, small(GetParam()), stages_).value());
   }
+  // The same, with what is finest about one place around the camera.
+  Result<std::unique_ptr<LitScene>> openForCamera(const Scene& scene, Stages& stages) const {
+    return lightScene(scene, small(GetParam()), stages, {true, &camera_});
+  }
   Image picture(const LitScene& lit) const { return lit.picture(camera_, kWidth, kHeight); }
 
-  // What bounces leave out is all that may differ.
-  static void expectSame(const Image& a, const Image& b) {
-    ASSERT_EQ(a.pixels.size(), b.pixels.size());
+  // Root mean square, relative to the mean; infinite for black pictures.
+  static double difference(const Image& a, const Image& b) {
     double squares = 0, mean = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i) {
       const double d = luminance(a.pixels[i]) - luminance(b.pixels[i]);
       squares += d * d, mean += luminance(b.pixels[i]);
     }
     const double n = static_cast<double>(a.pixels.size());
-    EXPECT_LT(std::sqrt(squares / n), 2e-3 * mean / n);
+    return mean > 0 ? std::sqrt(squares / n) / (mean / n) : std::numeric_limits<double>::infinity();
+  }
+  // What bounces leave out is all that may differ.
+  static void expectSame(const Image& a, const Image& b) {
+    ASSERT_EQ(a.pixels.size(), b.pixels.size());
+    EXPECT_LT(difference(a, b), 2e-3);
+  }
+  // A change was seen.
+  static void expectOther(const Image& a, const Image& b) {
+    ASSERT_EQ(a.pixels.size(), b.pixels.size());
+    EXPECT_GT(difference(a, b), 1e-2);
   }
 };
 
@@ -111,7 +127,9 @@ TEST_P(LitSceneUpdate, dimmedLightsGiveLess) {
   const auto lit = open(home.scene);
   const Image before = picture(*lit);
   lit->update(home.dim(0.3f, 0.5f), stages_);
-  expectSame(picture(*lit), picture(*open(home.scene)));
+  const Image dimmed = picture(*lit);
+  EXPECT_LT(test::meanLuminance(dimmed), 0.6 * test::meanLuminance(before));
+  expectSame(dimmed, picture(*open(home.scene)));
   lit->update(home.dim(1, 0), stages_);
   expectSame(picture(*lit), picture(*open(home.scene)));
   lit->update(home.dim(1, 1), stages_);
@@ -122,9 +140,12 @@ TEST_P(LitSceneUpdate, aHiddenThingIsGone) {
   Home home;
   home.scene.meshes.emplace_back();
   const auto lit = open(home.scene);
+  const Image before = picture(*lit);
   for (const uint32_t i : home.box) home.scene.instances[i].mesh = static_cast<int>(home.scene.meshes.size()) - 1;
   lit->update({home.box, {}, false}, stages_);
-  expectSame(picture(*lit), picture(*open(home.scene)));
+  const Image gone = picture(*lit);
+  expectOther(gone, before);
+  expectSame(gone, picture(*open(home.scene)));
 }
 
 // Not lit anew with every look, as from above a home where all that is seen lies on one side.
@@ -137,13 +158,26 @@ TEST_P(LitSceneUpdate, anEyeOutsideKeepsTheLight) {
   EXPECT_EQ(stats_.stages.size(), done);
 }
 
+// From room to room, not within one.
+TEST_P(LitSceneUpdate, lightThatIsFinestAboutOnePlaceFollowsTheEye) {
+  const bool isFinestSomewhere = GetParam() == "vxgi" || GetParam() == "lpv";
+  Home home;
+  const auto lit = std::move(openForCamera(home.scene, stages_).value());
+  const size_t done = stats_.stages.size();
+  lit->lookFrom(test::cameraAt({1, 1.2f, 4}), stages_);
+  EXPECT_EQ(stats_.stages.size(), done);
+  lit->lookFrom(test::cameraAt({2, 8, 2}), stages_);
+  EXPECT_EQ(stats_.stages.size() > done, isFinestSomewhere);
+}
+
 // From another thread, sooner and later: there is no light then, or a whole one.
 TEST_P(LitSceneUpdate, canBeCancelledAtAnyTime) {
   constexpr int kTimes = 12;
   Home home;
-  const Stopwatch whole;
-  static_cast<void>(open(home.scene));
-  const double seconds = whole.seconds();
+  const Stopwatch watch;
+  const auto undisturbed = openForCamera(home.scene, stages_);
+  const double seconds = watch.seconds();
+  const Image whole = picture(*undisturbed.value());
   for (int i = 0; i < kTimes; ++i) {
     std::atomic<bool> cancelled = i == 0;
     const auto later = [&](double s) {
@@ -156,32 +190,48 @@ TEST_P(LitSceneUpdate, canBeCancelledAtAnyTime) {
     progress.cancelled = &cancelled;
     Stages stages(progress, stats_);
     std::thread first = later(seconds * i / kTimes);
-    const auto lit = lightScene(home.scene, small(GetParam()), stages, {true, &camera_});
+    const auto lit = openForCamera(home.scene, stages);
     first.join();
     ASSERT_TRUE(lit.ok());
+    if (i == 0) {
+      EXPECT_FALSE(lit.value());
+    }
+    if (lit.value()) expectSame(picture(*lit.value()), whole);
     const auto other = open(home.scene);
     cancelled = false;
     std::thread second = later(0.5 * seconds * i / kTimes);
     other->update(home.moveBox({0.11f, 0, 0.13f}), stages);
+    const bool wasWhole = !cancelled;
     second.join();
+    if (wasWhole) expectSame(picture(*other), picture(*open(home.scene)));
     home.moveBox({-0.11f, 0, -0.13f});
   }
 }
 
-TEST_P(LitSceneUpdate, theSunMoves) {
+// Those whose light follows suns and sky; with the others a scene is lit anew.
+const std::vector<std::string> kFollowDaylight = {"hybrid", "cone", "photon", "path"};
+class LitSceneDaylight : public LitSceneUpdate {};
+
+TEST(LitSceneTechniques, sayWhichFollowDaylight) {
+  for (const Technique* t : techniques())
+    EXPECT_EQ(t->followsDaylight, std::count(kFollowDaylight.begin(), kFollowDaylight.end(), t->name) == 1) << t->name;
+}
+
+TEST_P(LitSceneDaylight, theSunMoves) {
   Home home;
   home.scene.meshes.emplace_back();
   home.scene.instances[5].mesh = static_cast<int>(home.scene.meshes.size()) - 1;  // a wall that is not there
   home.scene.sky.luminanceCdM2 = Vec3(200);
   home.scene.suns = {{"sun", normalize(Vec3(0.3f, 0.8f, 1)), Vec3(20000), 0}};
   const auto lit = open(home.scene);
-  if (!lit->followsDaylight()) GTEST_SKIP() << "is lit anew";
   const Image before = picture(*lit);
   home.scene.suns[0].toLight = normalize(Vec3(-0.4f, 0.5f, 1)), home.scene.sky.luminanceCdM2 = Vec3(90);
   SceneChange change;
   change.daylight = true;
   lit->update(change, stages_);
-  expectSame(picture(*lit), picture(*open(home.scene)));
+  const Image later = picture(*lit);
+  expectOther(later, before);
+  expectSame(later, picture(*open(home.scene)));
   home.scene.suns[0].toLight = normalize(Vec3(0.3f, 0.8f, 1)), home.scene.sky.luminanceCdM2 = Vec3(200);
   change = home.moveBox({1.1f, 0, 1.3f});
   change.daylight = true;
@@ -193,6 +243,8 @@ TEST_P(LitSceneUpdate, theSunMoves) {
 
 INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate,
                          ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon", "path"),
+                         [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneDaylight, ::testing::ValuesIn(kFollowDaylight),
                          [](const auto& test) { return test.param; });
 
 TEST(MeasureWalk, playsEveryFrameAndPutsAllBack) {
@@ -237,6 +289,7 @@ TEST(MeasureWalk, quickFramesAreAsBright) {
     return all;
   };
   const std::vector<double> whole = brightness(0), quick = brightness(1e4);
+  ASSERT_EQ(whole.size(), 4u);
   ASSERT_EQ(quick.size(), 4u);
   for (size_t i = 0; i < quick.size(); ++i) EXPECT_NEAR(quick[i], whole[i], 0.1 * whole[i]) << i;
   settings.technique = "path";

@@ -35,7 +35,7 @@ class Probes : public testing::Test {
   }
   ErrorLeft errorOf(const Image& picture, bool closely = false) const {
     const RayShader shader(rays_, lights_, voxels_, field_, settings_);
-    return ErrorProbes(rays_, lights_, shader, furnace_.camera, settings_, closely, {}).of(picture);
+    return ErrorProbes({rays_, lights_}, shader, furnace_.camera, settings_, closely, {}).of(picture);
   }
   Image even(float luminance) const {
     Image image(settings_.width, settings_.height);
@@ -97,7 +97,7 @@ TEST(ErrorOfNoise, isToldThroughTheNoiseOfProbes) {
                  off = std::clamp(static_cast<double>(luminance(few.pixels[i] - many.pixels[i])) / level, -1.0, 1.0);
     squares += off * off / static_cast<double>(many.pixels.size());
   }
-  const ErrorProbes probes(rays, lights, shader, camera, settings, true, {});
+  const ErrorProbes probes({rays, lights}, shader, camera, settings, true, {});
   EXPECT_GT(std::sqrt(squares), 0.05);
   EXPECT_NEAR(probes.of(few).relative, std::sqrt(squares), 0.25 * std::sqrt(squares));
   EXPECT_LT(probes.of(many).relative, 0.3 * std::sqrt(squares));

@@ -3,7 +3,10 @@
 
 #include <cmath>
 
+#include "import/foreign_lights.h"
+#include "import/foreign_model.h"
 #include "import/import.h"
+#include "scene/validate.h"
 #include "support/foreign_files.h"
 #include "unit/temporary_folder.h"
 
@@ -12,22 +15,8 @@ namespace {
 
 using namespace testing;
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ROOMLIGHT_NO_CHILD
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define ROOMLIGHT_NO_CHILD
-#endif
-
 class ForeignFormats : public ::testing::Test {
  protected:
-  void SetUp() override {
-#ifdef ROOMLIGHT_NO_CHILD
-    GTEST_SKIP() << "a build with sanitizers starts no process for the reader";
-#endif
-  }
   Imported read(const std::string& name, const std::string& bytes, const ImportOptions& options = {}) {
     writeFile(folder_ / name, bytes);
     Result<Imported> r = importScene(folder_ / name, options);
@@ -198,6 +187,53 @@ TEST_F(ForeignFormats, verticesThatAreNoPlaceCostTheirTriangles) {
   const Imported i = read("a.stl", stlBytes(t));
   EXPECT_EQ(i.scene.triangleCount(), 59u);
   EXPECT_TRUE(says(i.faults, "no finite place"));
+}
+
+// What comes from the reader is a model or none.
+TEST(ForeignModels, brokenValuesOfVerticesAreMended) {
+  importers::ForeignModel model;
+  model.materials.emplace_back();
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.uv[0] = {{0, 0}, {NAN, 0}, {0, 1e30f}};
+  mesh.colors = {{NAN, 0, 0}, {0, -1, 0}, {0, 0, INFINITY}};
+  mesh.indices = {0, 1, 2};
+  model.meshes.push_back(mesh);
+  model.instances.emplace_back();
+  importers::Warnings warnings;
+  const Scene scene = importers::sceneOf(
+      importers::foreignModel(importers::toBytes(model)),
+      [](std::string_view, const std::string&) { return std::nullopt; }, warnings);
+  EXPECT_EQ(warnings.lines(),
+            (std::vector<std::string>{"texture coordinates that are no finite numbers are taken as 0 (2 times)"}));
+  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error();
+}
+
+// Lights of no size, no brightness and no direction still make lamps that can be worked with.
+TEST(ForeignModels, lightsOfAbsurdValuesAreMended) {
+  importers::ForeignModel model;
+  for (const auto kind : {importers::ForeignLightKind::Spot, importers::ForeignLightKind::Area,
+                          importers::ForeignLightKind::Directional}) {
+    for (const float v : {NAN, 1e-38f, 1e30f}) {
+      importers::ForeignLight light;
+      light.kind = kind, light.colour = Vec3(1e-30f);
+      light.innerConeRad = light.outerConeRad = light.width = light.height = v;
+      light.direction = Vec3(v);
+      model.lights.push_back(light);
+      light.colour = Vec3(1);
+      model.lights.push_back(light);
+    }
+  }
+  Scene scene;
+  scene.materials.emplace_back();
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, mesh.indices = {0, 1, 2};
+  scene.meshes.push_back(mesh);
+  scene.instances.emplace_back();
+  importers::Warnings warnings;
+  importers::addForeignLights(importers::foreignModel(importers::toBytes(model)).lights, 1, scene, warnings);
+  EXPECT_EQ(scene.suns.size(), 3u);
+  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error();
 }
 
 // The parent never crashes, whatever becomes of the reader.

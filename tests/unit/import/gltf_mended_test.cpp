@@ -156,6 +156,7 @@ TEST_F(GltfMended, geometry) {
        }),
        "a vertex that is no finite number"},
       {"NaN coordinates", attribute("TEXCOORD_0", {0, 0, kNaN, 0, 0, 1}, "VEC2"), "texture coordinates"},
+      {"coordinates far away", attribute("TEXCOORD_0", {0, 0, 1e30f, 0, 0, 1}, "VEC2"), "texture coordinates"},
       {"too few normals", attribute("NORMAL", {0, 0, 1}, "VEC3"), "do not fit"},
       {"flat normals", attribute("NORMAL", {0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC2"), "do not fit"},
       {"more normals than vertices", attribute("NORMAL", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3"), ""},
@@ -238,6 +239,16 @@ TEST_F(GltfMended, lightsAndCameras) {
          f.node()["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
        },
        "do not exist"},
+      {"frames whose axes cannot be squared",
+       [](GltfFile& f) {
+         f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}, {{"type", "directional"}}};
+         for (int i = 0; i < 2; ++i) {
+           f.json["nodes"].push_back(
+               {{"scale", {1e10, 1e10, 1e-25}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+           f.json["scenes"][0]["nodes"].push_back(1 + i);
+         }
+       },
+       ""},
       {"no field of view", camera({{"type", "perspective"}, {"perspective", {{"yfov", 0}}}}), "see nothing"},
       {"field of view", camera({{"type", "perspective"}, {"perspective", {{"yfov", 7}}}}), "see nothing"},
       {"no aspect", camera({{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"aspectRatio", 0}}}}), ""},

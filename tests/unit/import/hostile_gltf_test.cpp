@@ -182,6 +182,12 @@ TEST_F(HostileGltf, accessorsAndBuffers) {
          f.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", 2}};
        },
        "unfolds"},
+      {"three million instances",
+       [](GltfFile& f) {
+         f.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 3'000'000}});
+         f.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", 2}};
+       },
+       "TRANSLATION: meshes are placed more than 2000000 times"},
   });
 }
 
@@ -312,6 +318,42 @@ TEST_F(HostileGltf, primitivesThatShareDataCannotFillTheMemory) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   EXPECT_LT(usage.ru_maxrss, 2'000'000) << "kilobytes";
+}
+
+// Each node places all primitives of its mesh.
+TEST_F(HostileGltf, instancesAreCounted) {
+  GltfFile f = GltfFile::triangle();
+  const json primitive = f.primitive(), node = f.node();
+  for (int i = 1; i < 1500; ++i) {
+    f.json["meshes"][0]["primitives"].push_back(primitive);
+    f.json["nodes"].push_back(node);
+    f.json["scenes"][0]["nodes"].push_back(i);
+  }
+  expectRefused(f.import(folder_ / "a.glb"), "nodes times primitives", "meshes are placed more than 2000000 times");
+}
+
+TEST_F(HostileGltf, sparseValuesThatAreSharedCount) {
+  constexpr int kCount = 10'000;
+  GltfFile f = GltfFile::triangle();
+  std::vector<uint32_t> indices(kCount);
+  for (size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<uint32_t>(i);
+  const int normals = f.addFloats(std::vector<float>(3 * kCount, 1), "VEC3"),
+            numbers = f.addAccessor(indices, 5125, "SCALAR");
+  const json view = f.json["accessors"][static_cast<size_t>(numbers)]["bufferView"],
+             values = f.json["accessors"][static_cast<size_t>(normals)]["bufferView"];
+  f.json["accessors"][static_cast<size_t>(normals)]["sparse"] = {
+      {"count", kCount},
+      {"indices", {{"bufferView", view}, {"componentType", 5125}}},
+      {"values", {{"bufferView", values}}}};
+  f.primitive()["attributes"]["NORMAL"] = normals;
+  const json primitive = f.primitive();
+  for (int i = 0; i < 6000; ++i) f.json["meshes"][0]["primitives"].push_back(primitive);
+  expectRefused(f.import(folder_ / "a.glb"), "sparse", "unfolds");
+}
+
+TEST_F(HostileGltf, valuesOfTheJsonAreCounted) {
+  testing::writeFile(folder_ / "a.glb", "{\"extras\":[" + std::string(50'000'001, ','));
+  expectRefused(importScene(folder_ / "a.glb"), "commas", "holds more than 50000000 values");
 }
 
 }  // namespace

@@ -248,6 +248,23 @@ TEST_F(Obj, damagedPicturesCostOnlyThemselves) {
   EXPECT_FLOAT_EQ(imported.value().scene.materials[0].baseColor.x, 0.6f);
 }
 
+TEST_F(Obj, textureCoordinatesThatAreNoneAreTold) {
+  const auto imported = read(kSquare + "vt nan 0\nvt 0 1e30\nvt 0 1\nf 1/1 2/2 3/3\n");
+  ASSERT_TRUE(imported) << imported.error();
+  EXPECT_EQ(imported.value().warnings,
+            (std::vector<std::string>{"texture coordinates that are no finite numbers are taken as 0 (2 times)"}));
+  EXPECT_EQ(imported.value().scene.meshes[0].uv[0][1].y, 0);
+}
+
+// A name is copied to every part of its object.
+TEST_F(Obj, endlessNamesAreCut) {
+  const auto imported =
+      read("o " + std::string(100'000, 'x') + "\n" + kSquare + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n");
+  ASSERT_TRUE(imported) << imported.error();
+  ASSERT_EQ(imported.value().scene.instances.size(), 2u);
+  for (const Instance& i : imported.value().scene.instances) EXPECT_LT(i.name.size(), 300u);
+}
+
 TEST_F(Obj, zUpIsFoundOrSaid) {
   const std::string table = obj(tableZUp());
   const auto guessed = read(table);

@@ -46,6 +46,21 @@ TEST(Polygon, manyCornersAreCutInsideToo) {
   EXPECT_TRUE(allAlongZ);
 }
 
+// A file of many such combs would take minutes: their budget is one for all.
+TEST(Polygon, whatTheBudgetDoesNotCoverIsAFan) {
+  std::vector<Vec3> comb = {{40, -1, 0}};
+  for (int i = 20; i-- > 0;) {
+    const float x = 2.0f * static_cast<float>(i);
+    for (const Vec3 p : {Vec3(x + 2, 0, 0), Vec3(x + 1, 0, 0), Vec3(x + 1, 1, 0), Vec3(x, 1, 0)}) comb.push_back(p);
+  }
+  comb.push_back({0, -1, 0});
+  EarBudget budget{.testsLeft = 20'000};
+  for (size_t i = 0; i < 50; ++i) EXPECT_EQ(triangulate(comb, budget).size(), comb.size() - 2);
+  EXPECT_EQ(budget.testsLeft, 0u);
+  EXPECT_GT(budget.fans, 0u);
+  EXPECT_LT(budget.fans, 50u);
+}
+
 TEST(Polygon, degenerateAndHugePolygonsStillGiveAllTriangles) {
   EXPECT_EQ(triangulate(std::vector<Vec3>(5)).size(), 3u);
   EXPECT_EQ(triangulate(std::vector<Vec3>(100'000)).size(), 99'998u);

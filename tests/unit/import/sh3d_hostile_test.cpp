@@ -1,6 +1,8 @@
 // Damaged and malicious homes: one line of error, or a warning and the rest of the home.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "import/sh3d_archive.h"
 #include "import/sh3d_openings.h"
 #include "unit/import/sh3d_file.h"
@@ -146,6 +148,121 @@ TEST(HostileSh3d, workThatGrowsWithProductsEnds) {
            wallXml("b" + n, x, y, x, y + 300, 10) + roomXml({{x, y}, {x + 400, y}, {x + 400, y + 300}, {x, y + 300}});
   };
   EXPECT_TRUE(importHome(many(900, houses)).ok());
+}
+
+size_t drawnTriangles(const std::string& elements) { return homeScene(elements).triangleCount(); }
+
+std::string refusal(const std::string& elements, size_t maxTriangles) {
+  const Result<Imported> r = importBytes(zipped({{"Home.xml", homeXml(elements)}}), {.maxTriangles = maxTriangles});
+  return r.ok() ? "none" : r.error();
+}
+
+std::string roundWalls(size_t count, const std::string& inside = "") {
+  std::string out;
+  for (size_t i = 0; i < count; ++i) {
+    const std::string at = std::to_string(i % 1000 * 5000);
+    out += "<wall id='w" + std::to_string(i) + "' xStart='0' yStart='" + at + "' xEnd='4000' yEnd='" + at +
+           "' thickness='10' arcExtent='3'>" + inside + "</wall>";
+  }
+  return out;
+}
+
+// Walls are rounder than anybody sees: what they come to is told before any is made.
+TEST(HostileSh3d, roundWallsHaveABudget) {
+  const std::string boards = "<baseboard attribute='leftSideBaseboard' thickness='1' height='7'/>";
+  constexpr size_t kGround = 2;
+  for (const std::string& inside : {std::string(), boards}) {
+    const size_t one = drawnTriangles(roundWalls(1, inside)) - kGround;
+    EXPECT_GT(one, 500u);
+    EXPECT_EQ(drawnTriangles(roundWalls(3, inside)), 3 * one + kGround);
+    EXPECT_EQ(refusal(roundWalls(3, inside), 3 * one + kGround), "none");
+    const std::string why = refusal(roundWalls(4, inside), 3 * one + kGround);
+    EXPECT_NE(why.find("wall 'w3': would make " + std::to_string(one) + " triangles, " + std::to_string(4 * one) +
+                       " with all before it; a home of more than"),
+              std::string::npos)
+        << why;
+  }
+  expectXmlRefused(homeXml(roundWalls(8000)), "is too fine");
+}
+
+TEST(HostileSh3d, whateverIsDrawnHasABudget) {
+  const std::string light =
+      "<light name='l' x='0' y='0' width='10' depth='10' height='10'>"
+      "<lightSource x='0.5' y='0.5' z='0.5' color='FFFFFFFF' diameter='0.5'/></light>";
+  const std::string line =
+      "<polyline elevation='0' thickness='1' color='FF000000'><point x='0' y='0'/><point x='9' y='0'/><point x='9' "
+      "y='9'/></polyline>";
+  const std::string box = "<pieceOfFurniture name='p' x='0' y='0' width='10' depth='10' height='10'/>";
+  const std::string room = roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}});
+  const std::pair<std::string, size_t> cases[] = {
+      {light + light, 200}, {line, 14}, {box, 20}, {room, 14}};  // a wall has 12
+  for (const auto& [what, most] : cases)
+    EXPECT_NE(refusal(kWall + what, most).find("is too fine"), std::string::npos) << what;
+}
+
+// What takes no place takes no instance, but is worked out all the same.
+TEST(HostileSh3d, piecesWithoutPlaceCountToo) {
+  std::string model = "v 0 0 0\nv 1 0 0\nv 0 1 1\n", pieces;
+  for (int i = 0; i < 100; ++i) model += "f 1 2 3\n";
+  for (int i = 0; i < 50; ++i)
+    pieces += "<pieceOfFurniture name='p' x='0' y='0' width='0' depth='10' height='10' model='1.obj'/>";
+  const std::string bytes = zipped({{"Home.xml", homeXml(kWall + pieces)}, {"1.obj", model}});
+  EXPECT_TRUE(importBytes(bytes, {.maxTriangles = 5000}).ok());
+  const Result<Imported> r = importBytes(bytes, {.maxTriangles = 4999});
+  ASSERT_FALSE(r.ok());
+  EXPECT_NE(r.error().find("the home has more than 4999 triangles"), std::string::npos) << r.error();
+}
+
+std::string starRoom(size_t corners, size_t step, const std::string& more = "") {
+  std::vector<std::pair<double, double>> points;
+  for (size_t i = 0; i < corners; ++i) {
+    const double angle = 2 * kPi * static_cast<double>(i * step % corners) / static_cast<double>(corners);
+    points.emplace_back(500 + 400 * std::cos(angle), 500 + 400 * std::sin(angle));
+  }
+  return roomXml(points, more);
+}
+
+// Two million crossings, as many floors between them.
+TEST(HostileSh3d, tanglesAreLeftOut) {
+  const Result<Imported> r = importHome("<level id='c' name='c' elevation='-300' floorThickness='12' height='250'/>" +
+                                        kWall + starRoom(2000, 999, "name='tangle'") +
+                                        starRoom(2000, 997, "name='cellar' level='c'") + starRoom(5, 2, "name='star'"));
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_TRUE(facesOf(r.value().scene, "tangle").empty());
+  EXPECT_NEAR(areaFacing(r.value().scene, "star", {0, 1, 0}), 12.41, 0.01);  // without its middle
+  ASSERT_EQ(r.value().scene.rooms.size(), 1u);
+  bool told = false;
+  for (const std::string& w : r.value().warnings)
+    told = told || (w.find("crosses itself more than 1000 times are left out") != std::string::npos &&
+                    w.find("room 'tangle'") != std::string::npos && w.find("room 'cellar'") != std::string::npos);
+  EXPECT_TRUE(told);
+}
+
+TEST(HostileSh3d, tanglesOfDoorsAreRectangles) {
+  std::string path = "M";
+  for (size_t i = 0; i < 1999; ++i) {
+    const double angle = 2 * kPi * static_cast<double>(i * 998 % 1999) / 1999;
+    path += " " + std::to_string(0.5 + 0.5 * std::cos(angle)) + "," + std::to_string(0.5 + 0.5 * std::sin(angle));
+  }
+  const Result<Imported> r =
+      importHome(kWall +
+                 "<doorOrWindow name='d' x='200' y='0' width='90' depth='20' height='90' elevation='50' "
+                 "cutOutShape='" +
+                 path + "z'/>" +
+                 "<pieceOfFurniture name='stairs' x='0' y='0' width='90' depth='90' height='300' "
+                 "staircaseCutOutShape='" +
+                 path + "z'/>" + roomXml({{0, 0}, {400, 0}, {400, 300}, {0, 300}}));
+  ASSERT_TRUE(r.ok()) << r.error();
+  EXPECT_NEAR(volumeM3(r.value().scene, "w"), (4 * 2.5 - 0.9 * 0.9) * 0.1, 1e-4);
+  EXPECT_NE(r.value().warnings[0].find("cross themselves more than 1000 times are taken as rectangles"),
+            std::string::npos);
+}
+
+TEST(HostileSh3d, namesAreNotCopiedWithoutEnd) {
+  const Result<Imported> r = importHome("<pieceOfFurniture name='" + std::string(100'000, 'x') +
+                                        "' x='0' y='0' width='10' depth='10' height='10'/>");
+  ASSERT_TRUE(r.ok()) << r.error();
+  for (const Instance& i : r.value().scene.instances) EXPECT_LT(i.name.size(), 300u);
 }
 
 TEST(HostileSh3d, degenerateThingsDoNoHarm) {

@@ -46,8 +46,8 @@ TEST_F(ResponseTest, SumOfResponsesIsTheFullSolution) {
   const RenderProgress progress;
   RenderStats stats;
   Stages stages(progress, stats);
-  const auto c = certify(problem_->file.home, problem_->file.study(), problem_->candidates, problem_->meters, m,
-                         designs[0], {}, RenderSettings(), stages);
+  const auto c = certify(problem_->file.home, {problem_->file.study(), problem_->candidates, m, designs[0]},
+                         problem_->meters, {}, RenderSettings(), stages);
   ASSERT_TRUE(c) << c.error();
   const Certificate::OfCondition& night = c.value()->conditions[0];
   EXPECT_EQ(night.judged, problem_->meters.points());

@@ -1,41 +1,94 @@
 #include "optimise/store.h"
 
+#include <map>
+
 #include "optimise/evaluate.h"
 #include "optimise/proposal.h"
 #include "optimise/report.h"
 #include "photometry/colour_temperature.h"
 #include "unit/optimise/small_study.h"
+#include "unit/photometry/web_files.h"
 
 namespace roomlight::optimise {
 namespace {
 
 using testing::SmallProblem;
 
+// None also where the file is refused; `refused`: with which line.
+std::optional<Response> load(const std::filesystem::path& file, const std::string& hash, const ResponseSizes& sizes,
+                             std::string* refused = nullptr) {
+  const Result<std::optional<Response>> r = loadResponse(file, hash, sizes);
+  if (refused) *refused = r ? "" : r.error();
+  return r ? r.value() : std::nullopt;
+}
+
 TEST(Store, AResponseComesBackBitByBitAndOnlyForItsInputs) {
   const SmallProblem p;
   const testing::TemporaryFolder folder;
   ASSERT_TRUE(saveResponse(folder / "response.bin", "abc", p.response));
   const ResponseSizes sizes{p.candidates.candidates.size(), p.meters.elements.size(), 1, 1};
-  const auto back = loadResponse(folder / "response.bin", "abc", sizes);
+  std::string refused;
+  const auto back = load(folder / "response.bin", "abc", sizes);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->elements, p.response.elements);
   EXPECT_TRUE(std::equal(back->lux.begin(), back->lux.end(), p.response.lux.begin(), p.response.lux.end()));
   EXPECT_EQ(back->base.size(), p.response.base.size());
-  EXPECT_FALSE(loadResponse(folder / "response.bin", "abd", sizes));
+  EXPECT_FALSE(load(folder / "response.bin", "abd", sizes, &refused));
+  EXPECT_EQ(refused, "") << "it is whole";
+  EXPECT_FALSE(load(folder / "none.bin", "abc", sizes, &refused));
+  EXPECT_EQ(refused, "");
   // Nor is one that has other sizes than the study.
   for (const ResponseSizes& other : {ResponseSizes{sizes.candidates + 1, sizes.elements, 1, 1},
                                      {sizes.candidates, sizes.elements + 1, 1, 1},
                                      {sizes.candidates, sizes.elements, 2, 1},
                                      {sizes.candidates, sizes.elements, 1, 2}})
-    EXPECT_FALSE(loadResponse(folder / "response.bin", "abc", other));
+    EXPECT_FALSE(load(folder / "response.bin", "abc", other));
   Response broken = p.response;
   broken.base[0].lux.pop_back();
   ASSERT_TRUE(saveResponse(folder / "broken.bin", "abc", broken));
-  EXPECT_FALSE(loadResponse(folder / "broken.bin", "abc", sizes));
+  EXPECT_FALSE(load(folder / "broken.bin", "abc", sizes));
   // Half a file is none.
   const std::string bytes = testing::readFile(folder / "response.bin");
   testing::writeFile(folder / "half.bin", bytes.substr(0, bytes.size() / 2));
-  EXPECT_FALSE(loadResponse(folder / "half.bin", "abc", sizes));
+  EXPECT_FALSE(load(folder / "half.bin", "abc", sizes));
+}
+
+TEST(Store, ADamagedResponseIsRefusedWithOneLine) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "response.bin";
+  Response r;
+  r.elements = 2, r.eyes = 1;
+  r.lux = {{1, 2, 3}, {4, 5, 6}}, r.glare = {{7, 8}};
+  r.base = {{{{1, 1, 1}, {2, 2, 2}}, {{3, 4}}}};
+  ASSERT_TRUE(saveResponse(file, hashOf("abc"), r));
+  const ResponseSizes sizes{1, 2, 1, 1};
+  ASSERT_TRUE(load(file, hashOf("abc"), sizes));
+  const std::string bytes = testing::readFile(file);
+  const auto expectRefused = [&](const std::string& damaged, const std::string& how) {
+    testing::writeFile(file, damaged);
+    std::string refused;
+    EXPECT_FALSE(load(file, hashOf("abc"), sizes, &refused)) << how;
+    EXPECT_NE(refused.find("response.bin: is damaged"), std::string::npos) << how << ": " << refused;
+    EXPECT_EQ(refused.find('\n'), std::string::npos) << how;
+  };
+  // Small enough for every bit: of the head, the hash of the inputs, sizes, numbers and the check itself.
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string damaged = bytes;
+      damaged[i] = static_cast<char>(damaged[i] ^ (1 << bit));
+      expectRefused(damaged, fmt::format("bit {} of byte {}", bit, i));
+    }
+    expectRefused(bytes.substr(0, i), fmt::format("cut to {} bytes", i));
+  }
+  expectRefused(bytes + '\0', "a byte more");
+  // Two that cancel each other out where changes are only added up.
+  const size_t middle = bytes.size() / 2;
+  std::string damaged = bytes;
+  damaged[middle] = static_cast<char>(damaged[middle] ^ 0x80);
+  damaged[middle + 8] = static_cast<char>(damaged[middle + 8] ^ 0x80);
+  expectRefused(damaged, "two bits");
+  testing::writeFile(file, bytes);
+  EXPECT_TRUE(load(file, hashOf("abc"), sizes));
 }
 
 TEST(Store, ASearchThatWasStoppedGoesOnToTheSameFront) {
@@ -48,33 +101,112 @@ TEST(Store, ASearchThatWasStoppedGoesOnToTheSameFront) {
   search::State part = search::start(problem, settings, first);
   for (int i = 0; i < 4; ++i) search::advance(problem, part);
   const testing::TemporaryFolder folder;
-  ASSERT_TRUE(saveSearch(folder / "search.json", "abc", part));
-  EXPECT_FALSE(loadSearch(folder / "search.json", "other", problem));
-  auto again = loadSearch(folder / "search.json", "abc", problem);
-  ASSERT_TRUE(again);
-  search::run(problem, *again);
-  EXPECT_EQ(again->archive.objectives, whole.archive.objectives);
-  EXPECT_EQ(again->evaluations, whole.evaluations);
+  const std::filesystem::path file = folder / "search.json";
+  ASSERT_TRUE(saveSearch(file, "abc", part));
+  const auto other = loadSearch(file, "other", problem);
+  ASSERT_TRUE(other) << other.error();
+  EXPECT_FALSE(other.value());
+  const auto known = loadSearch(file, "abc", problem);
+  ASSERT_TRUE(known) << known.error();
+  ASSERT_TRUE(known.value());
+  search::State again = *known.value();
+  search::run(problem, again);
+  EXPECT_EQ(again.archive.objectives, whole.archive.objectives);
+  EXPECT_EQ(again.evaluations, whole.evaluations);
+  // A digit of a design is another one.
+  std::string text = testing::readFile(file);
+  const size_t digit = text.find_first_of("12345678", text.size() / 2);
+  ASSERT_NE(digit, std::string::npos);
+  ++text[digit];
+  testing::writeFile(file, text);
+  const auto damaged = loadSearch(file, "abc", problem);
+  ASSERT_FALSE(damaged);
+  EXPECT_NE(damaged.error().find("search.json: is damaged"), std::string::npos) << damaged.error();
+}
+
+std::string hashOfInputs(const Scene& home, const StudyFile& study, const std::string& settings = "x") {
+  const Result<std::string> hash = inputHash(home, study, settings);
+  EXPECT_TRUE(hash) << hash.error();
+  return hash ? hash.value() : "";
 }
 
 TEST(Store, TheHashOfInputsFollowsEveryFile) {
   testing::SmallStudy s;
-  const std::string before = inputHash(s.folder() / "study.toml", s.study(), "x");
-  EXPECT_EQ(inputHash(s.folder() / "study.toml", s.study(), "x"), before);
-  EXPECT_NE(inputHash(s.folder() / "study.toml", s.study(), "y"), before);
+  const std::string before = hashOfInputs(s.home, s.study());
+  EXPECT_EQ(hashOfInputs(s.home, s.study()), before);
+  EXPECT_NE(hashOfInputs(s.home, s.study(), "y"), before);
   testing::writeFile(s.folder() / "catalogue.toml", std::string(testing::kCatalogue) + "# a word\n");
-  EXPECT_NE(inputHash(s.folder() / "study.toml", s.study(), "x"), before);
+  EXPECT_NE(hashOfInputs(s.home, s.study()), before);
+  testing::writeFile(s.folder() / "catalogue.toml", testing::kCatalogue);
+  EXPECT_EQ(hashOfInputs(s.home, s.study()), before);
+  testing::writeFile(s.folder() / "study.toml", std::string(testing::kStudy) + "# a word\n");
+  EXPECT_NE(hashOfInputs(s.home, s.study()), before);
 }
 
-TEST(Store, TheHashOfAHomeFollowsWhatCameFromOtherFiles) {
-  Scene home = testing::smallRoom();
-  const std::string before = hashOfScene(home);
-  EXPECT_EQ(hashOfScene(testing::smallRoom()), before);
-  home.materials[0].baseColor.x *= 0.9f;
-  EXPECT_NE(hashOfScene(home), before);
-  home = testing::smallRoom();
-  home.meshes[0].positions[0].y += 0.1f;
-  EXPECT_NE(hashOfScene(home), before);
+TEST(Store, TheHashOfInputsFollowsFilesThatOtherFilesName) {
+  const testing::TemporaryFolder files;
+  const auto weather = [](int diffuse) {
+    return fmt::format(
+        "LOCATION,Town,-,DEU,IWEC,1,48.14,11.58,1.0,500\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\n"
+        "2005,6,10,16,60,?9?9?9,20.0,8.0,50,101300,0,1300,300,500,700,{},50000,0,0,9999,180,3.0,5,5\n",
+        diffuse);
+  };
+  testing::IesText ies;
+  testing::LdtText ldt;
+  ies.tilt = "TILT=lamp.tlt\n";
+  const std::string lighting = R"({"lamps": [{"type": "photometric", "position": [1, 2, 1], "file": "strip.ldt"}]})";
+  const std::map<std::string, std::string> whole = {{"town.epw", weather(120)},
+                                                    {"spot.ies", ies.text()},
+                                                    {"lamp.tlt", "1 2 0 90 1 0.5"},
+                                                    {"strip.ldt", ldt.text()},
+                                                    {"fixed.json", lighting}};
+  for (const auto& [name, text] : whole) testing::writeFile(files / name, text);
+  const std::string study = testing::replaced(
+      testing::replaced(testing::kStudy, "daylight = \"none\"",
+                        fmt::format("daylight = {{ weather = \"{}\", time = \"2026-06-10T16:30+02:00\" }}",
+                                    (files / "town.epw").string())),
+      "catalogue =", fmt::format("lighting = \"{}\"\ncatalogue =", (files / "fixed.json").string()));
+  const std::string catalogue =
+      testing::replaced(testing::kCatalogue, "type = \"point\"\nflux = \"800 lm\"",
+                        fmt::format("type = \"photometric\"\nfile = \"{}\"", (files / "spot.ies").string()));
+  const testing::SmallStudy s(study, catalogue);
+  ASSERT_TRUE(s.read) << s.read.error();
+  const std::string before = hashOfInputs(s.home, s.study());
+  EXPECT_EQ(hashOfInputs(s.home, s.study()), before);
+  ies.candela = [](double, double g) { return 1000 * std::pow(std::cos(testing::radians(g)), 2); };
+  ldt.candelaPerKlm = [](double, double g) { return g < 45 ? 500.0 : 0.0; };
+  const std::pair<std::string, std::string> changes[] = {
+      {"town.epw", weather(130)},
+      {"spot.ies", ies.text()},
+      {"lamp.tlt", "1 2 0 90 1 0.7"},
+      {"strip.ldt", ldt.text()},
+      {"fixed.json", testing::replaced(lighting, "[1, 2, 1]", "[1, 2, 1.5]")}};
+  for (const auto& [name, text] : changes) {
+    testing::writeFile(files / name, text);
+    EXPECT_NE(hashOfInputs(s.home, s.study()), before) << name;
+    testing::writeFile(files / name, whole.at(name));
+    EXPECT_EQ(hashOfInputs(s.home, s.study()), before) << name;
+  }
+  std::filesystem::remove(files / "town.epw");
+  const Result<std::string> none = inputHash(s.home, s.study(), "x");
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().find("town.epw"), std::string::npos) << none.error();
+}
+
+TEST(Store, TheHashOfInputsFollowsTheHome) {
+  const testing::SmallStudy s;
+  const std::string before = hashOfInputs(testing::smallRoom(), s.study());
+  EXPECT_EQ(hashOfInputs(testing::smallRoom(), s.study()), before);
+  const auto expectNoticed = [&](void (*change)(Scene&), const char* what) {
+    Scene home = testing::smallRoom();
+    change(home);
+    EXPECT_NE(hashOfInputs(home, s.study()), before) << what;
+  };
+  expectNoticed([](Scene& h) { h.materials[0].baseColor.x *= 0.9f; }, "colour");
+  expectNoticed([](Scene& h) { h.materials[0].alphaMode = AlphaMode::Blend; }, "alpha mode");
+  expectNoticed([](Scene& h) { h.materials[0].baseColorTexture.texture = 0; }, "reference to a texture");
+  expectNoticed([](Scene& h) { h.meshes[0].positions[0].y += 0.1f; }, "shape");
+  expectNoticed([](Scene& h) { h.instances[0].worldFromObject.x *= 1.1f; }, "size, as --metres-per-unit changes it");
 }
 
 TEST(Proposal, FilesOfConditionsHaveNamesOfTheirOwn) {
@@ -118,7 +250,7 @@ TEST(Proposal, LightingFilesNameLampsWithTheirDimmingAndColour) {
   const SmallProblem p;
   search::Genomes designs = testing::darkDesigns(p.model, 1);
   designs[0].integers[0] = 2, designs[0].reals[0] = 0.25;
-  const auto lamps = lampsOf(p.file.study(), p.candidates, p.model, designs[0], 0);
+  const auto lamps = lampsOf({p.file.study(), p.candidates, p.model, designs[0]}, 0);
   ASSERT_EQ(lamps.size(), 1u);
   EXPECT_EQ(lamps[0]["type"], "spot");
   EXPECT_EQ(lamps[0]["dimming"], 0.25);

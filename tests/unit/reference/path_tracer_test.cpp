@@ -47,6 +47,24 @@ double meanSquare(const Image& a, const Image& b) {
   return sum / static_cast<double>(a.pixels.size());
 }
 
+// A sum in float is off by a thousandth here, and stands still after 2^24 samples.
+TEST(PathTracer, keepsTheMeanOverManySamples) {
+  Scene scene;
+  Material shining = test::lambertian(0);
+  shining.emission = Vec3(0.1f);
+  test::addRoom(scene, {0, 0, 0}, {2, 2, 2}, std::vector<int>(6, test::addMaterial(scene, shining)));
+  Camera camera;
+  camera.worldFromCamera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  const RayScene rays(scene);
+  const Lights lights(scene);
+  PathSettings settings = settingsOf(1, 1);
+  settings.lightPaths = false;
+  PathTracer tracer(rays, lights, camera, settings);
+  while (tracer.samples() < 50'000) tracer.pass();
+  EXPECT_NEAR(tracer.mean().pixels[0].x, 0.1f, 1e-6f);
+  EXPECT_LT(tracer.variance().pixels[0].x, 1e-12f);
+}
+
 TEST(PathFeatures, PartsMakeTheWholeAndTellWhatIsSeen) {
   for (const bool pane : {false, true}) {
     const Room room(pane);

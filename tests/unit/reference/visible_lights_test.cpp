@@ -42,7 +42,7 @@ struct Known {
   Lights lights;
   VisibleLights visible;
   explicit Known(const TwoRooms& rooms) : rays(rooms.scene), lights(rooms.scene), visible(lights) {
-    visible.learn(rays, CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight, 4000, 1);
+    visible.learn(rays, {CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight}, 4000, 1);
   }
 };
 
@@ -160,7 +160,7 @@ TEST(VisibleLights, knowNothingOnceStopped) {
   const Lights lights(rooms.scene);
   VisibleLights visible(lights);
   std::atomic<int> asked = 0;
-  visible.learn(rays, CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight, 4000, 1,
+  visible.learn(rays, {CameraRays(rooms.camera, kWidth, kHeight), kWidth, kHeight}, 4000, 1,
                 [&] { return ++asked > 10; });
   EXPECT_EQ(visible.cellCount(), 0u);
   EXPECT_TRUE(visible.partsAt(kPlace, kUp).empty());

@@ -52,18 +52,28 @@ std::string Reply::header(const std::string& name) const {
   return {};
 }
 
-Reply get(uint16_t port, const std::string& target, const Headers& headers) {
+struct Line::State {
+  uint16_t port = 0;
   asio::io_context context;
-  tcp::socket socket(context);
-  socket.connect(at(port));
-  http::request<http::empty_body> request(http::verb::get, target, 11);
-  request.set(http::field::host, hostOf(port));
-  for (const auto& [name, value] : headers) request.set(name, value);
-  http::write(socket, request);
+  tcp::socket socket{context};
   beast::flat_buffer buffer;
+};
+
+Line::Line(uint16_t port) : state_(std::make_unique<State>()) {
+  state_->port = port;
+  state_->socket.connect(at(port));
+}
+Line::Line(Line&&) noexcept = default;
+Line::~Line() = default;
+
+Reply Line::get(const std::string& target, const Headers& headers) {
+  http::request<http::empty_body> request(http::verb::get, target, 11);
+  request.set(http::field::host, hostOf(state_->port));
+  for (const auto& [name, value] : headers) request.set(name, value);
+  http::write(state_->socket, request);
   http::response_parser<http::string_body> parser;
   parser.body_limit(256 << 20);
-  http::read(socket, buffer, parser);
+  http::read(state_->socket, state_->buffer, parser);
   Reply reply;
   reply.status = static_cast<int>(parser.get().result_int());
   reply.body = parser.get().body();
@@ -71,6 +81,23 @@ Reply get(uint16_t port, const std::string& target, const Headers& headers) {
     reply.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
   return reply;
 }
+
+bool Line::isClosed(double seconds) {
+  char byte = 0;
+  bool closed = false;
+  state_->socket.async_read_some(asio::buffer(&byte, 1), [&](beast::error_code code, size_t) {
+    closed = code && code != asio::error::operation_aborted;
+  });
+  state_->context.restart();
+  state_->context.run_for(
+      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(seconds)));
+  if (closed) return true;
+  state_->socket.close();
+  state_->context.run();
+  return false;
+}
+
+Reply get(uint16_t port, const std::string& target, const Headers& headers) { return Line(port).get(target, headers); }
 
 struct Client::State {
   asio::io_context context;

@@ -21,7 +21,24 @@ struct Reply {
 
 using Headers = std::vector<std::pair<std::string, std::string>>;
 
-// A GET of the very target, whatever it holds. Host and Origin are those of `headers`, else this machine's, and none.
+// A connection on which nothing is said unless it is asked to.
+class Line {
+ public:
+  explicit Line(uint16_t port);
+  Line(Line&&) noexcept;
+  ~Line();
+  // A GET of the very target, whatever it holds. Host and Origin are those of `headers`, else this machine's, and none.
+  // Throws where it is closed.
+  Reply get(const std::string& target, const Headers& headers = {});
+  // Waits until the server closes it; false: it did not.
+  bool isClosed(double seconds = 20);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The same on a line of its own.
 Reply get(uint16_t port, const std::string& target, const Headers& headers = {});
 
 struct ReceivedFrame {

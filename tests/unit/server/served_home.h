@@ -2,6 +2,7 @@
 #pragma once
 
 #include <future>
+#include <stdexcept>
 #include <thread>
 
 #include "client.h"
@@ -63,27 +64,35 @@ class ServedHome {
     options.token = kToken;
     server::StaticFiles page = {{"/", {"<!doctype html>page", "text/html"}},
                                 {"/index.html", {"<!doctype html>page", "text/html"}}};
-    std::promise<std::string> link;
+    std::promise<server::Links> listening;
     server::Served tell;
-    tell.listening = [&](const std::string& l) { link.set_value(l); };
-    thread_ = std::thread([this, home = std::move(home), options, page = std::move(page), tell]() mutable {
+    tell.listening = [&](const server::Links& links) {
+      listening.set_value(links);
+      return Status(Ok{});
+    };
+    thread_ = std::thread([this, home = std::move(home), options, page = std::move(page), tell, &listening]() mutable {
       const Status s = server::serveHome(std::move(home), servedSettings(), options, std::move(page), tell, stop_);
-      static_cast<void>(s);
+      if (!s) listening.set_exception(std::make_exception_ptr(std::runtime_error(s.error())));
     });
-    link_ = link.get_future().get();
+    try {
+      links_ = listening.get_future().get();
+    } catch (const std::exception&) {
+      thread_.join();
+      throw;
+    }
   }
   ~ServedHome() {
     stop_ = true;
     thread_.join();
   }
-  const std::string& link() const { return link_; }
-  uint16_t port() const { return static_cast<uint16_t>(std::stoi(link_.substr(link_.rfind(':') + 1))); }
+  const server::Links& links() const { return links_; }
+  uint16_t port() const { return static_cast<uint16_t>(std::stoi(links_.here.substr(links_.here.rfind(':') + 1))); }
   std::string live(const std::string& window = "") const {
     return std::string("/live?token=") + kToken + (window.empty() ? "" : "&window=" + window);
   }
 
  private:
-  std::string link_;
+  server::Links links_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

@@ -1,6 +1,8 @@
 // Who is let in, and what is served.
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "served_home.h"
 #include "server/admission.h"
 
@@ -9,15 +11,29 @@ namespace {
 
 using namespace roomlight::testing;
 
-// The status of an attempt to open a WebSocket; 101 is let in.
-int opened(const ServedHome& home, const std::string& target, const Headers& more = {}) {
+view::ViewHome plainHome() { return view::ViewHome("test", servedScene()); }
+
+// The reply to an attempt to open a WebSocket.
+Reply tryToOpen(const ServedHome& home, const std::string& target, const Headers& more = {}) {
   Headers headers = {{"Upgrade", "websocket"},
                      {"Connection", "Upgrade"},
                      {"Sec-WebSocket-Version", "13"},
                      {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="}};
   headers.emplace_back("Origin", "http://127.0.0.1:" + std::to_string(home.port()));
   headers.insert(headers.end(), more.begin(), more.end());
-  return get(home.port(), target, headers).status;
+  return get(home.port(), target, headers);
+}
+
+// Its status; 101 is let in.
+int opened(const ServedHome& home, const std::string& target, const Headers& more = {}) {
+  return tryToOpen(home, target, more).status;
+}
+
+// Nobody is closed for being silent.
+server::Options patient() {
+  server::Options options;
+  options.strangersTime = std::chrono::hours(1);
+  return options;
 }
 
 TEST(Admission, tokensAreNewAndLong) {
@@ -89,6 +105,68 @@ TEST(Server, thereIsRoomForEightWindows) {
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < 8; ++i) clients.push_back(std::make_unique<Client>(home.port(), home.live()));
   EXPECT_EQ(opened(home, home.live()), 503);
+}
+
+// The page asks without a WebSocket, since its browser does not tell why that was refused.
+TEST(Server, aWindowTooManyIsToldApartFromAWrongToken) {
+  server::Options options;
+  options.mostWindows = 2;
+  const ServedHome home(plainHome(), options);
+  const std::string wrong = "/live?token=00000000000000000000000000000000";
+  const Client one(home.port(), home.live());
+  EXPECT_EQ(get(home.port(), home.live()).status, 426);
+  const Client two(home.port(), home.live());
+  for (const Reply& r : {tryToOpen(home, home.live()), get(home.port(), home.live())}) {
+    EXPECT_EQ(r.status, 503);
+    EXPECT_NE(r.body.find("there may be (2)"), std::string::npos) << r.body;
+    EXPECT_NE(r.body.find("--windows"), std::string::npos) << r.body;
+  }
+  for (const Reply& r : {tryToOpen(home, wrong), get(home.port(), wrong)}) {
+    EXPECT_EQ(r.status, 403);
+    EXPECT_NE(r.body.find("wrong token"), std::string::npos) << r.body;
+  }
+}
+
+TEST(Server, idleConnectionsKeepNobodyOut) {
+  const ServedHome home(plainHome(), patient());
+  Client before(home.port(), home.live());
+  std::vector<Line> idle;
+  for (int i = 0; i < 100; ++i) idle.emplace_back(home.port());
+  EXPECT_EQ(get(home.port(), "/").status, 200);
+  Client after(home.port(), home.live());
+  after.hear("welcome");
+  before.say({{"type", "ping"}, {"id", 3}});
+  before.hear("pong", 3);
+}
+
+TEST(Server, ofConnectionsWithoutATokenThoseSilentForLongestMakeRoom) {
+  server::Options options = patient();
+  options.mostStrangers = 3;
+  const ServedHome home(plainHome(), options);
+  Line first(home.port()), second(home.port()), third(home.port());
+  for (Line* line : {&first, &second, &third, &first}) EXPECT_EQ(line->get("/").status, 200);
+  Line fourth(home.port());
+  EXPECT_EQ(fourth.get("/").status, 200);
+  EXPECT_TRUE(second.isClosed());
+  EXPECT_EQ(first.get("/").status, 200);
+  EXPECT_EQ(third.get("/").status, 200);
+}
+
+TEST(Server, silentConnectionsAreClosed) {
+  server::Options options;
+  options.strangersTime = std::chrono::milliseconds(1);
+  const ServedHome home(plainHome(), options);
+  Line idle(home.port());
+  EXPECT_TRUE(idle.isClosed());
+}
+
+TEST(Server, onlySoManyFilesAreSentAtOnce) {
+  server::Options options;
+  options.mostFiles = 0;
+  const ServedHome home(plainHome(), options);
+  const std::string file = "/files/1";
+  EXPECT_EQ(get(home.port(), file + "?token=" + ServedHome::kToken).status, 503);
+  EXPECT_EQ(get(home.port(), file).status, 403);
 }
 
 TEST(Server, aMessageThatIsTooLongCloses) {

@@ -50,7 +50,7 @@ TEST(Validation, techniquesKeepWhatTheyPromise) {
 TEST(Validation, missesAreMisses) {
   Validation v;
   v.rows = {{"case", "", "lx", "", "here", "path", 100, 102, 2, "%", false}};
-  v.techniques = {{"path", 1, 2, "case, here", 0, 1}};
+  v.techniques = {{"path", 1, false, 2, "case, here", 0, 1}};
   EXPECT_FALSE(v.pass());
   EXPECT_NE(validationHtml(v, "1").find("missed"), std::string::npos);
 }

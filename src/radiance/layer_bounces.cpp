@@ -1,4 +1,4 @@
-#include "radiance/bounces_together.h"
+#include "radiance/layer_bounces.h"
 
 #include <cassert>
 
@@ -16,7 +16,7 @@ struct Floats {
   Float8 c[3];
 };
 struct alignas(16) Halves {
-  uint16_t v[3][kTogether] = {};
+  uint16_t v[3][kLayersAtOnce] = {};
   Floats load() const {
     Floats out;
     for (int i = 0; i < 3; ++i) out.c[i] = fromHalf8(v[i]);
@@ -95,16 +95,16 @@ class Iteration {
 
   const Voxels& voxels_;
   const Links& links_;
-  std::array<float, kTogether> perUnit_{};
+  std::array<float, kLayersAtOnce> perUnit_{};
   std::vector<Halves> direct_, indirect_, other_;  // other: the step before, replaced by the step after
   std::vector<Halves> reflected_, next_;
 };
 
 }  // namespace
 
-void bounceTogether(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct,
-                    std::span<std::vector<Vec3>> indirect, const Bounces& like, const Progress& progress) {
-  assert(direct.size() <= kTogether && indirect.size() == direct.size());
+void bounceLayers(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct,
+                  std::span<std::vector<Vec3>> indirect, const Bounces& like, const Progress& progress) {
+  assert(direct.size() <= kLayersAtOnce && indirect.size() == direct.size());
   Iteration iteration(voxels, links, direct);
   Momentum momentum;
   for (int k = 0; k < like.done && !progress.stop(); ++k) iteration.step(momentum.next(k < like.withMomentum));

@@ -1,12 +1,12 @@
 // What a change may have to do with is found whole: nothing that crosses it is overlooked.
-#include "radiance/carried.h"
+#include "radiance/slot_remap.h"
 
 #include <gtest/gtest.h>
 
 #include "base/sampler.h"
 #include "base/sampling.h"
 #include "radiance/direct_light.h"
-#include "radiance/sky_ways.h"
+#include "radiance/sky_directions.h"
 
 namespace roomlight {
 namespace {
@@ -49,14 +49,14 @@ TEST(MayMeetBetween, sparesWhatStandsBesideTheWay) {
   EXPECT_FALSE(mayMeetBetween(from, to, std::span(&behind, 1)));
 }
 
-TEST(SkyWay, keepsADirectionToWhatItSays) {
+TEST(SkyDirection, keepsADirectionToWhatItSays) {
   for (uint32_t i = 0; i < 20000; ++i) {
     const Vec3 d = sampleSphere(Sampler(2, i, 0).next2());
-    ASSERT_LT(length(SkyWay(d).direction() - d), SkyWay::kOff) << i;
+    ASSERT_LT(length(SkyDirection(d).direction() - d), SkyDirection::kOff) << i;
   }
-  EXPECT_TRUE(isBlack(SkyWay().direction()));
+  EXPECT_TRUE(isBlack(SkyDirection().direction()));
   for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}})
-    EXPECT_LT(length(SkyWay(axis).direction() - axis), SkyWay::kOff);
+    EXPECT_LT(length(SkyDirection(axis).direction() - axis), SkyDirection::kOff);
 }
 
 }  // namespace

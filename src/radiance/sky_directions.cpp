@@ -1,4 +1,4 @@
-#include "radiance/sky_ways.h"
+#include "radiance/sky_directions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ constexpr int kCells = 255;  // along an edge
 
 }  // namespace
 
-SkyWay::SkyWay(Vec3 d) {
+SkyDirection::SkyDirection(Vec3 d) {
   const float scale = 1 / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
   float u = d.x * scale, v = d.z * scale;
   if (d.y < 0) {
@@ -23,7 +23,7 @@ SkyWay::SkyWay(Vec3 d) {
   code_ = static_cast<uint16_t>(cell(u) | cell(v) << 8);
 }
 
-Vec3 SkyWay::direction() const {
+Vec3 SkyDirection::direction() const {
   if (code_ == kNone) return {};
   const auto middle = [](int cell) { return 2 * (static_cast<float>(cell) + 0.5f) / kCells - 1; };
   float u = middle(code_ & 0xff), v = middle(code_ >> 8);

@@ -13,12 +13,12 @@ namespace roomlight {
 constexpr uint32_t kSkySamples = 8;  // a slot
 
 // A unit direction in 16 bits: a cell of an octahedron unfolded. None at all is one of the codes.
-class SkyWay {
+class SkyDirection {
  public:
   // So far a direction, times its length, may lie beside that of its cell.
   static constexpr float kOff = 0.02f;
-  SkyWay() = default;
-  explicit SkyWay(Vec3 d);
+  SkyDirection() = default;
+  explicit SkyDirection(Vec3 d);
   Vec3 direction() const;  // unit; zero: none
 
  private:
@@ -26,6 +26,6 @@ class SkyWay {
   uint16_t code_ = kNone;
 };
 
-using SkyWays = std::vector<std::array<SkyWay, kSkySamples>>;  // per slot
+using SkyDirections = std::vector<std::array<SkyDirection, kSkySamples>>;  // per slot
 
 }  // namespace roomlight

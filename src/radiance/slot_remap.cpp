@@ -1,4 +1,4 @@
-#include "radiance/carried.h"
+#include "radiance/slot_remap.h"
 
 #include <cstring>
 #include <unordered_map>
@@ -121,13 +121,13 @@ std::vector<BrickMark> marksOf(const Voxels& voxels) {
 }
 
 // Points and neighbours of slots depend on what lies within a voxel of them.
-Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels,
-              std::span<const Bounds3> changed) {
+SlotRemap remapSlots(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels,
+                     std::span<const Bounds3> changed) {
   std::unordered_map<uint64_t, int32_t> places;
   for (size_t b = 0; b < before.size(); ++b) places[keyOf(before[b].coord)] = static_cast<int32_t>(b);
-  Carried out;
+  SlotRemap out;
   out.oldBrick.assign(now.size(), -1), out.firstOld.assign(now.size(), 0);
-  out.newSlot.assign(before.empty() ? 0 : before.back().firstSlot + before.back().slots, Carried::kGone);
+  out.newSlot.assign(before.empty() ? 0 : before.back().firstSlot + before.back().slots, SlotRemap::kGone);
   for (size_t b = 0; b < now.size(); ++b) {
     const auto place = places.find(keyOf(now[b].coord));
     if (place == places.end()) continue;

@@ -18,7 +18,7 @@ struct BrickMark {
 };
 std::vector<BrickMark> marksOf(const Voxels& voxels);
 
-struct Carried {
+struct SlotRemap {
   static constexpr uint32_t kGone = 0xffffffffu;
   std::vector<int32_t> oldBrick;   // per brick; -1: new, changed, or close to a change
   std::vector<uint32_t> newSlot;   // per old slot; kGone where its brick is not carried
@@ -26,9 +26,15 @@ struct Carried {
   bool keeps(size_t brick) const { return oldBrick[brick] >= 0; }
 };
 
+// What is known of a change: what stays, and where instances that moved were and are, m.
+struct SlotChange {
+  const SlotRemap& remap;
+  std::span<const Bounds3> places;
+};
+
 // `changed`: where instances are and were, m.
-Carried carry(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels,
-              std::span<const Bounds3> changed);
+SlotRemap remapSlots(std::span<const BrickMark> before, std::span<const BrickMark> now, const Voxels& voxels,
+                     std::span<const Bounds3> changed);
 
 Bounds3 boundsOfBrick(const Voxels& voxels, size_t brick);
 // Whether a segment (tMin, tMax of the ray) comes closer than `margin` to one of the boxes.
