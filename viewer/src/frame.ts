@@ -1,4 +1,5 @@
-// A frame as it comes over the line: a header of 64 bytes, little-endian, then a JPEG (docs/reference/view-protocol.md, "Frames").
+// A frame as it comes over the line: a header of 64 bytes, little-endian, then a JPEG
+// (docs/reference/view-protocol.md, "Frames").
 import { BadMessage } from "./schema.js";
 
 export const kFrameHeaderBytes = 64;

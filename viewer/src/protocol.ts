@@ -1,5 +1,5 @@
-// Messages between this page and `roomlight view`, as docs/reference/view-protocol.md states them. Whatever comes from the server
-// passes a check here.
+// Messages between this page and `roomlight view`, as docs/reference/view-protocol.md states them. Whatever comes from
+// the server passes a check here.
 import * as c from "./schema.js";
 
 const box = c.shape({ low: c.triple, high: c.triple });

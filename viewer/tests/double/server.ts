@@ -1,5 +1,5 @@
-// A double of `roomlight view` for tests of the page: speaks docs/reference/view-protocol.md about a home of boxes. Its frames are
-// PNG, which browsers tell from JPEG by themselves.
+// A double of `roomlight view` for tests of the page: speaks docs/reference/view-protocol.md about a home of boxes. Its
+// frames are PNG, which browsers tell from JPEG by themselves.
 import { randomBytes } from "node:crypto";
 import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
