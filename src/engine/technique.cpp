@@ -1,7 +1,6 @@
 #include "engine/technique.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,6 +9,12 @@ namespace {
 
 const Technique* const kTechniques[] = {&kHybridTechnique, &kConeTechnique,   &kVxgiTechnique,
                                         &kLpvTechnique,    &kPhotonTechnique, &kPathTechnique};
+
+std::string joined(const std::vector<std::string>& names, const char* between) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : between) + name;
+  return out;
+}
 
 }  // namespace
 
@@ -25,7 +30,7 @@ Result<const Technique*> techniqueNamed(const std::string& name) {
   if (const Technique* found = findTechnique(name)) return found;
   std::vector<std::string> names;
   for (const Technique* t : kTechniques) names.emplace_back(t->name);
-  return Error{fmt::format("unknown technique '{}'; there are {}", name, fmt::join(names, ", "))};
+  return Error{fmt::format("unknown technique '{}'; there are {}", name, joined(names, ", "))};
 }
 
 std::vector<std::pair<std::string, std::string>> describedTechniques() {
@@ -39,7 +44,7 @@ std::string techniquesWith(bool Technique::*capability) {
   for (const Technique* t : kTechniques) {
     if (t->*capability) names.emplace_back(t->name);
   }
-  return fmt::format("{}", fmt::join(names, " or "));
+  return joined(names, " or ");
 }
 
 }  // namespace roomlight
