@@ -80,6 +80,13 @@ void visitGather(auto& v, auto& s) {
   v.color("ambientCdM2", s.ambientCdM2, 1e9);
 }
 
+// Of techniques for comparison, which shade and filter alike.
+void visitShading(auto& v, auto& s) {
+  v.number("raysPerShading", s.raysPerShading, 1, 8);
+  v.number("rayRoughness", s.rayRoughness, 0, 1);
+  v.number("filterPasses", s.filterPasses, 0, 8);
+}
+
 void visitVxgi(auto& v, auto& s) {
   v.number("resolution", s.resolution, 8, 256);
   v.number("levels", s.levels, 1, 8);
@@ -93,9 +100,7 @@ void visitVxgi(auto& v, auto& s) {
   v.number("residual", s.residual, 1e-6, 1);
   v.number("maxBounces", s.maxBounces, 0, 100000);
   v.number("bouncesAtOnce", s.bouncesAtOnce, 0, 100000);
-  v.number("raysPerShading", s.raysPerShading, 1, 8);
-  v.number("rayRoughness", s.rayRoughness, 0, 1);
-  v.number("filterPasses", s.filterPasses, 0, 8);
+  visitShading(v, s);
 }
 
 void visitLpv(auto& v, auto& s) {
@@ -111,9 +116,7 @@ void visitLpv(auto& v, auto& s) {
   v.flag("dampening", s.dampening);
   v.number("lookUpCells", s.lookUpCells, 0, 4);
   v.number("glossySteps", s.glossySteps, 1, 1024);
-  v.number("raysPerShading", s.raysPerShading, 1, 8);
-  v.number("rayRoughness", s.rayRoughness, 0, 1);
-  v.number("filterPasses", s.filterPasses, 0, 8);
+  visitShading(v, s);
 }
 
 void visitPhoton(auto& v, auto& s) {
@@ -131,9 +134,7 @@ void visitPhoton(auto& v, auto& s) {
   v.number("rouletteDepth", s.rouletteDepth, 0, 1000);
   v.number("importons", s.importons, 256, 1 << 24);
   v.number("mostEmitted", s.mostEmitted, 1, 1e6);
-  v.number("raysPerShading", s.raysPerShading, 1, 8);
-  v.number("rayRoughness", s.rayRoughness, 0, 1);
-  v.number("filterPasses", s.filterPasses, 0, 8);
+  visitShading(v, s);
 }
 
 void visitFrames(auto& v, auto& s) {

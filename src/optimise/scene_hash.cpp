@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "optimise/hash.h"
+#include "base/hash.h"
 
 namespace roomlight::optimise {
 namespace {

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <set>
 
+#include "base/hash.h"
 #include "base/write_file.h"
-#include "optimise/hash.h"
 #include "optimise/scene_hash.h"
 #include "search/checkpoint.h"
 

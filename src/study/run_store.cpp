@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/hash.h"
 #include "base/write_file.h"
 
 namespace roomlight {
@@ -22,26 +23,19 @@ std::string fileNameOf(const std::string& name) {
   return out;
 }
 
-namespace {
-
-constexpr uint64_t kFnvStart = 0xcbf29ce484222325ull;
-
-uint64_t fnv(uint64_t hash, std::string_view bytes) {
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  return hash;
+std::string textHash(const std::string& text) {
+  Hash hash;
+  hash.bytes(text);
+  return hash.text();
 }
-
-}  // namespace
-
-std::string textHash(const std::string& text) { return fmt::format("{:016x}", fnv(kFnvStart, text)); }
 
 std::string contentHash(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return "-";
-  uint64_t hash = kFnvStart;
+  Hash hash;
   char block[1 << 16];
-  while (in.read(block, sizeof block), in.gcount() > 0) hash = fnv(hash, {block, static_cast<size_t>(in.gcount())});
-  return fmt::format("{:016x}", hash);
+  while (in.read(block, sizeof block), in.gcount() > 0) hash.bytes({block, static_cast<size_t>(in.gcount())});
+  return hash.text();
 }
 
 Result<RunStore> RunStore::open(const std::filesystem::path& folder) {

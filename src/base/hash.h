@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace roomlight::optimise {
+namespace roomlight {
 
 // 64 bits: FNV-1a by words of eight bytes. Multiplying carries a change only upwards, so the upper half is folded into
 // the lower. Each step can be undone: a change within one word never goes unnoticed.
@@ -34,4 +34,4 @@ class Hash {
   uint64_t h_ = 0xcbf29ce484222325ull;
 };
 
-}  // namespace roomlight::optimise
+}  // namespace roomlight
