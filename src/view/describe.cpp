@@ -188,4 +188,8 @@ std::string errorText(const ViewError& e) {
 
 std::string okText(uint32_t id) { return textOf({{"type", "ok"}, {"id", id}}); }
 
+std::string pointText(const Point& asked, Json hit) {
+  return textOf({{"type", asked.meter ? "metered" : "picked"}, {"id", asked.id}, {"hit", std::move(hit)}});
+}
+
 }  // namespace roomlight::view

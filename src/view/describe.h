@@ -27,5 +27,7 @@ void addWindow(const Window& window, Json& welcome);
 std::string textOf(const Json& json);
 std::string errorText(const ViewError& error);
 std::string okText(uint32_t id);
+// What was asked about a point; `hit` null: there is nothing, or it is of no interest any more.
+std::string pointText(const Point& asked, Json hit);
 
 }  // namespace roomlight::view

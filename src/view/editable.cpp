@@ -7,7 +7,6 @@
 #include <set>
 
 #include "photometry/colour_temperature.h"
-#include "photometry/spot.h"
 #include "scene/scene_lamps.h"
 
 namespace roomlight::view {
@@ -71,16 +70,6 @@ std::map<int, int> findObjects(const Scene& scene, bool parted, EditableHome& ho
 }
 
 Vec3 lightOf(const Lamp& lamp) { return lamp.kind == LampKind::Area ? lamp.luminanceCdM2 : lamp.intensityCd; }
-
-double fluxOf(const Lamp& lamp) {
-  const double cd = static_cast<double>(luminance(lamp.intensityCd));
-  if (lamp.kind == LampKind::Area)
-    return std::numbers::pi * static_cast<double>(luminance(lamp.luminanceCdM2) * lamp.widthM * lamp.heightM);
-  if (lamp.kind == LampKind::Spot)
-    return cd * spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
-  if (lamp.web) return lamp.web->peakCd > 0 ? cd * lamp.web->fluxLm / static_cast<double>(lamp.web->peakCd) : 0;
-  return 4 * std::numbers::pi * cd;
-}
 
 const char* kindOf(const Lamp& lamp) {
   if (lamp.kind == LampKind::Spot) return "spot";
@@ -151,7 +140,7 @@ EditableLamp editableLamp(const Scene& scene, const SceneLamp& from, const std::
     const Lamp& first = l.sources[0].full;
     l.kind = kindOf(first), l.position = first.position, l.direction = first.direction;
     l.aimed = l.object < 0 && l.kind != "point";
-    for (const EditableLamp::Source& s : l.sources) l.fluxLm += fluxOf(s.full), light += lightOf(s.full);
+    for (const EditableLamp::Source& s : l.sources) l.fluxLm += lampFluxLm(s.full), light += lightOf(s.full);
   }
   const float lum = luminance(light);
   if (lum > 0) l.color = light / lum;

@@ -21,12 +21,12 @@ void GrowingPicture::showQuick(Image image, double pictureMs, bool reduced) {
   sinceQuick_ = Stopwatch();
 }
 
-bool GrowingPicture::step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, Kind kind,
+bool GrowingPicture::step(const LitScene& lit, const Camera& camera, std::pair<int, int> whole, Kind kind,
                           const std::atomic<bool>& newer) {
   const Stopwatch watch;
   // A few together cost less than one by one, but at first somebody waits.
   const uint32_t count = samples_ < kOneByOne ? 1 : kTogether;
-  const Image next = home.lit->pictureOf(
+  const Image next = lit.pictureOf(
       camera, {whole.first, whole.second, static_cast<int>(count), samples_, kind.white, true, nullptr}, {{}, &newer});
   if (newer || next.width == 0) return false;
   pictureMs_ = watch.seconds() * 1e3;

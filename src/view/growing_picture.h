@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 #include "view/frame.h"
-#include "view/lit_home.h"
+#include "engine/technique.h"
 
 namespace roomlight::view {
 
@@ -32,7 +32,7 @@ class GrowingPicture {
   };
   // Adds to the average of whole pictures; one of another size begins anew. True: there is something new to show. Given
   // up, without a trace, when `newer` becomes true.
-  bool step(const LitHome& home, const Camera& camera, std::pair<int, int> whole, Kind kind,
+  bool step(const LitScene& lit, const Camera& camera, std::pair<int, int> whole, Kind kind,
             const std::atomic<bool>& newer);
 
   const Image& image() const { return *image_; }  // cd/m²

@@ -39,4 +39,15 @@ SceneChange bring(const ViewHome& home, const HomeState& from, const HomeState& 
   return change;
 }
 
+std::string fileNameOf(const ViewHome& home) {
+  constexpr size_t kLongest = 60;
+  std::string name = home.name.substr(0, kLongest);
+  for (char& c : name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    if (!plain) c = '_';
+  }
+  return name.empty() ? "home" : name;
+}
+
 }  // namespace roomlight::view

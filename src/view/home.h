@@ -50,6 +50,9 @@ struct ViewHome {
   LightingSource lighting;
 };
 
+// The home's name, as a part of a file's name that any file system and header takes.
+std::string fileNameOf(const ViewHome& home);
+
 // The scene in that state, with its sun.
 Result<Scene> sceneIn(const ViewHome& home, const HomeState& state);
 

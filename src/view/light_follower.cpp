@@ -7,13 +7,14 @@
 
 namespace roomlight::view {
 
-Status LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads,
-                            std::function<void()> ready) {
+Status LightFollower::begin(const ViewHome& all, std::shared_ptr<LightSolution>& solution, HomeState wanted,
+                            int threads, std::function<void()> ready) {
   finish();
   done_ = cancelled_ = false;
-  auto work = [this, &all, &home, wanted = std::move(wanted), threads, ready = std::move(ready)] {
+  solution_ = std::move(solution);
+  auto work = [this, &all, wanted = std::move(wanted), threads, ready = std::move(ready)] {
     try {
-      inBackground(threads, [&] { follow(all, home, wanted); });
+      inBackground(threads, [&] { follow(all, wanted); });
     } catch (const std::exception& e) {
       change_.reset(), light_ = nullptr, error_ = e.what();
     }
@@ -21,22 +22,25 @@ Status LightFollower::begin(const ViewHome& all, LitHome& home, HomeState wanted
     ready();
   };
   Result<std::thread> started = tryToStart(start_, std::move(work));
-  if (!started) return Error{started.error()};
-  home_ = &home, thread_ = std::move(started).value();
+  if (!started) {
+    solution = std::move(solution_);
+    return Error{started.error()};
+  }
+  thread_ = std::move(started).value();
   return Ok{};
 }
 
-void LightFollower::follow(const ViewHome& all, LitHome& home, const HomeState& wanted) {
+void LightFollower::follow(const ViewHome& all, const HomeState& wanted) {
   RenderStats stats;
   RenderProgress silent;
   silent.cancelled = &cancelled_;
   Stages stages(silent, stats);
-  SceneChange change = bring(all, home.state, wanted, home.scene);
-  home.state = wanted;
-  home.lit->update(change, stages);
+  SceneChange change = bring(all, solution_->state, wanted, solution_->scene);
+  solution_->state = wanted;
+  solution_->lit->update(change, stages);
   if (cancelled_) return;
   change_ = std::move(change);
-  light_ = home.lit->snapshot();
+  light_ = solution_->lit->snapshot();
 }
 
 void LightFollower::cancel() {
@@ -47,7 +51,7 @@ void LightFollower::cancel() {
 FollowedLight LightFollower::finish() {
   if (!thread_.joinable()) return {};
   thread_.join();
-  FollowedLight out{std::exchange(home_, nullptr), std::move(change_), std::exchange(light_, nullptr),
+  FollowedLight out{std::move(solution_), std::move(change_), std::exchange(light_, nullptr),
                     std::exchange(error_, {})};
   change_.reset();
   return out;

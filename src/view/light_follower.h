@@ -15,8 +15,8 @@
 namespace roomlight::view {
 
 struct FollowedLight {
-  LitHome* home = nullptr;                    // null: there was nothing to follow
-  std::optional<SceneChange> change;          // none: that failed, and the home is somewhere between two states
+  std::shared_ptr<LightSolution> solution;    // null: there was nothing to follow
+  std::optional<SceneChange> change;          // none: that failed, and the solution is somewhere between two states
   std::shared_ptr<const SlotSnapshot> light;  // of techniques that have light in slots
   std::string error;                          // of a failure: why
 };
@@ -25,22 +25,23 @@ class LightFollower {
  public:
   explicit LightFollower(StartThread start = systemThread) : start_(std::move(start)) {}
   ~LightFollower() { cancel(); }
-  // Brings the home to a state that it can follow to, or goes on with bounces that it still owes; one at a time. Nobody
-  // else may touch `home`, but for its front, until finish() has returned. `ready` is called from the follower's
-  // thread. Error: there is no thread; the home is as it was, and it may be tried again.
-  Status begin(const ViewHome& all, LitHome& home, HomeState wanted, int threads, std::function<void()> ready);
-  const LitHome* home() const { return home_; }  // null: none
+  // Takes a solution and brings it to a state that it can follow to, or goes on with bounces that it still owes; one at
+  // a time. `ready` is called from the follower's thread. Error: there is no thread; the solution stays with who has
+  // it, and it may be tried again.
+  Status begin(const ViewHome& all, std::shared_ptr<LightSolution>& solution, HomeState wanted, int threads,
+               std::function<void()> ready);
+  bool busy() const { return thread_.joinable(); }  // until finish() or cancel()
   bool done() const { return done_; }
-  // Waits for the end.
+  // Waits for the end, and gives the solution back.
   FollowedLight finish();
-  // Ends it, and waits for that; its home is of no further use.
+  // Ends it, and waits for that; its solution is of no further use.
   void cancel();
 
  private:
-  void follow(const ViewHome& all, LitHome& home, const HomeState& wanted);
+  void follow(const ViewHome& all, const HomeState& wanted);
 
   const StartThread start_;
-  LitHome* home_ = nullptr;
+  std::shared_ptr<LightSolution> solution_;
   std::optional<SceneChange> change_;
   std::shared_ptr<const SlotSnapshot> light_;
   std::string error_;

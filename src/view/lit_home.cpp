@@ -9,27 +9,30 @@ namespace {
 
 Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder::Work& work,
                                        const RenderProgress& progress) {
-  auto out = std::make_unique<LitHome>(work.key, work.state);
+  auto out = std::make_unique<LitHome>(work.key, work.state.sun);
+  auto solution = std::make_shared<LightSolution>();
   Result<Scene> scene = sceneIn(home, work.state);
   if (!scene) return Error{scene.error()};
-  out->scene = std::move(scene).value();
+  solution->scene = std::move(scene).value(), solution->state = work.state;
   RenderStats stats;
   Stages stages(progress, stats);
   Result<std::unique_ptr<LitScene>> lit =
-      lightScene(out->scene, work.settings, stages, {true, work.camera ? &*work.camera : nullptr});
+      lightScene(solution->scene, work.settings, stages, {true, work.camera ? &*work.camera : nullptr});
   if (!lit) return Error{lit.error()};
   if (!lit.value() || stages.cancelled()) return std::unique_ptr<LitHome>();
-  out->lit = std::move(lit.value());
-  if (std::shared_ptr<const SlotSnapshot> light = out->lit->snapshot()) {
-    out->front = std::make_unique<FrontHome>(out->scene, out->state, stages);
-    out->front->take(std::move(light), out->scene);
+  solution->lit = std::move(lit.value());
+  out->followsSun = solution->lit->technique().followsDaylight;
+  if (std::shared_ptr<const SlotSnapshot> light = solution->lit->snapshot()) {
+    out->live = std::make_unique<LiveHome>(solution->scene, solution->state, stages);
+    out->live->take(std::move(light), solution->scene);
   }
+  out->solution = std::move(solution);
   return out;
 }
 
 }  // namespace
 
-SceneChange FrontHome::follow(const ViewHome& home, HomeState wanted) {
+SceneChange LiveHome::follow(const ViewHome& home, HomeState wanted) {
   const SceneChange change = bring(home, state_, wanted, scene_);
   state_ = std::move(wanted);
   RenderStats stats;
@@ -40,14 +43,14 @@ SceneChange FrontHome::follow(const ViewHome& home, HomeState wanted) {
   return change;
 }
 
-void FrontHome::take(std::shared_ptr<const SlotSnapshot> light, const Scene& lit) {
+void LiveHome::take(std::shared_ptr<const SlotSnapshot> light, const Scene& lit) {
   light_ = std::move(light);
   litPlaces_.clear();
   for (const Instance& i : lit.instances) litPlaces_.push_back(i.worldFromObject);
   findMoved();
 }
 
-void FrontHome::findMoved() {
+void LiveHome::findMoved() {
   moved_.clear();
   for (uint32_t i = 0; i < litPlaces_.size(); ++i) {
     const Affine &now = scene_.instances[i].worldFromObject, &then = litPlaces_[i];

@@ -14,21 +14,16 @@
 #include "engine/technique.h"
 #include "gather/quick_frames.h"
 #include "view/home.h"
+#include "view/light_key.h"
 #include "view/start_thread.h"
 
 namespace roomlight::view {
 
-// Which light: by what technique, of which plan.
-struct LightKey {
-  std::string technique, plan;  // plan empty: the one that is edited
-  bool operator==(const LightKey&) const = default;
-};
-
-// What frames in a few milliseconds are made of: the home as it is now, and the light of a moment ago.
-class FrontHome {
+// The home as it is now, and the light of a moment ago: what frames in a few milliseconds are made of.
+class LiveHome {
  public:
   // Of a copy of the scene.
-  FrontHome(Scene scene, HomeState state, Stages& stages)
+  LiveHome(Scene scene, HomeState state, Stages& stages)
       : scene_(std::move(scene)), state_(std::move(state)), base_(scene_, true, stages) {}
   // Brings the home to a state and says what that changed.
   SceneChange follow(const ViewHome& home, HomeState wanted);
@@ -51,21 +46,29 @@ class FrontHome {
   std::unordered_map<uint32_t, Affine> moved_;
 };
 
+// A home in a state, and its light as a technique has found it. Who changes it owns it (LightFollower takes it away and
+// gives it back); who only looks at it shares it.
+struct LightSolution {
+  Scene scene;
+  HomeState state;
+  std::unique_ptr<LitScene> lit;  // of `scene`
+};
+
 struct LitHome {
-  LitHome(LightKey lightKey, HomeState at) : key(std::move(lightKey)), state(std::move(at)), sunAtFirst(state.sun) {}
+  LitHome(LightKey lightKey, std::optional<SunState> sun) : key(std::move(lightKey)), sunAtFirst(std::move(sun)) {}
   // Whether light can follow to where the sun is wanted; else the home is lit anew.
-  bool canFollow(const std::optional<SunState>& sun) const {
-    return lit->technique().followsDaylight || sun == sunAtFirst;
-  }
+  bool canFollow(const std::optional<SunState>& sun) const { return followsSun || sun == sunAtFirst; }
+  // The scene to look at; not where there is neither.
+  const RayScene& rays() const { return live ? live->rays() : solution->lit->rays(); }
+  const HomeState& shownState() const { return live ? live->state() : solution->state; }
 
   LightKey key;
-  Scene scene;
-  HomeState state;  // that the scene and its light are in; while light follows, the follower's alone
+  const std::optional<SunState> sunAtFirst;
+  bool followsSun = false;
+  std::shared_ptr<LightSolution> solution;  // null while it follows a change
+  std::unique_ptr<LiveHome> live;  // of techniques that have light in slots
   uint32_t revision = 0;  // of the session: the newest that its light knows of
   uint64_t followedAt = 0;  // counts followings of all homes: the last that was its own
-  const std::optional<SunState> sunAtFirst;
-  std::unique_ptr<LitScene> lit;
-  std::unique_ptr<FrontHome> front;  // of techniques that have light in slots
 };
 
 class LightBuilder {

@@ -74,13 +74,13 @@ std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& sta
   return out;
 }
 
-std::optional<Metered> meterAt(const LitHome& lit, const PickedPoint& at, Vec3 eye, const std::atomic<bool>& stop) {
+std::optional<Metered> meterAt(const LitScene& lit, const PickedPoint& at, Vec3 eye, const std::atomic<bool>& stop) {
   const SurfaceElement element{at.point, at.normal};
   MeterSettings settings;
   settings.tolerance = kTolerance, settings.fewestSamples = kFewest, settings.mostSamples = kMost;
-  const std::vector<MeterReading> readings = lit.lit->illuminance({&element, 1}, settings, {{}, &stop});
-  const Image spot = lit.lit->pictureOf(cameraAt(eye, normalize(at.point - eye), kSpotRad),
-                                        {kSpotPixels, kSpotPixels, kSpotSamples, {}}, {{}, &stop});
+  const std::vector<MeterReading> readings = lit.illuminance({&element, 1}, settings, {{}, &stop});
+  const Image spot = lit.pictureOf(cameraAt(eye, normalize(at.point - eye), kSpotRad),
+                                   {kSpotPixels, kSpotPixels, kSpotSamples, {}}, {{}, &stop});
   if (stop || readings.empty() || spot.pixels.empty()) return {};
   Metered out;
   out.illuminanceLux = static_cast<double>(luminance(readings[0].illuminanceLux)),

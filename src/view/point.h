@@ -4,7 +4,8 @@
 #include <atomic>
 #include <optional>
 
-#include "view/lit_home.h"
+#include "engine/technique.h"
+#include "view/editable.h"
 
 namespace roomlight::view {
 
@@ -32,6 +33,6 @@ struct Metered {
   double luminanceCdM2 = 0;                         // towards the camera, mean over a third of a degree
 };
 // Empty if stopped.
-std::optional<Metered> meterAt(const LitHome& lit, const PickedPoint& point, Vec3 eye, const std::atomic<bool>& stop);
+std::optional<Metered> meterAt(const LitScene& lit, const PickedPoint& point, Vec3 eye, const std::atomic<bool>& stop);
 
 }  // namespace roomlight::view

@@ -15,25 +15,25 @@ constexpr float kGoodEnough = 0.002f;  // relative error: less cannot be seen
 
 }  // namespace
 
-Status Refiner::begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first,
-                      int firstLook) {
+Status Refiner::begin(std::shared_ptr<const LightSolution> solution, const Camera& camera, const PathSettings& settings,
+                      int threads, Image first, int firstLook) {
   stop();
   cancelled_ = false, failed_ = false, working_ = true;
-  auto work = [this, &home, camera, settings, threads, first = std::move(first), firstLook] {
+  auto work = [this, &lit = *solution->lit, camera, settings, threads, first = std::move(first), firstLook] {
     try {
-      withThreads(threads, [&] { run(home, camera, settings, first, firstLook); });
+      withThreads(threads, [&] { run(lit, camera, settings, first, firstLook); });
     } catch (const std::exception&) {  // out of memory: the picture stays as it is
       failed_ = true;
     }
     working_ = false;
-    if (failed_) ready_();
+    ready_();
   };
   Result<std::thread> started = tryToStart(start_, std::move(work));
   if (!started) {
     working_ = false;
     return Error{started.error()};
   }
-  home_ = &home, thread_ = std::move(started).value();
+  solution_ = std::move(solution), thread_ = std::move(started).value();
   return Ok{};
 }
 
@@ -41,20 +41,20 @@ Status Refiner::begin(const LitHome& home, const Camera& camera, const PathSetti
 bool Refiner::tracePasses(PathTracer& tracer, int until) {
   Progress progress;
   progress.cancelled = &cancelled_;
-  const std::lock_guard lock(usesHome_);
+  const std::lock_guard lock(looks_);
   while (tracer.samples() < until) {
     if (!tracer.pass(progress, true)) return false;
   }
   return !cancelled_;
 }
 
-void Refiner::run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first,
+void Refiner::run(const LitScene& lit, const Camera& camera, const PathSettings& settings, const Image& first,
                   int firstLook) {
   std::optional<PathTracer> made;
   {
-    const std::lock_guard lock(usesHome_);
+    const std::lock_guard lock(looks_);
     if (cancelled_) return;
-    made.emplace(home.lit->rays(), home.lit->lights(), camera, settings, true);
+    made.emplace(lit.rays(), lit.lights(), camera, settings, true);
   }
   PathTracer& tracer = *made;
   for (int samples = firstLook; tracePasses(tracer, samples);
@@ -80,21 +80,21 @@ std::optional<RefinedPicture> Refiner::take() {
 
 void Refiner::letGo() {
   cancelled_ = true;
-  const std::lock_guard lock(usesHome_);
-  home_ = nullptr;
+  const std::lock_guard lock(looks_);
+  solution_ = nullptr;
 }
 
 bool Refiner::tryLetGo() {
   cancelled_ = true;
-  const std::unique_lock lock(usesHome_, std::try_to_lock);
-  if (lock) home_ = nullptr;
+  const std::unique_lock lock(looks_, std::try_to_lock);
+  if (lock) solution_ = nullptr;
   return lock.owns_lock();
 }
 
 void Refiner::stop() {
   cancelled_ = true;
   if (thread_.joinable()) thread_.join();
-  home_ = nullptr;
+  solution_ = nullptr;
   picture_.reset();
 }
 

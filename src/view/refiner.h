@@ -30,22 +30,23 @@ class Refiner {
  public:
   static constexpr int kFewestSamples = 4;  // before the first blend of a picture that was not refined yet
 
-  // `ready` is called from its thread when there is another picture to take, or it failed.
+  // `ready` is called from its thread when there is another picture to take, and when it has ended.
   explicit Refiner(std::function<void()> ready, StartThread start = systemThread)
       : ready_(std::move(ready)), start_(std::move(start)) {}
   ~Refiner() { stop(); }
 
-  // Begins anew with a picture that has little noise; `home` must stay as it is until it was let go. Tells of the first
-  // picture after so many samples. Waits for what is still working. Error: there is no thread; it may be tried again.
-  Status begin(const LitHome& home, const Camera& camera, const PathSettings& settings, int threads, Image first,
-               int firstLook);
-  const LitHome* home() const { return home_; }  // null: none
+  // Begins anew with a picture that has little noise; the solution must stay as it is until it was let go. Tells of the
+  // first picture after so many samples. Waits for what is still working. Error: there is no thread; it may be tried
+  // again.
+  Status begin(std::shared_ptr<const LightSolution> solution, const Camera& camera, const PathSettings& settings,
+               int threads, Image first, int firstLook);
+  const LightSolution* solution() const { return solution_.get(); }  // null: none
   bool working() const { return working_; }
   bool failed() const { return failed_; }  // no further picture comes of what was begun last
   std::optional<RefinedPicture> take();
   // Asks it to end, and does not wait.
   void giveUp() { cancelled_ = true; }
-  // Ends its use of the home, which may change from then on. Waits for a pass to be given up.
+  // Ends its use of the solution, which may change from then on. Waits for a pass to be given up.
   void letGo();
   // The same without waiting. False: not yet; it was asked to end.
   bool tryLetGo();
@@ -53,14 +54,14 @@ class Refiner {
   void stop();
 
  private:
-  void run(const LitHome& home, const Camera& camera, const PathSettings& settings, const Image& first, int firstLook);
+  void run(const LitScene& lit, const Camera& camera, const PathSettings& settings, const Image& first, int firstLook);
   bool tracePasses(PathTracer& tracer, int until);
 
   const std::function<void()> ready_;
   const StartThread start_;
-  const LitHome* home_ = nullptr;
+  std::shared_ptr<const LightSolution> solution_;
   std::atomic<bool> cancelled_{false}, working_{false}, failed_{false};
-  std::mutex usesHome_;  // held while the home is looked at
+  std::mutex looks_;  // held while the solution is looked at
   std::mutex mutex_;  // of the picture
   std::optional<RefinedPicture> picture_;
   std::thread thread_;

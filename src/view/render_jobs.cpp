@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <fstream>
+#include <limits>
 #include <random>
 
 #include "base/clock.h"
@@ -104,6 +106,15 @@ bool RenderJobs::cancel(const std::string& job) {
   }
   tell_(news);
   return true;
+}
+
+double RenderJobs::bytesToSpare() {
+  std::ifstream in("/proc/meminfo");
+  std::string key;
+  for (double kib = 0; in >> key >> kib; in.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
+    if (key == "MemAvailable:") return kib * 1024;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 bool RenderJobs::busy() const {

@@ -55,6 +55,8 @@ class RenderJobs {
   Status add(RenderWork work);
   // False: there is no such job. What there is of its picture is kept.
   bool cancel(const std::string& job);
+  // Of memory, as Linux tells; elsewhere infinite.
+  static double bytesToSpare();
   // Whether a picture is being made or waits to be.
   bool busy() const;
   // From any thread: a finished picture, until drop() removes it or many newer ones have come.

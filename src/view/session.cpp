@@ -13,37 +13,27 @@ namespace roomlight::view {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr milliseconds kLookAgain{250};  // at lines that may have become free, windows that were lost
-constexpr milliseconds kSoon{20}, kTellEvery{100};
 constexpr milliseconds kAfterFailure{2000};
-// Around the home. The light of everything is found in one box: a thing that is carried out of sight would make that
-// absurdly large.
-constexpr float kFarthestOutM = 100;
+constexpr milliseconds kTellEvery{100};
 
-Bounds3 reachOf(const ViewHome& home) {
-  Bounds3 reach = home.scene.bounds();
-  for (const EditableLamp& l : home.editable.lamps) reach.add(l.position);
-  reach.lo -= Vec3(kFarthestOutM), reach.hi += Vec3(kFarthestOutM);
-  return reach;
-}
+TimePoint now() { return std::chrono::steady_clock::now(); }
 
 }  // namespace
 
 Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox, const StartThread& start)
     : home_(std::move(home)),
-      reach_(reachOf(home_)),
       settings_(settings),
       frames_(frameSettings(settings)),
       outbox_(std::move(outbox)),
+      conversation_(
+          home_, settings_, [this](Connection c, std::string text) { outbox_.text(c, std::move(text)); },
+          finalPictures()),
       builder_(start),
-      homeJson_(homeJson(home_)),
       follower_(start),
-      refiner_([this] { tellRefined(); }, start),
+      refiner_([this] { push(Refined{}); }, start),
       jobs_(
-          home_, [this](const JobNews& news) { takeNews(news); }, start),
+          home_, [this](const JobNews& news) { push(news); }, start),
       sender_(start) {
-  state_ = home_.atStart();
-  plans_["start"] = state_;
   thread_ = start([this] { runWithThreads(); });
 }
 
@@ -59,22 +49,28 @@ Session::~Session() {
   follower_.cancel();
 }
 
-void Session::open(Connection connection, const std::string& window) { push(connection, Opened{window}); }
-void Session::close(Connection connection) { push(connection, Closed{}); }
+Conversation::Jobs Session::finalPictures() {
+  return {[this](RenderWork work) { return jobs_.add(std::move(work)); },
+          [this](const std::string& job) { return jobs_.cancel(job); },
+          [this](const std::string& id) { return jobs_.find(id).has_value(); }, RenderJobs::bytesToSpare};
+}
+
+void Session::open(Connection connection, const std::string& window) { push(Opened{connection, window}); }
+void Session::close(Connection connection) { push(Closed{connection}); }
 
 void Session::receive(Connection connection, const std::string& text) {
   Message message = readMessage(text);
   if (const auto* ping = std::get_if<Ping>(&message))
     return outbox_.text(connection, textOf({{"type", "pong"}, {"id", ping->id}}));
-  push(connection, std::move(message));
+  push(Said{connection, std::move(message)});
 }
 
-void Session::push(Connection connection, What what) {
+void Session::push(What what) {
   {
     const std::lock_guard lock(mutex_);
-    Event event{connection, std::chrono::steady_clock::now(), std::move(what)};
-    if (!isOfFrames(event.what)) newer_ = true;
-    if (Event* before = outdatedBy(event)) {
+    Event event{now(), std::move(what)};
+    if (asksForPictures(event.what)) newer_ = true;
+    if (Event* before = outdatedBy(event.what)) {
       *before = std::move(event);
     } else {
       events_.push_back(std::move(event));
@@ -83,23 +79,29 @@ void Session::push(Connection connection, What what) {
   wake_.notify_all();
 }
 
-// Frames that go out and arrive: nothing that another picture is needed for.
-bool Session::isOfFrames(const What& what) {
-  const auto* message = std::get_if<Message>(&what);
-  return std::holds_alternative<Packed>(what) || (message && std::holds_alternative<Ack>(*message));
+// Not what frames tell that go out and arrive, nor what comes of work in the background.
+bool Session::asksForPictures(const What& what) {
+  const auto* said = std::get_if<Said>(&what);
+  return said ? !std::holds_alternative<Ack>(said->message)
+              : std::holds_alternative<Opened>(what) || std::holds_alternative<Closed>(what);
 }
 
-// Of places and sizes of a window only the newest counts. The one before it, if nothing that could depend on it came
-// between; with the lock held.
-Session::Event* Session::outdatedBy(const Event& event) {
-  const auto* message = std::get_if<Message>(&event.what);
-  if (!message || !(std::holds_alternative<ViewCamera>(*message) || std::holds_alternative<Viewport>(*message)))
+// Of places and sizes of a window only the newest counts. The one before it, if the window said nothing between that
+// could depend on it; with the lock held.
+Session::Event* Session::outdatedBy(const What& what) {
+  const auto* said = std::get_if<Said>(&what);
+  if (!said || !(std::holds_alternative<ViewCamera>(said->message) || std::holds_alternative<Viewport>(said->message)))
     return nullptr;
-  const auto before = std::find_if(events_.rbegin(), events_.rend(), [&](const Event& e) {
-    return e.connection == event.connection && !isOfFrames(e.what);
-  });
-  const auto* said = before == events_.rend() ? nullptr : std::get_if<Message>(&before->what);
-  return said && said->index() == message->index() ? &*before : nullptr;
+  for (auto e = events_.rbegin(); e != events_.rend(); ++e) {
+    if (!asksForPictures(e->what)) continue;
+    const auto* before = std::get_if<Said>(&e->what);
+    const auto* opened = std::get_if<Opened>(&e->what);
+    const auto* closed = std::get_if<Closed>(&e->what);
+    const Connection of = before ? before->connection : opened ? opened->connection : closed->connection;
+    if (of != said->connection) continue;
+    return before && before->message.index() == said->message.index() ? &*e : nullptr;
+  }
+  return nullptr;
 }
 
 // Threads of parallel loops may be missing for a moment, too.
@@ -117,117 +119,99 @@ void Session::runWithThreads() {
 
 void Session::run() {
   while (!stop_) {
-    milliseconds pause = kAfterFailure;
+    TimePoint until;
     try {
-      if (workOn()) continue;
-      pause = soon_ ? kSoon : kLookAgain;
+      handleEvents();
+      const Plan plan = planNext(situation(), now());
+      if (carryOutAll(plan.actions)) continue;
+      until = plan.wakeAt;
     } catch (const std::exception& e) {
       tellFailure(fmt::format("something went wrong: {}", e.what()));
+      until = now() + kAfterFailure;
     }
-    std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, pause, [&] {
-      return stop_ || built_ || refinedReady_ || lightReady_ || progress_ || !jobNews_.empty() || !events_.empty();
-    });
+    wait(until);
   }
 }
 
-// What there is to do now. False: nothing.
-bool Session::workOn() {
-  handleEvents();
-  adoptBuilt();
-  beginBuilding();
-  forgetLostWindows();
-  dropLights();
-  soon_ = false;
-  const bool took = takeLight();
-  followLight();
-  if (takeRefined() || work() || took) return true;
-  beginRefining();
-  return false;
+void Session::wait(TimePoint until) {
+  std::unique_lock lock(mutex_);
+  const auto isWoken = [&] { return stop_ || !events_.empty(); };
+  if (until == TimePoint::max()) {
+    wake_.wait(lock, isWoken);
+  } else {
+    wake_.wait_until(lock, until, isWoken);
+  }
+}
+
+bool Session::carryOutAll(const std::vector<Action>& actions) {
+  bool changed = false;
+  for (const Action& action : actions) changed |= std::visit([&](const auto& a) { return carryOut(a); }, action);
+  return changed;
+}
+
+void Session::handleEvents() {
+  std::vector<Event> events;
+  {
+    const std::lock_guard lock(mutex_);
+    events.swap(events_);
+    newer_ = stop_.load();
+  }
+  for (const Event& event : events) {
+    try {
+      std::visit([&](const auto& what) { handle(event, what); }, event.what);
+    } catch (const std::exception& e) {  // the others still count
+      tellFailure(fmt::format("something went wrong: {}", e.what()));
+    }
+  }
 }
 
 // The session goes on: memory, say, may be there again in a moment. A terminal that is gone, or no memory for the
 // words, is nothing to end for.
 void Session::tellFailure(const std::string& what) {
   try {
-    tellAll(errorText({{}, "failed", "", what}));
+    conversation_.tellAll(errorText({{}, "failed", "", what}));
     if (outbox_.failed) outbox_.failed(what);
   } catch (const std::exception&) {}
 }
 
-// Of threads that could not be started, the next try has to wait a little, while what there is is shown.
-bool Session::mayStart() const { return std::chrono::steady_clock::now() >= startAgainAt_; }
-
-// Whether a thread was started; of tries that fail one after the other only the first is told.
+// Whether a thread was started; of tries that fail one after the other only the first is told. The next has to wait a
+// little, while what there is is shown.
 bool Session::started(const char* what, const Status& begun) {
   if (begun) {
     toldNoThread_ = false;
     return true;
   }
-  startAgainAt_ = std::chrono::steady_clock::now() + kAfterFailure;
+  startAgainAt_ = now() + kAfterFailure;
   if (!std::exchange(toldNoThread_, true)) tellFailure(fmt::format("{}: {}", what, begun.error()));
   return false;
 }
 
-void Session::takeNews(const JobNews& news) {
-  {
-    const std::lock_guard lock(mutex_);
-    jobNews_.push_back(news);
-  }
-  wake_.notify_all();
-}
-
-// From the builder's thread: windows are the loop's.
+// From the builder's thread. Of what the loop did not come to tell only the newest is told.
 void Session::tellProgress(const std::string& stage, float fraction) {
+  BuildProgress progress{stage, std::min(fraction, 0.99f)};  // the stage may be done, but not the whole
   {
     const std::lock_guard lock(mutex_);
-    const TimePoint now = std::chrono::steady_clock::now();
-    if (now - progressAt_ < kTellEvery) return;
-    progressAt_ = now;
-    progress_ = {stage, std::min(fraction, 0.99f)};  // the stage may be done, but not the whole
+    const TimePoint at = now();
+    if (at - progressAt_ < kTellEvery) return;
+    progressAt_ = at;
+    const auto untold = std::find_if(events_.begin(), events_.end(),
+                                     [](const Event& e) { return std::holds_alternative<BuildProgress>(e.what); });
+    if (untold != events_.end()) {
+      untold->what = std::move(progress);
+    } else {
+      events_.push_back({at, std::move(progress)});
+    }
   }
   wake_.notify_all();
 }
 
-bool Session::handleEvents() {
-  std::vector<Event> events;
-  std::optional<std::pair<std::string, float>> progress;
-  std::vector<JobNews> news;
-  {
-    const std::lock_guard lock(mutex_);
-    events.swap(events_);
-    progress.swap(progress_), news.swap(jobNews_);
-    newer_ = stop_.load();
-  }
-  tellJobs(news);
-  if (progress) tellAll(textOf({{"type", "progress"}, {"stage", progress->first}, {"fraction", progress->second}}));
-  for (const Event& event : events) {
-    try {
-      handle(event);
-    } catch (const std::exception& e) {  // the others still count
-      tellFailure(fmt::format("something went wrong: {}", e.what()));
-    }
-  }
-  return !events.empty();
+void Session::handle(const Event&, const BuildProgress& e) {
+  conversation_.tellAll(textOf({{"type", "progress"}, {"stage", e.stage}, {"fraction", e.fraction}}));
 }
 
-// One frame for one window, those in turn that have waited longest.
-bool Session::work() {
-  for (auto w = windows_.begin(); w != windows_.end(); ++w) {
-    if (!w->connection) continue;
-    bool done = false;
-    try {
-      done = answerPoints(*w);
-      done |= makeFrame(*w);
-    } catch (const std::exception&) {  // others come before it is tried again
-      windows_.splice(windows_.end(), windows_, w);
-      throw;
-    }
-    if (!done) continue;
-    windows_.splice(windows_.end(), windows_, w);
-    return true;
-  }
-  return false;
+bool Session::carryOut(const ForgetWindow& a) {
+  conversation_.forget(a.window);
+  return true;
 }
 
 }  // namespace roomlight::view

@@ -1,27 +1,30 @@
 // One home looked at through several windows. Knows messages and frames, no network: who owns it hands in what browsers
-// say and carries away what they are told. Of its threads the loop (session.cpp) makes quick frames and owns windows
-// and state; others work in the background and wake it: one lights homes anew (LightBuilder), one brings their light to
-// where the home is (LightFollower), one refines a picture (Refiner), one makes final pictures (RenderJobs), one packs
-// frames (FrameSender).
+// say and carries away what they are told. Its loop hands what happens to the Conversation, asks the schedule what to
+// do and does it: frames itself, all else by threads in the background, which tell it when they are done. One lights
+// homes anew (LightBuilder), one brings their light to where the home is (LightFollower), one refines a picture
+// (Refiner), one makes final pictures (RenderJobs), one packs frames (FrameSender).
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <list>
-#include <map>
+#include <memory>
 #include <mutex>
-#include <set>
+#include <optional>
+#include <string>
 #include <thread>
+#include <variant>
+#include <vector>
 
-#include "view/apply_edit.h"
-#include "view/describe.h"
+#include "view/conversation.h"
 #include "view/frame_sender.h"
-#include "view/history.h"
 #include "view/light_follower.h"
+#include "view/lit_home.h"
 #include "view/refiner.h"
 #include "view/render_jobs.h"
+#include "view/schedule.h"
 #include "view/start_thread.h"
-#include "view/window.h"
 
 namespace roomlight::view {
 
@@ -50,158 +53,118 @@ class Session {
   void fileSent(const std::string& id) { jobs_.drop(id); }
 
  private:
+  // What happens.
   struct Opened {
+    Connection connection;
     std::string window;
   };
-  struct Closed {};
-  struct Packed {  // a frame that goes out now; of no bytes: it could not be packed
+  struct Closed {
+    Connection connection;
+  };
+  struct Said {
+    Connection connection;
+    Message message;
+  };
+  struct Packed {  // a frame goes out now; of no bytes: it could not be packed
+    Connection connection;
     uint32_t number;
     size_t bytes;
   };
-  using What = std::variant<Opened, Closed, Packed, Message>;
+  struct BuildProgress {
+    std::string stage;
+    float fraction;
+  };
+  struct Built {};
+  struct LightFollowed {};
+  struct Refined {};  // or the refiner has ended
+  using What = std::variant<Opened, Closed, Said, Packed, BuildProgress, Built, LightFollowed, Refined, JobNews>;
   struct Event {
-    Connection connection;
     TimePoint at;
     What what;
   };
 
   // session.cpp: the loop
-  void push(Connection connection, What what);
-  static bool isOfFrames(const What& what);
-  Event* outdatedBy(const Event& event);
+  void push(What what);
+  static bool asksForPictures(const What& what);
+  Event* outdatedBy(const What& what);
   void runWithThreads();
   void run();
-  bool workOn();
-  bool handleEvents();
-  bool work();
+  void handleEvents();
+  void wait(TimePoint until);
+  bool carryOutAll(const std::vector<Action>& actions);
   void tellFailure(const std::string& what);
-  bool mayStart() const;
   bool started(const char* what, const Status& begun);
-  void takeNews(const JobNews& news);
-  void tellProgress(const std::string& stage, float fraction);
+  Conversation::Jobs finalPictures();
+  void handle(const Event& event, const Opened& e) { conversation_.opened(e.connection, e.window, event.at); }
+  void handle(const Event& event, const Closed& e) { conversation_.closed(e.connection, event.at); }
+  void handle(const Event& event, const Said& e) { conversation_.said(e.connection, e.message, event.at); }
+  void handle(const Event& event, const Packed& e) { conversation_.packed(e.connection, e.number, e.bytes, event.at); }
+  void handle(const Event&, const JobNews& e) { conversation_.heard(e); }
+  void handle(const Event&, const BuildProgress& e);
+  void handle(const Event&, const Built&);
+  void handle(const Event&, const LightFollowed&);
+  void handle(const Event&, const Refined&);
+
+  // session_facts.cpp: what stands where
+  Situation situation() const;
+  SideFacts factsOf(const Window& window, const Side& side) const;
+  HomeFacts factsOf(const LitHome& home) const;
+  bool isWanted(const HomeState& state, const LitHome& home) const;
+  bool isUpToDate(const LitHome& home) const;
+
+  // What was decided; each: whether that changed anything, so that there may be more to do at once.
+  bool carryOut(const StopRefining&);
+  bool carryOut(const GiveUpLighting&);
+  bool carryOut(const LightHome& a);
+  bool carryOut(const ForgetWindow& a);
+  bool carryOut(const DropHome& a);
+  bool carryOut(const FollowLight& a);
+  bool carryOut(const AnswerPoints& a);
+  bool carryOut(const MakeFrame& a);
+  bool carryOut(const Refine& a);
 
   // session_light.cpp: lit homes
-  HomeState stateOf(const LightKey& key) const;
   LitHome* litFor(const LightKey& key);
-  bool needs(const LightKey& key) const;
-  bool isShown(const LightKey& key) const;
-  size_t lightsNeeded() const;
-  void beginBuilding();
-  void adoptBuilt();
-  bool refinerLeaves(const LitHome& home);
-  void dropLights();
-  void dropLight(const LitHome& home);
   HomeState wantedOf(const LitHome& home) const;
-  bool isUpToDate(const LitHome& home) const;
-  bool canBeShown(const LitHome& home) const;
-  bool isOwedAFrame(const LitHome& home) const;
-  void followFront(LitHome& home);
-  void followLight();
-  bool takeLight();
-
-  // session_messages.cpp: what each message does
-  void handle(const Event& event);
-  void openWindow(const Event& event, const std::string& wanted);
-  void closeWindow(Window& window, TimePoint at);
-  std::optional<ViewError> tooFar(const Edit& edit, const HomeState& next) const;
-  std::optional<ViewError> noLightAt(const Edit& edit, const HomeState& next) const;
-  void on(Window& window, const Event& event, const Viewport& m);
-  void on(Window& window, const Event& event, const ViewCamera& m);
-  void on(Window& window, const Event& event, const DisplayChange& m);
-  void on(Window& window, const Event& event, const ChooseTechnique& m);
-  void on(Window& window, const Event& event, const ChooseSplit& m);
-  void on(Window& window, const Event& event, const Edit& m);
-  void on(Window& window, const Event& event, const StepHistory& m);
-  void on(Window& window, const Event& event, const EditPlan& m);
-  void on(Window& window, const Event& event, const Point& m);
-  void on(Window& window, const Event& event, const Ack& m);
-  void on(Window& window, const Event& event, const RenderWish& m);
-  void on(Window& window, const Event& event, const CancelJob& m);
-  void on(Window& window, const Event& event, const SaveLighting& m);
-  void on(Window& window, const Event& event, const Ping& m);
-  void on(Window& window, const Event& event, const ViewError& m);
-  void setState(HomeState next, const Window& by);
-  Json stateJson(const std::vector<size_t>& lamps, const std::vector<size_t>& objects, bool sun) const;
-  void forgetLostWindows();
-
-  // session_jobs.cpp
-  void tellJobs(const std::vector<JobNews>& news);
-  void tellJobsAgain(Window& window);
-  void forgetJobs(Window& window, bool told);
+  bool refinerLeaves(const LitHome& home);
+  void dropLight(const LitHome& home);
+  void followLive(LitHome& home);
+  void tellProgress(const std::string& stage, float fraction);
 
   // session_frames.cpp
-  Window* windowOf(Connection connection);
-  Window* windowNamed(const std::string& name);
-  void chooseSides(Window& window);
-  void newInput(Window& window, TimePoint at);
-  void lookFrom(LitHome& home, const Camera& camera);
   FrameHistory* historyOf(Side& side, Window& window);
+  void lookFrom(LitHome& home, const Camera& camera);
+  bool makeFrame(Window& window, size_t index, FrameKind kind);
   bool showQuick(Window& window, Side& side, LitHome& home, const Camera& camera);
-  enum class Next {
-    Nothing,
-    Wait,  // for rest, or for light
-    Again,  // the same picture is shown otherwise
-    Quick,
-    Better
-  };
-  Next nextOf(const Window& window, const Side& side, const LitHome& home) const;
-  bool somebodyMoves() const;
-  bool makeFrame(Window& window);
-  bool stepSide(Window& window, size_t index);
+  bool refines(const Window& window, const Side& side) const;
   void sendFrame(Window& window, size_t index, LitHome& home);
-  void packed(Window& window, const Packed& p, TimePoint at);
-  void tell(const Window& window, std::string text) const;
-  void tellAll(const std::string& text) const;
+  FrameInfo frameInfo(Window& window, size_t index, const LitHome& home) const;
+  FrameSender::Make inDisplay(Window& window, size_t index, const RayScene& rays, FrameInfo info);
 
   // session_points.cpp: picking and metering
-  bool canBeMetered(const Window& window, const LitHome& home) const;
-  bool meterIsDue(const LitHome& home) const;
-  bool answerPoints(Window& window);
-
-  // session_refine.cpp
-  bool refines(const Window& window, const Side& side) const;
-  std::pair<Window*, size_t> nextToRefine();
-  bool isTurnOver(const Side& next);
-  void beginRefining();
-  bool takeRefined();
-  void tellRefined();
+  bool answerPoints(Window& window, bool meter);
 
   const ViewHome home_;
-  const Bounds3 reach_;  // how far things may be moved
   const RenderSettings settings_;  // of renders
   const RenderSettings frames_;  // of what is shown meanwhile
   const Outbox outbox_;
-  HomeState state_;
-  uint32_t revision_ = 1;
-  History history_;
-  std::map<std::string, HomeState> plans_;
-  std::list<Window> windows_;
-  std::list<std::unique_ptr<LitHome>> lit_;
+  Conversation conversation_;
+  std::list<std::unique_ptr<LitHome>> lit_;  // used last first
   LightBuilder builder_;
-  std::set<std::string> failedBuilds_;  // techniques that could not be lit: not tried again until something changes
-  Json homeJson_;
+  std::vector<std::string> failedBuilds_;  // techniques that could not be lit: not tried again until something changes
+  uint64_t failedAt_ = 0;  // wishes of the conversation at that time
   LightFollower follower_;
+  LightKey followedKey_;  // of the home whose light follows
   uint64_t followings_ = 0;  // so far
   uint32_t followed_ = 0;  // revision to which it follows
-  bool soon_ = false;  // a window rests in a moment
-  struct Refining {  // whose picture it is; of an older serial it is of no more use
-    std::string window;
-    size_t side = 0;
-    uint32_t serial = 0;
-    uint32_t turn = 0, samples = 0;  // how many it has before another picture's turn may come, and so far
-  };
-  std::optional<Refining> refining_;
-  int nextJob_ = 1;
+  std::optional<RefiningFacts> refining_;
   TimePoint startAgainAt_{};  // after a thread could not be started
   bool toldNoThread_ = false;  // since the last that could
 
   std::mutex mutex_;  // of what follows
-  std::optional<std::pair<std::string, float>> progress_;  // not told yet
   TimePoint progressAt_;
   std::condition_variable wake_;
   std::vector<Event> events_;
-  std::vector<JobNews> jobNews_;  // not told yet
-  bool built_ = false, refinedReady_ = false, lightReady_ = false;
   std::atomic<bool> stop_{false}, newer_{false};
   Refiner refiner_;
   RenderJobs jobs_;

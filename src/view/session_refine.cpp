@@ -1,6 +1,6 @@
-// On to the reference: one picture at a time is refined by paths while nothing else is to be done. Where several could
- // be, they take turns.
+// On to the reference: a picture that is put right by paths in the background.
 #include <algorithm>
+#include <utility>
 
 #include "view/session.h"
 
@@ -12,12 +12,6 @@ constexpr uint32_t kFirstTurn = 60, kMostDoublings = 8;  // samples of a turn; e
 
 uint32_t turnAfter(uint32_t turns) { return kFirstTurn << std::min(turns, kMostDoublings); }
 
-// As good as averages make it, and to be seen: the window takes frames.
-bool couldBeRefined(const Window& w, const Side& s) {
-  return w.connection && w.underWay.size() < kMostUnderWay && s.shownSerial == w.serial && s.failedSerial != w.serial &&
-         s.picture.averaged() && !s.picture.settled();
-}
-
 }  // namespace
 
 // Of illuminance the averages are good enough.
@@ -25,48 +19,18 @@ bool Session::refines(const Window& window, const Side& side) const {
   return !window.display.white() && findTechnique(side.key.technique)->refinesToTruth;
 }
 
-void Session::tellRefined() {
-  {
-    const std::lock_guard lock(mutex_);
-    refinedReady_ = true;
-  }
-  wake_.notify_all();
+bool Session::carryOut(const StopRefining&) {
+  refiner_.giveUp();
+  refining_.reset();
+  return true;
 }
 
-// The picture with the fewest samples of those that wait; no window if there is none.
-std::pair<Window*, size_t> Session::nextToRefine() {
-  std::pair<Window*, size_t> next{nullptr, 0};
-  for (Window& w : windows_) {
-    for (size_t k = 0; k < w.sides.size(); ++k) {
-      const bool isUnderWay = refining_ && refining_->window == w.name && refining_->side == k;
-      if (isUnderWay || !couldBeRefined(w, w.sides[k])) continue;
-      const LitHome* home = litFor(w.sides[k].key);
-      if (!home || follower_.home() == home) continue;
-      if (!next.first || w.sides[k].picture.samples() < next.first->sides[next.second].picture.samples())
-        next = {&w, k};
-    }
-  }
-  return next;
-}
-
-bool Session::isTurnOver(const Side& next) {
-  const Window* window = windowNamed(refining_->window);
-  if (!window || refining_->side >= window->sides.size()) return true;
-  return refining_->samples >= refining_->turn &&
-         next.picture.samples() < window->sides[refining_->side].picture.samples();
-}
-
-void Session::beginRefining() {
-  if (jobs_.busy()) {  // somebody waits for that
-    if (refining_) refiner_.giveUp(), refining_.reset();
-    return;
-  }
-  if (!mayStart()) return;
-  const auto [window, k] = nextToRefine();
-  if (!window || (refining_ && !isTurnOver(window->sides[k]))) return;
-  if (refining_) refiner_.giveUp(), refining_.reset();
-  if (refiner_.working()) return;  // on a last blend, which takes about a second
-  Side& s = window->sides[k];
+bool Session::carryOut(const Refine& a) {
+  Window* window = conversation_.windowNamed(a.window);
+  if (!window || a.side >= window->sides.size()) return false;
+  Side& s = window->sides[a.side];
+  LitHome* home = litFor(s.key);
+  if (!home || !home->solution) return false;
   if (!s.picture.refined()) s.turns = 0;
   s.samplesBefore = s.turns > 0 ? s.picture.samples() : 0;
   const uint32_t length = turnAfter(s.turns);
@@ -75,30 +39,21 @@ void Session::beginRefining() {
   settings.seed = settings_.seed + 1 + s.turns;  // other random numbers than those of the picture so far
   // The picture of an earlier turn is better than the first looks of this one could make it.
   const int firstLook = s.turns > 0 ? static_cast<int>(length) : Refiner::kFewestSamples;
-  if (!started("the picture cannot be refined now", refiner_.begin(*litFor(s.key), cameraOf(window->camera), settings,
-                                                                   settings_.threads, s.picture.image(), firstLook)))
-    return;
+  const Status begun = refiner_.begin(home->solution, cameraOf(window->camera), settings, settings_.threads,
+                                      s.picture.image(), firstLook);
+  if (!started("the picture cannot be refined now", begun)) return true;
   ++s.turns;
-  refining_ = Refining{window->name, k, window->serial, length, 0};
+  refining_ = RefiningFacts{window->name, a.side, window->serial, length, 0};
+  return true;
 }
 
-// Whether there was a picture to take.
-bool Session::takeRefined() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!refinedReady_) return false;
-    refinedReady_ = false;
-  }
+void Session::handle(const Event&, const Refined&) {
   std::optional<RefinedPicture> picture = refiner_.take();
-  if (!refining_) return false;
-  Window* window = windowNamed(refining_->window);
-  const size_t k = refining_->side;
-  if (!window || window->serial != refining_->serial || k >= window->sides.size()) {
-    refiner_.giveUp();
-    refining_.reset();
-    return false;
-  }
-  Side& side = window->sides[k];
+  if (!refining_) return;
+  Window* window = conversation_.windowNamed(refining_->window);
+  if (!window || window->serial != refining_->serial || refining_->side >= window->sides.size())
+    return;  // the schedule ends it
+  Side& side = window->sides[refining_->side];
   if (picture) {
     side.picture.refine(std::move(picture->image), side.samplesBefore + picture->samples, picture->relativeError,
                         picture->last);
@@ -107,7 +62,6 @@ bool Session::takeRefined() {
   }
   if (refiner_.failed()) side.failedSerial = window->serial;
   if (refiner_.failed() || (picture && picture->last)) refining_.reset();
-  return picture.has_value();
 }
 
 }  // namespace roomlight::view

@@ -1,7 +1,6 @@
 // A browser's window: where it looks from, how it shows it, and the pictures it is being sent.
 #pragma once
 
-#include <chrono>
 #include <deque>
 #include <map>
 #include <memory>
@@ -15,13 +14,13 @@
 #include "view/message.h"
 #include "view/pacing.h"
 #include "view/render_jobs.h"
+#include "view/schedule.h"
 #include "view/shown.h"
 #include "view/view_camera.h"
 
 namespace roomlight::view {
 
 using Connection = uint64_t;
-using TimePoint = std::chrono::steady_clock::time_point;
 
 constexpr size_t kMostUnderWay =
     2;  // frames of a window that were not acknowledged; before one of them is, no other is made
@@ -78,6 +77,11 @@ struct Window {
   TimePoint meterAt;  // since when,
   uint32_t meterRevision = 0;  // of which state
   std::map<std::string, JobNews> jobs;  // the last of each, as far as it may have to be told again
+
+  bool hasSize() const { return viewport.width > 0; }
+  bool takesFrames() const { return hasSize() && underWay.size() < kMostUnderWay; }
+  // From here on another picture is wanted.
+  void newInput(TimePoint at) { ++serial, inputAt = at, inputShown = false; }
 };
 
 }  // namespace roomlight::view

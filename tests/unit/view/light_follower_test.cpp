@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "support/signals.h"
 #include "support/threads.h"
@@ -32,28 +33,29 @@ TEST(LightFollower, bringsTheHomeToWhereItIsWanted) {
   test::Signals mayEnd, ready;
   LitRoom room([&](Stages&) { mayEnd.take(); });
   LightFollower follower;
-  ASSERT_TRUE(follower.begin(room.all, *room.home, room.dimmed(), 1, [&] { ready.give(); }).ok());
-  EXPECT_EQ(follower.home(), room.home.get());
+  ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, [&] { ready.give(); }).ok());
+  EXPECT_TRUE(follower.busy());
+  EXPECT_FALSE(room.solution);  // nobody else can touch it
   EXPECT_FALSE(follower.done());
   mayEnd.give();
   ready.take();
   EXPECT_TRUE(follower.done());
   const FollowedLight followed = follower.finish();
-  EXPECT_EQ(followed.home, room.home.get());
+  ASSERT_TRUE(followed.solution);
   ASSERT_TRUE(followed.change);
   EXPECT_TRUE(followed.change->lamps);
   EXPECT_EQ(followed.error, "");
-  EXPECT_EQ(room.home->state, room.dimmed());
-  EXPECT_NEAR(room.home->scene.lamps[0].intensityCd.y, 50, 0.01);
-  EXPECT_EQ(follower.home(), nullptr);
-  EXPECT_EQ(follower.finish().home, nullptr);
+  EXPECT_EQ(followed.solution->state, room.dimmed());
+  EXPECT_NEAR(followed.solution->scene.lamps[0].intensityCd.y, 50, 0.01);
+  EXPECT_FALSE(follower.busy());
+  EXPECT_FALSE(follower.finish().solution);
 }
 
 TEST(LightFollower, waitsForItsEnd) {
   bool ended = false;
   LitRoom room([&](Stages&) { ended = true; });
   LightFollower follower;
-  ASSERT_TRUE(follower.begin(room.all, *room.home, room.dimmed(), 1, nobodyWaits).ok());
+  ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
   EXPECT_TRUE(follower.finish().change);
   EXPECT_TRUE(ended);
 }
@@ -62,11 +64,11 @@ TEST(LightFollower, canBeCancelled) {
   EndlessLight light;
   LitRoom room(light.relight());
   LightFollower follower;
-  ASSERT_TRUE(follower.begin(room.all, *room.home, room.dimmed(), 1, nobodyWaits).ok());
+  ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
   light.begun.take();
   follower.cancel();
   EXPECT_TRUE(light.cancelled);
-  EXPECT_EQ(follower.home(), nullptr);
+  EXPECT_FALSE(follower.busy());
 }
 
 TEST(LightFollower, canGoWhileItWorks) {
@@ -74,7 +76,7 @@ TEST(LightFollower, canGoWhileItWorks) {
   LitRoom room(light.relight());
   {
     LightFollower follower;
-    ASSERT_TRUE(follower.begin(room.all, *room.home, room.dimmed(), 1, nobodyWaits).ok());
+    ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
     light.begun.take();
   }
   EXPECT_TRUE(light.cancelled);
@@ -86,13 +88,14 @@ TEST(LightFollower, tellsWhyItFailedAndCanBeginAgain) {
     if (fails) throw std::runtime_error("no room for light");
   });
   LightFollower follower;
-  ASSERT_TRUE(follower.begin(room.all, *room.home, room.dimmed(), 1, nobodyWaits).ok());
-  const FollowedLight failed = follower.finish();
-  EXPECT_EQ(failed.home, room.home.get());
+  ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
+  FollowedLight failed = follower.finish();
+  ASSERT_TRUE(failed.solution);
   EXPECT_FALSE(failed.change);
   EXPECT_EQ(failed.error, "no room for light");
   fails = false;
-  ASSERT_TRUE(follower.begin(room.all, *room.home, room.all.atStart(), 1, nobodyWaits).ok());
+  room.solution = std::move(failed.solution);
+  ASSERT_TRUE(follower.begin(room.all, room.solution, room.all.atStart(), 1, nobodyWaits).ok());
   const FollowedLight followed = follower.finish();
   EXPECT_TRUE(followed.change);
   EXPECT_EQ(followed.error, "");
@@ -103,14 +106,15 @@ TEST(LightFollower, withoutAThreadItIsIdleAndTheHomeAsItWas) {
   LitRoom room;
   LightFollower follower(threads.starter());
   threads.none = true;
-  const Status begun = follower.begin(room.all, *room.home, room.dimmed(), 1, nobodyWaits);
+  const Status begun = follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits);
   ASSERT_FALSE(begun.ok());
   EXPECT_NE(begun.error().find("no thread can be started"), std::string::npos);
   EXPECT_EQ(begun.error().find('\n'), std::string::npos);
-  EXPECT_EQ(follower.home(), nullptr);
-  EXPECT_EQ(room.home->state, room.all.atStart());
+  EXPECT_FALSE(follower.busy());
+  ASSERT_TRUE(room.solution);
+  EXPECT_EQ(room.solution->state, room.all.atStart());
   threads.none = false;
-  ASSERT_TRUE(follower.begin(room.all, *room.home, room.dimmed(), 1, nobodyWaits).ok());
+  ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
   EXPECT_TRUE(follower.finish().change);
 }
 

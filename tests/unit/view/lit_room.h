@@ -44,12 +44,12 @@ class ToldLight final : public LitScene {
 struct LitRoom {
   explicit LitRoom(
       ToldLight::Relight relight = [](Stages&) {}, Scene scene = roomWithALamp())
-      : all("room", std::move(scene)), home(std::make_unique<LitHome>(LightKey{"told", ""}, all.atStart())) {
-    home->scene = all.scene;
+      : all("room", std::move(scene)), solution(std::make_shared<LightSolution>()) {
+    solution->scene = all.scene, solution->state = all.atStart();
     RenderStats stats;
     const RenderProgress silent;
     Stages stages(silent, stats);
-    home->lit = std::make_unique<ToldLight>(home->scene, stages, std::move(relight));
+    solution->lit = std::make_unique<ToldLight>(solution->scene, stages, std::move(relight));
   }
   HomeState dimmed() const {
     HomeState state = all.atStart();
@@ -58,7 +58,7 @@ struct LitRoom {
   }
 
   ViewHome all;
-  std::unique_ptr<LitHome> home;
+  std::shared_ptr<LightSolution> solution;
 };
 
 }  // namespace roomlight::view

@@ -48,7 +48,7 @@ struct StepByStep {
   }};
 
   StepByStep() {
-    EXPECT_TRUE(refiner.begin(*room.home, kCamera, settings(), 1, flat(), kFirstLook).ok());
+    EXPECT_TRUE(refiner.begin(room.solution, kCamera, settings(), 1, flat(), kFirstLook).ok());
     pictures.take();
   }
   ~StepByStep() { goOn(); }
@@ -59,8 +59,8 @@ TEST(Refiner, comesToALastPicture) {
   test::Signals pictures;
   LitRoom room([](Stages&) {}, glow());
   Refiner refiner([&] { pictures.give(); });
-  ASSERT_TRUE(refiner.begin(*room.home, kCamera, settings(), 1, flat(), kFirstLook).ok());
-  EXPECT_EQ(refiner.home(), room.home.get());
+  ASSERT_TRUE(refiner.begin(room.solution, kCamera, settings(), 1, flat(), kFirstLook).ok());
+  EXPECT_EQ(refiner.solution(), room.solution.get());
   pictures.take();
   const std::optional<RefinedPicture> picture = refiner.take();
   ASSERT_TRUE(picture);
@@ -73,7 +73,8 @@ TEST(Refiner, comesToALastPicture) {
   refiner.stop();
   EXPECT_FALSE(refiner.failed());
   EXPECT_FALSE(refiner.working());
-  EXPECT_EQ(refiner.home(), nullptr);
+  EXPECT_EQ(refiner.solution(), nullptr);
+  EXPECT_TRUE(pictures.tryToTake());  // of its end
   EXPECT_FALSE(pictures.tryToTake());
 }
 
@@ -95,8 +96,8 @@ TEST(Refiner, canBeGivenUp) {
   StepByStep steps;
   steps.refiner.giveUp();
   steps.goOn();
-  while (steps.refiner.working()) std::this_thread::yield();
-  EXPECT_FALSE(steps.pictures.tryToTake());
+  steps.pictures.take();  // of its end
+  EXPECT_FALSE(steps.refiner.working());
   EXPECT_FALSE(steps.refiner.failed());
   EXPECT_TRUE(steps.refiner.take());
 }
@@ -104,18 +105,19 @@ TEST(Refiner, canBeGivenUp) {
 TEST(Refiner, aHomeThatWasLetGoMayEnd) {
   StepByStep steps;
   steps.refiner.letGo();
-  EXPECT_EQ(steps.refiner.home(), nullptr);
-  steps.room.home.reset();
+  EXPECT_EQ(steps.refiner.solution(), nullptr);
+  steps.room.solution.reset();
   EXPECT_TRUE(steps.refiner.working());  // and was not waited for
   steps.goOn();
   steps.refiner.stop();
+  EXPECT_TRUE(steps.pictures.tryToTake());  // of its end
   EXPECT_FALSE(steps.pictures.tryToTake());
 }
 
 TEST(Refiner, betweenPassesItLetsGoAtOnce) {
   StepByStep steps;
   EXPECT_TRUE(steps.refiner.tryLetGo());
-  EXPECT_EQ(steps.refiner.home(), nullptr);
+  EXPECT_EQ(steps.refiner.solution(), nullptr);
 }
 
 // It would go on for minutes: the picture it begins with is as wrong as can be.
@@ -127,7 +129,7 @@ TEST(Refiner, canGoWhileItWorks) {
   for (size_t i = 0; i < wrong.pixels.size(); i += 2) wrong.pixels[i] = Vec3(0);
   {
     Refiner refiner([&] { pictures.give(); });
-    ASSERT_TRUE(refiner.begin(*room.home, kCamera, settings(kLarge), 1, wrong, kFirstLook).ok());
+    ASSERT_TRUE(refiner.begin(room.solution, kCamera, settings(kLarge), 1, wrong, kFirstLook).ok());
     pictures.take();
     EXPECT_TRUE(refiner.working());
   }
@@ -139,12 +141,12 @@ TEST(Refiner, tellsOfAFailureAndCanBeginAgain) {
   Refiner refiner([&] { pictures.give(); });
   // No memory holds that.
   ASSERT_TRUE(
-      refiner.begin(*room.home, kCamera, settings(std::numeric_limits<int>::max()), 1, flat(), kFirstLook).ok());
+      refiner.begin(room.solution, kCamera, settings(std::numeric_limits<int>::max()), 1, flat(), kFirstLook).ok());
   pictures.take();
   EXPECT_TRUE(refiner.failed());
   EXPECT_FALSE(refiner.working());
   EXPECT_FALSE(refiner.take());
-  ASSERT_TRUE(refiner.begin(*room.home, kCamera, settings(), 1, flat(), kFirstLook).ok());
+  ASSERT_TRUE(refiner.begin(room.solution, kCamera, settings(), 1, flat(), kFirstLook).ok());
   pictures.take();
   EXPECT_FALSE(refiner.failed());
   EXPECT_TRUE(refiner.take());
@@ -156,13 +158,13 @@ TEST(Refiner, withoutAThreadItIsIdle) {
   LitRoom room([](Stages&) {}, glow());
   Refiner refiner([&] { pictures.give(); }, threads.starter());
   threads.none = true;
-  const Status begun = refiner.begin(*room.home, kCamera, settings(), 1, flat(), kFirstLook);
+  const Status begun = refiner.begin(room.solution, kCamera, settings(), 1, flat(), kFirstLook);
   ASSERT_FALSE(begun.ok());
   EXPECT_NE(begun.error().find("no thread can be started"), std::string::npos);
   EXPECT_FALSE(refiner.working());
-  EXPECT_EQ(refiner.home(), nullptr);
+  EXPECT_EQ(refiner.solution(), nullptr);
   threads.none = false;
-  ASSERT_TRUE(refiner.begin(*room.home, kCamera, settings(), 1, flat(), kFirstLook).ok());
+  ASSERT_TRUE(refiner.begin(room.solution, kCamera, settings(), 1, flat(), kFirstLook).ok());
   pictures.take();
   EXPECT_TRUE(refiner.take());
 }

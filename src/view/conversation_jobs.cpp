@@ -1,15 +1,12 @@
-// Final pictures, and the lighting as a file.
+// What is said about final pictures.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <limits>
 
 #include "engine/quality.h"
 #include "engine/technique.h"
 #include "import/printable.h"
-#include "view/save_lighting.h"
-#include "view/session.h"
+#include "view/conversation.h"
 
 namespace roomlight::view {
 namespace {
@@ -18,16 +15,6 @@ constexpr int kUsualWidth = 1920, kPanoramaWidth = 4096;
 constexpr double kBytesAPixel = 450;   // of a render: pictures, what the filter needs, paths' sums
 constexpr double kMostOfMemory =
     0.6;  // of what is free: the kernel ends programs without a word where there is none left
-
-// Of memory, as Linux tells; elsewhere there is no end to it.
-double availableBytes() {
-  std::ifstream in("/proc/meminfo");
-  std::string key;
-  for (double kib = 0; in >> key >> kib; in.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
-    if (key == "MemAvailable:") return kib * 1024;
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 Json positive(double value) { return value < 0 ? Json(nullptr) : Json(value); }
 
@@ -45,16 +32,6 @@ Json jobJson(const JobNews& n) {
           {"message", n.message.empty() ? Json(nullptr) : Json(n.message)}};
 }
 
-// What any file system and header takes.
-std::string safeName(std::string name) {
-  for (char& c : name) {
-    const bool plain =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-    if (!plain) c = '_';
-  }
-  return name.empty() ? "home" : name.substr(0, 60);
-}
-
 Camera panoramaAt(const ViewCamera& view) {
   Camera camera = cameraOf(view);
   const Vec3 level{view.direction.x, 0, view.direction.z};
@@ -65,7 +42,7 @@ Camera panoramaAt(const ViewCamera& view) {
 
 }  // namespace
 
-void Session::on(Window& window, const Event&, const RenderWish& m) {
+void Conversation::on(Window& window, TimePoint, const RenderWish& m) {
   RenderWork work;
   work.settings = settings_;
   if (!m.quality.empty()) {
@@ -84,7 +61,7 @@ void Session::on(Window& window, const Event&, const RenderWish& m) {
   work.settings.height =
       m.height > 0 ? m.height : std::max(16, static_cast<int>(std::lround(work.settings.width / aspect)));
   const double bytes = kBytesAPixel * work.settings.width * work.settings.height;
-  if (bytes > kMostOfMemory * availableBytes())
+  if (bytes > kMostOfMemory * jobs_.bytesToSpare())
     return tell(
         window,
         errorText(
@@ -96,49 +73,40 @@ void Session::on(Window& window, const Event&, const RenderWish& m) {
   work.camera = m.panorama ? panoramaAt(window.camera) : cameraOf(window.camera);
   work.state = state_, work.display = window.display;
   work.format = m.format, work.window = window.name, work.job = fmt::format("job:{}", nextJob_++);
-  work.fileName = fmt::format("{}-{}.{}", safeName(home_.name), m.panorama ? "panorama" : "picture", m.format);
+  work.fileName = fmt::format("{}-{}.{}", fileNameOf(home_), m.panorama ? "panorama" : "picture", m.format);
   const std::string job = work.job;
   if (const Status added = jobs_.add(std::move(work)); !added)
     return tell(window, errorText({m.id, "notPossible", "", added.error()}));
   tell(window, textOf({{"type", "ok"}, {"id", m.id}, {"job", job}}));
 }
 
-void Session::on(Window& window, const Event&, const CancelJob& m) {
+void Conversation::on(Window& window, TimePoint, const CancelJob& m) {
   if (!jobs_.cancel(m.job))
     return tell(window,
                 errorText({m.id, "unknownThing", "job", fmt::format("no job '{}' is under way", printable(m.job))}));
   tell(window, okText(m.id));
 }
 
-void Session::on(Window& window, const Event&, const SaveLighting& m) {
-  tell(window, textOf({{"type", "saved"},
-                       {"id", m.id},
-                       {"name", safeName(home_.name) + "-lighting.json"},
-                       {"text", lightingFile(home_, state_)}}));
-}
-
-void Session::tellJobs(const std::vector<JobNews>& news) {
-  for (const JobNews& n : news) {
-    Window* window = windowNamed(n.window);
-    if (!window) continue;
-    window->jobs[n.job] = n;
-    tell(*window, textOf(jobJson(n)));
-    forgetJobs(*window, window->connection.has_value());
-  }
+void Conversation::heard(const JobNews& news) {
+  Window* window = windowNamed(news.window);
+  if (!window) return;
+  window->jobs[news.job] = news;
+  tell(*window, textOf(jobJson(news)));
+  forgetJobs(*window, window->connection.has_value());
 }
 
 // To a window that comes back.
-void Session::tellJobsAgain(Window& window) {
+void Conversation::tellJobsAgain(Window& window) {
   forgetJobs(window, false);
   for (const auto& [job, news] : window.jobs) tell(window, textOf(jobJson(news)));
   forgetJobs(window, true);
 }
 
 // Pictures that were fetched or removed since and, where the window was told, jobs that have ended without one.
-void Session::forgetJobs(Window& window, bool told) {
+void Conversation::forgetJobs(Window& window, bool told) {
   std::erase_if(window.jobs, [&](const auto& entry) {
     const JobNews& n = entry.second;
-    return n.fileId.empty() ? told && n.state != "running" : !jobs_.find(n.fileId);
+    return n.fileId.empty() ? told && n.state != "running" : !jobs_.isKept(n.fileId);
   });
 }
 

@@ -1,0 +1,191 @@
+// What browsers say and are told, without threads, clock and network.
+#include "view/conversation.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "unit/view/lit_room.h"
+
+namespace roomlight::view {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+
+const TimePoint kStart{std::chrono::hours(1000)};
+
+struct Talk {
+  ViewHome home{"My room", roomWithALamp()};
+  std::vector<std::pair<Connection, json>> told;
+  std::vector<RenderWork> wishes;
+  double bytesToSpare = 1e12;
+  TimePoint now = kStart;
+  Conversation conversation{home,
+                            settings(),
+                            [this](Connection c, const std::string& text) { told.emplace_back(c, json::parse(text)); },
+                            {[this](RenderWork w) {
+                               wishes.push_back(std::move(w));
+                               return Status(Ok{});
+                             },
+                             [](const std::string&) { return false; }, [](const std::string&) { return true; },
+                             [this] { return bytesToSpare; }}};
+
+  static RenderSettings settings() {
+    RenderSettings s;
+    s.technique = "hybrid";
+    return s;
+  }
+  void open(Connection c, const std::string& name = "") { conversation.opened(c, name, now); }
+  void say(Connection c, const json& message) {
+    now += milliseconds(10);
+    conversation.said(c, readMessage(message.dump()), now);
+  }
+  // The last that was told, which is taken.
+  json hear(Connection c) {
+    for (auto t = told.rbegin(); t != told.rend(); ++t) {
+      if (t->first != c) continue;
+      const json out = t->second;
+      told.clear();
+      return out;
+    }
+    return {};
+  }
+  Window& window() { return conversation.windows().front(); }
+};
+
+json dimTo(double dim, const char* gesture = "") {
+  json edit = {{"type", "edit"}, {"id", 1}, {"target", "lamp:0"}, {"dim", dim}};
+  if (*gesture) edit["gesture"] = gesture;
+  return edit;
+}
+
+TEST(Conversation, welcomesAndKnowsAWindowThatComesBack) {
+  Talk talk;
+  talk.open(1);
+  const json welcome = talk.hear(1);
+  EXPECT_EQ(welcome["type"], "welcome");
+  EXPECT_EQ(welcome["lamps"].size(), 1u);
+  talk.say(1, {{"type", "viewport"}, {"width", 320}, {"height", 200}, {"pixelRatio", 1}});
+  talk.conversation.closed(1, talk.now);
+  EXPECT_EQ(talk.window().leftAt, talk.now);
+  talk.open(2, welcome["window"]);
+  EXPECT_EQ(talk.conversation.windows().size(), 1u);
+  EXPECT_EQ(talk.window().viewport.width, 320);
+}
+
+TEST(Conversation, anInputNeedsAnotherPicture) {
+  Talk talk;
+  talk.open(1);
+  const uint32_t serial = talk.window().serial;
+  talk.say(1, {{"type", "viewport"}, {"width", 320}, {"height", 200}, {"pixelRatio", 1}});
+  EXPECT_GT(talk.window().serial, serial);
+  EXPECT_EQ(talk.window().inputAt, talk.now);
+  EXPECT_TRUE(talk.window().takesFrames());
+}
+
+TEST(Conversation, anEditIsToldToAllAndCanBeTakenBack) {
+  Talk talk;
+  talk.open(1), talk.open(2);
+  const uint32_t revision = talk.conversation.revision();
+  talk.say(1, dimTo(0.25));
+  EXPECT_FLOAT_EQ(talk.conversation.stateOf("").lamps[0].dim, 0.25f);
+  EXPECT_GT(talk.conversation.revision(), revision);
+  EXPECT_EQ(talk.hear(2)["type"], "state");
+  talk.say(2, {{"type", "undo"}, {"id", 2}});
+  EXPECT_FLOAT_EQ(talk.conversation.stateOf("").lamps[0].dim, 1);
+  talk.say(2, {{"type", "undo"}, {"id", 3}});
+  EXPECT_EQ(talk.hear(2)["code"], "notPossible");
+}
+
+TEST(Conversation, aPlanKeepsItsLampsWhileTheHomeIsEdited) {
+  Talk talk;
+  talk.open(1);
+  talk.say(1, dimTo(0.5));
+  talk.say(1, {{"type", "plan"}, {"id", 2}, {"do", "keep"}, {"name", "dim"}});
+  ASSERT_EQ(talk.hear(1)["type"], "state");
+  talk.say(1, dimTo(0.75));
+  EXPECT_FLOAT_EQ(talk.conversation.stateOf("dim").lamps[0].dim, 0.5f);
+  EXPECT_FLOAT_EQ(talk.conversation.stateOf("start").lamps[0].dim, 1);
+  EXPECT_FLOAT_EQ(talk.conversation.stateOf("").lamps[0].dim, 0.75f);
+}
+
+TEST(Conversation, aFailureIsWorthAnotherTryAfterAWish) {
+  Talk talk;
+  talk.open(1);
+  const uint64_t wishes = talk.conversation.wishes();
+  talk.say(1, {{"type", "camera"}, {"number", 1}, {"position", {1, 1, 1}}, {"target", {1, 1, 0}}});
+  EXPECT_EQ(talk.conversation.wishes(), wishes);
+  talk.say(1, {{"type", "technique"}, {"id", 1}, {"technique", "path"}});
+  EXPECT_GT(talk.conversation.wishes(), wishes);
+}
+
+TEST(Conversation, windowsShowAFewTechniquesAtOnce) {
+  Talk talk;
+  const char* names[] = {"hybrid", "cone", "vxgi", "lpv", "photon", "path"};
+  Connection c = 0;
+  for (const char* name : names) {
+    talk.open(++c);
+    talk.say(c, {{"type", "technique"}, {"id", 1}, {"technique", name}});
+    EXPECT_EQ(talk.hear(c)["type"], "ok") << name;
+  }
+  const json split = {{"left", json::object()}, {"right", {{"technique", "hybrid"}, {"plan", "start"}}}};
+  talk.say(c, {{"type", "split"}, {"id", 2}, {"split", split}});
+  EXPECT_EQ(talk.hear(c)["code"], "notPossible");
+  EXPECT_EQ(talk.conversation.windowNamed(talk.conversation.windows().back().name)->technique, "path");
+}
+
+TEST(Conversation, ofPointsTheNewestWaits) {
+  Talk talk;
+  talk.open(1);
+  const auto meter = [](int id) { return json{{"type", "meter"}, {"id", id}, {"x", 0.5}, {"y", 0.5}}; };
+  talk.say(1, meter(4));
+  talk.say(1, meter(5));
+  const json answer = talk.hear(1);
+  EXPECT_EQ(answer["type"], "metered");
+  EXPECT_EQ(answer["id"], 4);
+  EXPECT_TRUE(answer["hit"].is_null());
+  ASSERT_TRUE(talk.window().meter);
+  EXPECT_EQ(talk.window().meter->id, 5u);
+  EXPECT_EQ(talk.window().meterAt, talk.now);
+}
+
+TEST(Conversation, finalPicturesAreAskedForAsTheWindowShowsThem) {
+  Talk talk;
+  talk.open(1);
+  talk.say(1, {{"type", "viewport"}, {"width", 320}, {"height", 160}, {"pixelRatio", 1}});
+  const json wish = {{"type", "render"}, {"id", 1}, {"kind", "picture"}};
+  talk.say(1, wish);
+  ASSERT_EQ(talk.wishes.size(), 1u);
+  EXPECT_EQ(talk.wishes[0].settings.height, talk.wishes[0].settings.width / 2);
+  EXPECT_EQ(talk.wishes[0].fileName, "My_room-picture.png");
+  talk.bytesToSpare = 1e6;
+  talk.say(1, wish);
+  EXPECT_EQ(talk.hear(1)["code"], "notPossible");
+  EXPECT_EQ(talk.wishes.size(), 1u);
+}
+
+TEST(Conversation, framesComeBackOnlyOnceTheyWentOut) {
+  Talk talk;
+  talk.open(1);
+  talk.window().underWay.push_back({7, 0, talk.now});
+  talk.say(1, {{"type", "ack"}, {"frame", 7}});
+  EXPECT_EQ(talk.hear(1)["code"], "badField");
+  talk.conversation.packed(1, 7, 1000, talk.now);
+  talk.say(1, {{"type", "ack"}, {"frame", 7}});
+  EXPECT_TRUE(talk.window().underWay.empty());
+}
+
+TEST(Conversation, whoWasServedWaitsLongest) {
+  Talk talk;
+  talk.open(1), talk.open(2);
+  const std::string first = talk.window().name;
+  talk.conversation.serveLast(talk.window());
+  EXPECT_EQ(talk.conversation.windows().back().name, first);
+  talk.conversation.forget(first);
+  EXPECT_EQ(talk.conversation.windows().size(), 1u);
+  EXPECT_FALSE(talk.conversation.windowNamed(first));
+}
+
+}  // namespace
+}  // namespace roomlight::view
