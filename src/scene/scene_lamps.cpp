@@ -1,9 +1,13 @@
 #include "scene/scene_lamps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string_view>
+
+#include "photometry/spot.h"
 
 namespace roomlight {
 namespace {
@@ -92,6 +96,23 @@ class Finder {
 bool shines(const Scene& scene, const Instance& instance) {
   return !isBlack(
       scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)].emission);
+}
+
+double lampFluxLm(const Lamp& lamp) {
+  const double cd = static_cast<double>(luminance(lamp.intensityCd));
+  if (lamp.kind == LampKind::Area)
+    return std::numbers::pi * static_cast<double>(luminance(lamp.luminanceCdM2) * lamp.widthM * lamp.heightM);
+  if (lamp.kind == LampKind::Spot)
+    return cd * spotFluxPerCandela(std::cos(lamp.innerConeRad), std::cos(lamp.outerConeRad));
+  if (lamp.web) return lamp.web->peakCd > 0 ? cd * lamp.web->fluxLm / static_cast<double>(lamp.web->peakCd) : 0;
+  return 4 * std::numbers::pi * cd;
+}
+
+void setLampFlux(Lamp& lamp, double fluxLm) {
+  Vec3& light = lamp.kind == LampKind::Area ? lamp.luminanceCdM2 : lamp.intensityCd;
+  if (!(luminance(light) > 0)) light = Vec3(1);
+  const double now = lampFluxLm(lamp);
+  light *= now > 0 ? static_cast<float>(fluxLm / now) : 0;
 }
 
 std::vector<SceneLamp> findLamps(const Scene& scene) { return Finder(scene).find(); }

@@ -23,6 +23,12 @@ std::vector<SceneLamp> findLamps(const Scene& scene);
 // and materials are copied for that; what is seen stays as it is.
 void partMaterials(Scene& scene);
 
+// What a lamp sends out, lm.
+double lampFluxLm(const Lamp& lamp);
+
+// Makes it send out so much, in its own colour; a black one becomes white. Of an Area lamp not its rectangle.
+void setLampFlux(Lamp& lamp, double fluxLm);
+
 // Whether the instance's material emits light.
 bool shines(const Scene& scene, const Instance& instance);
 
