@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <optional>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "base/random.h"
 #include "search/dimming.h"
-#include "search/hypervolume.h"
+#include "search/front.h"
 #include "search/search.h"
 #include "search/test_problems.h"
 

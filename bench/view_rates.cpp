@@ -11,7 +11,7 @@
 #include <iostream>
 #include <memory>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "base/tone.h"
 #include "engine/render.h"
 #include "import/walk_file.h"

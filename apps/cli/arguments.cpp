@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/quality.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
 #include "output_files.h"
 

@@ -6,8 +6,8 @@
 #include "base/image_io.h"
 #include "commands.h"
 #include "console.h"
-#include "display_options.h"
 #include "output_files.h"
+#include "picture_options.h"
 
 namespace roomlight::cli {
 namespace {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "commands.h"
@@ -10,10 +11,11 @@
 #include "import/import.h"
 #include "home/rooms.h"
 #include "import/photometric_file.h"
-#include "json_output.h"
+#include "output_files.h"
 #include "measure/luminaires.h"
 #include "scene/object_measures.h"
-#include "scene_options.h"
+#include "scene/shown_names.h"
+#include "arguments.h"
 #include "trace/light_layers.h"
 
 namespace roomlight::cli {
@@ -55,8 +57,12 @@ Json lampJson(const Lamp& lamp) {
 
 Json objectsJson(const Scene& scene) {
   Json out = Json::array();
+  const std::map<int, std::string> shown = shownObjectNames(scene);
+  std::map<int, const std::string*> names;  // of whole objects; their parts go by their own
+  for (const Instance& i : scene.instances) names.try_emplace(i.object, &i.name);
   for (const ObjectMeasures& o : measureObjects(scene)) {
     out.push_back({{"name", o.name},
+                   {"label", o.name == *names.at(o.object) ? shown.at(o.object) : o.name},
                    {"triangles", o.triangles},
                    {"areaM2", o.areaM2()},
                    {"areaUpM2", o.areaUpM2},
@@ -127,6 +133,7 @@ Json describe(const home::OpenedHome& home) {
                        {"positionM", vector(c.worldFromCamera.w)},
                        {"proposed", i >= home.fileCameras},
                        {"default", static_cast<int>(i) == scene.cameraInUse}});
+    if (i < home.fileCameras && c.cutHeightM < kInfinity) cameras.back()["cutHeightM"] = c.cutHeightM;
     if (c.projection == Projection::Perspective) cameras.back()["verticalAngleDeg"] = c.yFovRad * 180 / kPi;
   }
   return {{"triangles", scene.triangleCount()},
@@ -166,7 +173,8 @@ void printObjects(const Json& objects) {
     fmt::print("  {:>9} {:>11.4f} {:>11.4f}  {:<24}  {}\n", o["triangles"].get<size_t>(), o["areaM2"].get<double>(),
                o["volumeM3"].get<double>(),
                fmt::format("{:.3f} x {:.3f} x {:.3f}", high[0] - low[0], high[1] - low[1], high[2] - low[2]),
-               shown(o["name"]));
+               o["label"] == o["name"] ? shown(o["name"])
+                                       : fmt::format("{}, in the file {}", shown(o["label"]), shown(o["name"])));
   }
 }
 
@@ -223,7 +231,10 @@ void printHome(const Json& j) {
   for (const Json& c : j["cameras"]) {
     const auto at = c["positionM"].get<std::vector<double>>();
     fmt::print("  {} {}: {} at ({:.2f}, {:.2f}, {:.2f}){}{}\n", index++, shown(c["name"]), c["kind"].get<std::string>(),
-               at[0], at[1], at[2], c["proposed"].get<bool>() ? ", proposed" : "",
+               at[0], at[1], at[2],
+               c.contains("cutHeightM")    ? fmt::format(", cuts the home at {:.2f} m", c["cutHeightM"].get<double>())
+               : c["proposed"].get<bool>() ? ", proposed"
+                                           : "",
                c["default"].get<bool>() ? ", shown by default" : "");
   }
 }

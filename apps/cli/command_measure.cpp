@@ -9,17 +9,14 @@
 #include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
-#include "engine/quality.h"
-#include "engine/version.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "interrupt.h"
-#include "measure/daylight.h"
+#include "exit_status.h"
 #include "measure/measure.h"
-#include "measure/meter_file.h"
+#include "measure/meter_plan.h"
 #include "measure/report.h"
 #include "output_files.h"
 #include "report_picture.h"
-#include "scene_options.h"
 
 namespace roomlight::cli {
 namespace {

@@ -5,15 +5,14 @@
 #include <memory>
 
 #include "arguments.h"
-#include "base/clock.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "commands.h"
 #include "console.h"
-#include "engine/version.h"
-#include "interrupt.h"
-#include "mix/layer_names.h"
+#include "engine/settings.h"
+#include "exit_status.h"
+#include "mix/layer_info.h"
 #include "mix_home.h"
-#include "mix_pictures.h"
 #include "output_files.h"
 
 namespace roomlight::cli {

@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "arguments.h"
-#include "base/held_folder.h"
 #include "base/parallel.h"
+#include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
-#include "engine/quality.h"
+#include "engine/settings.h"
+#include "exit_status.h"
 #include "import/import.h"
-#include "interrupt.h"
 #include "optimise/run.h"
 #include "output_files.h"
 

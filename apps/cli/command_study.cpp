@@ -14,14 +14,13 @@
 #include "arguments.h"
 #include "base/image_io.h"
 #include "base/write_file.h"
-#include "child_program.h"
 #include "commands.h"
 #include "console.h"
-#include "engine/version.h"
-#include "interrupt.h"
+#include "engine/settings.h"
+#include "exit_status.h"
 #include "output_files.h"
-#include "study/check_walks.h"
-#include "study/dim_lamp.h"
+#include "started_programs.h"
+#include "study/preparation.h"
 #include "study/report.h"
 
 namespace roomlight::cli {

@@ -9,10 +9,10 @@
 #include "commands.h"
 #include "console.h"
 #include "engine/render.h"
-#include "engine/version.h"
-#include "interrupt.h"
+#include "engine/settings.h"
+#include "exit_status.h"
 #include "output_files.h"
-#include "validate/report.h"
+#include "validate/validation.h"
 
 namespace roomlight::cli {
 namespace {

@@ -10,21 +10,20 @@
 #include <memory>
 
 #include "arguments.h"
-#include "browser.h"
 #include "commands.h"
 #include "console.h"
-#include "engine/quality.h"
+#include "engine/settings.h"
 #include "engine/stages.h"
 #include "engine/technique.h"
-#include "interrupt.h"
-#include "scene_options.h"
+#include "exit_status.h"
 #include "server/view_server.h"
+#include "started_programs.h"
 #include "view/open_home.h"
 
 namespace roomlight::cli {
 namespace {
 
-struct ViewOptions : SceneOptions {
+struct ServeOptions : SceneOptions {
   std::string viewer, quality, address = "127.0.0.1";
   std::optional<std::string> technique;
   std::optional<int> threads;
@@ -32,7 +31,7 @@ struct ViewOptions : SceneOptions {
   bool noOpen = false, quiet = false;
 };
 
-Result<RenderSettings> readSettings(const ViewOptions& o) {
+Result<RenderSettings> readSettings(const ServeOptions& o) {
   RenderSettings s;
   if (!o.quality.empty()) {
     if (const Status status = applyQuality(o.quality, s); !status) return Error{"--" + status.error()};
@@ -84,7 +83,7 @@ Status printLinks(const std::vector<std::string>& links) {
   return Ok{};
 }
 
-int runView(const ViewOptions& o) {
+int runView(const ServeOptions& o) {
   // Before the number is that of another file.
   if (fcntl(STDOUT_FILENO, F_GETFD) < 0)
     return failed("nobody can read the page's link: standard output is closed; leave it open", kFailed);
@@ -131,7 +130,7 @@ int runView(const ViewOptions& o) {
 }  // namespace
 
 Registered addView(CLI::App& program) {
-  const auto o = std::make_shared<ViewOptions>();
+  const auto o = std::make_shared<ServeOptions>();
   CLI::App* app = program.add_subcommand("view", "Walk through a home in a browser, move things, dim lamps, read lux");
   addSceneOptions(*app, *o, "HOME");
   app->add_option("--technique", o->technique, listed("How light is computed:", describedTechniques()));

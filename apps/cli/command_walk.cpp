@@ -8,17 +8,15 @@
 #include "base/write_file.h"
 #include "commands.h"
 #include "console.h"
-#include "display_options.h"
-#include "engine/light_colour.h"
 #include "engine/live_walk.h"
-#include "engine/quality.h"
+#include "engine/settings.h"
+#include "engine/sights.h"
 #include "engine/stages.h"
 #include "engine/technique.h"
+#include "exit_status.h"
 #include "import/walk_file.h"
-#include "interrupt.h"
-#include "json_output.h"
 #include "output_files.h"
-#include "scene_options.h"
+#include "picture_options.h"
 
 namespace roomlight::cli {
 namespace {

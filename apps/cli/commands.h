@@ -2,8 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
 
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
 #include "exit_status.h"
 
 namespace roomlight::cli {
@@ -27,5 +31,16 @@ Registered addValidate(CLI::App& program);
 Registered addStudy(CLI::App& program);
 Registered addOptimise(CLI::App& program);
 Registered addView(CLI::App& program);
+
+// Adds --memory, which takes effect as it is read: allocations beyond it fail, and the command ends with one line. Code
+// and files that are mapped into memory do not count.
+void addMemoryLimit(CLI::App& command);
+// What to tell when memory has run out, with the limit where there is one.
+std::string outOfMemoryWords();
+
+// What was typed, before it is read: are there such commands and options? The error, one line, says which word is
+// unknown and what may have been meant. A file in the place of a command: how to
+// see it.
+Status checkWords(const CLI::App& program, const std::vector<std::string>& words);
 
 }  // namespace roomlight::cli

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "exit_status.h"
 
 namespace roomlight::cli {

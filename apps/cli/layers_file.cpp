@@ -1,4 +1,4 @@
-#include "layers_file.h"
+#include "output_files.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,8 @@
 #include <optional>
 
 #include "engine/views.h"
-#include "json_output.h"
 #include "mix/layer_info.h"
-#include "photometry/white_balance.h"
+#include "photometry/colour_temperature.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight::cli {

@@ -6,10 +6,8 @@
 
 #include "commands.h"
 #include "console.h"
-#include "base/resource_error.h"
-#include "engine/version.h"
-#include "memory_limit.h"
-#include "words.h"
+#include "base/result.h"
+#include "engine/settings.h"
 
 namespace {
 

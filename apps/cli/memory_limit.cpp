@@ -1,4 +1,4 @@
-#include "memory_limit.h"
+#include "commands.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -8,8 +8,8 @@
 #include "arguments.h"
 #include "base/image_layers.h"
 #include "base/parallel.h"
-#include "drawing_colours.h"
-#include "mix/layer_names.h"
+#include "mix/layer_info.h"
+#include "picture_options.h"
 
 namespace roomlight::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "mix_pictures.h"
+#include "mix_home.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,7 @@
 #include "base/parallel.h"
 #include "base/write_file.h"
 #include "commands.h"
-#include "interrupt.h"
-#include "json_output.h"
+#include "exit_status.h"
 #include "mix/floor_plan.h"
 #include "output_files.h"
 

@@ -62,4 +62,11 @@ Result<std::string> readTextFile(const std::filesystem::path& file) {
   return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+Json stagesJson(std::span<const StageStats> stages) {
+  Json list = Json::array();
+  for (const StageStats& s : stages)
+    list.push_back({{"name", s.name}, {"timeMs", s.timeMs}, {"cpuMs", s.cpuMs}, {"peakMemoryMiB", s.peakMemoryMiB}});
+  return list;
+}
+
 }  // namespace roomlight::cli

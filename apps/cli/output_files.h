@@ -1,11 +1,16 @@
-// Files the program writes: checked before the work.
+// What the program writes: files, checked before the work; JSON; light layers.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "base/image_layers.h"
 #include "base/result.h"
+#include "engine/render.h"
 
 namespace roomlight::cli {
 
@@ -17,5 +22,14 @@ Status checkWritable(const std::filesystem::path& file);
 std::vector<std::string> filesNamedAfter(const std::string& file, const std::vector<std::string>& things);
 
 Result<std::string> readTextFile(const std::filesystem::path& file);
+
+using Json = nlohmann::ordered_json;
+
+// Time and memory of each stage.
+Json stagesJson(std::span<const StageStats> stages);
+
+// Light layers on their way into a file (docs/reference/layers.md). `metadata` is that of the picture; what the layers
+// are is added to it. Takes the pictures out of `rendered.layers`.
+LayeredImage layeredImage(const Scene& scene, const Camera& camera, Rendered& rendered, Metadata metadata);
 
 }  // namespace roomlight::cli

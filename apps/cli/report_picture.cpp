@@ -5,10 +5,10 @@
 #include <ctime>
 
 #include "base/image_io.h"
-#include "look/look.h"
-#include "engine/quality.h"
+#include "look/display.h"
+#include "engine/settings.h"
 #include "engine/render.h"
-#include "interrupt.h"
+#include "exit_status.h"
 
 namespace roomlight::cli {
 namespace {

@@ -1,8 +1,7 @@
-#include "scene_options.h"
+#include "arguments.h"
 
 #include <fmt/format.h>
 
-#include "arguments.h"
 #include "base/write_file.h"
 #include "console.h"
 #include "output_files.h"

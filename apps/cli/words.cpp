@@ -1,4 +1,4 @@
-#include "words.h"
+#include "commands.h"
 
 #include <fmt/format.h>
 

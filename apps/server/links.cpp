@@ -1,4 +1,4 @@
-#include "links.h"
+#include "view_server.h"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>

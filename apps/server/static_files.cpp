@@ -1,4 +1,4 @@
-#include "static_files.h"
+#include "server.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "admission.h"
-#include "base/resource_error.h"
+#include "base/result.h"
 #include "view/session.h"
 
 namespace roomlight::server {

@@ -1,13 +1,35 @@
-// A home served to browsers: a session behind a server.
+// A home served to browsers: a session behind a server, and the links that open it.
 #pragma once
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "engine/settings.h"
-#include "links.h"
 #include "server.h"
 #include "view/home.h"
 #include "view/start_thread.h"
 
 namespace roomlight::server {
+
+// Links that open the page: on this machine, and on others that can reach one of its addresses.
+struct InterfaceAddress {
+  std::string address;  // numeric
+  bool v6 = false, loopback = false;
+};
+
+// Of the interfaces that run. Without link-local addresses of IPv6, which need a zone that browsers do not take.
+std::vector<InterfaceAddress> interfaceAddresses();
+
+// Hosts of links to who listens at `address`: itself, or, where that is all there are (0.0.0.0 or ::), each of the
+// machine's that others can reach; its loopback where there is no other. IPv6 in brackets.
+std::vector<std::string> hostsOf(const std::string& address, const std::vector<InterfaceAddress>& machine);
+
+struct Links {
+  std::vector<std::string> all;  // at least one
+  std::string here;              // the best on this machine
+};
+Links linksTo(const std::string& address, uint16_t port, const std::string& token);
 
 struct Served {
   // The links to open, once somebody listens. An error ends it.

@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 
-#include "base/byte_image.h"
 #include "base/image.h"
 #include "base/result.h"
 

@@ -4,8 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "base/flush_to_zero.h"
-#include "base/give_way.h"
+#include "base/worker_thread.h"
 
 namespace roomlight {
 

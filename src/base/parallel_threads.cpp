@@ -10,9 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/flush_to_zero.h"
-#include "base/give_way.h"
 #include "base/parallel.h"
+#include "base/worker_thread.h"
 
 namespace roomlight {
 namespace {

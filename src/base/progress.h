@@ -1,7 +1,9 @@
-// How long work reports progress and hears that it should stop. Both members may be empty.
+// Long work: how it reports progress and hears that it should stop, and how long it takes.
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <ctime>
 #include <functional>
 
 namespace roomlight {
@@ -15,5 +17,22 @@ struct Progress {
     if (report) report(fraction);
   }
 };
+
+// Wall time since construction, and processor time of the whole process.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+// Of all threads so far.
+inline double processCpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace roomlight

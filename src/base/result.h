@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -31,5 +32,11 @@ class Result {
 
 struct Ok {};
 using Status = Result<Ok>;
+
+// What a scene needs and this machine cannot give: memory beside, places for light, the ray tracer. One line.
+class ResourceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 }  // namespace roomlight

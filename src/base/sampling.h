@@ -1,5 +1,10 @@
-// Warps from the unit square to discs, hemispheres and cones, each with its density. Directions are local, z up.
+// Warps from the unit square to discs, hemispheres and cones, each with its density; even points of the square; choices
+// by weights. Directions are local, z up.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 #include "base/vec.h"
 
@@ -54,6 +59,33 @@ inline Vec2 sampleTriangle(Vec2 u) {
 inline float misWeight(float pdfA, float pdfB) {
   const float a = pdfA * pdfA, b = pdfB * pdfB;
   return a > 0 ? a / (a + b) : 0;
+}
+
+// Point i of n of a Fibonacci lattice: spread evenly over the unit square, the same in every run.
+inline Vec2 latticePoint(int i, int n) {
+  constexpr float kGoldenRatio = 0.618034f;
+  return {(static_cast<float>(i) + 0.5f) / static_cast<float>(n),
+          std::fmod(static_cast<float>(i) * kGoldenRatio, 1.0f)};
+}
+
+// The largest float below 1.
+constexpr float kBelowOne = 0x1.fffffep-1f;
+
+// Index of the weight in whose share of `total`, the sum of all and above 0, `u` in [0, 1) falls; never of a weight of
+// 0. Rescales u to [0, 1) within that share.
+template <class WeightAt>
+size_t chooseByWeight(size_t count, float total, const WeightAt& weightAt, float& u) {
+  float v = u * total;
+  size_t last = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const float w = weightAt(i);
+    if (!(w > 0)) continue;
+    last = i;
+    if (v < w) break;
+    v -= w;
+  }
+  u = std::clamp(v / weightAt(last), 0.0f, kBelowOne);
+  return last;
 }
 
 }  // namespace roomlight

@@ -1,10 +1,11 @@
-// Four and eight floats at once. All vector instructions of the program but the filter's are here and in base/half.h:
-// with AVX2, FMA and F16C (x86-64-v3) a function is one or two of them, without it does the same in SSE2, which every
-// x86-64 has; fma() then rounds twice. Loads and stores need no alignment.
+// Four and eight floats at once. All vector instructions of the program but the filter's are here: with
+// AVX2, FMA and F16C (x86-64-v3) a function is one or two of them, without it does the same in SSE2, which every x86-64
+// has; fma() then rounds twice. Loads and stores need no alignment. Also single numbers as half floats.
 #pragma once
 
 #include <immintrin.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace roomlight {
@@ -221,5 +222,23 @@ inline Float8 fromTopBits(const uint16_t* high16, const uint8_t* low8) {
 }
 
 #endif
+
+// 16-bit floats, rounding to nearest; values beyond the largest half become it, never infinity.
+inline uint16_t toHalf(float v) {
+  const float bounded = std::clamp(v, -65504.0f, 65504.0f);
+#ifdef __F16C__
+  return _cvtss_sh(bounded, _MM_FROUND_TO_NEAREST_INT);
+#else
+  return static_cast<uint16_t>(_mm_cvtsi128_si32(simd::toHalf(_mm_set_ss(bounded))));
+#endif
+}
+
+inline float fromHalf(uint16_t h) {
+#ifdef __F16C__
+  return _cvtsh_ss(h);
+#else
+  return _mm_cvtss_f32(simd::fromHalf(_mm_cvtsi32_si128(h)));
+#endif
+}
 
 }  // namespace roomlight

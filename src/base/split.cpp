@@ -1,4 +1,4 @@
-#include "base/split.h"
+#include "base/image_layers.h"
 
 #include "base/parallel.h"
 

@@ -1,6 +1,8 @@
 // The tone curves themselves, inline and without branches: loops over pixels become vector code. In: exposed linear
- // light, not negative.
+// light, not negative.
 #pragma once
+
+#include <cmath>
 
 #include "base/fast_math.h"
 #include "base/vec.h"
@@ -91,4 +93,13 @@ inline Vec3 filmic(Vec3 color) {
 }
 
 }  // namespace curves
+
+// Noise that hides the bands of 8 bits: 0 to 1, even over small neighbourhoods: interleaved gradient noise (Jimenez
+// 2014, "Next generation post processing in Call of Duty").
+inline float ditherAt(int x, int y) {
+  const float inner = 0.06711056f * static_cast<float>(x) + 0.00583715f * static_cast<float>(y);
+  const float v = 52.9829189f * (inner - std::floor(inner));
+  return v - std::floor(v);
+}
+
 }  // namespace roomlight

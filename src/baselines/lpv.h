@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "baselines/lpv_grid.h"
+#include "gather/direct_shader.h"
 #include "gather/picture.h"
 #include "radiance/radiance_field.h"
 
@@ -72,5 +73,23 @@ LpvLight lightLpv(const RayScene& rays, const Lights& lights, const Bounds3& roo
 Vec3 lpvIrradiance(const LpvLight& light, Vec3 p, Vec3 ng, Vec3 ns, const LpvSettings& settings);
 // Radiance that comes to p, on a surface with normal ng, from around unit d.
 Vec3 lpvRadiance(const LpvLight& light, Vec3 p, Vec3 ng, Vec3 d, const LpvSettings& settings);
+
+// Technique `lpv` at one surface point: look-ups in its grids.
+class LpvShader final : public DirectShader {
+ public:
+  // Refers to all of them.
+  LpvShader(const RayScene& rays, const Lights& lights, const LpvLight& light, const LpvSettings& settings)
+      : DirectShader(rays, lights, light.voxels, light.guide, settings.rayRoughness),
+        light_(light),
+        settings_(settings) {}
+
+ private:
+  Vec3 indirect(const SurfacePoint& s, Sampler& sampler, GatherCounters& count, float& occlusion) const override;
+  Vec3 glossy(const SurfacePoint& s, Vec3 wo, const BsdfSample& r, Sampler& sampler,
+              GatherCounters& count) const override;
+
+  const LpvLight& light_;
+  const LpvSettings& settings_;
+};
 
 }  // namespace roomlight

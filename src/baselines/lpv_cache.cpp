@@ -2,11 +2,10 @@
 
 #include "base/parallel.h"
 #include "base/sampling.h"
-#include "baselines/shown_sides.h"
-#include "baselines/sky_survey.h"
+#include "baselines/scene_survey.h"
 #include "radiance/direct_light.h"
 #include "radiance/sky_guide.h"
-#include "voxel/moved_places.h"
+#include "voxel/voxelise.h"
 
 namespace roomlight {
 namespace {

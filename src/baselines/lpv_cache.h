@@ -7,7 +7,7 @@
 
 #include "baselines/lpv.h"
 #include "radiance/slot_remap.h"
-#include "radiance/sky_directions.h"
+#include "radiance/sky_guide.h"
 #include "scene/scene_change.h"
 #include "voxel/voxelise.h"
 

@@ -1,4 +1,4 @@
-#include "baselines/lpv_shader.h"
+#include "baselines/lpv.h"
 
 namespace roomlight {
 

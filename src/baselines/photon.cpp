@@ -1,7 +1,6 @@
 #include "baselines/photon.h"
 
 #include "base/sampling.h"
-#include "baselines/photon_shader.h"
 #include "trace/camera_rays.h"
 
 namespace roomlight {

@@ -2,7 +2,6 @@
 
 #include "base/parallel.h"
 #include "base/sampling.h"
-#include "baselines/photon_cells.h"
 #include "trace/bsdf.h"
 #include "trace/surfaces.h"
 

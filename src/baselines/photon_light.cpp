@@ -1,4 +1,4 @@
-#include "baselines/photon_light.h"
+#include "baselines/photon.h"
 
 #include "baselines/photon_trace.h"
 

@@ -1,4 +1,4 @@
-#include "baselines/photon_shader.h"
+#include "baselines/photon.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "baselines/photon_surfaces.h"
-#include "baselines/sky_survey.h"
+#include "baselines/scene_survey.h"
 
 namespace roomlight {
 

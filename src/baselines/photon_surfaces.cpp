@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/sampling.h"
-#include "baselines/photon_cells.h"
+#include "baselines/photon_importance.h"
 #include "trace/surface_point.h"
 #include "voxel/voxels.h"
 

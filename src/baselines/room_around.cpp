@@ -1,4 +1,4 @@
-#include "baselines/room_around.h"
+#include "baselines/scene_survey.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "baselines/shown_sides.h"
+#include "baselines/scene_survey.h"
 
 #include "base/parallel.h"
 #include "trace/surface_point.h"

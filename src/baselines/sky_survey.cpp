@@ -1,4 +1,4 @@
-#include "baselines/sky_survey.h"
+#include "baselines/scene_survey.h"
 
 #include "base/parallel.h"
 #include "base/sampling.h"

@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "voxel/lattice.h"
-#include "voxel/moved_places.h"
+#include "voxel/voxelise.h"
 
 namespace roomlight {
 namespace {

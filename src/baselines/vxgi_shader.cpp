@@ -1,4 +1,4 @@
-#include "baselines/vxgi_shader.h"
+#include "baselines/vxgi.h"
 
 #include "base/ggx.h"
 

@@ -5,7 +5,7 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/sampling.h"
-#include "baselines/shown_sides.h"
+#include "baselines/scene_survey.h"
 #include "voxel/lattice.h"
 
 namespace roomlight {

@@ -1,4 +1,4 @@
-#include "compare/blotches.h"
+#include "compare/perceived_error.h"
 
 #include <algorithm>
 #include <cmath>

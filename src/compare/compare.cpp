@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "base/tone.h"
-#include "compare/flip.h"
-#include "compare/ssim.h"
+#include "compare/perceived_error.h"
 
 namespace roomlight {
 namespace {

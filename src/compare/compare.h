@@ -5,7 +5,7 @@
 
 #include "base/image.h"
 #include "base/result.h"
-#include "compare/blotches.h"
+#include "compare/perceived_error.h"
 
 namespace roomlight {
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/image.h"
-#include "base/plane.h"
 
 namespace roomlight {
 

@@ -1,4 +1,4 @@
-#include "compare/ssim.h"
+#include "compare/perceived_error.h"
 
 namespace roomlight {
 namespace {

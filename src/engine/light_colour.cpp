@@ -1,4 +1,4 @@
-#include "engine/light_colour.h"
+#include "engine/sights.h"
 
 #include "trace/camera_rays.h"
 #include "trace/surface_point.h"

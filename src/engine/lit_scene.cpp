@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/light_colour.h"
+#include "engine/sights.h"
 #include "engine/technique.h"
 
 namespace roomlight {

@@ -38,7 +38,7 @@ struct PictureWish {
 // A still picture and what is told of it.
 struct Picture {
   Image image;  // linear, cd/m²; empty if cancelled before there was one
-  Vec3 lightColour;  // see light_colour.h
+  Vec3 lightColour;  // see sights.h
   Sights sights;
   std::vector<RenderedLayer> layers;
 };
@@ -119,7 +119,7 @@ class LitScene {
 // What a lit scene is for.
 struct LitUse {
   bool changes = true;  // there will be updates; without them `hybrid` also lights places that its voxels know nothing
-                        // of (radiance/hidden_light.h), and looks for lights where they are seen
+                        // of (radiance/first_bounce.h), and looks for lights where they are seen
   const Camera* camera = nullptr;  // the first to be looked from; none: light is found for the whole scene at once
   bool stills = false;  // LitScene::still will be called; not with `changes`
   double seconds = std::numeric_limits<double>::infinity();  // for stills: about half of it for light

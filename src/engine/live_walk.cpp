@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "engine/lit_scene.h"
-#include "gather/frame_history.h"
+#include "gather/frame.h"
 #include "gather/quick_frames.h"
 
 namespace roomlight {

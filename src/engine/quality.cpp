@@ -1,8 +1,6 @@
-#include "engine/quality.h"
+#include "engine/settings.h"
 
 #include <fmt/format.h>
-
-#include "engine/settings.h"
 
 namespace roomlight {
 namespace {

@@ -1,8 +1,7 @@
-#include "engine/refine.h"
+#include "engine/time_plan.h"
 
 #include <cmath>
 
-#include "engine/time_plan.h"
 #include "filter/blend.h"
 #include "reference/path_tracer.h"
 

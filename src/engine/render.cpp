@@ -4,8 +4,8 @@
 #include <cassert>
 #include <limits>
 
-#include "base/clock.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "engine/technique.h"
 
 namespace roomlight {

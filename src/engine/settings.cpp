@@ -1,14 +1,12 @@
 #include "engine/settings.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-
-#include "engine/quality.h"
 
 namespace roomlight {
 namespace {
@@ -392,5 +390,7 @@ Status checkSettings(const RenderSettings& settings) {
                     settings.vxgi.resolution)};
   return Ok{};
 }
+
+const char* version() { return ROOMLIGHT_VERSION; }
 
 }  // namespace roomlight

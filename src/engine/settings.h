@@ -5,18 +5,31 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/result.h"
 #include "baselines/lpv.h"
-#include "baselines/vxgi_settings.h"
 #include "baselines/photon_settings.h"
-#include "engine/technique_names.h"
+#include "baselines/vxgi.h"
 #include "gather/cone_gather.h"
-#include "gather/frame_settings.h"
+#include "gather/frame.h"
 #include "gather/ray_gather.h"
 #include "radiance/radiance_field.h"
 #include "reference/path_tracer.h"
 #include "voxel/voxelise.h"
+
+// Names of techniques, for what is about one of them alone. What a technique can do is asked of its row: technique.h.
+namespace roomlight::technique {
+
+inline constexpr char kHybrid[] = "hybrid";
+inline constexpr char kCone[] = "cone";
+inline constexpr char kVxgi[] = "vxgi";
+inline constexpr char kLpv[] = "lpv";
+inline constexpr char kPhoton[] = "photon";
+inline constexpr char kPath[] = "path";
+
+}  // namespace roomlight::technique
 
 namespace roomlight {
 
@@ -33,7 +46,8 @@ struct RenderSettings {
       false;  // techniques "hybrid" and "path": the light of every lamp, emissive mesh, sun and sky apart as well
   bool layersByRoom = false;  // and lamps of a room together
   int threads = 0;  // 0: all cores
-  bool blend = true;  // technique "hybrid": paths are traced and blended in while the time limit leaves time (refine.h)
+  bool blend =
+      true;  // technique "hybrid": paths are traced and blended in while the time limit leaves time (time_plan.h)
   double blendUntilMse = 0;  // and, without a limit too, until the error estimated is below this; 0: time alone ends it
   PathSettings path;  // technique "path"; size, samples, limits and seed are those above
   VoxelSettings voxel;  // techniques "hybrid" and "cone"
@@ -57,5 +71,15 @@ Result<RenderSettings> settingsFromJson(std::string_view text, const std::string
 
 // Values in range? The error names the member as in JSON. The technique's name is left to render().
 Status checkSettings(const RenderSettings& settings);
+
+// Presets of quality: how much is done for a picture before anybody asks for more. Names for --quality, each with one
+// line of explanation, the quickest first.
+std::vector<std::pair<std::string, std::string>> qualities();
+
+// The starting values of the groups "voxel", "radiance" and "hybrid" and of blendUntilMse. Errors: an unknown name.
+Status applyQuality(const std::string& name, RenderSettings& settings);
+
+// The program's version, as in CMakeLists.txt.
+const char* version();  // "0.1.0"
 
 }  // namespace roomlight

@@ -1,4 +1,5 @@
-// How much of each pixel is no light: sections of what a camera cuts, and an empty backdrop.
+// What the pixels of a picture show: how much of each is no light (sections of what a camera cuts, an empty backdrop),
+// and the colour of the light on the rest.
 #pragma once
 
 #include <optional>
@@ -6,6 +7,7 @@
 
 #include "base/image.h"
 #include "trace/camera_rays.h"
+#include "trace/ray_scene.h"
 
 namespace roomlight {
 
@@ -23,5 +25,10 @@ Image unmixed(const Image& light, const Sights& sights);
 // A display-encoded picture of the rest with the sections drawn in, over a backdrop, or for a writer who knows opacity
 // without one.
 Image drawn(const Image& encoded, const Sights& sights, Vec3 section, std::optional<Vec3> backdrop);
+
+// The colour of the light that falls on what a picture shows: mean of luminance over albedo on opaque surfaces that do
+// not shine themselves, by camera rays on a raster: what a white card would show there. So coloured walls do not count
+// as coloured light, except for what they reflect on to others. Of no size but a colour; black where nothing tells.
+Vec3 lightColour(const RayScene& rays, const Camera& camera, const Image& image, int raysASide = 64);
 
 }  // namespace roomlight

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "engine/render.h"
 
 namespace roomlight {

@@ -1,8 +1,8 @@
 // Technique `cone`: cones walk the light in voxels, as in the published study.
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "engine/technique_names.h"
 #include "engine/voxel_scene.h"
-#include "gather/cone_shader.h"
+#include "gather/cone_gather.h"
 
 namespace roomlight {
 namespace {

@@ -2,13 +2,13 @@
 // room. What they keep: of vxgi, voxels and direct light of every level as `hybrid` does, and openness of surfaces,
 // while its clipmap is filled anew; of lpv, surfels and the sky's light on them, while maps, injection and propagation
 // are done anew, as in every frame of that method.
+#include "baselines/lpv.h"
 #include "baselines/lpv_cache.h"
-#include "baselines/lpv_shader.h"
-#include "baselines/room_around.h"
+#include "baselines/scene_survey.h"
+#include "baselines/vxgi.h"
 #include "baselines/vxgi_cache.h"
-#include "baselines/vxgi_shader.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "engine/technique_names.h"
 #include "engine/technique_settings.h"
 #include "gather/frame.h"
 #include "gather/meters.h"

@@ -1,11 +1,10 @@
 // Technique `hybrid`: exact rays that read light cached in voxels; left running, it is refined by paths.
 #include <mutex>
 
-#include "base/split.h"
-#include "engine/layers.h"
-#include "engine/refine.h"
+#include "base/image_layers.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "engine/technique_names.h"
+#include "engine/technique_settings.h"
 #include "engine/time_plan.h"
 #include "engine/voxel_scene.h"
 #include "gather/ray_gather.h"

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/split.h"
-#include "engine/layers.h"
+#include "base/image_layers.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "engine/technique_names.h"
 #include "engine/technique_settings.h"
 #include "reference/path_tracer.h"
 

@@ -1,9 +1,8 @@
 // Technique `photon`: photon maps, gathered by rays. Photons are sent anew for every picture, to where its camera
  // looks.
 #include "baselines/photon.h"
-#include "baselines/photon_shader.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "engine/technique_names.h"
 #include "engine/technique_settings.h"
 #include "gather/frame.h"
 #include "gather/meters.h"

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "engine/lit_scene.h"
+#include "engine/render.h"
 #include "engine/settings.h"
+#include "trace/lights.h"
 
 namespace roomlight {
 
@@ -43,5 +46,12 @@ Settings within(double seconds, Settings settings) {
   if (std::isfinite(seconds)) settings.timeLimitS = std::max(1e-3, seconds);
   return settings;
 }
+
+// The light layers that the settings ask for: null where that is nothing.
+Result<std::shared_ptr<const LightLayers>> wantedLayers(const Scene& scene, const Lights& lights,
+                                                        const RenderSettings& settings);
+
+// With what they are; none where `lights` is null.
+std::vector<RenderedLayer> described(const LightLayers* lights, std::vector<Image> images);
 
 }  // namespace roomlight

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/clock.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "gather/ray_shader.h"
 
 namespace roomlight {

@@ -163,7 +163,7 @@ Result<Viewed> around(std::span<const Room> rooms, const Camera& placed, bool is
   }
   Camera& c = out.camera;
   c.projection = stereo ? Projection::StereoPanorama : Projection::Panorama;
-  c.aspect = 0;
+  c.aspect = 0, c.cutHeightM = kInfinity;  // of a camera that a home is cut open for
   if (!wish.eye && (!wish.room.empty() || (!isPlaced && !rooms.empty()))) {
     const Room* room = &*std::max_element(rooms.begin(), rooms.end(), [](const Room& a, const Room& b) {
       return std::abs(signedAreaM2(a.floor)) < std::abs(signedAreaM2(b.floor));
@@ -280,6 +280,9 @@ std::vector<bool> roomMask(const Scene& scene, const Camera& camera, int width, 
   const std::optional<float> floor = shownFloorM(scene, camera);
   if (!floor) return {};
   const CameraRays rays(camera, width, height);
+  // Where a camera looks straight down, a ray that ends on a floor but began beside it met a wall of the room; slanted
+  // ones met the house from outside.
+  const bool straightDown = normalize(camera.worldFromCamera.z).y > 0.999f;
   std::vector<bool> mask(static_cast<size_t>(width) * static_cast<size_t>(height));
   for (size_t i = 0; i < mask.size(); ++i) {
     const auto x = static_cast<float>(i % static_cast<size_t>(width)),
@@ -293,7 +296,7 @@ std::vector<bool> roomMask(const Scene& scene, const Camera& camera, int width, 
                onCut = at(camera.cutHeightM);  // between them a ray from above meets the walls of a room
     mask[i] = std::any_of(scene.rooms.begin(), scene.rooms.end(), [&](const Room& r) {
       return std::abs(r.elevationM - *floor) < kLevelsApartM &&
-             (contains(r.floor, {onFloor.x, onFloor.z}) || contains(r.floor, {onCut.x, onCut.z}));
+             ((straightDown && contains(r.floor, {onFloor.x, onFloor.z})) || contains(r.floor, {onCut.x, onCut.z}));
     });
   }
   return std::find(mask.begin(), mask.end(), true) == mask.end() ? std::vector<bool>() : mask;

@@ -14,7 +14,7 @@
 #include "gather/meters.h"
 #include "radiance/light_cache.h"
 #include "radiance/slot_snapshot.h"
-#include "voxel/moved_places.h"
+#include "voxel/voxelise.h"
 
 namespace roomlight {
 

@@ -1,6 +1,6 @@
-#include "engine/voxel_stages.h"
+#include "engine/time_plan.h"
 
-#include "base/clock.h"
+#include "base/progress.h"
 
 namespace roomlight {
 

@@ -1,4 +1,4 @@
-#include "gather/caustic_photons.h"
+#include "gather/caustic_map.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,8 @@
 
 #include "base/parallel.h"
 #include "base/sampling.h"
-#include "base/weighted_choice.h"
 #include "trace/bsdf.h"
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {

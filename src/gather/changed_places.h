@@ -2,6 +2,7 @@
  // where light is another.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -11,6 +12,13 @@
 #include "trace/lights.h"
 
 namespace roomlight {
+
+// Whether a camera that went so far between two frames, and sees things at such a distance (the median), has jumped,
+// and not just moved on: then nothing of the frame before counts.
+inline bool hasJumped(float movedM, float distanceM) {
+  constexpr float kLeastM = 0.5f, kOfDistance = 0.5f;
+  return movedM > std::max(kLeastM, kOfDistance * distanceM);
+}
 
 class ChangedPlaces {
  public:

@@ -1,7 +1,5 @@
 #include "gather/cone_gather.h"
 
-#include "gather/cone_shader.h"
-
 namespace roomlight {
 
 GatheredPicture gatherCones(const TracedScene& scene, const Voxels& voxels, const RadianceField& field,

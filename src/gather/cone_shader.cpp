@@ -1,4 +1,4 @@
-#include "gather/cone_shader.h"
+#include "gather/cone_gather.h"
 
 #include "base/sampling.h"
 #include "radiance/slot_lookup.h"

@@ -2,13 +2,13 @@
 
 #include "base/sampling.h"
 #include "radiance/sky_guide.h"
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {
 
 constexpr int kMostPanes = 16;
-constexpr int kSkySamples = 2;
+constexpr int kGuidedSkySamples = 2;
 constexpr int kEmitterSamples = 2;
 constexpr float kSharpRoughness = 0.1f;  // below: mirrors, whose pictures are seen clearly
 constexpr float kChainRoughness = 0.3f;  // below: a reflection seen in a reflection is followed on
@@ -103,9 +103,9 @@ Lobes DirectShader::soft(const LitSurface& at, int32_t guide, Sampler& sampler, 
     }
   }
   if (skyToo && lights_.sky().present()) {
-    for (int k = 0; k < kSkySamples; ++k) {
+    for (int k = 0; k < kGuidedSkySamples; ++k) {
       const Vec2 u = sampler.next2();
-      take(sampleSkyGuided(guide_, guide, lights_, u, sampler.next1()), kSkySamples, 1.0f / kSkySamples);
+      take(sampleSkyGuided(guide_, guide, lights_, u, sampler.next1()), kGuidedSkySamples, 1.0f / kGuidedSkySamples);
     }
   }
   addNear(at.s, at.bsdf, at.by, sampler, sum, count);
@@ -172,7 +172,7 @@ Vec3 DirectShader::along(Ray ray, Reflected from, Sampler& sampler, GatherCounte
 Vec3 DirectShader::reflectedBackground(Vec3 d, const Reflected& from) const {
   Vec3 sum;
   if (lights_.sky().present()) {
-    sum += lights_.sky().radiance(d) * from.weight(kSkySamples * pdfSkyGuided(guide_, from.guide, lights_, d));
+    sum += lights_.sky().radiance(d) * from.weight(kGuidedSkySamples * pdfSkyGuided(guide_, from.guide, lights_, d));
   }
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
     float pdf;

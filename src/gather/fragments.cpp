@@ -1,4 +1,4 @@
-#include "gather/fragments.h"
+#include "gather/pixel_shader.h"
 
 #include <algorithm>
 #include <cmath>

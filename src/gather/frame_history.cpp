@@ -1,4 +1,4 @@
-#include "gather/frame_history.h"
+#include "gather/frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +51,19 @@ void FrameHistory::sceneChanged(const SceneChange& change, const Scene& scene) {
 
 void FrameHistory::forget() { camera_.reset(); }
 
+// Of what the frame before saw, from its eye.
+float FrameHistory::medianDistanceM() const {
+  constexpr size_t kEvery = 61;
+  std::vector<float> distances;
+  for (size_t i = 0; i < now_.size(); i += kEvery) {
+    if (now_[i].instance != kNoHit) distances.push_back(length(now_[i].position - eye_));
+  }
+  if (distances.empty()) return kInfinity;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
 void FrameHistory::begin(const Camera& camera, int width, int height, const Lights& lights) {
   changed_.lightBy(lights);
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
@@ -61,6 +74,7 @@ void FrameHistory::begin(const Camera& camera, int width, int height, const Ligh
     camera_.reset();
   }
   still_ = camera_ && seeTheSame(*camera_, camera);
+  if (camera_ && !still_ && hasJumped(length(camera.worldFromCamera.w - eye_), medianDistanceM())) camera_.reset();
   settled_ = still_ && !changed_.lightsChanged() && !changed_.anyMoved() && !stale_;
   framesStill_ = settled_ ? framesStill_ + 1 : 0;
   if (!settled_) {

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sorted_keys.h"
-#include "gather/hit_layers.h"
+#include "gather/layer_light.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {

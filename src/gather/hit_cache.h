@@ -2,7 +2,7 @@
 // hashed grid of cells, filled from the very hits that rays of this picture find, then only read (after the radiance
 // caches of Boissé et al. 2023, "GI-1.0", and Binder et al. 2019, "Massively parallel path space filtering").
 //
-// A cell holds the mean of what its samples send out, as found and as told by their neighbours (hit_smoothing.h). What
+// A cell holds the mean of what its samples send out, as found and as told by their neighbours (smoothLight). What
 // lies hidden within furniture is never hit, so it counts for nothing, and the mean over all rays is right however
 // coarse the cells are. Places seldom hit share larger cells.
 #pragma once
@@ -98,5 +98,12 @@ class HitCache {
   std::vector<uint16_t> shares_;  // half floats, of cells one after the other
   std::vector<Entry> table_;  // open addressing, a power of two
 };
+
+// Light of places where gathering rays arrive, each lit by few rays, as far as their neighbours tell it better: nested
+// grids of cells on one surface, the mean of each drawn towards that of the next larger one by how uncertain it is
+// beside how much cells of its size differ (empirical Bayes, Efron & Morris 1975). What single rays found far beyond
+// what all should is spread over the largest. Changes `even` and `rare` of all samples. Of what shares a largest cell
+// only what has a free way to the same place is put together. The result does not depend on the number of threads.
+void smoothLight(const RayScene& rays, const HitCache& cells, std::span<LitHit> samples);
 
 }  // namespace roomlight

@@ -1,8 +1,8 @@
-#include "gather/hit_layers.h"
+#include "gather/layer_light.h"
 
-#include "base/half.h"
 #include "base/parallel.h"
-#include "gather/hit_smoothing.h"
+#include "base/simd.h"
+#include "gather/hit_cache.h"
 
 namespace roomlight {
 

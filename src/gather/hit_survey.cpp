@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "gather/hit_layers.h"
-#include "gather/hit_smoothing.h"
+#include "gather/hit_cache.h"
+#include "gather/layer_light.h"
 #include "gather/pixel_rays.h"
 #include "gather/pixel_shader.h"
 #include "gather/ray_shader.h"

@@ -4,7 +4,6 @@
 #include <mutex>
 
 #include "base/parallel.h"
-#include "trace/shadow_ray.h"
 #include "trace/traced_scene.h"
 
 namespace roomlight {

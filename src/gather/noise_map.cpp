@@ -1,4 +1,4 @@
-#include "gather/noise_map.h"
+#include "gather/pixel_shader.h"
 
 #include <algorithm>
 #include <cmath>

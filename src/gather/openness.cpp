@@ -1,11 +1,10 @@
-#include "gather/openness.h"
+#include "gather/pixel_shader.h"
 
 #include <atomic>
 #include <cmath>
 
 #include "base/parallel.h"
 #include "base/sampling.h"
-#include "gather/pixel_shader.h"
 
 namespace roomlight {
 namespace {

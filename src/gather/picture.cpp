@@ -5,15 +5,13 @@
 #include <mutex>
 #include <optional>
 
-#include "base/clock.h"
+#include "base/image_layers.h"
 #include "base/parallel.h"
-#include "base/split.h"
+#include "base/progress.h"
 #include "filter/filter.h"
 #include "gather/error_probes.h"
-#include "gather/noise_map.h"
-#include "gather/openness.h"
 #include "gather/pixel_rays.h"
-#include "gather/sparse_gather.h"
+#include "gather/pixel_shader.h"
 
 namespace roomlight {
 namespace {

@@ -3,14 +3,42 @@
 // Panes and mirrors send the rays on: what is seen in a mirror is shaded, and filtered, like what is seen directly.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include "base/image.h"
 #include "filter/filter.h"
-#include "gather/fragments.h"
 #include "gather/picture.h"
 #include "scene/surface.h"
+#include "trace/camera_rays.h"
 
 namespace roomlight {
+
+// What a pixel keeps beside the sums over its
+// camera rays.
+struct PixelCount {
+  uint32_t rays = 0;
+  uint32_t gathered = 0, glossy = 0;  // that diffuse and specular light is known of, each times the estimates it got
+  bool edge = false;  // more than one surface seen
+  float occlusion = 0;
+};
+// What pixels see beside the surface that fills most of them: an edge of a thing before a wall. Its diffuse light is
+// filtered with that of its own surface.
+struct Fragment {
+  uint32_t pixel;
+  Vec3 diffuse, albedo, normal, position;  // sums over camera rays, as FilterPixel's
+  float surface = 0;
+};
+using Fragments = std::vector<Fragment>;  // of a tile
+
+// Whether light on two surfaces may be filtered together, much as the filter has it. Normals of any length.
+bool onOneSheet(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition);
+
+// Adds their light to a picture that was filtered without them: of pixels around that see the same surface, by their
+// irradiance after filtering; where there is none their own.
+void addFragments(const Fragments& fragments, const FilterInput& means, const std::vector<PixelCount>& counts,
+                  std::span<const Vec3> irradiance, Image& image);
 
 constexpr size_t kRaysAtOnce = SharpLights::kMostPoints;
 
@@ -129,5 +157,35 @@ class PixelShader {
   const LightLayers* layers_;
   LayerSums* byLayer_;
 };
+
+// Whether two pixels see one surface: by normals and places, the first pixel's being that of its tangent plane.
+bool onOneSurface(Vec3 normal, Vec3 position, Vec3 otherNormal, Vec3 otherPosition);
+
+// What pixel i would be by the light of those beside it that see the same surface; where there is none, what it is.
+FilterPixel meanBeside(const FilterInput& sums, const std::vector<PixelCount>& counts, size_t i);
+
+// Of each pixel, how many more rays it needs beside those it had, where its noise is not shared with like neighbours or
+// it is on an edge of a thing; 0: none. `tolerance`: relative standard error of
+// luminance that may be left. `left`: of each pixel after the filter; empty: there is none.
+std::vector<uint16_t> raysNeeded(const FilterInput& sums, const std::vector<PixelCount>& counts,
+                                 const FilteredLuminance& left, float tolerance);
+
+// One pixel in many gathers light, by as many times the estimates; the filter gives it to the others. Each has its own
+// camera rays, sharp shadows and reflections of smooth surfaces. (Ward, Rubinstein & Clear 1988 gather sparsely and
+// interpolate; Kopf et al. 2007 upsample by what pixels see.)
+struct Rectangle {
+  int x0, y0, x1, y1;
+};
+
+// What a tile's pixels have seen by `rays` camera rays each, before it is lit. Pixels on edges and contacts gather for
+// themselves.
+void gatherSparsely(TileWork& work, const Rectangle& tile, uint32_t every, float rayRoughness, uint32_t rays,
+                    const FilterInput& sums);
+
+// How open surfaces are to what lies near: the part of their hemisphere that is free as far as a few to some dozen
+// pixels reach. It has little noise where light has much, and contacts, corners and things before walls show in both:
+// the filter learns from it where light changes (filter/levels.h). Sets FilterPixel::open of what pixels see, from sums
+// over their camera rays. Returns how many rays it took.
+uint64_t findOpenness(const RayScene& rays, const CameraRays& camera, uint64_t seed, FilterInput& sums);
 
 }  // namespace roomlight

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <mutex>
 
-#include "base/clock.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "gather/quick_maker.h"
 
 namespace roomlight {
@@ -14,6 +14,7 @@ namespace {
 constexpr size_t kTilesAtOnce = 4;
 constexpr uint32_t kMostEvery = 16, kMostEveryOld = 64;
 constexpr double kNewest = 0.3;        // weight of the newest measurement
+constexpr float kLeastKnown = 0.25f;   // of what is seen: else the camera has jumped
 
 // Of places at unit depth: pixels a unit of x and of y.
 Vec2 pixelScaleOf(const Camera& camera, int width, int height) {
@@ -72,11 +73,23 @@ void QuickFrames::planShares(double ms) {
   while (everyOld_ > 1 && lent / (everyOld_ / 2) < rest) everyOld_ /= 2;
 }
 
+// A camera that has jumped sees little of what the frame before saw, or sees it from a quite different side, with other
+// reflections: nothing of that frame counts.
+void QuickFrames::surveyPast(const Maker& maker, const Camera& camera) {
+  const Maker::Survey seen = maker.survey();
+  usualLux_ = seen.usualLux;
+  if (!hasPast_) return;
+  const float moved = length(camera.worldFromCamera.w - camera_->worldFromCamera.w);
+  if (seen.known >= kLeastKnown && !hasJumped(moved, seen.distanceM)) return;
+  hasPast_ = false;
+  past_.clear();
+}
+
 Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width, int height, double ms,
                         const Progress& progress) {
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
   const bool still = camera_ && width == width_ && height == height_ && seeTheSame(*camera_, camera);
-  hasPast_ = camera_.has_value();
+  hasPast_ = camera_ && camera_->cutHeightM == camera.cutHeightM;  // else pixels are of what is cut away
   if (camera_) {
     fromWorld_ = inverse(camera_->worldFromCamera);
     pixelScale_ = pixelScaleOf(*camera_, width_, height_);
@@ -87,6 +100,8 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
   now_.resize(pixels);
   if (!hasPast_) past_.clear();
   changed_.lightBy(scene.lights, scene.light.sharpEmissive());
+  Maker maker(*this, scene, camera, width, height);
+  if (!still || stale_ || changed_.any()) surveyPast(maker, camera);
   // Where the scene has changed every pixel looks for itself.
   lands_ = hasPast_ && !stale_ && !changed_.any();
   planShares(ms);
@@ -96,7 +111,6 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
   const double landedMs = landing.seconds() * 1e3 * std::max(1, threadCount());
 
   Image out(width, height);
-  Maker maker(*this, scene, camera, width, height);
   const size_t across = static_cast<size_t>((width + Rules::kTile - 1) / Rules::kTile),
                tiles = across * static_cast<size_t>((height + Rules::kTile - 1) / Rules::kTile);
   Count sum;

@@ -73,6 +73,7 @@ class QuickFrames {
   class Maker;
   struct Rules;
   void planShares(double ms);
+  void surveyPast(const Maker& maker, const Camera& camera);
   void land(const Camera& camera);
 
   int width_ = 0, height_ = 0;
@@ -92,6 +93,7 @@ class QuickFrames {
   // Of so many pixels one is lit: of those without light, and of those that have lent or old light (0: none). Powers of
   // two up to 16, and 64.
   uint32_t everyNew_ = 16, everyOld_ = 0;
+  float usualLux_ = 0;  // on what is seen, but for its brightest fifth
   std::array<double, 2> otherMs_{};  // per pixel: what all but light costs, all threads together, where pixels look for
                                      // themselves and where those of the frame before land
   double msALight_ = 1e-3;  // per pixel that is lit

@@ -1,15 +1,25 @@
 #include "gather/quick_maker.h"
 
+#include <algorithm>
+
 #include "base/random.h"
+#include "base/sampling.h"
 #include "trace/bsdf.h"
 #include "trace/lamp_light.h"
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {
 
 constexpr float kPictureRoughness = 0.3f;  // smoother: what it reflects is looked for by a ray
 constexpr float kFaint = 0.01f;        // of a place's light: that of lamps that could give less is taken from slots
+// Of places that slots do not stand for: rays that look for light, for each, and for many together; and samples of
+// lights.
+constexpr uint32_t kFewestRays = 8, kMostRays = 64, kMostLightSamples = 4;
+constexpr float kDark = 0.05f;       // of the usual light
+constexpr int kMostBounces = 4;
+constexpr float kMostOfUsual =
+    8;    // times the usual light of the picture: what one ray may bring, so that none stands out
 
 }  // namespace
 
@@ -19,9 +29,16 @@ SlotIrradiance QuickFrames::Maker::receivedAt(uint32_t instance, Vec3 p, Vec3 n)
   return scene_.light.at(moved->second.point(p), normalize(moved->second.vector(n)));
 }
 
+// Whether slots can be taken for what is seen. Dark ones may be those of another surface, which lies hidden just
+// behind: the underlay of a carpet, a wall behind the frame of a door.
+bool QuickFrames::Maker::standsFor(const SlotIrradiance& e) const {
+  const float lux = luminance(e.soft + e.sharp);
+  return lux > 0 && (e.sure || lux >= kDark * f_.usualLux_);
+}
+
 // By slots alone, for reflections and what is seen through veils: `left` of all surfaces and the sky behind one
-// another.
-Vec3 QuickFrames::Maker::radianceAlong(Ray ray, Vec3 left) const {
+// another. `emitted`: with what surfaces emit.
+Vec3 QuickFrames::Maker::radianceAlong(Ray ray, Vec3 left, bool emitted) const {
   Vec3 sum;
   for (int k = 0; k < Rules::kMostPanes && luminance(left) > Rules::kLeastLeft; ++k) {
     const Hit hit = scene_.rays.intersect(ray);
@@ -29,8 +46,8 @@ Vec3 QuickFrames::Maker::radianceAlong(Ray ray, Vec3 left) const {
     const SurfacePlace place = placeAt(scene_.rays.scene(), hit, ray.direction);
     const MaterialSample m = materialAt(scene_.rays.scene(), hit);
     const SlotIrradiance e = receivedAt(hit.instance, place.p, place.ng);
-    const Vec3 emitted = place.front || place.material->doubleSided ? m.emission : Vec3(0);
-    sum += left * (emitted + bihemisphericalAlbedo(m) * (e.soft + e.sharp) / kPi) * m.alpha;
+    const Vec3 emission = emitted && (place.front || place.material->doubleSided) ? m.emission : Vec3(0);
+    sum += left * (emission + bihemisphericalAlbedo(m) * (e.soft + e.sharp) / kPi) * m.alpha;
     const Vec3 through =
         clear_[hit.instance] ? passing(m, *place.material, std::abs(dot(place.ng, ray.direction))) : Vec3(0);
     if (isBlack(through)) break;
@@ -38,6 +55,91 @@ Vec3 QuickFrames::Maker::radianceAlong(Ray ray, Vec3 left) const {
     ray = {offsetOrigin(place.p, -place.ng), ray.direction, 0, kInfinity};
   }
   return sum;
+}
+
+// One of the lamps with size and emissive meshes, as slots have it: what falls straight on a place, lx.
+Vec3 QuickFrames::Maker::sampleLocal(const Asked& a, Sampler& sampler) const {
+  const Lights& lights = scene_.lights;
+  const LightTree::Choice chosen = lights.chooseLocal(a.p, sampler.next1());
+  const Vec2 u = sampler.next2();
+  const float choice = sampler.next1();
+  if (!(chosen.chance > 0)) return {};
+  const size_t lamps = lights.lampCount();
+  LightSample l;
+  if (chosen.index < lamps) {
+    if (isSharp(lights.lamp(chosen.index))) return {};  // has a ray of its own
+    l = lights.sampleLamp(chosen.index, a.p, u);
+  } else {
+    const size_t emitter = chosen.index - lamps;
+    if (std::any_of(emitters_.begin(), emitters_.end(), [&](const SharpEmitter& e) { return e.index == emitter; }))
+      return {};
+    l = lights.sampleEmitter(emitter, a.p, u, choice);
+  }
+  const float cosine = dot(l.wi, a.n);
+  if (!l.valid() || cosine <= 0) return {};
+  const Vec3 left = scene_.rays.transmittance(shadowRay(offsetOrigin(a.p, a.n), a.p, l));
+  return left * l.radiance * (cosine / chosen.chance);
+}
+
+// What comes along a ray but for what surfaces emit. From places without light of their own, as in a narrow gap, it
+// goes on.
+Vec3 QuickFrames::Maker::arriving(Ray ray, Sampler& sampler) const {
+  Vec3 left(1);
+  for (int bounce = 0; bounce < kMostBounces && luminance(left) > Rules::kLeastLeft; ++bounce) {
+    const Hit hit = scene_.rays.intersect(ray);
+    if (!hit.valid() || clear_[hit.instance]) return radianceAlong(ray, left, false);
+    const SurfacePlace place = placeAt(scene_.rays.scene(), hit, ray.direction);
+    const SlotIrradiance e = receivedAt(hit.instance, place.p, place.ng);
+    left *= bihemisphericalAlbedo(materialAt(scene_.rays.scene(), hit));
+    if (standsFor(e)) return left * (e.soft + e.sharp) / kPi;
+    ray = {offsetOrigin(place.p, place.ng), Frame(place.ng).toWorld(sampleCosineHemisphere(sampler.next2())), 0,
+           kInfinity};
+  }
+  return {};
+}
+
+// What falls on places of one surface from all around, lx: their mean. The directions are always the same ones, so that
+// tiles side by side and frames after one another agree.
+Vec3 QuickFrames::Maker::gatherAround(std::span<const uint32_t> places, const Work& w) const {
+  Vec3 around, straight;
+  const auto placeOf = [&](uint32_t k, uint32_t of) -> const Asked& { return w.asked[places[k * places.size() / of]]; };
+  const uint32_t rays = std::min(kMostRays, kFewestRays * static_cast<uint32_t>(places.size()));
+  const float most = f_.usualLux_ > 0 ? kMostOfUsual * f_.usualLux_ / kPi : kInfinity;
+  for (uint32_t k = 0; k < rays && (k < kFewestRays || !isBlack(around)); ++k) {
+    const Asked& a = placeOf(k * 5 % rays, rays);  // the first ones are not all of one corner
+    Sampler sampler(0, k, 0);
+    const Vec3 d = Frame(a.n).toWorld(sampleCosineHemisphere(sampler.next2()));
+    const Vec3 came = arriving({offsetOrigin(a.p, a.n), d, 0, kInfinity}, sampler);
+    around += came * std::min(1.0f, most / std::max(luminance(came), 1e-20f));
+  }
+  const uint32_t samples = std::min(kMostLightSamples, static_cast<uint32_t>(places.size()));
+  for (uint32_t k = 0; k < samples && scene_.lights.hasLocal(); ++k) {
+    Sampler sampler(1, k, 0);
+    straight += sampleLocal(placeOf(k, samples), sampler);
+  }
+  return around * (kPi / static_cast<float>(rays)) + straight * (1.0f / static_cast<float>(samples));
+}
+
+// What slots have for the pixels to be lit. Where that is not to be relied on, rays look for light, together for all
+// pixels of the tile that see one side of a thing.
+void QuickFrames::Maker::receive(Work& w) const {
+  w.dark.clear();
+  for (const uint32_t i : w.toLight) {
+    Asked& a = w.asked[i];
+    if (!a.hit.valid()) continue;
+    a.received = receivedAt(a.hit.instance, a.p, a.n);
+    if (!standsFor(a.received)) w.dark.push_back(i);
+  }
+  for (size_t first = 0; first < w.dark.size();) {
+    const Asked& of = w.asked[w.dark[first]];
+    const auto last =
+        std::partition(w.dark.begin() + static_cast<std::ptrdiff_t>(first), w.dark.end(), [&](uint32_t i) {
+          return w.asked[i].hit.instance == of.hit.instance && dot(w.asked[i].n, of.n) > Rules::kFacing;
+        });
+    const auto end = static_cast<size_t>(last - w.dark.begin());
+    const Vec3 soft = gatherAround(std::span(w.dark).subspan(first, end - first), w);
+    for (; first < end; ++first) w.asked[w.dark[first]].received.soft = soft;
+  }
 }
 
 // Light of one pixel but for that of suns and lamps, whose shadow rays are left in the work.
@@ -54,15 +156,17 @@ void QuickFrames::Maker::shade(uint32_t index, Work& w) const {
   if (scene_.white) s.m = whitened(s.m);
   const Vec3 wo = -sight.ray.direction;
   const Bsdf bsdf(s.m, s.ns, s.ng, wo);
-  const SlotIrradiance e = receivedAt(s.instance, s.p, s.ng);
+  const SlotIrradiance& e = a.received;
   const Vec3 left = sight.left * s.m.alpha;
   a.albedo = left * bsdf.diffuseAlbedo();
   a.diffuse = e.soft / kPi;
   a.rest += sight.left * s.emitted();
   if (s.m.roughness < kPictureRoughness) {
     const Vec3 d = sight.ray.direction - s.ns * (2 * dot(sight.ray.direction, s.ns));
-    if (dot(d, s.ng) > 0)
-      a.rest += radianceAlong({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, left * bsdf.specularAlbedo());
+    const Vec3 share = left * bsdf.specularAlbedo();
+    const Vec3 reflected =
+        dot(d, s.ng) > 0 ? radianceAlong({offsetOrigin(s.p, s.ng), d, 0, kInfinity}, share) : Vec3(0);
+    a.rest += isBlack(reflected) ? share * e.soft / kPi : reflected;  // what it would show may have no slot
   } else {
     a.rest += left * bsdf.specularAlbedo() * e.soft / kPi;
   }
@@ -160,32 +264,34 @@ void QuickFrames::Maker::lend(Work& w, Count& count) const {
   }
 }
 
-void QuickFrames::Maker::lightAll(Work& w, size_t first) const {
+void QuickFrames::Maker::lightThose(Work& w, Count& count) const {
+  w.shadows.clear(), w.shadowRays.clear();
+  receive(w);
+  for (const uint32_t i : w.toLight) shade(i, w);
   w.left.resize(w.shadows.size());
-  scene_.rays.transmittance(std::span(w.shadowRays).subspan(first), std::span(w.left).subspan(first));
-  for (size_t i = first; i < w.shadows.size(); ++i) {
+  scene_.rays.transmittance(w.shadowRays, w.left);
+  for (size_t i = 0; i < w.shadows.size(); ++i) {
     Asked& a = w.asked[w.shadows[i].asked];
     a.diffuse += w.shadows[i].diffuse * w.left[i], a.rest += w.shadows[i].specular * w.left[i];
   }
+  count.lit += w.toLight.size();
 }
 
 void QuickFrames::Maker::light(Work& w, Count& count, Image& out) const {
-  w.shadows.clear(), w.shadowRays.clear();
   lookAtEmitters(w);
+  w.toLight.clear();
   for (uint32_t i = 0; i < w.asked.size(); ++i) {
-    if (w.asked[i].lit) shade(i, w), ++count.lit;
+    if (w.asked[i].lit) w.toLight.push_back(i);
   }
-  lightAll(w, 0);
+  lightThose(w, count);
   lend(w, count);
   // What has no light, and nobody near to lend it, is lit after all.
-  const size_t first = w.shadows.size();
+  w.toLight.clear();
   for (uint32_t i = 0; i < w.asked.size(); ++i) {
     Asked& a = w.asked[i];
-    if (a.lit || a.lent || a.old) continue;
-    a.lit = true;
-    shade(i, w), ++count.lit;
+    if (!a.lit && !a.lent && !a.old) a.lit = true, w.toLight.push_back(i);
   }
-  lightAll(w, first);
+  lightThose(w, count);
   for (const Asked& a : w.asked) {
     if (a.lit || a.lent) {
       store(a, a.albedo * a.diffuse + a.rest, a.lit ? kLit : kLent, out);

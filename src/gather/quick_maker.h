@@ -4,9 +4,11 @@
 
 #include <bit>
 #include <cmath>
+#include <span>
 
+#include "base/sampler.h"
 #include "gather/quick_frames.h"
-#include "radiance/surroundings.h"
+#include "radiance/near_lights.h"
 #include "trace/emitter_view.h"
 
 namespace roomlight {
@@ -18,6 +20,7 @@ struct QuickFrames::Rules {
   static constexpr float kLeastReflected = 0.02f;
   static constexpr float kFacing = 0.9f;  // cosine between normals of one place
   static constexpr float kLeastCosine = 0.1f;
+  static constexpr int kBlock = 4;  // pixels: what is looked at anew together
   static constexpr int kLendWithin = 4;  // pixels: blocks in which light is lent
   static constexpr uint64_t kNothing = ~uint64_t{0};
   static constexpr uint32_t kSky = 0x7fffffffu;  // in place of an instance
@@ -42,6 +45,7 @@ struct QuickFrames::Asked {
   Sight sight;
   Hit hit;
   Vec3 p, n;  // n: geometric, towards the eye
+  SlotIrradiance received;  // of pixels that are lit, before they are
   bool lit = true;  // else it is lent light
   std::optional<Vec3> old;  // colour it had, and keeps where nobody lends
   bool lent = false;
@@ -80,10 +84,17 @@ class QuickFrames::Maker {
                                       ? LightSurroundings(scene.lights.emitterBounds(index), voxelM)
                                       : LightSurroundings()});
     }
-    nearM_ = camera.nearM;
+    nearM_ = camera.nearM, cutHeightM_ = camera.cutHeightM;
     anyStale_ = frames.changed_.any();
   }
   void make(int x0, int y0, Count& count, Image& out);
+  struct Survey {
+    float known = 0;  // share of what is seen that the frame before saw too
+    float distanceM = 0;  // to what is seen: the median
+    float usualLux = 0;  // on what is seen, but for its brightest fifth: at most; so that dark slots do not hide it
+  };
+  // From a few rays all over the picture.
+  Survey survey() const;
 
  private:
   // What a pane lets through and reflects under an angle.
@@ -101,6 +112,10 @@ class QuickFrames::Maker {
   struct Work {
     std::array<Spot, Rules::kTile * Rules::kTile> spots;
     std::vector<uint32_t> places;
+    // Where the frame before lands: pixels that keep what came to them; blocks that something stale may lie in, and
+    // those of them that have been looked at anew, a bit each.
+    std::array<bool, Rules::kTile * Rules::kTile> kept;
+    uint32_t doubted = 0, lookedAt = 0;
     Pane pane, varied;
     std::vector<Sight> sights, on;
     std::vector<Ray> rays;
@@ -113,6 +128,7 @@ class QuickFrames::Maker {
     std::vector<Shadow> shadows;
     std::vector<Ray> shadowRays;
     std::vector<Vec3> left;
+    std::vector<uint32_t> toLight, dark;  // of asked
     std::vector<EmitterView> views;  // of emitters_
     std::array<std::vector<uint32_t>, (Rules::kTile / Rules::kLendWithin) * (Rules::kTile / Rules::kLendWithin)> litOf;
   };
@@ -124,14 +140,22 @@ class QuickFrames::Maker {
     bool traced;  // the hit's place on its triangle is known
   };
   void see(const Sight& sight, const Met& met, Work& w, Image& out) const;
+  void lookAgain(int x0, int y0, Work& w, Count& count) const;
+  void doubt(uint32_t pixel, uint32_t key, Vec3 p, Vec3 n, Work& w) const;
   void meet(const Sight& sight, const Met& met, Vec3 p, Work& w, Image& out) const;
   const Pane& paneAt(const Hit& hit, Vec3 n, Vec3 direction, Work& w) const;
   const Pixel* find(uint32_t key, Vec3 p, Vec3 n) const;
+  bool knowsSky(Vec3 direction) const;
   void light(Work& w, Count& count, Image& out) const;
+  void lightThose(Work& w, Count& count) const;
+  void receive(Work& w) const;
+  Vec3 gatherAround(std::span<const uint32_t> places, const Work& w) const;
+  bool standsFor(const SlotIrradiance& e) const;
+  Vec3 arriving(Ray ray, Sampler& sampler) const;
+  Vec3 sampleLocal(const Asked& a, Sampler& sampler) const;
   void shade(uint32_t index, Work& w) const;
   void lookAtEmitters(Work& w) const;
   float shareOutside(const LightSurroundings& around, Vec3 p, Vec3 towards) const;
-  void lightAll(Work& w, size_t first) const;
   void lend(Work& w, Count& count) const;
   void store(const Asked& a, Vec3 colour, State state, Image& out) const;
   void storeSky(const Sight& sight, Vec3 reflected, Image& out) const;
@@ -146,7 +170,7 @@ class QuickFrames::Maker {
   }
   bool between(int x, int y, const Pixel* a, const Pixel* b, Image& out) const;
   SlotIrradiance receivedAt(uint32_t instance, Vec3 p, Vec3 n) const;
-  Vec3 radianceAlong(Ray ray, Vec3 left) const;
+  Vec3 radianceAlong(Ray ray, Vec3 left, bool emitted = true) const;
 
   struct SharpEmitter {
     size_t index;
@@ -158,12 +182,24 @@ class QuickFrames::Maker {
   std::vector<SharpEmitter> emitters_;
   const CameraRays rays_;
   const Vec3 eye_;
+  // From the eye; what lies above the camera's cut is not met.
   Ray rayOf(int x, int y) const {
     const Vec3 d = corner_ + stepX_ * (static_cast<float>(x) + 0.5f) + stepY_ * (static_cast<float>(y) + 0.5f);
-    return {eye_, d * (1 / std::sqrt(lengthSquared(d))), nearM_, kInfinity};
+    Ray ray{eye_, d * (1 / std::sqrt(lengthSquared(d))), nearM_, kInfinity};
+    if (cutHeightM_ < kInfinity) cut(ray);
+    return ray;
+  }
+  void cut(Ray& ray) const {
+    constexpr float kNowhereM = 1e18f;
+    const float downM = eye_.y - cutHeightM_, down = -ray.direction.y;
+    if (downM > 0) {
+      ray.tMin = down > 0 ? std::max(ray.tMin, downM / down) : kNowhereM;
+    } else if (down < 0) {
+      ray.tMax = downM / down;
+    }
   }
   Vec3 corner_, stepX_, stepY_;
-  float nearM_ = 0;
+  float nearM_ = 0, cutHeightM_ = kInfinity;
   bool anyStale_ = false;
   float slope_ = 0;  // of a pixel: how far its edges part, per metre of distance
   float coarser_ = 0;  // the same, or that of the frame before where its pixels were larger

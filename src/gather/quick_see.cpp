@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "trace/bsdf.h"
 
 namespace roomlight {
@@ -13,6 +13,8 @@ constexpr float kFootprints = 1.5f;    // how far off it may be, in pixels, and
 constexpr float kOffPlane = 0.25f;     // of that off the tangent plane
 constexpr uint32_t kLookAgain = 64;    // of so many pixels one is traced, whatever the frame before says
 constexpr float kFar = 0.6f;          // pixels
+constexpr float kStale = 3;            // pixels off the plane of what is met: of some other place
+constexpr int kHidden = 3;              // pixels around one that nothing came to
 constexpr float kNearer = 0.96f;       // of a pixel's distance: what is before it
 
 }  // namespace
@@ -55,6 +57,51 @@ const QuickFrames::Pixel* QuickFrames::Maker::find(uint32_t key, Vec3 p, Vec3 n)
   return best;
 }
 
+bool QuickFrames::Maker::knowsSky(Vec3 direction) const {
+  const Vec3 c = f_.fromWorld_.vector(direction);
+  if (!(c.z < 0)) return false;
+  const float u = f_.pixelScale_.x * c.x / -c.z + 0.5f * static_cast<float>(f_.pastWidth_),
+              v = 0.5f * static_cast<float>(f_.pastHeight_) - f_.pixelScale_.y * c.y / -c.z;
+  return u >= 0 && v >= 0 && u < static_cast<float>(f_.pastWidth_) && v < static_cast<float>(f_.pastHeight_) &&
+         f_.past_[static_cast<size_t>(v) * static_cast<size_t>(f_.pastWidth_) + static_cast<size_t>(u)].key ==
+             Rules::kSky;
+}
+
+QuickFrames::Maker::Survey QuickFrames::Maker::survey() const {
+  constexpr int kAcross = 12, kDown = 8;
+  Work w;
+  std::vector<float> distances, lux;
+  int known = 0;
+  for (int k = 0; k < kAcross * kDown; ++k) {
+    Ray ray =
+        rayOf((2 * (k % kAcross) + 1) * f_.width_ / (2 * kAcross), (2 * (k / kAcross) + 1) * f_.height_ / (2 * kDown));
+    Hit hit = scene_.rays.intersect(ray);
+    Vec3 n, p;
+    int panes = 0;
+    for (; hit.valid(); ++panes) {
+      n = hit.ng * (1 / length(hit.ng)), p = ray.origin + ray.direction * hit.t;
+      if (dot(n, ray.direction) > 0) n = -n;
+      if (panes == Rules::kMostPanes || !clear_[hit.instance] || !paneAt(hit, n, ray.direction, w).clear) break;
+      ray = {offsetOrigin(p, -n), ray.direction, 0, kInfinity};
+      hit = scene_.rays.intersect(ray);
+    }
+    known += hit.valid() ? find(hit.instance, p, n) != nullptr : f_.hasPast_ && knowsSky(ray.direction);
+    if (!hit.valid()) continue;
+    distances.push_back(length(p - eye_));
+    if (panes > 0) continue;  // in the light of another room, or of the day outside
+    const SlotIrradiance e = receivedAt(hit.instance, p, n);
+    lux.push_back(luminance(e.soft + e.sharp));
+  }
+  // What all but such a share lie below.
+  const auto quantile = [](std::vector<float>& of, size_t share, float none) {
+    if (of.empty()) return none;
+    const auto at = of.end() - 1 - static_cast<std::ptrdiff_t>(of.size() / share);
+    std::nth_element(of.begin(), at, of.end());
+    return *at;
+  };
+  return {static_cast<float>(known) / (kAcross * kDown), quantile(distances, 2, kInfinity), quantile(lux, 5, 0)};
+}
+
 const QuickFrames::Maker::Pane& QuickFrames::Maker::paneAt(const Hit& hit, Vec3 n, Vec3 direction, Work& w) const {
   constexpr float kSameCosine = 0.01f;
   const Scene& scene = scene_.rays.scene();
@@ -78,6 +125,7 @@ const QuickFrames::Maker::Pane& QuickFrames::Maker::paneAt(const Hit& hit, Vec3 
 void QuickFrames::Maker::see(const Sight& sight, const Met& met, Work& w, Image& out) const {
   const Hit& hit = met.hit;
   if (!hit.valid()) {
+    if (f_.lands_) doubt(sight.pixel, Rules::kSky, {}, {}, w);
     if (sight.panes > 0 && luminance(sight.reflectance) > Rules::kLeastReflected) {
       Asked& a = w.asked.emplace_back();
       a.pixel = sight.pixel, a.sight = sight, a.hit = hit, a.n = sight.paneNormal,
@@ -104,6 +152,7 @@ void QuickFrames::Maker::see(const Sight& sight, const Met& met, Work& w, Image&
 
 void QuickFrames::Maker::meet(const Sight& sight, const Met& met, Vec3 p, Work& w, Image& out) const {
   const Hit& hit = met.hit;
+  if (f_.lands_) doubt(sight.pixel, hit.instance, p, met.n, w);
   const Pixel* known = find(hit.instance, p, met.n);
   const bool stale = known && (f_.stale_ || (anyStale_ && f_.changed_.concern(p, kNearM))),
              waits = known && (stale || known->state == kLent);
@@ -193,6 +242,56 @@ bool QuickFrames::Maker::keep(int x, int y, Image& out) const {
   return true;
 }
 
+// Whether what landed where a ray has now met p, or the sky, is of some other place: then more about it may be stale.
+// Of an edge it is not, since what is met has landed beside it.
+void QuickFrames::Maker::doubt(uint32_t pixel, uint32_t key, Vec3 p, Vec3 n, Work& w) const {
+  const int x = static_cast<int>(pixel) % f_.width_, y = static_cast<int>(pixel) / f_.width_;
+  const float p2 = lengthSquared(p - eye_), off = kStale * kStale * slope_ * slope_ * p2;
+  const auto isSame = [&](const Pixel& q) {
+    const float apart = dot(q.position - p, n);
+    return q.key == key && (key == Rules::kSky || apart * apart < off);
+  };
+  const Pixel* own = landedAt(pixel);
+  if (own && isSame(*own)) return;
+  int hidden = own ? kHidden : 0;
+  for (int j = std::max(0, y - 1); j <= std::min(f_.height_ - 1, y + 1); ++j) {
+    for (int i = std::max(0, x - 1); i <= std::min(f_.width_ - 1, x + 1); ++i) {
+      const Pixel* q = landedAt(static_cast<size_t>(j) * static_cast<size_t>(f_.width_) + static_cast<size_t>(i));
+      if (!q) continue;
+      if (isSame(*q)) return;
+      hidden +=
+          key != Rules::kSky && (q->key == Rules::kSky || kNearer * kNearer * lengthSquared(q->position - eye_) > p2);
+    }
+  }
+  if (hidden < kHidden) return;
+  constexpr int kReach = 1, kBlocks = Rules::kTile / Rules::kBlock;
+  const int x0 = x % Rules::kTile, y0 = y % Rules::kTile;
+  for (const int j : {std::max(0, y0 - kReach), std::min(Rules::kTile - 1, y0 + kReach)}) {
+    for (const int i : {std::max(0, x0 - kReach), std::min(Rules::kTile - 1, x0 + kReach)})
+      w.doubted |= 1u << (j / Rules::kBlock * kBlocks + i / Rules::kBlock);
+  }
+}
+
+// Pixels of doubted blocks do not keep what came to them.
+void QuickFrames::Maker::lookAgain(int x0, int y0, Work& w, Count& count) const {
+  constexpr int kBlocks = Rules::kTile / Rules::kBlock;
+  const uint32_t blocks = w.doubted & ~w.lookedAt;
+  w.lookedAt |= blocks;
+  for (uint32_t left = blocks; left; left &= left - 1) {
+    const int b = std::countr_zero(left), bx = b % kBlocks * Rules::kBlock, by = b / kBlocks * Rules::kBlock;
+    for (int y = by; y < by + Rules::kBlock; ++y) {
+      for (int x = bx; x < bx + Rules::kBlock; ++x) {
+        bool& kept = w.kept[static_cast<size_t>(y * Rules::kTile + x)];
+        if (!kept) continue;
+        kept = false;
+        --count.kept, ++count.traced;
+        Sight& sight = w.on.emplace_back();
+        sight.pixel = static_cast<uint32_t>((y0 + y) * f_.width_ + x0 + x), sight.ray = rayOf(x0 + x, y0 + y);
+      }
+    }
+  }
+}
+
 // Every other pixel of every other row, and a rim: the rest where these do not tell.
 void QuickFrames::Maker::trace(int x0, int y0, int x1, int y1, Work& w) const {
   const auto isSparse = [&](int x, int y) { return ((x & 1) == 0 || x == x1 - 1) && ((y & 1) == 0 || y == y1 - 1); };
@@ -247,10 +346,11 @@ void QuickFrames::Maker::make(int x0, int y0, Count& count, Image& out) {
   thread_local Work w;
   const Stopwatch watch;
   w.on.clear(), w.asked.clear();
-  w.pane = {};
+  w.pane = {}, w.doubted = w.lookedAt = 0;
   const int x1 = std::min(out.width, x0 + Rules::kTile), y1 = std::min(out.height, y0 + Rules::kTile);
   Sight first;
   if (f_.lands_) {
+    w.kept.fill(false);
     // Fetched together, not one after the other.
     for (int y = y0; y < y1; ++y) {
       for (size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(out.width) + static_cast<size_t>(x0),
@@ -264,6 +364,7 @@ void QuickFrames::Maker::make(int x0, int y0, Count& count, Image& out) {
       for (int x = x0; x < x1; ++x) {
         if (keep(x, y, out)) {
           ++count.kept;
+          w.kept[static_cast<size_t>((y - y0) * Rules::kTile + x - x0)] = true;
           continue;
         }
         Sight& sight = w.on.emplace_back();
@@ -293,6 +394,7 @@ void QuickFrames::Maker::make(int x0, int y0, Count& count, Image& out) {
       if (dot(n, w.sights[i].ray.direction) > 0) n = -n;
       see(w.sights[i], {hit, n, true}, w, out);
     }
+    if (w.doubted & ~w.lookedAt) lookAgain(x0, y0, w, count);
   }
   const double seen = watch.seconds();
   if (!w.asked.empty()) light(w, count, out);

@@ -1,10 +1,9 @@
 #include "gather/ray_scatter.h"
 
 #include "base/sampling.h"
-#include "base/weighted_choice.h"
 #include "filter/filter.h"
 #include "radiance/sky_guide.h"
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {

@@ -7,7 +7,7 @@
 #include "gather/ray_paths.h"
 #include "gather/sun_gloss.h"
 #include "radiance/bright_patches.h"
-#include "radiance/surroundings.h"
+#include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
 
 namespace roomlight {

@@ -1,6 +1,6 @@
 #include "gather/sharp_lights.h"
 
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {

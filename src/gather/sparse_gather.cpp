@@ -1,6 +1,4 @@
-#include "gather/sparse_gather.h"
-
-#include "gather/noise_map.h"
+#include "gather/pixel_shader.h"
 
 namespace roomlight {
 namespace {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/lattice.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sampling.h"
 #include "engine/views.h"
-#include "home/room_camera.h"
 #include "home/rooms.h"
 #include "trace/camera_rays.h"
 

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/lattice.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sampling.h"
 #include "engine/views.h"
+#include "home/cameras.h"
 #include "home/rooms.h"
-#include "home/sights.h"
 #include "photometry/sun.h"
 #include "scene/outline.h"
 #include "trace/camera_rays.h"
@@ -183,10 +182,12 @@ std::optional<Vec3> lampPlace(const RayScene& rays, const Room& room) {
   return best;
 }
 
+double fluxForLm(const Room& room) {
+  return std::round(std::clamp(kLumenPerM2 * areaM2(room), kLeastLumen, kMostLumen) / 50) * 50;
+}
+
 Json ceilingLamp(const Room& room, Vec3 p) {
-  const double m2 = areaM2(room);
-  const double flux = std::round(std::clamp(kLumenPerM2 * m2, kLeastLumen, kMostLumen) / 50) * 50;
-  const double side = std::clamp(0.1 * std::sqrt(m2), 0.3, 0.6);
+  const double flux = fluxForLm(room), side = std::clamp(0.1 * std::sqrt(areaM2(room)), 0.3, 0.6);
   return {{"name", room.name + " ceiling lamp"},
           {"type", "area"},
           {"position", place(p)},
@@ -326,6 +327,19 @@ AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const 
                                              : "the sky after sunset",
                        ceilingLamps, overCamera, addsGround);
   return out;
+}
+
+Json assumedDaylight() {
+  return {{"sky", "clear"},
+          {"latitude", kLatitudeDeg},
+          {"longitude", kLongitudeDeg},
+          {"time", "2026-06-10T12:00+02:00"},
+          {"ground", kGroundReflectance}};
+}
+
+double assumedFluxLm(const std::vector<Room>& rooms, Vec3 position) {
+  const auto room = std::find_if(rooms.begin(), rooms.end(), [&](const Room& r) { return isIn(r, position); });
+  return room == rooms.end() ? kLeastLumen : fluxForLm(*room);
 }
 
 }  // namespace roomlight::home

@@ -47,4 +47,11 @@ struct AddedLight {
 AddedLight lightFor(const RayScene& rays, const std::vector<Room>& rooms, const Camera& camera, Mood mood,
                     const nlohmann::ordered_json& ownGround = {});
 
+// A clear noon in June where the light that is added is taken from, with north towards -z: for homes of which nobody
+// says place or time. As a `daylight` of a lighting file.
+nlohmann::ordered_json assumedDaylight();
+
+// What a lamp at that place is taken to give where nobody says, lm: as a ceiling lamp that is added to its room.
+double assumedFluxLm(const std::vector<Room>& rooms, Vec3 position);
+
 }  // namespace roomlight::home

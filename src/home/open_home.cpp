@@ -9,10 +9,10 @@
 #include "home/light.h"
 #include "home/rooms.h"
 #include "home/unit.h"
-#include "import/json_file.h"
 #include "import/lighting_file.h"
+#include "json/json_file.h"
 #include "scene/find_camera.h"
-#include "scene/scale.h"
+#include "scene/scene_change.h"
 
 namespace roomlight::home {
 namespace {
@@ -27,6 +27,12 @@ std::string quoted(const std::vector<std::string>& names) {
   for (size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
     text += fmt::format("{}'{}'", i > 0 ? ", " : "", names[i]);
   return names.size() > kMostNamed ? fmt::format("{} and {} more", text, names.size() - kMostNamed) : text;
+}
+
+LightBefore lightOf(const Scene& scene) {
+  LightBefore light{scene.lamps, {}};
+  for (const Material& m : scene.materials) light.emission.push_back(m.emission);
+  return light;
 }
 
 void switchOff(Scene& scene) {
@@ -103,6 +109,14 @@ void chooseCamera(const RayScene& rays, const OpenWish& wish, bool lightComes, O
     home.notes.push_back(fmt::format("the file's camera {} {}; {} is shown instead, --camera decides",
                                      quotedOrNumber(scene, 0), fault,
                                      quotedOrNumber(scene, static_cast<size_t>(scene.cameraInUse))));
+}
+
+// After the choice of the camera that is shown by default: which one that is stays as it was.
+void cutOpen(const RayScene& rays, OpenedHome& home) {
+  for (size_t i = 0; i < home.fileCameras; ++i) {
+    Camera& camera = home.scene.cameras[i];
+    if (const std::optional<float> cut = cutHeightFor(rays, home.scene.rooms, camera)) camera.cutHeightM = *cut;
+  }
 }
 
 // `decided`: a lighting file says what shines, even if that is nothing.
@@ -194,6 +208,7 @@ Result<OpenedHome> openHome(const OpenWish& wish) {
   home.warnings = std::move(imported.value().warnings);
   home.faults = std::move(imported.value().faults), home.faultCount = imported.value().faultCount;
   home.photo = imported.value().photo, home.daylight = std::move(imported.value().daylight);
+  home.offLamps = std::move(imported.value().offLamps);
   nlohmann::json lighting;
   if (!wish.lighting.empty()) {
     Result<nlohmann::json> read = wish.document ? Result<nlohmann::json>(*wish.document) : readJsonFile(wish.lighting);
@@ -201,6 +216,7 @@ Result<OpenedHome> openHome(const OpenWish& wish) {
     lighting = std::move(read.value());
   }
   takeUnit(wish, imported.value().unit, lighting, home);
+  home.before = lightOf(home.scene);
   if (wish.light == LightWish::None) switchOff(home.scene);
   if (!wish.lighting.empty()) {
     if (const Status s = applyLighting(lighting, wish.lighting, home.scene, &home.warnings); !s)
@@ -213,6 +229,7 @@ Result<OpenedHome> openHome(const OpenWish& wish) {
     const bool decided = decidesLight(lighting);
     std::optional<Mood> mood = moodOf(wish.light, own, decided);
     chooseCamera(rays, wish, own.outdoors() || mood.has_value(), home);
+    cutOpen(rays, home);
     if (wish.light == LightWish::Auto && !decided && !mood && !own.lamps && own.indoorLux < 0.5 &&
         !outdoorLightComesIn(rays, home.scene.rooms, shownCamera(wish, home)))
       mood = Mood::Auto;

@@ -35,6 +35,12 @@ struct OpenWish {
   bool allCameras = false;                // proposals also where the file has a camera that will do
 };
 
+// The light of all that the file itself has, before a lighting file or LightWish::None switches any of it off.
+struct LightBefore {
+  std::vector<Lamp> lamps;
+  std::vector<Vec3> emission;  // of materials
+};
+
 struct OpenedHome {
   // With the cameras of the file first, then those proposed, if any; `cameraInUse` is one that sees something. Rooms
 // are the file's; where it has none, those found.
@@ -48,6 +54,8 @@ struct OpenedHome {
   nlohmann::ordered_json lighting;   // the same, as a lighting file; null: nothing
   std::optional<PhotoWish> photo;    // as Imported has them
   std::string daylight;
+  std::vector<Lamp> offLamps;
+  LightBefore before;
   bool placed() const {
     return static_cast<size_t>(scene.cameraInUse) < fileCameras;
   }  // whether the default camera is the file's

@@ -1,4 +1,4 @@
-#include "home/room_camera.h"
+#include "home/cameras.h"
 
 #include <algorithm>
 #include <cmath>

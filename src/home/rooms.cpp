@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/lattice.h"
 #include "base/sampling.h"
 #include "engine/views.h"
-#include "measure/areas.h"
+#include "measure/lattice.h"
 #include "scene/outline.h"
 
 namespace roomlight::home {

@@ -1,9 +1,8 @@
-#include "home/sights.h"
+#include "home/cameras.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/lattice.h"
 #include "base/sampling.h"
 #include "home/rooms.h"
 #include "trace/camera_rays.h"

@@ -1,4 +1,4 @@
-#include "import/assimp_collect.h"
+#include "import/model_reader.h"
 
 #include <fmt/format.h>
 

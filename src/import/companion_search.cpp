@@ -1,12 +1,12 @@
-#include "import/companion_search.h"
+#include "import/file_access.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <memory>
 
+#include "base/utf8.h"
 #include "import/failure.h"
-#include "import/utf8_text.h"
 
 namespace roomlight::importers {
 namespace {

@@ -1,4 +1,4 @@
-// Files and URIs that a scene file refers to, kept inside the scene file's folder.
+// Files and URIs that a scene file refers to, kept inside the scene file's folder, and looked for there.
 #pragma once
 
 #include <cstdint>
@@ -46,5 +46,23 @@ std::optional<std::filesystem::path> fileOfUri(const std::filesystem::path& fold
 
 // The bytes that a glTF URI means: a data URI's own, or those of the file it names in `folder`. Throws Failure.
 Bytes readUri(const std::filesystem::path& folder, std::string_view uri, const std::string& place);
+
+// A scene may name files as its exporter's machine knew them: by absolute paths of other disks, with backslashes, in
+// wrong case, in another folder. The rest finds these (companion_search.cpp).
+
+// Of the names (relative, '/' between folders) the one that a reference means, seen from `folder` ("" or "a/b/"); none
+// where no name ends like it. First the very place, then names with the same last part, of which the one that shares
+// most folders with the reference from its end, then the one nearest to the top. Case does not count; a picture may
+// have become PNG, JPEG or WebP.
+std::optional<std::string> meantName(const std::vector<std::string>& names, std::string_view folder,
+                                     std::string_view reference);
+
+// Of a scene file: files below `root` (empty: below its own folder) are found, none elsewhere. The folder is looked
+// through only when a reference is not where it says, some folders deep and some thousand files at most.
+ReadCompanion companionsAround(const std::filesystem::path& sceneFile, const std::filesystem::path& root);
+
+// Paths of the files below a folder, relative to it; without hidden ones and linked folders. None where there are more
+// than `most`.
+std::optional<std::vector<std::string>> filesBelow(const std::filesystem::path& folder, size_t most, int deepest);
 
 }  // namespace roomlight::importers

@@ -1,8 +1,6 @@
 // glTF 2.0, JSON and binary (Khronos specification 2.0.1): docs/reference/import.md says what is honoured.
 #include "import/gltf_document.h"
-#include "import/gltf_materials.h"
-#include "import/gltf_meshes.h"
-#include "import/gltf_nodes.h"
+#include "import/gltf_parts.h"
 #include "import/guarded.h"
 #include "import/import.h"
 

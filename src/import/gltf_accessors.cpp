@@ -1,4 +1,4 @@
-#include "import/gltf_accessors.h"
+#include "import/gltf_data.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "import/gltf_draco.h"
+#include "import/gltf_data.h"
 
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>

@@ -1,4 +1,4 @@
-#include "import/gltf_lights.h"
+#include "import/gltf_parts.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,10 @@
-#include "import/gltf_materials.h"
+#include "import/gltf_parts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "import/gltf_specular_glossiness.h"
-#include "import/gltf_textures.h"
+#include "import/gltf_material_parts.h"
 
 namespace roomlight::importers {
 namespace {

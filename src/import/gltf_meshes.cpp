@@ -1,4 +1,4 @@
-#include "import/gltf_meshes.h"
+#include "import/gltf_parts.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "import/gltf_accessors.h"
-#include "import/gltf_draco.h"
+#include "import/gltf_data.h"
 #include "import/grey_material.h"
 #include "import/triangles.h"
 

@@ -2,7 +2,7 @@
 // colour b and a metallic share m with d (1 - max s) = b (1 - 0.04) (1 - m) and s = 0.04 (1 - m) + b m. With the
 // brightness of d and s, b cancels out and a quadratic equation is left for m (Khronos Group:
 // examples/convert-between-workflows of KHR_materials_pbrSpecularGlossiness).
-#include "import/gltf_specular_glossiness.h"
+#include "import/gltf_material_parts.h"
 
 #include <algorithm>
 #include <array>

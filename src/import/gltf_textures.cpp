@@ -1,4 +1,4 @@
-#include "import/gltf_textures.h"
+#include "import/gltf_material_parts.h"
 
 #include <fmt/format.h>
 

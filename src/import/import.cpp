@@ -8,7 +8,7 @@
 #include "import/foreign_import.h"
 #include "import/scene_kind.h"
 #include "import/scene_package.h"
-#include "scene/scale.h"
+#include "scene/scene_change.h"
 
 namespace roomlight {
 namespace {
@@ -41,6 +41,7 @@ void moveToOrigin(Imported& imported) {
   if (!(away > kFarAway) || !(away > kFarAwayTimes * maxComponent(bounds.size()))) return;
   const Vec3 origin{centre.x, bounds.lo.y, centre.z};
   moveScene(imported.scene, -origin);
+  for (Lamp& lamp : imported.offLamps) lamp.position += -origin;
   imported.warnings.push_back(
       fmt::format("the scene lies far from its origin; it is moved there by ({:.0f}, {:.0f}, {:.0f}) m", -origin.x,
                   -origin.y, -origin.z));

@@ -44,6 +44,9 @@ struct Imported {
   // Of a Sweet Home 3D home that says where and when: a `daylight` as lighting files have it, much like the scene's own
   // sun and sky, for other times. JSON; empty: none.
   std::string daylight = {};
+  // Lamps that a Sweet Home 3D home has switched off, not in the scene, as they would shine at their usual power: for
+  // who switches them on.
+  std::vector<Lamp> offLamps = {};
   std::vector<std::string> faults =
       {};  // small things that were mended and that nobody sees: one per kind, with how often
   size_t faultCount = 0;  // of all kinds together

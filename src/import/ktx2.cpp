@@ -12,7 +12,6 @@
 #include <memory>
 
 #include "import/failure.h"
-#include "import/parallel_failures.h"
 
 namespace roomlight::importers {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "import/bit_reader.h"
+#include "import/failure.h"
 #include "import/ktx2.h"
-#include "import/parallel_failures.h"
 
 namespace roomlight::importers {
 namespace {

@@ -7,16 +7,14 @@
 #include <numbers>
 #include <optional>
 
+#include "base/utf8.h"
 #include "import/failure.h"
 #include "import/file_access.h"
-#include "import/lighting_sky.h"
 #include "import/lighting_values.h"
-#include "import/printable.h"
-#include "photometry/cie_sky.h"
 #include "photometry/colour_temperature.h"
 #include "photometry/epw.h"
-#include "photometry/perez_sky.h"
 #include "photometry/sky_image.h"
+#include "photometry/sky_luminance.h"
 #include "photometry/sun.h"
 
 namespace roomlight {

@@ -15,14 +15,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "import/json_file.h"
 #include "import/lighting_daylight.h"
-#include "import/lighting_glazing.h"
-#include "import/lighting_ground.h"
 #include "import/lighting_lamps.h"
-#include "import/lighting_own.h"
-#include "import/lighting_sky.h"
+#include "import/lighting_surfaces.h"
 #include "import/lighting_values.h"
+#include "json/json_file.h"
 
 namespace roomlight {
 namespace {

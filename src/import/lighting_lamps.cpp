@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/utf8.h"
 #include "import/lighting_values.h"
-#include "import/printable.h"
 #include "photometry/spot.h"
 
 namespace roomlight::importers {

@@ -1,15 +1,17 @@
-#include "import/lighting_own.h"
+#include "import/lighting_lamps.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "base/utf8.h"
 #include "import/lighting_values.h"
 #include "import/photometric_file.h"
-#include "import/printable.h"
 #include "photometry/colour_temperature.h"
 #include "scene/scene_lamps.h"
+#include "scene/shown_names.h"
 
 namespace roomlight {
 namespace {
@@ -18,13 +20,16 @@ constexpr size_t kMostOwn = 100'000, kMostNames = 40;
 
 OwnLamp readOwn(const JsonPlace& j) {
   OwnLamp own;
-  if (!j.isObject({"name", "number", "dimming", "factor", "temperature", "color", "position", "direction"})) return own;
+  if (!j.isObject({"name", "number", "dimming", "factor", "flux", "temperature", "color", "position", "direction"}))
+    return own;
   own.name = j["name"].text();
   const double number = j.number("number", 1, 1e6, 1);
   if (number != std::floor(number)) j["number"].fail("must be a whole number");
   own.number = static_cast<size_t>(number);
   own.dimming = j.number("dimming", 0, 1, 1);
   own.factor = j.number("factor", 0, 1e6, 1);
+  if (j.has("flux")) own.fluxLm = j["flux"].quantity(Unit::Lumen, 0, kMostLight);
+  if (j.has("flux") && j.has("factor")) j["factor"].fail("beside 'flux', which says the same");
   if (j.has("color") || j.has("temperature")) own.color = readColour(j);
   if (j.has("temperature"))
     own.temperatureK = static_cast<float>(j["temperature"].quantity(Unit::Kelvin, kLowestKelvin, kHighestKelvin));
@@ -33,12 +38,32 @@ OwnLamp readOwn(const JsonPlace& j) {
   return own;
 }
 
-const SceneLamp* lampOf(const std::vector<SceneLamp>& lamps, const OwnLamp& own) {
-  size_t number = 0;
-  for (const SceneLamp& l : lamps) {
-    if (l.name == own.name && ++number == own.number) return &l;
+// By its name, or where none has that by what people call it.
+class LampsByName {
+ public:
+  explicit LampsByName(const Scene& scene) : lamps_(findLamps(scene)), shown_(shownLampNames(scene, lamps_)) {}
+
+  const std::vector<SceneLamp>& all() const { return lamps_; }
+  const SceneLamp* find(const OwnLamp& own) const {
+    const auto isNamed = [&](size_t i) { return lamps_[i].name == own.name; };
+    const auto isShown = [&](size_t i) { return shown_[i] == own.name; };
+    bool any = false;
+    for (size_t i = 0; i < lamps_.size(); ++i) any = any || isNamed(i);
+    size_t number = 0;
+    for (size_t i = 0; i < lamps_.size(); ++i) {
+      if ((any ? isNamed(i) : isShown(i)) && ++number == own.number) return &lamps_[i];
+    }
+    return nullptr;
   }
-  return nullptr;
+
+ private:
+  std::vector<SceneLamp> lamps_;
+  std::vector<std::string> shown_;
+};
+
+bool shinesBySurface(const SceneLamp& lamp, const Scene& scene) {
+  return !lamp.instances.empty() || std::any_of(lamp.lamps.begin(), lamp.lamps.end(),
+                                                [&](size_t i) { return scene.lamps[i].kind == LampKind::Area; });
 }
 
 void applyTo(const SceneLamp& at, const OwnLamp& own, Scene& scene) {
@@ -48,6 +73,7 @@ void applyTo(const SceneLamp& at, const OwnLamp& own, Scene& scene) {
   };
   for (const size_t i : at.lamps) {
     Lamp& lamp = scene.lamps[i];
+    if (own.fluxLm) setLampFlux(lamp, *own.fluxLm / static_cast<double>(at.lamps.size()));
     changed(lamp.intensityCd), changed(lamp.luminanceCdM2);
     if (own.position) lamp.position = *own.position;
     if (!own.direction) continue;
@@ -76,14 +102,16 @@ std::vector<OwnLamp> readOwnLamps(const JsonPlace& j) {
 
 std::string missingLamp(const std::vector<OwnLamp>& own, const Scene& scene) {
   if (own.empty()) return {};
-  const std::vector<SceneLamp> lamps = findLamps(scene);
+  const LampsByName lamps(scene);
   for (size_t i = 0; i < own.size(); ++i) {
-    const SceneLamp* lamp = lampOf(lamps, own[i]);
+    const SceneLamp* lamp = lamps.find(own[i]);
     if (lamp && (lamp->object >= 0 || lamp->lamps.empty()) && (own[i].position || own[i].direction))
       return fmt::format("own[{}]: '{}' is part of a thing and has no place of its own", i, printable(own[i].name));
+    if (lamp && own[i].fluxLm && shinesBySurface(*lamp, scene))
+      return fmt::format("own[{}].flux: '{}' shines by a surface; give 'factor' instead", i, printable(own[i].name));
     if (lamp) continue;
     std::map<std::string, size_t> counts;
-    for (const SceneLamp& l : lamps) ++counts[l.name];
+    for (const SceneLamp& l : lamps.all()) ++counts[l.name];
     std::string list;
     size_t listed = 0;
     for (const auto& [name, count] : counts) {
@@ -100,9 +128,9 @@ std::string missingLamp(const std::vector<OwnLamp>& own, const Scene& scene) {
 void applyOwnLamps(const std::vector<OwnLamp>& own, Scene& scene) {
   if (own.empty()) return;
   partMaterials(scene);
-  const std::vector<SceneLamp> lamps = findLamps(scene);
+  const LampsByName lamps(scene);
   for (const OwnLamp& o : own) {
-    if (const SceneLamp* lamp = lampOf(lamps, o)) applyTo(*lamp, o, scene);
+    if (const SceneLamp* lamp = lamps.find(o)) applyTo(*lamp, o, scene);
   }
 }
 

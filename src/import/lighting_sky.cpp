@@ -1,4 +1,4 @@
-#include "import/lighting_sky.h"
+#include "import/lighting_daylight.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,11 @@
-// Values that lamps, suns and skies of a lighting file share. What is wrong is told to the place; see json_reader.h.
+// Values that lamps, suns and skies of a lighting file share. What is wrong is told to the place; see
+ // json/json_reader.h.
 #pragma once
 
 #include <initializer_list>
 #include <string>
 
-#include "import/json_reader.h"
+#include "json/json_reader.h"
 
 namespace roomlight {
 

@@ -16,7 +16,6 @@
 #include <span>
 #include <string_view>
 
-#include "import/assimp_collect.h"
 #include "import/child_process.h"
 #include "import/failure.h"
 

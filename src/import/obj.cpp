@@ -9,17 +9,15 @@
 #include <map>
 #include <unordered_map>
 
-#include "import/companion_search.h"
+#include "base/utf8.h"
 #include "import/failure.h"
+#include "import/file_access.h"
 #include "import/grey_material.h"
 #include "import/guarded.h"
 #include "import/import.h"
 #include "import/obj_lines.h"
-#include "import/obj_materials.h"
-#include "import/polygon.h"
 #include "import/triangles.h"
 #include "import/up_axis.h"
-#include "import/utf8_text.h"
 #include "import/warnings.h"
 
 namespace roomlight {

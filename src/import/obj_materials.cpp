@@ -1,7 +1,7 @@
 // MTL, as exporters write it: Kd colour, Ke emission, d or Tr = 1 - d, Ns shininess of Blinn-Phong, Ni refraction; with
 // the PBR extension Pr roughness, Pm metallic, norm; map_X: a picture that multiplies X, after options such as "-s 2
 // 2".
-#include "import/obj_materials.h"
+#include "import/obj.h"
 
 #include <fmt/format.h>
 
@@ -12,11 +12,10 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
+#include "base/utf8.h"
 #include "import/failure.h"
 #include "import/grey_material.h"
 #include "import/obj_lines.h"
-#include "import/obj_textures.h"
-#include "import/utf8_text.h"
 
 namespace roomlight::importers {
 namespace {

@@ -1,4 +1,4 @@
-#include "import/obj_textures.h"
+#include "import/obj.h"
 
 #include <fmt/format.h>
 

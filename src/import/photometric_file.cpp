@@ -8,7 +8,7 @@
 
 #include "import/failure.h"
 #include "import/file_access.h"
-#include "photometry/eulumdat.h"
+#include "photometry/web_files.h"
 
 namespace roomlight::importers {
 namespace {

@@ -20,7 +20,6 @@
 #include "base/image_formats.h"
 #include "import/failure.h"
 #include "import/ktx2.h"
-#include "import/parallel_failures.h"
 
 namespace roomlight::importers {
 namespace {

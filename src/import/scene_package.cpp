@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "import/companion_search.h"
 #include "import/failure.h"
+#include "import/file_access.h"
 #include "import/guarded.h"
 #include "import/scene_kind.h"
 #include "import/sh3d_archive.h"

@@ -5,8 +5,8 @@
 #include "import/guarded.h"
 #include "import/import.h"
 #include "import/sh3d_archive.h"
+#include "import/sh3d_home.h"
 #include "import/sh3d_scene.h"
-#include "import/sh3d_xml.h"
 #include "import/warnings.h"
 
 namespace roomlight {
@@ -28,10 +28,10 @@ Imported readSh3d(const std::filesystem::path& file, const ImportOptions& option
   }
   const Home home = readHomeXml(*xml, warnings);
   const ContentDigests digests(archive, warnings);
-  std::string daylight;
-  Scene scene = sceneOfHome(home, archive, digests, options, warnings, daylight);
-  Imported imported = importedScene(std::move(scene), warnings, StatedUnit::Certain);
-  imported.photo = home.environment.photo, imported.daylight = std::move(daylight);
+  HomeScene built = sceneOfHome(home, archive, digests, options, warnings);
+  Imported imported = importedScene(std::move(built.scene), warnings, StatedUnit::Certain);
+  imported.photo = home.environment.photo, imported.daylight = std::move(built.daylight);
+  imported.offLamps = std::move(built.offLamps);
   return imported;
 }
 

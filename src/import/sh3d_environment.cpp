@@ -7,13 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "import/lighting_sky.h"
-#include "import/sh3d_cameras.h"
-#include "import/sh3d_rooms.h"
-#include "import/sh3d_surfaces.h"
-#include "import/sh3d_time_zone.h"
-#include "photometry/cie_sky.h"
+#include "import/lighting_daylight.h"
+#include "import/sh3d_draft.h"
+#include "import/sh3d_plan.h"
 #include "photometry/sky_image.h"
+#include "photometry/sky_luminance.h"
 #include "photometry/sun.h"
 
 namespace roomlight::importers::sh3d {

@@ -1,11 +1,30 @@
-// Sun, sky and ground around a home.
+// From where and when a home is seen, and the sun, sky and ground around it.
 #pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
 
 #include "import/sh3d_draft.h"
 #include "import/sh3d_home.h"
 #include "import/sh3d_paints.h"
+#include "import/warnings.h"
+#include "scene/scene.h"
 
 namespace roomlight::importers::sh3d {
+
+// The one that is on comes first, then the other of observer and top, then the stored ones by their names.
+void addCameras(const Home& home, Scene& scene, Warnings& warnings);
+
+// The one whose time of day counts: that of this name or number, where it has a time; otherwise the one that is on, or
+// the first. None where the home has none.
+const Camera* cameraOfTime(const Home& home, const std::string& wanted);
+
+// Seconds to add to UTC for the clock at `wallSeconds` since 1970-01-01 00:00 on that clock, by the time zone's rules
+// (RFC 8536, TZif) in `folder`; none where the zone is unknown there. "Europe/Paris", "UTC".
+std::optional<int> utcOffsetSeconds(const std::string& zone, int64_t wallSeconds,
+                                    const std::filesystem::path& folder = "/usr/share/zoneinfo");
 
 // A clear CIE sky (type 12) and its sun, by the compass' place and the time of `camera` (see cameraOfTime). The sky has
 // the hue of the home's sky colour, or looks like its picture; both have the hue of the home's light colour. How much

@@ -7,10 +7,8 @@
 
 #include "import/failure.h"
 #include "import/grey_material.h"
-#include "import/sh3d_leaves.h"
-#include "import/sh3d_lights.h"
-#include "import/sh3d_looks.h"
-#include "import/sh3d_surfaces.h"
+#include "import/sh3d_draft.h"
+#include "import/sh3d_paints.h"
 
 namespace roomlight::importers::sh3d {
 namespace {

@@ -6,16 +6,20 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "import/import.h"
 #include "import/plan_area.h"
+#include "import/warnings.h"
 
 namespace roomlight::importers::sh3d {
 
 struct TextureUse {
   std::string image;                   // name of the archive's entry
+  std::string name;                    // in the catalogue that it is from; empty: none
   double widthCm = 100, heightCm = 100;
   double xOffset = 0, yOffset = 0;     // of its width and height
   double angleRad = 0, scale = 1;
@@ -163,5 +167,10 @@ inline bool isShown(const Home& home, int level) {
 }
 // Levels stand on the slab of their floor, except the lowest, which stands on the ground.
 double slabBelowCm(const Home& home, int level);
+
+// Throws Failure that names line and element: not well-formed, no home, a number that is none or beyond every home, a
+// missing attribute that the DTD requires. Elements and attributes that are not known are passed over, as later
+// versions add some.
+Home readHomeXml(std::span<const uint8_t> xml, Warnings& warnings);
 
 }  // namespace roomlight::importers::sh3d

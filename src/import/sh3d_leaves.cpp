@@ -1,4 +1,4 @@
-#include "import/sh3d_leaves.h"
+#include "import/sh3d_furniture.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "import/sh3d_lights.h"
+#include "import/sh3d_furniture.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-
-#include "import/sh3d_furniture.h"
 
 namespace roomlight::importers::sh3d {
 namespace {
@@ -72,19 +70,27 @@ Material glowing(const std::string& name, Vec3 colour, double fluxLm, double are
   return m;
 }
 
-void addSource(const Home& home, const Piece& p, const LightSource& s, double fluxLm, Draft& draft) {
-  Scene& scene = draft.scene;
+Vec3 placeOf(const Home& home, const Piece& p, const LightSource& s) {
   const double x = (s.x - 0.5) * (p.mirrored ? -1 : 1) * p.widthCm, z = (0.5 - s.y) * p.depthCm,
                y = s.z * p.heightCm - p.heightInPlanCm.value_or(p.heightCm) / 2;
-  const Vec3 at = worldFromPiece(home, p).point(
+  return worldFromPiece(home, p).point(
       {static_cast<float>(x / 100), static_cast<float>(y / 100), static_cast<float>(z / 100)});
+}
+
+Lamp pointLamp(const std::string& name, Vec3 at, Vec3 colour, double fluxLm) {
+  Lamp lamp;
+  lamp.name = name;
+  lamp.position = at;
+  lamp.intensityCd = colour * static_cast<float>(fluxLm / (4 * std::numbers::pi));
+  return lamp;
+}
+
+void addSource(const Home& home, const Piece& p, const LightSource& s, double fluxLm, Draft& draft) {
+  Scene& scene = draft.scene;
+  const Vec3 at = placeOf(home, p, s);
   const double radiusM = s.diameter.value_or(0) * p.widthCm / 200;
   if (radiusM < 1e-4) {
-    Lamp lamp;
-    lamp.name = p.name;
-    lamp.position = at;
-    lamp.intensityCd = hue(s.colour) * static_cast<float>(fluxLm / (4 * std::numbers::pi));
-    scene.lamps.push_back(lamp);
+    scene.lamps.push_back(pointLamp(p.name, at, hue(s.colour), fluxLm));
     return;
   }
   draft.effort.make(kBallTriangles, p.place);
@@ -135,19 +141,22 @@ bool lightUpMaterials(const Piece& p, size_t firstInstance, double fluxLm, Draft
 }  // namespace
 
 void addLight(const Home& home, const Piece& p, size_t firstInstance, double lumenAtFullPower, Draft& draft) {
-  const double fluxLm = p.power * lumenAtFullPower;
+  const bool isOff = !(p.power > 0);
+  const double fluxLm = (isOff ? Piece().power : p.power) * lumenAtFullPower;
   if (!(fluxLm > 0)) return;
-  if (!p.lightSources.empty()) {
-    double whole = 0;
-    for (const LightSource& s : p.lightSources) whole += brightness(s);
-    for (const LightSource& s : p.lightSources) {
-      const double itsLm =
-          whole > 0 ? fluxLm * brightness(s) / whole : fluxLm / static_cast<double>(p.lightSources.size());
+  double whole = 0;
+  for (const LightSource& s : p.lightSources) whole += brightness(s);
+  for (const LightSource& s : p.lightSources) {
+    const double itsLm =
+        whole > 0 ? fluxLm * brightness(s) / whole : fluxLm / static_cast<double>(p.lightSources.size());
+    if (!isOff) {
       addSource(home, p, s, itsLm, draft);
+    } else if (itsLm > 0) {
+      draft.offLamps.push_back(pointLamp(p.name, placeOf(home, p, s), hue(s.colour), itsLm));
     }
-  } else if (!lightUpMaterials(p, firstInstance, fluxLm, draft)) {
-    draft.warnings.add("lights without light sources stay dark");
   }
+  if (!p.lightSources.empty() || isOff) return;
+  if (!lightUpMaterials(p, firstInstance, fluxLm, draft)) draft.warnings.add("lights without light sources stay dark");
 }
 
 }  // namespace roomlight::importers::sh3d

@@ -1,4 +1,4 @@
-#include "import/sh3d_looks.h"
+#include "import/sh3d_paints.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ constexpr float kSeeThrough = 0.7f;  // opacity up to which an even material of 
 
 Material pane() {
   Material m;
-  m.name = kPane;
+  m.name = kPane, m.label = "window glass";
   m.metallic = m.roughness = 0;
   m.transmission = 1;
   return m;
@@ -24,7 +24,7 @@ Material pane() {
 
 Material mirror() {
   Material m;
-  m.name = kMirror;
+  m.name = kMirror, m.label = "mirror";
   m.baseColor = Vec3(kMirrorReflectance);
   m.roughness = 0;
   return m;
@@ -76,6 +76,7 @@ Look Looks::painted(int material, const Paint& paint, bool shininessGiven) {
   if (paint.colour || textured) {
     m.baseColor = (paint.colour && !textured ? linearColour(*paint.colour) : Vec3(1)) * kWhiteReflectance;
     m.baseColorTexture = ref;
+    m.label = textured ? paint.texture->name : "";
   }
   if (shininessGiven) {
     const Material gloss = paintedMaterial("", {}, paint.shininess);

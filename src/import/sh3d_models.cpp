@@ -1,4 +1,4 @@
-#include "import/sh3d_models.h"
+#include "import/sh3d_furniture.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,9 @@
 #include <atomic>
 #include <cctype>
 
-#include "import/assimp_model.h"
 #include "import/failure.h"
+#include "import/foreign_import.h"
 #include "import/obj.h"
-#include "import/parallel_failures.h"
 #include "import/pictures.h"
 
 namespace roomlight::importers::sh3d {

@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include "base/tone.h"
+#include "base/utf8.h"
 #include "import/failure.h"
-#include "import/parallel_failures.h"
 #include "import/pictures.h"
-#include "import/printable.h"
 
 namespace roomlight::importers::sh3d {
 
@@ -103,7 +102,7 @@ int Paints::material(const Paint& paint, const std::string& name) {
   const auto [entry, isNew] = made_.emplace(key, static_cast<int>(scene_.materials.size()));
   if (isNew) {
     scene_.materials.push_back(paintedMaterial(name, Vec3(kWhiteReflectance), paint.shininess));
-    scene_.materials.back().baseColorTexture = ref;
+    scene_.materials.back().baseColorTexture = ref, scene_.materials.back().label = paint.texture->name;
   }
   return entry->second;
 }
@@ -112,8 +111,10 @@ int Paints::plain(const Paint& paint, const std::string& name) {
   const uint32_t colour = paint.colour.value_or(0xffffff);
   const auto [entry, isNew] = made_.emplace(fmt::format("{}\n{:06x}\n{}", name, colour, paint.shininess),
                                             static_cast<int>(scene_.materials.size()));
-  if (isNew)
+  if (isNew) {
     scene_.materials.push_back(paintedMaterial(name, linearColour(colour) * kWhiteReflectance, paint.shininess));
+    scene_.materials.back().label = name == "wall" || name == "ceiling" ? name + " paint" : name;
+  }
   return entry->second;
 }
 

@@ -1,9 +1,9 @@
-#include "import/sh3d_polylines.h"
+#include "import/sh3d_plan.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "import/sh3d_surfaces.h"
+#include "import/sh3d_draft.h"
 
 namespace roomlight::importers::sh3d {
 namespace {

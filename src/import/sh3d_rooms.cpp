@@ -1,12 +1,11 @@
-#include "import/sh3d_rooms.h"
+#include "import/sh3d_plan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "import/sh3d_openings.h"
-#include "import/sh3d_surfaces.h"
-#include "import/sh3d_wall_outline.h"
+#include "import/sh3d_draft.h"
+#include "import/sh3d_wall_parts.h"
 
 namespace roomlight::importers::sh3d {
 namespace {

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <set>
 
-#include "import/sh3d_cameras.h"
 #include "import/sh3d_draft.h"
 #include "import/sh3d_environment.h"
 #include "import/sh3d_furniture.h"
-#include "import/sh3d_models.h"
 #include "import/sh3d_paints.h"
-#include "import/sh3d_polylines.h"
-#include "import/sh3d_rooms.h"
-#include "import/sh3d_walls.h"
+#include "import/sh3d_plan.h"
 
 namespace roomlight::importers::sh3d {
 namespace {
@@ -49,9 +45,10 @@ std::set<std::string> modelsOf(const Home& home) {
 
 }  // namespace
 
-Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests, const ImportOptions& options,
-                  Warnings& warnings, std::string& daylight) {
-  Scene scene;
+HomeScene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests,
+                      const ImportOptions& options, Warnings& warnings) {
+  HomeScene out;
+  Scene& scene = out.scene;
   Paints paints(archive, digests, imagesOf(home), scene, warnings);
   Draft draft{scene, warnings, Effort(options.maxTriangles)};
   addWalls(home, paints, draft);
@@ -61,8 +58,9 @@ Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests
   addFurniture(home, models, paints, options, draft);
   addPolylines(home, paints, draft);
   addCameras(home, scene, warnings);
-  daylight = addEnvironment(home, paints, options.camera, draft);
-  return scene;
+  out.daylight = addEnvironment(home, paints, options.camera, draft);
+  out.offLamps = std::move(draft.offLamps);
+  return out;
 }
 
 }  // namespace roomlight::importers::sh3d

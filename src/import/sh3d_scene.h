@@ -9,9 +9,15 @@
 
 namespace roomlight::importers::sh3d {
 
+struct HomeScene {
+  Scene scene;
+  std::string daylight;        // see Imported
+  std::vector<Lamp> offLamps;  // likewise
+};
+
 // Walls, rooms, furniture, lights, lines, cameras, daylight and ground. Models and pictures are entries of `archive`.
-// Throws Failure. `daylight`: see Imported.
-Scene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests, const ImportOptions& options,
-                  Warnings& warnings, std::string& daylight);
+// Throws Failure.
+HomeScene sceneOfHome(const Home& home, const Archive& archive, const ContentDigests& digests,
+                      const ImportOptions& options, Warnings& warnings);
 
 }  // namespace roomlight::importers::sh3d

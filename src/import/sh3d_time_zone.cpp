@@ -1,7 +1,7 @@
 // TZif (RFC 8536): header "TZif", version, 15 zero bytes, six big-endian counts (isut, isstd, leap, transitions, types,
 // abbreviations), then transition times, their types, and types of 6 bytes (offset, daylight saving, abbreviation).
 // From version 2 on the same follows once more with times of 8 bytes.
-#include "import/sh3d_time_zone.h"
+#include "import/sh3d_environment.h"
 
 #include <cctype>
 #include <span>

@@ -1,4 +1,4 @@
-#include "import/sh3d_wall_cut.h"
+#include "import/sh3d_wall_parts.h"
 
 #include <algorithm>
 #include <cmath>

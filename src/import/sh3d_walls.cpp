@@ -1,13 +1,10 @@
-#include "import/sh3d_walls.h"
+#include "import/sh3d_plan.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "import/sh3d_baseboards.h"
-#include "import/sh3d_openings.h"
-#include "import/sh3d_surfaces.h"
-#include "import/sh3d_wall_cut.h"
-#include "import/sh3d_wall_outline.h"
+#include "import/sh3d_draft.h"
+#include "import/sh3d_wall_parts.h"
 
 namespace roomlight::importers::sh3d {
 namespace {
@@ -257,6 +254,7 @@ struct Plan {
   const Home& home;
   std::vector<WallOutline> outlines, boards;
   std::vector<Opening> openings;
+  std::vector<std::string> labels;
 };
 
 void addWall(const Plan& plan, size_t i, Paints& paints, Draft& draft) {
@@ -278,7 +276,7 @@ void addWall(const Plan& plan, size_t i, Paints& paints, Draft& draft) {
   addRest(outline, h, cuts, paints.plain(top, "wall top"), plain, surfaces);
   for (const WallCut& cut : cuts) addReveals(cut, h, plain, surfaces), addNicheBack(cut, plain, surfaces);
   addBaseboards({w, outline, h, cuts}, plan.boards[i], paints, surfaces);
-  surfaces.finish(draft, w.id.empty() ? "wall" : w.id);
+  surfaces.finish(draft, w.id.empty() ? "wall" : w.id, plan.labels[i]);
   ++draft.object;
 }
 
@@ -287,7 +285,8 @@ void addWall(const Plan& plan, size_t i, Paints& paints, Draft& draft) {
 void addWalls(const Home& home, Paints& paints, Draft& draft) {
   const std::vector<WallOffsets> boards = baseboardOffsets(home);
   askForAll(home, boards, draft.effort);
-  const Plan plan{home, wallOutlines(home), wallOutlines(home, boards), openingsOf(home, draft.effort, draft.warnings)};
+  Plan plan{home, wallOutlines(home), wallOutlines(home, boards), openingsOf(home, draft.effort, draft.warnings), {}};
+  plan.labels = wallLabels(home, plan.outlines);
   for (size_t i = 0; i < home.walls.size(); ++i) {
     if (!isShown(home, home.walls[i].level)) continue;
     if (plan.outlines[i].left.empty()) {

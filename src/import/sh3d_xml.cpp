@@ -1,6 +1,6 @@
 // Home.xml after SweetHome3D.dtd: <home> holds environment, compass, cameras, levels, furniture (groups hold
  // furniture), walls and rooms.
-#include "import/sh3d_xml.h"
+#include "import/sh3d_home.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/utf8.h"
 #include "import/failure.h"
-#include "import/printable.h"
 #include "import/sh3d_element.h"
 
 namespace roomlight::importers::sh3d {
@@ -27,7 +27,7 @@ constexpr double kUsualTextureCm = 100, kWidestViewRad = 3;
 
 TextureUse readTexture(const Element& e) {
   TextureUse t;
-  t.image = e.text("image");
+  t.image = e.text("image"), t.name = printable(e.text("name"), kLongestName);
   // Textures that came with a model have no size of their own: -1.
   const double width = e.number("width", -1, kFarthestCm), height = e.number("height", -1, kFarthestCm);
   t.widthCm = width > 1e-3 ? width : kUsualTextureCm, t.heightCm = height > 1e-3 ? height : kUsualTextureCm;

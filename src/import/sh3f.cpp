@@ -184,8 +184,7 @@ Imported readSh3f(const std::filesystem::path& file, const ImportOptions& option
   if (catalogue->size() > kMaxCatalogueBytes)
     fail(kCatalogue, fmt::format("is larger than {} MiB", kMaxCatalogueBytes >> 20));
   const Home home = showroom(javaProperties(*catalogue), warnings);
-  std::string daylight;  // of a piece of furniture there is none
-  Scene scene = sceneOfHome(home, archive, ContentDigests(), options, warnings, daylight);
+  Scene scene = sceneOfHome(home, archive, ContentDigests(), options, warnings).scene;
   return importedScene(std::move(scene), warnings, StatedUnit::Certain);
 }
 

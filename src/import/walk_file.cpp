@@ -10,9 +10,10 @@
 #include <algorithm>
 #include <set>
 
-#include "import/json_file.h"
+#include "base/utf8.h"
 #include "import/lighting_values.h"
-#include "import/printable.h"
+#include "json/json_file.h"
+#include "scene/shown_names.h"
 
 namespace roomlight {
 namespace {
@@ -91,12 +92,16 @@ std::string lampName(const Instance& i) {
                                         : i.name;
 }
 
-// The objects one of whose instances bears the name, in order.
+// The objects one of whose instances bears the name, in order; where there is none, those that people call so.
 std::vector<int> objectsNamed(const Scene& scene, const std::string& name) {
   std::vector<int> objects;
   for (const Instance& i : scene.instances) {
     if (i.name == name && std::find(objects.begin(), objects.end(), i.object) == objects.end())
       objects.push_back(i.object);
+  }
+  if (!objects.empty()) return objects;
+  for (const auto& [object, shown] : shownObjectNames(scene)) {
+    if (shown == name) objects.push_back(object);
   }
   return objects;
 }
@@ -134,6 +139,19 @@ Walk::Thing readThing(const JsonPlace& j, double secondsS, const Scene& scene) {
   return thing;
 }
 
+// The name in the file of a lamp that people call so, where none has that name itself.
+std::string lampNamed(const Scene& scene, const std::string& name) {
+  const auto isNamed = [&](const Lamp& l) { return l.name == name || l.group == name; };
+  const auto isLit = [&](const Instance& i) { return glows(scene, i) && lampName(i) == name; };
+  if (std::any_of(scene.lamps.begin(), scene.lamps.end(), isNamed) ||
+      std::any_of(scene.instances.begin(), scene.instances.end(), isLit))
+    return name;
+  const std::vector<SceneLamp> lamps = findLamps(scene);
+  const std::vector<std::string> shown = shownLampNames(scene, lamps);
+  const auto found = std::find(shown.begin(), shown.end(), name);
+  return found == shown.end() ? name : lamps[static_cast<size_t>(found - shown.begin())].name;
+}
+
 Walk::Dimmed readDimmed(const JsonPlace& j, double secondsS, const Scene& scene) {
   Walk::Dimmed dimmed;
   if (!j.isObject({"name", "keys"})) return dimmed;
@@ -142,7 +160,7 @@ Walk::Dimmed readDimmed(const JsonPlace& j, double secondsS, const Scene& scene)
     return dimmed;
   }
   dimmed.track = readTrack(j["keys"], 1, secondsS, lampKey);
-  const std::string name = j["name"].text();
+  const std::string name = lampNamed(scene, j["name"].text());
   std::set<std::string> known;
   for (size_t i = 0; i < scene.lamps.size(); ++i) {
     known.insert(scene.lamps[i].name), known.insert(scene.lamps[i].group);

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "base/dither.h"
 #include "base/parallel.h"
+#include "base/tone_curves.h"
 #include "look/exposure.h"
-#include "look/glare.h"
-#include "look/local_exposure.h"
-#include "photometry/white_balance.h"
+#include "photometry/colour_temperature.h"
 
 namespace roomlight {
 namespace {

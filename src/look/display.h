@@ -1,11 +1,14 @@
 // How pictures in cd/m² are shown: exposure, white balance, tone curve (docs/reference/conventions.md, exposure and
- // display).
+// display).
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/image.h"
-#include "base/plane.h"
+#include "base/result.h"
 #include "base/tone.h"
 
 namespace roomlight {
@@ -56,5 +59,18 @@ float ev100Of(const Display& display, const Image& image);
 
 // The gains as a matrix.
 Affine matrixOf(const White& white);
+
+// Looks: settings of Display that go together, by name. "natural", "bright", "evening", "technical", each with a line
+// of explanation.
+const std::vector<std::pair<std::string, std::string>>& lookNames();
+
+Display usualDisplay();  // "natural"
+
+// The error names them.
+Result<Display> displayOfLook(const std::string& name);
+
+// Light that an eye or a lens scatters around what shines. `share` of every pixel's light goes to those around it, near
+// ones more: as much to rings of twice the radius as to those within. Light is kept but for what leaves the picture.
+void addGlare(Image& image, float share);
 
 }  // namespace roomlight

@@ -1,4 +1,4 @@
-#include "look/glare.h"
+#include "look/display.h"
 
 #include "base/parallel.h"
 #include "look/pyramid.h"

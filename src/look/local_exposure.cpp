@@ -1,4 +1,4 @@
-#include "look/local_exposure.h"
+#include "look/exposure.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,6 @@
 
 #include "base/parallel.h"
 #include "base/tone.h"
-#include "look/exposure.h"
 #include "look/pyramid.h"
 
 namespace roomlight {

@@ -1,4 +1,4 @@
-#include "look/look.h"
+#include "look/display.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/plane.h"
+#include "base/image.h"
 
 namespace roomlight {
 

@@ -1,4 +1,4 @@
-#include "measure/contour.h"
+#include "measure/drawings.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
-#include "measure/daylight.h"
+#include "measure/measure.h"
 
 #include <cmath>
 
-#include "photometry/cie_sky.h"
+#include "photometry/sky_luminance.h"
 
 namespace roomlight {
 namespace {

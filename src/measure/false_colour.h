@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "base/vec.h"
 
 namespace roomlight {
@@ -26,5 +27,14 @@ LightScale scaleOf(std::span<const float> values);
 
 // The steps by which EN 12464-1 grades illuminances, 1 - 1.5 - 2 - 3 - 5 - 7.5 - 10 and so on, from low to high.
 std::vector<double> roundSteps(double low, double high);
+
+// Pictures that show how bright things are instead of how they look. Luminance in all three channels, cd/m².
+Image luminanceOnly(const Image& image);
+// Scale for false colours, by scaleOf().
+LightScale luminanceScale(const Image& image);
+// Encoded for display: grey in proportion to luminance, white from `whiteCdM2` on.
+Image greyPicture(const Image& image, double whiteCdM2);
+// Encoded for display: colours of the scale, and to the right of the picture what they mean.
+Image falseColourPicture(const Image& image, const LightScale& scale);
 
 }  // namespace roomlight

@@ -1,4 +1,4 @@
-#include "measure/floor_plan.h"
+#include "measure/drawings.h"
 
 #include <cmath>
 #include <map>

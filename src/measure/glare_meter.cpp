@@ -1,4 +1,4 @@
-#include "measure/glare_meter.h"
+#include "measure/glare.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include "base/sampler.h"
 #include "base/sampling.h"
 #include "trace/lamp_light.h"
-#include "trace/shadow_ray.h"
 #include "trace/spherical_triangle.h"
 #include "trace/surface_point.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {

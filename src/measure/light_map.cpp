@@ -1,12 +1,11 @@
-#include "measure/light_map.h"
+#include "measure/drawings.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "base/html.h"
-#include "measure/contour.h"
-#include "measure/floor_plan.h"
+#include "scene/shown_names.h"
 
 namespace roomlight {
 namespace {
@@ -215,14 +214,16 @@ class Drawing {
   std::string lamps() const {
     if (wall_) return {};
     std::string s;
-    for (const Lamp& l : scene_.lamps) {
-      if (l.kind != LampKind::Area) s += lamp(l.position, l.name);
-    }
-    for (const Instance& i : scene_.instances) {
-      if (isBlack(scene_.materials[static_cast<size_t>(scene_.meshes[static_cast<size_t>(i.mesh)].material)].emission))
-        continue;
-      const Bounds3 b = instanceBounds(scene_, i);
-      if (!b.empty() && maxComponent(b.size()) < kLargestLampM) s += lamp(b.centre(), i.name);
+    const std::vector<SceneLamp> all = findLamps(scene_);
+    const std::vector<std::string> shown = shownLampNames(scene_, all);
+    for (size_t k = 0; k < all.size(); ++k) {
+      for (const size_t i : all[k].lamps) {
+        if (scene_.lamps[i].kind != LampKind::Area) s += lamp(scene_.lamps[i].position, shown[k]);
+      }
+      for (const uint32_t i : all[k].instances) {
+        const Bounds3 b = instanceBounds(scene_, scene_.instances[i]);
+        if (!b.empty() && maxComponent(b.size()) < kLargestLampM) s += lamp(b.centre(), shown[k]);
+      }
     }
     return s;
   }

@@ -6,8 +6,8 @@
 
 #include "photometry/colour_temperature.h"
 #include "photometry/spot.h"
-#include "photometry/white_balance.h"
 #include "scene/scene_lamps.h"
+#include "scene/shown_names.h"
 #include "trace/lamp_light.h"
 #include "trace/lights.h"
 
@@ -53,11 +53,13 @@ std::vector<Luminaire> luminairesOf(const Scene& scene) {
     emitted[lights.emitterInstance(i)] += emission * (lights.emitterFluxLm(i) / std::max(luminance(emission), 1e-30f));
   }
   std::vector<Luminaire> list;
-  for (const SceneLamp& found : findLamps(scene)) {
+  const std::vector<SceneLamp> lamps = findLamps(scene);
+  const std::vector<std::string> shown = shownLampNames(scene, lamps);
+  for (size_t k = 0; k < lamps.size(); ++k) {
+    const SceneLamp& found = lamps[k];
     Luminaire l;
-    l.name = found.name.ends_with(kLightSuffix)
-                 ? found.name.substr(0, found.name.size() - std::string(kLightSuffix).size())
-                 : found.name;
+    l.name = shown[k].ends_with(kLightSuffix) ? shown[k].substr(0, shown[k].size() - std::string(kLightSuffix).size())
+                                              : shown[k];
     Vec3 flux;
     bool area = false;
     for (const size_t i : found.lamps) {

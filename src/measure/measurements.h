@@ -1,6 +1,7 @@
 // What was measured, as plain data: reports are made from it.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -118,5 +119,28 @@ std::vector<std::string> notJudged(const Measurements& m);
 std::string threeDigits(double value);
 
 std::vector<Verdict> verdictsOf(const Measurements& m);
+
+// What a photographer's light meter shows. EV at ISO 100 of an incident meter with a flat receptor (C = 250, ISO 2720):
+// 300 lx is 6.91.
+inline double incidentEv100(double illuminanceLux) { return std::log2(illuminanceLux / 2.5); }
+
+// EV at ISO 100 of a reflected-light meter (K = 12.5, ISO 2720): 17.19 cd/m² is 7.10.
+inline double reflectedEv100(double luminanceCdM2) { return std::log2(8 * luminanceCdM2); }
+
+constexpr const char* kAssumedUse = "living";  // of rooms of which nothing is known
+
+// A room beside what rooms of its use should be lit to.
+struct RoomTarget {
+  std::string room, use;
+  std::string
+      origin;  // of the use: "stated", "name" (of the room), or "assumed"; "target": the illuminance itself was stated
+  std::string source;  // of the illuminance: a standard, or the file that says so
+  double wantedLux = 0;
+  std::optional<double> foundLux;  // mean on the work plane, times the maintenance factor; none: not measured
+  bool met() const { return foundLux && *foundLux >= wantedLux; }
+};
+
+// One for each room indoors, in their order.
+std::vector<RoomTarget> roomTargets(const Measurements& m);
 
 }  // namespace roomlight

@@ -7,7 +7,7 @@
 //     "spots": [ { "name", "position", "direction" | "lookAt", "angle" } ],
 //     "glare": [ { "name", "position", "direction" | "lookAt", "ugr" } ] }
 //   targets: "target": "150 lx", "uniformity": 0.6, "ugr": 19, "powerDensity": 6
-#include "measure/meter_file.h"
+#include "measure/meter_plan.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +15,8 @@
 #include <cmath>
 #include <set>
 
-#include "import/json_file.h"
-#include "import/json_reader.h"
+#include "json/json_file.h"
+#include "json/json_reader.h"
 #include "scene/outline.h"
 
 namespace roomlight {
@@ -216,6 +216,13 @@ Result<MeterPlan> readMeterFile(const std::filesystem::path& file, std::span<con
     if (plan.empty() && !ofAll) j.fail("asks for nothing; give at least one of rooms, grids, points, spots, glare");
   }
   if (!error.empty()) return Error{fmt::format("{}: {}", file.string(), error)};
+  return plan;
+}
+
+RoomPlan planRoom(const Room& room) {
+  RoomPlan plan;
+  plan.room = room;
+  if (const RoomUse* use = findRoomUse(room.use)) plan.targets = use->targets, plan.workPlaneM = use->workPlaneM;
   return plan;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "measure/areas.h"
+#include "measure/lattice.h"
 
 namespace roomlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "measure/overview_plan.h"
+#include "measure/drawings.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,7 @@
 
 #include "base/html.h"
 #include "engine/views.h"
-#include "measure/floor_plan.h"
-#include "measure/room_targets.h"
+#include "measure/measurements.h"
 
 namespace roomlight {
 namespace {

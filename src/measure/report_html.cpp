@@ -5,9 +5,8 @@
 #include <filesystem>
 
 #include "base/html.h"
-#include "measure/exposure.h"
-#include "measure/light_map.h"
-#include "measure/overview_plan.h"
+#include "measure/drawings.h"
+#include "measure/measurements.h"
 #include "measure/report.h"
 #include "measure/report_sections.h"
 

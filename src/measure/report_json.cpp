@@ -1,9 +1,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "measure/exposure.h"
+#include "measure/measurements.h"
 #include "measure/report.h"
-#include "measure/room_targets.h"
 
 namespace roomlight {
 namespace {

@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "base/html.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "engine/technique_names.h"
-#include "measure/overview_plan.h"
-#include "measure/room_targets.h"
+#include "measure/drawings.h"
+#include "measure/measurements.h"
 
 namespace roomlight::report {
 namespace {

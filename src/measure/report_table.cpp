@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "measure/exposure.h"
+#include "measure/measurements.h"
 #include "measure/report.h"
 
 namespace roomlight {

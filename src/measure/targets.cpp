@@ -1,4 +1,4 @@
-#include "measure/targets.h"
+#include "measure/meter_plan.h"
 
 #include <string_view>
 

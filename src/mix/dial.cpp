@@ -1,4 +1,4 @@
-#include "mix/dial.h"
+#include "mix/layer_info.h"
 
 #include <fmt/core.h>
 

@@ -1,11 +1,11 @@
-#include "mix/layer_names.h"
+#include "mix/layer_info.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "base/fold_case.h"
+#include "base/words.h"
 
 namespace roomlight {
 namespace {

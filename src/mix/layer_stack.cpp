@@ -1,4 +1,4 @@
-#include "mix/layer_stack.h"
+#include "mix/mixer.h"
 
 #include <bit>
 #include <cassert>

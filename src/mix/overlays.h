@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "mix/mixer.h"
-#include "mix/switches.h"
 
 namespace roomlight {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/areas.h"
+#include "measure/lattice.h"
 #include "scene/surface.h"
 #include "scene/outline.h"
 

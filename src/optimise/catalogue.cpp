@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/utf8.h"
 #include "import/photometric_file.h"
-#include "import/printable.h"
 #include "photometry/colour_temperature.h"
 
 namespace roomlight::optimise {

@@ -6,8 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "optimise/polish.h"
-#include "optimise/repair.h"
+#include "optimise/improve.h"
 
 namespace roomlight::optimise {
 namespace {

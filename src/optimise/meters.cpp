@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "measure/areas.h"
+#include "measure/lattice.h"
 #include "scene/surface.h"
 #include "trace/surface_point.h"
 

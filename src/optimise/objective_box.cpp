@@ -1,8 +1,8 @@
-#include "optimise/objective_box.h"
+#include "optimise/evaluate.h"
 
 #include <algorithm>
 
-#include "search/hypervolume.h"
+#include "search/front.h"
 
 namespace roomlight::optimise {
 namespace {

@@ -1,4 +1,4 @@
-#include "optimise/polish.h"
+#include "optimise/improve.h"
 
 #include <algorithm>
 

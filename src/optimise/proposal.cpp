@@ -7,11 +7,11 @@
 #include <cmath>
 #include <fstream>
 
-#include "base/clock.h"
-#include "look/look.h"
-#include "engine/light_colour.h"
+#include "base/progress.h"
+#include "look/display.h"
+#include "engine/sights.h"
 #include "engine/lit_scene.h"
-#include "measure/glare_meter.h"
+#include "measure/glare.h"
 
 namespace roomlight::optimise {
 namespace {

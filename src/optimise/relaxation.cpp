@@ -1,4 +1,4 @@
-#include "optimise/relaxation.h"
+#include "optimise/improve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,7 @@
 
 #include "base/parallel.h"
 #include "optimise/dimming_program.h"
-#include "optimise/objective_box.h"
-#include "optimise/polish.h"
-#include "optimise/repair.h"
+#include "optimise/evaluate.h"
 
 namespace roomlight::optimise {
 namespace {

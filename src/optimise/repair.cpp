@@ -1,4 +1,4 @@
-#include "optimise/repair.h"
+#include "optimise/improve.h"
 
 #include <algorithm>
 

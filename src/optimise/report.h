@@ -1,7 +1,7 @@
 // What a run found, for people and programs.
 #pragma once
 
-#include "optimise/objective_box.h"
+#include "optimise/evaluate.h"
 #include "optimise/proposal.h"
 #include "search/methods.h"
 
@@ -38,7 +38,7 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> facts;
   double responseSeconds = 0, baseSeconds = 0;  // 0: known from before
   double designsASecond = 0;                    // evaluated
-  double lookUpsASecond = 0;  // of a design's neighbours on the front, as a surrogate would (timing.h)
+  double lookUpsASecond = 0;  // of a design's neighbours on the front, as a surrogate would (evaluate.h)
 };
 
 // One page on its own; `home` is drawn.

@@ -6,8 +6,7 @@
 #include "base/html.h"
 #include "base/image_io.h"
 #include "base/tone.h"
-#include "measure/floor_plan.h"
-#include "measure/light_map.h"
+#include "measure/drawings.h"
 #include "optimise/report.h"
 
 namespace roomlight::optimise {

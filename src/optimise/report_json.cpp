@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "optimise/polish.h"
+#include "optimise/improve.h"
 #include "optimise/report.h"
 
 namespace roomlight::optimise {

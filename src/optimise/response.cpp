@@ -6,11 +6,11 @@
 #include <cmath>
 #include <fstream>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "engine/lit_scene.h"
 #include "import/lighting_file.h"
-#include "measure/glare_meter.h"
-#include "engine/technique_names.h"
+#include "measure/glare.h"
+#include "engine/settings.h"
 
 namespace roomlight::optimise {
 namespace {

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "base/write_file.h"
 #include "engine/settings.h"
-#include "engine/version.h"
 #include "home/open_home.h"
-#include "optimise/relaxation.h"
+#include "optimise/evaluate.h"
+#include "optimise/improve.h"
 #include "optimise/store.h"
-#include "optimise/timing.h"
 #include "scene/find_camera.h"
 
 namespace roomlight::optimise {

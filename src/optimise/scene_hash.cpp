@@ -1,4 +1,4 @@
-#include "optimise/scene_hash.h"
+#include "optimise/store.h"
 
 #include <type_traits>
 
@@ -83,10 +83,10 @@ class SceneHash {
     all(panes, ior, internalTransmittance);
   }
   void add(const Material& material) {
-    const auto& [name, baseColor, alpha, baseColorTexture, metallic, roughness, metallicRoughnessTexture, normalTexture,
-                 normalScale, emission, emissionTexture, alphaMode, alphaCutoff, doubleSided, transmission,
-                 transmissionTexture, ior, specular, specularColor, attenuationColor, attenuationDistanceM, thicknessM,
-                 glazing, glazingReflectance] = material;
+    const auto& [name, label, baseColor, alpha, baseColorTexture, metallic, roughness, metallicRoughnessTexture,
+                 normalTexture, normalScale, emission, emissionTexture, alphaMode, alphaCutoff, doubleSided,
+                 transmission, transmissionTexture, ior, specular, specularColor, attenuationColor,
+                 attenuationDistanceM, thicknessM, glazing, glazingReflectance] = material;
     all(name, baseColor, alpha, baseColorTexture, metallic, roughness, metallicRoughnessTexture, normalTexture,
         normalScale, emission, emissionTexture, alphaMode, alphaCutoff, doubleSided, transmission, transmissionTexture,
         ior, specular, specularColor, attenuationColor, attenuationDistanceM, thicknessM, glazing, glazingReflectance);
@@ -100,7 +100,7 @@ class SceneHash {
     all(hinge, axis, turnRad, slideM, atRest);
   }
   void add(const Instance& instance) {
-    const auto& [name, mesh, object, worldFromObject, leaf] = instance;
+    const auto& [name, mesh, object, worldFromObject, leaf, label] = instance;  // nothing depends on a label
     all(name, mesh, object, worldFromObject, leaf);
   }
   void add(const PhotometricWeb& web) {

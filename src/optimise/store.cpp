@@ -10,8 +10,7 @@
 
 #include "base/hash.h"
 #include "base/write_file.h"
-#include "optimise/scene_hash.h"
-#include "search/checkpoint.h"
+#include "search/search.h"
 
 namespace roomlight::optimise {
 namespace {

@@ -1,10 +1,12 @@
 // What a run keeps in its folder, so that it can go on: the response and the state of the search, each with a hash of
- // all it depends on.
+// all it depends on.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "optimise/response.h"
+#include "scene/scene.h"
 #include "search/search.h"
 
 namespace roomlight::optimise {
@@ -29,5 +31,9 @@ Result<std::optional<Response>> loadResponse(const std::filesystem::path& file, 
 Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state);
 Result<std::optional<search::State>> loadSearch(const std::filesystem::path& file, const std::string& hash,
                                                 const search::Problem& problem);
+
+// A hash of all that a scene holds. 64 bits in hexadecimal. Every member of every struct counts, those of lamps'
+// photometric webs too.
+std::string hashOfScene(const Scene& scene);
 
 }  // namespace roomlight::optimise

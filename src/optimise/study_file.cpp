@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "import/printable.h"
+#include "base/utf8.h"
 #include "scene/outline.h"
 
 namespace roomlight::optimise {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "measure/targets.h"
+#include "measure/meter_plan.h"
 #include "optimise/catalogue.h"
 #include "scene/scene.h"
 

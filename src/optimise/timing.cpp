@@ -1,12 +1,11 @@
-#include "optimise/timing.h"
+#include "optimise/evaluate.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "base/clock.h"
 #include "base/parallel.h"
-#include "optimise/evaluate.h"
+#include "base/progress.h"
 
 namespace roomlight::optimise {
 namespace {

@@ -1,4 +1,4 @@
-#include "optimise/toml_depth.h"
+#include "optimise/toml_tree.h"
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <toml++/toml.h>
 
-#include "optimise/toml_depth.h"
 #include "optimise/toml_tree.h"
 
 namespace roomlight::optimise {

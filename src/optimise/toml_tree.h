@@ -1,12 +1,14 @@
 // TOML as plain data that knows its lines, and strict reading of it: every key must be known, every value of its type
- // and in its range.
+// and in its range.
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -81,5 +83,10 @@ class TomlPlace {
   std::string path_;
   TomlError* error_;
 };
+
+// How deep TOML is nested, found before it is parsed: parsers and trees go down by recursion. The line, from 1, where
+// more than `most` tables and lists lie inside each other, made by headers, dotted keys or brackets; 0: nowhere. Of
+// text that is no TOML it follows as much as could be.
+int lineTooDeep(std::string_view text, size_t most);
 
 }  // namespace roomlight::optimise

@@ -1,4 +1,4 @@
-// Colours of thermal light.
+// Colours of light by its temperature: of black bodies, and of what counts as white.
 #pragma once
 
 #include "base/vec.h"
@@ -14,5 +14,21 @@ Vec3 blackBodyColour(double kelvin);
 
 // CIE 1931 x, y of the same.
 Vec2 blackBodyChromaticity(double kelvin);
+
+// CIE 1931 x, y of white light of a temperature: black bodies below 4000 K, CIE daylight above 5000 K, in between a
+// mixture. Within kLowestWhiteK..kHighestWhiteK.
+constexpr double kLowestWhiteK = 1667, kHighestWhiteK = 25000;
+Vec2 whiteChromaticity(double kelvin);
+
+// The temperature whose white is nearest to a linear Rec.709 colour (CIE 1960 u, v). What is green or magenta beyond
+// it, and what is warmer or colder than the range, is not white and is left out. The colour is not black.
+double nearestWhiteK(Vec3 rgb);
+
+// How far the colour is from the white of a temperature: in CIE 1960 u, v. Beyond 0.05 no one speaks of white (CIE 15
+// for correlated colour temperatures).
+double distanceFromWhite(Vec3 rgb, double kelvin);
+
+// Linear Rec.709 of that white, of luminance 1. Below 1900 K its blue is negative.
+Vec3 whiteColour(double kelvin);
 
 }  // namespace roomlight

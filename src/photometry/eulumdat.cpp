@@ -5,13 +5,12 @@
 // of lamp sets; of each set: number of lamps (negative: absolute), kind, lumens of all, colour, rendering, watts; ten
 // direct ratios; all C angles, all gammas, and the intensities in cd per 1000 lm of lamps, plane by plane, of the
 // planes that symmetry leaves.
-#include "photometry/eulumdat.h"
+#include "photometry/web_files.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "photometry/stated_flux.h"
 #include "photometry/web_planes.h"
 
 namespace roomlight {

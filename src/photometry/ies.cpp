@@ -4,14 +4,13 @@
 // feet, 2 metres, width, length, height of the opening; ballast factor, ballast-lamp factor (until 1995), watts;
 // vertical angles, horizontal angles, and candela for every vertical angle of the first horizontal one, of the second,
 // and so on.
-#include "photometry/ies.h"
+#include "photometry/web_files.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "photometry/stated_flux.h"
 #include "photometry/web_planes.h"
 
 namespace roomlight {

@@ -1,4 +1,4 @@
-#include "photometry/perez_sky.h"
+#include "photometry/sky_luminance.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,5 +1,5 @@
-// From what a photometric file writes down to a whole web: planes that symmetry leaves out, and other systems than C,
- // gamma.
+// From what a photometric file writes down to a whole web: planes that symmetry leaves out, other systems than C,
+// gamma, and the flux that the file states.
 #pragma once
 
 #include <vector>
@@ -43,5 +43,9 @@ enum class System {
 
 // Planes from -90 to 90, or from 0 where both sides are alike; resampled into C, gamma.
 void resampleWeb(const Planes& planes, System system, PhotometricWeb& web);
+
+// A web's own flux against what its file states. More than 2 % off is an oddity with both numbers. `whose`: the flux is
+// that of "its lamps" or "the luminaire". A web without light is damage.
+void checkFlux(const PhotometricWeb& web, const std::string& whose, Oddities& odd);
 
 }  // namespace roomlight::photometric

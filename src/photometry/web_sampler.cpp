@@ -1,4 +1,4 @@
-#include "photometry/web_sampler.h"
+#include "photometry/photometric_web.h"
 
 #include <algorithm>
 

@@ -1,9 +1,7 @@
-#include "photometry/white_balance.h"
+#include "photometry/colour_temperature.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "photometry/colour_temperature.h"
 
 namespace roomlight {
 namespace {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "radiance/links.h"
+#include "radiance/slot_paths.h"
 
 namespace roomlight {
 
@@ -37,5 +38,18 @@ Bounces bounce(const Voxels& voxels, const Links& links, std::span<const Vec3> d
 
 // Means over slots and their kin on flat sheets: the noise of few links falls, and no wall is crossed.
 void smooth(const Links& links, std::vector<Vec3>& perSlot);
+
+// Bounces of several lights at once: links are read once for all of them.
+constexpr size_t kLayersAtOnce = 8;  // lights
+
+// As bounce() for each of at most kLayersAtOnce lights from darkness on, with as many steps as `like` took
+// for their sum. direct[k] and indirect[k]: lx per slot. Half floats in between: within about a thousandth.
+void bounceLayers(const Voxels& voxels, const Links& links, std::span<const std::vector<Vec3>> direct,
+                  std::span<std::vector<Vec3>> indirect, const Bounces& like, const Progress& progress);
+
+// Bounces as the published study has them: slots gather from the directional pyramid by cones, which is built anew for
+// each bounce. As bounce(), by cones in place of links, which is far slower.
+Bounces bounceByCones(const Voxels& voxels, const SlotPaths& paths, std::span<const Vec3> direct,
+                      std::vector<Vec3>& indirect, const RadianceSettings& settings, const Progress& progress);
 
 }  // namespace roomlight

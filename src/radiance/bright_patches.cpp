@@ -8,7 +8,6 @@
 
 #include "base/parallel.h"
 #include "base/sampling.h"
-#include "base/weighted_choice.h"
 
 namespace roomlight {
 namespace {

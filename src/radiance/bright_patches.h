@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "radiance/brick_side.h"
 #include "radiance/lamp_glow.h"
+#include "radiance/slot_lookup.h"
 #include "trace/ray_scene.h"
 
 namespace roomlight {

@@ -1,8 +1,7 @@
-#include "radiance/cone_bounces.h"
+#include "radiance/bounces.h"
 
 #include "base/parallel.h"
 #include "base/sampling.h"
-#include "radiance/cone_march.h"
 #include "radiance/pyramid.h"
 
 namespace roomlight {

@@ -1,9 +1,9 @@
-#include "radiance/cone_march.h"
+#include "radiance/pyramid.h"
 
 #include <bit>
 #include <cmath>
 
-#include "base/half.h"
+#include "base/simd.h"
 
 namespace roomlight {
 namespace {

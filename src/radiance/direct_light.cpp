@@ -3,10 +3,10 @@
 #include <array>
 
 #include "base/sampling.h"
-#include "radiance/attenuation.h"
+#include "radiance/radiance_field.h"
 #include "radiance/sky_guide.h"
 #include "trace/emitter_view.h"
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {

@@ -4,9 +4,9 @@
 #include <atomic>
 #include <span>
 
-#include "radiance/surroundings.h"
+#include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
-#include "radiance/sky_directions.h"
+#include "radiance/sky_guide.h"
 #include "radiance/slot_paths.h"
 
 namespace roomlight {

@@ -1,4 +1,4 @@
-#include "radiance/emissive_mesh.h"
+#include "radiance/light_sources.h"
 
 namespace roomlight {
 

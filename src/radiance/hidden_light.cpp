@@ -1,11 +1,10 @@
-#include "radiance/hidden_light.h"
+#include "radiance/first_bounce.h"
 
 #include <atomic>
 
 #include "base/parallel.h"
-#include "radiance/slot_samples.h"
-#include "radiance/surroundings.h"
-#include "trace/shadow_ray.h"
+#include "radiance/near_lights.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {

@@ -1,9 +1,9 @@
-#include "radiance/layer_bounces.h"
+#include "radiance/bounces.h"
 
 #include <cassert>
 
-#include "base/half.h"
 #include "base/parallel.h"
+#include "base/simd.h"
 
 namespace roomlight {
 namespace {

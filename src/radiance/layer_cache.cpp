@@ -1,9 +1,9 @@
 // LightCache::splitIntoLayers: whose the light on slots is.
 #include <utility>
 
-#include "base/half.h"
 #include "base/parallel.h"
-#include "radiance/layer_bounces.h"
+#include "base/simd.h"
+#include "radiance/bounces.h"
 #include "radiance/light_cache.h"
 
 namespace roomlight {
@@ -18,17 +18,17 @@ void add(std::vector<Vec3>& to, const std::vector<Vec3>& what) {
 }  // namespace
 
 // Light of one layer as solve() has all light: what bounces, and of that what is near small sources.
-LightCache::LayerDirect LightCache::directOf(const Sources& from, const LightLayers& layers, int32_t layer) {
-  const Voxels& voxels = from.voxels;
+LightCache::LayerDirect LightCache::directOf(const Home& home, const LightLayers& layers, int32_t layer) {
+  const Voxels& voxels = home.voxels;
   LayerDirect out;
   out.all.assign(voxels.slots.size(), {});
-  if (layer == layers.sun) suns_.addTo(voxels, Vec3(1), out.all);
-  if (layer == layers.sky) sky_.addTo(voxels, Vec3(1), out.all);
+  if (layer == layers.sun) daylight_.suns().addTo(voxels, Vec3(1), out.all);
+  if (layer == layers.sky) daylight_.sky().addTo(voxels, Vec3(1), out.all);
   for (size_t i = 0; i < layers.ofLamp.size(); ++i) {
-    if (layers.ofLamp[i] == layer) lamps_[i].direct.addTo(voxels, lamps_[i].lamp.intensityCd, out.all);
+    if (layers.ofLamp[i] == layer) lamps_.each()[i].addTo(voxels, out.all);
   }
   for (size_t i = 0; i < layers.ofEmitter.size(); ++i) {
-    if (layers.ofEmitter[i] == layer) addEmitter(from, i, out.all);
+    if (layers.ofEmitter[i] == layer) emitters_.addEmitter(tracing(home), i, out.all);
   }
   std::vector<Vec3> far;
   for (const LitParticles& p : litParticles()) {
@@ -57,9 +57,9 @@ LightCache::LayerDirect LightCache::directOf(const Sources& from, const LightLay
   return out;
 }
 
-void LightCache::splitIntoLayers(const Sources& from, const Bounces& like) {
+void LightCache::splitIntoLayers(const Home& home, const Bounces& like) {
   const LightLayers& layers = *settings_.layers;
-  const Voxels& voxels = from.voxels;
+  const Voxels& voxels = home.voxels;
   SlotLayers& out = field_.layers;
   out.lights = settings_.layers;
   out.stride = layerStride(layers.size());
@@ -67,22 +67,22 @@ void LightCache::splitIntoLayers(const Sources& from, const Bounces& like) {
   out.reach.assign(voxels.bricks.size(), 0);
   if (!field_.glowShare.empty()) out.glowOf.assign(voxels.slots.size(), -1);
   std::vector<float> mostGlow(out.glowOf.size(), 0);
-  for (size_t begin = 0; begin < layers.size() && !from.progress.stop(); begin += kLayersAtOnce) {
+  for (size_t begin = 0; begin < layers.size() && !home.progress.stop(); begin += kLayersAtOnce) {
     const size_t count = std::min(kLayersAtOnce, layers.size() - begin);
     std::vector<std::vector<Vec3>> direct, near, held, indirect(count);
     for (size_t k = 0; k < count; ++k) {
       const size_t l = begin + k;
-      LayerDirect light = directOf(from, layers, static_cast<int32_t>(l));
+      LayerDirect light = directOf(home, layers, static_cast<int32_t>(l));
       for (size_t b = 0; b < voxels.bricks.size(); ++b) out.reach[b] |= static_cast<uint64_t>(light.straight[b]) << l;
       direct.push_back(std::move(light.all)), near.push_back(std::move(light.near)),
           held.push_back(std::move(light.held));
     }
-    bounceLayers(voxels, links_, direct, indirect, like, from.progress);
+    bounceLayers(voxels, links_, direct, indirect, like, home.progress);
     for (size_t k = 0; k < count; ++k) {
       smooth(links_, indirect[k]);
       keepShares(begin + k, direct[k], indirect[k], near[k], held[k], mostGlow);
     }
-    from.progress.at(0.9f + 0.1f * static_cast<float>(begin + count) / static_cast<float>(layers.size()));
+    home.progress.at(0.9f + 0.1f * static_cast<float>(begin + count) / static_cast<float>(layers.size()));
   }
   // So that those of a slot make one.
   parallelFor(voxels.slots.size(), 4096, [&](size_t s) {

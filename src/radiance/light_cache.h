@@ -3,19 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "radiance/bounces.h"
-#include "radiance/slot_remap.h"
-#include "radiance/emissive_mesh.h"
+#include "radiance/light_sources.h"
 #include "radiance/links.h"
-#include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
-#include "radiance/sky_directions.h"
-#include "radiance/slot_light.h"
 #include "radiance/slot_paths.h"
+#include "radiance/slot_remap.h"
 
 namespace roomlight {
 
@@ -54,101 +50,53 @@ class LightCache {
   // these bring is not in it.
   std::vector<Vec3> sharpLux(const Voxels& voxels, std::span<const uint32_t> emissive = {}) const;
   // Whether the light of each emissive mesh is kept.
-  bool emittersApart(const Lights& lights) const;
+  bool emittersApart(const Lights& lights) const { return EmitterSources::apart(settings_, lights); }
   // Whether that of each lamp is. Where scenes stay as they are many are lit together.
-  bool lampsApart(const Lights& lights) const;
+  bool lampsApart(const Lights& lights) const { return LampSources::apart(settings_, lights); }
   RadianceField take() { return std::move(field_); }
   size_t bytes() const;  // beside the field
 
  private:
-  // For 1 cd. Dark where it has been switched off: it may come back.
-  struct LampLight {
-    Lamp lamp;
-    SlotLight direct;
-    ParticleLight particles;
-    bool needsAllParticles() const { return particles.few && !isBlack(lamp.intensityCd); }
-  };
-  // As it was when it was traced. Dark where it has been switched off: it may come back.
-  struct EmitterLight {
-    EmissiveMesh mesh;
-    Vec3 scale;  // that makes it what shines now
-    int32_t index;  // of all emissive meshes; -1: dark
-    SlotLight direct;
-    ParticleLight particles;
-    bool needsAllParticles() const { return particles.few && index >= 0; }
-  };
-  struct LitParticles {
-    const ParticleLight* particles;
-    Vec3 scale;  // that makes them its light
-    int32_t lamp, emitter;  // whose; -1: none
-  };
   struct LayerDirect {
     std::vector<Vec3> all, near;  // lx per slot, as in direct_; near: empty where there is none
     std::vector<Vec3> held;  // of the sun, as sunHeld_; else empty
     std::vector<uint8_t> straight;  // per brick: whether any comes straight
   };
-  // Traces a light in a brick: all of it, or what boxes have to do with (see DirectLight).
-  using BrickTracer = std::function<void(size_t brick, std::span<const Bounds3> near, std::span<Vec3> lux)>;
-  struct Sources {
+  struct Home {  // as it is now
     const RayScene& rays;
     const Lights& lights;
     const Voxels& voxels;
     const Progress& progress;
   };
-  SlotSampling slots(const Sources& from) const { return {from.voxels, paths_, settings_.seed}; }
-  void traceAllLinks(const Sources& from);
-  void updateLinks(const Sources& from, const SlotPaths& paths, const SlotChange& change);
-  SlotLight updated(const Sources& from, const SlotLight& before, const SlotChange& change,
-                    const BrickTracer& trace) const;
-  void updateFixedLights(const Sources& from, const SlotChange& change);
-  void updateEmitters(const Sources& from, const SlotChange& change);
-  void updateParticles(const Sources& from, const SlotChange& change);
-  void updateParticlesOf(const Sources& from, const SlotChange& change, const ParticleSource& source,
-                         ParticleLight& particles);
-  void updateLamps(const Sources& from, const SlotChange& change);
-  void findGuide(const Sources& from);
-  void traceDaylight(const Sources& from);
-  void learnLights(const Sources& from);
-  static size_t smallEmitters(const Sources& from);
-  void traceEmitterSum(const Sources& from);
-  void addEmitter(const Sources& from, size_t index, std::vector<Vec3>& lux);
-  EmitterLight tracedEmitter(const Sources& from, size_t index, size_t small);
-  static SlotLight lightOfAll(const Sources& from,
-                              const std::function<void(size_t brick, std::vector<Vec3>& lux)>& ofBrick);
-  void traceLamp(const Sources& from, LampLight& light);
-  void traceLampSum(const Sources& from);
-  ParticleSource particlesOfLamp(const Sources& from, const Lamp& lamp) const;
-  ParticleLight particlesFrom(const Sources& from, ParticleSource source);
-  void traceAllParticles(const Sources& from);
-  bool hasFewParticles() const;
+  SlotSampling slots(const Home& home) const { return {home.voxels, paths_, settings_.seed}; }
+  LightTracing tracing(const Home& home) {
+    return {home.rays, home.lights, home.voxels, home.progress, paths_, settings_, field_, fewParticles_, field_.rays};
+  }
+  void traceAllLinks(const Home& home);
+  void updateLinks(const Home& home, const SlotPaths& paths, const SlotChange& change);
+  void findGuide(const Home& home);
+  void learnLights(const Home& home);
+  void matchSources(const Home& home);
   std::vector<LitParticles> litParticles() const;
-  void forgetLampsBut(const Lights& lights);
-  void matchEmitters(const Sources& from);
-  void matchLamps(const Sources& from);
-  void solve(const Sources& from, int mostBounces);
-  void holdSun(const Sources& from);
-  std::vector<Vec3> sumDirect(const Sources& from);
-  void bounceOn(const Sources& from, int mostBounces, std::vector<Vec3>& near);
+  void solve(const Home& home, int mostBounces);
+  void holdSun(const Home& home);
+  std::vector<Vec3> sumDirect(const Home& home);
+  void bounceOn(const Home& home, int mostBounces, std::vector<Vec3>& near);
   int bouncesOfUpdate();
-  void splitIntoLayers(const Sources& from, const Bounces& like);
+  void splitIntoLayers(const Home& home, const Bounces& like);
   void keepShares(size_t layer, const std::vector<Vec3>& direct, const std::vector<Vec3>& indirect,
                   const std::vector<Vec3>& near, const std::vector<Vec3>& held, std::vector<float>& mostGlow);
-  LayerDirect directOf(const Sources& from, const LightLayers& layers, int32_t layer);
-  void fillField(const Sources& from, std::vector<Vec3>& near);
+  LayerDirect directOf(const Home& home, const LightLayers& layers, int32_t layer);
+  void fillField(const Home& home, std::vector<Vec3>& near);
   std::vector<GlowPoint> glowPoints(const std::vector<Vec3>& glow) const;
 
   RadianceSettings settings_;
   SlotPaths paths_;
   Links links_;
   std::vector<BrickMark> marks_;
-  SlotLight suns_, sky_;
-  SlotLight lampsTogether_;  // all, straight, where there are too many to keep them apart
-  ParticleLight lampParticles_;  // and what their particles leave
-  SlotLight emittersTogether_;  // all, where there are too many to keep them apart
-  std::vector<EmissiveMesh> knownSum_;  // as they were then
-  SkyDirections skyWays_;  // empty: no sky
-  std::vector<EmitterLight> emitters_;
-  std::vector<LampLight> lamps_;
+  DaylightSource daylight_;
+  EmitterSources emitters_;
+  LampSources lamps_;
   std::vector<Vec3> sunHeld_;  // straight from the sun, lx per slot, of slots whose reflection is sampled by place; not
                                // in direct_, for that has been passed on
   std::vector<std::vector<Vec3>>

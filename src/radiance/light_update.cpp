@@ -1,6 +1,5 @@
 // LightCache::update: light after instances have moved.
 #include "base/parallel.h"
-#include "radiance/direct_light.h"
 #include "radiance/light_cache.h"
 
 namespace roomlight {
@@ -65,7 +64,7 @@ std::vector<LinkOf> keepLinks(const SlotSampling& slots, size_t brick, const Lin
 
 void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels& voxels,
                         std::span<const Bounds3> places, const Progress& progress) {
-  const Sources from{rays, lights, voxels, progress};
+  const Home home{rays, lights, voxels, progress};
   std::vector<BrickMark> marks = marksOf(voxels);
   const SlotRemap remap = remapSlots(marks_, marks, voxels, places);
   const SlotChange change{remap, places};
@@ -74,17 +73,15 @@ void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels
   const SlotPaths::Before known{paths_, remap};
   const SlotPaths paths(rays, voxels, settings_.seed, progress, settings_.still, &known);
   if (progress.stop()) return;
-  updateLinks(from, paths, change);
+  updateLinks(home, paths, change);
   paths_ = paths;
-  learnLights(from);
+  learnLights(home);
   progress.at(0.5f);
-  updateFixedLights(from, change);
-  updateEmitters(from, change);
-  forgetLampsBut(lights);
-  updateLamps(from, change);
-  updateParticles(from, change);
-  matchEmitters(from);
-  matchLamps(from);
+  daylight_.update(tracing(home), change);
+  emitters_.update(tracing(home), change);
+  lamps_.update(tracing(home), change);
+  emitters_.match(tracing(home));
+  lamps_.match(tracing(home));
   progress.at(0.8f);
   std::vector<Vec3> indirect(voxels.slots.size());
   for (size_t o = 0; o < remap.newSlot.size(); ++o) {
@@ -92,93 +89,26 @@ void LightCache::update(const RayScene& rays, const Lights& lights, const Voxels
   }
   indirect_ = std::move(indirect);
   marks_ = std::move(marks);
-  solve(from, bouncesOfUpdate());
+  solve(home, bouncesOfUpdate());
 }
 
-void LightCache::updateLinks(const Sources& from, const SlotPaths& paths, const SlotChange& change) {
-  const bool hasSky = from.lights.sky().present();
-  SkyGuideBuilder guide(from.voxels, from.lights.sky());
-  const SlotSampling slots{from.voxels, paths, settings_.seed};
-  Links links = planLinks(from.voxels, paths, settings_.links, &links_, &change.remap);
+void LightCache::updateLinks(const Home& home, const SlotPaths& paths, const SlotChange& change) {
+  const bool hasSky = home.lights.sky().present();
+  SkyGuideBuilder guide(home.voxels, home.lights.sky());
+  const SlotSampling slots{home.voxels, paths, settings_.seed};
+  Links links = planLinks(home.voxels, paths, settings_.links, &links_, &change.remap);
   std::atomic<uint64_t> traced = 0;
-  parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
-    if (from.progress.stop()) return;
+  parallelFor(home.voxels.bricks.size(), 4, [&](size_t b) {
+    if (home.progress.stop()) return;
     const bool keeps = change.remap.keeps(b);
     std::vector<LinkOf> wanted =
-        keeps ? keepLinks(slots, b, links_, change, links) : linksOfBrick(from.voxels, links, b);
+        keeps ? keepLinks(slots, b, links_, change, links) : linksOfBrick(home.voxels, links, b);
     traceLinks(slots, b, wanted, links, hasSky && !keeps ? &guide : nullptr);
     traced += wanted.size();
   });
   links_ = std::move(links);
   field_.rays += traced;
-  if (hasSky) field_.guide = keptGuide(field_.guide, guide.finish(from.progress), change.remap);
-}
-
-SlotLight LightCache::updated(const Sources& from, const SlotLight& before, const SlotChange& change,
-                              const BrickTracer& trace) const {
-  std::vector<Vec3> lux(from.voxels.slots.size());
-  parallelFor(from.voxels.bricks.size(), 4, [&](size_t b) {
-    if (from.progress.stop()) return;
-    const bool keeps = change.remap.keeps(b);
-    if (keeps) {
-      const auto [first, last] = slotsOfBrick(from.voxels, b);
-      before.copyBrick(static_cast<size_t>(change.remap.oldBrick[b]), last - first, std::span(lux).subspan(first));
-    }
-    if (!keeps || !change.places.empty()) trace(b, keeps ? change.places : std::span<const Bounds3>(), lux);
-  });
-  return SlotLight(from.voxels, lux);
-}
-
-void LightCache::updateFixedLights(const Sources& from, const SlotChange& change) {
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
-  if (from.lights.sunCount() > 0) {
-    suns_ = updated(from, suns_, change,
-                    [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.suns(b, near, lux); });
-  }
-  if (from.lights.sky().present()) {
-    SkyDirections ways(from.voxels.slots.size());
-    for (size_t o = 0; o < skyWays_.size(); ++o) {
-      if (change.remap.newSlot[o] != SlotRemap::kGone) ways[change.remap.newSlot[o]] = skyWays_[o];
-    }
-    skyWays_ = std::move(ways);
-    sky_ = updated(from, sky_, change, [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) {
-      direct.sky(field_.guide, b, near, skyWays_, lux);
-    });
-  }
-  field_.rays += direct.rayCount();
-}
-
-void LightCache::updateLamps(const Sources& from, const SlotChange& change) {
-  if (!lampsApart(from.lights)) return;  // matchLamps() lights them together
-  DirectLight direct(from.rays, from.lights, from.voxels, paths_, field_.seen, settings_);
-  for (LampLight& light : lamps_) {
-    light.direct = updated(
-        from, light.direct, change,
-        [&](size_t b, std::span<const Bounds3> near, std::span<Vec3> lux) { direct.lamp(light.lamp, b, near, lux); });
-  }
-  field_.rays += direct.rayCount();
-}
-
-void LightCache::updateParticles(const Sources& from, const SlotChange& change) {
-  const size_t small = smallEmitters(from);
-  for (EmitterLight& light : emitters_) {
-    const auto index = static_cast<size_t>(light.index);
-    if (isSmall(from.lights, index, from.voxels.voxelSizeM))
-      updateParticlesOf(from, change, particlesOf(from.lights, index, small, from.voxels.voxelSizeM), light.particles);
-  }
-  for (LampLight& light : lamps_) updateParticlesOf(from, change, particlesOfLamp(from, light.lamp), light.particles);
-}
-
-void LightCache::updateParticlesOf(const Sources& from, const SlotChange& change, const ParticleSource& source,
-                                   ParticleLight& particles) {
-  if (particles.trails.empty()) {  // there was no surface near it
-    const bool mayBe = std::any_of(change.places.begin(), change.places.end(),
-                                   [&](const Bounds3& place) { return source.around.touches(place); });
-    if (mayBe) particles = particlesFrom(from, source);
-    return;
-  }
-  roomlight::updateParticles(slots(from), source, settings_.attenuation, change, from.progress, particles);
-  field_.rays += particles.rays;
+  if (hasSky) field_.guide = keptGuide(field_.guide, guide.finish(home.progress), change.remap);
 }
 
 }  // namespace roomlight

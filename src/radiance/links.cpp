@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
-#include "base/resource_error.h"
+#include "base/result.h"
 #include "base/sampling.h"
 
 namespace roomlight {

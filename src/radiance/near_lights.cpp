@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/sampling.h"
-#include "radiance/attenuation.h"
+#include "radiance/radiance_field.h"
 
 namespace roomlight {
 namespace {

@@ -1,7 +1,7 @@
 #include "radiance/pyramid.h"
 
-#include "base/half.h"
 #include "base/parallel.h"
+#include "base/simd.h"
 #include "voxel/submask.h"
 
 namespace roomlight {

@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "radiance/lamp_glow.h"
 #include "radiance/seen_lights.h"
-#include "radiance/slot_layers.h"
+#include "radiance/slot_light.h"
 #include "trace/lights.h"
 #include "trace/ray_scene.h"
 #include "voxel/voxels.h"
@@ -153,5 +153,15 @@ struct RadianceField {
 // within about a second, then without levels and irradiance: there is nothing to gather.
 RadianceField illuminate(const RayScene& rays, const Lights& lights, const Voxels& voxels,
                          const RadianceSettings& settings, const Progress& progress = {});
+
+// How much of a lamp's light a voxel's surface of mean normal n takes up from unit direction l towards the lamp.
+// Normal-weighted: per axis the face that the normal picks, weighted with the squared normal; section 1 of the
+// published study. Plain: Lambert's cosine.
+inline float attenuation(Attenuation kind, Vec3 n, Vec3 l) {
+  if (kind == Attenuation::Plain) return std::max(0.0f, dot(n, l));
+  float sum = 0;
+  for (int axis = 0; axis < 3; ++axis) sum += n[axis] * n[axis] * std::max(0.0f, n[axis] > 0 ? l[axis] : -l[axis]);
+  return sum;
+}
 
 }  // namespace roomlight

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "radiance/brick_side.h"
+#include "radiance/slot_lookup.h"
 #include "radiance/slot_paths.h"
 #include "trace/light_parts.h"
 

@@ -1,4 +1,4 @@
-#include "radiance/sky_directions.h"
+#include "radiance/sky_guide.h"
 
 #include <algorithm>
 #include <cmath>

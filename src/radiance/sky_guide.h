@@ -1,11 +1,16 @@
-// Sampling the sky through windows: directions that other rays from the same brick found open.
+// Sampling the sky through windows: directions that other rays from the same brick found open, and those that slots
+// asked for light.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
-#include "radiance/brick_side.h"
-#include "radiance/slot_remap.h"
+#include "base/vec.h"
 #include "radiance/radiance_field.h"
+#include "radiance/slot_lookup.h"
+#include "radiance/slot_remap.h"
 
 namespace roomlight {
 
@@ -54,5 +59,25 @@ inline int32_t guideOfSide(const SkyGuide& guides, int32_t side) {
              ? -1
              : guides.guideOfBrick[static_cast<size_t>(side) / kBrickSides][static_cast<size_t>(side) % kBrickSides];
 }
+
+// Where the rays went that slots asked the sky for light with: kept, so that after a move only those that it concerns
+// are found without choosing all directions anew.
+constexpr uint32_t kSkySamples = 8;  // a slot
+
+// A unit direction in 16 bits: a cell of an octahedron unfolded. None at all is one of the codes.
+class SkyDirection {
+ public:
+  // So far a direction, times its length, may lie beside that of its cell.
+  static constexpr float kOff = 0.02f;
+  SkyDirection() = default;
+  explicit SkyDirection(Vec3 d);
+  Vec3 direction() const;  // unit; zero: none
+
+ private:
+  static constexpr uint16_t kNone = 0xffff;
+  uint16_t code_ = kNone;
+};
+
+using SkyDirections = std::vector<std::array<SkyDirection, kSkySamples>>;  // per slot
 
 }  // namespace roomlight

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "base/half.h"
 #include "base/parallel.h"
+#include "base/simd.h"
 #include "radiance/slot_paths.h"
 
 namespace roomlight {

@@ -53,4 +53,14 @@ int64_t slotAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal);
 // The brick that holds it, or around p where there is no slot; -1: none.
 int32_t brickAtSurface(const Voxels& voxels, Vec3 p, Vec3 normal);
 
+// A brick's surfaces that face one way: what they see they have in common.
+constexpr size_t kBrickSides = 6;
+inline int32_t brickSide(size_t brick, int face) { return static_cast<int32_t>(kBrickSides * brick) + face; }
+
+// That of a surface at p with unit normal n; -1: no brick there.
+inline int32_t brickSideAt(const Voxels& voxels, Vec3 p, Vec3 n) {
+  const int32_t b = brickAtSurface(voxels, p, n);
+  return b < 0 ? -1 : brickSide(static_cast<size_t>(b), dominantFace(n));
+}
+
 }  // namespace roomlight

@@ -13,6 +13,8 @@ constexpr float kOffPlane = 0.6f;   // voxels
 constexpr float kHidden =
     0.04f;    // of the brightest around: darker slots are taken to lie in a wall, where no eye comes
 constexpr float kOneSurface = 0.9f;
+constexpr float kOneSheet = 1.05f;  // of the area that a plane cuts from a voxel, at most
+constexpr float kOnSheet = 0.15f;   // voxels off its plane
 constexpr int kSmoothings = 6;
 constexpr float kLeastWeight = 1e-3f;
 
@@ -39,6 +41,11 @@ Vec3 unpacked(uint32_t bits) {
          scale;
 }
 
+bool isOneSheet(const SurfaceVoxel& voxel, const FaceSlot& slot, float h) {
+  const int ofAxis = 3 << (slot.face & ~1);
+  return (voxel.faces & ~ofAxis) == 0 && slot.areaM2 * std::abs(slot.normal[slot.face / 2]) < kOneSheet * h * h;
+}
+
 int8_t packedUnit(float v) { return static_cast<int8_t>(std::lround(127 * v)); }
 
 }  // namespace
@@ -51,7 +58,11 @@ SlotSnapshot::SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianc
       cells_(voxels.voxels.size()),
       records_(voxels.slots.size()) {
   parallelFor(cells_.size(), 16384, [&](size_t v) {
-    cells_[v] = {voxels.voxels[v].firstSlot, voxels.voxels[v].faces};
+    const SurfaceVoxel& voxel = voxels.voxels[v];
+    cells_[v] = {voxel.firstSlot, voxel.faces};
+    const auto slots = static_cast<uint32_t>(std::popcount(static_cast<unsigned>(voxel.faces)));
+    for (uint32_t i = voxel.firstSlot; i < voxel.firstSlot + slots; ++i)
+      records_[i].alone = isOneSheet(voxel, voxels.slots[i], voxels.voxelSizeM);
   });
   std::vector<Vec3> soft(records_.size());
   parallelFor(records_.size(), 16384, [&](size_t i) {
@@ -60,7 +71,6 @@ SlotSnapshot::SlotSnapshot(const Voxels& voxels, std::span<const Vec3> irradianc
     Record& r = records_[i];
     soft[i] = irradianceLux[i] - sharp, r.sharp = packed(sharp);
     r.normalX = packedUnit(slot.normal.x), r.normalY = packedUnit(slot.normal.y), r.normalZ = packedUnit(slot.normal.z);
-    r.face = slot.face;
     r.offset = dot(slot.position - voxels.origin, r.normal()) * perMetre_;
   });
   smooth(voxels, soft);
@@ -135,6 +145,7 @@ SlotIrradiance SlotSnapshot::at(Vec3 p, Vec3 n) const {
   struct Near {
     Vec3 soft, sharp;
     float weight;
+    bool sure;
   };
   std::array<Near, 8> found;
   size_t count = 0;
@@ -145,20 +156,24 @@ SlotIrradiance SlotSnapshot::at(Vec3 p, Vec3 n) const {
     if (weight < kLeastWeight) continue;
     const Cell* cell = cellAt({v.x + x, v.y + y, v.z + z});
     const Record* r = cell ? recordOf(*cell, face) : nullptr;
-    if (!r || dot(r->normal(), n) < kFacing || std::abs(dot(q, r->normal()) - r->offset) > kOffPlane) continue;
-    found[count] = {unpacked(r->soft), unpacked(r->sharp), weight};
+    if (!r || dot(r->normal(), n) < kFacing) continue;
+    const float off = std::abs(dot(q, r->normal()) - r->offset);
+    if (off > kOffPlane) continue;
+    found[count] = {unpacked(r->soft), unpacked(r->sharp), weight, r->alone && off < kOnSheet};
     brightest = std::max(brightest, luminance(found[count].soft + found[count].sharp));
     ++count;
   }
   SlotIrradiance out;
-  float sum = 0;
+  float sum = 0, sure = 0;
   for (size_t i = 0; i < count; ++i) {
     const Near& f = found[i];
     if (luminance(f.soft + f.sharp) < kHidden * brightest) continue;
     out.soft += f.soft * f.weight, out.sharp += f.sharp * f.weight, sum += f.weight;
+    if (f.sure) sure += f.weight;
   }
   if (sum > 0) {
     out.soft *= 1 / sum, out.sharp *= 1 / sum, out.found = true;
+    out.sure = sure > 0.5f * sum;
     return out;
   }
   // Of bent or small things: the slot that faces n best, in the voxel of p or one beside it.

@@ -15,6 +15,7 @@ struct SlotIrradiance {
   Vec3 sharp;  // straight from suns, small lamps and what was edited last, as voxels know it: shadows as coarse as they
                // are
   bool found = false;  // else no slot is near
+  bool sure = false;  // p lies on sheets that their voxels hold alone: nothing else can be meant
 };
 
 class SlotSnapshot {
@@ -34,7 +35,7 @@ class SlotSnapshot {
   struct Record {
     uint32_t soft = 0, sharp = 0;  // three channels of one exponent
     int8_t normalX = 0, normalY = 0, normalZ = 0;  // in 1/127
-    uint8_t face = 0;
+    bool alone = false;  // one sheet, and nothing else in its voxel
     float offset = 0;  // of its plane along the normal, in voxels from the lattice's origin
     Vec3 normal() const {
       return Vec3{static_cast<float>(normalX), static_cast<float>(normalY), static_cast<float>(normalZ)} * (1.0f / 127);

@@ -1,12 +1,11 @@
-#include "radiance/sun_bounce.h"
+#include "radiance/first_bounce.h"
 
 #include <algorithm>
 #include <atomic>
 
 #include "base/parallel.h"
-#include "radiance/slot_samples.h"
 #include "scene/surface.h"
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "radiance/surroundings.h"
+#include "radiance/near_lights.h"
 
 namespace roomlight {
 namespace {

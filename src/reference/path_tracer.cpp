@@ -5,8 +5,8 @@
 #include <mutex>
 #include <optional>
 
-#include "base/clock.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "base/sampler.h"
 #include "reference/path_walk.h"
 #include "reference/pixel_sums.h"

@@ -1,7 +1,7 @@
 #include "reference/path_walk.h"
 
 #include "base/sampling.h"
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/fold_case.h"
 #include "base/words.h"
 
 namespace roomlight {

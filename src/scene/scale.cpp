@@ -1,4 +1,4 @@
-#include "scene/scale.h"
+#include "scene/scene_change.h"
 
 namespace roomlight {
 

@@ -47,22 +47,23 @@ enum class AlphaMode : uint8_t {
 // glTF 2.0 metallic-roughness with the extensions named beside each value.
 struct Material {
   std::string name;
+  std::string label;  // what people call it, but for the colour of an even one; empty: its name does. See shown_names.h
   Vec3 baseColor{1, 1, 1};
   float alpha = 1;
   TextureRef baseColorTexture;  // sRGB, A = alpha
   float metallic = 1, roughness = 1;
   TextureRef metallicRoughnessTexture;  // linear, G = roughness, B = metallic
-  TextureRef normalTexture;             // linear, tangent space
+  TextureRef normalTexture;  // linear, tangent space
   float normalScale = 1;
-  Vec3 emission{0, 0, 0};      // luminance in cd/m² per channel (emissiveFactor x KHR_materials_emissive_strength)
+  Vec3 emission{0, 0, 0};  // luminance in cd/m² per channel (emissiveFactor x KHR_materials_emissive_strength)
   TextureRef emissionTexture;  // sRGB, multiplies emission
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5f;
   bool doubleSided = false;  // decides only whether both sides emit; every surface blocks light from both sides
-  float transmission = 0;    // KHR_materials_transmission: thin-walled
+  float transmission = 0;  // KHR_materials_transmission: thin-walled
   TextureRef transmissionTexture;  // linear, R
-  float ior = 1.5f;                // KHR_materials_ior
-  float specular = 1;              // KHR_materials_specular; 0 makes the dielectric a pure Lambertian
+  float ior = 1.5f;  // KHR_materials_ior
+  float specular = 1;  // KHR_materials_specular; 0 makes the dielectric a pure Lambertian
   Vec3 specularColor{1, 1, 1};
   Vec3 attenuationColor{1, 1, 1};  // KHR_materials_volume: transmittance of attenuationDistanceM of the medium
   float attenuationDistanceM = kInfinity;
@@ -105,6 +106,7 @@ struct Instance {
   int object = 0;
   Affine worldFromObject;
   int leaf = -1;  // index into Scene::leaves, -1: nothing that opens
+  std::string label = {};  // what people call the object, where the file names it for programs; see shown_names.h
 };
 
 enum class LampKind : uint8_t {
@@ -182,7 +184,7 @@ struct Room {
   std::vector<Vec2> floor;  // corners (x, z), counter-clockwise seen from above
   float elevationM = 0;  // of the floor
   float heightM = 2.5f;  // of the ceiling above it
-  std::string use;  // "living", "kitchen", ...: what it should be lit for (measure/targets.h); empty: unknown
+  std::string use;  // "living", "kitchen", ...: what it should be lit for (measure/meter_plan.h); empty: unknown
 };
 
 struct Scene {

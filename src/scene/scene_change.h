@@ -1,4 +1,5 @@
-// What an edit of a scene concerns, so that what was worked out for it can follow.
+// What an edit of a scene concerns, so that what was worked out for it can follow; and a scene scaled or
+// moved as a whole.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "scene/scene.h"
 
 namespace roomlight {
 
@@ -20,5 +22,12 @@ struct SceneChange {
       before{};  // boxes around where instances of `moved` were, m; those that are not here are not known
   bool any() const { return lamps || daylight || !moved.empty() || !glow.empty(); }
 };
+
+// A scene in another unit, or elsewhere. All lengths times s: placements, media, lamps, rooms and cameras. Meshes keep
+// their own coordinates, lights their candela and lux.
+void scaleScene(Scene& scene, float s);
+
+// Everything that has a place, by this much.
+void moveScene(Scene& scene, Vec3 by);
 
 }  // namespace roomlight

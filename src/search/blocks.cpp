@@ -1,4 +1,4 @@
-#include "search/blocks.h"
+#include "search/variation.h"
 
 #include <algorithm>
 #include <utility>

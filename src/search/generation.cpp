@@ -66,4 +66,10 @@ std::vector<double> pick(const std::vector<double>& objectives, size_t objective
   return picked;
 }
 
+// The simplest rival: nothing is learnt from one design to the next.
+void randomGeneration(const Problem& problem, State& state) {
+  state.population = randomDesigns(problem, state, state.settings.population);
+  state.objectives = evaluate(problem, state, state.population);
+}
+
 }  // namespace roomlight::search

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "search/front.h"
 #include "search/search.h"
 
 namespace roomlight::search {
@@ -33,5 +34,12 @@ void randomGeneration(const Problem& problem, State& state);
 // weightedSum keeps a small population for each weighting, one after the other.
 constexpr size_t kWeightedPopulation = 20;
 std::vector<std::vector<double>> weightings(size_t objectives, size_t about);
+
+// Of NSGA-II: winners of `count` binary tournaments by the crowded comparison.
+std::vector<size_t> tournaments(const Ranking& ranking, const State& state, size_t count);
+
+// Σ = 1, >= 0: more weight on the objectives in which the design is already good, so that a polish takes it on towards
+// its part of the front (Deb and Goel 2001); then divided by the objectives' ranges.
+std::vector<double> weightsFor(std::span<const double> objectives, const Range& range);
 
 }  // namespace roomlight::search

@@ -1,4 +1,4 @@
-#include "search/nondominated.h"
+#include "search/front.h"
 
 #include <algorithm>
 #include <cmath>

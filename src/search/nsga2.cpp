@@ -1,4 +1,6 @@
-#include "search/nsga2.h"
+// NSGA-II (Deb, Pratap, Agarwal and Meyarivan 2002): parents by tournament, children by variation.h, the best of both
+// go on. And the hybrid, in which some of them are polished.
+#include "search/generation.h"
 
 #include <algorithm>
 #include <cassert>

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "search/draws.h"
+#include "search/front.h"
 #include "search/generation.h"
-#include "search/hypervolume.h"
 
 #include <pagmo/algorithms/nsga2.hpp>
 #include <pagmo/bfe.hpp>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "search/generation.h"
 
 namespace roomlight::search {

@@ -1,4 +1,4 @@
-#include "study/plots.h"
+#include "study/report.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/html.h"
-#include "engine/technique_names.h"
+#include "engine/settings.h"
 
 namespace roomlight {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "engine/technique_names.h"
+#include "engine/settings.h"
 
 namespace roomlight::published {
 

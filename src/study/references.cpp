@@ -7,7 +7,7 @@
 
 #include "base/image_io.h"
 #include "compare/compare.h"
-#include "engine/technique_names.h"
+#include "engine/settings.h"
 
 namespace roomlight {
 namespace {

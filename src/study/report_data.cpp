@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/technique_names.h"
+#include "engine/settings.h"
 #include "study/published.h"
 #include "study/report.h"
 

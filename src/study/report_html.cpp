@@ -6,14 +6,13 @@
 #include <iterator>
 #include <map>
 
-#include "engine/technique_names.h"
+#include "engine/settings.h"
 #include "base/html.h"
 #include "base/image_io.h"
 #include "base/tone.h"
 #include "compare/compare.h"
-#include "study/plots.h"
-#include "study/published.h"
 #include "study/report.h"
+#include "study/published.h"
 
 namespace roomlight {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/held_folder.h"
 #include "base/result.h"
+#include "base/write_file.h"
 
 namespace roomlight {
 

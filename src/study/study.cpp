@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/clock.h"
 #include "base/image_io.h"
+#include "base/progress.h"
 #include "compare/compare.h"
 
 namespace roomlight {

@@ -14,9 +14,8 @@
 
 #include "engine/settings.h"
 #include "engine/technique.h"
-#include "engine/technique_names.h"
-#include "import/json_file.h"
-#include "import/json_reader.h"
+#include "json/json_file.h"
+#include "json/json_reader.h"
 
 namespace roomlight {
 namespace {

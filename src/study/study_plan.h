@@ -13,7 +13,7 @@ namespace roomlight {
 struct StudyLight {
   std::string name;  // "daylight", "lamps", "one dim lamp"
   std::filesystem::path lighting;  // lighting file; empty: the scene's own light
-  double dimLampLm = 0;  // above 0: instead, one bare lamp before the camera and nothing else (dim_lamp.h)
+  double dimLampLm = 0;  // above 0: instead, one bare lamp before the camera and nothing else (preparation.h)
 };
 
 struct StudyScene {
@@ -46,7 +46,7 @@ struct StudyPlan {
 // cone and hybrid, the three rivals with what the study's parameters leave open (docs/reference/study.md), and path.
 std::vector<StudyTechnique> usualTechniques();
 
-// Paths in the file are relative to it. Errors: as of every file (json_reader.h), a file named in it that is not there,
+// Paths in the file are relative to it. Errors: as of every file (json/json_reader.h), a file named in it that is not there,
 // a name given twice.
 Result<StudyPlan> readStudyFile(const std::filesystem::path& file);
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/sampling.h"
 #include "base/simd.h"
-#include "base/weighted_choice.h"
 
 namespace roomlight {
 namespace {

@@ -1,13 +1,25 @@
-// Light of one point or spot lamp, with or without a photometric web.
+// How light reaches a point, before visibility, and that of one point or spot lamp.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
-#include "photometry/web_sampler.h"
+#include "base/vec.h"
+#include "photometry/photometric_web.h"
 #include "scene/scene.h"
-#include "trace/light_sample.h"
 
 namespace roomlight {
+
+// One way light may reach a point, before visibility.
+struct LightSample {
+  Vec3 wi;            // unit, towards the light
+  float distance = kInfinity;
+  Vec3 radiance;  // incident radiance / pdf: times f cos is the estimate. Delta lights: intensity / distance² / chance
+  float pdf = 0;  // per steradian, selection included; 0: delta light, no other strategy can find it
+  int32_t lamp = -1;  // of which point or spot lamp (see Lights), -1: none
+  int32_t emitter = -1;  // of which emissive mesh, -1: none
+  bool valid() const { return !isBlack(radiance); }
+};
 
 // Intensity of a lamp towards a unit direction away from it; the spot's falloff is KHR_lights_punctual's.
 Vec3 lampIntensity(const Lamp& lamp, Vec3 direction);

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "trace/light_sample.h"
+#include "trace/lamp_light.h"
 #include "trace/ray_scene.h"
-#include "trace/shadow_ray.h"
+#include "trace/traced_scene.h"
 
 namespace roomlight {
 

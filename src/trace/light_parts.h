@@ -7,7 +7,7 @@
 #include <array>
 #include <span>
 
-#include "base/weighted_choice.h"
+#include "base/sampling.h"
 #include "trace/lights.h"
 
 namespace roomlight {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/sampling.h"
 #include "base/vec.h"
-#include "base/weighted_choice.h"
 
 namespace roomlight {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/resource_error.h"
+#include "base/result.h"
 #include "scene/surface.h"
 #include "trace/surfaces.h"
 

@@ -6,6 +6,7 @@
 
 #include "scene/scene.h"
 #include "trace/meter.h"
+#include "validate/quadrature.h"
 
 namespace roomlight {
 
@@ -47,5 +48,11 @@ SurfaceElement wallPoint(int i, float y = 0);
 SurfaceElement floorPoint(int i);
 std::string wallName(int i);
 std::string floorName(int i);
+
+// From the program's vectors to the quadrature's.
+inline quadrature::Point exact(Vec3 v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+inline quadrature::Element exact(const SurfaceElement& e) { return {exact(e.position), exact(e.normal)}; }
 
 }  // namespace roomlight

@@ -12,7 +12,6 @@
 #include "scene/primitives.h"
 #include "scene/surface.h"
 #include "validate/cases.h"
-#include "validate/quadrature_of.h"
 
 namespace roomlight {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "scene/primitives.h"
 #include "validate/cases.h"
-#include "validate/quadrature_of.h"
 
 namespace roomlight {
 namespace {

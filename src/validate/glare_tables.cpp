@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/lit_scene.h"
-#include "measure/glare_meter.h"
+#include "measure/glare.h"
 #include "scene/primitives.h"
 #include "validate/quadrature.h"
 

@@ -1,4 +1,4 @@
-#include "validate/report.h"
+#include "validate/validation.h"
 
 #include <fmt/format.h>
 

@@ -52,4 +52,9 @@ constexpr double kAllowedUgr = 0.5;  // that a glare rating may be off
 // Errors: an unknown technique, settings out of range.
 Result<Validation> validateTechniques(const ValidationSettings& settings, const Progress& progress = {});
 
+// A validation as files.
+std::string validationJson(const Validation& validation);
+// One page that needs nothing else: a summary, a dot for every value by technique, and the table of all.
+std::string validationHtml(const Validation& validation, const std::string& version);
+
 }  // namespace roomlight

@@ -5,7 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "import/printable.h"
+#include "base/utf8.h"
+#include "scene/shown_names.h"
 
 namespace roomlight::view {
 namespace {
@@ -39,6 +40,7 @@ std::optional<ViewError> refuseOthers(const Edit& edit, std::initializer_list<co
                           {"color", s.color.has_value()},
                           {"move", s.move.has_value()},
                           {"turn", s.turnDeg.has_value()},
+                          {"alone", s.alone.has_value()},
                           {"hidden", s.hidden.has_value()},
                           {"material", s.material.has_value()},
                           {"open", s.open.has_value()},
@@ -84,7 +86,7 @@ std::optional<ViewError> editLamp(const EditableHome& home, size_t k, const Edit
   }
   if (set.on) s.on = *set.on, verb = *set.on ? "Switch on" : "Switch off";
   if (set.dim) s.dim = *set.dim, verb = "Dim";
-  out.label = fmt::format("{} {}", verb, lamp.name);
+  out.label = fmt::format("{} {}", verb, lamp.label);
   return {};
 }
 
@@ -92,11 +94,18 @@ std::optional<ViewError> paint(const EditableObject& object, const Scene& scene,
   const Vec3 color = *edit.set.color;
   if (maxComponent(color) > 1) return refused(edit, "badField", "color", "of a surface must be from 0 to 1");
   if (object.paints.empty()) return refused(edit, "notPossible", "color", "the thing has no material of its own");
-  bool any = false;
-  for (size_t p = 0; p < object.paints.size(); ++p) {
-    if (edit.set.material && scene.materials[object.paints[p].material].name != *edit.set.material) continue;
-    s.colors[p] = color, any = true;
-  }
+  const auto materialOf = [&](size_t p) -> const Material& { return scene.materials[object.paints[p].material]; };
+  const auto paintThose = [&](const auto& are) {
+    bool any = false;
+    for (size_t p = 0; p < object.paints.size(); ++p) {
+      if (are(p)) s.colors[p] = color, any = true;
+    }
+    return any;
+  };
+  // By its name, or where none has that by what people call it.
+  const bool any =
+      paintThose([&](size_t p) { return !edit.set.material || materialOf(p).name == *edit.set.material; }) ||
+      paintThose([&](size_t p) { return shownMaterialName(materialOf(p), s.colors[p]) == *edit.set.material; });
   if (!any)
     return refused(edit, "unknownThing", "material", fmt::format("no material '{}'", printable(*edit.set.material)));
   return {};
@@ -104,7 +113,8 @@ std::optional<ViewError> paint(const EditableObject& object, const Scene& scene,
 
 std::optional<ViewError> editObject(const EditableHome& home, const Scene& scene, size_t k, const Edit& edit,
                                     Edited& out) {
-  if (auto e = refuseOthers(edit, {"move", "turn", "hidden", "color", "material", "open"}, "an object")) return e;
+  if (auto e = refuseOthers(edit, {"move", "turn", "alone", "hidden", "color", "material", "open"}, "an object"))
+    return e;
   const EditableObject& object = home.objects[k];
   ObjectState& s = out.state.objects[k];
   const EditFields& set = edit.set;
@@ -114,24 +124,27 @@ std::optional<ViewError> editObject(const EditableHome& home, const Scene& scene
   if (set.open && !object.opens) return refused(edit, "notPossible", "open", "nothing of it opens");
   if (set.move) s.move = *set.move, verb = "Move";
   if (set.turnDeg) s.turnDeg = *set.turnDeg, verb = set.move ? "Move" : "Turn";
+  if (set.move || set.turnDeg) out.moved = k;
   if (set.color) {
     if (auto e = paint(object, scene, edit, s)) return e;
     verb = "Colour";
   }
   if (set.open) s.open = *set.open, verb = *set.open > 0 ? "Open" : "Shut";
   if (set.hidden) s.hidden = *set.hidden, verb = *set.hidden ? "Hide" : "Show";
-  out.label = fmt::format("{} {}", verb, object.name);
+  out.label = fmt::format("{} {}", verb, object.label);
   return {};
 }
 
 std::optional<ViewError> editSun(const Edit& edit, Edited& out) {
-  if (auto e = refuseOthers(edit, {"date", "hour"}, "the sun")) return e;
+  if (auto e = refuseOthers(edit, {"date", "hour", "on"}, "the sun")) return e;
   if (!out.state.sun) return refused(edit, "notPossible", "target", "the home has no sun by date");
   SunState& s = *out.state.sun;
   if (edit.set.year) s.year = *edit.set.year, s.month = *edit.set.month, s.day = *edit.set.day;
   if (edit.set.hour) s.hour = *edit.set.hour;
-  out.label = fmt::format("Sun to {:04}-{:02}-{:02} {:02}:{:02}", s.year, s.month, s.day, static_cast<int>(s.hour),
-                          static_cast<int>(std::fmod(s.hour, 1) * 60));
+  s.on = edit.set.on.value_or(true);
+  out.label = edit.set.on ? fmt::format("Switch daylight {}", s.on ? "on" : "off")
+                          : fmt::format("Sun to {:04}-{:02}-{:02} {:02}:{:02}", s.year, s.month, s.day,
+                                        static_cast<int>(s.hour), static_cast<int>(std::fmod(s.hour, 1) * 60));
   return {};
 }
 
@@ -139,7 +152,7 @@ std::optional<ViewError> editSun(const Edit& edit, Edited& out) {
 
 std::optional<ViewError> applyEdit(const EditableHome& home, const Scene& scene, const Edit& edit, const HomeState& now,
                                    Edited& out) {
-  out.state = now;
+  out.state = now, out.moved.reset();
   if (edit.target == "sun") return editSun(edit, out);
   if (const auto k = numberIn(edit.target, "lamp:", home.lamps.size())) return editLamp(home, *k, edit, out);
   const auto k = numberIn(edit.target, "object:", home.objects.size());

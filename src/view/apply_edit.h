@@ -12,6 +12,7 @@ namespace roomlight::view {
 struct Edited {
   HomeState state;
   std::string label;  // in words: "Dim Sofa lamp"
+  std::optional<size_t> moved{};  // number of the thing that was moved or turned
 };
 
 // Errors name the field: one that the thing does not have, or that goes against another.

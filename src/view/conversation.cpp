@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "base/utf8.h"
 #include "engine/technique.h"
-#include "import/printable.h"
 
 namespace roomlight::view {
 namespace {
@@ -45,7 +45,8 @@ Conversation::Conversation(const ViewHome& home, const RenderSettings& settings,
       tell_(std::move(tell)),
       jobs_(std::move(jobs)),
       homeJson_(homeJson(home)),
-      state_(home.atStart()) {
+      state_(home.atStart()),
+      arrangement_(home.editable, home.scene, state_) {
   plans_["start"] = state_;
 }
 

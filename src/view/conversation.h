@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/settings.h"
+#include "view/arrangement.h"
 #include "view/describe.h"
 #include "view/history.h"
 #include "view/render_jobs.h"
@@ -97,6 +98,7 @@ class Conversation {
   const Jobs jobs_;
   const Json homeJson_;
   HomeState state_;
+  Arrangement arrangement_;
   uint32_t revision_ = 1;
   uint64_t wishes_ = 0;
   History history_;

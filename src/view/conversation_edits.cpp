@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "import/printable.h"
+#include "base/utf8.h"
 #include "view/apply_edit.h"
 #include "view/conversation.h"
 #include "view/save_lighting.h"
@@ -58,12 +58,15 @@ void Conversation::on(Window& window, TimePoint at, const Edit& m) {
   Edited edited;
   if (const auto error = applyEdit(home_.editable, home_.scene, m, state_, edited))
     return tell(window, errorText(*error));
+  // A page that was loaded again counts its gestures from one, so that those of other things have the same names.
+  const std::string gesture = m.gesture.empty() ? "" : window.name + '\n' + m.target + '\n' + m.gesture;
+  const HomeState* start = history_.startOf(gesture);
+  arrangement_.takeAlong(m, start ? *start : state_, edited);
   if (const auto error = tooFar(m, edited.state)) return tell(window, errorText(*error));
   if (const auto error = noLightAt(m, edited.state)) return tell(window, errorText(*error));
   tell(window, okText(m.id));
   if (edited.state == state_) return;
-  // A page that was loaded again counts its gestures from one, so that those of other things have the same names.
-  history_.step(state_, edited.label, m.gesture.empty() ? "" : window.name + '\n' + m.target + '\n' + m.gesture);
+  history_.step(state_, edited.label, gesture);
   setState(std::move(edited.state), window, at);
 }
 
@@ -117,6 +120,9 @@ void Conversation::on(Window& window, TimePoint at, const EditPlan& m) {
   } else {
     dropPlan(m.name, at);
   }
+  for (Window& w : windows_) {  // another list of plans asks for no other frame
+    for (Side& side : w.sides) side.shownRevision += side.shownRevision == revision_ ? 1 : 0;
+  }
   ++revision_;
   Json json = stateJson({}, {}, false);
   json["by"] = window.name;
@@ -134,6 +140,7 @@ void Conversation::setState(HomeState next, const Window& by, TimePoint at) {
     if (carried || !(next.lamps[i] == state_.lamps[i])) lamps.push_back(i);
   }
   const bool sun = !(next.sun == state_.sun);
+  arrangement_.follow(state_, next);
   state_ = std::move(next);
   shown_.clear();
   ++revision_, ++wishes_;
@@ -156,6 +163,7 @@ Json Conversation::stateJson(const std::vector<size_t>& lamps, const std::vector
   }
   for (const auto& [name, state] : plans_) planList.push_back(name);
   json["lamps"] = lampList, json["objects"] = objectList, json["plans"] = planList;
+  json["overlaps"] = overlapsJson(arrangement_.overlaps());
   if (sun) json["sun"] = sunJson(home_, state_);
   json["undo"] = history_.canUndo() ? Json(history_.undoLabel()) : Json(nullptr);
   json["redo"] = history_.canRedo() ? Json(history_.redoLabel()) : Json(nullptr);

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "engine/quality.h"
+#include "base/utf8.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "import/printable.h"
 #include "view/conversation.h"
 
 namespace roomlight::view {

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "engine/quality.h"
+#include "engine/settings.h"
 #include "engine/technique.h"
-#include "engine/version.h"
 #include "measure/false_colour.h"
 #include "photometry/sun.h"
+#include "scene/shown_names.h"
 
 namespace roomlight::view {
 namespace {
@@ -27,7 +28,8 @@ Json cameraJson(const ViewCamera& c) {
   return {{"position", vectorJson(c.position)},
           {"direction", vectorJson(c.direction)},
           {"up", vectorJson(c.up)},
-          {"verticalFov", rounded(c.yFovDeg)}};
+          {"verticalFov", rounded(c.yFovDeg)},
+          {"cutHeight", c.cutHeightM < kInfinity ? Json(rounded(c.cutHeightM)) : Json(nullptr)}};
 }
 
 template <class T>
@@ -57,6 +59,15 @@ Json sideJson(const SplitSide& side) {
   return out;
 }
 
+const char* placeFromName(PlaceFrom from) {
+  switch (from) {
+    case PlaceFrom::Lighting: return "lighting";
+    case PlaceFrom::Home: return "home";
+    case PlaceFrom::Assumed: break;
+  }
+  return "assumed";
+}
+
 Json roomsJson(const Scene& scene) {
   Json out = Json::array();
   for (const Room& room : scene.rooms) {
@@ -84,6 +95,22 @@ Json camerasJson(const Scene& scene) {
   return out;
 }
 
+// What people call the materials of a thing, as they are painted now; two that would be called the same have their
+// names beside that.
+std::vector<std::string> paintLabels(const EditableObject& object, const Scene& scene, const ObjectState& state) {
+  std::vector<std::string> labels;
+  for (size_t k = 0; k < object.paints.size(); ++k)
+    labels.push_back(shownMaterialName(scene.materials[object.paints[k].material], state.colors[k]));
+  labels = withoutCopyNumbers(std::move(labels));
+  const std::vector<std::string> plain = labels;
+  for (size_t k = 0; k < labels.size(); ++k) {
+    const std::string& name = scene.materials[object.paints[k].material].name;
+    if (!name.empty() && name != plain[k] && std::count(plain.begin(), plain.end(), plain[k]) > 1)
+      labels[k] += fmt::format(" ({})", name);
+  }
+  return labels;
+}
+
 }  // namespace
 
 Json vectorJson(Vec3 v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
@@ -95,12 +122,13 @@ Json lampJson(const EditableHome& home, size_t index, const HomeState& state) {
   const LampState& s = state.lamps[index];
   const float fileK = s.color ? 0 : lamp.temperatureK.value_or(0), kelvin = s.temperatureK.value_or(fileK);  // 0: none
   return {{"id", lampId(index)},
-          {"name", lamp.name},
+          {"name", lamp.label},
           {"kind", lamp.kind},
           {"object", lamp.object >= 0 ? Json(objectId(static_cast<size_t>(lamp.object))) : Json(nullptr)},
           {"position", vectorJson(positionOf(home, index, state))},
           {"direction", lamp.aimed ? vectorJson(s.direction) : Json(nullptr)},
           {"fluxLm", lamp.fluxLm > 0 ? Json(std::round(s.fluxLm * 1e3) / 1e3) : Json(nullptr)},
+          {"fluxAssumed", lamp.fluxAssumed && s.fluxLm == lamp.fluxLm},
           {"dim", rounded(s.dim)},
           {"on", s.on},
           {"temperatureK", kelvin > 0 ? Json(std::round(kelvin)) : Json(nullptr)},
@@ -112,17 +140,26 @@ Json objectJson(const EditableHome& home, const Scene& scene, size_t index, cons
   const EditableObject& object = home.objects[index];
   const ObjectState& s = state.objects[index];
   const Bounds3 b = boundsOf(object, s);
+  const std::vector<std::string> labels = paintLabels(object, scene, s);
   Json colors = Json::array();
   for (size_t k = 0; k < object.paints.size(); ++k) {
     const Material& m = scene.materials[object.paints[k].material];
-    colors.push_back(
-        {{"material", m.name}, {"color", vectorJson(s.colors[k])}, {"textured", m.baseColorTexture.texture >= 0}});
+    colors.push_back({{"material", m.name},
+                      {"label", labels[k]},
+                      {"color", vectorJson(s.colors[k])},
+                      {"textured", m.baseColorTexture.texture >= 0}});
   }
-  return {{"id", objectId(index)},      {"name", object.name},
+  return {{"id", objectId(index)},      {"name", object.label},
           {"low", vectorJson(b.lo)},    {"high", vectorJson(b.hi)},
           {"movable", object.movable},  {"move", vectorJson(s.move)},
           {"turn", rounded(s.turnDeg)}, {"hidden", s.hidden},
           {"colors", colors},           {"open", object.opens ? Json(rounded(s.open)) : Json(nullptr)}};
+}
+
+Json overlapsJson(const std::vector<Overlap>& overlaps) {
+  Json out = Json::array();
+  for (const Overlap& o : overlaps) out.push_back({{"object", objectId(o.thing)}, {"into", objectId(o.into)}});
+  return out;
 }
 
 Json sunJson(const ViewHome& home, const HomeState& state) {
@@ -131,7 +168,9 @@ Json sunJson(const ViewHome& home, const HomeState& state) {
   const SunPosition p = sunPosition({s.year, s.month, s.day, s.hour - home.sun->utcOffsetH}, home.sun->latitudeDeg,
                                     home.sun->longitudeDeg);
   const double deg = 180 / static_cast<double>(kPi);
-  return {{"date", fmt::format("{:04}-{:02}-{:02}", s.year, s.month, s.day)},
+  return {{"on", s.on},
+          {"placeFrom", placeFromName(home.sun->placeFrom)},
+          {"date", fmt::format("{:04}-{:02}-{:02}", s.year, s.month, s.day)},
           {"hour", s.hour},
           {"utcOffset", home.sun->utcOffsetH},
           {"latitude", home.sun->latitudeDeg},

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "view/home.h"
+#include "view/overlaps.h"
 #include "view/window.h"
 
 namespace roomlight::view {
@@ -14,6 +15,8 @@ using Json = nlohmann::ordered_json;
 Json vectorJson(Vec3 v);
 Json lampJson(const EditableHome& home, size_t index, const HomeState& state);
 Json objectJson(const EditableHome& home, const Scene& scene, size_t index, const HomeState& state);
+// Pairs of things that run into each other.
+Json overlapsJson(const std::vector<Overlap>& overlaps);
 Json sunJson(const ViewHome& home, const HomeState& state);
 std::string lampId(size_t index);
 std::string objectId(size_t index);

@@ -8,6 +8,7 @@
 
 #include "photometry/colour_temperature.h"
 #include "scene/scene_lamps.h"
+#include "scene/shown_names.h"
 
 namespace roomlight::view {
 namespace {
@@ -51,14 +52,16 @@ void findOpening(EditableObject& o) {
 std::map<int, int> findObjects(const Scene& scene, bool parted, EditableHome& home) {
   std::map<int, int> numbers;
   std::vector<std::set<size_t>> materials;
+  const std::map<int, std::string> shown = shownObjectNames(scene);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Bounds3 bounds = instanceBounds(scene, instance);
     if (bounds.empty()) continue;
     const auto [number, isNew] = numbers.try_emplace(instance.object, static_cast<int>(home.objects.size()));
-    if (isNew) home.objects.emplace_back().name = instance.name, materials.emplace_back();
+    if (isNew) home.objects.emplace_back(), materials.emplace_back();
     const auto k = static_cast<size_t>(number->second);
     EditableObject& object = home.objects[k];
+    if (isNew) object.name = instance.name, object.label = shown.at(instance.object);
     object.parts.push_back({i, instance.worldFromObject, instance.mesh, bounds, leafOf(scene, instance)});
     object.bounds.add(bounds);
     const auto material = static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material);
@@ -155,7 +158,10 @@ EditableHome makeEditable(Scene& scene) {
   const bool parted = scene.triangleCount() <= kMostToPart;
   if (parted) partMaterials(scene);
   const std::map<int, int> objects = findObjects(scene, parted, home);
-  for (const SceneLamp& l : findLamps(scene)) home.lamps.push_back(editableLamp(scene, l, objects, home));
+  const std::vector<SceneLamp> lamps = findLamps(scene);
+  for (const SceneLamp& l : lamps) home.lamps.push_back(editableLamp(scene, l, objects, home));
+  const std::vector<std::string> shown = shownLampNames(scene, lamps);
+  for (size_t i = 0; i < shown.size(); ++i) home.lamps[i].label = shown[i];
   home.hiddenMesh = static_cast<int>(scene.meshes.size());
   scene.meshes.emplace_back();
   for (const EditableLamp& l : home.lamps) {

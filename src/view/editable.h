@@ -21,7 +21,8 @@ struct EditableLamp {
     size_t material;
     Vec3 emission;
   };
-  std::string name, kind;  // "point", "spot", "area", "photometric", "glow"
+  std::string name, label;  // label: what people call it (scene/shown_names.h)
+  std::string kind;  // "point", "spot", "area", "photometric", "glow"
   int object = -1;  // that it belongs to and moves with; -1: none
   std::vector<Source> sources;
   std::vector<Glow> glows;
@@ -31,6 +32,7 @@ struct EditableLamp {
   Vec3 color{1, 1, 1};  // of luminance 1
   std::optional<float> temperatureK;  // of a black body of that colour, where there is one
   double fluxLm = 0;  // 0: unknown
+  bool fluxAssumed = false;  // it gives no light, and nobody says how much it would: off at first
 };
 
 struct EditableObject {
@@ -45,7 +47,7 @@ struct EditableObject {
     size_t material;  // that nothing else uses
     Vec3 color;
   };
-  std::string name;
+  std::string name, label;  // label: what people call it (scene/shown_names.h)
   bool movable = false;
   bool opens = false;  // has leaves
   float openAtRest = 0;  // how far the file has them open, on the average
@@ -57,6 +59,7 @@ struct EditableObject {
 
 struct LampState {
   Vec3 position, direction;
+  float turnDeg = 0;  // about the vertical, with a thing that took it along; before it is aimed
   float dim = 1;
   bool on = true;
   std::optional<float> temperatureK;
@@ -78,6 +81,7 @@ struct ObjectState {
 struct SunState {
   int year = 2000, month = 6, day = 21;
   double hour = 12;
+  bool on = true;  // false: no sun or sky by date
   bool operator==(const SunState&) const = default;
 };
 
@@ -102,6 +106,9 @@ EditableHome makeEditable(Scene& scene);
 // Brings a scene from one state to another and says what that changed; the sun and the sky are not its business.
 SceneChange stage(const EditableHome& home, const HomeState& from, const HomeState& to, Scene& scene);
 
+// From where the file has a thing, or a part of it with its leaf, to where it is in that state. Rigid.
+Affine motionOf(const EditableObject& object, const ObjectState& state);
+Affine motionOf(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state);
 // Where the thing is in that state.
 Bounds3 boundsOf(const EditableObject& object, const ObjectState& state);
 // Where the lamp is, also when what it belongs to has moved.

@@ -27,7 +27,7 @@ Result<std::string> packFrame(const FrameInfo& info, const ByteImage& picture) {
   for (const float v :
        {info.relativeError, info.ev100, info.scaleLow, info.scaleHigh, info.latencyMs, info.pictureMs, info.whiteK})
     put(out, v);
-  put(out, 0, 4), put(out, 0, 4);
+  put(out, info.samplesInAll, 4), put(out, 0, 4);
   return out + jpeg.value();
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "base/byte_image.h"
+#include "base/image.h"
 #include "base/result.h"
 
 namespace roomlight::view {
@@ -19,10 +19,12 @@ struct FrameInfo {
   uint8_t side = 0, flags = 0;
   uint16_t jpegQuality = 80;
   uint32_t camera = 0, revision = 0, samples = 0;
+  uint32_t samplesInAll = 0;  // with which the average is complete; 0: nobody knows
   float relativeError = kNone, ev100 = kNone, scaleLow = kNone, scaleHigh = kNone;
   float latencyMs = 0, pictureMs = 0, whiteK = kNone;
 };
 
+// Error: the picture cannot be encoded.
 Result<std::string> packFrame(const FrameInfo& info, const ByteImage& picture);
 
 }  // namespace roomlight::view

@@ -35,7 +35,8 @@ bool GrowingPicture::step(const LitScene& lit, const Camera& camera, std::pair<i
   parallelFor(sum_.pixels.size(), 16384,
               [&](size_t i) { sum_.pixels[i] += next.pixels[i] * static_cast<float>(count); });
   samples_ += count;
-  averaged_ = samples_ >= (kind.refines ? kBeforePaths : kMostAverages);
+  samplesInAll_ = kind.refines ? kBeforePaths : kMostAverages;
+  averaged_ = samples_ >= samplesInAll_;
   settled_ = averaged_ && !kind.refines;
   const bool worth = shownAt_ == 0 ? samples_ >= kFirstShown || sinceQuick_.seconds() > kFirstShownS
                                    : samples_ >= kShowAgain * shownAt_;
@@ -51,7 +52,7 @@ bool GrowingPicture::step(const LitScene& lit, const Camera& camera, std::pair<i
 
 void GrowingPicture::refine(Image image, uint32_t samples, float relativeError, bool last) {
   image_ = std::make_shared<const Image>(std::move(image));
-  samples_ = samples, relativeError_ = relativeError;
+  samples_ = samples, samplesInAll_ = 0, relativeError_ = relativeError;
   refined_ = true, settled_ = last;
 }
 

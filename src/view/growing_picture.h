@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "view/frame.h"
 #include "engine/technique.h"
 
@@ -23,7 +23,7 @@ class GrowingPicture {
   bool settled() const { return settled_; }
   bool averaged() const { return averaged_; }  // step() has no more to do
 
-  // Of refine.h's kind: by paths, of which so many were traced.
+  // Of refineByPath()'s kind: by paths, of which so many were traced.
   void refine(Image image, uint32_t samples, float relativeError, bool last);
 
   struct Kind {
@@ -38,6 +38,7 @@ class GrowingPicture {
   const Image& image() const { return *image_; }  // cd/m²
   std::shared_ptr<const Image> shared() const { return image_; }  // stays as it is
   uint32_t samples() const { return samples_; }
+  uint32_t samplesInAll() const { return samplesInAll_; }  // with which it is averaged; 0 before and after that
   double pictureMs() const { return pictureMs_; }
   bool quick() const { return quick_; }
   bool refined() const { return refined_; }
@@ -46,7 +47,7 @@ class GrowingPicture {
  private:
   std::shared_ptr<const Image> image_;
   Image sum_;
-  uint32_t samples_ = 0, shownAt_ = 0;
+  uint32_t samples_ = 0, samplesInAll_ = 0, shownAt_ = 0;
   Stopwatch sinceQuick_;
   double pictureMs_ = 0;
   float relativeError_ = FrameInfo::kNone;

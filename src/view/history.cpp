@@ -9,11 +9,15 @@ constexpr size_t kMostSteps = 200;
 
 void History::step(const HomeState& now, const std::string& label, const std::string& gesture) {
   future_.clear();
-  const bool goesOn = !gesture.empty() && gesture == gesture_ && !past_.empty();
+  const bool goesOn = startOf(gesture) != nullptr;
   gesture_ = gesture;
   if (goesOn) return;
   past_.push_back({now, label});
   if (past_.size() > kMostSteps) past_.erase(past_.begin());
+}
+
+const HomeState* History::startOf(const std::string& gesture) const {
+  return !gesture.empty() && gesture == gesture_ && !past_.empty() ? &past_.back().state : nullptr;
 }
 
 History::Step History::taken(std::vector<Step>& from, std::vector<Step>& to, const HomeState& now) {

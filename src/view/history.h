@@ -13,6 +13,8 @@ class History {
   // `now` becomes `next`; edits of one gesture that follow each other are one step. An empty gesture is a step of its
   // own.
   void step(const HomeState& now, const std::string& label, const std::string& gesture);
+  // The state before the newest step, if an edit of that gesture goes on with it; else null. Until the next change.
+  const HomeState* startOf(const std::string& gesture) const;
   bool canUndo() const { return !past_.empty(); }
   bool canRedo() const { return !future_.empty(); }
   const std::string& undoLabel() const { return past_.back().label; }

@@ -6,7 +6,7 @@ namespace {
 
 // Nothing changes where there is no light for that moment.
 Status putSun(const ViewHome& home, const SunState& sun, Scene& scene) {
-  if (sun == home.sun->atStart) {
+  if (sun == home.sun->atStart || (!sun.on && !home.sun->atStart.on)) {
     scene.suns = home.scene.suns, scene.sky = home.scene.sky;
     return Ok{};
   }

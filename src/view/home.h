@@ -1,6 +1,7 @@
 // A home as a session has it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -19,9 +20,12 @@ struct SunLight {
   std::optional<Sky> sky;
 };
 
+enum class PlaceFrom : uint8_t { Lighting, Home, Assumed };  // the lighting file, the home's file, nobody
+
 // A sun that follows date and hour.
 struct SunByDate {
-  SunState atStart;
+  SunState atStart;  // off: the home opened with other light from outside, or none
+  PlaceFrom placeFrom = PlaceFrom::Lighting;
   double latitudeDeg = 0, longitudeDeg = 0, utcOffsetH = 0;
   std::string sky;  // in words
   nlohmann::json source;                // of a lighting file: its `daylight` or `sun`
@@ -29,11 +33,20 @@ struct SunByDate {
   std::function<Result<SunLight>(const SunState&)> at;
 };
 
+// Kinds of the scene's own light that a lighting file switches off as a whole.
+struct KindsOff {
+  bool lamps = false, emission = false;
+  bool operator==(const KindsOff&) const = default;
+};
+
 // What a home opened with: to save its lighting as a file like the one it came from.
 struct LightingSource {
   nlohmann::json document;  // of the lighting file, without comments; null: none was given
   size_t lamps = 0;         // the scene's last so many are the file's, in its order
   std::filesystem::path folder;  // that its paths are relative to
+  KindsOff off;                // that the document says, while the scene has them shine (off_lamps.h)
+  std::vector<uint8_t> keptOff;  // by lamp of the home: 1 if it is off for that reason; empty: none is
+  bool keepsOff(size_t lamp) const { return lamp < keptOff.size() && keptOff[lamp] != 0; }
 };
 
 struct ViewHome {
@@ -45,7 +58,7 @@ struct ViewHome {
   EditableHome editable;
   HomeState atStart() const;
   std::optional<HomeState>
-      opened;  // the lamps as the lighting file has them, where it dims some; `scene` has them undimmed
+      opened;  // the lamps as the files have them, dimmed or off; `scene` has all of them on and undimmed
   std::optional<SunByDate> sun;
   LightingSource lighting;
 };

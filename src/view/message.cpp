@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "import/json_file.h"
-#include "import/json_reader.h"
-#include "import/printable.h"
-#include "photometry/white_balance.h"
+#include "base/utf8.h"
+#include "json/json_file.h"
+#include "json/json_reader.h"
+#include "photometry/colour_temperature.h"
 #include "view/message_edit.h"
 
 namespace roomlight::view {
@@ -43,7 +43,7 @@ Message readViewport(const JsonPlace& j) {
 }
 
 Message readCamera(const JsonPlace& j) {
-  if (!j.isObject({"type", "number", "position", "target", "direction", "up", "verticalFov"})) return {};
+  if (!j.isObject({"type", "number", "position", "target", "direction", "up", "verticalFov", "cutHeight"})) return {};
   ViewCamera camera;
   if (j.has("number")) camera.number = whole(j["number"]);
   camera.position = j["position"].vector(-kFarthestM, kFarthestM);
@@ -61,6 +61,8 @@ Message readCamera(const JsonPlace& j) {
   }
   if (j.has("up")) camera.up = unit(j["up"]);
   camera.yFovDeg = static_cast<float>(j.number("verticalFov", 5, 150, 55));
+  if (j.has("cutHeight") && !j["cutHeight"].isNull())
+    camera.cutHeightM = static_cast<float>(j["cutHeight"].number(-kFarthestM, kFarthestM));
   return camera;
 }
 
@@ -113,7 +115,7 @@ Message readSplit(const JsonPlace& j) {
 
 Message readEdit(const JsonPlace& j) {
   if (!j.isObject({"type", "id", "target", "gesture", "position", "direction", "dim", "on", "temperatureK", "color",
-                   "fluxLm", "move", "turn", "hidden", "material", "open", "date", "hour"}))
+                   "fluxLm", "move", "turn", "alone", "hidden", "material", "open", "date", "hour"}))
     return {};
   Edit edit{whole(j["id"]), shortText(j["target"], kLongestName), {}, readEditFields(j)};
   if (j.has("gesture")) edit.gesture = shortText(j["gesture"], kLongestGesture);

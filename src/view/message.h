@@ -31,6 +31,7 @@ struct ViewCamera {
   uint32_t number = 0;
   Vec3 position, direction{0, 0, -1}, up{0, 1, 0};  // directions are unit
   float yFovDeg = 55;
+  float cutHeightM = kInfinity;  // what is higher in the home is not seen
 };
 
 enum class FalseColour : uint8_t { Off, Illuminance, Luminance };
@@ -67,6 +68,7 @@ struct EditFields {
   std::optional<Vec3> position, direction, color, move;
   std::optional<float> dim, temperatureK, fluxLm, turnDeg, open;
   std::optional<bool> on, hidden;
+  std::optional<bool> alone;  // of a move or a turn: what stands on the thing stays
   std::optional<std::string> material;
   std::optional<int> year, month, day;  // together
   std::optional<double> hour;

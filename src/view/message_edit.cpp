@@ -58,7 +58,8 @@ EditFields readEditFields(const JsonPlace& j) {
   out.temperatureK = number(j, "temperatureK", 1000, 40000);
   out.fluxLm = number(j, "fluxLm", 0, kMostFluxLm);
   out.turnDeg = number(j, "turn", -36000, 36000);
-  out.on = flag(j, "on"), out.hidden = flag(j, "hidden");
+  out.on = flag(j, "on"), out.hidden = flag(j, "hidden"), out.alone = flag(j, "alone");
+  if (j.has("alone") && !j.has("move") && !j.has("turn")) j["alone"].fail("needs a move or a turn");
   if (j.has("material")) out.material = j["material"].text();
   if (j.has("material") && !j.has("color")) j["material"].fail("needs a color");
   if (j.has("color") && j.has("temperatureK")) j["temperatureK"].fail("give a color or a temperature, not both");

@@ -1,7 +1,7 @@
 // The fields of an edit as a message has them.
 #pragma once
 
-#include "import/json_reader.h"
+#include "json/json_reader.h"
 #include "view/message.h"
 
 namespace roomlight::view {

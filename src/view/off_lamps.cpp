@@ -94,20 +94,33 @@ json entryOf(const Lamp& lamp) {
 }
 
 // A lamp of the lighting file that stands for one of the home: it was saved so.
-bool hasLamp(const Scene& scene, size_t firstOfFile, const Lamp& lamp) {
+bool isInFile(const Scene& scene, size_t firstOfFile, const Lamp& lamp) {
   return std::any_of(
       scene.lamps.begin() + static_cast<std::ptrdiff_t>(firstOfFile), scene.lamps.end(),
       [&](const Lamp& l) { return l.name == lamp.name && length(l.position - lamp.position) < kSamePlaceM; });
 }
 
+// But for those that would be a part of another lamp, which is not off.
 void addHomesOff(const std::vector<Lamp>& lamps, LightingSource& source, Scene& scene, OffLamps& off) {
-  const size_t first = scene.lamps.size() - source.lamps;
+  const size_t firstOfFile = scene.lamps.size() - source.lamps, first = scene.lamps.size();
   for (const Lamp& lamp : lamps) {
-    if (hasLamp(scene, first, lamp)) continue;
-    if (!source.document.is_object()) source.document = {{"version", 1}};
-    source.document["lamps"].push_back(entryOf(lamp));
-    scene.lamps.push_back(lamp), ++source.lamps;
-    off.lamps.push_back(0), off.assumed.push_back(1);
+    if (!isInFile(scene, firstOfFile, lamp)) scene.lamps.push_back(lamp);
+  }
+  if (scene.lamps.size() == first) return;
+  std::vector<uint8_t> isPart(scene.lamps.size(), 0);
+  for (const SceneLamp& l : findLamps(scene)) {
+    const bool apart =
+        l.instances.empty() && std::all_of(l.lamps.begin(), l.lamps.end(), [&](size_t i) { return i >= first; });
+    for (const size_t i : l.lamps) isPart[i] = !apart;
+  }
+  if (!source.document.is_object()) source.document = {{"version", 1}};
+  for (size_t i = first, next = first; next < isPart.size(); ++next) {
+    if (isPart[next]) {
+      scene.lamps.erase(scene.lamps.begin() + static_cast<std::ptrdiff_t>(i));
+      continue;
+    }
+    source.document["lamps"].push_back(entryOf(scene.lamps[i++]));
+    off.lamps.push_back(0), off.assumed.push_back(1), ++source.lamps;
   }
 }
 
@@ -115,10 +128,13 @@ void addHomesOff(const std::vector<Lamp>& lamps, LightingSource& source, Scene& 
 void giveAssumedLight(LightingSource& source, Scene& scene, OffLamps& off) {
   const size_t first = scene.lamps.size() - source.lamps;
   const auto isDark = [&](size_t i) { return isApart(scene.lamps[i]) && isBlack(scene.lamps[i].intensityCd); };
+  bool any = false;
+  for (size_t i = 0; i < scene.lamps.size(); ++i) any = any || isDark(i);
+  if (!any) return;
   for (const SceneLamp& lamp : findLamps(scene)) {
     if (!lamp.instances.empty() || !std::all_of(lamp.lamps.begin(), lamp.lamps.end(), isDark)) continue;
-    const double lm = home::assumedFluxLm(scene.rooms, scene.lamps[lamp.lamps[0]].position) /
-                      static_cast<double>(lamp.lamps.size());
+    const double lm =
+        home::assumedFluxLm(scene.rooms, scene.lamps[lamp.lamps[0]].position) / static_cast<double>(lamp.lamps.size());
     for (const size_t i : lamp.lamps) {
       setLampFlux(scene.lamps[i], lm), off.assumed[i] = 1;
       if (i < first) continue;
@@ -146,9 +162,8 @@ void markOff(const OffLamps& off, ViewHome& home) {
     const auto isOf = [&](const std::vector<uint8_t>& list) {
       return std::any_of(lamp.sources.begin(), lamp.sources.end(), [&](const auto& s) { return list[s.lamp] != 0; });
     };
-    home.lighting.keptOff.push_back(isOf(off.lamps) ||
-                                    std::any_of(lamp.instances.begin(), lamp.instances.end(),
-                                                [&](uint32_t i) { return off.instances[i] != 0; }));
+    home.lighting.keptOff.push_back(isOf(off.lamps) || std::any_of(lamp.instances.begin(), lamp.instances.end(),
+                                                                   [&](uint32_t i) { return off.instances[i] != 0; }));
     lamp.fluxAssumed = isOf(off.assumed);
   }
 }

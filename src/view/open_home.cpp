@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "import/json_file.h"
-#include "import/json_reader.h"
-#include "import/lighting_own.h"
+#include "home/light.h"
+#include "import/lighting_lamps.h"
+#include "json/json_file.h"
+#include "json/json_reader.h"
+#include "view/off_lamps.h"
 #include "view/save_lighting.h"
 #include "view/sun_by_date.h"
 
@@ -47,6 +49,23 @@ void merge(const nlohmann::json& added, nlohmann::json& document) {
   }
 }
 
+// Says of --light none what it does.
+void switchOff(nlohmann::json& document) {
+  if (!document.is_object()) document = {{"version", 1}};
+  for (const char* key : {"lamps", "suns", "sky", "emission"}) document["scene"][key] = "off";
+}
+
+// The lighting file's, else the home's own while it shines; else there is none until somebody switches one on.
+SunByDate sunOf(const LightingSource& lighting, const std::string& ownDaylight) {
+  const nlohmann::json own = ownDaylight.empty() ? nlohmann::json() : nlohmann::json::parse(ownDaylight);
+  std::optional<SunByDate> sun = sunOfLighting(lighting.document, lighting.folder);
+  if (keepsOwnSun(lighting.document) && !own.is_null()) {
+    sun = sunOfDaylight(own, {});
+    if (sun) sun->placeFrom = PlaceFrom::Home;
+  }
+  return sun ? std::move(*sun) : sunOffAtFirst(lighting.document, own, home::assumedDaylight());
+}
+
 }  // namespace
 
 Result<OpenedView> openHome(home::OpenWish wish) {
@@ -58,22 +77,23 @@ Result<OpenedView> openHome(home::OpenWish wish) {
     source.document = std::move(document).value();
     wish.document = withoutDimming(source.document);
   }
+  const nlohmann::json asRead = source.document;
   Result<home::OpenedHome> result = home::openHome(wish);
   if (!result) return Error{result.error()};
   home::OpenedHome& opened = result.value();
+  if (!opened.lighting.is_null()) merge(opened.lighting, source.document);
+  if (wish.light == home::LightWish::None) switchOff(source.document);
+  if (source.document.contains("lamps")) source.lamps = source.document["lamps"].size();
+  const OffLamps off = bringBackLamps(opened, source);
   if (!wish.lighting.empty()) {
-    if (const std::string wrong = wrongDimming(source.document, opened.scene); !wrong.empty())
+    if (const std::string wrong = wrongDimming(asRead, opened.scene); !wrong.empty())
       return Error{fmt::format("{}: {}", wish.lighting.string(), wrong)};
   }
-  if (!opened.lighting.is_null()) merge(opened.lighting, source.document);
-  if (source.document.contains("lamps")) source.lamps = source.document["lamps"].size();
   ViewHome home(wish.scene.stem().string(), std::move(opened.scene));
   home.lighting = std::move(source);
+  markOff(off, home);
   home.opened = stateOfFile(home, home.lighting.document);
-  const nlohmann::json& document = home.lighting.document;
-  home.sun = sunOfLighting(document, home.lighting.folder);
-  if (keepsOwnSun(document) && !opened.daylight.empty())
-    home.sun = sunOfDaylight(nlohmann::json::parse(opened.daylight), {});
+  home.sun = sunOf(home.lighting, opened.daylight);
   return OpenedView{std::move(home), std::move(opened)};
 }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/spot_meter.h"
+#include "measure/measure.h"
+#include "scene/shown_names.h"
 #include "trace/camera_rays.h"
 #include "trace/surface_point.h"
 
@@ -39,7 +40,7 @@ int bodilessLampAt(const EditableHome& home, const HomeState& state, const RaySc
     const std::optional<Vec2> at = view.pixelOf(place);
     if (!at) continue;
     const float distance = std::hypot(at->x - pixel.x, at->y - pixel.y);
-    if (distance < nearest && isSeen(rays, pointer.camera.worldFromCamera.w, place))
+    if (distance < nearest && isSeen(rays, view.ray(at->x, at->y).origin, place))
       best = static_cast<int>(k), nearest = distance;
   }
   return best;
@@ -63,7 +64,8 @@ std::optional<PickedPoint> pickAt(const EditableHome& home, const HomeState& sta
     return out;
   }
   const SurfacePoint p = surfaceAt(rays.scene(), hit, ray.direction);
-  out.point = p.p, out.normal = p.ng, out.distanceM = length(p.p - eye), out.material = p.material->name;
+  out.point = p.p, out.normal = p.ng, out.distanceM = length(p.p - eye), out.material = shownMaterialName(*p.material);
+  out.cutHeightM = pointer.camera.cutHeightM;
   out.object = numberOf(home.objects, [&](const EditableObject& o) {
     return !o.lampBody &&
            std::any_of(o.parts.begin(), o.parts.end(), [&](const auto& part) { return part.instance == hit.instance; });
@@ -79,8 +81,9 @@ std::optional<Metered> meterAt(const LitScene& lit, const PickedPoint& at, Vec3 
   MeterSettings settings;
   settings.tolerance = kTolerance, settings.fewestSamples = kFewest, settings.mostSamples = kMost;
   const std::vector<MeterReading> readings = lit.illuminance({&element, 1}, settings, {{}, &stop});
-  const Image spot = lit.pictureOf(cameraAt(eye, normalize(at.point - eye), kSpotRad),
-                                   {kSpotPixels, kSpotPixels, kSpotSamples, {}}, {{}, &stop});
+  Camera camera = cameraAt(eye, normalize(at.point - eye), kSpotRad);
+  camera.cutHeightM = at.cutHeightM;
+  const Image spot = lit.pictureOf(camera, {kSpotPixels, kSpotPixels, kSpotSamples, {}}, {{}, &stop});
   if (stop || readings.empty() || spot.pixels.empty()) return {};
   Metered out;
   out.illuminanceLux = static_cast<double>(luminance(readings[0].illuminanceLux)),

@@ -12,8 +12,9 @@ namespace roomlight::view {
 struct PickedPoint {
   Vec3 point, normal;  // of the side that is seen
   float distanceM = 0;
+  float cutHeightM = kInfinity;  // of the camera that sees it
   int object = -1, lamp = -1;  // in the lists of EditableHome
-  std::string material;
+  std::string material;  // what people call it
 };
 
 // A pointer over a picture.

@@ -9,9 +9,9 @@
 #include <limits>
 #include <random>
 
-#include "base/clock.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "look/display.h"
 
 namespace roomlight::view {

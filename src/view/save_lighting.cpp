@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
-#include "import/lighting_own.h"
+#include "import/lighting_lamps.h"
+#include "scene/scene_lamps.h"
 #include "view/sun_by_date.h"
 
 namespace roomlight::view {
@@ -27,17 +29,18 @@ void putColour(const LampState& s, json& entry) {
 
 double dimmingOf(const LampState& s) { return s.on ? rounded(static_cast<double>(s.dim)) : 0; }
 
-// A lamp of the file, as it stands in a scene that is in that state.
-void putFileLamp(const EditableLamp& lamp, const LampState& s, const Lamp& now, json& entry) {
+std::string inLumen(double fluxLm) { return fmt::format("{:.6g} lm", fluxLm); }
+
+// One of the file's lamps that a lamp is made of, as it stands in a scene that is in that state.
+void putFileLamp(const EditableLamp& lamp, const Lamp& full, const LampState& s, const Lamp& now, json& entry) {
   entry["dimming"] = dimmingOf(s);
-  if (!(s.position == lamp.position)) entry["position"] = list(s.position);
-  if (!(s.direction == lamp.direction)) {
-    entry["direction"] = list(now.direction);
-    if (lamp.kind == "area" || lamp.kind == "photometric") entry["up"] = list(now.up);
-  }
+  if (!(s.position == lamp.position)) entry["position"] = list(now.position);
+  if (!(s.direction == lamp.direction)) entry["direction"] = list(now.direction);
+  const bool hasUp = lamp.kind == "area" || lamp.kind == "photometric";
+  if (hasUp && (s.turnDeg != 0 || !(s.direction == lamp.direction))) entry["up"] = list(now.up);
   if (lamp.fluxLm > 0 && s.fluxLm != lamp.fluxLm) {
     entry.erase("intensity"), entry.erase("luminance"), entry.erase("lightLossFactor");
-    entry["flux"] = fmt::format("{:.6g} lm", s.fluxLm);
+    entry["flux"] = inLumen(s.fluxLm * (lampFluxLm(full) / lamp.fluxLm));
   }
   putColour(s, entry);
 }
@@ -45,7 +48,11 @@ void putFileLamp(const EditableLamp& lamp, const LampState& s, const Lamp& now, 
 json ownLamp(const EditableLamp& lamp, size_t number, const LampState& s) {
   json entry = {{"name", lamp.name}, {"dimming", dimmingOf(s)}};
   if (number > 1) entry["number"] = number;
-  if (lamp.fluxLm > 0 && s.fluxLm != lamp.fluxLm) entry["factor"] = rounded(s.fluxLm / lamp.fluxLm);
+  if (lamp.fluxAssumed) {
+    entry["flux"] = inLumen(s.fluxLm);
+  } else if (lamp.fluxLm > 0 && s.fluxLm != lamp.fluxLm) {
+    entry["factor"] = rounded(s.fluxLm / lamp.fluxLm);
+  }
   if (!(s.position == lamp.position)) entry["position"] = list(s.position);
   if (!(s.direction == lamp.direction)) entry["direction"] = list(s.direction);
   putColour(s, entry);
@@ -59,15 +66,30 @@ void makeAbsolute(const std::filesystem::path& folder, const char* key, json& j)
 
 void putSun(const ViewHome& home, const HomeState& state, json& document) {
   if (!home.sun || !state.sun) return;
+  const bool offAtFirst = !home.sun->atStart.on;
+  if (offAtFirst && !state.sun->on) return;
+  const char* key = home.sun->isDaylight ? "daylight" : "sun";
   json source = home.sun->source;
   source["time"] = timeText(*state.sun, home.sun->utcOffsetH);
-  const char* key = home.sun->isDaylight ? "daylight" : "sun";
-  if (document.contains(key)) {
+  if (state.sun->on && !offAtFirst && document.contains(key)) {
     document[key]["time"] = source["time"];
-  } else if (!(state.sun == home.sun->atStart)) {  // the home's own: replaced once it was changed
-    document["scene"]["suns"] = "off", document["scene"]["sky"] = "off";
-    document[key] = source;
+    return;
   }
+  if (*state.sun == home.sun->atStart) return;
+  // What shines without a date, or is the home's own, gives way.
+  document["scene"]["suns"] = "off";
+  if (home.sun->isDaylight) document["scene"]["sky"] = "off";
+  document.erase(key);
+  if (offAtFirst) document.erase("sun"), document.erase("sky");
+  if (state.sun->on) document[key] = source;
+}
+
+// Leaves it to `own` which lamps are off.
+void keepKindsOn(const KindsOff& off, json& document) {
+  json& scene = document["scene"];
+  if (off.lamps) scene.erase("lamps");
+  if (off.emission) scene.erase("emission");
+  if (scene.empty()) document.erase("scene");
 }
 
 // Places of lamps, and nothing else: meshes and textures are not needed.
@@ -85,22 +107,59 @@ std::optional<size_t> entryOf(const ViewHome& home, const EditableLamp& lamp) {
   return lamp.sources[0].lamp - first;
 }
 
+// All lamps of the file that a lamp is made of.
+void putFileLamps(const ViewHome& home, const EditableLamp& lamp, const LampState& s, const std::vector<Lamp>& now,
+                  json& entries) {
+  const size_t first = home.scene.lamps.size() - home.lighting.lamps;
+  for (const EditableLamp::Source& source : lamp.sources)
+    putFileLamp(lamp, source.full, s, now[source.lamp], entries[source.lamp - first]);
+}
+
+// Whether a lamp was switched on that the file switches off with all of its kind.
+bool anyKeptOffIsOn(const ViewHome& home, const HomeState& state) {
+  for (size_t i = 0; i < state.lamps.size(); ++i) {
+    if (home.lighting.keepsOff(i) && state.lamps[i].on) return true;
+  }
+  return false;
+}
+
+// A lamp dimmed to nothing is off; switched on, it is as bright as can be.
+void putDimming(double dimming, LampState& s) {
+  s.on = dimming > 0;
+  if (s.on) s.dim = static_cast<float>(dimming);
+}
+
+void putOwn(const OwnLamp& own, const EditableLamp& lamp, LampState& s) {
+  const bool shines = s.on || (lamp.fluxAssumed && own.fluxLm);
+  putDimming(own.dimming, s);
+  s.on = s.on && shines;
+  s.fluxLm = own.fluxLm.value_or(lamp.fluxLm * own.factor);
+  s.temperatureK = own.temperatureK;
+  if (own.color && !own.temperatureK) s.color = own.color;
+  s.position = own.position.value_or(s.position), s.direction = own.direction.value_or(s.direction);
+}
+
 }  // namespace
 
 std::string lightingFile(const ViewHome& home, const HomeState& state) {
   json document = home.lighting.document.is_object() ? home.lighting.document : json{{"version", 1}};
   document.erase("own");
   const std::vector<Lamp> lamps = lampsIn(home, state);
+  const bool anyBack = anyKeptOffIsOn(home, state);
+  if (anyBack) keepKindsOn(home.lighting.off, document);
   std::map<std::string, size_t> numbers;
   json own = json::array();
   for (size_t i = 0; i < home.editable.lamps.size(); ++i) {
     const EditableLamp& lamp = home.editable.lamps[i];
-    if (const auto entry = entryOf(home, lamp)) {
-      putFileLamp(lamp, state.lamps[i], lamps[lamp.sources[0].lamp], document["lamps"][*entry]);
+    LampState now = state.lamps[i], first = home.editable.atStart.lamps[i];
+    if (entryOf(home, lamp)) {
+      putFileLamps(home, lamp, now, lamps, document["lamps"]);
       continue;
     }
     const size_t number = ++numbers[lamp.name];
-    if (!(state.lamps[i] == home.editable.atStart.lamps[i])) own.push_back(ownLamp(lamp, number, state.lamps[i]));
+    if (home.lighting.keepsOff(i) && !anyBack) now.on = true;  // how far it is dimmed then
+    if (lamp.fluxAssumed) first.on = false;
+    if (!(now == first)) own.push_back(ownLamp(lamp, number, now));
   }
   if (!own.empty()) document["own"] = own;
   putSun(home, state, document);
@@ -129,22 +188,24 @@ HomeState stateOfFile(const ViewHome& home, const json& document) {
   const std::vector<OwnLamp> own = document.is_object() && document.contains("own")
                                        ? readOwnLamps(JsonPlace(document["own"], "own", ignored))
                                        : std::vector<OwnLamp>();
-  std::map<std::string, size_t> numbers;
+  std::set<std::string> names;
+  for (const EditableLamp& lamp : home.editable.lamps) names.insert(lamp.name);
+  std::map<std::string, size_t> numbers, shownNumbers;
   for (size_t i = 0; i < home.editable.lamps.size(); ++i) {
     const EditableLamp& lamp = home.editable.lamps[i];
     LampState& s = state.lamps[i];
     if (const auto entry = entryOf(home, lamp)) {
       const json& from = document["lamps"][*entry];
-      s.dim = from.is_object() ? static_cast<float>(from.value("dimming", 1.0)) : 1;
+      if (from.is_object()) putDimming(from.value("dimming", 1.0), s);
       continue;
     }
-    const size_t number = ++numbers[lamp.name];
+    const size_t number = ++numbers[lamp.name], shownNumber = ++shownNumbers[lamp.label];
+    s.on = !home.lighting.keepsOff(i) && !lamp.fluxAssumed;
     for (const OwnLamp& o : own) {
-      if (o.name != lamp.name || o.number != number) continue;
-      s.dim = static_cast<float>(o.dimming), s.fluxLm = lamp.fluxLm * o.factor;
-      s.temperatureK = o.temperatureK;
-      if (o.color && !o.temperatureK) s.color = o.color;
-      s.position = o.position.value_or(s.position), s.direction = o.direction.value_or(s.direction);
+      // By its name, or where none has that by what people call it.
+      const bool isIt = names.contains(o.name) ? o.name == lamp.name && o.number == number
+                                               : o.name == lamp.label && o.number == shownNumber;
+      if (isIt) putOwn(o, lamp, s);
     }
   }
   return state;

@@ -3,10 +3,10 @@
 #include <exception>
 #include <utility>
 
-#include "base/clock.h"
 #include "base/parallel.h"
-#include "engine/light_colour.h"
-#include "measure/luminance_picture.h"
+#include "base/progress.h"
+#include "engine/sights.h"
+#include "measure/false_colour.h"
 #include "view/illuminance_picture.h"
 #include "view/session.h"
 
@@ -160,6 +160,7 @@ FrameInfo Session::frameInfo(Window& window, size_t index, const LitHome& home) 
                                     flag(picture.refined(), kRefined) | flag(isBehind, kLightIsBehind));
   info.jpegQuality = static_cast<uint16_t>(window.line.quality());
   info.camera = window.camera.number, info.revision = side.shownRevision, info.samples = picture.samples();
+  info.samplesInAll = picture.samplesInAll();
   info.relativeError = picture.relativeError();
   info.pictureMs = static_cast<float>(picture.pictureMs());
   if (!window.inputShown) info.latencyMs = static_cast<float>(millisecondsSince(window.inputAt));

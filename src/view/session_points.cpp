@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "measure/exposure.h"
+#include "measure/measurements.h"
 #include "view/point.h"
 #include "view/session.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "look/look.h"
+#include "look/display.h"
 
 namespace roomlight::view {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "base/byte_image.h"
+#include "base/image.h"
 #include "look/display.h"
 #include "measure/false_colour.h"
 #include "view/frame.h"

@@ -9,10 +9,14 @@
 namespace roomlight::view {
 namespace {
 
+Affine turnedBy(float turnDeg) {
+  const float turnRad = turnDeg * kPi / 180, c = std::cos(turnRad), s = std::sin(turnRad);
+  return {{c, 0, -s}, {0, 1, 0}, {s, 0, c}, {}};
+}
+
 Affine placeOf(const EditableObject& object, const ObjectState& state) {
-  const float turnRad = state.turnDeg * kPi / 180, c = std::cos(turnRad), s = std::sin(turnRad);
   const Vec3 about = object.bounds.centre();
-  Affine place{{c, 0, -s}, {0, 1, 0}, {s, 0, c}, {}};
+  Affine place = turnedBy(state.turnDeg);
   place.w = about - place.vector(about) + state.move;
   return place;
 }
@@ -48,13 +52,6 @@ Bounds3 movedBox(const Bounds3& b, const Affine& motion) {
   return out;
 }
 
-// From where the file has a part to where it is.
-Affine motionOf(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state) {
-  const Affine place = isAtRest(state) ? Affine() : placeOf(object, state);
-  if (!isSwung(object, part, state)) return place;
-  return place * swing(*part.leaf, openingOf(object, *part.leaf, state.open) - part.leaf->atRest);
-}
-
 // The shortest turn from one unit direction to another.
 Affine turnBetween(Vec3 from, Vec3 to, Vec3 up) {
   const float c = dot(from, to);
@@ -76,8 +73,9 @@ Affine lampPlace(const EditableHome& home, size_t index, const HomeState& state)
   if (lamp.sources.empty()) return {};
   const LampState& now = state.lamps[index];
   const Lamp& file = lamp.sources[0].full;
-  Affine place;
-  if (lamp.aimed && !(now.direction == lamp.direction)) place = turnBetween(lamp.direction, now.direction, file.up);
+  Affine place = now.turnDeg == 0 ? Affine() : turnedBy(now.turnDeg);
+  if (lamp.aimed && !(now.direction == place.vector(lamp.direction)))
+    place = turnBetween(place.vector(lamp.direction), now.direction, place.vector(file.up)) * place;
   place.w = now.position - place.vector(lamp.position);
   return place;
 }
@@ -161,6 +159,16 @@ SceneChange stage(const EditableHome& home, const HomeState& from, const HomeSta
   }
   sortOnce(change.moved), sortOnce(change.glow);
   return change;
+}
+
+Affine motionOf(const EditableObject& object, const ObjectState& state) {
+  return isAtRest(state) ? Affine() : placeOf(object, state);
+}
+
+Affine motionOf(const EditableObject& object, const EditableObject::Part& part, const ObjectState& state) {
+  const Affine place = motionOf(object, state);
+  if (!isSwung(object, part, state)) return place;
+  return place * swing(*part.leaf, openingOf(object, *part.leaf, state.open) - part.leaf->atRest);
 }
 
 Bounds3 boundsOf(const EditableObject& object, const ObjectState& state) {

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "import/lighting_daylight.h"
-#include "import/lighting_sky.h"
 #include "photometry/epw.h"
 #include "photometry/sun.h"
 
@@ -78,7 +77,7 @@ std::function<Result<SunLight>(const SunState&)> remembering(std::function<Resul
     std::mutex mutex;
     std::deque<std::pair<SunState, Result<SunLight>>> found;
   };
-  return [find = std::move(find), memory = std::make_shared<Memory>()](const SunState& state) {
+  return [find = std::move(find), memory = std::make_shared<Memory>()](const SunState& state) -> Result<SunLight> {
     const std::lock_guard lock(memory->mutex);
     for (const auto& [at, light] : memory->found) {
       if (at == state) return light;
@@ -86,6 +85,29 @@ std::function<Result<SunLight>(const SunState&)> remembering(std::function<Resul
     if (memory->found.size() >= kRemembered) memory->found.pop_front();
     return memory->found.emplace_back(state, find(state)).second;
   };
+}
+
+// Where a lighting file says that a home stands, though no date moves its sun: keys of a `daylight`. Null: nowhere.
+json mentionedPlace(const json& document) {
+  json sources = json::array();
+  if (document.is_object() && document.contains("daylight")) sources.push_back(document["daylight"]);
+  if (document.is_object() && document.contains("sun")) {
+    const json& sun = document["sun"];
+    if (sun.is_array()) {
+      sources.insert(sources.end(), sun.begin(), sun.end());
+    } else {
+      sources.push_back(sun);
+    }
+  }
+  for (const json& s : sources) {
+    if (!s.is_object() || !number(s, "latitude") || !number(s, "longitude")) continue;
+    json place;
+    for (const char* key : {"latitude", "longitude", "north", "time"}) {
+      if (s.contains(key)) place[key] = s[key];
+    }
+    return place;
+  }
+  return {};
 }
 
 std::string skyInWords(const json& sky) {
@@ -107,6 +129,7 @@ std::optional<SunByDate> sunOfDaylight(const json& daylight, const std::filesyst
   if (!out) return {};
   out->sky = daylight.contains("weather") ? "weather" : skyInWords(daylight.value("sky", json()));
   out->at = remembering([sun = *out, folder](const SunState& state) -> Result<SunLight> {
+    if (!state.on) return SunLight{{}, Sky()};
     std::string error;
     const json source = atTime(sun, state);
     Daylight light = readDaylight(JsonPlace(source, "daylight", error), folder);
@@ -128,6 +151,7 @@ std::optional<SunByDate> sunOfLighting(const json& document, const std::filesyst
   out->isDaylight = false;
   out->sky = "as it is";
   out->at = remembering([sun = *out](const SunState& state) -> Result<SunLight> {
+    if (!state.on) return SunLight();
     std::string error;
     const json source = atTime(sun, state);
     const Sun light = readSun(JsonPlace(source, "sun", error));
@@ -137,6 +161,20 @@ std::optional<SunByDate> sunOfLighting(const json& document, const std::filesyst
     return lit;
   });
   return out;
+}
+
+SunByDate sunOffAtFirst(const json& document, const json& home, const json& assumed) {
+  json source = home.is_null() ? assumed : home;
+  PlaceFrom from = home.is_null() ? PlaceFrom::Assumed : PlaceFrom::Home;
+  if (const json place = mentionedPlace(document); !place.is_null()) {
+    source.update(place), from = PlaceFrom::Lighting;
+    const double hours = std::round(place["longitude"].get<double>() / 15);
+    if (!place.contains("time")) source["time"] = timeText({2026, 6, 10, 12}, hours);
+  }
+  std::optional<SunByDate> sun = sunOfDaylight(source, {});
+  if (!sun) sun = sunOfDaylight(assumed, {}), from = PlaceFrom::Assumed;
+  sun->placeFrom = from, sun->atStart.on = false;
+  return std::move(*sun);
 }
 
 }  // namespace roomlight::view

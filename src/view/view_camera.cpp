@@ -23,6 +23,7 @@ Camera cameraOf(const ViewCamera& v) {
     camera.worldFromCamera = {right, cross(back, right), back, v.position};
   }
   camera.yFovRad = v.yFovDeg * kPi / 180;
+  camera.cutHeightM = v.cutHeightM;
   return camera;
 }
 
@@ -31,6 +32,7 @@ ViewCamera viewOf(const Camera& camera) {
   v.position = camera.worldFromCamera.w;
   v.direction = -normalize(camera.worldFromCamera.z);
   v.yFovDeg = std::clamp(camera.yFovRad * 180 / kPi, 5.0f, 150.0f);
+  v.cutHeightM = camera.cutHeightM;
   return v;
 }
 

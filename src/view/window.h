@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gather/frame_history.h"
+#include "gather/frame.h"
 #include "gather/quick_frames.h"
 #include "view/growing_picture.h"
 #include "view/message.h"

@@ -1,4 +1,4 @@
-#include "voxel/assemble.h"
+#include "voxel/bricks.h"
 
 #include "base/parallel.h"
 

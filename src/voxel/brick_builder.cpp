@@ -1,7 +1,6 @@
-#include "voxel/brick_builder.h"
+#include "voxel/bricks.h"
 
 #include "voxel/clip.h"
-#include "voxel/shade.h"
 #include "voxel/slot_sums.h"
 #include "voxel/submask.h"
 

@@ -1,9 +1,8 @@
-#include "voxel/brick_references.h"
+#include "voxel/bricks.h"
 
 #include <numeric>
 
 #include "base/parallel.h"
-#include "voxel/brick_builder.h"
 #include "voxel/clip.h"
 
 namespace roomlight {

@@ -1,4 +1,4 @@
-#include "voxel/moved_places.h"
+#include "voxel/voxelise.h"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "voxel/shade.h"
+#include "voxel/bricks.h"
 
 namespace roomlight {
 namespace {

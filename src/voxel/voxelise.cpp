@@ -4,8 +4,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "voxel/assemble.h"
-#include "voxel/brick_references.h"
+#include "voxel/bricks.h"
 
 namespace roomlight {
 namespace {

@@ -4,8 +4,10 @@
 
 #include <compare>
 #include <span>
+#include <vector>
 
 #include "scene/scene.h"
+#include "scene/scene_change.h"
 #include "voxel/voxels.h"
 
 namespace roomlight {
@@ -47,5 +49,9 @@ Voxelisation voxelise(const Scene& scene, const VoxelSettings& settings, std::sp
 // shrinks. Cost: the bricks that changed instances left and entered, plus a copy of the rest.
 void update(Voxelisation& v, const Scene& scene, std::span<const uint32_t> changedInstances,
             std::span<const uint8_t> hidden = {});
+
+// Brings the voxels up to date and returns the boxes outside which the change
+// left the scene as it was: one an object, or two where it went far.
+std::vector<Bounds3> followMoves(Voxelisation& voxels, const Scene& scene, const SceneChange& change);
 
 }  // namespace roomlight

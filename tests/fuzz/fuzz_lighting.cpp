@@ -12,14 +12,12 @@
 #include "import/lighting_file.h"
 #include "scene/validate.h"
 
+namespace roomlight::fuzz {
 namespace {
-
-using namespace roomlight;
-using fuzz::require;
 
 // With a light of each kind.
 Scene smallScene() {
-  Scene scene = fuzz::glowingTriangle();
+  Scene scene = glowingTriangle();
   scene.lamps.emplace_back();
   scene.suns.emplace_back();
   scene.sky.luminanceCdM2 = Vec3(9);
@@ -43,7 +41,7 @@ const std::filesystem::path& inputFile() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+void lighting(const uint8_t* data, size_t size) {
   std::ofstream(inputFile(), std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   Scene scene = smallScene();
@@ -55,5 +53,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     require(scene.lamps.size() == 1 && scene.suns.size() == 1 && scene.meshes.size() == 1);
     require(scene.materials[0].emission == Vec3(100) && scene.sky.luminanceCdM2 == Vec3(9));
   }
-  return 0;
 }
+
+}  // namespace roomlight::fuzz

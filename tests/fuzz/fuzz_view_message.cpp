@@ -9,9 +9,8 @@
 #include "view/shown.h"
 #include "view/view_camera.h"
 
+namespace roomlight::fuzz {
 namespace {
-
-using namespace roomlight;
 
 void require(bool fact) {
   if (!fact) std::abort();
@@ -75,8 +74,9 @@ void check(const T&) {}
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+void view_message(const uint8_t* data, size_t size) {
   const view::Message message = view::readMessage({reinterpret_cast<const char*>(data), size});
   std::visit([](const auto& m) { check(m); }, message);
-  return 0;
 }
+
+}  // namespace roomlight::fuzz

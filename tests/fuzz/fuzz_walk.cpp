@@ -11,14 +11,12 @@
 #include "fuzz/fuzz_support.h"
 #include "import/walk_file.h"
 
+namespace roomlight::fuzz {
 namespace {
-
-using namespace roomlight;
-using fuzz::require;
 
 // A triangle called Chair, and a lamp.
 Scene smallScene() {
-  Scene scene = fuzz::glowingTriangle();
+  Scene scene = glowingTriangle();
   scene.instances[0].name = "Chair";
   scene.lamps.emplace_back().name = "Lamp";
   return scene;
@@ -34,14 +32,14 @@ const std::filesystem::path& inputFile() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+void walk(const uint8_t* data, size_t size) {
   const std::filesystem::path& file = inputFile();
   std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   Scene scene = smallScene();
   const Result<Walk> walk = readWalkFile(file, scene);
   if (!walk) {
     require(walk.error().find('\n') == std::string::npos && walk.error().size() < 4000);
-    return 0;
+    return;
   }
   for (int k = 0; k <= 4; ++k) {
     const double timeS = walk.value().seconds * k / 4;
@@ -51,5 +49,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   atRest(walk.value(), scene);
   require(scene.materials[0].emission == Vec3(100) && scene.instances[0].worldFromObject.w == Vec3(0));
-  return 0;
 }
+
+}  // namespace roomlight::fuzz

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "compare/blotches.h"
 #include "compare/compare.h"
+#include "compare/perceived_error.h"
 #include "gather/cone_gather.h"
 #include "gather/ray_gather.h"
 #include "reference/path_tracer.h"

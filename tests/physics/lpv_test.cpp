@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "baselines/lpv_shader.h"
+#include "baselines/lpv.h"
 #include "support/record.h"
-#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {

@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-#include "measure/daylight.h"
 #include "measure/glare.h"
-#include "measure/spot_meter.h"
+#include "measure/measure.h"
 #include "support/record.h"
 #include "support/rooms.h"
 

@@ -6,11 +6,9 @@
 
 #include "base/parallel.h"
 #include "baselines/photon.h"
-#include "baselines/photon_shader.h"
 #include "gather/meters.h"
 #include "reference/path_tracer.h"
 #include "support/record.h"
-#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {

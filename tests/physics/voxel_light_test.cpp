@@ -3,7 +3,7 @@
 
 #include "base/sampler.h"
 #include "base/sampling.h"
-#include "radiance/cone_march.h"
+#include "radiance/pyramid.h"
 #include "support/rooms.h"
 #include "voxel/voxelise.h"
 

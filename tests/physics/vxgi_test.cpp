@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "baselines/room_around.h"
-#include "baselines/vxgi_shader.h"
+#include "baselines/scene_survey.h"
+#include "baselines/vxgi.h"
 #include "support/record.h"
-#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {

@@ -1,9 +1,11 @@
-// Small scenes of rectangles for tests: rooms, lamps, panels.
+// Small scenes of rectangles for tests: rooms, lamps, panels, and pictures of them.
 #pragma once
 
 #include <string>
 
+#include "base/image.h"
 #include "scene/primitives.h"
+#include "scene/scene.h"
 
 namespace roomlight::test {
 
@@ -32,6 +34,20 @@ inline Scene tableLamp(bool bulb) {
     scene.lamps.push_back(pointLamp(place, kPi * kRadiusM * kRadiusM * kLuminance));
   }
   return scene;
+}
+
+// Looks along -z.
+inline Camera cameraAt(Vec3 eye) {
+  Camera camera;
+  camera.worldFromCamera = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, eye};
+  camera.yFovRad = 1.2f;
+  return camera;
+}
+
+inline double meanLuminance(const Image& image) {
+  double sum = 0;
+  for (const Vec3 p : image.pixels) sum += luminance(p);
+  return sum / static_cast<double>(image.pixels.size());
 }
 
 }  // namespace roomlight::test

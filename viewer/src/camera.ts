@@ -20,6 +20,7 @@ export interface Pose {
   readonly yawRad: number;
   readonly pitchRad: number;
   readonly fovRad: number; // of the height of a picture that is not upright; see verticalFovRad
+  readonly cutHeightM?: number; // an eye above it sees nothing of the home that is higher
 }
 
 export interface Viewport {
@@ -64,12 +65,27 @@ export function anglesOf(direction: Vec3): { yawRad: number; pitchRad: number } 
   };
 }
 
-export function poseFrom(camera: { position: Vec3; direction: Vec3; verticalFov: number }): Pose {
+export function poseFrom(camera: {
+  position: Vec3;
+  direction: Vec3;
+  verticalFov: number;
+  cutHeight?: number | null | undefined;
+}): Pose {
   return {
     position: camera.position,
     ...anglesOf(camera.direction),
     fovRad: clamp(camera.verticalFov, 15, 110) * kRadPerDegree,
+    ...cutAt(camera.cutHeight),
   };
+}
+
+function cutAt(heightM: number | null | undefined): { cutHeightM?: number } {
+  return heightM === null || heightM === undefined ? {} : { cutHeightM: heightM };
+}
+
+// Where the eye is below the cut it sees ceilings, as anybody in the home does.
+export function cutHeightSeen(pose: Pose): number | undefined {
+  return pose.cutHeightM !== undefined && pose.position[1] > pose.cutHeightM ? pose.cutHeightM : undefined;
 }
 
 export function basisOf(pose: Pose): Basis {
@@ -185,5 +201,6 @@ export function between(a: Pose, b: Pose, t: number): Pose {
     yawRad: a.yawRad + turn * t,
     pitchRad: a.pitchRad + (b.pitchRad - a.pitchRad) * t,
     fovRad: a.fovRad + (b.fovRad - a.fovRad) * t,
+    ...cutAt(b.cutHeightM ?? (t < 1 ? a.cutHeightM : undefined)), // the home stays open on the way down into it
   };
 }

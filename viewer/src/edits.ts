@@ -77,10 +77,11 @@ export class EditQueue {
   }
 }
 
-// A temperature and a colour shut each other out.
+// A temperature and a colour shut each other out; a thing moves alone as the last move says.
 function mergedFields(before: EditFields, after: EditFields): EditFields {
   const merged = { ...before, ...after };
   if (after.color) delete merged.temperatureK;
   if (after.temperatureK !== undefined) delete merged.color;
+  if ((after.move || after.turn !== undefined) && !after.alone) delete merged.alone;
   return merged;
 }

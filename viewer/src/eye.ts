@@ -1,5 +1,5 @@
 // The eye of this window: its pose, moves from one place to another, and which pose each numbered camera message had.
-import { between, directionOf, verticalFovRad, type Pose, type Viewport } from "./camera.js";
+import { between, cutHeightSeen, directionOf, verticalFovRad, type Pose, type Viewport } from "./camera.js";
 import type { Notice } from "./protocol.js";
 import { kRadPerDegree } from "./vector.js";
 
@@ -60,6 +60,7 @@ export class Eye {
   sendFor(viewport: Viewport): void {
     this.lastSentMs = performance.now();
     const { pose } = this;
+    const cutHeight = cutHeightSeen(pose);
     this.sent.set(++this.lastNumber, pose);
     this.sent.delete(this.lastNumber - kRemembered);
     this.send({
@@ -68,6 +69,7 @@ export class Eye {
       position: pose.position,
       direction: directionOf(pose.yawRad, pose.pitchRad),
       verticalFov: verticalFovRad(pose, viewport) / kRadPerDegree,
+      ...(cutHeight === undefined ? {} : { cutHeight }),
     });
   }
 

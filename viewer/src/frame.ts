@@ -19,6 +19,7 @@ export interface FrameHeader {
   readonly camera: number; // number of the camera message that it shows, 0 without
   readonly revision: number;
   readonly samples: number; // a pixel
+  readonly samplesInAll: number | null; // with which this stage of refinement ends
   readonly relativeError: number | null;
   readonly ev100: number | null;
   readonly scale: readonly [number, number] | null; // ends of the false-colour scale, lx or cd/m²
@@ -61,6 +62,7 @@ export function decodeFrame(data: ArrayBuffer): { header: FrameHeader; picture: 
     camera: view.getUint32(16, true),
     revision: view.getUint32(20, true),
     samples: view.getUint32(24, true),
+    samplesInAll: view.getUint32(56, true) || null,
     relativeError: known(view.getFloat32(28, true)),
     ev100: known(view.getFloat32(32, true)),
     scale: low !== null && high !== null && low > 0 && high > low ? [low, high] : null,

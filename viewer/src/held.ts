@@ -11,7 +11,7 @@ export interface Held {
   readonly target: Target;
   readonly place: Vec3;
   readonly canTurn: boolean;
-  dragged(drag: Drag): EditFields;
+  dragged(drag: Drag, alone: boolean): EditFields; // alone: without what stands on it
 }
 
 const tidy = (v: Vec3): Vec3 => [Number(v[0].toFixed(4)), Number(v[1].toFixed(4)), Number(v[2].toFixed(4))];
@@ -23,8 +23,12 @@ function heldThing(thing: Thing): Held | null {
     target: thing.id,
     place: middle(thing),
     canTurn: true,
-    dragged: ({ by, turnRad }) =>
-      turnRad !== 0 ? { turn: Number((turn + turnRad / kRadPerDegree).toFixed(2)) } : { move: tidy(add(move, by)) },
+    dragged: ({ by, turnRad }, alone) => ({
+      ...(turnRad !== 0
+        ? { turn: Number((turn + turnRad / kRadPerDegree).toFixed(2)) }
+        : { move: tidy(add(move, by)) }),
+      ...(alone && { alone }),
+    }),
   };
 }
 

@@ -187,7 +187,7 @@ export class Input {
     pointer.y = y;
     pointer.moved ||= Math.hypot(x - pointer.startX, y - pointer.startY) > kClickPx;
     if (this.pointers.size === 2) this.twoFingers(pointer, dx, dy);
-    else if (this.pull) this.pullTo(this.pull, x, y);
+    else if (this.pull) this.pullTo(this.pull, x, y, event.shiftKey || this.session.movesAlone);
     else if (pointer.moved) this.drag(dx, dy);
   }
 
@@ -201,9 +201,9 @@ export class Input {
     }
   }
 
-  private pullTo(pull: Pull, x: number, y: number): void {
+  private pullTo(pull: Pull, x: number, y: number, alone: boolean): void {
     const drag = dragBy(pull.handle, pull.held.place, pull.from, this.ray(pull.pose, x, y));
-    if (drag) this.session.edit(pull.held.target, pull.held.dragged(drag), pull.gesture);
+    if (drag) this.session.edit(pull.held.target, pull.held.dragged(drag, alone), pull.gesture);
   }
 
   private pivot(): Vec3 {
@@ -270,7 +270,7 @@ export class Input {
         : hit?.object && model?.things.has(hit.object)
           ? { kind: "object", id: hit.object }
           : null;
-    this.session.select(selection, false);
+    this.session.select(selection);
     this.session.show({ pivot: hit?.point ?? null, ...(selection ? { tab: "home" as const } : {}) });
   }
 

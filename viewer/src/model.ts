@@ -1,6 +1,6 @@
 // What the page knows of the home: the server's state, and on top of it the edits of this window that are not yet
 // answered, so that controls follow the hand at once. Pure functions from one model to the next.
-import type { EditFields, Lamp, StateChange, Sun, Target, Thing, Welcome } from "./protocol.js";
+import type { EditFields, Lamp, Overlap, StateChange, Sun, Target, Thing, Welcome } from "./protocol.js";
 import { add, subtract } from "./vector.js";
 
 export interface Model {
@@ -8,6 +8,7 @@ export interface Model {
   readonly revision: number;
   readonly lamps: ReadonlyMap<string, Lamp>;
   readonly things: ReadonlyMap<string, Thing>;
+  readonly overlaps: readonly Overlap[]; // things that run into others
   readonly sun: Sun | null;
   readonly plans: readonly string[];
   readonly undo: string | null;
@@ -24,6 +25,7 @@ export function modelFrom(welcome: Welcome): Model {
     revision: welcome.revision,
     lamps: byId(welcome.lamps),
     things: byId(welcome.objects),
+    overlaps: welcome.overlaps ?? [],
     sun: welcome.sun,
     plans: welcome.plans,
     undo: welcome.undo,
@@ -37,6 +39,7 @@ export function changed(model: Model, change: StateChange): Model {
     revision: Math.max(model.revision, change.revision),
     lamps: change.lamps?.length ? new Map([...model.lamps, ...byId(change.lamps)]) : model.lamps,
     things: change.objects?.length ? new Map([...model.things, ...byId(change.objects)]) : model.things,
+    overlaps: change.overlaps ?? model.overlaps,
     sun: change.sun === undefined ? model.sun : change.sun,
     plans: change.plans ?? model.plans,
     undo: change.undo,
@@ -50,7 +53,10 @@ function editedLamp(lamp: Lamp, fields: EditFields): Lamp {
   if (fields.direction) next.direction = fields.direction;
   if (fields.dim !== undefined) next.dim = fields.dim;
   if (fields.on !== undefined) next.on = fields.on;
-  if (fields.fluxLm !== undefined) next.fluxLm = fields.fluxLm;
+  if (fields.fluxLm !== undefined) {
+    next.fluxLm = fields.fluxLm;
+    next.fluxAssumed = false;
+  }
   if (fields.temperatureK !== undefined) {
     next.temperatureK = fields.temperatureK;
     next.color = null;
@@ -84,10 +90,8 @@ function editedThing(thing: Thing, fields: EditFields): Thing {
 export function edited(model: Model, target: Target, fields: EditFields): Model {
   if (target === "sun") {
     if (!model.sun) return model;
-    return {
-      ...model,
-      sun: { ...model.sun, date: fields.date ?? model.sun.date, hour: fields.hour ?? model.sun.hour },
-    };
+    const { date = model.sun.date, hour = model.sun.hour, on = true } = fields;
+    return { ...model, sun: { ...model.sun, date, hour, on } };
   }
   const lamp = model.lamps.get(target);
   if (lamp) return { ...model, lamps: new Map([...model.lamps, [target, editedLamp(lamp, fields)]]) };

@@ -10,6 +10,12 @@ export function threeDigits(value: number): string {
 
 export const withUnit = (value: number, unit: string): string => `${threeDigits(value)}\u202f${unit}`;
 
+// Of a fraction.
+export function percent(fraction: number): string {
+  const value = 100 * fraction;
+  return `${value.toFixed(value > 0 && value < 9.95 ? 1 : 0)}\u202f%`;
+}
+
 export function exposureValue(value: number | null): string {
   return value === null ? "–" : value.toFixed(1);
 }

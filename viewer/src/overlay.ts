@@ -8,6 +8,7 @@ export interface OverlayScene {
   readonly pose: Pose;
   readonly viewport: Viewport;
   readonly box: Box | null;
+  readonly warnings: readonly Box[]; // things that run into each other
   readonly room: Room | null;
   readonly gizmo: Gizmo | null;
   readonly active: Handle | null; // under the pointer or held
@@ -15,6 +16,7 @@ export interface OverlayScene {
 }
 
 const kAccent = "#f0b954";
+const kWarning = "#ff8f80";
 const kCasing = "rgba(0, 0, 0, 0.55)";
 const kHandleColors: Readonly<Record<Handle, string>> = {
   x: "#ff7a6b",
@@ -41,7 +43,7 @@ function addSegment(context: CanvasRenderingContext2D, scene: OverlayScene, from
   context.lineTo(ends[1].x, ends[1].y);
 }
 
-function drawBox(context: CanvasRenderingContext2D, scene: OverlayScene, box: Box): void {
+function drawBox(context: CanvasRenderingContext2D, scene: OverlayScene, box: Box, color: string): void {
   const corner = (i: number): Vec3 => [
     i & 1 ? box.high[0] : box.low[0],
     i & 2 ? box.high[1] : box.low[1],
@@ -51,7 +53,7 @@ function drawBox(context: CanvasRenderingContext2D, scene: OverlayScene, box: Bo
   for (let i = 0; i < 8; ++i) {
     for (const bit of [1, 2, 4]) if (!(i & bit)) addSegment(context, scene, corner(i), corner(i | bit));
   }
-  stroke(context, kAccent, 1.25);
+  stroke(context, color, 1.25);
 }
 
 function drawFloor(context: CanvasRenderingContext2D, scene: OverlayScene, room: Room): void {
@@ -136,7 +138,8 @@ export function drawOverlay(canvas: HTMLCanvasElement, scene: OverlayScene): voi
   context.lineJoin = "round";
   context.lineCap = "round";
   if (scene.room) drawFloor(context, scene, scene.room);
-  if (scene.box) drawBox(context, scene, scene.box);
+  if (scene.box) drawBox(context, scene, scene.box, kAccent);
+  for (const box of scene.warnings) drawBox(context, scene, box, kWarning);
   if (scene.gizmo) drawGizmo(context, scene.gizmo, scene.active);
   if (scene.cross) drawCross(context, scene.cross[0], scene.cross[1]);
 }

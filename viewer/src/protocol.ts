@@ -8,9 +8,23 @@ export type Box = c.Checked<typeof box>;
 const room = c.shape({ name: c.text, low: c.triple, high: c.triple, floor: c.listOf(c.pair) });
 export type Room = c.Checked<typeof room>;
 
-const namedCamera = c.shape({ name: c.text, position: c.triple, direction: c.triple, verticalFov: c.real });
+const cutHeight = c.optional(c.nullable(c.real));
 
-const windowCamera = c.shape({ position: c.triple, direction: c.triple, up: c.triple, verticalFov: c.real });
+const namedCamera = c.shape({
+  name: c.text,
+  position: c.triple,
+  direction: c.triple,
+  verticalFov: c.real,
+  cutHeight,
+});
+
+const windowCamera = c.shape({
+  position: c.triple,
+  direction: c.triple,
+  up: c.triple,
+  verticalFov: c.real,
+  cutHeight,
+});
 
 const described = c.shape({ name: c.text, about: c.text });
 
@@ -22,6 +36,7 @@ const lamp = c.shape({
   position: c.triple,
   direction: c.nullable(c.triple),
   fluxLm: c.nullable(c.real),
+  fluxAssumed: c.flag,
   dim: c.real,
   on: c.flag,
   temperatureK: c.nullable(c.real),
@@ -30,7 +45,7 @@ const lamp = c.shape({
 });
 export type Lamp = c.Checked<typeof lamp>;
 
-const paint = c.shape({ material: c.text, color: c.triple, textured: c.flag });
+const paint = c.shape({ material: c.text, label: c.optional(c.text), color: c.triple, textured: c.flag });
 export type Paint = c.Checked<typeof paint>;
 
 const thing = c.shape({
@@ -48,6 +63,8 @@ const thing = c.shape({
 export type Thing = c.Checked<typeof thing>;
 
 const sun = c.shape({
+  on: c.flag,
+  placeFrom: c.literal("lighting", "home", "assumed"),
   date: c.text,
   hour: c.real,
   utcOffset: c.real,
@@ -58,6 +75,10 @@ const sun = c.shape({
   azimuth: c.real,
 });
 export type Sun = c.Checked<typeof sun>;
+
+// The first was moved.
+const overlap = c.shape({ object: c.text, into: c.text });
+export type Overlap = c.Checked<typeof overlap>;
 
 const display = c.shape({
   exposure: c.either(c.real, c.literal("auto")),
@@ -106,6 +127,7 @@ const welcome = c.shape({
   revision: c.whole,
   lamps: c.listOf(lamp),
   objects: c.listOf(thing),
+  overlaps: c.optional(c.listOf(overlap)),
   sun: c.nullable(sun),
   undo: c.nullable(c.text),
   redo: c.nullable(c.text),
@@ -117,6 +139,7 @@ const stateChange = c.shape({
   revision: c.whole,
   lamps: c.optional(c.listOf(lamp)),
   objects: c.optional(c.listOf(thing)),
+  overlaps: c.optional(c.listOf(overlap)),
   sun: c.optional(c.nullable(sun)),
   plans: c.optional(c.listOf(c.text)),
   undo: c.nullable(c.text),
@@ -214,6 +237,7 @@ export interface EditFields {
   fluxLm?: number;
   move?: readonly [number, number, number];
   turn?: number;
+  alone?: boolean; // of a move or turn: what stands on the thing stays
   hidden?: boolean;
   material?: string;
   open?: number;
@@ -240,6 +264,7 @@ export type Notice =
       position: readonly [number, number, number];
       direction: readonly [number, number, number];
       verticalFov: number;
+      cutHeight?: number;
     }
   | ({ type: "display" } & Partial<Display>)
   | { type: "ack"; frame: number };

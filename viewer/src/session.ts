@@ -6,9 +6,10 @@ import { ConnectionLost, EditQueue } from "./edits.js";
 import { Eye } from "./eye.js";
 import { FinalPictures } from "./final_pictures.js";
 import type { FrameHeader } from "./frame.js";
-import { middle, poseForRoom, poseForThing } from "./framing.js";
+import { boxAt, lampBox, middle, poseForLamp, poseForRoom, poseForThing, type Surroundings } from "./framing.js";
 import { LightMeter } from "./light_meter.js";
 import { changed, edited, modelFrom, type Model } from "./model.js";
+import type { PictureState } from "./picture_words.js";
 import type {
   Box,
   Display,
@@ -35,8 +36,6 @@ export interface Selection {
   readonly id: string; // of rooms and cameras the number in their list
 }
 
-const kLampBoxM = 0.15; // half of the side of the box that stands for a lamp without a body
-
 export class Session implements Listener {
   link: Link = { state: "opening" };
   model: Model | null = null;
@@ -49,9 +48,11 @@ export class Session implements Listener {
   tab: Tab = "home";
   sheetOpen = true; // the panel on narrow screens
   navigation: Navigation = "walk";
+  movesAlone = false; // things, without what stands on them
   notice: { readonly text: string; readonly bad: boolean } | null = null;
   progress: Progress | null = null;
   lastFrame: FrameHeader | null = null;
+  private frames: readonly FrameHeader[] = []; // the newest of each side that is shown
   readonly eye: Eye;
   readonly meter: LightMeter;
   readonly pictures: FinalPictures;
@@ -63,6 +64,8 @@ export class Session implements Listener {
   private server: Model | null = null; // what the server has said, without edits under way
   private readonly listeners = new Map<Topic, Set<() => void>>();
   private frameTimesMs: number[] = [];
+  private movedAtMs = -Infinity; // when a frame came that shows another eye or home than the one before
+  private wantedRevision = 0; // of the newest state in which something was changed
   private noticeTimer = 0;
 
   constructor(origin: URL, token: string) {
@@ -112,6 +115,7 @@ export class Session implements Listener {
     const again = this.server !== null;
     this.onNewLine?.();
     this.server = modelFrom(welcome);
+    this.wantedRevision = 0;
     if (again) {
       // The server may have been started afresh: it is told what this window shows.
       if (this.display) this.connection.notify({ type: "display", ...this.display });
@@ -137,6 +141,8 @@ export class Session implements Listener {
   message(message: ServerMessage): void {
     if (message.type === "state" && this.server) {
       this.server = changed(this.server, message);
+      // Plans count as revisions too, and change no picture.
+      if (message.lamps?.length || message.objects?.length || message.sun) this.wantedRevision = message.revision;
       this.publishModel();
     } else if (message.type === "progress") {
       this.progress = message.stage === "done" ? null : message;
@@ -151,16 +157,34 @@ export class Session implements Listener {
   frame(header: FrameHeader, picture: Uint8Array): void {
     const now = performance.now();
     this.meter.shown(header);
-    this.frameTimesMs = [...this.frameTimesMs.filter(time => now - time < 1000), now];
+    const before = this.frames.find(({ side }) => side === header.side);
+    const moved =
+      before &&
+      (this.eye.poseOf(before.camera) !== this.eye.poseOf(header.camera) || before.revision !== header.revision);
+    if (moved) this.movedAtMs = now;
+    const isOther = ({ side }: FrameHeader) => side !== "whole" && header.side !== "whole" && side !== header.side;
+    this.frames = [header, ...this.frames.filter(isOther)];
+    if (header.side !== "right") this.frameTimesMs = [...this.recentFrames(now), now];
     this.lastFrame = header;
     this.onFrame?.(header, picture);
     this.emit("frame");
   }
 
-  // Of the last second.
-  framesPerSecond(): number {
+  // What happens to the picture now.
+  pictureState(): PictureState {
+    const { frames, eye, progress, pictures, wantedRevision } = this;
     const now = performance.now();
-    return this.frameTimesMs.filter(time => now - time < 1000).length;
+    const times = this.recentFrames(now);
+    const seconds = (times.at(-1)! - times[0]!) / 1000;
+    return {
+      frames,
+      moving: now - this.movedAtMs < 1000 && frames.some(({ samples }) => samples === 0),
+      framesPerSecond: times.length > 1 && seconds > 0.2 ? (times.length - 1) / seconds : null,
+      awaited:
+        frames.some(({ camera }) => camera < eye.newest) || frames.every(({ revision }) => revision < wantedRevision),
+      progress,
+      rendering: pictures.busy,
+    };
   }
 
   trouble(message: string): void {
@@ -222,15 +246,17 @@ export class Session implements Listener {
     void this.afterEdits({ type: "plan", do: action, name });
   }
 
-  select(selection: Selection | null, frameIt: boolean): void {
+  // Leaves the eye where it is; showSelected() goes there.
+  select(selection: Selection | null): void {
     this.selection = selection;
-    if (selection && frameIt) {
-      const pose = this.poseFor(selection);
-      if (pose) this.eye.goTo(pose);
-    }
     const box = selection && this.boxOf(selection);
     if (box) this.pivot = middle(box);
     this.emit("ui");
+  }
+
+  showSelected(): void {
+    const pose = this.selection && this.poseFor(this.selection);
+    if (pose) this.eye.goTo(pose);
   }
 
   boxOf(selection: Selection): Box | null {
@@ -238,14 +264,12 @@ export class Session implements Listener {
     if (kind === "object") return this.model?.things.get(id) ?? null;
     if (kind === "room") return this.model?.welcome.rooms[Number(id)] ?? null;
     const lamp = kind === "lamp" ? this.model?.lamps.get(id) : undefined;
-    if (!lamp) return null;
-    const [x, y, z] = lamp.position;
-    return { low: [x - kLampBoxM, y - kLampBoxM, z - kLampBoxM], high: [x + kLampBoxM, y + kLampBoxM, z + kLampBoxM] };
+    return lamp ? boxAt(lamp.position) : null;
   }
 
-  poseFor(selection: Selection): Pose | null {
-    const welcome = this.model?.welcome;
-    if (!welcome) return null;
+  private poseFor(selection: Selection): Pose | null {
+    if (!this.model) return null;
+    const { welcome, lamps, things } = this.model;
     if (selection.kind === "camera") {
       const camera = welcome.cameras[Number(selection.id)];
       return camera ? poseFrom(camera) : null;
@@ -254,8 +278,22 @@ export class Session implements Listener {
       const room = welcome.rooms[Number(selection.id)];
       return room ? poseForRoom(room, this.eye.pose) : null;
     }
+    const { pose, viewport } = this.eye;
+    if (selection.kind === "lamp") {
+      const lamp = lamps.get(selection.id);
+      return lamp ? poseForLamp(lampBox(lamp, things.values()), this.surroundings(this.model), pose, viewport) : null;
+    }
     const box = this.boxOf(selection);
-    return box && poseForThing(box, welcome.rooms, this.eye.pose);
+    return box && poseForThing(box, this.surroundings(this.model), pose);
+  }
+
+  private surroundings({ welcome, things }: Model): Surroundings {
+    const [low, high] = welcome.bounds;
+    return {
+      rooms: welcome.rooms,
+      bounds: low && high ? { low, high } : null,
+      things: [...things.values()].filter(({ hidden, movable }) => movable && !hidden),
+    };
   }
 
   // What is seen at a place of the stage, fractions from its top left corner.
@@ -307,9 +345,16 @@ export class Session implements Listener {
   }
 
   // Shows something else in the controls: sets fields of this session and tells who listens.
-  show(change: Partial<Pick<Session, "tab" | "sheetOpen" | "navigation" | "dividerAt" | "pivot">>): void {
+  show(
+    change: Partial<Pick<Session, "tab" | "sheetOpen" | "navigation" | "movesAlone" | "dividerAt" | "pivot">>,
+  ): void {
     Object.assign(this, change);
     this.emit("ui");
+  }
+
+  // When they came; of the last second.
+  private recentFrames(now: number): number[] {
+    return this.frameTimesMs.filter(time => now - time < 1000);
   }
 
   private async measure(xPx: number, yPx: number): Promise<MeterHit | null | undefined> {

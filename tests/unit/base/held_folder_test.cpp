@@ -1,4 +1,4 @@
-#include "base/held_folder.h"
+#include "base/write_file.h"
 
 #include <gtest/gtest.h>
 

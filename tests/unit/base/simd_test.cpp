@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/half.h"
-
 #if defined(ROOMLIGHT_WITHOUT_AVX2) && \
     (defined(__AVX2__) || defined(__FMA__) || defined(__F16C__) || defined(__SSE4_1__))
 #error "compiled for a newer processor than asked for"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/held_folder.h"
+#include "base/write_file.h"
 #include "unit/cli/program.h"
 
 namespace roomlight {

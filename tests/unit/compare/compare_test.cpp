@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "base/tone.h"
-#include "compare/ssim.h"
+#include "compare/perceived_error.h"
 
 namespace roomlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "compare/flip.h"
+#include "compare/perceived_error.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,7 @@
 
 #include "base/parallel.h"
 #include "engine/lit_scene.h"
-#include "gather/frame_history.h"
-#include "support/pictures.h"
+#include "gather/frame.h"
 #include "support/rooms.h"
 #include "trace/camera_rays.h"
 
@@ -208,6 +207,31 @@ TEST_P(Frames, doNotDependOnThreads) {
     return last;
   };
   EXPECT_TRUE(walk(1).pixels == walk(4).pixels);
+}
+
+// What was seen from elsewhere has reflections, and veils a background, of its own.
+TEST(FrameHistoryTest, forgetsWhatWasBeforeAJump) {
+  const Home home;
+  const Lights lights(home.scene);
+  const SeenSurface wall{{2, 1.3f, 0}, {0, 0, 1}, {0, 0, 1}, 0, false, 1, {2, 1.3f, 0}};
+  const auto estimatesAfter = [&](float moveM) {
+    FrameHistory history;
+    const auto begin = [&](float z) {
+      Camera c;
+      c.worldFromCamera = looking({2, 1.3f, z}, {0, 0, -1});
+      history.begin(c, kWidth, kHeight, lights);
+    };
+    begin(4);
+    for (size_t i = 0; i < size_t{kWidth * kHeight}; ++i) {
+      PastLight& l = history.light(i);
+      l.position = wall.position, l.normal = wall.normal, l.instance = wall.instance, l.estimates = 4;
+    }
+    history.end({}, false);
+    begin(4 - moveM);
+    return history.find(kWidth / 2, kHeight / 2, wall).estimates;
+  };
+  EXPECT_EQ(estimatesAfter(0.2f), 4);
+  EXPECT_EQ(estimatesAfter(3), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, Frames, ::testing::Values("hybrid", "cone", "vxgi", "lpv", "photon"),

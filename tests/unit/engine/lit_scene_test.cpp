@@ -10,9 +10,8 @@
 #include <limits>
 #include <thread>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "engine/live_walk.h"
-#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {
@@ -136,6 +135,15 @@ TEST_P(LitSceneUpdate, dimmedLightsGiveLess) {
   expectSame(picture(*lit), before);
 }
 
+TEST_P(LitSceneUpdate, lightsThatWereOffAtFirstCanBeSwitchedOn) {
+  Home home;
+  home.dim(0, 0);
+  const auto lit = open(home.scene);
+  EXPECT_EQ(test::meanLuminance(picture(*lit)), 0);
+  lit->update(home.dim(0.5f, 1), stages_);
+  expectSame(picture(*lit), picture(*open(home.scene)));
+}
+
 TEST_P(LitSceneUpdate, aHiddenThingIsGone) {
   Home home;
   home.scene.meshes.emplace_back();
@@ -239,6 +247,22 @@ TEST_P(LitSceneDaylight, theSunMoves) {
   expectSame(picture(*lit), picture(*open(home.scene)));
   lit->update(home.moveBox({-1.1f, 0, -1.3f}), stages_);
   expectSame(picture(*lit), before);
+}
+
+TEST_P(LitSceneDaylight, daylightThatWasOffAtFirstCanBeSwitchedOn) {
+  Home home;
+  home.scene.meshes.emplace_back();
+  home.scene.instances[5].mesh = static_cast<int>(home.scene.meshes.size()) - 1;  // a wall that is not there
+  const auto lit = open(home.scene);
+  const Image before = picture(*lit);
+  home.scene.sky.luminanceCdM2 = Vec3(200);
+  home.scene.suns = {{"sun", normalize(Vec3(0.3f, 0.8f, 1)), Vec3(20000), 0}};
+  SceneChange change;
+  change.daylight = true;
+  lit->update(change, stages_);
+  const Image later = picture(*lit);
+  expectOther(later, before);
+  expectSame(later, picture(*open(home.scene)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, LitSceneUpdate,

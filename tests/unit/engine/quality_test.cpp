@@ -1,9 +1,7 @@
 // Presets of quality, and how single settings go before them.
-#include "engine/quality.h"
+#include "engine/settings.h"
 
 #include <gtest/gtest.h>
-
-#include "engine/settings.h"
 
 namespace roomlight {
 namespace {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "engine/lit_scene.h"
-#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {
@@ -40,11 +39,27 @@ class QuickFramesTest : public ::testing::Test {
     firstOfBox_ = static_cast<uint32_t>(scene_.instances.size());
     test::addBox(scene_, {1.52f, 0.41f, 1.53f}, {2.43f, 1.17f, 2.04f}, red);
     scene_.lamps = {test::pointLamp({3.1f, 2.2f, 3.9f}, 80), test::pointLamp({0.6f, 2.2f, 4.1f}, 20)};
+    light();
+  }
+  void light() {
     RenderSettings s;
     s.voxel.voxelSizeM = 0.15f;
     s.radiance.links = 64;
     lit_ = lightScene(scene_, s, stages_).value();
     light_ = lit_->snapshot();
+  }
+  void addRoomBeside() {
+    Material blue = test::lambertian(0.5f);
+    blue.baseColor = {0.2f, 0.2f, 0.7f};
+    test::addRoom(scene_, {4.2f, 0, 0}, {8.2f, 2.6f, 5}, std::vector<int>(6, test::addMaterial(scene_, blue)));
+    scene_.lamps.push_back(test::pointLamp({6.2f, 2.2f, 2.5f}, 60));
+    light();
+  }
+  // Towards the first room.
+  static Camera beside(float x) {
+    Camera c;
+    c.worldFromCamera = looking({x, 1.5f, 2.4f}, {-1, -0.1f, 0.05f});
+    return c;
   }
   Camera camera(float x) const {
     Camera c;
@@ -144,6 +159,47 @@ TEST_F(QuickFramesTest, whatMovedIsNotLeftBehind) {
   EXPECT_LT(off(after, anew), 0.02);
 }
 
+// Behind the wall of the first: what was seen there must not stand on that wall.
+TEST_F(QuickFramesTest, afterAJumpToAnotherRoomNothingOfTheOldViewIsLeft) {
+  addRoomBeside();
+  QuickFrames frames;
+  for (int i = 0; i < 20; ++i) frame(frames, camera(2));
+  const Image first = frame(frames, beside(6.5f));
+  QuickFrames others;
+  EXPECT_EQ(off(first, frame(others, beside(6.5f))), 0);
+  EXPECT_LT(off(frame(frames, beside(6.5f)), fresh(beside(6.5f))), 0.01);
+}
+
+// As the eye of `view` may: no step is far, and yet the old view is hidden soon.
+TEST_F(QuickFramesTest, walkedThroughAWallNothingOfTheOldViewIsLeft) {
+  addRoomBeside();
+  QuickFrames frames;
+  Image last;
+  for (int i = 0; i <= 17; ++i) last = frame(frames, beside(3.5f + 0.05f * static_cast<float>(i)));
+  EXPECT_LT(off(last, fresh(beside(4.35f))), 0.02);
+}
+
+// Of many small faces: the slots of their voxels are those of the board below, where it is dark.
+TEST_F(QuickFramesTest, aClothCloseOverABoardIsNotBlack) {
+  const int grey = test::addMaterial(scene_, test::lambertian(0.5f));
+  test::addBox(scene_, {1.01f, 0.61f, 2.41f}, {2.99f, 0.7f, 3.99f}, grey);
+  const Vec3 corner{1, 0.74f, 4}, x{2, 0, 0}, z{0, 0, -1.6f}, y{0, 0.14f, 0};
+  test::addRectangle(scene_, corner, x, z, grey, 60);
+  test::addRectangle(scene_, corner - y, x, y, grey);
+  test::addRectangle(scene_, corner - y + z, y, x, grey);
+  test::addRectangle(scene_, corner - y, y, z, grey);
+  test::addRectangle(scene_, corner - y + x, z, y, grey);
+  light();
+  Camera down;
+  down.worldFromCamera = looking({2, 2.3f, 3.3f}, {0.01f, -1, 0.02f});
+  QuickFrames frames;
+  const Image first = frame(frames, down, 5), picture = lit_->picture(down, kWidth, kHeight);
+  size_t dark = 0;
+  for (size_t i = 0; i < first.pixels.size(); ++i)
+    dark += luminance(first.pixels[i]) < 0.3f * luminance(picture.pixels[i]);
+  EXPECT_LT(dark, first.pixels.size() / 200);
+}
+
 TEST_F(QuickFramesTest, aDimmedLampShowsInTheNextFrame) {
   QuickFrames frames;
   for (int i = 0; i < 20; ++i) frame(frames, camera(2));
@@ -221,6 +277,26 @@ TEST_F(QuickFramesTest, coloursOfABetterPictureStay) {
   size_t kept = 0;
   for (const Vec3& p : last.pixels) kept += p.z == 50 && p.x == 0;
   EXPECT_GT(kept, last.pixels.size() * 9 / 10);
+}
+
+// From above a closed room: its ceiling without a cut, what stands in it with one.
+TEST_F(QuickFramesTest, framesSeeNothingAboveTheCut) {
+  Camera above;
+  above.worldFromCamera = looking({2, 7, 4}, {0, -1, -0.4f});
+  const auto reds = [](const Image& image) {
+    size_t count = 0;
+    for (const Vec3 p : image.pixels) count += p.x > 2 * p.y && p.x > 0;
+    return count;
+  };
+  QuickFrames frames;
+  EXPECT_EQ(reds(frame(frames, above)), 0u);
+  above.cutHeightM = 2.5f;
+  const Image cut = frame(frames, above);
+  EXPECT_GT(reds(cut), cut.pixels.size() / 200) << "the box";
+  const Image fine = lit_->picture(above, kWidth, kHeight);
+  EXPECT_NEAR(static_cast<double>(reds(cut)) / static_cast<double>(reds(fine)), 1, 0.2);
+  above.cutHeightM = kInfinity;
+  EXPECT_EQ(reds(frame(frames, above)), 0u) << "nothing is kept of what was seen through the cut";
 }
 
 // Each too faint to send a ray for; together they are a lamp like any other.

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/clock.h"
+#include "base/progress.h"
 #include "engine/render.h"
 #include "engine/time_plan.h"
 #include "support/rooms.h"

@@ -38,6 +38,16 @@ TEST(Views, levelsAreRoomsOfLikeHeight) {
   EXPECT_FLOAT_EQ(levels[1].ceilingM, 5.2f);
 }
 
+TEST(Views, panoramasFromACameraThatCutsAreWhole) {
+  Camera placed;
+  placed.cutHeightM = 2;
+  ViewWish wish;
+  wish.view = View::Panorama;
+  const Result<Viewed> out = makeView({}, {}, placed, true, {960, 540}, wish);
+  ASSERT_TRUE(out.ok()) << out.error();
+  EXPECT_EQ(out.value().camera.cutHeightM, kInfinity);
+}
+
 TEST(Views, planIsAsLargeAsTheLevelAndCutsUnderItsCeiling) {
   const std::vector<Room> rooms = house();
   ViewWish wish;
@@ -134,6 +144,26 @@ TEST(Views, sectionsAndBackdropCoverExactPixels) {
     section += static_cast<double>(sights.section[i]), backdrop += static_cast<double>(sights.backdrop[i]);
   EXPECT_NEAR(section, 100 * 50, 1);
   EXPECT_NEAR(400 * 200 - section - backdrop, 50 * 50, 1);
+}
+
+// A front that a slanted camera sees before the floor is no room: it is outdoors, and shown as dark as that.
+TEST(Views, slantedCamerasSeeRoomsThroughTheCutAlone) {
+  Scene scene;
+  scene.rooms = {room("living", {0, 0}, {6, 4}, 0)};
+  Camera camera;
+  camera.worldFromCamera = looking({3, 10, 12}, {0, -1, -1});
+  camera.cutHeightM = 2.45f;
+  const std::vector<bool> mask = roomMask(scene, camera, 90, 90);
+  const CameraRays rays(camera, 90, 90);
+  const auto isRoom = [&](Vec3 place) {
+    const std::optional<Vec2> at = rays.pixelOf(place);
+    return at && mask.at(static_cast<size_t>(at->y) * 90 + static_cast<size_t>(at->x));
+  };
+  EXPECT_TRUE(isRoom({3, 2.45f, 2}));
+  EXPECT_FALSE(isRoom({3, 1.2f, 4})) << "its front";
+  EXPECT_FALSE(isRoom({3, 0, 6}));
+  camera.worldFromCamera = looking({3, 10, 2}, {0, -1, 0});
+  EXPECT_TRUE(roomMask(scene, camera, 90, 90).at(45 * 90 + 45));
 }
 
 TEST(Views, sectionsAreDrawnOverTheRest) {

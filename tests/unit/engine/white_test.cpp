@@ -5,7 +5,6 @@
 
 #include "engine/lit_scene.h"
 #include "gather/quick_frames.h"
-#include "support/pictures.h"
 #include "support/rooms.h"
 
 namespace roomlight {

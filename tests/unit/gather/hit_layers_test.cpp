@@ -1,9 +1,9 @@
-#include "gather/hit_layers.h"
+#include "gather/layer_light.h"
 
 #include <gtest/gtest.h>
 
-#include "base/half.h"
 #include "base/sampler.h"
+#include "base/simd.h"
 #include "support/rooms.h"
 
 namespace roomlight {

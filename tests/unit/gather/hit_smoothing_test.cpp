@@ -1,4 +1,4 @@
-#include "gather/hit_smoothing.h"
+#include "gather/hit_cache.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,8 @@
 // Openness of what a camera sees: a floor with a box on it, and a wall alone.
-#include "gather/openness.h"
+#include "gather/pixel_shader.h"
 
 #include <gtest/gtest.h>
 
-#include "support/pictures.h"
 #include "support/rooms.h"
 #include "trace/surface_point.h"
 

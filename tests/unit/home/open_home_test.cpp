@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "import/lighting_file.h"
 #include "support/furnished.h"
 #include "unit/temporary_folder.h"
@@ -27,6 +29,51 @@ std::string objOf(const Scene& scene, float scale = 1) {
     first += mesh.positions.size();
   }
   return text;
+}
+
+// The same as glTF with a camera that looks so far down from above the room, in degrees.
+void writeGltf(const TemporaryFolder& folder, const Scene& scene, float downDeg) {
+  nlohmann::json j = {{"asset", {{"version", "2.0"}}}, {"scene", 0}};
+  std::string bytes;
+  const auto view = [&](const auto& values) {
+    j["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", values.size() * 4}});
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * 4);
+    return j["bufferViews"].size() - 1;
+  };
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    std::vector<float> places;
+    Bounds3 b;
+    for (const Vec3 p : mesh.positions) {
+      const Vec3 q = instance.worldFromObject.point(p);
+      places.insert(places.end(), {q.x, q.y, q.z}), b.add(q);
+    }
+    const size_t first = j["accessors"].size();
+    j["accessors"].push_back({{"bufferView", view(places)},
+                              {"componentType", 5126},
+                              {"count", mesh.positions.size()},
+                              {"type", "VEC3"},
+                              {"min", {b.lo.x, b.lo.y, b.lo.z}},
+                              {"max", {b.hi.x, b.hi.y, b.hi.z}}});
+    j["accessors"].push_back({{"bufferView", view(mesh.indices)},
+                              {"componentType", 5125},
+                              {"count", mesh.indices.size()},
+                              {"type", "SCALAR"}});
+    j["nodes"].push_back({{"mesh", j["meshes"].size()}});
+    j["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", first}}}, {"indices", first + 1}}}}});
+  }
+  const float a = downDeg * kPi / 180, c = std::cos(a), s = std::sin(a);
+  // Looks along (0, -s, -c) at the middle of the room from 12 m away.
+  j["nodes"].push_back({{"name", "Above"},
+                        {"camera", 0},
+                        {"matrix", {1, 0, 0, 0, 0, c, -s, 0, 0, s, c, 0, 2.5, 1 + 12 * s, 2 + 12 * c, 1}}});
+  j["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 0.1}}}}};
+  nlohmann::json all = nlohmann::json::array();
+  for (size_t i = 0; i < j["nodes"].size(); ++i) all.push_back(i);
+  j["scenes"] = {{{"nodes", all}}};
+  j["buffers"] = {{{"uri", "room.bin"}, {"byteLength", bytes.size()}}};
+  testing::writeFile(folder / "room.bin", bytes);
+  testing::writeFile(folder / "room.gltf", j.dump());
 }
 
 class OpenHome : public ::testing::Test {
@@ -127,6 +174,30 @@ TEST_F(OpenHome, addedLightIsALightingFile) {
   ASSERT_EQ(again.scene.suns.size(), 1u);
   EXPECT_TRUE(again.scene.suns[0].toLight == home.scene.suns[0].toLight);
   EXPECT_EQ(again.scene.instances.size(), home.scene.instances.size());
+}
+
+TEST_F(OpenHome, isCutOpenForCamerasThatLookDownAtIt) {
+  OpenWish wish;
+  wish.scene = folder_ / "room.gltf";
+  wish.allCameras = true;
+  const auto cutOf = [&](float downDeg, size_t& others) {
+    writeGltf(folder_, test::furnishedRoom(), downDeg);
+    const Result<OpenedHome> home = openHome(wish);
+    if (!home) ADD_FAILURE() << home.error();
+    if (!home || home.value().fileCameras != 1) return 0.0f;
+    const std::vector<Camera>& cameras = home.value().scene.cameras;
+    others = 0;
+    for (size_t i = 1; i < cameras.size(); ++i)
+      others += cameras[i].projection == Projection::Perspective && cameras[i].cutHeightM < kInfinity;
+    EXPECT_NE(home.value().scene.cameraInUse, 0) << "what is shown by default is as ever: it stands outside";
+    return cameras[0].cutHeightM;
+  };
+  size_t others = 0;
+  const float steep = cutOf(60, others);
+  EXPECT_GT(steep, 1.1f);
+  EXPECT_LT(steep, 2.58f);
+  EXPECT_EQ(others, 0u) << "proposals are not cut";
+  EXPECT_EQ(cutOf(10, others), kInfinity);
 }
 
 }  // namespace

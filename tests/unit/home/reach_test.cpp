@@ -1,4 +1,4 @@
-#include "home/reach.h"
+#include "home/cameras.h"
 
 #include <gtest/gtest.h>
 

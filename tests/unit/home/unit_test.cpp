@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/scale.h"
+#include "scene/scene_change.h"
 #include "support/furnished.h"
 
 namespace roomlight::home {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "import/foreign_lights.h"
 #include "import/foreign_model.h"
 #include "import/import.h"
 #include "scene/validate.h"

@@ -1,5 +1,5 @@
 // KHR_materials_pbrSpecularGlossiness as metallic-roughness.
-#include "import/gltf_specular_glossiness.h"
+#include "import/gltf_material_parts.h"
 
 #include <gtest/gtest.h>
 

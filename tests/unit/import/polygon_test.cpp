@@ -1,4 +1,4 @@
-#include "import/polygon.h"
+#include "import/triangles.h"
 
 #include <gtest/gtest.h>
 

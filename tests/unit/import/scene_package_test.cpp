@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "import/companion_search.h"
 #include "import/failure.h"
+#include "import/file_access.h"
 #include "import/scene_kind.h"
 #include "support/foreign_files.h"
 #include "support/homes.h"

@@ -364,6 +364,20 @@ TEST(Sh3dLights, powerScalesAndZeroIsDark) {
   EXPECT_TRUE(!brighter.ok() || std::abs(fluxLm(brighter.value().scene) - 50) < 0.01);
 }
 
+TEST(Sh3dLights, thoseThatAreOffAreKeptForWhoSwitchesThemOn) {
+  const std::string source = "<lightSource x='0' y='0' z='1' color='FFFFFFFF' diameter='0.1'/>";
+  const auto imported = [&](const char* power) {
+    return std::move(importHome(pieceXml(power, source, "light"), kModel).value());
+  };
+  EXPECT_TRUE(imported("power='0.5'").offLamps.empty());
+  const Imported off = imported("power='0'");
+  EXPECT_TRUE(off.scene.lamps.empty());
+  ASSERT_EQ(off.offLamps.size(), 1u);
+  EXPECT_EQ(off.offLamps[0].name, "piece");
+  EXPECT_NEAR(4 * std::numbers::pi * static_cast<double>(luminance(off.offLamps[0].intensityCd)), 800, 0.1);
+  EXPECT_NEAR(length(off.offLamps[0].position - Vec3(2.5f, 0.8f, 2.25f)), 0, 1e-5);
+}
+
 TEST(Sh3dLights, namedMaterialsGlow) {
   const Scene scene = pieceScene("power='1'", "<lightSourceMaterial name='blue'/>", kModel, "light");
   EXPECT_NEAR(fluxLm(scene), 1600, 0.5);

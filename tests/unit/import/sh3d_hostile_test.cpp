@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "import/sh3d_archive.h"
-#include "import/sh3d_openings.h"
+#include "import/sh3d_wall_parts.h"
 #include "unit/import/sh3d_file.h"
 
 namespace roomlight {

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "import/sha1.h"
+#include "import/sh3d_content.h"
 #include "unit/import/sh3d_file.h"
 
 namespace roomlight {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "import/sh3d_time_zone.h"
+#include "import/sh3d_environment.h"
 #include "photometry/sky_image.h"
 #include "photometry/sun.h"
 #include "unit/import/sh3d_file.h"

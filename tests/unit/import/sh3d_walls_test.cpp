@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
+#include "scene/shown_names.h"
 #include "unit/import/sh3d_file.h"
 
 namespace roomlight {
@@ -29,6 +32,50 @@ TEST(Sh3dWalls, sidesHaveTheirOwnColours) {
     EXPECT_EQ(f.normal.z > 0, c.z > 0.5f);
     EXPECT_NEAR(f.centre.z, f.normal.z * 0.1f, 1e-6);
   }
+}
+
+std::map<std::string, std::string> labelsOf(const Scene& scene) {
+  std::map<std::string, std::string> labels;
+  for (const Instance& i : scene.instances) labels[i.name] = i.label;
+  return labels;
+}
+
+// Two rooms side by side, a wall between them, one in the left room and one in the garden.
+std::string labelledHome(const std::string& compass) {
+  return boxWalls(800, 400, 20) + wallXml("wall-0-15", 400, 0, 400, 400, 10) + wallXml("stub", 100, 200, 300, 200, 10) +
+         wallXml("garden", 0, 900, 500, 900, 20) + wallXml("hedge", 0, 950, 500, 950, 20) +
+         roomXml({{0, 0}, {400, 0}, {400, 400}, {0, 400}}, "name='Living room'") +
+         roomXml({{400, 0}, {800, 0}, {800, 400}, {400, 400}}, "name='Kitchen'") + compass;
+}
+
+TEST(Sh3dWalls, areCalledByTheirRoomsAndBearings) {
+  auto labels = labelsOf(homeScene(labelledHome("<compass northDirection='0'/>")));
+  EXPECT_EQ(labels["wall-0-15"], "Wall between Living room and Kitchen");
+  EXPECT_EQ(labels["w1"], "Wall, Kitchen, east");
+  EXPECT_EQ(labels["w3"], "Wall, Living room, west");
+  EXPECT_EQ(labels["stub"], "Wall in Living room");
+  EXPECT_EQ(labels["garden"], "Wall");
+  EXPECT_EQ(labels["hedge"], "Wall (2)");
+  EXPECT_TRUE(labels["w0"].ends_with(", north")) << labels["w0"];
+  EXPECT_TRUE(labels["w2"].ends_with(", south")) << labels["w2"];
+}
+
+// North a quarter turn clockwise from up on the plan: what is at the right is in the north.
+TEST(Sh3dWalls, bearingsFollowTheCompass) {
+  auto labels = labelsOf(homeScene(labelledHome("<compass northDirection='1.5707963'/>")));
+  EXPECT_EQ(labels["w1"], "Wall, Kitchen, north");
+  EXPECT_EQ(labels["w3"], "Wall, Living room, south");
+  labels = labelsOf(homeScene(labelledHome("")));
+  EXPECT_EQ(labels["w3"], "Wall, Living room") << "nobody knows where north is";
+}
+
+TEST(Sh3dWalls, materialsAreCalledByTheirPaint) {
+  const Scene scene = homeScene(wallXml("w0", 0, 0, 400, 0, 20, "leftSideColor='FFFF0000'"));
+  std::set<std::string> shown;
+  for (const Mesh& mesh : scene.meshes)
+    shown.insert(shownMaterialName(scene.materials[static_cast<size_t>(mesh.material)]));
+  EXPECT_TRUE(shown.contains("red wall paint"));
+  EXPECT_TRUE(shown.contains("white wall paint"));
 }
 
 TEST(Sh3dWalls, slopedWallsAreTrapezoids) {

@@ -58,6 +58,24 @@ class WalkFile : public ::testing::Test {
   }
 };
 
+TEST_F(WalkFile, thingsAndLampsAnswerToWhatPeopleCallThem) {
+  for (Instance& i : scene_.instances) {
+    if (i.name == "Chair") i.label = "Wall, Kitchen, north", i.name = "wall-0-15";
+  }
+  scene_.lamps[0].name = "Pendant.001";
+  for (const auto& [thing, lamp] : {std::pair{"wall-0-15", "Pendant.001"}, {"Wall, Kitchen, north", "Pendant"}}) {
+    const Result<Walk> walk = read(std::string(R"({"version": 1, "seconds": 2, "framesPerSecond": 5,
+          "camera": [{"time": 0, "position": [0, 1.6, 3], "target": [1, 1, 1]}],
+          "objects": [{"name": ")") +
+                                   thing + R"(", "number": 2, "keys": [{"time": 0}, {"time": 1, "turn": 90}]}],
+          "lamps": [{"name": ")" + lamp +
+                                   R"(", "keys": [{"time": 0, "dimming": 0.5}]}]})");
+    ASSERT_TRUE(walk.ok()) << walk.error();
+    EXPECT_EQ(walk.value().lamps.at(0).lamps.size(), 1u);
+    EXPECT_FALSE(walk.value().things.at(0).instances.empty());
+  }
+}
+
 TEST_F(WalkFile, cameraGoesFromKeyToKey) {
   const Walk walk = good();
   EXPECT_EQ(walk.frameCount(), 10);

@@ -7,8 +7,7 @@
 #include <numbers>
 
 #include "import/lighting_file.h"
-#include "photometry/cie_sky.h"
-#include "photometry/perez_sky.h"
+#include "photometry/sky_luminance.h"
 #include "photometry/sun.h"
 #include "trace/sky_distribution.h"
 #include "unit/temporary_folder.h"
@@ -88,7 +87,7 @@ TEST_F(Daylight, skiesHideAsMuchOfTheSunAsTheirCover) {
   for (const char* sky : {"1", "2", "5", "16", "\"overcast\""}) EXPECT_EQ(sunOf(sky), 0) << sky;
 }
 
-// Twilight by Seidelmann's table (cie_sky.h); later the light of a night with some moon.
+// Twilight by Seidelmann's table (sky_luminance.h); later the light of a night with some moon.
 TEST_F(Daylight, nightFallsAfterSunset) {
   const auto skyAt = [&](const std::string& time) {
     EXPECT_TRUE(apply(R"({"daylight": {"sky": "clear", "latitude": 48, "longitude": 11, "time": "2026-04-10T)" + time +

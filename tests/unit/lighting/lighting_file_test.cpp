@@ -222,6 +222,24 @@ TEST_F(LightingFile, errorsNameFileAndPlaceAndLeaveTheSceneAlone) {
   EXPECT_NE(applyLightingFile(folder_ / "missing.json", scene_).error().find("no such file"), std::string::npos);
 }
 
+// As the file names them, or as people see them called.
+TEST_F(LightingFile, ownLampsAndMaterialsAnswerToBothNames) {
+  scene_.lamps[0].name = "Point.001";
+  Material code;
+  code.name = "Material.007", code.transmission = 1;
+  scene_.materials.push_back(code);
+  for (const char* name : {"Point.001", "Point"}) {
+    scene_.lamps[0].intensityCd = Vec3(5);
+    const Status s = apply(R"({"own": [{"name": ")" + std::string(name) + R"(", "dimming": 0.5}]})");
+    ASSERT_TRUE(s) << s.error();
+    EXPECT_FLOAT_EQ(scene_.lamps[0].intensityCd.x, 2.5f);
+  }
+  EXPECT_FALSE(apply(R"({"own": [{"name": "Spot"}]})"));
+  const Status s = apply(R"({"glazing": [{"material": "glass", "panes": 2}]})");
+  ASSERT_TRUE(s) << s.error();
+  EXPECT_EQ(scene_.materials.back().glazing.panes, 2);
+}
+
 TEST_F(LightingFile, glazingMakesWindowsOfMaterials) {
   scene_.materials.resize(3);
   scene_.materials[1].name = scene_.materials[2].name = "Glass";

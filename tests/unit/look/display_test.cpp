@@ -1,10 +1,9 @@
-// White balance, glare and noise of what is shown.
+// White balance, glare and noise of what is shown, and looks.
 #include "look/display.h"
 
 #include <gtest/gtest.h>
 
-#include "look/glare.h"
-#include "photometry/white_balance.h"
+#include "photometry/colour_temperature.h"
 
 namespace roomlight {
 namespace {
@@ -91,6 +90,20 @@ TEST(Glare, keepsTheLightAndSpreadsIt) {
   EXPECT_NEAR(lamp.at(64, 64).y, 900, 20);
   EXPECT_GT(lamp.at(70, 64).y, lamp.at(90, 64).y);
   EXPECT_GT(lamp.at(90, 64).y, 1);
+}
+
+TEST(Look, everyNameHasOne) {
+  for (const auto& [name, what] : lookNames()) {
+    EXPECT_TRUE(displayOfLook(name)) << name;
+    EXPECT_FALSE(what.empty());
+  }
+  EXPECT_NE(displayOfLook("moody").error().find("natural, bright, evening, technical"), std::string::npos);
+}
+
+TEST(Look, theTechnicalOneAddsNothing) {
+  const Display d = displayOfLook("technical").value();
+  EXPECT_TRUE(d.tone.plain());
+  EXPECT_EQ(d.localExposure + d.glare + d.vignette + d.brighterEv, 0);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "base/tone.h"
-#include "look/local_exposure.h"
 
 namespace roomlight {
 namespace {

@@ -1,4 +1,4 @@
-#include "measure/areas.h"
+#include "measure/lattice.h"
 
 #include <gtest/gtest.h>
 

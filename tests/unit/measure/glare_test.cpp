@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "measure/glare_meter.h"
 #include "support/rooms.h"
 
 namespace roomlight {

@@ -1,4 +1,4 @@
-#include "measure/luminance_picture.h"
+#include "measure/false_colour.h"
 
 #include <gtest/gtest.h>
 

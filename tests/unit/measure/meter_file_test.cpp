@@ -1,4 +1,4 @@
-#include "measure/meter_file.h"
+#include "measure/meter_plan.h"
 
 #include <gtest/gtest.h>
 

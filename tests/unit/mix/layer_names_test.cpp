@@ -1,4 +1,4 @@
-#include "mix/layer_names.h"
+#include "mix/layer_info.h"
 
 #include <gtest/gtest.h>
 

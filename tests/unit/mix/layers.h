@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "mix/layer_info.h"
-#include "mix/layer_stack.h"
+#include "mix/mixer.h"
 
 namespace roomlight::testing {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/dither.h"
+#include "base/tone_curves.h"
 #include "unit/mix/layers.h"
 
 namespace roomlight {

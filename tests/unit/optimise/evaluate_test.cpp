@@ -4,8 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "optimise/objective_box.h"
-#include "optimise/repair.h"
+#include "optimise/improve.h"
 #include "photometry/colour_temperature.h"
 #include "search/search.h"
 #include "unit/optimise/small_study.h"

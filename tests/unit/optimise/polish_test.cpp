@@ -1,11 +1,9 @@
-#include "optimise/polish.h"
+#include "optimise/improve.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "optimise/evaluate.h"
-#include "optimise/relaxation.h"
-#include "optimise/repair.h"
 #include "unit/optimise/small_study.h"
 
 namespace roomlight::optimise {

@@ -1,4 +1,4 @@
-#include "optimise/scene_hash.h"
+#include "optimise/store.h"
 
 #include <gtest/gtest.h>
 

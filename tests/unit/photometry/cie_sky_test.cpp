@@ -1,4 +1,4 @@
-#include "photometry/cie_sky.h"
+#include "photometry/sky_luminance.h"
 
 #include <gtest/gtest.h>
 

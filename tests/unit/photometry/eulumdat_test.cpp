@@ -1,4 +1,4 @@
-#include "photometry/eulumdat.h"
+#include "photometry/web_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "photometry/ies.h"
+#include "photometry/web_files.h"
 
 #include <gtest/gtest.h>
 

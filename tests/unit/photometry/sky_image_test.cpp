@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "photometry/white_balance.h"
+#include "photometry/colour_temperature.h"
 
 namespace roomlight {
 namespace {

@@ -1,9 +1,9 @@
-#include "photometry/web_sampler.h"
+#include "photometry/photometric_web.h"
 
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "photometry/ies.h"
+#include "photometry/web_files.h"
 #include "unit/base/chi_square.h"
 #include "unit/photometry/web_files.h"
 

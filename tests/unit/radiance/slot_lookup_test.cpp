@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "radiance/brick_side.h"
 #include "radiance/slot_cache.h"
 #include "support/rooms.h"
 #include "voxel/voxelise.h"

@@ -6,7 +6,7 @@
 #include "base/sampler.h"
 #include "base/sampling.h"
 #include "radiance/direct_light.h"
-#include "radiance/sky_directions.h"
+#include "radiance/sky_guide.h"
 
 namespace roomlight {
 namespace {

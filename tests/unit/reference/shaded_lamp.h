@@ -55,12 +55,6 @@ inline PathResult render(const Scene& scene, int samples, bool lightPaths, uint6
   return pathTrace(rays, lights, camera, settings);
 }
 
-inline double meanLuminance(const Image& image) {
-  double sum = 0;
-  for (const Vec3 p : image.pixels) sum += luminance(p);
-  return sum / static_cast<double>(image.pixels.size());
-}
-
 // Of the mean luminance.
 inline double standardError(const PathResult& result) {
   double sum = 0;

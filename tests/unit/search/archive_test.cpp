@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "search/nondominated.h"
+#include "search/front.h"
 
 namespace roomlight::search {
 namespace {

@@ -2,7 +2,7 @@
 // ten seeds.
 #include <gtest/gtest.h>
 
-#include "search/hypervolume.h"
+#include "search/front.h"
 #include "search/search.h"
 #include "search/test_problems.h"
 

@@ -1,4 +1,4 @@
-#include "search/hypervolume.h"
+#include "search/front.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which links are told, and that they lead to the page.
-#include "server/links.h"
+#include "server/view_server.h"
 
 #include <gtest/gtest.h>
 

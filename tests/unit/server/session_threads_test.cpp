@@ -7,7 +7,7 @@
 #include <mutex>
 #include <system_error>
 
-#include "base/resource_error.h"
+#include "base/result.h"
 #include "seen.h"
 #include "support/threads.h"
 #include "view/frame.h"

@@ -10,7 +10,6 @@
 
 #include "base/image_io.h"
 #include "base/random.h"
-#include "study/plots.h"
 #include "study/report.h"
 #include "unit/temporary_folder.h"
 

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "photometry/cie_sky.h"
-#include "photometry/perez_sky.h"
 #include "photometry/sky_image.h"
+#include "photometry/sky_luminance.h"
 #include "trace/sky_distribution.h"
 
 namespace roomlight {

@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "validate/report.h"
-
 namespace roomlight {
 namespace {
 

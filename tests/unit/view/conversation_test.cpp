@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "unit/view/furnished_room.h"
 #include "unit/view/lit_room.h"
 
 namespace roomlight::view {
@@ -16,7 +17,9 @@ using std::chrono::milliseconds;
 const TimePoint kStart{std::chrono::hours(1000)};
 
 struct Talk {
-  ViewHome home{"My room", roomWithALamp()};
+  explicit Talk(Scene scene = roomWithALamp()) : home("My room", std::move(scene)) {}
+
+  ViewHome home;
   std::vector<std::pair<Connection, json>> told;
   std::vector<RenderWork> wishes;
   double bytesToSpare = 1e12;
@@ -98,6 +101,67 @@ TEST(Conversation, anEditIsToldToAllAndCanBeTakenBack) {
   EXPECT_EQ(talk.hear(2)["code"], "notPossible");
 }
 
+// A book on the left one of two tables of one height, a lamp in mid-air.
+Scene roomWithTables() {
+  Scene scene = emptyRoom();
+  addTable(scene, "Table", 1, 1);
+  addTable(scene, "Other table", 3, 1);
+  addThing(scene, "Book", {{{1.5f, 0.75f, 1.3f}, {1.7f, 0.78f, 1.5f}}});
+  scene.lamps = {test::pointLamp({1.5f, 2, 1.5f}, 100)};
+  return scene;
+}
+
+json move(const Talk& talk, const std::string& name, double x, const char* gesture = "", bool alone = false) {
+  json edit = {{"type", "edit"}, {"id", 1}, {"move", {x, 0, 0}}};
+  edit["target"] = objectId(thingNamed(talk.home.editable, name));
+  if (*gesture) edit["gesture"] = gesture;
+  if (alone) edit["alone"] = true;
+  return edit;
+}
+
+TEST(Conversation, whatStandsOnAThingGoesAlongAsOneStep) {
+  Talk talk(roomWithTables());
+  talk.open(1);
+  const size_t book = thingNamed(talk.home.editable, "Book"), other = thingNamed(talk.home.editable, "Other table");
+  const auto bookAt = [&] { return talk.conversation.stateOf("").objects[book].move.x; };
+  talk.say(1, move(talk, "Table", 0.25, "drag"));
+  const json state = talk.hear(1);
+  ASSERT_EQ(state["objects"].size(), 2u);
+  EXPECT_EQ(bookAt(), 0.25f);
+  talk.say(1, move(talk, "Table", 1.5, "drag"));  // into the other one, which must not take the book
+  EXPECT_EQ(bookAt(), 1.5f);
+  talk.say(1, move(talk, "Table", 0.5, "drag", true));  // Shift is held down now
+  EXPECT_EQ(bookAt(), 0);
+  talk.say(1, move(talk, "Table", 0.5, "drag"));
+  EXPECT_EQ(bookAt(), 0.5f);
+  talk.say(1, {{"type", "undo"}, {"id", 2}});
+  EXPECT_EQ(bookAt(), 0);
+  talk.say(1, move(talk, "Table", 0.5, "", true));
+  EXPECT_EQ(bookAt(), 0);
+  talk.say(1, {{"type", "undo"}, {"id", 3}});
+  talk.say(1, move(talk, "Book", 2));  // to the other table, with which it goes from then on
+  talk.say(1, move(talk, "Table", 0.1));
+  EXPECT_EQ(bookAt(), 2);
+  talk.say(1, move(talk, "Other table", 0.5));
+  EXPECT_EQ(bookAt(), 2.5f);
+  EXPECT_EQ(talk.conversation.stateOf("").objects[other].move.x, 0.5f);
+}
+
+TEST(Conversation, tellsWhatRunsIntoWhat) {
+  Talk talk(roomWithTables());
+  talk.open(1);
+  EXPECT_EQ(talk.hear(1)["overlaps"], json::array());
+  talk.say(1, move(talk, "Table", 1.5));
+  const json pair = {{"object", objectId(thingNamed(talk.home.editable, "Table"))},
+                     {"into", objectId(thingNamed(talk.home.editable, "Other table"))}};
+  EXPECT_EQ(talk.hear(1)["overlaps"], json::array({pair}));
+  talk.say(1, dimTo(0.5));
+  EXPECT_EQ(talk.hear(1)["overlaps"], json::array({pair}));
+  talk.say(1, {{"type", "undo"}, {"id", 2}});
+  talk.say(1, {{"type", "undo"}, {"id", 3}});
+  EXPECT_EQ(talk.hear(1)["overlaps"], json::array());
+}
+
 TEST(Conversation, aPlanKeepsItsLampsWhileTheHomeIsEdited) {
   Talk talk;
   talk.open(1);
@@ -108,6 +172,17 @@ TEST(Conversation, aPlanKeepsItsLampsWhileTheHomeIsEdited) {
   EXPECT_FLOAT_EQ(talk.conversation.stateOf("dim").lamps[0].dim, 0.5f);
   EXPECT_FLOAT_EQ(talk.conversation.stateOf("start").lamps[0].dim, 1);
   EXPECT_FLOAT_EQ(talk.conversation.stateOf("").lamps[0].dim, 0.75f);
+}
+
+TEST(Conversation, anotherListOfPlansLeavesFramesAsNewAsTheyWere) {
+  Talk talk;
+  talk.open(1);
+  Side& side = talk.window().sides[0];
+  side.shownRevision = talk.conversation.revision();
+  talk.say(1, {{"type", "plan"}, {"id", 2}, {"do", "keep"}, {"name", "as it is"}});
+  EXPECT_EQ(side.shownRevision, talk.conversation.revision());
+  talk.say(1, dimTo(0.5));
+  EXPECT_LT(side.shownRevision, talk.conversation.revision());
 }
 
 TEST(Conversation, aFailureIsWorthAnotherTryAfterAWish) {

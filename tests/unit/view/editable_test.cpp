@@ -6,6 +6,7 @@
 #include "scene/validate.h"
 #include "support/rooms.h"
 #include "view/apply_edit.h"
+#include "view/describe.h"
 #include "view/home.h"
 
 namespace roomlight::view {
@@ -253,6 +254,7 @@ TEST(ApplyEdit, refusesAsAWhole) {
   EXPECT_EQ(refused(box, [](EditFields& s) { s.color = Vec3(2); }), "color");
   EXPECT_EQ(refused(box, [](EditFields& s) { s.dim = 0; }), "dim");
   EXPECT_EQ(refused(box, [](EditFields& s) { s.open = 1; }), "open");
+  EXPECT_EQ(refused(panel, [](EditFields& s) { s.dim = 0, s.alone = true; }), "alone");
   EXPECT_EQ(refused(box, [](EditFields&) {}), "target");
   EXPECT_EQ(refused("object:0", [](EditFields& s) { s.move = Vec3(1); }), "move");  // a wall
   EXPECT_EQ(refused("object:" + std::to_string(objectNamed(home, "Area")), [](EditFields& s) { s.hidden = true; }),
@@ -260,6 +262,36 @@ TEST(ApplyEdit, refusesAsAWhole) {
   for (const char* target : {"lamp:", "lamp:-1", "lamp:99", "lamp:1x", "object", "sky", ""})
     EXPECT_EQ(refused(target, [](EditFields& s) { s.dim = 0; }), "target") << target;
   EXPECT_EQ(refused("sun", [](EditFields& s) { s.hour = 3; }), "target");
+}
+
+// Names of files stay what lighting files go by; people see others.
+TEST(Editable, thingsLampsAndMaterialsAreCalledAsPeopleDo) {
+  Scene scene = smallHome().scene;
+  for (Instance& i : scene.instances) {
+    if (i.name == "Box" && i.object == scene.instances[6].object) i.label = "Wall, Kitchen, north";
+  }
+  for (Material& m : scene.materials) m.name = "Material.001";
+  scene.lamps[0].name = "Spot.004";
+  const ViewHome home("small", std::move(scene));
+  const auto wall = std::find_if(home.editable.objects.begin(), home.editable.objects.end(),
+                                 [](const EditableObject& o) { return o.label == "Wall, Kitchen, north"; });
+  ASSERT_NE(wall, home.editable.objects.end());
+  EXPECT_EQ(wall->name, "Box");
+  const EditableLamp& spot = home.editable.lamps.at(lampNamed(home, "Spot.004"));
+  EXPECT_EQ(spot.label, "Spot");
+  const auto k = static_cast<size_t>(wall - home.editable.objects.begin());
+  const Json object = objectJson(home.editable, home.scene, k, home.editable.atStart);
+  EXPECT_EQ(object["name"], "Wall, Kitchen, north");
+  EXPECT_EQ(object["colors"][0]["material"], "Material.001");
+  const std::string grey = object["colors"][0]["label"];
+  EXPECT_EQ(grey, "grey");
+  Edit edit;
+  edit.target = objectId(k);
+  edit.set.color = Vec3(0.5f, 0.02f, 0.02f), edit.set.material = grey;
+  Edited red;
+  ASSERT_FALSE(applyEdit(home.editable, home.scene, edit, home.editable.atStart, red));
+  EXPECT_EQ(red.label, "Colour Wall, Kitchen, north");
+  EXPECT_EQ(objectJson(home.editable, home.scene, k, red.state)["colors"][0]["label"], "red");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "support/signals.h"
 #include "support/threads.h"
 #include "unit/view/lit_room.h"
 

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "support/signals.h"
 #include "support/threads.h"
 #include "unit/view/lit_room.h"
 

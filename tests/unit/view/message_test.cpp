@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "view/view_camera.h"
+
 namespace roomlight::view {
 namespace {
 
@@ -28,6 +30,14 @@ TEST(Message, camerasLookAtTargetsOrAlongDirections) {
   EXPECT_EQ(a.yFovDeg, 60);
   const auto b = read<ViewCamera>(R"({"type": "camera", "position": [0, 0, 0], "direction": [0, 4, 0]})");
   EXPECT_EQ(b.direction, Vec3(0, 1, 0));
+  EXPECT_EQ(a.cutHeightM, kInfinity);
+  const auto open =
+      read<ViewCamera>(R"({"type": "camera", "position": [0, 9, 0], "direction": [0, -1, 0], "cutHeight": 2.5})");
+  EXPECT_EQ(open.cutHeightM, 2.5f);
+  EXPECT_EQ(cameraOf(open).cutHeightM, 2.5f);
+  EXPECT_EQ(viewOf(cameraOf(open)).cutHeightM, 2.5f);
+  const char* whole = R"({"type": "camera", "position": [0, 9, 0], "direction": [0, -1, 0], "cutHeight": null})";
+  EXPECT_EQ(read<ViewCamera>(whole).cutHeightM, kInfinity);
   EXPECT_EQ(refused(R"({"type": "camera", "position": [0, 0, 0], "target": [0, 0, 0]})").field, "target");
   EXPECT_EQ(refused(R"({"type": "camera", "position": [0, 0], "direction": [0, 0, 1]})").field, "position");
   EXPECT_EQ(refused(R"({"type": "camera", "direction": [0, 0, 1]})").field, "position");
@@ -64,6 +74,8 @@ TEST(Message, editsSetWhatTheySay) {
   EXPECT_EQ(e.set.temperatureK, 2700);
   EXPECT_FALSE(e.set.position);
   EXPECT_EQ(refused(R"({"type": "edit", "id": 4, "target": "a", "on": 1})").field, "on");
+  EXPECT_EQ(read<Edit>(R"({"type": "edit", "id": 4, "target": "a", "turn": 9, "alone": true})").set.alone, true);
+  EXPECT_EQ(refused(R"({"type": "edit", "id": 4, "target": "a", "hidden": true, "alone": true})").field, "alone");
   EXPECT_EQ(refused(R"({"type": "edit", "id": 4, "target": "a", "color": [1, 1, 1], "temperatureK": 3000})").field,
             "temperatureK");
   EXPECT_EQ(refused(R"({"type": "edit", "id": 4, "target": "a", "direction": [0, 0, 0]})").field, "direction");

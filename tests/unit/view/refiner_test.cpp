@@ -5,8 +5,7 @@
 
 #include <limits>
 
-#include "support/pictures.h"
-#include "support/signals.h"
+#include "support/rooms.h"
 #include "support/threads.h"
 #include "unit/view/lit_room.h"
 

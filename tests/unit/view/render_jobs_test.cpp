@@ -6,8 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "support/pictures.h"
-#include "support/signals.h"
+#include "support/rooms.h"
 #include "support/threads.h"
 #include "unit/view/lit_room.h"
 

@@ -33,7 +33,7 @@ export class App extends SessionElement {
     css`
       :host {
         display: grid;
-        grid-template: auto minmax(0, 1fr) auto / minmax(0, 1fr) 340px;
+        grid-template: auto minmax(0, 1fr) auto / minmax(0, 1fr) clamp(240px, 41vw, 340px);
         height: 100vh;
         height: 100dvh;
         background: var(--ground);
@@ -139,9 +139,6 @@ export class App extends SessionElement {
         display: none;
       }
       @media (max-width: 760px) {
-        :host {
-          grid-template: auto minmax(0, 1fr) auto auto / minmax(0, 1fr);
-        }
         header {
           gap: 2px;
           padding: 0 4px 0 12px;
@@ -155,6 +152,28 @@ export class App extends SessionElement {
           min-height: 40px;
           justify-content: center;
         }
+        [role="tab"] {
+          font-size: 12px;
+        }
+        .fold {
+          display: block;
+          flex: none;
+          border: 0;
+          background: none;
+        }
+        .mark {
+          display: inline-block;
+        }
+        :host([folded]) .mark {
+          transform: rotate(180deg);
+        }
+      }
+      /* Upright: the panel lies under the picture, which keeps half of the height. */
+      @media (max-width: 760px) and (min-height: 521px), (max-width: 760px) and (max-aspect-ratio: 1249/1000) {
+        :host {
+          grid-template: auto minmax(50vh, 1fr) auto minmax(0, max-content) / minmax(0, 1fr);
+          grid-template: auto minmax(50dvh, 1fr) auto minmax(0, max-content) / minmax(0, 1fr);
+        }
         .panel {
           grid-area: 4 / 1;
           border-top: 1px solid var(--line);
@@ -163,28 +182,80 @@ export class App extends SessionElement {
         }
         [role="tab"] {
           min-height: 44px;
-          font-size: 12px;
         }
         [role="tabpanel"] {
-          flex: none;
-          height: 40vh;
-          height: 40dvh;
+          flex: 0 1 40vh;
+          flex-basis: 40dvh;
         }
         .fold {
-          display: block;
-          flex: none;
           width: 44px;
-          border: 0;
-          background: none;
         }
         .notice {
           bottom: auto;
           top: 56px;
         }
       }
-      @media (max-width: 760px) and (max-height: 520px) {
-        [role="tabpanel"] {
-          height: 50dvh;
+      /* Low: the panel stands beside the picture, as high as the window, and folds to a strip of its tabs. */
+      @media (max-width: 760px) and (max-height: 520px) and (min-aspect-ratio: 5/4) {
+        header {
+          grid-column: 1;
+          min-height: 36px;
+        }
+        header button {
+          min-width: 34px;
+          min-height: 34px;
+        }
+        rl-status {
+          min-height: 22px;
+        }
+        .panel {
+          grid-area: 1 / 2 / 4;
+          padding-right: env(safe-area-inset-right);
+        }
+        [role="tab"] {
+          flex: 1 0 auto;
+          padding: 4px 0;
+          font-size: 11px;
+        }
+        .fold {
+          width: 30px;
+          padding: 0;
+        }
+        .mark {
+          transform: rotate(-90deg);
+        }
+        :host([folded]) {
+          grid-template-columns: minmax(0, 1fr) auto;
+        }
+        :host([folded]) [role="tablist"] {
+          flex: 1;
+          flex-direction: column;
+          min-height: 0;
+          border-bottom: 0;
+        }
+        :host([folded]) [role="tab"] {
+          flex: 0 1 auto;
+          width: 36px;
+          min-height: 0;
+          padding: 8px 0;
+          border-bottom: 0;
+          border-right: 2px solid transparent;
+          writing-mode: vertical-rl;
+        }
+        :host([folded]) [role="tab"][aria-selected="true"] {
+          border-right-color: var(--accent);
+        }
+        :host([folded]) .mark {
+          transform: rotate(90deg);
+        }
+        :host([folded]) .fold {
+          order: -1;
+          width: 36px;
+          min-height: 40px;
+        }
+        .notice {
+          bottom: 32px;
+          max-width: calc(59vw - 32px);
         }
       }
       @media (prefers-reduced-motion: no-preference) {
@@ -215,6 +286,7 @@ export class App extends SessionElement {
 
   override render() {
     const { session } = this;
+    this.toggleAttribute("folded", !session.sheetOpen);
     return html`
       ${this.bar()}
       <rl-stage .session=${session}></rl-stage>
@@ -239,7 +311,7 @@ export class App extends SessionElement {
             aria-expanded=${session.sheetOpen}
             @click=${() => session.show({ sheetOpen: !session.sheetOpen })}
           >
-            ${session.sheetOpen ? "▾" : "▴"}
+            <span class="mark" aria-hidden="true">▾</span>
           </button>
         </div>
         <div role="tabpanel" id="sheet" aria-labelledby=${`tab-${session.tab}`} ?hidden=${!session.sheetOpen}>
@@ -383,10 +455,10 @@ export class App extends SessionElement {
     if (event.repeat || event.altKey) return false;
     if (key === "m") this.toggleMeter();
     else if (key === "o") this.toggleNavigation();
-    else if (key === "f" && session.selection) session.select(session.selection, true);
+    else if (key === "f" && session.selection) session.showSelected();
     else if (key === "?") this.help.open();
     else if (key === "/") void this.search();
-    else if (key === "escape" && session.selection) session.select(null, false);
+    else if (key === "escape" && session.selection) session.select(null);
     else return false;
     return true;
   }

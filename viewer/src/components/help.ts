@@ -15,7 +15,7 @@ const kKeys: readonly (readonly [string, readonly (readonly [string, string])[]]
       ["Right drag or Alt drag", "go around what is selected or was clicked"],
       ["Middle drag", "shift"],
       ["O", "dragging looks around or goes around"],
-      ["F", "look at what is selected"],
+      ["F", "go where what is selected is seen well"],
     ],
   ],
   [
@@ -31,7 +31,7 @@ const kKeys: readonly (readonly [string, readonly (readonly [string, string])[]]
     "Change and measure",
     [
       ["Click", "select a lamp or a thing"],
-      ["Drag arrow, disc, ring", "move along an axis, on the level, turn"],
+      ["Drag arrow, disc, ring", "move along an axis, on the level, turn; with Shift without what stands on it"],
       ["M", "light meter"],
       ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
       ["Ctrl+S", "save as a lighting file"],

@@ -200,12 +200,12 @@ export class HomeTab extends SessionElement {
       <section class="section editor" aria-label=${name}>
         <div class="row">
           <h2 class="grow">${name}</h2>
-          <button title="Turn the eye to it (F)" @click=${() => this.session.select(selection, true)}>Show</button>
+          <button title="Go where it is seen well (F)" @click=${() => this.session.showSelected()}>Show</button>
           <button
             class="plain"
             aria-label="Select nothing"
             title="Select nothing (Esc)"
-            @click=${() => this.session.select(null, false)}
+            @click=${() => this.session.select(null)}
           >
             ✕
           </button>
@@ -214,7 +214,7 @@ export class HomeTab extends SessionElement {
           ? html`<rl-lamp-editor .session=${this.session}></rl-lamp-editor>`
           : html`<rl-object-editor .session=${this.session}></rl-object-editor>`}
         ${body
-          ? html`<button @click=${() => this.session.select({ kind: "object", id: body.id }, false)}>
+          ? html`<button @click=${() => this.session.select({ kind: "object", id: body.id })}>
               Part of ${body.name}
             </button>`
           : nothing}
@@ -229,7 +229,7 @@ export class HomeTab extends SessionElement {
     const lamps = [...(this.session.model?.lamps.values() ?? [])].filter(lamp => lamp.object === id);
     return lamps.map(
       lamp =>
-        html`<button @click=${() => this.session.select({ kind: "lamp", id: lamp.id }, false)}>
+        html`<button @click=${() => this.session.select({ kind: "lamp", id: lamp.id })}>
           Its light: ${lamp.name}
         </button>`,
     );
@@ -262,7 +262,11 @@ export class HomeTab extends SessionElement {
   private option(entry: Entry, first: boolean) {
     const { selection } = this.session;
     const selected = selection?.kind === entry.kind && selection.id === entry.id;
-    const choose = () => this.session.select({ kind: entry.kind, id: entry.id }, true);
+    const choose = () => {
+      this.session.select({ kind: entry.kind, id: entry.id });
+      // Rooms and cameras are places to go to; lamps and things leave the eye where it is.
+      if (entry.kind === "room" || entry.kind === "camera") this.session.showSelected();
+    };
     return html`<div
       role="option"
       aria-selected=${selected}

@@ -94,6 +94,9 @@ export class LampEditor extends SessionElement {
               ?disabled=${!lamp.on}
               @slide=${(event: CustomEvent<Slide>) => this.slide(lamp, event, value => ({ fluxLm: value }))}
             ></rl-slider>
+            ${lamp.fluxAssumed
+              ? html`<p class="muted">No file says how much light it gives: this is assumed.</p>`
+              : nothing}
             <p class="muted number">Gives ${lamp.on ? withUnit(fluxLm * lamp.dim, "lm") : "no light"} now.</p>
           `}
     `;

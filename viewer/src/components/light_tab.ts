@@ -1,7 +1,8 @@
 // Daylight: the date and the hour.
-import { css, html } from "lit";
+import { css, html, nothing } from "lit";
 import { customElement } from "lit/decorators.js";
 import { clock } from "../numbers.js";
+import type { Sun } from "../protocol.js";
 import { SessionElement } from "./element.js";
 import "./slider.js";
 import type { Slide } from "./slider.js";
@@ -14,6 +15,12 @@ const kSeasons: readonly (readonly [string, string])[] = [
   ["12-21", "Winter"],
 ];
 const kPoints = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
+
+const kPlaces: Readonly<Record<Sun["placeFrom"], string>> = {
+  lighting: "The place is the lighting file's",
+  home: "The place is the home file's",
+  assumed: "No file says where the home stands. Assumed, with north along −z",
+};
 
 let changes = 0;
 
@@ -35,15 +42,16 @@ export class LightTab extends SessionElement {
   override render() {
     const { model } = this.session;
     const sun = model?.sun;
-    if (!sun) {
-      return html`<p class="section muted">
-        This home has no daylight by date. Start roomlight view with a lighting file that has "daylight".
-      </p>`;
-    }
+    if (!sun) return html`<p class="section muted">This home has no daylight by date.</p>`;
     const year = sun.date.slice(0, 4);
-    const below = sun.altitude < 0;
     return html`
       <section class="section" aria-label="Daylight">
+        <div class="row">
+          <button role="switch" aria-label="Daylight by date" aria-checked=${sun.on} @click=${() => this.toggle(sun)}>
+            ${sun.on ? "On" : "Off"}
+          </button>
+          <span class="grow muted">${sun.on ? "By date and time" : "A date or a time switches it on"}</span>
+        </div>
         <label class="field">
           <span>Date</span>
           <input
@@ -79,17 +87,27 @@ export class LightTab extends SessionElement {
             .value=${clock(Math.min(sun.hour, 23.99))}
             @change=${(event: Event) => this.setTime((event.target as HTMLInputElement).value)}
         /></rl-slider>
+        ${sun.on ? this.position(sun) : nothing}
         <p class="muted number">
-          ${below
-            ? `The sun is ${Math.abs(sun.altitude).toFixed(0)}° below the horizon`
-            : `Sun ${sun.altitude.toFixed(0)}° high`}
-          in the ${kPoints[Math.round((((sun.azimuth % 360) + 360) % 360) / 45) % 8]}; sky ${sun.sky}.
-          UTC${sun.utcOffset < 0 ? "−" : "+"}${Math.abs(sun.utcOffset)},
-          ${Math.abs(sun.latitude).toFixed(1)}°${sun.latitude < 0 ? "S" : "N"}
-          ${Math.abs(sun.longitude).toFixed(1)}°${sun.longitude < 0 ? "W" : "E"}.
+          ${kPlaces[sun.placeFrom]}: ${Math.abs(sun.latitude).toFixed(1)}°${sun.latitude < 0 ? "S" : "N"}
+          ${Math.abs(sun.longitude).toFixed(1)}°${sun.longitude < 0 ? "W" : "E"},
+          UTC${sun.utcOffset < 0 ? "−" : "+"}${Math.abs(sun.utcOffset)}.
         </p>
       </section>
     `;
+  }
+
+  private position({ altitude, azimuth, sky }: Sun) {
+    return html`<p class="muted number">
+      ${altitude < 0
+        ? `The sun is ${Math.abs(altitude).toFixed(0)}° below the horizon`
+        : `Sun ${altitude.toFixed(0)}° high`}
+      in the ${kPoints[Math.round((((azimuth % 360) + 360) % 360) / 45) % 8]}; sky ${sky}.
+    </p>`;
+  }
+
+  private toggle(sun: Sun): void {
+    this.session.edit("sun", { on: !sun.on }, `daylight ${++changes}`);
   }
 
   private setTime(time: string): void {

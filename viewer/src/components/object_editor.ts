@@ -49,7 +49,7 @@ export class ObjectEditor extends SessionElement {
           </button>
           <span class="grow muted number">${[size[0], size[2], size[1]].map(threeDigits).join(" × ")} m</span>
           ${thing.movable && moved
-            ? html`<button @click=${() => this.set(thing, { move: [0, 0, 0], turn: 0 })}>Put back</button>`
+            ? html`<button @click=${() => this.set(thing, this.moving({ move: [0, 0, 0], turn: 0 }))}>Put back</button>`
             : nothing}
         </div>
         ${thing.open === null ? nothing : this.door(thing, thing.open)} ${thing.movable ? this.place(thing) : nothing}
@@ -75,7 +75,7 @@ export class ObjectEditor extends SessionElement {
       <rl-vector
         label="Moved by, m"
         .value=${thing.move}
-        @vector=${(event: CustomEvent<Vec3>) => this.set(thing, { move: event.detail })}
+        @vector=${(event: CustomEvent<Vec3>) => this.set(thing, this.moving({ move: event.detail }))}
       ></rl-vector>
       <rl-slider
         label="Turned by"
@@ -84,8 +84,16 @@ export class ObjectEditor extends SessionElement {
         max="180"
         step="1"
         .value=${((((thing.turn + 180) % 360) + 360) % 360) - 180}
-        @slide=${(event: CustomEvent<Slide>) => this.slide(thing, event, value => ({ turn: value }))}
+        @slide=${(event: CustomEvent<Slide>) => this.slide(thing, event, value => this.moving({ turn: value }))}
       ></rl-slider>
+      <label class="row" title="With Shift held, a handle moves it alone as well">
+        <input
+          type="checkbox"
+          .checked=${!this.session.movesAlone}
+          @change=${(event: Event) => this.session.show({ movesAlone: !(event.target as HTMLInputElement).checked })}
+        />
+        Take along what stands on it
+      </label>
     `;
   }
 
@@ -100,7 +108,7 @@ export class ObjectEditor extends SessionElement {
 
   private paint(thing: Thing, paint: Paint) {
     return html`<label class="row">
-      <span class="grow name">${paint.material || "Without a name"}</span>
+      <span class="grow name">${paint.label || paint.material || "Without a name"}</span>
       ${paint.textured ? html`<span class="muted" title="The colour multiplies the texture">texture</span>` : nothing}
       <input
         type="color"
@@ -113,6 +121,10 @@ export class ObjectEditor extends SessionElement {
 
   private recolor(thing: Thing, paint: Paint, hex: string): void {
     this.session.edit(thing.id, { color: linearFromHex(hex), material: paint.material }, `colour ${changes}`);
+  }
+
+  private moving(fields: EditFields): EditFields {
+    return this.session.movesAlone ? { ...fields, alone: true } : fields;
   }
 
   private slide(thing: Thing, event: CustomEvent<Slide>, fields: (value: number) => EditFields): void {

@@ -4,6 +4,7 @@ import { customElement, query } from "lit/decorators.js";
 import { classMap } from "lit/directives/class-map.js";
 import type { FrameHeader } from "../frame.js";
 import { Input } from "../input.js";
+import { overlapBoxes, overlapWords } from "../overlaps.js";
 import { drawOverlay } from "../overlay.js";
 import { Picture } from "../picture.js";
 import { clamp } from "../vector.js";
@@ -112,6 +113,25 @@ export class Stage extends SessionElement {
       .side.right {
         right: 12px;
       }
+      .overlaps {
+        position: absolute;
+        top: 26px;
+        left: 50%;
+        max-width: calc(100% - 24px);
+        margin: 0;
+        padding: 3px 10px;
+        border-radius: 5px;
+        transform: translateX(-50%);
+        color: var(--danger);
+        background: rgb(20 20 20 / 78%);
+        pointer-events: none;
+        overflow: hidden;
+        text-overflow: ellipsis;
+        white-space: nowrap;
+      }
+      .overlaps[hidden] {
+        display: none;
+      }
       .finding {
         position: absolute;
         top: 0;
@@ -195,6 +215,7 @@ export class Stage extends SessionElement {
               @keydown=${this.dividerKey}
             ></div>`
         : nothing}
+      ${this.overlapNote()}
       <rl-legend .session=${this.session}></rl-legend>
       <rl-meter .session=${this.session}></rl-meter>
       ${progress
@@ -250,6 +271,12 @@ export class Stage extends SessionElement {
     this.scheduleOverlay();
   }
 
+  private overlapNote() {
+    const { model } = this.session;
+    const words = model && overlapWords(model);
+    return html`<p class="overlaps" role="status" ?hidden=${!words}>${words ?? ""}</p>`;
+  }
+
   private sideLabel(which: "left" | "right") {
     const side = this.session.split?.[which];
     return html`<span class="side ${which}"
@@ -300,6 +327,7 @@ export class Stage extends SessionElement {
       pose,
       viewport: session.eye.viewport,
       box: selection && !room ? session.boxOf(selection) : null,
+      warnings: overlapBoxes(model),
       room,
       gizmo: input.gizmo(pose),
       active: input.active,

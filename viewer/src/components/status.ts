@@ -1,6 +1,7 @@
 // One line: how the connection stands, and what the picture shows.
 import { css, html, nothing } from "lit";
 import { customElement } from "lit/decorators.js";
+import { pictureWords } from "../picture_words.js";
 import { SessionElement } from "./element.js";
 import { controls } from "./styles.js";
 
@@ -44,6 +45,9 @@ export class Status extends SessionElement {
         min-width: 0;
         overflow: hidden;
         text-overflow: ellipsis;
+      }
+      :host([data-link="open"]) .link {
+        flex: none;
       }
       .picture {
         overflow: hidden;
@@ -103,16 +107,11 @@ export class Status extends SessionElement {
   }
 
   private picture() {
-    const { lastFrame: frame, link, progress } = this.session;
-    if (!frame || link.state !== "open") return nothing;
-    const parts = [`${frame.width} × ${frame.height}`];
-    if (frame.settled) parts.push("settled");
-    else if (progress || frame.lightBehind) parts.push("light is being found");
-    else if (frame.refining) parts.push("refining");
-    else parts.push(`${this.session.framesPerSecond()} frames/s`);
-    if (frame.relativeError !== null && !frame.quick)
-      parts.push(`error ${(100 * frame.relativeError).toFixed(1)}\u202f%`);
-    if (frame.ev100 !== null) parts.push(`EV ${frame.ev100.toFixed(1)}`);
+    const { lastFrame: frame, link } = this.session;
+    if (link.state !== "open") return nothing;
+    const parts = pictureWords(this.session.pictureState());
+    if (frame && frame.ev100 !== null) parts.push(`EV ${frame.ev100.toFixed(1)}`);
+    if (frame) parts.push(`${frame.width} × ${frame.height}`);
     return parts.join(" · ");
   }
 }

@@ -50,7 +50,7 @@ export const controls = css`
   }
   .two {
     display: grid;
-    grid-template-columns: 1fr 1fr;
+    grid-template-columns: repeat(auto-fit, minmax(max(120px, 40%), 1fr));
     gap: 10px;
   }
   .number {
@@ -211,6 +211,11 @@ export const controls = css`
     gap: 10px;
     padding: 14px 16px;
     border-bottom: 1px solid var(--line);
+  }
+  @media (max-width: 760px) and (max-height: 520px) {
+    .segments button {
+      flex: 1 0 auto; /* the panel is narrow there: as wide as their words */
+    }
   }
   @media (pointer: coarse) {
     button,

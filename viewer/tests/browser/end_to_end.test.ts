@@ -12,6 +12,7 @@ import {
   launch,
   meanColor,
   noBrowser,
+  show,
   stageBox,
   tab,
   until,
@@ -113,6 +114,7 @@ test("a lamp that is moved changes the measured light, and undo brings it back",
   const visited = await visit(browser, program.link);
   await frameWith(visited, () => true, kSlowMs);
   await choose(visited, "Lamps", kLampName);
+  await show(visited);
   await upToDate(visited);
   await visited.page.keyboard.press("m");
   const place = [0.6, 0.67] as const; // on the wall beside where the lamp comes to hang
@@ -170,6 +172,7 @@ test("a thing that is moved leaves its place in the picture", { skip }, async ()
     return largest.name;
   });
   await choose(visited, "Objects", name);
+  await show(visited);
   await upToDate(visited);
   const before = await meanColor(visited, 0.4, 0.4, 0.6, 0.6);
   await visited.page.getByRole("spinbutton", { name: "Moved by, m, y" }).fill("1");
@@ -195,6 +198,7 @@ test("a door opens into the room, and undo shuts it", { skip }, async () => {
     });
   const shut = await door();
   await choose(visited, "Objects", "Door");
+  await show(visited);
   await upToDate(visited);
   const before = await meanColor(visited, 0.3, 0.3, 0.7, 0.7);
   await visited.page.getByRole("spinbutton", { name: "Open, %" }).fill("100");

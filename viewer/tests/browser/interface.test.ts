@@ -2,16 +2,21 @@
 import assert from "node:assert/strict";
 import { after, before, beforeEach, test } from "node:test";
 import type { Browser } from "playwright-core";
+import { project } from "../../src/camera.js";
+import type { Thing } from "../../src/protocol.js";
 import { Desk } from "../double/desk.js";
+import { poseOf } from "../double/home.js";
 import { startDouble, type Double } from "../double/server.js";
 import {
   choose,
   frameWith,
+  kDesktop,
   kPhone,
   launch,
   meanColor,
   noBrowser,
   settled,
+  show,
   stageBox,
   tab,
   until,
@@ -117,11 +122,12 @@ test("a lamp is moved by its handle, and the picture follows", { skip }, async (
   const visited = await visit(browser, double.link);
   await settled(visited);
   await choose(visited, "Lamps", "Floor lamp");
+  await visited.page.keyboard.press("f");
   await settled(visited);
   await visited.page.waitForTimeout(400);
   const { x, y, width, height } = await stageBox(visited);
   const before = await meanColor(visited, 0.3, 0.3, 0.7, 0.7);
-  // The chosen lamp is in the middle; its disc moves it on the level.
+  // The lamp that was gone to is in the middle; its disc moves it on the level.
   await visited.page.mouse.move(x + width / 2, y + height / 2);
   await visited.page.mouse.down();
   await visited.page.mouse.move(x + width / 2 + 90, y + height / 2 + 1, { steps: 5 });
@@ -139,6 +145,88 @@ test("a lamp is moved by its handle, and the picture follows", { skip }, async (
   assert.ok(Math.hypot(...after.map((v, i) => v - before[i]!)) > 2, `${before} and ${after}`);
   await visited.page.getByRole("button", { name: "Undo" }).click();
   await until("it is back", () => lamp("lamp:1").position[0] === 0.6);
+  await visited.end();
+});
+
+test(
+  "choosing a lamp leaves the eye where it is; Show goes to where it is seen whole, out of its shade",
+  { skip },
+  async () => {
+    const low = [2.65, 1.9, 2.15] as const;
+    const high = [3.35, 2.3, 2.85] as const;
+    const shade: Thing = { ...desk().home.objects[0]!, id: "object:9", name: "Shade", low, high };
+    desk().home.objects.push(shade);
+    Object.assign(lamp("lamp:0"), { object: shade.id });
+    const visited = await visit(browser, double.link);
+    await settled(visited);
+    const start = double.lastCamera()!;
+    const stays = async (what: string) => {
+      await visited.page.waitForTimeout(300);
+      const { position, direction } = double.lastCamera()!;
+      assert.deepEqual([position, direction], [start.position, start.direction], what);
+    };
+    await choose(visited, "Lamps", "Pendant");
+    await visited.page.getByRole("heading", { name: "Pendant" }).waitFor();
+    await stays("a lamp of the list");
+    await choose(visited, "Objects", "Armchair");
+    await visited.page.getByRole("heading", { name: "Armchair" }).waitFor();
+    await stays("a thing of the list");
+    const { x, y, width, height } = await stageBox(visited);
+    await visited.page.mouse.click(x + 0.45 * width, y + 0.6 * height);
+    await visited.page.getByRole("heading", { name: "Table" }).waitFor();
+    await stays("a thing in the picture");
+    await choose(visited, "Lamps", "Pendant");
+    await show(visited);
+    await until("it goes there", () => double.lastCamera()!.position[0] !== start.position[0]);
+    await settled(visited);
+    await visited.shot("interface_lamp_shown");
+    const eye = double.lastCamera()!;
+    const away = Math.hypot(eye.position[0] - 3, eye.position[1] - 2.1, eye.position[2] - 2.5);
+    assert.ok(away > 1.5 && away < 2.5, `${away} m`);
+    assert.ok(Math.abs(eye.position[1] - 1.6) < 1e-6, "at the height of an eye");
+    const pose = poseOf(eye, { width, height });
+    for (const cornerX of [low[0], high[0]])
+      for (const cornerY of [low[1], high[1]])
+        for (const cornerZ of [low[2], high[2]]) {
+          const at = project(pose, { width, height }, [cornerX, cornerY, cornerZ]);
+          assert.ok(at && at.x > 0 && at.x < width && at.y > 0 && at.y < height, JSON.stringify(at));
+        }
+    await visited.end();
+  },
+);
+
+test("the status line tells what happens to the picture", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  const said = () => visited.page.locator("rl-status .picture").innerText();
+  const says = (what: string) =>
+    until(`"${what}"`, async () => (await said()).replaceAll("\u202f", " ").startsWith(what));
+  await says("finished · EV 4.0");
+  double.growAll({ flags: 0, samples: 8, samplesInAll: 24 });
+  await says("refining 8 of 24 · ");
+  await visited.shot("interface_status");
+  double.growAll({ flags: 16, samples: 90, relativeError: 0.031 });
+  await says("refining, 90 paths a pixel, 3.1 % error left");
+  double.growAll({ flags: 4, samples: 0 });
+  await says("light follows");
+  await visited.page.locator("rl-stage #hands").focus();
+  await visited.page.keyboard.down("q");
+  const heard = new Set<string>();
+  for (let i = 0; i < 30; ++i) {
+    heard.add(await said());
+    await visited.page.waitForTimeout(50);
+  }
+  await visited.page.keyboard.up("q");
+  for (let i = 0; i < 30; ++i) {
+    heard.add(await said());
+    await visited.page.waitForTimeout(50);
+  }
+  const all = [...heard].join("\n");
+  assert.match(all, /^moving, [1-9]\d* frames?\/s · /m);
+  assert.doesNotMatch(all, /\b0 frames/);
+  await says("finished");
+  double.growAll({ flags: 2, samples: 64, relativeError: 0.002 });
+  await says("finished, 0.2 % error left");
   await visited.end();
 });
 
@@ -161,6 +249,78 @@ test("a click selects a thing, which can be moved, turned, hidden and coloured",
   await until("hidden", () => table().hidden);
   await visited.page.keyboard.press("Escape");
   assert.equal(await visited.page.getByRole("heading", { name: "Table" }).count(), 0);
+  await visited.end();
+});
+
+test("what stands on a thing goes along with it, unless it is moved alone", { skip }, async () => {
+  const [low, high] = [[2.9, 0.75, 2.4] as const, [3.1, 1, 2.6] as const];
+  desk().home.objects.push({ ...desk().home.objects[0]!, id: "object:9", name: "Vase", low, high });
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await choose(visited, "Objects", "Table");
+  const x = visited.page.getByRole("spinbutton", { name: "Moved by, m, x" });
+  const moves = () => ["object:0", "object:9"].map(id => desk().home.objects.find(o => o.id === id)!.move[0]);
+  const movedTo = async (value: string) => {
+    await x.fill(value);
+    await visited.page.keyboard.press("Enter");
+  };
+  await movedTo("0.5");
+  await until("the vase goes along", () => String(moves()) === "0.5,0.5");
+  assert.equal(desk().done.length, 1, "one step of undo");
+  await visited.page.getByLabel("Take along what stands on it").uncheck();
+  await movedTo("0.3");
+  await until("the table goes alone", () => String(moves()) === "0.3,0.5");
+  await visited.page.getByLabel("Take along what stands on it").check();
+  await visited.page.keyboard.press("Control+z");
+  await until("undone", () => String(moves()) === "0.5,0.5");
+  // By its disc, with Shift.
+  const box = await stageBox(visited);
+  const table = desk().home.objects[0]!;
+  const middle = [0, 1, 2].map(i => (table.low[i]! + table.high[i]!) / 2) as [number, number, number];
+  const at = project(poseOf(double.lastCamera()!, box), box, middle)!;
+  const pull = async (byPx: number) => {
+    await visited.page.mouse.move(box.x + at.x, box.y + at.y);
+    await visited.page.mouse.down();
+    await visited.page.mouse.move(box.x + at.x + byPx, box.y + at.y, { steps: 3 });
+    await visited.page.mouse.up();
+  };
+  await visited.page.keyboard.down("Shift");
+  await pull(60);
+  await visited.page.keyboard.up("Shift");
+  await until("pulled alone", () => moves()[0] !== 0.5);
+  assert.equal(moves()[1], 0.5);
+  await visited.end();
+});
+
+test("a thing that runs into another is outlined and named", { skip }, async () => {
+  const visited = await visit(browser, double.link);
+  await settled(visited);
+  await choose(visited, "Objects", "Table");
+  const reddish = () =>
+    visited.page.locator("rl-stage #overlay").evaluate(canvas => {
+      const { width, height } = canvas as HTMLCanvasElement;
+      const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true })!;
+      copy.drawImage(canvas as HTMLCanvasElement, 0, 0);
+      const { data } = copy.getImageData(0, 0, width, height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4)
+        count += data[i] === 0xff && data[i + 1] === 0x8f && data[i + 2] === 0x80 ? 1 : 0;
+      return count;
+    });
+  const words = visited.page.locator("rl-stage .overlaps");
+  assert.equal(await words.isVisible(), false);
+  assert.equal(await reddish(), 0);
+  await visited.page.getByRole("spinbutton", { name: "Moved by, m, x" }).fill("1.2");
+  await visited.page.getByRole("spinbutton", { name: "Moved by, m, z" }).fill("0.6");
+  await visited.page.keyboard.press("Enter");
+  await until("named", async () => (await words.textContent()) === "Table runs into Armchair");
+  assert.ok(await words.isVisible());
+  await until("outlined", async () => (await reddish()) > 50);
+  await visited.shot("interface_overlap");
+  await visited.page.keyboard.press("Escape");
+  await until("outlined without a selection", async () => (await reddish()) > 50);
+  for (let i = 0; i < 2; ++i) await visited.page.keyboard.press("Control+z");
+  await until("over", async () => !(await words.isVisible()) && (await reddish()) === 0);
   await visited.end();
 });
 
@@ -388,6 +548,76 @@ async function fingers(page: import("playwright-core").Page, from: number[][], t
   for (let step = 1; step <= 5; ++step)
     await session.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: points(step / 5) });
   await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+}
+
+for (const [width, height] of [
+  [640, 400],
+  [360, 640],
+] as const) {
+  test(`${width}x${height}: half of the window is picture, and all controls can be reached`, { skip }, async () => {
+    const phone = height > width;
+    const visited = await visit(browser, double.link, {
+      ...(phone ? kPhone : kDesktop),
+      viewport: { width, height },
+    });
+    const { page } = visited;
+    await settled(visited);
+    const name = (what: string) => `interface_${width}x${height}_${what}`;
+    const share = async () => {
+      const box = await stageBox(visited);
+      return (box.width * box.height) / (width * height);
+    };
+    assert.ok((await share()) >= 0.5, `${await share()} of the window`);
+    await choose(visited, "Lamps", "Spot");
+    await show(visited);
+    await settled(visited);
+    await visited.shot(name("lamp"));
+    for (const what of ["Home", "Daylight", "Display", "Compare", "Render"]) {
+      await tab(visited, what);
+      assert.deepEqual(await beyondReach(page), [], what);
+      assert.ok((await share()) >= 0.5, `${what}: ${await share()} of the window`);
+      await visited.shot(name(what.toLowerCase()));
+    }
+    await page.getByRole("button", { name: "Fold the panel" }).click();
+    await until("the picture grows", async () => (await share()) > 0.7);
+    await settled(visited);
+    assert.deepEqual(await beyondReach(page), [], "folded");
+    await visited.shot(name("folded"));
+    await tab(visited, "Display");
+    await until("it is unfolded", async () => (await share()) < 0.7);
+    await visited.end();
+  });
+}
+
+// Controls that no scrolling brings into the window, that lie under others, and buttons whose words do not fit.
+function beyondReach(page: import("playwright-core").Page): Promise<string[]> {
+  return page.evaluate(() => {
+    const found: string[] = [];
+    const walk = (root: Document | ShadowRoot) => {
+      for (const element of root.querySelectorAll<HTMLElement>("*")) {
+        if (element.shadowRoot) walk(element.shadowRoot);
+        if (!element.matches("button, input, select, a, [role=option]") || !element.checkVisibility()) continue;
+        element.scrollIntoView({ block: "nearest" });
+        const { left, right, top, bottom, width, height } = element.getBoundingClientRect();
+        const inside = left >= -0.5 && right <= innerWidth + 0.5 && top >= -0.5 && bottom <= innerHeight + 0.5;
+        // What is seen at its middle must be itself, not something that lies over it.
+        let over: Element | null = document.elementFromPoint(left + width / 2, top + height / 2);
+        while (over?.shadowRoot) {
+          const deeper: Element | null = over.shadowRoot.elementFromPoint(left + width / 2, top + height / 2);
+          if (!deeper || deeper === over) break;
+          over = deeper;
+        }
+        const met =
+          over !== null &&
+          (element.contains(over) || over.contains(element) || element.closest("label")?.contains(over));
+        const cut = element.matches("button") && element.scrollWidth > element.clientWidth;
+        if (!inside || !met || cut)
+          found.push(`${element.outerHTML.slice(0, 120)} at ${left}, ${top} to ${right}, ${bottom}`);
+      }
+    };
+    walk(document);
+    return found;
+  });
 }
 
 test("everything that can be worked has a name and can be reached by keys", { skip }, async () => {

@@ -34,10 +34,10 @@ export interface Program {
 }
 
 // Resolves with the link that the program prints; rejects with what it said if it ends before.
-export function startProgram(port = 0): Promise<Program> {
+export function startProgram(port = 0, light: object = kLighting): Promise<Program> {
   const folder = mkdtempSync(join(tmpdir(), "roomlight-view-"));
   const lighting = join(folder, "evening.json");
-  writeFileSync(lighting, JSON.stringify(kLighting));
+  writeFileSync(lighting, JSON.stringify(light));
   const page = resolve("dist");
   const options = [
     "view",

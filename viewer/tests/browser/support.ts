@@ -119,6 +119,10 @@ export async function choose(visited: Visit, kind: string, name: string): Promis
   await visited.page.getByRole("option", { name }).first().click();
 }
 
+// Goes to where the chosen lamp or thing is seen well.
+export const show = (visited: Visit): Promise<void> =>
+  visited.page.getByRole("button", { name: "Show", exact: true }).click();
+
 // Polls until a value is as wanted.
 export async function until(what: string, holds: () => boolean | Promise<boolean>, timeoutMs = 15000): Promise<void> {
   const end = Date.now() + timeoutMs;

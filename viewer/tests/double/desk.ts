@@ -1,6 +1,7 @@
 // The double's state: the home, its history and its plans.
 import { edited, modelFrom, type Model } from "../../src/model.js";
-import type { EditFields, Lamp, Sun, Thing, Welcome } from "../../src/protocol.js";
+import type { EditFields, Lamp, Overlap, Sun, Thing, Welcome } from "../../src/protocol.js";
+import { add, subtract } from "../../src/vector.js";
 import { firstHome, kRoom, type Home } from "./home.js";
 
 interface Step {
@@ -24,8 +25,21 @@ export class Desk {
     if (!gesture || last?.gesture !== name)
       this.done.push({ what: `change ${known?.name ?? "the sun"}`, gesture: name, before: this.home });
     this.undone = [];
-    this.replace(fromModel(edited(this.model(), target, fields)));
+    this.replace(fromModel(this.moved(target, fields)));
     return true;
+  }
+
+  // With what stands on it.
+  private moved(target: string, fields: EditFields): Model {
+    const model = this.model();
+    const thing = model.things.get(target);
+    const next = edited(model, target, fields);
+    if (!thing || !fields.move || fields.alone) return next;
+    const by = subtract(fields.move, thing.move);
+    return loadOf(thing, this.home.objects).reduce(
+      (all, carried) => edited(all, carried.id, { move: add(carried.move, by) }),
+      next,
+    );
   }
 
   step(back: boolean): boolean {
@@ -53,6 +67,7 @@ export class Desk {
       revision: this.revision,
       lamps,
       objects,
+      overlaps: overlapsOf(objects),
       sun,
       plans: [...this.plans.keys()],
       undo: this.done.at(-1)?.what ?? null,
@@ -117,11 +132,31 @@ export class Desk {
       revision: this.revision,
       lamps: this.home.lamps,
       objects: this.home.objects,
+      overlaps: overlapsOf(this.home.objects),
       sun: this.home.sun,
       undo: this.done.at(-1)?.what ?? null,
       redo: this.undone.at(-1)?.what ?? null,
     };
   }
+}
+
+function loadOf(thing: Thing, all: readonly Thing[]): Thing[] {
+  const stands = ({ low, high }: Thing) => {
+    const [x, z] = [(low[0] + high[0]) / 2, (low[2] + high[2]) / 2];
+    const isOver = x > thing.low[0] && x < thing.high[0] && z > thing.low[2] && z < thing.high[2];
+    return isOver && Math.abs(low[1] - thing.high[1]) < 0.02;
+  };
+  return all.filter(stands).flatMap(other => [other, ...loadOf(other, all)]);
+}
+
+// Boxes that were moved into others.
+function overlapsOf(all: readonly Thing[]): Overlap[] {
+  const meet = (a: Thing, b: Thing) =>
+    a.low.every((low, i) => Math.min(a.high[i]!, b.high[i]!) - Math.max(low, b.low[i]!) > 0.01);
+  const moved = all.filter(({ move }) => move.some(m => m !== 0));
+  return moved.flatMap(thing =>
+    all.filter(other => other !== thing && meet(thing, other)).map(other => ({ object: thing.id, into: other.id })),
+  );
 }
 
 function fromModel({ lamps, things, sun }: Model): Home {

@@ -44,6 +44,7 @@ const lamp = (id: number, name: string, kind: string, position: Vec3, fluxLm: nu
   position,
   direction: kind === "spot" ? [0, -1, 0] : null,
   fluxLm,
+  fluxAssumed: false,
   dim: 1,
   on: true,
   temperatureK,
@@ -63,6 +64,8 @@ export const firstHome = (): Home => ({
     thing(2, "Shelf", [0, 0, 3.2], [0.35, 1.9, 4.8], [0.6, 0.6, 0.58]),
   ],
   sun: {
+    on: true,
+    placeFrom: "home",
     date: "2026-06-21",
     hour: 12,
     utcOffset: 2,

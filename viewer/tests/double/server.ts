@@ -9,7 +9,7 @@ import { WebSocketServer } from "ws";
 import { Desk } from "./desk.js";
 import { encodePng } from "./png.js";
 import type { Display } from "../../src/protocol.js";
-import { Window, type Camera } from "./window.js";
+import { Window, type Camera, type Growth } from "./window.js";
 
 const kTypes: Readonly<Record<string, string>> = {
   ".html": "text/html; charset=utf-8",
@@ -28,6 +28,7 @@ export interface Double {
   readonly desk: Desk;
   dropAll(): void; // cuts every connection
   sendAll(data: string | Buffer): void; // whatever it is
+  growAll(growth: Growth): void; // every window gets its picture anew, as far as this
   lastCamera(): Camera | null; // that the window which was opened last has told
   lastDisplay(): Display | null;
   close(): Promise<void>;
@@ -97,6 +98,7 @@ export async function startDouble(folder: string, port = 0, token = randomBytes(
     desk,
     dropAll,
     sendAll: data => windows.forEach(window => window.sendRaw(data)),
+    growAll: growth => windows.forEach(window => window.grow(growth)),
     lastCamera: () => [...windows].at(-1)?.eye ?? null,
     lastDisplay: () => [...windows].at(-1)?.display ?? null,
     close: async () => {

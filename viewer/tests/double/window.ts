@@ -8,6 +8,9 @@ import { draw, light, luminance, poseOf, trace } from "./home.js";
 import { encodePng } from "./png.js";
 
 const kFrameHeight = 180;
+const kRestMs = 120; // without an input, before the picture is finished
+const kSettled = 2;
+const kFalseColour = 8;
 const kJobSteps = 5;
 const kJobStepMs = 120;
 
@@ -17,6 +20,14 @@ interface Incoming {
   type: string;
   id?: number;
   [key: string]: unknown;
+}
+
+// How far a frame says that its picture is.
+export interface Growth {
+  flags: number;
+  samples: number;
+  samplesInAll?: number;
+  relativeError?: number;
 }
 
 export type Camera = Parameters<typeof poseOf>[0];
@@ -31,6 +42,8 @@ export class Window {
   private frames = 0;
   private unacknowledged = 0;
   private dirty = false;
+  private growth: Growth = { flags: 0, samples: 0 };
+  private restTimer: NodeJS.Timeout | null = null;
   private side: 1 | 2 = 1;
   private timer: NodeJS.Timeout | null = null;
   private job: NodeJS.Timeout | null = null;
@@ -60,6 +73,7 @@ export class Window {
 
   close(): void {
     if (this.timer) clearTimeout(this.timer);
+    if (this.restTimer) clearTimeout(this.restTimer);
     if (this.job) clearInterval(this.job);
   }
 
@@ -210,8 +224,18 @@ export class Window {
     });
   }
 
+  // A quick frame at once, and a finished one after a rest.
   private show(): void {
+    this.grow({ flags: 0, samples: 0 });
+    if (this.restTimer) clearTimeout(this.restTimer);
+    this.restTimer = setTimeout(() => this.grow({ flags: kSettled, samples: 24, samplesInAll: 24 }), kRestMs);
+  }
+
+  // Sends the picture anew, as far as this.
+  grow(growth: Growth): void {
+    this.growth = growth;
     this.dirty = true;
+    this.side = 1;
     this.timer ??= setTimeout(() => {
       this.timer = null;
       this.pump();
@@ -245,18 +269,20 @@ export class Window {
     header.writeUInt32LE(++this.frames, 4);
     header.writeUInt16LE(width, 8);
     header.writeUInt16LE(height, 10);
-    header.set([side, 2 + (falseColor ? 8 : 0)], 12);
+    const { flags, samples, samplesInAll = 0, relativeError = NaN } = this.growth;
+    header.set([side, flags + (falseColor ? kFalseColour : 0)], 12);
     header.writeUInt16LE(90, 14);
     header.writeUInt32LE(this.camera, 16);
     header.writeUInt32LE(this.desk.revision, 20);
-    header.writeUInt32LE(1, 24);
-    header.writeFloatLE(NaN, 28);
+    header.writeUInt32LE(samples, 24);
+    header.writeFloatLE(relativeError, 28);
     header.writeFloatLE(falseColor ? NaN : ev, 32);
     header.writeFloatLE(falseColor ? (this.display.low ?? 1) : NaN, 36);
     header.writeFloatLE(falseColor ? (this.display.high ?? 1000) : NaN, 40);
     header.writeFloatLE(20, 44);
     header.writeFloatLE(15, 48);
     header.writeFloatLE(NaN, 52);
+    header.writeUInt32LE(samplesInAll, 56);
     ++this.unacknowledged;
     this.line.send(Buffer.concat([header, png]));
   }

@@ -113,3 +113,14 @@ test("a move between two poses takes the shorter way round", () => {
   nearAll(end.position, [5, 1, 1]);
   near(end.yawRad, 0.1);
 });
+
+test("a home that is cut open stays so while the eye is above the cut, and on the way there and back", () => {
+  const above = camera.poseFrom({ position: [0, 9, 9], direction: [0, -1, -1], verticalFov: 50, cutHeight: 2.5 });
+  assert.equal(camera.cutHeightSeen(above), 2.5);
+  assert.equal(camera.cutHeightSeen(camera.walk(above, 1, 0, 2)), 2.5);
+  assert.equal(camera.cutHeightSeen(camera.walk(above, 0, 0, -7)), undefined);
+  assert.equal(camera.cutHeightSeen(camera.between(pose, above, 0.9)), 2.5);
+  assert.equal(camera.cutHeightSeen(camera.between(above, pose, 0.1)), 2.5);
+  assert.equal(camera.between(above, pose, 1).cutHeightM, undefined);
+  assert.equal(camera.poseFrom({ position: [0, 9, 9], direction: [0, -1, 0], verticalFov: 50 }).cutHeightM, undefined);
+});

@@ -52,6 +52,16 @@ test("two gestures stay two steps of undo, two materials two messages", async ()
   assert.equal(sent.length, 5);
 });
 
+test("a thing moves alone as the last move of the gesture says", async () => {
+  const { edits, sent } = queue();
+  edits.push(dim(1));
+  edits.push({ target: "object:0", gesture: "x", fields: { move: [1, 0, 0], alone: true } });
+  edits.push({ target: "object:0", gesture: "x", fields: { move: [2, 0, 0] } });
+  sent[0]!.succeed();
+  await turn();
+  assert.deepEqual(sent[1]!.edit.fields, { move: [2, 0, 0] });
+});
+
 test("a temperature and a colour of one gesture are not sent together", async () => {
   const { edits, sent } = queue();
   edits.push(dim(1));

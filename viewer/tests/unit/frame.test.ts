@@ -28,6 +28,7 @@ test("a header is read field by field", () => {
       view.setFloat32(28, 0.25, true);
       view.setFloat32(36, 1, true);
       view.setFloat32(40, 500, true);
+      view.setUint32(56, 24, true);
     }),
   );
   assert.deepEqual(
@@ -45,6 +46,7 @@ test("a header is read field by field", () => {
       camera: 5,
       revision: 9,
       samples: 16,
+      samplesInAll: 24,
       relativeError: 0.25,
       ev100: null,
       scale: [1, 500],

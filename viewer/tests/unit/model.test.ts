@@ -52,6 +52,22 @@ test("a colour goes to the material that it names, or to all", () => {
   assert.deepEqual(all.things.get("object:1")!.colors[0]?.color, [0, 1, 0]);
 });
 
+test("a date or an hour switches daylight on, unless the edit says otherwise", () => {
+  const before = model();
+  const off = { ...before, sun: { ...before.sun!, on: false } };
+  assert.equal(edited(off, "sun", { hour: 9 }).sun?.on, true);
+  assert.equal(edited(off, "sun", { date: "2026-12-21" }).sun?.on, true);
+  assert.deepEqual(edited(before, "sun", { on: false }).sun, { ...before.sun, on: false });
+});
+
+test("a flux that was set is not assumed", () => {
+  const before = model();
+  const lamps = new Map(before.lamps).set("lamp:0", { ...before.lamps.get("lamp:0")!, fluxAssumed: true });
+  const dimmed = edited({ ...before, lamps }, "lamp:0", { dim: 0.5 });
+  assert.equal(dimmed.lamps.get("lamp:0")?.fluxAssumed, true);
+  assert.equal(edited(dimmed, "lamp:0", { fluxLm: 700 }).lamps.get("lamp:0")?.fluxAssumed, false);
+});
+
 test("an edit of what is not there changes nothing", () => {
   const before = model();
   assert.equal(edited(before, "object:99", { hidden: true }), before);

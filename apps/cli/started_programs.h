@@ -1,0 +1,35 @@
+// Programs that this one starts: the browser, and itself once more.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace roomlight::cli {
+
+// Shows a page in the browser of whoever runs the program. Asks the desktop (xdg-open) to open the link, through a file
+// that only its owner can read: arguments of programs are seen by all users, and the link holds a secret. Without a
+// desktop nothing happens. The file goes with the object.
+class BrowserPage {
+ public:
+  explicit BrowserPage(const std::string& link);
+  ~BrowserPage();
+  BrowserPage(const BrowserPage&) = delete;
+  BrowserPage& operator=(const BrowserPage&) = delete;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// The file this program was started from.
+std::filesystem::path thisProgram();
+
+// Runs it once more as a process of its own, with these arguments, its output thrown away. Where `cancelled` becomes
+// true it is told to end (SIGTERM) until it does, and its result is an error; where the calling thread ends, it is told
+// too (Linux). Errors: what it said on stderr last, without "roomlight: "; or that it was killed.
+Status runThisProgram(const std::vector<std::string>& arguments, const std::atomic<bool>* cancelled = nullptr);
+
+}  // namespace roomlight::cli
