@@ -46,8 +46,8 @@ struct StudyPlan {
 // cone and hybrid, the three rivals with what the study's parameters leave open (docs/reference/study.md), and path.
 std::vector<StudyTechnique> usualTechniques();
 
-// Paths in the file are relative to it. Errors: as of every file (json/json_reader.h), a file named in it that is not there,
-// a name given twice.
+// Paths in the file are relative to it. Errors: as of every file (json/json_reader.h), a file named in it that is not
+// there, a name given twice.
 Result<StudyPlan> readStudyFile(const std::filesystem::path& file);
 
 }  // namespace roomlight
