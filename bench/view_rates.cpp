@@ -242,7 +242,9 @@ json afterJump(Browser& browser, json edit, uint32_t& id, const std::string& kee
 
 int run(const std::string& homeFile, const std::string& lighting, const std::string& walkFile, double seconds,
         const std::string& keep) {
-  Result<view::OpenedView> home = view::openHome({.scene = homeFile, .lighting = lighting});
+  home::OpenWish wish;
+  wish.scene = homeFile, wish.lighting = lighting;
+  Result<view::OpenedView> home = view::openHome(wish);
   if (!home) return fmt::print(stderr, "{}\n", home.error()), 1;
   std::optional<Walk> walk;
   if (!walkFile.empty()) {

@@ -94,6 +94,7 @@ Result<OpenedView> openHome(home::OpenWish wish) {
   markOff(off, home);
   home.opened = stateOfFile(home, home.lighting.document);
   home.sun = sunOf(home.lighting, opened.daylight);
+  if (opened.lighting.contains("daylight")) home.sun->placeFrom = PlaceFrom::Assumed;  // that was added
   return OpenedView{std::move(home), std::move(opened)};
 }
 

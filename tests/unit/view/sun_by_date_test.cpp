@@ -54,6 +54,13 @@ TEST_F(SunByDateOf, aFileOfLampsHasASunThatIsOff) {
   EXPECT_FALSE(scene.sky.present());
 }
 
+TEST_F(SunByDateOf, daylightThatWasAddedStandsAtAnAssumedPlace) {
+  const ViewHome home = open("", home::LightWish::Day);
+  ASSERT_TRUE(home.sun);
+  EXPECT_TRUE(home.sun->atStart.on);
+  EXPECT_EQ(home.sun->placeFrom, PlaceFrom::Assumed);
+}
+
 TEST_F(SunByDateOf, switchedOnItShinesAtTheHourThatItShows) {
   const ViewHome home = openWith(kLampsOnly);
   const HomeState on = edited(home, home.atStart(), [](EditFields& s) { s.on = true; });
