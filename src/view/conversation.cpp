@@ -163,18 +163,24 @@ void Conversation::on(Window& window, TimePoint at, const DisplayChange& m) {
   window.newInput(at);
 }
 
-void Conversation::on(Window& window, TimePoint at, const ChooseTechnique& m) {
-  if (!findTechnique(m.technique)) return tell(window, errorText(noTechnique(m.id, "technique", m.technique)));
-  const std::string before = std::exchange(window.technique, m.technique);
+// Another technique or split, unless windows would show too many at once.
+template <class Choice>
+void Conversation::choose(Window& window, TimePoint at, const Request& request, Choice& choice, const Choice& wanted) {
+  const Choice before = std::exchange(choice, wanted);
   chooseSides(window);
   if (lightsNeeded() > kMostAtOnce) {
-    window.technique = before;
+    choice = before;
     chooseSides(window);
-    return tell(window, errorText({m.id, "notPossible", "technique", tooMany()}));
+    return tell(window, errorText({request.id, "notPossible", request.field, tooMany()}));
   }
   ++wishes_;
   window.newInput(at);
-  tell(window, okText(m.id));
+  tell(window, okText(request.id));
+}
+
+void Conversation::on(Window& window, TimePoint at, const ChooseTechnique& m) {
+  if (!findTechnique(m.technique)) return tell(window, errorText(noTechnique(m.id, "technique", m.technique)));
+  choose(window, at, {m.id, "technique"}, window.technique, m.technique);
 }
 
 std::optional<ViewError> Conversation::unknownIn(const ChooseSplit& m) const {
@@ -192,16 +198,7 @@ std::optional<ViewError> Conversation::unknownIn(const ChooseSplit& m) const {
 
 void Conversation::on(Window& window, TimePoint at, const ChooseSplit& m) {
   if (const auto error = unknownIn(m)) return tell(window, errorText(*error));
-  const std::optional<Split> before = std::exchange(window.split, m.split);
-  chooseSides(window);
-  if (lightsNeeded() > kMostAtOnce) {
-    window.split = before;
-    chooseSides(window);
-    return tell(window, errorText({m.id, "notPossible", "split", tooMany()}));
-  }
-  ++wishes_;
-  window.newInput(at);
-  tell(window, okText(m.id));
+  choose(window, at, {m.id, "split"}, window.split, m.split);
 }
 
 // Of a kind one waits: the one before it was meant for a view or a place that is of no interest any more.

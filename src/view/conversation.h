@@ -67,6 +67,12 @@ class Conversation {
   void on(Window& window, TimePoint at, const ChooseTechnique& m);
   void on(Window& window, TimePoint at, const ChooseSplit& m);
   std::optional<ViewError> unknownIn(const ChooseSplit& m) const;
+  struct Request {
+    uint32_t id;
+    const char* field;
+  };
+  template <class Choice>
+  void choose(Window& window, TimePoint at, const Request& request, Choice& choice, const Choice& wanted);
   void on(Window& window, TimePoint at, const Point& m);
   void on(Window& window, TimePoint at, const Ack& m);
   void on(Window& window, TimePoint at, const Ping& m);
