@@ -39,6 +39,10 @@ struct Home {
     }
     scene.lamps = {test::pointLamp({3.1f, 1.9f, 3.1f}, 80)};
   }
+  void openAWall() {
+    scene.meshes.emplace_back();
+    scene.instances[5].mesh = static_cast<int>(scene.meshes.size()) - 1;  // one that is not there
+  }
   SceneChange moveBox(Vec3 by) {
     for (const uint32_t i : box) scene.instances[i].worldFromObject.w += by;
     return {box, {}, false};
@@ -227,8 +231,7 @@ TEST(LitSceneTechniques, sayWhichFollowDaylight) {
 
 TEST_P(LitSceneDaylight, theSunMoves) {
   Home home;
-  home.scene.meshes.emplace_back();
-  home.scene.instances[5].mesh = static_cast<int>(home.scene.meshes.size()) - 1;  // a wall that is not there
+  home.openAWall();
   home.scene.sky.luminanceCdM2 = Vec3(200);
   home.scene.suns = {{"sun", normalize(Vec3(0.3f, 0.8f, 1)), Vec3(20000), 0}};
   const auto lit = open(home.scene);
@@ -251,8 +254,7 @@ TEST_P(LitSceneDaylight, theSunMoves) {
 
 TEST_P(LitSceneDaylight, daylightThatWasOffAtFirstCanBeSwitchedOn) {
   Home home;
-  home.scene.meshes.emplace_back();
-  home.scene.instances[5].mesh = static_cast<int>(home.scene.meshes.size()) - 1;  // a wall that is not there
+  home.openAWall();
   const auto lit = open(home.scene);
   const Image before = picture(*lit);
   home.scene.sky.luminanceCdM2 = Vec3(200);
