@@ -1,6 +1,8 @@
 // What reports draw: contours, plans, and pictures of the light on a surface. Inline SVG.
 #pragma once
 
+#include <cmath>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +40,15 @@ using PlanLine = std::vector<Vec2>;  // in the frame, metres
 // that would make more than 20 000 points. Lines shorter than 4 cm (leaves, fringes) are left out. Costs a pass over
 // all triangles.
 std::vector<PlanLine> cutPlan(const Scene& scene, const PlanFrame& frame);
+
+// Pictures are drawn in whole centimetres.
+inline int cm(float metres) { return static_cast<int>(std::lround(metres * 100)); }
+// Paths of SVG: through points in metres, or around the cells that a lattice uses, whose corners `place` finds.
+std::string pathOf(std::span<const Vec2> metres, bool isClosed);
+std::string pathOf(std::span<const PlanLine> lines);
+std::string pathOf(const Lattice& lattice, const std::function<Vec2(Vec2 cells)>& place);
+// The begin of a picture from `low` on, `sizeCm` large, drawn with so many centimetres a pixel. `kind`: its class.
+std::string openSvg(const std::string& kind, const std::string& label, Vec2 low, Vec2 sizeCm, float cmAPixel);
 
 // A picture of the light on a surface: colours, contours, the plan around it, lamps and a length to compare with.
 // `number` tells the pictures of one page apart. Some ten to hundred kilobytes.

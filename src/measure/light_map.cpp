@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/html.h"
+#include "report/page.h"
 #include "scene/shown_names.h"
 
 namespace roomlight {
@@ -31,9 +31,6 @@ std::vector<float> ringed(const Field& field) {
   return out;
 }
 
-// Centimetres in the picture.
-int cm(float metres) { return static_cast<int>(std::lround(metres * 100)); }
-
 class Drawing {
  public:
   Drawing(const GridReading& grid, const Scene& scene, const LightScale& scale, int number)
@@ -50,13 +47,8 @@ class Drawing {
         values_(ringed(field_)) {}
 
   std::string svg() const {
-    const double width = static_cast<double>(size_.x + 2 * kMarginM) * 100,
-                 height = static_cast<double>(size_.y + 2 * kMarginM) * 100 + 30;
-    std::string s = fmt::format(
-        "<svg class=\"map\" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} "
-        "{:.0f} {:.0f}\" style=\"--px:{:.3f}px\" role=\"img\" aria-label=\"{}\">\n",
-        width / static_cast<double>(px_), height / static_cast<double>(px_), -cm(kMarginM), -cm(kMarginM), width,
-        height, px_, htmlEscaped(grid_.name));
+    const Vec2 margin{kMarginM, kMarginM}, size = (size_ + margin * 2) * 100;
+    std::string s = openSvg("map", grid_.name, margin * -1, {size.x, size.y + 30}, px_);
     s += fmt::format("<clipPath id=\"c{}\"><path clip-rule=\"evenodd\" d=\"{}\"/></clipPath>\n", number_, region());
     s += fmt::format("<g clip-path=\"url(#c{})\">\n{}</g>\n", number_, shades());
     s += plan();
@@ -86,23 +78,11 @@ class Drawing {
 
   // Where there is something to show: the floor, where it is known, else the cells measured.
   std::string region() const {
-    std::string d;
-    for (const Vec2 corner : wall_ ? std::vector<Vec2>() : grid_.floor) {
-      const Vec2 p = place(Vec3{corner.x, lattice().corner.y, corner.y});
-      d += fmt::format("{}{},{}", d.empty() ? "M" : "L", cm(p.x), cm(p.y));
-    }
-    if (!d.empty()) return d + "Z";
-    for (int row = 0; row < lattice().rows; ++row) {
-      for (int column = 0; column < lattice().columns; ++column) {
-        const int first = column;
-        while (column < lattice().columns && lattice().used[lattice().index(column, row)]) ++column;
-        if (column == first) continue;
-        const Vec2 a = place(Vec2{static_cast<float>(first), static_cast<float>(row)}),
-                   b = place(Vec2{static_cast<float>(column), static_cast<float>(row + 1)});
-        d += fmt::format("M{},{}H{}V{}H{}Z", cm(a.x), cm(a.y), cm(b.x), cm(b.y), cm(a.x));
-      }
-    }
-    return d;
+    std::vector<Vec2> outline;
+    for (const Vec2 corner : wall_ ? std::vector<Vec2>() : grid_.floor)
+      outline.push_back(place(Vec3{corner.x, lattice().corner.y, corner.y}));
+    if (!outline.empty()) return pathOf(outline, true);
+    return pathOf(lattice(), [&](Vec2 cells) { return place(cells); });
   }
 
   std::string shades() const {
@@ -116,11 +96,9 @@ class Drawing {
     for (size_t i = 1; i < levels.size(); ++i) {
       std::string d;
       for (const auto& loop : lines(levels[i])) {
-        for (size_t k = 0; k < loop.size(); ++k) {
-          const Vec2 p = place(loop[k].p);
-          d += fmt::format("{}{},{}", k ? "L" : "M", cm(p.x), cm(p.y));
-        }
-        d += "Z";
+        std::vector<Vec2> points;
+        for (const ContourPoint& point : loop) points.push_back(place(point.p));
+        d += pathOf(points, true);
       }
       const double middle = i + 1 < levels.size() ? std::sqrt(levels[i] * levels[i + 1]) : levels[i];
       if (!d.empty())
@@ -175,11 +153,7 @@ class Drawing {
                          cm(size_.y));
     const Lattice& l = lattice();
     const PlanFrame frame{l.corner, l.u, l.v, {-kMarginM, -kMarginM}, {size_.x + kMarginM, size_.y + kMarginM}};
-    std::string d;
-    for (const PlanLine& line : cutPlan(scene_, frame)) {
-      for (size_t i = 0; i < line.size(); ++i) d += fmt::format("{}{} {}", i ? "L" : "M", cm(line[i].x), cm(line[i].y));
-    }
-    return fmt::format("<path class=\"wall\" d=\"{}\"/>\n", d);
+    return fmt::format("<path class=\"wall\" d=\"{}\"/>\n", pathOf(cutPlan(scene_, frame)));
   }
 
   // Where statistics come from.
@@ -208,7 +182,7 @@ class Drawing {
     return fmt::format(
         "<g class=\"lamp\" transform=\"translate({} {})\"><title>{}, {:.2f} m</title><circle r=\"9\"/><path "
         "d=\"M-6.4-6.4L6.4 6.4M-6.4 6.4L6.4-6.4\"/></g>\n",
-        cm(p.x), cm(p.y), htmlEscaped(name), at.y);
+        cm(p.x), cm(p.y), report::escaped(name), at.y);
   }
 
   std::string lamps() const {
@@ -262,6 +236,41 @@ const char* const kLightMapStyle = R"(
 .map .bar text{font-size:calc(12*var(--px))}
 )";
 
+std::string pathOf(std::span<const Vec2> metres, bool isClosed) {
+  std::string d;
+  for (const Vec2 p : metres) d += fmt::format("{}{},{}", d.empty() ? "M" : "L", cm(p.x), cm(p.y));
+  return isClosed ? d + "Z" : d;
+}
+
+std::string pathOf(std::span<const PlanLine> lines) {
+  std::string d;
+  for (const PlanLine& line : lines) d += pathOf(line, false);
+  return d;
+}
+
+std::string pathOf(const Lattice& l, const std::function<Vec2(Vec2 cells)>& place) {
+  std::string d;
+  for (int row = 0; row < l.rows; ++row) {
+    for (int column = 0; column < l.columns; ++column) {
+      const int first = column;
+      while (column < l.columns && l.used[l.index(column, row)]) ++column;
+      if (column == first) continue;
+      const Vec2 a = place({static_cast<float>(first), static_cast<float>(row)}),
+                 b = place({static_cast<float>(column), static_cast<float>(row + 1)});
+      d += fmt::format("M{},{}H{}V{}H{}Z", cm(a.x), cm(a.y), cm(b.x), cm(b.y), cm(a.x));
+    }
+  }
+  return d;
+}
+
+std::string openSvg(const std::string& kind, const std::string& label, Vec2 low, Vec2 sizeCm, float cmAPixel) {
+  return fmt::format(
+      "<svg class=\"{}\" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} "
+      "{:.0f} {:.0f}\" style=\"--px:{:.3f}px\" role=\"img\" aria-label=\"{}\">\n",
+      kind, sizeCm.x / cmAPixel, sizeCm.y / cmAPixel, cm(low.x), cm(low.y), sizeCm.x, sizeCm.y, cmAPixel,
+      report::escaped(label));
+}
+
 std::string lightMapSvg(const GridReading& grid, const Scene& scene, const LightScale& scale, int number) {
   return Drawing(grid, scene, scale, number).svg();
 }
@@ -271,7 +280,7 @@ std::string legendSvg(const LightScale& scale, const std::string& unit) {
   std::string s = fmt::format(
       "<svg class=\"legend\" xmlns=\"http://www.w3.org/2000/svg\" width=\"78\" height=\"{}\" viewBox=\"0 -26 78 "
       "{}\">\n<text x=\"0\" y=\"-12\">{}</text>\n",
-      kHeight + 40, kHeight + 40, htmlEscaped(unit));
+      kHeight + 40, kHeight + 40, report::escaped(unit));
   for (int i = 0; i < kPieces; ++i) {
     s += fmt::format("<rect x=\"0\" y=\"{}\" width=\"22\" height=\"{}\" fill=\"{}\"/>\n",
                      kHeight - (i + 1) * kHeight / kPieces, kHeight / kPieces + 1,

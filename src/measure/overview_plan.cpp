@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/html.h"
 #include "engine/views.h"
 #include "measure/measurements.h"
+#include "report/page.h"
 
 namespace roomlight {
 namespace {
@@ -18,8 +18,6 @@ constexpr float kUnderFloorM = 0.3f;
 constexpr float kWidthPx = 860, kHeightPx = 600;
 constexpr float kLeastCmAPixel = 0.75f;    // small homes are not drawn larger
 constexpr float kNarrowPx = 92;            // rooms narrower than this have a short label
-
-int cm(float metres) { return static_cast<int>(std::lround(metres * 100)); }
 
 struct PlacedRoom {
   const RoomReading* reading = nullptr;
@@ -40,23 +38,13 @@ Bounds3 boundsOf(const PlacedRoom& r) {
 }
 
 std::string outlineOf(const PlacedRoom& r) {
-  std::string d;
-  for (const Vec2 p : r.reading->room.floor) d += fmt::format("{}{},{}", d.empty() ? "M" : "L", cm(p.x), cm(p.y));
-  if (!d.empty()) return d + "Z";
-  if (!r.grid) return d;
+  if (!r.reading->room.floor.empty()) return pathOf(r.reading->room.floor, true);
+  if (!r.grid) return {};
   const Lattice& l = latticeOf(*r.grid);  // of a room that was found: along x and z
-  for (int row = 0; row < l.rows; ++row) {
-    for (int column = 0; column < l.columns; ++column) {
-      const int first = column;
-      while (column < l.columns && l.used[l.index(column, row)]) ++column;
-      if (column == first) continue;
-      const Vec3 a =
-          l.corner + l.u * (static_cast<float>(first) * l.stepUM) + l.v * (static_cast<float>(row) * l.stepVM);
-      const Vec3 b = a + l.u * (static_cast<float>(column - first) * l.stepUM) + l.v * l.stepVM;
-      d += fmt::format("M{},{}H{}V{}H{}Z", cm(a.x), cm(a.z), cm(b.x), cm(b.z), cm(a.x));
-    }
-  }
-  return d;
+  return pathOf(l, [&](Vec2 cells) {
+    const Vec3 p = l.corner + l.u * (cells.x * l.stepUM) + l.v * (cells.y * l.stepVM);
+    return Vec2{p.x, p.z};
+  });
 }
 
 // Where a room's label goes.
@@ -84,11 +72,8 @@ class Storey {
 
   std::string svg(const Measurements& m, const Scene& scene, const Schedule& schedule) const {
     const Vec3 size = bounds_.size() * 100;
-    const float height = size.z + 34 * cmAPixel_;  // with the scale bar
-    std::string s = fmt::format(
-        "<svg class=\"plan\" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} "
-        "{:.0f} {:.0f}\" style=\"--px:{:.3f}px\" role=\"img\" aria-label=\"plan\">\n",
-        size.x / cmAPixel_, height / cmAPixel_, cm(bounds_.lo.x), cm(bounds_.lo.z), size.x, height, cmAPixel_);
+    std::string s = openSvg("plan", "plan", {bounds_.lo.x, bounds_.lo.z}, {size.x, size.z + 34 * cmAPixel_},
+                            cmAPixel_);  // with the scale bar
     const Marks marks = lamps(m, schedule);
     for (const PlacedRoom& r : rooms_)
       s += fmt::format("<path class=\"room {}\" d=\"{}\"/>\n", kindOf(r), outlineOf(r));
@@ -106,11 +91,7 @@ class Storey {
   std::string cutLines(const Scene& scene) const {
     const PlanFrame frame{
         {0, elevationM_ + kCutM, 0}, {1, 0, 0}, {0, 0, 1}, {bounds_.lo.x, bounds_.lo.z}, {bounds_.hi.x, bounds_.hi.z}};
-    std::string d;
-    for (const PlanLine& line : cutPlan(scene, frame)) {
-      for (size_t i = 0; i < line.size(); ++i) d += fmt::format("{}{} {}", i ? "L" : "M", cm(line[i].x), cm(line[i].y));
-    }
-    return fmt::format("<path class=\"cut\" d=\"{}\"/>\n", d);
+    return fmt::format("<path class=\"cut\" d=\"{}\"/>\n", pathOf(cutPlan(scene, frame)));
   }
 
   using Marks = std::vector<std::pair<Vec2, std::string>>;  // where in the plan, and what is drawn
@@ -126,7 +107,7 @@ class Storey {
       marks.emplace_back(Vec2{p.x, p.z},
                          fmt::format("<g class=\"lamp\" transform=\"translate({} {}) scale({:.3f})\"><title>{}, {:.2f} "
                                      "m</title><circle r=\"8.5\"/><text y=\".5\">{}</text></g>\n",
-                                     cm(p.x), cm(p.z), cmAPixel_, htmlEscaped(l.name), p.y, schedule.rowOf[i] + 1));
+                                     cm(p.x), cm(p.z), cmAPixel_, report::escaped(l.name), p.y, schedule.rowOf[i] + 1));
     }
     return marks;
   }
@@ -152,7 +133,7 @@ class Storey {
     std::string s = fmt::format("<g class=\"label{}\" transform=\"translate({} {}) scale({:.3f})\">",
                                 isNarrow ? " narrow" : "", cm(at.x), cm(at.y), cmAPixel_);
     s += fmt::format("<text class=\"name\" y=\"-5\">{}</text>",
-                     htmlEscaped(r.reading->room.name.empty() ? "room" : r.reading->room.name));
+                     report::escaped(r.reading->room.name.empty() ? "room" : r.reading->room.name));
     const Statistics l = r.grid ? r.grid->lux() : Statistics();
     if (l.points > 0) {
       const char* mark = !r.target ? "" : r.target->met() ? " ✓" : " ✗";

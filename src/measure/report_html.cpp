@@ -4,16 +4,18 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/html.h"
+#include "engine/settings.h"
+#include "engine/technique.h"
 #include "measure/drawings.h"
-#include "measure/measurements.h"
 #include "measure/report.h"
-#include "measure/report_sections.h"
+#include "measure/report_tables.h"
+#include "report/page.h"
 
 namespace roomlight {
 namespace {
 
-using report::cell, report::head, report::verdictCell;
+using report::escaped, report::Table;
+constexpr auto kHere = Medium::Page;
 
 constexpr const char* kStyle = R"(
 main{max-width:980px}
@@ -46,6 +48,166 @@ p.about{break-after:avoid}
 }
 )";
 
+std::string fileName(const std::string& path) { return escaped(std::filesystem::path(path).filename().string()); }
+
+std::string orDash(const std::string& text) { return text.empty() ? "–" : text; }
+
+// How the use of a room is known.
+const char* originWords(const std::string& origin) {
+  if (origin == "stated") return "stated";
+  if (origin == "target") return "target stated";
+  return origin == "name" ? "by its name" : "assumed";
+}
+
+std::string accuracyWords(const std::string& technique) {
+  const Technique* known = findTechnique(technique);
+  if (!known || known->meters.places == 0)
+    return fmt::format(
+        "Technique {} is a method of others, kept for comparison: figures to be held to are taken with <b>{}</b> or "
+        "<b>{}</b>.",
+        escaped(technique), technique::kHybrid, technique::kPath);
+  return fmt::format(
+      "Measured error: at {} places where the light is known (closed forms, the set-ups of CIE 171:2006) technique {} "
+      "was off by at most {:.1f} %.",
+      known->meters.places, known->name, known->meters.worstPercent);
+}
+
+// All texts are HTML; `kind`: the section's class.
+std::string section(const std::string& title, const std::string& content, const std::string& kind = {}) {
+  return "<section" + report::attribute("class", kind) + "><h2>" + title + "</h2>\n" + content + "</section>\n";
+}
+
+// What is said beside a table.
+std::string about(const std::string& text) { return "<p class=\"about\">" + text + "</p>\n"; }
+
+std::string list(const std::string& title, const std::vector<std::string>& lines) {
+  std::string s = "<ul class=\"notes\">";
+  for (const std::string& line : lines) s += "<li>" + line + "</li>\n";
+  return section(title, s + "</ul>");
+}
+
+std::string titleBlock(const ReportHeader& h) {
+  std::string s = fmt::format("<header><div><h1>Lighting report</h1>\n<p class=\"project\">{}</p></div>\n<dl>",
+                              escaped(std::filesystem::path(h.scene).stem().string()));
+  const auto row = [&](const char* name, const std::string& value) {
+    if (!value.empty()) s += fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
+  };
+  row("Date", escaped(h.date));
+  row("Home", fileName(h.scene));
+  row("Lighting", !h.lighting.empty()    ? fileName(h.lighting)
+                  : h.addedLight.empty() ? std::string("of the home itself")
+                                         : std::string("assumed, since the file has little or none: " + h.addedLight));
+  row("Meters", h.meters.empty() ? "every room's work plane" : fileName(h.meters));
+  row("Computed by", fmt::format("roomlight {}, {}, {}", escaped(h.version), escaped(h.technique), escaped(h.quality)));
+  return s + "</dl></header>\n";
+}
+
+std::string picture(const ReportHeader& h) {
+  if (h.pictureJpeg.empty()) return {};
+  return report::figure(report::jpegPicture("the home", h.pictureJpeg), escaped(h.pictureOf), "shot") + "\n";
+}
+
+std::string plans(const Measurements& m, const Scene& scene, const Schedule& schedule) {
+  const std::vector<OverviewPlan> storeys = overviewPlans(m, scene, schedule);
+  if (storeys.empty()) return {};
+  std::string s = about(
+      "Mean illuminance on work planes; ✓ and ✗: beside the target of each room's use, below. Numbers are those of the "
+      "luminaire schedule.");
+  for (const OverviewPlan& p : storeys) {
+    if (storeys.size() > 1) s += fmt::format("<h3>Floor at {:.2f} m</h3>\n", static_cast<double>(p.elevationM) + 0.0);
+    s += p.svg;
+  }
+  return section("Plan", s, "whole");
+}
+
+std::string roomTargetTable(const Measurements& m) {
+  const std::vector<RoomTarget> list = roomTargets(m);
+  if (list.empty()) return {};
+  Table table({"room", "<use", "<use known", "target", "found", "<", "<source"});
+  bool assumed = false;
+  for (const RoomTarget& t : list) {
+    assumed = assumed || t.origin == "assumed";
+    table.row({escaped(t.room), orDash(escaped(t.use)),
+               report::Cell(originWords(t.origin), t.origin == "assumed" ? "soft" : ""),
+               fmt::format("≥ {} lx", threeDigits(t.wantedLux)),
+               t.foundLux ? threeDigits(*t.foundLux) + " lx" : "not measured",
+               t.foundLux ? report::verdict(t.met()) : "", escaped(t.source)});
+  }
+  std::string s = table.html() + "\n";
+  if (m.maintenanceFactor < 1)
+    s += about(fmt::format("Found: {:g} of the readings (maintenance factor).", m.maintenanceFactor));
+  if (assumed)
+    s += about(
+        fmt::format("Assumed: neither the home nor the meter file says what these rooms are for; they are judged as {} "
+                    "rooms. State the use in the meter file.",
+                    kAssumedUse));
+  return section("Targets by room", s);
+}
+
+std::string luminaireSchedule(const Schedule& schedule) {
+  if (schedule.rows.empty()) return {};
+  Table table({"no.", "<luminaire", "<room", "<kind", "count", "lm each", "W each", "lm/W", "K"});
+  size_t number = 0, count = 0;
+  double flux = 0, watts = 0;
+  bool allStated = true;
+  for (const Luminaire& l : schedule.rows) {
+    const auto n = static_cast<double>(l.count);
+    count += l.count, flux += n * l.fluxLm, watts += n * l.wattsW, allStated = allStated && l.wattsW > 0;
+    table.row({++number, orDash(escaped(l.name)), orDash(escaped(l.room)), l.kind, l.count, threeDigits(l.fluxLm),
+               l.wattsW > 0 ? threeDigits(l.wattsW) : "–",
+               l.wattsW > 0 ? fmt::format("{:.0f}", l.fluxLm / l.wattsW) : "–",
+               l.kelvin ? fmt::format("{:.0f}", std::round(*l.kelvin / 50) * 50) : "–"});
+  }
+  table.row({"", "together", "", "", count, threeDigits(flux) + " lm",
+             allStated ? threeDigits(watts) + " W" : "not all stated",
+             allStated ? fmt::format("{:.0f}", flux / watts) : "", ""},
+            "sum");
+  return section(
+      "Luminaire schedule",
+      table.html() + "\n" +
+          about("lm: as it shines here, dimmed and with its light loss factor. K: nearest temperature of its "
+                "light; –: plain white or coloured. W: as stated by the lighting file or the luminaire's own "
+                "file."));
+}
+
+// What the figures are worth: technique, certainty, measured error, what is not modelled.
+std::string worth(const ReportHeader& h, const Measurements& m) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      fmt::format("Technique <b>{}</b>, quality {}. Asked was a relative standard error of {:g} % a reading{}",
+                  escaped(h.technique), escaped(h.quality), 100 * h.tolerance,
+                  m.certainty.meters == 0
+                      ? "."
+                      : fmt::format("; reached were {:.1g} % by half of the {} readings, {:.2g} % by the worst of "
+                                    "them (dark places are read to a hundredth of the mean).",
+                                    100 * m.certainty.median, m.certainty.meters, 100 * m.certainty.worst)));
+  lines.push_back(accuracyWords(h.technique));
+  const Technique* used = findTechnique(h.technique);
+  if (used && used->meters.furnishedWithinPercent > 0) {
+    lines.push_back(fmt::format(
+        "In a furnished flat 95 of 100 readings of {0} were within {1:g} % of the reference technique {3}, their mean "
+        "within {2:g} %; close to lamps in shades it may read up to 20 % high. Where a limit is close, measure again "
+        "with <b>--technique {3}</b>.",
+        used->name, used->meters.furnishedWithinPercent, used->meters.furnishedMeanPercent, technique::kPath));
+  }
+  const auto measured = std::count_if(m.luminaires.begin(), m.luminaires.end(),
+                                      [](const Luminaire& l) { return l.kind == "photometric"; });
+  if (!m.luminaires.empty()) {
+    lines.push_back(
+        fmt::format("{} of {} luminaires shine as their photometric file says (IES, EULUMDAT); others evenly from a "
+                    "point, a cone or a surface.",
+                    measured, m.luminaires.size()));
+  }
+  lines.push_back(
+      "Materials are those of the file: no reflectance was measured in the home. Light is reckoned in three colours, "
+      "not by spectra.");
+  lines.push_back(fmt::format(
+      "Not modelled: {}furniture, blinds and people that the file does not hold, and daylight of other days than the "
+      "one lit.",
+      m.maintenanceFactor < 1 ? "" : "ageing and dirt of lamps and rooms (no maintenance factor is given), "));
+  return list("What these figures are worth", lines);
+}
+
 std::string summary(const Measurements& m, const std::vector<Verdict>& verdicts) {
   double area = 0;
   for (const RoomReading& r : m.rooms) area += r.areaM2;
@@ -69,95 +231,15 @@ std::string summary(const Measurements& m, const std::vector<Verdict>& verdicts)
   return s + "</div>\n";
 }
 
-std::string targets(const std::vector<Verdict>& verdicts) {
-  if (verdicts.empty()) return {};
-  std::string s =
-      "<section><h2>Stated targets</h2>\n<table>" + head({"where", "what", "wanted", "found", "", "source"}, 4);
-  for (const Verdict& v : verdicts) {
-    const std::string unit = v.unit.empty() ? "" : " " + v.unit;
-    s += "<tr>" + cell(htmlEscaped(v.where)) + cell(v.what) +
-         cell(fmt::format("{} {}{}", v.atMost ? "≤" : "≥", threeDigits(v.wanted), unit)) +
-         cell(threeDigits(v.got) + unit) + verdictCell(v.met()) + cell(htmlEscaped(v.source), "l") + "</tr>\n";
-  }
-  return s + "</table></section>\n";
-}
-
-// A name as HTML, with the place beside it where no meter belongs.
-std::string marked(const std::string& name, MeterPlace place) {
-  return place == MeterPlace::Free
-             ? htmlEscaped(name)
-             : fmt::format("{} <span class=\"soft\">({})</span>", htmlEscaped(name), placeName(place));
+std::string tableSection(const char* title, const report::Table& table) {
+  return table.isEmpty() ? "" : section(title, table.html());
 }
 
 std::string overview(const Measurements& m) {
   if (m.grids.empty()) return {};
-  const bool daylight = std::any_of(m.grids.begin(), m.grids.end(),
-                                    [](const GridReading& g) { return !g.points.daylightPercent.empty(); });
-  std::string s =
-      "<section><h2>Illuminance</h2>\n<table>" +
-      (daylight ? head({"surface", "points", "mean lx", "min lx", "max lx", "U0", "U1", "mean DF %", "min DF %"})
-                : head({"surface", "points", "mean lx", "min lx", "max lx", "U0", "U1"}));
-  for (const GridReading& g : m.grids) {
-    const Statistics l = g.lux(), d = statisticsOf(g.points.daylightPercent);
-    s += "<tr>" + cell(marked(g.name, g.outdoors ? MeterPlace::Outdoors : MeterPlace::Free)) +
-         cell(g.leftOut.empty()
-                  ? fmt::format("{}", l.points)
-                  : fmt::format("{} <span class=\"soft\">of {}</span>", l.points, l.points + g.leftOut.size())) +
-         cell(threeDigits(l.mean)) + cell(threeDigits(l.least)) + cell(threeDigits(l.most)) +
-         cell(fmt::format("{:.2f}", l.u0())) + cell(fmt::format("{:.2f}", l.u1()));
-    if (daylight) s += cell(threeDigits(d.mean)) + cell(threeDigits(d.least));
-    s += "</tr>\n";
-  }
-  s += "</table>\n";
-  for (const std::string& line : misplaced(m)) s += "<p class=\"about\">" + htmlEscaped(line) + "</p>\n";
-  return s + "</section>\n";
-}
-
-std::string meters(const Measurements& m) {
-  std::string s;
-  const auto ev = [](double v) { return std::isfinite(v) ? fmt::format("{:.1f}", v) : std::string("–"); };
-  const auto where = [](Vec3 p) { return fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z); };
-  if (!m.points.empty()) {
-    s += "<section><h2>Incident meters</h2>\n<table>" + head({"point", "x, y, z in m", "lx", "EV100", "DF %"});
-    for (const PointReading& p : m.points) {
-      s += "<tr>" + cell(marked(p.plan.name, p.place)) + cell(where(p.plan.place.position)) + cell(threeDigits(p.lux)) +
-           cell(ev(incidentEv100(p.lux))) + cell(p.daylightPercent ? threeDigits(*p.daylightPercent) : "–") + "</tr>\n";
-    }
-    s += "</table></section>\n";
-  }
-  if (!m.spots.empty()) {
-    s += "<section><h2>Spot meters</h2>\n<table>" + head({"spot", "from x, y, z in m", "field", "cd/m²", "EV100"});
-    for (const SpotReading& p : m.spots) {
-      s += "<tr>" + cell(marked(p.plan.name, p.place)) + cell(where(p.plan.position)) +
-           cell(fmt::format("{:g}°", p.plan.angleDeg)) + cell(threeDigits(p.luminanceCdM2)) +
-           cell(ev(reflectedEv100(p.luminanceCdM2))) + "</tr>\n";
-    }
-    s += "</table></section>\n";
-  }
-  if (!m.glares.empty()) {
-    s += "<section><h2>Glare</h2>\n<table>" +
-         head({"eye", "x, y, z in m", "UGR", "background cd/m²", "luminaires seen", "at the eye lx"});
-    for (const GlareReading& g : m.glares) {
-      s += "<tr>" + cell(marked(g.plan.name, g.place)) + cell(where(g.plan.position)) +
-           cell(g.ugr ? fmt::format("{:.1f}", *g.ugr) : "–") + cell(threeDigits(g.backgroundCdM2)) +
-           cell(fmt::format("{}", g.sources)) + cell(threeDigits(g.eyeLux)) + "</tr>\n";
-    }
-    s += "</table></section>\n";
-  }
-  return s;
-}
-
-std::string power(const Measurements& m) {
-  if (std::none_of(m.rooms.begin(), m.rooms.end(), [](const RoomReading& r) { return r.lamps > 0 || r.wattsW > 0; }))
-    return {};
-  std::string s = "<section><h2>Installed power</h2>\n<table>" + head({"room", "m²", "lamps", "W", "W/m²"});
-  for (const RoomReading& r : m.rooms) {
-    const std::string none = r.lamps > 0 ? "not stated" : "–";
-    s += "<tr>" + cell(htmlEscaped(r.room.name)) + cell(fmt::format("{:.1f}", r.areaM2)) +
-         cell(fmt::format("{}", r.lamps)) + cell(r.wattsKnown() ? threeDigits(r.wattsW) : none) +
-         cell(r.wattsKnown() ? threeDigits(r.wattsW / r.areaM2) : none) + "</tr>\n";
-  }
-  return s + "</table></section>\n";
+  std::string s = gridTable(m, kHere).html() + "\n";
+  for (const std::string& line : misplaced(m)) s += about(escaped(line));
+  return section("Illuminance", s);
 }
 
 std::string figures(const Measurements& m, const Scene& scene) {
@@ -172,38 +254,38 @@ std::string figures(const Measurements& m, const Scene& scene) {
   for (const GridReading& g : m.grids) {
     if (g.lux().points == 0) continue;
     const Statistics l = g.lux();
-    s += fmt::format(
-        "<section><h2>{}</h2>\n<p class=\"about\">mean {} lx, lowest {} lx, highest {} lx, U0 {:.2f}; {} points, "
-        "{:.2f} × {:.2f} m apart{}</p>\n",
-        htmlEscaped(g.name), threeDigits(l.mean), threeDigits(l.least), threeDigits(l.most), l.u0(), l.points,
-        g.points.lattice.stepUM, g.points.lattice.stepVM,
-        g.leftOut.empty() ? "" : fmt::format("; {} left out (crosses)", g.leftOut.size()));
-    s += "<div class=\"figure\">" + lightMapSvg(g, scene, scale, number++) + legendSvg(scale, "lx") +
-         "</div></section>\n";
+    s += section(escaped(g.name),
+                 about(fmt::format("mean {} lx, lowest {} lx, highest {} lx, U0 {:.2f}; {} points, {:.2f} × {:.2f} m "
+                                   "apart{}",
+                                   threeDigits(l.mean), threeDigits(l.least), threeDigits(l.most), l.u0(), l.points,
+                                   g.points.lattice.stepUM, g.points.lattice.stepVM,
+                                   g.leftOut.empty() ? "" : fmt::format("; {} left out (crosses)", g.leftOut.size()))) +
+                     "<div class=\"figure\">" + lightMapSvg(g, scene, scale, number++) + legendSvg(scale, "lx") +
+                     "</div>");
   }
   return s;
 }
 
 std::string notes(const Measurements& m) {
-  std::string s = "<section><h2>How this was found</h2>\n<ul class=\"notes\">";
-  const auto note = [&](const std::string& text) { s += "<li>" + text + "</li>\n"; };
-  note(
+  std::vector<std::string> lines;
+  lines.push_back(
       "Points lie as EN 12464-1 lays them: p = 0.2 · 5<sup>log d</sup> apart, without a band along the walls of 0.5 m "
       "or 15 % of the shorter side. U0 is the lowest over the mean, U1 the lowest over the highest reading.");
-  note(m.maintenanceFactor < 1
-           ? fmt::format("Readings are those of new lamps; targets are judged at {:g} of them (maintenance factor).",
-                         m.maintenanceFactor)
-           : "Readings are those of new lamps in clean rooms; no maintenance factor is applied.");
-  note(
+  lines.push_back(
+      m.maintenanceFactor < 1
+          ? fmt::format("Readings are those of new lamps; targets are judged at {:g} of them (maintenance factor).",
+                        m.maintenanceFactor)
+          : "Readings are those of new lamps in clean rooms; no maintenance factor is applied.");
+  lines.push_back(
       "On the maps, dots are the points of the statistics, crossed circles are lamps; white lines join places of equal "
       "illuminance, in lux. Surfaces are drawn where they are cut at the height of the plane.");
   if (!m.glares.empty())
-    note("UGR after CIE 117; lamps of less than 0.005 m², and lamps without a size, after CIE 147.");
+    lines.push_back("UGR after CIE 117; lamps of less than 0.005 m², and lamps without a size, after CIE 147.");
   const std::vector<std::string> told = m.grids.empty() ? std::vector<std::string>() : misplaced(m);  // below the table
   for (const std::string& w : m.warnings) {
-    if (std::find(told.begin(), told.end(), w) == told.end()) note(htmlEscaped(w));
+    if (std::find(told.begin(), told.end(), w) == told.end()) lines.push_back(escaped(w));
   }
-  return s + "</ul></section>\n";
+  return list("How this was found", lines);
 }
 
 }  // namespace
@@ -211,14 +293,15 @@ std::string notes(const Measurements& m) {
 std::string reportHtml(const ReportHeader& h, const Measurements& m, const Scene& scene) {
   const std::vector<Verdict> verdicts = verdictsOf(m);
   const Schedule schedule = scheduleOf(m.luminaires);
-  std::string s = report::titleBlock(h) + summary(m, verdicts) + report::picture(h) +
-                  report::plans(m, scene, schedule) + report::roomTargetTable(m);
-  s += targets(verdicts) + overview(m) + figures(m, scene) + meters(m) + report::luminaireSchedule(schedule) +
-       power(m) + report::worth(h, m) + notes(m);
-  s += fmt::format("<footer>roomlight {}{}{}</footer>\n", htmlEscaped(h.version), h.date.empty() ? "" : ", ",
-                   htmlEscaped(h.date));
-  return htmlPage("Lighting report: " + std::filesystem::path(h.scene).filename().string(),
-                  kLightMapStyle + std::string(kOverviewPlanStyle) + kStyle, s);
+  std::string s = titleBlock(h) + summary(m, verdicts) + picture(h) + plans(m, scene, schedule) + roomTargetTable(m);
+  s += tableSection("Stated targets", targetTable(verdicts, kHere)) + overview(m) + figures(m, scene);
+  s += tableSection("Incident meters", pointTable(m, kHere)) + tableSection("Spot meters", spotTable(m, kHere)) +
+       tableSection("Glare", glareTable(m, kHere));
+  s += luminaireSchedule(schedule) + tableSection("Installed power", powerTable(m, kHere)) + worth(h, m) + notes(m);
+  s += fmt::format("<footer>roomlight {}{}{}</footer>\n", escaped(h.version), h.date.empty() ? "" : ", ",
+                   escaped(h.date));
+  return report::page("Lighting report: " + std::filesystem::path(h.scene).filename().string(),
+                      kLightMapStyle + std::string(kOverviewPlanStyle) + kStyle, s);
 }
 
 }  // namespace roomlight

@@ -1,23 +1,10 @@
 #include <fmt/format.h>
 
 #include "mix/floor_plan.h"
+#include "report/page.h"
 
 namespace roomlight {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
 
 constexpr const char* kStyle = R"(
 body { margin: 0; background: #222; color: #eee; font: 15px system-ui, sans-serif; }
@@ -61,12 +48,12 @@ std::string pageOf(const FloorPlan& plan) {
         fmt::format("<img class=\"light\" id=\"l{}\" src=\"{}\" alt=\"\" data-steps=\"[{}]\">\n", i, lamp.file, steps);
     if (lamp.pixel) {
       spots += fmt::format("<button id=\"spot-l{}\" title=\"{}\" style=\"left: {:.2f}%; top: {:.2f}%\"></button>\n", i,
-                           escaped(lamp.name), lamp.pixel->x * 100, lamp.pixel->y * 100);
+                           report::escaped(lamp.name), lamp.pixel->x * 100, lamp.pixel->y * 100);
     }
     rows += fmt::format(
         "<li id=\"row-l{}\"><label><input type=\"checkbox\"></label><span>{}</span><input type=\"range\" min=\"1\" "
         "max=\"100\" value=\"100\"></li>\n",
-        i, escaped(lamp.name));
+        i, report::escaped(lamp.name));
   }
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "

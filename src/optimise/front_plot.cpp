@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/html.h"
 #include "optimise/report.h"
 
 namespace roomlight::optimise {

@@ -7,15 +7,18 @@
 #include <map>
 
 #include "engine/settings.h"
-#include "base/html.h"
 #include "base/image_io.h"
 #include "base/tone.h"
 #include "compare/compare.h"
+#include "report/page.h"
+#include "report/table.h"
 #include "study/report.h"
 #include "study/published.h"
 
 namespace roomlight {
 namespace {
+
+using report::Cell, report::escaped, report::fixed, report::Table;
 
 constexpr size_t kPictureBytes = 22'000, kDifferenceBytes = 12'000;
 constexpr int kWidestPicture = 480;
@@ -32,7 +35,7 @@ svg .grid{stroke:#e4e7eb}svg .published{stroke:#111;stroke-width:2}
 details{margin:6px 0}summary{cursor:pointer}
 )";
 
-std::string seconds(double s) { return s < 9.95 ? fmt::format("{:.2f}", s) : fmt::format("{:.0f}", s); }
+std::string seconds(double s) { return s < 9.95 ? fixed(s, 2) : fixed(s, 0); }
 
 // Half as wide as long as that is wide enough.
 Image smaller(Image image) {
@@ -60,58 +63,52 @@ class Sheet {
     if (!second) return Error{second.error()};
     reference_ = meanOf(first.value(), second.value());
     ev100_ = automaticEv100(reference_);
-    std::string s = "<div class=\"sheet\">";
-    Result<std::string> one =
+    Result<std::string> all =
         figure("reference", fmt::format("{:.0f} samples a pixel", case_.referenceSamples), reference_, false);
-    if (!one) return one;
-    s += one.value();
     for (const StudyCurve& c : case_.curves) {
       if (c.points.empty()) continue;
       const StudyPoint& p = settledPoint(c);
-      one =
-          figureOf(c.technique,
-                   fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(p.seconds), errorOf(p), p.meanErrorPercent),
-                   p.picture);
-      if (!one) return one;
-      s += one.value();
+      add(all, c.technique, p.seconds, errorOf(p), p.meanErrorPercent, p.picture);
     }
-    for (const StudyExternal& e : case_.externals) {
-      one = figureOf(
-          e.name,
-          fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(e.seconds), e.mseBeyondNoise, e.meanErrorPercent),
-          e.picture);
-      if (!one) return one;
-      s += one.value();
-    }
-    return s + "</div>\n";
+    for (const StudyExternal& e : case_.externals)
+      add(all, e.name, e.seconds, e.mseBeyondNoise, e.meanErrorPercent, e.picture);
+    if (!all) return all;
+    return "<div class=\"sheet\">" + all.value() + "</div>\n";
   }
 
  private:
-  Result<std::string> embedded(const std::string& name, const Image& encoded, size_t bytes) const {
+  // An element with the picture, and the file it was written to.
+  Result<std::string> embedded(const std::string& name, const std::string& alt, const Image& encoded,
+                               size_t bytes) const {
     const std::filesystem::path file = folder_ / (fileNameOf(name) + ".jpg");
     if (const Status s = writeJpeg(file, smaller(encoded), bytes); !s) return Error{s.error()};
     std::ifstream in(file, std::ios::binary);
     const std::vector<char> content{std::istreambuf_iterator<char>(in), {}};
-    return "data:image/jpeg;base64," + base64(content);
+    return report::jpegPicture(alt, content);
   }
-  Result<std::string> figureOf(const std::string& title, const std::string& words, const std::string& picture) const {
+  // One more picture, unless something went wrong before it.
+  void add(Result<std::string>& all, const std::string& title, double tookS, double mse, double meanPercent,
+           const std::string& picture) const {
+    if (!all) return;
     const Result<Image> image = readImage(folder_ / picture);
-    if (!image) return Error{image.error()};
-    return figure(title, words, image.value(), true);
+    const Result<std::string> one =
+        !image ? Error{image.error()}
+               : figure(title, fmt::format("{} s, mse {:.4f}, mean {:+.1f} %", seconds(tookS), mse, meanPercent),
+                        image.value(), true);
+    all = one ? all.value() + one.value() : one;
   }
   Result<std::string> figure(const std::string& title, const std::string& words, const Image& image,
                              bool difference) const {
     const std::string name = fmt::format("{} {} {} shown", case_.scene, case_.light, title);
-    const Result<std::string> shown = embedded(name, toneMap(image, ev100_, ToneCurve::Clip), kPictureBytes);
+    Result<std::string> shown = embedded(name, title, toneMap(image, ev100_, ToneCurve::Clip), kPictureBytes);
     if (!shown) return shown;
-    std::string s = fmt::format("<figure><img alt=\"{0}\" src=\"{1}\">", htmlEscaped(title), shown.value());
     if (difference) {
-      const Result<std::string> error =
-          embedded(name + " difference", differencePicture(reference_, image), kDifferenceBytes);
+      const Result<std::string> error = embedded(name + " difference", "where " + title + " is off",
+                                                 differencePicture(reference_, image), kDifferenceBytes);
       if (!error) return error;
-      s += fmt::format("<img alt=\"where {} is off\" src=\"{}\">", htmlEscaped(title), error.value());
+      shown.value() += error.value();
     }
-    return s + fmt::format("<figcaption><b>{}</b><br><span>{}</span></figcaption></figure>", htmlEscaped(title), words);
+    return report::figure(shown.value(), fmt::format("<b>{}</b><br><span>{}</span>", escaped(title), words));
   }
 
   const StudyCase& case_;
@@ -125,59 +122,50 @@ std::string key(const std::vector<StudyCurve>& curves) {
   for (size_t i = 0; i < curves.size(); ++i) {
     s += fmt::format("<span><i style=\"border-color:{}{}\"></i>{}</span>", colourOf(curves, i),
                      curves[i].technique.find(',') != std::string::npos ? ";border-top-style:dashed" : "",
-                     htmlEscaped(curves[i].technique));
+                     escaped(curves[i].technique));
   }
   return s + "</div>\n";
 }
 
 std::string verdictTable(const StudyResults& r) {
-  std::string s =
-      "<h2>Against the published study</h2><p>What roomlight asks of its own techniques beside the rivals, after the "
-      "figures of the study that it builds on.</p><table><tr><th>asked</th><th class=l>measured</th><th></th></tr>";
+  Table table({"asked", "<measured", ""});
   for (const StudyVerdict& v : studyVerdicts(r))
-    s += fmt::format("<tr><td>{}</td><td class=l>{}</td><td class=\"{}\">{}</td></tr>\n", htmlEscaped(v.asked),
-                     htmlEscaped(v.measured), v.met ? "met" : "missed", v.met ? "✓ met" : "✗ missed");
-  return s + "</table>\n";
+    table.row({escaped(v.asked), escaped(v.measured), report::verdict(v.met)});
+  return "<h2>Against the published study</h2><p>What roomlight asks of its own techniques beside the rivals, after "
+         "the figures of the study that it builds on.</p>" +
+         table.html() + "\n";
 }
 
 // A table of one number a technique and case, the least of a row in bold where `bold`.
 std::string matrix(const StudyResults& r, const std::function<std::string(const StudyCurve&, const StudyCase&)>& text,
                    const std::function<double(const StudyCurve&)>& value) {
-  std::string s = "<div class=wide><table><tr><th>scene, light</th>";
-  for (const StudyCurve& c : r.cases.front().curves) s += fmt::format("<th>{}</th>", htmlEscaped(c.technique));
-  s += "</tr>\n";
+  Table table({"scene, light"});
+  for (const StudyCurve& c : r.cases.front().curves) table.column(escaped(c.technique));
   for (const StudyCase& c : r.cases) {
     double least = 1e30;
     for (const StudyCurve& curve : c.curves) {
       if (curve.kind != "judge" && !curve.points.empty()) least = std::min(least, value(curve));
     }
-    s += fmt::format("<tr><td>{}</td>", htmlEscaped(c.scene + ", " + c.light));
+    std::vector<Cell>& cells = table.row({escaped(c.scene + ", " + c.light)});
     for (const StudyCurve& curve : c.curves) {
       if (curve.points.empty())
-        s += fmt::format("<td title=\"{}\">–</td>", htmlEscaped(curve.failed));
+        cells.emplace_back("–", "", curve.failed);
       else
-        s += fmt::format("<td{}>{}</td>", value(curve) <= least && curve.kind != "judge" ? " class=best" : "",
-                         text(curve, c));
+        cells.emplace_back(text(curve, c), value(curve) <= least && curve.kind != "judge" ? "best" : "");
     }
-    s += "</tr>\n";
   }
-  return s + "</table></div>\n";
+  return table.wideHtml();
 }
 
 std::string externals(const StudyResults& r) {
-  std::string rows;
+  Table table({"name", "<scene, light", "seconds", "mse", "flip", "mean"});
   for (const StudyCase& c : r.cases) {
     for (const StudyExternal& e : c.externals) {
-      rows += fmt::format(
-          "<tr><td>{}</td><td class=l>{}</td><td>{}</td><td>{:.4f}</td><td>{:.3f}</td><td>{:+.1f} %</td></tr>\n",
-          htmlEscaped(e.name), htmlEscaped(c.scene + ", " + c.light), seconds(e.seconds), e.mseBeyondNoise, e.flip,
-          e.meanErrorPercent);
+      table.row({escaped(e.name), escaped(c.scene + ", " + c.light), seconds(e.seconds), fixed(e.mseBeyondNoise, 4),
+                 fixed(e.flip, 3), fmt::format("{:+.1f} %", e.meanErrorPercent)});
     }
   }
-  return rows.empty() ? ""
-                      : "<h2>Other renderers</h2><table><tr><th>name</th><th class=l>scene, "
-                        "light</th><th>seconds</th><th>mse</th><th>flip</th><th>mean</th></tr>\n" +
-                            rows + "</table>\n";
+  return table.isEmpty() ? "" : "<h2>Other renderers</h2>" + table.html() + "\n";
 }
 
 std::string timesToCone(const StudyResults& r) {
@@ -200,13 +188,13 @@ std::string timesToCone(const StudyResults& r) {
 }
 
 std::string publishedTimes() {
-  std::string s = "<details><summary>Table 1 of the published study, seconds</summary><table><tr><th>scene</th>";
-  for (const auto& t : published::kTechniques) s += fmt::format("<th>{}</th>", t.name);
+  Table table({"scene"});
+  for (const auto& t : published::kTechniques) table.column(t.name);
   for (size_t i = 0; i < 6; ++i) {
-    s += fmt::format("</tr><tr><td>{}</td>", i + 1);
-    for (const auto& t : published::kTechniques) s += fmt::format("<td>{:.1f}</td>", t.drawingS[i]);
+    std::vector<Cell>& cells = table.row({i + 1});
+    for (const auto& t : published::kTechniques) cells.emplace_back(fixed(t.drawingS[i], 1));
   }
-  return s + "</tr></table></details>\n";
+  return "<details><summary>Table 1 of the published study, seconds</summary>" + table.html() + "</details>\n";
 }
 
 std::string tables(const StudyResults& r) {
@@ -226,12 +214,12 @@ std::string tables(const StudyResults& r) {
   s += fmt::format("{}Bold: the least of all but the judge.</p>",
                    r.againstPublished ? "Published: cone .0034, vxgi .0051, lpv .0085, photon .0105. " : "");
   s += matrix(
-      r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.4f}", errorOf(settledPoint(c))); },
+      r, [](const StudyCurve& c, const StudyCase&) { return fixed(errorOf(settledPoint(c)), 4); },
       [](const StudyCurve& c) { return errorOf(settledPoint(c)); });
   s += timesToCone(r);
   s += "<h2>Memory</h2><p>Peak of the process, MiB, the home included.</p>";
   s += matrix(
-      r, [](const StudyCurve& c, const StudyCase&) { return fmt::format("{:.0f}", settledPoint(c).memoryMiB); },
+      r, [](const StudyCurve& c, const StudyCase&) { return fixed(settledPoint(c).memoryMiB, 0); },
       [](const StudyCurve& c) { return settledPoint(c).memoryMiB; });
   return s + externals(r);
 }
@@ -243,7 +231,7 @@ std::string errorOverTime(const StudyResults& r) {
       "better.</p>" +
       key(r.cases.front().curves) + "<div class=plots>\n";
   for (const StudyCase& c : r.cases)
-    s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(c.scene + ", " + c.light), curvesSvg(c));
+    s += fmt::format("<div><h3>{}</h3>{}</div>\n", escaped(c.scene + ", " + c.light), curvesSvg(c));
   return s + "</div>\n";
 }
 
@@ -283,7 +271,7 @@ std::string frames(const StudyResults& r) {
           {f.technique, colour, f.cost.framesPerSecond, published.count(f.technique) ? published[f.technique] : 0});
     }
     if (!bars.empty())
-      s += fmt::format("<div><h3>{}</h3>{}</div>\n", htmlEscaped(scene + ", " + light), barsSvg(bars, "/s"));
+      s += fmt::format("<div><h3>{}</h3>{}</div>\n", escaped(scene + ", " + light), barsSvg(bars, "/s"));
   }
   return s + "</div>\n";
 }
@@ -299,7 +287,7 @@ Result<std::string> sheets(const StudyResults& r, const std::filesystem::path& f
     s += fmt::format(
         "<details{}><summary><b>{}</b> <span class=soft>reference: {:.0f} s, noise "
         "{:.5f}{}</span></summary>{}</details>\n",
-        i < 3 ? " open" : "", htmlEscaped(c.scene + ", " + c.light), c.referenceS, c.noiseMse,
+        i < 3 ? " open" : "", escaped(c.scene + ", " + c.light), c.referenceS, c.noiseMse,
         c.referenceConverged ? "" : ", more than was asked", sheet.value());
   }
   return s;
@@ -319,16 +307,13 @@ Result<std::string> studyHtml(const StudyHeader& header, const StudyResults& r, 
     s += pictures.value();
   }
   if (r.againstPublished && !nothingMeasured(r)) s += verdictTable(r);
-  s += "<h2>Machine and settings</h2><table>";
-  for (const auto* rows : {&header.about, &header.techniques}) {
-    for (const auto& [name, value] : *rows)
-      s += fmt::format("<tr><td>{}</td><td class=l>{}</td></tr>\n", htmlEscaped(name), htmlEscaped(value));
-  }
-  s += "</table>\n";
-  for (const std::string& remark : r.remarks) s += "<p class=soft>" + htmlEscaped(remark) + "</p>\n";
-  return htmlPage("Study of techniques", kStyle,
-                  s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take "
-                      "turns.</footer>\n");
+  std::vector<std::pair<std::string, std::string>> facts = header.about;
+  facts.insert(facts.end(), header.techniques.begin(), header.techniques.end());
+  s += "<h2>Machine and settings</h2>" + report::factsHtml(facts);
+  for (const std::string& remark : r.remarks) s += "<p class=soft>" + escaped(remark) + "</p>\n";
+  return report::page("Study of techniques", kStyle,
+                      s + "<footer>Times and frames a second are medians of the runs; the runs of all techniques take "
+                          "turns.</footer>\n");
 }
 
 }  // namespace roomlight

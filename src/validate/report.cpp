@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
-#include "base/html.h"
+#include "report/page.h"
+#include "report/plot.h"
+#include "report/table.h"
 
 namespace roomlight {
 namespace {
+
+using report::Axis, report::Cell, report::escaped, report::Plot, report::Table;
 
 constexpr const char* kStyle =
     R"(body{font:15px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
@@ -18,67 +23,58 @@ table{border-collapse:collapse;width:100%;font-size:.88rem}th,td{padding:.25rem 
 td{white-space:nowrap}th:first-child,td:first-child{text-align:left;white-space:normal}th{color:#555;font-weight:600}
 .pass{color:#0a6b3d}.fail{color:#b00020;font-weight:700}.basis{color:#666;font-size:.85rem;margin:.2rem 0 .6rem}svg{max-width:100%;height:auto})";
 
-std::string verdict(bool pass) { return pass ? "<span class=pass>met</span>" : "<span class=fail>missed</span>"; }
+std::string verdict(bool pass) { return pass ? "<span class='pass'>met</span>" : "<span class='fail'>missed</span>"; }
 
 // Error of every value, a row a technique: what lies within the band is allowed.
 std::string dots(const Validation& v) {
   constexpr double kWidth = 900, kLeft = 80, kRow = 46, kMost = 12;  // per cent
   const double height = kRow * static_cast<double>(v.techniques.size()) + 30;
-  const auto x = [&](double percent) {
-    return kLeft + (kWidth - kLeft - 20) * (std::clamp(percent, -kMost, kMost) + kMost) / (2 * kMost);
-  };
-  std::string out =
-      fmt::format("<svg viewBox='0 0 {} {}' role=img aria-label='Error of every value by technique'>", kWidth, height);
+  const Axis axis{-kMost, kMost, kLeft, kWidth - 20};
+  Plot plot(kWidth, height, "Error of every value by technique");
   for (size_t t = 0; t < v.techniques.size(); ++t) {
     const ValidationSummary& s = v.techniques[t];
-    const double y = kRow * static_cast<double>(t) + kRow / 2, low = x(-s.allowedPercent), high = x(s.allowedPercent);
-    out += fmt::format(
-        "<text x='0' y='{:.0f}' font-size='14'>{}</text><rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{}' "
-        "fill='#e4f2ea'/>",
-        y + 5, s.technique, low, y - 16, high - low, 32);
+    const double y = kRow * static_cast<double>(t) + kRow / 2, allowed = std::min(s.allowedPercent, kMost);
+    plot.text(0, y + 5, s.technique, "font-size='14'");
+    plot.bar(axis.at(-allowed), y - 16, axis.at(allowed) - axis.at(-allowed), 32, "#e4f2ea");
     size_t k = 0;
     for (const ValidationRow& r : v.rows) {
       if (r.technique != s.technique || r.errorUnit != "%") continue;
-      out += fmt::format(
-          "<circle cx='{:.1f}' cy='{:.1f}' r='3' fill='{}' fill-opacity='.6'><title>{}, {}: {:+.2f} "
-          "{}</title></circle>",
-          x(r.error), y + static_cast<double>(k++ % 7) * 4 - 12, r.pass ? "#0a6b3d" : "#b00020", htmlEscaped(r.name),
-          htmlEscaped(r.place), r.error, r.errorUnit);
+      plot.dot(axis.at(std::clamp(r.error, -kMost, kMost)), y + static_cast<double>(k++ % 7) * 4 - 12, 3,
+               fmt::format("fill='{}' fill-opacity='.6'", r.pass ? "#0a6b3d" : "#b00020"),
+               fmt::format("{}, {}: {:+.2f} {}", r.name, r.place, r.error, r.errorUnit));
     }
   }
   for (int p = -10; p <= 10; p += 5)
-    out += fmt::format("<text x='{:.1f}' y='{:.0f}' font-size='12' text-anchor='middle' fill='#555'>{}{} %</text>",
-                       x(p), height - 6, p > 0 ? "+" : "", p);
-  return out + "</svg>";
+    plot.text(axis.at(p), height - 6, fmt::format("{}{} %", p > 0 ? "+" : "", p),
+              "font-size='12' text-anchor='middle' fill='#555'");
+  return plot.svg();
+}
+
+// Rows of one case: a line a place, beside each other what the techniques found.
+std::string caseTable(std::span<const ValidationRow> rows) {
+  Table table({"place", "expected"});
+  size_t places = 0;
+  while (places < rows.size() && rows[places].technique == rows[0].technique) ++places;
+  for (size_t i = 0; i < rows.size(); i += places) {
+    for (const std::string& head : {rows[i].technique, std::string("error"), std::string()}) table.column(head);
+  }
+  for (size_t p = 0; p < places; ++p) {
+    std::vector<Cell>& cells = table.row({escaped(rows[p].place), fmt::format("{:.5g}", rows[p].expected)});
+    for (size_t i = p; i < rows.size(); i += places)
+      cells.insert(cells.end(), {fmt::format("{:.5g}", rows[i].got),
+                                 fmt::format("{:+.2f} {}", rows[i].error, rows[i].errorUnit), verdict(rows[i].pass)});
+  }
+  return table.html();
 }
 
 std::string tables(const Validation& v) {
   std::string out;
-  const auto sameCase = [](const ValidationRow& a, const ValidationRow& b) { return a.name == b.name; };
-  for (size_t i = 0; i < v.rows.size();) {
+  for (size_t i = 0, end = 0; i < v.rows.size(); i = end) {
     const ValidationRow& first = v.rows[i];
-    std::vector<const ValidationRow*> rows;
-    for (; i < v.rows.size() && sameCase(v.rows[i], first); ++i) rows.push_back(&v.rows[i]);
-    out += fmt::format("<h2>{}: {}</h2><p class=basis>Expected: {}. In {}.</p><table><tr><th>place<th>expected",
-                       htmlEscaped(first.name), htmlEscaped(first.title), htmlEscaped(first.basis),
-                       htmlEscaped(first.unit));
-    std::vector<std::string> techniques;
-    for (const ValidationRow* r : rows) {
-      if (std::find(techniques.begin(), techniques.end(), r->technique) == techniques.end())
-        techniques.push_back(r->technique);
-    }
-    for (const std::string& t : techniques) out += fmt::format("<th>{}<th>error<th>", t);
-    out += "</tr>";
-    const size_t places = rows.size() / techniques.size();
-    for (size_t p = 0; p < places; ++p) {
-      out += fmt::format("<tr><td>{}<td>{:.5g}", htmlEscaped(rows[p]->place), rows[p]->expected);
-      for (size_t t = 0; t < techniques.size(); ++t) {
-        const ValidationRow& r = *rows[t * places + p];
-        out += fmt::format("<td>{:.5g}<td>{:+.2f} {}<td>{}", r.got, r.error, r.errorUnit, verdict(r.pass));
-      }
-      out += "</tr>";
-    }
-    out += "</table>";
+    while (end < v.rows.size() && v.rows[end].name == first.name) ++end;
+    out += fmt::format("<h2>{}: {}</h2><p class=\"basis\">Expected: {}. In {}.</p>", escaped(first.name),
+                       escaped(first.title), escaped(first.basis), escaped(first.unit)) +
+           caseTable(std::span(v.rows).subspan(i, end - i));
   }
   return out;
 }
@@ -114,21 +110,17 @@ std::string validationJson(const Validation& v) {
 }
 
 std::string validationHtml(const Validation& v, const std::string& version) {
-  std::string out = fmt::format(
-      "<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport "
-      "content='width=device-width'><title>roomlight: validation</title><style>{}</style><h1>Validation of roomlight "
-      "{}</h1>",
-      kStyle, htmlEscaped(version));
-  out +=
-      "<p>Light meters in scenes whose light is known. Expected values are integrated numerically, apart from the "
-      "program's own light. Allowed is 1 % at each place for <i>path</i>, 3 % for <i>hybrid</i>, and for <i>cone</i> "
-      "10 % of the sum over a case; of glare ratings half a unit.</p>";
-  out += "<table><tr><th>technique<th>allowed<th>places met<th>largest error<th>where<th></tr>";
-  for (const ValidationSummary& s : v.techniques) {
-    out += fmt::format("<tr><td>{}<td>{:g} %<td>{} of {}<td>{:+.2f} %<td>{}<td>{}</tr>", s.technique, s.allowedPercent,
-                       s.passed, s.places, s.worstPercent, htmlEscaped(s.worstPlace), verdict(s.passed == s.places));
-  }
-  return out + "</table>" + dots(v) + tables(v) + "</html>\n";
+  Table summary({"technique", "allowed", "places met", "largest error", "where", ""});
+  for (const ValidationSummary& s : v.techniques)
+    summary.row({s.technique, fmt::format("{:g} %", s.allowedPercent), fmt::format("{} of {}", s.passed, s.places),
+                 fmt::format("{:+.2f} %", s.worstPercent), escaped(s.worstPlace), verdict(s.passed == s.places)});
+  return report::plainPage(
+      "roomlight: validation", kStyle,
+      "<h1>Validation of roomlight " + escaped(version) +
+          "</h1><p>Light meters in scenes whose light is known. Expected values are integrated numerically, apart from "
+          "the program's own light. Allowed is 1 % at each place for <i>path</i>, 3 % for <i>hybrid</i>, and for "
+          "<i>cone</i> 10 % of the sum over a case; of glare ratings half a unit.</p>" +
+          summary.html() + dots(v) + tables(v));
 }
 
 }  // namespace roomlight
