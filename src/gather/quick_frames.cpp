@@ -14,6 +14,7 @@ namespace {
 constexpr size_t kTilesAtOnce = 4;
 constexpr uint32_t kMostEvery = 16, kMostEveryOld = 64;
 constexpr double kNewest = 0.3;        // weight of the newest measurement
+constexpr size_t kMostNodes = 100'000;
 constexpr float kLeastKnown = 0.25f;   // of what is seen: else the camera has jumped
 
 // Of places at unit depth: pixels a unit of x and of y.
@@ -100,6 +101,7 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
   now_.resize(pixels);
   if (!hasPast_) past_.clear();
   changed_.lightBy(scene.lights, scene.light.sharpEmissive());
+  if (nodes_->nodes() > kMostNodes) nodes_->forget();
   Maker maker(*this, scene, camera, width, height);
   if (!still || stale_ || changed_.any()) surveyPast(maker, camera);
   // Where the scene has changed every pixel looks for itself.
@@ -142,6 +144,7 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
 }
 
 void QuickFrames::sceneChanged(const SceneChange& change, const Scene& scene) {
+  nodes_->forget(change.moved);
   changed_.add(change, scene, [&](std::vector<Bounds3>& seen) {
     for (const Pixel& q : now_) {
       if (q.key < seen.size()) seen[q.key].add(q.position);

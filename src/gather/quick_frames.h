@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "base/image.h"
 #include "base/progress.h"
 #include "gather/changed_places.h"
+#include "gather/light_nodes.h"
 #include "gather/sharp_lights.h"
 #include "radiance/slot_snapshot.h"
 #include "scene/scene_change.h"
@@ -49,7 +51,7 @@ class QuickFrames {
   // lamps shine on is lit anew.
   void sceneChanged(const SceneChange& change, const Scene& scene);
   // So is the light of slots.
-  void lightChanged() { stale_ = true; }
+  void lightChanged() { stale_ = true, nodes_->forget(); }
   // A better picture of what the last frame showed: its colours are kept for as long as nothing changes.
   void adopt(const Image& better);
   void forget() { camera_.reset(); }
@@ -90,6 +92,7 @@ class QuickFrames {
   std::vector<std::atomic<uint64_t>>
       landed_;  // per pixel: distance and number of the pixel before that is seen there now
   ChangedPlaces changed_;
+  std::unique_ptr<LightNodes> nodes_ = std::make_unique<LightNodes>();
   // Of so many pixels one is lit: of those without light, and of those that have lent or old light (0: none). Powers of
   // two up to 16, and 64.
   uint32_t everyNew_ = 16, everyOld_ = 0;

@@ -13,9 +13,10 @@ namespace {
 
 constexpr float kPictureRoughness = 0.3f;  // smoother: what it reflects is looked for by a ray
 constexpr float kFaint = 0.01f;        // of a place's light: that of lamps that could give less is taken from slots
-// Of places that slots do not stand for: rays that look for light, for each, and for many together; and samples of
-// lights.
-constexpr uint32_t kFewestRays = 8, kMostRays = 64, kMostLightSamples = 4;
+// Of a node on what slots do not stand for: rays that look for light, how many find none where there is none, and
+// samples of lights.
+constexpr uint32_t kNodeRays = 64, kDarkRays = 16, kNodeLightSamples = 4;
+constexpr float kNodePixels = 12;    // between nodes, and no nearer than voxels
 constexpr float kDark = 0.05f;       // of the usual light
 constexpr int kMostBounces = 4;
 constexpr float kMostOfUsual =
@@ -58,9 +59,9 @@ Vec3 QuickFrames::Maker::radianceAlong(Ray ray, Vec3 left, bool emitted) const {
 }
 
 // One of the lamps with size and emissive meshes, as slots have it: what falls straight on a place, lx.
-Vec3 QuickFrames::Maker::sampleLocal(const Asked& a, Sampler& sampler) const {
+Vec3 QuickFrames::Maker::sampleLocal(Vec3 p, Vec3 n, Sampler& sampler) const {
   const Lights& lights = scene_.lights;
-  const LightTree::Choice chosen = lights.chooseLocal(a.p, sampler.next1());
+  const LightTree::Choice chosen = lights.chooseLocal(p, sampler.next1());
   const Vec2 u = sampler.next2();
   const float choice = sampler.next1();
   if (!(chosen.chance > 0)) return {};
@@ -68,16 +69,16 @@ Vec3 QuickFrames::Maker::sampleLocal(const Asked& a, Sampler& sampler) const {
   LightSample l;
   if (chosen.index < lamps) {
     if (isSharp(lights.lamp(chosen.index))) return {};  // has a ray of its own
-    l = lights.sampleLamp(chosen.index, a.p, u);
+    l = lights.sampleLamp(chosen.index, p, u);
   } else {
     const size_t emitter = chosen.index - lamps;
     if (std::any_of(emitters_.begin(), emitters_.end(), [&](const SharpEmitter& e) { return e.index == emitter; }))
       return {};
-    l = lights.sampleEmitter(emitter, a.p, u, choice);
+    l = lights.sampleEmitter(emitter, p, u, choice);
   }
-  const float cosine = dot(l.wi, a.n);
+  const float cosine = dot(l.wi, n);
   if (!l.valid() || cosine <= 0) return {};
-  const Vec3 left = scene_.rays.transmittance(shadowRay(offsetOrigin(a.p, a.n), a.p, l));
+  const Vec3 left = scene_.rays.transmittance(shadowRay(offsetOrigin(p, n), p, l));
   return left * l.radiance * (cosine / chosen.chance);
 }
 
@@ -98,48 +99,38 @@ Vec3 QuickFrames::Maker::arriving(Ray ray, Sampler& sampler) const {
   return {};
 }
 
-// What falls on places of one surface from all around, lx: their mean. The directions are always the same ones, so that
-// tiles side by side and frames after one another agree.
-Vec3 QuickFrames::Maker::gatherAround(std::span<const uint32_t> places, const Work& w) const {
+// What falls on a place from all around, lx. The directions are always the same ones, so that nodes side by side agree.
+Vec3 QuickFrames::Maker::gatherAround(Vec3 p, Vec3 n) const {
   Vec3 around, straight;
-  const auto placeOf = [&](uint32_t k, uint32_t of) -> const Asked& { return w.asked[places[k * places.size() / of]]; };
-  const uint32_t rays = std::min(kMostRays, kFewestRays * static_cast<uint32_t>(places.size()));
   const float most = f_.usualLux_ > 0 ? kMostOfUsual * f_.usualLux_ / kPi : kInfinity;
-  for (uint32_t k = 0; k < rays && (k < kFewestRays || !isBlack(around)); ++k) {
-    const Asked& a = placeOf(k * 5 % rays, rays);  // the first ones are not all of one corner
+  for (uint32_t k = 0; k < kNodeRays && (k < kDarkRays || !isBlack(around)); ++k) {
     Sampler sampler(0, k, 0);
-    const Vec3 d = Frame(a.n).toWorld(sampleCosineHemisphere(sampler.next2()));
-    const Vec3 came = arriving({offsetOrigin(a.p, a.n), d, 0, kInfinity}, sampler);
+    const Vec3 d = Frame(n).toWorld(sampleCosineHemisphere(sampler.next2()));
+    const Vec3 came = arriving({offsetOrigin(p, n), d, 0, kInfinity}, sampler);
     around += came * std::min(1.0f, most / std::max(luminance(came), 1e-20f));
   }
-  const uint32_t samples = std::min(kMostLightSamples, static_cast<uint32_t>(places.size()));
-  for (uint32_t k = 0; k < samples && scene_.lights.hasLocal(); ++k) {
+  for (uint32_t k = 0; k < kNodeLightSamples && scene_.lights.hasLocal(); ++k) {
     Sampler sampler(1, k, 0);
-    straight += sampleLocal(placeOf(k, samples), sampler);
+    straight += sampleLocal(p, n, sampler);
   }
-  return around * (kPi / static_cast<float>(rays)) + straight * (1.0f / static_cast<float>(samples));
+  return around * (kPi / static_cast<float>(kNodeRays)) + straight * (1.0f / static_cast<float>(kNodeLightSamples));
 }
 
-// What slots have for the pixels to be lit. Where that is not to be relied on, rays look for light, together for all
-// pixels of the tile that see one side of a thing.
-void QuickFrames::Maker::receive(Work& w) const {
-  w.dark.clear();
-  for (const uint32_t i : w.toLight) {
-    Asked& a = w.asked[i];
-    if (!a.hit.valid()) continue;
-    a.received = receivedAt(a.hit.instance, a.p, a.n);
-    if (!standsFor(a.received)) w.dark.push_back(i);
-  }
-  for (size_t first = 0; first < w.dark.size();) {
-    const Asked& of = w.asked[w.dark[first]];
-    const auto last =
-        std::partition(w.dark.begin() + static_cast<std::ptrdiff_t>(first), w.dark.end(), [&](uint32_t i) {
-          return w.asked[i].hit.instance == of.hit.instance && dot(w.asked[i].n, of.n) > Rules::kFacing;
-        });
-    const auto end = static_cast<size_t>(last - w.dark.begin());
-    const Vec3 soft = gatherAround(std::span(w.dark).subspan(first, end - first), w);
-    for (; first < end; ++first) w.asked[w.dark[first]].received.soft = soft;
-  }
+// What slots have for a place. Where that is not to be relied on, rays look for light.
+SlotIrradiance QuickFrames::Maker::receivedOrFound(const Asked& a) const {
+  SlotIrradiance out = receivedAt(a.hit.instance, a.p, a.n);
+  if (standsFor(out)) return out;
+  const Vec3 from = offsetOrigin(a.p, a.n);
+  const auto gather = [&](Vec3 node) -> std::optional<Vec3> {
+    const Vec3 to = offsetOrigin(node, a.n) - from;
+    const float distance = length(to);
+    if (distance > 0 && scene_.rays.intersect({from, to / distance, 0, distance}).valid()) return {};
+    return gatherAround(node, a.n);
+  };
+  const float pixelM = slope_ * length(a.p - eye_);
+  out.soft =
+      f_.nodes_->at({a.hit.instance, a.p, a.n, std::max(scene_.light.voxelSizeM(), kNodePixels * pixelM)}, gather);
+  return out;
 }
 
 // Light of one pixel but for that of suns and lamps, whose shadow rays are left in the work.
@@ -266,8 +257,11 @@ void QuickFrames::Maker::lend(Work& w, Count& count) const {
 
 void QuickFrames::Maker::lightThose(Work& w, Count& count) const {
   w.shadows.clear(), w.shadowRays.clear();
-  receive(w);
-  for (const uint32_t i : w.toLight) shade(i, w);
+  for (const uint32_t i : w.toLight) {
+    Asked& a = w.asked[i];
+    if (a.hit.valid()) a.received = receivedOrFound(a);
+    shade(i, w);
+  }
   w.left.resize(w.shadows.size());
   scene_.rays.transmittance(w.shadowRays, w.left);
   for (size_t i = 0; i < w.shadows.size(); ++i) {

@@ -128,7 +128,7 @@ class QuickFrames::Maker {
     std::vector<Shadow> shadows;
     std::vector<Ray> shadowRays;
     std::vector<Vec3> left;
-    std::vector<uint32_t> toLight, dark;  // of asked
+    std::vector<uint32_t> toLight;  // of asked
     std::vector<EmitterView> views;  // of emitters_
     std::array<std::vector<uint32_t>, (Rules::kTile / Rules::kLendWithin) * (Rules::kTile / Rules::kLendWithin)> litOf;
   };
@@ -148,11 +148,11 @@ class QuickFrames::Maker {
   bool knowsSky(Vec3 direction) const;
   void light(Work& w, Count& count, Image& out) const;
   void lightThose(Work& w, Count& count) const;
-  void receive(Work& w) const;
-  Vec3 gatherAround(std::span<const uint32_t> places, const Work& w) const;
+  SlotIrradiance receivedOrFound(const Asked& a) const;
+  Vec3 gatherAround(Vec3 p, Vec3 n) const;
   bool standsFor(const SlotIrradiance& e) const;
   Vec3 arriving(Ray ray, Sampler& sampler) const;
-  Vec3 sampleLocal(const Asked& a, Sampler& sampler) const;
+  Vec3 sampleLocal(Vec3 p, Vec3 n, Sampler& sampler) const;
   void shade(uint32_t index, Work& w) const;
   void lookAtEmitters(Work& w) const;
   float shareOutside(const LightSurroundings& around, Vec3 p, Vec3 towards) const;

@@ -71,7 +71,10 @@ bool Session::showQuick(Window& window, Side& side, LitHome& home, const Camera&
   if (home.live) {
     image =
         side.quick.make(home.live->quick(window.display.white()), camera, size.first, size.second, ms, {{}, &stop_});
-    costMs = side.quick.count().otherMs / std::max(1, threadCount());  // light takes what time is left
+    // Light takes what time is left; where that is less than it needs, pictures get smaller.
+    const QuickFrames::Count& took = side.quick.count();
+    const double threads = std::max(1, threadCount()), leftMs = (1 - kForRays) * ms;
+    costMs = std::max(took.otherMs, took.otherMs + took.litMs - leftMs * threads) / threads;
   } else {
     const bool white = window.display.white();
     image = home.solution->lit->pictureOf(
