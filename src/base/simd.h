@@ -3,6 +3,8 @@
 // has; fma() then rounds twice. Loads and stores need no alignment. Also single numbers as half floats.
 #pragma once
 
+#define IMATH_HALF_NO_LOOKUP_TABLE  // by arithmetic, which needs neither 256 KiB of cache nor the library
+#include <Imath/half.h>
 #include <immintrin.h>
 
 #include <algorithm>
@@ -62,67 +64,29 @@ inline float dot(Float4 a, Float4 b) {
 #endif
 }
 
-namespace simd {
+// 16-bit floats, rounding to nearest; values beyond the largest half become it, never infinity.
+inline uint16_t toHalf(float v) { return imath_float_to_half(std::clamp(v, -65504.0f, 65504.0f)); }
 
-inline __m128 select(__m128i which, __m128i yes, __m128i no) {
-  return _mm_castsi128_ps(_mm_or_si128(_mm_and_si128(which, yes), _mm_andnot_si128(which, no)));
-}
-
-// 16-bit floats in the low halves of the lanes. Denormal ones become normal floats, which do not fall to modes that
-// flush denormals.
-inline __m128 fromHalf(__m128i h) {
-  const __m128i sign = _mm_slli_epi32(_mm_and_si128(h, _mm_set1_epi32(0x8000)), 16),
-                rest = _mm_and_si128(h, _mm_set1_epi32(0x7fff));
-  const __m128i isSmall = _mm_cmplt_epi32(rest, _mm_set1_epi32(0x400)),
-                isInfinite = _mm_cmpgt_epi32(rest, _mm_set1_epi32(0x7bff));
-  const __m128i small = _mm_castps_si128(_mm_mul_ps(_mm_cvtepi32_ps(rest), _mm_set1_ps(0x1p-24f)));
-  const __m128i rebased = _mm_add_epi32(_mm_slli_epi32(rest, 13), _mm_set1_epi32(112 << 23));
-  const __m128i normal = _mm_add_epi32(rebased, _mm_and_si128(isInfinite, _mm_set1_epi32(112 << 23)));
-  return _mm_or_ps(select(isSmall, small, normal), _mm_castsi128_ps(sign));
-}
-
-// Rounds to nearest, ties to even.
-inline __m128i toHalf(__m128 v) {
-  const __m128i bits = _mm_castps_si128(v), rest = _mm_and_si128(bits, _mm_set1_epi32(0x7fffffff));
-  const __m128i sign = _mm_and_si128(_mm_srli_epi32(bits, 16), _mm_set1_epi32(0x8000));
-  const __m128i isSmall = _mm_cmplt_epi32(rest, _mm_set1_epi32(113 << 23)),
-                isLarge = _mm_cmpgt_epi32(rest, _mm_set1_epi32((143 << 23) - 1));
-  const __m128i isNan = _mm_cmpgt_epi32(rest, _mm_set1_epi32(0x7f800000));
-  const __m128i small =
-      _mm_cvtps_epi32(_mm_mul_ps(_mm_castsi128_ps(_mm_and_si128(isSmall, rest)), _mm_set1_ps(0x1p24f)));
-  const __m128i odd = _mm_and_si128(_mm_srli_epi32(rest, 13), _mm_set1_epi32(1));
-  const __m128i rounded = _mm_add_epi32(_mm_add_epi32(rest, odd), _mm_set1_epi32(0xfff - (112 << 23)));
-  const __m128i infinite = _mm_or_si128(_mm_set1_epi32(0x7c00), _mm_and_si128(isNan, _mm_set1_epi32(0x200)));
-  const __m128i large = _mm_castps_si128(select(isLarge, infinite, _mm_srli_epi32(rounded, 13)));
-  return _mm_or_si128(_mm_castps_si128(select(isSmall, small, large)), sign);
-}
-
-// The low 16 bits of the lanes, beside one another.
-inline __m128i packed(__m128i low, __m128i high) {
-  const auto signedLow16 = [](__m128i v) { return _mm_srai_epi32(_mm_slli_epi32(v, 16), 16); };
-  return _mm_packs_epi32(signedLow16(low), signedLow16(high));
-}
-
-}  // namespace simd
+inline float fromHalf(uint16_t h) { return imath_half_to_float(h); }
 
 // Four 16-bit floats.
 inline Float4 fromHalf4(const uint16_t* from) {
-  const __m128i h = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
 #ifdef __F16C__
-  return Float4(_mm_cvtph_ps(h));
+  return Float4(_mm_cvtph_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
 #else
-  return Float4(simd::fromHalf(_mm_unpacklo_epi16(h, _mm_setzero_si128())));
+  return {fromHalf(from[0]), fromHalf(from[1]), fromHalf(from[2]), fromHalf(from[3])};
 #endif
 }
 
 // Rounded to nearest; what is beyond the largest becomes infinite.
 inline void toHalf4(Float4 a, uint16_t* to) {
 #ifdef __F16C__
-  const __m128i h = _mm_cvtps_ph(a.v, _MM_FROUND_TO_NEAREST_INT);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_cvtps_ph(a.v, _MM_FROUND_TO_NEAREST_INT));
 #else
-  const __m128i h = simd::packed(simd::toHalf(a.v), _mm_setzero_si128());
+  float lanes[4];
+  a.store(lanes);
+  for (int i = 0; i < 4; ++i) to[i] = imath_float_to_half(lanes[i]);
 #endif
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(to), h);
 }
 
 #if defined(__AVX2__) && defined(__FMA__) && defined(__F16C__)
@@ -222,23 +186,5 @@ inline Float8 fromTopBits(const uint16_t* high16, const uint8_t* low8) {
 }
 
 #endif
-
-// 16-bit floats, rounding to nearest; values beyond the largest half become it, never infinity.
-inline uint16_t toHalf(float v) {
-  const float bounded = std::clamp(v, -65504.0f, 65504.0f);
-#ifdef __F16C__
-  return _cvtss_sh(bounded, _MM_FROUND_TO_NEAREST_INT);
-#else
-  return static_cast<uint16_t>(_mm_cvtsi128_si32(simd::toHalf(_mm_set_ss(bounded))));
-#endif
-}
-
-inline float fromHalf(uint16_t h) {
-#ifdef __F16C__
-  return _cvtsh_ss(h);
-#else
-  return _mm_cvtss_f32(simd::fromHalf(_mm_cvtsi32_si128(h)));
-#endif
-}
 
 }  // namespace roomlight

@@ -14,23 +14,10 @@
 
 namespace roomlight::importers {
 
-// SHA-1 (FIPS 180-4): what Sweet Home 3D writes of each content to notice damage. It guards against accidents, not
-// against malice.
+// SHA-1 of the pieces one after another: what Sweet Home 3D writes of each content to notice damage. It guards against
+// accidents, not against malice. Throws Failure.
 using Sha1Digest = std::array<uint8_t, 20>;
-
-class Sha1 {
- public:
-  void add(std::span<const uint8_t> bytes);
-  Sha1Digest finish();  // once, at the end
-
- private:
-  void block(const uint8_t* bytes);  // 64 of them
-
-  std::array<uint32_t, 5> state_{0x67452301, 0xefcdab89, 0x98badcfe, 0x10325476, 0xc3d2e1f0};
-  std::array<uint8_t, 64> waiting_{};
-  size_t waitingBytes_ = 0;
-  uint64_t allBytes_ = 0;
-};
+Sha1Digest sha1(std::span<const std::span<const uint8_t>> pieces);
 
 }  // namespace roomlight::importers
 

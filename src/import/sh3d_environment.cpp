@@ -1,8 +1,10 @@
 #include "import/sh3d_environment.h"
 
+#include <cctz/time_zone.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -29,6 +31,13 @@ Moment momentOf(int64_t wallSeconds, int offsetSeconds) {
   const std::chrono::year_month_day date(day);
   return {static_cast<int>(date.year()), static_cast<int>(static_cast<unsigned>(date.month())),
           static_cast<int>(static_cast<unsigned>(date.day())), static_cast<double>((at - day).count()) / 3600};
+}
+
+// Neither a path out of the folder of zones nor one of cctz's own notations ("file:", "libc:").
+bool isZoneName(const std::string& zone) {
+  if (zone.empty() || zone.size() > 100 || zone.front() == '/') return false;
+  return std::all_of(zone.begin(), zone.end(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '/' || c == '_' || c == '-' || c == '+'; });
 }
 
 Vec3 hue(uint32_t rgb) {
@@ -184,6 +193,13 @@ void addGround(const Home& home, int material, Draft& draft) {
 }
 
 }  // namespace
+
+std::optional<int> utcOffsetSeconds(const std::string& zone, int64_t wallSeconds) {
+  cctz::time_zone rules;
+  if (!isZoneName(zone) || !cctz::load_time_zone(zone, &rules)) return {};
+  const auto utc = rules.lookup(cctz::civil_second(1970, 1, 1) + wallSeconds);
+  return static_cast<int>(wallSeconds - std::max(utc.pre, utc.post).time_since_epoch().count());
+}
 
 std::string addEnvironment(const Home& home, Paints& paints, const std::string& camera, Draft& draft) {
   const Environment& env = home.environment;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -21,10 +20,10 @@ void addCameras(const Home& home, Scene& scene, Warnings& warnings);
 // the first. None where the home has none.
 const Camera* cameraOfTime(const Home& home, const std::string& wanted);
 
-// Seconds to add to UTC for the clock at `wallSeconds` since 1970-01-01 00:00 on that clock, by the time zone's rules
-// (RFC 8536, TZif) in `folder`; none where the zone is unknown there. "Europe/Paris", "UTC".
-std::optional<int> utcOffsetSeconds(const std::string& zone, int64_t wallSeconds,
-                                    const std::filesystem::path& folder = "/usr/share/zoneinfo");
+// Seconds to add to UTC for the clock at `wallSeconds` since 1970-01-01 00:00 on that clock, by the system's time
+// zones; none where the zone is unknown there. "Europe/Paris", "UTC". In an hour that a change of the clock skips or
+// repeats the later of the two moments counts, as Java reads it.
+std::optional<int> utcOffsetSeconds(const std::string& zone, int64_t wallSeconds);
 
 // A clear CIE sky (type 12) and its sun, by the compass' place and the time of `camera` (see cameraOfTime). The sky has
 // the hue of the home's sky colour, or looks like its picture; both have the hue of the home's light colour. How much

@@ -1,214 +1,214 @@
 // Messages between this page and `roomlight view`, as docs/reference/view-protocol.md states them. Whatever comes from
 // the server passes a check here.
-import * as c from "./schema.js";
+import * as v from "valibot";
+import { BadMessage, check, pair, real, triple, whole, type Checked } from "./schema.js";
 
-const box = c.shape({ low: c.triple, high: c.triple });
-export type Box = c.Checked<typeof box>;
+const box = v.object({ low: triple, high: triple });
+export type Box = Checked<typeof box>;
 
-const room = c.shape({ name: c.text, low: c.triple, high: c.triple, floor: c.listOf(c.pair) });
-export type Room = c.Checked<typeof room>;
+const room = v.object({ name: v.string(), low: triple, high: triple, floor: v.array(pair) });
+export type Room = Checked<typeof room>;
 
-const cutHeight = c.optional(c.nullable(c.real));
+const cutHeight = v.optional(v.nullable(real));
 
-const namedCamera = c.shape({
-  name: c.text,
-  position: c.triple,
-  direction: c.triple,
-  verticalFov: c.real,
+const namedCamera = v.object({
+  name: v.string(),
+  position: triple,
+  direction: triple,
+  verticalFov: real,
   cutHeight,
 });
 
-const windowCamera = c.shape({
-  position: c.triple,
-  direction: c.triple,
-  up: c.triple,
-  verticalFov: c.real,
+const windowCamera = v.object({
+  position: triple,
+  direction: triple,
+  up: triple,
+  verticalFov: real,
   cutHeight,
 });
 
-const described = c.shape({ name: c.text, about: c.text });
+const described = v.object({ name: v.string(), about: v.string() });
 
-const lamp = c.shape({
-  id: c.text,
-  name: c.text,
-  kind: c.text,
-  object: c.nullable(c.text),
-  position: c.triple,
-  direction: c.nullable(c.triple),
-  fluxLm: c.nullable(c.real),
-  fluxAssumed: c.flag,
-  dim: c.real,
-  on: c.flag,
-  temperatureK: c.nullable(c.real),
-  color: c.nullable(c.triple),
-  movable: c.flag,
+const lamp = v.object({
+  id: v.string(),
+  name: v.string(),
+  kind: v.string(),
+  object: v.nullable(v.string()),
+  position: triple,
+  direction: v.nullable(triple),
+  fluxLm: v.nullable(real),
+  fluxAssumed: v.boolean(),
+  dim: real,
+  on: v.boolean(),
+  temperatureK: v.nullable(real),
+  color: v.nullable(triple),
+  movable: v.boolean(),
 });
-export type Lamp = c.Checked<typeof lamp>;
+export type Lamp = Checked<typeof lamp>;
 
-const paint = c.shape({ material: c.text, label: c.optional(c.text), color: c.triple, textured: c.flag });
-export type Paint = c.Checked<typeof paint>;
+const paint = v.object({ material: v.string(), label: v.optional(v.string()), color: triple, textured: v.boolean() });
+export type Paint = Checked<typeof paint>;
 
-const thing = c.shape({
-  id: c.text,
-  name: c.text,
-  low: c.triple,
-  high: c.triple,
-  movable: c.flag,
-  move: c.triple,
-  turn: c.real,
-  hidden: c.flag,
-  colors: c.listOf(paint),
-  open: c.nullable(c.real),
+const thing = v.object({
+  id: v.string(),
+  name: v.string(),
+  low: triple,
+  high: triple,
+  movable: v.boolean(),
+  move: triple,
+  turn: real,
+  hidden: v.boolean(),
+  colors: v.array(paint),
+  open: v.nullable(real),
 });
-export type Thing = c.Checked<typeof thing>;
+export type Thing = Checked<typeof thing>;
 
-const sun = c.shape({
-  on: c.flag,
-  placeFrom: c.literal("lighting", "home", "assumed"),
-  date: c.text,
-  hour: c.real,
-  utcOffset: c.real,
-  latitude: c.real,
-  longitude: c.real,
-  sky: c.text,
-  altitude: c.real,
-  azimuth: c.real,
+const sun = v.object({
+  on: v.boolean(),
+  placeFrom: v.picklist(["lighting", "home", "assumed"]),
+  date: v.string(),
+  hour: real,
+  utcOffset: real,
+  latitude: real,
+  longitude: real,
+  sky: v.string(),
+  altitude: real,
+  azimuth: real,
 });
-export type Sun = c.Checked<typeof sun>;
+export type Sun = Checked<typeof sun>;
 
 // The first was moved.
-const overlap = c.shape({ object: c.text, into: c.text });
-export type Overlap = c.Checked<typeof overlap>;
+const overlap = v.object({ object: v.string(), into: v.string() });
+export type Overlap = Checked<typeof overlap>;
 
-const display = c.shape({
-  exposure: c.either(c.real, c.literal("auto")),
-  compensation: c.real,
-  curve: c.text,
-  whiteBalance: c.either(c.real, c.literal("auto", "none")),
-  falseColor: c.literal("off", "illuminance", "luminance"),
-  low: c.nullable(c.real),
-  high: c.nullable(c.real),
+const display = v.object({
+  exposure: v.union([real, v.literal("auto")]),
+  compensation: real,
+  curve: v.string(),
+  whiteBalance: v.union([real, v.picklist(["auto", "none"])]),
+  falseColor: v.picklist(["off", "illuminance", "luminance"]),
+  low: v.nullable(real),
+  high: v.nullable(real),
 });
-export type Display = c.Checked<typeof display>;
+export type Display = Checked<typeof display>;
 
-const side = c.shape({ technique: c.optional(c.text), plan: c.optional(c.text) });
-export type Side = c.Checked<typeof side>;
-const split = c.shape({ left: side, right: side });
-export type Split = c.Checked<typeof split>;
+const side = v.object({ technique: v.optional(v.string()), plan: v.optional(v.string()) });
+export type Side = Checked<typeof side>;
+const split = v.object({ left: side, right: side });
+export type Split = Checked<typeof split>;
 
-const limits = c.shape({
-  frameWidth: c.whole,
-  frameHeight: c.whole,
-  renderWidth: c.whole,
-  renderHeight: c.whole,
-  messageBytes: c.whole,
-  messagesPerSecond: c.real,
+const limits = v.object({
+  frameWidth: whole,
+  frameHeight: whole,
+  renderWidth: whole,
+  renderHeight: whole,
+  messageBytes: whole,
+  messagesPerSecond: real,
 });
 
-const welcome = c.shape({
-  type: c.literal("welcome"),
-  protocol: c.whole,
-  version: c.text,
-  home: c.text,
-  window: c.text,
-  bounds: c.listOf(c.triple),
-  rooms: c.listOf(room),
-  cameras: c.listOf(namedCamera),
+const welcome = v.object({
+  type: v.literal("welcome"),
+  protocol: whole,
+  version: v.string(),
+  home: v.string(),
+  window: v.string(),
+  bounds: v.array(triple),
+  rooms: v.array(room),
+  cameras: v.array(namedCamera),
   camera: windowCamera,
-  techniques: c.listOf(described),
-  technique: c.text,
-  plans: c.listOf(c.text),
-  qualities: c.listOf(described),
-  curves: c.listOf(c.text),
+  techniques: v.array(described),
+  technique: v.string(),
+  plans: v.array(v.string()),
+  qualities: v.array(described),
+  curves: v.array(v.string()),
   display,
-  split: c.nullable(split),
-  legend: c.listOf(c.text),
+  split: v.nullable(split),
+  legend: v.array(v.string()),
   limits,
-  revision: c.whole,
-  lamps: c.listOf(lamp),
-  objects: c.listOf(thing),
-  overlaps: c.optional(c.listOf(overlap)),
-  sun: c.nullable(sun),
-  undo: c.nullable(c.text),
-  redo: c.nullable(c.text),
+  revision: whole,
+  lamps: v.array(lamp),
+  objects: v.array(thing),
+  overlaps: v.optional(v.array(overlap)),
+  sun: v.nullable(sun),
+  undo: v.nullable(v.string()),
+  redo: v.nullable(v.string()),
 });
-export type Welcome = c.Checked<typeof welcome>;
+export type Welcome = Checked<typeof welcome>;
 
-const stateChange = c.shape({
-  type: c.literal("state"),
-  revision: c.whole,
-  lamps: c.optional(c.listOf(lamp)),
-  objects: c.optional(c.listOf(thing)),
-  overlaps: c.optional(c.listOf(overlap)),
-  sun: c.optional(c.nullable(sun)),
-  plans: c.optional(c.listOf(c.text)),
-  undo: c.nullable(c.text),
-  redo: c.nullable(c.text),
-  by: c.nullable(c.text),
+const stateChange = v.object({
+  type: v.literal("state"),
+  revision: whole,
+  lamps: v.optional(v.array(lamp)),
+  objects: v.optional(v.array(thing)),
+  overlaps: v.optional(v.array(overlap)),
+  sun: v.optional(v.nullable(sun)),
+  plans: v.optional(v.array(v.string())),
+  undo: v.nullable(v.string()),
+  redo: v.nullable(v.string()),
+  by: v.nullable(v.string()),
 });
-export type StateChange = c.Checked<typeof stateChange>;
+export type StateChange = Checked<typeof stateChange>;
 
-const pickHit = c.shape({
-  point: c.triple,
-  normal: c.triple,
-  distanceM: c.real,
-  object: c.nullable(c.text),
-  lamp: c.nullable(c.text),
-  material: c.nullable(c.text),
+const pickHit = v.object({
+  point: triple,
+  normal: triple,
+  distanceM: real,
+  object: v.nullable(v.string()),
+  lamp: v.nullable(v.string()),
+  material: v.nullable(v.string()),
 });
-export type PickHit = c.Checked<typeof pickHit>;
+export type PickHit = Checked<typeof pickHit>;
 
-const meterHit = c.shape({
-  point: c.triple,
-  normal: c.triple,
-  object: c.nullable(c.text),
-  illuminanceLux: c.real,
-  standardErrorLux: c.nullable(c.real),
-  luminanceCdM2: c.real,
-  incidentEv100: c.nullable(c.real),
-  reflectedEv100: c.nullable(c.real),
+const meterHit = v.object({
+  point: triple,
+  normal: triple,
+  object: v.nullable(v.string()),
+  illuminanceLux: real,
+  standardErrorLux: v.nullable(real),
+  luminanceCdM2: real,
+  incidentEv100: v.nullable(real),
+  reflectedEv100: v.nullable(real),
 });
-export type MeterHit = c.Checked<typeof meterHit>;
+export type MeterHit = Checked<typeof meterHit>;
 
-const job = c.shape({
-  type: c.literal("job"),
-  job: c.either(c.text, c.whole),
-  stage: c.text,
-  fraction: c.real,
-  secondsLeft: c.nullable(c.real),
-  estimatedError: c.nullable(c.real),
-  state: c.literal("running", "done", "cancelled", "failed"),
-  file: c.optional(c.nullable(c.shape({ path: c.text, name: c.text, bytes: c.real }))),
-  message: c.optional(c.nullable(c.text)),
+const job = v.object({
+  type: v.literal("job"),
+  job: v.union([v.string(), whole]),
+  stage: v.string(),
+  fraction: real,
+  secondsLeft: v.nullable(real),
+  estimatedError: v.nullable(real),
+  state: v.picklist(["running", "done", "cancelled", "failed"]),
+  file: v.optional(v.nullable(v.object({ path: v.string(), name: v.string(), bytes: real }))),
+  message: v.optional(v.nullable(v.string())),
 });
-export type Job = c.Checked<typeof job>;
+export type Job = Checked<typeof job>;
 
-const progress = c.shape({ type: c.literal("progress"), stage: c.text, fraction: c.real });
-export type Progress = c.Checked<typeof progress>;
+const progress = v.object({ type: v.literal("progress"), stage: v.string(), fraction: real });
+export type Progress = Checked<typeof progress>;
 
-const messages = {
+const serverError = v.object({
+  type: v.literal("error"),
+  id: v.nullable(whole),
+  code: v.string(),
+  field: v.nullable(v.string()),
+  message: v.string(),
+});
+export type ServerError = Checked<typeof serverError>;
+
+const serverMessage = v.variant("type", [
   welcome,
-  state: stateChange,
-  ok: c.shape({ type: c.literal("ok"), id: c.whole, job: c.optional(c.either(c.text, c.whole)) }),
-  error: c.shape({
-    type: c.literal("error"),
-    id: c.nullable(c.whole),
-    code: c.text,
-    field: c.nullable(c.text),
-    message: c.text,
-  }),
+  stateChange,
+  v.object({ type: v.literal("ok"), id: whole, job: v.optional(v.union([v.string(), whole])) }),
+  serverError,
   progress,
-  picked: c.shape({ type: c.literal("picked"), id: c.whole, hit: c.nullable(pickHit) }),
-  metered: c.shape({ type: c.literal("metered"), id: c.whole, hit: c.nullable(meterHit) }),
+  v.object({ type: v.literal("picked"), id: whole, hit: v.nullable(pickHit) }),
+  v.object({ type: v.literal("metered"), id: whole, hit: v.nullable(meterHit) }),
   job,
-  saved: c.shape({ type: c.literal("saved"), id: c.whole, name: c.text, text: c.text }),
-  pong: c.shape({ type: c.literal("pong"), id: c.whole }),
-};
-type Messages = typeof messages;
-export type ServerMessage = { [K in keyof Messages]: c.Checked<Messages[K]> }[keyof Messages];
-export type ServerError = c.Checked<Messages["error"]>;
-
-const kindOf = c.shape({ type: c.text });
+  v.object({ type: v.literal("saved"), id: whole, name: v.string(), text: v.string() }),
+  v.object({ type: v.literal("pong"), id: whole }),
+]);
+export type ServerMessage = Checked<typeof serverMessage>;
 
 // A message as it came over the line; throws BadMessage where it is not one of the protocol's.
 export function decodeMessage(source: string): ServerMessage {
@@ -216,12 +216,9 @@ export function decodeMessage(source: string): ServerMessage {
   try {
     value = JSON.parse(source);
   } catch {
-    throw new c.BadMessage("message: not JSON");
+    throw new BadMessage("message: not JSON");
   }
-  const { type } = kindOf(value, "");
-  const check = Object.hasOwn(messages, type) ? (messages as Record<string, c.Check<unknown>>)[type] : undefined;
-  if (!check) throw new c.BadMessage(`type: unknown message "${type}"`);
-  return check(value, "") as ServerMessage;
+  return check(serverMessage, value);
 }
 
 export type Target = string; // id of a lamp or thing, or "sun"

@@ -1,7 +1,10 @@
 // Models of Sweet Home 3D's homes in other formats than OBJ, and what was saved of each content.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
+#include <span>
+#include <string_view>
 
 #include "import/sh3d_content.h"
 #include "unit/import/sh3d_file.h"
@@ -176,25 +179,6 @@ TEST(Sh3dModels, otherFormatsAreNamed) {
   EXPECT_TRUE(warns(imported(piece("7.glb"), {{"7.glb", "glTF\2"}}), "glTF"));
 }
 
-std::string hex(const Sha1Digest& d) {
-  std::string out;
-  for (const uint8_t b : d) out += "0123456789abcdef"[b >> 4], out += "0123456789abcdef"[b & 15];
-  return out;
-}
-
-// FIPS 180-4's examples.
-TEST(Sha1, knownDigests) {
-  const auto of = [](const std::string& text) {
-    Sha1 sha1;
-    sha1.add({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-    return hex(sha1.finish());
-  };
-  EXPECT_EQ(of("abc"), "a9993e364706816aba3e25717850c26c9cd0d89d");
-  EXPECT_EQ(of(""), "da39a3ee5e6b4b0d3255bfef95601890afd80709");
-  EXPECT_EQ(of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"), "84983e441c3bd26ebaae4aa1f95129e5e54670f1");
-  EXPECT_EQ(of(std::string(1'000'000, 'a')), "34aa973cd4c4daa4f61eeb2bdbad27316534016f");
-}
-
 std::string base64(const Sha1Digest& d) {
   static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
@@ -206,10 +190,16 @@ std::string base64(const Sha1Digest& d) {
   return out;
 }
 
-std::string digestOf(const std::string& all) {
-  Sha1 sha1;
-  sha1.add({reinterpret_cast<const uint8_t*>(all.data()), all.size()});
-  return base64(sha1.finish());
+std::span<const uint8_t> bytesOf(std::string_view text) {
+  return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
+}
+
+std::string digestOf(const std::string& all) { return base64(sha1(std::array{bytesOf(all)})); }
+
+// FIPS 180-4's example "abc", whole and in pieces.
+TEST(Sh3dDigests, areThoseOfThePiecesOneAfterAnother) {
+  EXPECT_EQ(digestOf("abc"), "qZk+NkcGgWq6PiVxeFDCbJzQ2J0=");
+  EXPECT_EQ(base64(sha1(std::array{bytesOf("a"), bytesOf(""), bytesOf("bc")})), digestOf("abc"));
 }
 
 TEST(Sh3dDigests, contentsThatDifferAreTold) {

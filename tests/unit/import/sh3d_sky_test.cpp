@@ -1,6 +1,7 @@
 // Daylight of Sweet Home 3D's homes.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,7 @@ namespace {
 
 using namespace testing;
 using importers::sh3d::utcOffsetSeconds;
+using std::chrono_literals::operator""y;
 
 std::string homeAt(const std::string& timeMs, const std::string& compass) {
   return wallXml("w", 0, 0, 100, 0, 10) + "<compass x='0' y='0' diameter='1' latitude='0.8527' longitude='0.0410' " +
@@ -26,14 +28,38 @@ const std::string kObserver = "camera='observerCamera'";
 // 2024-06-21 14:00 on the clock.
 const std::string kAfternoon = "1718978400000";
 
+int64_t wallSeconds(std::chrono::year_month_day day, int hour, int minute) {
+  return (std::chrono::sys_days(day).time_since_epoch() + std::chrono::hours(hour) + std::chrono::minutes(minute)) /
+         std::chrono::seconds(1);
+}
+
 TEST(Sh3dSky, timeZonesKnowSummerAndWinter) {
   if (!utcOffsetSeconds("Europe/Paris", 0)) GTEST_SKIP() << "no time zones on this machine";
   EXPECT_EQ(utcOffsetSeconds("Europe/Paris", 1718978400), 7200);
   EXPECT_EQ(utcOffsetSeconds("Europe/Paris", 1705000000), 3600);
   EXPECT_EQ(utcOffsetSeconds("America/New_York", 1705000000), -5 * 3600);
+}
+
+// By the rule at the end of a zone's table; tables themselves stop in 2037 or at the last change of the rule.
+TEST(Sh3dSky, timeZonesKnowSummersBeyondTheirTables) {
+  if (!utcOffsetSeconds("Europe/Paris", 0)) GTEST_SKIP() << "no time zones on this machine";
+  EXPECT_EQ(utcOffsetSeconds("Europe/Paris", wallSeconds(2050y / 7 / 1, 14, 0)), 7200);
+  EXPECT_EQ(utcOffsetSeconds("Europe/Paris", wallSeconds(2050y / 1 / 1, 14, 0)), 3600);
+}
+
+TEST(Sh3dSky, anHourSkippedOrRepeatedIsReadAsTheLaterMoment) {
+  if (!utcOffsetSeconds("Europe/Paris", 0)) GTEST_SKIP() << "no time zones on this machine";
+  EXPECT_EQ(utcOffsetSeconds("Europe/Paris", wallSeconds(2024y / 3 / 31, 2, 30)), 3600);
+  EXPECT_EQ(utcOffsetSeconds("Europe/Paris", wallSeconds(2024y / 10 / 27, 2, 30)), 3600);
+  EXPECT_EQ(utcOffsetSeconds("America/New_York", wallSeconds(2024y / 3 / 10, 2, 30)), -5 * 3600);
+  EXPECT_EQ(utcOffsetSeconds("America/New_York", wallSeconds(2024y / 11 / 3, 1, 30)), -5 * 3600);
+}
+
+TEST(Sh3dSky, whatNamesNoTimeZoneIsUnknown) {
   EXPECT_EQ(utcOffsetSeconds("UTC", 1705000000), 0);
-  EXPECT_EQ(utcOffsetSeconds("../../../etc/passwd", 0), std::nullopt);
-  EXPECT_EQ(utcOffsetSeconds("Nowhere/At_All", 0), std::nullopt);
+  for (const char* zone : {"", "../../../etc/passwd", "/usr/share/zoneinfo/UTC", "file:/usr/share/zoneinfo/UTC",
+                           "libc:localtime", "Europe", "Nowhere/At_All"})
+    EXPECT_EQ(utcOffsetSeconds(zone, 0), std::nullopt) << zone;
 }
 
 TEST(Sh3dSky, theSunStandsByCompassAndClock) {

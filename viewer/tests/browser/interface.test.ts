@@ -486,7 +486,7 @@ test("messages that make no sense are told and do no harm", { skip }, async () =
   const visited = await visit(browser, double.link);
   await settled(visited);
   double.sendAll('{"type": "state", "revision": "new"}');
-  await visited.page.getByText("revision: expected a whole number").waitFor();
+  await visited.page.getByText("revision: Invalid type: Expected number").waitFor();
   double.sendAll(Buffer.alloc(80));
   await visited.page.getByText("unknown kind 0").waitFor();
   await choose(visited, "Lamps", "Spot");

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { decodeMessage } from "../../src/protocol.js";
+import { BadMessage } from "../../src/schema.js";
 import { Desk } from "../double/desk.js";
 
 const decode = (message: unknown) => decodeMessage(JSON.stringify(message));
@@ -16,25 +17,33 @@ test("a welcome is read, with all that it holds", () => {
 
 test("what is wrong is named by its place", () => {
   const broken = (change: object) => () => decode({ ...welcome(), ...change });
-  assert.throws(broken({ revision: "12" }), /revision: expected a whole number, got a string/);
+  assert.throws(broken({ revision: "12" }), /revision: .*Expected number but received "12"/);
   assert.throws(
     broken({ lamps: [{ ...welcome().lamps[0], dim: null }] }),
-    /lamps\[0\]\.dim: expected a number, got null/,
+    /lamps\.0\.dim: .*Expected number but received null/,
   );
   assert.throws(
     broken({ rooms: [{ name: "A", low: [0, 0], high: [1, 1, 1], floor: [] }] }),
-    /rooms\[0\]\.low: expected three numbers/,
+    /rooms\.0\.low\.2: .*Expected number/,
   );
   assert.throws(
+    broken({ rooms: [{ name: "A", low: [0, 0, 0, 0], high: [1, 1, 1], floor: [] }] }),
+    /rooms\.0\.low\.3: /,
+  );
+  assert.throws(broken({ revision: 1.5 }), /revision: .*integer/);
+  assert.throws(broken({ limits: undefined }), /limits: .*received undefined/);
+  assert.throws(broken({ rooms: null }), BadMessage);
+  assert.throws(
     broken({ display: { ...welcome().display, falseColor: "red" } }),
-    /display\.falseColor: expected one of off/,
+    /display\.falseColor: .*Expected \("off" \| /,
   );
 });
 
 test("messages of no known type, and what is no message, are refused", () => {
-  assert.throws(() => decode({ type: "hello" }), /unknown message "hello"/);
-  assert.throws(() => decode({ type: "constructor" }), /unknown message/);
-  assert.throws(() => decode([1, 2]), /expected an object/);
+  assert.throws(() => decode({ type: "hello" }), /type: .*Expected \("welcome" \| .*received "hello"/);
+  assert.throws(() => decode({ type: "constructor" }), /type: .*received "constructor"/);
+  assert.throws(() => decode([1, 2]), /type: .*received undefined/);
+  assert.throws(() => decode("pong"), /message: .*Expected Object but received "pong"/);
   assert.throws(() => decodeMessage("{"), /not JSON/);
 });
 
@@ -53,6 +62,10 @@ test("a state may leave out what did not change; null is another thing", () => {
     by: "a",
   });
   assert.ok(none.type === "state" && none.sun === null);
+});
+
+test("a number is finite", () => {
+  assert.throws(() => decodeMessage('{"type":"progress","stage":"light","fraction":1e999}'), /fraction: .*Infinity/);
 });
 
 test("keys that this page does not know are passed over", () => {
