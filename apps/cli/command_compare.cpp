@@ -23,30 +23,47 @@ struct Pictures {
   bool forDisplay = false;  // all of them: tone-mapped
 };
 
-Result<Pictures> readPictures(const CompareOptions& o) {
-  Pictures read;
-  const std::pair<const std::string*, Image*> files[] = {
-      {&o.reference, &read.reference}, {&o.second, &read.second}, {&o.picture, &read.picture}};
-  for (const auto& [file, image] : files) {
-    if (file->empty()) continue;
+// By their headers, so that none is decoded in vain. True: all of them are tone-mapped.
+Result<bool> checkHeaders(const CompareOptions& o) {
+  bool allForDisplay = false;
+  ImageSize size;
+  for (const std::string* file : {&o.reference, &o.second, &o.picture}) {
+    if (file == &o.second && file->empty()) continue;
     const Result<bool> forDisplay = isForDisplay(*file);
     if (!forDisplay) return Error{forDisplay.error()};
-    if (file == &o.reference) read.forDisplay = forDisplay.value();
-    if (forDisplay.value() != read.forDisplay) {
-      const std::string& linear = read.forDisplay ? *file : o.reference;
-      const std::string& shown = read.forDisplay ? o.reference : *file;
+    const Result<ImageSize> one = readImageSize(*file);
+    if (!one) return Error{one.error()};
+    if (file == &o.reference) allForDisplay = forDisplay.value(), size = one.value();
+    if (forDisplay.value() != allForDisplay) {
+      const std::string& linear = allForDisplay ? *file : o.reference;
+      const std::string& shown = allForDisplay ? o.reference : *file;
       return Error{
           fmt::format("{} holds linear light and {} a tone-mapped picture: no figure compares them; give two .exr, or "
                       "two of .png and .jpg",
                       linear, shown)};
     }
+    if (const Status s = checkSizes(size, one.value()); !s)
+      return Error{fmt::format("{}, {}: {}", o.reference, *file, s.error())};
+  }
+  if (allForDisplay && !o.second.empty())
+    return Error{
+        fmt::format("--second {}: the noise of a reference is told from two linear ones; give .exr", o.second)};
+  return allForDisplay;
+}
+
+Result<Pictures> readPictures(const CompareOptions& o) {
+  const Result<bool> forDisplay = checkHeaders(o);
+  if (!forDisplay) return Error{forDisplay.error()};
+  Pictures read;
+  read.forDisplay = forDisplay.value();
+  const std::pair<const std::string*, Image*> files[] = {
+      {&o.reference, &read.reference}, {&o.second, &read.second}, {&o.picture, &read.picture}};
+  for (const auto& [file, image] : files) {
+    if (file->empty()) continue;
     Result<Image> one = readImage(*file);
     if (!one) return Error{one.error()};
     *image = std::move(one).value();
   }
-  if (read.forDisplay && !o.second.empty())
-    return Error{
-        fmt::format("--second {}: the noise of a reference is told from two linear ones; give .exr", o.second)};
   return read;
 }
 

@@ -9,6 +9,11 @@
 
 namespace roomlight {
 
+struct ImageSize {
+  int width = 0, height = 0;  // pixels
+  bool operator==(const ImageSize&) const = default;
+};
+
 // Linear RGB, luminance(rgb) in cd/m² unless the owner says otherwise.
 struct Image {
   int width = 0, height = 0;
@@ -16,6 +21,7 @@ struct Image {
 
   Image() = default;
   Image(int w, int h) : width(w), height(h), pixels(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
+  ImageSize size() const { return {width, height}; }
   Vec3& at(int x, int y) {
     return pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
   }

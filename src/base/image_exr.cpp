@@ -19,6 +19,14 @@ Imf::Slice sliceAt(const Imath::Box2i& window, float* first, int width) {
   return Imf::Slice::Make(Imf::FLOAT, first, window, sizeof(Vec3), sizeof(Vec3) * static_cast<size_t>(width));
 }
 
+// Checked, before the library takes memory for the pixels.
+ImageSize sizeOf(const Imf::InputFile& in, const std::filesystem::path& file) {
+  const Imath::Box2i window = in.header().dataWindow();
+  const int64_t width = int64_t{window.max.x} - window.min.x + 1, height = int64_t{window.max.y} - window.min.y + 1;
+  checkSize(width, height, std::filesystem::file_size(file));
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
 }  // namespace
 
 void writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata) {
@@ -41,13 +49,12 @@ void writeExr(const std::filesystem::path& file, const Image& image, const Metad
 Image readExr(const std::filesystem::path& file) {
   Imf::Header::setMaxImageSize(65536, 65536);  // before the library allocates its table of lines
   Imf::InputFile in(file.c_str());
+  const ImageSize size = sizeOf(in, file);
   const Imath::Box2i window = in.header().dataWindow();
-  const int64_t width = int64_t{window.max.x} - window.min.x + 1, height = int64_t{window.max.y} - window.min.y + 1;
-  checkSize(width, height, std::filesystem::file_size(file));
   const Imf::ChannelList& channels = in.header().channels();
   const bool grey = !channels.findChannel("R") && channels.findChannel("Y");
   const char* names[] = {grey ? "Y" : "R", grey ? "Y" : "G", grey ? "Y" : "B"};
-  Image image(static_cast<int>(width), static_cast<int>(height));
+  Image image(size.width, size.height);
   Imf::FrameBuffer frame;
   for (int c = 0; c < (grey ? 1 : 3); ++c) {
     const Imf::Channel* channel = channels.findChannel(names[c]);
@@ -62,6 +69,12 @@ Image readExr(const std::filesystem::path& file) {
     for (Vec3& p : image.pixels) p = Vec3(p.x);
   }
   return image;
+}
+
+ImageSize readExrSize(const std::filesystem::path& file) {
+  Imf::Header::setMaxImageSize(65536, 65536);
+  const Imf::InputFile in(file.c_str());
+  return sizeOf(in, file);
 }
 
 Metadata readExrMetadata(const std::filesystem::path& file) {

@@ -18,6 +18,7 @@ void checkSize(int64_t width, int64_t height, uint64_t fileBytes);
 
 void writeExr(const std::filesystem::path& file, const Image& image, const Metadata& metadata);
 Image readExr(const std::filesystem::path& file);
+ImageSize readExrSize(const std::filesystem::path& file);
 Metadata readExrMetadata(const std::filesystem::path& file);
 
 void writeLayers(const std::filesystem::path& file, const LayeredImage& image);
@@ -35,6 +36,7 @@ Image readPng(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; 
 Metadata readPngMetadata(std::span<const uint8_t> bytes);
 
 Image readJpeg(std::span<const uint8_t> bytes);  // decoded from sRGB to linear; three channels or grey
+ImageSize readJpegSize(std::span<const uint8_t> bytes);
 
 // The 8-bit RGBA numbers of a texture as they are: no colour space, gamma or transparency is applied. Deeper channels
 // lose their low bits. `size` is what readPngSize told, so that a caller can refuse it before memory is taken.
@@ -46,5 +48,6 @@ PngSize readPngSize(std::span<const uint8_t> bytes);
 std::vector<uint8_t> readPngTexels(std::span<const uint8_t> bytes, const PngSize& size);
 
 Image readHdr(std::span<const uint8_t> bytes);
+ImageSize readHdrSize(std::span<const uint8_t> bytes);
 
 }  // namespace roomlight::formats

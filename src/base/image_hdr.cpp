@@ -79,32 +79,50 @@ void readFlatLine(Reader& in, std::vector<uint8_t>& line, size_t width) {
   }
 }
 
-}  // namespace
-
-Image readHdr(std::span<const uint8_t> bytes) {
-  Reader in(bytes);
+struct Header {
+  ImageSize size;
   float exposure = 1;
+};
+
+Header readHeader(Reader& in, size_t fileBytes) {
+  Header header;
   in.line();
   for (std::string text; !(text = in.line()).empty();) {
     if (text.starts_with("FORMAT=") && text != "FORMAT=32-bit_rle_rgbe") {
       throw std::runtime_error("only FORMAT=32-bit_rle_rgbe is read");
     }
-    if (text.starts_with("EXPOSURE=")) exposure *= std::strtof(text.c_str() + 9, nullptr);
+    if (text.starts_with("EXPOSURE=")) header.exposure *= std::strtof(text.c_str() + 9, nullptr);
   }
-  if (!(exposure > 0) || !std::isfinite(exposure)) throw std::runtime_error("EXPOSURE is not a positive number");
+  if (!(header.exposure > 0) || !std::isfinite(header.exposure))
+    throw std::runtime_error("EXPOSURE is not a positive number");
   long long width = 0, height = 0;
   if (std::sscanf(in.line().c_str(), "-Y %9lld +X %9lld", &height, &width) != 2) {
     throw std::runtime_error("has no resolution line of the form '-Y height +X width'");
   }
-  checkSize(width, height, bytes.size());
-  Image image(static_cast<int>(width), static_cast<int>(height));
+  checkSize(width, height, fileBytes);
+  header.size = {static_cast<int>(width), static_cast<int>(height)};
+  return header;
+}
+
+}  // namespace
+
+ImageSize readHdrSize(std::span<const uint8_t> bytes) {
+  Reader in(bytes);
+  return readHeader(in, bytes.size()).size;
+}
+
+Image readHdr(std::span<const uint8_t> bytes) {
+  Reader in(bytes);
+  const Header header = readHeader(in, bytes.size());
+  const int width = header.size.width;
+  Image image(width, header.size.height);
   const auto columns = static_cast<size_t>(width);
   std::vector<uint8_t> line(4 * columns);
   for (int y = 0; y < image.height; ++y) {
     const bool packed = width >= 8 && width < 32768 && in.peek(0) == 2 && in.peek(1) == 2 && in.peek(2) < 128 &&
                         (in.peek(2) << 8 | in.peek(3)) == width;
     packed ? readPackedLine(in, line, columns) : readFlatLine(in, line, columns);
-    for (int x = 0; x < image.width; ++x) image.at(x, y) = decode(&line[4 * static_cast<size_t>(x)]) / exposure;
+    for (int x = 0; x < image.width; ++x) image.at(x, y) = decode(&line[4 * static_cast<size_t>(x)]) / header.exposure;
   }
   return image;
 }

@@ -16,6 +16,7 @@ namespace roomlight {
 namespace {
 
 constexpr uint64_t kLargestFileBytes = uint64_t{2} << 30;
+constexpr uint64_t kPngHeaderBytes = 64;  // that of its first chunk is among them
 constexpr uint8_t kPngMagic[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr uint8_t kJpegMagic[] = {0xff, 0xd8, 0xff};
 constexpr uint8_t kExrMagic[] = {0x76, 0x2f, 0x31, 0x01};
@@ -162,6 +163,21 @@ Result<Image> readImage(const std::filesystem::path& file) {
       case Format::Hdr: break;
     }
     return formats::readHdr(readBytes(file, kLargestFileBytes));
+  });
+}
+
+Result<ImageSize> readImageSize(const std::filesystem::path& file) {
+  return guarded<ImageSize>(file, [&]() -> ImageSize {
+    switch (formatOf(file)) {
+      case Format::Exr: return formats::readExrSize(file);
+      case Format::Png: {
+        const formats::PngSize size = formats::readPngSize(readBytes(file, kPngHeaderBytes));
+        return {size.width, size.height};
+      }
+      case Format::Jpeg: return formats::readJpegSize(readBytes(file, kLargestFileBytes));
+      case Format::Hdr: break;
+    }
+    return formats::readHdrSize(readBytes(file, kLargestFileBytes));
   });
 }
 

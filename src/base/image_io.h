@@ -38,6 +38,8 @@ Status writeWebp(const std::filesystem::path& file, const ByteImage& image, floa
 
 // EXR (linear), Radiance .hdr (linear), PNG or JPEG (decoded from sRGB to linear), by content.
 Result<Image> readImage(const std::filesystem::path& file);
+// The size that readImage() would find, by the file's header: no pixel is decoded.
+Result<ImageSize> readImageSize(const std::filesystem::path& file);
 // Whether it holds what a display shows (PNG, JPEG), exposed and tone-mapped for good, rather than linear light; by
 // content.
 Result<bool> isForDisplay(const std::filesystem::path& file);

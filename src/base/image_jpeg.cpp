@@ -37,12 +37,10 @@ void insertXmp(std::string& jpeg, const std::string& xmp) {
   jpeg.insert(place, "\xff\xe1" + twoBytes(length) + std::string(kName, sizeof kName) + xmp);
 }
 
-}  // namespace
+using Decoder = std::unique_ptr<void, int (*)(tjhandle)>;
 
-std::string encodeJpeg(const ByteImage& image, int quality) { return compressed(image, quality); }
-
-Image readJpeg(std::span<const uint8_t> bytes) {
-  const std::unique_ptr<void, int (*)(tjhandle)> decoder(tjInitDecompress(), tjDestroy);
+// Checked, before memory is taken for the pixels.
+ImageSize checkedSize(const Decoder& decoder, std::span<const uint8_t> bytes) {
   int width = 0, height = 0, subsampling = 0, colours = 0;
   if (!decoder ||
       tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &width, &height, &subsampling, &colours) != 0)
@@ -51,6 +49,16 @@ Image readJpeg(std::span<const uint8_t> bytes) {
     throw std::runtime_error("a JPEG file of printing colours (CMYK) is not read");
   // A few bits may stand for thousands of empty blocks of 64 pixels.
   checkSize(width, height, 64 * uint64_t{bytes.size()});
+  return {width, height};
+}
+
+}  // namespace
+
+std::string encodeJpeg(const ByteImage& image, int quality) { return compressed(image, quality); }
+
+Image readJpeg(std::span<const uint8_t> bytes) {
+  const Decoder decoder(tjInitDecompress(), tjDestroy);
+  const auto [width, height] = checkedSize(decoder, bytes);
   std::vector<uint8_t> samples(3 * static_cast<size_t>(width) * static_cast<size_t>(height));
   if (tjDecompress2(decoder.get(), bytes.data(), bytes.size(), samples.data(), width, 0, height, TJPF_RGB,
                     TJFLAG_ACCURATEDCT) != 0)
@@ -61,6 +69,10 @@ Image readJpeg(std::span<const uint8_t> bytes) {
       image.pixels[i][c] = srgbDecode(static_cast<float>(samples[3 * i + static_cast<size_t>(c)]) / 255);
   }
   return image;
+}
+
+ImageSize readJpegSize(std::span<const uint8_t> bytes) {
+  return checkedSize(Decoder(tjInitDecompress(), tjDestroy), bytes);
 }
 
 ByteImage bytesOf(const Image& encoded) {

@@ -24,11 +24,7 @@ Status checkFinite(const Image& image, const char* which) {
 
 Status checkPair(const Image& reference, const Image& picture) {
   if (reference.pixels.empty() || picture.pixels.empty()) return Error{"a picture without pixels cannot be compared"};
-  if (reference.width != picture.width || reference.height != picture.height) {
-    return Error{fmt::format(
-        "sizes differ: the reference has {} x {} pixels, the picture {} x {}; render both with the same --size",
-        reference.width, reference.height, picture.width, picture.height)};
-  }
+  if (Status s = checkSizes(reference.size(), picture.size()); !s.ok()) return s;
   if (Status s = checkFinite(reference, "reference"); !s.ok()) return s;
   return checkFinite(picture, "picture");
 }
@@ -98,6 +94,13 @@ Image decoded(Image encoded) {
 }
 
 }  // namespace
+
+Status checkSizes(ImageSize reference, ImageSize picture) {
+  if (reference == picture) return Ok{};
+  return Error{fmt::format(
+      "sizes differ: the reference has {} x {} pixels, the picture {} x {}; render both with the same --size",
+      reference.width, reference.height, picture.width, picture.height)};
+}
 
 Result<Report> compare(const Image& reference, const Image& picture) {
   if (Status s = checkPair(reference, picture); !s.ok()) return Error{s.error()};

@@ -26,6 +26,9 @@ struct Report {
   std::optional<Blotches> noise;  // with two references: what smooth surfaces have of it
 };
 
+// The error that pictures of different sizes are: no figure compares them.
+Status checkSizes(ImageSize reference, ImageSize picture);
+
 // Errors: sizes differ, no pixels, a value that is not finite (says which pixel), a black reference.
 // Cost: about 0.3 s for a million pixels on two cores, nearly all of it FLIP.
 Result<Report> compare(const Image& reference, const Image& picture);

@@ -12,7 +12,6 @@
 #include "import/file_access.h"
 #include "import/lighting_values.h"
 #include "photometry/colour_temperature.h"
-#include "photometry/epw.h"
 #include "photometry/sky_image.h"
 #include "photometry/sky_luminance.h"
 #include "photometry/sun.h"
@@ -90,19 +89,6 @@ SkyFunction cieSky(int type, const When& when) {
   const Vec3 sun = sunInSky(when.toSun);
   const double zenithRad = angleRad(sun, {0, 1, 0});
   return [=](Vec3 d) { return cieSkyLuminance(type, static_cast<double>(d.y), angleRad(d, sun), zenithRad); };
-}
-
-std::optional<Epw> readWeather(const JsonPlace& j, const std::filesystem::path& folder) {
-  const std::string name = j.text();
-  try {
-    const importers::Bytes bytes = importers::readWholeFile(folder / name, printable(name, 200));
-    Result<Epw> weather = parseEpw({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    if (weather) return std::move(weather).value();
-    j.fail(printable(name, 200) + ": " + weather.error());
-  } catch (const importers::Failure& failure) {
-    j.fail(failure.what());
-  }
-  return {};
 }
 
 // What was measured: irradiance and, where a weather file has them, lux.
@@ -198,7 +184,20 @@ Daylight cieDaylight(const JsonPlace& j) {
 
 }  // namespace
 
-Daylight readDaylight(const JsonPlace& j, const std::filesystem::path& folder) {
+std::optional<Epw> readWeather(const JsonPlace& j, const std::filesystem::path& folder) {
+  const std::string name = j.text();
+  try {
+    const importers::Bytes bytes = importers::readWholeFile(folder / name, printable(name, 200));
+    Result<Epw> weather = parseEpw({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (weather) return std::move(weather).value();
+    j.fail(printable(name, 200) + ": " + weather.error());
+  } catch (const importers::Failure& failure) {
+    j.fail(failure.what());
+  }
+  return {};
+}
+
+Daylight readDaylight(const JsonPlace& j, const std::filesystem::path& folder, const Epw* weather) {
   if (!j.isObject({"sky", "latitude", "longitude", "time", "north", "direction", "horizontalIlluminance",
                    "sunIlluminance", "directNormal", "diffuseHorizontal", "weather", "ground", "temperature", "color",
                    "sunTemperature"}))
@@ -212,9 +211,13 @@ Daylight readDaylight(const JsonPlace& j, const std::filesystem::path& folder) {
   }
   if (j.has("sky")) j["sky"].oneOf({"perez"});
   forbid(j, {"directNormal", "diffuseHorizontal", "direction"}, "beside 'weather'");
-  const std::optional<Epw> weather = readWeather(j["weather"], folder);
-  if (!weather) return {};
-  const When when = readWhen(j, &*weather);
+  std::optional<Epw> read;
+  if (!weather) {
+    read = readWeather(j["weather"], folder);
+    if (!read) return {};
+    weather = &*read;
+  }
+  const When when = readWhen(j, weather);
   return when.moment ? perezDaylight(j, when, measuredAt(j, *weather, *when.moment)) : Daylight{};
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "json/json_reader.h"
+#include "photometry/epw.h"
 #include "photometry/sun.h"
 #include "scene/scene.h"
 
@@ -25,8 +27,11 @@ struct Daylight {
   Sky sky;  // black at night
 };
 
-// By the sky's kind, or by measured irradiance and Perez's all-weather sky. `folder`: where the path of a weather file
-// begins.
-Daylight readDaylight(const JsonPlace& j, const std::filesystem::path& folder);
+// The weather file that the place names, from `folder` on; none: the place was told what is wrong.
+std::optional<Epw> readWeather(const JsonPlace& j, const std::filesystem::path& folder);
+
+// By the sky's kind, or by measured irradiance and Perez's all-weather sky. `weather`: what its file holds, where that
+// was read before; null: it is read.
+Daylight readDaylight(const JsonPlace& j, const std::filesystem::path& folder, const Epw* weather = nullptr);
 
 }  // namespace roomlight

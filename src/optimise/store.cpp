@@ -19,8 +19,9 @@ constexpr std::string_view kMagic = "roomlight response 3\n";
 constexpr size_t kSealSize = 16;  // of hashOf() all that is before it, at the end of a file
 
 std::optional<std::string> contentOf(const std::filesystem::path& file) {
+  std::error_code code;
   std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
+  if (!in || !std::filesystem::is_regular_file(file, code)) return std::nullopt;
   return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 

@@ -6,8 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <deque>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -37,26 +35,25 @@ std::optional<double> number(const json& j, const char* key) {
   return j.contains(key) && j[key].is_number() ? std::optional(j[key].get<double>()) : std::nullopt;
 }
 
-// Where the weather was measured.
-std::optional<std::pair<double, double>> placeOfWeather(const json& j, const std::filesystem::path& folder) {
-  if (!j.contains("weather") || !j["weather"].is_string()) return {};
-  std::ifstream in(folder / j["weather"].get<std::string>(), std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  const Result<Epw> weather = parseEpw(text);
-  if (!weather) return {};
-  return std::pair(weather.value().latitudeDeg, weather.value().longitudeDeg);
+// The weather of a `daylight`: no moment reads its file again. Null: it goes by none, or by one that cannot be read.
+std::shared_ptr<const Epw> weatherOf(const json& daylight, const std::filesystem::path& folder) {
+  if (!daylight.is_object() || !daylight.contains("weather")) return {};
+  std::string ignored;  // what is wrong is told where a moment is asked for
+  std::optional<Epw> weather = readWeather(JsonPlace(daylight["weather"], "weather", ignored), folder);
+  return weather ? std::make_shared<const Epw>(std::move(*weather)) : nullptr;
 }
 
-// By place and time; none where the source knows no time or goes by a direction.
-std::optional<SunByDate> byDate(const json& source, const std::filesystem::path& folder) {
+// By place and time; none where the source knows no time or goes by a direction. Without a place it is that of the
+// weather, if not null.
+std::optional<SunByDate> byDate(const json& source, const Epw* weather) {
   if (!source.is_object() || !source.contains("time") || !source["time"].is_string()) return {};
   const std::string text = source["time"].get<std::string>();
   const Result<Moment> moment = parseMoment(text);
   const auto latitude = number(source, "latitude"), longitude = number(source, "longitude");
-  const auto weather = placeOfWeather(source, folder);
   if (!moment || ((!latitude || !longitude) && !weather)) return {};
   SunByDate out;
-  out.latitudeDeg = latitude ? *latitude : weather->first, out.longitudeDeg = longitude ? *longitude : weather->second;
+  out.latitudeDeg = latitude ? *latitude : weather->latitudeDeg;
+  out.longitudeDeg = longitude ? *longitude : weather->longitudeDeg;
   out.utcOffsetH = utcOffsetOf(text);
   out.source = source;
   const Moment& m = moment.value();  // its date is the local one, its hour that of UTC
@@ -125,14 +122,15 @@ std::string timeText(const SunState& s, double utcOffsetH) {
 }
 
 std::optional<SunByDate> sunOfDaylight(const json& daylight, const std::filesystem::path& folder) {
-  std::optional<SunByDate> out = byDate(daylight, folder);
+  const std::shared_ptr<const Epw> weather = weatherOf(daylight, folder);
+  std::optional<SunByDate> out = byDate(daylight, weather.get());
   if (!out) return {};
   out->sky = daylight.contains("weather") ? "weather" : skyInWords(daylight.value("sky", json()));
-  out->at = remembering([sun = *out, folder](const SunState& state) -> Result<SunLight> {
+  out->at = remembering([sun = *out, folder, weather](const SunState& state) -> Result<SunLight> {
     if (!state.on) return SunLight{{}, Sky()};
     std::string error;
     const json source = atTime(sun, state);
-    Daylight light = readDaylight(JsonPlace(source, "daylight", error), folder);
+    Daylight light = readDaylight(JsonPlace(source, "daylight", error), folder, weather.get());
     if (!error.empty()) return Error{error};
     SunLight lit;
     if (!isBlack(light.sun.illuminanceLux)) lit.suns.push_back(light.sun);
@@ -146,7 +144,7 @@ std::optional<SunByDate> sunOfLighting(const json& document, const std::filesyst
   if (!document.is_object()) return {};
   if (document.contains("daylight")) return sunOfDaylight(document["daylight"], folder);
   if (!document.contains("sun")) return {};
-  std::optional<SunByDate> out = byDate(document["sun"], folder);
+  std::optional<SunByDate> out = byDate(document["sun"], nullptr);
   if (!out) return {};
   out->isDaylight = false;
   out->sky = "as it is";

@@ -165,6 +165,32 @@ TEST(ImageIo, everyTruncationIsAnErrorAndNothingCrashes) {
   }
 }
 
+TEST(ImageIo, sizesAreReadFromTheHeaderAlone) {
+  const TemporaryFolder folder;
+  const Image image = noise(24, 9, 1);
+  ASSERT_TRUE(writeExr(folder / "a.exr", image, kMetadata).ok());
+  ASSERT_TRUE(writePng(folder / "a.png", image, kMetadata).ok());
+  ASSERT_TRUE(writeJpeg(folder / "a.jpg", image, SIZE_MAX, "<x:xmpmeta/>").ok());
+  writeFile(folder / "a.hdr",
+            "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 9 +X 24\n" + std::string(864, '\x80'));
+  for (const char* name : {"a.exr", "a.png", "a.jpg", "a.hdr"}) {
+    ASSERT_TRUE(readImage(folder / name).ok()) << name;
+    const std::string whole = readFile(folder / name);
+    writeFile(folder / "cut", whole.substr(0, whole.size() - 100));
+    for (const char* file : {name, "cut"}) {
+      const Result<ImageSize> size = readImageSize(folder / file);
+      ASSERT_TRUE(size.ok()) << name << ", " << file << ": " << size.error();
+      EXPECT_EQ(size.value(), (ImageSize{24, 9})) << name << ", " << file;
+    }
+    writeFile(folder / "cut", whole.substr(0, 20));
+    const Result<ImageSize> none = readImageSize(folder / "cut");
+    ASSERT_FALSE(none.ok()) << name;
+    EXPECT_NE(none.error().find("cut: "), std::string::npos) << none.error();
+  }
+  writeFile(folder / "absurd.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65000 +X 2000\nxxxx");
+  EXPECT_FALSE(readImageSize(folder / "absurd.hdr").ok());
+}
+
 TEST(ImageIo, absurdSizesAreRefusedBeforeAllocation) {
   TemporaryFolder folder;
   for (const char* size : {"-Y 999999999 +X 999999999", "-Y 65000 +X 2000", "-Y 0 +X 5", "-Y -3 +X 5", "+X 5 -Y 5"}) {

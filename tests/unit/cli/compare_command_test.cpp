@@ -89,6 +89,23 @@ TEST_F(CompareCommand, linearAndToneMappedPicturesAreNotCompared) {
   EXPECT_EQ(runProgram({"compare", path("shown.png"), path("shown.png"), "--second", path("shown.png")}).exitStatus, 2);
 }
 
+TEST_F(CompareCommand, sizesThatDifferAreToldBeforeAPictureIsDecoded) {
+  // Whole but for what a decoder comes to last.
+  const std::string wide = testing::readFile(path("wide.exr"));
+  testing::writeFile(path("torn.exr"), wide.substr(0, wide.size() - 20));
+  const std::string expected = "sizes differ: the reference has 20 x 16 pixels, the picture 24 x 16";
+  const std::vector<std::vector<std::string>> cases = {
+      {"compare", path("reference.exr"), path("torn.exr")},
+      {"compare", path("reference.exr"), path("bright.exr"), "--second", path("torn.exr")}};
+  for (const auto& arguments : cases) {
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.exitStatus, 2);
+    EXPECT_NE(run.err.find(path("reference.exr") + ", " + path("torn.exr") + ": " + expected), std::string::npos)
+        << run.err;
+  }
+  EXPECT_EQ(runProgram({"compare", path("wide.exr"), path("torn.exr")}).err.find("sizes differ"), std::string::npos);
+}
+
 TEST_F(CompareCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   testing::writeFile(path("text.exr"), "no picture");
   testing::writeFile(path("torn.jpg"), "\xff\xd8\xff\xe0 no more");
@@ -96,6 +113,7 @@ TEST_F(CompareCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
   const std::vector<std::vector<std::string>> cases = {
       {"compare", path("reference.exr"), path("wide.exr")},
       {"compare", path("reference.exr"), path("missing.exr")},
+      {"compare", "", path("reference.exr")},
       {"compare", path("text.exr"), path("reference.exr")},
       {"compare", path("torn.jpg"), path("torn.jpg")},
       {"compare", path("reference.exr"), path("bright.exr"), "--difference", path("no/d.png")},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "support/room_file.h"
 #include "unit/temporary_folder.h"
 
 namespace roomlight::testing {
@@ -21,9 +22,5 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const std::stri
 // The same with stdout where it is told: an open file, or closed.
 constexpr int kClosed = -1;
 ProgramRun runProgramInto(int out, const std::vector<std::string>& arguments, const std::string& interruptAt = "");
-
-// A closed white room of 4 x 3 x 4 m with a point light of 200 cd, a pillar and the cameras "Front" and "Back", as
-// room.gltf and room.bin.
-std::filesystem::path writeRoom(const TemporaryFolder& folder);
 
 }  // namespace roomlight::testing

@@ -1,14 +1,22 @@
 // Four browsers that do all sorts of things at once. Seconds here; for longer: ROOMLIGHT_SOAK_SECONDS=3600 test_server
-// --gtest_filter='Soak.*', also with sanitizers. Prints how much memory there was at a fifth of the time and at the
-// end.
+// --gtest_filter='Soak*', also with sanitizers. Prints how memory grew with what they said.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <mutex>
+#include <optional>
 #include <random>
 
 #include "served_home.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ROOMLIGHT_SANITIZED
+extern "C" size_t __sanitizer_get_current_allocated_bytes();  // of <sanitizer/allocator_interface.h>, which GCC lacks
+#endif
 
 namespace roomlight {
 namespace {
@@ -16,12 +24,75 @@ namespace {
 using namespace roomlight::testing;
 using nlohmann::json;
 
+constexpr double kMiB = 1 << 20;
+
+double allocatedMiB() {
+#ifdef ROOMLIGHT_SANITIZED
+  return static_cast<double>(__sanitizer_get_current_allocated_bytes()) / kMiB;
+#else
+  const struct mallinfo2 m = mallinfo2();
+  return static_cast<double>(m.uordblks + m.hblkhd) / kMiB;
+#endif
+}
+
 double residentMiB() {
   std::ifstream in("/proc/self/statm");
   double pages = 0, resident = 0;
   in >> pages >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMiB;
 }
+
+// The least memory of two halves of what was said after the warm-up: pictures and lights that come and go do not count.
+struct Growth {
+  double firstMiB = 0, lastMiB = 0;
+  double kibEach = 0;  // a thing that was said
+};
+
+// None: too little was said after the warm-up.
+constexpr size_t kFewestInHalf = 80;
+std::optional<Growth> growthOf(const std::vector<double>& memoryMiB, size_t warmUp) {
+  if (memoryMiB.size() < warmUp + 2 * kFewestInHalf) return {};
+  const auto half = static_cast<std::ptrdiff_t>((memoryMiB.size() - warmUp) / 2);
+  const auto middle = memoryMiB.end() - half;
+  const double first = *std::min_element(middle - half, middle), last = *std::min_element(middle, memoryMiB.end());
+  return Growth{first, last, 1024 * (last - first) / static_cast<double>(half)};
+}
+
+// Memory after each thing that any visitor said. From several threads.
+class Memory {
+ public:
+  void see() {
+    const std::lock_guard lock(mutex_);
+    allocatedMiB_.push_back(allocatedMiB());
+    residentMiB_.push_back(residentMiB());
+  }
+  bool hasEnough() {
+    const std::lock_guard lock(mutex_);
+    return growthOf(allocatedMiB_, kWarmUp).has_value();
+  }
+  // What is allocated settles soon; the allocator goes on taking pages for longer. Each half may differ by what was
+  // lit at its quietest moment.
+  void judge() const {
+    const auto allocated = growthOf(allocatedMiB_, kWarmUp), resident = growthOf(residentMiB_, kWarmUpOfPages);
+    ASSERT_TRUE(allocated);
+    tell("allocated", *allocated);
+    EXPECT_GT(allocated->firstMiB, 0);
+    EXPECT_LT(allocated->lastMiB, allocated->firstMiB + 24);
+    if (!resident) return;
+    tell("resident", *resident);
+    EXPECT_LT(resident->lastMiB, 1.2 * resident->firstMiB + 64);
+  }
+
+ private:
+  static constexpr size_t kWarmUp = 60, kWarmUpOfPages = 1000;
+  void tell(const char* what, const Growth& g) const {
+    std::printf("%s after %zu things said: %.0f MiB, then %.0f MiB: %+.1f KiB each\n", what, allocatedMiB_.size(),
+                g.firstMiB, g.lastMiB, g.kibEach);
+  }
+
+  std::mutex mutex_;
+  std::vector<double> allocatedMiB_, residentMiB_;
+};
 
 // One wall is missing, so that the sun comes in.
 view::ViewHome sunnyHome() {
@@ -33,26 +104,29 @@ view::ViewHome sunnyHome() {
 
 struct Manners {
   int widest = 128, highest = 96;  // of its window
-  int slowestMs = 0;               // on its line
-  bool forgets = false;            // to acknowledge frames, now and then
+  int slowestMs = 0;  // on its line
+  bool forgets = false;  // to acknowledge frames, now and then
 };
 
 class Visitor {
  public:
-  Visitor(const ServedHome& home, uint32_t seed, Manners manners)
-      : home_(home), manners_(manners), name_(seed), random_(seed) {}
+  Visitor(const ServedHome& home, uint32_t seed, Manners manners, Memory& memory)
+      : home_(home), manners_(manners), name_(seed), random_(seed), memory_(memory) {}
 
+  // Longer where too little was said until then.
   void visit(std::chrono::steady_clock::time_point until) {
     std::string window;
-    while (std::chrono::steady_clock::now() < until) {
+    const auto goesOn = [&] { return std::chrono::steady_clock::now() < until || !memory_.hasEnough(); };
+    while (goesOn()) {
       Client client(home_.port(), home_.live(window));
       const json welcome = client.hear("welcome");
       window = welcome["window"];
       client.say(viewport());
-      for (int i = whole(5, 60); i > 0 && std::chrono::steady_clock::now() < until; --i) {
+      for (int i = whole(5, 60); i > 0 && goesOn(); --i) {
         client.acknowledges = !manners_.forgets || whole(0, 2) > 0;
         said_ = something(welcome);
         client.say(said_);
+        memory_.see();
         if (manners_.slowestMs > 0)
           std::this_thread::sleep_for(std::chrono::milliseconds(whole(0, manners_.slowestMs)));
         if (whole(0, 3) == 0) ask(client);
@@ -140,9 +214,24 @@ class Visitor {
   const Manners manners_;
   const uint32_t name_;
   std::mt19937 random_;
+  Memory& memory_;
   uint32_t id_ = 0;
   json said_;
 };
+
+TEST(SoakMemory, whatComesAndGoesIsNoGrowth) {
+  constexpr size_t kWarmUp = 40;
+  std::vector<double> steady, leaking;
+  for (size_t i = 0; i < kWarmUp + 2 * kFewestInHalf; ++i) {
+    EXPECT_FALSE(growthOf(steady, kWarmUp));
+    const double now = (i < kWarmUp ? static_cast<double>(i) : 100) + static_cast<double>(i % 8) * 30;
+    steady.push_back(now);
+    leaking.push_back(now + static_cast<double>(i));
+  }
+  ASSERT_TRUE(growthOf(steady, kWarmUp));
+  EXPECT_EQ(growthOf(steady, kWarmUp)->kibEach, 0);
+  EXPECT_EQ(growthOf(leaking, kWarmUp)->kibEach, 1024);
+}
 
 TEST(Soak, fourVisitorsAtOnce) {
   const char* asked = std::getenv("ROOMLIGHT_SOAK_SECONDS");
@@ -152,19 +241,14 @@ TEST(Soak, fourVisitorsAtOnce) {
   const auto begin = std::chrono::steady_clock::now();
   const auto until =
       begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+  Memory memory;
   std::vector<std::future<void>> visits;
   for (uint32_t i = 0; i < 4; ++i) {
-    visits.push_back(std::async(std::launch::async,
-                                [&home, &kManners, i, until] { Visitor(home, i + 1, kManners[i]).visit(until); }));
+    visits.push_back(
+        std::async(std::launch::async, [&, i] { Visitor(home, i + 1, kManners[i], memory).visit(until); }));
   }
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds / 5));
-  const double early = residentMiB();
   for (auto& v : visits) EXPECT_NO_THROW(v.get());
-  const double late = residentMiB();
-  std::printf("resident: %.0f MiB early, %.0f MiB at the end\n", early, late);
-  if (seconds >= 60) {
-    EXPECT_LT(late, 1.2 * early + 64);
-  }
+  memory.judge();
   Client last(home.port(), home.live());
   EXPECT_EQ(last.hear("welcome")["home"], "test");
 }

@@ -80,7 +80,7 @@ TEST_F(OffLamp, whatIsSavedKeepsThemOffUntilOneIsOn) {
 TEST_F(OffLamp, changesOfLampsThatTheFileSwitchesOffAreRead) {
   write("day.json", replaced(kDay, "{\"scene\"", R"({"own": [{"name": "Bulb", "dimming": 0.5}], "scene")"));
   const ViewHome home = open("day.json");
-  const LampState& bulb = home.atStart().lamps[lampNamed(home, "Bulb")];
+  const LampState bulb = home.atStart().lamps[lampNamed(home, "Bulb")];
   EXPECT_FALSE(bulb.on);
   EXPECT_EQ(bulb.dim, 0.5f);
 }

@@ -1,6 +1,8 @@
 // Every home has a sun to move: by its lighting, else off until somebody switches it on.
 #include "view/sun_by_date.h"
 
+#include <fmt/format.h>
+
 #include "home/light.h"
 #include "unit/view/opened_file.h"
 #include "view/apply_edit.h"
@@ -66,6 +68,33 @@ TEST_F(SunByDateOf, switchedOnItShinesAtTheHourThatItShows) {
   const HomeState on = edited(home, home.atStart(), [](EditFields& s) { s.on = true; });
   EXPECT_EQ(on.sun->hour, home.sun->atStart.hour);
   EXPECT_EQ(sceneIn(home, on).value().suns.size(), 1u);
+}
+
+// An hour that is dragged asks for many moments.
+TEST_F(SunByDateOf, weatherIsReadOnceForAllMoments) {
+  std::string weather = "LOCATION,Town,-,DEU,IWEC,1,48.14,11.58,1.0,500\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\n";
+  for (const auto& [hour, direct] : {std::pair(12, 700), std::pair(16, 300)})
+    weather +=
+        fmt::format("2005,6,10,{},60,?9,20,8,50,101300,0,1300,300,500,{},120,50000,0,0,9999,180,3\n", hour, direct);
+  write("town.epw", weather);
+  const auto lighting = [](const char* time) {
+    return json({{"daylight", {{"weather", "town.epw"}, {"time", time}}}}).dump();
+  };
+  write("later.json", lighting("2026-06-10T15:30+01:00"));
+  const Scene expected = rendered("later.json");
+  const ViewHome home = openWith(lighting("2026-06-10T11:30+01:00"));
+  EXPECT_EQ(home.sun->latitudeDeg, 48.14);
+  EXPECT_EQ(home.sun->longitudeDeg, 11.58);
+  std::filesystem::remove(folder_ / "town.epw");
+  const HomeState later = edited(home, home.atStart(), [](EditFields& s) { s.hour = 15.5; });
+  const Result<Scene> scene = sceneIn(home, later);
+  ASSERT_TRUE(scene) << scene.error();
+  expectSameLight(scene.value(), expected);
+  EXPECT_EQ(scene.value().sky.image.pixels, expected.sky.image.pixels);
+  // What its file does not hold is still told.
+  const Result<Scene> none = sceneIn(home, edited(home, later, [](EditFields& s) { s.hour = 9; }));
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().find("no weather of that hour"), std::string::npos) << none.error();
 }
 
 TEST_F(SunByDateOf, whatHasNoDateStaysUntilThen) {
