@@ -218,7 +218,7 @@ float QuickFrames::Maker::shareOutside(const LightSurroundings& around, Vec3 p, 
 void QuickFrames::Maker::lend(Work& w, Count& count) const {
   const Scene& scene = scene_.rays.scene();
   const auto width = static_cast<uint32_t>(f_.width_);
-  constexpr int kBlocks = Rules::kTile / Rules::kLendWithin;
+  constexpr int kBlocks = Rules::kTile / Rules::kLendWithin, kReach2 = 4 * Rules::kLendWithin * Rules::kLendWithin;
   std::array<std::vector<uint32_t>, kBlocks* kBlocks>& lit = w.litOf;
   for (auto& l : lit) l.clear();
   const auto xOf = [&](const Asked& a) { return static_cast<int>(a.pixel % width); };
@@ -232,16 +232,19 @@ void QuickFrames::Maker::lend(Work& w, Count& count) const {
     if (a.lit) continue;
     const Asked* from = nullptr;
     int nearest = 1 << 20;
+    Vec3 around;  // of all near ones, the nearer the more: what one of them finds of a shining mesh is chance
+    float weights = 0;
     const int x = xOf(a), y = yOf(a), bx = blockOf(x), by = blockOf(y);
     for (int j = std::max(0, by - 1); j <= std::min(kBlocks - 1, by + 1); ++j) {
       for (int i = std::max(0, bx - 1); i <= std::min(kBlocks - 1, bx + 1); ++i) {
         for (const uint32_t k : lit[static_cast<size_t>(j * kBlocks + i)]) {
           const Asked& b = w.asked[k];
           const int dx = xOf(b) - x, dy = yOf(b) - y, d2 = dx * dx + dy * dy;
-          if (d2 >= nearest || b.hit.instance != a.hit.instance || b.sight.panes != a.sight.panes ||
-              dot(a.n, b.n) < Rules::kFacing)
+          if (b.hit.instance != a.hit.instance || b.sight.panes != a.sight.panes || dot(a.n, b.n) < Rules::kFacing)
             continue;
-          nearest = d2, from = &b;
+          if (d2 < nearest) nearest = d2, from = &b;
+          const auto weight = static_cast<float>(std::max(1, kReach2 - d2));
+          around += b.diffuse * (weight * weight), weights += weight * weight;
         }
       }
     }
@@ -251,7 +254,7 @@ void QuickFrames::Maker::lend(Work& w, Count& count) const {
       const MaterialSample seen = materialAt(scene, a.hit), m = scene_.white ? whitened(seen) : seen;
       a.albedo = a.sight.left * m.alpha * Bsdf(m, a.n, a.n, -a.sight.ray.direction).diffuseAlbedo();
     }
-    a.diffuse = from->diffuse, a.rest = from->rest, a.lent = true;
+    a.diffuse = around / weights, a.rest = from->rest, a.lent = true;
   }
 }
 
