@@ -172,6 +172,7 @@ Result<ImageSize> readImageSize(const std::filesystem::path& file) {
       case Format::Exr: return formats::readExrSize(file);
       case Format::Png: {
         const formats::PngSize size = formats::readPngSize(readBytes(file, kPngHeaderBytes));
+        formats::checkSize(size.width, size.height, std::filesystem::file_size(file));
         return {size.width, size.height};
       }
       case Format::Jpeg: return formats::readJpegSize(readBytes(file, kLargestFileBytes));

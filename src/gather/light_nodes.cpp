@@ -1,29 +1,40 @@
 #include "gather/light_nodes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace roomlight {
 
 size_t LightNodes::Hash::operator()(const Key& k) const {
-  uint64_t h = uint64_t{k.instance} << 16 | static_cast<uint64_t>(static_cast<uint8_t>(k.level)) << 8 |
-               static_cast<uint8_t>(k.facing);
-  for (const int32_t v : k.node) h = (h ^ static_cast<uint32_t>(v)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
+  uint64_t h = uint64_t{k.instance} << 16 | static_cast<uint64_t>(static_cast<uint8_t>(k.level)) << 8 | k.alone;
+  const auto add = [&](uint32_t v) { h = (h ^ v) * 0x9e3779b97f4a7c15u, h ^= h >> 29; };
+  for (const int32_t v : k.node) add(static_cast<uint32_t>(v));
+  for (const int8_t v : k.normal) add(static_cast<uint8_t>(v));
   return h;
 }
 
-std::optional<Vec3> LightNodes::nodeAt(const Key& key, Vec3 node, const Gather& gather) {
+LightNodes::Key LightNodes::keyOf(const Place& place, Vec3 node, int level, bool alone) {
+  const float eighth = std::exp2(static_cast<float>(level - 3));
+  Key key{place.instance, {}, {}, static_cast<int8_t>(level), alone};
+  for (int i = 0; i < 3; ++i) {
+    key.node[static_cast<size_t>(i)] = static_cast<int32_t>(std::lround(node[i] / eighth));
+    key.normal[static_cast<size_t>(i)] = static_cast<int8_t>(std::lround(3 * place.n[i]));
+  }
+  return key;
+}
+
+Vec3 LightNodes::nodeAt(const Key& key, Vec3 node, const Light& light) {
   Shard& shard = shards_[Hash()(key) % kShards];
   {
     const std::lock_guard lock(shard.mutex);
     if (const auto known = shard.light.find(key); known != shard.light.end()) return known->second;
   }
-  const std::optional<Vec3> found = gather(node);  // perhaps by two threads: they find the same
-  if (!found) return {};
+  const Vec3 found = light.gather(node);  // perhaps by two threads: the first one's stays
   const std::lock_guard lock(shard.mutex);
-  return shard.light.try_emplace(key, *found).first->second;
+  return shard.light.try_emplace(key, found).first->second;
 }
 
-Vec3 LightNodes::at(const Place& place, const Gather& gather) {
+Vec3 LightNodes::at(const Place& place, const Light& light) {
   constexpr float kFaint = 0.01f;  // of the weight: nodes that are not asked for
   const auto level = static_cast<int>(std::ceil(std::log2(place.stepM)));
   const float step = std::exp2(static_cast<float>(level));
@@ -42,13 +53,10 @@ Vec3 LightNodes::at(const Place& place, const Gather& gather) {
     Vec3 node;  // on the tangent plane
     node[b] = nodeU * step, node[c] = nodeV * step;
     node[a] = place.p[a] - (place.n[b] * (node[b] - place.p[b]) + place.n[c] * (node[c] - place.p[c])) / place.n[a];
-    Key key{place.instance, {}, static_cast<int8_t>(level), static_cast<int8_t>(place.n[a] < 0 ? a + 3 : a)};
-    for (int i = 0; i < 3; ++i) key.node[static_cast<size_t>(i)] = static_cast<int32_t>(std::lround(node[i] / step));
-    const std::optional<Vec3> light = nodeAt(key, node, gather);
-    if (light) sum += *light * weight, weights += weight;
+    if (!light.sees(node)) continue;
+    sum += nodeAt(keyOf(place, node, level, false), node, light) * weight, weights += weight;
   }
-  if (weights > 0) return sum / weights;
-  return gather(place.p).value_or(Vec3());
+  return weights > 0 ? sum / weights : nodeAt(keyOf(place, place.p, level, true), place.p, light);
 }
 
 void LightNodes::forget() {

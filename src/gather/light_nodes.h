@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -21,11 +20,16 @@ class LightNodes {
     Vec3 p, n;   // m; n of length 1
     float stepM;  // wanted between nodes: they are up to twice as far apart
   };
-  // What falls on a node, lx; none where the place is not one beside which it lies, as behind a wall.
-  using Gather = std::function<std::optional<Vec3>(Vec3 node)>;
+  struct Light {
+    // Whether a node lies open beside the place, not behind a wall. Asked each time.
+    std::function<bool(Vec3 node)> sees;
+    // What falls on a node, lx. Asked once.
+    std::function<Vec3(Vec3 node)> gather;
+  };
 
-  // What falls on a place, lx. From many threads at once; `gather` is not called for nodes that are known.
-  Vec3 at(const Place& place, const Gather& gather);
+  // What falls on a place, lx: of the nodes around it that it sees; if there is none, as at the place itself. From many
+  // threads at once, but not while nodes are forgotten.
+  Vec3 at(const Place& place, const Light& light);
   void forget();
   void forget(std::span<const uint32_t> instances);
   size_t nodes() const;
@@ -33,9 +37,10 @@ class LightNodes {
  private:
   struct Key {
     uint32_t instance;
-    std::array<int32_t, 3> node;  // in steps
-    int8_t level;                 // the step's logarithm of base 2
-    int8_t facing;                // the axis nearest to the normal, 0 to 2, and 3 more where it points down
+    std::array<int32_t, 3> node;  // in eighths of a step
+    std::array<int8_t, 3> normal;  // in thirds
+    int8_t level;  // the step's logarithm of base 2
+    bool alone;  // no node of the grid but a place that sees none
     bool operator==(const Key&) const = default;
   };
   struct Hash {
@@ -47,7 +52,8 @@ class LightNodes {
   };
   static constexpr size_t kShards = 16;
 
-  std::optional<Vec3> nodeAt(const Key& key, Vec3 node, const Gather& gather);
+  static Key keyOf(const Place& place, Vec3 node, int level, bool alone);
+  Vec3 nodeAt(const Key& key, Vec3 node, const Light& light);
 
   std::array<Shard, kShards> shards_;
 };

@@ -14,7 +14,8 @@ namespace {
 constexpr size_t kTilesAtOnce = 4;
 constexpr uint32_t kMostEvery = 16, kMostEveryOld = 64;
 constexpr double kNewest = 0.3;        // weight of the newest measurement
-constexpr size_t kMostNodes = 100'000;
+constexpr size_t kMostNodes = 30'000;
+constexpr float kSameUsual = 2;  // times: then nodes that were gathered by other usual light stay
 constexpr float kLeastKnown = 0.25f;   // of what is seen: else the camera has jumped
 
 // Of places at unit depth: pixels a unit of x and of y.
@@ -79,11 +80,20 @@ void QuickFrames::planShares(double ms) {
 void QuickFrames::surveyPast(const Maker& maker, const Camera& camera) {
   const Maker::Survey seen = maker.survey();
   usualLux_ = seen.usualLux;
+  forgetNodes();
   if (!hasPast_) return;
   const float moved = length(camera.worldFromCamera.w - camera_->worldFromCamera.w);
   if (seen.known >= kLeastKnown && !hasJumped(moved, seen.distanceM)) return;
   hasPast_ = false;
   past_.clear();
+}
+
+// Beyond a number of them, and where the usual light is another: what nodes take for dark or for an outlier goes by it.
+void QuickFrames::forgetNodes() {
+  const float more = std::max(usualLux_, nodesLux_), less = std::min(usualLux_, nodesLux_);
+  if (more <= kSameUsual * less && nodes_->nodes() <= kMostNodes) return;
+  nodes_->forget();
+  nodesLux_ = usualLux_;
 }
 
 Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width, int height, double ms,
@@ -101,7 +111,6 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
   now_.resize(pixels);
   if (!hasPast_) past_.clear();
   changed_.lightBy(scene.lights, scene.light.sharpEmissive());
-  if (nodes_->nodes() > kMostNodes) nodes_->forget();
   Maker maker(*this, scene, camera, width, height);
   if (!still || stale_ || changed_.any()) surveyPast(maker, camera);
   // Where the scene has changed every pixel looks for itself.
@@ -131,6 +140,7 @@ Image QuickFrames::make(const QuickScene& scene, const Camera& camera, int width
     return {};
   }
   sum.otherMs += landedMs;
+  sum.leastLight = everyNew_ == kMostEvery && everyOld_ >= kMostEvery;
   count_ = sum;
   double& other = otherMs_[lands_];
   const double otherNow = sum.otherMs / static_cast<double>(pixels);

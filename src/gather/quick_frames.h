@@ -38,6 +38,7 @@ class QuickFrames {
     size_t kept = 0, traced = 0, lit = 0,
            lent = 0;  // pixels: as they were, looked at anew, and of these with new light or that of others
     double otherMs = 0, litMs = 0;  // of all threads: of rays and look-ups, of light
+    bool leastLight = false;  // as few pixels were lit as may be
   };
 
   // Linear, cd/m², of a perspective camera; takes about `ms`, more where less cannot be done.
@@ -75,6 +76,7 @@ class QuickFrames {
   class Maker;
   struct Rules;
   void planShares(double ms);
+  void forgetNodes();
   void surveyPast(const Maker& maker, const Camera& camera);
   void land(const Camera& camera);
 
@@ -96,6 +98,7 @@ class QuickFrames {
   // Of so many pixels one is lit: of those without light, and of those that have lent or old light (0: none). Powers of
   // two up to 16, and 64.
   uint32_t everyNew_ = 16, everyOld_ = 0;
+  float nodesLux_ = 0;  // usualLux_ when nodes were begun
   float usualLux_ = 0;  // on what is seen, but for its brightest fifth
   std::array<double, 2> otherMs_{};  // per pixel: what all but light costs, all threads together, where pixels look for
                                      // themselves and where those of the frame before land

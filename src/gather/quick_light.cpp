@@ -121,15 +121,14 @@ SlotIrradiance QuickFrames::Maker::receivedOrFound(const Asked& a) const {
   SlotIrradiance out = receivedAt(a.hit.instance, a.p, a.n);
   if (standsFor(out)) return out;
   const Vec3 from = offsetOrigin(a.p, a.n);
-  const auto gather = [&](Vec3 node) -> std::optional<Vec3> {
+  const auto sees = [&](Vec3 node) {
     const Vec3 to = offsetOrigin(node, a.n) - from;
     const float distance = length(to);
-    if (distance > 0 && scene_.rays.intersect({from, to / distance, 0, distance}).valid()) return {};
-    return gatherAround(node, a.n);
+    return !(distance > 0) || !scene_.rays.intersect({from, to / distance, 0, distance}).valid();
   };
-  const float pixelM = slope_ * length(a.p - eye_);
+  const float stepM = std::max(scene_.light.voxelSizeM(), kNodePixels * slope_ * length(a.p - eye_));
   out.soft =
-      f_.nodes_->at({a.hit.instance, a.p, a.n, std::max(scene_.light.voxelSizeM(), kNodePixels * pixelM)}, gather);
+      f_.nodes_->at({a.hit.instance, a.p, a.n, stepM}, {sees, [&](Vec3 node) { return gatherAround(node, a.n); }});
   return out;
 }
 

@@ -24,7 +24,7 @@ std::string fixed(double value, int digits);
 // "✓ met" or "✗ missed" in the colours of that.
 Cell verdict(bool met);
 
-constexpr const char* kNoColumn = "-";  // above a column that is left out, with its cells
+constexpr const char* kNoColumn = "\x01";  // above a column that is left out, with its cells
 
 class Table {
  public:

@@ -64,7 +64,7 @@ std::string curvesSvg(const StudyCase& one) {
   double leastS = 1e30, mostS = 0, leastE = 1e30, mostE = 0;
   const auto hold = [&](double secondsTaken, double error) {
     leastS = std::min(leastS, std::max(secondsTaken, 1e-3)), mostS = std::max({mostS, secondsTaken, 1e-3});
-    leastE = std::min(leastE, std::max(error, kLeastError)), mostE = std::max(mostE, error);
+    leastE = std::min(leastE, std::max(error, kLeastError)), mostE = std::max({mostE, error, kLeastError});
   };
   for (const StudyCurve& c : one.curves) {
     for (const StudyPoint& p : c.points) hold(p.seconds, errorOf(p));

@@ -71,10 +71,10 @@ bool Session::showQuick(Window& window, Side& side, LitHome& home, const Camera&
   if (home.live) {
     image =
         side.quick.make(home.live->quick(window.display.white()), camera, size.first, size.second, ms, {{}, &stop_});
-    // Light takes what time is left; where that is less than it needs, pictures get smaller.
+    // Light takes what time is left; where that is less than the least of it needs, pictures get smaller.
     const QuickFrames::Count& took = side.quick.count();
-    const double threads = std::max(1, threadCount()), leftMs = (1 - kForRays) * ms;
-    costMs = std::max(took.otherMs, took.otherMs + took.litMs - leftMs * threads) / threads;
+    const double threads = std::max(1, threadCount()), leftMs = (1 - kForRays) * ms * threads;
+    costMs = (took.otherMs + (took.leastLight ? std::max(0.0, took.litMs - leftMs) : 0)) / threads;
   } else {
     const bool white = window.display.white();
     image = home.solution->lit->pictureOf(

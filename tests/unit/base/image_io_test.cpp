@@ -189,6 +189,10 @@ TEST(ImageIo, sizesAreReadFromTheHeaderAlone) {
   }
   writeFile(folder / "absurd.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65000 +X 2000\nxxxx");
   EXPECT_FALSE(readImageSize(folder / "absurd.hdr").ok());
+  std::string png = readFile(folder / "a.png");
+  png.replace(16, 8, "\x7f\xff\xff\xff\x7f\xff\xff\xff");
+  writeFile(folder / "absurd.png", png);
+  EXPECT_FALSE(readImageSize(folder / "absurd.png").ok());
 }
 
 TEST(ImageIo, absurdSizesAreRefusedBeforeAllocation) {
