@@ -15,7 +15,7 @@ constexpr float kPictureRoughness = 0.3f;  // smoother: what it reflects is look
 constexpr float kFaint = 0.01f;        // of a place's light: that of lamps that could give less is taken from slots
 // Of a node on what slots do not stand for: rays that look for light, how many find none where there is none, and
 // samples of lights.
-constexpr uint32_t kNodeRays = 32, kDarkRays = 8, kNodeLightSamples = 4;
+constexpr uint32_t kNodeRays = 16, kDarkRays = 8, kNodeLightSamples = 4;
 constexpr float kNodePixels = 12;    // between nodes, and no nearer than voxels
 constexpr float kDark = 0.05f;       // of the usual light
 constexpr int kMostBounces = 4;
