@@ -12,6 +12,25 @@
 
 namespace roomlight::testing {
 
+// For studies of the room of writeRoom(): its floor with a target, to which a spacing may be added, and its ceiling
+// with four places for a "Bulb".
+constexpr const char* kHallZone = R"([[zone]]
+room = "Hall"
+floor = [[-2, -2], [-2, 2], [2, 2], [2, -2]]
+ceiling = 3
+mean = "60 lx"
+)";
+constexpr const char* kHallPlaces = R"([[place]]
+name = "Ceiling"
+on = "ceiling"
+room = "Hall"
+floor = [[-2, -2], [-2, 2], [2, 2], [2, -2]]
+ceiling = 3
+luminaires = ["Bulb"]
+spacing = 1.5
+fromWalls = 0.6
+)";
+
 // A closed white room of 4 x 3 x 4 m with a point light of 200 cd, a pillar and the cameras "Front" and "Back", as
 // room.gltf and room.bin.
 inline std::filesystem::path writeRoom(const TemporaryFolder& folder) {

@@ -28,24 +28,10 @@ drop = 0.3
 )";
 
 // The room of writeRoom(), with four places.
-constexpr const char* kStudy = R"(
+const std::string kStudy = std::string(R"(
 catalogue = "catalogue.toml"
-[[zone]]
-room = "Hall"
-floor = [[-2, -2], [-2, 2], [2, 2], [2, -2]]
-ceiling = 3
-mean = "60 lx"
-spacing = 1
-[[place]]
-name = "Ceiling"
-on = "ceiling"
-room = "Hall"
-floor = [[-2, -2], [-2, 2], [2, 2], [2, -2]]
-ceiling = 3
-luminaires = ["Bulb"]
-spacing = 1.5
-fromWalls = 0.6
-[search]
+)") + testing::kHallZone + "spacing = 1\n" +
+                           testing::kHallPlaces + R"([search]
 evaluations = 600
 population = 20
 certify = 0

@@ -34,7 +34,6 @@ int64_t wallSeconds(std::chrono::year_month_day day, int hour, int minute) {
 }
 
 TEST(Sh3dSky, timeZonesKnowSummerAndWinter) {
-  if (!utcOffsetSeconds("Europe/Paris", 0)) GTEST_SKIP() << "no time zones on this machine";
   EXPECT_EQ(utcOffsetSeconds("Europe/Paris", 1718978400), 7200);
   EXPECT_EQ(utcOffsetSeconds("Europe/Paris", 1705000000), 3600);
   EXPECT_EQ(utcOffsetSeconds("America/New_York", 1705000000), -5 * 3600);
@@ -42,13 +41,11 @@ TEST(Sh3dSky, timeZonesKnowSummerAndWinter) {
 
 // By the rule at the end of a zone's table; tables themselves stop in 2037 or at the last change of the rule.
 TEST(Sh3dSky, timeZonesKnowSummersBeyondTheirTables) {
-  if (!utcOffsetSeconds("Europe/Paris", 0)) GTEST_SKIP() << "no time zones on this machine";
   EXPECT_EQ(utcOffsetSeconds("Europe/Paris", wallSeconds(2050y / 7 / 1, 14, 0)), 7200);
   EXPECT_EQ(utcOffsetSeconds("Europe/Paris", wallSeconds(2050y / 1 / 1, 14, 0)), 3600);
 }
 
 TEST(Sh3dSky, anHourSkippedOrRepeatedIsReadAsTheLaterMoment) {
-  if (!utcOffsetSeconds("Europe/Paris", 0)) GTEST_SKIP() << "no time zones on this machine";
   EXPECT_EQ(utcOffsetSeconds("Europe/Paris", wallSeconds(2024y / 3 / 31, 2, 30)), 3600);
   EXPECT_EQ(utcOffsetSeconds("Europe/Paris", wallSeconds(2024y / 10 / 27, 2, 30)), 3600);
   EXPECT_EQ(utcOffsetSeconds("America/New_York", wallSeconds(2024y / 3 / 10, 2, 30)), -5 * 3600);

@@ -15,26 +15,12 @@ namespace {
 using testing::readFile;
 using testing::writeFile;
 
-constexpr const char* kGoals = R"(
+const std::string kGoals = std::string(R"(
 catalogue = "catalogue.toml"
 objectives = ["targetMiss", "uniformity", "cost"]
 cameras = ["Front"]
-[[zone]]
-room = "Hall"
-floor = [[-2, -2], [-2, 2], [2, 2], [2, -2]]
-ceiling = 3
-mean = "60 lx"
-spacing = 1.5
-[[place]]
-name = "Ceiling"
-on = "ceiling"
-room = "Hall"
-floor = [[-2, -2], [-2, 2], [2, 2], [2, -2]]
-ceiling = 3
-luminaires = ["Bulb"]
-spacing = 1.5
-fromWalls = 0.6
-[search]
+)") + testing::kHallZone + "spacing = 1.5\n" +
+                           testing::kHallPlaces + R"([search]
 evaluations = 600
 population = 20
 certify = 2
