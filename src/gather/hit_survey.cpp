@@ -159,9 +159,10 @@ CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShade
   if (settings.causticPhotons <= 0) return {};
   std::vector<Vec3> seen;
   for (const Arrivals::Origin& o : all.origins) seen.push_back(o.p);
-  return CausticMap(traceCausticPhotons({rays, lights}, seen, static_cast<size_t>(settings.causticPhotons),
-                                        shader.layers() != nullptr, settings.seed, rayCount),
-                    shader.layers());
+  CausticPhotons tracer({rays, lights}, seen, shader.layers() != nullptr, settings.seed);
+  CausticMap map(tracer.trace(static_cast<size_t>(settings.causticPhotons)), shader.layers());
+  rayCount += tracer.rayCount();
+  return map;
 }
 
 }  // namespace

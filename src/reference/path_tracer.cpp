@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/sampler.h"
+#include "reference/caustic_splats.h"
 #include "reference/path_walk.h"
 #include "reference/pixel_sums.h"
 #include "trace/camera_rays.h"
@@ -75,6 +76,7 @@ struct PathTracer::State {
   PathSettings settings;
   LightVertices vertices;
   VisibleLights visible;
+  CausticSplats caustics;
   std::vector<PixelSum> sums;  // per pixel
   std::vector<PixelSums> pixels;
   std::vector<Vec3> layerSums;  // per pixel, of each layer
@@ -86,6 +88,22 @@ struct PathTracer::State {
     const size_t paths = std::clamp(static_cast<size_t>(settings.width * settings.height / kPixelsPerLearningPath),
                                     kFewestLearningPaths, kMostLearningPaths);
     visible.learn(rays, {cameraRays, settings.width, settings.height}, paths, settings.seed, stopped);
+  }
+  void findCaustics() {
+    if (samples > 0 || !settings.lightPaths) return;
+    caustics = CausticSplats({rays, lights},
+                             {cameraRays, settings.width, settings.height, settings.white, settings.layers.get()},
+                             settings.seed);
+  }
+  // Adds what polished surfaces throw, of one pass.
+  void addCaustics(Image& fresh, std::vector<FilterPixel>& seen) {
+    const size_t layerCount = settings.layers ? settings.layers->size() : 0;
+    for (const CausticSplats::Splat& splat : caustics.trace(static_cast<uint32_t>(samples))) {
+      fresh.pixels[splat.pixel] += splat.light;
+      if (!seen.empty()) seen[splat.pixel].sharp += splat.light;
+      if (layerCount > 0 && splat.layer >= 0)
+        layerSums[splat.pixel * layerCount + static_cast<size_t>(splat.layer)] += splat.light;
+    }
   }
   void traceLightPaths() {
     if (!settings.lightPaths || !vertices.lightRays().any()) return;
@@ -110,8 +128,9 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
   Image fresh(w, h);
   std::vector<FilterPixel> seen(st.pixels.size());
   st.learnLights(stopped);
+  st.findCaustics();
   st.traceLightPaths();
-  const PathWalk walk(st.rays, st.lights, st.visible, &st.vertices, st.settings.white);
+  const PathWalk walk(st.rays, st.lights, st.visible, &st.vertices, st.settings.white, st.caustics.any());
   const int tilesX = (w + kTile - 1) / kTile, tilesY = (h + kTile - 1) / kTile;
   std::atomic<int> tilesDone = 0;
   std::mutex reporting;
@@ -145,6 +164,7 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
     }
   });
   if (stopped()) return false;
+  st.addCaustics(fresh, seen);
   parallelFor(fresh.pixels.size(), 65536, [&](size_t i) { st.sums[i].add(fresh.pixels[i]); });
   parallelFor(seen.size(), 16384, [&](size_t i) { st.pixels[i].add(seen[i]); });
   ++st.samples;
@@ -153,7 +173,7 @@ bool PathTracer::pass(const Progress& progress, bool firstToo) {
 
 int PathTracer::samples() const { return state_->samples; }
 uint64_t PathTracer::rays() const {
-  return state_->rayCount + state_->vertices.rayCount() + state_->visible.rayCount();
+  return state_->rayCount + state_->vertices.rayCount() + state_->visible.rayCount() + state_->caustics.rayCount();
 }
 
 Image PathTracer::mean() const {

@@ -1,7 +1,7 @@
 #include "reference/path_walk.h"
 
 #include "base/sampling.h"
-#include "trace/traced_scene.h"
+#include "trace/caustic_photons.h"
 
 namespace roomlight {
 namespace {
@@ -16,6 +16,37 @@ Vec3 diffuseShare(const Bsdf& bsdf, Vec3 wi) {
   return min(bsdf.evaluateDiffuse(wi) / max(bsdf.evaluate(wi), Vec3(1e-20f)), Vec3(1));
 }
 
+// What CausticSplats bring, of a path's light: straight from suns, lamps and emissive meshes, by surfaces that throw
+// light alone, to the diffuse lobe of the first that scatters.
+class CausticPart {
+ public:
+  explicit CausticPart(bool known = false) : known_(known) {}
+  // What the path keeps of such light where its ray has ended,
+  Vec3 ofReached() const { return at_ == kThrown ? left_ : Vec3(1); }
+  // and of what falls on a surface there.
+  Vec3 ofDirect(const SurfacePoint& s) const {
+    return at_ != kElsewhere && s.material && throwsLight(*s.material) &&
+                   reflections_ < CausticPhotons::kMostReflections
+               ? left_
+               : Vec3(1);
+  }
+  void scatter(const SurfacePoint& s, const Bsdf& bsdf, const BsdfSample& next, bool first) {
+    if (!known_) return;
+    const bool throws = throwsLight(*s.material);
+    if (first && !throws) {
+      at_ = kFirst, left_ = next.mirror ? Vec3(1) : Vec3(1) - diffuseShare(bsdf, next.wi);
+    } else if (at_ != kElsewhere) {
+      at_ = throws && ++reflections_ <= CausticPhotons::kMostReflections ? kThrown : kElsewhere;
+    }
+  }
+
+ private:
+  bool known_;  // else paths keep it all
+  Vec3 left_{1, 1, 1};
+  int reflections_ = 0;
+  enum : uint8_t { kFirst, kThrown, kElsewhere } at_ = kElsewhere;  // whose light the path brings
+};
+
 }  // namespace
 
 // A surface that a path has come to.
@@ -24,6 +55,7 @@ struct PathWalk::Vertex {
   const Bsdf& bsdf;
   std::span<const LightPart> visible;  // parts of the lights there
   float lampShare;  // of light that has light paths: what connections at earlier vertices, and there, have left to it
+  Vec3 caustic{1, 1, 1};  // what the path keeps of light straight from lamps, meshes and suns
 };
 
 // Of light at one surface: what the diffuse lobe scatters, that of suns apart.
@@ -71,6 +103,7 @@ struct PathWalk::State {
   float lastPdf = 0;  // density of the sample that gave the ray; 0: camera or mirror, emission counts in full
   bool skyKnown = false;  // the sky, if the ray sees it, is counted already
   PathLayers* layers = nullptr;
+  CausticPart caustic;
   float lampShare = 1;  // of light that has light paths: what connections at earlier vertices have left to this path
 
   // Russian roulette by throughput from the third scattering on.
@@ -83,7 +116,8 @@ struct PathWalk::State {
     throughput *= 1 / q;
     return true;
   }
-  void scatter(const Vertex& at, const BsdfSample& next) {
+  void scatter(const Vertex& at, const BsdfSample& next, bool first) {
+    caustic.scatter(at.s, at.bsdf, next, first);
     throughput *= next.weight;
     lastPdf = next.mirror ? 0 : next.pdf;
     lastPoint = at.s.p, lastVisible = at.visible;
@@ -139,6 +173,7 @@ Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, Pa
   State path;
   path.ray = ray;
   path.layers = layers;
+  path.caustic = CausticPart(causticsKnown_);
   return follow(path, sampler, rayCount, NoRecord());
 }
 
@@ -147,6 +182,7 @@ Vec3 PathWalk::radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, Fi
   State path;
   path.ray = ray;
   path.layers = layers;
+  path.caustic = CausticPart(causticsKnown_);
   return follow(path, sampler, rayCount, FirstSurface(seen));
 }
 
@@ -187,7 +223,8 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     const Hit hit = rays_.intersect(path.ray);
     ++rayCount;
     if (!hit.valid()) {
-      const Vec3 sky = skyBehind(path), suns = sunsBehind(path), light = path.throughput * (sky + suns);
+      const Vec3 sky = skyBehind(path), suns = sunsBehind(path) * path.caustic.ofReached(),
+                 light = path.throughput * (sky + suns);
       const Apart apart{path.layers, path.throughput};
       apart.addSky(sky), apart.addSun(suns);
       sum += light;
@@ -198,14 +235,15 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
     if (white_ && scattered == 0) s.m = whitened(s.m);
     if (const Vec3 emitted = s.emitted(); !isBlack(emitted)) {
       const int32_t emitter = lights_.emitterOf(s.instance);
-      const Vec3 light = path.throughput * emitted * emissionWeight(path, s, emitter);
+      const Vec3 light = path.throughput * emitted *
+                         (emissionWeight(path, s, emitter) * (emitter < 0 ? Vec3(1) : path.caustic.ofReached()));
       sum += light;
       if (path.layers && emitter >= 0)
         path.layers->add(path.layers->lights.ofEmitter[static_cast<size_t>(emitter)], light);
       if constexpr (Record::kOn) record.add(light);
     }
     const Bsdf bsdf(s.m, s.ns, s.ng, -path.ray.direction);
-    const Vertex at{s, bsdf, visible_.partsAt(s.p, s.ng), lampShareAt(path, s, bsdf)};
+    const Vertex at{s, bsdf, visible_.partsAt(s.p, s.ng), lampShareAt(path, s, bsdf), path.caustic.ofDirect(s)};
     // Before the choice to go straight through: highlights on glass would be rare and bright otherwise.
     bool first = false;
     if constexpr (Record::kOn) first = record.isHere(s, bsdf);
@@ -230,7 +268,7 @@ Vec3 PathWalk::follow(State& path, Sampler& sampler, uint64_t& rayCount, Record 
       if (first) record.goOn(bsdf, next);
       if (s.m.alpha < 1 || s.m.transmission > 0) record.scatteredByPane();
     }
-    path.scatter(at, next);
+    path.scatter(at, next, scattered == 0);
     if (!path.survives(++scattered, vertices_ && vertices_->lightRays().hasAllLight() ? at.lampShare : 1, sampler))
       break;
   }
@@ -326,13 +364,13 @@ Vec3 PathWalk::direct(const Vertex& at, Sampler& sampler, uint64_t& rayCount, Pa
     const Vec2 u = sampler.next2();
     const LightSample light = sampleLocal(lights_, at.visible, at.s.p, u, sampler.next1());
     const float left = vertices_ && vertices_->lightRays().leave(light) ? at.lampShare : 1;
-    const Vec3 value = contribution<kParts>(at, light, rayCount, &local) * left;
+    const Vec3 value = contribution<kParts>(at, light, rayCount, &local) * at.caustic * left;
     sum += value;
     apart.add(light, value);
     if constexpr (kParts) parts->diffuse += local * left;
   }
   for (size_t i = 0; i < lights_.sunCount(); ++i) {
-    const Vec3 value = contribution<kParts>(at, lights_.sampleSun(i, sampler.next2()), rayCount, &sun);
+    const Vec3 value = contribution<kParts>(at, lights_.sampleSun(i, sampler.next2()), rayCount, &sun) * at.caustic;
     sum += value;
     apart.addSun(value);
     if constexpr (kParts) parts->sharp += sun, sun = {};

@@ -24,14 +24,16 @@ class PathWalk {
   // vertices: of light paths to connect to, or null.
   // visible: of these lights, by which they are chosen.
   // white: what is seen first, or through panes, is whitened (scene/surface.h).
+  // causticsKnown: what CausticSplats bring is left out.
   PathWalk(const RayScene& rays, const Lights& lights, const VisibleLights& visible,
-           const LightVertices* vertices = nullptr, bool white = false)
+           const LightVertices* vertices = nullptr, bool white = false, bool causticsKnown = false)
       : rays_(rays),
         lights_(lights),
         visible_(visible),
         surfaces_(rays.surfaces()),
         vertices_(vertices && !vertices->all().empty() ? vertices : nullptr),
-        white_(white) {}
+        white_(white),
+        causticsKnown_(causticsKnown) {}
 
   // Towards the ray's origin, cd/m²; added to `layers` as well, if there are.
   Vec3 radiance(const Ray& ray, Sampler& sampler, uint64_t& rayCount, PathLayers* layers = nullptr) const;
@@ -75,7 +77,7 @@ class PathWalk {
   const VisibleLights& visible_;
   const Surfaces& surfaces_;
   const LightVertices* vertices_;
-  const bool white_;
+  const bool white_, causticsKnown_;
 };
 
 }  // namespace roomlight

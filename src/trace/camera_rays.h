@@ -29,6 +29,8 @@ class CameraRays {
   // Where in the picture, in pixels, a place would be seen if nothing stood before it; of a stereo pair in the upper
   // half, as from between the eyes. None outside.
   std::optional<Vec2> pixelOf(Vec3 place) const;
+  // Whether a ray through that pixel meets the place: not of stereo pairs.
+  bool hasExactPixels() const { return camera_.projection != Projection::StereoPanorama; }
 
   // Whether the picture's left and right edges are neighbours.
   bool wraps() const;

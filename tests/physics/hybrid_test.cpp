@@ -8,6 +8,7 @@
 #include "gather/cone_gather.h"
 #include "gather/ray_gather.h"
 #include "reference/path_tracer.h"
+#include "support/polished_strip.h"
 #include "support/record.h"
 #include "support/rooms.h"
 #include "support/webs.h"
@@ -357,123 +358,34 @@ TEST(Hybrid, insideOfAShadeIsCountedOnce) {
   }
 }
 
-// Places on a floor of albedo .02, above which a strip of polished metal stands that throws light down on it: x from
-// 0.15 to 1.35 m, z from -0.6 to 0.6 m.
-struct Strip {
-  static constexpr int kPixels = 96;
-  static constexpr float kHeightM = 3, kHalfM = 0.6f, kMiddleX = 0.75f, kReflectance = 0.9f;
-  static constexpr float kLow = 0.5f, kHigh = 1.0f, kHalfWidthM = 0.4f;  // the strip, in the plane x = 0
-
-  Scene scene;
-  explicit Strip(bool mirror, bool pane = false) {
-    const int dark = test::addMaterial(scene, test::lambertian(0.02f));
-    test::addRectangle(scene, {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, dark);
-    Material metal;
-    metal.metallic = 1, metal.roughness = 0.02f, metal.baseColor = Vec3(kReflectance);
-    if (mirror)
-      test::addRectangle(scene, {0, kLow, kHalfWidthM}, {0, 0, -2 * kHalfWidthM}, {0, kHigh - kLow, 0},
-                         test::addMaterial(scene, metal));
-    Material glass;
-    glass.metallic = 0, glass.roughness = 0, glass.transmission = 1;
-    if (pane) test::addRectangle(scene, {-4, 0.3f, -4}, {0, 0, 8}, {8, 0, 0}, test::addMaterial(scene, glass));
-  }
-  Image picture() const {
-    Camera camera;
-    camera.worldFromCamera = {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {kMiddleX, kHeightM, 0}};
-    camera.yFovRad = 2 * std::atan(kHalfM / kHeightM);
-    RayGatherSettings settings;
-    settings.width = settings.height = kPixels;
-    return Lit(scene, 0.05f).hybrid(camera, settings);
-  }
-  static Vec3 placeOf(int x, int y) {
-    const auto at = [](int i) { return kHalfM * (2 * (static_cast<float>(i) + 0.5f) / kPixels - 1); };
-    return {kMiddleX + at(x), 0, at(y)};
-  }
-  // How far inside the strip the straight line from `image`, a light's place behind its plane, to p crosses that;
-// negative: outside, by so much on the floor.
-  static float inside(Vec3 image, Vec3 p) {
-    const float t = -image.x / (p.x - image.x), y = image.y + (p.y - image.y) * t, z = image.z + (p.z - image.z) * t;
-    return std::min({y - kLow, kHigh - y, kHalfWidthM - std::abs(z)});
-  }
-};
-
-struct Thrown {
-  const char* name;
-  bool pane;
-  void (*light)(Scene&);
-  Vec3 image;         // of the light behind the strip's plane
-  bool isSun = false;
-};
-void PrintTo(const Thrown& t, std::ostream* out) { *out << t.name; }
-
-const Vec3 kLampPlace{1.6f, 1.7f, 0.15f}, kMirroredLamp{-1.6f, 1.7f, 0.15f};
-const Vec3 kSunward = normalize(Vec3{1, 1, 0.1f});
-
-std::vector<Thrown> thrown() {
-  const auto sun = [](Scene& scene, float halfAngleRad) {
-    Sun s;
-    s.toLight = kSunward, s.illuminanceLux = Vec3(50'000), s.halfAngleRad = halfAngleRad;
-    scene.suns = {s};
-  };
-  static const auto addSun = sun;
-  const Vec3 farAway = Vec3{-kSunward.x, kSunward.y, kSunward.z} * 1e4f;
-  const auto lamp = [](Scene& scene) { scene.lamps.push_back(test::pointLamp(kLampPlace, 100)); };
-  return {{"point sun", false, [](Scene& s) { addSun(s, 0); }, farAway, true},
-          {"sun", false, [](Scene& s) { addSun(s, 0.0046f); }, farAway, true},
-          {"sun behind a pane", true, [](Scene& s) { addSun(s, 0.0046f); }, farAway, true},
-          {"point lamp", false, lamp, kMirroredLamp},
-          {"bulb", false,
-           [](Scene& s) { test::addSphere(s, kLampPlace, 0.02f, test::addMaterial(s, test::lambertian(0, 100'000))); },
-           kMirroredLamp},
-          {"two lamps", false,
-           [](Scene& s) {
-             for (int k = 0; k < 2; ++k) s.lamps.push_back(test::pointLamp(kLampPlace, 50));
-           },
-           kMirroredLamp}};
+Image pictureOf(const test::Strip& strip) {
+  RayGatherSettings settings;
+  settings.width = settings.height = test::Strip::kPixels;
+  return Lit(strip.scene, 0.05f).hybrid(test::Strip::camera(), settings);
 }
 
-class PolishedStrip : public testing::TestWithParam<Thrown> {};
+class PolishedStrip : public testing::TestWithParam<test::Thrown> {};
 
-// The light of the image behind it, times what it reflects, inside the image of its outline; nothing outside.
 TEST_P(PolishedStrip, throwsLightAsFromTheImage) {
-  const Thrown& t = GetParam();
-  Strip with(true, t.pane), without(false, t.pane);
+  const test::Thrown& t = GetParam();
+  test::Strip with(true, t.pane), without(false, t.pane);
   t.light(with.scene), t.light(without.scene);
-  const Image lit = with.picture(), plain = without.picture();
-  const Vec3 light{-t.image.x, t.image.y, t.image.z};
-  double sum = 0, expectedSum = 0, squares = 0, outside = 0;
-  size_t inside = 0, beside = 0;
-  for (int y = 0; y < Strip::kPixels; ++y) {
-    for (int x = 0; x < Strip::kPixels; ++x) {
-      const Vec3 p = Strip::placeOf(x, y);
-      const float depth = Strip::inside(t.image, p);
-      const size_t i = static_cast<size_t>(y) * Strip::kPixels + static_cast<size_t>(x);
-      const double more = static_cast<double>(luminance(lit.pixels[i]) / luminance(plain.pixels[i])) - 1;
-      const auto lux = [&](Vec3 from) { return static_cast<double>(from.y / std::pow(length(from - p), 3.0f)); };
-      const double expected = static_cast<double>(Strip::kReflectance) * (t.isSun ? 1 : lux(t.image) / lux(light));
-      if (depth > 0.03f) {
-        sum += more, expectedSum += expected, ++inside;
-        squares += (more / expected - 1) * (more / expected - 1);
-      } else if (depth < -0.03f) {
-        outside += std::abs(more), ++beside;
-      }
-    }
-  }
+  const test::ThrownLight found(t, test::Strip::camera(), pictureOf(with), pictureOf(without));
   test::record("Floor under a strip of polished metal, part of the direct light that it adds", t.name, "hybrid",
-               expectedSum / static_cast<double>(inside), sum / static_cast<double>(inside));
+               found.expected, found.mean);
   // Noise of a bulb's straight light is in it, too.
-  EXPECT_NEAR(sum, expectedSum, 0.02 * expectedSum + 0.004 * static_cast<double>(inside));
-  EXPECT_LE(std::sqrt(squares / static_cast<double>(inside)), 0.12);
-  EXPECT_LE(outside / static_cast<double>(beside), 0.015);
+  EXPECT_NEAR(found.mean, found.expected, 0.02 * found.expected + 0.004);
+  EXPECT_LE(found.spread, 0.12);
+  EXPECT_LE(found.beside, 0.015);
 }
-INSTANTIATE_TEST_SUITE_P(Lights, PolishedStrip, testing::ValuesIn(thrown()));
+INSTANTIATE_TEST_SUITE_P(Lights, PolishedStrip, testing::ValuesIn(test::thrown()));
 
 TEST(Hybrid, photonsAreTheSameWithAnyNumberOfThreads) {
-  Strip strip(true, true);
-  strip.scene.lamps.push_back(test::pointLamp(kLampPlace, 100));
+  test::Strip strip(true, true);
+  strip.scene.lamps.push_back(test::pointLamp(test::kLampPlace, 100));
   Image one, two;
-  withThreads(1, [&] { one = strip.picture(); });
-  withThreads(2, [&] { two = strip.picture(); });
+  withThreads(1, [&] { one = pictureOf(strip); });
+  withThreads(2, [&] { two = pictureOf(strip); });
   for (size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], two.pixels[i]) << i;
 }
 

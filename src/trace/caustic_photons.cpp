@@ -1,4 +1,4 @@
-#include "gather/caustic_map.h"
+#include "trace/caustic_photons.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include "base/parallel.h"
 #include "base/sampling.h"
 #include "trace/bsdf.h"
-#include "trace/traced_scene.h"
 
 namespace roomlight {
 namespace {
@@ -25,7 +24,7 @@ constexpr size_t kPilots = size_t{1} << 15, kFewestPilots = 4, kMostPilots = 512
 constexpr float kByPotential = 0.1f;  // of photons go where light could be without shadows
 constexpr size_t kMostStarted = 2;  // for each that shall arrive
 constexpr size_t kAtOnce = 512;
-constexpr int kMostReflections = 7, kMostPanes = 16;
+constexpr int kMostPanes = 16;
 constexpr float kSeenM = 0.5f, kUnseen = 0.1f;  // cells of what is seen; what photons are worth elsewhere
 constexpr float kLeastAlbedo = 1e-4f;
 constexpr uint64_t kKey = 0x3e7a1, kPilotKey = 0x3e7a2;
@@ -103,9 +102,11 @@ struct Flight {
   int32_t lamp = -1, emitter = -1;  // whose light it is
 };
 
-class CausticTracer {
+}  // namespace
+
+class CausticPhotons::Tracer {
  public:
-  CausticTracer(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, bool apart, uint64_t seed)
+  Tracer(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, bool apart, uint64_t seed)
       : rays_(rays), lights_(lights), seed_(seed), apart_(apart), pieces_(Pieces(rays.scene(), lights).pieces) {
     for (const Vec3 p : seen) seen_.insert(cellOf(p));
     const size_t most = std::max(kClusterPieces, (pieces_.size() + kClusters - 1) / kClusters);
@@ -114,26 +115,16 @@ class CausticTracer {
     }
     first_.push_back(pieces_.size());
     for (size_t s = 0; s < sourceCount() && !pieces_.empty(); ++s) sources_.push_back(source(s));
+    learn();
   }
 
-  std::vector<CausticPhoton> trace(size_t count) {
-    double potential = 0, score = 0, arriving = 0;
-    for (const Source& s : sources_) potential += s.potential;
-    if (!(potential > 0)) return {};
-    for (Source& s : sources_) sendPilots(s, potential);
-    for (const Source& s : sources_) {
-      for (const Cluster& c : s.clusters) score += c.score;
-    }
-    if (!(score > 0)) return {};
-    for (Source& s : sources_) {
-      for (Cluster& c : s.clusters)
-        c.chance = (1 - kByPotential) * c.score / score + kByPotential * c.potential / potential, s.chance += c.chance,
-        arriving += c.chance * c.arriving;
-    }
+  bool any() const { return any_; }
+  std::vector<CausticPhoton> trace(size_t count, uint32_t round) {
+    if (!any()) return {};
     const double started =
-        std::min(static_cast<double>(count) / std::max(arriving, 1e-9), static_cast<double>(kMostStarted * count));
+        std::min(static_cast<double>(count) / std::max(arriving_, 1e-9), static_cast<double>(kMostStarted * count));
     std::vector<CausticPhoton> photons;
-    for (const Source& s : sources_) send(s, static_cast<size_t>(std::ceil(started * s.chance)), photons);
+    for (const Source& s : sources_) send(s, static_cast<size_t>(std::ceil(started * s.chance)), round, photons);
     return photons;
   }
   uint64_t rayCount() const { return rayCount_; }
@@ -151,6 +142,24 @@ class CausticTracer {
     std::vector<Cluster> clusters;
     double potential = 0, chance = 0;
   };
+
+  // By pilots: how many photons go where.
+  void learn() {
+    double potential = 0, score = 0;
+    for (const Source& s : sources_) potential += s.potential;
+    if (!(potential > 0)) return;
+    for (Source& s : sources_) sendPilots(s, potential);
+    for (const Source& s : sources_) {
+      for (const Cluster& c : s.clusters) score += c.score;
+    }
+    any_ = score > 0;
+    if (!any_) return;
+    for (Source& s : sources_) {
+      for (Cluster& c : s.clusters)
+        c.chance = (1 - kByPotential) * c.score / score + kByPotential * c.potential / potential, s.chance += c.chance,
+        arriving_ += c.chance * c.arriving;
+    }
+  }
 
   size_t sourceCount() const { return lights_.sunCount() + 2; }
 
@@ -262,7 +271,7 @@ class CausticTracer {
                 back = polished ? s.m.alpha * luminance(bihemisphericalAlbedo(s.m)) : 1 - passes;
     if (!polished &&
         maxComponent(s.m.baseColor) * (1 - s.m.metallic) * (1 - s.m.transmission) * s.m.alpha > kLeastAlbedo)
-      keep(CausticPhoton{s.p, s.ng, -d, f.flux, f.lamp, f.emitter}, f.sampler);
+      keep(CausticPhoton{hit, s.p, s.ng, -d, f.flux, f.lamp, f.emitter}, f.sampler);
     const float chance = passes > 0 ? passes / (passes + back) : 0;
     if (chance > 0 && f.sampler.next1() < chance) {
       f.flux *= through / chance;
@@ -331,7 +340,7 @@ class CausticTracer {
     rayCount_ += rayCount;
   }
 
-  void send(const Source& source, size_t count, std::vector<CausticPhoton>& photons) {
+  void send(const Source& source, size_t count, uint32_t round, std::vector<CausticPhoton>& photons) {
     if (!(source.chance > 0)) return;
     std::vector<double> upTo;
     double sum = 0;
@@ -342,7 +351,7 @@ class CausticTracer {
       std::vector<Flight> flights;
       std::vector<Ray> shadows;
       for (size_t k = batch * kAtOnce; k < std::min(count, (batch + 1) * kAtOnce); ++k) {
-        Sampler sampler(mix64(kKey + source.index), static_cast<uint32_t>(k), seed_);
+        Sampler sampler(mix64(kKey + source.index + (uint64_t{round} << 32)), static_cast<uint32_t>(k), seed_);
         Vec2 u = sampler.next2();
         const double choice = static_cast<double>(u.x) * sum;
         const size_t c = std::min(
@@ -376,17 +385,17 @@ class CausticTracer {
   std::vector<size_t> first_;  // piece of each cluster, and one past all
   std::unordered_set<uint64_t> seen_;
   std::vector<Source> sources_;
+  bool any_ = false;
+  double arriving_ = 0;  // photons that arrive where it is seen, of each
   uint64_t rayCount_ = 0;
 };
 
-}  // namespace
+CausticPhotons::CausticPhotons(const TracedScene& scene, std::span<const Vec3> seen, bool apart, uint64_t seed)
+    : tracer_(std::make_unique<Tracer>(scene.rays, scene.lights, seen, apart, seed)) {}
+CausticPhotons::~CausticPhotons() = default;
 
-std::vector<CausticPhoton> traceCausticPhotons(const TracedScene& scene, std::span<const Vec3> seen, size_t count,
-                                               bool apart, uint64_t seed, uint64_t& rayCount) {
-  CausticTracer tracer(scene.rays, scene.lights, seen, apart, seed);
-  std::vector<CausticPhoton> photons = tracer.trace(count);
-  rayCount += tracer.rayCount();
-  return photons;
-}
+std::vector<CausticPhoton> CausticPhotons::trace(size_t count, uint32_t round) { return tracer_->trace(count, round); }
+bool CausticPhotons::any() const { return tracer_->any(); }
+uint64_t CausticPhotons::rayCount() const { return tracer_->rayCount(); }
 
 }  // namespace roomlight
