@@ -1,7 +1,6 @@
 #include "view_server.h"
 
 #include <optional>
-#include <system_error>
 
 #include "admission.h"
 #include "base/result.h"
@@ -30,13 +29,8 @@ Status serveHome(view::ViewHome home, const RenderSettings& settings, Options op
   outbox.text = [&](Connection c, std::string text) { server.send(c, std::move(text), false); };
   outbox.frame = [&](Connection c, std::string bytes) { server.send(c, std::move(bytes), true); };
   outbox.failed = tell.failed;
-  std::optional<view::Session> running;
-  try {
-    running.emplace(std::move(home), settings, std::move(outbox), tell.start);
-  } catch (const std::system_error& e) {
-    throw ResourceError(view::noThreadWords(e));
-  }
-  session = &*running;
+  view::Session running(std::move(home), settings, std::move(outbox), tell.start);
+  session = &running;
   if (const Status told = tell.listening(linksTo(options.address, server.port(), options.token)); !told)
     return Error{told.error()};
   server.run(stop);

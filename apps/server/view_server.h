@@ -8,7 +8,7 @@
 #include "engine/settings.h"
 #include "server.h"
 #include "view/home.h"
-#include "view/start_thread.h"
+#include "view/executor.h"
 
 namespace roomlight::server {
 

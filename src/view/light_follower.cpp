@@ -10,51 +10,41 @@ namespace roomlight::view {
 Status LightFollower::begin(const ViewHome& all, std::shared_ptr<LightSolution>& solution, HomeState wanted,
                             int threads, std::function<void()> ready) {
   finish();
-  done_ = cancelled_ = false;
-  solution_ = std::move(solution);
-  auto work = [this, &all, wanted = std::move(wanted), threads, ready = std::move(ready)] {
+  followed_.solution = std::move(solution);
+  auto work = [this, &all, wanted = std::move(wanted), threads](const std::atomic<bool>& cancelled) {
     try {
-      inBackground(threads, [&] { follow(all, wanted); });
+      inBackground(threads, [&] { follow(all, wanted, cancelled); });
     } catch (const std::exception& e) {
-      change_.reset(), light_ = nullptr, error_ = e.what();
+      followed_.change.reset(), followed_.light = nullptr, followed_.error = e.what();
     }
-    done_ = true;
-    ready();
   };
-  Result<std::thread> started = tryToStart(start_, std::move(work));
-  if (!started) {
-    solution = std::move(solution_);
-    return Error{started.error()};
-  }
-  thread_ = std::move(started).value();
-  return Ok{};
+  Status posted = executor_.post(Role::FollowLight, std::move(work), std::move(ready), &job_);
+  if (!posted) solution = std::move(followed_.solution);
+  return posted;
 }
 
-void LightFollower::follow(const ViewHome& all, const HomeState& wanted) {
+void LightFollower::follow(const ViewHome& all, const HomeState& wanted, const std::atomic<bool>& cancelled) {
   RenderStats stats;
   RenderProgress silent;
-  silent.cancelled = &cancelled_;
+  silent.cancelled = &cancelled;
   Stages stages(silent, stats);
-  SceneChange change = bring(all, solution_->state, wanted, solution_->scene);
-  solution_->state = wanted;
-  solution_->lit->update(change, stages);
-  if (cancelled_) return;
-  change_ = std::move(change);
-  light_ = solution_->lit->snapshot();
+  LightSolution& solution = *followed_.solution;
+  SceneChange change = bring(all, solution.state, wanted, solution.scene);
+  solution.state = wanted;
+  solution.lit->update(change, stages);
+  if (cancelled) return;
+  followed_.change = std::move(change);
+  followed_.light = solution.lit->snapshot();
 }
 
 void LightFollower::cancel() {
-  cancelled_ = true;
+  job_.giveUp();
   finish();
 }
 
 FollowedLight LightFollower::finish() {
-  if (!thread_.joinable()) return {};
-  thread_.join();
-  FollowedLight out{std::move(solution_), std::move(change_), std::exchange(light_, nullptr),
-                    std::exchange(error_, {})};
-  change_.reset();
-  return out;
+  job_.join();
+  return std::exchange(followed_, {});
 }
 
 }  // namespace roomlight::view

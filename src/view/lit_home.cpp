@@ -61,9 +61,8 @@ void LiveHome::findMoved() {
 Status LightBuilder::begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready) {
   cancel();
   work_ = std::move(work);
-  cancelled_ = false, done_ = false;
-  progress.cancelled = &cancelled_;
-  auto begun = [this, &home, progress = std::move(progress), ready = std::move(ready)] {
+  auto light = [this, &home, progress = std::move(progress)](const std::atomic<bool>& cancelled) mutable {
+    progress.cancelled = &cancelled;
     try {
       inBackground(work_.settings.threads, [&] { result_ = build(home, work_, progress); });
     } catch (const std::bad_alloc&) {
@@ -71,27 +70,19 @@ Status LightBuilder::begin(const ViewHome& home, Work work, RenderProgress progr
     } catch (const std::exception& e) {
       result_ = Result<std::unique_ptr<LitHome>>(Error{fmt::format("the home could not be lit: {}", e.what())});
     }
-    done_ = true;
-    ready();
   };
-  Result<std::thread> started = tryToStart(start_, std::move(begun));
-  if (!started) return Error{started.error()};
-  thread_ = std::move(started).value();
-  return Ok{};
+  return executor_.post(Role::BuildLight, std::move(light), std::move(ready), &job_);
 }
 
 std::optional<Result<std::unique_ptr<LitHome>>> LightBuilder::take() {
-  if (!thread_.joinable() || !done_) return {};
-  thread_.join();
-  auto out = std::move(result_);
-  result_.reset();
-  return out;
+  if (!job_.done()) return {};
+  job_.join();
+  return std::exchange(result_, std::nullopt);
 }
 
 void LightBuilder::cancel() {
-  if (!thread_.joinable()) return;
-  cancelled_ = true;
-  thread_.join();
+  job_.giveUp();
+  job_.join();
   result_.reset();
 }
 

@@ -1,21 +1,19 @@
 // A home lit by one technique, and how it is lit afresh in the background while an older one is looked at.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "engine/technique.h"
 #include "gather/quick_frames.h"
+#include "view/executor.h"
 #include "view/home.h"
 #include "view/light_key.h"
-#include "view/start_thread.h"
 
 namespace roomlight::view {
 
@@ -73,7 +71,7 @@ struct LitHome {
 
 class LightBuilder {
  public:
-  explicit LightBuilder(StartThread start = systemThread) : start_(std::move(start)) {}
+  explicit LightBuilder(Executor& executor) : executor_(executor) {}
   ~LightBuilder() { cancel(); }
 
   struct Work {
@@ -86,19 +84,18 @@ class LightBuilder {
   // One at a time. `home` must stay; `progress` and `ready` are called from the builder's thread. Error: there is no
   // thread; it may be tried again.
   Status begin(const ViewHome& home, Work work, RenderProgress progress, std::function<void()> ready);
-  bool busy() const { return thread_.joinable(); }
+  bool busy() const { return static_cast<bool>(job_); }
   const Work& work() const { return work_; }
   // What has come of it, once ready() was called; the builder is free then. An error's message, or the home; a null one
   // where it was given up.
   std::optional<Result<std::unique_ptr<LitHome>>> take();
-  void giveUp() { cancelled_ = true; }  // and nobody waits
+  void giveUp() { job_.giveUp(); }  // and nobody waits
   void cancel();
 
  private:
-  const StartThread start_;
+  Executor& executor_;
   Work work_;
-  std::thread thread_;
-  std::atomic<bool> cancelled_{false}, done_{false};
+  Job job_;
   std::optional<Result<std::unique_ptr<LitHome>>> result_;
 };
 

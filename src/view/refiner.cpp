@@ -18,46 +18,41 @@ constexpr float kGoodEnough = 0.002f;  // relative error: less cannot be seen
 Status Refiner::begin(std::shared_ptr<const LightSolution> solution, const Camera& camera, const PathSettings& settings,
                       int threads, Image first, int firstLook) {
   stop();
-  cancelled_ = false, failed_ = false, working_ = true;
-  auto work = [this, &lit = *solution->lit, camera, settings, threads, first = std::move(first), firstLook] {
+  failed_ = false;
+  auto work = [this, &lit = *solution->lit, camera, settings, threads, first = std::move(first),
+               firstLook](const std::atomic<bool>& cancelled) {
     try {
-      withThreads(threads, [&] { run(lit, camera, settings, first, firstLook); });
+      withThreads(threads, [&] { run(lit, camera, settings, first, firstLook, cancelled); });
     } catch (const std::exception&) {  // out of memory: the picture stays as it is
       failed_ = true;
     }
-    working_ = false;
-    ready_();
   };
-  Result<std::thread> started = tryToStart(start_, std::move(work));
-  if (!started) {
-    working_ = false;
-    return Error{started.error()};
-  }
-  solution_ = std::move(solution), thread_ = std::move(started).value();
-  return Ok{};
+  Status posted = executor_.post(Role::Refine, std::move(work), ready_, &job_);
+  if (posted) solution_ = std::move(solution);
+  return posted;
 }
 
 // False: given up.
-bool Refiner::tracePasses(PathTracer& tracer, int until) {
+bool Refiner::tracePasses(PathTracer& tracer, int until, const std::atomic<bool>& cancelled) {
   Progress progress;
-  progress.cancelled = &cancelled_;
+  progress.cancelled = &cancelled;
   const std::lock_guard lock(looks_);
   while (tracer.samples() < until) {
     if (!tracer.pass(progress, true)) return false;
   }
-  return !cancelled_;
+  return !cancelled;
 }
 
 void Refiner::run(const LitScene& lit, const Camera& camera, const PathSettings& settings, const Image& first,
-                  int firstLook) {
+                  int firstLook, const std::atomic<bool>& cancelled) {
   std::optional<PathTracer> made;
   {
     const std::lock_guard lock(looks_);
-    if (cancelled_) return;
+    if (cancelled) return;
     made.emplace(lit.rays(), lit.lights(), camera, settings, true);
   }
   PathTracer& tracer = *made;
-  for (int samples = firstLook; tracePasses(tracer, samples);
+  for (int samples = firstLook; tracePasses(tracer, samples, cancelled);
        samples = std::min(kMostSamples, static_cast<int>(kLookAgain * samples))) {
     Blend best = blend(first, tracer.mean(), tracer.variance(), tracer.features());
     const auto error = static_cast<float>(best.relativeError);
@@ -79,21 +74,21 @@ std::optional<RefinedPicture> Refiner::take() {
 }
 
 void Refiner::letGo() {
-  cancelled_ = true;
+  giveUp();
   const std::lock_guard lock(looks_);
   solution_ = nullptr;
 }
 
 bool Refiner::tryLetGo() {
-  cancelled_ = true;
+  giveUp();
   const std::unique_lock lock(looks_, std::try_to_lock);
   if (lock) solution_ = nullptr;
   return lock.owns_lock();
 }
 
 void Refiner::stop() {
-  cancelled_ = true;
-  if (thread_.joinable()) thread_.join();
+  giveUp();
+  job_.join();
   solution_ = nullptr;
   picture_.reset();
 }

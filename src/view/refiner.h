@@ -6,12 +6,11 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "engine/settings.h"
+#include "view/executor.h"
 #include "view/lit_home.h"
-#include "view/start_thread.h"
 
 namespace roomlight {
 
@@ -31,8 +30,7 @@ class Refiner {
   static constexpr int kFewestSamples = 4;  // before the first blend of a picture that was not refined yet
 
   // `ready` is called from its thread when there is another picture to take, and when it has ended.
-  explicit Refiner(std::function<void()> ready, StartThread start = systemThread)
-      : ready_(std::move(ready)), start_(std::move(start)) {}
+  Refiner(std::function<void()> ready, Executor& executor) : ready_(std::move(ready)), executor_(executor) {}
   ~Refiner() { stop(); }
 
   // Begins anew with a picture that has little noise; the solution must stay as it is until it was let go. Tells of the
@@ -41,11 +39,11 @@ class Refiner {
   Status begin(std::shared_ptr<const LightSolution> solution, const Camera& camera, const PathSettings& settings,
                int threads, Image first, int firstLook);
   const LightSolution* solution() const { return solution_.get(); }  // null: none
-  bool working() const { return working_; }
+  bool working() const { return job_.busy(); }
   bool failed() const { return failed_; }  // no further picture comes of what was begun last
   std::optional<RefinedPicture> take();
   // Asks it to end, and does not wait.
-  void giveUp() { cancelled_ = true; }
+  void giveUp() { job_.giveUp(); }
   // Ends its use of the solution, which may change from then on. Waits for a pass to be given up.
   void letGo();
   // The same without waiting. False: not yet; it was asked to end.
@@ -54,17 +52,18 @@ class Refiner {
   void stop();
 
  private:
-  void run(const LitScene& lit, const Camera& camera, const PathSettings& settings, const Image& first, int firstLook);
-  bool tracePasses(PathTracer& tracer, int until);
+  void run(const LitScene& lit, const Camera& camera, const PathSettings& settings, const Image& first, int firstLook,
+           const std::atomic<bool>& cancelled);
+  bool tracePasses(PathTracer& tracer, int until, const std::atomic<bool>& cancelled);
 
   const std::function<void()> ready_;
-  const StartThread start_;
+  Executor& executor_;
   std::shared_ptr<const LightSolution> solution_;
-  std::atomic<bool> cancelled_{false}, working_{false}, failed_{false};
+  std::atomic<bool> failed_{false};
   std::mutex looks_;  // held while the solution is looked at
   std::mutex mutex_;  // of the picture
   std::optional<RefinedPicture> picture_;
-  std::thread thread_;
+  Job job_;
 };
 
 }  // namespace view

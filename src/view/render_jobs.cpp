@@ -57,52 +57,42 @@ class Teller {
 
 }  // namespace
 
-RenderJobs::RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell, StartThread start)
-    : home_(home), tell_(std::move(tell)), start_(std::move(start)) {
+RenderJobs::RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell, Executor& executor)
+    : home_(home), tell_(std::move(tell)), executor_(executor) {
   std::error_code code;
   std::string pattern = (std::filesystem::temp_directory_path(code) / "roomlight-renders-XXXXXX").string();
   if (!code && mkdtemp(pattern.data())) folder_ = pattern;
 }
 
 RenderJobs::~RenderJobs() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true, cancelled_ = true;
-  }
-  wake_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  executor_.end(Role::RenderFinal);
   std::error_code ignored;
   if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
 }
 
 Status RenderJobs::add(RenderWork work) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= kMostWaiting) return Error{"too many pictures are waiting; cancel one"};
-    if (!thread_.joinable()) {
-      Result<std::thread> started = tryToStart(start_, [this] { run(); });
-      if (!started) return Error{started.error()};
-      thread_ = std::move(started).value();
-    }
-    waiting_.push_back(std::move(work));
-  }
-  wake_.notify_all();
-  return Ok{};
+  const std::lock_guard lock(mutex_);
+  if (asked_.size() > kMostWaiting) return Error{"too many pictures are waiting; cancel one"};  // one more is made
+  std::list<Asked> next;
+  const auto asked = next.insert(next.end(), {std::move(work), {}});
+  Status posted = executor_.post(
+      Role::RenderFinal, [this, asked](const std::atomic<bool>& c) { run(asked, c); }, {}, &asked->job);
+  if (posted) asked_.splice(asked_.end(), next);
+  return posted;
 }
 
 bool RenderJobs::cancel(const std::string& job) {
   JobNews news;
   {
     const std::lock_guard lock(mutex_);
-    if (running_ == job) {
-      cancelled_ = true;
+    const auto asked = std::find_if(asked_.begin(), asked_.end(), [&](const Asked& a) { return a.work.job == job; });
+    if (asked == asked_.end()) return false;
+    if (!asked->job.withdraw()) {
+      asked->job.giveUp();
       return true;
     }
-    const auto waits =
-        std::find_if(waiting_.begin(), waiting_.end(), [&](const RenderWork& w) { return w.job == job; });
-    if (waits == waiting_.end()) return false;
-    news.job = job, news.window = waits->window, news.state = "cancelled";
-    waiting_.erase(waits);
+    news.job = job, news.window = asked->work.window, news.state = "cancelled";
+    asked_.erase(asked);
   }
   tell_(news);
   return true;
@@ -119,7 +109,7 @@ double RenderJobs::bytesToSpare() {
 
 bool RenderJobs::busy() const {
   const std::lock_guard lock(mutex_);
-  return !running_.empty() || !waiting_.empty();
+  return !asked_.empty();
 }
 
 std::optional<FinishedFile> RenderJobs::find(const std::string& id) {
@@ -148,32 +138,13 @@ void RenderJobs::remove(Finished::iterator file) {
   finished_.erase(file);
 }
 
-void RenderJobs::run() {
-  while (true) {
-    RenderWork next;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return stop_ || !waiting_.empty(); });
-      if (stop_) return;
-      next = std::move(waiting_.front());
-      waiting_.pop_front();
-      running_ = next.job, cancelled_ = false;
-    }
-    const JobNews last = work(next);
-    {
-      const std::lock_guard lock(mutex_);
-      running_.clear();
-    }
-    tell_(last);  // who hears of the end can no longer cancel it
-  }
-}
-
-JobNews RenderJobs::work(const RenderWork& work) {
+void RenderJobs::run(std::list<Asked>::iterator asked, const std::atomic<bool>& cancelled) {
+  const RenderWork& work = asked->work;
   Teller teller(work, tell_);
   RenderProgress progress;
   progress.report = [&](const std::string& stage, float fraction) { teller.report(stage, fraction); };
   progress.estimate = [&](double relativeError, double) { teller.estimate(relativeError); };
-  progress.cancelled = &cancelled_;
+  progress.cancelled = &cancelled;
   JobNews& news = teller.news();
   Status made = Ok{};
   try {
@@ -184,7 +155,11 @@ JobNews RenderJobs::work(const RenderWork& work) {
     made = Error{fmt::format("the picture could not be made: {}", e.what())};
   }
   if (!made) news.state = "failed", news.message = made.error();
-  return news;
+  {
+    const std::lock_guard lock(mutex_);
+    asked_.erase(asked);
+  }
+  tell_(news);  // who hears of the end can no longer cancel it
 }
 
 Status RenderJobs::make(const RenderWork& work, const RenderProgress& progress, JobNews& news) {

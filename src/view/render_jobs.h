@@ -3,20 +3,20 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <functional>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "engine/render.h"
+#include "view/executor.h"
 #include "view/home.h"
 #include "view/message.h"
 #include "view/shown.h"
-#include "view/start_thread.h"
 
 namespace roomlight::view {
 
@@ -48,7 +48,7 @@ struct JobNews {
 class RenderJobs {
  public:
   // `tell` is called from the jobs' thread, which begins with the first job, and by cancel().
-  RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell, StartThread start = systemThread);
+  RenderJobs(const ViewHome& home, std::function<void(const JobNews&)> tell, Executor& executor);
   ~RenderJobs();
 
   // Errors: too many wait already; there is no thread. Either may be over in a moment.
@@ -65,25 +65,23 @@ class RenderJobs {
 
  private:
   using Finished = std::deque<std::pair<std::string, FinishedFile>>;
-  void run();
+  struct Asked {
+    RenderWork work;
+    Job job;
+  };
   void keep(const std::string& id, FinishedFile file);
   void remove(Finished::iterator file);
-  JobNews work(const RenderWork& work);  // its last news
+  void run(std::list<Asked>::iterator asked, const std::atomic<bool>& cancelled);
   Status make(const RenderWork& work, const RenderProgress& progress, JobNews& news);
   Result<FinishedFile> write(const RenderWork& work, const Rendered& rendered) const;
 
   const ViewHome& home_;
   const std::function<void(const JobNews&)> tell_;
-  const StartThread start_;
+  Executor& executor_;
   std::filesystem::path folder_;  // of the owner's alone
-  mutable std::mutex mutex_;
-  std::condition_variable wake_;
-  std::deque<RenderWork> waiting_;
-  std::string running_;
-  Finished finished_;  // with their ids, the oldest first
-  std::atomic<bool> cancelled_{false};
-  bool stop_ = false;
-  std::thread thread_;  // last: it uses all of the above
+  mutable std::mutex mutex_;  // of what follows
+  std::list<Asked> asked_;    // the one that is made first
+  Finished finished_;         // with their ids, the oldest first
 };
 
 }  // namespace roomlight::view

@@ -25,16 +25,18 @@ Session::Session(ViewHome home, const RenderSettings& settings, Outbox outbox, c
       settings_(settings),
       frames_(frameSettings(settings)),
       outbox_(std::move(outbox)),
+      executor_(start),
       conversation_(
           home_, settings_, [this](Connection c, std::string text) { outbox_.text(c, std::move(text)); },
           finalPictures()),
-      builder_(start),
-      follower_(start),
-      refiner_([this] { push(Refined{}); }, start),
+      builder_(executor_),
+      follower_(executor_),
+      refiner_([this] { push(Refined{}); }, executor_),
       jobs_(
-          home_, [this](const JobNews& news) { push(news); }, start),
-      sender_(start) {
-  thread_ = start([this] { runWithThreads(); });
+          home_, [this](const JobNews& news) { push(news); }, executor_) {
+  Status begun = executor_.post(Role::SendFrames, [](const std::atomic<bool>&) {});  // its thread is there from now on
+  if (begun) begun = executor_.post(Role::Decide, [this](const std::atomic<bool>&) { runWithThreads(); });
+  if (!begun) throw ResourceError(begun.error());
 }
 
 Session::~Session() {
@@ -43,10 +45,7 @@ Session::~Session() {
     stop_ = true, newer_ = true;
   }
   wake_.notify_all();
-  thread_.join();
-  builder_.cancel();
-  refiner_.stop();
-  follower_.cancel();
+  executor_.end();
 }
 
 Conversation::Jobs Session::finalPictures() {

@@ -1,8 +1,8 @@
 // One home looked at through several windows. Knows messages and frames, no network: who owns it hands in what browsers
 // say and carries away what they are told. Its loop hands what happens to the Conversation, asks the schedule what to
-// do and does it: frames itself, all else by threads in the background, which tell it when they are done. One lights
-// homes anew (LightBuilder), one brings their light to where the home is (LightFollower), one refines a picture
-// (Refiner), one makes final pictures (RenderJobs), one packs frames (FrameSender).
+// do and does it: frames itself, all else by jobs in the background, which tell it when they are done. They light homes
+// anew (LightBuilder), bring their light to where the home is (LightFollower), refine a picture (Refiner), make final
+// pictures (RenderJobs), pack and send frames; the threads of all, the loop's too, are an Executor's.
 #pragma once
 
 #include <atomic>
@@ -13,18 +13,16 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <variant>
 #include <vector>
 
 #include "view/conversation.h"
-#include "view/frame_sender.h"
+#include "view/executor.h"
 #include "view/light_follower.h"
 #include "view/lit_home.h"
 #include "view/refiner.h"
 #include "view/render_jobs.h"
 #include "view/schedule.h"
-#include "view/start_thread.h"
 
 namespace roomlight::view {
 
@@ -37,8 +35,8 @@ struct Outbox {
 
 class Session {
  public:
-  // `settings`: technique, quality and threads count. Throws std::system_error where there is no thread for the loop
-  // or the frames; those that are missing later are tried again.
+  // `settings`: technique, quality and threads count. Throws ResourceError where there is no thread for the loop or the
+  // frames; those that are missing later are tried again.
   Session(ViewHome home, const RenderSettings& settings, Outbox outbox, const StartThread& start = systemThread);
   ~Session();
   Session(const Session&) = delete;
@@ -139,7 +137,8 @@ class Session {
   bool refines(const Window& window, const Side& side) const;
   void sendFrame(Window& window, size_t index, LitHome& home);
   FrameInfo frameInfo(Window& window, size_t index, const LitHome& home) const;
-  FrameSender::Make inDisplay(Window& window, size_t index, const RayScene& rays, FrameInfo info);
+  using MakeBytes = std::function<Result<std::string>()>;
+  MakeBytes inDisplay(Window& window, size_t index, const RayScene& rays, FrameInfo info);
 
   // session_points.cpp: picking and metering
   bool answerPoints(Window& window, bool meter);
@@ -148,6 +147,7 @@ class Session {
   const RenderSettings settings_;  // of renders
   const RenderSettings frames_;  // of what is shown meanwhile
   const Outbox outbox_;
+  Executor executor_;
   Conversation conversation_;
   std::list<std::unique_ptr<LitHome>> lit_;  // used last first
   LightBuilder builder_;
@@ -168,8 +168,6 @@ class Session {
   std::atomic<bool> stop_{false}, newer_{false};
   Refiner refiner_;
   RenderJobs jobs_;
-  FrameSender sender_;
-  std::thread thread_;  // last: it uses all of the above
 };
 
 }  // namespace roomlight::view

@@ -1,4 +1,6 @@
 // How a frame of a window is made and sent.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -23,6 +25,17 @@ constexpr size_t kMostHistories = 4;
 
 double millisecondsSince(TimePoint at) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - at).count();
+}
+
+// One that fails does not end the others.
+Result<std::string> made(const std::function<Result<std::string>()>& make) {
+  try {
+    Result<std::string> bytes = std::string();
+    withThreads(1, [&] { bytes = make(); });
+    return bytes;
+  } catch (const std::exception& e) {
+    return Error{fmt::format("a frame could not be made: {}", e.what())};
+  }
 }
 
 }  // namespace
@@ -140,14 +153,16 @@ bool Session::makeFrame(Window& window, size_t index, FrameKind kind) {
 
 void Session::sendFrame(Window& window, size_t index, LitHome& home) {
   FrameInfo info = frameInfo(window, index, home);
-  FrameSender::Make make = inDisplay(window, index, home.rays(), info);
+  MakeBytes make = inDisplay(window, index, home.rays(), info);
   window.underWay.push_back({info.number, 0, window.lastFrameAt});
-  sender_.push(std::move(make),
-               [this, connection = *window.connection, number = info.number](Result<std::string> bytes) {
-                 push(Packed{connection, number, bytes ? bytes.value().size() : 0});
-                 if (bytes) return outbox_.frame(connection, std::move(bytes).value());
-                 outbox_.text(connection, errorText({{}, "failed", "", bytes.error()}));
-               });
+  auto send = [this, make = std::move(make), connection = *window.connection,
+               number = info.number](const std::atomic<bool>&) {
+    Result<std::string> bytes = made(make);
+    push(Packed{connection, number, bytes ? bytes.value().size() : 0});
+    if (bytes) return outbox_.frame(connection, std::move(bytes).value());
+    outbox_.text(connection, errorText({{}, "failed", "", bytes.error()}));
+  };
+  executor_.post(Role::SendFrames, std::move(send));
 }
 
 FrameInfo Session::frameInfo(Window& window, size_t index, const LitHome& home) const {
@@ -172,7 +187,7 @@ FrameInfo Session::frameInfo(Window& window, size_t index, const LitHome& home) 
 }
 
 // What the sender does with the picture as it is now; counts as the window's last frame.
-FrameSender::Make Session::inDisplay(Window& window, size_t index, const RayScene& rays, FrameInfo info) {
+Session::MakeBytes Session::inDisplay(Window& window, size_t index, const RayScene& rays, FrameInfo info) {
   Side& side = window.sides[index];
   const GrowingPicture& picture = side.picture;
   const double sinceLast = millisecondsSince(window.lastFrameAt) / 1e3;

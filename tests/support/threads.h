@@ -7,7 +7,7 @@
 #include <system_error>
 #include <thread>
 
-#include "view/start_thread.h"
+#include "view/executor.h"
 
 namespace roomlight::test {
 

@@ -22,7 +22,7 @@ view::ViewHome home() { return view::ViewHome("test", servedScene()); }
 TEST(SessionThreads, withoutAnyItDoesNotBegin) {
   test::Threads threads;
   threads.none = true;
-  EXPECT_THROW(OneWindow(home(), threads.starter()), std::system_error);
+  EXPECT_THROW(OneWindow(home(), threads.starter()), ResourceError);
   std::atomic<bool> stop{false};
   server::Served tell;
   tell.start = threads.starter();
@@ -39,7 +39,7 @@ TEST(SessionThreads, withTooFewItDoesNotBeginEither) {
     if (started++ > 0) throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
     return std::thread(std::move(work));
   };
-  EXPECT_THROW(OneWindow window(home(), onlyOne), std::system_error);
+  EXPECT_THROW(OneWindow window(home(), onlyOne), ResourceError);
   EXPECT_EQ(started, 2);
 }
 

@@ -18,7 +18,8 @@ LightBuilder::Work workOn(const ViewHome& home, const std::string& technique = "
 TEST(LightBuilder, lightsAHome) {
   const ViewHome home("room", roomWithALamp());
   test::Signals ready;
-  LightBuilder builder;
+  Executor executor;
+  LightBuilder builder(executor);
   ASSERT_TRUE(builder.begin(home, workOn(home), {}, [&] { ready.give(); }).ok());
   EXPECT_TRUE(builder.busy());
   ready.take();
@@ -34,7 +35,8 @@ TEST(LightBuilder, lightsAHome) {
 TEST(LightBuilder, tellsWhyItFailed) {
   const ViewHome home("room", roomWithALamp());
   test::Signals ready;
-  LightBuilder builder;
+  Executor executor;
+  LightBuilder builder(executor);
   ASSERT_TRUE(builder.begin(home, workOn(home, "magic"), {}, [&] { ready.give(); }).ok());
   ready.take();
   const auto result = builder.take();
@@ -53,7 +55,8 @@ TEST(LightBuilder, canBeGivenUp) {
     begun.give();
     mayGoOn.take();
   };
-  LightBuilder builder;
+  Executor executor;
+  LightBuilder builder(executor);
   ASSERT_TRUE(builder.begin(home, workOn(home), progress, [&] { ready.give(); }).ok());
   begun.take();
   EXPECT_FALSE(builder.take());
@@ -69,7 +72,8 @@ TEST(LightBuilder, withoutAThreadItIsIdle) {
   const ViewHome home("room", roomWithALamp());
   test::Threads threads;
   test::Signals ready;
-  LightBuilder builder(threads.starter());
+  Executor executor(threads.starter());
+  LightBuilder builder(executor);
   threads.none = true;
   EXPECT_NE(builder.begin(home, workOn(home), {}, [] {}).error().find("no thread can be started"), std::string::npos);
   EXPECT_FALSE(builder.busy());

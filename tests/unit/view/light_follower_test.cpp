@@ -31,7 +31,8 @@ struct EndlessLight {
 TEST(LightFollower, bringsTheHomeToWhereItIsWanted) {
   test::Signals mayEnd, ready;
   LitRoom room([&](Stages&) { mayEnd.take(); });
-  LightFollower follower;
+  Executor executor;
+  LightFollower follower(executor);
   ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, [&] { ready.give(); }).ok());
   EXPECT_TRUE(follower.busy());
   EXPECT_FALSE(room.solution);  // nobody else can touch it
@@ -53,7 +54,8 @@ TEST(LightFollower, bringsTheHomeToWhereItIsWanted) {
 TEST(LightFollower, waitsForItsEnd) {
   bool ended = false;
   LitRoom room([&](Stages&) { ended = true; });
-  LightFollower follower;
+  Executor executor;
+  LightFollower follower(executor);
   ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
   EXPECT_TRUE(follower.finish().change);
   EXPECT_TRUE(ended);
@@ -62,7 +64,8 @@ TEST(LightFollower, waitsForItsEnd) {
 TEST(LightFollower, canBeCancelled) {
   EndlessLight light;
   LitRoom room(light.relight());
-  LightFollower follower;
+  Executor executor;
+  LightFollower follower(executor);
   ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
   light.begun.take();
   follower.cancel();
@@ -74,7 +77,8 @@ TEST(LightFollower, canGoWhileItWorks) {
   EndlessLight light;
   LitRoom room(light.relight());
   {
-    LightFollower follower;
+    Executor executor;
+    LightFollower follower(executor);
     ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
     light.begun.take();
   }
@@ -86,7 +90,8 @@ TEST(LightFollower, tellsWhyItFailedAndCanBeginAgain) {
   LitRoom room([&](Stages&) {
     if (fails) throw std::runtime_error("no room for light");
   });
-  LightFollower follower;
+  Executor executor;
+  LightFollower follower(executor);
   ASSERT_TRUE(follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits).ok());
   FollowedLight failed = follower.finish();
   ASSERT_TRUE(failed.solution);
@@ -103,7 +108,8 @@ TEST(LightFollower, tellsWhyItFailedAndCanBeginAgain) {
 TEST(LightFollower, withoutAThreadItIsIdleAndTheHomeAsItWas) {
   test::Threads threads;
   LitRoom room;
-  LightFollower follower(threads.starter());
+  Executor executor(threads.starter());
+  LightFollower follower(executor);
   threads.none = true;
   const Status begun = follower.begin(room.all, room.solution, room.dimmed(), 1, nobodyWaits);
   ASSERT_FALSE(begun.ok());

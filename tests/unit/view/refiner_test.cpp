@@ -41,10 +41,12 @@ Image flat(int size = kSize) {
 struct StepByStep {
   test::Signals pictures, mayGoOn;
   LitRoom room;
+  Executor executor;
   Refiner refiner{[this] {
-    pictures.give();
-    mayGoOn.take();
-  }};
+                    pictures.give();
+                    mayGoOn.take();
+                  },
+                  executor};
 
   StepByStep() {
     EXPECT_TRUE(refiner.begin(room.solution, kCamera, settings(), 1, flat(), kFirstLook).ok());
@@ -57,7 +59,8 @@ struct StepByStep {
 TEST(Refiner, comesToALastPicture) {
   test::Signals pictures;
   LitRoom room([](Stages&) {}, glow());
-  Refiner refiner([&] { pictures.give(); });
+  Executor executor;
+  Refiner refiner([&] { pictures.give(); }, executor);
   ASSERT_TRUE(refiner.begin(room.solution, kCamera, settings(), 1, flat(), kFirstLook).ok());
   EXPECT_EQ(refiner.solution(), room.solution.get());
   pictures.take();
@@ -127,7 +130,8 @@ TEST(Refiner, canGoWhileItWorks) {
   Image wrong = flat(kLarge);
   for (size_t i = 0; i < wrong.pixels.size(); i += 2) wrong.pixels[i] = Vec3(0);
   {
-    Refiner refiner([&] { pictures.give(); });
+    Executor executor;
+    Refiner refiner([&] { pictures.give(); }, executor);
     ASSERT_TRUE(refiner.begin(room.solution, kCamera, settings(kLarge), 1, wrong, kFirstLook).ok());
     pictures.take();
     EXPECT_TRUE(refiner.working());
@@ -137,7 +141,8 @@ TEST(Refiner, canGoWhileItWorks) {
 TEST(Refiner, tellsOfAFailureAndCanBeginAgain) {
   test::Signals pictures;
   LitRoom room([](Stages&) {}, glow());
-  Refiner refiner([&] { pictures.give(); });
+  Executor executor;
+  Refiner refiner([&] { pictures.give(); }, executor);
   // No memory holds that.
   ASSERT_TRUE(
       refiner.begin(room.solution, kCamera, settings(std::numeric_limits<int>::max()), 1, flat(), kFirstLook).ok());
@@ -155,7 +160,8 @@ TEST(Refiner, withoutAThreadItIsIdle) {
   test::Signals pictures;
   test::Threads threads;
   LitRoom room([](Stages&) {}, glow());
-  Refiner refiner([&] { pictures.give(); }, threads.starter());
+  Executor executor(threads.starter());
+  Refiner refiner([&] { pictures.give(); }, executor);
   threads.none = true;
   const Status begun = refiner.begin(room.solution, kCamera, settings(), 1, flat(), kFirstLook);
   ASSERT_FALSE(begun.ok());

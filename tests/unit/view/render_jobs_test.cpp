@@ -75,7 +75,8 @@ struct Jobs {
   test::Threads threads;
   ViewHome home{"room", roomWithALamp()};
   News news;
-  std::optional<RenderJobs> jobs{std::in_place, home, news.listener(), threads.starter()};
+  Executor executor{threads.starter()};
+  std::optional<RenderJobs> jobs{std::in_place, home, news.listener(), executor};
 };
 
 TEST(RenderJobs, picturesAreKeptUntilTheyAreDropped) {
