@@ -31,6 +31,7 @@ constexpr Choice<PhotonKernel> kKernels[] = {
 // walk it as `v`; the settings are constant for all but the reader.
 void visitPath(auto& v, auto& s) {
   v.flag("lightPaths", s.lightPaths);
+  v.flag("caustics", s.caustics);
   v.flag("filter", s.filter);
 }
 

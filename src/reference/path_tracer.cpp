@@ -90,7 +90,7 @@ struct PathTracer::State {
     visible.learn(rays, {cameraRays, settings.width, settings.height}, paths, settings.seed, stopped);
   }
   void findCaustics() {
-    if (samples > 0 || !settings.lightPaths) return;
+    if (samples > 0 || !settings.caustics) return;
     caustics = CausticSplats({rays, lights},
                              {cameraRays, settings.width, settings.height, settings.white, settings.layers.get()},
                              settings.seed);

@@ -21,8 +21,8 @@ struct PathSettings {
   double timeLimitS = 0;   // stop after this long (after a whole pass); 0: no limit
   double noiseLevel = 0;   // stop when the mean relative standard error over pixels is below this; 0: never
   bool white = false;      // what the camera sees straight, or through panes, is whitened (scene/surface.h)
-  bool lightPaths = true;  // also follow light from lamps and small emissive meshes, and connect to where it arrives;
-                           // what polished surfaces throw on what the camera sees starts at its lights as well
+  bool lightPaths = true;  // also follow light from lamps and small emissive meshes, and connect to where it arrives
+  bool caustics = true;    // what polished surfaces throw on what the camera sees starts at its lights
   bool filter = false;  // the picture is filtered (filter/filter.h): for looking at; no reference then
   uint64_t seed = 0;
   std::shared_ptr<const LightLayers> layers;  // lights whose light is kept apart; none: it is not

@@ -112,7 +112,7 @@ TEST(PathCaustics, shareTheLightWithGlossyPaths) {
   const Camera camera = cameraAt({2.6f, 1.4f, 2.6f}, {1.0f, 0, 1.7f}, 0.7f);
   PathSettings settings = settingsOf(32, 32, 768);
   const double together = test::meanLuminance(pictureOf(scene, camera, settings));
-  settings.lightPaths = false;
+  settings.caustics = false;
   const double alone = test::meanLuminance(pictureOf(scene, camera, settings));
   EXPECT_NEAR(together, alone, 0.01 * alone);
 }
