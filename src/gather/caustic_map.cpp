@@ -19,6 +19,7 @@ constexpr float kNearest = 16;       // of those within a disc
 constexpr uint32_t kCounted = 64;    // of a cell, at most; each stands for as many as there are
 constexpr float kFacing = 0.7f;      // cosine between normals of a place and of a photon
 constexpr float kFlat = 0.3f;        // of a disc's radius: how far off its plane a place may lie
+constexpr float kEvenPart = 0.05f;  // of the smallest disc's radius: within that its light hardly changes
 constexpr float kBright = 4;         // times the mean flux: brighter photons are spread wider in proportion
 
 float cellM(int level) { return kSmallestM * static_cast<float>(1 << level); }
@@ -193,6 +194,7 @@ CausticMap::Light CausticMap::at(Vec3 p, Vec3 n, std::span<Vec3> byLayer) const 
   const Float8 lane = Float8::load(kLane.data()), px(p.x), py(p.y), pz(p.z), qx(n.x), qy(n.y), qz(n.z), one(1), zero(0),
                flat2(kFlat * kFlat), facing(kFacing);
   std::array<Float8, 3> lux, from;
+  Float8 most;  // of 1 / r²
   bool any = false;
   for (int level = 0; level < kLevels; ++level) {
     if (!levels_.find(keyOf(p / cellM(kLevels - 1), level))) continue;
@@ -209,6 +211,7 @@ CausticMap::Light CausticMap::at(Vec3 p, Vec3 n, std::span<Vec3> byLayer) const 
         if (topBits(counts) == 0) continue;
         any = true;
         const Float8 w = weight & counts;
+        most = max(most, per & counts);
         if (!byLayer.empty()) addToLayers(w, i, byLayer);
         for (size_t c = 0; c < 3; ++c)
           lux[c] = fma(w, Float8::load(&lux_[c][i]), lux[c]), from[c] = fma(w, Float8::load(&from_[c][i]), from[c]);
@@ -218,7 +221,11 @@ CausticMap::Light CausticMap::at(Vec3 p, Vec3 n, std::span<Vec3> byLayer) const 
   if (!any) return {};
   const Vec3 direction{sum(from[0]), sum(from[1]), sum(from[2])};
   const float metres = length(direction);
-  return {{sum(lux[0]), sum(lux[1]), sum(lux[2])}, metres > 0 ? direction / metres : n};
+  std::array<float, 8> perRadius2;
+  most.store(perRadius2.data());
+  return {{sum(lux[0]), sum(lux[1]), sum(lux[2])},
+          metres > 0 ? direction / metres : n,
+          kEvenPart * kEvenPart / *std::max_element(perRadius2.begin(), perRadius2.end())};
 }
 
 }  // namespace roomlight

@@ -23,7 +23,8 @@ class CausticMap {
   size_t bytes() const;
   struct Light {
     Vec3 lux;
-    Vec3 from;  // where most of it comes from, unit
+    Vec3 from;         // where most of it comes from, unit
+    float evenM2 = 0;  // as far, squared, it hardly changes on this surface; 0: that is not known
   };
   // On a surface at p whose geometric normal, unit, is n. Adds the lux of each layer to `byLayer`, unless that is
   // empty.

@@ -160,23 +160,12 @@ class Gathering {
     planned_ = first;
   }
 
-  // By what the filter leaves where a pixel has what those beside it found: were it to ask for more rays because it
-  // found much itself, pixels that are bright by chance would get more than dark ones, and the picture be too dark. So
-  // once for each colour of a chequerboard.
+  // By what the filter leaves where every pixel has what those beside it found: were it to ask for more rays because it
+  // found much itself, pixels that are bright by chance would get more than dark ones, and the picture be too dark.
   void planByOthers() {
-    const auto colourOf = [&](size_t i) {
-      return (i / static_cast<size_t>(width_) + i % static_cast<size_t>(width_)) % 2;
-    };
-    needed_.assign(counts_.size(), 0);
-    for (size_t colour = 0; colour < 2; ++colour) {
-      const FilteredLuminance left = filteredLuminance(sums_, settings_.filterPasses, [&](size_t i) {
-        return colourOf(i) == colour ? meanBeside(sums_, counts_, i) : meanOf(sums_.pixels[i], counts_[i]);
-      });
-      const std::vector<uint16_t> needed = raysNeeded(sums_, counts_, left, tolerance_);
-      for (size_t i = 0; i < needed.size(); ++i) {
-        if (colourOf(i) == colour) needed_[i] = needed[i];
-      }
-    }
+    const FilteredLuminance left =
+        filteredLuminance(sums_, settings_.filterPasses, [&](size_t i) { return meanBeside(sums_, counts_, i); });
+    needed_ = raysNeeded(sums_, counts_, left, tolerance_);
   }
 
   // Rays `first` to `first` + n of all pixels that ask for them.

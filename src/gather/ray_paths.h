@@ -84,6 +84,18 @@ struct HitArrival {
   float factor;  // luminous part of what it finds that reaches the eye
 };
 
+// What photons bring to a surface, looked up for one place and good for those around it.
+struct NearCaustics {
+  Vec3 p, n;
+  CausticMap::Light light;  // evenM2 0: none is known
+  std::vector<Vec3> byLayer;
+
+  bool holdsAt(Vec3 q, Vec3 normal) const {
+    constexpr float kSameNormal = 0.9999f;
+    return lengthSquared(q - p) < light.evenM2 && dot(n, normal) > kSameNormal;
+  }
+};
+
 struct GatherWork {
   struct Shadowed {
     uint32_t estimate;
@@ -117,6 +129,7 @@ struct GatherWork {
   std::vector<Vec3> left;
   std::vector<Doubt> doubts;
   uint64_t rayCount = 0;
+  NearCaustics caustics;
   const HitSurvey* survey = nullptr;  // what is known of places where rays arrive; never null while rays are sent
   std::vector<HitArrival>* arrivals = nullptr;  // where given, rays tell only where they arrive: no light is asked for
   // Where light is kept in layers: sums of the shadings, the one of each estimate, and the part that the estimate has
@@ -131,6 +144,7 @@ struct GatherWork {
   void clear() {
     samplers.clear(), found.clear(), most.clear(), expected.clear(), rare.clear(), mirrored.clear(), paths.clear(),
         next.clear(), shadingOf.clear(), part.clear();
+    caustics.light.evenM2 = 0;
     rayCount = 0, layers = nullptr, layersAlone = false, survey = nullptr, arrivals = nullptr, rareFrom = kInfinity;
   }
   void arrive(const GatherPath& path, const Hit& hit, const HitPlace& at, int64_t slot, bool sure) {

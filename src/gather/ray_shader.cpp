@@ -208,13 +208,17 @@ SurfaceLight RayShader::start(const Shading& work, uint32_t index, std::span<con
 // What photons bring is reflected by the diffuse lobe, as if all came from one side.
 Vec3 RayShader::addCaustics(const SurfacePoint& s, const Bsdf& bsdf, uint32_t index, GatherWork& w) {
   constexpr float kGrazing = 0.05f;
-  thread_local std::vector<Vec3> byLayer;
-  byLayer.assign(w.layers ? w.lightLayers->size() : 0, {});
-  const CausticMap::Light caustic = w.survey->caustics.at(s.p, s.ng, byLayer);
+  NearCaustics& known = w.caustics;
+  if (!known.holdsAt(s.p, s.ng)) {
+    known.p = s.p, known.n = s.ng;
+    known.byLayer.assign(w.layers ? w.lightLayers->size() : 0, {});
+    known.light = w.survey->caustics.at(s.p, s.ng, known.byLayer);
+  }
+  const CausticMap::Light& caustic = known.light;
   if (isBlack(caustic.lux)) return {};
   const Vec3 reflected = bsdf.evaluateDiffuse(caustic.from) / std::max(kGrazing, dot(s.ng, caustic.from));
-  for (size_t l = 0; l < byLayer.size(); ++l)
-    w.layers->add(index, LayerSums::kSharp, static_cast<int32_t>(l), reflected * byLayer[l]);
+  for (size_t l = 0; l < known.byLayer.size(); ++l)
+    w.layers->add(index, LayerSums::kSharp, static_cast<int32_t>(l), reflected * known.byLayer[l]);
   return reflected * caustic.lux;
 }
 
