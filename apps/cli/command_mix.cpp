@@ -86,10 +86,10 @@ Status checkMixOutputs(const MixOptions& o) {
   return o.cardFile.empty() ? Status(Ok{}) : checkWritable(o.cardFile);
 }
 
-Result<std::optional<Blend>> blendOf(const std::string& name) {
-  if (name == "auto") return std::optional<Blend>();
-  for (const Blend blend : kBlends) {
-    if (name == cssName(blend)) return std::optional<Blend>(blend);
+Result<std::optional<BlendMode>> blendOf(const std::string& name) {
+  if (name == "auto") return std::optional<BlendMode>();
+  for (const BlendMode blend : kBlendModes) {
+    if (name == cssName(blend)) return std::optional<BlendMode>(blend);
   }
   return Error{fmt::format("--blend {}: write auto, screen, normal, plus-lighter or lighten", name)};
 }
@@ -202,7 +202,7 @@ Status writeOutputs(const MixOptions& o, bool linear, const MixHome& home, const
 }
 
 // What is left to be wrong once the layers are known; then the pictures.
-int workMix(const MixOptions& o, const Display& how, const FollowMix& follow, const std::optional<Blend>& blend) {
+int workMix(const MixOptions& o, const Display& how, const FollowMix& follow, const std::optional<BlendMode>& blend) {
   ProgressDisplay display(o.quiet);
   Result<MixHome> opened = openLayers(o.file);
   if (!opened) return failed(opened.error());
@@ -254,7 +254,7 @@ int runMix(const MixOptions& o) {
   if (follow.white) display.whiteBalance = "auto";
   const Result<Display> how = readDisplay(display);
   if (!how) return failed(how.error());
-  const Result<std::optional<Blend>> blend = blendOf(o.blend);
+  const Result<std::optional<BlendMode>> blend = blendOf(o.blend);
   if (!blend) return failed(blend.error());
   if (const Status s = checkMixOutputs(o); !s) return failed(s.error());
   int code = kFailed;

@@ -81,7 +81,7 @@ int writeStates(const MixHome& home, const Switches& switches, const ShownMix& s
 struct OverlaysJob {
   std::filesystem::path folder;
   std::string extension;  // .png or .webp
-  std::optional<Blend> blend;  // none: that with the least error
+  std::optional<BlendMode> blend;  // none: that with the least error
   std::string cardFile, urlPrefix;  // of Home Assistant; no card where empty
   bool dimmed = false;
   std::map<size_t, std::string> entities;  // by layer

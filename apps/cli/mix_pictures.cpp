@@ -54,8 +54,8 @@ std::string stateIndex(const MixHome& home, const Switches& switches, const Meta
 
 std::string told(const OverlayTrial& trial) {
   std::string text;
-  for (size_t i = 0; i < kBlends.size(); ++i)
-    text += fmt::format("{}{} {:.1f}", i ? ", " : "", cssName(kBlends[i]), trial.errors[i].rms);
+  for (size_t i = 0; i < kBlendModes.size(); ++i)
+    text += fmt::format("{}{} {:.1f}", i ? ", " : "", cssName(kBlendModes[i]), trial.errors[i].rms);
   return text;
 }
 
@@ -114,7 +114,7 @@ int writeOverlays(const MixHome& home, const Switches& switches, const ShownMix&
   plan.width = home.stack.width, plan.height = home.stack.height;
   const auto least = std::min_element(trial.errors.begin(), trial.errors.end(),
                                       [](const BlendError& a, const BlendError& b) { return a.rms < b.rms; });
-  plan.blend = job.blend.value_or(kBlends[static_cast<size_t>(least - trial.errors.begin())]);
+  plan.blend = job.blend.value_or(kBlendModes[static_cast<size_t>(least - trial.errors.begin())]);
   const ByteImage base = displayMix(home, gainsOfState(switches, 0), shown.look, false);
   if (const Status s = writeBytes(job.folder / plan.baseFile,
                                   displayMix(home, gainsOfState(switches, 0), shown.look, true), metadata, kLossless);

@@ -23,7 +23,7 @@ struct Cell {
 };
 
 // Marks the largest connected part of the used cells.
-std::vector<uint8_t> largestPart(const Lattice& cells) {
+std::vector<uint8_t> largestPart(const MeterGrid& cells) {
   std::vector<int> part(cells.used.size(), -1);
   std::vector<size_t> sizes;
   for (size_t first = 0; first < part.size(); ++first) {
@@ -52,7 +52,7 @@ std::vector<uint8_t> largestPart(const Lattice& cells) {
 }
 
 // Corners of the outline of the largest connected part, along the borders of cells. Holes are left out.
-std::vector<Cell> outlineOf(const Lattice& cells) {
+std::vector<Cell> outlineOf(const MeterGrid& cells) {
   const std::vector<uint8_t> marked = largestPart(cells);
   const auto used = [&](int column, int row) {
     return column >= 0 && row >= 0 && column < cells.columns && row < cells.rows && marked[cells.index(column, row)];
@@ -127,7 +127,7 @@ Room roomOf(const Area& area, float heightM) {
   Room room;
   room.elevationM = area.elevationM;
   room.heightM = heightM;
-  const Lattice& m = area.map;
+  const MeterGrid& m = area.map;
   for (const Cell c : outlineOf(m)) {
     const Vec3 p =
         m.corner + m.u * (static_cast<float>(c.column) * m.stepUM) + m.v * (static_cast<float>(c.row) * m.stepVM);

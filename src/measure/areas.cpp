@@ -252,9 +252,9 @@ class Storey {
   int areas_ = 0;
 };
 
-Lattice latticeOf(const Storey& storey, int area, const Bounds3& b, const GridSettings& settings) {
+MeterGrid latticeOf(const Storey& storey, int area, const Bounds3& b, const GridSettings& settings) {
   const Vec3 size = b.size();
-  Lattice lattice = rectangleLattice(b.lo, {size.x, 0, 0}, {0, 0, size.z}, {0, 1, 0}, settings);
+  MeterGrid lattice = rectangleLattice(b.lo, {size.x, 0, 0}, {0, 0, size.z}, {0, 1, 0}, settings);
   const double border =
       std::min(settings.borderM, settings.borderShare * static_cast<double>(std::min(size.x, size.z)));
   parallelFor(lattice.used.size(), 16, [&](size_t i) {
@@ -280,7 +280,7 @@ bool insideThing(const RayScene& rays, Vec3 p) {
   return true;
 }
 
-size_t leaveOutThings(const RayScene& rays, Lattice& lattice) {
+size_t leaveOutThings(const RayScene& rays, MeterGrid& lattice) {
   size_t out = 0;
   for (int row = 0; row < lattice.rows; ++row) {
     for (int column = 0; column < lattice.columns; ++column) {

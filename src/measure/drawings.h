@@ -46,7 +46,7 @@ inline int cm(float metres) { return static_cast<int>(std::lround(metres * 100))
 // Paths of SVG: through points in metres, or around the cells that a lattice uses, whose corners `place` finds.
 std::string pathOf(std::span<const Vec2> metres, bool isClosed);
 std::string pathOf(std::span<const PlanLine> lines);
-std::string pathOf(const Lattice& lattice, const std::function<Vec2(Vec2 cells)>& place);
+std::string pathOf(const MeterGrid& lattice, const std::function<Vec2(Vec2 cells)>& place);
 // The begin of a picture from `low` on, `sizeCm` large, drawn with so many centimetres a pixel. `kind`: its class.
 std::string openSvg(const std::string& kind, const std::string& label, Vec2 low, Vec2 sizeCm, float cmAPixel);
 

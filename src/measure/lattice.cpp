@@ -14,7 +14,7 @@ constexpr float kShortestWallM = 0.3f, kBeforeWallM = 0.01f;
 
 // The nearest whole number of cells for the first side; cells as long as those, as near as whole numbers allow, on the
 // other.
-void divide(Lattice& lattice, double sideU, double sideV, double spacingM) {
+void divide(MeterGrid& lattice, double sideU, double sideV, double spacingM) {
   const double p = spacingM > 0 ? spacingM : gridSpacingM(sideU, sideV);
   const auto cells = [&](double side) {
     return std::clamp(spacingM > 0 ? std::ceil(side / p - 1e-6) : std::round(side / p), 1.0, kMostCellsASide);
@@ -32,9 +32,9 @@ double borderOf(const GridSettings& s, double sideU, double sideV) {
 
 }  // namespace
 
-size_t Lattice::count() const { return static_cast<size_t>(std::count(used.begin(), used.end(), 1)); }
+size_t MeterGrid::count() const { return static_cast<size_t>(std::count(used.begin(), used.end(), 1)); }
 
-std::vector<SurfaceElement> Lattice::elements() const {
+std::vector<SurfaceElement> MeterGrid::elements() const {
   std::vector<SurfaceElement> list;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
@@ -44,7 +44,7 @@ std::vector<SurfaceElement> Lattice::elements() const {
   return list;
 }
 
-std::vector<float> Lattice::spread(std::span<const float> ofUsed) const {
+std::vector<float> MeterGrid::spread(std::span<const float> ofUsed) const {
   std::vector<float> all(used.size(), std::numeric_limits<float>::quiet_NaN());
   size_t next = 0;
   for (size_t i = 0; i < used.size(); ++i) {
@@ -59,17 +59,17 @@ double gridSpacingM(double sideM, double otherSideM) {
   return std::min(10.0, 0.2 * std::pow(5.0, std::log10(d)));
 }
 
-Lattice rectangleLattice(Vec3 corner, Vec3 alongU, Vec3 alongV, Vec3 normal, const GridSettings& settings) {
+MeterGrid rectangleLattice(Vec3 corner, Vec3 alongU, Vec3 alongV, Vec3 normal, const GridSettings& settings) {
   const double sideU = static_cast<double>(length(alongU)), sideV = static_cast<double>(length(alongV)),
                border = borderOf(settings, sideU, sideV);
-  Lattice lattice;
+  MeterGrid lattice;
   lattice.u = normalize(alongU), lattice.v = normalize(alongV), lattice.normal = normal;
   lattice.corner = corner + (lattice.u + lattice.v) * static_cast<float>(border);
   divide(lattice, sideU - 2 * border, sideV - 2 * border, settings.spacingM);
   return lattice;
 }
 
-Lattice floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& settings) {
+MeterGrid floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& settings) {
   Vec2 u = longestSide(floor);
   // Of the four ways to lay a rectangle along it, the one most like the world's axes.
   if (std::abs(u.x) < std::abs(u.y)) u = {-u.y, u.x};
@@ -81,8 +81,8 @@ Lattice floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& 
     low = {std::min(low.x, a), std::min(low.y, b)}, high = {std::max(high.x, a), std::max(high.y, b)};
   }
   const Vec2 size = high - low, corner = u * low.x + v * low.y;
-  Lattice lattice = rectangleLattice({corner.x, yM, corner.y}, Vec3{u.x, 0, u.y} * size.x, Vec3{v.x, 0, v.y} * size.y,
-                                     {0, 1, 0}, settings);
+  MeterGrid lattice = rectangleLattice({corner.x, yM, corner.y}, Vec3{u.x, 0, u.y} * size.x, Vec3{v.x, 0, v.y} * size.y,
+                                       {0, 1, 0}, settings);
   const double border = borderOf(settings, static_cast<double>(size.x), static_cast<double>(size.y));
   for (int row = 0; row < lattice.rows; ++row) {
     for (int column = 0; column < lattice.columns; ++column) {
@@ -94,9 +94,9 @@ Lattice floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& 
   return lattice;
 }
 
-std::vector<Lattice> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM,
-                                  const GridSettings& settings) {
-  std::vector<Lattice> walls;
+std::vector<MeterGrid> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM,
+                                    const GridSettings& settings) {
+  std::vector<MeterGrid> walls;
   const float turn = signedAreaM2(floor) > 0 ? 1.0f : -1.0f;
   for (size_t i = 0; i < floor.size(); ++i) {
     const Vec2 a = floor[i], side = floor[(i + 1) % floor.size()] - a;

@@ -13,7 +13,7 @@
 namespace roomlight {
 
 // Cells of a rectangle, those that are used marked. A reading stands for its cell and is taken in the middle of it.
-struct Lattice {
+struct MeterGrid {
   Vec3 corner;                       // of the first cell
   Vec3 u{1, 0, 0}, v{0, 0, 1};       // unit, along columns and rows
   Vec3 normal{0, 1, 0};              // of the side that light falls on
@@ -45,13 +45,13 @@ struct GridSettings {
 double gridSpacingM(double sideM, double otherSideM);
 
 // The rectangle corner, corner + alongU, corner + alongV.
-Lattice rectangleLattice(Vec3 corner, Vec3 alongU, Vec3 alongV, Vec3 normal, const GridSettings& settings);
+MeterGrid rectangleLattice(Vec3 corner, Vec3 alongU, Vec3 alongV, Vec3 normal, const GridSettings& settings);
 // A horizontal plane over a floor at height yM, its columns along or across the longest side. Has no used cell where
 // the floor is too narrow.
-Lattice floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& settings);
+MeterGrid floorLattice(std::span<const Vec2> floor, float yM, const GridSettings& settings);
 // The walls around a floor, one for each side longer than 0.3 m, a centimetre in front of them.
-std::vector<Lattice> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM,
-                                  const GridSettings& settings);
+std::vector<MeterGrid> wallLattices(std::span<const Vec2> floor, float elevationM, float heightM,
+                                    const GridSettings& settings);
 
 struct Statistics {
   size_t points = 0;
@@ -67,15 +67,15 @@ Statistics statisticsOf(std::span<const float> values);
 bool insideThing(const RayScene& rays, Vec3 p);
 
 // Cells whose middle is in a wardrobe say nothing of the room: they are no longer used. Returns how many.
-size_t leaveOutThings(const RayScene& rays, Lattice& lattice);
+size_t leaveOutThings(const RayScene& rays, MeterGrid& lattice);
 
 // A place indoors where a person could stand, parted from others at walls, for scenes of which no rooms are known.
 struct Area {
   std::string name;  // "Area 1", the largest first
   float elevationM = 0;  // of the floor
   double areaM2 = 0;
-  Lattice points;  // workPlaneM above the floor, spaced and kept from the walls as `settings` say
-  Lattice map;  // the same up to the walls and finer, for a picture of the light
+  MeterGrid points;  // workPlaneM above the floor, spaced and kept from the walls as `settings` say
+  MeterGrid map;  // the same up to the walls and finer, for a picture of the light
 };
 
 // A floor is a level that many rays from above end on with 1.9 m of room and a ceiling over it. Areas are parted by

@@ -59,7 +59,7 @@ class Drawing {
   }
 
  private:
-  const Lattice& lattice() const { return field_.lattice; }
+  const MeterGrid& lattice() const { return field_.lattice; }
   std::vector<std::vector<ContourPoint>> lines(double level) const {
     auto loops = contours(values_, lattice().columns + 2, lattice().rows + 2, static_cast<float>(level));
     for (auto& loop : loops) {
@@ -151,7 +151,7 @@ class Drawing {
     if (wall_)
       return fmt::format("<rect class=\"wall\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\"/>\n", cm(size_.x),
                          cm(size_.y));
-    const Lattice& l = lattice();
+    const MeterGrid& l = lattice();
     const PlanFrame frame{l.corner, l.u, l.v, {-kMarginM, -kMarginM}, {size_.x + kMarginM, size_.y + kMarginM}};
     return fmt::format("<path class=\"wall\" d=\"{}\"/>\n", pathOf(cutPlan(scene_, frame)));
   }
@@ -166,7 +166,7 @@ class Drawing {
     }
     std::string crosses;
     for (const LeftOutCell& c : grid_.leftOut) {
-      const Lattice& l = grid_.points.lattice;
+      const MeterGrid& l = grid_.points.lattice;
       Vec2 p = place(l.centre(static_cast<int>(c.cell) % l.columns, static_cast<int>(c.cell) / l.columns));
       if (wall_) p.y = size_.y - p.y;
       crosses += fmt::format("M{} {}l8 8m-8 0l8-8", cm(p.x) - 4, cm(p.y) - 4);
@@ -248,7 +248,7 @@ std::string pathOf(std::span<const PlanLine> lines) {
   return d;
 }
 
-std::string pathOf(const Lattice& l, const std::function<Vec2(Vec2 cells)>& place) {
+std::string pathOf(const MeterGrid& l, const std::function<Vec2(Vec2 cells)>& place) {
   std::string d;
   for (int row = 0; row < l.rows; ++row) {
     for (int column = 0; column < l.columns; ++column) {

@@ -58,7 +58,7 @@ void addRoom(const RoomPlan& plan, const GridSettings& grid, bool maps, Measurem
   if (plan.onFloor) addHorizontal(plan, grid, SurfaceKind::Floor, 0.01f, maps, m);
   if (!plan.onWalls) return;
   int number = 0;
-  for (Lattice& wall : wallLattices(plan.room.floor, plan.room.elevationM, plan.room.heightM, grid)) {
+  for (MeterGrid& wall : wallLattices(plan.room.floor, plan.room.elevationM, plan.room.heightM, grid)) {
     GridReading g;
     g.name = fmt::format("{}, wall {}", plan.room.name, ++number);
     g.room = plan.room.name, g.kind = SurfaceKind::Wall, g.targets = plan.targets;

@@ -14,7 +14,7 @@ namespace roomlight {
 
 // Readings on a lattice, row by row; not a number in cells that are not used.
 struct Field {
-  Lattice lattice;
+  MeterGrid lattice;
   std::vector<float> lux;
   std::vector<float> daylightPercent;  // empty, or as long as lux
 };

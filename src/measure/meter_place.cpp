@@ -102,7 +102,7 @@ MeterPlace placeOf(const RayScene& rays, Vec3 p) {
   return open >= (seen[kLevelRays].met() ? kOpenSidesUnderRoof : kOpenSides) ? MeterPlace::Outdoors : MeterPlace::Free;
 }
 
-LatticePlaces leaveOutMisplaced(const RayScene& rays, Lattice& lattice, bool roofs) {
+LatticePlaces leaveOutMisplaced(const RayScene& rays, MeterGrid& lattice, bool roofs) {
   std::vector<size_t> cells;
   for (size_t i = 0; i < lattice.used.size(); ++i) {
     if (lattice.used[i]) cells.push_back(i);
@@ -125,7 +125,7 @@ LatticePlaces leaveOutMisplaced(const RayScene& rays, Lattice& lattice, bool roo
   return out;
 }
 
-size_t cellsUnderRoof(const RayScene& rays, const Lattice& lattice) {
+size_t cellsUnderRoof(const RayScene& rays, const MeterGrid& lattice) {
   const std::vector<SurfaceElement> elements = lattice.elements();
   return static_cast<size_t>(std::count_if(elements.begin(), elements.end(), [&](const SurfaceElement& e) {
     return look(rays, e.position, {0, 1, 0}).met();

@@ -36,9 +36,9 @@ struct LatticePlaces {
   std::vector<LeftOutCell> leftOut;
   bool outdoors = false;
 };
-LatticePlaces leaveOutMisplaced(const RayScene& rays, Lattice& lattice, bool roofs);
+LatticePlaces leaveOutMisplaced(const RayScene& rays, MeterGrid& lattice, bool roofs);
 
 // Over how many of the used cells something of the scene stands.
-size_t cellsUnderRoof(const RayScene& rays, const Lattice& lattice);
+size_t cellsUnderRoof(const RayScene& rays, const MeterGrid& lattice);
 
 }  // namespace roomlight

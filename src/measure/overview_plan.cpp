@@ -25,13 +25,13 @@ struct PlacedRoom {
   const RoomTarget* target = nullptr;
 };
 
-const Lattice& latticeOf(const GridReading& g) { return (g.map ? *g.map : g.points).lattice; }
+const MeterGrid& latticeOf(const GridReading& g) { return (g.map ? *g.map : g.points).lattice; }
 
 Bounds3 boundsOf(const PlacedRoom& r) {
   Bounds3 b;
   for (const Vec2 p : r.reading->room.floor) b.add({p.x, 0, p.y});
   if (!b.empty() || !r.grid) return b;
-  const Lattice& l = latticeOf(*r.grid);
+  const MeterGrid& l = latticeOf(*r.grid);
   const Vec3 half = abs(l.u * (l.stepUM / 2)) + abs(l.v * (l.stepVM / 2));
   for (const SurfaceElement& e : l.elements()) b.add(e.position - half), b.add(e.position + half);
   return b;
@@ -40,7 +40,7 @@ Bounds3 boundsOf(const PlacedRoom& r) {
 std::string outlineOf(const PlacedRoom& r) {
   if (!r.reading->room.floor.empty()) return pathOf(r.reading->room.floor, true);
   if (!r.grid) return {};
-  const Lattice& l = latticeOf(*r.grid);  // of a room that was found: along x and z
+  const MeterGrid& l = latticeOf(*r.grid);  // of a room that was found: along x and z
   return pathOf(l, [&](Vec2 cells) {
     const Vec3 p = l.corner + l.u * (cells.x * l.stepUM) + l.v * (cells.y * l.stepVM);
     return Vec2{p.x, p.z};

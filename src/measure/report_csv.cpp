@@ -39,7 +39,7 @@ std::string line(const LineMeter& m, const LineValue& v) {
 
 std::string gridLines(const GridReading& g) {
   std::string text;
-  const Lattice& l = g.points.lattice;
+  const MeterGrid& l = g.points.lattice;
   const auto meterAt = [&](int column, int row, MeterPlace place) {
     return LineMeter{"grid", g.name, g.room, l.centre(column, row), l.normal, place};
   };

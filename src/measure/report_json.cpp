@@ -34,7 +34,7 @@ Json values(const std::vector<float>& list) {
 }
 
 Json gridJson(const GridReading& g) {
-  const Lattice& l = g.points.lattice;
+  const MeterGrid& l = g.points.lattice;
   Json j = {{"name", g.name}, {"room", g.room}, {"surface", kindName(g.kind)}, {"illuminanceLux", statistics(g.lux())}};
   if (!g.points.daylightPercent.empty())
     j["daylightFactorPercent"] = statistics(statisticsOf(g.points.daylightPercent));

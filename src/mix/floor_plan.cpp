@@ -135,9 +135,9 @@ std::string overlayIndexOf(const FloorPlan& plan, const OverlayTrial& trial) {
                 {"height", plan.height},
                 {"base", plan.baseFile},
                 {"mixBlendMode", cssName(plan.blend)}};
-  for (size_t i = 0; i < kBlends.size(); ++i) {
+  for (size_t i = 0; i < kBlendModes.size(); ++i) {
     const BlendError& e = trial.errors[i];
-    index["errorInDisplaySteps"][std::string(cssName(kBlends[i]))] = {
+    index["errorInDisplaySteps"][std::string(cssName(kBlendModes[i]))] = {
         {"mean", e.mean}, {"rms", e.rms}, {"percentile99", e.percentile99}};
   }
   index["overlays"] = Json::array();

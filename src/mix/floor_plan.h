@@ -18,7 +18,7 @@ struct PlanLamp {
 struct FloorPlan {
   int width = 0, height = 0;
   std::string baseFile;
-  Blend blend = Blend::Screen;
+  BlendMode blend = BlendMode::Screen;
   std::vector<PlanLamp> lamps;
 };
 

@@ -21,15 +21,15 @@ float leastAlpha(float b, float d) {
 uint8_t rounded(float v) { return static_cast<uint8_t>(std::clamp(v + 0.5f, 0.0f, 255.0f)); }
 
 // Colour and alpha of one pixel. Alpha is as small as it can be, rounded up, and the colour made for the rounded one.
-void overlayPixel(const uint8_t* base, const uint8_t* lit, Blend blend, uint8_t* out) {
+void overlayPixel(const uint8_t* base, const uint8_t* lit, BlendMode blend, uint8_t* out) {
   float alpha = 0, wanted[3] = {};
   for (int c = 0; c < 3; ++c) {
     const auto b = static_cast<float>(base[c]), d = static_cast<float>(lit[c]);
     switch (blend) {
-      case Blend::Screen: wanted[c] = d > b ? (d - b) / (255 - b) : 0.0f; break;  // 1 - (1 - b)(1 - s)
-      case Blend::PlusLighter: wanted[c] = d > b ? (d - b) / 255 : 0.0f; break;
-      case Blend::Normal: wanted[c] = leastAlpha(b, d); break;
-      case Blend::Lighten: wanted[c] = d > b ? 1.0f : 0.0f; break;
+      case BlendMode::Screen: wanted[c] = d > b ? (d - b) / (255 - b) : 0.0f; break;  // 1 - (1 - b)(1 - s)
+      case BlendMode::PlusLighter: wanted[c] = d > b ? (d - b) / 255 : 0.0f; break;
+      case BlendMode::Normal: wanted[c] = leastAlpha(b, d); break;
+      case BlendMode::Lighten: wanted[c] = d > b ? 1.0f : 0.0f; break;
     }
     alpha = std::max(alpha, wanted[c]);
   }
@@ -40,20 +40,20 @@ void overlayPixel(const uint8_t* base, const uint8_t* lit, Blend blend, uint8_t*
     const auto b = static_cast<float>(base[c]), d = static_cast<float>(lit[c]);
     if (byte == 0) {
       out[c] = 0;
-    } else if (blend == Blend::Lighten) {
+    } else if (blend == BlendMode::Lighten) {
       out[c] = lit[c];
     } else {
-      out[c] = rounded(blend == Blend::Normal ? b + (d - b) / a : 255 * wanted[c] / a);
+      out[c] = rounded(blend == BlendMode::Normal ? b + (d - b) / a : 255 * wanted[c] / a);
     }
   }
 }
 
-float blended(float b, float s, float a, Blend blend) {
+float blended(float b, float s, float a, BlendMode blend) {
   switch (blend) {
-    case Blend::Screen: return b + a * s * (1 - b / 255);
-    case Blend::PlusLighter: return std::min(255.0f, b + a * s);
-    case Blend::Normal: return b + a * (s - b);
-    case Blend::Lighten: break;
+    case BlendMode::Screen: return b + a * s * (1 - b / 255);
+    case BlendMode::PlusLighter: return std::min(255.0f, b + a * s);
+    case BlendMode::Normal: return b + a * (s - b);
+    case BlendMode::Lighten: break;
   }
   return b + a * (std::max(b, s) - b);
 }
@@ -123,17 +123,17 @@ std::array<float, 11> opacitiesOf(const LayerStack& stack, const Switches& switc
 
 }  // namespace
 
-std::string_view cssName(Blend blend) {
+std::string_view cssName(BlendMode blend) {
   switch (blend) {
-    case Blend::Screen: return "screen";
-    case Blend::Normal: return "normal";
-    case Blend::PlusLighter: return "plus-lighter";
-    case Blend::Lighten: break;
+    case BlendMode::Screen: return "screen";
+    case BlendMode::Normal: return "normal";
+    case BlendMode::PlusLighter: return "plus-lighter";
+    case BlendMode::Lighten: break;
   }
   return "lighten";
 }
 
-ByteImage overlayOf(const ByteImage& base, const ByteImage& lit, Blend blend) {
+ByteImage overlayOf(const ByteImage& base, const ByteImage& lit, BlendMode blend) {
   ByteImage overlay(base.width, base.height, 4);
   parallelFor(base.pixelCount(), 4096, [&](size_t i) {
     overlayPixel(&base.samples[3 * i], &lit.samples[3 * i], blend, &overlay.samples[4 * i]);
@@ -142,7 +142,7 @@ ByteImage overlayOf(const ByteImage& base, const ByteImage& lit, Blend blend) {
 }
 
 std::vector<float> composite(const ByteImage& base, const std::vector<ByteImage>& overlays,
-                             std::span<const float> opacities, Blend blend) {
+                             std::span<const float> opacities, BlendMode blend) {
   std::vector<float> canvas(base.samples.begin(), base.samples.end());
   for (size_t k = 0; k < overlays.size(); ++k) {
     if (opacities[k] == 0) continue;
@@ -166,15 +166,15 @@ OverlayTrial tryOverlays(const LayerStack& stack, const Switches& switches, cons
     trial.opacities.push_back(opacitiesOf(few, switches, look, lamp, base, lit.back()));
   }
   const std::vector<uint64_t> masks = trialStates(switches.lamps.size());
-  for (size_t blend = 0; blend < kBlends.size(); ++blend) {
+  for (size_t blend = 0; blend < kBlendModes.size(); ++blend) {
     std::vector<ByteImage> overlays;
-    for (const ByteImage& picture : lit) overlays.push_back(overlayOf(base, picture, kBlends[blend]));
+    for (const ByteImage& picture : lit) overlays.push_back(overlayOf(base, picture, kBlendModes[blend]));
     std::vector<std::vector<float>> steps(masks.size());
     parallelFor(masks.size(), 1, [&](size_t m) {
       std::vector<float> on;
       for (size_t lamp = 0; lamp < switches.lamps.size(); ++lamp)
         on.push_back(static_cast<float>((masks[m] >> lamp) & 1));
-      steps[m] = composite(base, overlays, on, kBlends[blend]);
+      steps[m] = composite(base, overlays, on, kBlendModes[blend]);
       const ByteImage truth = mixDisplay(few, gainsOfState(switches, masks[m]), look);
       for (size_t i = 0; i < truth.samples.size(); ++i)
         steps[m][i] = std::abs(steps[m][i] - static_cast<float>(truth.samples[i]));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kBefore = 1e-3f;  // of the way back from a surface to the eye
 
-Lattice latticeOf(const Zone& z) {
+MeterGrid latticeOf(const Zone& z) {
   if (!z.rectangle)
     return floorLattice(z.room.floor, z.room.elevationM + static_cast<float>(z.workPlaneM),
                         {z.spacingM, z.borderM, GridSettings().borderShare});

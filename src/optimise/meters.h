@@ -9,7 +9,7 @@
 namespace roomlight::optimise {
 
 struct ZonePoints {
-  Lattice lattice;
+  MeterGrid lattice;
   size_t first = 0, count = 0;  // of elements
   size_t leftOut = 0;           // inside things
 };

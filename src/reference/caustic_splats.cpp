@@ -32,8 +32,9 @@ CausticSplats::CausticSplats(const TracedScene& scene, const View& view, uint64_
   const bool throws = std::any_of(s.instances.begin(), s.instances.end(), [&](const Instance& i) {
     return throwsLight(s.materials[static_cast<size_t>(s.meshes[static_cast<size_t>(i.mesh)].material)]);
   });
+  // The same where light is told apart: layers change no picture.
   if (throws && view.camera.hasExactPixels())
-    photons_ = std::make_unique<CausticPhotons>(scene, seenPlaces(seed), view.layers != nullptr, seed ^ kPhotonSeed);
+    photons_ = std::make_unique<CausticPhotons>(scene, seenPlaces(seed), false, seed ^ kPhotonSeed);
 }
 
 // Of some pixels, straight or through panes.

@@ -11,7 +11,7 @@ namespace {
 
 const std::vector<Vec2> kSquare = {{0, 0}, {0, 4}, {4, 4}, {4, 0}};
 
-TEST(Lattice, spacingGrowsWithTheArea) {
+TEST(MeterGrid, spacingGrowsWithTheArea) {
   EXPECT_NEAR(gridSpacingM(4, 4), 0.5270, 1e-4);
   EXPECT_NEAR(gridSpacingM(4, 3), 0.5270, 1e-4);
   EXPECT_NEAR(gridSpacingM(1, 1), 0.2, 1e-9);
@@ -20,8 +20,8 @@ TEST(Lattice, spacingGrowsWithTheArea) {
   EXPECT_EQ(gridSpacingM(5000, 4000), 10);
 }
 
-TEST(Lattice, floorOfARoomLeavesTheBorderOut) {
-  const Lattice l = floorLattice(kSquare, 0.85f, {});
+TEST(MeterGrid, floorOfARoomLeavesTheBorderOut) {
+  const MeterGrid l = floorLattice(kSquare, 0.85f, {});
   // 3 m are left, p = 0.431 m: 7 cells a side.
   EXPECT_EQ(l.columns, 7);
   EXPECT_EQ(l.rows, 7);
@@ -33,7 +33,7 @@ TEST(Lattice, floorOfARoomLeavesTheBorderOut) {
   }
 }
 
-TEST(Lattice, smallRoomsKeepMostOfTheirFloor) {
+TEST(MeterGrid, smallRoomsKeepMostOfTheirFloor) {
   const std::vector<Vec2> bath = {{0, 0}, {0, 2}, {1, 2}, {1, 0}};
   double nearest = 1;
   for (const SurfaceElement& e : floorLattice(bath, 0, {0.01, 0.5, 0.15}).elements())
@@ -41,28 +41,28 @@ TEST(Lattice, smallRoomsKeepMostOfTheirFloor) {
   EXPECT_NEAR(nearest, 0.155, 0.002);
 }
 
-TEST(Lattice, floorWithACornerCutOut) {
+TEST(MeterGrid, floorWithACornerCutOut) {
   const std::vector<Vec2> floor = {{0, 0}, {0, 6}, {3, 6}, {3, 3}, {6, 3}, {6, 0}};
   EXPECT_NEAR(signedAreaM2(floor), 27, 1e-9);
-  const Lattice l = floorLattice(floor, 0, {0.1, 0, 0});
+  const MeterGrid l = floorLattice(floor, 0, {0.1, 0, 0});
   EXPECT_NEAR(static_cast<double>(l.count()) * 0.01, 27, 0.3);
 }
 
-TEST(Lattice, followsATurnedRoom) {
+TEST(MeterGrid, followsATurnedRoom) {
   const float c = std::cos(0.5f), s = std::sin(0.5f);
   std::vector<Vec2> floor;
   for (const Vec2 p : kSquare) floor.push_back({c * p.x - s * p.y * 1.5f, s * p.x + c * p.y * 1.5f});
-  const Lattice l = floorLattice(floor, 0, {});
+  const MeterGrid l = floorLattice(floor, 0, {});
   EXPECT_EQ(l.count(), static_cast<size_t>(l.columns) * static_cast<size_t>(l.rows));
   EXPECT_NEAR(static_cast<double>(dot(l.u, {c, 0, s})), 1, 1e-5);
 }
 
-TEST(Lattice, wallsLookInwards) {
+TEST(MeterGrid, wallsLookInwards) {
   std::vector<Vec2> turned(kSquare.rbegin(), kSquare.rend());
   for (const auto& floor : {kSquare, turned}) {
-    const std::vector<Lattice> walls = wallLattices(floor, 1, 2.5f, {});
+    const std::vector<MeterGrid> walls = wallLattices(floor, 1, 2.5f, {});
     ASSERT_EQ(walls.size(), 4u);
-    for (const Lattice& wall : walls) {
+    for (const MeterGrid& wall : walls) {
       for (const SurfaceElement& e : wall.elements()) {
         EXPECT_TRUE(contains(floor, {e.position.x, e.position.z}));
         EXPECT_GT(dot(Vec3{2, e.position.y, 2} - e.position, e.normal), 1.9f);
@@ -84,8 +84,8 @@ TEST(Statistics, leaveOutWhatIsNoNumber) {
   EXPECT_EQ(statisticsOf({}).u0(), 0);
 }
 
-TEST(Lattice, spreadsReadingsOntoUsedCells) {
-  Lattice l;
+TEST(MeterGrid, spreadsReadingsOntoUsedCells) {
+  MeterGrid l;
   l.columns = 3, l.rows = 1, l.used = {1, 0, 1};
   const std::vector<float> two = {5, 7}, all = l.spread(two);
   EXPECT_EQ(all[0], 5);

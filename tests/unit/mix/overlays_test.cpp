@@ -35,14 +35,15 @@ TEST(Switches, everyStateComesOnceAndDiffersFromTheOneBeforeInOneLamp) {
 TEST(Overlays, oneLampOverTheBaseIsExactToRoundingWithEveryBlend) {
   const LayerStack stack = stackOf(somePictures(120, 67));
   const ByteImage base = mixDisplay(stack, gainsOfState(kThreeLamps, 0), kLook);
-  for (const Blend blend : kBlends) {
+  for (const BlendMode blend : kBlendModes) {
     for (const uint64_t lamp : {1, 2, 4}) {
       const ByteImage lit = mixDisplay(stack, gainsOfState(kThreeLamps, lamp), kLook);
       const std::vector<float> shown = composite(base, {overlayOf(base, lit, blend)}, std::vector<float>{1}, blend);
       for (size_t i = 0; i < shown.size(); ++i) {
         // The neutral curve's toe darkens a channel by a few steps where another one gets light; that only normal can
         // show.
-        const uint8_t expected = blend == Blend::Normal ? lit.samples[i] : std::max(lit.samples[i], base.samples[i]);
+        const uint8_t expected =
+            blend == BlendMode::Normal ? lit.samples[i] : std::max(lit.samples[i], base.samples[i]);
         ASSERT_LE(expected - lit.samples[i], 4);
         ASSERT_NEAR(shown[i], static_cast<float>(expected), 0.75f) << cssName(blend);
       }
@@ -54,7 +55,7 @@ TEST(Overlays, whereTheLampDoesNotReachTheyAreTransparent) {
   ByteImage base(2, 1, 3), lit(2, 1, 3);
   base.samples = {10, 20, 30, 40, 50, 60};
   lit.samples = {10, 20, 30, 90, 80, 70};
-  for (const Blend blend : kBlends) {
+  for (const BlendMode blend : kBlendModes) {
     const ByteImage overlay = overlayOf(base, lit, blend);
     EXPECT_EQ(overlay.samples[3], 0) << cssName(blend);
     EXPECT_GT(overlay.samples[7], 0) << cssName(blend);
@@ -69,11 +70,12 @@ TEST(Overlays, theTrialTellsTheErrorOfStates) {
   EXPECT_LT(trial.errors[0].rms, trial.errors[2].rms);
   const ByteImage base = mixDisplay(stack, gainsOfState(kThreeLamps, 0), kLook),
                   all = mixDisplay(stack, gainsOfState(kThreeLamps, 7), kLook);
-  for (size_t blend = 0; blend < kBlends.size(); ++blend) {
+  for (size_t blend = 0; blend < kBlendModes.size(); ++blend) {
     std::vector<ByteImage> overlays;
     for (const uint64_t lamp : {1, 2, 4})
-      overlays.push_back(overlayOf(base, mixDisplay(stack, gainsOfState(kThreeLamps, lamp), kLook), kBlends[blend]));
-    const std::vector<float> shown = composite(base, overlays, std::vector<float>{1, 1, 1}, kBlends[blend]);
+      overlays.push_back(
+          overlayOf(base, mixDisplay(stack, gainsOfState(kThreeLamps, lamp), kLook), kBlendModes[blend]));
+    const std::vector<float> shown = composite(base, overlays, std::vector<float>{1, 1, 1}, kBlendModes[blend]);
     double squares = 0, signedSum = 0;
     for (size_t i = 0; i < shown.size(); ++i) {
       const double d = static_cast<double>(shown[i]) - all.samples[i];
@@ -81,10 +83,10 @@ TEST(Overlays, theTrialTellsTheErrorOfStates) {
     }
     const double rms = std::sqrt(squares / static_cast<double>(shown.size()));
     EXPECT_LT(trial.errors[blend].rms, rms * 1.05)
-        << "all lamps at once are the hardest state: " << cssName(kBlends[blend]);
-    EXPECT_GT(trial.errors[blend].rms, rms * 0.2) << cssName(kBlends[blend]);
-    EXPECT_TRUE(kBlends[blend] != Blend::PlusLighter || signedSum > 0);
-    EXPECT_TRUE(kBlends[blend] != Blend::Lighten || signedSum < 0);
+        << "all lamps at once are the hardest state: " << cssName(kBlendModes[blend]);
+    EXPECT_GT(trial.errors[blend].rms, rms * 0.2) << cssName(kBlendModes[blend]);
+    EXPECT_TRUE(kBlendModes[blend] != BlendMode::PlusLighter || signedSum > 0);
+    EXPECT_TRUE(kBlendModes[blend] != BlendMode::Lighten || signedSum < 0);
   }
 }
 
