@@ -24,11 +24,6 @@ constexpr float kBright = 4;         // times the mean flux: brighter photons ar
 
 float cellM(int level) { return kSmallestM * static_cast<float>(1 << level); }
 
-int32_t layerOf(const CausticPhoton& photon, const LightLayers& layers) {
-  if (photon.lamp >= 0) return layers.ofLamp[static_cast<size_t>(photon.lamp)];
-  return photon.emitter >= 0 ? layers.ofEmitter[static_cast<size_t>(photon.emitter)] : layers.sun;
-}
-
 float sum(Float8 v) {
   std::array<float, 8> lanes;
   v.store(lanes.data());

@@ -9,7 +9,6 @@
 
 #include "base/simd.h"
 #include "trace/caustic_photons.h"
-#include "trace/light_layers.h"
 
 namespace roomlight {
 

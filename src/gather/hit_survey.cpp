@@ -159,7 +159,7 @@ CausticMap causticsOf(const RayScene& rays, const Lights& lights, const RayShade
   if (settings.causticPhotons <= 0) return {};
   std::vector<Vec3> seen;
   for (const Arrivals::Origin& o : all.origins) seen.push_back(o.p);
-  CausticPhotons tracer({rays, lights}, seen, shader.layers() != nullptr, settings.seed);
+  CausticPhotons tracer({rays, lights}, seen, {shader.layers() != nullptr, settings.white}, settings.seed);
   CausticMap map(tracer.trace(static_cast<size_t>(settings.causticPhotons)), shader.layers());
   rayCount += tracer.rayCount();
   return map;

@@ -34,7 +34,8 @@ CausticSplats::CausticSplats(const TracedScene& scene, const View& view, uint64_
   });
   // The same where light is told apart: layers change no picture.
   if (throws && view.camera.hasExactPixels())
-    photons_ = std::make_unique<CausticPhotons>(scene, seenPlaces(seed), false, seed ^ kPhotonSeed);
+    photons_ = std::make_unique<CausticPhotons>(scene, seenPlaces(seed), CausticPhotons::Wish{false, view.white},
+                                                seed ^ kPhotonSeed);
 }
 
 // Of some pixels, straight or through panes.
@@ -81,11 +82,7 @@ bool CausticSplats::connect(const CausticPhoton& photon, Connection& out) const 
   const Vec3 f = Bsdf(s.m, s.ns, s.ng, -ray.direction).evaluateDiffuse(photon.wi) * (s.m.alpha / arrives);
   out.splat.pixel = static_cast<uint32_t>(y) * static_cast<uint32_t>(view_->width) + static_cast<uint32_t>(x);
   out.splat.light = f * photon.fluxLm * (cosine / (pixelM * pixelM));
-  LightSample light;
-  light.lamp = photon.lamp, light.emitter = photon.emitter;
-  out.splat.layer = !view_->layers                            ? -1
-                    : photon.lamp >= 0 || photon.emitter >= 0 ? view_->layers->of(light)
-                                                              : view_->layers->sun;
+  out.splat.layer = view_->layers ? layerOf(photon, *view_->layers) : -1;
   const Vec3 from = offsetOrigin(photon.p, photon.n);
   out.way = {from, ray.origin + ray.direction * ray.tMin - from, 0, 1};
   return !isBlack(out.splat.light);

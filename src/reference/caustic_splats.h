@@ -8,7 +8,6 @@
 
 #include "trace/camera_rays.h"
 #include "trace/caustic_photons.h"
-#include "trace/light_layers.h"
 
 namespace roomlight {
 

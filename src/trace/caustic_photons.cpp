@@ -106,8 +106,8 @@ struct Flight {
 
 class CausticPhotons::Tracer {
  public:
-  Tracer(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, bool apart, uint64_t seed)
-      : rays_(rays), lights_(lights), seed_(seed), apart_(apart), pieces_(Pieces(rays.scene(), lights).pieces) {
+  Tracer(const RayScene& rays, const Lights& lights, std::span<const Vec3> seen, Wish wish, uint64_t seed)
+      : rays_(rays), lights_(lights), seed_(seed), wish_(wish), pieces_(Pieces(rays.scene(), lights).pieces) {
     for (const Vec3 p : seen) seen_.insert(cellOf(p));
     const size_t most = std::max(kClusterPieces, (pieces_.size() + kClusters - 1) / kClusters);
     for (size_t i = 0; i < pieces_.size(); ++i) {
@@ -170,7 +170,7 @@ class CausticPhotons::Tracer {
     const bool lamps = source == lights_.sunCount();
     const size_t count = lamps ? lights_.lampCount() : lights_.emitterCount();
     if (count == 0) return {};
-    const float evenly = apart_ ? 0.5f : 0, choice = sampler.next1();
+    const float evenly = wish_.apart ? 0.5f : 0, choice = sampler.next1();
     LightTree::Choice chosen;
     if (choice < evenly) {
       chosen.index = std::min(count - 1, static_cast<size_t>(choice / evenly * static_cast<float>(count)));
@@ -270,7 +270,8 @@ class CausticPhotons::Tracer {
     const float passes = std::min(1.0f, luminance(through)),
                 back = polished ? s.m.alpha * luminance(bihemisphericalAlbedo(s.m)) : 1 - passes;
     if (!polished &&
-        maxComponent(s.m.baseColor) * (1 - s.m.metallic) * (1 - s.m.transmission) * s.m.alpha > kLeastAlbedo)
+        (wish_.white ||
+         maxComponent(s.m.baseColor) * (1 - s.m.metallic) * (1 - s.m.transmission) * s.m.alpha > kLeastAlbedo))
       keep(CausticPhoton{hit, s.p, s.ng, -d, f.flux, f.lamp, f.emitter}, f.sampler);
     const float chance = passes > 0 ? passes / (passes + back) : 0;
     if (chance > 0 && f.sampler.next1() < chance) {
@@ -380,7 +381,7 @@ class CausticPhotons::Tracer {
   const RayScene& rays_;
   const Lights& lights_;
   const uint64_t seed_;
-  const bool apart_;
+  const Wish wish_;
   const std::vector<Piece> pieces_;
   std::vector<size_t> first_;  // piece of each cluster, and one past all
   std::unordered_set<uint64_t> seen_;
@@ -390,8 +391,13 @@ class CausticPhotons::Tracer {
   uint64_t rayCount_ = 0;
 };
 
-CausticPhotons::CausticPhotons(const TracedScene& scene, std::span<const Vec3> seen, bool apart, uint64_t seed)
-    : tracer_(std::make_unique<Tracer>(scene.rays, scene.lights, seen, apart, seed)) {}
+int32_t layerOf(const CausticPhoton& photon, const LightLayers& layers) {
+  if (photon.lamp >= 0) return layers.ofLamp[static_cast<size_t>(photon.lamp)];
+  return photon.emitter >= 0 ? layers.ofEmitter[static_cast<size_t>(photon.emitter)] : layers.sun;
+}
+
+CausticPhotons::CausticPhotons(const TracedScene& scene, std::span<const Vec3> seen, Wish wish, uint64_t seed)
+    : tracer_(std::make_unique<Tracer>(scene.rays, scene.lights, seen, wish, seed)) {}
 CausticPhotons::~CausticPhotons() = default;
 
 std::vector<CausticPhoton> CausticPhotons::trace(size_t count, uint32_t round) { return tracer_->trace(count, round); }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "trace/light_layers.h"
 #include "trace/traced_scene.h"
 
 namespace roomlight {
@@ -20,6 +21,9 @@ struct CausticPhoton {
   int32_t lamp = -1, emitter = -1;  // whose it was; neither: a sun's
 };
 
+// Whose light it is; -1: of no layer.
+int32_t layerOf(const CausticPhoton& photon, const LightLayers& layers);
+
 // The light of suns, lamps and emissive meshes that surfaces which throw light reflect (throwsLight(),
 // scene/surface.h), once or several times in a row, where it then meets other surfaces: through panes and veils, on
 // each of which it is kept too. Of the sky there is none. Pilot photons tell which surfaces throw light to places that
@@ -28,9 +32,12 @@ class CausticPhotons {
  public:
   static constexpr int kMostReflections = 7;  // in a row; what is left after those is lost
 
-  // Refers to the scene. `seen`: places, near which most photons shall arrive. `apart`: that of each lamp and emissive
-  // mesh is wanted apart.
-  CausticPhotons(const TracedScene& scene, std::span<const Vec3> seen, bool apart, uint64_t seed);
+  struct Wish {
+    bool apart = false;  // the light of each lamp and emissive mesh is wanted apart
+    bool white = false;  // what is seen is whitened: photons are kept on black surfaces, too
+  };
+  // Refers to the scene. `seen`: places, near which most photons shall arrive.
+  CausticPhotons(const TracedScene& scene, std::span<const Vec3> seen, Wish wish, uint64_t seed);
   ~CausticPhotons();
   // About `count` arrive near the places seen; the flux of all is right in the mean everywhere, in every round, and
   // rounds are independent. None where such surfaces get no light.

@@ -60,6 +60,16 @@ TEST(PathCaustics, areInFalseColoursAndInTheLayerOfTheirLamp) {
   settings.white = true;
   const test::ThrownLight white = thrownLight(pointLamp(), Strip::camera(), settings);
   EXPECT_NEAR(white.mean, white.expected, 0.015 * white.expected);
+  // On what is black, too.
+  std::vector<Image> onBlack;
+  for (const bool mirror : {true, false}) {
+    Strip strip(mirror);
+    pointLamp().light(strip.scene);
+    strip.scene.materials.front().baseColor = Vec3(0);
+    onBlack.push_back(pictureOf(strip.scene, Strip::camera(), settings));
+  }
+  const test::ThrownLight black(pointLamp(), Strip::camera(), onBlack[0], onBlack[1]);
+  EXPECT_NEAR(black.mean, black.expected, 0.015 * black.expected);
 
   std::vector<Image> lampsLight;
   for (const bool mirror : {true, false}) {
