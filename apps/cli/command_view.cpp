@@ -43,17 +43,6 @@ Result<RenderSettings> readSettings(const ServeOptions& o) {
   return s;
 }
 
-// Where the page lies: beside an installed program, or in the tree that it was built in.
-std::filesystem::path viewerFolder() {
-  std::error_code code;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
-  const std::filesystem::path places[] = {program / "../share/roomlight/viewer", program / "../../viewer/dist"};
-  for (const auto& place : places) {
-    if (std::filesystem::exists(place / "index.html", code)) return std::filesystem::weakly_canonical(place, code);
-  }
-  return places[0].lexically_normal();
-}
-
 // While it lives, a reader that is gone is an error of the write, not the program's end without a word.
 class PipesMayBreak {
  public:
@@ -94,7 +83,7 @@ int runView(const ServeOptions& o) {
   if (!open) return failed(open.error());
   open.value().allCameras = true;
   Result<server::StaticFiles> page =
-      server::readStaticFiles(o.viewer.empty() ? viewerFolder() : std::filesystem::path(o.viewer));
+      server::readStaticFiles(o.viewer.empty() ? pageFolder("viewer", "dist") : std::filesystem::path(o.viewer));
   if (!page) return failed(page.error());
   ProgressDisplay display(o.quiet);
   RenderProgress progress{[&](const std::string& stage, float f) { display.report(stage, f); }, &stop, {}};

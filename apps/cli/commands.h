@@ -31,6 +31,7 @@ Registered addValidate(CLI::App& program);
 Registered addStudy(CLI::App& program);
 Registered addOptimise(CLI::App& program);
 Registered addView(CLI::App& program);
+Registered addBake(CLI::App& program);
 
 // Adds --memory, which takes effect as it is read: allocations beyond it fail, and the command ends with one line. Code
 // and files that are mapped into memory do not count.

@@ -24,10 +24,10 @@ int runProgram(int argc, char** argv) {
       "  roomlight info flat.glb\n"
       "'roomlight COMMAND --help' explains a command.");
   const std::vector<roomlight::cli::Registered> commands = {
-      roomlight::cli::addRender(program),  roomlight::cli::addView(program),     roomlight::cli::addWalk(program),
-      roomlight::cli::addMix(program),     roomlight::cli::addMeasure(program),  roomlight::cli::addValidate(program),
-      roomlight::cli::addStudy(program),   roomlight::cli::addOptimise(program), roomlight::cli::addCompare(program),
-      roomlight::cli::addDevelop(program), roomlight::cli::addInfo(program)};
+      roomlight::cli::addRender(program),   roomlight::cli::addView(program),    roomlight::cli::addWalk(program),
+      roomlight::cli::addBake(program),     roomlight::cli::addMix(program),     roomlight::cli::addMeasure(program),
+      roomlight::cli::addValidate(program), roomlight::cli::addStudy(program),   roomlight::cli::addOptimise(program),
+      roomlight::cli::addCompare(program),  roomlight::cli::addDevelop(program), roomlight::cli::addInfo(program)};
   // An empty word, as an unset variable of a shell leaves it, would pass for "not given".
   for (const roomlight::cli::Registered& command : commands) {
     roomlight::cli::addMemoryLimit(*command.app);

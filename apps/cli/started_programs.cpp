@@ -103,6 +103,16 @@ bool drain(int pipe, std::string& text) {
 
 }  // namespace
 
+std::filesystem::path pageFolder(const std::string& installed, const std::string& built) {
+  std::error_code code;
+  const std::filesystem::path program = std::filesystem::read_symlink(thisProgram(), code).parent_path();
+  const std::filesystem::path places[] = {program / "../share/roomlight" / installed, program / "../../viewer" / built};
+  for (const auto& place : places) {
+    if (std::filesystem::exists(place / "index.html", code)) return std::filesystem::weakly_canonical(place, code);
+  }
+  return places[0].lexically_normal();
+}
+
 std::filesystem::path thisProgram() {
   return "/proc/self/exe";  // the very one that runs, even where another has been built meanwhile
 }

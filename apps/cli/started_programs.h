@@ -27,6 +27,9 @@ class BrowserPage {
 // The file this program was started from.
 std::filesystem::path thisProgram();
 
+// Where a page of ours lies: beside an installed program as `installed`, or in the tree that it was built in as `built`.
+std::filesystem::path pageFolder(const std::string& installed, const std::string& built);
+
 // Runs it once more as a process of its own, with these arguments, its output thrown away. Where `cancelled` becomes
 // true it is told to end (SIGTERM) until it does, and its result is an error; where the calling thread ends, it is told
 // too (Linux). Errors: what it said on stderr last, without "roomlight: "; or that it was killed.

@@ -150,6 +150,10 @@ Result<std::string> encodeJpeg(const Image& encoded, int quality) {
   return guarded<std::string>("JPEG", [&] { return formats::encodeJpeg(formats::bytesOf(encoded), quality); });
 }
 
+Result<std::string> encodeWebp(const ByteImage& image, float quality) {
+  return guarded<std::string>("WebP", [&] { return formats::encodeWebp(image, quality); });
+}
+
 Status writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality) {
   return writeAtomically(file, [&](const auto& temporary) { formats::writeWebp(temporary, image, quality); });
 }

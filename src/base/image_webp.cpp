@@ -9,7 +9,7 @@
 
 namespace roomlight::formats {
 
-void writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality) {
+std::string encodeWebp(const ByteImage& image, float quality) {
   if (image.width < 1 || image.height < 1) throw std::runtime_error("a picture without pixels cannot be written");
   if (image.width > WEBP_MAX_DIMENSION || image.height > WEBP_MAX_DIMENSION)
     throw std::runtime_error("WebP holds at most 16383 pixels a side; use .png");
@@ -26,8 +26,13 @@ void writeWebp(const std::filesystem::path& file, const ByteImage& image, float 
   }
   const std::unique_ptr<uint8_t, void (*)(void*)> owner(bytes, WebPFree);
   if (size == 0) throw std::runtime_error("WebP cannot hold this picture");
+  return {reinterpret_cast<const char*>(bytes), size};
+}
+
+void writeWebp(const std::filesystem::path& file, const ByteImage& image, float quality) {
+  const std::string bytes = formats::encodeWebp(image, quality);
   std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.flush();
   if (!out) throw std::runtime_error("cannot be written");
 }

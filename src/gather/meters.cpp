@@ -11,7 +11,8 @@ namespace {
 
 constexpr uint64_t kMeterKey = 0x3e7e12;  // other random numbers than pixels have,
 constexpr uint64_t kLampKey = 0x3e7e13;   // and for places on lamps
-constexpr int kBatch = 64;                // samples of a meter in layers at once; what their errors are judged by
+constexpr int kBatch = 64;                // samples of a meter in layers at once; what their errors are judged by:
+constexpr int kLeastBatch = 8;            // fewer where fewer samples are asked for
 constexpr int kPlaces = 2;                // on extended lamps, a batch
 constexpr float kOfStrongest = 0.03f;      // of light on a meter: layers weaker than that need not be surer than it
 
@@ -114,18 +115,19 @@ void addLamps(const TracedScene& scene, const LightLayers& layers, const Surface
 
 // Adds the means of one batch of all but lamps' direct light.
 void sampleLayers(const SharpLights& sharp, const SurfaceShader& shader, const SurfaceElement& element,
-                  const MeterStream& stream, std::vector<Vec3>& means) {
+                  const MeterStream& stream, int count, std::vector<Vec3>& means) {
   thread_local MeterSamples samples;
   thread_local std::vector<SurfaceLight> light;
   thread_local LayerSums sums;
-  samples.take(sharp, element, stream, kBatch, true);
+  samples.take(sharp, element, stream, count, true);
   light.assign(samples.shadings.size(), {});
   sums = LayerSums(means.size(), true);
   sums.resize(samples.shadings.size());
   GatherCounters counters;
   shader.shadeInLayers(samples.shadings, samples.shadows, light, sums, counters);
   for (size_t l = 0; l < means.size(); ++l)
-    means[l] += (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / kBatch);
+    means[l] +=
+        (sums.get(0, LayerSums::kDiffuse, l) + sums.get(0, LayerSums::kSharp, l)) * (kPi / static_cast<float>(count));
 }
 
 }  // namespace
@@ -153,6 +155,7 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
   LayeredReadings out;
   out.layers = shader.layers()->size();
   out.lux.resize(elements.size() * out.layers), out.standardErrorLux.resize(out.lux.size());
+  const int batch = settings.fewestSamples >= kBatch ? kBatch : std::max(kLeastBatch, settings.fewestSamples / 2);
   std::atomic<size_t> done = 0;
   std::mutex reporting;
   parallelFor(elements.size(), 1, [&](size_t i) {
@@ -165,12 +168,12 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
       addLamps({rays, lights}, *shader.layers(), elements[i], extended, places, lux);
     };
     lamps(false, 0, 1, steady);
-    for (int first = 0, count = std::max(settings.fewestSamples, 2 * kBatch);
-         count <= std::max(settings.mostSamples, 2 * kBatch) && !progress.stop(); count *= 2) {
-      for (; first < count && !progress.stop(); first += kBatch) {
+    for (int first = 0, count = std::max(settings.fewestSamples, 2 * batch);
+         count <= std::max(settings.mostSamples, 2 * batch) && !progress.stop(); count *= 2) {
+      for (; first < count && !progress.stop(); first += batch) {
         means = steady;
-        if (lights.hasExtendedLamps()) lamps(true, first / kBatch * kPlaces, kPlaces, means);
-        sampleLayers(sharp, shader, elements[i], {i, first, settings.seed}, means);
+        if (lights.hasExtendedLamps()) lamps(true, first / batch * kPlaces, kPlaces, means);
+        sampleLayers(sharp, shader, elements[i], {i, first, settings.seed}, batch, means);
         meter.add(means);
       }
       if (meter.sureTo(settings.tolerance)) break;

@@ -1,0 +1,43 @@
+// The atlas of light: where each chart lies, which texels take light, and where in the home they are.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/charts.h"
+#include "trace/meter.h"
+
+namespace roomlight::bake {
+
+struct AtlasSettings {
+  float texelM = 0.05f;
+  int width = 2048;  // texels, a multiple of the tile
+  int tile = 32;     // texels; rooms begin with new rows of tiles
+};
+
+// A corner of a lit triangle: a vertex of an instance's mesh on one side.
+struct AtlasVertex {
+  uint32_t vertex = 0;  // of the mesh
+  Vec2 texel;  // place in the atlas, in texels from its top left; (0.5, 0.5) is the middle of the first
+};
+
+struct PlacedChart {
+  Chart chart;
+  std::vector<AtlasVertex> vertices;
+  std::vector<uint32_t> indices;  // three a triangle, into `vertices`; counter-clockwise seen from the lit side
+};
+
+struct Atlas {
+  int width = 0, height = 0;
+  std::vector<PlacedChart> charts;
+  std::vector<SurfaceElement> elements;  // that take light
+  std::vector<uint32_t> texels;          // of each element: its texel, y * width + x
+  std::vector<uint32_t> chartOf;         // and its chart
+  // Texels beside those that repeat the light of an element, against what lies beyond a chart's edge: (texel, element).
+  std::vector<std::pair<uint32_t, uint32_t>> padding;
+};
+
+// Lays the charts out, those in one room together.
+Atlas atlasOf(const Scene& scene, std::vector<Chart> charts, const AtlasSettings& settings);
+
+}  // namespace roomlight::bake

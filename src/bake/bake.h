@@ -1,0 +1,48 @@
+// A lit home as one file: what is seen of it, with the light of every lamp and of daylight as layers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bake/atlas.h"
+#include "bake/daylight_hours.h"
+#include "bake/glb.h"
+#include "bake/layers.h"
+#include "engine/stages.h"
+
+namespace roomlight::bake {
+
+struct BakeSettings {
+  ChartSettings charts;
+  AtlasSettings atlas;
+  LayerSettings layers;
+  GlbSettings glb;
+  float simplifyM = 0.002f;     // how far surfaces may be from where they are
+  float placesApartM = 0.08f;   // where vertices share light
+  size_t seenRays = size_t{1} << 21;  // that tell what can be seen
+};
+
+// By name of a quality, as pictures have it. Errors: an unknown name.
+Result<BakeSettings> bakeSettings(const std::string& quality);
+
+struct BakeWish {
+  std::vector<Lamp> offLamps;       // baked as well, off at first
+  std::vector<DaylightHour> hours;  // none: no daylight
+};
+
+struct BakedHome {
+  std::string glb;  // the file (docs/reference/baked.md); empty once cancelled
+  size_t triangles = 0, places = 0, layers = 0, draws = 0;
+  int atlasWidth = 0, atlasHeight = 0;
+};
+
+// Stages "seen", "charts", those of lighting, "lamps", "sun", "sky", "pack". Errors: nothing can be seen; what glbOf()
+// and lighting say.
+Result<BakedHome> bakeHome(const Scene& scene, const BakeWish& wish, const BakeSettings& settings, Stages& stages);
+
+// `page`: the built page with its mark for the home. The whole page with the home inside, or with a link to a file
+// beside it. Errors: the mark is missing.
+Result<std::string> pageWithHome(const std::string& page, const std::string& glb);
+Result<std::string> pageWithLink(const std::string& page, const std::string& file);
+
+}  // namespace roomlight::bake

@@ -1,0 +1,214 @@
+#include "bake/glb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "bake/glb_materials.h"
+#include "bake/glb_writer.h"
+#include "bake/light_texels.h"
+#include "base/hash.h"
+
+namespace roomlight::bake {
+namespace {
+
+// Triangles that are drawn at once.
+struct Batch {
+  std::vector<Vec3> positions;
+  std::vector<std::array<int8_t, 4>> normals;
+  std::vector<Vec2> uv;
+  std::vector<std::array<uint16_t, 2>> atlas;
+  std::vector<std::array<uint8_t, 4>> colors, vertexLit;
+  std::vector<uint32_t> indices;
+  bool coloured = false;
+};
+
+std::array<int8_t, 4> packedNormal(Vec3 n) {
+  const auto pack = [](float f) { return static_cast<int8_t>(std::lround(std::clamp(f, -1.0f, 1.0f) * 127)); };
+  return {pack(n.x), pack(n.y), pack(n.z), 0};
+}
+
+uint8_t packedByte(float f) { return static_cast<uint8_t>(std::lround(std::clamp(f, 0.0f, 1.0f) * 255)); }
+
+class BatchMaker {
+ public:
+  BatchMaker(const Scene& scene, const Atlas& atlas) : scene_(scene), atlas_(atlas) {}
+
+  void add(const PlacedChart& placed, Batch& batch) const {
+    const Instance& instance = scene_.instances[placed.chart.instance];
+    const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
+    const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
+    const auto first = static_cast<uint32_t>(batch.positions.size());
+    const std::vector<Vec3> flat = mesh.normals.empty() ? faceNormals(placed, mesh, instance) : std::vector<Vec3>();
+    for (size_t i = 0; i < placed.vertices.size(); ++i) {
+      const uint32_t v = placed.vertices[i].vertex;
+      batch.positions.push_back(instance.worldFromObject.point(mesh.positions[v]));
+      Vec3 n = flat.empty() ? instance.worldFromObject.normal(mesh.normals[v]) : flat[i];
+      if (flat.empty() && dot(n, placed.chart.normal) < 0 && !placed.chart.byVertices) n = -n;
+      if (flat.empty() && placed.chart.byVertices && placed.chart.back) n = -n;
+      batch.normals.push_back(packedNormal(length(n) > 0 ? normalize(n) : placed.chart.normal));
+      const TextureRef& base = material.baseColorTexture;
+      const auto& uv = mesh.uv[base.uvSet];
+      batch.uv.push_back(v < uv.size() ? transformUv(base, uv[v]) : Vec2{});
+      batch.atlas.push_back(onAtlas(placed.vertices[i].texel));
+      const uint8_t lit = placed.chart.byVertices ? 1 : 0;
+      batch.vertexLit.push_back({lit, 0, 0, 0});
+      const Vec3 c = v < mesh.colors.size() ? mesh.colors[v] : Vec3(1);
+      const float alpha = v < mesh.colorAlphas.size() ? mesh.colorAlphas[v] : 1;
+      batch.colors.push_back({packedByte(c.x), packedByte(c.y), packedByte(c.z), packedByte(alpha)});
+      batch.coloured |= !mesh.colors.empty();
+    }
+    for (const uint32_t i : placed.indices) batch.indices.push_back(first + i);
+  }
+
+ private:
+  // Where a mesh has no normals: means over the chart's faces, which are nearly flat.
+  static std::vector<Vec3> faceNormals(const PlacedChart& placed, const Mesh& mesh, const Instance& instance) {
+    std::vector<Vec3> sums(placed.vertices.size());
+    for (size_t t = 0; t + 2 < placed.indices.size(); t += 3) {
+      const auto at = [&](size_t k) {
+        return instance.worldFromObject.point(mesh.positions[placed.vertices[placed.indices[t + k]].vertex]);
+      };
+      const Vec3 n = cross(at(1) - at(0), at(2) - at(0));
+      for (size_t k = 0; k < 3; ++k) sums[placed.indices[t + k]] += n;
+    }
+    return sums;
+  }
+  std::array<uint16_t, 2> onAtlas(Vec2 texel) const {
+    const auto pack = [](float f, int size) {
+      return static_cast<uint16_t>(std::lround(std::clamp(f / static_cast<float>(size), 0.0f, 1.0f) * 65535));
+    };
+    return {pack(texel.x, atlas_.width), pack(texel.y, atlas_.height)};
+  }
+
+  const Scene& scene_;
+  const Atlas& atlas_;
+};
+
+Json primitiveOf(GlbWriter& glb, const Batch& b, bool textured, int material) {
+  const size_t n = b.positions.size();
+  Json attributes;
+  attributes["POSITION"] = glb.addPositions(b.positions);
+  attributes["NORMAL"] = glb.addAccessor(bytesOf(b.normals), Component::Byte, "VEC3", n, 4, true);
+  if (textured) attributes["TEXCOORD_0"] = glb.addAccessor(bytesOf(b.uv), Component::Float, "VEC2", n, 8, false);
+  attributes["TEXCOORD_1"] = glb.addAccessor(bytesOf(b.atlas), Component::UnsignedShort, "VEC2", n, 4, true);
+  if (b.coloured)
+    attributes["COLOR_0"] = glb.addAccessor(bytesOf(b.colors), Component::UnsignedByte, "VEC4", n, 4, true);
+  attributes["_VERTEX_LIT"] = glb.addAccessor(bytesOf(b.vertexLit), Component::UnsignedByte, "SCALAR", n, 4, false);
+  const int indices = glb.addAccessor(bytesOf(b.indices), Component::UnsignedInt, "SCALAR", b.indices.size(), 0, false);
+  return {{"attributes", attributes}, {"indices", indices}, {"material", material}};
+}
+
+Status addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
+                   const GlbSettings& settings) {
+  const BatchMaker maker(scene, atlas);
+  std::map<std::pair<int, int>, Batch> batches;  // by material and layer of what it emits
+  for (const PlacedChart& placed : atlas.charts) {
+    const Instance& instance = scene.instances[placed.chart.instance];
+    const int material = scene.meshes[static_cast<size_t>(instance.mesh)].material;
+    maker.add(placed, batches[{material, lamps.ofInstance[placed.chart.instance]}]);
+  }
+  GlbMaterials materials(scene, glb, settings);
+  Json primitives = Json::array();
+  for (const auto& [key, batch] : batches) {
+    const Result<int> material = materials.add(key.first, key.second);
+    if (!material) return Error{material.error()};
+    primitives.push_back(primitiveOf(glb, batch, materials.textured(key.first), material.value()));
+  }
+  materials.finish();
+  glb.json["meshes"] = Json::array({{{"name", "home"}, {"primitives", primitives}}});
+  glb.json["nodes"] = Json::array({{{"name", "home"}, {"mesh", 0}}});
+  glb.json["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
+  glb.json["scene"] = 0;
+  return Ok{};
+}
+
+constexpr int kTile = 32;
+
+// The light of a layer on the atlas, texels beside charts too.
+Image onAtlas(const Atlas& atlas, const std::vector<Vec3>& lux) {
+  Image light(atlas.width, atlas.height);
+  for (size_t i = 0; i < atlas.texels.size(); ++i) light.pixels[atlas.texels[i]] = lux[i];
+  for (const auto& [texel, element] : atlas.padding) light.pixels[texel] = lux[element];
+  return light;
+}
+
+Json vectorJson(Vec3 v) { return {v.x, v.y, v.z}; }
+
+Json layerJson(GlbWriter& glb, const Scene& scene, const BakedLayer& layer, const Image& light) {
+  constexpr const char* kKinds[] = {"lamp", "sun", "sky"};
+  Json json = {{"name", layer.name}, {"kind", kKinds[static_cast<size_t>(layer.role)]}, {"on", layer.on}};
+  if (layer.role == LayerRole::Lamp) {
+    json["position"] = vectorJson(layer.position);
+    if (const int room = roomAt(scene, layer.position); room >= 0)
+      json["room"] = scene.rooms[static_cast<size_t>(room)].name;
+  } else {
+    json["hour"] = layer.hour;
+  }
+  json["color"] = vectorJson(layer.color);
+  const LightTexels texels = lightTexels(light, kTile);
+  json["light"] = {{"bufferView", glb.addView(texels.stream)}, {"scale", texels.scale}, {"tiles", texels.tiles}};
+  if (layer.panorama.width > 0) {
+    const LightTexels sky = lightTexels(layer.panorama);
+    json["panorama"] = {{"bufferView", glb.addView(sky.stream)},
+                        {"width", layer.panorama.width},
+                        {"height", layer.panorama.height},
+                        {"scale", sky.scale}};
+  }
+  return json;
+}
+
+Json roomsJson(const Scene& scene) {
+  Json rooms = Json::array();
+  for (const Room& room : scene.rooms) {
+    Json floor = Json::array();
+    for (const Vec2 p : room.floor) floor.push_back({p.x, p.y});
+    rooms.push_back(
+        {{"name", room.name}, {"floor", floor}, {"elevationM", room.elevationM}, {"heightM", room.heightM}});
+  }
+  return rooms;
+}
+
+Json camerasJson(const Scene& scene, int& inUse) {
+  Json cameras = Json::array();
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    const Camera& c = scene.cameras[i];
+    if (c.projection != Projection::Perspective) continue;
+    if (static_cast<int>(i) == scene.cameraInUse) inUse = static_cast<int>(cameras.size());
+    cameras.push_back({{"name", c.name},
+                       {"position", vectorJson(c.worldFromCamera.w)},
+                       {"forward", vectorJson(-c.worldFromCamera.z)},
+                       {"yFovDeg", c.yFovRad * 180 / kPi}});
+  }
+  return cameras;
+}
+
+}  // namespace
+
+Result<std::string> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
+                          const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings) {
+  GlbWriter glb;
+  if (const Status s = addGeometry(glb, scene, atlas, lamps, settings); !s) return Error{s.error()};
+  Json layers = Json::array();
+  for (const auto* group : {&lamps.layers, &daylight}) {
+    for (const BakedLayer& layer : *group) layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux)));
+  }
+  int camera = 0;
+  Json cameras = camerasJson(scene, camera);
+  Json light = {
+      {"version", 1},
+      {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
+      {"layers", layers},
+      {"rooms", roomsJson(scene)},
+      {"cameras", cameras},
+      {"camera", camera},
+      {"display",
+       {{"ev100", shown.ev100}, {"tone", toneCurveName(shown.curve)}, {"whiteGains", vectorJson(shown.whiteGains)}}}};
+  if (!daylight.empty()) light["hour"] = daylight.front().hour;
+  glb.json["extensions"]["ROOMLIGHT_light_layers"] = light;
+  glb.json["extensionsUsed"].push_back("ROOMLIGHT_light_layers");
+  return glb.finished();
+}
+
+}  // namespace roomlight::bake

@@ -1,0 +1,30 @@
+// A baked home as a file: binary glTF with its layers of light (docs/reference/baked.md).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "bake/atlas.h"
+#include "bake/layers.h"
+#include "base/tone.h"
+
+namespace roomlight::bake {
+
+struct GlbSettings {
+  int mostTexturePixels = 1024;  // an edge; larger textures are scaled down
+  float textureQuality = 80;     // of WebP
+};
+
+// What a picture of the home's own light from its camera is exposed and balanced by.
+struct ShownAs {
+  ToneCurve curve = ToneCurve::PbrNeutral;
+  float ev100 = 8;
+  Vec3 whiteGains{1, 1, 1};
+};
+
+// Layers have light on the elements of the atlas.
+// Errors: a texture that cannot be written.
+Result<std::string> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
+                          const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings);
+
+}  // namespace roomlight::bake

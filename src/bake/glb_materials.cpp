@@ -1,0 +1,150 @@
+#include "bake/glb_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/image_io.h"
+#include "scene/surface.h"
+
+namespace roomlight::bake {
+namespace {
+
+constexpr int kClamp = 33071, kMirror = 33648, kRepeat = 10497;  // as glTF numbers them
+
+int wrapOf(Wrap wrap) { return wrap == Wrap::ClampToEdge ? kClamp : wrap == Wrap::MirroredRepeat ? kMirror : kRepeat; }
+
+bool opaque(const Texture& t) {
+  for (size_t i = 3; i < t.rgba.size(); i += 4) {
+    if (t.rgba[i] != 255) return false;
+  }
+  return true;
+}
+
+// Means over squares of texels, so that no edge is longer than `most`. Colours are averaged as they are encoded.
+Texture scaledDown(const Texture& t, int most) {
+  const int by = (std::max(t.width, t.height) + most - 1) / most;
+  if (by <= 1) return t;
+  Texture out{t.name, std::max(1, t.width / by), std::max(1, t.height / by), t.wrapU, t.wrapV, {}};
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      uint32_t sum[4] = {}, count = 0;
+      for (int j = y * by; j < std::min((y + 1) * by, t.height); ++j) {
+        for (int i = x * by; i < std::min((x + 1) * by, t.width); ++i, ++count) {
+          for (int c = 0; c < 4; ++c)
+            sum[c] += t.rgba[(static_cast<size_t>(j) * static_cast<size_t>(t.width) + static_cast<size_t>(i)) * 4 +
+                             static_cast<size_t>(c)];
+        }
+      }
+      for (const uint32_t s : sum) out.rgba.push_back(static_cast<uint8_t>((s + count / 2) / count));
+    }
+  }
+  return out;
+}
+
+ByteImage bytesOf(const Texture& t, int channels) {
+  ByteImage image;
+  image.width = t.width, image.height = t.height, image.channels = channels;
+  for (size_t i = 0; i < t.rgba.size(); i += 4)
+    image.samples.insert(image.samples.end(), t.rgba.begin() + static_cast<ptrdiff_t>(i),
+                         t.rgba.begin() + static_cast<ptrdiff_t>(i) + channels);
+  return image;
+}
+
+bool sameCoordinates(const TextureRef& a, const TextureRef& b) {
+  return a.uvSet == b.uvSet && std::equal(&a.m[0][0], &a.m[0][0] + 6, &b.m[0][0]);
+}
+
+Json colorJson(Vec3 c) { return {c.x, c.y, c.z}; }
+
+}  // namespace
+
+bool GlbMaterials::textured(int material) const {
+  const Material& m = scene_.materials[static_cast<size_t>(material)];
+  return m.baseColorTexture.texture >= 0;
+}
+
+Result<int> GlbMaterials::texture(int number) {
+  if (const auto known = textureOf_.find(number); known != textureOf_.end()) return known->second;
+  const Texture small = scaledDown(scene_.textures[static_cast<size_t>(number)], settings_.mostTexturePixels);
+  const Result<std::string> webp = encodeWebp(bytesOf(small, opaque(small) ? 3 : 4), settings_.textureQuality);
+  if (!webp) return Error{webp.error()};
+  const Json sampler = {{"wrapS", wrapOf(small.wrapU)}, {"wrapT", wrapOf(small.wrapV)}};
+  auto place = std::find(samplers_.begin(), samplers_.end(), sampler);
+  const auto samplerNumber = static_cast<int>(place - samplers_.begin());
+  if (place == samplers_.end()) samplers_.push_back(sampler);
+  const auto image = static_cast<int>(images_.size());
+  images_.push_back({{"bufferView", glb_.addView(webp.value())}, {"mimeType", "image/webp"}});
+  const auto out = static_cast<int>(textures_.size());
+  textures_.push_back({{"sampler", samplerNumber}, {"extensions", {{"EXT_texture_webp", {{"source", image}}}}}});
+  return textureOf_[number] = out;
+}
+
+// Beside the colour only those that lie where it does: there is one set of coordinates.
+Status GlbMaterials::addTextures(const Material& m, Json& json, Json& pbr) {
+  if (m.baseColorTexture.texture < 0) return Ok{};
+  const auto add = [&](const TextureRef& ref, Json& into, const char* key) -> Status {
+    if (ref.texture < 0 || !sameCoordinates(ref, m.baseColorTexture)) return Ok{};
+    const Result<int> number = texture(ref.texture);
+    if (!number) return Error{number.error()};
+    into[key] = {{"index", number.value()}};
+    return Ok{};
+  };
+  if (const Status s = add(m.baseColorTexture, pbr, "baseColorTexture"); !s) return s;
+  if (const Status s = add(m.metallicRoughnessTexture, pbr, "metallicRoughnessTexture"); !s) return s;
+  return add(m.emissionTexture, json, "emissiveTexture");
+}
+
+// A pane or a sheet of glass lets through what is behind it and adds what it reflects.
+void GlbMaterials::addTransparency(const Material& m, Json& json, Json& pbr) {
+  Vec3 color = m.baseColor;
+  float alpha = m.alpha;
+  const bool pane = m.glazing.panes > 0;
+  if (pane) {
+    alpha = 1 - glazingLight(m.glazing, 1).transmitted;
+    color = Vec3(0);
+    pbr["roughnessFactor"] = 0, pbr["metallicFactor"] = 0;
+  } else if (m.transmission > 0) {
+    alpha *= 1 - m.transmission * luminance(m.baseColor);
+  }
+  pbr["baseColorFactor"] = {color.x, color.y, color.z, alpha};
+  if (pane || m.transmission > 0 || m.alphaMode == AlphaMode::Blend) {
+    json["alphaMode"] = "BLEND";
+  } else if (m.alphaMode == AlphaMode::Mask) {
+    json["alphaMode"] = "MASK", json["alphaCutoff"] = m.alphaCutoff;
+  }
+}
+
+Result<int> GlbMaterials::add(int number, int layer) {
+  const Material& m = scene_.materials[static_cast<size_t>(number)];
+  Json json = {{"name", m.name}};
+  Json pbr = {{"metallicFactor", m.metallic}, {"roughnessFactor", m.roughness}};
+  addTransparency(m, json, pbr);
+  if (const Status s = addTextures(m, json, pbr); !s) return Error{s.error()};
+  json["pbrMetallicRoughness"] = pbr;
+  if (const float most = maxComponent(m.emission); most > 0) {
+    json["emissiveFactor"] = colorJson(m.emission / most);
+    json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", most}};
+    if (layer >= 0) json["extras"]["lightLayers"] = Json::array({layer});
+  }
+  if (m.ior != 1.5f) json["extensions"]["KHR_materials_ior"] = {{"ior", m.ior}};
+  if (m.specular != 1) json["extensions"]["KHR_materials_specular"] = {{"specularFactor", m.specular}};
+  materials_.push_back(json);
+  return static_cast<int>(materials_.size()) - 1;
+}
+
+void GlbMaterials::finish() {
+  Json used = Json::array();
+  for (const char* name : {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular"}) {
+    if (std::any_of(materials_.begin(), materials_.end(),
+                    [&](const Json& m) { return m.contains("extensions") && m["extensions"].contains(name); }))
+      used.push_back(name);
+  }
+  glb_.json["materials"] = materials_;
+  if (!textures_.empty()) used.push_back("EXT_texture_webp");
+  glb_.json["extensionsUsed"] = used;
+  if (textures_.empty()) return;
+  glb_.json["extensionsRequired"] = Json::array({"EXT_texture_webp"});
+  glb_.json["textures"] = textures_, glb_.json["images"] = images_, glb_.json["samplers"] = samplers_;
+}
+
+}  // namespace roomlight::bake

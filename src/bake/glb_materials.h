@@ -1,0 +1,36 @@
+// Materials and textures of a scene as glTF has them.
+#pragma once
+
+#include <map>
+
+#include "bake/glb.h"
+#include "bake/glb_writer.h"
+
+namespace roomlight::bake {
+
+class GlbMaterials {
+ public:
+  GlbMaterials(const Scene& scene, GlbWriter& glb, const GlbSettings& settings)
+      : scene_(scene), glb_(glb), settings_(settings) {}
+
+  // The number in the file of a material of the scene whose emission belongs to a layer (-1: to none). Errors: a
+  // texture that cannot be written.
+  Result<int> add(int material, int layer);
+  // Whether its coordinates are needed.
+  bool textured(int material) const;
+  // Writes what was added into the file.
+  void finish();
+
+ private:
+  Result<int> texture(int texture);
+  Status addTextures(const Material& m, Json& json, Json& pbr);
+  void addTransparency(const Material& m, Json& json, Json& pbr);
+
+  const Scene& scene_;
+  GlbWriter& glb_;
+  const GlbSettings& settings_;
+  Json materials_ = Json::array(), textures_ = Json::array(), images_ = Json::array(), samplers_ = Json::array();
+  std::map<int, int> textureOf_;  // of the scene's
+};
+
+}  // namespace roomlight::bake

@@ -1,0 +1,161 @@
+#include "bake/layers.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace roomlight::bake {
+namespace {
+
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+constexpr float kLeastLux = 1e-4f;    // a layer that gives nothing more is none
+constexpr int kReach = 3;             // texels that smoothing looks at, each way
+constexpr float kSpreadTexels = 1.8f; // standard deviation of its weights
+constexpr float kDeviations = 2;      // of the noise of two texels, up to which they count as the same
+
+Scene withoutDaylight(Scene scene) {
+  scene.suns.clear(), scene.sky = {};
+  return scene;
+}
+
+Scene withoutLamps(Scene scene) {
+  scene.lamps.clear();
+  for (Material& m : scene.materials) m.emission = Vec3(0);
+  return scene;
+}
+
+bool givesLight(const BakedLayer& layer) {
+  for (const Vec3 e : layer.lux) {
+    if (luminance(e) > kLeastLux) return true;
+  }
+  return false;
+}
+
+Vec3 meanColor(const std::vector<Vec3>& lux) {
+  Vec3 sum;
+  for (const Vec3 e : lux) sum += e;
+  return luminance(sum) > 0 ? sum / luminance(sum) : Vec3(1);
+}
+
+Result<std::unique_ptr<LitScene>> lit(const Scene& scene, const RenderSettings& settings, Stages& stages) {
+  RenderSettings render = settings;
+  render.technique = technique::kHybrid;
+  return lightScene(scene, render, stages, {.changes = false});
+}
+
+Result<std::unique_ptr<LitScene>> litInLayers(const Scene& scene, RenderSettings settings, Stages& stages) {
+  settings.layers = true;
+  const Lights lights(scene);
+  settings.layersByRoom = !layersOf(scene, lights);
+  return lit(scene, settings, stages);
+}
+
+constexpr int kSkyWidth = 256, kSkyHeight = 128;
+
+Image panoramaOf(const SkyDistribution& sky) {
+  Image out(kSkyWidth, kSkyHeight);
+  for (int y = 0; y < kSkyHeight; ++y) {
+    for (int x = 0; x < kSkyWidth; ++x) {
+      const float up = kPi * (0.5f - (static_cast<float>(y) + 0.5f) / kSkyHeight);
+      const float right = 2 * kPi * ((static_cast<float>(x) + 0.5f) / kSkyWidth - 0.5f);
+      out.at(x, y) = sky.radiance({std::sin(right) * std::cos(up), std::sin(up), -std::cos(right) * std::cos(up)});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<LampLayers> lampLayers(const Scene& home, const std::vector<SurfaceElement>& elements,
+                              const LayerSettings& settings, Stages& stages) {
+  const Scene scene = withoutDaylight(home);
+  LampLayers out;
+  out.ofInstance.assign(scene.instances.size(), -1);
+  if (!Lights(scene).hasLocal()) return out;
+  const Result<std::unique_ptr<LitScene>> light = litInLayers(scene, settings.render, stages);
+  if (!light) return Error{light.error()};
+  if (!light.value()) return out;
+  const LightLayers* layers = light.value()->layers();
+  if (!layers) return Error{"the home has more lamps than can be told apart; group some in a lighting file"};
+  const LayeredReadings readings = stages.run(
+      "lamps", [&](const Progress& p) { return light.value()->illuminanceInLayers(elements, settings.meters, p); });
+  if (stages.cancelled()) return out;
+  std::vector<int32_t> kept(layers->size(), -1);
+  for (size_t l = 0; l < layers->size(); ++l) {
+    const LightLayer& of = layers->layers[l];
+    BakedLayer layer{of.name, LayerRole::Lamp, of.fluxLm, of.position, true, 0, {}, {}, {}};
+    layer.color = luminance(of.fluxLm) > 0 ? of.fluxLm / luminance(of.fluxLm) : Vec3(1);
+    for (size_t i = 0; i < elements.size(); ++i) {
+      layer.lux.push_back(readings.at(i, l));
+      layer.errorLux.push_back(readings.standardErrorLux[i * readings.layers + l]);
+    }
+    if (!givesLight(layer)) continue;
+    kept[l] = static_cast<int32_t>(out.layers.size());
+    out.layers.push_back(std::move(layer));
+  }
+  for (size_t e = 0; e < light.value()->lights().emitterCount(); ++e)
+    out.ofInstance[light.value()->lights().emitterInstance(e)] = kept[static_cast<size_t>(layers->ofEmitter[e])];
+  return out;
+}
+
+Result<std::vector<BakedLayer>> daylightLayers(const Scene& home, double hour,
+                                               const std::vector<SurfaceElement>& elements,
+                                               const LayerSettings& settings, Stages& stages) {
+  std::vector<BakedLayer> out;
+  for (const bool sun : {true, false}) {
+    Scene scene = withoutLamps(home);
+    if (sun) scene.sky = {};
+    if (!sun) scene.suns.clear();
+    if (scene.suns.empty() && !scene.sky.present()) continue;
+    const Result<std::unique_ptr<LitScene>> light = lit(scene, settings.render, stages);
+    if (!light) return Error{light.error()};
+    if (!light.value()) return out;
+    const std::vector<MeterReading> readings = stages.run(sun ? "sun" : "sky", [&](const Progress& p) {
+      return light.value()->illuminance(elements, settings.meters, p);
+    });
+    if (stages.cancelled()) return out;
+    BakedLayer layer{sun ? "Sun" : "Sky", sun ? LayerRole::Sun : LayerRole::Sky, {}, {}, true, hour, {}, {}, {}};
+    for (const MeterReading& r : readings) {
+      layer.lux.push_back(r.illuminanceLux);
+      layer.errorLux.push_back(static_cast<float>(r.standardErrorLux));
+    }
+    layer.color = meanColor(layer.lux);
+    if (!sun) layer.panorama = panoramaOf(light.value()->lights().sky());
+    if (givesLight(layer)) out.push_back(std::move(layer));
+  }
+  return out;
+}
+
+void smoothLayers(const Atlas& atlas, std::vector<BakedLayer>& layers) {
+  std::vector<uint32_t> elementAt(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNone);
+  for (size_t i = 0; i < atlas.texels.size(); ++i) elementAt[atlas.texels[i]] = static_cast<uint32_t>(i);
+  for (BakedLayer& layer : layers) {
+    std::vector<Vec3> smooth = layer.lux;
+    parallelFor(smooth.size(), 512, [&](size_t i) {
+      if (atlas.charts[atlas.chartOf[i]].chart.byVertices) return;
+      const int x = static_cast<int>(atlas.texels[i]) % atlas.width,
+                y = static_cast<int>(atlas.texels[i]) / atlas.width;
+      Vec3 sum;
+      float weights = 0;
+      for (int dy = -kReach; dy <= kReach; ++dy) {
+        for (int dx = -kReach; dx <= kReach; ++dx) {
+          if (x + dx < 0 || y + dy < 0 || x + dx >= atlas.width || y + dy >= atlas.height) continue;
+          const uint32_t j = elementAt[static_cast<size_t>((y + dy) * atlas.width + x + dx)];
+          if (j == kNone || atlas.chartOf[j] != atlas.chartOf[i]) continue;
+          const float apart = luminance(layer.lux[i]) - luminance(layer.lux[j]);
+          const float noise = layer.errorLux[i] * layer.errorLux[i] + layer.errorLux[j] * layer.errorLux[j];
+          const float near = static_cast<float>(dx * dx + dy * dy) / (2 * kSpreadTexels * kSpreadTexels);
+          const float same = apart * apart / std::max(kDeviations * kDeviations * 2 * noise, 1e-12f);
+          const float w =
+              std::exp(-near - same) * std::max(dot(atlas.elements[i].normal, atlas.elements[j].normal), 0.0f);
+          sum += layer.lux[j] * w, weights += w;
+        }
+      }
+      if (weights > 0) smooth[i] = sum / weights;
+    });
+    layer.lux = std::move(smooth);
+  }
+}
+
+}  // namespace roomlight::bake

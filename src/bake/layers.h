@@ -1,0 +1,50 @@
+// The light of a home as layers on the elements of an atlas: of each lamp or group of lamps, of the sun, of the sky.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bake/atlas.h"
+#include "engine/lit_scene.h"
+#include "engine/settings.h"
+
+namespace roomlight::bake {
+
+enum class LayerRole : uint8_t { Lamp, Sun, Sky };
+
+struct BakedLayer {
+  std::string name;
+  LayerRole role = LayerRole::Lamp;
+  Vec3 color{1, 1, 1};  // linear Rec.709 of its light, luminance 1
+  Vec3 position;        // of lamps
+  bool on = true;
+  double hour = 0;      // local time, of sun and sky
+  std::vector<Vec3> lux;       // on each element
+  std::vector<float> errorLux; // standard error of its luminance, likewise
+  Image panorama;              // of the sky, equirectangular, cd/m²
+};
+
+struct LayerSettings {
+  RenderSettings render;  // technique, voxels, cached light
+  MeterSettings meters{0.05, 64, 256, 0};
+};
+
+struct LampLayers {
+  std::vector<BakedLayer> layers;
+  std::vector<int32_t> ofInstance;  // the layer that what shines on it belongs to, -1: none
+};
+
+// All lamps and what else shines, at full strength. Where there are too many to be told apart, those of a room are one.
+Result<LampLayers> lampLayers(const Scene& scene, const std::vector<SurfaceElement>& elements,
+                              const LayerSettings& settings, Stages& stages);
+
+// All suns, and the sky, as the scene has them. What gives nothing is left out.
+Result<std::vector<BakedLayer>> daylightLayers(const Scene& scene, double hour,
+                                               const std::vector<SurfaceElement>& elements,
+                                               const LayerSettings& settings, Stages& stages);
+
+// Takes noise from the layers: a mean over neighbours of one chart whose light is the same up to what their errors
+// explain. Does not depend on the number of threads.
+void smoothLayers(const Atlas& atlas, std::vector<BakedLayer>& layers);
+
+}  // namespace roomlight::bake

@@ -1,0 +1,101 @@
+#include "bake/light_texels.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace roomlight::bake {
+namespace {
+
+constexpr int kMantissaBits = 9, kBias = 15, kMostExponent = 31;
+constexpr float kLargest = 65408;  // (2^9 - 1) / 2^9 * 2^16
+constexpr float kDarkLux = 0.01f;  // a tile that is nowhere brighter is left out
+
+float clipped(float v) { return v > 0 ? std::min(v, kLargest) : 0; }
+
+// Lowest bytes of all texels first: neighbours differ least in the highest.
+std::string byPlanes(std::span<const uint32_t> texels) {
+  std::string planes(texels.size() * 4, '\0');
+  for (size_t k = 0; k < 4; ++k) {
+    for (size_t i = 0; i < texels.size(); ++i)
+      planes[k * texels.size() + i] = static_cast<char>(texels[i] >> (8 * k) & 0xff);
+  }
+  return planes;
+}
+
+float scaleOf(const Image& light) {
+  float most = 0;
+  for (const Vec3 v : light.pixels) most = std::max(most, maxComponent(v));
+  // A power of two, which loses nothing.
+  return most > kLargest ? std::exp2(std::ceil(std::log2(most / kLargest))) : 1;
+}
+
+void addTile(const Image& light, int tile, uint32_t number, float scale, std::vector<uint32_t>& texels) {
+  const int across = light.width / tile;
+  const int left = static_cast<int>(number) % across * tile, top = static_cast<int>(number) / across * tile;
+  for (int y = 0; y < tile; ++y) {
+    for (int x = 0; x < tile; ++x) texels.push_back(rgb9e5(light.at(left + x, top + y) / scale));
+  }
+}
+
+}  // namespace
+
+uint32_t rgb9e5(Vec3 value) {
+  const Vec3 v{clipped(value.x), clipped(value.y), clipped(value.z)};
+  const float most = maxComponent(v);
+  if (most <= 0) return 0;
+  int exponent = std::clamp(std::ilogb(most) + 1 + kBias, 0, kMostExponent);
+  const auto mantissa = [&](float c) {
+    return static_cast<uint32_t>(std::lround(std::ldexp(c, kMantissaBits + kBias - exponent)));
+  };
+  if (mantissa(most) > 511) ++exponent;
+  return mantissa(v.x) | mantissa(v.y) << 9 | mantissa(v.z) << 18 | static_cast<uint32_t>(exponent) << 27;
+}
+
+Vec3 fromRgb9e5(uint32_t texel) {
+  const float scale = std::ldexp(1.0f, static_cast<int>(texel >> 27) - kBias - kMantissaBits);
+  return Vec3(static_cast<float>(texel & 511), static_cast<float>(texel >> 9 & 511),
+              static_cast<float>(texel >> 18 & 511)) *
+         scale;
+}
+
+LightTexels lightTexels(const Image& light, int tile) {
+  LightTexels out;
+  out.scale = scaleOf(light);
+  std::vector<uint32_t> texels;
+  const int across = light.width / tile, count = across * (light.height / tile);
+  for (int t = 0; t < count; ++t) {
+    bool dark = true;
+    for (int i = 0; dark && i < tile * tile; ++i)
+      dark = maxComponent(light.at(t % across * tile + i % tile, t / across * tile + i / tile)) <= kDarkLux;
+    if (dark) continue;
+    out.tiles.push_back(static_cast<uint32_t>(t));
+    addTile(light, tile, static_cast<uint32_t>(t), out.scale, texels);
+  }
+  out.stream = deflated(byPlanes(texels));
+  return out;
+}
+
+LightTexels lightTexels(const Image& picture) {
+  LightTexels out;
+  out.scale = scaleOf(picture);
+  std::vector<uint32_t> texels;
+  for (const Vec3 v : picture.pixels) texels.push_back(rgb9e5(v / out.scale));
+  out.tiles = {0};
+  out.stream = deflated(byPlanes(texels));
+  return out;
+}
+
+std::string deflated(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string out(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION) != Z_OK)
+    throw std::runtime_error("light cannot be compressed");
+  out.resize(size);
+  return out;
+}
+
+}  // namespace roomlight::bake

@@ -1,0 +1,164 @@
+#include "bake/lit_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/parallel.h"
+#include "base/sampler.h"
+#include "base/sampling.h"
+#include "trace/surface_point.h"
+
+namespace roomlight::bake {
+namespace {
+
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+constexpr int kRaysEach = 16;
+constexpr float kLeastShare = 0.1f;  // of a place's rays that come to what is seen
+constexpr float kSteps = 1.5f;       // of a component of normals that share a place, each way from zero
+constexpr float kFacing = 0.3f;  // cosine between the normals of a vertex and of a place that lights it, at least
+
+bool isBuried(const SurfaceElement& e, size_t number, const RayScene& rays, const SeenSides& seen) {
+  const Frame frame(e.normal);
+  const Vec3 origin = offsetOrigin(e.position, e.normal);
+  int open = 0;
+  for (int k = 0; k < kRaysEach; ++k) {
+    Sampler sampler(number, static_cast<uint32_t>(k), 0);
+    const Ray ray{origin, frame.toWorld(sampleCosineHemisphere(sampler.next2()))};
+    const Hit hit = rays.intersect(ray);
+    if (!hit.valid()) {
+      ++open;
+      continue;
+    }
+    const TriangleVertices v = worldTriangle(rays.scene(), hit.instance, hit.triangle);
+    open += seen.seen(hit.instance, hit.triangle, dot(cross(v.b - v.a, v.c - v.a), ray.direction) > 0);
+  }
+  return static_cast<float>(open) < kLeastShare * kRaysEach;
+}
+
+// For each element the nearest one of its chart, along texels, that is not buried; kNone: there is none.
+std::vector<uint32_t> nearestOpen(const Atlas& atlas, const std::vector<uint8_t>& buried) {
+  const size_t n = atlas.elements.size();
+  std::vector<uint32_t> nearest(n, kNone),
+      elementAt(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), kNone);
+  std::vector<uint32_t> ring;
+  for (uint32_t i = 0; i < n; ++i) {
+    elementAt[atlas.texels[i]] = i;
+    if (!buried[i]) nearest[i] = i, ring.push_back(i);
+  }
+  const int64_t w = atlas.width;
+  for (size_t k = 0; k < ring.size(); ++k) {
+    const uint32_t i = ring[k];
+    for (const int64_t step : {int64_t{-1}, int64_t{1}, -w, w}) {
+      const int64_t texel = static_cast<int64_t>(atlas.texels[i]) + step;
+      if (texel < 0 || texel >= static_cast<int64_t>(elementAt.size())) continue;
+      const uint32_t next = elementAt[static_cast<size_t>(texel)];
+      if (next == kNone || nearest[next] != kNone || atlas.chartOf[next] != atlas.chartOf[i]) continue;
+      nearest[next] = nearest[i], ring.push_back(next);
+    }
+  }
+  return nearest;
+}
+
+// Places of one fine piece, by cell and direction.
+class Clusters {
+ public:
+  explicit Clusters(float apartM) : apartM_(apartM) {}
+  void add(const SurfaceElement& e) {
+    Cluster& c = clusters_[keyOf(e)];
+    c.position += e.position, c.normal += e.normal, c.count += 1;
+    // Of what was added the one nearest to the mean would be better still; the first is on the surface, a mean is not.
+    if (c.count == 1) c.first = e;
+  }
+  void finish(std::vector<SurfaceElement>& places) {
+    for (auto& [key, c] : clusters_) {
+      c.place = static_cast<uint32_t>(places.size());
+      places.push_back({c.first.position, length(c.normal) > 0.1f ? normalize(c.normal) : c.first.normal});
+    }
+  }
+  LightShares sharesOf(const SurfaceElement& e, const std::vector<SurfaceElement>& places) const {
+    std::vector<std::pair<float, uint32_t>> found;
+    const Key own = keyOf(e);
+    for (auto near = clusters_.lower_bound({own.cell[0] - 1, kLowest, kLowest}); near != clusters_.end(); ++near) {
+      const Key& key = near->first;
+      if (key.cell[0] > own.cell[0] + 1) break;
+      if (std::abs(key.cell[1] - own.cell[1]) > 1 || std::abs(key.cell[2] - own.cell[2]) > 1) continue;
+      const SurfaceElement& place = places[near->second.place];
+      const float facing = dot(place.normal, e.normal), apart = length(place.position - e.position) / apartM_;
+      if (facing < kFacing || apart > 1.5f) continue;
+      found.emplace_back(facing * facing / (apart * apart + 0.02f), near->second.place);
+    }
+    if (found.empty()) return {{clusters_.at(own).place}, {1}};
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+      return std::tuple(-a.first, a.second) < std::tuple(-b.first, b.second);
+    });
+    LightShares shares;
+    float sum = 0;
+    for (size_t k = 0; k < std::min(kMostShares, found.size()); ++k)
+      shares.place[k] = found[k].second, shares.weight[k] = found[k].first, sum += found[k].first;
+    for (float& w : shares.weight) w /= sum;
+    return shares;
+  }
+
+ private:
+  static constexpr int kLowest = std::numeric_limits<int>::min();
+  struct Key {
+    std::array<int, 3> cell;
+    std::array<int, 3> facing{kLowest, kLowest, kLowest};
+    Key(int x, int y, int z) : cell{x, y, z} {}
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Cluster {
+    Vec3 position, normal;
+    SurfaceElement first;
+    float count = 0;
+    uint32_t place = 0;
+  };
+  Key keyOf(const SurfaceElement& e) const {
+    const auto cell = [&](float p) { return static_cast<int>(std::floor(p / apartM_)); };
+    Key key(cell(e.position.x), cell(e.position.y), cell(e.position.z));
+    for (int c = 0; c < 3; ++c)
+      key.facing[static_cast<size_t>(c)] = static_cast<int>(std::lround(e.normal[c] * kSteps));
+    return key;
+  }
+  const float apartM_;
+  std::map<Key, Cluster> clusters_;
+};
+
+}  // namespace
+
+LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides& seen, float apartM) {
+  const size_t n = atlas.elements.size();
+  std::vector<uint8_t> buried(n);
+  parallelFor(n, 256, [&](size_t i) { buried[i] = isBuried(atlas.elements[i], i, rays, seen); });
+  const std::vector<uint32_t> open = nearestOpen(atlas, buried);
+  LitPlaces out;
+  out.ofElement.resize(n);
+  std::vector<uint32_t> placeOf(n, kNone);
+  for (size_t first = 0; first < n;) {
+    size_t end = first;
+    while (end < n && atlas.chartOf[end] == atlas.chartOf[first]) ++end;
+    if (atlas.charts[atlas.chartOf[first]].chart.byVertices) {
+      Clusters clusters(apartM);
+      const bool anyOpen = std::any_of(&buried[first], &buried[first] + (end - first), [](uint8_t b) { return !b; });
+      for (size_t i = first; i < end; ++i) {
+        if (!anyOpen || !buried[i]) clusters.add(atlas.elements[i]);
+      }
+      clusters.finish(out.places);
+      for (size_t i = first; i < end; ++i)
+        out.ofElement[i] = clusters.sharesOf(atlas.elements[open[i] == kNone ? i : open[i]], out.places);
+    } else {
+      for (size_t i = first; i < end; ++i) {
+        if (open[i] != i && open[i] != kNone) continue;
+        placeOf[i] = static_cast<uint32_t>(out.places.size());
+        out.places.push_back(atlas.elements[i]);
+      }
+      for (size_t i = first; i < end; ++i) out.ofElement[i] = {{placeOf[open[i] == kNone ? i : open[i]]}, {1}};
+    }
+    first = end;
+  }
+  return out;
+}
+
+}  // namespace roomlight::bake

@@ -1,0 +1,143 @@
+#include "bake/seen_sides.h"
+
+#include <array>
+#include <atomic>
+#include <map>
+
+#include "base/parallel.h"
+#include "base/sampler.h"
+#include "base/sampling.h"
+#include "home/rooms.h"
+#include "trace/surface_point.h"
+
+namespace roomlight::bake {
+namespace {
+
+constexpr float kEyesApartM = 0.6f;
+constexpr float kHeightsM[] = {0.5f, 1.1f, 1.65f};  // a child or someone lying, sitting, standing
+constexpr int kSurfaces = 12;                       // along one ray
+constexpr float kOpenShare = 0.1f;                  // of a room's eyes: fewer that see each other are shut in
+
+bool letsThrough(const Material& m) {
+  return m.alphaMode != AlphaMode::Opaque || m.transmission > 0 || m.glazing.panes > 0;
+}
+
+Vec2 lowest(const Room& room) {
+  Vec2 low = room.floor.front();
+  for (const Vec2 p : room.floor) low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+  return low;
+}
+
+Vec2 highest(const Room& room) {
+  Vec2 high = room.floor.front();
+  for (const Vec2 p : room.floor) high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  return high;
+}
+
+// Places of one room where an eye could be, each with those beside, below and above it.
+class EyeGrid {
+ public:
+  EyeGrid(const RayScene& rays, const Room& room) : rays_(rays) {
+    const Vec2 low = lowest(room), high = highest(room);
+    const auto steps = [](float length) { return static_cast<int>(std::min(length / kEyesApartM, 1e4f)); };
+    for (int i = 0; i <= steps(high.x - low.x); ++i) {
+      for (int j = 0; j <= steps(high.y - low.y); ++j) {
+        for (size_t h = 0; h < std::size(kHeightsM); ++h) {
+          const Vec3 eye{low.x + (static_cast<float>(i) + 0.5f) * kEyesApartM, room.elevationM + kHeightsM[h],
+                         low.y + (static_cast<float>(j) + 0.5f) * kEyesApartM};
+          if (home::isIn(room, eye)) eyes_[{i, j, static_cast<int>(h)}] = {eye, -1};
+        }
+      }
+    }
+  }
+  // Those with a way to many others: one inside a wardrobe has none.
+  void addOpen(std::vector<Vec3>& out) {
+    std::vector<size_t> sizes;
+    for (auto& [place, eye] : eyes_) {
+      if (eye.region >= 0) continue;
+      sizes.push_back(fill(place, static_cast<int>(sizes.size())));
+    }
+    for (const auto& [place, eye] : eyes_) {
+      if (static_cast<float>(sizes[static_cast<size_t>(eye.region)]) >= kOpenShare * static_cast<float>(eyes_.size()))
+        out.push_back(eye.position);
+    }
+  }
+
+ private:
+  using Place = std::array<int, 3>;
+  struct Eye {
+    Vec3 position;
+    int region;
+  };
+  size_t fill(const Place& first, int region) {
+    std::vector<Place> ring{first};
+    eyes_[first].region = region;
+    for (size_t k = 0; k < ring.size(); ++k) {
+      const Place at = ring[k];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        for (const int step : {-1, 1}) {
+          Place next = at;
+          next[axis] += step;
+          const auto beside = eyes_.find(next);
+          if (beside == eyes_.end() || beside->second.region >= 0) continue;
+          const Vec3 from = eyes_[at].position;
+          if (rays_.intersect({from, beside->second.position - from, 0, 1}).valid()) continue;
+          beside->second.region = region, ring.push_back(next);
+        }
+      }
+    }
+    return ring.size();
+  }
+
+  const RayScene& rays_;
+  std::map<Place, Eye> eyes_;
+};
+
+}  // namespace
+
+SeenSides::SeenSides(const Scene& scene) {
+  size_t count = 0;
+  for (const Instance& instance : scene.instances) {
+    first_.push_back(count);
+    count += scene.meshes[static_cast<size_t>(instance.mesh)].triangleCount();
+  }
+  sides_.resize(count);
+}
+
+void SeenSides::mark(const Hit& hit, bool back) {
+  std::atomic_ref(sides_[first_[hit.instance] + hit.triangle])
+      .fetch_or(static_cast<uint8_t>(back ? 2 : 1), std::memory_order_relaxed);
+}
+
+std::vector<Vec3> eyesIn(const RayScene& rays) {
+  std::vector<Vec3> eyes;
+  for (const Room& room : rays.scene().rooms) {
+    if (!room.floor.empty()) EyeGrid(rays, room).addOpen(eyes);
+  }
+  for (const Camera& camera : rays.scene().cameras) {
+    if (camera.projection == Projection::Perspective) eyes.push_back(camera.worldFromCamera.point({0, 0, 0}));
+  }
+  return eyes;
+}
+
+SeenSides seenFrom(const RayScene& rays, std::span<const Vec3> eyes, size_t count) {
+  const Scene& scene = rays.scene();
+  SeenSides seen(scene);
+  if (eyes.empty()) return seen;
+  parallelFor(count, 1024, [&](size_t i) {
+    Sampler sampler(i % eyes.size(), static_cast<uint32_t>(i / eyes.size()), 0);
+    Ray ray{eyes[i % eyes.size()], sampleSphere(sampler.next2())};
+    for (int k = 0; k < kSurfaces; ++k) {
+      const Hit hit = rays.intersect(ray);
+      if (!hit.valid()) return;
+      const SurfacePlace place = placeAt(scene, hit, ray.direction);
+      const TriangleVertices v = worldTriangle(scene, hit.instance, hit.triangle);
+      seen.mark(hit, dot(cross(v.b - v.a, v.c - v.a), ray.direction) > 0);
+      if (!letsThrough(*place.material)) return;
+      ray.origin = offsetOrigin(place.p, -place.ng);
+    }
+  });
+  return seen;
+}
+
+}  // namespace roomlight::bake

@@ -1,0 +1,33 @@
+// Which sides of a home's triangles people can see from inside its rooms: what no eye meets needs no light.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trace/ray_scene.h"
+
+namespace roomlight::bake {
+
+// By instance and triangle of its mesh.
+class SeenSides {
+ public:
+  explicit SeenSides(const Scene& scene);
+  bool seen(uint32_t instance, uint32_t triangle, bool back) const {
+    return (sides_[first_[instance] + triangle] & (back ? 2 : 1)) != 0;
+  }
+  void mark(const Hit& hit, bool back);  // from many threads
+
+ private:
+  std::vector<size_t> first_;   // of each instance
+  std::vector<uint8_t> sides_;  // bit 0: the side from which it is counter-clockwise in the world, bit 1: the other
+};
+
+// Places at the height of eyes and hips in every room of the scene, where people can stand, and the scene's cameras.
+std::vector<Vec3> eyesIn(const RayScene& rays);
+
+// By `count` rays from the eyes in all directions, which go on through panes and whatever lets light pass. Does not
+// depend on the number of threads.
+SeenSides seenFrom(const RayScene& rays, std::span<const Vec3> eyes, size_t count);
+
+}  // namespace roomlight::bake

@@ -1,0 +1,13 @@
+// Fewer triangles for what is finer than a picture shows.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace roomlight::bake {
+
+// Meshes in which no place of the surface is farther than `errorM` from where it was, as far as edges of quadrics tell;
+// borders, seams of normals and texture coordinates stay. A mesh that is placed larger than it is made is simplified
+// less.
+void simplifyMeshes(Scene& scene, float errorM);
+
+}  // namespace roomlight::bake

@@ -1,0 +1,105 @@
+#include "bake/atlas.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/rooms.h"
+
+namespace roomlight::bake {
+namespace {
+
+Atlas atlasOfAll(const Scene& scene, const AtlasSettings& settings = {}) {
+  SeenSides seen(scene);
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    for (uint32_t t = 0; t < scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount(); ++t) {
+      Hit hit;
+      hit.instance = i, hit.triangle = t;
+      seen.mark(hit, false);
+    }
+  }
+  ChartSettings charts;
+  charts.texelM = settings.texelM;
+  return atlasOf(scene, chartsOf(scene, seen, charts), settings);
+}
+
+Scene room() {
+  Scene scene;
+  const int grey = addMaterial(scene, lambertian(0.5f));
+  addRoom(scene, {0, 0, 0}, {4, 2.5f, 3}, std::vector<int>(6, grey));
+  addBox(scene, {2, 0, 1}, {2.6f, 0.6f, 1.5f}, grey);
+  addSphere(scene, {1, 1, 1}, 0.05f, grey);
+  Room floor;
+  floor.floor = {{0, 0}, {0, 3}, {4, 3}, {4, 0}};
+  scene.rooms = {floor};
+  return scene;
+}
+
+// What interpolation reads at a place of the atlas; it may be off by half a texel.
+Vec3 placeRead(const Atlas& atlas, Vec2 texel) {
+  std::vector<Vec3> places(static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height), Vec3(1e6f));
+  for (size_t i = 0; i < atlas.elements.size(); ++i) places[atlas.texels[i]] = atlas.elements[i].position;
+  const float x = texel.x - 0.5f, y = texel.y - 0.5f;
+  const auto x0 = static_cast<size_t>(x), y0 = static_cast<size_t>(y), w = static_cast<size_t>(atlas.width);
+  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+  const auto row = [&](size_t at) { return fx > 1e-3f ? places[at] * (1 - fx) + places[at + 1] * fx : places[at]; };
+  return fy > 1e-3f ? row(y0 * w + x0) * (1 - fy) + row((y0 + 1) * w + x0) * fy : row(y0 * w + x0);
+}
+
+TEST(Atlas, eachTexelBelongsToOne) {
+  const Atlas atlas = atlasOfAll(room());
+  EXPECT_EQ(atlas.height % 32, 0);
+  std::set<uint32_t> texels(atlas.texels.begin(), atlas.texels.end());
+  EXPECT_EQ(texels.size(), atlas.texels.size());
+  for (const auto& [texel, element] : atlas.padding) {
+    EXPECT_TRUE(texels.insert(texel).second);
+    EXPECT_LT(element, atlas.elements.size());
+  }
+  EXPECT_LT(*texels.rbegin(), static_cast<uint32_t>(atlas.width * atlas.height));
+}
+
+TEST(Atlas, aVertexReadsTheLightOfItsPlace) {
+  const Scene scene = room();
+  const Atlas atlas = atlasOfAll(scene);
+  for (const PlacedChart& placed : atlas.charts) {
+    const Instance& instance = scene.instances[placed.chart.instance];
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    for (const AtlasVertex& v : placed.vertices) {
+      const Vec3 place = instance.worldFromObject.point(mesh.positions[v.vertex]);
+      EXPECT_LT(length(placeRead(atlas, v.texel) - place), 0.025f) << v.texel.x << " " << v.texel.y;
+    }
+  }
+}
+
+TEST(Atlas, elementsFaceTheLitSideAndAreOffTheEdges) {
+  const Atlas atlas = atlasOfAll(room());
+  for (size_t i = 0; i < atlas.elements.size(); ++i) {
+    const SurfaceElement& e = atlas.elements[i];
+    EXPECT_NEAR(length(e.normal), 1, 1e-4);
+    const Chart& chart = atlas.charts[atlas.chartOf[i]].chart;
+    if (chart.byVertices) continue;
+    EXPECT_GT(dot(e.normal, chart.normal), 0.8f);
+    const Vec3 outside = max(max(-e.position, e.position - Vec3(4, 2.5f, 3)), Vec3(0));
+    EXPECT_LT(maxComponent(outside), 1e-6f);
+  }
+}
+
+TEST(Atlas, texelsAreAsFineAsAskedAndTheGroundIsCoarse) {
+  Scene scene = room();
+  addRectangle(scene, {-50, -0.1f, -50}, {0, 0, 100}, {100, 0, 0}, 0);
+  const Atlas fine = atlasOfAll(scene, {0.05f, 2048, 32}), coarse = atlasOfAll(scene, {0.1f, 2048, 32});
+  const auto count = [](const Atlas& atlas, bool ground) {
+    size_t n = 0;
+    for (size_t i = 0; i < atlas.elements.size(); ++i) {
+      const Chart& chart = atlas.charts[atlas.chartOf[i]].chart;
+      n += !chart.byVertices && (chart.areaM2 > 1000) == ground;
+    }
+    return n;
+  };
+  EXPECT_NEAR(static_cast<double>(count(fine, false)), 60.44 / (0.05 * 0.05), 2500);
+  EXPECT_NEAR(static_cast<double>(count(coarse, false)), 60.44 / (0.1 * 0.1), 1300);
+  EXPECT_LE(count(fine, true), 64u * 64u);
+}
+
+}  // namespace
+}  // namespace roomlight::bake

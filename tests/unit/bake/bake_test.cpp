@@ -1,0 +1,163 @@
+// Light on the atlas against closed forms, and the file as another reader has it.
+#include "bake/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bake/lit_places.h"
+#include "base/parallel.h"
+#include "import/import.h"
+#include "support/rooms.h"
+#include "unit/temporary_folder.h"
+
+namespace roomlight::bake {
+namespace {
+
+using roomlight::testing::TemporaryFolder;
+
+constexpr float kCandela = 100;
+
+Scene room(float albedo) {
+  Scene scene;
+  addRoom(scene, {0, 0, 0}, {4, 2.5f, 3}, std::vector<int>(6, addMaterial(scene, lambertian(albedo))));
+  scene.lamps = {pointLamp({2, 2, 1.5f}, kCandela)};
+  scene.lamps[0].name = "Pendant";
+  Room floor;
+  floor.name = "Kitchen", floor.floor = {{0, 0}, {0, 3}, {4, 3}, {4, 0}};
+  scene.rooms = {floor};
+  return scene;
+}
+
+class Bake : public ::testing::Test {
+ protected:
+  BakeSettings settings_ = bakeSettings("draft").value();
+  const RenderProgress quiet_;
+  RenderStats stats_;
+  Stages stages_{quiet_, stats_};
+};
+
+TEST_F(Bake, aPointLampInABlackRoomGivesItsInverseSquare) {
+  const Scene scene = room(0);
+  std::vector<SurfaceElement> places;
+  for (float x = 0.2f; x < 4; x += 0.4f) places.push_back({{x, 0, 1.1f}, {0, 1, 0}});
+  const Result<LampLayers> lamps = lampLayers(scene, places, settings_.layers, stages_);
+  ASSERT_TRUE(lamps) << lamps.error();
+  ASSERT_EQ(lamps.value().layers.size(), 1u);
+  const BakedLayer& layer = lamps.value().layers[0];
+  EXPECT_EQ(layer.name, "Pendant");
+  for (size_t i = 0; i < places.size(); ++i) {
+    const Vec3 d = scene.lamps[0].position - places[i].position;
+    const float expected = kCandela * d.y / std::pow(length(d), 3.0f);
+    EXPECT_NEAR(luminance(layer.lux[i]), expected, 0.005f * expected);
+  }
+}
+
+TEST_F(Bake, aFurnaceIsEvenEverywhereAfterSmoothing) {
+  Scene scene;
+  addRoom(scene, {0, 0, 0}, {4, 2.5f, 3}, std::vector<int>(6, addMaterial(scene, lambertian(0.5f, 100))));
+  Room floor;
+  floor.floor = {{0, 0}, {0, 3}, {4, 3}, {4, 0}};
+  scene.rooms = {floor};
+  const RayScene rays(scene);
+  const SeenSides seen = seenFrom(rays, eyesIn(rays), 1 << 16);
+  const Atlas atlas = atlasOf(scene, chartsOf(scene, seen, settings_.charts), settings_.atlas);
+  const LitPlaces lit = litPlacesOf(atlas, rays, seen, settings_.placesApartM);
+  Result<LampLayers> lamps = lampLayers(scene, lit.places, settings_.layers, stages_);
+  ASSERT_TRUE(lamps) << lamps.error();
+  std::vector<BakedLayer>& layers = lamps.value().layers;
+  const double expected = kPi * 100 / 0.5;  // E = π L / (1 - ρ)
+  std::vector<double> sums(atlas.elements.size());
+  for (BakedLayer& layer : layers) {
+    layer.lux = lit.spread<Vec3>(layer.lux), layer.errorLux = lit.spread<float>(layer.errorLux);
+  }
+  const auto deviation = [&] {
+    double sum = 0, squares = 0;
+    for (size_t i = 0; i < sums.size(); ++i) {
+      double lux = 0;
+      for (const BakedLayer& layer : layers) lux += static_cast<double>(luminance(layer.lux[i]));
+      sum += lux / expected, squares += std::pow(lux / expected - 1, 2);
+    }
+    const auto n = static_cast<double>(sums.size());
+    EXPECT_NEAR(sum / n, 1, 0.01);
+    return std::sqrt(squares / n);
+  };
+  ASSERT_GT(sums.size(), 1000u);
+  const double before = deviation();
+  smoothLayers(atlas, layers);
+  const double after = deviation();
+  EXPECT_LT(after, 0.03);
+  EXPECT_LT(after, 0.6 * before);
+}
+
+TEST_F(Bake, theFileOpensAsAnyGltfAndHoldsWhatIsSeen) {
+  const Scene scene = room(0.5f);
+  const Result<BakedHome> baked = bakeHome(scene, {}, settings_, stages_);
+  ASSERT_TRUE(baked) << baked.error();
+  EXPECT_EQ(baked.value().layers, 1u);
+  EXPECT_EQ(baked.value().triangles, 12u);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "home.glb";
+  std::ofstream(file, std::ios::binary) << baked.value().glb;
+  const Result<Imported> opened = importScene(file);
+  ASSERT_TRUE(opened) << opened.error();
+  EXPECT_EQ(opened.value().scene.triangleCount(), 12u);
+  const Bounds3 bounds = opened.value().scene.bounds();
+  EXPECT_NEAR(bounds.hi.x, 4, 1e-5);
+  EXPECT_NEAR(bounds.hi.y, 2.5f, 1e-5);
+}
+
+TEST_F(Bake, theExtensionNamesLampRoomAndCamera) {
+  Scene scene = room(0.5f);
+  Camera camera;
+  camera.name = "Door", camera.worldFromCamera.w = {1, 1.6f, 2};
+  scene.cameras = {camera};
+  Lamp off = pointLamp({1, 1, 1}, 10);
+  off.name = "Desk lamp";
+  const Result<BakedHome> baked = bakeHome(scene, {{off}, {}}, settings_, stages_);
+  ASSERT_TRUE(baked) << baked.error();
+  const std::string& glb = baked.value().glb;
+  uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  const auto json = nlohmann::json::parse(glb.substr(20, length));
+  const auto& light = json["extensions"]["ROOMLIGHT_light_layers"];
+  ASSERT_EQ(light["layers"].size(), 2u);
+  EXPECT_EQ(light["layers"][0]["name"], "Pendant");
+  EXPECT_EQ(light["layers"][0]["room"], "Kitchen");
+  EXPECT_EQ(light["layers"][0]["on"], true);
+  EXPECT_EQ(light["layers"][1]["name"], "Desk lamp");
+  EXPECT_EQ(light["layers"][1]["on"], false);
+  EXPECT_EQ(light["cameras"][0]["name"], "Door");
+  EXPECT_EQ(light["rooms"][0]["floor"].size(), 4u);
+}
+
+TEST_F(Bake, theSameBitsByOneThreadAndByTwo) {
+  const Scene scene = room(0.5f);
+  std::string first;
+  for (const int threads : {1, 2}) {
+    withThreads(threads, [&] {
+      const Result<BakedHome> baked = bakeHome(scene, {}, settings_, stages_);
+      ASSERT_TRUE(baked) << baked.error();
+      if (threads == 1) first = baked.value().glb;
+      EXPECT_TRUE(baked.value().glb == first);
+    });
+  }
+}
+
+TEST_F(Bake, aHomeThatNobodySeesIsToldSo) {
+  const Result<BakedHome> baked = bakeHome(Scene(), {}, settings_, stages_);
+  ASSERT_FALSE(baked);
+  EXPECT_EQ(baked.error(), "nothing of the home can be seen from its rooms or cameras");
+}
+
+TEST(BakedPage, takesTheHomeOrALinkInItsPlace) {
+  const std::string page = "<body><!--roomlight-home--></body>";
+  EXPECT_EQ(pageWithHome(page, "abc").value(),
+            "<body><script type=\"application/octet-stream\" id=\"roomlight-home\">YWJj</script></body>");
+  EXPECT_EQ(pageWithLink(page, "home-1.glb").value(), "<body><link id=\"roomlight-home\" href=\"home-1.glb\"></body>");
+  EXPECT_FALSE(pageWithHome("<body></body>", "abc"));
+}
+
+}  // namespace
+}  // namespace roomlight::bake

@@ -1,0 +1,73 @@
+#include "bake/light_texels.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <limits>
+
+#include "base/random.h"
+
+namespace roomlight::bake {
+namespace {
+
+std::vector<uint32_t> texelsOf(const std::string& stream, size_t count) {
+  std::string planes(count * 4, '\0');
+  uLongf size = planes.size();
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(planes.data()), &size, reinterpret_cast<const Bytef*>(stream.data()),
+                       static_cast<uLong>(stream.size())),
+            Z_OK);
+  EXPECT_EQ(size, planes.size());
+  std::vector<uint32_t> texels(count);
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t k = 0; k < 4; ++k)
+      texels[i] |= static_cast<uint32_t>(static_cast<uint8_t>(planes[k * count + i])) << (8 * k);
+  }
+  return texels;
+}
+
+TEST(LightTexels, comeBackWithinAFifthOfAPercentOfTheLargestChannel) {
+  Rng random(1, 2, 3);
+  for (int i = 0; i < 10000; ++i) {
+    const float size = std::exp2(random.uniform() * 28 - 12);
+    const Vec3 v{random.uniform() * size, random.uniform() * size, random.uniform() * size};
+    const Vec3 back = fromRgb9e5(rgb9e5(v));
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(back[c], v[c], maxComponent(v) * 0.002f) << i;
+  }
+}
+
+TEST(LightTexels, whatIsNoLightIsDarkAndWhatIsTooBrightIsClipped) {
+  EXPECT_EQ(rgb9e5({0, 0, 0}), 0u);
+  EXPECT_EQ(rgb9e5({-1, std::numeric_limits<float>::quiet_NaN(), 0}), 0u);
+  EXPECT_NEAR(fromRgb9e5(rgb9e5(Vec3(1e9f))).x, 65408, 1);
+  EXPECT_NEAR(fromRgb9e5(rgb9e5(Vec3(511.9f))).x, 512, 0.1);  // the mantissa rounds up into the exponent
+}
+
+TEST(LightTexels, sunlightIsScaledAndDarkTilesAreLeftOut) {
+  Image light(64, 32);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 32; x < 64; ++x) light.at(x, y) = Vec3(90000, 80000, static_cast<float>(x));
+  }
+  const LightTexels texels = lightTexels(light, 32);
+  EXPECT_EQ(texels.tiles, std::vector<uint32_t>{1});
+  EXPECT_EQ(texels.scale, 2);
+  const std::vector<uint32_t> back = texelsOf(texels.stream, 32 * 32);
+  const Vec3 first = fromRgb9e5(back[0]) * texels.scale, last = fromRgb9e5(back.back()) * texels.scale;
+  EXPECT_NEAR(first.x, 90000, 180);
+  EXPECT_NEAR(first.y, 80000, 180);
+  EXPECT_NEAR(last.z, 63, 180);
+}
+
+TEST(LightTexels, sumsOfManyLayersStayWithinOnePercent) {
+  Rng random(4, 5, 6);
+  for (int i = 0; i < 1000; ++i) {
+    Vec3 sum, back;
+    for (int layer = 0; layer < 30; ++layer) {
+      const Vec3 v = Vec3(random.uniform(), random.uniform(), random.uniform()) * 200;
+      sum += v, back += fromRgb9e5(rgb9e5(v));
+    }
+    ASSERT_NEAR(luminance(back), luminance(sum), 0.01f * luminance(sum));
+  }
+}
+
+}  // namespace
+}  // namespace roomlight::bake

@@ -1,0 +1,53 @@
+#include "bake/seen_sides.h"
+
+#include <gtest/gtest.h>
+
+#include "support/rooms.h"
+
+namespace roomlight::bake {
+namespace {
+
+Room roomOf(float width, float depth) {
+  Room room;
+  room.floor = {{0, 0}, {0, depth}, {width, depth}, {width, 0}};
+  return room;
+}
+
+TEST(SeenSides, ofABoxInARoomTheOutside) {
+  Scene scene;
+  const int grey = addMaterial(scene, lambertian(0.5f));
+  addRoom(scene, {0, 0, 0}, {4, 2.5f, 3}, std::vector<int>(6, grey));
+  const auto walls = static_cast<uint32_t>(scene.instances.size());
+  addBox(scene, {2, 0.9f, 1}, {2.6f, 1.5f, 1.8f}, grey);  // an eye is in it
+  scene.rooms = {roomOf(4, 3)};
+  const RayScene rays(scene);
+  const std::vector<Vec3> eyes = eyesIn(rays);
+  EXPECT_GT(eyes.size(), 30u);
+  const SeenSides seen = seenFrom(rays, eyes, 1 << 16);
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    for (uint32_t t = 0; t < scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].triangleCount(); ++t) {
+      EXPECT_TRUE(seen.seen(i, t, false)) << i << (i < walls ? " of the room" : " of the box");
+      EXPECT_FALSE(seen.seen(i, t, true)) << i;
+    }
+  }
+}
+
+TEST(SeenSides, throughAPaneButNotThroughAWall) {
+  Scene scene;
+  const int grey = addMaterial(scene, lambertian(0.5f));
+  Material glass = lambertian(1);
+  glass.transmission = 1;
+  addRectangle(scene, {-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, addMaterial(scene, glass));  // 0
+  addRectangle(scene, {-1, 0, -2}, {2, 0, 0}, {0, 2, 0}, grey);                       // 1, behind it
+  addRectangle(scene, {-1, 0, -3}, {2, 0, 0}, {0, 2, 0}, grey);                       // 2, behind that
+  const RayScene rays(scene);
+  const Vec3 eye{0, 1, 0};
+  const SeenSides seen = seenFrom(rays, {&eye, 1}, 1 << 14);
+  const auto any = [&](uint32_t i) { return seen.seen(i, 0, false) || seen.seen(i, 0, true); };
+  EXPECT_TRUE(any(0));
+  EXPECT_TRUE(any(1));
+  EXPECT_FALSE(any(2));
+}
+
+}  // namespace
+}  // namespace roomlight::bake
