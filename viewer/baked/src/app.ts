@@ -21,6 +21,8 @@ import type { WebGLRenderer } from "three";
 const kMessageMs = 6000;
 const kMostPixelShare = 2;
 const kLinkMs = 400;
+const kNarrowPx = 700; // as in page.css
+const kPanelPx = 320;
 const kFloorSlope = 0.6;
 
 export class App {
@@ -38,7 +40,7 @@ export class App {
   message = "";
   loadedShare = 0;
   canEnterVr = false;
-  panelOpen = innerWidth > 700;
+  panelOpen = innerWidth > kNarrowPx;
   private readonly canvas: HTMLCanvasElement;
   private readonly key: string;
   private lastMs = 0;
@@ -181,8 +183,11 @@ export class App {
       drawPlan(canvas, this.home.rooms, this.mover.eye);
   }
 
+  // Beside the controls on wide screens, behind them on narrow ones.
   private resize(): void {
-    this.stage.resize(innerWidth, innerHeight, Math.min(devicePixelRatio, kMostPixelShare));
+    const widthPx = innerWidth - (this.panelOpen && innerWidth > kNarrowPx ? kPanelPx : 0);
+    this.canvas.style.width = `${widthPx}px`;
+    this.stage.resize(widthPx, innerHeight, Math.min(devicePixelRatio, kMostPixelShare));
     this.stage.setEye(this.mover.eye);
   }
 
@@ -313,6 +318,7 @@ export class App {
   }
   togglePanel(): void {
     this.panelOpen = !this.panelOpen;
+    this.resize();
     this.refresh();
   }
   setLanguage(language: Language): void {
