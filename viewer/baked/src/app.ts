@@ -145,10 +145,10 @@ export class App {
   private advance(nowMs: number): void {
     const seconds = Math.min(0.25, Math.max(0, (nowMs - this.lastMs) / 1000));
     this.lastMs = nowMs;
-    if (!this.inVr && this.mover.update(Math.min(seconds, 0.1), this.controls.wish(seconds))) this.moved();
+    if (!this.inVr && this.mover.update(seconds, this.controls.wish(seconds))) this.moved();
     const automaticBefore = this.ev100;
     const drawn = !this.inVr && this.stage.frame(nowMs, seconds);
-    if (drawn && this.controls.active && this.stage.judgePace()) this.resize();
+    if (drawn && this.stage.judgePace()) this.resize();
     if (Math.abs(automaticBefore - this.ev100) > 0.02) this.refresh();
     const { dataset } = this.canvas;
     dataset.frames = String(this.stage.frames);

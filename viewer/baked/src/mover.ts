@@ -32,6 +32,7 @@ export class Mover {
   throughWalls = false;
   private body: Body = { feet: [0, 0, 0], gapM: 0 };
   private heightM = kEyeHeightM; // of the eye over the feet
+  private stood = false; // somewhere else since the last update
   private glide: { from: Eye; to: Eye; seconds: number } | null = null;
   private now: Eye = { position: [0, kEyeHeightM, 0], yawDeg: 0, pitchDeg: 0, fovDeg: 60 };
 
@@ -42,11 +43,12 @@ export class Mover {
   }
 
   get moving(): boolean {
-    return this.glide !== null;
+    return this.glide !== null || this.stood;
   }
 
   stand(eye: Eye): void {
     this.glide = null;
+    this.stood = true;
     this.now = { ...eye, pitchDeg: clamp(eye.pitchDeg, -kMostPitchDeg, kMostPitchDeg) };
     this.findFeet();
   }
@@ -85,10 +87,12 @@ export class Mover {
   // True if the eye has moved.
   update(seconds: number, wish: Wish): boolean {
     const before = this.now;
+    const stood = this.stood;
+    this.stood = false;
     if (this.glide && (wish.forward !== 0 || wish.right !== 0 || wish.turnDeg !== 0)) this.glide = null;
     if (this.glide) this.followGlide(seconds);
     else this.follow(seconds, wish);
-    return before !== this.now;
+    return stood || before !== this.now;
   }
 
   private followGlide(seconds: number): void {

@@ -5,7 +5,7 @@ import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 import type { Vec3 } from "../../src/vector.js";
-import { kBrowser, kDesktop, kShots, noBrowser } from "./support.js";
+import { kBrowser, kShots, noBrowser } from "./support.js";
 
 const kPage = "dist-baked/index.html";
 const kMarker = "<!--roomlight-home-->";
@@ -54,7 +54,7 @@ export interface BakedVisit {
 export async function visitHome(
   browser: Browser,
   link: string,
-  options: BrowserContextOptions = kDesktop,
+  options: BrowserContextOptions = {},
 ): Promise<BakedVisit> {
   const context = await browser.newContext({ acceptDownloads: true, locale: "en-GB", ...options });
   const page = await context.newPage();

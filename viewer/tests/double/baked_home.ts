@@ -7,7 +7,7 @@ import type { Vec3 } from "../../src/vector.js";
 export const kRoom = { width: 4, depth: 5, height: 2.6 } as const; // x, z, y from the origin, m
 export const kAlbedo = 0.5;
 export const kLampLux: readonly Vec3[] = [
-  [200, 200, 200],
+  [180, 180, 180],
   [120, 90, 45],
 ];
 export const kSunLux: readonly Vec3[] = [
@@ -22,7 +22,7 @@ export const kHours = [12, 18] as const;
 export const kEv100 = 6;
 const kTile = 32;
 const kAtlas = { width: 128, height: 64, tile: kTile } as const;
-const kScale = 0.01;
+const kScale = 1 / 64; // a power of two, so that the lamps' values are kept exactly
 
 interface Options {
   readonly vertexLit?: boolean;

@@ -71,7 +71,7 @@ test("a baked home is read: its layers, rooms, cameras and light", async () => {
   const { light } = home.layers[1]!;
   const size = 4 * home.atlas.tile ** 2 * light.tiles.length;
   const texels = joinPlanes(await inflate(viewBytes(document, binary, light.bufferView), size, "light"));
-  nearAll(decodeTexel(texels[5000]!).map(c => c * light.scale) as unknown as Vec3, kLampLux[1]!, 0.2);
+  nearAll(decodeTexel(texels[5000]!).map(c => c * light.scale) as unknown as Vec3, kLampLux[1]!, 1e-6);
 });
 
 test("materials without textures share one list of triangles", () => {

@@ -105,6 +105,7 @@ test("the eye stands as the camera did, and walks where it looks", () => {
   assert.deepEqual([mover.eye.position, mover.eye.fovDeg], [[0, 1.4, 0], 50]);
   near(mover.eye.yawDeg, -90);
   const still = { forward: 0, right: 0, turnDeg: 0, tiltDeg: 0, fast: false };
+  assert.equal(mover.update(0.016, still), true);
   assert.equal(mover.update(0.016, still), false);
   for (let i = 0; i < 60; ++i) mover.update(1 / 60, { ...still, forward: 1 });
   nearAll(mover.eye.position, [1.5, 1.6, 0], 0.01);
