@@ -11,11 +11,12 @@ import { loadLight, textureSource, type LoadedHome } from "./load.js";
 import { eyeOfCamera, Mover } from "./mover.js";
 import { overlay } from "./overlay.js";
 import { panel } from "./panel.js";
-import { boxAround, middleOf } from "./rooms.js";
+import { boxAround, insideOutline, middleOf, roomAt } from "./rooms.js";
 import * as scenes from "./scenes.js";
 import { Stage } from "./stage.js";
 import { speaker, type Language, type Say } from "./strings.js";
-import { floorBelow, hasHeadroom, kEyeHeightM } from "./walk.js";
+import { freePlace, hasHeadroom, kEyeHeightM } from "./walk.js";
+import type { Vec3 } from "../../src/vector.js";
 import type { WebGLRenderer } from "three";
 
 const kMessageMs = 6000;
@@ -78,7 +79,6 @@ export class App {
       click: (x, y) => this.click(x, y),
       hover: (x, y) => this.hover(x, y),
       zoom: factor => this.setFov(this.mover.eye.fovDeg * factor),
-      wake: () => undefined,
     });
     this.mover.stand(linked.eye ?? (camera ? eyeOfCamera(camera) : this.firstEye()));
     addEventListener("resize", () => this.resize());
@@ -268,18 +268,20 @@ export class App {
   }
   goToRoom(room: Room): void {
     const [x, z] = middleOf(room);
-    this.goToFloor(x, room.elevationM, z);
+    this.goToFloor([x, room.elevationM, z], room);
   }
   clickPlan(event: MouseEvent): void {
     const canvas = event.currentTarget as HTMLCanvasElement;
     const { rooms } = this.home;
-    const [x, y, z] = placeOnPlan(canvas, rooms, this.mover.eye, event.offsetX, event.offsetY);
-    this.goToFloor(x, y, z);
+    const at = placeOnPlan(canvas, rooms, this.mover.eye, event.offsetX, event.offsetY);
+    const room = roomAt(rooms, at);
+    if (room !== null) this.goToFloor(at, rooms[room]!);
   }
-  private goToFloor(x: number, y: number, z: number): void {
+  // To where one can stand in that room.
+  private goToFloor(wanted: Vec3, room: Room): void {
     const { world } = this.stage;
-    const floor = (world && floorBelow(world, x, y, z, 0.5, 0.5)) ?? y;
-    this.mover.goTo([x, floor, z]);
+    const inside = (x: number, z: number) => insideOutline(room.floor, x, z);
+    this.mover.goTo(world ? freePlace(world, wanted, inside) : wanted);
   }
   private click(x: number, y: number): void {
     if (this.metering) {

@@ -21,7 +21,6 @@ export interface ControlEvents {
   click(xPx: number, yPx: number): void;
   hover(xPx: number, yPx: number): void;
   zoom(factor: number): void;
-  wake(): void; // something is held
 }
 
 export class Controls {
@@ -44,10 +43,6 @@ export class Controls {
     element.addEventListener("pointerup", event => this.up(event));
     element.addEventListener("pointercancel", event => this.forget(event));
     element.addEventListener("wheel", event => this.wheel(event), { passive: false });
-  }
-
-  get active(): boolean {
-    return this.held.size > 0 || this.stick[0] !== 0 || this.stick[1] !== 0 || gamepads().length > 0;
   }
 
   // What is wished since the last time.
@@ -86,7 +81,6 @@ export class Controls {
     if (down) this.held.add(code);
     else this.held.delete(code);
     if (known) event.preventDefault();
-    this.events.wake();
   }
 
   private down(event: PointerEvent): void {
@@ -121,7 +115,6 @@ export class Controls {
     this.tiltDeg += dy * kDegPerPixel;
     if (this.press && Math.hypot(event.clientX - this.press.x, event.clientY - this.press.y) > kClickPixels)
       this.press = null;
-    this.events.wake();
   }
 
   private up(event: PointerEvent): void {

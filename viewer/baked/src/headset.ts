@@ -58,9 +58,10 @@ export class Headset {
     });
     await renderer.xr.setSession(session);
     renderer.setAnimationLoop(nowMs => {
+      const eyes = renderer.getRenderTarget(); // of the headset
       frame(nowMs);
       this.aim();
-      renderer.setRenderTarget(null);
+      renderer.setRenderTarget(eyes);
       renderer.clear();
       renderer.render(scene, this.camera);
     });

@@ -5,6 +5,7 @@ import type { Vec3 } from "../../src/vector.js";
 import { kUnit } from "./units.js";
 
 export const kRowTexels = 2048; // of the textures that hold a layer's tiles, one texel after the other
+const kMostRows = 2048;
 
 const kVertex = `
   in vec3 position;
@@ -88,7 +89,16 @@ export class LightSum {
     return kRowTexels * Math.max(1, Math.ceil((tiles * this.tile ** 2) / kRowTexels));
   }
 
+  // More than one texture can hold on small GPUs is split; 32 tiles of an even size fill whole rows.
   add(layer: number, tiles: readonly number[], texels: Uint32Array<ArrayBuffer>, scale: number): void {
+    const most = Math.max(32, Math.floor((kRowTexels * kMostRows) / this.tile ** 2 / 32) * 32);
+    for (let first = 0; first < tiles.length; first += most) {
+      const end = first + most < tiles.length ? (first + most) * this.tile ** 2 : texels.length;
+      this.addPart(layer, tiles.slice(first, first + most), texels.subarray(first * this.tile ** 2, end), scale);
+    }
+  }
+
+  private addPart(layer: number, tiles: readonly number[], texels: Uint32Array<ArrayBuffer>, scale: number): void {
     const geometry = new THREE.InstancedBufferGeometry();
     geometry.setAttribute(
       "position",

@@ -50,6 +50,11 @@ async function open(): Promise<void> {
   canvas.tabIndex = 0;
   const renderer = makeRenderer(canvas, await headsetSupported());
   if (!renderer) return;
+  const { width, height } = loaded.document.extensions.ROOMLIGHT_light_layers.atlas;
+  if (Math.max(width, height) > renderer.capabilities.maxTextureSize) {
+    stop(say("tooLarge"), `${width} × ${height}`);
+    return;
+  }
   const app = new App(renderer, loaded, element("div", "controls"), language);
   // Everything on the GPU is gone then; a new start is the surest way back.
   canvas.addEventListener("webglcontextlost", event => {

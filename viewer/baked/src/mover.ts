@@ -32,6 +32,7 @@ export class Mover {
   throughWalls = false;
   private body: Body = { feet: [0, 0, 0], gapM: 0 };
   private heightM = kEyeHeightM; // of the eye over the feet
+  private grounded = false; // a floor was found: else there is nothing to walk on, and it floats
   private stood = false; // somewhere else since the last update
   private glide: { from: Eye; to: Eye; seconds: number } | null = null;
   private now: Eye = { position: [0, kEyeHeightM, 0], yawDeg: 0, pitchDeg: 0, fovDeg: 60 };
@@ -79,6 +80,7 @@ export class Mover {
   private findFeet(): void {
     const [x, y, z] = this.now.position;
     const floor = this.world ? floorBelow(this.world, x, y, z, 0, kFloorSearchM) : null;
+    this.grounded = floor !== null;
     const feetY = floor ?? y - kEyeHeightM;
     this.body = { feet: [x, feetY, z], gapM: 0 };
     this.heightM = y - feetY;
@@ -130,9 +132,10 @@ export class Mover {
 
   private step(dx: number, dz: number): void {
     const [x, y, z] = this.body.feet;
-    if (this.world && !this.throughWalls) this.body = walked(this.world, this.body, dx, dz);
+    if (this.world && this.grounded && !this.throughWalls) this.body = walked(this.world, this.body, dx, dz);
     else {
       const floor = this.world ? floorBelow(this.world, x + dx, y, z + dz, 0.5, 0.6) : null;
+      this.grounded ||= floor !== null;
       this.body = { feet: [x + dx, floor ?? y, z + dz], gapM: 0 };
     }
   }

@@ -113,6 +113,7 @@ function daylight(app: App): TemplateResult {
     ${hours.length < 2
       ? nothing
       : html`<div class="row">
+          <span class="caption" aria-hidden="true">${app.say("hour")}</span>
           <input
             type="range"
             min=${hours[0]!}
@@ -171,6 +172,7 @@ function picture(app: App): TemplateResult {
     <summary>${app.say("picture")}</summary>
     ${toggle(app.say("autoExposure"), app.automatic, on => app.setAutomatic(on))}
     <div class="row">
+      <span class="caption" aria-hidden="true">${app.say("exposure")}</span>
       <input
         type="range"
         min="-4"
@@ -179,12 +181,13 @@ function picture(app: App): TemplateResult {
         aria-label=${app.say("exposure")}
         .value=${app.ev100.toFixed(1)}
         @input=${(e: Event) => app.setEv100(number(e))}
-      /><output>EV ${app.ev100.toFixed(1)}</output>
+      /><output>${app.ev100.toFixed(1)}</output>
     </div>
     ${toggle(app.say("falseColours"), app.falseColours, on => app.setFalseColours(on))}
     ${toggle(app.say("meter"), app.metering, on => app.setMetering(on))}
     ${toggle(app.say("throughWalls"), app.mover.throughWalls, on => app.setThroughWalls(on))}
     <div class="row">
+      <span class="caption" aria-hidden="true">${app.say("fov")}</span>
       <input
         type="range"
         min="25"

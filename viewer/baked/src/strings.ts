@@ -12,6 +12,7 @@ const kEnglish = {
   noWebGl:
     "This browser cannot show the home: it has no WebGL 2. Turn on hardware acceleration, or try another browser.",
   noFloat: "This graphics processor cannot add up light: it cannot draw to 16-bit floating point.",
+  tooLarge: "The light of this home is too large for this graphics processor.",
   contextLost: "The graphics processor was taken away. The home comes back as soon as it is there again.",
   failed: "Something went wrong. Reload the page.",
   view: "View of the home. Arrow keys or W, A, S, D walk; drag looks around; click on the floor goes there.",
@@ -83,6 +84,7 @@ const kGerman: Record<StringKey, string> = {
   noWebGl:
     "Dieser Browser kann die Wohnung nicht zeigen: Ihm fehlt WebGL 2. Bitte Hardwarebeschleunigung einschalten oder einen anderen Browser nehmen.",
   noFloat: "Dieser Grafikprozessor kann Licht nicht addieren: Er zeichnet nicht in 16-Bit-Gleitkommazahlen.",
+  tooLarge: "Das Licht dieser Wohnung ist zu groß für diesen Grafikprozessor.",
   contextLost: "Der Grafikprozessor wurde entzogen. Die Wohnung erscheint wieder, sobald er zurück ist.",
   failed: "Etwas ist schiefgegangen. Bitte die Seite neu laden.",
   view: "Ansicht der Wohnung. Pfeiltasten oder W, A, S, D gehen; Ziehen blickt umher; ein Klick auf den Boden führt dorthin.",

@@ -10,6 +10,8 @@ const kStepDownM = 0.6; // deeper is an edge that nobody steps over
 const kFloorSlope = 0.6; // least y of a floor's normal
 const kStrideM = 0.08; // of one piece of a move
 const kMostGapM = 0.8; // without a floor, as on a threshold
+const kSearchStepM = 0.25;
+const kSearchRings = 12;
 const kFeetM = 0.12; // how far around the middle feet find a floor
 
 export interface Body {
@@ -82,3 +84,23 @@ export function walked(world: Bvh, body: Body, dx: number, dz: number): Body {
 // Whether somebody can stand there: head room over a floor.
 export const hasHeadroom = (world: Bvh, [x, y, z]: Vec3): boolean =>
   world.raycast([x, y + 0.1, z], [0, 1, 0], kEyeHeightM) === null;
+
+// The standing place nearest to a point that is wanted, on its floor and clear of furniture; the point itself if there
+// is none within reach.
+export function freePlace(world: Bvh, wanted: Vec3, allowed: (x: number, z: number) => boolean): Vec3 {
+  const [x, y, z] = wanted;
+  for (let ring = 0; ring <= kSearchRings; ++ring) {
+    const count = Math.max(1, 6 * ring);
+    for (let i = 0; i < count; ++i) {
+      const angle = (2 * Math.PI * i) / count;
+      const [px, pz] = [x + ring * kSearchStepM * Math.cos(angle), z + ring * kSearchStepM * Math.sin(angle)];
+      if (!allowed(px, pz)) continue;
+      const floor = floorBelow(world, px, y, pz, 0.3, 0.5);
+      if (floor === null || Math.abs(floor - y) > 0.25) continue;
+      const place: Vec3 = [px, floor, pz];
+      const out = pushedOut(world, place);
+      if (hasHeadroom(world, place) && Math.hypot(out[0] - px, out[2] - pz) < 1e-4) return place;
+    }
+  }
+  return wanted;
+}

@@ -4,7 +4,7 @@ import { Bvh } from "../../baked/src/bvh.js";
 import { frameOf, storeyAt } from "../../baked/src/floor_plan.js";
 import { eyeOfCamera, Mover } from "../../baked/src/mover.js";
 import { insideOutline, middleOf, roomAt } from "../../baked/src/rooms.js";
-import { floorBelow, hasHeadroom, walked, type Body } from "../../baked/src/walk.js";
+import { floorBelow, freePlace, hasHeadroom, walked, type Body } from "../../baked/src/walk.js";
 import type { Vec3 } from "../../src/vector.js";
 import { near, nearAll } from "./near.js";
 
@@ -96,6 +96,17 @@ test("floors below and head room above", () => {
   assert.equal(floorBelow(world, 0, 1.6, 0, 0, 1), null);
   assert.ok(hasHeadroom(world, [0, 0, 0]));
   assert.ok(!hasHeadroom(world, [1.5, 0, 1.5]));
+});
+
+test("a place to stand is looked for beside the furniture", () => {
+  const table = [level(0.75, -0.6, 0.6, -0.4, 0.4), wallX(-0.6, -0.4, 0.4, 0, 0.75), wallX(0.6, -0.4, 0.4, 0, 0.75)];
+  const world = worldOf([level(0, -5, 5, -5, 5), ...table]);
+  const place = freePlace(world, [0, 0, 0], x => x > 0);
+  assert.ok(place[0] > 0 && Math.abs(place[1]) < 1e-6 && hasHeadroom(world, place), String(place));
+  assert.deepEqual(
+    freePlace(world, [3, 0, 3], () => true),
+    [3, 0, 3],
+  );
 });
 
 test("the eye stands as the camera did, and walks where it looks", () => {
