@@ -7,7 +7,7 @@ import { drawPlan, placeOnPlan } from "./floor_plan.js";
 import { Headset, headsetSupported } from "./headset.js";
 import { stateOfFile, withDial, type Dial, type LightState } from "./light_state.js";
 import { linkOf, readLink } from "./link.js";
-import { loadLight, textureSource, type LoadedHome } from "./load.js";
+import { loadLight, packedTextures, textureSource, type LoadedHome } from "./load.js";
 import { eyeOfCamera, Mover } from "./mover.js";
 import { overlay } from "./overlay.js";
 import { panel } from "./panel.js";
@@ -22,6 +22,7 @@ import type { WebGLRenderer } from "three";
 const kMessageMs = 6000;
 const kMostPixelShare = 2;
 const kLinkMs = 400;
+const kLoadingMs = 500; // between pictures while light comes
 const kNarrowPx = 700; // as in page.css
 const kPanelPx = 320;
 const kFloorSlope = 0.6;
@@ -66,7 +67,8 @@ export class App {
     this.canvas = renderer.domElement;
     const anisotropy = Math.min(8, renderer.capabilities.getMaxAnisotropy());
     const textures = textureSource(loaded, anisotropy);
-    this.stage = new Stage(renderer, loaded.document, loaded.geometry, textures, () => this.refresh());
+    const packed = packedTextures(loaded, anisotropy);
+    this.stage = new Stage(renderer, loaded.document, loaded.geometry, textures, packed, () => this.refresh());
     const linked = readLink(location.hash, this.fileLight);
     this.light = linked.light;
     const camera = this.home.cameras[this.home.camera] ?? this.home.cameras[0];
@@ -106,12 +108,13 @@ export class App {
         : this.light[layer.kind].on && layer.hour === this.light.hour;
     };
     let shownMs = 0;
-    await loadLight(this.loaded, this.stage, factor, share => {
+    await loadLight(this.loaded, this.stage, factor, (layer, share) => {
       this.loadedShare = share;
+      this.stage.include(layer);
       // Not after each of very many.
-      if (share < 1 && performance.now() - shownMs < 300) return;
+      if (share < 1 && performance.now() - shownMs < kLoadingMs) return;
       shownMs = performance.now();
-      this.stage.refreshLight(this.light);
+      this.stage.touch();
       this.refresh();
     });
     this.loadedShare = 1;
@@ -152,6 +155,7 @@ export class App {
     if (Math.abs(automaticBefore - this.ev100) > 0.02) this.refresh();
     const { dataset } = this.canvas;
     dataset.frames = String(this.stage.frames);
+    dataset.calls = String(this.stage.renderer.info.render.calls);
     dataset.settled = String(this.loadedShare === 1 && !this.stage.restless && !this.mover.moving && !this.renderDue);
     dataset.ev100 = this.ev100.toFixed(3);
   }

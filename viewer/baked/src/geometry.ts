@@ -11,6 +11,11 @@ export interface Maps {
   readonly emission: number | null;
 }
 
+// In place of an image: one of those that are packed into one texture.
+export const kPacked = -1;
+const kMostLists = 100; // before images are packed
+const kMostPacked = 256; // layers that every GPU can have
+
 export interface Batch {
   readonly kind: "opaque" | "mask" | "pane";
   readonly doubleSided: boolean;
@@ -27,6 +32,7 @@ export interface Geometry {
   readonly tags: Uint16Array; // 2: material, whether light is that of its vertices
   readonly index: Uint32Array; // of all batches, one after the other
   readonly batches: readonly Batch[];
+  readonly packed: readonly number[]; // images of base colours that share one texture
 }
 
 const kComponents: Readonly<Record<string, number>> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
@@ -35,6 +41,7 @@ const kUnsignedByte = 5121;
 const kUnsignedShort = 5123;
 const kUnsignedInt = 5125;
 const kFloat = 5126;
+const kRepeat = 10497;
 const kBytes: Readonly<Record<number, number>> = {
   [kByte]: 1,
   [kUnsignedByte]: 1,
@@ -90,7 +97,7 @@ export function isPane(material: Material | undefined): boolean {
   );
 }
 
-function mapsOf(document: Gltf, material: Material | undefined): Maps {
+export function mapsOf(document: Gltf, material: Material | undefined): Maps {
   const image = (texture: { readonly index: number } | undefined) =>
     (texture && document.textures[texture.index]?.source) ?? null;
   return {
@@ -99,6 +106,22 @@ function mapsOf(document: Gltf, material: Material | undefined): Maps {
     roughness: image(material?.pbrMetallicRoughness.metallicRoughnessTexture),
     emission: image(material?.emissiveTexture),
   };
+}
+
+// Images that are repeated base colours of solid materials without other images.
+function packable(document: Gltf, { alphaMode, pbrMetallicRoughness: { baseColorTexture: base } }: Material): boolean {
+  const { wrapS, wrapT } = document.samplers[document.textures[base?.index ?? -1]?.sampler ?? -1] ?? {};
+  return alphaMode === "OPAQUE" && (wrapS ?? kRepeat) === kRepeat && (wrapT ?? kRepeat) === kRepeat;
+}
+
+function imagesToPack(document: Gltf): number[] {
+  const images = document.materials.flatMap(material => {
+    const { base, normal, roughness, emission } = mapsOf(document, material);
+    const alone = normal === null && roughness === null && emission === null && !isPane(material);
+    return base !== null && alone && packable(document, material) ? [base] : [];
+  });
+  const all = [...new Set(images)];
+  return all.length > kMostLists ? all.slice(0, kMostPacked) : [];
 }
 
 export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
@@ -113,6 +136,7 @@ export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
   const colors = has("COLOR_0") ? new Uint8Array(4 * vertices).fill(255) : null;
   const tags = new Uint16Array(2 * vertices);
   const lists = new Map<string, { of: Omit<Batch, "index">; parts: Uint32Array[] }>();
+  const packed = imagesToPack(document);
   let first = 0;
   primitives.forEach((primitive, i) => {
     const count = counts[i]!;
@@ -134,7 +158,7 @@ export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
     const of = {
       kind: isPane(material) ? "pane" : material?.alphaMode === "MASK" ? "mask" : "opaque",
       doubleSided: material?.doubleSided ?? false,
-      maps: mapsOf(document, material),
+      maps: packedMaps(mapsOf(document, material), material !== undefined && packable(document, material), packed),
     } as const;
     const key = JSON.stringify(of);
     const list = lists.get(key) ?? { of, parts: [] };
@@ -154,7 +178,12 @@ export function readGeometry(document: Gltf, binary: Uint8Array): Geometry {
     }
     batches.push({ ...of, index: index.subarray(from, at) });
   }
-  return { positions, normals, uvs, lightUvs, colors, tags, index, batches };
+  return { positions, normals, uvs, lightUvs, colors, tags, index, batches, packed };
+}
+
+function packedMaps(maps: Maps, allowed: boolean, packed: readonly number[]): Maps {
+  const alone = maps.normal === null && maps.roughness === null && maps.emission === null;
+  return allowed && alone && maps.base !== null && packed.includes(maps.base) ? { ...maps, base: kPacked } : maps;
 }
 
 function readIndex(

@@ -125,30 +125,32 @@ export class LightSum {
     this.parts.push({ mesh, layer, scale });
   }
 
-  update(factors: readonly Vec3[]): void {
+  // The sum anew, or with `only` that layer on top of what is there.
+  update(factors: readonly Vec3[], only?: number): void {
     for (const { mesh, layer, scale } of this.parts) {
       const factor = factors[layer] ?? [0, 0, 0];
-      mesh.visible = factor.some(c => c > 0);
+      mesh.visible = factor.some(c => c > 0) && (only ?? layer) === layer;
       (mesh.material.uniforms.uFactor!.value as THREE.Vector3)
         .set(factor[0], factor[1], factor[2])
         .multiplyScalar(scale / kUnit);
     }
-    drawInto(this.renderer, this.target, this.scene, this.camera);
+    drawInto(this.renderer, this.target, this.scene, this.camera, only === undefined);
   }
 }
 
-// Clears the target to nothing and draws.
+// Draws, by default after clearing the target to nothing.
 export function drawInto(
   renderer: THREE.WebGLRenderer,
   target: THREE.WebGLRenderTarget | null,
   scene: THREE.Object3D,
   camera: THREE.Camera,
+  clear = true,
 ): void {
   const xr = renderer.xr.enabled;
   renderer.xr.enabled = false;
   renderer.setRenderTarget(target);
   renderer.setClearColor(0x000000, 0);
-  renderer.clear();
+  if (clear) renderer.clear();
   renderer.render(scene, camera);
   renderer.setRenderTarget(null);
   renderer.xr.enabled = xr;

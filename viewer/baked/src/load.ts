@@ -58,28 +58,64 @@ export function textureSource({ document, images }: LoadedHome, anisotropy: numb
   };
 }
 
-// The layers that are on come first; `progress` is called after each, with the share that has come.
+const kPackedPx = 512;
+
+// The images of base colours that share one texture.
+export function packedTextures({ geometry, images }: LoadedHome, anisotropy: number): THREE.DataArrayTexture | null {
+  const { packed } = geometry;
+  if (packed.length === 0) return null;
+  const bytes = 4 * kPackedPx ** 2;
+  const data = new Uint8Array(bytes * packed.length);
+  const canvas = new OffscreenCanvas(kPackedPx, kPackedPx);
+  const context = canvas.getContext("2d", { willReadFrequently: true })!;
+  packed.forEach((image, i) => {
+    context.drawImage(images[image]!, 0, 0, kPackedPx, kPackedPx);
+    data.set(context.getImageData(0, 0, kPackedPx, kPackedPx).data, bytes * i);
+  });
+  const texture = new THREE.DataArrayTexture(data, kPackedPx, kPackedPx, packed.length);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+  texture.magFilter = THREE.LinearFilter;
+  texture.minFilter = THREE.LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.anisotropy = anisotropy;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+// The layers that are on come first; `came` is called after each, with the share that has come.
 export async function loadLight(
   { document, binary }: LoadedHome,
   stage: Stage,
   isOn: (layer: number) => boolean,
-  progress: (share: number) => void,
+  came: (layer: number, share: number) => void,
 ): Promise<void> {
   const { atlas, layers } = document.extensions.ROOMLIGHT_light_layers;
   const order = layers.map((_, i) => i).sort((a, b) => Number(isOn(b)) - Number(isOn(a)) || a - b);
-  for (const [done, i] of order.entries()) {
+  const unpack = async (i: number) => {
     const { name, light, panorama } = layers[i]!;
     const what = `layers.${i} (${name})`;
-    if (light.tiles.length > 0) {
-      const size = 4 * atlas.tile ** 2 * light.tiles.length;
-      const planes = await inflate(viewBytes(document, binary, light.bufferView), size, what);
-      stage.light.add(i, light.tiles, joinPlanes(planes, stage.light.texelsFor(light.tiles.length)), light.scale);
-    }
-    if (panorama) {
-      const { width, height, bufferView, scale } = panorama;
-      const planes = await inflate(viewBytes(document, binary, bufferView), 4 * width * height, `${what}: panorama`);
-      stage.sky.add(i, joinPlanes(planes), width, scale);
-    }
-    progress((done + 1) / order.length);
+    const part = (view: number, texels: number, of: string) =>
+      inflate(viewBytes(document, binary, view), 4 * texels, of);
+    return {
+      light: await part(light.bufferView, atlas.tile ** 2 * light.tiles.length, what),
+      sky: panorama && (await part(panorama.bufferView, panorama.width * panorama.height, `${what}: panorama`)),
+    };
+  };
+  // The next one is unpacked while one goes to the GPU.
+  const start = (at: number) => {
+    const work = order[at] === undefined ? null : unpack(order[at]);
+    work?.catch(() => undefined); // told when its turn comes
+    return work;
+  };
+  let next = start(0);
+  for (const [done, i] of order.entries()) {
+    const { light, panorama } = layers[i]!;
+    const planes = (await next)!;
+    next = start(done + 1);
+    const texels = stage.light.texelsFor(light.tiles.length);
+    if (light.tiles.length > 0) stage.light.add(i, light.tiles, joinPlanes(planes.light, texels), light.scale);
+    if (panorama && planes.sky) stage.sky.add(i, joinPlanes(planes.sky), panorama.width, panorama.scale);
+    came(i, (done + 1) / order.length);
   }
 }

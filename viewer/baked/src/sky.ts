@@ -102,14 +102,14 @@ export class Sky {
     this.parts.push({ mesh, layer, scale });
   }
 
-  update(factors: readonly Vec3[]): void {
+  update(factors: readonly Vec3[], only?: number): void {
     for (const { mesh, layer, scale } of this.parts) {
       const factor = factors[layer] ?? [0, 0, 0];
-      mesh.visible = factor.some(c => c > 0);
+      mesh.visible = factor.some(c => c > 0) && (only ?? layer) === layer;
       (mesh.material.uniforms.uFactor!.value as THREE.Vector3)
         .set(factor[0], factor[1], factor[2])
         .multiplyScalar(scale / kUnit);
     }
-    drawInto(this.renderer, this.target, this.scene, this.camera);
+    drawInto(this.renderer, this.target, this.scene, this.camera, only === undefined);
   }
 }

@@ -63,6 +63,7 @@ export class Stage {
     document: Gltf,
     geometry: Geometry,
     textures: TextureSource,
+    packed: THREE.DataArrayTexture | null,
     private readonly changed: () => void,
   ) {
     this.home = document.extensions.ROOMLIGHT_light_layers;
@@ -77,6 +78,7 @@ export class Stage {
       ...this.display.uniforms,
       ...this.probe.uniforms,
       uLight: { value: this.light.target.texture },
+      ...(packed ? { uPacked: { value: packed } } : {}),
     };
     this.surfaces = new Surfaces(document, geometry, uniforms, textures, kProbeDefines(kProbePx));
     this.scene.add(this.surfaces.group);
@@ -90,10 +92,14 @@ export class Stage {
     this.due = true;
   }
 
-  // New layers have come: what is shown is summed again.
-  refreshLight(state: LightState): void {
-    this.factors = null;
-    this.setLight(state);
+  // A layer has come: its light is added to what is there. Seen with the next frame that is due.
+  include(layer: number): void {
+    const factors = this.factors ?? [];
+    if (!factors[layer]?.some(c => c > 0)) return;
+    this.light.update(factors, layer);
+    this.sky.update(factors, layer);
+    this.probe.touch();
+    this.scaleDue = this.meterDue = true;
   }
 
   setLight(state: LightState): void {
@@ -223,7 +229,14 @@ export class Stage {
 
   // Fewer pixels where frames take too long, more where there is time left; true if the size is to be set anew.
   judgePace(): boolean {
-    this.slow += this.frameMs > kSlowMs ? 1 : this.frameMs < kFastMs ? -0.2 : this.slow > 0 ? -0.5 : 0;
+    this.slow +=
+      this.frameMs > kSlowMs
+        ? Math.min(5, this.frameMs / kSlowMs)
+        : this.frameMs < kFastMs
+          ? -0.2
+          : this.slow > 0
+            ? -0.5
+            : 0;
     if (this.slow > kJudgedFrames && this.pixelShare > 0.5) this.pixelShare *= 0.85;
     else if (this.slow < -kJudgedFrames && this.pixelShare < 1) this.pixelShare = Math.min(1, this.pixelShare / 0.92);
     else {

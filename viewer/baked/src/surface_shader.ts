@@ -56,7 +56,7 @@ export const kSurfaceVertex = `
     gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
   }`;
 
-// Defines: HAS_UV, HAS_COLOR, HAS_BASE, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE; PROBE with the sizes that
+// Defines: HAS_UV, HAS_COLOR, HAS_BASE or HAS_PACKED, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE; PROBE with the sizes that
 // three.js has for its filtered cube.
 export const kSurfaceFragment = `
   precision highp float;
@@ -71,6 +71,9 @@ export const kSurfaceFragment = `
   uniform vec2 uNormalScale;
   #ifdef HAS_BASE
     uniform sampler2D uBase;
+  #endif
+  #ifdef HAS_PACKED
+    uniform highp sampler2DArray uPacked;
   #endif
   #ifdef HAS_NORMAL
     uniform sampler2D uNormal;
@@ -154,10 +157,13 @@ export const kSurfaceFragment = `
   void main() {
     vec4 base = texelFetch(uSurfaces, ivec2(0, vTag.x), 0); // alpha: 1 - share that passes a pane
     vec4 emission = texelFetch(uSurfaces, ivec2(1, vTag.x), 0); // cd/m2; alpha: cut-off
-    vec4 gloss = texelFetch(uSurfaces, ivec2(2, vTag.x), 0); // roughness, metallic, transmission
+    vec4 gloss = texelFetch(uSurfaces, ivec2(2, vTag.x), 0); // roughness, metallic, transmission, packed image
     vec4 f0 = texelFetch(uSurfaces, ivec2(3, vTag.x), 0); // of a dielectric; alpha: f90
     #ifdef HAS_BASE
       base *= texture(uBase, vUv);
+    #endif
+    #ifdef HAS_PACKED
+      base.rgb *= texture(uPacked, vec3(vUv, gloss.w)).rgb;
     #endif
     #ifdef HAS_COLOR
       base *= vColor;

@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
 import type { Gltf, Material } from "./document.js";
-import type { Batch, Geometry, Maps } from "./geometry.js";
+import { kPacked, mapsOf, type Batch, type Geometry, type Maps } from "./geometry.js";
 import { kSurfaceFragment, kSurfaceVertex } from "./surface_shader.js";
 
 const kNumbers = 16; // of a material: four texels
@@ -45,6 +45,10 @@ export class Surfaces {
     this.table = new Float32Array(kNumbers * count);
     for (let i = 0; i < count; ++i)
       describe(document.materials[i], this.table.subarray(kNumbers * i, kNumbers * (i + 1)));
+    document.materials.forEach((material, i) => {
+      const { base } = mapsOf(document, material);
+      this.table[kNumbers * i + 11] = base === null ? 0 : Math.max(0, geometry.packed.indexOf(base));
+    });
     this.texture = new THREE.DataTexture(this.table, 4, count, THREE.RGBAFormat, THREE.FloatType);
     uniforms.uSurfaces = { value: this.texture };
     this.setFactors(null);
@@ -99,7 +103,8 @@ export class Surfaces {
       defines.HAS_UV = "";
       uniforms[uniform] = { value: textures(image, colour) };
     };
-    use("base", "HAS_BASE", "uBase", true);
+    if (maps.base === kPacked) defines.HAS_PACKED = defines.HAS_UV = "";
+    else use("base", "HAS_BASE", "uBase", true);
     use("normal", "HAS_NORMAL", "uNormal", false);
     use("roughness", "HAS_ROUGHNESS", "uRoughness", false);
     use("emission", "HAS_EMISSION", "uEmission", true);

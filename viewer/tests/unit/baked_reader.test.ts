@@ -85,6 +85,28 @@ test("materials without textures share one list of triangles", () => {
   assert.deepEqual([...geometry.normals.subarray(0, 4)], [0, 127, 0, 0]);
 });
 
+test("many textures of base colours share one list, and few keep their own", () => {
+  type Json = { materials: object[]; textures: object[]; images: object[]; meshes: { primitives: object[] }[] };
+  const textured = (count: number) => {
+    const { document, binary } = read(
+      changed(given => {
+        const json = given as unknown as Json;
+        const numbers = Array.from({ length: count }, (_, i) => i);
+        const [primitive] = json.meshes[0]!.primitives;
+        json.materials = numbers.map(i => ({ pbrMetallicRoughness: { baseColorTexture: { index: i } } }));
+        json.textures = numbers.map(i => ({ source: i }));
+        json.images = numbers.map(() => ({ bufferView: 0, mimeType: "image/png" }));
+        json.meshes[0]!.primitives = numbers.map(i => ({ ...primitive, material: i }));
+      }),
+    );
+    return readGeometry(document, binary);
+  };
+  const few = textured(5);
+  assert.deepEqual([few.batches.length, few.packed.length], [5, 0]);
+  const many = textured(150);
+  assert.deepEqual([many.batches.length, many.packed.length, many.batches[0]!.maps.base], [1, 150, -1]);
+});
+
 test("files that are cut, damaged, foreign or newer say so", () => {
   const whole = bakedHome();
   assert.throws(() => parseGlb(whole.subarray(0, whole.length - 1000)), isFault("cut"));
