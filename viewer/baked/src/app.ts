@@ -10,6 +10,7 @@ import { linkOf, readLink } from "./link.js";
 import { loadLight, packedTextures, textureSource, type LoadedHome } from "./load.js";
 import { eyeOfCamera, Mover } from "./mover.js";
 import { overlay } from "./overlay.js";
+import { Pace } from "./pace.js";
 import { panel } from "./panel.js";
 import { boxAround, insideOutline, middleOf, roomAt } from "./rooms.js";
 import * as scenes from "./scenes.js";
@@ -45,6 +46,8 @@ export class App {
   panelOpen = innerWidth > kNarrowPx;
   private readonly canvas: HTMLCanvasElement;
   private readonly key: string;
+  private readonly pace = new Pace();
+  private drewLast = false;
   private lastMs = 0;
   private renderDue = false;
   private messageTimer = 0;
@@ -151,7 +154,8 @@ export class App {
     if (!this.inVr && this.mover.update(seconds, this.controls.wish(seconds))) this.moved();
     const automaticBefore = this.ev100;
     const drawn = !this.inVr && this.stage.frame(nowMs, seconds);
-    if (drawn && this.stage.judgePace()) this.resize();
+    if (drawn && this.drewLast && this.pace.took(seconds * 1000)) this.resize();
+    this.drewLast = drawn;
     if (Math.abs(automaticBefore - this.ev100) > 0.02) this.refresh();
     const { dataset } = this.canvas;
     dataset.frames = String(this.stage.frames);
@@ -191,7 +195,7 @@ export class App {
   private resize(): void {
     const widthPx = innerWidth - (this.panelOpen && innerWidth > kNarrowPx ? kPanelPx : 0);
     this.canvas.style.width = `${widthPx}px`;
-    this.stage.resize(widthPx, innerHeight, Math.min(devicePixelRatio, kMostPixelShare));
+    this.stage.resize(widthPx, innerHeight, Math.min(devicePixelRatio, kMostPixelShare) * this.pace.share);
     this.stage.setEye(this.mover.eye);
   }
 

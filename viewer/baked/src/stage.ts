@@ -19,9 +19,6 @@ import { kFinishGlsl } from "./surface_shader.js";
 
 const kProbePx = 128;
 const kMeterMs = 200;
-const kSlowMs = 24; // a frame that takes longer is drawn with fewer pixels
-const kFastMs = 13;
-const kJudgedFrames = 20;
 const kNearM = 0.05;
 const kFarM = 1000;
 const kPanoramaWidth = 512;
@@ -42,7 +39,6 @@ export class Stage {
   complete = false; // all layers are there
   asBaked = true; // what is seen first is what the home's exposure was made for
   frames = 0;
-  frameMs = 0; // between the last frames
   scale: Scale | null = null; // of false colours
   private readonly home: Home;
   private readonly all: Box;
@@ -55,8 +51,6 @@ export class Stage {
   private metering = false;
   private meteredMs = -Infinity;
   private meterDue = true;
-  private pixelShare = 1;
-  private slow = 0;
 
   constructor(
     readonly renderer: THREE.WebGLRenderer,
@@ -153,8 +147,8 @@ export class Stage {
     this.due = true;
   }
 
-  resize(widthPx: number, heightPx: number, deviceShare: number): void {
-    this.renderer.setPixelRatio(deviceShare * this.pixelShare);
+  resize(widthPx: number, heightPx: number, pixelShare: number): void {
+    this.renderer.setPixelRatio(pixelShare);
     this.renderer.setSize(widthPx, heightPx, false);
     const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
     this.display.resize(Math.max(1, size.x), Math.max(1, size.y));
@@ -170,17 +164,16 @@ export class Stage {
     }
     this.adapt(seconds);
     const drawn = this.due;
-    if (drawn) this.draw(seconds);
+    if (drawn) this.draw();
     if (this.meterDue && !this.metering && nowMs - this.meteredMs > kMeterMs) void this.measure(nowMs);
     return drawn;
   }
 
-  private draw(seconds: number): void {
+  private draw(): void {
     this.due = false;
     this.renderer.info.reset();
     this.display.draw(this.scene, this.camera);
     ++this.frames;
-    this.frameMs = seconds * 1000;
   }
 
   // True while a picture, reflections or the exposure still change.
@@ -225,26 +218,6 @@ export class Stage {
       this.biasEv = this.asBaked ? Math.max(-kMostBiasEv, Math.min(kMostBiasEv, bias)) : 0;
     }
     this.wantedEv100 = automatic + this.biasEv;
-  }
-
-  // Fewer pixels where frames take too long, more where there is time left; true if the size is to be set anew.
-  judgePace(): boolean {
-    this.slow +=
-      this.frameMs > kSlowMs
-        ? Math.min(5, this.frameMs / kSlowMs)
-        : this.frameMs < kFastMs
-          ? -0.2
-          : this.slow > 0
-            ? -0.5
-            : 0;
-    if (this.slow > kJudgedFrames && this.pixelShare > 0.5) this.pixelShare *= 0.85;
-    else if (this.slow < -kJudgedFrames && this.pixelShare < 1) this.pixelShare = Math.min(1, this.pixelShare / 0.92);
-    else {
-      this.slow = Math.max(-kJudgedFrames - 1, Math.min(kJudgedFrames + 1, this.slow));
-      return false;
-    }
-    this.slow = 0;
-    return true;
   }
 
   // What is seen at a place of the canvas, in CSS pixels.

@@ -11,6 +11,7 @@ import {
   launchWithoutWebGl,
   launchWithWebGl,
   noBakedPage,
+  serveFolder,
   slide,
   visitHome,
   writePage,
@@ -242,6 +243,15 @@ test("files that are missing, cut, damaged or foreign are one line each", { skip
     assert.match(await visit.stopped(), line);
     await visit.end();
   }
+});
+
+test("a folder on a server works like the single file", { skip }, async () => {
+  const folder = await serveFolder(bakedHome());
+  const visit = await opened(folder.link);
+  await shows(visit, shown(kLampLux[0]!), "as baked");
+  assert.ok(Number(await visit.page.locator("#view").getAttribute("data-calls")) < 10);
+  await visit.end();
+  await folder.end();
 });
 
 test("without WebGL one line says so", { skip }, async () => {

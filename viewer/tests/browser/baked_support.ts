@@ -1,6 +1,8 @@
 // The page of a baked home in Chromium, from a file, with WebGL reckoned by the processor.
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import type { AddressInfo } from "node:net";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
@@ -42,6 +44,20 @@ export function writePage(name: string, file: Uint8Array | null): string {
   return pathToFileURL(path).href;
 }
 
+// A folder with the page and the file beside it, as a web server gives it out.
+export async function serveFolder(file: Uint8Array): Promise<{ link: string; end(): Promise<void> }> {
+  const page = readFileSync(kPage, "utf8").replace(kMarker, '<link id="roomlight-home" href="home-0.glb">');
+  const server = createServer((request, response) => {
+    if (request.url === "/") response.writeHead(200, { "content-type": "text/html" }).end(page);
+    else if (request.url === "/home-0.glb") response.writeHead(200, { "content-length": file.length }).end(file);
+    else response.writeHead(404).end();
+  });
+  await new Promise<void>(ready => server.listen(0, "127.0.0.1", ready));
+  const { port } = server.address() as AddressInfo;
+  const end = () => new Promise<void>(done => void server.close(() => done()));
+  return { link: `http://127.0.0.1:${port}/`, end };
+}
+
 export interface BakedVisit {
   readonly page: Page;
   settled(): Promise<void>;
@@ -66,7 +82,8 @@ export async function visitHome(
   });
   page.on("pageerror", error => complaints.push(`script: ${error.message}`));
   page.on("request", request => {
-    if (!/^(file|blob|data):/.test(request.url())) complaints.push(`request to ${request.url()}`);
+    const own = /^(file|blob|data):/.test(request.url()) || new URL(request.url()).origin === new URL(link).origin;
+    if (!own) complaints.push(`request to ${request.url()}`);
   });
   await page.goto(link);
   const stopped = () => page.waitForFunction(() => document.documentElement.dataset.stopped === "true");

@@ -3,6 +3,7 @@ import { test } from "node:test";
 import { Bvh } from "../../baked/src/bvh.js";
 import { frameOf, storeyAt } from "../../baked/src/floor_plan.js";
 import { eyeOfCamera, Mover } from "../../baked/src/mover.js";
+import { Pace } from "../../baked/src/pace.js";
 import { insideOutline, middleOf, roomAt } from "../../baked/src/rooms.js";
 import { floorBelow, freePlace, hasHeadroom, walked, type Body } from "../../baked/src/walk.js";
 import type { Vec3 } from "../../src/vector.js";
@@ -146,4 +147,23 @@ test("rooms are found by place, and have a middle that is inside", () => {
   assert.equal(storeyAt(rooms, 4.4), 2.8);
   assert.equal(storeyAt(rooms, 1.6), 0);
   near(frameOf(rooms, 100, 100).scale, 20);
+});
+
+test("slow frames get fewer pixels, unless that does not help", () => {
+  const run = (pace: Pace, ms: (share: number) => number, frames: number) => {
+    for (let i = 0; i < frames; ++i) pace.took(ms(pace.share));
+    return pace.share;
+  };
+  assert.ok(run(new Pace(), share => 40 * share ** 2, 400) < 0.85);
+  assert.equal(
+    run(new Pace(), () => 33, 400),
+    1,
+  );
+  assert.equal(
+    run(new Pace(), () => 16, 400),
+    1,
+  );
+  const pace = new Pace();
+  run(pace, share => 60 * share ** 2, 200);
+  assert.ok(run(pace, share => 10 * share ** 2, 400) > 0.99);
 });
