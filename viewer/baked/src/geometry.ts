@@ -1,5 +1,6 @@
-// All triangles of a home: one set of vertices, and lists of triangles that are drawn with the same textures and states.
-// Without textures one list serves all materials: what they are is looked up by the number that each vertex carries.
+// All triangles of a home: one set of vertices, and lists of triangles that are drawn with the same textures and
+// states. Without textures one list serves all materials: what they are is looked up by the number that each vertex
+// carries.
 import { BadFile } from "./bad_file.js";
 import { viewBytes, type Gltf, type Material } from "./document.js";
 

@@ -1,5 +1,5 @@
-// The atlas of light: the sum of all layers, each times its factor, as 16-bit floats in units of kUnit lux. The tiles of
-// a layer are drawn as one instanced quad with additive blending, and only when factors have changed.
+// The atlas of light: the sum of all layers, each times its factor, as 16-bit floats in units of kUnit lux. The tiles
+// of a layer are drawn as one instanced quad with additive blending, and only when factors have changed.
 import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
 import { kUnit } from "./units.js";

@@ -82,12 +82,15 @@ const kGerman: Record<StringKey, string> = {
   fault_damaged: "Die Datei dieser Wohnung ist beschädigt. Bitte erneut kopieren oder herunterladen.",
   fault_newer: "Diese Wohnung stammt von einem neueren roomlight, als diese Seite kennt.",
   noWebGl:
-    "Dieser Browser kann die Wohnung nicht zeigen: Ihm fehlt WebGL 2. Bitte Hardwarebeschleunigung einschalten oder einen anderen Browser nehmen.",
+    "Dieser Browser kann die Wohnung nicht zeigen: Ihm fehlt WebGL 2. Bitte " +
+    "Hardwarebeschleunigung einschalten oder einen anderen Browser nehmen.",
   noFloat: "Dieser Grafikprozessor kann Licht nicht addieren: Er zeichnet nicht in 16-Bit-Gleitkommazahlen.",
   tooLarge: "Das Licht dieser Wohnung ist zu groß für diesen Grafikprozessor.",
   contextLost: "Der Grafikprozessor wurde entzogen. Die Wohnung erscheint wieder, sobald er zurück ist.",
   failed: "Etwas ist schiefgegangen. Bitte die Seite neu laden.",
-  view: "Ansicht der Wohnung. Pfeiltasten oder W, A, S, D gehen; Ziehen blickt umher; ein Klick auf den Boden führt dorthin.",
+  view:
+    "Ansicht der Wohnung. Pfeiltasten oder W, A, S, D gehen; Ziehen " +
+    "blickt umher; ein Klick auf den Boden führt dorthin.",
   panel: "Bedienung",
   openPanel: "Bedienung öffnen",
   closePanel: "Bedienung schließen",

@@ -12,7 +12,8 @@ export const kFinishGlsl = `
   uniform float uMostRadiance; // cd/m2; lamps are no brighter, so that their edges are smooth
   ${kToneGlsl}
   vec3 finish(vec3 radiance, vec3 lux) {
-    if (uLux) return vec3(min(dot(lux, vec3(0.2126, 0.7152, 0.0722)) / ${kUnit.toFixed(1)}, ${kMostStored.toFixed(1)}));
+    float amount = dot(lux, vec3(0.2126, 0.7152, 0.0722)) / ${kUnit.toFixed(1)};
+    if (uLux) return vec3(min(amount, ${kMostStored.toFixed(1)}));
     if (uEncode) return srgbEncode(toneCurve(radiance * uExposure, uTone));
     return min(radiance, uMostRadiance) / ${kUnit.toFixed(1)};
   }`;
@@ -56,8 +57,8 @@ export const kSurfaceVertex = `
     gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
   }`;
 
-// Defines: HAS_UV, HAS_COLOR, HAS_BASE or HAS_PACKED, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE; PROBE with the sizes that
-// three.js has for its filtered cube.
+// Defines: HAS_UV, HAS_COLOR, HAS_BASE or HAS_PACKED, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE; PROBE with the
+// sizes that three.js has for its filtered cube.
 export const kSurfaceFragment = `
   precision highp float;
   precision highp int;
@@ -111,7 +112,8 @@ export const kSurfaceFragment = `
   // Where a ray from the surface leaves the room, as seen from the probe (parallax correction, Lagarde 2012).
   vec3 seenFromProbe(vec3 direction, out float inside) {
     vec3 margin = vec3(0.02);
-    bvec3 above = greaterThanEqual(vPosition, uRoomLow - margin), below = lessThanEqual(vPosition, uRoomHigh + margin);
+    bvec3 above = greaterThanEqual(vPosition, uRoomLow - margin);
+    bvec3 below = lessThanEqual(vPosition, uRoomHigh + margin);
     inside = all(above) && all(below) ? 1.0 : 0.0;
     if (inside == 0.0) return direction;
     vec3 d = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
