@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { existsSync, mkdirSync } from "node:fs";
 import { chromium, type Browser, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
 
-const kBrowser = process.env.ROOMLIGHT_CHROMIUM ?? "/usr/bin/chromium";
-const kShots = process.env.ROOMLIGHT_SHOTS ?? "build/shots";
+export const kBrowser = process.env.ROOMLIGHT_CHROMIUM ?? "/usr/bin/chromium";
+export const kShots = process.env.ROOMLIGHT_SHOTS ?? "build/shots";
 
 // Why the tests that need a browser cannot run; false if they can.
 export function noBrowser(): string | false {

@@ -1,0 +1,161 @@
+// From radiance to the screen: the scene is drawn into 16-bit floats with antialiasing, then exposed, balanced, toned
+// and encoded. A small copy of it says how bright it is.
+import * as THREE from "three";
+import type { Home } from "./document.js";
+import { falseColour, type Scale } from "./false_colour.js";
+import { drawInto } from "./light_sum.js";
+import { kReadoutGlsl, readoutAt } from "./readout.js";
+import type { Uniforms } from "./surfaces.js";
+import { exposureFromEv100, kToneGlsl, kToneNumbers } from "./tone.js";
+import { kMostStored, kUnit } from "./units.js";
+
+const kMeterWidth = 48;
+const kMeterHeight = 27;
+const kMostExposed = 16; // AgX is white from there on
+const kRampColours = 256;
+
+const kVertex = `
+  in vec3 position;
+  out vec2 vUv;
+  void main() {
+    vUv = position.xy * 0.5 + 0.5;
+    gl_Position = vec4(position.xy, 0.0, 1.0);
+  }`;
+const kFragment = `
+  precision highp float;
+  precision highp int;
+  precision highp sampler2D;
+  uniform sampler2D uImage, uRamp;
+  uniform vec3 uExposure;
+  uniform int uTone;
+  uniform bool uLux;
+  uniform vec2 uScale; // lux: logarithms of the ends
+  in vec2 vUv;
+  out vec4 outColor;
+  ${kToneGlsl}
+  // Hides the bands of 8 bits: interleaved gradient noise (Jimenez 2014).
+  float dither(vec2 p) { return fract(52.9829189 * fract(dot(floor(p), vec2(0.06711056, 0.00583715)))); }
+  void main() {
+    vec3 image = texture(uImage, vUv).rgb * ${kUnit.toFixed(1)};
+    if (uLux) {
+      float t = clamp((log(max(image.r, 1e-6)) - uScale.x) / (uScale.y - uScale.x), 0.0, 1.0);
+      outColor = vec4(image.r > 0.0 ? texture(uRamp, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb : vec3(0.09), 1.0);
+      return;
+    }
+    vec3 shown = srgbEncode(toneCurve(image * uExposure, uTone));
+    outColor = vec4(clamp(shown + (dither(gl_FragCoord.xy) - 0.5) / 255.0, 0.0, 1.0), 1.0);
+  }`;
+const kMeterFragment = `
+  precision highp float;
+  precision highp int;
+  precision highp sampler2D;
+  uniform sampler2D uImage;
+  uniform bool uLux;
+  in vec2 vUv;
+  out vec4 outColor;
+  ${kReadoutGlsl}
+  void main() {
+    vec2 size = vec2(${kMeterWidth}.0, ${kMeterHeight}.0);
+    vec2 cell = floor(vUv * size);
+    float sum = 0.0, count = 0.0;
+    for (int i = 0; i < 16; ++i) {
+      vec2 at = (cell + (vec2(i % 4, i / 4) + 0.5) / 4.0) / size;
+      vec3 c = texture(uImage, at).rgb * ${kUnit.toFixed(1)};
+      float amount = uLux ? c.r : dot(c, vec3(0.2126, 0.7152, 0.0722));
+      if (amount > 1e-6) sum += log2(amount), count += 1.0;
+    }
+    outColor = readout(count > 0.0 ? exp2(sum / count) : 0.0);
+  }`;
+
+function quad(fragmentShader: string, uniforms: Uniforms): THREE.Mesh {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+  const material = new THREE.RawShaderMaterial({
+    glslVersion: THREE.GLSL3,
+    vertexShader: kVertex,
+    fragmentShader,
+    uniforms,
+    depthTest: false,
+    depthWrite: false,
+  });
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+export class Display {
+  // Shared with the surfaces.
+  readonly uniforms: Uniforms = {
+    uExposure: { value: new THREE.Vector3() },
+    uTone: { value: 0 },
+    uLux: { value: false },
+    uEncode: { value: false },
+    uMostRadiance: { value: kMostStored * kUnit },
+  };
+  private readonly image: THREE.WebGLRenderTarget;
+  private readonly meterTarget = new THREE.WebGLRenderTarget(kMeterWidth, kMeterHeight, { depthBuffer: false });
+  private readonly show: THREE.Mesh;
+  private readonly meterQuad: THREE.Mesh;
+  private readonly camera = new THREE.Camera();
+  private readonly scale = { value: new THREE.Vector2() };
+  private ev100Now = 0;
+
+  constructor(
+    private readonly renderer: THREE.WebGLRenderer,
+    private readonly home: Home,
+    samples: number,
+  ) {
+    this.image = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType, samples });
+    const ramp = new Uint8Array(4 * kRampColours);
+    for (let i = 0; i < kRampColours; ++i) {
+      ramp.set(
+        falseColour(i / (kRampColours - 1)).map(c => Math.round(255 * c)),
+        4 * i,
+      );
+      ramp[4 * i + 3] = 255;
+    }
+    const rampTexture = new THREE.DataTexture(ramp, kRampColours, 1);
+    rampTexture.needsUpdate = true;
+    const image = { value: this.image.texture };
+    this.show = quad(kFragment, { ...this.uniforms, uImage: image, uRamp: { value: rampTexture }, uScale: this.scale });
+    this.meterQuad = quad(kMeterFragment, { uImage: image, uLux: this.uniforms.uLux! });
+    this.uniforms.uTone!.value = kToneNumbers[home.display.tone];
+    this.ev100 = home.display.ev100;
+  }
+
+  get ev100(): number {
+    return this.ev100Now;
+  }
+  set ev100(value: number) {
+    this.ev100Now = value;
+    const [r, g, b] = this.home.display.whiteGains;
+    const exposure = exposureFromEv100(value);
+    (this.uniforms.uExposure!.value as THREE.Vector3).set(r, g, b).multiplyScalar(exposure);
+  }
+
+  // Lux instead of pictures; null: pictures.
+  set luxScale(scale: Scale | null) {
+    this.uniforms.uLux!.value = scale !== null;
+    if (scale) this.scale.value.set(Math.log(scale.low), Math.log(scale.high));
+  }
+
+  resize(widthPx: number, heightPx: number): void {
+    this.image.setSize(widthPx, heightPx);
+  }
+
+  draw(scene: THREE.Scene, camera: THREE.Camera): void {
+    const exposure = exposureFromEv100(this.ev100Now) * Math.max(...this.home.display.whiteGains);
+    this.uniforms.uMostRadiance!.value = Math.min(kMostExposed / exposure, kMostStored * kUnit);
+    drawInto(this.renderer, this.image, scene, camera);
+    this.uniforms.uMostRadiance!.value = kMostStored * kUnit;
+    drawInto(this.renderer, null, this.show, this.camera);
+  }
+
+  // Luminances in cd/m², in false colours lux, of the last picture: rows of `width`, zero where there is nothing.
+  async meter(): Promise<{ amounts: number[]; width: number }> {
+    drawInto(this.renderer, this.meterTarget, this.meterQuad, this.camera);
+    const bytes = new Uint8Array(4 * kMeterWidth * kMeterHeight);
+    await this.renderer.readRenderTargetPixelsAsync(this.meterTarget, 0, 0, kMeterWidth, kMeterHeight, bytes);
+    return { amounts: Array.from({ length: bytes.length / 4 }, (_, i) => readoutAt(bytes, i)), width: kMeterWidth };
+  }
+}

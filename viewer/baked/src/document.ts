@@ -1,0 +1,164 @@
+// The JSON of a baked home: what is read of glTF, and the extension with the light (docs/reference/baked.md).
+import * as v from "valibot";
+import { check, real, triple, whole, BadMessage, type Checked } from "../../src/schema.js";
+import { BadFile } from "./bad_file.js";
+
+const index = v.pipe(whole, v.minValue(0));
+const size = v.pipe(whole, v.minValue(1));
+const positive = v.pipe(real, v.gtValue(0));
+const texture = v.optional(v.object({ index }));
+
+const material = v.object({
+  name: v.optional(v.string(), ""),
+  pbrMetallicRoughness: v.optional(
+    v.object({
+      baseColorFactor: v.optional(v.strictTuple([real, real, real, real]), [1, 1, 1, 1]),
+      metallicFactor: v.optional(real, 1),
+      roughnessFactor: v.optional(real, 1),
+      baseColorTexture: texture,
+      metallicRoughnessTexture: texture,
+    }),
+    {},
+  ),
+  normalTexture: v.optional(v.object({ index, scale: v.optional(real, 1) })),
+  emissiveTexture: texture,
+  emissiveFactor: v.optional(triple, [0, 0, 0]),
+  alphaMode: v.optional(v.picklist(["OPAQUE", "MASK", "BLEND"]), "OPAQUE"),
+  alphaCutoff: v.optional(real, 0.5),
+  doubleSided: v.optional(v.boolean(), false),
+  extensions: v.optional(
+    v.object({
+      KHR_materials_emissive_strength: v.optional(v.object({ emissiveStrength: v.optional(real, 1) })),
+      KHR_materials_transmission: v.optional(v.object({ transmissionFactor: v.optional(real, 0) })),
+      KHR_materials_ior: v.optional(v.object({ ior: v.optional(real, 1.5) })),
+      KHR_materials_specular: v.optional(
+        v.object({ specularFactor: v.optional(real, 1), specularColorFactor: v.optional(triple, [1, 1, 1]) }),
+      ),
+    }),
+    {},
+  ),
+  extras: v.optional(v.object({ lightLayers: v.optional(v.array(index), []) })),
+});
+
+const light = v.object({ bufferView: index, scale: positive, tiles: v.array(index) });
+const panorama = v.object({ bufferView: index, width: size, height: size, scale: positive });
+const layer = v.object({
+  name: v.string(),
+  kind: v.picklist(["lamp", "sun", "sky"]),
+  room: v.optional(v.string(), ""),
+  on: v.optional(v.boolean(), true),
+  hour: v.optional(real),
+  kelvin: v.optional(positive),
+  position: v.optional(triple),
+  light,
+  panorama: v.optional(panorama),
+});
+const room = v.object({
+  name: v.string(),
+  floor: v.array(v.strictTuple([real, real])),
+  elevationM: v.optional(real, 0),
+  heightM: v.optional(positive, 2.5),
+});
+const camera = v.object({
+  name: v.optional(v.string(), ""),
+  position: triple,
+  forward: triple,
+  yFovDeg: v.optional(v.pipe(real, v.gtValue(0), v.ltValue(180)), 60),
+});
+
+const extension = v.object({
+  version: whole,
+  atlas: v.object({ width: size, height: size, tile: size }),
+  layers: v.array(layer),
+  hour: v.optional(real),
+  rooms: v.optional(v.array(room), []),
+  cameras: v.optional(v.array(camera), []),
+  camera: v.optional(index, 0),
+  display: v.object({
+    ev100: real,
+    tone: v.picklist(["neutral", "agx", "filmic", "clip"]),
+    whiteGains: v.optional(triple, [1, 1, 1]),
+  }),
+});
+
+const gltf = v.object({
+  accessors: v.optional(
+    v.array(
+      v.object({
+        bufferView: index,
+        byteOffset: v.optional(index, 0),
+        componentType: whole,
+        count: index,
+        type: v.string(),
+      }),
+    ),
+    [],
+  ),
+  bufferViews: v.optional(
+    v.array(v.object({ byteOffset: v.optional(index, 0), byteLength: index, byteStride: v.optional(size) })),
+    [],
+  ),
+  meshes: v.pipe(
+    v.array(
+      v.object({
+        primitives: v.array(
+          v.object({
+            attributes: v.record(v.string(), index),
+            indices: v.optional(index),
+            material: v.optional(index),
+          }),
+        ),
+      }),
+    ),
+    v.minLength(1),
+  ),
+  materials: v.optional(v.array(material), []),
+  textures: v.optional(v.array(v.object({ source: v.optional(index), sampler: v.optional(index) })), []),
+  samplers: v.optional(v.array(v.object({ wrapS: v.optional(whole), wrapT: v.optional(whole) })), []),
+  images: v.optional(v.array(v.object({ bufferView: index, mimeType: v.string() })), []),
+  extensions: v.object({ ROOMLIGHT_light_layers: extension }),
+});
+
+export type Gltf = Checked<typeof gltf>;
+export type Material = Gltf["materials"][number];
+export type Home = Checked<typeof extension>;
+export type Layer = Home["layers"][number];
+export type Room = Home["rooms"][number];
+export type Camera = Home["cameras"][number];
+export type ToneName = Home["display"]["tone"];
+
+const versionOnly = v.object({ extensions: v.object({ ROOMLIGHT_light_layers: v.object({ version: whole }) }) });
+
+export function checkDocument(json: unknown): Gltf {
+  const probed = v.safeParse(versionOnly, json);
+  if (!probed.success) throw new BadFile("foreign", "ROOMLIGHT_light_layers");
+  const { version } = probed.output.extensions.ROOMLIGHT_light_layers;
+  if (version !== 1) throw new BadFile("newer", `ROOMLIGHT_light_layers ${version}`);
+  try {
+    const document = check(gltf, json);
+    checkTiles(document.extensions.ROOMLIGHT_light_layers);
+    return document;
+  } catch (error) {
+    if (error instanceof BadMessage) throw new BadFile("damaged", error.message);
+    throw error;
+  }
+}
+
+function checkTiles({ atlas, layers }: Home): void {
+  if (atlas.width % atlas.tile !== 0 || atlas.height % atlas.tile !== 0)
+    throw new BadFile("damaged", "atlas: its size is not one of whole tiles");
+  const count = (atlas.width / atlas.tile) * (atlas.height / atlas.tile);
+  layers.forEach((layer, i) => {
+    if (layer.light.tiles.some(tile => tile >= count))
+      throw new BadFile("damaged", `layers.${i}.light.tiles: the atlas has ${count}`);
+  });
+}
+
+// The bytes of a buffer view.
+export function viewBytes(document: Gltf, binary: Uint8Array, at: number): Uint8Array {
+  const view = document.bufferViews[at];
+  if (!view) throw new BadFile("damaged", `bufferViews.${at}: missing`);
+  const end = view.byteOffset + view.byteLength;
+  if (end > binary.length) throw new BadFile("damaged", `bufferViews.${at}: ends behind the file`);
+  return binary.subarray(view.byteOffset, end);
+}

@@ -1,0 +1,90 @@
+// A headset by WebXR: the home in its true size; the trigger goes to the place on the floor that is pointed at.
+import * as THREE from "three";
+import type { Vec3 } from "../../src/vector.js";
+import type { Mover } from "./mover.js";
+import type { Stage } from "./stage.js";
+import { kEyeHeightM } from "./walk.js";
+
+export async function headsetSupported(): Promise<boolean> {
+  return (await navigator.xr?.isSessionSupported("immersive-vr").catch(() => false)) ?? false;
+}
+
+const kRayM = 8;
+const kFloorSlope = 0.6;
+
+export class Headset {
+  private readonly rig = new THREE.Group(); // where the floor under the wearer is
+  private readonly camera = new THREE.PerspectiveCamera(60, 1, 0.05, 1000);
+  private readonly marker = new THREE.Mesh(
+    new THREE.RingGeometry(0.15, 0.2, 32).rotateX(-Math.PI / 2),
+    new THREE.MeshBasicMaterial({ color: 0xf0b954 }),
+  );
+  private target: Vec3 | null = null;
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly mover: Mover,
+  ) {
+    this.rig.add(this.camera);
+    this.marker.visible = false;
+  }
+
+  // Ends when the wearer ends it.
+  async enter(frame: (nowMs: number) => void, ended: () => void): Promise<void> {
+    const { renderer, scene, display } = this.stage;
+    const session = await navigator.xr!.requestSession("immersive-vr", { optionalFeatures: ["local-floor"] });
+    renderer.xr.enabled = true;
+    renderer.xr.setReferenceSpaceType("local-floor");
+    const [x, y, z] = this.mover.eye.position;
+    this.rig.position.set(x, y - kEyeHeightM, z);
+    this.rig.rotation.y = (this.mover.eye.yawDeg * Math.PI) / 180;
+    display.uniforms.uEncode!.value = true;
+    scene.matrixWorldAutoUpdate = true;
+    scene.add(this.rig, this.marker);
+    for (const i of [0, 1]) {
+      const controller = renderer.xr.getController(i);
+      controller.addEventListener("selectend", () => this.jump());
+      this.rig.add(controller);
+    }
+    session.addEventListener("end", () => {
+      renderer.xr.enabled = false;
+      renderer.setAnimationLoop(null);
+      display.uniforms.uEncode!.value = false;
+      scene.matrixWorldAutoUpdate = false;
+      scene.remove(this.rig, this.marker);
+      const { x: endX, y: endY, z: endZ } = this.rig.position;
+      this.mover.stand({ ...this.mover.eye, position: [endX, endY + kEyeHeightM, endZ] });
+      ended();
+    });
+    await renderer.xr.setSession(session);
+    renderer.setAnimationLoop(nowMs => {
+      const eyes = renderer.getRenderTarget(); // of the headset
+      frame(nowMs);
+      this.aim();
+      renderer.setRenderTarget(eyes);
+      renderer.clear();
+      renderer.render(scene, this.camera);
+    });
+  }
+
+  // The place on a floor that the first controller points at.
+  private aim(): void {
+    const controller = this.stage.renderer.xr.getController(0);
+    const from = new THREE.Vector3().setFromMatrixPosition(controller.matrixWorld);
+    const d = new THREE.Vector3(0, 0, -1).transformDirection(controller.matrixWorld);
+    const { world } = this.stage;
+    const hit = world?.raycast([from.x, from.y, from.z], [d.x, d.y, d.z], kRayM);
+    this.target = null;
+    if (world && hit) {
+      const n = world.normalOf(hit.triangle);
+      if (Math.abs(n[1]) > kFloorSlope * Math.hypot(...n) && d.y < 0)
+        this.target = [from.x + d.x * hit.distance, from.y + d.y * hit.distance, from.z + d.z * hit.distance];
+    }
+    this.marker.visible = this.target !== null;
+    if (this.target) this.marker.position.set(this.target[0], this.target[1] + 0.01, this.target[2]);
+  }
+
+  private jump(): void {
+    if (this.target) this.rig.position.set(...this.target);
+  }
+}

@@ -1,0 +1,157 @@
+// The atlas of light: the sum of all layers, each times its factor, as 16-bit floats in units of kUnit lux. The tiles
+// of a layer are drawn as one instanced quad with additive blending, and only when factors have changed.
+import * as THREE from "three";
+import type { Vec3 } from "../../src/vector.js";
+import { kUnit } from "./units.js";
+
+export const kRowTexels = 2048; // of the textures that hold a layer's tiles, one texel after the other
+const kMostRows = 2048;
+
+const kVertex = `
+  in vec3 position;
+  in float aTile;
+  uniform ivec2 uSize; // texels
+  uniform int uTile;
+  out vec2 vInTile;
+  flat out int vFirst;
+  void main() {
+    int columns = uSize.x / uTile, tile = int(aTile);
+    vInTile = position.xy * float(uTile);
+    vFirst = gl_InstanceID * uTile * uTile;
+    vec2 texel = vec2(tile % columns, tile / columns) * float(uTile) + vInTile;
+    gl_Position = vec4(texel / vec2(uSize) * 2.0 - 1.0, 0.0, 1.0);
+  }`;
+const kFragment = `
+  precision highp float;
+  precision highp int;
+  precision highp sampler2D;
+  uniform sampler2D uTexels;
+  uniform int uTile;
+  uniform vec3 uFactor;
+  in vec2 vInTile;
+  flat in int vFirst;
+  out vec4 outColor;
+  void main() {
+    ivec2 p = ivec2(vInTile);
+    int at = vFirst + p.y * uTile + p.x;
+    vec3 value = texelFetch(uTexels, ivec2(at % ${kRowTexels}, at / ${kRowTexels}), 0).rgb;
+    outColor = vec4(min(value * uFactor, 65000.0), 1.0);
+  }`;
+
+export const kAdditive = {
+  blending: THREE.CustomBlending,
+  blendEquation: THREE.AddEquation,
+  blendSrc: THREE.OneFactor,
+  blendDst: THREE.OneFactor,
+  depthTest: false,
+  depthWrite: false,
+} as const;
+
+// RGB9_E5 as the GPU has it; its memory here is given back once it is there.
+export function sharedExponentTexture(texels: Uint32Array<ArrayBuffer>, width: number): THREE.DataTexture {
+  const height = texels.length / width;
+  const texture = new THREE.DataTexture(texels, width, height, THREE.RGBFormat, THREE.UnsignedInt5999Type);
+  texture.onUpdate = () => void ((texture.image as { data: unknown }).data = null);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+interface Part {
+  readonly mesh: THREE.Mesh<THREE.InstancedBufferGeometry, THREE.RawShaderMaterial>;
+  readonly layer: number;
+  readonly scale: number;
+}
+
+export class LightSum {
+  readonly target: THREE.WebGLRenderTarget;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.Camera();
+  private readonly parts: Part[] = [];
+
+  constructor(
+    private readonly renderer: THREE.WebGLRenderer,
+    readonly width: number,
+    readonly height: number,
+    private readonly tile: number,
+  ) {
+    this.target = new THREE.WebGLRenderTarget(width, height, {
+      type: THREE.HalfFloatType,
+      format: THREE.RGBAFormat,
+      depthBuffer: false,
+      minFilter: THREE.LinearFilter,
+      magFilter: THREE.LinearFilter,
+    });
+    this.scene.matrixWorldAutoUpdate = false;
+  }
+
+  // How many texels the texture of so many tiles needs.
+  texelsFor(tiles: number): number {
+    return kRowTexels * Math.max(1, Math.ceil((tiles * this.tile ** 2) / kRowTexels));
+  }
+
+  // More than one texture can hold on small GPUs is split; 32 tiles of an even size fill whole rows.
+  add(layer: number, tiles: readonly number[], texels: Uint32Array<ArrayBuffer>, scale: number): void {
+    const most = Math.max(32, Math.floor((kRowTexels * kMostRows) / this.tile ** 2 / 32) * 32);
+    for (let first = 0; first < tiles.length; first += most) {
+      const end = first + most < tiles.length ? (first + most) * this.tile ** 2 : texels.length;
+      this.addPart(layer, tiles.slice(first, first + most), texels.subarray(first * this.tile ** 2, end), scale);
+    }
+  }
+
+  private addPart(layer: number, tiles: readonly number[], texels: Uint32Array<ArrayBuffer>, scale: number): void {
+    const geometry = new THREE.InstancedBufferGeometry();
+    geometry.setAttribute(
+      "position",
+      new THREE.BufferAttribute(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0]), 3),
+    );
+    geometry.setAttribute("aTile", new THREE.InstancedBufferAttribute(Float32Array.from(tiles), 1));
+    geometry.setIndex([0, 1, 2, 2, 1, 3]);
+    geometry.instanceCount = tiles.length;
+    const material = new THREE.RawShaderMaterial({
+      glslVersion: THREE.GLSL3,
+      vertexShader: kVertex,
+      fragmentShader: kFragment,
+      uniforms: {
+        uTexels: { value: sharedExponentTexture(texels, kRowTexels) },
+        uSize: { value: [this.width, this.height] },
+        uTile: { value: this.tile },
+        uFactor: { value: new THREE.Vector3() },
+      },
+      ...kAdditive,
+    });
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.frustumCulled = false;
+    this.scene.add(mesh);
+    this.parts.push({ mesh, layer, scale });
+  }
+
+  // The sum anew, or with `only` that layer on top of what is there.
+  update(factors: readonly Vec3[], only?: number): void {
+    for (const { mesh, layer, scale } of this.parts) {
+      const factor = factors[layer] ?? [0, 0, 0];
+      mesh.visible = factor.some(c => c > 0) && (only ?? layer) === layer;
+      (mesh.material.uniforms.uFactor!.value as THREE.Vector3)
+        .set(factor[0], factor[1], factor[2])
+        .multiplyScalar(scale / kUnit);
+    }
+    drawInto(this.renderer, this.target, this.scene, this.camera, only === undefined);
+  }
+}
+
+// Draws, by default after clearing the target to nothing.
+export function drawInto(
+  renderer: THREE.WebGLRenderer,
+  target: THREE.WebGLRenderTarget | null,
+  scene: THREE.Object3D,
+  camera: THREE.Camera,
+  clear = true,
+): void {
+  const xr = renderer.xr.enabled;
+  renderer.xr.enabled = false;
+  renderer.setRenderTarget(target);
+  renderer.setClearColor(0x000000, 0);
+  if (clear) renderer.clear();
+  renderer.render(scene, camera);
+  renderer.setRenderTarget(null);
+  renderer.xr.enabled = xr;
+}

@@ -1,0 +1,58 @@
+// Finds the file of the home: in the page as base64, or beside it.
+import { BadFile } from "./bad_file.js";
+
+const kId = "roomlight-home";
+const kCharsAtOnce = 1 << 20; // a multiple of 4
+
+export function decodeBase64(text: string): Uint8Array {
+  const clean = text.trim();
+  const padding = clean.endsWith("==") ? 2 : clean.endsWith("=") ? 1 : 0;
+  const bytes = new Uint8Array(Math.max(0, Math.floor((clean.length * 3) / 4) - padding));
+  let at = 0;
+  try {
+    for (let from = 0; from < clean.length; from += kCharsAtOnce) {
+      const part = atob(clean.slice(from, from + kCharsAtOnce));
+      for (let i = 0; i < part.length; ++i) bytes[at++] = part.charCodeAt(i);
+    }
+  } catch {
+    throw new BadFile("damaged", "base64");
+  }
+  return bytes.subarray(0, at);
+}
+
+// `progress`: share that has come.
+export async function homeBytes(progress: (share: number) => void): Promise<Uint8Array> {
+  const element = document.getElementById(kId);
+  if (element instanceof HTMLScriptElement) {
+    const text = element.textContent ?? "";
+    element.textContent = "";
+    if (text.trim() === "") throw new BadFile("missing");
+    return decodeBase64(text);
+  }
+  if (element instanceof HTMLLinkElement) return download(element.href, progress);
+  throw new BadFile("missing");
+}
+
+async function download(address: string, progress: (share: number) => void): Promise<Uint8Array> {
+  const response = await fetch(address).catch(() => null);
+  if (!response?.ok || !response.body) throw new BadFile("missing", address.slice(address.lastIndexOf("/") + 1));
+  const expected = Number(response.headers.get("content-length") ?? 0);
+  const parts: Uint8Array[] = [];
+  let length = 0;
+  const reader = response.body.getReader();
+  for (;;) {
+    const part = await reader.read().catch(() => null);
+    if (!part) throw new BadFile("cut", `${length} bytes`);
+    if (part.done) break;
+    parts.push(part.value);
+    length += part.value.length;
+    if (expected > 0) progress(Math.min(1, length / expected));
+  }
+  const bytes = new Uint8Array(length);
+  let at = 0;
+  for (const part of parts) {
+    bytes.set(part, at);
+    at += part.length;
+  }
+  return bytes;
+}

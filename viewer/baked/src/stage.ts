@@ -1,0 +1,240 @@
+// The picture: owns what is on the GPU, and draws a frame when something has changed.
+import * as THREE from "three";
+import { kRadPerDegree, type Vec3 } from "../../src/vector.js";
+import { adapted, lookedAtEv100 } from "./adaptation.js";
+import type { Bvh, Hit } from "./bvh.js";
+import { Display } from "./display.js";
+import type { Gltf, Home } from "./document.js";
+import { scaleOf, type Scale } from "./false_colour.js";
+import type { Geometry } from "./geometry.js";
+import { layerFactors, sameFactors, type LightState } from "./light_state.js";
+import { LightSum } from "./light_sum.js";
+import type { Eye } from "./link.js";
+import { kProbeDefines, Probe } from "./probe.js";
+import { boxAround, boxOf, middleOf, roomAt, type Box } from "./rooms.js";
+import { Sky } from "./sky.js";
+import { SpotMeter } from "./spot_meter.js";
+import { Surfaces, type TextureSource, type Uniforms } from "./surfaces.js";
+import { kFinishGlsl } from "./surface_shader.js";
+
+const kProbePx = 128;
+const kMeterMs = 200;
+const kNearM = 0.05;
+const kFarM = 1000;
+const kPanoramaWidth = 512;
+const kProbeHeightM = 1.5;
+const kMostBiasEv = 2;
+
+export class Stage {
+  readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(60, 1, kNearM, kFarM);
+  readonly light: LightSum;
+  readonly sky: Sky;
+  readonly display: Display;
+  readonly spot: SpotMeter;
+  readonly surfaces: Surfaces;
+  readonly probe: Probe;
+  world: Bvh | null = null;
+  automatic = true; // exposure
+  complete = false; // all layers are there
+  asBaked = true; // what is seen first is what the home's exposure was made for
+  frames = 0;
+  scale: Scale | null = null; // of false colours
+  private readonly home: Home;
+  private readonly all: Box;
+  private room: number | null | undefined = undefined;
+  private factors: Vec3[] | null = null;
+  private wantedEv100: number | null = null;
+  private biasEv: number | null = null; // of the home's exposure over the automatic one at its first camera
+  private due = true;
+  private scaleDue = false;
+  private metering = false;
+  private meteredMs = -Infinity;
+  private meterDue = true;
+
+  constructor(
+    readonly renderer: THREE.WebGLRenderer,
+    document: Gltf,
+    geometry: Geometry,
+    textures: TextureSource,
+    packed: THREE.DataArrayTexture | null,
+    private readonly changed: () => void,
+  ) {
+    this.home = document.extensions.ROOMLIGHT_light_layers;
+    renderer.autoClear = false;
+    renderer.info.autoReset = false;
+    const { width, height, tile } = this.home.atlas;
+    this.light = new LightSum(renderer, width, height, tile);
+    this.display = new Display(renderer, this.home, 4);
+    this.probe = new Probe(renderer, this.scene, this.display.uniforms, kProbePx);
+    this.all = boxAround(geometry.positions);
+    const uniforms: Uniforms = {
+      ...this.display.uniforms,
+      ...this.probe.uniforms,
+      uLight: { value: this.light.target.texture },
+      ...(packed ? { uPacked: { value: packed } } : {}),
+    };
+    this.surfaces = new Surfaces(document, geometry, uniforms, textures, kProbeDefines(kProbePx));
+    this.scene.add(this.surfaces.group);
+    this.sky = new Sky(renderer, kPanoramaWidth, kPanoramaWidth / 2, kFinishGlsl, this.display.uniforms);
+    this.scene.add(this.sky.mesh);
+    this.scene.matrixWorldAutoUpdate = false;
+    this.spot = new SpotMeter(renderer, this.light, geometry);
+  }
+
+  touch(): void {
+    this.due = true;
+  }
+
+  // A layer has come: its light is added to what is there. Seen with the next frame that is due.
+  include(layer: number): void {
+    const factors = this.factors ?? [];
+    if (!factors[layer]?.some(c => c > 0)) return;
+    this.light.update(factors, layer);
+    this.sky.update(factors, layer);
+    this.probe.touch();
+    this.scaleDue = this.meterDue = true;
+  }
+
+  setLight(state: LightState): void {
+    const factors = layerFactors(this.home, state);
+    if (sameFactors(this.factors, factors)) return;
+    this.factors = factors;
+    this.light.update(factors);
+    this.sky.update(factors);
+    this.surfaces.setFactors(factors);
+    this.probe.touch();
+    this.due = this.scaleDue = this.meterDue = true;
+  }
+
+  setEye({ position, yawDeg, pitchDeg, fovDeg }: Eye): void {
+    this.camera.position.set(...position);
+    this.camera.rotation.set(pitchDeg * kRadPerDegree, yawDeg * kRadPerDegree, 0, "YXZ");
+    // `fovDeg` is for pictures that are wider than high; on a phone held upright rooms would be seen through a slit.
+    const { aspect } = this.camera;
+    const tall = Math.tan((fovDeg / 2) * kRadPerDegree) * (aspect < 1 ? Math.min(1 / aspect, 1.6) : 1);
+    this.camera.fov = (2 * Math.atan(tall)) / kRadPerDegree;
+    this.camera.updateProjectionMatrix();
+    this.camera.updateMatrixWorld(true);
+    const room = roomAt(this.home.rooms, position);
+    if (room !== this.room) this.enter(room);
+    this.due = this.meterDue = true;
+  }
+
+  private enter(room: number | null): void {
+    this.room = room;
+    this.scaleDue = true;
+    const found = room === null ? null : this.home.rooms[room]!;
+    const box = found ? boxOf(found) : this.all;
+    const { x, y, z } = this.camera.position;
+    const middle = found ? middleOf(found) : [x, z];
+    const at: Vec3 = found ? [middle[0]!, found.elevationM + kProbeHeightM, middle[1]!] : [x, y, z];
+    let cramped = false;
+    this.world?.forEachNear(at, 0.15, () => (cramped = true));
+    this.probe.move(cramped ? [x, y, z] : at, box);
+  }
+
+  setFalseColours(on: boolean): void {
+    this.scale = on ? (this.scale ?? { low: 1, high: 1000 }) : null;
+    this.display.luxScale = this.scale;
+    this.scaleDue = on;
+    for (const pane of this.surfaces.panes) pane.visible = !on;
+    this.due = this.meterDue = true;
+  }
+
+  setEv100(ev100: number): void {
+    this.display.ev100 = ev100;
+    this.due = true;
+  }
+
+  resize(widthPx: number, heightPx: number, pixelShare: number): void {
+    this.renderer.setPixelRatio(pixelShare);
+    this.renderer.setSize(widthPx, heightPx, false);
+    const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
+    this.display.resize(Math.max(1, size.x), Math.max(1, size.y));
+    this.camera.aspect = widthPx / Math.max(1, heightPx);
+    this.due = true;
+  }
+
+  // Draws if there is something new to see. `seconds` since the last call; true if it drew.
+  frame(nowMs: number, seconds: number): boolean {
+    if (this.scale === null && this.probe.busy && this.factors) {
+      this.probe.work();
+      if (!this.probe.busy) this.due = true;
+    }
+    this.adapt(seconds);
+    const drawn = this.due;
+    if (drawn) this.draw();
+    if (this.meterDue && !this.metering && nowMs - this.meteredMs > kMeterMs) void this.measure(nowMs);
+    return drawn;
+  }
+
+  private draw(): void {
+    this.due = false;
+    this.renderer.info.reset();
+    this.display.draw(this.scene, this.camera);
+    ++this.frames;
+  }
+
+  // True while a picture, reflections or the exposure still change.
+  get restless(): boolean {
+    return this.due || this.meterDue || this.metering || (this.probe.busy && this.scale === null) || this.adapting;
+  }
+
+  private get adapting(): boolean {
+    return this.automatic && this.wantedEv100 !== null && Math.abs(this.wantedEv100 - this.display.ev100) > 1e-6;
+  }
+
+  private adapt(seconds: number): void {
+    if (!this.adapting || this.scale) return;
+    this.setEv100(adapted(this.display.ev100, this.wantedEv100!, Math.min(seconds, 0.1)));
+  }
+
+  private async measure(nowMs: number): Promise<void> {
+    this.metering = true;
+    this.meterDue = false;
+    this.meteredMs = nowMs;
+    const { scale, scaleDue } = this;
+    const { amounts, width } = await this.display.meter();
+    this.metering = false;
+    if ((scale === null) !== (this.scale === null)) this.meterDue = this.due = true;
+    else if (scale === null) this.aim(lookedAtEv100(amounts, width));
+    else if (scaleDue) {
+      this.scaleDue = false;
+      this.scale = this.display.luxScale = scaleOf(amounts);
+      this.due = true;
+      this.changed();
+    }
+  }
+
+  private aim(automatic: number | null): void {
+    if (automatic === null) return;
+    if (this.biasEv === null) {
+      if (!this.complete || this.probe.busy) {
+        this.meterDue = true;
+        return;
+      }
+      const bias = this.home.display.ev100 - automatic;
+      this.biasEv = this.asBaked ? Math.max(-kMostBiasEv, Math.min(kMostBiasEv, bias)) : 0;
+    }
+    this.wantedEv100 = automatic + this.biasEv;
+  }
+
+  // What is seen at a place of the canvas, in CSS pixels.
+  hitAt(xPx: number, yPx: number): { hit: Hit; at: Vec3; direction: Vec3 } | null {
+    const { clientWidth, clientHeight } = this.renderer.domElement;
+    const far = new THREE.Vector3((2 * xPx) / clientWidth - 1, 1 - (2 * yPx) / clientHeight, 0.5);
+    const d = far.unproject(this.camera).sub(this.camera.position).normalize();
+    const { x, y, z } = this.camera.position;
+    const direction: Vec3 = [d.x, d.y, d.z];
+    const hit = this.world?.raycast([x, y, z], direction);
+    if (!hit) return null;
+    const s = hit.distance;
+    return { hit, at: [x + d.x * s, y + d.y * s, z + d.z * s], direction };
+  }
+
+  screenshot(): Promise<Blob | null> {
+    this.display.draw(this.scene, this.camera);
+    return new Promise(resolve => this.renderer.domElement.toBlob(resolve, "image/png"));
+  }
+}

@@ -1,0 +1,200 @@
+// How surfaces look: glTF's metallic-roughness under the irradiance of the atlas and the reflections of a probe. The
+// diffuse base keeps what the specular lobe leaves, as in src/trace/bsdf.h.
+import { kToneGlsl } from "./tone.js";
+import { kMostStored, kUnit } from "./units.js";
+
+// What ends every surface: radiance in cd/m², or in false colours lux, as the target wants it.
+export const kFinishGlsl = `
+  uniform bool uEncode; // no pass follows that would: on headsets
+  uniform bool uLux; // false colours
+  uniform int uTone;
+  uniform vec3 uExposure; // with the gains of the white balance
+  uniform float uMostRadiance; // cd/m2; lamps are no brighter, so that their edges are smooth
+  ${kToneGlsl}
+  vec3 finish(vec3 radiance, vec3 lux) {
+    float amount = dot(lux, vec3(0.2126, 0.7152, 0.0722)) / ${kUnit.toFixed(1)};
+    if (uLux) return vec3(min(amount, ${kMostStored.toFixed(1)}));
+    if (uEncode) return srgbEncode(toneCurve(radiance * uExposure, uTone));
+    return min(radiance, uMostRadiance) / ${kUnit.toFixed(1)};
+  }`;
+
+export const kSurfaceVertex = `
+  precision highp sampler2D;
+  in vec3 position;
+  in vec3 normal;
+  in vec2 lightUv;
+  in vec2 tag;
+  #ifdef HAS_UV
+    in vec2 uv;
+    out vec2 vUv;
+  #endif
+  #ifdef HAS_COLOR
+    in vec4 color;
+    out vec4 vColor;
+  #endif
+  uniform mat4 viewMatrix, projectionMatrix;
+  uniform sampler2D uLight;
+  out vec3 vPosition, vNormal;
+  centroid out vec2 vLightUv;
+  out vec3 vLight;
+  flat out ivec2 vTag; // material, whether light is that of the vertices
+  void main() {
+    vPosition = position;
+    vNormal = normal;
+    vLightUv = lightUv;
+    vTag = ivec2(tag);
+    vLight = vec3(0.0);
+    if (vTag.y > 0) {
+      ivec2 size = textureSize(uLight, 0);
+      vLight = texelFetch(uLight, min(ivec2(lightUv * vec2(size)), size - 1), 0).rgb;
+    }
+    #ifdef HAS_UV
+      vUv = uv;
+    #endif
+    #ifdef HAS_COLOR
+      vColor = color;
+    #endif
+    gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+  }`;
+
+// Defines: HAS_UV, HAS_COLOR, HAS_BASE or HAS_PACKED, HAS_NORMAL, HAS_ROUGHNESS, HAS_EMISSION; MASK; PANE; PROBE with
+// the sizes that three.js has for its filtered cube.
+export const kSurfaceFragment = `
+  precision highp float;
+  precision highp int;
+  precision highp sampler2D;
+  #define texture2D texture
+  #define texture2DGradEXT textureGrad
+  uniform sampler2D uLight, uSurfaces, uProbe;
+  uniform vec3 cameraPosition;
+  uniform bool uReflect; // false where the probe itself is made
+  uniform vec3 uProbeAt, uRoomLow, uRoomHigh;
+  uniform vec2 uNormalScale;
+  #ifdef HAS_BASE
+    uniform sampler2D uBase;
+  #endif
+  #ifdef HAS_PACKED
+    uniform highp sampler2DArray uPacked;
+  #endif
+  #ifdef HAS_NORMAL
+    uniform sampler2D uNormal;
+  #endif
+  #ifdef HAS_ROUGHNESS
+    uniform sampler2D uRoughness;
+  #endif
+  #ifdef HAS_EMISSION
+    uniform sampler2D uEmission;
+  #endif
+  in vec3 vPosition, vNormal, vLight;
+  centroid in vec2 vLightUv;
+  flat in ivec2 vTag;
+  #ifdef HAS_UV
+    in vec2 vUv;
+  #endif
+  #ifdef HAS_COLOR
+    in vec4 vColor;
+  #endif
+  out vec4 outColor;
+  ${kFinishGlsl}
+  #define ENVMAP_TYPE_CUBE_UV
+  #include <cube_uv_reflection_fragment>
+
+  const float kPi = 3.14159265;
+  float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+
+  // Directional albedo of GGX: f0 * x + f90 * y (fit of Karis 2014, "Physically based shading on mobile").
+  vec2 specularTerms(float cosine, float roughness) {
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
+    return vec2(-1.04, 1.04) * a + r.zw;
+  }
+
+  // Where a ray from the surface leaves the room, as seen from the probe (parallax correction, Lagarde 2012).
+  vec3 seenFromProbe(vec3 direction, out float inside) {
+    vec3 margin = vec3(0.02);
+    bvec3 above = greaterThanEqual(vPosition, uRoomLow - margin);
+    bvec3 below = lessThanEqual(vPosition, uRoomHigh + margin);
+    inside = all(above) && all(below) ? 1.0 : 0.0;
+    if (inside == 0.0) return direction;
+    vec3 d = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
+    vec3 far = max((uRoomLow - margin - vPosition) / d, (uRoomHigh + margin - vPosition) / d);
+    return vPosition + direction * min(far.x, min(far.y, far.z)) - uProbeAt;
+  }
+
+  // Radiance that the probe has for a reflection. What is lit otherwise than the middle of the room, in other rooms or
+  // in corners, is given a share after its own light.
+  vec3 reflected(vec3 n, vec3 v, float roughness, vec3 lux) {
+    #ifdef PROBE
+      if (!uReflect) return lux / kPi;
+      vec3 r = normalize(mix(reflect(-v, n), n, roughness * roughness));
+      float inside;
+      vec3 radiance = textureCubeUV(uProbe, normalize(seenFromProbe(r, inside)), roughness).rgb * ${kUnit.toFixed(1)};
+      vec3 around = textureCubeUV(uProbe, n, 1.0).rgb * ${kUnit.toFixed(1)};
+      float share = min(luminance(lux) / max(luminance(around) * kPi, 1e-4), 4.0);
+      return radiance * mix(share, 1.0, inside * (1.0 - smoothstep(0.1, 0.6, roughness)));
+    #else
+      return lux / kPi;
+    #endif
+  }
+
+  vec3 shadingNormal() {
+    vec3 n = normalize(vNormal);
+    #ifdef HAS_NORMAL
+      // The frame of the texture, from how place and texture change over the screen.
+      vec3 px = dFdx(vPosition), py = dFdy(vPosition);
+      vec2 tx = dFdx(vUv), ty = dFdy(vUv);
+      vec3 across = cross(py, n), along = cross(n, px);
+      vec3 t = across * tx.x + along * ty.x, b = across * tx.y + along * ty.y;
+      float size = max(dot(t, t), dot(b, b));
+      if (size > 0.0) {
+        vec3 m = texture(uNormal, vUv).xyz * 2.0 - 1.0;
+        m.xy *= uNormalScale;
+        float scale = inversesqrt(size);
+        n = normalize(m.x * t * scale - m.y * b * scale + m.z * n);
+      }
+    #endif
+    return n;
+  }
+
+  void main() {
+    vec4 base = texelFetch(uSurfaces, ivec2(0, vTag.x), 0); // alpha: 1 - share that passes a pane
+    vec4 emission = texelFetch(uSurfaces, ivec2(1, vTag.x), 0); // cd/m2; alpha: cut-off
+    vec4 gloss = texelFetch(uSurfaces, ivec2(2, vTag.x), 0); // roughness, metallic, transmission, packed image
+    vec4 f0 = texelFetch(uSurfaces, ivec2(3, vTag.x), 0); // of a dielectric; alpha: f90
+    #ifdef HAS_BASE
+      base *= texture(uBase, vUv);
+    #endif
+    #ifdef HAS_PACKED
+      base.rgb *= texture(uPacked, vec3(vUv, gloss.w)).rgb;
+    #endif
+    #ifdef HAS_COLOR
+      base *= vColor;
+    #endif
+    #ifdef MASK
+      if (base.a < emission.a) discard;
+    #endif
+    #ifdef HAS_ROUGHNESS
+      gloss.xy *= texture(uRoughness, vUv).gb;
+    #endif
+    #ifdef HAS_EMISSION
+      emission.rgb *= texture(uEmission, vUv).rgb;
+    #endif
+    vec3 lux = (vTag.y > 0 ? vLight : texture(uLight, vLightUv).rgb) * ${kUnit.toFixed(1)};
+    vec3 v = normalize(cameraPosition - vPosition);
+    vec3 n = shadingNormal();
+    if (dot(n, v) < 0.0) n = normalize(n - 1.02 * dot(n, v) * v);
+    float roughness = clamp(gloss.x, 0.045, 1.0);
+    vec2 terms = specularTerms(clamp(dot(n, v), 0.0, 1.0), roughness);
+    vec3 specular = mix(f0.rgb, base.rgb, gloss.y) * terms.x + mix(f0.a, 1.0, gloss.y) * terms.y;
+    float kept = 1.0 - min(1.0, max(specular.r, max(specular.g, specular.b)));
+    vec3 diffuse = base.rgb * (1.0 - gloss.y) * kept * lux / kPi;
+    vec3 shine = specular.g + specular.r > 0.0 ? specular * reflected(n, v, roughness, lux) : vec3(0.0);
+    #ifdef PANE
+      // What lies behind passes by the alpha of the target's blending.
+      float passes = gloss.z > 0.0 ? gloss.z * luminance(base.rgb) : 1.0 - base.a;
+      vec3 own = diffuse * (gloss.z > 0.0 ? 1.0 - gloss.z : base.a);
+      outColor = vec4(finish(own + shine + emission.rgb, lux), passes * kept);
+    #else
+      outColor = vec4(finish(diffuse + shine + emission.rgb, lux), 1.0);
+    #endif
+  }`;

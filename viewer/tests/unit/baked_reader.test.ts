@@ -1,0 +1,157 @@
+import assert from "node:assert/strict";
+import { deflateSync } from "node:zlib";
+import { test } from "node:test";
+import { BadFile } from "../../baked/src/bad_file.js";
+import { checkDocument, viewBytes } from "../../baked/src/document.js";
+import { readGeometry } from "../../baked/src/geometry.js";
+import { parseGlb } from "../../baked/src/glb.js";
+import { decodeBase64 } from "../../baked/src/source.js";
+import { decodeTexel, encodeTexel, inflate, joinPlanes, splitPlanes } from "../../baked/src/texels.js";
+import type { Vec3 } from "../../src/vector.js";
+import { bakedHome, glb, kLampLux } from "../double/baked_home.js";
+import { nearAll } from "./near.js";
+
+const isFault = (fault: string) => (error: unknown) => error instanceof BadFile && error.fault === fault;
+const read = (bytes: Uint8Array) => {
+  const { json, binary } = parseGlb(bytes);
+  return { document: checkDocument(json), binary };
+};
+const changed = (change: (json: Record<string, never>) => void): Uint8Array => {
+  const { json, binary } = parseGlb(bakedHome());
+  change(json as Record<string, never>);
+  return glb(json as object, binary);
+};
+
+test("values of RGB9_E5 come back within half a step", () => {
+  for (const value of [
+    [0, 0, 0],
+    [1, 2, 4],
+    [65408, 1, 0],
+    [0.001, 0.002, 0.0005],
+    [511.4, 3, 0.2],
+    [1e-5, 0, 0],
+  ] as Vec3[]) {
+    const top = Math.max(...value);
+    const step = Math.max(2 ** -24, 2 ** (Math.floor(Math.log2(Math.max(top, 1e-9))) - 8));
+    nearAll(decodeTexel(encodeTexel(value)), value, step / 2 + 1e-12);
+  }
+  nearAll(decodeTexel((24 << 27) | (3 << 18) | (2 << 9) | 1), [1, 2, 3]);
+});
+
+test("planes of bytes are joined to texels", () => {
+  const texels = Uint32Array.from([0x04030201, 0xfffefdfc, 7]);
+  assert.deepEqual([...splitPlanes(texels).subarray(0, 4)], [1, 0xfc, 7, 2]);
+  assert.deepEqual([...joinPlanes(splitPlanes(texels), 4)], [...texels, 0]);
+});
+
+test("a stream of the wrong length or a damaged one is a fault", async () => {
+  const data = Uint8Array.from({ length: 5000 }, (_, i) => (i * 7919) & 255);
+  const packed = new Uint8Array(deflateSync(data));
+  assert.deepEqual(await inflate(packed, 5000, "x"), data);
+  await assert.rejects(inflate(packed, 5001, "x"), isFault("damaged"));
+  await assert.rejects(inflate(packed, 4000, "x"), isFault("damaged"));
+  await assert.rejects(inflate(packed.subarray(0, 50), 5000, "x"), isFault("damaged"));
+  await assert.rejects(inflate(data, 5000, "x"), isFault("damaged"));
+});
+
+test("a baked home is read: its layers, rooms, cameras and light", async () => {
+  const { document, binary } = read(bakedHome());
+  const home = document.extensions.ROOMLIGHT_light_layers;
+  assert.deepEqual(
+    home.layers.map(l => [l.kind, l.on, l.hour]),
+    [
+      ["lamp", true, undefined],
+      ["lamp", false, undefined],
+      ["sun", false, 12],
+      ["sky", false, 12],
+      ["sun", false, 18],
+      ["sky", false, 18],
+    ],
+  );
+  const { light } = home.layers[1]!;
+  const size = 4 * home.atlas.tile ** 2 * light.tiles.length;
+  const texels = joinPlanes(await inflate(viewBytes(document, binary, light.bufferView), size, "light"));
+  nearAll(decodeTexel(texels[5000]!).map(c => c * light.scale) as unknown as Vec3, kLampLux[1]!, 1e-6);
+});
+
+test("materials without textures share one list of triangles", () => {
+  const { document, binary } = read(bakedHome({ vertexLit: true, glossy: true }));
+  const geometry = readGeometry(document, binary);
+  assert.equal(geometry.batches.length, 1);
+  assert.equal(geometry.index.length, 36);
+  assert.equal(geometry.positions.length, 2 * 24 * 3);
+  assert.deepEqual([...geometry.tags.subarray(0, 2)], [1, 1]);
+  assert.deepEqual([...geometry.tags.subarray(48, 50)], [0, 1]);
+  assert.deepEqual([...geometry.normals.subarray(0, 4)], [0, 127, 0, 0]);
+});
+
+test("many textures of base colours share one list, and few keep their own", () => {
+  type Json = { materials: object[]; textures: object[]; images: object[]; meshes: { primitives: object[] }[] };
+  const textured = (count: number) => {
+    const { document, binary } = read(
+      changed(given => {
+        const json = given as unknown as Json;
+        const numbers = Array.from({ length: count }, (_, i) => i);
+        const [primitive] = json.meshes[0]!.primitives;
+        json.materials = numbers.map(i => ({ pbrMetallicRoughness: { baseColorTexture: { index: i } } }));
+        json.textures = numbers.map(i => ({ source: i }));
+        json.images = numbers.map(() => ({ bufferView: 0, mimeType: "image/png" }));
+        json.meshes[0]!.primitives = numbers.map(i => ({ ...primitive, material: i }));
+      }),
+    );
+    return readGeometry(document, binary);
+  };
+  const few = textured(5);
+  assert.deepEqual([few.batches.length, few.packed.length], [5, 0]);
+  const many = textured(150);
+  assert.deepEqual([many.batches.length, many.packed.length, many.batches[0]!.maps.base], [1, 150, -1]);
+});
+
+test("files that are cut, damaged, foreign or newer say so", () => {
+  const whole = bakedHome();
+  assert.throws(() => parseGlb(whole.subarray(0, whole.length - 1000)), isFault("cut"));
+  assert.throws(() => parseGlb(whole.subarray(0, 9)), isFault("cut"));
+  assert.throws(() => parseGlb(new Uint8Array()), isFault("foreign"));
+  assert.throws(() => parseGlb(new TextEncoder().encode("<!doctype html><html>")), isFault("foreign"));
+  const broken = whole.slice();
+  broken.fill(0xff, 20, 60);
+  assert.throws(() => parseGlb(broken), isFault("damaged"));
+  assert.throws(() => read(glb({ asset: {} }, new Uint8Array())), isFault("foreign"));
+  type Json = { extensions: { ROOMLIGHT_light_layers: { version: number; layers: { light: { tiles: number[] } }[] } } };
+  const edit = (change: (json: Json) => void) => changed(json => change(json as unknown as Json));
+  assert.throws(() => read(edit(j => (j.extensions.ROOMLIGHT_light_layers.version = 2))), isFault("newer"));
+  assert.throws(
+    () => read(edit(j => (j.extensions.ROOMLIGHT_light_layers.layers[0]!.light.tiles = [8]))),
+    error => {
+      assert.ok(error instanceof BadFile);
+      assert.match(error.message, /^layers\.0\.light\.tiles/);
+      return true;
+    },
+  );
+});
+
+test("indices and views beyond what is there are faults", () => {
+  type Json = { accessors: { count: number }[]; bufferViews: { byteLength: number }[] };
+  const edit = (change: (json: Json) => void) => {
+    const { document, binary } = read(changed(json => change(json as unknown as Json)));
+    return () => readGeometry(document, binary);
+  };
+  assert.throws(
+    edit(j => (j.accessors[0]!.count = 1000)),
+    isFault("damaged"),
+  );
+  assert.throws(
+    edit(j => (j.bufferViews[1]!.byteLength = 1e9)),
+    isFault("damaged"),
+  );
+  assert.throws(
+    edit(j => (j.accessors[5]!.count = 300)),
+    isFault("damaged"),
+  );
+});
+
+test("base64 is decoded, and what is none is a fault", () => {
+  const bytes = Uint8Array.from({ length: 1000 }, (_, i) => i & 255);
+  assert.deepEqual(decodeBase64(`\n${Buffer.from(bytes).toString("base64")}\n`), bytes);
+  assert.throws(() => decodeBase64("&&&&"), isFault("damaged"));
+});
