@@ -6,6 +6,15 @@ import { BadFile } from "./bad_file.js";
 const index = v.pipe(whole, v.minValue(0));
 const size = v.pipe(whole, v.minValue(1));
 const positive = v.pipe(real, v.gtValue(0));
+// A texture's image may stand in an extension, for readers of WebP.
+const textureImage = v.pipe(
+  v.object({
+    source: v.optional(index),
+    sampler: v.optional(index),
+    extensions: v.optional(v.object({ EXT_texture_webp: v.optional(v.object({ source: index })) })),
+  }),
+  v.transform(t => ({ source: t.extensions?.EXT_texture_webp?.source ?? t.source, sampler: t.sampler })),
+);
 const texture = v.optional(v.object({ index }));
 
 const material = v.object({
@@ -113,7 +122,7 @@ const gltf = v.object({
     v.minLength(1),
   ),
   materials: v.optional(v.array(material), []),
-  textures: v.optional(v.array(v.object({ source: v.optional(index), sampler: v.optional(index) })), []),
+  textures: v.optional(v.array(textureImage), []),
   samplers: v.optional(v.array(v.object({ wrapS: v.optional(whole), wrapT: v.optional(whole) })), []),
   images: v.optional(v.array(v.object({ bufferView: index, mimeType: v.string() })), []),
   extensions: v.object({ ROOMLIGHT_light_layers: extension }),

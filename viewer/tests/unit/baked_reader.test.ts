@@ -155,3 +155,19 @@ test("base64 is decoded, and what is none is a fault", () => {
   assert.deepEqual(decodeBase64(`\n${Buffer.from(bytes).toString("base64")}\n`), bytes);
   assert.throws(() => decodeBase64("&&&&"), isFault("damaged"));
 });
+
+test("the image of a texture may be WebP, in its extension", () => {
+  const { document } = read(
+    changed(json =>
+      Object.assign(json, {
+        textures: [{ sampler: 0, extensions: { EXT_texture_webp: { source: 1 } } }, { source: 0 }],
+        samplers: [{}],
+        images: [0, 1].map(() => ({ bufferView: 0, mimeType: "image/webp" })),
+      }),
+    ),
+  );
+  assert.deepEqual(
+    document.textures.map(t => t.source),
+    [1, 0],
+  );
+});
