@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "bake/bake.h"
+#include "bake/seen_sides.h"
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/write_file.h"
@@ -132,6 +133,27 @@ Status writeBaked(const BakeOptions& o, const BakePlan& plan, const std::string&
   return page ? writeWhole(o.output, page.value()) : Status(Error{page.error()});
 }
 
+std::string statsJson(const Scene& scene, const bake::BakedHome& b, const RenderStats& stats) {
+  const auto vector = [](Vec3 v) { return Json({v.x, v.y, v.z}); };
+  Json cameras = Json::array();
+  for (const Camera& c : bake::camerasInside(scene)) {
+    cameras.push_back({{"name", c.name},
+                       {"position", vector(c.worldFromCamera.w)},
+                       {"forward", vector(-c.worldFromCamera.z)},
+                       {"yFovDeg", c.yFovRad * 180 / kPi}});
+  }
+  const Json json = {{"bytes", b.glb.bytes.size()},
+                     {"lightBytes", b.glb.lightBytes},
+                     {"triangles", b.triangles},
+                     {"places", b.places},
+                     {"layers", b.layers},
+                     {"atlas", {b.atlasWidth, b.atlasHeight}},
+                     {"ev100", b.shown.ev100},
+                     {"cameras", cameras},
+                     {"stages", stagesJson(stats.stages)}};
+  return json.dump(2) + "\n";
+}
+
 int workBake(const BakeOptions& o, const BakePlan& plan) {
   ProgressDisplay display(o.quiet);
   const RenderProgress progress{
@@ -150,19 +172,12 @@ int workBake(const BakeOptions& o, const BakePlan& plan) {
   if (!baked) return failed(baked.error());
   if (interrupted()) return failed("interrupted before all light was found; nothing was written", kInterrupted);
   const bake::BakedHome& b = baked.value();
-  if (const Status s = writeBaked(o, plan, b.glb); !s) return failed(s.error(), kFailed);
+  if (const Status s = writeBaked(o, plan, b.glb.bytes); !s) return failed(s.error(), kFailed);
   if (!o.stats.empty()) {
-    const Json json = {{"bytes", b.glb.size()},
-                       {"triangles", b.triangles},
-                       {"places", b.places},
-                       {"layers", b.layers},
-                       {"draws", b.draws},
-                       {"atlas", {b.atlasWidth, b.atlasHeight}},
-                       {"stages", stagesJson(stats.stages)}};
-    if (const Status s = writeWhole(o.stats, json.dump(2) + "\n"); !s) return failed(s.error(), kFailed);
+    if (const Status s = writeWhole(o.stats, statsJson(scene, b, stats)); !s) return failed(s.error(), kFailed);
   }
   display.line(fmt::format("wrote {}: {:.1f} MB, {} layers of light on {} places", o.output,
-                           static_cast<double>(b.glb.size()) / 1e6, b.layers, b.places));
+                           static_cast<double>(b.glb.bytes.size()) / 1e6, b.layers, b.places));
   return kOk;
 }
 

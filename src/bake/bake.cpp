@@ -81,8 +81,8 @@ Result<BakeSettings> bakeSettings(const std::string& quality) {
   BakeSettings s;
   if (const Status status = applyQuality(quality, s.layers.render); !status) return Error{status.error()};
   if (quality == "draft")
-    s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.004f, s.layers.meters = {0.1, 16, 32, 0};
-  if (quality == "best") s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.02, 128, 1024, 0};
+    s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.004f, s.layers.meters = {0.2, 16, 32, 0};
+  if (quality == "best") s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.03, 64, 512, 0};
   return s;
 }
 
@@ -109,11 +109,12 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
   if (!shown) return Error{shown.error()};
   return stages.run("pack", [&](const Progress&) -> Result<BakedHome> {
     spread(laid, lamps.value().layers), spread(laid, daylight);
-    Result<std::string> glb = glbOf(scene, laid.atlas, lamps.value(), daylight, shown.value(), settings.glb);
+    Result<Glb> glb = glbOf(scene, laid.atlas, lamps.value(), daylight, shown.value(), settings.glb);
     if (!glb) return Error{glb.error()};
-    BakedHome out{
-        std::move(glb.value()), 0, places.size(), lamps.value().layers.size() + daylight.size(), 0, laid.atlas.width,
-        laid.atlas.height};
+    BakedHome out;
+    out.glb = std::move(glb.value()), out.shown = shown.value();
+    out.places = places.size(), out.layers = lamps.value().layers.size() + daylight.size();
+    out.atlasWidth = laid.atlas.width, out.atlasHeight = laid.atlas.height;
     for (const PlacedChart& chart : laid.atlas.charts) out.triangles += chart.indices.size() / 3;
     return out;
   });

@@ -31,9 +31,10 @@ struct BakeWish {
 };
 
 struct BakedHome {
-  std::string glb;  // the file (docs/reference/baked.md); empty once cancelled
-  size_t triangles = 0, places = 0, layers = 0, draws = 0;
+  Glb glb;  // the file (docs/reference/baked.md); empty once cancelled
+  size_t triangles = 0, places = 0, layers = 0;
   int atlasWidth = 0, atlasHeight = 0;
+  ShownAs shown;
 };
 
 // Stages "seen", "charts", those of lighting, "lamps", "sun", "sky", "pack". Errors: nothing can be seen; what glbOf()

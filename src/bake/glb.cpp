@@ -136,7 +136,7 @@ Image onAtlas(const Atlas& atlas, const std::vector<Vec3>& lux) {
 
 Json vectorJson(Vec3 v) { return {v.x, v.y, v.z}; }
 
-Json layerJson(GlbWriter& glb, const Scene& scene, const BakedLayer& layer, const Image& light) {
+Json layerJson(GlbWriter& glb, const Scene& scene, const BakedLayer& layer, const Image& light, size_t& lightBytes) {
   constexpr const char* kKinds[] = {"lamp", "sun", "sky"};
   Json json = {{"name", layer.name}, {"kind", kKinds[static_cast<size_t>(layer.role)]}, {"on", layer.on}};
   if (layer.role == LayerRole::Lamp) {
@@ -148,6 +148,7 @@ Json layerJson(GlbWriter& glb, const Scene& scene, const BakedLayer& layer, cons
   }
   json["color"] = vectorJson(layer.color);
   const LightTexels texels = lightTexels(light, kTile);
+  lightBytes += texels.stream.size();
   json["light"] = {{"bufferView", glb.addView(texels.stream)}, {"scale", texels.scale}, {"tiles", texels.tiles}};
   if (layer.panorama.width > 0) {
     const LightTexels sky = lightTexels(layer.panorama);
@@ -170,45 +171,53 @@ Json roomsJson(const Scene& scene) {
   return rooms;
 }
 
-Json camerasJson(const Scene& scene, int& inUse) {
-  Json cameras = Json::array();
-  for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const Camera& c = scene.cameras[i];
-    if (c.projection != Projection::Perspective) continue;
-    if (static_cast<int>(i) == scene.cameraInUse) inUse = static_cast<int>(cameras.size());
-    cameras.push_back({{"name", c.name},
-                       {"position", vectorJson(c.worldFromCamera.w)},
-                       {"forward", vectorJson(-c.worldFromCamera.z)},
-                       {"yFovDeg", c.yFovRad * 180 / kPi}});
-  }
-  return cameras;
+Json camerasJson(const std::vector<Camera>& cameras) {
+  Json out = Json::array();
+  for (const Camera& c : cameras)
+    out.push_back({{"name", c.name},
+                   {"position", vectorJson(c.worldFromCamera.w)},
+                   {"forward", vectorJson(-c.worldFromCamera.z)},
+                   {"yFovDeg", c.yFovRad * 180 / kPi}});
+  return out;
+}
+
+// The number of the scene's own camera among those that are shown; else the first.
+size_t cameraInUse(const Scene& scene, const std::vector<Camera>& cameras) {
+  if (scene.cameras.empty()) return 0;
+  const Camera& own = scene.cameras[static_cast<size_t>(scene.cameraInUse)];
+  const auto found = std::find_if(cameras.begin(), cameras.end(), [&](const Camera& c) {
+    return c.name == own.name && c.worldFromCamera == own.worldFromCamera;
+  });
+  return found == cameras.end() ? 0 : static_cast<size_t>(found - cameras.begin());
 }
 
 }  // namespace
 
-Result<std::string> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
-                          const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings) {
+Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
+                  const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings) {
   GlbWriter glb;
   if (const Status s = addGeometry(glb, scene, atlas, lamps, settings); !s) return Error{s.error()};
   Json layers = Json::array();
+  Glb out;
   for (const auto* group : {&lamps.layers, &daylight}) {
-    for (const BakedLayer& layer : *group) layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux)));
+    for (const BakedLayer& layer : *group)
+      layers.push_back(layerJson(glb, scene, layer, onAtlas(atlas, layer.lux), out.lightBytes));
   }
-  int camera = 0;
-  Json cameras = camerasJson(scene, camera);
+  const std::vector<Camera> cameras = camerasInside(scene);
   Json light = {
       {"version", 1},
       {"atlas", {{"width", atlas.width}, {"height", atlas.height}, {"tile", kTile}}},
       {"layers", layers},
       {"rooms", roomsJson(scene)},
-      {"cameras", cameras},
-      {"camera", camera},
+      {"cameras", camerasJson(cameras)},
+      {"camera", cameraInUse(scene, cameras)},
       {"display",
        {{"ev100", shown.ev100}, {"tone", toneCurveName(shown.curve)}, {"whiteGains", vectorJson(shown.whiteGains)}}}};
   if (!daylight.empty()) light["hour"] = daylight.front().hour;
   glb.json["extensions"]["ROOMLIGHT_light_layers"] = light;
   glb.json["extensionsUsed"].push_back("ROOMLIGHT_light_layers");
-  return glb.finished();
+  out.bytes = glb.finished();
+  return out;
 }
 
 }  // namespace roomlight::bake

@@ -22,9 +22,14 @@ struct ShownAs {
   Vec3 whiteGains{1, 1, 1};
 };
 
+struct Glb {
+  std::string bytes;      // the file
+  size_t lightBytes = 0;  // of it, all layers
+};
+
 // Layers have light on the elements of the atlas.
 // Errors: a texture that cannot be written.
-Result<std::string> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
-                          const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings);
+Result<Glb> glbOf(const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
+                  const std::vector<BakedLayer>& daylight, const ShownAs& shown, const GlbSettings& settings);
 
 }  // namespace roomlight::bake

@@ -26,7 +26,7 @@ struct BakedLayer {
 
 struct LayerSettings {
   RenderSettings render;  // technique, voxels, cached light
-  MeterSettings meters{0.05, 64, 256, 0};
+  MeterSettings meters{0.1, 16, 64, 0};
 };
 
 struct LampLayers {
@@ -44,7 +44,8 @@ Result<std::vector<BakedLayer>> daylightLayers(const Scene& scene, double hour,
                                                const LayerSettings& settings, Stages& stages);
 
 // Takes noise from the layers: a mean over neighbours of one chart whose light is the same up to what their errors
-// explain. Does not depend on the number of threads.
+// explain, in two passes, the second with gaps (à-trous: Dammertz et al. 2010). Does not depend on the number of
+// threads.
 void smoothLayers(const Atlas& atlas, std::vector<BakedLayer>& layers);
 
 }  // namespace roomlight::bake

@@ -15,26 +15,28 @@ namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 constexpr int kRaysEach = 16;
-constexpr float kLeastShare = 0.1f;  // of a place's rays that come to what is seen
+constexpr float kCoverM = 0.04f;       // what nobody sees and is so near covers a place, as a picture does the wall,
+constexpr float kCoveredShare = 0.7f;  // if more of its rays than this end there
 constexpr float kSteps = 1.5f;       // of a component of normals that share a place, each way from zero
 constexpr float kFacing = 0.3f;  // cosine between the normals of a vertex and of a place that lights it, at least
 
 bool isBuried(const SurfaceElement& e, size_t number, const RayScene& rays, const SeenSides& seen) {
   const Frame frame(e.normal);
   const Vec3 origin = offsetOrigin(e.position, e.normal);
-  int open = 0;
+  int open = 0, covered = 0;
   for (int k = 0; k < kRaysEach; ++k) {
     Sampler sampler(number, static_cast<uint32_t>(k), 0);
     const Ray ray{origin, frame.toWorld(sampleCosineHemisphere(sampler.next2()))};
     const Hit hit = rays.intersect(ray);
-    if (!hit.valid()) {
+    const TriangleVertices v =
+        hit.valid() ? worldTriangle(rays.scene(), hit.instance, hit.triangle) : TriangleVertices();
+    if (!hit.valid() || seen.seen(hit.instance, hit.triangle, dot(cross(v.b - v.a, v.c - v.a), ray.direction) > 0)) {
       ++open;
-      continue;
+    } else if (hit.t < kCoverM) {
+      ++covered;
     }
-    const TriangleVertices v = worldTriangle(rays.scene(), hit.instance, hit.triangle);
-    open += seen.seen(hit.instance, hit.triangle, dot(cross(v.b - v.a, v.c - v.a), ray.direction) > 0);
   }
-  return static_cast<float>(open) < kLeastShare * kRaysEach;
+  return open == 0 || static_cast<float>(covered) > kCoveredShare * kRaysEach;
 }
 
 // For each element the nearest one of its chart, along texels, that is not buried; kNone: there is none.

@@ -8,6 +8,7 @@
 #include "base/sampler.h"
 #include "base/sampling.h"
 #include "home/rooms.h"
+#include "trace/light_layers.h"
 #include "trace/surface_point.h"
 
 namespace roomlight::bake {
@@ -109,14 +110,21 @@ void SeenSides::mark(const Hit& hit, bool back) {
       .fetch_or(static_cast<uint8_t>(back ? 2 : 1), std::memory_order_relaxed);
 }
 
+std::vector<Camera> camerasInside(const Scene& scene) {
+  std::vector<Camera> out;
+  for (const Camera& c : scene.cameras) {
+    const bool inside = scene.rooms.empty() || roomAt(scene, c.worldFromCamera.w) >= 0;
+    if (c.projection == Projection::Perspective && inside) out.push_back(c);
+  }
+  return out;
+}
+
 std::vector<Vec3> eyesIn(const RayScene& rays) {
   std::vector<Vec3> eyes;
   for (const Room& room : rays.scene().rooms) {
     if (!room.floor.empty()) EyeGrid(rays, room).addOpen(eyes);
   }
-  for (const Camera& camera : rays.scene().cameras) {
-    if (camera.projection == Projection::Perspective) eyes.push_back(camera.worldFromCamera.point({0, 0, 0}));
-  }
+  for (const Camera& camera : camerasInside(rays.scene())) eyes.push_back(camera.worldFromCamera.w);
   return eyes;
 }
 

@@ -23,7 +23,10 @@ class SeenSides {
   std::vector<uint8_t> sides_;  // bit 0: the side from which it is counter-clockwise in the world, bit 1: the other
 };
 
-// Places at the height of eyes and hips in every room of the scene, where people can stand, and the scene's cameras.
+// Cameras that look as eyes do, from inside a room; of a scene without rooms all.
+std::vector<Camera> camerasInside(const Scene& scene);
+
+// Places at the height of eyes and hips in every room of the scene, where people can stand, and the cameras inside.
 std::vector<Vec3> eyesIn(const RayScene& rays);
 
 // By `count` rays from the eyes in all directions, which go on through panes and whatever lets light pass. Does not

@@ -30,6 +30,12 @@ Scene room(float albedo) {
   return scene;
 }
 
+nlohmann::json jsonOf(const std::string& glb) {
+  uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  return nlohmann::json::parse(glb.substr(20, length));
+}
+
 class Bake : public ::testing::Test {
  protected:
   BakeSettings settings_ = bakeSettings("draft").value();
@@ -99,7 +105,7 @@ TEST_F(Bake, theFileOpensAsAnyGltfAndHoldsWhatIsSeen) {
   EXPECT_EQ(baked.value().triangles, 12u);
   const TemporaryFolder folder;
   const std::filesystem::path file = folder / "home.glb";
-  std::ofstream(file, std::ios::binary) << baked.value().glb;
+  std::ofstream(file, std::ios::binary) << baked.value().glb.bytes;
   const Result<Imported> opened = importScene(file);
   ASSERT_TRUE(opened) << opened.error();
   EXPECT_EQ(opened.value().scene.triangleCount(), 12u);
@@ -117,10 +123,7 @@ TEST_F(Bake, theExtensionNamesLampRoomAndCamera) {
   off.name = "Desk lamp";
   const Result<BakedHome> baked = bakeHome(scene, {{off}, {}}, settings_, stages_);
   ASSERT_TRUE(baked) << baked.error();
-  const std::string& glb = baked.value().glb;
-  uint32_t length = 0;
-  std::memcpy(&length, glb.data() + 12, 4);
-  const auto json = nlohmann::json::parse(glb.substr(20, length));
+  const auto json = jsonOf(baked.value().glb.bytes);
   const auto& light = json["extensions"]["ROOMLIGHT_light_layers"];
   ASSERT_EQ(light["layers"].size(), 2u);
   EXPECT_EQ(light["layers"][0]["name"], "Pendant");
@@ -132,6 +135,26 @@ TEST_F(Bake, theExtensionNamesLampRoomAndCamera) {
   EXPECT_EQ(light["rooms"][0]["floor"].size(), 4u);
 }
 
+TEST_F(Bake, sunAndSkyOfEachHourAreLayersOfTheirOwn) {
+  Scene scene = room(0.5f);
+  scene.meshes.erase(scene.meshes.begin() + 3), scene.instances.erase(scene.instances.begin() + 3);  // the ceiling
+  for (size_t i = 0; i < scene.instances.size(); ++i) scene.instances[i].mesh = static_cast<int>(i);
+  scene.lamps.clear();
+  DaylightHour noon{12, {Sun()}, {}}, night{22.5, {}, {}};
+  noon.suns[0].illuminanceLux = Vec3(50000);
+  noon.sky.luminanceCdM2 = Vec3(2000), night.sky.luminanceCdM2 = Vec3(0.1f);
+  const Result<BakedHome> baked = bakeHome(scene, {{}, {noon, night}}, settings_, stages_);
+  ASSERT_TRUE(baked) << baked.error();
+  const auto json = jsonOf(baked.value().glb.bytes);
+  const auto& layers = json["extensions"]["ROOMLIGHT_light_layers"]["layers"];
+  ASSERT_EQ(layers.size(), 3u);
+  EXPECT_EQ(layers[0]["kind"], "sun");
+  EXPECT_EQ(layers[0]["hour"], 12);
+  EXPECT_EQ(layers[1]["kind"], "sky");
+  EXPECT_EQ(layers[1]["panorama"]["width"], 256);
+  EXPECT_EQ(layers[2]["hour"], 22.5);
+}
+
 TEST_F(Bake, theSameBitsByOneThreadAndByTwo) {
   const Scene scene = room(0.5f);
   std::string first;
@@ -139,8 +162,8 @@ TEST_F(Bake, theSameBitsByOneThreadAndByTwo) {
     withThreads(threads, [&] {
       const Result<BakedHome> baked = bakeHome(scene, {}, settings_, stages_);
       ASSERT_TRUE(baked) << baked.error();
-      if (threads == 1) first = baked.value().glb;
-      EXPECT_TRUE(baked.value().glb == first);
+      if (threads == 1) first = baked.value().glb.bytes;
+      EXPECT_TRUE(baked.value().glb.bytes == first);
     });
   }
 }

@@ -1,0 +1,69 @@
+// `roomlight bake` from outside.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "unit/cli/program.h"
+
+namespace roomlight {
+namespace {
+
+using testing::ProgramRun;
+using testing::readFile;
+using testing::runProgram;
+using testing::TemporaryFolder;
+
+TEST(BakeCommand, writesTheHomeThatOtherCommandsOpen) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram({"bake", testing::writeRoom(folder), "--quality", "draft", "-o",
+                                     folder / "home.glb", "--stats", folder / "s.json"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  const auto stats = nlohmann::json::parse(readFile(folder / "s.json"));
+  EXPECT_EQ(stats["layers"], 1);
+  EXPECT_EQ(stats["bytes"], std::filesystem::file_size(folder / "home.glb"));
+  EXPECT_GT(stats["places"].get<int>(), 500);
+  EXPECT_EQ(stats["cameras"][0]["name"], "Front");
+  const ProgramRun info = runProgram({"info", folder / "home.glb"});
+  EXPECT_EQ(info.exitStatus, 0) << info.err;
+}
+
+TEST(BakeCommand, daylightAtTheHourAskedFor) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram({"bake", testing::writeRoom(folder), "--light", "day", "--hours", "9", "--quality",
+                                     "draft", "-o", folder / "home.glb", "--stats", folder / "s.json", "--quiet"});
+  ASSERT_EQ(run.exitStatus, 0) << run.err;
+  // The room is closed: no daylight comes in, and layers that give nothing are left out.
+  EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s.json"))["layers"], 1);
+}
+
+TEST(BakeCommand, wrongWordsAreOneLineBeforeAnyWork) {
+  const TemporaryFolder folder;
+  const std::string room = testing::writeRoom(folder).string();
+  const std::pair<std::vector<std::string>, std::string> faults[] = {
+      {{"bake", room, "-o", folder / "home.png"}, "unknown kind of file; use .html, .glb or the name of a folder"},
+      {{"bake", room, "-o", folder / "home.glb", "--hours", "9,25"}, "--hours 9,25: an hour is from 0 to 24"},
+      {{"bake", room, "-o", folder / "home.glb", "--quality", "perfect"}, "--quality"},
+      {{"bake", room, "-o", folder / "none/home.glb"}, "none"},
+      {{"bake", folder / "missing.glb", "-o", folder / "home.glb"}, "missing.glb"},
+  };
+  for (const auto& [words, part] : faults) {
+    const ProgramRun run = runProgram(words);
+    EXPECT_NE(run.exitStatus, 0);
+    EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "home.glb"));
+}
+
+TEST(BakeCommand, interruptedItWritesNothing) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      runProgram({"bake", testing::writeRoom(folder), "--quality", "best", "-o", folder / "home.glb"}, "charts");
+  EXPECT_EQ(run.exitStatus, 130) << run.err;
+  EXPECT_NE(run.err.find("nothing was written"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "home.glb"));
+}
+
+}  // namespace
+}  // namespace roomlight

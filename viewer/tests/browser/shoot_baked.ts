@@ -1,0 +1,38 @@
+// Pictures of a baked home for measuring: node shoot_baked.js PAGE WIDTHxHEIGHT < [{"hash": "#..", "file": ".png"}, ..]
+// Writes the pictures, and to stdout what they cost: [{"draws", "triangles", "frameMs"}, ..].
+import { writeFileSync } from "node:fs";
+import { text } from "node:stream/consumers";
+import { pathToFileURL } from "node:url";
+import { launchWithWebGl, visitHome } from "./baked_support.js";
+
+interface Shot {
+  readonly hash: string;
+  readonly file: string;
+}
+
+const [, , path, size] = process.argv;
+const [width, height] = (size ?? "").split("x").map(Number);
+if (!path || !width || !height) throw new Error("usage: shoot_baked PAGE WIDTHxHEIGHT < shots.json");
+const shots = JSON.parse(await text(process.stdin)) as Shot[];
+const browser = await launchWithWebGl();
+const costs = [];
+for (const { hash, file } of shots) {
+  const visit = await visitHome(browser, pathToFileURL(path).href + hash, {
+    viewport: { width, height },
+    reducedMotion: "reduce",
+  });
+  const { page } = visit;
+  const panel = page.getByLabel("Close controls", { exact: true });
+  await page.locator("#view").waitFor();
+  if (await panel.isVisible()) await panel.click();
+  await page.addStyleTag({ content: "body > :not(#view) { visibility: hidden !important; }" });
+  await visit.settled();
+  const view = await page.locator("#view").boundingBox();
+  if (view?.width !== width || view.height !== height)
+    throw new Error(`the picture is ${view?.width}x${view?.height} instead of ${size}`);
+  writeFileSync(file, await page.screenshot());
+  costs.push(await page.locator("#view").evaluate(v => ({ ...(v as HTMLElement).dataset })));
+  await visit.end();
+}
+await browser.close();
+process.stdout.write(JSON.stringify(costs));
