@@ -27,7 +27,8 @@ class BrowserPage {
 // The file this program was started from.
 std::filesystem::path thisProgram();
 
-// Where a page of ours lies: beside an installed program as `installed`, or in the tree that it was built in as `built`.
+// Where a page of ours lies: beside an installed program as `installed`, or in the tree that it was built in as
+// `built`.
 std::filesystem::path pageFolder(const std::string& installed, const std::string& built);
 
 // Runs it once more as a process of its own, with these arguments, its output thrown away. Where `cancelled` becomes
