@@ -35,6 +35,9 @@ struct BakePlan {
   std::string page;  // the built page; empty for a .glb
 };
 
+// The home's file without its folder and extension.
+std::string titleOf(const BakeOptions& o) { return std::filesystem::path(o.scene).stem().string(); }
+
 bool isPage(const BakeOptions& o) { return lowerExtension(o.output) == ".html"; }
 bool isFolder(const BakeOptions& o) { return lowerExtension(o.output).empty(); }
 
@@ -120,7 +123,7 @@ Status writeFolder(const BakeOptions& o, const BakePlan& plan, const std::string
   Hash hash;
   hash.bytes(glb);
   const std::string file = fmt::format("home-{}.glb", hash.text());
-  const Result<std::string> page = bake::pageWithLink(plan.page, file);
+  const Result<std::string> page = bake::pageWithLink(plan.page, titleOf(o), file);
   if (!page) return Error{page.error()};
   if (const Status s = writeWhole(std::filesystem::path(o.output) / file, glb); !s) return s;
   return writeWhole(std::filesystem::path(o.output) / "index.html", page.value());
@@ -129,7 +132,7 @@ Status writeFolder(const BakeOptions& o, const BakePlan& plan, const std::string
 Status writeBaked(const BakeOptions& o, const BakePlan& plan, const std::string& glb) {
   if (isFolder(o)) return writeFolder(o, plan, glb);
   if (!isPage(o)) return writeWhole(o.output, glb);
-  const Result<std::string> page = bake::pageWithHome(plan.page, glb);
+  const Result<std::string> page = bake::pageWithHome(plan.page, titleOf(o), glb);
   return page ? writeWhole(o.output, page.value()) : Status(Error{page.error()});
 }
 

@@ -23,6 +23,7 @@ constexpr int kMostOutside = 64;       // texels of an edge of what lies in no r
 constexpr float kLargeM2 = 60;         // or is so large
 constexpr int kMost = 1024;            // texels of an edge
 constexpr float kAlongStrips = 4;      // so much longer are texels of strips as narrow as one
+constexpr float kLongestTexelM = 2, kLongerTexels = 1.4f;  // until an atlas fits
 constexpr int kVertexRow = 32;         // texels of vertices side by side
 constexpr float kOffRoomM = 0.1f;      // from a wall, in the room that it faces
 constexpr float kInsideTexels =
@@ -344,6 +345,20 @@ Atlas atlasOf(const Scene& scene, std::vector<Chart> charts, const AtlasSettings
     atlas.height += (used + settings.tile - 1) / settings.tile * settings.tile;
   }
   return atlas;
+}
+
+Atlas fittingAtlasOf(const Scene& scene, const std::vector<Chart>& charts, AtlasSettings settings) {
+  for (;;) {
+    Atlas atlas = atlasOf(scene, charts, settings);
+    if (atlas.height <= kMostAtlasEdge) return atlas;
+    if (settings.width < kMostAtlasEdge) {
+      settings.width = kMostAtlasEdge;
+    } else if (settings.texelM < kLongestTexelM) {
+      settings.texelM *= kLongerTexels;
+    } else {
+      return atlas;  // its vertices alone are too many
+    }
+  }
 }
 
 }  // namespace roomlight::bake

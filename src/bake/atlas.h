@@ -9,6 +9,8 @@
 
 namespace roomlight::bake {
 
+constexpr int kMostAtlasEdge = 4096;  // texels: what graphics chips of old phones hold
+
 struct AtlasSettings {
   float texelM = 0.05f;
   int width = 2048;  // texels, a multiple of the tile
@@ -37,7 +39,9 @@ struct Atlas {
   std::vector<std::pair<uint32_t, uint32_t>> padding;
 };
 
-// Lays the charts out, those in one room together.
+// Lays the charts out, those in one room together, as high as it takes.
 Atlas atlasOf(const Scene& scene, std::vector<Chart> charts, const AtlasSettings& settings);
+// The same, wider or with longer texels where the atlas would be higher than kMostAtlasEdge.
+Atlas fittingAtlasOf(const Scene& scene, const std::vector<Chart>& charts, AtlasSettings settings);
 
 }  // namespace roomlight::bake

@@ -12,7 +12,7 @@
 namespace roomlight::bake {
 namespace {
 
-constexpr const char* kMark = "<!--roomlight-home-->";
+constexpr std::string_view kMark = "<!--roomlight-home-->", kTitle = "<title>roomlight</title>";
 
 // The lamps of the home, those that are off too.
 Scene withAllLamps(const Scene& home, const std::vector<Lamp>& offLamps) {
@@ -32,7 +32,7 @@ LaidOut layOut(const Scene& scene, const BakeSettings& settings, Stages& stages)
       stages.run("seen", [&](const Progress&) { return seenFrom(rays, eyesIn(rays), settings.seenRays); });
   return stages.run("charts", [&](const Progress&) {
     LaidOut out;
-    out.atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
+    out.atlas = fittingAtlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
     out.lit = litPlacesOf(out.atlas, rays, seen, settings.placesApartM);
     return out;
   });
@@ -81,7 +81,7 @@ Result<BakeSettings> bakeSettings(const std::string& quality) {
   BakeSettings s;
   if (const Status status = applyQuality(quality, s.layers.render); !status) return Error{status.error()};
   if (quality == "draft")
-    s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.004f, s.layers.meters = {0.2, 16, 32, 0};
+    s.charts.texelM = s.atlas.texelM = s.placesApartM = 0.12f, s.simplifyM = 0.004f, s.layers.meters = {0.4, 16, 32, 0};
   if (quality == "best") s.charts.texelM = s.atlas.texelM = 0.025f, s.layers.meters = {0.03, 64, 512, 0};
   return s;
 }
@@ -122,21 +122,27 @@ Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSe
 
 namespace {
 
-Result<std::string> withElement(const std::string& page, const std::string& element) {
-  const size_t at = page.find(kMark);
-  if (at == std::string::npos) return Error{"the page has no place for a home; build it anew with scripts/build"};
-  return page.substr(0, at) + element + page.substr(at + std::string_view(kMark).size());
+Result<std::string> withElement(std::string page, const std::string& title, const std::string& element) {
+  const std::pair<std::string_view, std::string> places[] = {
+      {kMark, element}, {kTitle, fmt::format("<title>{}</title>", report::escaped(title))}};
+  for (const auto& [mark, text] : places) {
+    const size_t at = page.find(mark);
+    if (at == std::string::npos) return Error{"the page has no place for a home; build it anew with scripts/build"};
+    page.replace(at, mark.size(), text);
+  }
+  return page;
 }
 
 }  // namespace
 
-Result<std::string> pageWithHome(const std::string& page, const std::string& glb) {
-  return withElement(page, fmt::format("<script type=\"application/octet-stream\" id=\"roomlight-home\">{}</script>",
-                                       report::base64(glb)));
+Result<std::string> pageWithHome(const std::string& page, const std::string& title, const std::string& glb) {
+  return withElement(
+      page, title,
+      fmt::format("<script type=\"application/octet-stream\" id=\"roomlight-home\">{}</script>", report::base64(glb)));
 }
 
-Result<std::string> pageWithLink(const std::string& page, const std::string& file) {
-  return withElement(page, fmt::format("<link id=\"roomlight-home\" href=\"{}\">", file));
+Result<std::string> pageWithLink(const std::string& page, const std::string& title, const std::string& file) {
+  return withElement(page, title, fmt::format("<link id=\"roomlight-home\" href=\"{}\">", file));
 }
 
 }  // namespace roomlight::bake

@@ -26,7 +26,7 @@ struct BakedLayer {
 
 struct LayerSettings {
   RenderSettings render;  // technique, voxels, cached light
-  MeterSettings meters{0.1, 16, 64, 0};
+  MeterSettings meters{0.2, 16, 32, 0};
 };
 
 struct LampLayers {

@@ -101,5 +101,29 @@ TEST(Atlas, texelsAreAsFineAsAskedAndTheGroundIsCoarse) {
   EXPECT_LE(count(fine, true), 64u * 64u);
 }
 
+TEST(Atlas, whatDoesNotFitGetsLongerTexels) {
+  Scene scene;
+  const int grey = addMaterial(scene, lambertian(0.5f));
+  for (int i = 0; i < 40; ++i) addRectangle(scene, {0, static_cast<float>(i), 0}, {0, 0, 7}, {7, 0, 0}, grey);
+  Room floor;
+  floor.floor = {{-1, -1}, {-1, 8}, {8, 8}, {8, -1}}, floor.heightM = 50;
+  scene.rooms = {floor};
+  SeenSides seen(scene);
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    for (uint32_t t = 0; t < 2; ++t) {
+      Hit hit;
+      hit.instance = i, hit.triangle = t;
+      seen.mark(hit, false);
+    }
+  }
+  const std::vector<Chart> charts = chartsOf(scene, seen, {});
+  const AtlasSettings fine{0.007f, 2048, 32};
+  EXPECT_GT(atlasOf(scene, charts, fine).height, kMostAtlasEdge);
+  const Atlas atlas = fittingAtlasOf(scene, charts, fine);
+  EXPECT_LE(atlas.height, kMostAtlasEdge);
+  EXPECT_EQ(atlas.width, kMostAtlasEdge);
+  EXPECT_GT(atlas.elements.size(), 1'000'000u);
+}
+
 }  // namespace
 }  // namespace roomlight::bake

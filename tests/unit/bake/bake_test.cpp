@@ -175,11 +175,13 @@ TEST_F(Bake, aHomeThatNobodySeesIsToldSo) {
 }
 
 TEST(BakedPage, takesTheHomeOrALinkInItsPlace) {
-  const std::string page = "<body><!--roomlight-home--></body>";
-  EXPECT_EQ(pageWithHome(page, "abc").value(),
-            "<body><script type=\"application/octet-stream\" id=\"roomlight-home\">YWJj</script></body>");
-  EXPECT_EQ(pageWithLink(page, "home-1.glb").value(), "<body><link id=\"roomlight-home\" href=\"home-1.glb\"></body>");
-  EXPECT_FALSE(pageWithHome("<body></body>", "abc"));
+  const std::string page = "<title>roomlight</title><!--roomlight-home-->";
+  EXPECT_EQ(pageWithHome(page, "Anna & Ben", "abc").value(),
+            "<title>Anna &amp; Ben</title><script type=\"application/octet-stream\" "
+            "id=\"roomlight-home\">YWJj</script>");
+  EXPECT_EQ(pageWithLink(page, "flat", "home-1.glb").value(),
+            "<title>flat</title><link id=\"roomlight-home\" href=\"home-1.glb\">");
+  EXPECT_FALSE(pageWithHome("<title>roomlight</title>", "flat", "abc"));
 }
 
 }  // namespace
