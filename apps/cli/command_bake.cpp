@@ -32,7 +32,8 @@ struct BakePlan {
   bake::BakeSettings settings;
   home::OpenWish open;
   std::vector<float> hours;
-  std::string page;  // the built page; empty for a .glb
+  std::string page;   // the built page; empty for a .glb
+  HeldFolder folder;  // that is written into
 };
 
 // The home's file without its folder and extension.
@@ -49,6 +50,7 @@ Result<std::vector<float>> parseHours(const std::string& text) {
     if (!(hour >= 0 && hour <= 24)) return Error{fmt::format("--hours {}: an hour is from 0 to 24", text)};
   }
   std::sort(hours.value().begin(), hours.value().end());
+  hours.value().erase(std::unique(hours.value().begin(), hours.value().end()), hours.value().end());
   return hours;
 }
 
@@ -73,8 +75,13 @@ Result<BakePlan> planBake(const BakeOptions& o) {
   if (!o.stats.empty()) {
     if (const Status s = checkWritable(o.stats); !s) return Error{s.error()};
   }
-  if (!isFolder(o)) {
-    if (const Status s = checkWritable(o.output); !s) return Error{s.error()};
+  if (isFolder(o)) {
+    Result<HeldFolder> held = holdFolder(o.output);
+    if (!held) return Error{held.error()};
+    if (!held.value()) return Error{fmt::format("{}: another run writes into it", o.output)};
+    plan.folder = std::move(held.value());
+  } else if (const Status s = checkWritable(o.output); !s) {
+    return Error{s.error()};
   }
   if (const Status s = checkDistinct({o.scene, o.lighting, o.output, o.stats, o.writeLighting}); !s)
     return Error{s.error()};
@@ -118,8 +125,6 @@ Result<std::vector<bake::DaylightHour>> hoursOf(const BakeOptions& o, const Bake
 
 // Into a folder: the home's file is named by what is in it, so that browsers may keep it for ever.
 Status writeFolder(const BakeOptions& o, const BakePlan& plan, const std::string& glb) {
-  const Result<HeldFolder> held = holdFolder(o.output);
-  if (!held) return Error{held.error()};
   Hash hash;
   hash.bytes(glb);
   const std::string file = fmt::format("home-{}.glb", hash.text());
@@ -200,8 +205,8 @@ Registered addBake(CLI::App& program) {
   CLI::App* app = program.add_subcommand("bake", "Make a page in which a lit home is walked, every lamp on a dimmer");
   addSceneOptions(*app, *o, "HOME");
   app->add_option("-o,--output", o->output,
-                  "home.html: one page with everything inside; home.glb: geometry and light alone; anything else: a "
-                  "folder for a web server")
+                  "home.html: one page with everything inside; home.glb: geometry and light alone; a name without "
+                  "extension: a folder for a web server")
       ->required();
   app->add_option("--quality", o->quality, listed("How much is done:", qualities()))->capture_default_str();
   app->add_option("--hours", o->hours,

@@ -13,9 +13,6 @@
 namespace roomlight::cli {
 namespace {
 
-constexpr double kNearlyWhite =
-    0.02;  // distance in CIE 1931 x, y from the white of a temperature that still counts as one
-
 const char* kindOf(LayerKind kind) {
   switch (kind) {
     case LayerKind::Lamp: return "lamp";
@@ -30,20 +27,6 @@ const char* kindOf(LayerKind kind) {
 bool isLocal(const LightLayer& light) { return light.kind != LayerKind::Sun && light.kind != LayerKind::Sky; }
 
 Json rgb(Vec3 v) { return {v.x, v.y, v.z}; }
-
-std::optional<double> kelvinOf(Vec3 colour) {
-  const double k = nearestWhiteK(colour);
-  // CIE 1931 XYZ of linear Rec.709 (IEC 61966-2-1).
-  const double x = 0.4124 * colour.x + 0.3576 * colour.y + 0.1805 * colour.z,
-               y = 0.2126 * colour.x + 0.7152 * colour.y + 0.0722 * colour.z,
-               z = 0.0193 * colour.x + 0.1192 * colour.y + 0.9505 * colour.z;
-  const double sum = x + y + z;
-  const Vec2 white = whiteChromaticity(k);
-  if (!(sum > 0) ||
-      std::hypot(x / sum - static_cast<double>(white.x), y / sum - static_cast<double>(white.y)) > kNearlyWhite)
-    return {};
-  return std::round(k);
-}
 
 // Whether a lamp belongs to what is seen of a home that is cut open: of a plan, to the level it shows.
 bool isOfView(const Scene& scene, const Camera& camera, int room) {

@@ -24,7 +24,7 @@ constexpr float kLargeM2 = 60;         // or is so large
 constexpr int kMost = 1024;            // texels of an edge
 constexpr float kAlongStrips = 4;      // so much longer are texels of strips as narrow as one
 constexpr float kLongestTexelM = 2, kLongerTexels = 1.4f;  // until an atlas fits
-constexpr int kVertexRow = 32;         // texels of vertices side by side
+constexpr int kLeastRow = 32, kMostRow = 1024;  // texels of vertices side by side
 constexpr float kOffRoomM = 0.1f;      // from a wall, in the room that it faces
 constexpr float kInsideTexels =
     0.75f; // a texel whose middle is so near takes light, at the nearest place of the chart
@@ -139,7 +139,7 @@ class AtlasWriter {
     mesh_ = &scene_.meshes[static_cast<size_t>(instance.mesh)];
     worldFromObject_ = &instance.worldFromObject;
     if (chart.byVertices) {
-      addVertices(std::move(chart), x, y);
+      addVertices(std::move(chart), grid.width, x, y);
     } else {
       addTexels(std::move(chart), grid, x, y);
     }
@@ -264,7 +264,7 @@ class AtlasWriter {
     }
   }
 
-  void addVertices(Chart chart, int x, int y) {
+  void addVertices(Chart chart, int width, int x, int y) {
     PlacedChart placed;
     SharedVertices shared;
     for (const uint32_t t : chart.triangles) {
@@ -277,7 +277,6 @@ class AtlasWriter {
       }
     }
     const std::vector<SharedVertices::Place>& places = shared.places();
-    const auto width = static_cast<int>(std::min<size_t>(kVertexRow, places.size()));
     const auto texelOf = [&](size_t place) {
       return std::pair{x + static_cast<int>(place) % width, y + static_cast<int>(place) / width};
     };
@@ -310,55 +309,67 @@ size_t vertexCount(const Scene& scene, const Chart& chart) {
   return static_cast<size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
 }
 
-}  // namespace
+// Where charts will lie.
+struct Layout {
+  std::vector<size_t> order;  // of charts, by room
+  std::vector<Grid> grids;
+  std::vector<stbrp_rect> rects;
+  int width = 0, height = 0;
+};
 
-Atlas atlasOf(const Scene& scene, std::vector<Chart> charts, const AtlasSettings& settings) {
+// Vertices in about a square.
+Grid vertexGrid(size_t count) {
+  const int row = std::clamp(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))), kLeastRow, kMostRow);
+  const auto n = static_cast<int>(count);
+  return {std::min(n, row), (n + row - 1) / row, {}};
+}
+
+Layout layoutOf(const Scene& scene, const std::vector<Chart>& charts, const AtlasSettings& settings) {
   std::map<int, std::vector<size_t>> byRoom;
   for (size_t i = 0; i < charts.size(); ++i)
     byRoom[roomAt(scene, charts[i].middle + charts[i].normal * kOffRoomM)].push_back(i);
-  Atlas atlas;
-  atlas.width = settings.width;
-  AtlasWriter writer(scene, atlas);
+  Layout out;
+  out.width = settings.width;
   for (const auto& [room, members] : byRoom) {
-    std::vector<Grid> grids;
     std::vector<stbrp_rect> rects;
     for (const size_t i : members) {
-      const Chart& chart = charts[i];
-      Grid grid = gridOf(chart, settings.texelM, room < 0);
-      stbrp_rect rect{static_cast<int>(grids.size()), grid.width + 2 * kGap, grid.height + 2 * kGap, 0, 0, 0};
-      if (chart.byVertices) {
-        const auto count = static_cast<int>(vertexCount(scene, chart));
-        rect.w = std::min(count, kVertexRow), rect.h = (count + kVertexRow - 1) / kVertexRow;
-      }
-      grids.push_back(grid), rects.push_back(rect);
+      const bool fine = charts[i].byVertices;
+      const Grid grid = fine ? vertexGrid(vertexCount(scene, charts[i])) : gridOf(charts[i], settings.texelM, room < 0);
+      const int gap = fine ? 0 : 2 * kGap;
+      rects.push_back({static_cast<int>(out.grids.size()), grid.width + gap, grid.height + gap, 0, 0, 0});
+      out.grids.push_back(grid), out.order.push_back(i);
     }
     stbrp_context context;
     std::vector<stbrp_node> nodes(static_cast<size_t>(settings.width));
     stbrp_init_target(&context, settings.width, std::numeric_limits<int>::max() / 2, nodes.data(), settings.width);
     stbrp_pack_rects(&context, rects.data(), static_cast<int>(rects.size()));
     int used = 0;
-    for (const stbrp_rect& rect : rects) {
-      const auto k = static_cast<size_t>(rect.id);
-      writer.add(std::move(charts[members[k]]), grids[k], rect.x, atlas.height + rect.y);
-      used = std::max(used, rect.y + rect.h);
-    }
-    atlas.height += (used + settings.tile - 1) / settings.tile * settings.tile;
+    for (stbrp_rect& rect : rects) used = std::max(used, rect.y + rect.h), rect.y += out.height;
+    out.rects.insert(out.rects.end(), rects.begin(), rects.end());
+    out.height += (used + settings.tile - 1) / settings.tile * settings.tile;
   }
-  return atlas;
+  return out;
 }
 
-Atlas fittingAtlasOf(const Scene& scene, const std::vector<Chart>& charts, AtlasSettings settings) {
-  for (;;) {
-    Atlas atlas = atlasOf(scene, charts, settings);
-    if (atlas.height <= kMostAtlasEdge) return atlas;
-    if (settings.width < kMostAtlasEdge) {
-      settings.width = kMostAtlasEdge;
-    } else if (settings.texelM < kLongestTexelM) {
-      settings.texelM *= kLongerTexels;
-    } else {
-      return atlas;  // its vertices alone are too many
-    }
+}  // namespace
+
+Result<Atlas> atlasOf(const Scene& scene, std::vector<Chart> charts, AtlasSettings settings) {
+  Layout layout = layoutOf(scene, charts, settings);
+  while (layout.height > kMostAtlasEdge) {
+    if (settings.width >= kMostAtlasEdge) settings.texelM *= kLongerTexels;
+    settings.width = kMostAtlasEdge;
+    if (settings.texelM > kLongestTexelM)
+      return Error{"the home has more fine surfaces than a graphics chip holds light for; leave some out"};
+    layout = layoutOf(scene, charts, settings);
   }
+  Atlas atlas;
+  atlas.width = layout.width, atlas.height = layout.height;
+  AtlasWriter writer(scene, atlas);
+  for (const stbrp_rect& rect : layout.rects) {
+    const auto k = static_cast<size_t>(rect.id);
+    writer.add(std::move(charts[layout.order[k]]), layout.grids[k], rect.x, rect.y);
+  }
+  return atlas;
 }
 
 }  // namespace roomlight::bake

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/charts.h"
+#include "base/result.h"
 #include "trace/meter.h"
 
 namespace roomlight::bake {
@@ -39,9 +40,8 @@ struct Atlas {
   std::vector<std::pair<uint32_t, uint32_t>> padding;
 };
 
-// Lays the charts out, those in one room together, as high as it takes.
-Atlas atlasOf(const Scene& scene, std::vector<Chart> charts, const AtlasSettings& settings);
-// The same, wider or with longer texels where the atlas would be higher than kMostAtlasEdge.
-Atlas fittingAtlasOf(const Scene& scene, const std::vector<Chart>& charts, AtlasSettings settings);
+// Lays the charts out, those in one room together. Where that would be higher than kMostAtlasEdge, the atlas is as wide
+// as that, and texels are longer. Errors: vertices alone are too many.
+Result<Atlas> atlasOf(const Scene& scene, std::vector<Chart> charts, AtlasSettings settings);
 
 }  // namespace roomlight::bake

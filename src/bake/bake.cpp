@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bake/light_texels.h"
 #include "bake/lit_places.h"
 #include "bake/simplify.h"
 #include "look/display.h"
@@ -14,11 +15,20 @@ namespace {
 
 constexpr std::string_view kMark = "<!--roomlight-home-->", kTitle = "<title>roomlight</title>";
 
-// The lamps of the home, those that are off too.
+bool sameLamp(const Lamp& a, const Lamp& b) { return a.name == b.name && length(a.position - b.position) < 1e-3f; }
+
+constexpr const char* kOff = " (off)";
+
+// The lamps of the home, and those that are off as groups of their own: a lamp that is on may bear the same name. None
+// of these where there are too many lamps to be told apart.
 Scene withAllLamps(const Scene& home, const std::vector<Lamp>& offLamps) {
   Scene scene = home;
-  scene.lamps.insert(scene.lamps.end(), offLamps.begin(), offLamps.end());
-  return scene;
+  for (Lamp lamp : offLamps) {
+    if (std::any_of(home.lamps.begin(), home.lamps.end(), [&](const Lamp& l) { return sameLamp(l, lamp); })) continue;
+    lamp.group = (lamp.group.empty() ? lamp.name : lamp.group) + kOff;
+    scene.lamps.push_back(std::move(lamp));
+  }
+  return layersOf(scene, Lights(scene)) ? scene : home;
 }
 
 struct LaidOut {
@@ -26,13 +36,17 @@ struct LaidOut {
   LitPlaces lit;
 };
 
-LaidOut layOut(const Scene& scene, const BakeSettings& settings, Stages& stages) {
+Result<LaidOut> layOut(const Scene& scene, const BakeSettings& settings, Stages& stages) {
   const RayScene rays(scene);
-  const SeenSides seen =
-      stages.run("seen", [&](const Progress&) { return seenFrom(rays, eyesIn(rays), settings.seenRays); });
-  return stages.run("charts", [&](const Progress&) {
+  const SeenSides seen = stages.run("seen", [&](const Progress&) {
+    const std::vector<Vec3> eyes = eyesIn(rays);
+    return seenFrom(rays, eyes, std::max(settings.seenRays, eyes.size() * settings.raysAnEye));
+  });
+  return stages.run("charts", [&](const Progress&) -> Result<LaidOut> {
     LaidOut out;
-    out.atlas = fittingAtlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
+    Result<Atlas> atlas = atlasOf(scene, chartsOf(scene, seen, settings.charts), settings.atlas);
+    if (!atlas) return Error{atlas.error()};
+    out.atlas = std::move(atlas.value());
     out.lit = litPlacesOf(out.atlas, rays, seen, settings.placesApartM);
     return out;
   });
@@ -53,8 +67,8 @@ Result<ShownAs> shownAs(const Scene& scene, Stages& stages) {
   RenderSettings render;
   applyQuality("draft", render);
   render.width = kShownWidth, render.height = kShownHeight, render.blend = false;
-  Camera camera = defaultCamera(scene);
-  if (camera.projection != Projection::Perspective) camera.projection = Projection::Perspective;
+  const std::vector<Camera> cameras = camerasInside(scene);
+  const Camera camera = cameras.empty() ? defaultCamera(scene) : cameras[cameraInUse(scene, cameras)];
   const Result<Rendered> picture = stages.run("exposure", [&](const Progress& p) {
     RenderProgress progress;
     progress.cancelled = p.cancelled;
@@ -70,9 +84,12 @@ Result<ShownAs> shownAs(const Scene& scene, Stages& stages) {
   return shown;
 }
 
-void markOff(const std::vector<Lamp>& offLamps, std::vector<BakedLayer>& layers) {
-  for (BakedLayer& layer : layers)
-    layer.on = std::none_of(offLamps.begin(), offLamps.end(), [&](const Lamp& l) { return l.name == layer.name; });
+void markOff(std::vector<BakedLayer>& layers) {
+  for (BakedLayer& layer : layers) {
+    if (!layer.name.ends_with(kOff)) continue;
+    layer.on = false;
+    layer.name.resize(layer.name.size() - std::string_view(kOff).size());
+  }
 }
 
 }  // namespace
@@ -89,13 +106,16 @@ Result<BakeSettings> bakeSettings(const std::string& quality) {
 Result<BakedHome> bakeHome(const Scene& home, const BakeWish& wish, const BakeSettings& settings, Stages& stages) {
   Scene scene = withAllLamps(home, wish.offLamps);
   stages.run("simplify", [&](const Progress&) { return simplifyMeshes(scene, settings.simplifyM), 0; });
-  const LaidOut laid = layOut(scene, settings, stages);
+  const Result<LaidOut> laidOut = layOut(scene, settings, stages);
+  if (!laidOut) return Error{laidOut.error()};
+  if (stages.cancelled()) return BakedHome{};
+  const LaidOut& laid = laidOut.value();
   if (laid.lit.places.empty()) return Error{"nothing of the home can be seen from its rooms or cameras"};
   const std::vector<SurfaceElement>& places = laid.lit.places;
   Result<LampLayers> lamps = lampLayers(scene, places, settings.layers, stages);
   if (!lamps) return Error{lamps.error()};
   if (stages.cancelled()) return BakedHome{};
-  markOff(wish.offLamps, lamps.value().layers);
+  markOff(lamps.value().layers);
   std::vector<BakedLayer> daylight;
   for (const DaylightHour& hour : wish.hours) {
     Scene day = scene;
@@ -136,9 +156,10 @@ Result<std::string> withElement(std::string page, const std::string& title, cons
 }  // namespace
 
 Result<std::string> pageWithHome(const std::string& page, const std::string& title, const std::string& glb) {
-  return withElement(
-      page, title,
-      fmt::format("<script type=\"application/octet-stream\" id=\"roomlight-home\">{}</script>", report::base64(glb)));
+  const std::string element =
+      fmt::format("<script type=\"application/octet-stream\" id=\"roomlight-home\" data-bytes=\"{}\">{}</script>",
+                  glb.size(), report::base64(deflated(glb)));
+  return withElement(page, title, element);
 }
 
 Result<std::string> pageWithLink(const std::string& page, const std::string& title, const std::string& file) {

@@ -19,7 +19,7 @@ struct BakeSettings {
   GlbSettings glb;
   float simplifyM = 0.002f;     // how far surfaces may be from where they are
   float placesApartM = 0.08f;   // where vertices share light
-  size_t seenRays = size_t{1} << 21;  // that tell what can be seen
+  size_t seenRays = size_t{1} << 21, raysAnEye = 4096;  // at least, that tell what can be seen
 };
 
 // By name of a quality, as pictures have it. Errors: an unknown name.

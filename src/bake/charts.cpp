@@ -56,10 +56,16 @@ void joinNeighbours(const Mesh& mesh, Patchwork& work) {
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
     return std::tuple(a.corners, a.triangle, a.side) < std::tuple(b.corners, b.triangle, b.side);
   });
+  const auto cornersOf = [&](uint32_t t) {
+    std::array corners{welded[mesh.indices[3 * t]], welded[mesh.indices[3 * t + 1]], welded[mesh.indices[3 * t + 2]]};
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
   // Where more than two meet, one after the other.
   for (size_t i = 0; i + 1 < edges.size(); ++i) {
     const Edge &a = edges[i], &b = edges[i + 1];
     if (a.corners != b.corners || a.triangle == b.triangle) continue;
+    if (cornersOf(a.triangle) == cornersOf(b.triangle)) continue;  // one lies on the other
     if (work.neighbours[a.triangle][a.side] != kNone) continue;
     work.neighbours[a.triangle][a.side] = b.triangle;
     work.neighbours[b.triangle][b.side] = a.triangle;
@@ -115,7 +121,8 @@ void layOnPlane(const Patchwork& work, Chart& chart) {
       if (const float l = length(edges[k]); l > most) most = l, longest = edges[k];
     }
   }
-  chart.alongU = normalize(longest - chart.normal * dot(longest, chart.normal));
+  const Vec3 along = longest - chart.normal * dot(longest, chart.normal);
+  chart.alongU = length(along) > 1e-6f ? normalize(along) : Frame(chart.normal).t;
   chart.alongV = cross(chart.normal, chart.alongU);
   Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
   Bounds3 bounds;

@@ -8,7 +8,7 @@
 #include "bake/glb_materials.h"
 #include "bake/glb_writer.h"
 #include "bake/light_texels.h"
-#include "base/hash.h"
+#include "photometry/colour_temperature.h"
 
 namespace roomlight::bake {
 namespace {
@@ -39,6 +39,7 @@ class BatchMaker {
     const Instance& instance = scene_.instances[placed.chart.instance];
     const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
     const Material& material = scene_.materials[static_cast<size_t>(mesh.material)];
+    const TextureRef* coordinates = coordinatesOf(material);
     const auto first = static_cast<uint32_t>(batch.positions.size());
     const std::vector<Vec3> flat = mesh.normals.empty() ? faceNormals(placed, mesh, instance) : std::vector<Vec3>();
     for (size_t i = 0; i < placed.vertices.size(); ++i) {
@@ -48,9 +49,8 @@ class BatchMaker {
       if (flat.empty() && dot(n, placed.chart.normal) < 0 && !placed.chart.byVertices) n = -n;
       if (flat.empty() && placed.chart.byVertices && placed.chart.back) n = -n;
       batch.normals.push_back(packedNormal(length(n) > 0 ? normalize(n) : placed.chart.normal));
-      const TextureRef& base = material.baseColorTexture;
-      const auto& uv = mesh.uv[base.uvSet];
-      batch.uv.push_back(v < uv.size() ? transformUv(base, uv[v]) : Vec2{});
+      const std::vector<Vec2>* uv = coordinates ? &mesh.uv[coordinates->uvSet] : nullptr;
+      batch.uv.push_back(uv && v < uv->size() ? transformUv(*coordinates, (*uv)[v]) : Vec2{});
       batch.atlas.push_back(onAtlas(placed.vertices[i].texel));
       const uint8_t lit = placed.chart.byVertices ? 1 : 0;
       batch.vertexLit.push_back({lit, 0, 0, 0});
@@ -103,16 +103,20 @@ Json primitiveOf(GlbWriter& glb, const Batch& b, bool textured, int material) {
 Status addGeometry(GlbWriter& glb, const Scene& scene, const Atlas& atlas, const LampLayers& lamps,
                    const GlbSettings& settings) {
   const BatchMaker maker(scene, atlas);
+  constexpr int kDark = -2;  // the side that does not shine
   std::map<std::pair<int, int>, Batch> batches;  // by material and layer of what it emits
   for (const PlacedChart& placed : atlas.charts) {
     const Instance& instance = scene.instances[placed.chart.instance];
     const int material = scene.meshes[static_cast<size_t>(instance.mesh)].material;
-    maker.add(placed, batches[{material, lamps.ofInstance[placed.chart.instance]}]);
+    // Front is what it is in object space (glTF 2.0, 3.7.4); charts know sides of the world.
+    const bool front = placed.chart.back == (instance.worldFromObject.determinant() < 0);
+    const bool shines = front || scene.materials[static_cast<size_t>(material)].doubleSided;
+    maker.add(placed, batches[{material, shines ? lamps.ofInstance[placed.chart.instance] : kDark}]);
   }
   GlbMaterials materials(scene, glb, settings);
   Json primitives = Json::array();
   for (const auto& [key, batch] : batches) {
-    const Result<int> material = materials.add(key.first, key.second);
+    const Result<int> material = materials.add(key.first, key.second, key.second != kDark);
     if (!material) return Error{material.error()};
     primitives.push_back(primitiveOf(glb, batch, materials.textured(key.first), material.value()));
   }
@@ -141,6 +145,7 @@ Json layerJson(GlbWriter& glb, const Scene& scene, const BakedLayer& layer, cons
   Json json = {{"name", layer.name}, {"kind", kKinds[static_cast<size_t>(layer.role)]}, {"on", layer.on}};
   if (layer.role == LayerRole::Lamp) {
     json["position"] = vectorJson(layer.position);
+    if (const std::optional<double> kelvin = kelvinOf(layer.color)) json["kelvin"] = *kelvin;
     if (const int room = roomAt(scene, layer.position); room >= 0)
       json["room"] = scene.rooms[static_cast<size_t>(room)].name;
   } else {
@@ -179,16 +184,6 @@ Json camerasJson(const std::vector<Camera>& cameras) {
                    {"forward", vectorJson(-c.worldFromCamera.z)},
                    {"yFovDeg", c.yFovRad * 180 / kPi}});
   return out;
-}
-
-// The number of the scene's own camera among those that are shown; else the first.
-size_t cameraInUse(const Scene& scene, const std::vector<Camera>& cameras) {
-  if (scene.cameras.empty()) return 0;
-  const Camera& own = scene.cameras[static_cast<size_t>(scene.cameraInUse)];
-  const auto found = std::find_if(cameras.begin(), cameras.end(), [&](const Camera& c) {
-    return c.name == own.name && c.worldFromCamera == own.worldFromCamera;
-  });
-  return found == cameras.end() ? 0 : static_cast<size_t>(found - cameras.begin());
 }
 
 }  // namespace

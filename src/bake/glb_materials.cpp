@@ -58,9 +58,15 @@ Json colorJson(Vec3 c) { return {c.x, c.y, c.z}; }
 
 }  // namespace
 
+const TextureRef* coordinatesOf(const Material& m) {
+  for (const TextureRef* ref : {&m.baseColorTexture, &m.emissionTexture, &m.metallicRoughnessTexture}) {
+    if (ref->texture >= 0) return ref;
+  }
+  return nullptr;
+}
+
 bool GlbMaterials::textured(int material) const {
-  const Material& m = scene_.materials[static_cast<size_t>(material)];
-  return m.baseColorTexture.texture >= 0;
+  return coordinatesOf(scene_.materials[static_cast<size_t>(material)]) != nullptr;
 }
 
 Result<int> GlbMaterials::texture(int number) {
@@ -79,11 +85,12 @@ Result<int> GlbMaterials::texture(int number) {
   return textureOf_[number] = out;
 }
 
-// Beside the colour only those that lie where it does: there is one set of coordinates.
+// Those that lie where the first does: there is one set of coordinates.
 Status GlbMaterials::addTextures(const Material& m, Json& json, Json& pbr) {
-  if (m.baseColorTexture.texture < 0) return Ok{};
+  const TextureRef* first = coordinatesOf(m);
+  if (!first) return Ok{};
   const auto add = [&](const TextureRef& ref, Json& into, const char* key) -> Status {
-    if (ref.texture < 0 || !sameCoordinates(ref, m.baseColorTexture)) return Ok{};
+    if (ref.texture < 0 || !sameCoordinates(ref, *first)) return Ok{};
     const Result<int> number = texture(ref.texture);
     if (!number) return Error{number.error()};
     into[key] = {{"index", number.value()}};
@@ -106,7 +113,8 @@ void GlbMaterials::addTransparency(const Material& m, Json& json, Json& pbr) {
   } else if (m.transmission > 0) {
     alpha *= 1 - m.transmission * luminance(m.baseColor);
   }
-  pbr["baseColorFactor"] = {color.x, color.y, color.z, alpha};
+  color = min(max(color, Vec3(0)), Vec3(1));
+  pbr["baseColorFactor"] = {color.x, color.y, color.z, std::clamp(alpha, 0.0f, 1.0f)};
   if (pane || m.transmission > 0 || m.alphaMode == AlphaMode::Blend) {
     json["alphaMode"] = "BLEND";
   } else if (m.alphaMode == AlphaMode::Mask) {
@@ -114,36 +122,38 @@ void GlbMaterials::addTransparency(const Material& m, Json& json, Json& pbr) {
   }
 }
 
-Result<int> GlbMaterials::add(int number, int layer) {
+Result<int> GlbMaterials::add(int number, int layer, bool shines) {
   const Material& m = scene_.materials[static_cast<size_t>(number)];
   Json json = {{"name", m.name}};
   Json pbr = {{"metallicFactor", m.metallic}, {"roughnessFactor", m.roughness}};
   addTransparency(m, json, pbr);
   if (const Status s = addTextures(m, json, pbr); !s) return Error{s.error()};
   json["pbrMetallicRoughness"] = pbr;
-  if (const float most = maxComponent(m.emission); most > 0) {
+  if (const float most = maxComponent(m.emission); shines && most > 0) {
     json["emissiveFactor"] = colorJson(m.emission / most);
     json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", most}};
     if (layer >= 0) json["extras"]["lightLayers"] = Json::array({layer});
   }
   if (m.ior != 1.5f) json["extensions"]["KHR_materials_ior"] = {{"ior", m.ior}};
-  if (m.specular != 1) json["extensions"]["KHR_materials_specular"] = {{"specularFactor", m.specular}};
+  if (m.specular != 1 || !(m.specularColor == Vec3(1)))
+    json["extensions"]["KHR_materials_specular"] = {{"specularFactor", m.specular},
+                                                    {"specularColorFactor", colorJson(m.specularColor)}};
   materials_.push_back(json);
   return static_cast<int>(materials_.size()) - 1;
 }
 
 void GlbMaterials::finish() {
-  Json used = Json::array();
+  // Normals are bytes.
+  Json used = Json::array({"KHR_mesh_quantization"}), required = used;
   for (const char* name : {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular"}) {
     if (std::any_of(materials_.begin(), materials_.end(),
                     [&](const Json& m) { return m.contains("extensions") && m["extensions"].contains(name); }))
       used.push_back(name);
   }
   glb_.json["materials"] = materials_;
-  if (!textures_.empty()) used.push_back("EXT_texture_webp");
-  glb_.json["extensionsUsed"] = used;
+  if (!textures_.empty()) used.push_back("EXT_texture_webp"), required.push_back("EXT_texture_webp");
+  glb_.json["extensionsUsed"] = used, glb_.json["extensionsRequired"] = required;
   if (textures_.empty()) return;
-  glb_.json["extensionsRequired"] = Json::array({"EXT_texture_webp"});
   glb_.json["textures"] = textures_, glb_.json["images"] = images_, glb_.json["samplers"] = samplers_;
 }
 

@@ -8,14 +8,18 @@
 
 namespace roomlight::bake {
 
+// The texture whose coordinates a material keeps: of its colour, else of what it emits, else of its roughness. Null:
+// it has none.
+const TextureRef* coordinatesOf(const Material& material);
+
 class GlbMaterials {
  public:
   GlbMaterials(const Scene& scene, GlbWriter& glb, const GlbSettings& settings)
       : scene_(scene), glb_(glb), settings_(settings) {}
 
-  // The number in the file of a material of the scene whose emission belongs to a layer (-1: to none). Errors: a
-  // texture that cannot be written.
-  Result<int> add(int material, int layer);
+  // The number in the file of a material of the scene, shining or not, whose emission belongs to a layer (-1: to none).
+  // Errors: a texture that cannot be written.
+  Result<int> add(int material, int layer, bool shines);
   // Whether its coordinates are needed.
   bool textured(int material) const;
   // Writes what was added into the file.

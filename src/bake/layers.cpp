@@ -122,7 +122,7 @@ Result<std::vector<BakedLayer>> daylightLayers(const Scene& home, double hour,
     }
     layer.color = meanColor(layer.lux);
     if (!sun) layer.panorama = panoramaOf(light.value()->lights().sky());
-    if (givesLight(layer)) out.push_back(std::move(layer));
+    if (!sun || givesLight(layer)) out.push_back(std::move(layer));
   }
   return out;
 }

@@ -38,7 +38,8 @@ struct LampLayers {
 Result<LampLayers> lampLayers(const Scene& scene, const std::vector<SurfaceElement>& elements,
                               const LayerSettings& settings, Stages& stages);
 
-// All suns, and the sky, as the scene has them. What gives nothing is left out.
+// All suns, and the sky, as the scene has them. A sun that gives nothing is left out; a sky tells that its hour is
+// known.
 Result<std::vector<BakedLayer>> daylightLayers(const Scene& scene, double hour,
                                                const std::vector<SurfaceElement>& elements,
                                                const LayerSettings& settings, Stages& stages);

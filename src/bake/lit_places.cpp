@@ -39,7 +39,7 @@ bool isBuried(const SurfaceElement& e, size_t number, const RayScene& rays, cons
   return open == 0 || static_cast<float>(covered) > kCoveredShare * kRaysEach;
 }
 
-// For each element the nearest one of its chart, along texels, that is not buried; kNone: there is none.
+// For each element of a chart by texels the nearest one of it, along texels, that is not buried; kNone: there is none.
 std::vector<uint32_t> nearestOpen(const Atlas& atlas, const std::vector<uint8_t>& buried) {
   const size_t n = atlas.elements.size();
   std::vector<uint32_t> nearest(n, kNone),
@@ -82,16 +82,19 @@ class Clusters {
   LightShares sharesOf(const SurfaceElement& e, const std::vector<SurfaceElement>& places) const {
     std::vector<std::pair<float, uint32_t>> found;
     const Key own = keyOf(e);
-    for (auto near = clusters_.lower_bound({own.cell[0] - 1, kLowest, kLowest}); near != clusters_.end(); ++near) {
-      const Key& key = near->first;
-      if (key.cell[0] > own.cell[0] + 1) break;
-      if (std::abs(key.cell[1] - own.cell[1]) > 1 || std::abs(key.cell[2] - own.cell[2]) > 1) continue;
-      const SurfaceElement& place = places[near->second.place];
-      const float facing = dot(place.normal, e.normal), apart = length(place.position - e.position) / apartM_;
-      if (facing < kFacing || apart > 1.5f) continue;
-      found.emplace_back(facing * facing / (apart * apart + 0.02f), near->second.place);
+    for (int x = own.cell[0] - 1; x <= own.cell[0] + 1; ++x) {
+      for (int y = own.cell[1] - 1; y <= own.cell[1] + 1; ++y) {
+        auto near = clusters_.lower_bound({x, y, own.cell[2] - 1});
+        for (; near != clusters_.end() && near->first.cell[0] == x && near->first.cell[1] == y; ++near) {
+          if (near->first.cell[2] > own.cell[2] + 1) break;
+          const SurfaceElement& place = places[near->second.place];
+          const float facing = dot(place.normal, e.normal), apart = length(place.position - e.position) / apartM_;
+          if (facing < kFacing || apart > 1.5f) continue;
+          found.emplace_back(facing * facing / (apart * apart + 0.02f), near->second.place);
+        }
+      }
     }
-    if (found.empty()) return {{clusters_.at(own).place}, {1}};
+    if (found.empty()) return {{nearestTo(e, places)}, {1}};
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
       return std::tuple(-a.first, a.second) < std::tuple(-b.first, b.second);
     });
@@ -104,7 +107,19 @@ class Clusters {
   }
 
  private:
+  // Of those that face the same way, if any does.
+  uint32_t nearestTo(const SurfaceElement& e, const std::vector<SurfaceElement>& places) const {
+    uint32_t best = clusters_.begin()->second.place;
+    float least = kInfinity;
+    for (const auto& [key, c] : clusters_) {
+      const SurfaceElement& place = places[c.place];
+      const float apart = length(place.position - e.position) + (dot(place.normal, e.normal) > 0 ? 0 : kBehindM);
+      if (apart < least) best = c.place, least = apart;
+    }
+    return best;
+  }
   static constexpr int kLowest = std::numeric_limits<int>::min();
+  static constexpr float kBehindM = 1000;
   struct Key {
     std::array<int, 3> cell;
     std::array<int, 3> facing{kLowest, kLowest, kLowest};
@@ -148,8 +163,9 @@ LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides&
         if (!anyOpen || !buried[i]) clusters.add(atlas.elements[i]);
       }
       clusters.finish(out.places);
-      for (size_t i = first; i < end; ++i)
-        out.ofElement[i] = clusters.sharesOf(atlas.elements[open[i] == kNone ? i : open[i]], out.places);
+      parallelFor(end - first, 256, [&](size_t k) {
+        out.ofElement[first + k] = clusters.sharesOf(atlas.elements[first + k], out.places);
+      });
     } else {
       for (size_t i = first; i < end; ++i) {
         if (open[i] != i && open[i] != kNone) continue;

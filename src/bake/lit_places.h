@@ -35,7 +35,7 @@ struct LitPlaces {
 };
 
 // A place that is buried, as the part of a floor under a wall is, where next to nothing of what it sees can be seen
-// from the rooms, takes the light of the nearest other one of its chart: what is dark there may not bleed into what is
+// from the rooms, takes the light of the nearest open one of its chart: what is dark there may not bleed into what is
 // seen beside it. `apartM`: between places that vertices share. Does not depend on the number of threads.
 LitPlaces litPlacesOf(const Atlas& atlas, const RayScene& rays, const SeenSides& seen, float apartM);
 

@@ -1,5 +1,6 @@
 #include "bake/seen_sides.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <map>
@@ -17,7 +18,7 @@ namespace {
 constexpr float kEyesApartM = 0.6f;
 constexpr float kHeightsM[] = {0.5f, 1.1f, 1.65f};  // a child or someone lying, sitting, standing
 constexpr int kSurfaces = 12;                       // along one ray
-constexpr float kOpenShare = 0.1f;                  // of a room's eyes: fewer that see each other are shut in
+constexpr size_t kFewEyes = 6;  // that see each other, and no others of their room: they are shut in
 
 bool letsThrough(const Material& m) {
   return m.alphaMode != AlphaMode::Opaque || m.transmission > 0 || m.glazing.panes > 0;
@@ -59,8 +60,7 @@ class EyeGrid {
       sizes.push_back(fill(place, static_cast<int>(sizes.size())));
     }
     for (const auto& [place, eye] : eyes_) {
-      if (static_cast<float>(sizes[static_cast<size_t>(eye.region)]) >= kOpenShare * static_cast<float>(eyes_.size()))
-        out.push_back(eye.position);
+      if (sizes[static_cast<size_t>(eye.region)] > std::min(kFewEyes, eyes_.size() / 2)) out.push_back(eye.position);
     }
   }
 
@@ -117,6 +117,15 @@ std::vector<Camera> camerasInside(const Scene& scene) {
     if (c.projection == Projection::Perspective && inside) out.push_back(c);
   }
   return out;
+}
+
+size_t cameraInUse(const Scene& scene, const std::vector<Camera>& cameras) {
+  if (scene.cameras.empty()) return 0;
+  const Camera& own = scene.cameras[static_cast<size_t>(scene.cameraInUse)];
+  const auto found = std::find_if(cameras.begin(), cameras.end(), [&](const Camera& c) {
+    return c.name == own.name && c.worldFromCamera == own.worldFromCamera;
+  });
+  return found == cameras.end() ? 0 : static_cast<size_t>(found - cameras.begin());
 }
 
 std::vector<Vec3> eyesIn(const RayScene& rays) {

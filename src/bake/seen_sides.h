@@ -25,6 +25,8 @@ class SeenSides {
 
 // Cameras that look as eyes do, from inside a room; of a scene without rooms all.
 std::vector<Camera> camerasInside(const Scene& scene);
+// The number of the scene's own camera among those; else the first.
+size_t cameraInUse(const Scene& scene, const std::vector<Camera>& cameras);
 
 // Places at the height of eyes and hips in every room of the scene, where people can stand, and the cameras inside.
 std::vector<Vec3> eyesIn(const RayScene& rays);

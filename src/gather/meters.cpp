@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kMeterKey = 0x3e7e12;  // other random numbers than pixels have,
 constexpr uint64_t kLampKey = 0x3e7e13;   // and for places on lamps
 constexpr int kBatch = 64;                // samples of a meter in layers at once; what their errors are judged by:
-constexpr int kLeastBatch = 8;            // fewer where fewer samples are asked for
+constexpr int kLeastBatch = 4;            // fewer where fewer samples are asked for, four batches of them
 constexpr int kPlaces = 2;                // on extended lamps, a batch
 constexpr float kOfStrongest = 0.03f;      // of light on a meter: layers weaker than that need not be surer than it
 
@@ -155,7 +155,7 @@ LayeredReadings measureInLayers(const RayScene& rays, const Lights& lights, cons
   LayeredReadings out;
   out.layers = shader.layers()->size();
   out.lux.resize(elements.size() * out.layers), out.standardErrorLux.resize(out.lux.size());
-  const int batch = settings.fewestSamples >= kBatch ? kBatch : std::max(kLeastBatch, settings.fewestSamples / 2);
+  const int batch = settings.fewestSamples >= kBatch ? kBatch : std::max(kLeastBatch, settings.fewestSamples / 4);
   std::atomic<size_t> done = 0;
   std::mutex reporting;
   parallelFor(elements.size(), 1, [&](size_t i) {

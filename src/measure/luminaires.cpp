@@ -17,7 +17,7 @@ namespace {
 constexpr float kWhite = 0.005f;        // channels so alike are of white that nobody chose
 constexpr float kOffBlackBody = 0.15f;  // of a channel, of light with luminance 1
 
-std::optional<double> kelvinOf(Vec3 fluxLm) {
+std::optional<double> chosenKelvin(Vec3 fluxLm) {
   const float y = luminance(fluxLm);
   if (y <= 0) return std::nullopt;
   const Vec3 colour = fluxLm / y;
@@ -75,7 +75,7 @@ std::vector<Luminaire> luminairesOf(const Scene& scene) {
       shining.add(instanceBounds(scene, scene.instances[i]));
     }
     if (found.lamps.empty()) l.kind = "shining mesh", l.position = shining.centre();
-    l.fluxLm = static_cast<double>(luminance(flux)), l.kelvin = kelvinOf(flux);
+    l.fluxLm = static_cast<double>(luminance(flux)), l.kelvin = chosenKelvin(flux);
     list.push_back(std::move(l));
   }
   return list;

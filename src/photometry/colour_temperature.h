@@ -1,6 +1,8 @@
 // Colours of light by its temperature: of black bodies, and of what counts as white.
 #pragma once
 
+#include <optional>
+
 #include "base/vec.h"
 
 namespace roomlight {
@@ -27,6 +29,10 @@ double nearestWhiteK(Vec3 rgb);
 // How far the colour is from the white of a temperature: in CIE 1960 u, v. Beyond 0.05 no one speaks of white (CIE 15
 // for correlated colour temperatures).
 double distanceFromWhite(Vec3 rgb, double kelvin);
+
+// The temperature of light that counts as white, in whole K; none of coloured light: farther than 0.02 in CIE 1931 x, y
+// from the white of the nearest temperature.
+std::optional<double> kelvinOf(Vec3 rgb);
 
 // Linear Rec.709 of that white, of luminance 1. Below 1900 K its blue is negative.
 Vec3 whiteColour(double kelvin);

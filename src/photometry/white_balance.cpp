@@ -63,6 +63,18 @@ double distanceFromWhite(Vec3 rgb, double kelvin) {
   return std::sqrt(distance2(kelvin, uvOf(kXyzFromRgb.vector(rgb))));
 }
 
+std::optional<double> kelvinOf(Vec3 rgb) {
+  constexpr double kNearlyWhite = 0.02;
+  const Vec3 xyz = kXyzFromRgb.vector(rgb);
+  const auto sum = static_cast<double>(xyz.x + xyz.y + xyz.z);
+  if (!(sum > 0)) return {};
+  const double k = nearestWhiteK(rgb);
+  const Vec2 white = whiteChromaticity(k);
+  const double x = static_cast<double>(xyz.x) / sum, y = static_cast<double>(xyz.y) / sum;
+  if (std::hypot(x - static_cast<double>(white.x), y - static_cast<double>(white.y)) > kNearlyWhite) return {};
+  return std::round(k);
+}
+
 Vec3 whiteColour(double kelvin) { return inverse(kXyzFromRgb).vector(xyzOf(whiteChromaticity(kelvin))); }
 
 }  // namespace roomlight

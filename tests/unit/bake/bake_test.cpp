@@ -68,7 +68,7 @@ TEST_F(Bake, aFurnaceIsEvenEverywhereAfterSmoothing) {
   scene.rooms = {floor};
   const RayScene rays(scene);
   const SeenSides seen = seenFrom(rays, eyesIn(rays), 1 << 16);
-  const Atlas atlas = atlasOf(scene, chartsOf(scene, seen, settings_.charts), settings_.atlas);
+  const Atlas atlas = atlasOf(scene, chartsOf(scene, seen, settings_.charts), settings_.atlas).value();
   const LitPlaces lit = litPlacesOf(atlas, rays, seen, settings_.placesApartM);
   Result<LampLayers> lamps = lampLayers(scene, lit.places, settings_.layers, stages_);
   ASSERT_TRUE(lamps) << lamps.error();
@@ -129,6 +129,7 @@ TEST_F(Bake, theExtensionNamesLampRoomAndCamera) {
   EXPECT_EQ(light["layers"][0]["name"], "Pendant");
   EXPECT_EQ(light["layers"][0]["room"], "Kitchen");
   EXPECT_EQ(light["layers"][0]["on"], true);
+  EXPECT_NEAR(light["layers"][0]["kelvin"].get<double>(), 6504, 30);  // (1, 1, 1) is D65
   EXPECT_EQ(light["layers"][1]["name"], "Desk lamp");
   EXPECT_EQ(light["layers"][1]["on"], false);
   EXPECT_EQ(light["cameras"][0]["name"], "Door");
@@ -155,6 +156,47 @@ TEST_F(Bake, sunAndSkyOfEachHourAreLayersOfTheirOwn) {
   EXPECT_EQ(layers[2]["hour"], 22.5);
 }
 
+TEST_F(Bake, aLampThatIsOffLeavesItsNamesakeOn) {
+  Scene scene = room(0.5f);
+  Lamp off = pointLamp({1, 1, 1}, 10);
+  off.name = "Pendant";
+  const Result<BakedHome> baked = bakeHome(scene, {{off, scene.lamps[0]}, {}}, settings_, stages_);
+  ASSERT_TRUE(baked) << baked.error();
+  const auto json = jsonOf(baked.value().glb.bytes);
+  const auto& layers = json["extensions"]["ROOMLIGHT_light_layers"]["layers"];
+  ASSERT_EQ(layers.size(), 2u);  // the second is the one that is on
+  EXPECT_EQ(layers[0]["on"], true);
+  EXPECT_EQ(layers[1]["name"], "Pendant");
+  EXPECT_EQ(layers[1]["on"], false);
+}
+
+// A panel in the middle of the room, seen from both sides.
+TEST_F(Bake, aOneSidedPanelIsDarkFromBehind) {
+  for (const bool doubleSided : {false, true}) {
+    Scene scene = room(0.5f);
+    Material glow = lambertian(0.5f, 1000);
+    glow.doubleSided = doubleSided;
+    addRectangle(scene, {1.5f, 1, 1.5f}, {1, 0, 0}, {0, 1, 0}, addMaterial(scene, glow));
+    const Result<BakedHome> baked = bakeHome(scene, {}, settings_, stages_);
+    ASSERT_TRUE(baked) << baked.error();
+    const auto json = jsonOf(baked.value().glb.bytes);
+    size_t shining = 0;
+    for (const auto& primitive : json["meshes"][0]["primitives"]) {
+      const auto& material = json["materials"][primitive["material"].get<size_t>()];
+      if (material.contains("emissiveFactor"))
+        shining += json["accessors"][primitive["indices"].get<size_t>()]["count"].get<size_t>();
+    }
+    EXPECT_EQ(shining, doubleSided ? 12u : 6u);
+  }
+}
+
+TEST_F(Bake, theFileNamesWhatReadersMustKnow) {
+  const auto json = jsonOf(bakeHome(room(0.5f), {}, settings_, stages_).value().glb.bytes);
+  EXPECT_EQ(json["extensionsRequired"], nlohmann::json::array({"KHR_mesh_quantization"}));
+  EXPECT_EQ(json["extensionsUsed"],
+            nlohmann::json::array({"KHR_mesh_quantization", "KHR_materials_specular", "ROOMLIGHT_light_layers"}));
+}
+
 TEST_F(Bake, theSameBitsByOneThreadAndByTwo) {
   const Scene scene = room(0.5f);
   std::string first;
@@ -176,9 +218,12 @@ TEST_F(Bake, aHomeThatNobodySeesIsToldSo) {
 
 TEST(BakedPage, takesTheHomeOrALinkInItsPlace) {
   const std::string page = "<title>roomlight</title><!--roomlight-home-->";
-  EXPECT_EQ(pageWithHome(page, "Anna & Ben", "abc").value(),
-            "<title>Anna &amp; Ben</title><script type=\"application/octet-stream\" "
-            "id=\"roomlight-home\">YWJj</script>");
+  const std::string whole = pageWithHome(page, "Anna & Ben", std::string(1000, 'a')).value();
+  EXPECT_TRUE(
+      whole.starts_with("<title>Anna &amp; Ben</title><script type=\"application/octet-stream\" "
+                        "id=\"roomlight-home\" data-bytes=\"1000\">"));
+  EXPECT_TRUE(whole.ends_with("</script>"));
+  EXPECT_LT(whole.size(), 200u);  // packed
   EXPECT_EQ(pageWithLink(page, "flat", "home-1.glb").value(),
             "<title>flat</title><link id=\"roomlight-home\" href=\"home-1.glb\">");
   EXPECT_FALSE(pageWithHome("<title>roomlight</title>", "flat", "abc"));

@@ -78,6 +78,22 @@ TEST(Charts, whatIsFineIsLitByVerticesTogether) {
   EXPECT_TRUE(charts[0].byVertices);
 }
 
+TEST(Charts, facesThatAreThereTwiceAreStillOneChartEach) {
+  for (const Vec3 along : {Vec3(0, 0, 2), Vec3(2, 0, 0)}) {  // a wall that faces x, one that faces z
+    Scene scene;
+    addRectangle(scene, {0, 0, 0}, along, {0, 1, 0}, addMaterial(scene, lambertian(0.5f)));
+    Mesh& mesh = scene.meshes[0];
+    const std::vector<uint32_t> once = mesh.indices;
+    mesh.indices.insert(mesh.indices.end(), once.begin(), once.end());
+    const std::vector<Chart> charts = chartsOf(scene, allSeen(scene, true, false), {});
+    ASSERT_EQ(charts.size(), 2u);
+    for (const Chart& c : charts) {
+      EXPECT_FALSE(c.byVertices);
+      EXPECT_NEAR(c.sizeM.x * c.sizeM.y, 2, 1e-3);
+    }
+  }
+}
+
 TEST(Charts, trianglesWithoutAreaAndWithoutPlaceAreLeftOut) {
   Scene scene;
   addRectangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, addMaterial(scene, lambertian(0.5f)));

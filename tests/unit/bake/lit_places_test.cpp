@@ -9,7 +9,7 @@ namespace {
 
 struct Laid {
   explicit Laid(Scene s) : scene(std::move(s)), rays(scene), seen(seenFrom(rays, eyesIn(rays), 1 << 17)) {
-    atlas = atlasOf(scene, chartsOf(scene, seen, {}), {});
+    atlas = atlasOf(scene, chartsOf(scene, seen, {}), {}).value();
     lit = litPlacesOf(atlas, rays, seen, 0.08f);
   }
   Scene scene;

@@ -30,21 +30,26 @@ TEST(BakeCommand, writesTheHomeThatOtherCommandsOpen) {
 
 TEST(BakeCommand, daylightAtTheHourAskedFor) {
   const TemporaryFolder folder;
-  const ProgramRun run = runProgram({"bake", testing::writeRoom(folder), "--light", "day", "--hours", "9", "--quality",
-                                     "draft", "-o", folder / "home.glb", "--stats", folder / "s.json", "--quiet"});
+  const ProgramRun run =
+      runProgram({"bake", testing::writeRoom(folder), "--light", "day", "--hours", "9,9", "--quality", "draft", "-o",
+                  folder / "home.glb", "--stats", folder / "s.json", "--quiet"});
   ASSERT_EQ(run.exitStatus, 0) << run.err;
-  // The room is closed: no daylight comes in, and layers that give nothing are left out.
-  EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s.json"))["layers"], 1);
+  // The room is closed: no daylight comes in, and a sun that gives nothing is left out; the sky tells the hour.
+  EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s.json"))["layers"], 2);
+  EXPECT_NE(readFile(folder / "home.glb").find("\"hour\":9.0"), std::string::npos);
 }
 
 TEST(BakeCommand, wrongWordsAreOneLineBeforeAnyWork) {
   const TemporaryFolder folder;
   const std::string room = testing::writeRoom(folder).string();
+  testing::writeFile(folder / "afile", "in the way");
   const std::pair<std::vector<std::string>, std::string> faults[] = {
       {{"bake", room, "-o", folder / "home.png"}, "unknown kind of file; use .html, .glb or the name of a folder"},
       {{"bake", room, "-o", folder / "home.glb", "--hours", "9,25"}, "--hours 9,25: an hour is from 0 to 24"},
       {{"bake", room, "-o", folder / "home.glb", "--quality", "perfect"}, "--quality"},
       {{"bake", room, "-o", folder / "none/home.glb"}, "none"},
+      {{"bake", room, "-o", folder / "room.bin"}, "unknown kind of file"},
+      {{"bake", room, "-o", folder / "afile"}, "afile"},
       {{"bake", folder / "missing.glb", "-o", folder / "home.glb"}, "missing.glb"},
   };
   for (const auto& [words, part] : faults) {

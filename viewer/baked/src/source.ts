@@ -1,5 +1,6 @@
 // Finds the file of the home: in the page as base64, or beside it.
 import { BadFile } from "./bad_file.js";
+import { inflate } from "./texels.js";
 
 const kId = "roomlight-home";
 const kCharsAtOnce = 1 << 20; // a multiple of 4
@@ -27,7 +28,9 @@ export async function homeBytes(progress: (share: number) => void): Promise<Uint
     const text = element.textContent ?? "";
     element.textContent = "";
     if (text.trim() === "") throw new BadFile("missing");
-    return decodeBase64(text);
+    const bytes = decodeBase64(text);
+    const unpacked = Number(element.dataset.bytes ?? 0); // of a zlib stream
+    return unpacked > 0 ? inflate(bytes, unpacked, "home") : bytes;
   }
   if (element instanceof HTMLLinkElement) return download(element.href, progress);
   throw new BadFile("missing");

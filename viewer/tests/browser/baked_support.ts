@@ -4,6 +4,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { resolve } from "node:path";
+import { deflateSync } from "node:zlib";
 import { pathToFileURL } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 import type { Vec3 } from "../../src/vector.js";
@@ -34,8 +35,9 @@ export function writePage(name: string, file: Uint8Array | null): string {
   const path = resolve(`build/baked-pages/${name}.html`);
   const page = readFileSync(kPage, "utf8");
   assert.ok(page.includes(kMarker));
+  const packed = file ? deflateSync(file).toString("base64") : "";
   const data = file
-    ? `<script type="application/octet-stream" id="roomlight-home">${Buffer.from(file).toString("base64")}</script>`
+    ? `<script type="application/octet-stream" id="roomlight-home" data-bytes="${file.length}">${packed}</script>`
     : "";
   writeFileSync(
     path,
