@@ -16,10 +16,13 @@ constexpr Role kRoles[] = {Role::Decide,     Role::SendFrames, Role::FollowLight
                            Role::BuildLight, Role::Refine,     Role::RenderFinal};
 
 // Posts jobs that begin and then wait until they may go on, and records which were run, in their order.
-struct Jobs {
+class Jobs {
+  std::mutex mutex_;
+  std::vector<int> order_;
+
+ public:
   test::Threads threads;
   test::Signals begun, mayGoOn, ready;
-  Executor executor{threads.starter()};
 
   Job::Work held() {
     return [this](const std::atomic<bool>&) {
@@ -52,9 +55,7 @@ struct Jobs {
     return order_;
   }
 
- private:
-  std::mutex mutex_;
-  std::vector<int> order_;
+  Executor executor{threads.starter()};  // the last: its end waits for jobs, which need what is above
 };
 
 TEST(Executor, runsAJobAndTellsOfItsEnd) {
