@@ -112,9 +112,11 @@ void SeenSides::mark(const Hit& hit, bool back) {
 
 std::vector<Camera> camerasInside(const Scene& scene) {
   std::vector<Camera> out;
-  for (const Camera& c : scene.cameras) {
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    const Camera& c = scene.cameras[i];
+    const bool own = static_cast<int>(i) == scene.cameraInUse && c.cutHeightM == kInfinity;
     const bool inside = scene.rooms.empty() || roomAt(scene, c.worldFromCamera.w) >= 0;
-    if (c.projection == Projection::Perspective && inside) out.push_back(c);
+    if (c.projection == Projection::Perspective && (inside || own)) out.push_back(c);
   }
   return out;
 }

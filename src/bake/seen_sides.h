@@ -23,7 +23,8 @@ class SeenSides {
   std::vector<uint8_t> sides_;  // bit 0: the side from which it is counter-clockwise in the world, bit 1: the other
 };
 
-// Cameras that look as eyes do, from inside a room; of a scene without rooms all.
+// Cameras that look as eyes do: from inside a room, of a scene without rooms all; and the one in use, which may look
+// into a box from where its front is open, but not one that cuts the home open.
 std::vector<Camera> camerasInside(const Scene& scene);
 // The number of the scene's own camera among those; else the first.
 size_t cameraInUse(const Scene& scene, const std::vector<Camera>& cameras);

@@ -32,6 +32,21 @@ TEST(SeenSides, ofABoxInARoomTheOutside) {
   }
 }
 
+TEST(SeenSides, theCameraInUseCountsFromOutsideToo) {
+  Scene scene;
+  scene.rooms = {roomOf(4, 3)};
+  Camera inside, outside, above;
+  inside.worldFromCamera.w = {1, 1.5f, 1}, outside.worldFromCamera.w = {1, 1.5f, 9};
+  above = outside, above.cutHeightM = 2.4f;
+  scene.cameras = {inside, outside, above};
+  EXPECT_EQ(camerasInside(scene).size(), 1u);
+  scene.cameraInUse = 1;
+  EXPECT_EQ(camerasInside(scene).size(), 2u);
+  EXPECT_EQ(cameraInUse(scene, camerasInside(scene)), 1u);
+  scene.cameraInUse = 2;
+  EXPECT_EQ(camerasInside(scene).size(), 1u);
+}
+
 TEST(SeenSides, throughAPaneButNotThroughAWall) {
   Scene scene;
   const int grey = addMaterial(scene, lambertian(0.5f));
