@@ -56,10 +56,21 @@ export function sharedExponentTexture(texels: Uint32Array<ArrayBuffer>, width: n
   return texture;
 }
 
-interface Part {
-  readonly mesh: THREE.Mesh<THREE.InstancedBufferGeometry, THREE.RawShaderMaterial>;
+export interface Part {
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.RawShaderMaterial>;
   readonly layer: number;
   readonly scale: number;
+}
+
+// How much of each layer is drawn; with `only` that one alone.
+export function setFactors(parts: readonly Part[], factors: readonly Vec3[], only?: number): void {
+  for (const { mesh, layer, scale } of parts) {
+    const factor = factors[layer] ?? [0, 0, 0];
+    mesh.visible = factor.some(c => c > 0) && (only ?? layer) === layer;
+    (mesh.material.uniforms.uFactor!.value as THREE.Vector3)
+      .set(factor[0], factor[1], factor[2])
+      .multiplyScalar(scale / kUnit);
+  }
 }
 
 export class LightSum {
@@ -127,13 +138,7 @@ export class LightSum {
 
   // The sum anew, or with `only` that layer on top of what is there.
   update(factors: readonly Vec3[], only?: number): void {
-    for (const { mesh, layer, scale } of this.parts) {
-      const factor = factors[layer] ?? [0, 0, 0];
-      mesh.visible = factor.some(c => c > 0) && (only ?? layer) === layer;
-      (mesh.material.uniforms.uFactor!.value as THREE.Vector3)
-        .set(factor[0], factor[1], factor[2])
-        .multiplyScalar(scale / kUnit);
-    }
+    setFactors(this.parts, factors, only);
     drawInto(this.renderer, this.target, this.scene, this.camera, only === undefined);
   }
 }

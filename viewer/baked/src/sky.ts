@@ -1,7 +1,7 @@
 // What is seen of the sky: the panoramas of the hours, added up like the layers, on a box around the camera.
 import * as THREE from "three";
 import type { Vec3 } from "../../src/vector.js";
-import { drawInto, kAdditive, sharedExponentTexture } from "./light_sum.js";
+import { drawInto, kAdditive, setFactors, sharedExponentTexture, type Part } from "./light_sum.js";
 import { kUnit } from "./units.js";
 
 const kSumVertex = `
@@ -48,11 +48,7 @@ export class Sky {
   private readonly target: THREE.WebGLRenderTarget;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.Camera();
-  private readonly parts: {
-    readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.RawShaderMaterial>;
-    readonly layer: number;
-    readonly scale: number;
-  }[] = [];
+  private readonly parts: Part[] = [];
 
   constructor(
     private readonly renderer: THREE.WebGLRenderer,
@@ -103,13 +99,7 @@ export class Sky {
   }
 
   update(factors: readonly Vec3[], only?: number): void {
-    for (const { mesh, layer, scale } of this.parts) {
-      const factor = factors[layer] ?? [0, 0, 0];
-      mesh.visible = factor.some(c => c > 0) && (only ?? layer) === layer;
-      (mesh.material.uniforms.uFactor!.value as THREE.Vector3)
-        .set(factor[0], factor[1], factor[2])
-        .multiplyScalar(scale / kUnit);
-    }
+    setFactors(this.parts, factors, only);
     drawInto(this.renderer, this.target, this.scene, this.camera, only === undefined);
   }
 }
