@@ -34,4 +34,11 @@ class Hash {
   uint64_t h_ = 0xcbf29ce484222325ull;
 };
 
+// Of a text, as Hash::text().
+inline std::string hashOf(std::string_view text) {
+  Hash hash;
+  hash.bytes(text);
+  return hash.text();
+}
+
 }  // namespace roomlight

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "scene/find_named.h"
 #include "scene/outline.h"
 #include "trace/camera_rays.h"
 
@@ -26,21 +27,11 @@ constexpr std::pair<const char*, View> kViews[] = {{"camera", View::Camera},
                                                    {"panorama", View::Panorama},
                                                    {"stereo", View::Stereo}};
 
-// A name, else a number from 0; -1: none of these.
-int indexOf(const std::vector<std::string>& names, const std::string& wanted) {
-  for (size_t i = 0; i < names.size(); ++i) {
-    if (!names[i].empty() && names[i] == wanted) return static_cast<int>(i);
-  }
+// A number from 0; -1: none of so many.
+int indexOf(size_t count, const std::string& wanted) {
   size_t index = 0;
   const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-  return code == std::errc() && end == wanted.data() + wanted.size() && index < names.size() ? static_cast<int>(index)
-                                                                                             : -1;
-}
-
-std::string listOf(const std::vector<std::string>& names) {
-  std::string list;
-  for (size_t i = 0; i < names.size(); ++i) list += fmt::format("{}{} '{}'", i > 0 ? ", " : "", i, names[i]);
-  return list;
+  return code == std::errc() && end == wanted.data() + wanted.size() && index < count ? static_cast<int>(index) : -1;
 }
 
 // Panoramas stand upright: of where a camera looks only the compass direction is kept.
@@ -59,12 +50,9 @@ void widen(Level& level, const Room& room) {
 Level levelAt(float elevationM) { return {elevationM, kInfinity, {kInfinity, kInfinity}, {-kInfinity, -kInfinity}}; }
 
 Result<const Room*> pickRoom(std::span<const Room> rooms, const std::string& wanted) {
-  std::vector<std::string> names;
-  for (const Room& room : rooms) names.push_back(room.name);
-  const int index = indexOf(names, wanted);
-  if (index >= 0) return &rooms[static_cast<size_t>(index)];
-  if (rooms.empty()) return Error{fmt::format("--room {}: the scene knows no rooms and none were found", wanted)};
-  return Error{fmt::format("--room {}: no such room; there are {}", wanted, listOf(names))};
+  const Result<size_t> found = findRoom(rooms, wanted);
+  if (!found) return Error{"--room: " + found.error()};
+  return &rooms[found.value()];
 }
 
 // The floor that is shown, and how much of it.
@@ -91,7 +79,7 @@ Result<Level> pickLevel(const Scene& scene, std::span<const Room> rooms, const V
       return std::abs(a.elevationM) < std::abs(b.elevationM);
     });
   }
-  const int index = indexOf(std::vector<std::string>(levels.size()), wish.level);
+  const int index = indexOf(levels.size(), wish.level);
   std::string list;
   for (size_t i = 0; i < levels.size(); ++i)
     list += fmt::format("{}{} at {:.2f} m", i > 0 ? ", " : "", i, levels[i].elevationM);

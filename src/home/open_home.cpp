@@ -11,7 +11,7 @@
 #include "home/unit.h"
 #include "import/lighting_file.h"
 #include "json/json_file.h"
-#include "scene/find_camera.h"
+#include "scene/find_named.h"
 #include "scene/scene_change.h"
 
 namespace roomlight::home {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/hash.h"
 #include "base/progress.h"
 #include "base/write_file.h"
 #include "engine/settings.h"
@@ -12,7 +13,7 @@
 #include "optimise/evaluate.h"
 #include "optimise/improve.h"
 #include "optimise/store.h"
-#include "scene/find_camera.h"
+#include "scene/find_named.h"
 
 namespace roomlight::optimise {
 namespace {

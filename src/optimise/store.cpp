@@ -4,26 +4,17 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "base/hash.h"
-#include "base/write_file.h"
+#include "base/sealed_file.h"
+#include "scene/scene_hash.h"
 #include "search/search.h"
 
 namespace roomlight::optimise {
 namespace {
 
 constexpr std::string_view kMagic = "roomlight response 3\n";
-constexpr size_t kSealSize = 16;  // of hashOf() all that is before it, at the end of a file
-
-std::optional<std::string> contentOf(const std::filesystem::path& file) {
-  std::error_code code;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(file, code)) return std::nullopt;
-  return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 template <class T>
 void put(std::string& out, const std::vector<T>& values) {
@@ -86,29 +77,7 @@ std::optional<Response> responseIn(std::string_view bytes, const ResponseSizes& 
   return r;
 }
 
-Status saveSealed(const std::filesystem::path& file, std::string bytes) {
-  bytes += hashOf(bytes);
-  return writeWhole(file, bytes);
-}
-
-// Without its seal; none where there is no file.
-Result<std::optional<std::string>> loadSealed(const std::filesystem::path& file) {
-  std::optional<std::string> bytes = contentOf(file);
-  if (!bytes) return bytes;
-  const size_t size = bytes->size() < kSealSize ? 0 : bytes->size() - kSealSize;
-  if (hashOf(std::string_view(*bytes).substr(0, size)) != std::string_view(*bytes).substr(size))
-    return Error{fmt::format("{}: is damaged or of another version; what it held is found anew", file.string())};
-  bytes->resize(size);
-  return bytes;
-}
-
 }  // namespace
-
-std::string hashOf(std::string_view text) {
-  Hash hash;
-  hash.bytes(text);
-  return hash.text();
-}
 
 std::string hashOfFile(const std::filesystem::path& file) {
   const auto content = contentOf(file);

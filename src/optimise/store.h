@@ -11,8 +11,6 @@
 
 namespace roomlight::optimise {
 
-// 64 bits in hexadecimal.
-std::string hashOf(std::string_view text);
 std::string hashOfFile(const std::filesystem::path& file);  // "-" where there is none to read
 // Of all that a response and a search of it depend on: study and catalogue as files, settings, and the home as it is
 // and as it is lit in every condition and by the luminaires, which is what comes of all other files. Errors: of
@@ -31,9 +29,5 @@ Result<std::optional<Response>> loadResponse(const std::filesystem::path& file, 
 Status saveSearch(const std::filesystem::path& file, const std::string& hash, const search::State& state);
 Result<std::optional<search::State>> loadSearch(const std::filesystem::path& file, const std::string& hash,
                                                 const search::Problem& problem);
-
-// A hash of all that a scene holds. 64 bits in hexadecimal. Every member of every struct counts, those of lamps'
-// photometric webs too.
-std::string hashOfScene(const Scene& scene);
 
 }  // namespace roomlight::optimise

@@ -10,7 +10,7 @@
 #include "import/import.h"
 #include "import/lighting_file.h"
 #include "import/walk_file.h"
-#include "scene/find_camera.h"
+#include "scene/find_named.h"
 #include "trace/ray_scene.h"
 
 namespace roomlight {

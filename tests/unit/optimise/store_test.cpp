@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/hash.h"
 #include "optimise/evaluate.h"
 #include "optimise/proposal.h"
 #include "optimise/report.h"

@@ -1,4 +1,4 @@
-#include "scene/find_camera.h"
+#include "scene/find_named.h"
 
 #include <gtest/gtest.h>
 
@@ -26,6 +26,15 @@ TEST(FindCamera, saysWhatMayHaveBeenMeant) {
   EXPECT_EQ(findCamera(scene, "Kitchn").error(),
             "no camera 'Kitchn'; did you mean 'Kitchen'? There are 'Kitchen', 'Living room', 'Living corner'");
   EXPECT_EQ(findCamera(scene, "living").error(), "camera 'living' may be any of 'Living room', 'Living corner'");
+}
+
+TEST(FindRoom, listsNumbersWhereNamesDoNotTell) {
+  std::vector<Room> rooms(3);
+  rooms[0].name = "Bath", rooms[1].name = "Bed";
+  EXPECT_EQ(findRoom(rooms, "bed").value(), 1u);
+  EXPECT_EQ(findRoom(rooms, "2").value(), 2u);
+  EXPECT_EQ(findRoom(rooms, "Attic").error(), "no room 'Attic'; there are 0 'Bath', 1 'Bed', 2 ''");
+  EXPECT_EQ(findRoom({}, "Bath").error(), "no room 'Bath': the scene knows no rooms and none were found");
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "optimise/store.h"
+#include "scene/scene_hash.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-namespace roomlight::optimise {
+namespace roomlight {
 namespace {
 
 // Something of each kind, so that there is a value of every member.
@@ -185,4 +185,4 @@ TEST(SceneHash, ListsThatFollowOneAnotherAreToldApart) {
 }
 
 }  // namespace
-}  // namespace roomlight::optimise
+}  // namespace roomlight

@@ -1,10 +1,10 @@
-#include "optimise/store.h"
+#include "scene/scene_hash.h"
 
 #include <type_traits>
 
 #include "base/hash.h"
 
-namespace roomlight::optimise {
+namespace roomlight {
 namespace {
 
 // Arrays of these are hashed as they lie in memory: there is nothing between their numbers.
@@ -143,4 +143,4 @@ std::string hashOfScene(const Scene& scene) {
   return hash.text();
 }
 
-}  // namespace roomlight::optimise
+}  // namespace roomlight
