@@ -19,7 +19,7 @@
 #include "output_files.h"
 #include "look/exposure.h"
 #include "measure/false_colour.h"
-#include "scene/find_camera.h"
+#include "scene/find_named.h"
 
 namespace roomlight::cli {
 namespace {
@@ -433,7 +433,9 @@ int workRender(const RenderOptions& o, RenderPlan plan) {
   if (part)
     display.line(fmt::format("of {} triangles those are used whose light comes to the camera{}: {}",
                              scene.triangleCount(), shots.value().size() > 1 ? "s" : "", part->triangleCount()));
-  Result<Renderer> renderer = Renderer::of(part ? *part : scene, plan.settings);
+  std::vector<Camera> cameras;
+  for (const Shot& shot : shots.value()) cameras.push_back(shot.camera);
+  Result<Renderer> renderer = Renderer::of(part ? *part : scene, plan.settings, std::move(cameras));
   if (!renderer) return failed(renderer.error());
   const RenderTask task{o, plan, scene};
   for (const Shot& shot : shots.value()) {

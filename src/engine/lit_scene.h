@@ -120,8 +120,9 @@ class LitScene {
 struct LitUse {
   bool changes = true;  // there will be updates; without them `hybrid` also lights places that its voxels know nothing
                         // of (radiance/first_bounce.h), and looks for lights where they are seen
-  const Camera* camera = nullptr;  // the first to be looked from; none: light is found for the whole scene at once
-  bool stills = false;  // LitScene::still will be called; not with `changes`
+  std::span<const Camera> cameras = {};  // to be looked from, the first one first; none: light is found for the whole
+                                         // scene at once
+  bool stills = false;  // LitScene::still will be called, for `cameras` alone where there are any; not with `changes`
   double seconds = std::numeric_limits<double>::infinity();  // for stills: about half of it for light
 };
 

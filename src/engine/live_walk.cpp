@@ -69,7 +69,7 @@ Status play(Scene& scene, const Walk& walk, const RenderSettings& settings, cons
   Stages opening(progress, openStats);
   stage(walk, 0, scene);
   const Camera first = cameraAt(walk, 0);
-  Result<std::unique_ptr<LitScene>> opened = lightScene(scene, settings, opening, {true, &first});
+  Result<std::unique_ptr<LitScene>> opened = lightScene(scene, settings, opening, {true, {&first, 1}});
   if (!opened) return Error{opened.error()};
   const std::unique_ptr<LitScene>& lit = opened.value();
   if (lit) lit->update(everythingIn(walk), opening);

@@ -25,6 +25,7 @@ size_t brokenPixels(const Image& image) {
 struct Renderer::State {
   const Scene& scene;
   const RenderSettings settings;
+  const std::vector<Camera> cameras;
   std::unique_ptr<LitScene> lit;  // null: there is no light yet
 
   Result<Picture> picture(const Camera& camera, Stages& stages);
@@ -35,7 +36,8 @@ Result<Picture> Renderer::State::picture(const Camera& camera, Stages& stages) {
   const Stopwatch watch;
   const double limit = settings.timeLimitS > 0 ? settings.timeLimitS : std::numeric_limits<double>::infinity();
   if (!lit) {
-    auto made = lightScene(scene, settings, stages, {false, &camera, true, limit});
+    auto made = lightScene(scene, settings, stages,
+                           {false, cameras.empty() ? std::span(&camera, 1) : std::span(cameras), true, limit});
     if (!made) return Error{made.error()};
     lit = std::move(made).value();
   } else {
@@ -49,10 +51,10 @@ Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-Result<Renderer> Renderer::of(const Scene& scene, const RenderSettings& settings) {
+Result<Renderer> Renderer::of(const Scene& scene, const RenderSettings& settings, std::vector<Camera> cameras) {
   if (const Status status = checkSettings(settings); !status) return Error{status.error()};
   if (const auto technique = techniqueNamed(settings.technique); !technique) return Error{technique.error()};
-  return Renderer(std::unique_ptr<State>(new State{scene, settings, {}}));
+  return Renderer(std::unique_ptr<State>(new State{scene, settings, std::move(cameras), {}}));
 }
 
 Result<Rendered> Renderer::picture(const Camera& camera, const RenderProgress& progress) {

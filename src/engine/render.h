@@ -55,8 +55,9 @@ struct RenderProgress {
 // keeps that.
 class Renderer {
  public:
-  // Errors: an unknown technique, settings out of range. `scene` must be validated; it is referred to.
-  static Result<Renderer> of(const Scene& scene, const RenderSettings& settings);
+  // `cameras`: all that pictures are taken of; none: the first alone. What of the light they do not show is found with
+  // fewer rays. Errors: an unknown technique, settings out of range. `scene` must be validated; it is referred to.
+  static Result<Renderer> of(const Scene& scene, const RenderSettings& settings, std::vector<Camera> cameras = {});
   Renderer(Renderer&&) noexcept;
   ~Renderer();
   Result<Rendered> picture(const Camera& camera, const RenderProgress& progress = {});

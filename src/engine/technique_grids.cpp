@@ -115,7 +115,8 @@ struct Lpv {
 template <class Method>
 Result<std::unique_ptr<LitScene>> light(const Scene& scene, const RenderSettings& settings, const LitUse& use,
                                         Stages& stages) {
-  return std::unique_ptr<LitScene>(std::make_unique<GridScene<Method>>(scene, settings, use.camera, stages));
+  return std::unique_ptr<LitScene>(std::make_unique<GridScene<Method>>(
+      scene, settings, use.cameras.empty() ? nullptr : &use.cameras.front(), stages));
 }
 
 }  // namespace

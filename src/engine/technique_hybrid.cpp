@@ -60,6 +60,7 @@ class HybridScene final : public VoxelScene<RayShader, RayGatherSettings> {
     radiance.seed = settings_.seed;
     radiance.pyramid = false;
     radiance.still = !use.changes;  // what changes is followed by links
+    if (use.stills) radiance.views.assign(use.cameras.begin(), use.cameras.end());
     const auto layers = wantedLayers(rays().scene(), lights(), settings_);
     if (!layers) return Error{layers.error()};
     radiance.layers = layers.value();

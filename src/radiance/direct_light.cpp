@@ -153,6 +153,7 @@ void DirectLight::markAround(size_t brick, Marks& marks) const {
 // Adds to what slots have. `marks`: which; empty: all.
 template <class Sample>
 void DirectLight::trace(size_t brick, Samples samples, const Marks& marks, std::span<Vec3> lux, const Sample& sample) {
+  samples = {importance_.raysOf(brick, samples.first), importance_.raysOf(brick, samples.most)};
   const auto [first, last] = slotsOfBrick(voxels_, brick);
   const auto markOf = [&, start = first](size_t s) { return marks.empty() ? kAnew : marks[s - start]; };
   std::vector<Ray> rays;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <span>
 
+#include "radiance/brick_importance.h"
 #include "radiance/near_lights.h"
 #include "radiance/radiance_field.h"
 #include "radiance/sky_guide.h"
@@ -14,15 +15,16 @@ namespace roomlight {
 // What part of direct light, traced brick by brick.
 class DirectLight {
  public:
-  DirectLight(const RayScene& rays, const Lights& lights, const Voxels& voxels, const SlotPaths& paths,
-              const SeenLights& seen, const RadianceSettings& settings)
+  DirectLight(const RayScene& rays, const Lights& lights, const SlotSampling& slots, const SeenLights& seen,
+              const BrickImportance& importance, const RadianceSettings& settings)
       : rays_(rays),
         lights_(lights),
-        voxels_(voxels),
-        paths_(paths),
+        voxels_(slots.voxels),
+        paths_(slots.paths),
         seen_(seen),
+        importance_(importance),
         settings_(settings),
-        besideEmitters_(emitterSurroundings(lights, voxels.voxelSizeM)) {}
+        besideEmitters_(emitterSurroundings(lights, slots.voxels.voxelSizeM)) {}
 
   // Illuminance in lx per channel of the slots of one brick, in one value per slot of the scene. Of a lamp for 1 cd. Of
   // lamps and emissive meshes less what their particles carry. Where `near` boxes are given only slots some of whose
@@ -75,6 +77,7 @@ class DirectLight {
   const Voxels& voxels_;
   const SlotPaths& paths_;
   const SeenLights& seen_;
+  const BrickImportance& importance_;
   const RadianceSettings& settings_;
   const std::vector<LightSurroundings> besideEmitters_;
   std::atomic<uint64_t> count_ = 0;

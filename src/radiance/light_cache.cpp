@@ -47,7 +47,9 @@ class Steps {
 
 LightCache::LightCache(const RayScene& rays, const Lights& lights, const Voxels& voxels,
                        const RadianceSettings& settings, const Progress& progress)
-    : settings_(settings), paths_(rays, voxels, settings.seed, progress, settings.still) {
+    : settings_(settings),
+      paths_(rays, voxels, settings.seed, progress, settings.still),
+      importance_(rays, voxels, settings.views, settings.seed, progress) {
   const Home home{rays, lights, voxels, progress};
   traceAllLinks(home);
   progress.at(0.5f);
@@ -104,7 +106,7 @@ void LightCache::traceAllLinks(const Home& home) {
   const bool hasSky = home.lights.sky().present();
   SkyGuideBuilder guide(home.voxels, home.lights.sky());
   if (home.progress.stop()) return;
-  links_ = planLinks(home.voxels, paths_, settings_.links);
+  links_ = planLinks(home.voxels, paths_, settings_.links, importance_);
   if (settings_.still) links_.hidden.resize(home.voxels.bricks.size());
   Steps steps(home.progress, 0, 0.5f, home.voxels.bricks.size());
   parallelFor(home.voxels.bricks.size(), 4, [&](size_t b) {

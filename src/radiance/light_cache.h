@@ -70,7 +70,8 @@ class LightCache {
   };
   SlotSampling slots(const Home& home) const { return {home.voxels, paths_, settings_.seed}; }
   LightTracing tracing(const Home& home) {
-    return {home.rays, home.lights, home.voxels, home.progress, paths_, settings_, field_, fewParticles_, field_.rays};
+    return {home.rays, home.lights, home.voxels, home.progress, paths_,
+            settings_, field_,      importance_, fewParticles_, field_.rays};
   }
   void traceAllLinks(const Home& home);
   void updateLinks(const Home& home, const SlotPaths& paths, const SlotChange& change);
@@ -92,6 +93,7 @@ class LightCache {
 
   RadianceSettings settings_;
   SlotPaths paths_;
+  BrickImportance importance_;
   Links links_;
   std::vector<BrickMark> marks_;
   DaylightSource daylight_;

@@ -49,11 +49,12 @@ struct LightTracing {
   const SlotPaths& paths;
   const RadianceSettings& settings;
   const RadianceField& field;  // what is known so far: where the sky is seen, what is seen of lights
+  const BrickImportance& importance;
   bool fewParticles;  // a first look: the rest follows with bounces
   uint64_t& rayCount;  // counts those traced
 
   SlotSampling slots() const { return {voxels, paths, settings.seed}; }
-  DirectLight direct() const { return {rays, lights, voxels, paths, field.seen, settings}; }
+  DirectLight direct() const { return {rays, lights, slots(), field.seen, importance, settings}; }
 
   using OfBrick = std::function<void(size_t brick, std::vector<Vec3>& lux)>;
   SlotLight lightOfAll(const OfBrick& ofBrick) const;

@@ -96,7 +96,7 @@ void LightCache::updateLinks(const Home& home, const SlotPaths& paths, const Slo
   const bool hasSky = home.lights.sky().present();
   SkyGuideBuilder guide(home.voxels, home.lights.sky());
   const SlotSampling slots{home.voxels, paths, settings_.seed};
-  Links links = planLinks(home.voxels, paths, settings_.links, &links_, &change.remap);
+  Links links = planLinks(home.voxels, paths, settings_.links, {}, &links_, &change.remap);
   std::atomic<uint64_t> traced = 0;
   parallelFor(home.voxels.bricks.size(), 4, [&](size_t b) {
     if (home.progress.stop()) return;

@@ -135,7 +135,8 @@ size_t Links::bytes() const {
   return sum;
 }
 
-Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most, const Links* before, const SlotRemap* remap) {
+Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most, const BrickImportance& importance,
+                const Links* before, const SlotRemap* remap) {
   if (voxels.slots.size() >= Link::kMostSlots)
     throw ResourceError("light is wanted at more places than can be told apart; give larger voxels (voxelSizeM)");
   Links out;
@@ -157,10 +158,14 @@ Links planLinks(const Voxels& voxels, const SlotPaths& paths, int most, const Li
   });
   out.first.resize(voxels.slots.size() + 1);
   uint64_t next = 0;
-  for (size_t s = 0; s < voxels.slots.size(); ++s) {
-    out.first[s] = next;
-    const auto kin = std::count_if(out.kin[s].begin(), out.kin[s].end(), [&](uint32_t o) { return o != s; });
-    next += static_cast<uint64_t>(kin >= kEnoughKin ? (most + 1) / 2 : most);
+  for (size_t b = 0; b < voxels.bricks.size(); ++b) {
+    const uint32_t all = importance.raysOf(b, static_cast<uint32_t>(most));
+    const auto [first, last] = slotsOfBrick(voxels, b);
+    for (size_t s = first; s < last; ++s) {
+      out.first[s] = next;
+      const auto kin = std::count_if(out.kin[s].begin(), out.kin[s].end(), [&](uint32_t o) { return o != s; });
+      next += kin >= kEnoughKin ? (all + 1) / 2 : all;
+    }
   }
   out.first.back() = next;
   out.links.resize(next);

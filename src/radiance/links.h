@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "radiance/brick_importance.h"
 #include "radiance/radiance_field.h"
 #include "radiance/sky_guide.h"
 #include "radiance/slot_paths.h"
@@ -65,10 +66,10 @@ struct Links {
 };
 
 // Kin of all slots, and room for as many links as each gets: `links`, half as many where neighbours on the sheet have
-// theirs. Where bricks and all around them are carried from `before`, so are their kin. Throws ResourceError where
-// there are more slots than links can tell apart.
-Links planLinks(const Voxels& voxels, const SlotPaths& paths, int links, const Links* before = nullptr,
-                const SlotRemap* remap = nullptr);
+// theirs, and less where light is of little importance. Where bricks and all around them are carried from `before`, so
+// are their kin. Throws ResourceError where there are more slots than links can tell apart.
+Links planLinks(const Voxels& voxels, const SlotPaths& paths, int links, const BrickImportance& importance,
+                const Links* before = nullptr, const SlotRemap* remap = nullptr);
 
 struct LinkOf {
   uint32_t slot, i;

